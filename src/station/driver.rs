@@ -44,6 +44,7 @@ pub use gate::{Preview, Refusal, Way};
 pub use intent::Intent;
 pub use link::{Dial, Endpoint, Stream, UnitLock, dial_line, endpoints, known_endpoints};
 pub use link_test::{LinkFault, LinkFinding, test_link};
+pub use motion_watch::Evidence;
 pub use position_log::PositionLog;
 pub use safety::{Mover, Response, Safety, Unlike};
 pub use session::{Command, JOG_LEASE, OffsetChange, Session, Wires, is_ticket_of_session};

@@ -26,7 +26,9 @@ pub use element_files::ElementFiles;
 pub use on_board::{
     HeldSatellite, LONGEST_WINDOW_S, Offsets, OnBoard, Place, TrackOffsetFields, UnitClock,
 };
-pub use state::{AntennaState, Axis, AxisMotion, Measured, Phase, Pointing, Program, Traffic};
+pub use state::{
+    AntennaState, Axis, AxisMotion, Drive, Measured, Phase, Pointing, Program, Traffic,
+};
 pub use variant::Variant;
 pub use wire::{Direction, Explained, ExplainedValue, Finding, Meaning, WireLine};
 

@@ -4,7 +4,7 @@ use azel::{
     astro::{AzEl, time::add_seconds},
     clock::Instant,
     controller::satrak::checks,
-    device::{Axis, AxisMotion, HeldSatellite, Measured, Phase, Program, TrackTarget},
+    device::{Axis, AxisMotion, Drive, HeldSatellite, Measured, Phase, Program, TrackTarget},
     driver::{Intent, Snapshot},
     model::Model,
     protocol::satrak::{Frame, Reply},
@@ -15,7 +15,13 @@ use crate::window_stories::rig::{NOAA_20, model, now, quiet};
 
 /// A position that has just come in.
 pub(crate) fn measured(azimuth_deg: f64, elevation_deg: f64, motion: AxisMotion) -> Measured {
-    let axis = Axis { angle_deg: Some(90.0), motion, plus_limit: false, minus_limit: false };
+    let axis = Axis {
+        angle_deg: Some(90.0),
+        motion,
+        drive: Drive::On,
+        plus_limit: false,
+        minus_limit: false,
+    };
     let steady = Instant::now();
     Measured {
         at: now(),

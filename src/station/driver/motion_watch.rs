@@ -10,10 +10,15 @@ mod range;
 
 use std::time::Duration;
 
+use serde::{Deserialize, Serialize};
+
 use axis::AxisWatch;
 pub(super) use lead::Lead;
 
-use crate::{clock::Instant, device::AxisMotion};
+use crate::{
+    clock::Instant,
+    device::{AxisMotion, Drive},
+};
 
 /// Two readings outside the interval, at least this far apart, make a verdict: one alone may be
 /// misread.
@@ -40,16 +45,31 @@ pub(super) struct AxisReading {
     /// Degrees as the mount counts.
     pub(super) angle_deg: f64,
     pub(super) motion: AxisMotion,
+    pub(super) drive: Drive,
     pub(super) asked: Instant,
     pub(super) received: Instant,
+}
+
+/// Evidence that somebody else moves an axis.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Evidence {
+    /// The axis is read where no command of this program leads.
+    Outside {
+        /// How far from there, degrees, positive clockwise or up.
+        off_deg: f64,
+    },
+    /// The unit reports a jog, and this program does not jog.
+    Jogged,
+    /// The unit reports that the axis turns without power.
+    Runaway,
 }
 
 /// An axis that somebody else has moved.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Foreign {
     pub(super) axis: usize,
-    /// How far outside its interval, degrees, positive clockwise or up.
-    pub(super) by_deg: f64,
+    pub(super) evidence: Evidence,
 }
 
 /// The watch over both axes of an antenna.
@@ -127,8 +147,8 @@ impl MotionWatch {
     pub(super) fn take(&mut self, readings: [Option<AxisReading>; 2]) -> Option<Foreign> {
         let mut foreign = None;
         for (index, (axis, reading)) in self.axes.iter_mut().zip(readings).enumerate() {
-            let by_deg = reading.and_then(|reading| axis.take(reading));
-            foreign = foreign.or(by_deg.map(|by_deg| Foreign { axis: index, by_deg }));
+            let evidence = reading.and_then(|reading| axis.take(reading));
+            foreign = foreign.or(evidence.map(|evidence| Foreign { axis: index, evidence }));
         }
         foreign
     }

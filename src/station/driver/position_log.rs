@@ -65,7 +65,7 @@ mod tests {
     use super::*;
     use crate::{
         clock::Instant,
-        device::{Axis, AxisMotion, Pointing},
+        device::{Axis, AxisMotion, Drive, Pointing},
     };
 
     fn positions(count: usize) -> impl Iterator<Item = Measured> {
@@ -75,6 +75,7 @@ mod tests {
             let axis = Axis {
                 angle_deg: Some(1.0),
                 motion: AxisMotion::Still,
+                drive: Drive::Off,
                 plus_limit: false,
                 minus_limit: false,
             };

@@ -6,6 +6,7 @@ use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
 use crate::{
+    driver::Evidence,
     name::{self, Name},
     plan::Barrier,
 };
@@ -36,13 +37,12 @@ pub enum Safety {
         axis: Name,
         turned_deg: f64,
     },
-    /// Somebody else has moved an axis, by the unit's panel, by another program or by hand: it is
-    /// read where no command of this program leads. A motion of this program ends.
+    /// Somebody else has moved an axis, by the unit's panel, by another program or by hand. A motion
+    /// of this program ends.
     ForeignHands {
         #[serde(deserialize_with = "name::one")]
         axis: Name,
-        /// How far from there, degrees, positive clockwise or up.
-        off_deg: f64,
+        evidence: Evidence,
     },
     /// It does not answer while it moves on this program's word, or before STOP is proved to
     /// have ended that. The snapshot says until when.

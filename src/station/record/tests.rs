@@ -22,7 +22,7 @@ use super::{
 use crate::{
     astro::Angle,
     clock::{Clock, Instant, Moment},
-    device::{Axis, AxisMotion, Direction, Finding, Meaning, Measured, Pointing, WireLine},
+    device::{Axis, AxisMotion, Direction, Drive, Finding, Meaning, Measured, Pointing, WireLine},
     driver::{MAX_LINES, PositionLog, WireLog},
     station::{AntennaId, Retention},
 };
@@ -84,6 +84,7 @@ impl Logs {
         let axis = |angle_deg| Axis {
             angle_deg,
             motion: AxisMotion::Minus,
+            drive: Drive::On,
             plus_limit: false,
             minus_limit: true,
         };

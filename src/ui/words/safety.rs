@@ -3,7 +3,9 @@
 use jiff::Timestamp;
 
 use crate::{
-    driver::{Inside, Mover, Response, Safety, Snapshot, StopState, StoppingWay, Unit, Unlike},
+    driver::{
+        Evidence, Inside, Mover, Response, Safety, Snapshot, StopState, StoppingWay, Unit, Unlike,
+    },
     makes,
     plan::Barrier,
     station::Station,
@@ -229,12 +231,24 @@ pub fn safety(matter: &Safety, antenna: &str, now: Timestamp) -> String {
                  drive, brake and sensor before you move it again."
             )
         }
-        Safety::ForeignHands { axis, off_deg } => format!(
-            "Somebody else moved {antenna}, by its panel, by another program or by hand: {axis} \
-             reads {} away from where Azel's commands lead. Azel does not move it on. Find out who moves \
-             it before you move it again.",
-            format::degrees(off_deg.abs(), 1)
-        ),
+        Safety::ForeignHands { axis, evidence } => {
+            let evidence = match evidence {
+                Evidence::Outside { off_deg } => {
+                    let off = format::degrees(off_deg.abs(), 1);
+                    format!("{axis} reads {off} away from where Azel's commands lead")
+                }
+                Evidence::Jogged => {
+                    format!("its unit reports a jog of {axis}, and Azel does not jog it")
+                }
+                Evidence::Runaway => {
+                    format!("its unit reports that {axis} turns without a command")
+                }
+            };
+            format!(
+                "Somebody else moved {antenna}, by its panel, by another program or by hand: \
+                 {evidence}. Azel does not move it on. Find out who moves it before you move it again."
+            )
+        }
         Safety::Forbidden { barrier, driver, response } => {
             let driver = match driver {
                 Mover::Azel => "Azel was moving it",

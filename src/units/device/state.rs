@@ -205,6 +205,7 @@ pub struct Axis {
     /// As the unit reports it, or as its angles show where it reports none: a standing axis
     /// that is said to turn delays every proof of STOP, and the reverse raises an alarm.
     pub motion: AxisMotion,
+    pub drive: Drive,
     /// The limit switch at the upper end is set.
     pub plus_limit: bool,
     /// The limit switch at the lower end is set.
@@ -221,6 +222,19 @@ pub enum AxisMotion {
     Minus,
     /// A number without a known meaning: treat it as moving.
     Unknown(i64),
+}
+
+/// State of an axis's drive by the unit's own word.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Drive {
+    /// Without power; the axis may still coast, or turn in the wind.
+    Off,
+    On,
+    /// On by a jog: somebody else's, unless Azel jogs.
+    Jogged,
+    /// Without power, and the axis turns all the same.
+    Runaway,
 }
 
 /// The unit's own tracking program.

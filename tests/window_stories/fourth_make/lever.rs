@@ -14,8 +14,8 @@ use azel::{
     clock::{Instant, Moment},
     controller::satrak,
     device::{
-        AntennaState, Axis, AxisMotion, Capabilities, Controller, ControllerEvent, Device, Effect,
-        Extent, JogSpeeds, Measured, Motion, SecondAxis, Standstill, Variant,
+        AntennaState, Axis, AxisMotion, Capabilities, Controller, ControllerEvent, Device, Drive,
+        Effect, Extent, JogSpeeds, Measured, Motion, SecondAxis, Standstill, Variant,
         settings::{Field, Key},
     },
     station::{Connection, ControllerSpec, Link, Setting, Table, Usual},
@@ -159,6 +159,7 @@ impl Lever {
             angle_deg: Some(angle_deg),
             // It tells of no motion: standstill is proved by angles alone.
             motion: AxisMotion::Still,
+            drive: Drive::Off,
             plus_limit: false,
             minus_limit: false,
         };

@@ -159,7 +159,8 @@ impl Gate {
         let reading = |axis: Axis| {
             let angle_deg = axis.angle_deg.filter(|deg| deg.is_finite())?;
             let Measured { asked, received, .. } = measured;
-            Some(AxisReading { angle_deg, motion: axis.motion, asked, received })
+            let Axis { motion, drive, .. } = axis;
+            Some(AxisReading { angle_deg, motion, drive, asked, received })
         };
         let [first, second] = measured.axes.map(reading);
         Some([first, second.filter(|_| self.variant.capabilities.has_elevation())])

@@ -210,10 +210,10 @@ fn angle_deg(axis: Axis) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::device::AxisMotion;
+    use crate::device::{AxisMotion, Drive};
 
     fn axis(angle_deg: Option<f64>, [minus_limit, plus_limit]: [bool; 2]) -> Axis {
-        Axis { angle_deg, motion: AxisMotion::Still, plus_limit, minus_limit }
+        Axis { angle_deg, motion: AxisMotion::Still, drive: Drive::Off, plus_limit, minus_limit }
     }
 
     /// The interval, in degrees, of an axis that travels from -5 to 100 degrees at up to 2 degrees

@@ -17,7 +17,7 @@ use super::*;
 use crate::{
     astro::{AzEl, Site, time::add_seconds},
     device::{
-        Axis, AxisMotion, ControllerEvent, Extent, Measured, TrackTarget,
+        Axis, AxisMotion, ControllerEvent, Drive, Extent, Measured, TrackTarget,
         panel::Lead,
         settings::{Change, Values},
     },
@@ -134,6 +134,7 @@ impl Case {
         let axis = Axis {
             angle_deg: Some(90.0),
             motion: AxisMotion::Still,
+            drive: Drive::Off,
             plus_limit: false,
             minus_limit: false,
         };

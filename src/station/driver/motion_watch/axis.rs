@@ -3,12 +3,15 @@
 use std::time::Duration;
 
 use super::{
-    APART, AxisFigures, AxisReading, SWINGS_BACK,
+    APART, AxisFigures, AxisReading, Evidence, SWINGS_BACK,
     lead::{COASTS, Lead, Live},
     lessons::{DEAD_TIME, DeadTime, FASTEST_DEG_S, RATE_APART, RunsPast, Spread},
     range::Range,
 };
-use crate::{clock::Instant, device::AxisMotion};
+use crate::{
+    clock::Instant,
+    device::{AxisMotion, Drive},
+};
 
 /// An axis on its way turns no slower, degrees a second.
 const SLOWEST_DEG_S: f64 = 0.25;
@@ -71,6 +74,8 @@ pub(super) struct AxisWatch {
     /// It came to rest after the last motion that was sent.
     has_settled: bool,
     outside: Option<Outside>,
+    /// Since then the unit says that somebody else moves it.
+    accused_since: Option<Instant>,
     open_until: Option<Instant>,
     spread: Spread,
     runs_past: RunsPast,
@@ -91,6 +96,7 @@ impl AxisWatch {
             is_told: false,
             has_settled: false,
             outside: None,
+            accused_since: None,
             open_until: None,
             spread: Spread::default(),
             runs_past: RunsPast::default(),
@@ -113,6 +119,7 @@ impl AxisWatch {
             Lead::Anywhere => everywhere,
         };
         let ends = matches!(lead, Lead::To(_) | Lead::EitherWay(_) | Lead::By(_));
+        let is_jog = matches!(lead, Lead::ToEnd { .. } | Lead::By(_) | Lead::Anywhere);
         let either_way = matches!(lead, Lead::EitherWay(_));
         let led =
             here.map_or([true; 2], |here| [down_to_deg < here.to_deg, up_to_deg > here.from_deg]);
@@ -124,7 +131,7 @@ impl AxisWatch {
         let until = None;
         let passed = [None; 2];
         let mut motion =
-            Live { number, down_to_deg, up_to_deg, ends, either_way, led, passed, until };
+            Live { number, down_to_deg, up_to_deg, ends, is_jog, either_way, led, passed, until };
         motion.look(here, self.figures.arrives_within_deg, now);
         self.motions.push(motion);
         if self.motions.len() > MOST_MOTIONS {
@@ -188,10 +195,41 @@ impl AxisWatch {
         self.spread.turns();
     }
 
-    /// Takes a reading. Returns how far outside its interval somebody else has moved the axis,
-    /// degrees.
-    pub(super) fn take(&mut self, reading: AxisReading) -> Option<f64> {
-        let AxisReading { angle_deg, motion, asked, received } = reading;
+    /// Takes a reading. Returns the evidence that somebody else moves the axis.
+    pub(super) fn take(&mut self, reading: AxisReading) -> Option<Evidence> {
+        let words = self.take_words(reading);
+        self.take_angle(reading).or(words)
+    }
+
+    /// The unit itself says that somebody else moves the axis, in two readings.
+    fn take_words(&mut self, reading: AxisReading) -> Option<Evidence> {
+        let AxisReading { drive, asked, .. } = reading;
+        let evidence = match drive {
+            Drive::Off | Drive::On => None,
+            Drive::Jogged => (!self.may_be_jogged(asked)).then_some(Evidence::Jogged),
+            Drive::Runaway => Some(Evidence::Runaway),
+        };
+        let Some(evidence) = evidence else {
+            self.accused_since = None;
+            return None;
+        };
+        let since = *self.accused_since.get_or_insert(asked);
+        (asked.saturating_duration_since(since) >= APART).then(|| self.tell(evidence))?
+    }
+
+    /// A jog or step of Azel may still go on.
+    fn may_be_jogged(&self, at: Instant) -> bool {
+        let mut live = self.motions.iter().filter_map(|motion| motion.at(at));
+        live.any(|motion| motion.is_jog)
+    }
+
+    /// Each motion of somebody else is told once.
+    fn tell(&mut self, evidence: Evidence) -> Option<Evidence> {
+        (!std::mem::replace(&mut self.is_told, true)).then_some(evidence)
+    }
+
+    fn take_angle(&mut self, reading: AxisReading) -> Option<Evidence> {
+        let AxisReading { angle_deg, motion, drive, asked, received } = reading;
         let error_deg = self.error_deg();
         let since = self.known.map_or(asked, |known| known.at);
         self.motions.retain(|motion| motion.at(since).is_some());
@@ -216,7 +254,7 @@ impl AxisWatch {
         }
         let here = Range::about(deg, error_deg);
         let Some(range) = here.within(reachable) else {
-            let is_driven = motion != AxisMotion::Still || !self.is_settled(asked);
+            let is_driven = drive != Drive::Off || !self.is_settled(asked);
             let outside = self.outside.get_or_insert(Outside { since: asked, is_driven });
             outside.is_driven |= is_driven;
             let lasted = asked.saturating_duration_since(outside.since);
@@ -225,8 +263,7 @@ impl AxisWatch {
                 return None;
             }
             self.begin(angle_deg, turns_deg, asked);
-            // Once for each motion of somebody else.
-            return (!std::mem::replace(&mut self.is_told, true)).then(|| reachable.off_deg(deg));
+            return self.tell(Evidence::Outside { off_deg: reachable.off_deg(deg) });
         };
         self.outside = None;
         self.know(angle_deg, turns_deg, range, asked);

@@ -34,6 +34,8 @@ pub(super) struct Live {
     pub(super) up_to_deg: f64,
     /// Its end is a position.
     pub(super) ends: bool,
+    /// The unit may report it as a jog.
+    pub(super) is_jog: bool,
     /// It may lead there either way round.
     pub(super) either_way: bool,
     /// It led up, or down, when it was sent: the axis may coast on that way.
@@ -79,6 +81,7 @@ impl Live {
             down_to_deg: self.down_to_deg.min(newer.down_to_deg),
             up_to_deg: self.up_to_deg.max(newer.up_to_deg),
             ends: self.ends && newer.ends,
+            is_jog: self.is_jog || newer.is_jog,
             either_way: self.either_way || newer.either_way,
             led: [down || newer_down, up || newer_up],
             passed: newer.passed,

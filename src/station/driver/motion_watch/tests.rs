@@ -33,7 +33,7 @@ struct Scene {
     away_until_s: f64,
     still_s: f64,
     stops: bool,
-    found: Vec<(f64, f64)>,
+    found: Vec<(f64, Evidence)>,
     /// The unit says that the axis turns.
     is_flagged: bool,
 }
@@ -135,9 +135,10 @@ impl Scene {
         let is_turning = self.plant.is_driven() || self.is_flagged;
         let motion = if is_turning { AxisMotion::Unknown(1) } else { AxisMotion::Still };
         let (asked, received) = (self.at(asked_s), self.at(received_s));
-        let reading = AxisReading { angle_deg, motion, asked, received };
+        let drive = if is_turning { Drive::On } else { Drive::Off };
+        let reading = AxisReading { angle_deg, motion, drive, asked, received };
         if let Some(foreign) = self.watch.take([Some(reading), None]) {
-            self.found.push((now_s, foreign.by_deg));
+            self.found.push((now_s, foreign.evidence));
         }
         // Readings prove standstill.
         if self.stops && now_s - asked_s + 1.0 < self.still_s {
@@ -369,4 +370,38 @@ fn one_that_is_pushed_far_in_a_track_is_found_within_fifteen_seconds() {
     println!("{} of {pushes} missed: {missed:?}", missed.len());
     // Smaller ones hide in what a drive runs past its targets by itself.
     assert!(missed.len() as u64 * 50 <= pushes.max(50), "{missed:?}");
+}
+
+/// Readings of an axis that stands, a second apart, while its unit reports `drive`.
+fn told(watch: &mut MotionWatch, start: Instant, drives: &[Drive]) -> Vec<Evidence> {
+    let mut told = Vec::new();
+    for (second, drive) in (1..).zip(drives) {
+        let asked = start + Duration::from_secs(second);
+        let (motion, received) = (AxisMotion::Still, asked + Duration::from_millis(50));
+        let reading = AxisReading { angle_deg: 10.0, motion, drive: *drive, asked, received };
+        told.extend(watch.take([Some(reading), None]).map(|foreign| foreign.evidence));
+    }
+    told
+}
+
+#[test]
+fn a_unit_that_reports_a_jog_or_a_runaway_accuses_by_its_word() {
+    let figures =
+        AxisFigures { resolution_deg: 0.1, sway_deg: 0.5, arrives_within_deg: 0.3, wraps: false };
+    let start = Instant::now();
+    let of = |drives: &[Drive]| told(&mut MotionWatch::new([figures; 2]), start, drives);
+    assert_eq!(of(&[Drive::Off, Drive::Jogged, Drive::Jogged, Drive::Jogged]), [Evidence::Jogged]);
+    assert_eq!(of(&[Drive::Off, Drive::Runaway, Drive::Runaway]), [Evidence::Runaway]);
+    assert_eq!(of(&[Drive::Off, Drive::Jogged, Drive::Off, Drive::Jogged, Drive::On]), []);
+
+    // A jog of Azel, until it is proved to be over.
+    let mut watch = MotionWatch::new([figures; 2]);
+    assert_eq!(told(&mut watch, start, &[Drive::Off]), []);
+    let later = start + Duration::from_secs(10);
+    watch.commanded([Some(Lead::ToEnd { is_up: true }), None], later);
+    watch.accepted(later);
+    assert_eq!(told(&mut watch, later, &[Drive::Jogged, Drive::Jogged, Drive::Jogged]), []);
+    watch.proved_still();
+    let later = later + Duration::from_secs(10);
+    assert_eq!(told(&mut watch, later, &[Drive::Jogged, Drive::Jogged]), [Evidence::Jogged]);
 }

@@ -14,9 +14,9 @@ impl Session {
     /// Ends a motion of Azel on an antenna that somebody else has moved: two must not work against
     /// each other.
     pub(super) fn watch_hands(&mut self, now: Moment) {
-        let Some(Foreign { axis, by_deg }) = self.gate.look_for_hands(now) else { return };
+        let Some(Foreign { axis, evidence }) = self.gate.look_for_hands(now) else { return };
         let axis = self.variant.capabilities.axes.get(axis).copied().unwrap_or_default();
-        let event = Event::Safety(Safety::ForeignHands { axis, off_deg: by_deg });
+        let event = Event::Safety(Safety::ForeignHands { axis, evidence });
         if self.key.held().is_some() {
             self.key.spend();
             self.halt_quietly(now);

@@ -204,7 +204,7 @@ mod tests {
     use crate::{
         astro::AzEl,
         controller::satrak,
-        device::{Axis, AxisMotion},
+        device::{Axis, AxisMotion, Drive},
     };
 
     fn look(start: Instant, at_s: f64, angles_deg: [Option<f64>; 2]) -> Measured {
@@ -212,6 +212,7 @@ mod tests {
         let axis = |angle_deg| Axis {
             angle_deg,
             motion: AxisMotion::Still,
+            drive: Drive::Off,
             plus_limit: false,
             minus_limit: false,
         };

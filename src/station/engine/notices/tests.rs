@@ -11,7 +11,9 @@ use crate::{
         panel::{Check, CheckState},
         settings::WriteError,
     },
-    driver::{LeftOffsets, LinkLoss, Mover, Response, Safety, TrackProblem, Unit, Unlike},
+    driver::{
+        Evidence, LeftOffsets, LinkLoss, Mover, Response, Safety, TrackProblem, Unit, Unlike,
+    },
     engine::{
         alarms::{AlarmKind, Alarms, ShelveTime, Work},
         automatic::OffBecause,
@@ -374,7 +376,7 @@ fn every_matter_of_safety() -> Vec<Safety> {
         Safety::FlagsContradict { axis: "X", turned_deg: 2.0 },
         Safety::SilentInMotion,
         Safety::NoEffect { axis: Some("X") },
-        Safety::ForeignHands { axis: "X", off_deg: 8.0 },
+        Safety::ForeignHands { axis: "X", evidence: Evidence::Outside { off_deg: 8.0 } },
         Safety::ClockStepped { by_s: 2.0 },
         Safety::EndedForSleep,
         Safety::Slept { lasted: Duration::from_mins(1) },

@@ -3,7 +3,7 @@
 use super::Calibration;
 use crate::{
     astro::Angle,
-    device::{Axis, AxisMotion, CountLine, Pointing},
+    device::{Axis, AxisMotion, CountLine, Drive, Pointing},
     protocol::rc2000c::{AutoMove, AxisDrive, Direction, LimitEnd, Position, Sense, Status},
     station::Mount,
 };
@@ -46,6 +46,7 @@ impl Axes {
             Axis {
                 angle_deg: angle_deg(position, line),
                 motion: motion(drive, position, before, is_reversed),
+                drive: power(drive),
                 plus_limit: at(Sense::Positive),
                 minus_limit: at(Sense::Negative),
             }
@@ -182,6 +183,17 @@ fn motion(
             _ if drive == AxisDrive::AutoMove => AxisMotion::Unknown(AUTO_MOVE),
             _ => AxisMotion::Still,
         },
+    }
+}
+
+fn power(drive: AxisDrive) -> Drive {
+    match drive {
+        AxisDrive::Still | AxisDrive::Jammed | AxisDrive::Limit | AxisDrive::Overcurrent => {
+            Drive::Off
+        }
+        AxisDrive::Pending(_) | AxisDrive::Moving(_) => Drive::Jogged,
+        AxisDrive::AutoMove | AxisDrive::Unknown(_) => Drive::On,
+        AxisDrive::Runaway => Drive::Runaway,
     }
 }
 

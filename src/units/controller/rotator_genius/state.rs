@@ -4,8 +4,8 @@ use super::{Genius, panel, roles::Roles, settings};
 use crate::{
     astro::Angle,
     clock::{Instant, Moment},
-    device::{Axis, Measured, Pointing, settings::HeldGroup},
-    protocol::rotator_genius::{RotatorNumber, Status},
+    device::{Axis, Drive, Measured, Pointing, settings::HeldGroup},
+    protocol::rotator_genius::{Moving, RotatorNumber, Status},
 };
 
 impl Genius {
@@ -26,6 +26,10 @@ impl Genius {
             Axis {
                 angle_deg: Roles::axis_deg(rotator).filter(|_| is_told),
                 motion: number.of_mut(&mut self.turning).look(rotator, now.steady),
+                drive: match rotator.moving {
+                    Moving::Stopped => Drive::Off,
+                    Moving::Clockwise | Moving::CounterClockwise => Drive::On,
+                },
                 // The unit reports that a rotator is outside its limits, not on which side. It
                 // must not block the way back.
                 plus_limit: false,

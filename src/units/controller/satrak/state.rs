@@ -10,7 +10,7 @@ use crate::{
     astro::{AzEl, time::seconds_between},
     clock::Moment,
     device::{
-        Axis, AxisMotion, Measured, Phase, Program, UnitClock,
+        Axis, AxisMotion, Drive, Measured, Phase, Program, UnitClock,
         settings::{HeldGroup, ReadFailure},
     },
     protocol::satrak::{AxisMotion as UnitMotion, Query, Reply, Status, TrackState},
@@ -144,5 +144,6 @@ fn axis(angle_deg: f64, motion: UnitMotion, plus_limit: bool, minus_limit: bool)
         UnitMotion::Negative => AxisMotion::Minus,
         UnitMotion::Unknown(code) => AxisMotion::Unknown(code),
     };
-    Axis { angle_deg: Some(angle_deg), motion, plus_limit, minus_limit }
+    let drive = if motion == AxisMotion::Still { Drive::Off } else { Drive::On };
+    Axis { angle_deg: Some(angle_deg), motion, drive, plus_limit, minus_limit }
 }

@@ -184,7 +184,13 @@ fn counts_mean_angles_only_where_both_axes_are_calibrated() {
 #[test]
 fn an_elevation_axis_at_its_limit_tells_the_side_and_otherwise_the_azimuth_is_not_known() {
     let axes = |plus_limit, minus_limit| {
-        let axis = Axis { angle_deg: None, motion: AxisMotion::Still, plus_limit, minus_limit };
+        let axis = Axis {
+            angle_deg: None,
+            motion: AxisMotion::Still,
+            drive: Drive::Off,
+            plus_limit,
+            minus_limit,
+        };
         [Axis { angle_deg: Some(167.0), plus_limit: false, minus_limit: false, ..axis }, axis]
     };
     let azimuth_deg = |axes, elevation_to_deg| {
