@@ -10,7 +10,7 @@ use azel::{
     driver::{Command, Event, Found, Intent, LinkState, Snapshot, TrackView},
     engine::{self, passes::PredictedPass},
     model::{Model, UiCommand},
-    plan::{ProgramTrack, Sample, Target, TrackPhase, TrackStats},
+    plan::{ProgramTrack, Sample, Target, TrackPhase, TrackStats, program_track::OnPath},
     station::{Antenna, AntennaId, Mount},
     ui::bar::activity,
 };
@@ -35,6 +35,8 @@ fn following(phase: TrackPhase, off_deg: f64, motion: AxisMotion) -> Model {
         awaits_operator: false,
         next_update: None,
         commanded: is_up.then_some(WANTED.into()),
+        on_path: None,
+        missing: None,
         predicted: is_up.then_some(predicted),
         offsets: TrackOffsets::NONE,
         can_undo: false,
@@ -90,6 +92,25 @@ fn the_sentence_says_what_is_waited_for_followed_and_over() {
         (TrackPhase::Over, 0.0, Still, "The pass of NOAA 20 is over. Holding at 134°, 20°."),
     ] {
         assert_eq!(states::sentence(&following(phase, off_deg, motion)), wanted);
+    }
+}
+
+#[test]
+fn an_antenna_that_turns_to_its_target_is_said_to_reach_it() {
+    let mut model = following(TrackPhase::Tracking, 40.0, AxisMotion::Minus);
+    for (until, wanted) in [
+        (
+            Some(add_seconds(rig::now(), 20.0)),
+            "Following NOAA 20. The antenna is turning to it, 40.00° off, and should reach it at \
+             11:15:50Z, in 0:20.",
+        ),
+        (None, "Following NOAA 20. The antenna is turning to it, 40.00° off."),
+    ] {
+        let snapshot = Arc::make_mut(&mut model.antennas[0].snapshot);
+        if let Some(view) = &mut snapshot.program_track {
+            view.on_path = Some(OnPath::OnItsWay { until });
+        }
+        assert_eq!(states::sentence(&model), wanted);
     }
 }
 

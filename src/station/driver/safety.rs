@@ -53,6 +53,10 @@ pub enum Safety {
         #[serde(deserialize_with = "name::option")]
         axis: Option<Name>,
     },
+    /// The antenna stayed off the target that it was told to track. Azel has sent STOP.
+    OffTarget {
+        off_deg: f64,
+    },
     /// The clock of this computer was set.
     ClockStepped {
         /// By this much, seconds; positive ahead.

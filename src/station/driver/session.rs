@@ -18,6 +18,7 @@ mod liveness;
 mod lock_out;
 mod marking;
 mod monitor;
+mod off_target;
 mod offsets;
 mod on_board;
 mod program_track;

@@ -15,7 +15,7 @@ use crate::{
     },
     name::{self, Name},
     orbit::PropagationError,
-    plan::{Barrier, Sample, Supervision, TrackPhase, TrackStats},
+    plan::{Barrier, Sample, Supervision, TrackPhase, TrackStats, program_track::OnPath},
     station::LockOut,
 };
 
@@ -260,6 +260,10 @@ pub struct TrackView {
     /// Direction in which to point at the time of the last measurement, offsets included;
     /// `None` unless the target is tracked right now.
     pub predicted: Option<Sample>,
+    /// The last measurement against the planned path; `None` unless the target is tracked right now.
+    pub on_path: Option<OnPath>,
+    /// Angle off the path, where it has lasted too long.
+    pub missing: Option<Angle>,
     /// Offsets from the target.
     pub offsets: TrackOffsets,
     /// They were changed in this pass.

@@ -18,7 +18,7 @@ use self::{
 };
 pub use self::{
     day::{DayEvent, DayLine, Flown, MissCause},
-    operation::{Doing, Duty, Interruption, OffBecause, On, Operation, Taking},
+    operation::{Doing, Duty, GivenUp, Interruption, OffBecause, On, Operation, Taking},
 };
 use super::{
     Antenna, By, Command, CurrentRequest, Engine, StationClaim, alarms::AlarmKind,
@@ -200,6 +200,9 @@ impl Engine {
             }
             Event::StartedByItself if !uses_auto_track => {
                 operation.suspend(Interruption::Elsewhere, now);
+            }
+            Event::Safety(Safety::OffTarget { .. }) => {
+                operation.take_outcome(Outcome::OffTarget, now);
             }
             Event::Safety(Safety::ForeignHands { .. }) => {
                 operation.suspend(Interruption::Elsewhere, now);

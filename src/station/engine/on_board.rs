@@ -171,11 +171,12 @@ impl Engine {
     pub(super) fn watch_on_board(&mut self, index: usize) {
         let Some(Antenna { shown: antenna, .. }) = self.antennas.get(index) else { return };
         let (alarms, now, of) = (&mut self.alarms, self.now, Some(antenna.id()));
-        let running = antenna.snapshot.on_board.as_ref();
-        let missed = running.and_then(|view| {
+        let on_board = antenna.snapshot.on_board.as_ref().and_then(|view| {
             let cause = view.found.causes.first().cloned();
             Some(AlarmKind::OffTarget { off: view.missing?, cause })
         });
+        let from_here = antenna.snapshot.program_track.as_ref().and_then(|view| view.missing);
+        let missed = on_board.or(from_here.map(|off| AlarmKind::OffTarget { off, cause: None }));
         match missed {
             Some(kind) => alarms.raise(of, kind, now),
             None => alarms.clear(of, now, |kind| matches!(kind, AlarmKind::OffTarget { .. })),

@@ -5,7 +5,7 @@ use crate::{
     driver::TrackView,
     engine::antenna::AntennaModel,
     model::Model,
-    plan::TrackPhase,
+    plan::{TrackPhase, program_track::OnPath},
     ui::{format, widgets::sentence::SentenceKind},
 };
 
@@ -27,7 +27,7 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
                 format::time_left(model.now, aos)
             ))
         }
-        TrackPhase::Tracking => following(antenna, view, name),
+        TrackPhase::Tracking => following(model, antenna, view, name),
         TrackPhase::Over => Spoken::new(SentenceKind::Holding)
             .plain("The pass of ")
             .bold(name)
@@ -35,7 +35,7 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
     })
 }
 
-fn following(antenna: &AntennaModel, view: &TrackView, name: &str) -> Spoken {
+fn following(model: &Model, antenna: &AntennaModel, view: &TrackView, name: &str) -> Spoken {
     let lead = |kind| Spoken::new(kind).plain("Following ").bold(name);
     let is_near = view.predicted.is_some() && !antenna.is_out_of_reach();
     let Some(error) = antenna.error().filter(|_| is_near) else {
@@ -49,6 +49,16 @@ fn following(antenna: &AntennaModel, view: &TrackView, name: &str) -> Spoken {
     } else {
         (SentenceKind::Caution, "outside")
     };
+    if let (SentenceKind::Caution, Some(OnPath::OnItsWay { until })) = (kind, view.on_path) {
+        let until = until.map_or_else(String::new, |until| {
+            let (at, left) =
+                (format::moment(until, model.now), format::time_left(model.now, until));
+            format!(", and should reach it at {at}, in {left}")
+        });
+        let off = format::degrees(off_deg, 2);
+        return lead(SentenceKind::Commanded)
+            .plain(format!(". The antenna is turning to it, {off} off{until}."));
+    }
     let beside = if view.offsets.is_none() { "" } else { " with offsets" };
     lead(kind).plain(format!(
         " position by position{beside}. The antenna is {} off, {side} its {} beam.",

@@ -59,6 +59,7 @@ pub fn miss_cause(cause: MissCause) -> String {
             "After an outage Azel asked whether to continue tracking, and nobody answered."
         }
         MissCause::Refused => "It was refused, or could not be verified.",
+        MissCause::OffTarget => "Azel ended the track: the antenna stayed off its target.",
         MissCause::OutsideBeam => "The antenna was outside its beam.",
     };
     sentence.to_owned()

@@ -249,6 +249,11 @@ pub fn safety(matter: &Safety, antenna: &str, now: Timestamp) -> String {
                  {evidence}. Azel does not move it on. Find out who moves it before you move it again."
             )
         }
+        Safety::OffTarget { off_deg } => format!(
+            "{antenna} stayed {} off its target although it should have been there. Azel stopped it \
+             and gave the pass up. Check its drives, its clock and its offsets.",
+            format::degrees(*off_deg, 1)
+        ),
         Safety::Forbidden { barrier, driver, response } => {
             let driver = match driver {
                 Mover::Azel => "Azel was moving it",

@@ -2,6 +2,7 @@
 //! spared. Pure functions; positions and time are arguments.
 
 mod axis;
+mod chase;
 mod drives;
 mod path;
 mod planner;
@@ -15,7 +16,7 @@ use serde::{Deserialize, Serialize};
 
 pub use axis::AxisNow;
 pub use drives::{Drives, SetPoint};
-pub use planner::{Next, PathOrder, PlannedPath, Planner};
+pub use planner::{Next, OnPath, PathOrder, PlannedPath, Planner};
 pub use stats::TrackStats;
 pub use target::{Course, Target};
 

@@ -61,15 +61,17 @@ impl Gate {
             Some(deg) => Lead::To(deg),
             None => Lead::Anywhere,
         });
-        let [turns_first, turns_second] = self.turned_by(motion);
-        let Motion::Position { azimuth, .. } = self.controller.as_sent(motion) else {
+        let [turns_first, _] = self.turned_by(motion);
+        let sent = self.controller.as_sent(motion);
+        let Motion::Position { azimuth, .. } = sent else {
             return [Some(Lead::Anywhere); 2];
         };
         let first = match (first, azimuth) {
-            (Lead::To(deg), Some(_)) => self.ways_to(deg, now),
+            (Lead::To(deg), Some(_)) if turns_first => self.ways_to(deg, now),
             (first, _) => first,
         };
-        [turns_first.then_some(first), turns_second.then_some(second)]
+        let [sends_first, sends_second] = self.turned_by(sent);
+        [sends_first.then_some(first), sends_second.then_some(second)]
     }
 
     /// The ways of the azimuth axis to an angle, degrees as the mount counts: as it counts, over

@@ -3,7 +3,7 @@
 
 use std::{sync::Arc, time::Duration};
 
-use super::{Event, Session, activity::Slew};
+use super::{Event, Session, activity::Slew, off_target::OffTarget};
 use crate::{
     astro::{
         Angle, AzEl,
@@ -18,8 +18,6 @@ use crate::{
     plan::{OnBoardPass, Supervision, on_board::Judge},
 };
 
-/// How long an antenna that was on its satellite may be off it.
-const OFF_FOR: Duration = Duration::from_secs(10);
 /// The unit's clock is reported with the delay of the link: smaller differences are ignored,
 /// seconds.
 const SAME_CLOCK_S: f64 = 0.2;
@@ -33,10 +31,9 @@ pub(super) struct Watch {
     /// When the position that was compared last came in.
     compared: Option<Instant>,
     was_on_target: bool,
-    /// Since when it is off target, and how long it may be.
-    off_since: Option<(Instant, Duration)>,
-    /// The angle off target, once that has lasted too long.
-    missing: Option<Angle>,
+    /// When an antenna that has to turn to its satellite arrives at the latest.
+    arrives: Option<Instant>,
+    off_target: OffTarget,
     /// The position when the axes last turned, and where the satellite was then.
     turned: Option<(Measured, AzEl)>,
 }
@@ -50,8 +47,8 @@ impl Watch {
             holds_target: false,
             compared: None,
             was_on_target: false,
-            off_since: None,
-            missing: None,
+            arrives: None,
+            off_target: OffTarget::default(),
             turned: None,
         }
     }
@@ -61,7 +58,19 @@ impl Watch {
     }
 
     pub(super) fn view(&self) -> OnBoardView {
-        OnBoardView { found: Arc::clone(&self.found), missing: self.missing }
+        OnBoardView { found: Arc::clone(&self.found), missing: self.off_target.missing() }
+    }
+
+    pub(super) fn off_target(&self) -> OffTarget {
+        self.off_target
+    }
+
+    /// Takes the angle off the satellite; `None` inside the beam.
+    fn take_off(&mut self, off: Option<Angle>, slew: Duration, at: Instant) {
+        self.was_on_target |= off.is_none();
+        let slew = if self.was_on_target { Duration::ZERO } else { slew };
+        let arrives = *self.arrives.get_or_insert(at + slew);
+        self.off_target.take(off.filter(|_| self.was_on_target || at >= arrives), at);
     }
 
     /// Judges again if the unit reports something else.
@@ -231,6 +240,7 @@ impl Session {
             return;
         }
         let (unit, meant, measured) = (self.plain_unit(), self.meant_offsets(), state.measured);
+        let on_target = self.on_target();
         let asked = self.activity.on_board_mut().map(|track| &mut track.watch);
         let Some(watch) = asked.or(self.unasked.as_mut()) else { return };
         watch.judge_again(&unit, true);
@@ -251,17 +261,9 @@ impl Session {
         let Some(watch) = asked.or(self.unasked.as_mut()) else { return };
         let off = predicted.and_then(|predicted| measured.pointing.separation(predicted.into()));
         let Some(off) = off else { return };
-        if off <= self.setup.ability.half_beam {
-            (watch.was_on_target, watch.off_since, watch.missing) = (true, None, None);
-            return;
-        }
         // Both axes may have to turn by more than the beam.
-        let rate_deg_s = self.setup.ability.maximum_rate_deg_s;
-        let slew_s = if watch.was_on_target { 0.0 } else { 2.0 * off.degrees() / rate_deg_s };
+        let slew_s = 2.0 * off.degrees() / self.setup.ability.maximum_rate_deg_s;
         let slew = Duration::try_from_secs_f64(slew_s).unwrap_or_default();
-        let (since, allowed) = *watch.off_since.get_or_insert((now.steady, OFF_FOR + slew));
-        if now.steady.saturating_duration_since(since) >= allowed {
-            watch.missing = Some(off);
-        }
+        watch.take_off(Some(off).filter(|off| *off > on_target), slew, now.steady);
     }
 }

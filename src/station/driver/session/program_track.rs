@@ -7,7 +7,9 @@ use std::time::Duration;
 
 pub(super) use tracking::{TrackConfig, Tracking};
 
-use super::{Command, Event, Session, activity::Activity, likeness::Recheck};
+use super::{
+    Command, Event, Session, activity::Activity, likeness::Recheck, off_target::OffTarget,
+};
 use crate::{
     astro::Angle,
     clock::{Instant, Moment},
@@ -135,9 +137,10 @@ impl Session {
     /// Keeps the antenna on its target.
     pub(super) fn watch_follow(&mut self, now: Moment) {
         let measured = self.gate.state().measured;
+        let (half_beam, on_target) = (self.setup.ability.half_beam, self.on_target());
         let Some(track) = self.activity.program_mut() else { return };
         if let Some(measured) = measured {
-            track.compare(measured);
+            track.compare(measured, half_beam, on_target);
             // Known for the next target, too.
             self.setup.track_config.drives.rates_deg_s = track.planner.rates_deg_s();
         }
@@ -154,7 +157,8 @@ impl Session {
         let before = std::mem::replace(&mut track.phase, phase);
         let mut over = None;
         if before == TrackPhase::Tracking {
-            track.predicted = None;
+            (track.predicted, track.on_path) = (None, None);
+            track.off_target = OffTarget::default();
             // They were for the pass.
             let begins_with = track.planner.follow().offsets;
             track.planner.set_offsets(begins_with);

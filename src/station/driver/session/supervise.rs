@@ -72,6 +72,7 @@ pub(super) const CHECKS: &[Check] = checks![
     watch_slew,
     watch_tracking,
     watch_on_board,
+    watch_pointing,
     watch_silence,
 ];
 

@@ -4,7 +4,7 @@
 use jiff::{Timestamp, tz::TimeZone};
 use serde::{Deserialize, Serialize};
 
-use super::operation::{Duty, Interruption, OffBecause, Operation, Seen, is_same_pass};
+use super::operation::{Duty, GivenUp, Interruption, OffBecause, Operation, Seen, is_same_pass};
 use crate::{
     astro::{Angle, time::seconds_between},
     engine::{antenna::ErrorSample, passes::PassKey},
@@ -68,6 +68,8 @@ pub enum MissCause {
     NotResumed,
     /// The unit or the gate refused it, or it could not be proved.
     Refused,
+    /// The track was ended, because the antenna stayed off its target.
+    OffTarget,
     /// It was tracked, but not all of it inside the beam.
     OutsideBeam,
 }
@@ -123,10 +125,11 @@ impl Flight {
             Operation::Suspended { by, .. } => MissCause::Suspended(*by),
             Operation::On(_) if !seen.is_live => MissCause::LinkLost,
             Operation::On(_) if seen.awaits_operator => MissCause::NotResumed,
-            Operation::On(_) if taking.is_some_and(|taking| taking.is_given_up) => {
-                MissCause::Refused
-            }
-            Operation::On(_) => MissCause::OutsideBeam,
+            Operation::On(_) => match taking.and_then(|taking| taking.given_up) {
+                Some(GivenUp::Refused) => MissCause::Refused,
+                Some(GivenUp::OffTarget) => MissCause::OffTarget,
+                None => MissCause::OutsideBeam,
+            },
         };
         match self.lost.iter_mut().find(|(known, _)| *known == cause) {
             Some((_, lost_s)) => *lost_s += passed_s,

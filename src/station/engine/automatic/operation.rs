@@ -104,8 +104,18 @@ pub struct Taking {
     /// When it was proved that the antenna is on its way; for a unit with a program of its own
     /// by reading back.
     pub proved_at: Option<Timestamp>,
-    /// The rest of the pass is not taken: the unit refused it, or it ended early.
-    pub is_given_up: bool,
+    /// Why the rest of the pass is not taken.
+    pub given_up: Option<GivenUp>,
+}
+
+/// Why a pass is given up.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum GivenUp {
+    /// The unit or the gate refused it, or it could not be proved.
+    Refused,
+    /// The antenna stayed off its target.
+    OffTarget,
 }
 
 /// A pass that the schedule gives to the antenna.
@@ -177,6 +187,8 @@ pub(super) enum Act {
 pub(super) enum Outcome {
     /// The pass cannot be loaded or proved, or the unit refused it.
     Failed,
+    /// The session ended the track, because the antenna stayed off its target.
+    OffTarget,
     /// The track ended before its end, and nobody here has ended it.
     EndedEarly,
 }
@@ -246,15 +258,17 @@ impl Operation {
     pub(super) fn take_outcome(&mut self, outcome: Outcome, now: Timestamp) {
         let Self::On(on) = self else { return };
         let Doing::Takes(taking) = &mut on.doing else { return };
-        if taking.is_given_up {
+        if taking.given_up.is_some() {
             return;
         }
         match outcome {
             Outcome::Failed => {
-                taking.is_given_up = true;
+                taking.given_up = Some(GivenUp::Refused);
                 on.failures += 1;
                 self.end_after_failures();
             }
+            // The next pass begins from a proved rest.
+            Outcome::OffTarget => taking.given_up = Some(GivenUp::OffTarget),
             Outcome::EndedEarly => self.suspend(Interruption::Elsewhere, now),
         }
     }
@@ -325,7 +339,7 @@ impl On {
             }
             if now >= taking.until {
                 // A track from here counts as proved before the unit has answered to it.
-                if taking.proved_at.is_some() && !taking.is_given_up {
+                if taking.proved_at.is_some() && taking.given_up.is_none() {
                     self.failures = 0;
                 }
                 self.doing = Doing::Rests;
@@ -423,7 +437,7 @@ impl On {
             asked_at: now,
             requests,
             proved_at: None,
-            is_given_up: false,
+            given_up: None,
         });
     }
 
@@ -438,13 +452,13 @@ impl On {
     ) -> Option<Act> {
         let is_asked = seconds_between(taking.asked_at, now) < LATE_S;
         let is_idle = seen.takes != Some(taking.pass.0) && !seen.moves;
-        if taking.is_given_up || is_asked || !is_idle || !seen.is_live || !seen.can_be_sent {
+        if taking.given_up.is_some() || is_asked || !is_idle || !seen.is_live || !seen.can_be_sent {
             return None;
         }
         let duty = duties.iter().find(|duty| is_same_pass(duty.pass, taking.pass))?;
         if taking.requests >= REQUESTS {
             if let Doing::Takes(taking) = &mut self.doing {
-                taking.is_given_up = true;
+                taking.given_up = Some(GivenUp::Refused);
             }
             self.failures += 1;
             return None;

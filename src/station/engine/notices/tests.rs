@@ -377,6 +377,7 @@ fn every_matter_of_safety() -> Vec<Safety> {
         Safety::SilentInMotion,
         Safety::NoEffect { axis: Some("X") },
         Safety::ForeignHands { axis: "X", evidence: Evidence::Outside { off_deg: 8.0 } },
+        Safety::OffTarget { off_deg: 5.0 },
         Safety::ClockStepped { by_s: 2.0 },
         Safety::EndedForSleep,
         Safety::Slept { lasted: Duration::from_mins(1) },
@@ -399,6 +400,7 @@ fn every_matter_of_safety() -> Vec<Safety> {
             | Safety::SilentInMotion
             | Safety::NoEffect { .. }
             | Safety::ForeignHands { .. }
+            | Safety::OffTarget { .. }
             | Safety::ClockStepped { .. }
             | Safety::EndedForSleep
             | Safety::Slept { .. }

@@ -4,7 +4,7 @@ use super::Calibration;
 use crate::{
     astro::Angle,
     device::{Axis, AxisMotion, CountLine, Drive, Pointing},
-    protocol::rc2000c::{AutoMove, AxisDrive, Direction, LimitEnd, Position, Sense, Status},
+    protocol::rc2000c::{AxisDrive, Direction, LimitEnd, Position, Sense, Status},
     station::Mount,
 };
 
@@ -94,15 +94,15 @@ impl Axes {
         }
     }
 
-    /// The move to a direction. Both axes always move: one that should stay is sent to its
+    /// The counts of a move to a direction. Both axes always move: one that should stay is sent to its
     /// present counts, or to the end of its travel if it stands at that limit and tells none.
-    pub(super) fn auto_move(
+    pub(super) fn counts(
         &self,
         azimuth: Option<Angle>,
         elevation: Option<Angle>,
         status: Option<&Status>,
         mount: &Mount,
-    ) -> Result<AutoMove, String> {
+    ) -> Result<[u16; 2], String> {
         let [az_line, el_line] = self.lines;
         let [az_travel_deg, el_travel_deg] = mount.travel_deg();
         let counts =
@@ -130,7 +130,7 @@ impl Axes {
         let el_at = status.map(|status| status.elevation);
         let az_counts = counts("azimuth", azimuth, az_line, az_at, az_travel_deg)?;
         let el_counts = counts("elevation", elevation, el_line, el_at, el_travel_deg)?;
-        Ok(AutoMove::position(az_counts, el_counts))
+        Ok([az_counts, el_counts])
     }
 
     /// The angles of the axes at these counts, degrees as the mount counts; `None` unless both

@@ -8,6 +8,7 @@ use super::{
     refusal::is_tracking,
 };
 use crate::{
+    astro::Angle,
     clock::{Instant, Moment},
     device::{
         AntennaState, Asked, Controller, ControllerEvent, Device, Extent, Finding, Motion,
@@ -15,7 +16,7 @@ use crate::{
         panel::{Act, Lead},
     },
     protocol::rc2000c::{
-        Decoder, Motion as UnitMotion, PolarizationMotion, Request, Speed, Status,
+        AutoMove, Decoder, Motion as UnitMotion, PolarizationMotion, Request, Speed, Status,
     },
 };
 
@@ -143,6 +144,16 @@ impl Device for Rc2000c {
         is_sent || !self.orders.is_empty() || self.jog.is_some()
     }
 
+    /// The unit is always sent both axes: one that is to stay goes to where it was read last.
+    fn as_sent(&self, motion: Motion) -> Motion {
+        let Motion::Position { azimuth, elevation } = motion else { return motion };
+        let status = self.status.as_ref();
+        let counts = self.axes.counts(azimuth, elevation, status, &self.mount);
+        let degrees = counts.ok().and_then(|counts| self.axes.degrees(counts));
+        let [first, second] = degrees.unwrap_or_default().map(|deg| deg.map(Angle::from_degrees));
+        Motion::Position { azimuth: first.or(azimuth), elevation: second.or(elevation) }
+    }
+
     fn state(&self) -> &AntennaState {
         &self.state
     }
@@ -220,8 +231,11 @@ impl Controller for Rc2000c {
                     Err("TRACK is active on the unit".to_owned())
                 } else {
                     let status = self.status.as_ref();
-                    let target = self.axes.auto_move(azimuth, elevation, status, &self.mount);
-                    target.map(|target| Request::Motion(UnitMotion::AutoMove(target)))
+                    let counts = self.axes.counts(azimuth, elevation, status, &self.mount);
+                    counts.map(|[az_counts, el_counts]| {
+                        let target = AutoMove::position(az_counts, el_counts);
+                        Request::Motion(UnitMotion::AutoMove(target))
+                    })
                 };
                 self.order(motion.into(), request);
             }

@@ -130,6 +130,12 @@ impl Path {
         rest.get(steps).copied()
     }
 
+    /// Positions of both axes at `at`, degrees as the mount counts.
+    pub(super) fn positions_deg(&self, at: Timestamp) -> [f64; 2] {
+        let at_s = self.seconds(at);
+        [0, 1].map(|axis| self.position_deg(axis, at_s))
+    }
+
     fn position_deg(&self, axis: usize, at_s: f64) -> f64 {
         let Some(points) = self.axes.get(axis) else { return 0.0 };
         let first = self.index(at_s);

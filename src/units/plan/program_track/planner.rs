@@ -2,17 +2,19 @@
 
 use glam::DQuat;
 use jiff::Timestamp;
+use serde::{Deserialize, Serialize};
 
 use super::{
     ProgramTrack,
     axis::{Axis, AxisNow, LastCommand},
+    chase::Chase,
     drives::{Drives, SetPoint},
     path::Path,
     target::Course,
 };
 use crate::{
     astro::{
-        AzEl, PointingModel, TrackOffsets,
+        Angle, AzEl, PointingModel, TrackOffsets,
         time::{add_seconds, seconds_between},
     },
     clock::Instant,
@@ -26,6 +28,10 @@ use crate::{
 
 /// Longest time that a path covers, seconds.
 const PATH_S: f64 = 3.0 * 3600.0;
+/// An arrival is predicted this often, seconds.
+const PREDICTED_EVERY_S: f64 = 5.0;
+/// An antenna that leads or lags the path by these times is on it, seconds.
+const SHOWN_LATE_S: [f64; 5] = [-1.0, 0.0, 1.0, 2.0, 3.0];
 /// Time before its end at which a path is extended, beyond the look-ahead of a command, seconds.
 const MARGIN_S: f64 = 60.0;
 
@@ -79,6 +85,16 @@ pub struct Next {
     last_command: [LastCommand; 2],
 }
 
+/// A measured direction against the planned path.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub enum OnPath {
+    /// The antenna cannot have arrived yet, or the path itself leaves the target, as in an unwrap.
+    /// From the given time on, which is not known far ahead, it should point at the target.
+    OnItsWay { until: Option<Timestamp> },
+    /// It should be on the path, and points this far off it.
+    Due { off: Angle },
+}
+
 /// Plans the commands for one target.
 #[derive(Debug)]
 pub struct Planner {
@@ -92,6 +108,9 @@ pub struct Planner {
     path: Option<(Path, Timestamp)>,
     /// The path was planned within other bounds or with other offsets; its flip still holds.
     is_stale: bool,
+    chase: Option<Chase>,
+    /// The predicted arrival, and when it was predicted.
+    arrival: Option<(Option<Timestamp>, Timestamp)>,
     axes: [Axis; 2],
 }
 
@@ -106,8 +125,19 @@ impl Planner {
         let course = Course::new(&follow.target, follow.site)?;
         let axes = [0, 1].map(|index| Axis::new(index, drives, settings));
         let offsets = follow.offsets;
-        let (path, is_stale) = (None, false);
-        Ok(Self { follow, course, offsets, drives, settings, bounds, path, is_stale, axes })
+        Ok(Self {
+            follow,
+            course,
+            offsets,
+            drives,
+            settings,
+            bounds,
+            path: None,
+            is_stale: false,
+            chase: None,
+            arrival: None,
+            axes,
+        })
     }
 
     /// The same for an antenna with this pointing model.
@@ -217,6 +247,62 @@ impl Planner {
         for axis in &mut self.axes {
             axis.drives = self.drives;
         }
+    }
+
+    /// Compares a measured direction with the planned path. The target counts as met within
+    /// `half_beam`. Returns `None` without a path, or for an axis without an angle.
+    pub fn compare(
+        &mut self,
+        at: Timestamp,
+        positions_deg: [Option<f64>; 2],
+        half_beam: Angle,
+    ) -> Option<OnPath> {
+        let Some((path, _)) = &self.path else {
+            self.chase = None;
+            return None;
+        };
+        // Without an elevation axis there is no error in elevation.
+        let [_, elevation_deg] = path.positions_deg(at);
+        let [first, second] = positions_deg;
+        let second = if self.drives.has_elevation { second } else { Some(elevation_deg) };
+        let Some(measured_deg) = first.zip(second) else {
+            self.chase = None;
+            return None;
+        };
+        let measured_deg = <[f64; 2]>::from(measured_deg);
+        let rates_deg_s = self.drives.rates_deg_s;
+        let chase = Chase::follow(self.chase, path, rates_deg_s, (at, measured_deg));
+        self.chase = Some(chase);
+        let mount = self.drives.mount;
+        let separation = |one_deg, other: AzEl| mount.direction(one_deg).separation(other);
+        let is_met = |at, axes_deg| {
+            let target = self.demanded(at, self.offsets);
+            target.is_some_and(|target| separation(axes_deg, target) <= half_beam)
+        };
+        if !chase.has_arrived(path) || !is_met(at, path.positions_deg(at)) {
+            // A prediction takes hundreds of propagations.
+            let is_recent = |(_, at_then): &(Option<Timestamp>, Timestamp)| {
+                (0.0..PREDICTED_EVERY_S).contains(&seconds_between(*at_then, at))
+            };
+            let known = self.arrival.filter(is_recent);
+            let (until, _) =
+                known.unwrap_or_else(|| (chase.reaches(path, rates_deg_s, is_met), at));
+            self.arrival = known.or(Some((until, at)));
+            return Some(OnPath::OnItsWay { until });
+        }
+        self.arrival = None;
+        let measured = mount.direction(measured_deg);
+        let off_deg = SHOWN_LATE_S.map(|late_s| {
+            let on_path = path.positions_deg(add_seconds(at, -late_s));
+            separation(on_path, measured).degrees()
+        });
+        let off = Angle::from_degrees(off_deg.into_iter().fold(f64::INFINITY, f64::min));
+        Some(OnPath::Due { off })
+    }
+
+    /// The antenna was not free to follow the path: its next measurement begins anew.
+    pub fn restart_chase(&mut self) {
+        (self.chase, self.arrival) = (None, None);
     }
 
     /// Rates of the axes as far as known, degrees per second.

@@ -3,13 +3,16 @@
 use std::time::Duration;
 
 use crate::{
-    astro::{PointingModel, TrackOffsets},
+    astro::{Angle, PointingModel, TrackOffsets},
     clock::Instant,
     device::{AxisMotion, Capabilities, Measured, Pointing},
-    driver::{TrackView, session::likeness::Recheck},
+    driver::{
+        TrackView,
+        session::{likeness::Recheck, off_target::OffTarget},
+    },
     plan::{
         Sample, TrackPhase, TrackStats,
-        program_track::{AxisNow, Drives, Planner},
+        program_track::{AxisNow, Drives, OnPath, Planner},
     },
     station::{self, Antenna},
 };
@@ -62,6 +65,9 @@ pub(in crate::driver::session) struct Tracking {
     /// When the position that was compared last came in.
     compared: Option<Instant>,
     pub(super) predicted: Option<Sample>,
+    /// The last measurement against the planned path; `None` before the pass.
+    pub(super) on_path: Option<OnPath>,
+    pub(in crate::driver::session) off_target: OffTarget,
     /// Waits for the operator.
     pub(super) awaits_operator: bool,
     /// The unit must still prove to be as before.
@@ -88,6 +94,8 @@ impl Tracking {
             lost: 0,
             compared: None,
             predicted: None,
+            on_path: None,
+            off_target: OffTarget::default(),
             awaits_operator: false,
             recheck: None,
             barrier_is_told: false,
@@ -107,6 +115,8 @@ impl Tracking {
             next_update: (self.phase != TrackPhase::Over).then_some(self.next_update),
             commanded: self.commanded,
             predicted: self.predicted,
+            on_path: self.on_path,
+            missing: self.off_target.missing(),
             offsets: self.planner.offsets(),
             can_undo: !self.earlier.is_empty(),
             target_moves: target.moves(),
@@ -123,7 +133,9 @@ impl Tracking {
     }
 
     /// Takes the pointing error and the rates of a measurement, once each.
-    pub(super) fn compare(&mut self, measured: Measured) {
+    /// Within `half_beam` the antenna meets its target; within `on_target` it is on the path, by what
+    /// its unit can report.
+    pub(super) fn compare(&mut self, measured: Measured, half_beam: Angle, on_target: Angle) {
         if self.compared.replace(measured.received) == Some(measured.received) {
             return;
         }
@@ -137,6 +149,18 @@ impl Tracking {
         {
             self.stats.take(off);
         }
+        // What holds it up is told by itself.
+        let is_free = is_up && !self.asks() && !self.barrier_is_told && direction.is_some();
+        if !is_free {
+            self.planner.restart_chase();
+        }
+        let compared = is_free.then(|| self.planner.compare(measured.at, positions_deg, half_beam));
+        self.on_path = compared.flatten();
+        let off = match self.on_path {
+            Some(OnPath::Due { off }) => Some(off).filter(|off| *off > on_target),
+            Some(OnPath::OnItsWay { .. }) | None => None,
+        };
+        self.off_target.take(off, measured.received);
     }
 
     /// The axes, of which none is taken for at rest.

@@ -70,6 +70,7 @@ const TABLE: &[(&str, Scenario)] = &scenarios![
     watch_slew,
     watch_tracking,
     watch_on_board,
+    watch_pointing,
     watch_silence,
 ];
 

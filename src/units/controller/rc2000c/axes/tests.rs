@@ -93,9 +93,9 @@ fn shown_angles_are_taken_without_a_calibration_but_make_no_counts() {
     let axes = unknown.read(&shown, None);
     assert_eq!(axes.map(|axis| axis.angle_deg), [Some(178.4), Some(-0.3)]);
     let angle = Some(Angle::from_degrees(180.0));
-    let refused = unknown.auto_move(angle, angle, Some(&shown), &mount(90.0)).unwrap_err();
+    let refused = unknown.counts(angle, angle, Some(&shown), &mount(90.0)).unwrap_err();
     assert_eq!(refused, "the azimuth is not calibrated");
-    let refused = calibrated().auto_move(angle, None, Some(&shown), &mount(90.0)).unwrap_err();
+    let refused = calibrated().counts(angle, None, Some(&shown), &mount(90.0)).unwrap_err();
     assert!(refused.contains("elevation") && refused.contains("not known"), "{refused}");
 }
 
@@ -103,11 +103,11 @@ fn shown_angles_are_taken_without_a_calibration_but_make_no_counts() {
 fn an_axis_that_stays_is_sent_to_its_present_counts() {
     let axes = calibrated();
     let angle = |degrees| Some(Angle::from_degrees(degrees));
-    let both = axes.auto_move(angle(390.0), angle(45.0), None, &mount(90.0)).unwrap();
-    assert_eq!(both.to_position(), Some((6030, 930)));
-    let one = axes.auto_move(None, angle(45.0), Some(&status(IDLE)), &mount(90.0)).unwrap();
-    assert_eq!(one.to_position(), Some((1525, 930)));
-    let beyond = axes.auto_move(angle(88.0), angle(45.0), None, &mount(90.0)).unwrap_err();
+    let both = axes.counts(angle(390.0), angle(45.0), None, &mount(90.0)).unwrap();
+    assert_eq!(both, [6030, 930]);
+    let one = axes.counts(None, angle(45.0), Some(&status(IDLE)), &mount(90.0)).unwrap();
+    assert_eq!(one, [1525, 930]);
+    let beyond = axes.counts(angle(88.0), angle(45.0), None, &mount(90.0)).unwrap_err();
     assert!(beyond.contains("no counts"), "{beyond}");
 }
 
@@ -120,7 +120,7 @@ fn an_axis_that_stays_at_its_limit_is_sent_to_that_end_of_its_travel() {
         if let Mount::AzEl { azimuth_from_deg, azimuth_to_deg, .. } = &mut mount {
             (*azimuth_from_deg, *azimuth_to_deg) = (from_deg, to_deg);
         }
-        axes.auto_move(None, up, Some(&at_end), &mount).unwrap().to_position().unwrap().0
+        axes.counts(None, up, Some(&at_end), &mount).unwrap()[0]
     };
     let ends = [LimitEnd::CounterClockwise, LimitEnd::Clockwise];
     assert_eq!(ends.map(|end| sent(calibrated(), (90.0, 540.0), end)), [30, 9030]);

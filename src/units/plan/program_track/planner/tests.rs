@@ -57,6 +57,8 @@ impl Metal {
 struct Run {
     stats: TrackStats,
     azimuths_deg: Vec<f64>,
+    /// Seconds since AOS, and the comparison with the planned path.
+    on_path: Vec<(f64, OnPath)>,
 }
 
 fn site() -> Site {
@@ -166,7 +168,8 @@ fn run_planner(
     let mut metal = metal.clone();
     let begin = add_seconds(pass.aos.time, -240.0);
     let started = Instant::now();
-    let mut run = Run { stats: TrackStats::default(), azimuths_deg: Vec::new() };
+    let mut run =
+        Run { stats: TrackStats::default(), azimuths_deg: Vec::new(), on_path: Vec::new() };
     let ticks = ((pass.duration_s() + 240.0) / TICK_S) as u32;
     let mut next_look_s = 0.0;
     for tick in 0..ticks {
@@ -174,6 +177,11 @@ fn run_planner(
         let now = add_seconds(begin, now_s);
         if tick % 5 == 0 {
             planner.watch(started + TICK * tick, metal.axes_deg.map(Some));
+            let half_beam = Angle::from_degrees(1.0);
+            let compared = planner.compare(now, metal.axes_deg.map(Some), half_beam);
+            let since_s = seconds_between(pass.aos.time, now);
+            let compared = compared.filter(|_| since_s >= 0.0);
+            run.on_path.extend(compared.map(|compared| (since_s, compared)));
         }
         if now_s >= next_look_s {
             next_look_s += settings.period_s;
@@ -247,6 +255,43 @@ fn through_north_an_overlap_needs_no_slew() {
     let turned =
         |run: &Run| run.azimuths_deg.windows(2).map(|two| (two[1] - two[0]).abs()).sum::<f64>();
     assert!(turned(&plain) > turned(&overlap) + 100.0);
+}
+
+#[test]
+fn an_unwrap_is_on_its_way_until_the_predicted_time_and_else_the_antenna_is_on_its_path() {
+    let (target, pass) = pass_where(|propagator, pass| {
+        max_deg(pass) > 20.0 && max_deg(pass) < 60.0 && goes_through_north(propagator, pass)
+    });
+    let run = run(target, &pass, azel((0.0, 360.0), 4.0, 0.0), settings(1.0, 0.2));
+    let turns = |of: &&(f64, OnPath)| matches!(of.1, OnPath::OnItsWay { .. });
+    let first = run.on_path.iter().position(|of| turns(&of)).unwrap();
+    let (_, OnPath::OnItsWay { until: Some(until) }) = run.on_path[first] else {
+        panic!("{:?}", run.on_path[first]);
+    };
+    let back_s = run.on_path[first..].iter().find(|of| !turns(of)).unwrap().0;
+    let until_s = seconds_between(pass.aos.time, until);
+    assert!((until_s - back_s).abs() < 2.0, "{until_s} {back_s}");
+    let turning = run.on_path.iter().filter(turns).count();
+    // 360 degrees at 4 degrees a second, four times a second.
+    assert!((200..500).contains(&turning), "{turning}");
+    for (at_s, compared) in &run.on_path {
+        if let OnPath::Due { off } = compared {
+            assert!(off.degrees() < 0.5, "{off:?} at {at_s}");
+        }
+    }
+}
+
+#[test]
+fn an_antenna_that_stands_is_off_its_path_once_it_should_have_arrived() {
+    let (target, pass) = pass_where(|_, pass| (35.0..50.0).contains(&max_deg(pass)));
+    let (drives, settings) = (azel((0.0, 360.0), 4.0, 0.0), settings(1.0, 0.2));
+    let stuck = Metal { rate_deg_s: 0.0, ..metal(drives, settings) };
+    let run = run_on(target, &pass, drives, settings, &stuck);
+    let due = run
+        .on_path
+        .iter()
+        .filter(|(_, compared)| matches!(compared, OnPath::Due { off } if off.degrees() > 10.0));
+    assert!(due.count() > run.on_path.len() / 2);
 }
 
 #[test]

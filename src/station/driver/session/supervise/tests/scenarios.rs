@@ -12,7 +12,7 @@ use crate::{
     astro::{Angle, AzEl, Offset, TrackOffsets},
     driver::{Command, Event, Intent, LinkState, OffsetChange, Safety, Snapshot, session::testing},
     plan::{OnBoardPass, ProgramTrack, Target},
-    sim::{rotator_genius, satrak},
+    sim::{InMemory as _, Trouble, rotator_genius, satrak},
     station::{LockOut, Station},
 };
 
@@ -124,6 +124,14 @@ pub(super) async fn watch_effect(checks: Checks) -> bool {
     scene.unit.set_fault(stuck, true);
     scene.send(turn_to(100.0));
     scene.tells(20.0, |event| matches!(event, Event::Safety(Safety::NoEffect { .. }))).await
+}
+
+/// The drives are far too slow for the target.
+pub(super) async fn watch_pointing(checks: Checks) -> bool {
+    let mut scene = satrak(checks).read().await;
+    scene.unit.set_trouble(Trouble::SlowDrives(0.02), true);
+    scene.send(fixed(100.0, 40.0, 0.0));
+    scene.tells(60.0, |event| matches!(event, Event::Safety(Safety::OffTarget { .. }))).await
 }
 
 /// The second step is not refused.

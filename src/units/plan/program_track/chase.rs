@@ -1,0 +1,77 @@
+//! Where an antenna should be by now: its axes set out from where they were measured, and go after the
+//! planned path at no more than their rates.
+
+use jiff::Timestamp;
+
+use super::path::Path;
+use crate::astro::time::{add_seconds, seconds_between};
+
+/// Without a measurement for longer, seconds, the chase begins again.
+const MAX_GAP_S: f64 = 5.0;
+/// An axis this near to the path has arrived, degrees.
+const ARRIVED_DEG: f64 = 0.01;
+/// Longest time for which an arrival is predicted, seconds.
+const AHEAD_S: u32 = 600;
+
+/// The axes of an antenna that does what it is told, degrees as the mount counts.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Chase {
+    axes_deg: [f64; 2],
+    at: Timestamp,
+}
+
+impl Chase {
+    /// Goes on to `at`, or begins at these measured positions.
+    pub(super) fn follow(
+        before: Option<Self>,
+        path: &Path,
+        rates_deg_s: [f64; 2],
+        (at, measured_deg): (Timestamp, [f64; 2]),
+    ) -> Self {
+        let elapsed_s = before.map(|before| seconds_between(before.at, at));
+        match (before, elapsed_s) {
+            (Some(before), Some(elapsed_s)) if (0.0..=MAX_GAP_S).contains(&elapsed_s) => {
+                before.after(path, rates_deg_s, elapsed_s)
+            }
+            _ => Self { axes_deg: measured_deg, at },
+        }
+    }
+
+    fn after(self, path: &Path, rates_deg_s: [f64; 2], elapsed_s: f64) -> Self {
+        let at = add_seconds(self.at, elapsed_s);
+        let path_deg = path.positions_deg(at);
+        let mut axes_deg = self.axes_deg;
+        for ((deg, to_deg), rate_deg_s) in axes_deg.iter_mut().zip(path_deg).zip(rates_deg_s) {
+            let max_deg = rate_deg_s.abs() * elapsed_s;
+            *deg += (to_deg - *deg).clamp(-max_deg, max_deg);
+        }
+        Self { axes_deg, at }
+    }
+
+    /// Both axes are on the path.
+    pub(super) fn has_arrived(&self, path: &Path) -> bool {
+        let path_deg = path.positions_deg(self.at);
+        self.axes_deg.iter().zip(path_deg).all(|(deg, to_deg)| (to_deg - deg).abs() < ARRIVED_DEG)
+    }
+
+    /// The first whole second from now on, within ten minutes, at which the axes point so that
+    /// `is_good`.
+    pub(super) fn reaches(
+        self,
+        path: &Path,
+        rates_deg_s: [f64; 2],
+        is_good: impl Fn(Timestamp, [f64; 2]) -> bool,
+    ) -> Option<Timestamp> {
+        let mut chase = self;
+        for _ in 0..AHEAD_S {
+            if chase.at > path.to() {
+                return None;
+            }
+            if is_good(chase.at, chase.axes_deg) {
+                return Some(chase.at);
+            }
+            chase = chase.after(path, rates_deg_s, 1.0);
+        }
+        None
+    }
+}
