@@ -185,9 +185,17 @@ pub(super) fn automatic(
     let antenna = options.antenna.clone();
     let is_on = options.switch == Switch::On;
     match ask(station, &Ask::Automatic { antenna: antenna.clone(), is_on })? {
-        Answer::Automatic => {
+        Answer::Automatic { waits_for_connect } => {
             let word = if is_on { "on" } else { "off" };
             say(&format!("Automatic operation of {antenna} is {word}."))?;
+            if is_on && waits_for_connect {
+                say(&format!(
+                    "It does nothing yet: {antenna} is not connected, because its unit waits for \
+                     Connect in the window. To connect at every start, set \
+                     connects_at_start = true for {antenna} in the station file."
+                ))?;
+                return Ok(ExitCode::from(NOT_PROVED));
+            }
             Ok(ExitCode::SUCCESS)
         }
         other => Err(unexpected(other)),

@@ -4,11 +4,14 @@ use azel::{
     astro::Angle,
     clock::Instant,
     driver::{Command, Event, Intent, LinkState, StopState},
-    sim::satrak::{Fault, Quirk},
+    sim::{
+        Mechanics,
+        satrak::{Fault, Options, Quirk},
+    },
 };
 
 use super::{
-    rig::{Rig, iss, track},
+    rig::{Rig, antenna, iss, options, track},
     script::{STILL, Scripted, plain},
 };
 
@@ -72,6 +75,22 @@ async fn what_was_asked_for_before_a_stop_is_void_wherever_it_waited() {
     rig.send(position(90.0, 30.0));
     rig.seconds(1.0).await;
     assert_eq!(rig.sent("GOTO=").len(), 1);
+}
+
+/// The session learns the noise while the antenna stands.
+#[tokio::test(start_paused = true)]
+async fn a_stop_is_proved_although_the_sensors_are_noisy() {
+    let mechanics = Mechanics { noise_deg: 0.3, ..Mechanics::default() };
+    let mut rig = Rig::connected(&Options { mechanics, ..options() }, &antenna()).await;
+    rig.seconds(60.0).await;
+    rig.send(position(90.0, 30.0));
+    rig.seconds(3.0).await;
+    rig.stop();
+    rig.until("stopped", 10, |shown| matches!(shown.stop, StopState::Stopped { .. })).await;
+    rig.seconds(300.0).await;
+    let events = rig.events();
+    let is_wrong = |event: &Event| matches!(event, Event::Safety(_) | Event::StopNotConfirmed);
+    assert!(!events.iter().any(is_wrong), "{events:?}");
 }
 
 #[tokio::test(start_paused = true)]

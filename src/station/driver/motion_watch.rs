@@ -143,6 +143,11 @@ impl MotionWatch {
         }
     }
 
+    /// Largest difference that was seen between two angles of a standing axis, degrees, at most 1.
+    pub(super) fn seen_sway_deg(&self) -> f64 {
+        self.axes.iter().map(AxisWatch::seen_sway_deg).fold(0.0, f64::max)
+    }
+
     /// Takes a reading of each axis that has an angle. Returns an axis that somebody else has moved.
     pub(super) fn take(&mut self, readings: [Option<AxisReading>; 2]) -> Option<Foreign> {
         let mut foreign = None;

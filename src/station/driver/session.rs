@@ -74,7 +74,7 @@ use marking::Marking;
 use monitor::{Overrun, Watch};
 use program_track::{ResumeRule, TrackConfig, Tracking};
 use silence::Silence;
-use standstill::{Figures, Rest};
+use standstill::Rest;
 use step::Stepping;
 use stop::Stop;
 use supervise::{CHECKS, Check, Doubt};
@@ -194,7 +194,8 @@ impl Wires {
 
 /// Whether a new session wants a link, and the link state to show first.
 fn first_link(antenna: &Antenna, since: Instant) -> (Wanted, LinkState) {
-    if antenna.connection.variant().capabilities.waits_for_word {
+    let waits = antenna.connection.variant().capabilities.waits_for_word;
+    if waits && !antenna.connects_at_start {
         return (Wanted::No, LinkState::Off);
     }
     (Wanted::Yes, LinkState::Connecting { since })
@@ -208,7 +209,8 @@ struct Setup {
     ability: Ability,
     /// When program track resumes without a question.
     rule: ResumeRule,
-    figures: Figures,
+    /// The sway that the operator allows, degrees.
+    sway_deg: f64,
     /// Response to somebody else driving the antenna into a keep-out or near the Sun.
     monitor: Monitor,
 }
@@ -348,7 +350,7 @@ impl Session {
                 track_config: TrackConfig::of(antenna, can),
                 ability: Ability::of(antenna),
                 rule: ResumeRule::of(antenna),
-                figures: Figures::of(can, antenna.sway_deg),
+                sway_deg: antenna.sway_deg,
                 monitor: antenna.monitor,
             },
             dial,

@@ -23,7 +23,7 @@ use super::{
     status::AntennaStatus,
 };
 use crate::{
-    driver::{self, StopState},
+    driver::{self, LinkState, StopState},
     station::{AntennaId, LockOut},
 };
 
@@ -76,7 +76,10 @@ pub enum Answer {
     Stopped(Vec<Stopped>),
     Status(Vec<AntennaStatus>),
     /// Automatic operation is switched on or off.
-    Automatic,
+    Automatic {
+        /// The unit is left alone until the operator connects to it.
+        waits_for_connect: bool,
+    },
     /// The lock-out is set or removed. `proved`: the antenna stands and will not start by
     /// itself.
     LockOut {
@@ -405,7 +408,8 @@ async fn set_automatic(antenna: AntennaId, is_on: bool, mut station: Client) -> 
             return Answer::Refused("the antenna is not in the station any more".to_owned());
         };
         if shown.operation.is_on() == is_on {
-            return Answer::Automatic;
+            let waits_for_connect = shown.snapshot.link == LinkState::Off;
+            return Answer::Automatic { waits_for_connect };
         }
         if let Some(by) = &shown.held_by {
             return Answer::Refused(format!("{by} drives it: switch it on there"));

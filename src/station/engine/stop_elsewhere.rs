@@ -124,7 +124,10 @@ async fn are_stopped(answers: JoinSet<Outcome>) -> bool {
     let is_proved = |outcome: &Outcome| match outcome {
         Outcome::Answered(Answer::Stopped(stopped)) => stopped.iter().all(|stopped| stopped.proved),
         Outcome::Answered(
-            Answer::Status(_) | Answer::Automatic | Answer::LockOut { .. } | Answer::Refused(_),
+            Answer::Status(_)
+            | Answer::Automatic { .. }
+            | Answer::LockOut { .. }
+            | Answer::Refused(_),
         )
         | Outcome::Signalled
         | Outcome::NotReached(_) => {

@@ -29,6 +29,7 @@ pub(super) fn all(spec: &'static ControllerSpec) -> Vec<Placed<Antenna>> {
     all.extend(placed(POINTING, pointing()));
     all.extend(placed(FOLLOWING, follow()));
     all.extend(placed(FOLLOWING, outage()));
+    all.extend(placed(FOLLOWING, [start()]));
     all.extend(placed(WATCH, poll()));
     all.extend(placed(WATCH, watch()));
     all
@@ -211,6 +212,20 @@ fn follow() -> [Of; 4] {
             |antenna| &mut antenna.follow.after,
         ),
     ]
+}
+
+fn start() -> Of {
+    Of::choice(
+        "At the start",
+        &[(0, "Wait for Connect"), (1, "Connect")],
+        &[false, true],
+        |antenna| &mut antenna.connects_at_start,
+    )
+    .when(|antenna| antenna.connection.variant().capabilities.waits_for_word)
+    .noted(|antenna| {
+        let words = "Connecting takes the panel away from anyone in front of the unit.";
+        antenna.connects_at_start.then(|| words.to_owned())
+    })
 }
 
 fn outage() -> [Of; 2] {

@@ -43,6 +43,10 @@ pub struct Antenna {
     /// Shown on its chip.
     pub name: String,
     pub connection: Connection,
+    /// The station connects to a unit that waits for the operator's word when it starts, and takes the
+    /// panel from anyone in front of it.
+    #[serde(skip_serializing_if = "is_default")]
+    pub connects_at_start: bool,
     pub mount: Mount,
     /// Full width of the beam at half power, degrees, 0.01 to 180.
     pub beam_width_deg: f64,

@@ -95,6 +95,7 @@ impl ControllerSpec {
             id: AntennaId::FIRST,
             name: name.to_owned(),
             connection: self.connection(address),
+            connects_at_start: false,
             mount,
             beam_width_deg,
             park,

@@ -126,6 +126,11 @@ impl Gate {
         self.watch.proved_still();
     }
 
+    /// Largest difference that was seen between two angles of a standing axis, degrees, at most 1.
+    pub(in crate::driver) fn seen_sway_deg(&self) -> f64 {
+        self.watch.seen_sway_deg()
+    }
+
     /// Nobody has watched the axes for a while.
     pub(in crate::driver) fn watch_anew(&mut self) {
         self.watch.start_anew();

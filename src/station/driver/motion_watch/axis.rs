@@ -195,6 +195,10 @@ impl AxisWatch {
         self.spread.turns();
     }
 
+    pub(super) fn seen_sway_deg(&self) -> f64 {
+        self.spread.seen_deg()
+    }
+
     /// Takes a reading. Returns the evidence that somebody else moves the axis.
     pub(super) fn take(&mut self, reading: AxisReading) -> Option<Evidence> {
         let words = self.take_words(reading);

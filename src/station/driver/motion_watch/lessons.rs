@@ -192,6 +192,12 @@ impl Spread {
         (self.now, self.has_turned) = (None, true);
     }
 
+    /// Largest difference to expect between two readings of a standing axis by those that were seen,
+    /// degrees; 0 before.
+    pub(super) fn seen_deg(&self) -> f64 {
+        self.widest_deg.map_or(0.0, |widest_deg| (widest_deg * SPREADS).min(MAX_NOISE_DEG))
+    }
+
     /// Largest error of a reading, degrees, where the unit reports steps of `resolution_deg`.
     pub(super) fn error_deg(&self, resolution_deg: f64) -> f64 {
         let half_step_deg = resolution_deg / 2.0;

@@ -93,7 +93,7 @@ impl Session {
         if self.seen.effects.last_reading.replace(look.received) == Some(look.received) {
             return;
         }
-        let figures = self.setup.figures;
+        let figures = self.figures();
         let can = self.variant.capabilities;
         let shows_after = Duration::try_from_secs_f64(can.effect.shows_after_s).unwrap_or_default();
         let expected = self.expected(&look, shows_after);
@@ -150,7 +150,7 @@ impl Session {
         let can = self.variant.capabilities;
         let finest_deg = can.arrives_within_deg
             + 2.0 * can.standstill.resolution_deg
-            + self.setup.figures.tolerance_deg();
+            + self.figures().tolerance_deg();
         let effects = self.seen.effects.axes;
         // A unit may turn one axis after the other.
         let turned_lately = effects.map(|effect| {

@@ -62,7 +62,7 @@ impl Session {
     pub(super) fn on_target(&self) -> Angle {
         let can = self.variant.capabilities;
         let reported_deg = can.arrives_within_deg + 2.0 * can.standstill.resolution_deg;
-        let tolerance_deg = reported_deg + self.setup.figures.tolerance_deg();
+        let tolerance_deg = reported_deg + self.figures().tolerance_deg();
         self.setup.ability.half_beam + Angle::from_degrees(tolerance_deg)
     }
 }

@@ -204,7 +204,7 @@ impl Session {
 
     /// Returns `true` if neither axis has turned while the path of the unit, at `to` now, went on.
     fn stands_while_it_should_track(&mut self, measured: &Measured, to: AzEl, now: Moment) -> bool {
-        let (figures, can) = (self.setup.figures, self.variant.capabilities);
+        let (figures, can) = (self.figures(), self.variant.capabilities);
         let tracks = self.gate.state().program.is_some_and(|it| it.phase == Phase::Tracking);
         let can_point = tracks && self.gate.reaches(to, now);
         let Some(track) = self.activity.on_board_mut() else { return false };

@@ -32,7 +32,7 @@ impl Session {
         }
         let mut buffer = [0; 4096];
         let clock = self.clock.clone();
-        let until = start.steady + STANDSTILL_WITHIN + self.setup.figures.gap();
+        let until = start.steady + STANDSTILL_WITHIN + self.figures().gap();
         while (self.is_in_debt() || self.owes_offsets()) && self.now().steady < until {
             let now = self.now();
             self.watch_auto_track(now);

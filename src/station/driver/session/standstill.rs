@@ -2,6 +2,7 @@
 
 use std::time::Duration;
 
+use super::Session;
 use crate::{
     clock::Instant,
     device::{Capabilities, Measured},
@@ -16,6 +17,14 @@ pub(super) struct Figures {
     gap: Duration,
     /// Number of axes that belong to the antenna.
     axes: usize,
+}
+
+impl Session {
+    /// A standing axis may sway as far as the operator allows, or as far as it was seen to.
+    pub(super) fn figures(&self) -> Figures {
+        let sway_deg = self.setup.sway_deg.max(self.gate.seen_sway_deg());
+        Figures::of(self.variant.capabilities, sway_deg)
+    }
 }
 
 impl Figures {

@@ -172,7 +172,7 @@ impl Session {
         if self.stop_bytes.is_empty() || !self.contact.link.is_open() {
             self.record_debt(now);
         }
-        let figures = self.setup.figures;
+        let figures = self.figures();
         let is_at_rest = self.is_at_rest();
         let Stop::UnderWay(halting) = &mut self.stop else { return };
         let state = self.gate.state();
@@ -252,7 +252,7 @@ impl Session {
             return;
         }
         self.seen.looked = Some(look.received);
-        let (began, figures) = (self.gate.unproved_since(), self.setup.figures);
+        let (began, figures) = (self.gate.unproved_since(), self.figures());
         let turned = self.seen.rest.take(look, is_at_rest, began, figures);
         if let Some((axis, turned_deg)) = turned {
             let axis = self.variant.capabilities.axes.get(axis).copied().unwrap_or_default();
@@ -263,10 +263,10 @@ impl Session {
     /// When the halt must be looked at again.
     pub(super) fn halt_due(&self) -> Option<Instant> {
         if let Some(halting) = self.stop.halting() {
-            let told_at = halting.since + halting.told_after(self.setup.figures);
+            let told_at = halting.since + halting.told_after(self.figures());
             let proof = (!halting.told).then_some(told_at);
             let (looks, is_open) = (&halting.looks, self.contact.link.is_open());
-            let look = looks.next(self.setup.figures).filter(|_| looks.awaits_look() && is_open);
+            let look = looks.next(self.figures()).filter(|_| looks.awaits_look() && is_open);
             let again = (looks.want_stop() && is_open).then_some(halting.again_at);
             return proof.into_iter().chain(look).chain(again).min();
         }

@@ -26,6 +26,7 @@ impl Fields<'_> {
         Some(Antenna {
             id: self.antenna_id(before, taken),
             name,
+            connects_at_start: self.flag("connects_at_start", false),
             mount: self.inner("mount", |mount| mount.mount(default.mount)),
             beam_width_deg: self.number(
                 "beam_width_deg",
