@@ -117,7 +117,10 @@ impl Bench {
         let clock = Clock::system();
         let units = Units::new(&clock);
         let served = units.clone();
-        let outside = Outside { clock, dial: Arc::new(move |antenna, _| served.dial(antenna)) };
+        let outside = Outside {
+            dial: Arc::new(move |antenna, _| served.dial(antenna)),
+            ..Outside::from(clock)
+        };
         let (woken, wakes) = mpsc::sync_channel(1);
         let wake = Arc::new(move || {
             let _ = woken.try_send(());

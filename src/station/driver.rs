@@ -224,15 +224,18 @@ pub struct Outside {
     /// Used by the sessions and the code that runs them.
     pub clock: Clock,
     pub dial: Arc<Dialler>,
+    /// Asks whether the clock is synchronised; it may take seconds.
+    pub time_sync: fn() -> TimeSync,
 }
 
 /// Prepares the links of an antenna to places that the lock has.
 pub type Dialler = dyn Fn(&Antenna, Arc<dyn UnitLock>) -> Dial + Send + Sync;
 
 impl From<Clock> for Outside {
-    /// With real links.
+    /// With real links. Nobody keeps a clock other than the system's.
     fn from(clock: Clock) -> Self {
-        Self { clock, dial: Arc::new(link::dial) }
+        let time_sync = if clock.is_of_system() { time_sync } else { || TimeSync::NotKnown };
+        Self { clock, dial: Arc::new(link::dial), time_sync }
     }
 }
 
@@ -303,6 +306,11 @@ impl Driver {
         self.thread.as_ref()?.pulse.stood_for()
     }
 
+    /// Asks whether the clock is synchronised; it may take seconds.
+    pub fn time_sync(&self) -> fn() -> TimeSync {
+        self.outside.time_sync
+    }
+
     /// The runtime of the driver's thread, for other work.
     pub fn runtime(&self) -> &tokio::runtime::Handle {
         &self.runtime
@@ -328,7 +336,7 @@ impl Driver {
             Some(thread) => wires.hearing(thread.before_sleep.hear()),
             None => wires,
         };
-        let Outside { clock, dial } = self.outside.clone();
+        let Outside { clock, dial, .. } = self.outside.clone();
         let (antenna, debts) = (antenna.clone(), self.debts.clone());
         let lock: Arc<dyn UnitLock> = lock.into();
         let until_the_end = Arc::clone(&lock);

@@ -8,7 +8,7 @@ use std::{
 use azel::{
     clock::Clock,
     controller::satrak::ELEMENT_FILE,
-    driver::{self, Dial, Outside, Stream, UnitLock},
+    driver::{self, Dial, Outside, Stream, TimeSync, UnitLock},
     engine::{
         Client, Command,
         status::{AntennaStatus, LinkStatus},
@@ -42,6 +42,8 @@ pub(crate) struct Units {
     pub(crate) dish: satrak::Control,
     pub(crate) mast: rotator_genius::Control,
     pub(crate) horn: rc2000c::Control,
+    /// Who keeps the clock of the computer.
+    pub(crate) time_sync: fn() -> TimeSync,
 }
 
 impl Units {
@@ -67,6 +69,7 @@ impl Units {
             dish: satrak::Control::on_clock(&options, clock.clone()),
             mast: rotator_genius::Control::on_clock(&pair, clock.clone()),
             horn: rc2000c::Control::on_clock(&rc2000c::Options::default(), clock.clone()),
+            time_sync: || TimeSync::NotKnown,
         }
     }
 
@@ -90,7 +93,7 @@ impl Units {
     pub(crate) fn outside(&self, clock: &Clock) -> Outside {
         let units = self.clone();
         let dial = Arc::new(move |antenna: &Antenna, _: Arc<dyn UnitLock>| units.dial(antenna));
-        Outside { clock: clock.clone(), dial }
+        Outside { dial, time_sync: self.time_sync, ..Outside::from(clock.clone()) }
     }
 
     pub(crate) fn all_stand(&self) -> bool {

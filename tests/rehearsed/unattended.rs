@@ -12,11 +12,11 @@ use azel::{
     astro::time::{add_seconds, seconds_between},
     clock::{Clock, Instant},
     device::{Measured, Phase},
-    driver::{self, LinkState},
+    driver::{self, LinkState, TimeSync},
     engine::{
         Client, Command,
         alarms::AlarmKind,
-        automatic::{DayEvent, Interruption, MissCause, OffBecause, Operation},
+        automatic::{DayEvent, Doing, Interruption, MissCause, OffBecause, On, Operation},
         closing::CloseHow,
     },
     orbit::{PassSearch, Propagator, bundled, passes},
@@ -471,6 +471,96 @@ async fn a_pass_that_the_unit_tracks_through_another_start_is_taken_over_without
     let (_, of) = &flown(&client)[0];
     assert!(of.in_beam_s > 0.5 * of.of_s, "{of:?}");
     assert!(operation(&client, id).is_on());
+}
+
+/// Switches automatic operation of the Genius on, ends the station as a crash does, after `change`, and
+/// starts it again.
+async fn after_a_crash(
+    set: impl FnOnce(&mut Antenna),
+    change: impl AsyncFnOnce(&Scene, &Client, AntennaId),
+) -> (Scene, Client, AntennaId) {
+    let (scene, client, id) = scene_of("Mast", |mast| {
+        mast.automatic.resumes_after_crash = true;
+        set(mast);
+    })
+    .await;
+    set_automatic(&client, id, true).await;
+    until("the next turn", || operation(&client, id).is_on().then_some(())).await;
+    change(&scene, &client, id).await;
+    drop(client);
+    let mut scene = scene;
+    scene.units.time_sync = || TimeSync::Synchronised;
+    let scene = scene.started_again(true).await;
+    let client = scene.client();
+    measured(&client, "Mast").await;
+    (scene, client, id)
+}
+
+async fn seconds(client: &Client, seconds: f64) {
+    let at = client.now().utc;
+    let is_over = || (seconds_between(at, client.now().utc) > seconds).then_some(());
+    until("seconds", is_over).await;
+}
+
+#[tokio::test(start_paused = true)]
+async fn after_a_crash_it_goes_on_by_itself_and_announces_its_first_motion() {
+    let (scene, client, id) = after_a_crash(|_| {}, async |_, _, _| {}).await;
+    assert!(!operation(&client, id).is_on(), "the unit has to rest first");
+    seconds(&client, 15.0).await;
+    assert!(operation(&client, id).is_on());
+    let is_announced = || match operation(&client, id) {
+        Operation::On(On { doing: Doing::Announces { .. }, .. }) => Some(()),
+        _ => None,
+    };
+    until("the announcement", is_announced).await;
+    assert!(scene.units.all_stand());
+    until("the pass", || operation(&client, id).taking()?.proved_at).await;
+}
+
+#[tokio::test(start_paused = true)]
+async fn after_a_crash_it_stays_off_unless_everything_is_as_it_was() {
+    let stays_off = async |why: &str, (scene, client, id): (Scene, Client, AntennaId)| {
+        seconds(&client, 600.0).await;
+        assert!(!operation(&client, id).is_on(), "{why}");
+        assert!(scene.units.all_stand(), "{why}");
+    };
+    let nothing = async |_: &Scene, _: &Client, _: AntennaId| {};
+    let off = |mast: &mut Antenna| mast.automatic.resumes_after_crash = false;
+    stays_off("it is not allowed", after_a_crash(off, nothing).await).await;
+    let stop = async |_: &Scene, client: &Client, id: AntennaId| {
+        client.clone().stop(id);
+        until_off(client, id, OffBecause::Stop).await;
+    };
+    stays_off("it was stopped", after_a_crash(|_| {}, stop).await).await;
+
+    let edited = async |scene: &Scene, _: &Client, _: AntennaId| {
+        let path = scene.folder().join("station.toml");
+        let text = std::fs::read_to_string(&path).unwrap();
+        let other = text.replace("beam_width_deg = ", "beam_width_deg = 1");
+        assert_ne!(text, other);
+        std::fs::write(&path, other).unwrap();
+    };
+    stays_off("the station was edited", after_a_crash(|_| {}, edited).await).await;
+
+    // Somebody switches the motor on in the meantime.
+    let (scene, client, id) = after_a_crash(|_| {}, nothing).await;
+    let _ = client.send(Command::Antenna(id, driver::Command::Hold));
+    stays_off("the operator took it", (scene, client, id)).await;
+}
+
+#[tokio::test(start_paused = true)]
+async fn after_a_crash_it_waits_for_the_clock() {
+    let (scene, client, id) = scene_of("Mast", |mast| {
+        mast.automatic.resumes_after_crash = true;
+    })
+    .await;
+    set_automatic(&client, id, true).await;
+    drop(client);
+    let scene = scene.started_again(true).await;
+    let client = scene.client();
+    measured(&client, "Mast").await;
+    seconds(&client, 600.0).await;
+    assert!(!operation(&client, id).is_on(), "nobody keeps the clock");
 }
 
 #[tokio::test(start_paused = true)]

@@ -33,7 +33,7 @@ fn unit() -> (Control, Outside) {
             Box::pin(async { Ok(Box::new(near) as Box<dyn Stream>) })
         })
     };
-    (control, Outside { clock, dial: Arc::new(dial) })
+    (control, Outside { dial: Arc::new(dial), ..Outside::from(clock) })
 }
 
 fn measured(model: &Model) -> Option<Measured> {

@@ -143,9 +143,16 @@ impl MotionWatch {
         }
     }
 
-    /// Largest difference that was seen between two angles of a standing axis, degrees, at most 1.
-    pub(super) fn seen_sway_deg(&self) -> f64 {
-        self.axes.iter().map(AxisWatch::seen_sway_deg).fold(0.0, f64::max)
+    /// Largest difference that was seen between two angles of a standing axis, degrees, at most 1;
+    /// `None` until all `axes` were watched for a while.
+    pub(super) fn seen_sway_deg(&self, axes: usize) -> Option<f64> {
+        let seen = self.axes.iter().take(axes).map(AxisWatch::seen_sway_deg);
+        seen.reduce(|one, other| Some(one?.max(other?))).flatten()
+    }
+
+    /// An axis is outside its interval, and the wind may still let it swing back.
+    pub(super) fn is_suspect(&self) -> bool {
+        self.axes.iter().any(AxisWatch::is_suspect)
     }
 
     /// Takes a reading of each axis that has an angle. Returns an axis that somebody else has moved.

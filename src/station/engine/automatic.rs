@@ -4,6 +4,7 @@ mod at_start;
 mod auto_track;
 mod day;
 mod operation;
+mod resumption;
 mod seen;
 
 use std::path::PathBuf;
@@ -14,6 +15,7 @@ pub(super) use self::{at_start::LastRun, operation::is_same_pass};
 use self::{
     day::Flight,
     operation::{Act, LATE_S, Outcome, Seen, WINDOW_STEP_S, Wishes},
+    resumption::Resumption,
     seen::seen,
 };
 pub use self::{
@@ -46,12 +48,14 @@ pub(super) struct AtWork {
     told: Option<Operation>,
     /// Auto-track was switched on for a pass that the unit holds, and nobody has touched it since.
     has_auto_track_on: bool,
+    /// After a crash it waits to be switched on again.
+    resumption: Option<Resumption>,
 }
 
 impl AtWork {
     /// What remains of it when the antenna is given another unit.
     pub(super) fn without_unit(self) -> Self {
-        Self { has_auto_track_on: false, ..self }
+        Self { has_auto_track_on: false, resumption: None, ..self }
     }
 }
 
@@ -60,6 +64,7 @@ impl Engine {
     pub(super) fn set_automatic(&mut self, index: usize, is_on: bool) {
         let Some(antenna) = self.antennas.get_mut(index) else { return };
         let of = Some(antenna.shown.id());
+        antenna.at_work.resumption = None;
         let operation = &mut antenna.shown.operation;
         if !is_on {
             operation.switch_off(OffBecause::Operator);
@@ -103,7 +108,8 @@ impl Engine {
                 self.end_auto_track(index);
             }
         }
-        self.last_run = last.next_run();
+        self.last_run = last.clone().next_run();
+        self.prepare_resumption(&last);
         self.keep_last_run();
     }
 
@@ -153,6 +159,9 @@ impl Engine {
         if matches!(command, Command::Antenna(_, driver::Command::AutoTrack(_))) {
             antenna.at_work.has_auto_track_on = false;
         }
+        if let Some(place) = place.filter(|_| command.row().ends_automatic) {
+            self.cancel_resumption(place);
+        }
     }
 
     /// STOP ends automatic operation: that of all antennas where it was for all.
@@ -166,6 +175,7 @@ impl Engine {
             let id = antenna.shown.id();
             let was_off = matches!(antenna.shown.operation, Operation::Off(_));
             antenna.shown.operation.switch_off(OffBecause::Stop);
+            self.cancel_resumption(index);
             self.end_auto_track(index);
             if !was_off {
                 // At once: perhaps no turn comes before the end of the program.
@@ -238,6 +248,7 @@ impl Engine {
     }
 
     fn run_automatic_of(&mut self, index: usize) {
+        self.resume_after_crash(index);
         let Some(antenna) = self.antennas.get(index) else { return };
         let duties = self.duties(&antenna.shown);
         let wishes = self.wishes(&antenna.shown);
@@ -408,8 +419,8 @@ impl Engine {
     }
 
     pub(super) fn keep_switched_off(&mut self, id: AntennaId, is_off: bool) {
-        self.last_run.switched_off.retain(|known| *known != id);
-        self.last_run.switched_off.extend(is_off.then_some(id));
+        self.last_run.note_switch(id, !is_off);
+        self.last_run.station = resumption::fingerprint(&self.station);
         self.keep_last_run();
     }
 

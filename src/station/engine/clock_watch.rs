@@ -6,7 +6,7 @@ use std::time::Duration;
 use crate::{
     astro::time::seconds_between,
     clock::{Instant, Moment},
-    driver::{TimeSync, time_sync},
+    driver::TimeSync,
     job::{Job, Wake},
 };
 
@@ -42,12 +42,17 @@ impl ClockWatch {
     }
 
     /// Returns a new answer once it has come, and starts the next check when it is due.
-    pub(super) fn poll(&mut self, now: Instant, wake: &Wake) -> Option<TimeSync> {
+    pub(super) fn poll(
+        &mut self,
+        now: Instant,
+        time_sync: fn() -> TimeSync,
+        wake: &Wake,
+    ) -> Option<TimeSync> {
         let answer = Job::take(&mut self.job).map(|end| end.unwrap_or(TimeSync::NotKnown));
         let due = self.asked.is_none_or(|asked| now.saturating_duration_since(asked) >= PERIOD);
         if due && self.job.is_none() {
             self.asked = Some(now);
-            match Job::start("azel-clock-watch", Wake::clone(wake), |_| time_sync()) {
+            match Job::start("azel-clock-watch", Wake::clone(wake), move |_| time_sync()) {
                 Ok(job) => self.job = Some(job),
                 Err(error) => tracing::warn!(%error, "no thread to watch the clock"),
             }

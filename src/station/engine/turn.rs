@@ -63,9 +63,9 @@ impl Engine {
             self.clock_watch.ask_again();
         }
         let answer = if self.clock.is_of_system() {
-            self.clock_watch.poll(self.steady, &self.wake)
+            self.clock_watch.poll(self.steady, self.driver.time_sync(), &self.wake)
         } else {
-            Some(TimeSync::NotKnown)
+            Some((self.driver.time_sync())())
         };
         let Some(answer) = answer else { return };
         self.time_sync = answer;

@@ -140,6 +140,9 @@ impl Engine {
             self.antennas.push(antenna);
         }
         self.station = Arc::new(station);
+        for index in 0..self.antennas.len() {
+            self.cancel_resumption(index);
+        }
         // From now on STOP reaches the new sessions.
         self.publish();
     }

@@ -83,7 +83,7 @@ impl Units {
             });
             dial
         });
-        Outside { clock: clock.clone(), dial }
+        Outside { dial, ..Outside::from(clock.clone()) }
     }
 
     /// Lets units have a fault when its time comes. `from` is the start of the rehearsal.

@@ -49,6 +49,9 @@ pub struct Automatic {
     /// Automatic operation is on from an orderly start.
     #[serde(rename = "automatic_operation_at_start", skip_serializing_if = "super::is_default")]
     pub is_on_at_start: bool,
+    /// Automatic operation that was on goes on after a crash or a power cut.
+    #[serde(rename = "automatic_operation_after_crash", skip_serializing_if = "super::is_default")]
+    pub resumes_after_crash: bool,
     /// Where the antenna is between two passes.
     #[serde(rename = "between_passes", skip_serializing_if = "super::is_default")]
     pub between: BetweenPasses,

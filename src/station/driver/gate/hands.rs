@@ -126,9 +126,15 @@ impl Gate {
         self.watch.proved_still();
     }
 
-    /// Largest difference that was seen between two angles of a standing axis, degrees, at most 1.
-    pub(in crate::driver) fn seen_sway_deg(&self) -> f64 {
-        self.watch.seen_sway_deg()
+    /// Largest difference that was seen between two angles of a standing axis, degrees, at most 1;
+    /// `None` until both axes were watched for a while.
+    pub(in crate::driver) fn seen_sway_deg(&self) -> Option<f64> {
+        self.watch.seen_sway_deg(self.variant.capabilities.axis_count())
+    }
+
+    /// An axis is read where no command leads, and the wind may still let it swing back.
+    pub(in crate::driver) fn is_suspect(&self) -> bool {
+        self.watch.is_suspect()
     }
 
     /// Nobody has watched the axes for a while.

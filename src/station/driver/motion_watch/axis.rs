@@ -195,7 +195,11 @@ impl AxisWatch {
         self.spread.turns();
     }
 
-    pub(super) fn seen_sway_deg(&self) -> f64 {
+    pub(super) fn is_suspect(&self) -> bool {
+        self.outside.is_some()
+    }
+
+    pub(super) fn seen_sway_deg(&self) -> Option<f64> {
         self.spread.seen_deg()
     }
 
@@ -271,7 +275,7 @@ impl AxisWatch {
         };
         self.outside = None;
         self.know(angle_deg, turns_deg, range, asked);
-        self.learn(deg, asked);
+        self.learn(deg, drive, asked);
         None
     }
 
@@ -359,7 +363,7 @@ impl AxisWatch {
     }
 
     /// Learns from a reading inside the interval.
-    fn learn(&mut self, deg: f64, at: Instant) {
+    fn learn(&mut self, deg: f64, drive: Drive, at: Instant) {
         if self.is_settled(at) {
             (self.has_settled, self.is_told) = (true, false);
             if let Some(turned) = &mut self.turned {
@@ -367,7 +371,11 @@ impl AxisWatch {
             }
             self.rate_from = Some((deg, at));
             self.has_arrived(deg);
-            return self.spread.stands(deg);
+            // A slow motion is no noise.
+            if drive == Drive::Off {
+                self.spread.stands(deg);
+            }
+            return;
         }
         self.spread.turns();
         if !self.motions.last().is_some_and(|newest| newest.ends) {

@@ -193,9 +193,9 @@ impl Spread {
     }
 
     /// Largest difference to expect between two readings of a standing axis by those that were seen,
-    /// degrees; 0 before.
-    pub(super) fn seen_deg(&self) -> f64 {
-        self.widest_deg.map_or(0.0, |widest_deg| (widest_deg * SPREADS).min(MAX_NOISE_DEG))
+    /// degrees; `None` before.
+    pub(super) fn seen_deg(&self) -> Option<f64> {
+        self.widest_deg.map(|widest_deg| (widest_deg * SPREADS).min(MAX_NOISE_DEG))
     }
 
     /// Largest error of a reading, degrees, where the unit reports steps of `resolution_deg`.

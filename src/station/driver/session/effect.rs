@@ -122,7 +122,8 @@ impl Session {
     }
 
     fn expected(&self, look: &Measured, shows_after: Duration) -> [Option<Expected>; 2] {
-        if self.stop.is_under_way() || !self.contact.link.is_open() {
+        // An axis that somebody or the wind has moved does not stand still.
+        if self.stop.is_under_way() || !self.contact.link.is_open() || self.gate.is_suspect() {
             return [None; 2];
         }
         if let Some(jog) = self.key.started() {

@@ -8,6 +8,9 @@ use crate::{
     device::{Capabilities, Measured},
 };
 
+/// Largest sway of a standing axis that was not watched yet, degrees.
+const MAX_SWAY_DEG: f64 = 1.0;
+
 /// When two positions count as the same.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Figures {
@@ -22,7 +25,17 @@ pub(super) struct Figures {
 impl Session {
     /// A standing axis may sway as far as the operator allows, or as far as it was seen to.
     pub(super) fn figures(&self) -> Figures {
-        let sway_deg = self.setup.sway_deg.max(self.gate.seen_sway_deg());
+        self.figures_with(self.gate.seen_sway_deg().unwrap_or_default())
+    }
+
+    /// The same for an accusation: until the readings of a standing axis have shown their noise, they
+    /// may be as noisy as any.
+    pub(super) fn lenient_figures(&self) -> Figures {
+        self.figures_with(self.gate.seen_sway_deg().unwrap_or(MAX_SWAY_DEG))
+    }
+
+    fn figures_with(&self, seen_sway_deg: f64) -> Figures {
+        let sway_deg = self.setup.sway_deg.max(seen_sway_deg);
         Figures::of(self.variant.capabilities, sway_deg)
     }
 }

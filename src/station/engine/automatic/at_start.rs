@@ -20,6 +20,12 @@ pub(in crate::engine) struct LastRun {
     /// Antennas whose automatic operation was ended, by the operator or otherwise, and not
     /// switched on again.
     pub(in crate::engine) switched_off: Vec<AntennaId>,
+    /// Antennas whose automatic operation is on.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    switched_on: Vec<AntennaId>,
+    /// Fingerprint of the station.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) station: Option<String>,
     /// The pass that was proved last, by antenna: its unit may still be at work on it.
     held: Vec<Held>,
 }
@@ -57,7 +63,7 @@ impl LastRun {
 
     /// What the next start has to know of the run that begins now, unless it ends in order.
     pub(super) fn next_run(self) -> Self {
-        Self { is_orderly: false, ..self }
+        Self { is_orderly: false, switched_on: Vec::new(), station: None, ..self }
     }
 
     /// The pass that this antenna's unit was last proved to be on its way to.
@@ -69,6 +75,19 @@ impl LastRun {
     pub(super) fn holds(&mut self, antenna: AntennaId, (satellite, aos): PassKey) {
         self.held.retain(|held| held.antenna != antenna);
         self.held.push(Held { antenna, satellite, aos });
+    }
+
+    /// Automatic operation of this antenna is on, or not any more.
+    pub(super) fn note_switch(&mut self, antenna: AntennaId, is_on: bool) {
+        for list in [&mut self.switched_on, &mut self.switched_off] {
+            list.retain(|known| *known != antenna);
+        }
+        if is_on { &mut self.switched_on } else { &mut self.switched_off }.push(antenna);
+    }
+
+    /// The run ended while automatic operation of this antenna was on, and not as it should.
+    pub(super) fn was_on_at_crash(&self, antenna: AntennaId) -> bool {
+        !self.is_orderly && self.switched_on.contains(&antenna)
     }
 
     pub(super) fn allows(&self, antenna: AntennaId) -> bool {

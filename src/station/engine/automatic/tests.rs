@@ -30,7 +30,7 @@ fn station(folder: &std::path::Path) -> (Engine, PathBuf) {
     let (events, _) = mpsc::channel(1);
     let (requests, _) = mpsc::channel(1);
     let outbox = Outbox { events, wake: Arc::new(|| {}) };
-    let outside = Outside { clock, dial };
+    let outside = Outside { dial, ..Outside::from(clock) };
     let (engine, _) = Engine::new(&settings, outside, outbox, requests.downgrade()).unwrap();
     (engine, left)
 }

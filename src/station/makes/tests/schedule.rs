@@ -72,6 +72,7 @@ fn everything_about_the_schedule_comes_back_as_it_was_saved() {
     station.antennas[0].automatic = Automatic {
         is_on_at_start: true,
         between: BetweenPasses::Park,
+        resumes_after_crash: true,
         uses_auto_track: true,
         set_up_s: Some(20.0),
     };

@@ -54,6 +54,7 @@ impl Fields<'_> {
         ];
         Automatic {
             is_on_at_start: self.flag("automatic_operation_at_start", false),
+            resumes_after_crash: self.flag("automatic_operation_after_crash", false),
             between: self.one_of("between_passes", &between, BetweenPasses::default()),
             uses_auto_track: self.flag("uses_auto_track", false),
             set_up_s: self.optional("set_up_s", &ranges::SET_UP_S),

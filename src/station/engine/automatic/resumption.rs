@@ -1,0 +1,105 @@
+//! Switches automatic operation on again after a crash or a power cut, where the station file allows
+//! it and everything is as it was.
+
+use std::time::Duration;
+
+use sha2::{Digest as _, Sha256};
+
+use super::{LastRun, OffBecause, Operation};
+use crate::{
+    clock::Instant,
+    driver::{Intent, StopState, TimeSync, Unit},
+    engine::{Antenna, Engine},
+    station::Station,
+};
+
+/// The unit must have been at rest for this long.
+const RESTS_FOR: Duration = Duration::from_secs(10);
+
+/// Automatic operation that waits to be switched on again.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(super) struct Resumption {
+    /// Since when everything is as it must be.
+    ready_since: Option<Instant>,
+}
+
+/// Identifies the content of a station; `None` if it cannot be written.
+pub(super) fn fingerprint(station: &Station) -> Option<String> {
+    let text = toml::to_string(station).ok()?;
+    Some(Sha256::digest(text).iter().map(|byte| format!("{byte:02x}")).collect())
+}
+
+impl Engine {
+    /// Notes which antennas may go on, after a run whose end was not orderly.
+    pub(super) fn prepare_resumption(&mut self, last: &LastRun) {
+        let is_same = last.station.is_some() && last.station == fingerprint(&self.station);
+        for antenna in &mut self.antennas {
+            let config = &antenna.shown.config;
+            let may = config.automatic.resumes_after_crash && last.was_on_at_crash(config.id);
+            let resumption = (is_same && may).then(Resumption::default);
+            antenna.at_work.resumption = resumption;
+            // A power cut seldom comes alone.
+            if resumption.is_some() {
+                self.last_run.note_switch(antenna.shown.id(), true);
+                self.last_run.station.clone_from(&last.station);
+            }
+        }
+    }
+
+    /// Switches automatic operation on once the antenna has been ready for long enough. The first
+    /// motion is announced like any motion after a rest.
+    pub(super) fn resume_after_crash(&mut self, index: usize) {
+        let is_kept = self.time_sync == TimeSync::Synchronised && !self.clock_watch.is_in_doubt;
+        let Some(antenna) = self.antennas.get(index) else { return };
+        let Some(resumption) = antenna.at_work.resumption else { return };
+        if antenna.shown.operation != Operation::Off(OffBecause::NotSwitchedOn) {
+            return self.cancel_resumption(index);
+        }
+        let is_ready = is_kept && self.is_ready(antenna);
+        let ready_since = is_ready.then_some(resumption.ready_since.unwrap_or(self.steady));
+        let is_due = ready_since
+            .is_some_and(|since| self.steady.saturating_duration_since(since) >= RESTS_FOR);
+        if let Some(antenna) = self.antennas.get_mut(index) {
+            antenna.at_work.resumption = Some(Resumption { ready_since });
+        }
+        if is_due {
+            let name = self.antennas.get(index).map(|antenna| antenna.shown.config.name.clone());
+            tracing::warn!(antenna = name, "automatic operation goes on after a crash");
+            self.set_automatic(index, true);
+        }
+    }
+
+    /// The operator decides from now on.
+    pub(in crate::engine) fn cancel_resumption(&mut self, index: usize) {
+        let Some(antenna) = self.antennas.get_mut(index) else { return };
+        if antenna.at_work.resumption.take().is_some() {
+            let id = antenna.shown.id();
+            self.keep_switched_off(id, true);
+        }
+    }
+
+    /// Nothing is owed to the unit, and it is at rest.
+    fn is_ready(&self, antenna: &Antenna) -> bool {
+        let (shown, snapshot) = (&antenna.shown, &antenna.shown.snapshot);
+        let unit = Unit::of(&shown.config);
+        let debts = self.driver.debts();
+        let is_stopped = match snapshot.stop {
+            StopState::Ready | StopState::Stopped { .. } => true,
+            StopState::Stopping { .. } | StopState::NotConfirmed { .. } => false,
+        };
+        let program_is_off = snapshot.state.program.is_none_or(|program| !program.enabled);
+        let stands = snapshot.state.measured.is_some_and(|measured| !measured.moving());
+        is_stopped
+            && program_is_off
+            && stands
+            && shown.is_live()
+            && snapshot.intent == Intent::Standby
+            && snapshot.left_moving.is_none()
+            && !snapshot.being_compared
+            && snapshot.lock_out.is_none()
+            && shown.held_by.is_none()
+            && !debts.is_marked(&unit)
+            && !debts.units().contains(&unit)
+            && !self.station.unread.iter().any(|unread| unread.concerns(shown.id()))
+    }
+}
