@@ -122,10 +122,10 @@ impl MotionWatch {
     }
 
     /// Both axes were proved to stand after a halt: no motion leads on.
-    pub(super) fn proved_still(&mut self) {
+    pub(super) fn proved_still(&mut self, now: Instant) {
         self.answered = self.sent;
         for axis in &mut self.axes {
-            axis.proved_still();
+            axis.proved_still(now);
         }
     }
 

@@ -122,8 +122,8 @@ impl Gate {
     }
 
     /// The axes were proved to stand after a halt.
-    pub(in crate::driver) fn motions_over(&mut self) {
-        self.watch.proved_still();
+    pub(in crate::driver) fn motions_over(&mut self, now: Moment) {
+        self.watch.proved_still(now.steady);
     }
 
     /// Largest difference that was seen between two angles of a standing axis, degrees, at most 1;

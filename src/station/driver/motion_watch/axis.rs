@@ -177,8 +177,11 @@ impl AxisWatch {
         self.motions.retain(|motion| motion.ends);
     }
 
-    pub(super) fn proved_still(&mut self) {
-        self.motions.clear();
+    /// Two equal readings prove standstill; in whole degrees the axis may still run out.
+    pub(super) fn proved_still(&mut self, now: Instant) {
+        for motion in &mut self.motions {
+            motion.until = Some(motion.until.map_or(now, |until| until.min(now)));
+        }
     }
 
     /// The unit's own program may turn the axis until now, and it may coast.

@@ -143,7 +143,8 @@ impl Scene {
         // Readings prove standstill.
         if self.stops && now_s - asked_s + 1.0 < self.still_s {
             self.stops = false;
-            self.watch.proved_still();
+            let proved = self.at(now_s);
+            self.watch.proved_still(proved);
         }
     }
 
@@ -401,7 +402,7 @@ fn a_unit_that_reports_a_jog_or_a_runaway_accuses_by_its_word() {
     watch.commanded([Some(Lead::ToEnd { is_up: true }), None], later);
     watch.accepted(later);
     assert_eq!(told(&mut watch, later, &[Drive::Jogged, Drive::Jogged, Drive::Jogged]), []);
-    watch.proved_still();
+    watch.proved_still(later + Duration::from_secs(4));
     let later = later + Duration::from_secs(10);
     assert_eq!(told(&mut watch, later, &[Drive::Jogged, Drive::Jogged]), [Evidence::Jogged]);
 }

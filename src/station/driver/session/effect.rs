@@ -9,6 +9,7 @@ use super::{
     standstill::Figures,
 };
 use crate::{
+    astro::Angle,
     clock::{Instant, Moment},
     device::{AxisMotion, Measured},
     driver::Safety,
@@ -170,7 +171,14 @@ impl Session {
             // One that stops on its way is reported as such, and the unit decides when to creep.
             let may_rest = !is_driven && (other_turns || (is_slew && effect.has_turned));
             let ignored_deg = if is_driven { 0.0 } else { can.effect.ignores_deg };
-            let is_far = (to_deg - angle_deg).abs() > finest_deg + ignored_deg;
+            // Where the unit turns over north, 0 and 360 degrees are one place.
+            let over_north = index == 0 && self.gate.state().may_turn_either_way;
+            let way_deg = if over_north {
+                Angle::from_degrees(to_deg - angle_deg).wrapped_180().degrees()
+            } else {
+                to_deg - angle_deg
+            };
+            let is_far = way_deg.abs() > finest_deg + ignored_deg;
             *expected = (is_far && !may_rest).then_some(Expected::Approach);
         }
         expected

@@ -209,7 +209,7 @@ impl Session {
         self.stop = if is_pressed { Stop::Proved { at: now.steady } } else { Stop::Ready };
         self.settle_debt();
         self.prove_still();
-        self.gate.motions_over();
+        self.gate.motions_over(now);
         self.end_overrun();
         if is_pressed {
             self.tell(Event::Stopped);

@@ -10,6 +10,9 @@ use crate::sim::mechanics::{DeadTime, Gear, Mechanics, MinimumRun, Sensor};
 /// Way that the rotator coasts from its full rate, degrees: the default stop offset.
 const COAST_DEG: f64 = 2.0;
 
+/// Longest time in which it comes to its full rate, and to rest from it, seconds.
+const MAX_RAMP_S: f64 = 1.0;
+
 /// State of the drive.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Drive {
@@ -234,7 +237,7 @@ impl Rotor {
             Moving::Clockwise => rate,
             Moving::CounterClockwise => -rate,
         };
-        let own_s = 2.0 * COAST_DEG / self.full_rate_deg_s;
+        let own_s = (2.0 * COAST_DEG / self.full_rate_deg_s).min(MAX_RAMP_S);
         let is_coasting = self.powered == Moving::Stopped;
         let ramp_s = if is_coasting { self.mechanics.coasting_s(own_s) } else { own_s };
         let ramp = self.full_rate_deg_s / ramp_s * step_s;
