@@ -13,6 +13,7 @@ pub mod closing;
 mod command;
 pub mod copies;
 mod demo;
+mod element_alarms;
 pub mod film;
 mod handle;
 pub mod host_keys;

@@ -478,4 +478,4 @@ fn duty(entry: &Entry, between: BetweenPasses) -> Duty {
 }
 
 #[cfg(test)]
-mod tests;
+pub(super) mod tests;

@@ -37,6 +37,7 @@ impl Engine {
         self.take_copies();
         self.look_for_passes();
         self.look_after_schedule();
+        self.watch_element_age();
         for index in 0..self.antennas.len() {
             self.take_antenna(index);
         }
@@ -132,6 +133,7 @@ impl Engine {
             alarms.raise(None, AlarmKind::Elements(text.clone()), now);
         }
         self.sources = outcome.sources;
+        self.watch_sources();
         if outcome.catalog.is_empty() {
             self.catalog = CatalogState::Failed;
             return;

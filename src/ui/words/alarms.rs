@@ -197,6 +197,27 @@ pub fn alarm(kind: &AlarmKind, antenna: &str, now: Timestamp) -> String {
             "The source {name} is not read: Azel ended while reading it. Check what it holds; \
              Elements can read it again."
         ),
+        AlarmKind::SourceFails { source, as_of } => {
+            let current = as_of.map_or_else(
+                || "It has never brought any.".to_owned(),
+                |as_of| format!("Its elements are of {}.", format::moment(as_of, now)),
+            );
+            format!(
+                "The source {source} brought nothing at its last requests. {current} Elements shows \
+                 why; add another source, or a file, before the elements get too old."
+            )
+        }
+        AlarmKind::ElementsOld { name, others } => {
+            let others = match others {
+                0 => String::new(),
+                1 => " and of one other satellite".to_owned(),
+                others => format!(" and of {others} other satellites"),
+            };
+            format!(
+                "The elements of {name}{others} in the plan are more than 7 days old at the pass: the \
+                 antenna may miss it. Refresh the elements."
+            )
+        }
         AlarmKind::NotTaken => {
             format!("{antenna} is too busy: the command was not sent. Try again.")
         }

@@ -140,6 +140,18 @@ pub enum AlarmKind {
     /// The source of elements with this name is not read: its last reading ended the
     /// program.
     SourceSetAside(String),
+    /// The last requests to the server of this source brought nothing.
+    SourceFails {
+        source: String,
+        /// When its elements were last known to be current.
+        as_of: Option<Timestamp>,
+    },
+    /// The elements of this satellite, and of `others`, are too old for the passes that automatic
+    /// operation will take.
+    ElementsOld {
+        name: String,
+        others: usize,
+    },
     /// The program was too busy to take a request.
     NotTaken,
     /// A fault or warning that the unit names itself.
@@ -210,6 +222,8 @@ impl AlarmKind {
             | Self::AutomaticMoves { .. }
             | Self::AutomaticOff(_)
             | Self::AutomaticSuspended(_)
+            | Self::SourceFails { .. }
+            | Self::ElementsOld { .. }
             | Self::Check(Check { state: CheckState::Fault, .. }) => Priority::Warning,
             _ => Priority::Caution,
         }
@@ -231,6 +245,8 @@ impl AlarmKind {
                 | Self::UnitElsewhere(_)
                 | Self::BrokeOff(_)
                 | Self::SourceSetAside(_)
+                | Self::SourceFails { .. }
+                | Self::ElementsOld { .. }
                 | Self::LockOutUnproved
                 | Self::LockOuts(_)
                 | Self::Check(_)
@@ -265,11 +281,15 @@ pub(super) fn same_matter(a: &AlarmKind, b: &AlarmKind) -> bool {
         | (AlarmKind::StationStands(_), AlarmKind::StationStands(_))
         | (AlarmKind::StationElsewhere(_), AlarmKind::StationElsewhere(_))
         | (AlarmKind::UnitElsewhere(_), AlarmKind::UnitElsewhere(_))
-        | (AlarmKind::OffTarget { .. }, AlarmKind::OffTarget { .. }) => true,
+        | (AlarmKind::OffTarget { .. }, AlarmKind::OffTarget { .. })
+        | (AlarmKind::ElementsOld { .. }, AlarmKind::ElementsOld { .. }) => true,
         (
             AlarmKind::Safety(Safety::ForeignHands { axis: a, .. }),
             AlarmKind::Safety(Safety::ForeignHands { axis: b, .. }),
         ) => a == b,
+        (AlarmKind::SourceFails { source: a, .. }, AlarmKind::SourceFails { source: b, .. }) => {
+            a == b
+        }
         (AlarmKind::Check(a), AlarmKind::Check(b)) => a.name == b.name && a.state == b.state,
         (AlarmKind::UnitDiffers(a), AlarmKind::UnitDiffers(b)) => {
             std::mem::discriminant(&a.cause) == std::mem::discriminant(&b.cause)

@@ -13,7 +13,7 @@ use crate::{
 };
 
 /// A station whose antenna is on at the start, after a run that ended in order. No unit answers.
-fn station(folder: &std::path::Path) -> (Engine, PathBuf) {
+pub(in crate::engine) fn station(folder: &std::path::Path) -> (Engine, PathBuf) {
     let mut config = Config::satrak("Dish", "dish:1");
     config.id = AntennaId(1);
     config.automatic.is_on_at_start = true;

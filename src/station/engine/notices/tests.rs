@@ -290,6 +290,8 @@ fn every_kind() -> Vec<AlarmKind> {
         K::StopNotElsewhere,
         K::BrokeOff(Work::Passes),
         K::SourceSetAside(text()),
+        K::SourceFails { source: text(), as_of: Some(time()) },
+        K::ElementsOld { name: text(), others: 2 },
         K::NotTaken,
         K::Check(Check::new("Drive", CheckState::Fault, "Look at it.")),
         K::Check(Check::new("Drive", CheckState::Caution, "Look at it.")),
@@ -353,6 +355,8 @@ fn is_listed(kind: &AlarmKind) {
         | K::StopNotElsewhere
         | K::BrokeOff(_)
         | K::SourceSetAside(_)
+        | K::SourceFails { .. }
+        | K::ElementsOld { .. }
         | K::NotTaken
         | K::Check(_)
         | K::ClockOff(_)

@@ -1,0 +1,125 @@
+//! Alarms about elements, before they cost a pass: a source that keeps failing, and elements that are
+//! too old for the passes that automatic operation will take.
+
+use std::collections::BTreeSet;
+
+use jiff::Timestamp;
+
+use super::{CatalogState, Engine, alarms::AlarmKind};
+use crate::{astro::time::DAY_S, orbit::Catalog, plan::schedule::Entry};
+
+/// A source raises an alarm after this many requests in a row that brought nothing.
+const FAILURES: u32 = 2;
+/// Age of elements at a pass from which they raise an alarm, days.
+const MAX_AGE_DAYS: f64 = 7.0;
+
+impl Engine {
+    /// Raises an alarm for each source that keeps failing, and clears those of sources that do not.
+    pub(super) fn watch_sources(&mut self) {
+        let failing = |name: &str| {
+            let reports = self.sources.reports.iter();
+            reports.into_iter().any(|report| report.source == name && report.failures >= FAILURES)
+        };
+        self.alarms.clear(None, self.now, |kind| match kind {
+            AlarmKind::SourceFails { source, .. } => !failing(source),
+            _ => false,
+        });
+        for report in self.sources.reports.iter().filter(|report| report.failures >= FAILURES) {
+            let kind =
+                AlarmKind::SourceFails { source: report.source.clone(), as_of: report.as_of };
+            self.alarms.raise(None, kind, self.now);
+        }
+    }
+
+    /// Raises an alarm while the elements of passes that automatic operation will take are too old.
+    pub(super) fn watch_element_age(&mut self) {
+        let found = self.old_elements();
+        match found {
+            Some(kind) => self.alarms.raise(None, kind, self.now),
+            None => self
+                .alarms
+                .clear(None, self.now, |kind| matches!(kind, AlarmKind::ElementsOld { .. })),
+        }
+    }
+
+    fn old_elements(&self) -> Option<AlarmKind> {
+        let CatalogState::Ready(catalog) = &self.catalog else { return None };
+        // The simulated units of the demo station hold the same elements.
+        if self.demo.is_some() {
+            return None;
+        }
+        let takes = |entry: &&Entry| {
+            let mut antennas = self.antennas.iter().map(|antenna| &antenna.shown);
+            antennas.any(|shown| shown.id() == entry.antenna && shown.operation.is_on())
+        };
+        let entries = self.schedule.schedule.entries.iter().filter(takes);
+        old_ones(catalog, entries.map(|entry| (entry.pass.satellite, entry.from)))
+    }
+}
+
+/// The alarm about those satellites whose elements are too old for their passes.
+fn old_ones(
+    catalog: &Catalog,
+    passes: impl Iterator<Item = (u32, Timestamp)>,
+) -> Option<AlarmKind> {
+    let is_old = |(satellite, from): &(u32, Timestamp)| {
+        let elements = catalog.get(*satellite);
+        elements.is_some_and(|elements| elements.age_s(*from) > MAX_AGE_DAYS * DAY_S)
+    };
+    let old: BTreeSet<u32> = passes.filter(is_old).map(|(satellite, _)| satellite).collect();
+    let name = catalog.get(*old.first()?)?.short_name().to_owned();
+    Some(AlarmKind::ElementsOld { name, others: old.len() - 1 })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        astro::time::add_seconds,
+        engine::automatic::tests::station,
+        orbit::{SourceReport, bundled},
+    };
+
+    #[test]
+    fn a_source_that_keeps_failing_raises_an_alarm_until_it_brings_something() {
+        let folder = tempfile::tempdir().unwrap();
+        let (mut engine, _) = station(folder.path());
+        for (failures, wanted) in [(0, false), (1, false), (2, true), (5, true), (0, false)] {
+            engine.sources.reports = vec![SourceReport {
+                source: "server".to_owned(),
+                files: Vec::new(),
+                as_of: None,
+                newest_epoch: None,
+                fetch_problem: None,
+                failures,
+                next_fetch: None,
+                is_set_aside: false,
+            }];
+            engine.watch_sources();
+            let is_that = |kind: &AlarmKind| matches!(kind, AlarmKind::SourceFails { .. });
+            let mut alarms = engine.alarms.list().iter();
+            let stands = alarms.any(|alarm| is_that(&alarm.kind) && !alarm.is_over());
+            assert_eq!(stands, wanted, "{failures}");
+        }
+    }
+
+    #[test]
+    fn old_elements_are_told_by_the_age_at_the_pass() {
+        const NOAA_20: u32 = 43_013;
+        const SUOMI_NPP: u32 = 37_849;
+        let catalog = bundled().unwrap();
+        let after = |satellite: u32, days: f64| {
+            let epoch = catalog.get(satellite).unwrap().epoch();
+            (satellite, add_seconds(epoch, days * 86_400.0))
+        };
+        let alarm = |passes: &[(u32, f64)]| {
+            old_ones(&catalog, passes.iter().map(|(satellite, days)| after(*satellite, *days)))
+        };
+        assert_eq!(alarm(&[(NOAA_20, 6.9), (SUOMI_NPP, 0.0)]), None);
+        let both = [(NOAA_20, 6.0), (NOAA_20, 7.1), (SUOMI_NPP, 8.0), (NOAA_20, 9.0)];
+        let Some(AlarmKind::ElementsOld { others: 1, .. }) = alarm(&both) else {
+            panic!("{:?}", alarm(&both));
+        };
+        assert_eq!(alarm(&[(1, 100.0); 0]), None);
+    }
+}
