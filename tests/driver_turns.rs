@@ -148,6 +148,7 @@ fn begin(antennas: &[Measured], event: &Event, station: &Station) {
         target: TrackTarget {
             catalog_number: event.elements.catalog_number(),
             name: event.elements.name().into(),
+            element_file: None,
             from: event.aos,
             until: event.los,
         },

@@ -52,6 +52,7 @@ fn commands_of_antennas() -> Vec<driver::Command> {
         target: TrackTarget {
             catalog_number: 25_544,
             name: "ISS (ZARYA)".to_owned(),
+            element_file: None,
             from: noon(),
             until: Timestamp::MAX,
         },

@@ -277,6 +277,24 @@ fn from_the_first_click_to_the_unit_s_own_word_and_back() {
 
 #[test]
 #[ignore = "needs sshd and root"]
+fn the_file_that_was_verified_is_the_one_of_the_next_track() {
+    let mut fixture = Fixture::typed(Unit::new());
+    fixture.write("File", "oper.txt");
+    fixture.click("Upload and verify");
+    fixture.log_in(PASSWORD);
+    fixture.assert_proved();
+    fixture.until("the antenna is set to it", |model| {
+        model.station.antennas[0].connection.element_file().as_deref() == Some("oper.txt")
+    });
+    let text = std::fs::read_to_string(fixture.folder.path().join("station.toml")).unwrap();
+    assert!(text.contains("element_file = \"oper.txt\""), "{text}");
+    let antenna = fixture.window.state().model().antenna().unwrap();
+    assert_eq!(antenna.config.connection.element_file().as_deref(), Some("oper.txt"));
+    assert!(antenna.is_live(), "the session goes on");
+}
+
+#[test]
+#[ignore = "needs sshd and root"]
 fn a_changed_host_key_is_refused_and_forgotten_only_on_purpose() {
     let mut fixture = Fixture::typed(Unit::new());
     let before = fixture.files.fingerprint();

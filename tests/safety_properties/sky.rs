@@ -87,6 +87,7 @@ impl Overflight {
             target: TrackTarget {
                 catalog_number: self.elements.catalog_number(),
                 name: self.elements.name().into(),
+                element_file: None,
                 from: self.aos,
                 until: self.los,
             },

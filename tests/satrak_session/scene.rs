@@ -64,6 +64,7 @@ fn whole(pass: &Pass) -> TrackTarget {
     TrackTarget {
         catalog_number: 25_544,
         name: "ISS (ZARYA)".into(),
+        element_file: None,
         from: pass.aos.time,
         until: pass.los.time,
     }

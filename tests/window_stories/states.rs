@@ -58,6 +58,7 @@ pub(crate) fn target() -> TrackTarget {
     TrackTarget {
         catalog_number: NOAA_20,
         name: "NOAA 20 (JPSS-1)".to_owned(),
+        element_file: None,
         from: now(),
         until: los(),
     }

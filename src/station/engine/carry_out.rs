@@ -357,7 +357,7 @@ impl Engine {
 
     /// Changes what the station knows of satellites. The change lasts only as long as the program for the
     /// demo station, and where the station file could not be read or another Azel holds it.
-    fn change_station(&mut self, change: impl FnOnce(&mut Station)) {
+    pub(super) fn change_station(&mut self, change: impl FnOnce(&mut Station)) {
         let mut station = Station::clone(&self.station);
         change(&mut station);
         if self.demo.is_none()
@@ -378,6 +378,7 @@ impl Engine {
         }
         self.record_station(&station);
         self.station = Arc::new(station);
+        self.keep_fingerprint();
         self.tell(Event::Changed);
     }
 

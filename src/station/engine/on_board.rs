@@ -87,6 +87,7 @@ pub(super) fn pass_for(
     let target = TrackTarget {
         catalog_number: elements.catalog_number(),
         name: elements.name().to_owned(),
+        element_file: antenna.connection.element_file(),
         // For a pass under way the window begins now.
         from: from.max(add_seconds(now, -1.0)),
         until,

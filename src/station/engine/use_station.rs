@@ -143,6 +143,7 @@ impl Engine {
         for index in 0..self.antennas.len() {
             self.cancel_resumption(index);
         }
+        self.keep_fingerprint();
         // From now on STOP reaches the new sessions.
         self.publish();
     }

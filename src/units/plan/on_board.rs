@@ -52,6 +52,7 @@ impl KnownOrbit {
             target: TrackTarget {
                 catalog_number: held.catalog_number,
                 name: held.name.clone(),
+                element_file: None,
                 from,
                 until,
             },

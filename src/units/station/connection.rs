@@ -67,6 +67,22 @@ impl Connection {
         points
     }
 
+    /// The element file that the unit is to use; `None` for the one in use.
+    pub fn element_file(&self) -> Option<String> {
+        let file = self.text(self.element_file_setting()?);
+        (!file.is_empty()).then(|| file.to_owned())
+    }
+
+    /// Lets the unit use another element file. Does nothing for a make without element files.
+    pub fn use_element_file(&mut self, file: &str) -> Result<(), Unfit> {
+        self.element_file_setting().map_or(Ok(()), |setting| self.put(setting, file))
+    }
+
+    fn element_file_setting(&self) -> Option<&'static Setting> {
+        let key = self.spec.element_files?.setting;
+        self.spec.settings.iter().copied().find(|setting| setting.field.key == key)
+    }
+
     /// Sets a value. If the setting cannot hold it, or the make does not have the setting,
     /// nothing changes. The reason is worded to follow the name of the setting.
     pub fn put(&mut self, setting: &Setting, value: impl Into<Value>) -> Result<(), Unfit> {

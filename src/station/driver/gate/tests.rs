@@ -102,6 +102,7 @@ static PROGRAM: LazyLock<Arc<Judge>> = LazyLock::new(|| {
     let target = TrackTarget {
         catalog_number: 25_544,
         name: "ISS".to_owned(),
+        element_file: None,
         from: pass.aos.time,
         until: pass.los.time,
     };

@@ -89,6 +89,7 @@ pub(in crate::driver) fn pass() -> OnBoardPass {
     let target = TrackTarget {
         catalog_number: 25_544,
         name: "ISS (ZARYA)".into(),
+        element_file: None,
         from: pass.aos.time,
         until: pass.los.time,
     };

@@ -30,6 +30,14 @@ pub(super) fn fingerprint(station: &Station) -> Option<String> {
 }
 
 impl Engine {
+    /// The station was changed from here: a crash from now on finds it as it is.
+    pub(in crate::engine) fn keep_fingerprint(&mut self) {
+        if self.last_run.station.is_some() {
+            self.last_run.station = fingerprint(&self.station);
+            self.keep_last_run();
+        }
+    }
+
     /// Notes which antennas may go on, after a run whose end was not orderly.
     pub(super) fn prepare_resumption(&mut self, last: &LastRun) {
         let is_same = last.station.is_some() && last.station == fingerprint(&self.station);

@@ -247,8 +247,13 @@ fn nothing_silences_a_top_priority_alarm() {
 fn every_kind() -> Vec<AlarmKind> {
     use AlarmKind as K;
     let ranked = || Ranked { cause: Cause::AzimuthOffset(1.0), off: None };
-    let target =
-        TrackTarget { catalog_number: 25_544, name: "ISS".to_owned(), from: time(), until: time() };
+    let target = TrackTarget {
+        catalog_number: 25_544,
+        name: "ISS".to_owned(),
+        element_file: None,
+        from: time(),
+        until: time(),
+    };
     let text = || "text".to_owned();
     let note = |reason| Note { place: text(), line: None, reason };
     let mut all = vec![

@@ -1,6 +1,6 @@
 //! Connects uploads with the sessions of the antennas.
 
-use super::{Ask, SessionRequest, UnitNow};
+use super::{Ask, SessionRequest, Stage, UnitNow};
 use crate::{
     driver::Command,
     engine::{Antenna, Engine, automatic::Interruption},
@@ -18,8 +18,40 @@ impl Engine {
     pub(in crate::engine) fn poll_uploads(&mut self) {
         let antenna = self.upload_antenna().map(|antenna| &antenna.shown);
         let unit = UnitNow::of(antenna, self.now, self.steady);
+        let was_open = self.uploads.stage.is_open();
         let request = self.upload_runner.poll(&unit, self.steady, &mut self.uploads);
         self.tell_unit(request);
+        if was_open && let Stage::Proved(proved) = &self.uploads.stage {
+            let file = proved.uploaded.file.as_str().to_owned();
+            self.use_element_file(&file);
+        }
+    }
+
+    /// The next track selects the file that was uploaded and verified. An antenna that is set to no
+    /// file uses the one that its unit uses by now.
+    fn use_element_file(&mut self, file: &str) {
+        let Some(config) = self.upload_antenna().map(|antenna| &antenna.shown.config) else {
+            return;
+        };
+        if config.connection.element_file().is_none_or(|known| known == file) {
+            return;
+        }
+        let (id, mut config) = (config.id, config.clone());
+        if let Err(why) = config.connection.use_element_file(file) {
+            tracing::error!(file, ?why, "the element file cannot be set");
+            return;
+        }
+        self.change_station(|station| {
+            if let Some(known) = station.antennas.iter_mut().find(|antenna| antenna.id == id) {
+                known.connection = config.connection.clone();
+            }
+        });
+        let is_kept = self.station.antennas.contains(&config);
+        if let Some(antenna) = self.antennas.iter_mut().find(|one| one.shown.id() == id)
+            && is_kept
+        {
+            antenna.shown.config = config;
+        }
     }
 
     fn upload_antenna(&self) -> Option<&Antenna> {

@@ -40,8 +40,8 @@ impl Preparation {
         Self { target, step: PrepareStep::AskSatellite, held: None }
     }
 
-    /// The request of the present step. Satellites are chosen from `element_file`, or from the
-    /// file in use if that is empty.
+    /// The request of the present step. Satellites are chosen from the element file of the target, else
+    /// from `element_file`, or from the file in use if that is empty.
     pub(super) fn request(&self, element_file: &str) -> Result<Request, PrepareError> {
         Ok(match self.step {
             PrepareStep::AskSatellite | PrepareStep::ReadSatellite => {
@@ -52,7 +52,8 @@ impl Preparation {
             PrepareStep::SetWindow => Request::Setting(Setting::StartStopTime(self.window()?)),
             PrepareStep::SetSatellite => {
                 let held = self.held.as_ref().ok_or(PrepareError::Unanswered)?;
-                let file = if element_file.is_empty() { &held.file } else { element_file };
+                let file = self.target.element_file.as_deref().unwrap_or(element_file);
+                let file = if file.is_empty() { &held.file } else { file };
                 if file.is_empty() {
                     return Err(PrepareError::NoElementFile);
                 }

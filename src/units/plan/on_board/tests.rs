@@ -38,6 +38,7 @@ fn judge_above(minimum_deg: f64) -> Judge {
     let target = TrackTarget {
         catalog_number: ISS,
         name: "ISS".to_owned(),
+        element_file: None,
         from: pass().aos.time,
         until: pass().los.time,
     };
