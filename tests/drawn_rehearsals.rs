@@ -132,7 +132,7 @@ fn keep_out(dice: &mut Dice, mechanics: &Mechanics, rate_deg_s: f64) -> Option<K
     let zone = Zone::new(corners.collect()).ok()?;
     let coasting_s = mechanics.coasting.map_or(1.0, |coasting| coasting.as_secs_f64());
     let overrun_deg = rate_deg_s * (coasting_s / 2.0 + mechanics.dead_time.as_secs_f64());
-    dice.chance(0.1).then(|| KeepOut {
+    dice.chance(0.03).then(|| KeepOut {
         name: "Mast".to_owned(),
         reason: String::new(),
         entered: Entered::GoRound,

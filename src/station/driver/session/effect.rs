@@ -40,8 +40,9 @@ struct Effect {
 enum Expected {
     /// It turns at this rate, degrees a second.
     Rate(f64),
-    /// It turns towards a position that is further away than the unit may ignore.
-    Approach,
+    /// It turns at this rate, degrees a second, towards a position that is further away than the unit
+    /// may ignore.
+    Approach(f64),
 }
 
 impl Effect {
@@ -75,7 +76,12 @@ impl Effect {
                 let turning_s = waited.saturating_sub(JOG_SHOWS_AFTER).as_secs_f64();
                 rate_deg_s.abs() * turning_s > 4.0 * figures.tolerance_deg()
             }
-            Expected::Approach => waited >= shows_after + figures.gap(),
+            Expected::Approach(rate_deg_s) => {
+                // A slow axis needs longer to turn by more than it may sway.
+                let turns_s = 2.0 * figures.tolerance_deg() / rate_deg_s;
+                let turns = Duration::try_from_secs_f64(turns_s).unwrap_or(Duration::MAX);
+                waited >= shows_after.saturating_add(figures.gap().max(turns))
+            }
         }
     }
 }
@@ -160,9 +166,10 @@ impl Session {
                 look.asked.saturating_duration_since(changed) < shows_after
             })
         });
-        let axes = look.axes.iter().zip(self.gate.sent_to_deg()).zip(effects);
+        let rates_deg_s = self.setup.track_config.rates_deg_s();
+        let axes = look.axes.iter().zip(self.gate.sent_to_deg()).zip(effects).zip(rates_deg_s);
         let mut expected = [None; 2];
-        for (index, (expected, ((axis, to_deg), effect))) in
+        for (index, (expected, (((axis, to_deg), effect), rate_deg_s))) in
             expected.iter_mut().zip(axes).enumerate()
         {
             let Some((angle_deg, to_deg)) = axis.angle_deg.zip(to_deg) else { continue };
@@ -179,7 +186,7 @@ impl Session {
                 to_deg - angle_deg
             };
             let is_far = way_deg.abs() > finest_deg + ignored_deg;
-            *expected = (is_far && !may_rest).then_some(Expected::Approach);
+            *expected = (is_far && !may_rest).then_some(Expected::Approach(rate_deg_s));
         }
         expected
     }
