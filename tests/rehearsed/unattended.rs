@@ -16,13 +16,15 @@ use azel::{
     engine::{
         Client, Command,
         alarms::AlarmKind,
-        automatic::{DayEvent, Doing, Interruption, MissCause, OffBecause, On, Operation},
+        automatic::{
+            DayEvent, Doing, Interruption, MissCause, NotReady, OffBecause, On, Operation,
+        },
         closing::CloseHow,
     },
     orbit::{PassSearch, Propagator, bundled, passes},
     protocol::{
         rotator_genius::WholeDegrees,
-        satrak::{Goto, Motion, Request, encode},
+        satrak::{FaultKind, Goto, Motion, Request, encode},
     },
     sim::satrak,
     station::{Antenna, AntennaId, Monitor, Station},
@@ -471,6 +473,27 @@ async fn a_pass_that_the_unit_tracks_through_another_start_is_taken_over_without
     let (_, of) = &flown(&client)[0];
     assert!(of.in_beam_s > 0.5 * of.of_s, "{of:?}");
     assert!(operation(&client, id).is_on());
+}
+
+/// A motor fails before the pass and is repaired in the middle of it.
+#[tokio::test(start_paused = true)]
+async fn a_faulty_unit_is_told_when_it_should_set_out_and_taken_once_it_is_repaired() {
+    let (scene, client, id) = scene_of("Dish", |_| {}).await;
+    scene.units.dish.set_fault(satrak::Fault::Unit(FaultKind::XMotor), true);
+    set_automatic(&client, id, true).await;
+    let is_told = |kind: &AlarmKind| {
+        matches!(kind, AlarmKind::NotOnItsWay { why: Some(NotReady::Fault), .. })
+    };
+    until("the alarm", || stands(&client, is_told).then_some(())).await;
+    assert!(scene.units.all_stand());
+    seconds(&client, 200.0).await;
+    assert!(operation(&client, id).is_on() && scene.units.all_stand());
+    scene.units.dish.set_fault(satrak::Fault::Unit(FaultKind::XMotor), false);
+    until("the pass", || operation(&client, id).taking()?.proved_at).await;
+    until("the end of the alarm", || (!stands(&client, is_told)).then_some(())).await;
+    let (_, of) = until("LOS", || flown(&client).first().cloned()).await;
+    assert!(of.in_beam_s > 60.0, "{of:?}");
+    assert_eq!(of.cause, Some(MissCause::NotReady(NotReady::Fault)));
 }
 
 /// Switches automatic operation of the Genius on, ends the station as a crash does, after `change`, and

@@ -20,7 +20,7 @@ use self::{
 };
 pub use self::{
     day::{DayEvent, DayLine, Flown, MissCause},
-    operation::{Doing, Duty, GivenUp, Interruption, OffBecause, On, Operation, Taking},
+    operation::{Doing, Duty, GivenUp, Interruption, NotReady, OffBecause, On, Operation, Taking},
 };
 use super::{
     Antenna, By, Command, CurrentRequest, Engine, StationClaim, alarms::AlarmKind,
@@ -196,8 +196,8 @@ impl Engine {
             | Event::Unanswered(Asked::Motion(Motion::EnableAuto))
             | Event::NotSent(Refusal::Forbidden { .. }) => {}
             Event::NotSent(_) if operation.is_proved() => {}
+            Event::WouldMiss { .. } => operation.take_outcome(Outcome::WouldMiss, now),
             Event::CannotTrack(..)
-            | Event::WouldMiss { .. }
             | Event::CannotProgramTrack(..)
             | Event::NotSent(_)
             | Event::Refused(Asked::Motion(_), _)
@@ -340,18 +340,21 @@ impl Engine {
             let until_s = seconds_between(now, flight.duty.from);
             let is_on_its_way = seen.takes == Some(flight.duty.pass.0);
             let has_time_left = seconds_between(now, flight.duty.until) > WINDOW_STEP_S;
-            shown.operation.is_on() && until_s <= LATE_S && has_time_left && !is_on_its_way
+            let is_late = until_s <= LATE_S || seen.not_ready.is_some();
+            shown.operation.is_on() && is_late && has_time_left && !is_on_its_way
         });
         let late = late.map(|flight| (flight.duty.pass, flight.name().to_owned()));
         let of = Some(shown.id());
         self.alarms.clear(of, now, |kind| match kind {
-            AlarmKind::NotOnItsWay { pass, .. } => {
-                late.as_ref().is_none_or(|(late, _)| !is_same_pass(*late, *pass))
+            AlarmKind::NotOnItsWay { pass, why, .. } => {
+                *why != seen.not_ready
+                    || late.as_ref().is_none_or(|(late, _)| !is_same_pass(*late, *pass))
             }
             _ => false,
         });
         if let Some((pass, name)) = late {
-            self.alarms.raise(of, AlarmKind::NotOnItsWay { pass, name }, now);
+            let why = seen.not_ready;
+            self.alarms.raise(of, AlarmKind::NotOnItsWay { pass, name, why }, now);
         }
         if let (Some(flight), Some(id)) = (ended, of) {
             self.note_day(id, DayEvent::Flown(flight.end()));

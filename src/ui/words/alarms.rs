@@ -2,6 +2,7 @@
 
 use jiff::Timestamp;
 
+use super::automatic::not_ready;
 use crate::{
     driver::LinkLoss,
     engine::{
@@ -145,10 +146,13 @@ pub fn alarm(kind: &AlarmKind, antenna: &str, now: Timestamp) -> String {
              track that is worth less.",
             format::moment(*aos, now)
         ),
-        AlarmKind::NotOnItsWay { pass: (_, aos), name } => format!(
-            "{antenna} is not on its way to {name}, AOS {}, which the schedule assigns to it.",
-            format::moment(*aos, now)
-        ),
+        AlarmKind::NotOnItsWay { pass: (_, aos), name, why } => {
+            let why = why.map_or_else(String::new, |why| format!(" {}", not_ready(why)));
+            format!(
+                "{antenna} is not on its way to {name}, AOS {}, which the schedule assigns to it.{why}",
+                format::moment(*aos, now)
+            )
+        }
         AlarmKind::AutomaticMoves { at, name } => format!(
             "{antenna} will move by itself at {}, for {name}. STOP or Standby prevents it.",
             format::moment(*at, now)

@@ -4,7 +4,8 @@ use jiff::Timestamp;
 
 use crate::{
     engine::automatic::{
-        DayEvent, DayLine, Doing, Flown, Interruption, MissCause, OffBecause, On, Operation,
+        DayEvent, DayLine, Doing, Flown, Interruption, MissCause, NotReady, OffBecause, On,
+        Operation,
     },
     ui::format,
 };
@@ -35,6 +36,14 @@ pub fn interruption(by: Interruption) -> &'static str {
     }
 }
 
+/// Why a unit cannot begin a pass, as a sentence.
+pub fn not_ready(why: NotReady) -> &'static str {
+    match why {
+        NotReady::Fault => "A fault of its unit locks the motion: clear the fault.",
+        NotReady::NoPosition => "Its unit reports no position: check the sensors.",
+    }
+}
+
 /// How automatic operation stands, in a word or two.
 pub fn standing(operation: &Operation) -> &'static str {
     match operation {
@@ -59,6 +68,8 @@ pub fn miss_cause(cause: MissCause) -> String {
             "After an outage Azel asked whether to continue tracking, and nobody answered."
         }
         MissCause::Refused => "It was refused, or could not be verified.",
+        MissCause::NotReady(why) => not_ready(why),
+        MissCause::WouldMiss => "By its own clock, site or elements the unit would have missed it.",
         MissCause::OffTarget => "Azel ended the track: the antenna stayed off its target.",
         MissCause::OutsideBeam => "The antenna was outside its beam.",
     };

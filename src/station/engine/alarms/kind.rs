@@ -14,7 +14,7 @@ use crate::{
     },
     driver::{Event, Found, LeftOffsets, LinkLoss, Safety, TrackProblem, Unit},
     engine::{
-        automatic::{Interruption, OffBecause},
+        automatic::{Interruption, NotReady, OffBecause},
         claim::HeldBy,
         passes::PassKey,
     },
@@ -100,6 +100,9 @@ pub enum AlarmKind {
         pass: PassKey,
         /// Short name of the satellite.
         name: String,
+        /// Why its unit cannot begin it, where that is known.
+        #[serde(default)]
+        why: Option<NotReady>,
     },
     /// Automatic operation is going to move the antenna, for the first time or after a rest.
     AutomaticMoves {

@@ -4,7 +4,9 @@
 use jiff::{Timestamp, tz::TimeZone};
 use serde::{Deserialize, Serialize};
 
-use super::operation::{Duty, GivenUp, Interruption, OffBecause, Operation, Seen, is_same_pass};
+use super::operation::{
+    Duty, GivenUp, Interruption, NotReady, OffBecause, Operation, Seen, is_same_pass,
+};
 use crate::{
     astro::{Angle, time::seconds_between},
     engine::{antenna::ErrorSample, passes::PassKey},
@@ -68,6 +70,9 @@ pub enum MissCause {
     NotResumed,
     /// The unit or the gate refused it, or it could not be proved.
     Refused,
+    NotReady(NotReady),
+    /// By its own clock, site or elements the unit would have missed it.
+    WouldMiss,
     /// The track was ended, because the antenna stayed off its target.
     OffTarget,
     /// It was tracked, but not all of it inside the beam.
@@ -125,10 +130,12 @@ impl Flight {
             Operation::Suspended { by, .. } => MissCause::Suspended(*by),
             Operation::On(_) if !seen.is_live => MissCause::LinkLost,
             Operation::On(_) if seen.awaits_operator => MissCause::NotResumed,
-            Operation::On(_) => match taking.and_then(|taking| taking.given_up) {
-                Some(GivenUp::Refused) => MissCause::Refused,
-                Some(GivenUp::OffTarget) => MissCause::OffTarget,
-                None => MissCause::OutsideBeam,
+            Operation::On(_) => match (seen.not_ready, taking.and_then(|taking| taking.given_up)) {
+                (Some(why), _) => MissCause::NotReady(why),
+                (None, Some(GivenUp::WouldMiss)) => MissCause::WouldMiss,
+                (None, Some(GivenUp::Refused)) => MissCause::Refused,
+                (None, Some(GivenUp::OffTarget)) => MissCause::OffTarget,
+                (None, None) => MissCause::OutsideBeam,
             },
         };
         match self.lost.iter_mut().find(|(known, _)| *known == cause) {

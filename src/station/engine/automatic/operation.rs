@@ -108,6 +108,17 @@ pub struct Taking {
     pub given_up: Option<GivenUp>,
 }
 
+/// Why a unit cannot begin its pass now. Judged when the antenna should set out: what it is hours
+/// before says nothing.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum NotReady {
+    /// A fault of the unit locks its motion.
+    Fault,
+    /// An axis has no position.
+    NoPosition,
+}
+
 /// Why a pass is given up.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -116,6 +127,8 @@ pub enum GivenUp {
     Refused,
     /// The antenna stayed off its target.
     OffTarget,
+    /// By its own clock, site or elements the unit would miss the pass.
+    WouldMiss,
 }
 
 /// A pass that the schedule gives to the antenna.
@@ -142,6 +155,8 @@ pub(super) struct Seen {
     pub(super) is_locked_out: bool,
     /// Commands can be sent: no STOP is owed and nothing else forbids them.
     pub(super) can_be_sent: bool,
+    /// Why the unit cannot begin a pass now.
+    pub(super) not_ready: Option<NotReady>,
     /// The satellite that it tracks from here or is on its way to.
     pub(super) takes: Option<u32>,
     /// That has been proved.
@@ -189,6 +204,8 @@ pub(super) enum Outcome {
     Failed,
     /// The session ended the track, because the antenna stayed off its target.
     OffTarget,
+    /// By its own clock, site or elements the unit would miss the pass.
+    WouldMiss,
     /// The track ended before its end, and nobody here has ended it.
     EndedEarly,
 }
@@ -269,6 +286,8 @@ impl Operation {
             }
             // The next pass begins from a proved rest.
             Outcome::OffTarget => taking.given_up = Some(GivenUp::OffTarget),
+            // It may be fit for the next one.
+            Outcome::WouldMiss => taking.given_up = Some(GivenUp::WouldMiss),
             Outcome::EndedEarly => self.suspend(Interruption::Elsewhere, now),
         }
     }
@@ -411,7 +430,7 @@ impl On {
             }
             _ => {}
         }
-        (seen.is_live && seen.can_be_sent).then(|| {
+        (seen.is_live && seen.can_be_sent && seen.not_ready.is_none()).then(|| {
             self.take(duty, 1, now);
             Act::Take(duty)
         })
@@ -452,7 +471,8 @@ impl On {
     ) -> Option<Act> {
         let is_asked = seconds_between(taking.asked_at, now) < LATE_S;
         let is_idle = seen.takes != Some(taking.pass.0) && !seen.moves;
-        if taking.given_up.is_some() || is_asked || !is_idle || !seen.is_live || !seen.can_be_sent {
+        let is_ready = seen.is_live && seen.can_be_sent && seen.not_ready.is_none();
+        if taking.given_up.is_some() || is_asked || !is_idle || !is_ready {
             return None;
         }
         let duty = duties.iter().find(|duty| is_same_pass(duty.pass, taking.pass))?;

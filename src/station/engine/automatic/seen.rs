@@ -1,7 +1,8 @@
 //! State of an antenna that automatic operation looks at, taken from its snapshot.
 
-use super::operation::Seen;
+use super::operation::{NotReady, Seen};
 use crate::{
+    device::Axis,
     driver::{Intent, Snapshot, StopState},
     engine::antenna::AntennaModel,
 };
@@ -26,6 +27,7 @@ pub(super) fn seen(antenna: &AntennaModel) -> Seen {
             && !snapshot.being_compared
             && snapshot.left_moving.is_none()
             && antenna.held_by.is_none(),
+        not_ready: not_ready(snapshot, antenna.variant().capabilities.axis_count()),
         takes: takes.filter(|number| antenna.takes(*number)),
         is_proved: !snapshot.pending,
         awaits_operator: snapshot.program_track.as_ref().is_some_and(|view| view.awaits_operator),
@@ -37,6 +39,17 @@ pub(super) fn seen(antenna: &AntennaModel) -> Seen {
         turns_unasked: antenna.is_live() && moves && !is_asked(snapshot),
         is_moved_elsewhere: is_replaced || antenna.is_live() && antenna.tracks_unasked(),
     }
+}
+
+/// At a limit an axis may report no angle.
+fn not_ready(snapshot: &Snapshot, axes: usize) -> Option<NotReady> {
+    if snapshot.state.motion_lock == Some(true) {
+        return Some(NotReady::Fault);
+    }
+    let has_place = |axis: &Axis| axis.angle_deg.is_some() || axis.plus_limit || axis.minus_limit;
+    let measured = snapshot.state.measured?;
+    let has_positions = measured.axes.iter().take(axes).all(has_place);
+    (!has_positions).then_some(NotReady::NoPosition)
 }
 
 /// Something is asked of the antenna from here that may still move it.

@@ -279,7 +279,7 @@ fn every_kind() -> Vec<AlarmKind> {
         K::UnitDiffers(ranked()),
         K::NotCompared { satellite: None },
         K::NoAntennaFor { pass: (25_544, time()), name: text() },
-        K::NotOnItsWay { pass: (25_544, time()), name: text() },
+        K::NotOnItsWay { pass: (25_544, time()), name: text(), why: None },
         K::AutomaticMoves { at: time(), name: text() },
         K::AutomaticOff(OffBecause::Failures),
         K::AutomaticSuspended(crate::engine::automatic::Interruption::Elsewhere),

@@ -23,6 +23,7 @@ const STANDS: Seen = Seen {
     is_live: true,
     is_locked_out: false,
     can_be_sent: true,
+    not_ready: None,
     takes: None,
     is_proved: false,
     awaits_operator: false,
@@ -192,6 +193,30 @@ fn a_pass_for_which_nothing_happens_is_given_up() {
     assert!(fixture.operation.is_on());
     fixture.until(1700.0, |_| STANDS);
     assert_eq!(fixture.operation, Operation::Off(OffBecause::Failures));
+}
+
+#[test]
+fn a_unit_that_is_not_ready_costs_its_passes_and_no_more() {
+    let duties = [duty(1, 200.0), duty(2, 1000.0), duty(3, 1800.0), duty(4, 2600.0)];
+    let mut fixture = Fixture::new(&duties);
+    let faulty = Seen { not_ready: Some(NotReady::Fault), ..STANDS };
+    assert_eq!(fixture.until(2550.0, |_| faulty), []);
+    // Cleared when it should have set out, in the middle of the pass.
+    let cleared = |now_s: f64| if now_s < 2700.0 { faulty } else { STANDS };
+    assert_eq!(fixture.until(2701.0, cleared), [(2700.0, Act::Take(duties[3]))]);
+    assert!(fixture.operation.is_on());
+}
+
+#[test]
+fn a_unit_that_would_miss_its_passes_is_tried_again_with_the_next() {
+    let duties = [duty(1, 200.0), duty(2, 1000.0), duty(3, 1800.0)];
+    let mut fixture = Fixture::new(&duties);
+    for (to_s, duty) in [(150.0, duties[0]), (950.0, duties[1]), (1750.0, duties[2])] {
+        let taken = fixture.until(to_s, |_| STANDS);
+        assert_eq!(taken.last().map(|(_, act)| *act), Some(Act::Take(duty)));
+        fixture.outcome(Outcome::WouldMiss);
+    }
+    assert!(fixture.operation.is_on());
 }
 
 #[test]
