@@ -47,14 +47,18 @@ fn logarithmic(dice: &mut Dice, from: f64, to: f64) -> f64 {
     from * (to / from).powf(dice.between(0.0, 1.0))
 }
 
+fn seconds(seconds: f64) -> Duration {
+    Duration::try_from_secs_f64(seconds).unwrap()
+}
+
 fn mechanics(dice: &mut Dice) -> Mechanics {
     let share = |dice: &mut Dice, share: f64, max: f64| {
         if dice.chance(share) { dice.between(0.0, max) } else { 0.0 }
     };
     Mechanics {
-        dead_time: Duration::from_secs_f64(share(dice, 0.8, 2.0)),
-        coasting: dice.chance(0.7).then(|| Duration::from_secs_f64(dice.between(0.0, 3.0))),
-        minimum_run: Duration::from_secs_f64(share(dice, 0.5, 0.3)),
+        dead_time: seconds(share(dice, 0.8, 2.0)),
+        coasting: dice.chance(0.7).then(|| seconds(dice.between(0.0, 3.0))),
+        minimum_run: seconds(share(dice, 0.5, 0.3)),
         noise_deg: share(dice, 0.7, 0.3),
         backlash_deg: share(dice, 0.3, 0.5),
         sway_deg: share(dice, 0.4, 1.0),

@@ -194,7 +194,7 @@ impl Passes {
                 DayEvent::SwitchedOff(because) => Some(because),
                 _ => None,
             });
-            pass.off = off.last().filter(|_| pass.flown.is_none());
+            pass.off = off.reduce(|_, later| later).filter(|_| pass.flown.is_none());
             pass.antenna_name = antenna.map(|antenna| antenna.name.clone()).unwrap_or_default();
         }
         passes.sort_by_key(|pass| (pass.from, pass.antenna, pass.satellite));

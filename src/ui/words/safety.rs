@@ -189,6 +189,21 @@ fn unlike(unlike: Unlike) -> &'static str {
     }
 }
 
+fn foreign_hands(antenna: &str, axis: &str, evidence: Evidence) -> String {
+    let evidence = match evidence {
+        Evidence::Outside { off_deg } => {
+            let off = format::degrees(off_deg.abs(), 1);
+            format!("{axis} reads {off} away from where Azel's commands lead")
+        }
+        Evidence::Jogged => format!("its unit reports a jog of {axis}, and Azel does not jog it"),
+        Evidence::Runaway => format!("its unit reports that {axis} turns without a command"),
+    };
+    format!(
+        "Somebody else moved {antenna}, by its panel, by another program or by hand: {evidence}. Azel \
+         does not move it on. Find out who moves it before you move it again."
+    )
+}
+
 /// A matter of safety in words; `antenna` is the name of the antenna.
 pub fn safety(matter: &Safety, antenna: &str, now: Timestamp) -> String {
     match matter {
@@ -231,24 +246,7 @@ pub fn safety(matter: &Safety, antenna: &str, now: Timestamp) -> String {
                  drive, brake and sensor before you move it again."
             )
         }
-        Safety::ForeignHands { axis, evidence } => {
-            let evidence = match evidence {
-                Evidence::Outside { off_deg } => {
-                    let off = format::degrees(off_deg.abs(), 1);
-                    format!("{axis} reads {off} away from where Azel's commands lead")
-                }
-                Evidence::Jogged => {
-                    format!("its unit reports a jog of {axis}, and Azel does not jog it")
-                }
-                Evidence::Runaway => {
-                    format!("its unit reports that {axis} turns without a command")
-                }
-            };
-            format!(
-                "Somebody else moved {antenna}, by its panel, by another program or by hand: \
-                 {evidence}. Azel does not move it on. Find out who moves it before you move it again."
-            )
-        }
+        Safety::ForeignHands { axis, evidence } => foreign_hands(antenna, axis, *evidence),
         Safety::OffTarget { off_deg } => format!(
             "{antenna} stayed {} off its target although it should have been there. Azel stopped it \
              and gave the pass up. Check its drives, its clock and its offsets.",

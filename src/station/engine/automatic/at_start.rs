@@ -6,7 +6,7 @@ use std::{fs, io, path::Path};
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
-use crate::{engine::passes::PassKey, station::AntennaId};
+use crate::{engine::passes::PassKey, station::AntennaId, transfer::FileHash};
 
 /// The file is named like the station file, but for this.
 pub(super) const EXTENSION: &str = "automatic.toml";
@@ -25,7 +25,7 @@ pub(in crate::engine) struct LastRun {
     switched_on: Vec<AntennaId>,
     /// Fingerprint of the station.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(super) station: Option<String>,
+    pub(super) station: Option<FileHash>,
     /// The pass that was proved last, by antenna: its unit may still be at work on it.
     held: Vec<Held>,
 }

@@ -3,14 +3,13 @@
 
 use std::time::Duration;
 
-use sha2::{Digest as _, Sha256};
-
 use super::{LastRun, OffBecause, Operation};
 use crate::{
     clock::Instant,
     driver::{Intent, StopState, TimeSync, Unit},
     engine::{Antenna, Engine},
     station::Station,
+    transfer::FileHash,
 };
 
 /// The unit must have been at rest for this long.
@@ -24,9 +23,8 @@ pub(super) struct Resumption {
 }
 
 /// Identifies the content of a station; `None` if it cannot be written.
-pub(super) fn fingerprint(station: &Station) -> Option<String> {
-    let text = toml::to_string(station).ok()?;
-    Some(Sha256::digest(text).iter().map(|byte| format!("{byte:02x}")).collect())
+pub(super) fn fingerprint(station: &Station) -> Option<FileHash> {
+    toml::to_string(station).ok().map(|text| FileHash::of(text.as_bytes()))
 }
 
 impl Engine {
@@ -49,7 +47,7 @@ impl Engine {
             // A power cut seldom comes alone.
             if resumption.is_some() {
                 self.last_run.note_switch(antenna.shown.id(), true);
-                self.last_run.station.clone_from(&last.station);
+                self.last_run.station = last.station;
             }
         }
     }
