@@ -1,7 +1,7 @@
-//! Automatic operation of random antennas with drives and sensors that err: nobody touches them, and
-//! nobody may be accused.
+//! Rehearses random antennas with imperfect drives and sensors. Nobody touches them, so Azel must report
+//! no foreign motion.
 //!
-//! The long form takes a range of seeds; each is an hour of one antenna:
+//! The long form takes a range of seeds. Each seed rehearses one antenna for an hour:
 //!
 //! ```text
 //! AZEL_SEED=1000 AZEL_CASES=7200 cargo test --release --test azel drawn_rehearsals -- --nocapture
@@ -28,7 +28,7 @@ use jiff::{Timestamp, ToSpan as _};
 use crate::common::dice::Dice;
 
 /// One-hour draws of the short form.
-const SHORT: u64 = 24;
+const DEFAULT_CASES: u64 = 24;
 
 /// Satellites in low orbits: an antenna goes from one pass to the next.
 static ELEMENTS: LazyLock<Arc<Catalog>> = LazyLock::new(|| {
@@ -42,7 +42,7 @@ static ELEMENTS: LazyLock<Arc<Catalog>> = LazyLock::new(|| {
     Arc::new(catalog)
 });
 
-/// A rate or size: small ones as often as large ones.
+/// Draws a value, log-uniformly distributed.
 fn logarithmic(dice: &mut Dice, from: f64, to: f64) -> f64 {
     from * (to / from).powf(dice.between(0.0, 1.0))
 }
@@ -65,7 +65,7 @@ fn mechanics(dice: &mut Dice) -> Mechanics {
     }
 }
 
-/// A whole circle, more, or less.
+/// Draws an azimuth travel: a full circle, an overlap or a sector.
 fn azimuths_deg(dice: &mut Dice) -> (f64, f64) {
     let all =
         [(0.0, 360.0), (0.0, 450.0), (0.0, 540.0), (-180.0, 180.0), (-270.0, 270.0), (90.0, 270.0)];
@@ -98,7 +98,7 @@ fn antenna(dice: &mut Dice, sway_deg: f64) -> Antenna {
     antenna.sway_deg = antenna.sway_deg.max(sway_deg);
     let rate_deg_s = logarithmic(dice, 0.3, 20.0);
     antenna.limits.maximum_rate_deg_s = rate_deg_s;
-    // Nearly always the operator leaves room for drives that overrun.
+    // Most draws leave room for drives that overrun.
     antenna.limits.minimum_elevation_deg = if dice.chance(0.9) { 0.0 } else { 3.0 };
     let mut hz = || dice.between(2.0, 10.0);
     antenna.poll = PollRates { idle_hz: hz(), moving_hz: hz() };
@@ -125,7 +125,7 @@ fn antenna(dice: &mut Dice, sway_deg: f64) -> Antenna {
     }
 }
 
-/// A zone that the antenna goes round, where one is drawn.
+/// Draws a keep-out that the antenna must go round, in a few cases.
 fn keep_out(dice: &mut Dice, mechanics: &Mechanics, rate_deg_s: f64) -> Option<KeepOut> {
     let (at_deg, width_deg) = (dice.between(0.0, 330.0), dice.between(3.0, 30.0));
     let top_deg = dice.between(5.0, 40.0);
@@ -183,18 +183,18 @@ fn draw(seed: u64) -> Rehearsal {
     }
 }
 
-/// The lines of the day that accuse somebody.
+/// Counts the suspensions for foreign motion.
 fn accusations(rehearsed: &Rehearsed) -> usize {
     let accuses = |what: &DayEvent| *what == DayEvent::Suspended(Interruption::Elsewhere);
     rehearsed.interruptions.iter().filter(|line| accuses(&line.what)).count()
 }
 
 #[test]
-fn nobody_is_accused_while_nobody_touches_the_antennas() {
+fn untouched_antennas_report_no_foreign_motion() {
     let number = |name: &str, default: u64| {
         std::env::var(name).map_or(default, |text| text.parse().unwrap())
     };
-    let (first, cases) = (number("AZEL_SEED", 1), number("AZEL_CASES", SHORT));
+    let (first, cases) = (number("AZEL_SEED", 1), number("AZEL_CASES", DEFAULT_CASES));
     let [mut wrong, mut others, mut passes, mut tracked] = [0; 4];
     for seed in first..first + cases {
         let what = draw(seed);

@@ -190,9 +190,9 @@ pub(super) fn automatic(
             say(&format!("Automatic operation of {antenna} is {word}."))?;
             if is_on && waits_for_connect {
                 say(&format!(
-                    "It does nothing yet: {antenna} is not connected, because its unit waits for \
-                     Connect in the window. To connect at every start, set \
-                     connects_at_start = true for {antenna} in the station file."
+                    "{antenna} is not connected, so nothing moves yet. Press Connect in the window. To \
+                     connect at every start, set connects_at_start = true for {antenna} in the \
+                     station file."
                 ))?;
                 return Ok(ExitCode::from(NOT_PROVED));
             }

@@ -224,7 +224,7 @@ pub struct Outside {
     /// Used by the sessions and the code that runs them.
     pub clock: Clock,
     pub dial: Arc<Dialler>,
-    /// Asks whether the clock is synchronised; it may take seconds.
+    /// Reads the synchronisation state of the clock; may block for seconds.
     pub time_sync: fn() -> TimeSync,
 }
 
@@ -232,7 +232,7 @@ pub struct Outside {
 pub type Dialler = dyn Fn(&Antenna, Arc<dyn UnitLock>) -> Dial + Send + Sync;
 
 impl From<Clock> for Outside {
-    /// With real links. Nobody keeps a clock other than the system's.
+    /// Uses real links. Any clock other than the system clock is of unknown synchronisation.
     fn from(clock: Clock) -> Self {
         let time_sync = if clock.is_of_system() { time_sync } else { || TimeSync::NotKnown };
         Self { clock, dial: Arc::new(link::dial), time_sync }
@@ -306,7 +306,7 @@ impl Driver {
         self.thread.as_ref()?.pulse.stood_for()
     }
 
-    /// Asks whether the clock is synchronised; it may take seconds.
+    /// Returns the function that reads the clock's synchronisation state; it may block for seconds.
     pub fn time_sync(&self) -> fn() -> TimeSync {
         self.outside.time_sync
     }

@@ -103,7 +103,7 @@ pub struct TrackTarget {
     pub catalog_number: u32,
     /// Name as in the elements.
     pub name: String,
-    /// Element file of the unit that holds it; `None` for the one that the antenna is set to.
+    /// Element file that contains the satellite; `None` for the configured file.
     #[serde(default)]
     pub element_file: Option<String>,
     pub from: Timestamp,

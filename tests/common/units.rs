@@ -42,7 +42,7 @@ pub(crate) struct Units {
     pub(crate) dish: satrak::Control,
     pub(crate) mast: rotator_genius::Control,
     pub(crate) horn: rc2000c::Control,
-    /// Who keeps the clock of the computer.
+    /// Synchronisation state of the computer's clock.
     pub(crate) time_sync: fn() -> TimeSync,
 }
 

@@ -477,7 +477,7 @@ async fn a_pass_that_the_unit_tracks_through_another_start_is_taken_over_without
 
 /// A motor fails before the pass and is repaired in the middle of it.
 #[tokio::test(start_paused = true)]
-async fn a_faulty_unit_is_told_when_it_should_set_out_and_taken_once_it_is_repaired() {
+async fn a_faulty_unit_raises_an_alarm_and_tracks_once_repaired() {
     let (scene, client, id) = scene_of("Dish", |_| {}).await;
     scene.units.dish.set_fault(satrak::Fault::Unit(FaultKind::XMotor), true);
     set_automatic(&client, id, true).await;
@@ -496,8 +496,7 @@ async fn a_faulty_unit_is_told_when_it_should_set_out_and_taken_once_it_is_repai
     assert_eq!(of.cause, Some(MissCause::NotReady(NotReady::Fault)));
 }
 
-/// Switches automatic operation of the Genius on, ends the station as a crash does, after `change`, and
-/// starts it again.
+/// Switches automatic operation of the Genius on, runs `change`, crashes the station and restarts it.
 async fn after_a_crash(
     set: impl FnOnce(&mut Antenna),
     change: impl AsyncFnOnce(&Scene, &Client, AntennaId),
@@ -526,7 +525,7 @@ async fn seconds(client: &Client, seconds: f64) {
 }
 
 #[tokio::test(start_paused = true)]
-async fn after_a_crash_it_goes_on_by_itself_and_announces_its_first_motion() {
+async fn automatic_operation_resumes_after_a_crash_and_announces_motion() {
     let (scene, client, id) = after_a_crash(|_| {}, async |_, _, _| {}).await;
     assert!(!operation(&client, id).is_on(), "the unit has to rest first");
     seconds(&client, 15.0).await;
@@ -541,7 +540,7 @@ async fn after_a_crash_it_goes_on_by_itself_and_announces_its_first_motion() {
 }
 
 #[tokio::test(start_paused = true)]
-async fn after_a_crash_it_stays_off_unless_everything_is_as_it_was() {
+async fn automatic_operation_stays_off_if_anything_changed() {
     let stays_off = async |why: &str, (scene, client, id): (Scene, Client, AntennaId)| {
         seconds(&client, 600.0).await;
         assert!(!operation(&client, id).is_on(), "{why}");
@@ -565,14 +564,14 @@ async fn after_a_crash_it_stays_off_unless_everything_is_as_it_was() {
     };
     stays_off("the station was edited", after_a_crash(|_| {}, edited).await).await;
 
-    // Somebody switches the motor on in the meantime.
+    // The operator sends Hold before automatic operation resumes.
     let (scene, client, id) = after_a_crash(|_| {}, nothing).await;
     let _ = client.send(Command::Antenna(id, driver::Command::Hold));
     stays_off("the operator took it", (scene, client, id)).await;
 }
 
 #[tokio::test(start_paused = true)]
-async fn after_a_crash_it_waits_for_the_clock() {
+async fn automatic_operation_waits_for_a_synchronised_clock() {
     let (scene, client, id) = scene_of("Mast", |mast| {
         mast.automatic.resumes_after_crash = true;
     })
@@ -583,7 +582,7 @@ async fn after_a_crash_it_waits_for_the_clock() {
     let client = scene.client();
     measured(&client, "Mast").await;
     seconds(&client, 600.0).await;
-    assert!(!operation(&client, id).is_on(), "nobody keeps the clock");
+    assert!(!operation(&client, id).is_on(), "the clock is not synchronised");
 }
 
 #[tokio::test(start_paused = true)]

@@ -96,15 +96,15 @@ fn the_sentence_says_what_is_waited_for_followed_and_over() {
 }
 
 #[test]
-fn an_antenna_that_turns_to_its_target_is_said_to_reach_it() {
+fn the_sentence_predicts_the_arrival_on_target() {
     let mut model = following(TrackPhase::Tracking, 40.0, AxisMotion::Minus);
     for (until, wanted) in [
         (
             Some(add_seconds(rig::now(), 20.0)),
-            "Following NOAA 20. The antenna is turning to it, 40.00° off, and should reach it at \
+            "Following NOAA 20. The antenna is still turning, 40.00° off target, expected there at \
              11:15:50Z, in 0:20.",
         ),
-        (None, "Following NOAA 20. The antenna is turning to it, 40.00° off."),
+        (None, "Following NOAA 20. The antenna is still turning, 40.00° off target."),
     ] {
         let snapshot = Arc::make_mut(&mut model.antennas[0].snapshot);
         if let Some(view) = &mut snapshot.program_track {

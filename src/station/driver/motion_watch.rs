@@ -54,14 +54,14 @@ pub(super) struct AxisReading {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Evidence {
-    /// The axis is read where no command of this program leads.
+    /// The axis is outside the interval that Azel's commands can reach.
     Outside {
-        /// How far from there, degrees, positive clockwise or up.
+        /// Distance from that interval, degrees, positive clockwise or up.
         off_deg: f64,
     },
-    /// The unit reports a jog, and this program does not jog.
+    /// The unit reports a jog that Azel did not send.
     Jogged,
-    /// The unit reports that the axis turns without power.
+    /// The unit reports that the axis turns without a command.
     Runaway,
 }
 
@@ -143,14 +143,14 @@ impl MotionWatch {
         }
     }
 
-    /// Largest difference that was seen between two angles of a standing axis, degrees, at most 1;
-    /// `None` until all `axes` were watched for a while.
-    pub(super) fn seen_sway_deg(&self, axes: usize) -> Option<f64> {
-        let seen = self.axes.iter().take(axes).map(AxisWatch::seen_sway_deg);
-        seen.reduce(|one, other| Some(one?.max(other?))).flatten()
+    /// Returns the measured sway of the standing axes, degrees, at most 1; `None` until all `axes` have
+    /// been measured.
+    pub(super) fn measured_sway_deg(&self, axes: usize) -> Option<f64> {
+        let sways_deg = self.axes.iter().take(axes).map(AxisWatch::measured_sway_deg);
+        sways_deg.reduce(|one, other| Some(one?.max(other?))).flatten()
     }
 
-    /// An axis is outside its interval, and the wind may still let it swing back.
+    /// Returns `true` while an axis is outside its interval but foreign motion is not yet proved.
     pub(super) fn is_suspect(&self) -> bool {
         self.axes.iter().any(AxisWatch::is_suspect)
     }

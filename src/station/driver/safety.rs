@@ -53,7 +53,7 @@ pub enum Safety {
         #[serde(deserialize_with = "name::option")]
         axis: Option<Name>,
     },
-    /// The antenna stayed off the target that it was told to track. Azel has sent STOP.
+    /// The antenna stayed off its target for too long. Azel has sent STOP.
     OffTarget {
         off_deg: f64,
     },

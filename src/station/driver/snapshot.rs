@@ -260,9 +260,10 @@ pub struct TrackView {
     /// Direction in which to point at the time of the last measurement, offsets included;
     /// `None` unless the target is tracked right now.
     pub predicted: Option<Sample>,
-    /// The last measurement against the planned path; `None` unless the target is tracked right now.
+    /// Comparison of the last measurement with the planned path; `None` unless the target is tracked
+    /// right now.
     pub on_path: Option<OnPath>,
-    /// Angle off the path, where it has lasted too long.
+    /// Angle off the path once it has lasted long enough for an alarm.
     pub missing: Option<Angle>,
     /// Offsets from the target.
     pub offsets: TrackOffsets,

@@ -318,6 +318,7 @@ impl Engine {
         let due = duties.iter().find(is_due).map(|duty| (*duty, name(duty.pass)));
         let Some(antenna) = self.antennas.get_mut(index) else { return };
         let (shown, flight) = (&antenna.shown, &mut antenna.at_work.flight);
+        let why = shown.operation.not_ready().or(seen.not_ready);
         if let Some(flight) = flight {
             let predicted = shown.prediction.and_then(|prediction| prediction.catalog_number);
             let error = shown.error().filter(|_| predicted == Some(flight.duty.pass.0));
@@ -340,20 +341,18 @@ impl Engine {
             let until_s = seconds_between(now, flight.duty.from);
             let is_on_its_way = seen.takes == Some(flight.duty.pass.0);
             let has_time_left = seconds_between(now, flight.duty.until) > WINDOW_STEP_S;
-            let is_late = until_s <= LATE_S || seen.not_ready.is_some();
+            let is_late = until_s <= LATE_S || why.is_some();
             shown.operation.is_on() && is_late && has_time_left && !is_on_its_way
         });
         let late = late.map(|flight| (flight.duty.pass, flight.name().to_owned()));
         let of = Some(shown.id());
         self.alarms.clear(of, now, |kind| match kind {
-            AlarmKind::NotOnItsWay { pass, why, .. } => {
-                *why != seen.not_ready
-                    || late.as_ref().is_none_or(|(late, _)| !is_same_pass(*late, *pass))
+            AlarmKind::NotOnItsWay { pass, why: known, .. } => {
+                *known != why || late.as_ref().is_none_or(|(late, _)| !is_same_pass(*late, *pass))
             }
             _ => false,
         });
         if let Some((pass, name)) = late {
-            let why = seen.not_ready;
             self.alarms.raise(of, AlarmKind::NotOnItsWay { pass, name, why }, now);
         }
         if let (Some(flight), Some(id)) = (ended, of) {

@@ -1,5 +1,5 @@
-//! Alarms about elements, before they cost a pass: a source that keeps failing, and elements that are
-//! too old for the passes that automatic operation will take.
+//! Alarms about a source that keeps failing, and about elements too old for the planned automatic
+//! passes.
 
 use std::collections::BTreeSet;
 
@@ -14,7 +14,7 @@ const FAILURES: u32 = 2;
 const MAX_AGE_DAYS: f64 = 7.0;
 
 impl Engine {
-    /// Raises an alarm for each source that keeps failing, and clears those of sources that do not.
+    /// Raises an alarm for each source that keeps failing, and clears the alarm once a request succeeds.
     pub(super) fn watch_sources(&mut self) {
         let failing = |name: &str| {
             let reports = self.sources.reports.iter();
@@ -44,21 +44,21 @@ impl Engine {
 
     fn old_elements(&self) -> Option<AlarmKind> {
         let CatalogState::Ready(catalog) = &self.catalog else { return None };
-        // The simulated units of the demo station hold the same elements.
+        // In the demo, old elements cost no pass: the simulated units use the same elements.
         if self.demo.is_some() {
             return None;
         }
-        let takes = |entry: &&Entry| {
+        let is_automatic = |entry: &&Entry| {
             let mut antennas = self.antennas.iter().map(|antenna| &antenna.shown);
             antennas.any(|shown| shown.id() == entry.antenna && shown.operation.is_on())
         };
-        let entries = self.schedule.schedule.entries.iter().filter(takes);
-        old_ones(catalog, entries.map(|entry| (entry.pass.satellite, entry.from)))
+        let entries = self.schedule.schedule.entries.iter().filter(is_automatic);
+        elements_old_alarm(catalog, entries.map(|entry| (entry.pass.satellite, entry.from)))
     }
 }
 
-/// The alarm about those satellites whose elements are too old for their passes.
-fn old_ones(
+/// Returns an alarm if elements are too old for their passes.
+fn elements_old_alarm(
     catalog: &Catalog,
     passes: impl Iterator<Item = (u32, Timestamp)>,
 ) -> Option<AlarmKind> {
@@ -81,7 +81,7 @@ mod tests {
     };
 
     #[test]
-    fn a_source_that_keeps_failing_raises_an_alarm_until_it_brings_something() {
+    fn a_source_alarm_ends_with_a_successful_request() {
         let folder = tempfile::tempdir().unwrap();
         let (mut engine, _) = station(folder.path());
         for (failures, wanted) in [(0, false), (1, false), (2, true), (5, true), (0, false)] {
@@ -96,15 +96,15 @@ mod tests {
                 is_set_aside: false,
             }];
             engine.watch_sources();
-            let is_that = |kind: &AlarmKind| matches!(kind, AlarmKind::SourceFails { .. });
+            let is_source_alarm = |kind: &AlarmKind| matches!(kind, AlarmKind::SourceFails { .. });
             let mut alarms = engine.alarms.list().iter();
-            let stands = alarms.any(|alarm| is_that(&alarm.kind) && !alarm.is_over());
+            let stands = alarms.any(|alarm| is_source_alarm(&alarm.kind) && !alarm.is_over());
             assert_eq!(stands, wanted, "{failures}");
         }
     }
 
     #[test]
-    fn old_elements_are_told_by_the_age_at_the_pass() {
+    fn the_age_at_the_pass_decides_about_old_elements() {
         const NOAA_20: u32 = 43_013;
         const SUOMI_NPP: u32 = 37_849;
         let catalog = bundled().unwrap();
@@ -113,7 +113,10 @@ mod tests {
             (satellite, add_seconds(epoch, days * 86_400.0))
         };
         let alarm = |passes: &[(u32, f64)]| {
-            old_ones(&catalog, passes.iter().map(|(satellite, days)| after(*satellite, *days)))
+            elements_old_alarm(
+                &catalog,
+                passes.iter().map(|(satellite, days)| after(*satellite, *days)),
+            )
         };
         assert_eq!(alarm(&[(NOAA_20, 6.9), (SUOMI_NPP, 0.0)]), None);
         let both = [(NOAA_20, 6.0), (NOAA_20, 7.1), (SUOMI_NPP, 8.0), (NOAA_20, 9.0)];

@@ -77,7 +77,7 @@ pub enum Answer {
     Status(Vec<AntennaStatus>),
     /// Automatic operation is switched on or off.
     Automatic {
-        /// The unit is left alone until the operator connects to it.
+        /// The link stays off until the operator connects.
         waits_for_connect: bool,
     },
     /// The lock-out is set or removed. `proved`: the antenna stands and will not start by

@@ -73,7 +73,7 @@ pub(super) fn genius(antenna: &mut Antenna, around: &Surroundings<'_>) -> Arc<dy
     let [azimuth_deg, elevation_deg] = antenna.mount.travel_deg();
     let full_rate_deg_s = antenna.limits.maximum_rate_deg_s;
     let park = antenna.park;
-    // As its operator sets it: from slow rates it coasts less.
+    // An operator sets a smaller offset for a slow rotator, because it coasts less.
     let stop_offset_deg = (full_rate_deg_s / 2.0).round().min(2.0) as u8;
     let (limit_ccw, limit_cw) = ends_of_circle(azimuth_deg);
     let azimuth = RotatorOptions {

@@ -4,7 +4,7 @@ use std::{collections::VecDeque, time::Duration};
 
 use super::prng::Prng;
 
-/// Number of commands that wait for a late drive. A further one replaces the newest.
+/// Max number of pending commands; a further one replaces the newest.
 const MAX_PENDING: usize = 100;
 /// Mean time between two gusts, seconds, and the time that one lasts.
 const GUST_PERIOD_S: f64 = 20.0;
@@ -16,19 +16,19 @@ pub struct Mechanics {
     /// Seconds from a command until the drive obeys it
     #[arg(long, value_name = "S", default_value = "0", value_parser = seconds)]
     pub dead_time: Duration,
-    /// Seconds in which an axis without power comes to rest from its full rate [default: the make's]
+    /// Seconds to coast from full rate to rest [default: depends on the make]
     #[arg(long, value_name = "S", value_parser = seconds)]
     pub coasting: Option<Duration>,
     /// Shortest time that a drive runs towards a position, seconds
     #[arg(long, value_name = "S", default_value = "0", value_parser = seconds)]
     pub minimum_run: Duration,
-    /// Largest error of a reading, degrees, evenly spread
+    /// Largest sensor error, degrees, uniformly distributed
     #[arg(long, value_name = "DEG", default_value = "0", value_parser = degrees)]
     pub noise_deg: f64,
     /// Play between drive and axis, degrees
     #[arg(long, value_name = "DEG", default_value = "0", value_parser = degrees)]
     pub backlash_deg: f64,
-    /// Largest difference between two angles of an axis that stands in gusts, degrees
+    /// Largest sway of a standing axis in gusts, peak to peak, degrees
     #[arg(long, value_name = "DEG", default_value = "0", value_parser = degrees)]
     pub sway_deg: f64,
 }
@@ -57,13 +57,13 @@ fn number(text: &str, max: f64) -> Result<f64, String> {
 
 /// Commands on their way to a late drive.
 #[derive(Debug, Clone)]
-pub(super) struct DeadTime<C> {
+pub(super) struct CommandDelay<C> {
     dead_time_s: f64,
     /// Time that is left, seconds, and the command.
     pending: VecDeque<(f64, C)>,
 }
 
-impl<C> DeadTime<C> {
+impl<C> CommandDelay<C> {
     pub(super) fn new(mechanics: &Mechanics) -> Self {
         Self { dead_time_s: mechanics.dead_time.as_secs_f64(), pending: VecDeque::new() }
     }
@@ -88,7 +88,7 @@ impl<C> DeadTime<C> {
         self.pending.clear();
     }
 
-    /// Lets time pass. Returns the command that the drive obeys from now on.
+    /// Advances time. Returns the command that takes effect.
     pub(super) fn advance(&mut self, step_s: f64) -> Option<C> {
         let mut obeyed = None;
         while self.pending.front().is_some_and(|(left_s, _)| *left_s <= 0.0) {
@@ -117,8 +117,8 @@ impl MinimumRun {
         self.run_s = if is_running { self.run_s + step_s } else { 0.0 };
     }
 
-    /// The drive may not be switched off yet.
-    pub(super) fn holds(&self) -> bool {
+    /// Returns `true` until the minimum run is over.
+    pub(super) fn must_keep_running(&self) -> bool {
         self.run_s < self.minimum_s
     }
 }
@@ -144,7 +144,7 @@ impl Gear {
     }
 }
 
-/// Error of a sensor in the wind.
+/// Sensor error from noise and wind.
 #[derive(Debug, Clone)]
 pub(super) struct Sensor {
     noise_deg: f64,
@@ -191,7 +191,7 @@ mod tests {
     #[test]
     fn a_late_drive_obeys_in_order() {
         let dead_time = Duration::from_millis(100);
-        let mut drive = DeadTime::new(&Mechanics { dead_time, ..Mechanics::default() });
+        let mut drive = CommandDelay::new(&Mechanics { dead_time, ..Mechanics::default() });
         drive.command('a');
         let mut obeyed = Vec::new();
         for step in 0..6 {
@@ -201,7 +201,7 @@ mod tests {
             obeyed.push(drive.advance(0.05));
         }
         assert_eq!(obeyed, [None, None, Some('a'), Some('b'), None, None]);
-        let mut prompt = DeadTime::new(&Mechanics::default());
+        let mut prompt = CommandDelay::new(&Mechanics::default());
         prompt.command('c');
         prompt.command('d');
         assert_eq!(prompt.advance(0.05), Some('d'));
@@ -241,7 +241,7 @@ mod tests {
     }
 
     #[test]
-    fn figures_are_read_within_their_bounds() {
+    fn numbers_out_of_range_are_rejected() {
         assert_eq!(seconds("0.3"), Ok(Duration::from_millis(300)));
         for wrong in ["-1", "61", "nan", "x", "inf"] {
             assert!(seconds(wrong).is_err() && degrees(wrong).is_err(), "{wrong}");

@@ -29,7 +29,7 @@ pub(super) fn all(spec: &'static ControllerSpec) -> Vec<Placed<Antenna>> {
     all.extend(placed(POINTING, pointing()));
     all.extend(placed(FOLLOWING, follow()));
     all.extend(placed(FOLLOWING, outage()));
-    all.extend(placed(FOLLOWING, [start()]));
+    all.extend(placed(FOLLOWING, [connects_at_start()]));
     all.extend(placed(WATCH, poll()));
     all.extend(placed(WATCH, watch()));
     all
@@ -214,16 +214,16 @@ fn follow() -> [Of; 4] {
     ]
 }
 
-fn start() -> Of {
+fn connects_at_start() -> Of {
     Of::choice(
-        "At the start",
-        &[(0, "Wait for Connect"), (1, "Connect")],
+        "When Azel starts",
+        &[(0, "Wait for Connect"), (1, "Connect automatically")],
         &[false, true],
         |antenna| &mut antenna.connects_at_start,
     )
     .when(|antenna| antenna.connection.variant().capabilities.waits_for_word)
     .noted(|antenna| {
-        let words = "Connecting takes the panel away from anyone in front of the unit.";
+        let words = "Connecting interrupts anyone who works at the unit's panel.";
         antenna.connects_at_start.then(|| words.to_owned())
     })
 }

@@ -53,11 +53,11 @@ fn following(model: &Model, antenna: &AntennaModel, view: &TrackView, name: &str
         let until = until.map_or_else(String::new, |until| {
             let (at, left) =
                 (format::moment(until, model.now), format::time_left(model.now, until));
-            format!(", and should reach it at {at}, in {left}")
+            format!(", expected there at {at}, in {left}")
         });
         let off = format::degrees(off_deg, 2);
         return lead(SentenceKind::Commanded)
-            .plain(format!(". The antenna is turning to it, {off} off{until}."));
+            .plain(format!(". The antenna is still turning, {off} off target{until}."));
     }
     let beside = if view.offsets.is_none() { "" } else { " with offsets" };
     lead(kind).plain(format!(

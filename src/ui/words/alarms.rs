@@ -203,12 +203,14 @@ pub fn alarm(kind: &AlarmKind, antenna: &str, now: Timestamp) -> String {
         ),
         AlarmKind::SourceFails { source, as_of } => {
             let current = as_of.map_or_else(
-                || "It has never brought any.".to_owned(),
-                |as_of| format!("Its elements are of {}.", format::moment(as_of, now)),
+                || "It has never returned any.".to_owned(),
+                |as_of| {
+                    format!("Its elements were last current at {}.", format::moment(as_of, now))
+                },
             );
             format!(
-                "The source {source} brought nothing at its last requests. {current} Elements shows \
-                 why; add another source, or a file, before the elements get too old."
+                "The last requests to {source} returned no elements. {current} See the cause in Elements. \
+                 Add another source or a file before the elements get too old."
             )
         }
         AlarmKind::ElementsOld { name, others } => {
@@ -218,7 +220,7 @@ pub fn alarm(kind: &AlarmKind, antenna: &str, now: Timestamp) -> String {
                 others => format!(" and of {others} other satellites"),
             };
             format!(
-                "The elements of {name}{others} in the plan are more than 7 days old at the pass: the \
+                "The elements of {name}{others} will be more than 7 days old at a planned pass, and the \
                  antenna may miss it. Refresh the elements."
             )
         }

@@ -39,8 +39,11 @@ pub fn interruption(by: Interruption) -> &'static str {
 /// Why a unit cannot begin a pass, as a sentence.
 pub fn not_ready(why: NotReady) -> &'static str {
     match why {
-        NotReady::Fault => "A fault of its unit locks the motion: clear the fault.",
-        NotReady::NoPosition => "Its unit reports no position: check the sensors.",
+        NotReady::Fault => "A fault of the unit blocks motion. Clear the fault.",
+        NotReady::WouldMiss => {
+            "The unit's own clock, site or elements would make it miss the pass. Check them."
+        }
+        NotReady::NoPosition => "The unit reports no position. Check the sensors.",
     }
 }
 
@@ -69,7 +72,6 @@ pub fn miss_cause(cause: MissCause) -> String {
         }
         MissCause::Refused => "It was refused, or could not be verified.",
         MissCause::NotReady(why) => not_ready(why),
-        MissCause::WouldMiss => "By its own clock, site or elements the unit would have missed it.",
         MissCause::OffTarget => "Azel ended the track: the antenna stayed off its target.",
         MissCause::OutsideBeam => "The antenna was outside its beam.",
     };

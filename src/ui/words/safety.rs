@@ -195,7 +195,7 @@ fn foreign_hands(antenna: &str, axis: &str, evidence: Evidence) -> String {
             let off = format::degrees(off_deg.abs(), 1);
             format!("{axis} reads {off} away from where Azel's commands lead")
         }
-        Evidence::Jogged => format!("its unit reports a jog of {axis}, and Azel does not jog it"),
+        Evidence::Jogged => format!("its unit reports a jog of {axis} that Azel did not send"),
         Evidence::Runaway => format!("its unit reports that {axis} turns without a command"),
     };
     format!(
@@ -248,8 +248,8 @@ pub fn safety(matter: &Safety, antenna: &str, now: Timestamp) -> String {
         }
         Safety::ForeignHands { axis, evidence } => foreign_hands(antenna, axis, *evidence),
         Safety::OffTarget { off_deg } => format!(
-            "{antenna} stayed {} off its target although it should have been there. Azel stopped it \
-             and gave the pass up. Check its drives, its clock and its offsets.",
+            "{antenna} stayed {} off its target for too long. Azel stopped it and gave up the pass. \
+             Check its drives, clock and offsets.",
             format::degrees(*off_deg, 1)
         ),
         Safety::Forbidden { barrier, driver, response } => {

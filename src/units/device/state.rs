@@ -224,16 +224,16 @@ pub enum AxisMotion {
     Unknown(i64),
 }
 
-/// State of an axis's drive by the unit's own word.
+/// State of an axis's drive, as the unit reports it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Drive {
     /// Without power; the axis may still coast, or turn in the wind.
     Off,
     On,
-    /// On by a jog: somebody else's, unless Azel jogs.
+    /// On by a jog, of Azel or of somebody else.
     Jogged,
-    /// Without power, and the axis turns all the same.
+    /// The axis turns without a command.
     Runaway,
 }
 

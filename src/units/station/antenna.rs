@@ -43,8 +43,8 @@ pub struct Antenna {
     /// Shown on its chip.
     pub name: String,
     pub connection: Connection,
-    /// The station connects to a unit that waits for the operator's word when it starts, and takes the
-    /// panel from anyone in front of it.
+    /// Connects at every start to a unit that otherwise waits for Connect. Connecting interrupts anyone
+    /// at its panel.
     #[serde(skip_serializing_if = "is_default")]
     pub connects_at_start: bool,
     pub mount: Mount,

@@ -67,13 +67,13 @@ impl Connection {
         points
     }
 
-    /// The element file that the unit is to use; `None` for the one in use.
+    /// Returns the configured element file; `None` for the unit's current file.
     pub fn element_file(&self) -> Option<String> {
         let file = self.text(self.element_file_setting()?);
         (!file.is_empty()).then(|| file.to_owned())
     }
 
-    /// Lets the unit use another element file. Does nothing for a make without element files.
+    /// Configures the element file. Does nothing for a make without element files.
     pub fn use_element_file(&mut self, file: &str) -> Result<(), Unfit> {
         self.element_file_setting().map_or(Ok(()), |setting| self.put(setting, file))
     }

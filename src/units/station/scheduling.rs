@@ -49,7 +49,7 @@ pub struct Automatic {
     /// Automatic operation is on from an orderly start.
     #[serde(rename = "automatic_operation_at_start", skip_serializing_if = "super::is_default")]
     pub is_on_at_start: bool,
-    /// Automatic operation that was on goes on after a crash or a power cut.
+    /// Automatic operation resumes after a crash or a power cut, if it was on.
     #[serde(rename = "automatic_operation_after_crash", skip_serializing_if = "super::is_default")]
     pub resumes_after_crash: bool,
     /// Where the antenna is between two passes.

@@ -126,13 +126,13 @@ impl Gate {
         self.watch.proved_still(now.steady);
     }
 
-    /// Largest difference that was seen between two angles of a standing axis, degrees, at most 1;
-    /// `None` until both axes were watched for a while.
-    pub(in crate::driver) fn seen_sway_deg(&self) -> Option<f64> {
-        self.watch.seen_sway_deg(self.variant.capabilities.axis_count())
+    /// Returns the measured sway of the standing axes, degrees, at most 1; `None` until all have been
+    /// measured.
+    pub(in crate::driver) fn measured_sway_deg(&self) -> Option<f64> {
+        self.watch.measured_sway_deg(self.variant.capabilities.axis_count())
     }
 
-    /// An axis is read where no command leads, and the wind may still let it swing back.
+    /// Returns `true` while an axis is outside its interval but foreign motion is not yet proved.
     pub(in crate::driver) fn is_suspect(&self) -> bool {
         self.watch.is_suspect()
     }

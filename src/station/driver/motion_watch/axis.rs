@@ -74,8 +74,8 @@ pub(super) struct AxisWatch {
     /// It came to rest after the last motion that was sent.
     has_settled: bool,
     outside: Option<Outside>,
-    /// Since then the unit says that somebody else moves it.
-    accused_since: Option<Instant>,
+    /// Time of the first in an unbroken series of reports of foreign motion.
+    reported_since: Option<Instant>,
     open_until: Option<Instant>,
     spread: Spread,
     runs_past: RunsPast,
@@ -96,7 +96,7 @@ impl AxisWatch {
             is_told: false,
             has_settled: false,
             outside: None,
-            accused_since: None,
+            reported_since: None,
             open_until: None,
             spread: Spread::default(),
             runs_past: RunsPast::default(),
@@ -177,7 +177,8 @@ impl AxisWatch {
         self.motions.retain(|motion| motion.ends);
     }
 
-    /// Two equal readings prove standstill; in whole degrees the axis may still run out.
+    /// Ends all motions but allows for coasting: at a coarse resolution, equal readings can hide a slow
+    /// motion.
     pub(super) fn proved_still(&mut self, now: Instant) {
         for motion in &mut self.motions {
             motion.until = Some(motion.until.map_or(now, |until| until.min(now)));
@@ -202,18 +203,18 @@ impl AxisWatch {
         self.outside.is_some()
     }
 
-    pub(super) fn seen_sway_deg(&self) -> Option<f64> {
-        self.spread.seen_deg()
+    pub(super) fn measured_sway_deg(&self) -> Option<f64> {
+        self.spread.expected_deg()
     }
 
     /// Takes a reading. Returns the evidence that somebody else moves the axis.
     pub(super) fn take(&mut self, reading: AxisReading) -> Option<Evidence> {
-        let words = self.take_words(reading);
-        self.take_angle(reading).or(words)
+        let reported = self.take_drive(reading);
+        self.take_angle(reading).or(reported)
     }
 
-    /// The unit itself says that somebody else moves the axis, in two readings.
-    fn take_words(&mut self, reading: AxisReading) -> Option<Evidence> {
+    /// Returns the unit's own evidence once its reports have lasted [`APART`].
+    fn take_drive(&mut self, reading: AxisReading) -> Option<Evidence> {
         let AxisReading { drive, asked, .. } = reading;
         let evidence = match drive {
             Drive::Off | Drive::On => None,
@@ -221,21 +222,21 @@ impl AxisWatch {
             Drive::Runaway => Some(Evidence::Runaway),
         };
         let Some(evidence) = evidence else {
-            self.accused_since = None;
+            self.reported_since = None;
             return None;
         };
-        let since = *self.accused_since.get_or_insert(asked);
-        (asked.saturating_duration_since(since) >= APART).then(|| self.tell(evidence))?
+        let since = *self.reported_since.get_or_insert(asked);
+        (asked.saturating_duration_since(since) >= APART).then(|| self.report_once(evidence))?
     }
 
-    /// A jog or step of Azel may still go on.
+    /// Returns `true` while a jog or step from Azel may still turn the axis.
     fn may_be_jogged(&self, at: Instant) -> bool {
         let mut live = self.motions.iter().filter_map(|motion| motion.at(at));
         live.any(|motion| motion.is_jog)
     }
 
-    /// Each motion of somebody else is told once.
-    fn tell(&mut self, evidence: Evidence) -> Option<Evidence> {
+    /// Returns evidence only once for each foreign motion.
+    fn report_once(&mut self, evidence: Evidence) -> Option<Evidence> {
         (!std::mem::replace(&mut self.is_told, true)).then_some(evidence)
     }
 
@@ -274,7 +275,7 @@ impl AxisWatch {
                 return None;
             }
             self.begin(angle_deg, turns_deg, asked);
-            return self.tell(Evidence::Outside { off_deg: reachable.off_deg(deg) });
+            return self.report_once(Evidence::Outside { off_deg: reachable.off_deg(deg) });
         };
         self.outside = None;
         self.know(angle_deg, turns_deg, range, asked);
@@ -344,8 +345,8 @@ impl AxisWatch {
         }
     }
 
-    /// Returns `true` if a motion turns the axis up, or down, at `deg`. Only towards an end do its
-    /// drives turn it for certain.
+    /// Returns `true` if a motion drives the axis in this direction at `deg`. Past its end the axis may
+    /// only coast.
     fn is_led(&self, is_up: bool, deg: f64, at: Instant) -> bool {
         let mut live = self.motions.iter().filter_map(|motion| motion.at(at));
         live.any(|motion| if is_up { motion.up_to_deg > deg } else { motion.down_to_deg < deg })
@@ -374,7 +375,7 @@ impl AxisWatch {
             }
             self.rate_from = Some((deg, at));
             self.has_arrived(deg);
-            // A slow motion is no noise.
+            // With power on, changing readings may be slow motion instead of noise.
             if drive == Drive::Off {
                 self.spread.stands(deg);
             }

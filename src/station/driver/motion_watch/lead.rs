@@ -34,7 +34,7 @@ pub(super) struct Live {
     pub(super) up_to_deg: f64,
     /// Its end is a position.
     pub(super) ends: bool,
-    /// The unit may report it as a jog.
+    /// The unit may report this motion as a jog.
     pub(super) is_jog: bool,
     /// It may lead there either way round.
     pub(super) either_way: bool,

@@ -192,9 +192,9 @@ impl Spread {
         (self.now, self.has_turned) = (None, true);
     }
 
-    /// Largest difference to expect between two readings of a standing axis by those that were seen,
-    /// degrees; `None` before.
-    pub(super) fn seen_deg(&self) -> Option<f64> {
+    /// Returns the largest expected difference between two readings of a standing axis, degrees; `None`
+    /// until it has been measured.
+    pub(super) fn expected_deg(&self) -> Option<f64> {
         self.widest_deg.map(|widest_deg| (widest_deg * SPREADS).min(MAX_NOISE_DEG))
     }
 

@@ -77,7 +77,7 @@ impl Effect {
                 rate_deg_s.abs() * turning_s > 4.0 * figures.tolerance_deg()
             }
             Expected::Approach(rate_deg_s) => {
-                // A slow axis needs longer to turn by more than it may sway.
+                // A slow axis takes longer to exceed its sway.
                 let turns_s = 2.0 * figures.tolerance_deg() / rate_deg_s;
                 let turns = Duration::try_from_secs_f64(turns_s).unwrap_or(Duration::MAX);
                 waited >= shows_after.saturating_add(figures.gap().max(turns))
@@ -129,7 +129,7 @@ impl Session {
     }
 
     fn expected(&self, look: &Measured, shows_after: Duration) -> [Option<Expected>; 2] {
-        // An axis that somebody or the wind has moved does not stand still.
+        // Wind or somebody else may have moved the axis, so its angle proves no lack of effect.
         if self.stop.is_under_way() || !self.contact.link.is_open() || self.gate.is_suspect() {
             return [None; 2];
         }
@@ -178,7 +178,7 @@ impl Session {
             // One that stops on its way is reported as such, and the unit decides when to creep.
             let may_rest = !is_driven && (other_turns || (is_slew && effect.has_turned));
             let ignored_deg = if is_driven { 0.0 } else { can.effect.ignores_deg };
-            // Where the unit turns over north, 0 and 360 degrees are one place.
+            // A unit that can turn through north treats 0 and 360 degrees as the same position.
             let over_north = index == 0 && self.gate.state().may_turn_either_way;
             let way_deg = if over_north {
                 Angle::from_degrees(to_deg - angle_deg).wrapped_180().degrees()

@@ -1,4 +1,4 @@
-//! Gives a pass up whose antenna points elsewhere for too long.
+//! Stops an antenna that stays off its target, and gives up its pass.
 
 use std::time::Duration;
 
@@ -17,7 +17,7 @@ const GIVE_UP_AFTER: Duration = Duration::from_secs(30);
 /// How long an antenna has been off its target.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct OffTarget {
-    /// Since when, by how much at the last measurement, and when that was.
+    /// Start of the error, last measured error, and time of that measurement.
     since: Option<(Instant, Angle, Instant)>,
 }
 
@@ -28,24 +28,24 @@ impl OffTarget {
         self.since = off.map(|off| (began, off, at));
     }
 
-    /// The angle off target, degrees, once it has lasted too long to be passed over.
+    /// Returns the angle off target once it has lasted [`ALARM_AFTER`].
     pub(super) fn missing(&self) -> Option<Angle> {
-        self.lasting(ALARM_AFTER)
+        self.error_after(ALARM_AFTER)
     }
 
-    /// The angle off target, degrees, once the pass has to be given up.
+    /// Returns the angle off target once it has lasted [`GIVE_UP_AFTER`].
     fn hopeless(&self) -> Option<Angle> {
-        self.lasting(GIVE_UP_AFTER)
+        self.error_after(GIVE_UP_AFTER)
     }
 
-    fn lasting(&self, longest: Duration) -> Option<Angle> {
+    fn error_after(&self, min: Duration) -> Option<Angle> {
         let (began, off, at) = self.since?;
-        (at.saturating_duration_since(began) >= longest).then_some(off)
+        (at.saturating_duration_since(began) >= min).then_some(off)
     }
 }
 
 impl Session {
-    /// Stops an antenna that stays off the target that it was told to track.
+    /// Stops an antenna that stays off its target for too long.
     pub(super) fn watch_pointing(&mut self, now: Moment) {
         let off_target = match &self.activity {
             Activity::ProgramTrack(track) => track.off_target,
@@ -58,7 +58,8 @@ impl Session {
         }
     }
 
-    /// Largest angle off target of an antenna that does what it is told.
+    /// Largest angle off target of a working antenna: half the beam, and the tolerances of arrival and
+    /// reading.
     pub(super) fn on_target(&self) -> Angle {
         let can = self.variant.capabilities;
         let reported_deg = can.arrives_within_deg + 2.0 * can.standstill.resolution_deg;
@@ -72,19 +73,19 @@ mod tests {
     use super::*;
 
     #[test]
-    fn an_error_that_lasts_is_told_and_then_ends_the_pass() {
+    fn a_lasting_error_raises_an_alarm_and_then_ends_the_pass() {
         let start = Instant::now();
         let after = |s| start + Duration::from_secs(s);
         let off = Some(Angle::from_degrees(5.0));
         let mut off_target = OffTarget::default();
-        let mut told = Vec::new();
+        let mut states = Vec::new();
         for second in 0..40 {
-            // In time it is back once.
+            // A short return to the target restarts the count.
             off_target.take(off.filter(|_| second != 4), after(second));
-            told.push((off_target.missing().is_some(), off_target.hopeless().is_some()));
+            states.push((off_target.missing().is_some(), off_target.hopeless().is_some()));
         }
-        assert_eq!(told.iter().position(|(missing, _)| *missing), Some(15));
-        assert_eq!(told.iter().position(|(_, hopeless)| *hopeless), Some(35));
+        assert_eq!(states.iter().position(|(missing, _)| *missing), Some(15));
+        assert_eq!(states.iter().position(|(_, hopeless)| *hopeless), Some(35));
         off_target.take(None, after(41));
         assert_eq!((off_target.missing(), off_target.hopeless()), (None, None));
     }

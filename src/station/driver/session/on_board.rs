@@ -31,7 +31,7 @@ pub(super) struct Watch {
     /// When the position that was compared last came in.
     compared: Option<Instant>,
     was_on_target: bool,
-    /// When an antenna that has to turn to its satellite arrives at the latest.
+    /// Latest expected arrival on the satellite.
     arrives: Option<Instant>,
     off_target: OffTarget,
     /// The position when the axes last turned, and where the satellite was then.
@@ -65,7 +65,7 @@ impl Watch {
         self.off_target
     }
 
-    /// Takes the angle off the satellite; `None` inside the beam.
+    /// Takes the pointing error; `None` within the tolerance.
     fn take_off(&mut self, off: Option<Angle>, slew: Duration, at: Instant) {
         self.was_on_target |= off.is_none();
         let slew = if self.was_on_target { Duration::ZERO } else { slew };

@@ -8,7 +8,7 @@ use crate::{
     device::{Capabilities, Measured},
 };
 
-/// Largest sway of a standing axis that was not watched yet, degrees.
+/// Assumed sway of a standing axis before it is measured, degrees.
 const MAX_SWAY_DEG: f64 = 1.0;
 
 /// When two positions count as the same.
@@ -23,19 +23,19 @@ pub(super) struct Figures {
 }
 
 impl Session {
-    /// A standing axis may sway as far as the operator allows, or as far as it was seen to.
+    /// Returns the figures for standstill with the larger of the configured and the measured sway.
     pub(super) fn figures(&self) -> Figures {
-        self.figures_with(self.gate.seen_sway_deg().unwrap_or_default())
+        self.figures_with(self.gate.measured_sway_deg().unwrap_or_default())
     }
 
-    /// The same for an accusation: until the readings of a standing axis have shown their noise, they
-    /// may be as noisy as any.
-    pub(super) fn lenient_figures(&self) -> Figures {
-        self.figures_with(self.gate.seen_sway_deg().unwrap_or(MAX_SWAY_DEG))
+    /// Returns the figures for alarms: assumes [`MAX_SWAY_DEG`] until the sway is measured, to avoid false
+    /// alarms.
+    pub(super) fn alarm_figures(&self) -> Figures {
+        self.figures_with(self.gate.measured_sway_deg().unwrap_or(MAX_SWAY_DEG))
     }
 
-    fn figures_with(&self, seen_sway_deg: f64) -> Figures {
-        let sway_deg = self.setup.sway_deg.max(seen_sway_deg);
+    fn figures_with(&self, measured_sway_deg: f64) -> Figures {
+        let sway_deg = self.setup.sway_deg.max(measured_sway_deg);
         Figures::of(self.variant.capabilities, sway_deg)
     }
 }

@@ -252,7 +252,7 @@ impl Session {
             return;
         }
         self.seen.looked = Some(look.received);
-        let (began, figures) = (self.gate.unproved_since(), self.lenient_figures());
+        let (began, figures) = (self.gate.unproved_since(), self.alarm_figures());
         let turned = self.seen.rest.take(look, is_at_rest, began, figures);
         if let Some((axis, turned_deg)) = turned {
             let axis = self.variant.capabilities.axes.get(axis).copied().unwrap_or_default();

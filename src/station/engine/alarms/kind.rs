@@ -100,7 +100,7 @@ pub enum AlarmKind {
         pass: PassKey,
         /// Short name of the satellite.
         name: String,
-        /// Why its unit cannot begin it, where that is known.
+        /// Reason why the unit cannot begin the pass, if known.
         #[serde(default)]
         why: Option<NotReady>,
     },
@@ -143,7 +143,7 @@ pub enum AlarmKind {
     /// The source of elements with this name is not read: its last reading ended the
     /// program.
     SourceSetAside(String),
-    /// The last requests to the server of this source brought nothing.
+    /// The last requests to this source returned no elements.
     SourceFails {
         source: String,
         /// When its elements were last known to be current.

@@ -77,7 +77,7 @@ impl LastRun {
         self.held.push(Held { antenna, satellite, aos });
     }
 
-    /// Automatic operation of this antenna is on, or not any more.
+    /// Records that automatic operation of this antenna is on or off.
     pub(super) fn note_switch(&mut self, antenna: AntennaId, is_on: bool) {
         for list in [&mut self.switched_on, &mut self.switched_off] {
             list.retain(|known| *known != antenna);
@@ -85,7 +85,7 @@ impl LastRun {
         if is_on { &mut self.switched_on } else { &mut self.switched_off }.push(antenna);
     }
 
-    /// The run ended while automatic operation of this antenna was on, and not as it should.
+    /// Returns `true` if the run crashed while automatic operation of this antenna was on.
     pub(super) fn was_on_at_crash(&self, antenna: AntennaId) -> bool {
         !self.is_orderly && self.switched_on.contains(&antenna)
     }

@@ -71,8 +71,6 @@ pub enum MissCause {
     /// The unit or the gate refused it, or it could not be proved.
     Refused,
     NotReady(NotReady),
-    /// By its own clock, site or elements the unit would have missed it.
-    WouldMiss,
     /// The track was ended, because the antenna stayed off its target.
     OffTarget,
     /// It was tracked, but not all of it inside the beam.
@@ -132,7 +130,7 @@ impl Flight {
             Operation::On(_) if seen.awaits_operator => MissCause::NotResumed,
             Operation::On(_) => match (seen.not_ready, taking.and_then(|taking| taking.given_up)) {
                 (Some(why), _) => MissCause::NotReady(why),
-                (None, Some(GivenUp::WouldMiss)) => MissCause::WouldMiss,
+                (None, Some(GivenUp::WouldMiss)) => MissCause::NotReady(NotReady::WouldMiss),
                 (None, Some(GivenUp::Refused)) => MissCause::Refused,
                 (None, Some(GivenUp::OffTarget)) => MissCause::OffTarget,
                 (None, None) => MissCause::OutsideBeam,

@@ -104,12 +104,12 @@ pub struct Taking {
     /// When it was proved that the antenna is on its way; for a unit with a program of its own
     /// by reading back.
     pub proved_at: Option<Timestamp>,
-    /// Why the rest of the pass is not taken.
+    /// Reason why Azel skips the rest of the pass.
     pub given_up: Option<GivenUp>,
 }
 
-/// Why a unit cannot begin its pass now. Judged when the antenna should set out: what it is hours
-/// before says nothing.
+/// Reason why a unit cannot begin its pass now. Azel judges this when the antenna should set out,
+/// because an earlier fault may be cleared by then.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum NotReady {
@@ -117,9 +117,11 @@ pub enum NotReady {
     Fault,
     /// An axis has no position.
     NoPosition,
+    /// The unit's clock, site or elements would make it miss the pass.
+    WouldMiss,
 }
 
-/// Why a pass is given up.
+/// Reason why Azel skips the rest of a pass.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum GivenUp {
@@ -127,7 +129,7 @@ pub enum GivenUp {
     Refused,
     /// The antenna stayed off its target.
     OffTarget,
-    /// By its own clock, site or elements the unit would miss the pass.
+    /// The unit's clock, site or elements would make it miss the pass.
     WouldMiss,
 }
 
@@ -155,7 +157,7 @@ pub(super) struct Seen {
     pub(super) is_locked_out: bool,
     /// Commands can be sent: no STOP is owed and nothing else forbids them.
     pub(super) can_be_sent: bool,
-    /// Why the unit cannot begin a pass now.
+    /// Reason why the unit cannot begin a pass now.
     pub(super) not_ready: Option<NotReady>,
     /// The satellite that it tracks from here or is on its way to.
     pub(super) takes: Option<u32>,
@@ -204,7 +206,7 @@ pub(super) enum Outcome {
     Failed,
     /// The session ended the track, because the antenna stayed off its target.
     OffTarget,
-    /// By its own clock, site or elements the unit would miss the pass.
+    /// The unit's clock, site or elements would make it miss the pass.
     WouldMiss,
     /// The track ended before its end, and nobody here has ended it.
     EndedEarly,
@@ -240,6 +242,12 @@ impl Operation {
             Self::On(On { doing: Doing::Takes(taking), .. }) => Some(taking),
             _ => None,
         }
+    }
+
+    /// Returns why the unit was not given the current pass.
+    pub(super) fn not_ready(&self) -> Option<NotReady> {
+        let given_up = self.taking()?.given_up?;
+        (given_up == GivenUp::WouldMiss).then_some(NotReady::WouldMiss)
     }
 
     /// Whether the antenna is proved to be on its way to the pass that it takes.
@@ -284,9 +292,9 @@ impl Operation {
                 on.failures += 1;
                 self.end_after_failures();
             }
-            // The next pass begins from a proved rest.
+            // The antenna must be proved still before the next pass.
             Outcome::OffTarget => taking.given_up = Some(GivenUp::OffTarget),
-            // It may be fit for the next one.
+            // The unit may be able to take the next pass.
             Outcome::WouldMiss => taking.given_up = Some(GivenUp::WouldMiss),
             Outcome::EndedEarly => self.suspend(Interruption::Elsewhere, now),
         }

@@ -1,5 +1,5 @@
-//! Switches automatic operation on again after a crash or a power cut, where the station file allows
-//! it and everything is as it was.
+//! Resumes automatic operation after a crash or a power cut, if the station file allows it and the
+//! station is unchanged.
 
 use std::time::Duration;
 
@@ -18,7 +18,7 @@ const RESTS_FOR: Duration = Duration::from_secs(10);
 /// Automatic operation that waits to be switched on again.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) struct Resumption {
-    /// Since when everything is as it must be.
+    /// Time since which all conditions have held without a break.
     ready_since: Option<Instant>,
 }
 
@@ -28,7 +28,7 @@ pub(super) fn fingerprint(station: &Station) -> Option<FileHash> {
 }
 
 impl Engine {
-    /// The station was changed from here: a crash from now on finds it as it is.
+    /// Stores the fingerprint of the changed station, so that Azel recognises it after a crash.
     pub(in crate::engine) fn keep_fingerprint(&mut self) {
         if self.last_run.station.is_some() {
             self.last_run.station = fingerprint(&self.station);
@@ -36,15 +36,16 @@ impl Engine {
         }
     }
 
-    /// Notes which antennas may go on, after a run whose end was not orderly.
+    /// Marks the antennas whose automatic operation may resume after a run that did not end in order.
     pub(super) fn prepare_resumption(&mut self, last: &LastRun) {
         let is_same = last.station.is_some() && last.station == fingerprint(&self.station);
         for antenna in &mut self.antennas {
             let config = &antenna.shown.config;
-            let may = config.automatic.resumes_after_crash && last.was_on_at_crash(config.id);
-            let resumption = (is_same && may).then(Resumption::default);
+            let is_allowed =
+                config.automatic.resumes_after_crash && last.was_on_at_crash(config.id);
+            let resumption = (is_same && is_allowed).then(Resumption::default);
             antenna.at_work.resumption = resumption;
-            // A power cut seldom comes alone.
+            // Power may fail again before automatic operation resumes.
             if resumption.is_some() {
                 self.last_run.note_switch(antenna.shown.id(), true);
                 self.last_run.station = last.station;
@@ -75,7 +76,7 @@ impl Engine {
         }
     }
 
-    /// The operator decides from now on.
+    /// Cancels a pending resumption: only the operator switches automatic operation on.
     pub(in crate::engine) fn cancel_resumption(&mut self, index: usize) {
         let Some(antenna) = self.antennas.get_mut(index) else { return };
         if antenna.at_work.resumption.take().is_some() {
@@ -84,7 +85,7 @@ impl Engine {
         }
     }
 
-    /// Nothing is owed to the unit, and it is at rest.
+    /// Returns `true` if the unit is at rest, owed nothing, and controlled by nobody else.
     fn is_ready(&self, antenna: &Antenna) -> bool {
         let (shown, snapshot) = (&antenna.shown, &antenna.shown.snapshot);
         let unit = Unit::of(&shown.config);

@@ -27,8 +27,8 @@ impl Engine {
         }
     }
 
-    /// The next track selects the file that was uploaded and verified. An antenna that is set to no
-    /// file uses the one that its unit uses by now.
+    /// Configures the antenna to track from the verified upload. Skips an antenna without a configured
+    /// file, because it uses the unit's current file.
     fn use_element_file(&mut self, file: &str) {
         let Some(config) = self.upload_antenna().map(|antenna| &antenna.shown.config) else {
             return;

@@ -39,7 +39,7 @@ struct Inner<U: Unit> {
     unit: U,
     switches: Switches<U::Quirk, U::Fault>,
     prng: Prng,
-    /// Replies take up to this much longer.
+    /// Max extra reply delay.
     lateness: Duration,
     received: VecDeque<(Instant, U::Request)>,
 }

@@ -20,7 +20,7 @@ pub enum Trouble {
     SlowDrives(f64),
     /// The unit's own clock is late.
     ClockLate(Duration),
-    /// Replies take up to this much longer.
+    /// Max extra reply delay.
     LateReplies(Duration),
     /// The sensors of the axes read something else.
     Misreads(Misreading),

@@ -6,7 +6,7 @@ use std::ops::RangeInclusive;
 use super::AxisOptions;
 use crate::{
     protocol::rc2000c::{AxisDrive, Sense, Speed},
-    sim::mechanics::{DeadTime, Gear, Mechanics, MinimumRun, Sensor},
+    sim::mechanics::{CommandDelay, Gear, Mechanics, MinimumRun, Sensor},
 };
 
 /// Share of slow speed in the full rate.
@@ -47,11 +47,11 @@ pub(super) struct Trouble {
 pub(super) struct Axis {
     counts: f64,
     rate_counts_s: f64,
-    /// Goal that the unit has and reports.
+    /// Goal that the unit reports.
     goal: Goal,
-    /// Goal that the drive obeys by now.
+    /// Goal that the drive follows after its dead time.
     obeyed: Goal,
-    dead_time: DeadTime<Goal>,
+    dead_time: CommandDelay<Goal>,
     minimum_run: MinimumRun,
     gear: Gear,
     sensor: Sensor,
@@ -83,7 +83,7 @@ impl Axis {
             rate_counts_s: 0.0,
             goal: Goal::Still,
             obeyed: Goal::Still,
-            dead_time: DeadTime::new(mechanics),
+            dead_time: CommandDelay::new(mechanics),
             minimum_run: MinimumRun::new(mechanics),
             gear: Gear::new(mechanics),
             sensor: Sensor::new(mechanics, seed),
@@ -173,13 +173,13 @@ impl Axis {
         self.set_goal(Goal::Still);
     }
 
-    /// The drive obeys after its dead time.
+    /// Sets the goal; the drive follows it after its dead time.
     fn set_goal(&mut self, goal: Goal) {
         self.goal = goal;
         self.dead_time.command(goal);
     }
 
-    /// The drive has reached its goal.
+    /// Ends the drive's goal but keeps a pending one.
     fn end(&mut self) {
         self.obeyed = Goal::Still;
         if self.dead_time.is_idle() {
@@ -276,9 +276,9 @@ impl Axis {
         }
     }
 
-    /// The drive cannot be switched off yet.
+    /// Returns `true` while the minimum run keeps the drive on.
     fn must_run_on(&self) -> bool {
-        self.is_turning() && self.minimum_run.holds()
+        self.is_turning() && self.minimum_run.must_keep_running()
     }
 
     /// Turns for `step_s` while the rate approaches `wanted_counts_s`.

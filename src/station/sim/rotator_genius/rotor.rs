@@ -5,12 +5,12 @@ use super::travel::Travel;
 use crate::protocol::rotator_genius::{
     Configuration, Direction, Moving, RotatorKind, WholeDegrees,
 };
-use crate::sim::mechanics::{DeadTime, Gear, Mechanics, MinimumRun, Sensor};
+use crate::sim::mechanics::{CommandDelay, Gear, Mechanics, MinimumRun, Sensor};
 
 /// Way that the rotator coasts from its full rate, degrees: the default stop offset.
 const COAST_DEG: f64 = 2.0;
 
-/// Longest time in which it comes to its full rate, and to rest from it, seconds.
+/// Max time between rest and full rate, seconds.
 const MAX_RAMP_S: f64 = 1.0;
 
 /// State of the drive.
@@ -54,7 +54,7 @@ pub(super) struct Rotor {
     /// Direction in which the motor has power.
     powered: Moving,
     mechanics: Mechanics,
-    dead_time: DeadTime<Moving>,
+    dead_time: CommandDelay<Moving>,
     minimum_run: MinimumRun,
     gear: Gear,
     sensor: Sensor,
@@ -83,7 +83,7 @@ impl Rotor {
             drive: Drive::Off,
             powered: Moving::Stopped,
             mechanics: *mechanics,
-            dead_time: DeadTime::new(mechanics),
+            dead_time: CommandDelay::new(mechanics),
             minimum_run: MinimumRun::new(mechanics),
             gear: Gear::new(mechanics),
             sensor: Sensor::new(mechanics, seed),
@@ -226,7 +226,7 @@ impl Rotor {
             self.powered = powered;
         }
         self.minimum_run.advance(self.powered != Moving::Stopped, step_s);
-        let may_end = self.powered == Moving::Stopped || !self.minimum_run.holds();
+        let may_end = self.powered == Moving::Stopped || !self.minimum_run.must_keep_running();
         if self.has_arrived() && may_end {
             self.drive = Drive::Off;
             self.cut_power();

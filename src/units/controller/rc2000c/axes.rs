@@ -46,7 +46,7 @@ impl Axes {
             Axis {
                 angle_deg: angle_deg(position, line),
                 motion: motion(drive, position, before, is_reversed),
-                drive: power(drive),
+                drive: drive_state(drive),
                 plus_limit: at(Sense::Positive),
                 minus_limit: at(Sense::Negative),
             }
@@ -186,7 +186,7 @@ fn motion(
     }
 }
 
-fn power(drive: AxisDrive) -> Drive {
+fn drive_state(drive: AxisDrive) -> Drive {
     match drive {
         AxisDrive::Still | AxisDrive::Jammed | AxisDrive::Limit | AxisDrive::Overcurrent => {
             Drive::Off

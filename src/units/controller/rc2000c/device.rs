@@ -144,7 +144,7 @@ impl Device for Rc2000c {
         is_sent || !self.orders.is_empty() || self.jog.is_some()
     }
 
-    /// The unit is always sent both axes: one that is to stay goes to where it was read last.
+    /// A move always contains both axes: an axis that should stay is sent its last position.
     fn as_sent(&self, motion: Motion) -> Motion {
         let Motion::Position { azimuth, elevation } = motion else { return motion };
         let status = self.status.as_ref();

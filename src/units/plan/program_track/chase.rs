@@ -1,19 +1,19 @@
-//! Where an antenna should be by now: its axes set out from where they were measured, and go after the
-//! planned path at no more than their rates.
+//! Expected position of an antenna. Its axes start at a measured position and approach the planned path
+//! at their maximum rates.
 
 use jiff::Timestamp;
 
 use super::path::Path;
 use crate::astro::time::{add_seconds, seconds_between};
 
-/// Without a measurement for longer, seconds, the chase begins again.
+/// Longest gap between measurements, seconds; after a longer one the chase restarts.
 const MAX_GAP_S: f64 = 5.0;
 /// An axis this near to the path has arrived, degrees.
 const ARRIVED_DEG: f64 = 0.01;
 /// Longest time for which an arrival is predicted, seconds.
 const AHEAD_S: u32 = 600;
 
-/// The axes of an antenna that does what it is told, degrees as the mount counts.
+/// Simulated axes of an antenna that follows its commands, degrees as the mount counts.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Chase {
     axes_deg: [f64; 2],
@@ -21,17 +21,17 @@ pub(super) struct Chase {
 }
 
 impl Chase {
-    /// Goes on to `at`, or begins at these measured positions.
+    /// Advances `previous` to `at`. Restarts at the measured positions if there is none or it is too old.
     pub(super) fn follow(
-        before: Option<Self>,
+        previous: Option<Self>,
         path: &Path,
         rates_deg_s: [f64; 2],
         (at, measured_deg): (Timestamp, [f64; 2]),
     ) -> Self {
-        let elapsed_s = before.map(|before| seconds_between(before.at, at));
-        match (before, elapsed_s) {
-            (Some(before), Some(elapsed_s)) if (0.0..=MAX_GAP_S).contains(&elapsed_s) => {
-                before.after(path, rates_deg_s, elapsed_s)
+        let elapsed_s = previous.map(|previous| seconds_between(previous.at, at));
+        match (previous, elapsed_s) {
+            (Some(previous), Some(elapsed_s)) if (0.0..=MAX_GAP_S).contains(&elapsed_s) => {
+                previous.after(path, rates_deg_s, elapsed_s)
             }
             _ => Self { axes_deg: measured_deg, at },
         }
@@ -54,20 +54,20 @@ impl Chase {
         self.axes_deg.iter().zip(path_deg).all(|(deg, to_deg)| (to_deg - deg).abs() < ARRIVED_DEG)
     }
 
-    /// The first whole second from now on, within ten minutes, at which the axes point so that
-    /// `is_good`.
+    /// Predicts, in steps of one second, when the axes meet `is_on_target`. Returns `None` beyond ten
+    /// minutes or after the end of the path.
     pub(super) fn reaches(
         self,
         path: &Path,
         rates_deg_s: [f64; 2],
-        is_good: impl Fn(Timestamp, [f64; 2]) -> bool,
+        is_on_target: impl Fn(Timestamp, [f64; 2]) -> bool,
     ) -> Option<Timestamp> {
         let mut chase = self;
         for _ in 0..AHEAD_S {
             if chase.at > path.to() {
                 return None;
             }
-            if is_good(chase.at, chase.axes_deg) {
+            if is_on_target(chase.at, chase.axes_deg) {
                 return Some(chase.at);
             }
             chase = chase.after(path, rates_deg_s, 1.0);

@@ -30,7 +30,7 @@ use crate::{
 const PATH_S: f64 = 3.0 * 3600.0;
 /// An arrival is predicted this often, seconds.
 const PREDICTED_EVERY_S: f64 = 5.0;
-/// An antenna that leads or lags the path by these times is on it, seconds.
+/// Time shifts at which an antenna still counts as on its path, seconds.
 const SHOWN_LATE_S: [f64; 5] = [-1.0, 0.0, 1.0, 2.0, 3.0];
 /// Time before its end at which a path is extended, beyond the look-ahead of a command, seconds.
 const MARGIN_S: f64 = 60.0;
@@ -85,13 +85,13 @@ pub struct Next {
     last_command: [LastCommand; 2],
 }
 
-/// A measured direction against the planned path.
+/// Comparison of a measured direction with the planned path.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum OnPath {
-    /// The antenna cannot have arrived yet, or the path itself leaves the target, as in an unwrap.
-    /// From the given time on, which is not known far ahead, it should point at the target.
+    /// The antenna cannot have reached the path yet, or the path leaves the target, as in an unwrap.
+    /// `until` is the predicted arrival on target; `None` if none is predicted.
     OnItsWay { until: Option<Timestamp> },
-    /// It should be on the path, and points this far off it.
+    /// The antenna should be on its path but is off by this angle.
     Due { off: Angle },
 }
 
@@ -300,7 +300,7 @@ impl Planner {
         Some(OnPath::Due { off })
     }
 
-    /// The antenna was not free to follow the path: its next measurement begins anew.
+    /// Restarts the chase at the next measurement, because the antenna was not free to follow the path.
     pub fn restart_chase(&mut self) {
         (self.chase, self.arrival) = (None, None);
     }

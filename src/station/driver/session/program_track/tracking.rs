@@ -133,8 +133,8 @@ impl Tracking {
     }
 
     /// Takes the pointing error and the rates of a measurement, once each.
-    /// Within `half_beam` the antenna meets its target; within `on_target` it is on the path, by what
-    /// its unit can report.
+    /// The antenna is on target within `half_beam`. It is on its path within `on_target`, which includes
+    /// the error of the unit's readings.
     pub(super) fn compare(&mut self, measured: Measured, half_beam: Angle, on_target: Angle) {
         if self.compared.replace(measured.received) == Some(measured.received) {
             return;
@@ -149,7 +149,7 @@ impl Tracking {
         {
             self.stats.take(off);
         }
-        // What holds it up is told by itself.
+        // Other events report why the track waits.
         let is_free = is_up && !self.asks() && !self.barrier_is_told && direction.is_some();
         if !is_free {
             self.planner.restart_chase();

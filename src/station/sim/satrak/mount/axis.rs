@@ -2,7 +2,7 @@
 
 use crate::{
     protocol::satrak::AxisMotion,
-    sim::mechanics::{DeadTime, Gear, Mechanics, MinimumRun, Sensor},
+    sim::mechanics::{CommandDelay, Gear, Mechanics, MinimumRun, Sensor},
 };
 
 /// Reading at the zenith, degrees.
@@ -30,9 +30,9 @@ enum Goal {
 pub(in crate::sim::satrak) struct Axis {
     angle_deg: f64,
     rate_deg_s: f64,
-    /// Goal that the drive obeys by now.
+    /// Goal that the drive follows after its dead time.
     goal: Goal,
-    dead_time: DeadTime<Goal>,
+    dead_time: CommandDelay<Goal>,
     minimum_run: MinimumRun,
     gear: Gear,
     sensor: Sensor,
@@ -61,7 +61,7 @@ impl Axis {
             angle_deg: within(ends_deg, ZENITH_DEG),
             rate_deg_s: 0.0,
             goal: Goal::Still,
-            dead_time: DeadTime::new(mechanics),
+            dead_time: CommandDelay::new(mechanics),
             minimum_run: MinimumRun::new(mechanics),
             gear: Gear::new(mechanics),
             sensor: Sensor::new(mechanics, seed),
@@ -212,9 +212,9 @@ impl Axis {
         }
     }
 
-    /// The drive cannot be switched off yet.
+    /// Returns `true` while the minimum run keeps the drive on.
     fn must_run_on(&self) -> bool {
-        self.rate_deg_s != 0.0 && self.minimum_run.holds()
+        self.rate_deg_s != 0.0 && self.minimum_run.must_keep_running()
     }
 
     /// Fastest rate from which the axis can still halt at `angle_deg`.
