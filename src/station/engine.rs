@@ -127,6 +127,8 @@ struct Engine {
     antennas: Vec<Antenna>,
     /// Number of sessions opened so far.
     sessions: u64,
+    /// The antennas of the first station are open.
+    has_started: bool,
     attention: Attention,
     searches: Searches,
     pass_lists: PassLists,
@@ -307,6 +309,7 @@ impl Engine {
             },
             antennas: Vec::new(),
             sessions: 0,
+            has_started: false,
             attention: Attention::default(),
             searches: Searches::default(),
             pass_lists: PassLists::default(),
@@ -355,6 +358,7 @@ impl Engine {
         engine.take_claims(settings.claims.clone());
         engine.load_lock_outs();
         engine.load_station();
+        engine.has_started = true;
         engine.start_automatic();
         engine.publish();
         Ok((engine, client))

@@ -150,9 +150,9 @@ impl MotionWatch {
         sways_deg.reduce(|one, other| Some(one?.max(other?))).flatten()
     }
 
-    /// Returns `true` while an axis is outside its interval but foreign motion is not yet proved.
-    pub(super) fn is_suspect(&self) -> bool {
-        self.axes.iter().any(AxisWatch::is_suspect)
+    /// The axes that are outside their interval although foreign motion is not yet proved.
+    pub(super) fn suspects(&self, now: Instant) -> [bool; 2] {
+        self.axes.each_ref().map(|axis| axis.is_suspect(now))
     }
 
     /// Takes a reading of each axis that has an angle. Returns an axis that somebody else has moved.

@@ -128,6 +128,8 @@ impl Engine {
             matches!(stop, StopState::Stopping { .. } | StopState::NotConfirmed { .. })
         };
         self.last_run.is_orderly = !self.antennas.iter().any(owes);
+        // A deliberate end is no crash, even if a STOP is owed.
+        self.last_run.forget_switched_on();
         self.keep_last_run();
     }
 
@@ -145,6 +147,10 @@ impl Engine {
         let kept = text.and_then(|text| promises.put_and_wait(&path, FileState::Holds(text)));
         if let Err(error) = kept {
             tracing::error!(error, "automatic operation will be off at the next start");
+            // A full disk lets files go.
+            if let Err(error) = std::fs::remove_file(&path) {
+                tracing::error!(%error, "the state of automatic operation on disk is out of date");
+            }
         }
     }
 
@@ -187,6 +193,9 @@ impl Engine {
     /// Takes what an antenna tells of a pass that it was given, or of its safety.
     pub(super) fn take_automatic_event(&mut self, index: usize, event: &Event) {
         let now = self.now;
+        if resumption::ends_with(event) {
+            self.cancel_resumption(index);
+        }
         let Some(antenna) = self.antennas.get_mut(index) else { return };
         let uses_auto_track = antenna.shown.config.automatic.uses_auto_track;
         let operation = &mut antenna.shown.operation;
@@ -417,6 +426,14 @@ impl Engine {
         // What the unit holds is not started by itself once nobody minds it.
         if before.is_on() && !operation.is_on() {
             self.end_auto_track(index);
+        }
+    }
+
+    /// A new session begins with automatic operation off.
+    pub(super) fn note_reopened(&mut self, index: usize) {
+        let Some(id) = self.antennas.get(index).map(|antenna| antenna.shown.id()) else { return };
+        if self.last_run.is_switched_on(id) {
+            self.keep_switched_off(id, true);
         }
     }
 

@@ -273,9 +273,11 @@ impl Engine {
         let config = antenna.shown.config.clone();
         let bounds = Bounds::of(&self.station, &config);
         let opened = self.open_claimed(config, bounds, claim);
+        self.cancel_resumption(index);
         if let Some(antenna) = self.antennas.get_mut(index) {
             *antenna = opened;
         }
+        self.note_reopened(index);
         // From now on STOP goes the new way.
         self.publish();
     }

@@ -166,7 +166,10 @@ impl Engine {
                 let lock_out = self.lock_outs.of(&config.connection).cloned();
                 // The claim lasts until the session has ended.
                 let lock = Box::new(claim.clone());
-                (self.driver.open(&config, bounds, lock_out, lock), None, Hold::Ours(claim))
+                // Only a start connects without the operator, and not a change of a setting later.
+                let connects_at_start = config.connects_at_start && !self.has_started;
+                let opened = station::Antenna { connects_at_start, ..config.clone() };
+                (self.driver.open(&opened, bounds, lock_out, lock), None, Hold::Ours(claim))
             }
             Err(Elsewhere { by, lock }) => {
                 (Driver::leave_alone(&config), Some(by), Hold::Elsewhere(lock))

@@ -132,9 +132,9 @@ impl Gate {
         self.watch.measured_sway_deg(self.variant.capabilities.axis_count())
     }
 
-    /// Returns `true` while an axis is outside its interval but foreign motion is not yet proved.
-    pub(in crate::driver) fn is_suspect(&self) -> bool {
-        self.watch.is_suspect()
+    /// The axes that are outside their interval although foreign motion is not yet proved.
+    pub(in crate::driver) fn suspects(&self, now: Moment) -> [bool; 2] {
+        self.watch.suspects(now.steady)
     }
 
     /// Nobody has watched the axes for a while.

@@ -199,8 +199,9 @@ impl AxisWatch {
         self.spread.turns();
     }
 
-    pub(super) fn is_suspect(&self) -> bool {
-        self.outside.is_some()
+    /// Expires, because an axis may report no further angle.
+    pub(super) fn is_suspect(&self, now: Instant) -> bool {
+        self.outside.is_some_and(|outside| now < outside.since + SWINGS_BACK + UNSEEN)
     }
 
     pub(super) fn measured_sway_deg(&self) -> Option<f64> {
@@ -369,7 +370,9 @@ impl AxisWatch {
     /// Learns from a reading inside the interval.
     fn learn(&mut self, deg: f64, drive: Drive, at: Instant) {
         if self.is_settled(at) {
-            (self.has_settled, self.is_told) = (true, false);
+            self.has_settled = true;
+            // A report that goes on is no other motion.
+            self.is_told &= self.reported_since.is_some();
             if let Some(turned) = &mut self.turned {
                 turned.from_deg = deg;
             }

@@ -392,7 +392,7 @@ fn a_unit_that_reports_a_jog_or_a_runaway_accuses_by_its_word() {
     let start = Instant::now();
     let of = |drives: &[Drive]| told(&mut MotionWatch::new([figures; 2]), start, drives);
     assert_eq!(of(&[Drive::Off, Drive::Jogged, Drive::Jogged, Drive::Jogged]), [Evidence::Jogged]);
-    assert_eq!(of(&[Drive::Off, Drive::Runaway, Drive::Runaway]), [Evidence::Runaway]);
+    assert_eq!(of(&[Drive::Runaway; 60]), [Evidence::Runaway], "once, however long it lasts");
     assert_eq!(of(&[Drive::Off, Drive::Jogged, Drive::Off, Drive::Jogged, Drive::On]), []);
 
     // A jog of Azel, until it is proved to be over.

@@ -104,11 +104,15 @@ impl Session {
         let can = self.variant.capabilities;
         let shows_after = Duration::try_from_secs_f64(can.effect.shows_after_s).unwrap_or_default();
         let expected = self.expected(&look, shows_after);
-        let effects = self.seen.effects.axes.iter_mut().zip(look.axes).zip(expected);
+        // Wind or somebody else may have moved the axis, so its angle proves no lack of effect.
+        let suspects = self.gate.suspects(now);
+        let effects = self.seen.effects.axes.iter_mut().zip(look.axes).zip(expected).zip(suspects);
         let mut missing = None;
-        for (index, ((effect, axis), expected)) in effects.enumerate().take(can.axis_count()) {
+        for (index, (((effect, axis), expected), is_suspect)) in
+            effects.enumerate().take(can.axis_count())
+        {
             effect.take(axis.angle_deg, look.asked, figures);
-            let expected = expected.filter(|_| axis.angle_deg.is_some());
+            let expected = expected.filter(|_| axis.angle_deg.is_some() && !is_suspect);
             if effect.is_missing(expected, look.asked, figures, shows_after) {
                 missing = missing.or(Some(index));
             }
@@ -129,8 +133,7 @@ impl Session {
     }
 
     fn expected(&self, look: &Measured, shows_after: Duration) -> [Option<Expected>; 2] {
-        // Wind or somebody else may have moved the axis, so its angle proves no lack of effect.
-        if self.stop.is_under_way() || !self.contact.link.is_open() || self.gate.is_suspect() {
+        if self.stop.is_under_way() || !self.contact.link.is_open() {
             return [None; 2];
         }
         if let Some(jog) = self.key.started() {

@@ -6,7 +6,7 @@ use std::{sync::Arc, time::Duration};
 use super::{Command, Event, Session, activity::Activity, wanted::Wanted};
 use crate::{
     clock::{Instant, Moment},
-    driver::{LockedOut, Offline, Refusal},
+    driver::{LinkState, LockedOut, Offline, Refusal},
     station::LockOut,
 };
 
@@ -33,11 +33,17 @@ impl Session {
     pub fn locked_out(mut self, lock_out: Option<LockOut>) -> Self {
         if let Some(lock_out) = lock_out {
             let now = self.now();
+            // Nobody takes the panel from the person who works on the unit.
+            if self.variant.capabilities.waits_for_word {
+                (self.contact.wanted, self.contact.link) = (Wanted::No, LinkState::Off);
+            }
             self.put_lock_out(lock_out, now);
             let (lock_out, locking) = (self.gate.lock_out().cloned(), self.is_being_locked_out());
+            let link = self.contact.link.clone();
             self.wires.snapshots.send_modify(|held| {
                 let held = Arc::make_mut(held);
                 (held.lock_out, held.locking) = (lock_out, locking);
+                held.link.clone_from(&link);
             });
         }
         self

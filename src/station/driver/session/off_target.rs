@@ -49,6 +49,8 @@ impl Session {
     pub(super) fn watch_pointing(&mut self, now: Moment) {
         let off_target = match &self.activity {
             Activity::ProgramTrack(track) => track.off_target,
+            // The operator knows that the unit may miss this pass.
+            Activity::OnBoardTrack(track) if track.watch.judge().pass().is_agreed => return,
             Activity::OnBoardTrack(track) => track.watch.off_target(),
             Activity::Standby | Activity::Manual | Activity::Hold(_) | Activity::GoTo(_) => return,
         };

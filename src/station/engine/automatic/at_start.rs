@@ -63,7 +63,9 @@ impl LastRun {
 
     /// What the next start has to know of the run that begins now, unless it ends in order.
     pub(super) fn next_run(self) -> Self {
-        Self { is_orderly: false, switched_on: Vec::new(), station: None, ..self }
+        let mut next = Self { is_orderly: false, ..self };
+        next.forget_switched_on();
+        next
     }
 
     /// The pass that this antenna's unit was last proved to be on its way to.
@@ -83,6 +85,15 @@ impl LastRun {
             list.retain(|known| *known != antenna);
         }
         if is_on { &mut self.switched_on } else { &mut self.switched_off }.push(antenna);
+    }
+
+    pub(super) fn is_switched_on(&self, antenna: AntennaId) -> bool {
+        self.switched_on.contains(&antenna)
+    }
+
+    /// The next start is no resumption.
+    pub(super) fn forget_switched_on(&mut self) {
+        (self.switched_on, self.station) = (Vec::new(), None);
     }
 
     /// Returns `true` if the run crashed while automatic operation of this antenna was on.

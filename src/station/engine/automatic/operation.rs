@@ -430,7 +430,11 @@ impl On {
                 let is_over = now >= *moves_at;
                 is_over.then_some(())?;
             }
-            _ if is_announced && !(seen.is_live && seen.can_be_sent) => return None,
+            _ if is_announced
+                && !(seen.is_live && seen.can_be_sent && seen.not_ready.is_none()) =>
+            {
+                return None;
+            }
             _ if is_announced => {
                 let moves_at = add_seconds(now, wishes.announced_for_s);
                 self.doing = Doing::Announces { moves_at, pass: duty.pass };
@@ -449,7 +453,7 @@ impl On {
         let Doing::Announces { pass, .. } = &self.doing else { return };
         let is_near = seconds_between(now, next.go_at) <= wishes.announced_for_s;
         let is_it = is_same_pass(*pass, next.pass) && is_near;
-        if !is_it || !seen.is_live || !seen.can_be_sent {
+        if !is_it || !seen.is_live || !seen.can_be_sent || seen.not_ready.is_some() {
             self.doing = Doing::Rests;
         }
     }
@@ -479,7 +483,12 @@ impl On {
     ) -> Option<Act> {
         let is_asked = seconds_between(taking.asked_at, now) < LATE_S;
         let is_idle = seen.takes != Some(taking.pass.0) && !seen.moves;
-        let is_ready = seen.is_live && seen.can_be_sent && seen.not_ready.is_none();
+        // Somebody may stand beside the unit that he repairs: its next motion is announced.
+        if seen.not_ready.is_some() && is_idle && taking.given_up.is_none() {
+            (self.doing, self.moved_at) = (Doing::Rests, None);
+            return None;
+        }
+        let is_ready = seen.is_live && seen.can_be_sent;
         if taking.given_up.is_some() || is_asked || !is_idle || !is_ready {
             return None;
         }

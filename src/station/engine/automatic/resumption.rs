@@ -6,7 +6,7 @@ use std::time::Duration;
 use super::{LastRun, OffBecause, Operation};
 use crate::{
     clock::Instant,
-    driver::{Intent, StopState, TimeSync, Unit},
+    driver::{Event, Intent, Safety, StopState, TimeSync, Unit},
     engine::{Antenna, Engine},
     station::Station,
     transfer::FileHash,
@@ -27,6 +27,32 @@ pub(super) fn fingerprint(station: &Station) -> Option<FileHash> {
     toml::to_string(station).ok().map(|text| FileHash::of(text.as_bytes()))
 }
 
+/// Returns `true` for an event that would end or suspend automatic operation.
+pub(super) fn ends_with(event: &Event) -> bool {
+    match event {
+        Event::Safety(matter) => match matter {
+            Safety::DeadManFired
+            | Safety::LeftMoving { .. }
+            | Safety::SessionBroke
+            | Safety::FlagsContradict { .. }
+            | Safety::ForeignHands { .. }
+            | Safety::SilentInMotion
+            | Safety::NoEffect { .. }
+            | Safety::OffTarget { .. }
+            | Safety::ClockStepped { .. }
+            | Safety::AsksToResume { .. }
+            | Safety::UnitDiffers { .. }
+            | Safety::Forbidden { .. } => true,
+            Safety::NoMark
+            | Safety::StoppedByFlags { .. }
+            | Safety::EndedForSleep
+            | Safety::Slept { .. } => false,
+        },
+        Event::StartedByItself | Event::Back { is_as_left: false, .. } => true,
+        _ => false,
+    }
+}
+
 impl Engine {
     /// Stores the fingerprint of the changed station, so that Azel recognises it after a crash.
     pub(in crate::engine) fn keep_fingerprint(&mut self) {
@@ -39,10 +65,18 @@ impl Engine {
     /// Marks the antennas whose automatic operation may resume after a run that did not end in order.
     pub(super) fn prepare_resumption(&mut self, last: &LastRun) {
         let is_same = last.station.is_some() && last.station == fingerprint(&self.station);
+        let debts = self.driver.debts();
+        let owed = debts.units();
         for antenna in &mut self.antennas {
             let config = &antenna.shown.config;
+            let unit = Unit::of(config);
+            // Somebody moved it by hand, or pressed STOP.
+            let is_marked = owed.contains(&unit) || debts.is_marked(&unit);
+            let is_free = antenna.shown.held_by.is_none()
+                && self.lock_outs.of(&config.connection).is_none()
+                && !is_marked;
             let is_allowed =
-                config.automatic.resumes_after_crash && last.was_on_at_crash(config.id);
+                is_free && config.automatic.resumes_after_crash && last.was_on_at_crash(config.id);
             let resumption = (is_same && is_allowed).then(Resumption::default);
             antenna.at_work.resumption = resumption;
             // Power may fail again before automatic operation resumes.
@@ -59,7 +93,9 @@ impl Engine {
         let is_kept = self.time_sync == TimeSync::Synchronised && !self.clock_watch.is_in_doubt;
         let Some(antenna) = self.antennas.get(index) else { return };
         let Some(resumption) = antenna.at_work.resumption else { return };
-        if antenna.shown.operation != Operation::Off(OffBecause::NotSwitchedOn) {
+        let shown = &antenna.shown;
+        let is_taken = shown.held_by.is_some() || shown.snapshot.lock_out.is_some();
+        if is_taken || shown.operation != Operation::Off(OffBecause::NotSwitchedOn) {
             return self.cancel_resumption(index);
         }
         let is_ready = is_kept && self.is_ready(antenna);

@@ -163,7 +163,7 @@ impl Axis {
 
     /// The error at which the axis is commanded again, degrees. The command leads the target by as
     /// much, so that the error is the same on both sides.
-    fn band_deg(&self) -> f64 {
+    pub(super) fn band_deg(&self) -> f64 {
         let run_deg = self.min_run_deg.unwrap_or_else(|| self.min_way_deg());
         self.settings.dead_band_deg.max(run_deg / 2.0).max(self.half_step_deg())
     }

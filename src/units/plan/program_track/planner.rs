@@ -28,6 +28,10 @@ use crate::{
 
 /// Longest time that a path covers, seconds.
 const PATH_S: f64 = 3.0 * 3600.0;
+/// An antenna that comes this much nearer to its path, degrees, within this time, seconds, is still on
+/// its way: its drives may be slower than known.
+const COMES_NEARER_DEG: f64 = 1.25;
+const COMES_NEARER_S: f64 = 5.0;
 /// An arrival is predicted this often, seconds.
 const PREDICTED_EVERY_S: f64 = 5.0;
 /// Time shifts at which an antenna still counts as on its path, seconds.
@@ -95,6 +99,32 @@ pub enum OnPath {
     Due { off: Angle },
 }
 
+/// Progress of an antenna that is off its path.
+#[derive(Debug, Clone, Copy, Default)]
+struct Approach {
+    /// Error that later ones are compared with, degrees, and its time.
+    anchor: Option<(f64, Timestamp)>,
+    progress_at: Option<Timestamp>,
+}
+
+impl Approach {
+    /// Takes an error. Returns `true` while the antenna makes progress: its drives may be slower than
+    /// known.
+    fn comes_nearer(&mut self, off_deg: f64, at: Timestamp) -> bool {
+        let is_recent =
+            |since: &Timestamp| (0.0..=COMES_NEARER_S).contains(&seconds_between(*since, at));
+        let (from_deg, from) = *self.anchor.get_or_insert((off_deg, at));
+        let has_progressed = from_deg - off_deg >= COMES_NEARER_DEG;
+        if has_progressed {
+            self.progress_at = Some(at);
+        }
+        if has_progressed || off_deg > from_deg || !is_recent(&from) {
+            self.anchor = Some((off_deg, at));
+        }
+        self.progress_at.as_ref().is_some_and(is_recent)
+    }
+}
+
 /// Plans the commands for one target.
 #[derive(Debug)]
 pub struct Planner {
@@ -109,6 +139,7 @@ pub struct Planner {
     /// The path was planned within other bounds or with other offsets; its flip still holds.
     is_stale: bool,
     chase: Option<Chase>,
+    approach: Approach,
     /// The predicted arrival, and when it was predicted.
     arrival: Option<(Option<Timestamp>, Timestamp)>,
     axes: [Axis; 2],
@@ -135,6 +166,7 @@ impl Planner {
             path: None,
             is_stale: false,
             chase: None,
+            approach: Approach::default(),
             arrival: None,
             axes,
         })
@@ -249,12 +281,14 @@ impl Planner {
         }
     }
 
-    /// Compares a measured direction with the planned path. The target counts as met within
-    /// `half_beam`. Returns `None` without a path, or for an axis without an angle.
+    /// Compares the reported direction with the planned path. The axes tell only where the antenna sets
+    /// out: the station may not describe their geometry. The target counts as met within `half_beam`.
+    /// Returns `None` without a path, or for an angle that is not known.
     pub fn compare(
         &mut self,
         at: Timestamp,
         positions_deg: [Option<f64>; 2],
+        reported: [Option<Angle>; 2],
         half_beam: Angle,
     ) -> Option<OnPath> {
         let Some((path, _)) = &self.path else {
@@ -291,18 +325,35 @@ impl Planner {
             return Some(OnPath::OnItsWay { until });
         }
         self.arrival = None;
-        let measured = mount.direction(measured_deg);
+        let [azimuth, elevation] = reported;
+        let on_path = mount.direction(path.positions_deg(at));
+        let elevation = if self.drives.has_elevation { elevation } else { Some(on_path.elevation) };
+        let measured = AzEl { azimuth: azimuth?, elevation: elevation? };
         let off_deg = SHOWN_LATE_S.map(|late_s| {
             let on_path = path.positions_deg(add_seconds(at, -late_s));
             separation(on_path, measured).degrees()
         });
-        let off = Angle::from_degrees(off_deg.into_iter().fold(f64::INFINITY, f64::min));
-        Some(OnPath::Due { off })
+        let off_deg = off_deg.into_iter().fold(f64::INFINITY, f64::min);
+        if self.approach.comes_nearer(off_deg, at) {
+            return Some(OnPath::OnItsWay { until: None });
+        }
+        Some(OnPath::Due { off: Angle::from_degrees(off_deg) })
+    }
+
+    /// Largest error that the settings of program track allow at `at`.
+    pub fn allowed(&self, at: Timestamp) -> Angle {
+        let Some((path, _)) = &self.path else { return Angle::ZERO };
+        let period_s = self.settings.period().as_secs_f64() + self.settings.latency_s;
+        let [now, later] = [0.0, period_s]
+            .map(|s| self.drives.mount.direction(path.positions_deg(add_seconds(at, s))));
+        let bands_deg = self.axes.iter().map(Axis::band_deg).fold(0.0, f64::hypot);
+        now.separation(later) + Angle::from_degrees(bands_deg)
     }
 
     /// Restarts the chase at the next measurement, because the antenna was not free to follow the path.
     pub fn restart_chase(&mut self) {
         (self.chase, self.arrival) = (None, None);
+        self.approach = Approach::default();
     }
 
     /// Rates of the axes as far as known, degrees per second.

@@ -154,10 +154,14 @@ impl Tracking {
         if !is_free {
             self.planner.restart_chase();
         }
-        let compared = is_free.then(|| self.planner.compare(measured.at, positions_deg, half_beam));
+        let Pointing { azimuth, elevation } = measured.pointing;
+        let reported = [azimuth, elevation];
+        let compared =
+            is_free.then(|| self.planner.compare(measured.at, positions_deg, reported, half_beam));
         self.on_path = compared.flatten();
+        let allowed = on_target + self.planner.allowed(measured.at);
         let off = match self.on_path {
-            Some(OnPath::Due { off }) => Some(off).filter(|off| *off > on_target),
+            Some(OnPath::Due { off }) => Some(off).filter(|off| *off > allowed),
             Some(OnPath::OnItsWay { .. }) | None => None,
         };
         self.off_target.take(off, measured.received);

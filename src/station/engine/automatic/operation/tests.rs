@@ -203,7 +203,7 @@ fn a_unit_that_is_not_ready_costs_its_passes_and_no_more() {
     assert_eq!(fixture.until(2550.0, |_| faulty), []);
     // Cleared when it should have set out, in the middle of the pass.
     let cleared = |now_s: f64| if now_s < 2700.0 { faulty } else { STANDS };
-    assert_eq!(fixture.until(2701.0, cleared), [(2700.0, Act::Take(duties[3]))]);
+    assert_eq!(fixture.until(2740.0, cleared), [(2730.0, Act::Take(duties[3]))], "announced");
     assert!(fixture.operation.is_on());
 }
 

@@ -157,6 +157,10 @@ fn run_on(
     run_planner(planner, pass, settings, metal, |_, _| {})
 }
 
+fn drives_mount(planner: &Planner) -> Mount {
+    planner.drives.mount
+}
+
 /// Calls `look` with the positions of the axes at each time.
 fn run_planner(
     mut planner: Planner,
@@ -178,7 +182,9 @@ fn run_planner(
         if tick % 5 == 0 {
             planner.watch(started + TICK * tick, metal.axes_deg.map(Some));
             let half_beam = Angle::from_degrees(1.0);
-            let compared = planner.compare(now, metal.axes_deg.map(Some), half_beam);
+            let reported = drives_mount(&planner).direction(metal.axes_deg);
+            let reported = [Some(reported.azimuth), Some(reported.elevation)];
+            let compared = planner.compare(now, metal.axes_deg.map(Some), reported, half_beam);
             let since_s = seconds_between(pass.aos.time, now);
             let compared = compared.filter(|_| since_s >= 0.0);
             run.on_path.extend(compared.map(|compared| (since_s, compared)));
@@ -292,6 +298,23 @@ fn an_antenna_that_stands_is_off_its_path_once_it_should_have_arrived() {
         .iter()
         .filter(|(_, compared)| matches!(compared, OnPath::Due { off } if off.degrees() > 10.0));
     assert!(due.count() > run.on_path.len() / 2);
+}
+
+#[test]
+fn an_antenna_whose_drives_are_slower_than_known_is_on_its_way_while_it_comes_nearer() {
+    let mut approach = Approach::default();
+    let at = |second: i64| Timestamp::from_second(second).unwrap();
+    // 0.4 degrees a second, and then stuck.
+    let off_deg = |second: i64| 60.0 - 0.4 * second.min(60) as f64;
+    let nearer: Vec<bool> =
+        (0..120).map(|second| approach.comes_nearer(off_deg(second), at(second))).collect();
+    assert!(nearer[5..60].iter().all(|nearer| *nearer) && !nearer[70..].contains(&true));
+    // An error that grows, or shrinks by 0.1 degrees a second, is no approach.
+    for rate_deg_s in [1.0, -0.1] {
+        let mut approach = Approach::default();
+        let off_deg = |second: i64| 40.0 + rate_deg_s * second as f64;
+        assert!(!(0..120).any(|second| approach.comes_nearer(off_deg(second), at(second))));
+    }
 }
 
 #[test]
