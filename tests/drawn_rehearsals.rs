@@ -21,7 +21,7 @@ use azel::{
     orbit::{Catalog, Elements, ReadReport, bundled},
     rehearsal::{Fault, Rehearsal, Rehearsed, run},
     sim::Mechanics,
-    station::{Antenna, Entered, KeepOut, Mount, PollRates, Station},
+    station::{Antenna, Direction, Entered, KeepOut, Mount, PollRates, Station},
 };
 use jiff::{Timestamp, ToSpan as _};
 
@@ -101,6 +101,7 @@ fn antenna(dice: &mut Dice, sway_deg: f64) -> Antenna {
     // Most draws leave room for drives that overrun.
     antenna.limits.minimum_elevation_deg = if dice.chance(0.9) { 0.0 } else { 3.0 };
     let mut hz = || dice.between(2.0, 10.0);
+    antenna.park = Direction { azimuth_deg: 170.0, elevation_deg: 45.0 };
     antenna.poll = PollRates { idle_hz: hz(), moving_hz: hz() };
     match antenna.connection.spec().key {
         "satrak" => {
@@ -112,8 +113,9 @@ fn antenna(dice: &mut Dice, sway_deg: f64) -> Antenna {
             antenna
         }
         "genius" => {
-            let (from_deg, to_deg) = azimuths_deg(dice);
-            antenna.mount = az_el(dice, (from_deg, to_deg.min(from_deg + 360.0)));
+            // The unit counts from 0 to 360 degrees.
+            let azimuths_deg = [(0.0, 360.0), (90.0, 270.0), (10.0, 350.0)][dice.below(3)];
+            antenna.mount = az_el(dice, azimuths_deg);
             antenna
         }
         "rc2000c" => {
