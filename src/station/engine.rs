@@ -80,7 +80,7 @@ use self::{
     reminders::Reminder,
     schedule::{Planned, Scheduler},
     source_tests::SourceTests,
-    sources::{Outcome, Places, SourceWork, Sources, Task},
+    sources::{Outcome, Places, Sources, Task},
     uploads::Uploads,
 };
 pub use self::{
@@ -299,14 +299,7 @@ impl Engine {
             demo: None,
             catalog,
             catalog_revision: 0,
-            sources: Sources {
-                work: if elements_job.is_some() {
-                    SourceWork::Reading
-                } else {
-                    SourceWork::Nothing
-                },
-                ..Sources::default()
-            },
+            sources: Sources::at_start(elements_job.is_some()),
             antennas: Vec::new(),
             sessions: 0,
             has_started: false,

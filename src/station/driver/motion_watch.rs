@@ -150,6 +150,12 @@ impl MotionWatch {
         sways_deg.reduce(|one, other| Some(one?.max(other?))).flatten()
     }
 
+    /// Returns `true` if commands lead each axis to where it is read, after a time without readings.
+    pub(super) fn explains(&self, readings: [Option<AxisReading>; 2]) -> bool {
+        let mut axes = self.axes.iter().zip(readings);
+        axes.all(|(axis, reading)| reading.is_none_or(|reading| axis.explains(reading)))
+    }
+
     /// The axes that are outside their interval although foreign motion is not yet proved.
     pub(super) fn suspects(&self, now: Instant) -> [bool; 2] {
         self.axes.each_ref().map(|axis| axis.is_suspect(now))

@@ -205,6 +205,7 @@ impl Engine {
             | Event::Unanswered(Asked::Motion(Motion::EnableAuto))
             | Event::NotSent(Refusal::Forbidden { .. }) => {}
             Event::NotSent(_) if operation.is_proved() => {}
+            Event::NotSent(Refusal::Path(_)) => operation.take_outcome(Outcome::Blocked, now),
             Event::WouldMiss { .. } => operation.take_outcome(Outcome::WouldMiss, now),
             Event::CannotTrack(..)
             | Event::CannotProgramTrack(..)

@@ -46,6 +46,11 @@ pub enum SourceWork {
 }
 
 impl Sources {
+    pub(super) fn at_start(are_read: bool) -> Self {
+        let work = if are_read { SourceWork::Reading } else { SourceWork::Nothing };
+        Self { work, ..Self::default() }
+    }
+
     /// Returns `true` if a change would be accepted now.
     pub fn is_free(&self) -> bool {
         self.work == SourceWork::Nothing && !self.is_locked

@@ -132,6 +132,12 @@ impl Gate {
         self.watch.measured_sway_deg(self.variant.capabilities.axis_count())
     }
 
+    /// Returns `true` if commands lead the axes to where they are read now, after an outage. Call it before
+    /// [`Self::look_for_hands`].
+    pub(in crate::driver) fn explains_position(&self) -> bool {
+        self.readings().is_some_and(|readings| self.watch.explains(readings))
+    }
+
     /// The axes that are outside their interval although foreign motion is not yet proved.
     pub(in crate::driver) fn suspects(&self, now: Moment) -> [bool; 2] {
         self.watch.suspects(now.steady)

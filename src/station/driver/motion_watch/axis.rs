@@ -199,6 +199,19 @@ impl AxisWatch {
         self.spread.turns();
     }
 
+    /// Returns `true` if the axis can be where it is read. Without an earlier reading nobody knows.
+    pub(super) fn explains(&self, reading: AxisReading) -> bool {
+        let AxisReading { angle_deg, asked, received, .. } = reading;
+        if self.open_until.is_some_and(|until| asked <= until) {
+            return true;
+        }
+        let (Some(known), Some(reachable)) = (self.known, self.reachable(received)) else {
+            return false;
+        };
+        let deg = angle_deg + self.turns_deg(angle_deg, known, reachable);
+        Range::about(deg, self.error_deg()).within(reachable).is_some()
+    }
+
     /// Expires, because an axis may report no further angle.
     pub(super) fn is_suspect(&self, now: Instant) -> bool {
         self.outside.is_some_and(|outside| now < outside.since + SWINGS_BACK + UNSEEN)

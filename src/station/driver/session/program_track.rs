@@ -319,8 +319,7 @@ impl Session {
         // between the two somebody has stopped it.
         let (sent, left) = (track.commanded, self.contact.left_at);
         let is_there = sent.into_iter().chain(left).any(|place| self.is_near(place, at));
-        let is_on_its_way = self.turns()
-            && sent.zip(left).is_some_and(|(sent, left)| self.is_between(left, sent, at));
+        let is_on_its_way = self.turns() && self.gate.explains_position();
         if !is_there && !is_on_its_way {
             return self.await_word(lost, Some(Unlike::Position));
         }
@@ -337,21 +336,6 @@ impl Session {
     pub(super) fn is_near(&self, place: Pointing, at: Pointing) -> bool {
         let nearby = self.setup.rule.half_beam + self.overrun();
         place.separation(at).is_some_and(|off| off <= nearby)
-    }
-
-    /// Whether an antenna that was sent from `left` to `sent` passes `at`, each axis by its
-    /// shorter way.
-    pub(super) fn is_between(&self, left: Pointing, sent: Pointing, at: Pointing) -> bool {
-        let nearby = self.setup.rule.half_beam + self.overrun();
-        let passes = |[left, sent, at]: [Option<Angle>; 3]| {
-            let (Some(left), Some(sent), Some(at)) = (left, sent, at) else {
-                return left.is_none() && sent.is_none() && at.is_none();
-            };
-            let far = |one: Angle, other: Angle| (one - other).wrapped_180().abs();
-            far(left, at) + far(at, sent) <= far(left, sent) + nearby + nearby
-        };
-        passes([left.azimuth, sent.azimuth, at.azimuth])
-            && passes([left.elevation, sent.elevation, at.elevation])
     }
 
     fn overrun(&self) -> Angle {

@@ -298,10 +298,7 @@ impl Session {
             return match found {
                 Found::Tracking => false,
                 Found::Still => stands_as_left || is_at(aim),
-                Found::Moving => {
-                    let way = left.zip(aim);
-                    way.is_none_or(|(left, aim)| self.is_between(left, aim, at))
-                }
+                Found::Moving => self.gate.explains_position(),
             };
         }
         match &self.activity {

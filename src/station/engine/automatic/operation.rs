@@ -204,6 +204,8 @@ pub(super) enum Act {
 pub(super) enum Outcome {
     /// The pass cannot be loaded or proved, or the unit refused it.
     Failed,
+    /// The path of the unit leads into a barrier.
+    Blocked,
     /// The session ended the track, because the antenna stayed off its target.
     OffTarget,
     /// The unit's clock, site or elements would make it miss the pass.
@@ -292,6 +294,8 @@ impl Operation {
                 on.failures += 1;
                 self.end_after_failures();
             }
+            // That says nothing of the next pass.
+            Outcome::Blocked => taking.given_up = Some(GivenUp::Refused),
             // The antenna must be proved still before the next pass.
             Outcome::OffTarget => taking.given_up = Some(GivenUp::OffTarget),
             // The unit may be able to take the next pass.
