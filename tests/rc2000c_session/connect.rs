@@ -6,7 +6,7 @@ use azel::{
     device::panel::CheckState,
     driver::{Command, Event, Found, Intent, LinkState, Refusal, StopState},
     sim::rc2000c::{Fault, Mode, Options, Quirk},
-    station::LockOut,
+    station::{Antenna, LockOut},
 };
 
 use super::rig::{Rig, antenna, check, reading, uncalibrated};
@@ -22,6 +22,22 @@ async fn nothing_is_sent_before_the_operator_wants_it() {
     rig.seconds(0.1).await;
     assert_eq!(rig.events(), [Event::NotSent(Refusal::PositionUnknown)]);
     assert_eq!(rig.dials().len(), 0);
+}
+
+#[tokio::test(start_paused = true)]
+async fn where_the_station_file_says_so_it_connects_at_the_start_unless_it_is_locked_out() {
+    let antenna = Antenna { connects_at_start: true, ..antenna() };
+    let mut rig = Rig::start(&Options::default(), &antenna);
+    rig.until_found().await;
+    let lock_out = LockOut {
+        by: "Ada".to_owned(),
+        reason: "feed off".to_owned(),
+        since: "2026-11-22T10:00:00Z".parse().unwrap(),
+    };
+    let mut rig = Rig::start_locked_out(&antenna, lock_out);
+    rig.seconds(60.0).await;
+    assert_eq!((rig.dials().len(), rig.received().len()), (0, 0), "its panel is in use");
+    assert_eq!(rig.shown().link, LinkState::Off);
 }
 
 #[tokio::test(start_paused = true)]

@@ -11,7 +11,7 @@ use azel::{
     driver::{Command, Event, Found, Snapshot},
     protocol::rc2000c::Frame,
     sim::rc2000c::{Control, Options},
-    station::{Antenna, Mount},
+    station::{Antenna, LockOut, Mount},
 };
 use jiff::Timestamp;
 
@@ -54,6 +54,14 @@ impl Rig {
     pub(super) fn start(options: &Options, antenna: &Antenna) -> Self {
         Self::new(Control::new(options), Timestamp::UNIX_EPOCH, |dial, clock| {
             rig::session(antenna, dial, clock)
+        })
+    }
+
+    /// A running session with a unit that is locked out.
+    pub(super) fn start_locked_out(antenna: &Antenna, lock_out: LockOut) -> Self {
+        Self::new(Control::new(&Options::default()), Timestamp::UNIX_EPOCH, |dial, clock| {
+            let (session, handle) = rig::session(antenna, dial, clock);
+            (session.locked_out(Some(lock_out)), handle)
         })
     }
 

@@ -27,7 +27,7 @@ use azel::{
         satrak::{FaultKind, Goto, Motion, Request, encode},
     },
     sim::satrak,
-    station::{Antenna, AntennaId, Monitor, Station},
+    station::{Antenna, AntennaId, LockOut, Monitor, Station},
 };
 use jiff::{Timestamp, ToSpan as _};
 use tokio::io::AsyncWriteExt as _;
@@ -563,6 +563,20 @@ async fn automatic_operation_stays_off_if_anything_changed() {
         std::fs::write(&path, other).unwrap();
     };
     stays_off("the station was edited", after_a_crash(|_| {}, edited).await).await;
+
+    // Somebody works on the unit, and leaves it.
+    let (scene, client, id) = after_a_crash(|_| {}, nothing).await;
+    let since = client.now().utc;
+    let lock_out = LockOut { by: "Ada".to_owned(), reason: "feed off".to_owned(), since };
+    let _ = client.send(Command::Antenna(id, driver::Command::LockOut(lock_out)));
+    let is_locked_out = || {
+        let snapshot = client.snapshot();
+        let antenna = snapshot.antennas.iter().find(|antenna| antenna.id() == id)?;
+        antenna.snapshot.lock_out.is_some().then_some(())
+    };
+    until("the lock-out", is_locked_out).await;
+    let _ = client.send(Command::Antenna(id, driver::Command::Unlock));
+    stays_off("it was locked out", (scene, client, id)).await;
 
     // The operator sends Hold before automatic operation resumes.
     let (scene, client, id) = after_a_crash(|_| {}, nothing).await;
