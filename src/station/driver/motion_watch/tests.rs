@@ -373,16 +373,16 @@ fn one_that_is_pushed_far_in_a_track_is_found_within_fifteen_seconds() {
     assert!(missed.len() as u64 * 50 <= pushes.max(50), "{missed:?}");
 }
 
-/// Readings of an axis that stands, a second apart, while its unit reports `drive`.
-fn told(watch: &mut MotionWatch, start: Instant, drives: &[Drive]) -> Vec<Evidence> {
-    let mut told = Vec::new();
+/// Returns the evidence from a standing axis, read once a second, whose unit reports `drives`.
+fn evidence_from(watch: &mut MotionWatch, start: Instant, drives: &[Drive]) -> Vec<Evidence> {
+    let mut found = Vec::new();
     for (second, drive) in (1..).zip(drives) {
         let asked = start + Duration::from_secs(second);
         let (motion, received) = (AxisMotion::Still, asked + Duration::from_millis(50));
         let reading = AxisReading { angle_deg: 10.0, motion, drive: *drive, asked, received };
-        told.extend(watch.take([Some(reading), None]).map(|foreign| foreign.evidence));
+        found.extend(watch.take([Some(reading), None]).map(|foreign| foreign.evidence));
     }
-    told
+    found
 }
 
 #[test]
@@ -390,19 +390,29 @@ fn a_unit_that_reports_a_jog_or_a_runaway_accuses_by_its_word() {
     let figures =
         AxisFigures { resolution_deg: 0.1, sway_deg: 0.5, arrives_within_deg: 0.3, wraps: false };
     let start = Instant::now();
-    let of = |drives: &[Drive]| told(&mut MotionWatch::new([figures; 2]), start, drives);
-    assert_eq!(of(&[Drive::Off, Drive::Jogged, Drive::Jogged, Drive::Jogged]), [Evidence::Jogged]);
-    assert_eq!(of(&[Drive::Runaway; 60]), [Evidence::Runaway], "once, however long it lasts");
-    assert_eq!(of(&[Drive::Off, Drive::Jogged, Drive::Off, Drive::Jogged, Drive::On]), []);
+    let evidence =
+        |drives: &[Drive]| evidence_from(&mut MotionWatch::new([figures; 2]), start, drives);
+    assert_eq!(
+        evidence(&[Drive::Off, Drive::Jogged, Drive::Jogged, Drive::Jogged]),
+        [Evidence::Jogged]
+    );
+    assert_eq!(evidence(&[Drive::Runaway; 60]), [Evidence::Runaway], "once, however long it lasts");
+    assert_eq!(evidence(&[Drive::Off, Drive::Jogged, Drive::Off, Drive::Jogged, Drive::On]), []);
 
     // A jog of Azel, until it is proved to be over.
     let mut watch = MotionWatch::new([figures; 2]);
-    assert_eq!(told(&mut watch, start, &[Drive::Off]), []);
+    assert_eq!(evidence_from(&mut watch, start, &[Drive::Off]), []);
     let later = start + Duration::from_secs(10);
     watch.commanded([Some(Lead::ToEnd { is_up: true }), None], later);
     watch.accepted(later);
-    assert_eq!(told(&mut watch, later, &[Drive::Jogged, Drive::Jogged, Drive::Jogged]), []);
+    assert_eq!(
+        evidence_from(&mut watch, later, &[Drive::Jogged, Drive::Jogged, Drive::Jogged]),
+        []
+    );
     watch.proved_still(later + Duration::from_secs(4));
     let later = later + Duration::from_secs(10);
-    assert_eq!(told(&mut watch, later, &[Drive::Jogged, Drive::Jogged]), [Evidence::Jogged]);
+    assert_eq!(
+        evidence_from(&mut watch, later, &[Drive::Jogged, Drive::Jogged]),
+        [Evidence::Jogged]
+    );
 }
