@@ -219,9 +219,10 @@ enum StationClaim {
     None,
     /// Held by this station.
     Ours {
-        claim: Arc<Lock>,
+        /// Closed before the lock is released: nobody asks a station that is not there any more.
         #[cfg(unix)]
         _served: Option<socket::Served>,
+        claim: Arc<Lock>,
     },
     /// Held by another Azel of this machine.
     Theirs(HeldBy),

@@ -231,6 +231,18 @@ fn a_process_that_has_not_locked_the_file_gets_no_signal() {
 }
 
 #[test]
+fn the_socket_of_an_ended_station_is_closed() {
+    let units = Units::start(|station| station.antennas.truncate(1));
+    for _ in 0..10 {
+        drop(units.open());
+        let path = socket(&units.folder.path().join("run")).unwrap();
+        let connected = std::os::unix::net::UnixStream::connect(path);
+        let refused = connected.map_err(|error| error.kind());
+        assert_eq!(refused.err(), Some(std::io::ErrorKind::ConnectionRefused));
+    }
+}
+
+#[test]
 fn a_process_that_does_not_answer_is_named() {
     let units = Units::start(|station| station.antennas.truncate(2));
     let first = Served::start(&units);

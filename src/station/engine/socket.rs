@@ -6,7 +6,7 @@ use std::{
     io,
     os::unix::fs::{MetadataExt as _, PermissionsExt as _, chown},
     path::{Path, PathBuf},
-    thread,
+    thread::{self, JoinHandle},
     time::Duration,
 };
 
@@ -134,9 +134,21 @@ impl Asked {
     }
 }
 
-/// The socket of a station. Dropping this closes it.
+/// The socket of a station. It is closed when the drop of this returns.
 pub(super) struct Served {
-    _close: oneshot::Sender<()>,
+    close: Option<oneshot::Sender<()>>,
+    thread: Option<JoinHandle<()>>,
+}
+
+impl Drop for Served {
+    fn drop(&mut self) {
+        drop(self.close.take());
+        if let Some(thread) = self.thread.take()
+            && thread.join().is_err()
+        {
+            tracing::error!("the thread of the socket panicked");
+        }
+    }
 }
 
 /// Serves the socket called `name` in `folder` on a thread of its own until the station ends.
@@ -148,10 +160,10 @@ pub(super) fn serve(folder: LockFolder, name: PathBuf, station: Client) -> io::R
         Door::open(folder, name)?
     };
     let (close, closed) = oneshot::channel();
-    thread::Builder::new().name("azel-socket".to_owned()).spawn(move || {
+    let thread = thread::Builder::new().name("azel-socket".to_owned()).spawn(move || {
         runtime.block_on(accept(door, station, closed));
     })?;
-    Ok(Served { _close: close })
+    Ok(Served { close: Some(close), thread: Some(thread) })
 }
 
 /// A listening socket and its place in the file system.
