@@ -268,20 +268,22 @@ async fn an_azimuth_inside_a_keep_out_is_jogged_out() {
 #[tokio::test(start_paused = true)]
 async fn a_rotator_that_may_turn_over_north_is_judged_both_ways_round() {
     let (north, south) = ((358.0, 362.0), (200.0, 210.0));
-    // From 320 to 40 degrees, with limits on one way round or on both.
-    for (limits, mast, is_refused) in [
-        ([190, 170], north, true),
-        ([190, 170], south, false),
-        ([350, 170], north, true),
-        ([350, 170], south, true),
+    // Limits on one way round or on both; an axis beyond a limit goes back across it.
+    for (limits, (at, target_deg), mast, is_refused) in [
+        ([190, 170], (320, 40.0), north, true),
+        ([190, 170], (320, 40.0), south, false),
+        ([350, 170], (320, 40.0), north, true),
+        ([350, 170], (320, 40.0), south, true),
+        ([210, 190], (195, 170.0), (178.0, 182.0), true),
+        ([90, 270], (275, 90.0), (178.0, 182.0), true),
     ] {
-        let mut rotators = [azimuth("Mast", 320), azimuth("Tower", 300)];
+        let mut rotators = [azimuth("Mast", at), azimuth("Tower", 300)];
         let [ccw, cw] = limits.map(|degrees| WholeDegrees::new(degrees).unwrap());
         (rotators[0].limit_ccw, rotators[0].limit_cw) = (ccw, cw);
         let mut rig = Rig::connected(&Options { rotators, ..pair() }, Rotators::First).await;
         rig.handle().keep_within(before_a_mast(mast.0, mast.1));
         rig.seconds(1.0).await;
-        rig.send(to(Some(40.0), None));
+        rig.send(to(Some(target_deg), None));
         rig.seconds(0.5).await;
         let events = rig.events();
         let forbidden = matches!(events[..], [Event::NotSent(Refusal::Forbidden { .. })]);

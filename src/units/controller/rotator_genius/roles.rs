@@ -69,9 +69,10 @@ impl Roles {
         !ends_at_north && !is_ruled_out
     }
 
-    /// Limits of the azimuth rotator, degrees.
+    /// Limits of the azimuth rotator, degrees. One that may be beyond a limit goes back across it.
     pub(super) fn azimuth_limits_deg(self, status: &Status) -> [Option<f64>; 2] {
-        let Some(rotator) = self.azimuth_rotator(status) else { return [None; 2] };
+        let inside = |rotator: &&Rotator| rotator.is_outside_limits == Some(false);
+        let Some(rotator) = self.azimuth_rotator(status).filter(inside) else { return [None; 2] };
         [rotator.limit_ccw, rotator.limit_cw].map(|limit| Some(f64::from(limit?.degrees())))
     }
 
