@@ -48,8 +48,36 @@ pub(super) fn ends_with(event: &Event) -> bool {
             | Safety::EndedForSleep
             | Safety::Slept { .. } => false,
         },
-        Event::StartedByItself | Event::Back { is_as_left: false, .. } => true,
-        _ => false,
+        Event::StartedByItself
+        | Event::Back { is_as_left: false, .. }
+        | Event::StopNotConfirmed
+        | Event::StopRefused(_)
+        | Event::AutoTrackStillOn
+        | Event::AutoStaysOn
+        | Event::AutoTrackNotKnown
+        | Event::LockOutUnproved => true,
+        // A unit that only answers badly is judged when its next pass begins.
+        Event::LinkLost(_)
+        | Event::Connected(_)
+        | Event::Back { is_as_left: true, .. }
+        | Event::NotSent(_)
+        | Event::Refused(..)
+        | Event::OffsetRefused(_)
+        | Event::OffsetNotTaken(_)
+        | Event::Unanswered(_)
+        | Event::CannotTrack(..)
+        | Event::WouldMiss { .. }
+        | Event::Tracking(_)
+        | Event::TrackingEnded { .. }
+        | Event::Awaits { .. }
+        | Event::ProgramTracks(_)
+        | Event::ProgramTrackOver { .. }
+        | Event::CannotProgramTrack(..)
+        | Event::Arrived(_)
+        | Event::EndedShort { .. }
+        | Event::JogLeaseOver
+        | Event::JogPositionOld
+        | Event::Stopped => false,
     }
 }
 
