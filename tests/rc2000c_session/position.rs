@@ -233,7 +233,7 @@ async fn an_axis_that_turns_beside_one_at_its_limit_is_found_as_left() {
     rig.set_off(false);
     let is_back = |event: &Event| matches!(event, Event::Back { .. });
     let back = rig.until_event(30, is_back).await;
-    assert!(matches!(back, Event::Back { is_as_left: true, .. }), "{back:?}");
+    assert!(matches!(back, Event::Back { is_explained: true, .. }), "{back:?}");
 }
 
 #[tokio::test(start_paused = true)]
@@ -252,7 +252,7 @@ async fn after_a_lost_link_a_way_ends_at_its_corner() {
     rig.events();
     rig.set_off(false);
     // It stands where it was sent.
-    rig.until_event(30, |event| matches!(event, Event::Back { is_as_left: true, .. })).await;
+    rig.until_event(30, |event| matches!(event, Event::Back { is_explained: true, .. })).await;
     let is_short = |event: &Event| matches!(event, Event::EndedShort { .. });
     let short = rig.until_event(60, is_short).await;
     rig.seconds(60.0).await;

@@ -180,8 +180,8 @@ async fn after_an_outage(rig: &mut Rig, request: Option<Request>, waits_s: f64) 
     rig.seconds(waits_s).await;
     rig.set_off(false);
     let back = rig.until_event(20, |event| matches!(event, Event::Back { .. })).await;
-    let Event::Back { found, is_as_left, .. } = back else { panic!("{back:?}") };
-    (found, is_as_left)
+    let Event::Back { found, is_explained, .. } = back else { panic!("{back:?}") };
+    (found, is_explained)
 }
 
 #[tokio::test(start_paused = true)]
@@ -229,8 +229,8 @@ async fn a_motion_that_was_stopped_on_its_way_while_out_of_reach_is_not_as_it_wa
         });
         rig.seconds(1.0).await;
         let stop = stops.then_some(Request::Halt(Halt::Stop));
-        let (_, is_as_left) = after_an_outage(&mut rig, stop, 1.0).await;
-        assert_eq!(is_as_left, !stops);
+        let (_, is_explained) = after_an_outage(&mut rig, stop, 1.0).await;
+        assert_eq!(is_explained, !stops);
     }
 }
 

@@ -162,7 +162,7 @@ fn a_target_beyond_the_travel_is_out_of_reach_and_waited_for() {
 fn after_a_lost_link_it_is_said_to_follow_on() {
     let mut model = following(TrackPhase::Tracking, 0.4, AxisMotion::Still);
     let back =
-        Event::Back { after: Duration::from_secs(20), found: Found::Still, is_as_left: true };
+        Event::Back { after: Duration::from_secs(20), found: Found::Still, is_explained: true };
     model.antennas[0].news = Some((back, model.now));
     let said = states::sentence(&model);
     assert!(said.ends_with("It is still following."), "{said}");

@@ -289,7 +289,7 @@ fn a_refusal_without_a_code_is_told_in_its_words() {
 #[test]
 fn what_has_just_happened_is_told_first_and_for_a_while() {
     let after = Duration::from_secs(42);
-    let back = Event::Back { after, found: Found::Tracking, is_as_left: true };
+    let back = Event::Back { after, found: Found::Tracking, is_explained: true };
     assert_eq!(
         told(states::tracking(0.0), just(back.clone())),
         "Satrak answers again after 42 s. It is still tracking NOAA 20."
@@ -301,7 +301,7 @@ fn what_has_just_happened_is_told_first_and_for_a_while() {
     let refused = PrepareError::Refused("ERR,7".to_owned());
     for (event, wanted) in [
         (
-            Event::Back { after, found: Found::Still, is_as_left: true },
+            Event::Back { after, found: Found::Still, is_explained: true },
             "Satrak answers again after 42 s. It is at rest and tracks nothing.",
         ),
         (Event::NotSent(Refusal::Stopping), "Not sent: a stop is under way."),

@@ -150,10 +150,12 @@ impl MotionWatch {
         sways_deg.reduce(|one, other| Some(one?.max(other?))).flatten()
     }
 
-    /// Returns `true` if commands lead each axis to where it is read, after a time without readings.
-    pub(super) fn explains(&self, readings: [Option<AxisReading>; 2]) -> bool {
+    /// Returns `true` if commands lead each axis to where it is read, after a time without readings. An
+    /// axis that stands may have coasted by `coasts_deg`.
+    pub(super) fn explains(&self, readings: [Option<AxisReading>; 2], coasts_deg: f64) -> bool {
         let mut axes = self.axes.iter().zip(readings);
-        axes.all(|(axis, reading)| reading.is_none_or(|reading| axis.explains(reading)))
+        let explains = |axis: &AxisWatch, reading: AxisReading| axis.explains(reading, coasts_deg);
+        axes.all(|(axis, reading)| reading.is_none_or(|reading| explains(axis, reading)))
     }
 
     /// The axes that are outside their interval although foreign motion is not yet proved.

@@ -224,9 +224,7 @@ struct Contact {
     clocks: Option<Clocks>,
     /// How long the computer has slept since the link was last up.
     slept: Duration,
-    /// Last position measured over the previous link.
-    left_at: Option<Pointing>,
-    /// What the unit looked like then.
+    /// What the unit looked like when it was last read over the previous link.
     left_as: Likeness,
     /// The unit must still prove to be as before; a program track keeps this itself.
     recheck: Option<Recheck>,
@@ -362,7 +360,6 @@ impl Session {
                 silence: Silence::default(),
                 clocks: None,
                 slept: Duration::ZERO,
-                left_at: None,
                 left_as: Likeness::default(),
                 recheck: None,
                 away_since: None,

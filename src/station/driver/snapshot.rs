@@ -345,7 +345,8 @@ pub enum Event {
         found: Found,
         /// What was asked from here explains what it does and where it points; a track from
         /// here is compared by itself.
-        is_as_left: bool,
+        #[serde(alias = "is_as_left")]
+        is_explained: bool,
     },
     /// The gate refused it.
     NotSent(Refusal),

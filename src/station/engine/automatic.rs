@@ -238,7 +238,7 @@ impl Engine {
             Event::Safety(
                 Safety::AsksToResume { unlike: Some(_), .. } | Safety::UnitDiffers { .. },
             )
-            | Event::Back { is_as_left: false, .. } => {
+            | Event::Back { is_explained: false, .. } => {
                 operation.switch_off(OffBecause::NotAsLeft);
             }
             _ => {}

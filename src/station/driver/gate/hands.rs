@@ -135,7 +135,8 @@ impl Gate {
     /// Returns `true` if commands lead the axes to where they are read now, after an outage. Call it before
     /// [`Self::look_for_hands`].
     pub(in crate::driver) fn explains_position(&self) -> bool {
-        self.readings().is_some_and(|readings| self.watch.explains(readings))
+        let coasts_deg = self.limits.maximum_rate_deg_s * self.overrun_s;
+        self.readings().is_some_and(|readings| self.watch.explains(readings, coasts_deg))
     }
 
     /// The axes that are outside their interval although foreign motion is not yet proved.

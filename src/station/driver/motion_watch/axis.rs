@@ -199,9 +199,11 @@ impl AxisWatch {
         self.spread.turns();
     }
 
-    /// Returns `true` if the axis can be where it is read. Without an earlier reading nobody knows.
-    pub(super) fn explains(&self, reading: AxisReading) -> bool {
-        let AxisReading { angle_deg, asked, received, .. } = reading;
+    /// Returns `true` if commands explain the reading: the axis turns inside the interval, or stands where
+    /// a motion ends or where it was read last. Stopped between the two, it was stopped by somebody.
+    /// It may coast by `coasts_deg`. Without an earlier reading nobody knows.
+    pub(super) fn explains(&self, reading: AxisReading, coasts_deg: f64) -> bool {
+        let AxisReading { angle_deg, motion, asked, received, .. } = reading;
         if self.open_until.is_some_and(|until| asked <= until) {
             return true;
         }
@@ -209,7 +211,16 @@ impl AxisWatch {
             return false;
         };
         let deg = angle_deg + self.turns_deg(angle_deg, known, reachable);
-        Range::about(deg, self.error_deg()).within(reachable).is_some()
+        let here = Range::about(deg, self.error_deg());
+        if motion != AxisMotion::Still {
+            return here.within(reachable).is_some();
+        }
+        let live = self.motions.iter().filter_map(|motion| motion.at(known.at));
+        let ends_deg = live.flat_map(|motion| [motion.down_to_deg, motion.up_to_deg]);
+        let ends = ends_deg.map(|end_deg| Range::about(end_deg, self.figures.arrives_within_deg));
+        let rests = ends.chain([known.range]);
+        let mut rests = rests.map(|rest| rest.widened(coasts_deg));
+        here.within(reachable).is_some() && rests.any(|rest| here.within(rest).is_some())
     }
 
     /// Expires, because an axis may report no further angle.

@@ -97,7 +97,6 @@ impl Session {
         }
         self.remember_likeness();
         let now = self.now();
-        self.contact.left_at = self.gate.pointing();
         self.gate.device().link_down(now);
         self.lose_shift(now);
         self.record();

@@ -13,7 +13,7 @@ use super::{
 use crate::{
     astro::Angle,
     clock::{Instant, Moment},
-    device::{Motion, Pointing},
+    device::Motion,
     driver::{Intent, Refusal, Safety, TrackProblem, Unlike},
     plan::{
         Bounds, ProgramTrack, TrackPhase,
@@ -34,7 +34,6 @@ pub(super) struct ResumeRule {
     resume: Resume,
     /// After a shorter time it resumes in any case.
     after: Duration,
-    half_beam: Angle,
 }
 
 impl ResumeRule {
@@ -42,7 +41,6 @@ impl ResumeRule {
         Self {
             resume: antenna.resume,
             after: Duration::try_from_secs_f64(antenna.resume_after_s).unwrap_or_default(),
-            half_beam: antenna.beam_width() * 0.5,
         }
     }
 }
@@ -305,7 +303,7 @@ impl Session {
 
     /// The unit was read anew after it was out of reach for `lost`: commands from the earlier
     /// link may be lost, and somebody may have gone to the antenna.
-    pub(super) fn follow_on(&mut self, lost: Duration, at: Pointing, now: Moment) {
+    pub(super) fn follow_on(&mut self, lost: Duration, now: Moment) {
         let Some(track) = self.activity.program_mut() else { return };
         track.planner.forget_sent();
         track.sent = None;
@@ -315,12 +313,7 @@ impl Session {
             return;
         }
         let lost = lost + unchecked.unwrap_or_default();
-        // Where it was sent, where it was left, or still moving from one to the other: at rest
-        // between the two somebody has stopped it.
-        let (sent, left) = (track.commanded, self.contact.left_at);
-        let is_there = sent.into_iter().chain(left).any(|place| self.is_near(place, at));
-        let is_on_its_way = self.turns() && self.gate.explains_position();
-        if !is_there && !is_on_its_way {
+        if !self.gate.explains_position() {
             return self.await_word(lost, Some(Unlike::Position));
         }
         if self.setup.rule.resume == Resume::Ask {
@@ -329,18 +322,6 @@ impl Session {
         if let Some(track) = self.activity.program_mut() {
             track.recheck = Some(Recheck { since: now.steady, lost });
         }
-    }
-
-    /// Whether an antenna that was left at `place` may point there without having been moved,
-    /// within what it coasts.
-    pub(super) fn is_near(&self, place: Pointing, at: Pointing) -> bool {
-        let nearby = self.setup.rule.half_beam + self.overrun();
-        place.separation(at).is_some_and(|off| off <= nearby)
-    }
-
-    fn overrun(&self) -> Angle {
-        let rate_deg_s = self.setup.track_config.drives.rates_deg_s.into_iter().fold(0.0, f64::max);
-        Angle::from_degrees(rate_deg_s * self.variant.capabilities.standstill.overrun_s)
     }
 
     pub(super) fn await_word(&mut self, lost: Duration, unlike: Option<Unlike>) {

@@ -255,12 +255,11 @@ impl Session {
             .map_or(Duration::ZERO, |since| now.steady.saturating_duration_since(since));
         let lost = away + std::mem::take(&mut self.contact.slept);
         // What is owed is sent first, and ends what would go on.
-        let at = self.gate.pointing().unwrap_or(measured.pointing);
-        let is_as_left = !self.stop.is_under_way() && self.is_as_left(found, at, now);
+        let is_explained = !self.stop.is_under_way() && self.explains(found, now);
         if self.contact.away_since.is_some() && self.activity.program().is_none() {
             self.contact.recheck = Some(Recheck { since: now.steady, lost });
         }
-        self.follow_on(lost, at, now);
+        self.follow_on(lost, now);
         // A slew is watched further; its outcome is still to be reported.
         if let Some(Slew { stage: SlewStage::UnderWay { since, .. }, .. }) =
             self.activity.slew_mut()
@@ -281,40 +280,29 @@ impl Session {
             Some(away_since) => Event::Back {
                 after: now.steady.saturating_duration_since(away_since),
                 found,
-                is_as_left,
+                is_explained,
             },
         };
         self.tell(event);
     }
 
-    /// Whether what was asked from here explains what the unit does and where it points after an
-    /// outage.
-    fn is_as_left(&self, found: Found, at: Pointing, now: Moment) -> bool {
-        let left = self.contact.left_at;
-        let is_at = |place: Option<Pointing>| place.is_none_or(|place| self.is_near(place, at));
-        let stands_as_left = found == Found::Still && is_at(left);
-        if let Some(slew @ Slew { stage: SlewStage::UnderWay { .. }, .. }) = self.activity.slew() {
-            let aim = slew.aim_under_way();
-            return match found {
-                Found::Tracking => false,
-                Found::Still => stands_as_left || is_at(aim),
-                Found::Moving => self.gate.explains_position(),
-            };
-        }
-        match &self.activity {
+    /// Returns `true` if what was asked from here explains what the unit does and where it points after
+    /// an outage.
+    fn explains(&self, found: Found, now: Moment) -> bool {
+        match (found, &self.activity) {
+            (Found::Tracking, activity) => matches!(activity, Activity::OnBoardTrack(_)),
             // Compared by itself.
-            Activity::ProgramTrack(_) => true,
-            Activity::OnBoardTrack(track) => {
-                let is_over = now.utc >= track.target.until;
-                match track.stage {
-                    _ if found == Found::Tracking => true,
-                    OnBoardStage::Tracking => found == Found::Still && is_over,
-                    _ => stands_as_left,
-                }
+            (_, Activity::ProgramTrack(_)) => true,
+            (_, Activity::OnBoardTrack(track)) if matches!(track.stage, OnBoardStage::Tracking) => {
+                found == Found::Still && now.utc >= track.target.until
             }
-            Activity::GoTo(_) | Activity::Standby | Activity::Manual | Activity::Hold(_) => {
-                stands_as_left
+            (Found::Moving, activity) => {
+                let slew = activity.slew();
+                let is_under_way =
+                    slew.is_some_and(|slew| matches!(slew.stage, SlewStage::UnderWay { .. }));
+                is_under_way && self.gate.explains_position()
             }
+            (Found::Still, _) => self.gate.explains_position(),
         }
     }
 

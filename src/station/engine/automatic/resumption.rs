@@ -49,7 +49,7 @@ pub(super) fn ends_with(event: &Event) -> bool {
             | Safety::Slept { .. } => false,
         },
         Event::StartedByItself
-        | Event::Back { is_as_left: false, .. }
+        | Event::Back { is_explained: false, .. }
         | Event::StopNotConfirmed
         | Event::StopRefused(_)
         | Event::AutoTrackStillOn
@@ -59,7 +59,7 @@ pub(super) fn ends_with(event: &Event) -> bool {
         // A unit that only answers badly is judged when its next pass begins.
         Event::LinkLost(_)
         | Event::Connected(_)
-        | Event::Back { is_as_left: true, .. }
+        | Event::Back { is_explained: true, .. }
         | Event::NotSent(_)
         | Event::Refused(..)
         | Event::OffsetRefused(_)
