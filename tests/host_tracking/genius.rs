@@ -228,3 +228,19 @@ async fn a_rotator_that_takes_the_commands_and_does_nothing_is_stopped() {
     let received = control.received().split_off(before);
     assert!(received.iter().any(|(_, command)| command == "|S"), "{received:?}");
 }
+
+#[tokio::test(start_paused = true)]
+async fn a_rotator_that_loses_its_sensor_ends_the_track() {
+    for number in [RotatorNumber::One, RotatorNumber::Two] {
+        let scene = sky::usual();
+        let (mut rig, control) = connected(&options(2), &antenna(Rotators::Pair), &scene).await;
+        rig.send(Command::ProgramTrack(Box::new(scene.follow())));
+        rig.until("up", 1000, |shown| {
+            shown.program_track.as_ref().is_some_and(|track| track.phase == TrackPhase::Tracking)
+        })
+        .await;
+        control.set_fault(Fault::NoSensor(number), true);
+        rig.seconds(12.0).await;
+        assert_eq!((rig.phase(), rig.shown().intent), (None, Intent::Standby), "{number:?}");
+    }
+}

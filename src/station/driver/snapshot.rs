@@ -414,6 +414,8 @@ pub enum TrackProblem {
     /// It does not rise in the time that was searched.
     #[error("there is no pass to come")]
     NoPass,
+    #[error("an axis reports no angle: check its sensor and the cable")]
+    NoAngle,
     /// Its elements describe no orbit, or it has come down.
     #[error(transparent)]
     Orbit(#[from] PropagationError),
@@ -426,7 +428,7 @@ impl TrackProblem {
     pub fn barrier(&self) -> Option<&Barrier> {
         match self {
             Self::Refused(refusal) => refusal.barrier(),
-            Self::NoPass | Self::Orbit(_) => None,
+            Self::NoPass | Self::NoAngle | Self::Orbit(_) => None,
         }
     }
 }

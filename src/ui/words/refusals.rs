@@ -184,6 +184,9 @@ pub fn hindrance(hindrance: Hindrance) -> String {
 pub fn track_problem(problem: &TrackProblem, now: Timestamp) -> String {
     match problem {
         TrackProblem::NoPass => "it does not rise in the next days.".to_owned(),
+        TrackProblem::NoAngle => {
+            "an axis reports no angle. Check its sensor and the cable.".to_owned()
+        }
         TrackProblem::Orbit(_) => "its elements do not say where it is.".to_owned(),
         TrackProblem::Refused(why) => {
             let words = refusal(why, now);

@@ -11,7 +11,6 @@ use super::{
     Command, Event, Session, activity::Activity, likeness::Recheck, off_target::OffTarget,
 };
 use crate::{
-    astro::Angle,
     clock::{Instant, Moment},
     device::Motion,
     driver::{Intent, Refusal, Safety, TrackProblem, Unlike},
@@ -136,11 +135,16 @@ impl Session {
     pub(super) fn watch_follow(&mut self, now: Moment) {
         let measured = self.gate.state().measured;
         let (half_beam, on_target) = (self.setup.ability.half_beam, self.on_target());
+        let axis_count = self.variant.capabilities.axis_count();
         let Some(track) = self.activity.program_mut() else { return };
         if let Some(measured) = measured {
-            track.compare(measured, half_beam, on_target);
+            track.compare(measured, axis_count, half_beam, on_target);
             // Known for the next target, too.
             self.setup.track_config.drives.rates_deg_s = track.planner.rates_deg_s();
+            if track.is_blind() {
+                let name = track.name();
+                return self.give_up(Event::CannotProgramTrack(name, TrackProblem::NoAngle), now);
+            }
         }
         let phase = track.planner.follow().phase(now.utc);
         if phase != track.phase {

@@ -17,6 +17,9 @@ use crate::{
     station::{self, Antenna},
 };
 
+/// A track ends once an axis has had no angle for this long.
+const UNMEASURED: Duration = Duration::from_secs(10);
+
 /// Settings of program track.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::driver::session) struct TrackConfig {
@@ -68,6 +71,8 @@ pub(in crate::driver::session) struct Tracking {
     /// The last measurement against the planned path; `None` before the pass.
     pub(super) on_path: Option<OnPath>,
     pub(in crate::driver::session) off_target: OffTarget,
+    /// Start and latest in an unbroken series of readings without the angle of an axis.
+    unmeasured: Option<(Instant, Instant)>,
     /// Waits for the operator.
     pub(super) awaits_operator: bool,
     /// The unit must still prove to be as before.
@@ -96,6 +101,7 @@ impl Tracking {
             predicted: None,
             on_path: None,
             off_target: OffTarget::default(),
+            unmeasured: None,
             awaits_operator: false,
             recheck: None,
             barrier_is_told: false,
@@ -135,11 +141,20 @@ impl Tracking {
     /// Takes the pointing error and the rates of a measurement, once each.
     /// The antenna is on target within `half_beam`. It is on its path within `on_target`, which includes
     /// the error of the unit's readings.
-    pub(super) fn compare(&mut self, measured: Measured, half_beam: Angle, on_target: Angle) {
+    pub(super) fn compare(
+        &mut self,
+        measured: Measured,
+        axis_count: usize,
+        half_beam: Angle,
+        on_target: Angle,
+    ) {
         if self.compared.replace(measured.received) == Some(measured.received) {
             return;
         }
         let positions_deg = measured.axes.map(|axis| axis.angle_deg);
+        let is_measured = positions_deg.iter().take(axis_count).all(Option::is_some);
+        let began = self.unmeasured.map_or(measured.received, |(began, _)| began);
+        self.unmeasured = (!is_measured && !self.asks()).then_some((began, measured.received));
         self.planner.watch(measured.asked, positions_deg);
         let is_up = self.phase == TrackPhase::Tracking;
         let direction = is_up.then(|| self.planner.reachable(measured.at)).flatten();
@@ -165,6 +180,11 @@ impl Tracking {
             Some(OnPath::OnItsWay { .. }) | None => None,
         };
         self.off_target.take(off, measured.received);
+    }
+
+    /// Returns `true` once an axis has had no angle for [`UNMEASURED`].
+    pub(super) fn is_blind(&self) -> bool {
+        self.unmeasured.is_some_and(|(began, at)| at.saturating_duration_since(began) >= UNMEASURED)
     }
 
     /// The axes, of which none is taken for at rest.
