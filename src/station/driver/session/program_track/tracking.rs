@@ -5,7 +5,7 @@ use std::time::Duration;
 use crate::{
     astro::{Angle, PointingModel, TrackOffsets},
     clock::Instant,
-    device::{AxisMotion, Capabilities, Measured, Pointing},
+    device::{Axis, AxisMotion, Capabilities, Measured, Pointing},
     driver::{
         TrackView,
         session::{likeness::Recheck, off_target::OffTarget},
@@ -71,7 +71,7 @@ pub(in crate::driver::session) struct Tracking {
     /// The last measurement against the planned path; `None` before the pass.
     pub(super) on_path: Option<OnPath>,
     pub(in crate::driver::session) off_target: OffTarget,
-    /// Start and latest in an unbroken series of readings without the angle of an axis.
+    /// Start and latest in an unbroken series of readings without the angle of an axis off its limits.
     unmeasured: Option<(Instant, Instant)>,
     /// Waits for the operator.
     pub(super) awaits_operator: bool,
@@ -152,7 +152,10 @@ impl Tracking {
             return;
         }
         let positions_deg = measured.axes.map(|axis| axis.angle_deg);
-        let is_measured = positions_deg.iter().take(axis_count).all(Option::is_some);
+        // An RC2000C reports no angle of an axis at a limit.
+        let is_known =
+            |axis: &Axis| axis.angle_deg.is_some() || axis.plus_limit || axis.minus_limit;
+        let is_measured = measured.axes.iter().take(axis_count).all(is_known);
         let began = self.unmeasured.map_or(measured.received, |(began, _)| began);
         self.unmeasured = (!is_measured && !self.asks()).then_some((began, measured.received));
         self.planner.watch(measured.asked, positions_deg);
