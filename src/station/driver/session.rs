@@ -224,7 +224,7 @@ struct Contact {
     clocks: Option<Clocks>,
     /// How long the computer has slept since the link was last up.
     slept: Duration,
-    /// What the unit looked like when it was last read over the previous link.
+    /// Looks of the unit when it was last read over the previous link.
     left_as: Likeness,
     /// The unit must still prove to be as before; a program track keeps this itself.
     recheck: Option<Recheck>,

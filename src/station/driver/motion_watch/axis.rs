@@ -200,7 +200,7 @@ impl AxisWatch {
     }
 
     /// Returns `true` if commands explain the reading: the axis turns inside the interval, or stands where
-    /// a motion ends or where it was read last. Stopped between the two, it was stopped by somebody.
+    /// a motion ends or where it was read last. At rest between the two, somebody has stopped it.
     /// It may coast by `coasts_deg`. Without an earlier reading nobody knows.
     pub(super) fn explains(&self, reading: AxisReading, coasts_deg: f64) -> bool {
         let AxisReading { angle_deg, motion, asked, received, .. } = reading;

@@ -289,19 +289,20 @@ impl Session {
     /// Returns `true` if what was asked from here explains what the unit does and where it points after
     /// an outage.
     fn explains(&self, found: Found, now: Moment) -> bool {
+        let slew = self.activity.slew();
+        let is_under_way =
+            slew.is_some_and(|slew| matches!(slew.stage, SlewStage::UnderWay { .. }));
         match (found, &self.activity) {
-            (Found::Tracking, activity) => matches!(activity, Activity::OnBoardTrack(_)),
             // Compared by itself.
             (_, Activity::ProgramTrack(_)) => true,
+            // Azel starts the unit's program only after the slew.
+            (Found::Tracking, activity) => {
+                matches!(activity, Activity::OnBoardTrack(_)) && !is_under_way
+            }
             (_, Activity::OnBoardTrack(track)) if matches!(track.stage, OnBoardStage::Tracking) => {
                 found == Found::Still && now.utc >= track.target.until
             }
-            (Found::Moving, activity) => {
-                let slew = activity.slew();
-                let is_under_way =
-                    slew.is_some_and(|slew| matches!(slew.stage, SlewStage::UnderWay { .. }));
-                is_under_way && self.gate.explains_position()
-            }
+            (Found::Moving, _) => is_under_way && self.gate.explains_position(),
             (Found::Still, _) => self.gate.explains_position(),
         }
     }
