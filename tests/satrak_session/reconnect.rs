@@ -200,12 +200,26 @@ async fn a_unit_at_rest_that_was_turned_while_out_of_reach_is_not_as_it_was_left
             assert_eq!(after_an_outage(&mut rig, request, waits_s).await, wanted);
         }
     }
-    // An owed STOP goes out first and may change where the antenna points.
-    let mut rig = Rig::usual().await;
+}
+
+/// The position alone decides: a STOP that has not been sent, or was not answered, turns nothing.
+#[tokio::test(start_paused = true)]
+async fn a_stop_that_is_owed_after_an_outage_hides_no_foreign_motion_and_pretends_none() {
+    for (waits_s, request, wanted) in [
+        (5.0, None, (Found::Still, true)),
+        (90.0, Some(goto()), (Found::Still, false)),
+    ] {
+        let mut rig = Rig::usual().await;
+        rig.set_off(true);
+        rig.seconds(1.0).await;
+        rig.stop();
+        assert_eq!(after_an_outage(&mut rig, request, waits_s).await, wanted);
+    }
+    let mut rig = moving(Begun::GoTo).await;
     rig.set_off(true);
     rig.seconds(1.0).await;
     rig.stop();
-    assert_eq!(after_an_outage(&mut rig, None, 5.0).await, (Found::Still, false));
+    assert!(after_an_outage(&mut rig, None, 2.0).await.1);
 }
 
 #[tokio::test(start_paused = true)]

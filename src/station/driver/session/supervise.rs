@@ -254,8 +254,7 @@ impl Session {
             .away_since
             .map_or(Duration::ZERO, |since| now.steady.saturating_duration_since(since));
         let lost = away + std::mem::take(&mut self.contact.slept);
-        // What is owed is sent first, and ends what would go on.
-        let is_explained = !self.stop.is_under_way() && self.explains(found, now);
+        let is_explained = self.explains(found, now);
         if self.contact.away_since.is_some() && self.activity.program().is_none() {
             self.contact.recheck = Some(Recheck { since: now.steady, lost });
         }
@@ -302,7 +301,10 @@ impl Session {
             (_, Activity::OnBoardTrack(track)) if matches!(track.stage, OnBoardStage::Tracking) => {
                 found == Found::Still && now.utc >= track.target.until
             }
-            (Found::Moving, _) => is_under_way && self.gate.explains_position(),
+            // What a STOP of Azel has not reached yet moves on as it was commanded.
+            (Found::Moving, _) => {
+                (is_under_way || self.stop.is_under_way()) && self.gate.explains_position()
+            }
             (Found::Still, _) => self.gate.explains_position(),
         }
     }
