@@ -65,6 +65,12 @@ pub struct AntennaState {
 }
 
 impl AntennaState {
+    /// The last position that was asked for on the present link.
+    pub fn measured_on_link(&self) -> Option<Measured> {
+        let since = self.link_since?;
+        self.measured.filter(|measured| measured.asked >= since)
+    }
+
     /// The state of a group of settings, empty if it is new.
     pub(crate) fn group(&mut self, key: &'static str) -> &mut GroupState {
         Arc::make_mut(&mut self.held).entry(key).or_default()

@@ -130,11 +130,7 @@ fn controller_offers_it(motion: &Motion, situation: &Situation<'_>) -> Result<()
 }
 
 fn position_is_fresh(asked: &Asked, situation: &Situation<'_>) -> Result<(), Refusal> {
-    let measured = situation
-        .state
-        .measured
-        .filter(|measured| situation.state.link_since.is_some_and(|since| measured.asked >= since))
-        .ok_or(Refusal::PositionUnknown)?;
+    let measured = situation.state.measured_on_link().ok_or(Refusal::PositionUnknown)?;
     let age = situation.now.steady.saturating_duration_since(measured.asked);
     let is_by_hand = matches!(asked, Asked::Motion(Motion::Jog { .. } | Motion::Step { .. }));
     let allowed = if is_by_hand { FRESH } else { RECENT };

@@ -231,13 +231,12 @@ impl Session {
     /// Reports what the unit was found doing when the link came up.
     fn report_found(&mut self, now: Moment) {
         let state = self.gate.state();
-        let Some(measured) = state.measured else { return };
         let tracks = match state.program {
             Some(program) => program.enabled,
             None if self.variant.capabilities.has_program => return,
             None => false,
         };
-        if !self.contact.unread || state.link_since.is_none_or(|since| measured.asked < since) {
+        if !self.contact.unread || state.measured_on_link().is_none() {
             return;
         }
         self.contact.unread = false;

@@ -24,6 +24,7 @@ pub(super) fn seen(antenna: &AntennaModel) -> Seen {
         is_live: antenna.is_live(),
         is_locked_out: snapshot.lock_out.is_some(),
         can_be_sent: !stops
+            && snapshot.state.measured_on_link().is_some()
             && !snapshot.being_compared
             && snapshot.left_moving.is_none()
             && antenna.held_by.is_none(),

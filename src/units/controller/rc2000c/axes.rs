@@ -10,6 +10,8 @@ use crate::{
 
 /// A standing axis may read one step more or less.
 const UNSTEADY: u16 = 1;
+/// Largest noise of a sensor, degrees.
+const NOISE_DEG: f64 = 1.0;
 /// Drive number of an auto move, which shows no direction.
 const AUTO_MOVE: i64 = 7;
 
@@ -95,7 +97,8 @@ impl Axes {
     }
 
     /// The counts of a move to a direction. Both axes always move: one that should stay is sent to its
-    /// present counts, or to the end of its travel if it stands at that limit and tells none.
+    /// present counts, or to the end of its travel if it stands at that limit and tells none. Noise
+    /// may read one that stands at an end a little beyond it; the unit would refuse such counts.
     pub(super) fn counts(
         &self,
         azimuth: Option<Angle>,
@@ -109,7 +112,13 @@ impl Axes {
             |name, angle: Option<Angle>, line: Option<CountLine>, at, (from_deg, to_deg)| {
                 let degrees = match (angle, at) {
                     (Some(angle), _) => angle.degrees(),
-                    (None, Some(Position::Counts(counts))) => return Ok(counts),
+                    (None, Some(Position::Counts(counts))) => {
+                        let at_deg = line.map(|line| line.degrees(counts));
+                        match at_deg.and_then(|at_deg| end_beside(at_deg, from_deg, to_deg)) {
+                            Some(end_deg) => end_deg,
+                            None => return Ok(counts),
+                        }
+                    }
                     (None, Some(Position::Limit(end))) => {
                         let is_reversed = line.is_some_and(|line| line.is_reversed());
                         if (sense_of(end) == Sense::Positive) == is_reversed {
@@ -139,6 +148,13 @@ impl Axes {
         let [azimuth, elevation] = self.lines;
         Some([Some(azimuth?.degrees(counts[0])), Some(elevation?.degrees(counts[1]))])
     }
+}
+
+/// The end of the travel beyond which `at_deg` lies by no more than noise.
+fn end_beside(at_deg: f64, from_deg: f64, to_deg: f64) -> Option<f64> {
+    let end_deg = at_deg.clamp(from_deg, to_deg);
+    let beyond_deg = (at_deg - end_deg).abs();
+    (beyond_deg > 0.0 && beyond_deg <= NOISE_DEG).then_some(end_deg)
 }
 
 /// Counts need a calibration; a displayed angle does not.

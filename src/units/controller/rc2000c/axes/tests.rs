@@ -129,6 +129,18 @@ fn an_axis_that_stays_at_its_limit_is_sent_to_that_end_of_its_travel() {
 }
 
 #[test]
+fn an_axis_that_noise_reads_beyond_its_travel_is_sent_to_the_end() {
+    let up = Some(Angle::from_degrees(45.0));
+    let sent = |counts| {
+        let status = Status { azimuth: Position::Counts(counts), ..status(IDLE) };
+        calibrated().counts(None, up, Some(&status), &mount(90.0)).unwrap()[0]
+    };
+    assert_eq!([25, 30, 31, 9030, 9036].map(sent), [30, 30, 31, 9030, 9030]);
+    // An axis that stands far outside is not turned.
+    assert_eq!([1, 9060].map(sent), [1, 9060]);
+}
+
+#[test]
 fn limits_lie_at_the_end_where_the_angle_does() {
     let at_end = Status {
         azimuth: Position::Limit(LimitEnd::CounterClockwise),
