@@ -205,10 +205,9 @@ async fn a_unit_at_rest_that_was_turned_while_out_of_reach_is_not_as_it_was_left
 /// The position alone decides: a STOP that has not been sent, or was not answered, turns nothing.
 #[tokio::test(start_paused = true)]
 async fn a_stop_that_is_owed_after_an_outage_hides_no_foreign_motion_and_pretends_none() {
-    for (waits_s, request, wanted) in [
-        (5.0, None, (Found::Still, true)),
-        (90.0, Some(goto()), (Found::Still, false)),
-    ] {
+    for (waits_s, request, wanted) in
+        [(5.0, None, (Found::Still, true)), (90.0, Some(goto()), (Found::Still, false))]
+    {
         let mut rig = Rig::usual().await;
         rig.set_off(true);
         rig.seconds(1.0).await;

@@ -8,8 +8,9 @@ use std::{
 
 use crate::device::Measured;
 
-/// Maximum number of positions kept: a quarter of an hour at ten a second.
-const MAX: usize = 9000;
+/// Maximum number of positions kept: nearly a quarter of an hour at ten a second. A power of two, to
+/// which a `VecDeque` grows.
+const MAX: usize = 8192;
 
 /// The log of one antenna, shared by its session and its readers. Numbers count from 0 without
 /// gaps.
@@ -30,10 +31,11 @@ impl PositionLog {
             return;
         }
         ring.next += 1;
-        ring.positions.push_back(measured);
-        if ring.positions.len() > MAX {
+        // Removed first, so that the memory never grows past what `MAX` takes.
+        if ring.positions.len() == MAX {
             ring.positions.pop_front();
         }
+        ring.positions.push_back(measured);
     }
 
     /// The positions from `number` on, oldest first, and the number of the first of them, which is

@@ -3,6 +3,7 @@
 
 mod differences;
 mod live;
+mod plans;
 mod reports;
 mod state;
 
@@ -14,7 +15,7 @@ use std::{
 };
 
 use jiff::Timestamp;
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 use tokio::sync::mpsc;
 
 use self::{differences::differences, reports::Followed, state::State};
@@ -24,6 +25,7 @@ use super::{
     automatic::DayLine,
     claim::{digest, whole_path},
     handle::{By, Stopped},
+    schedule::Planned,
 };
 use crate::{
     astro::time::seconds_between,
@@ -53,8 +55,8 @@ pub(super) struct Recording {
     /// The last write to each group of settings.
     written: BTreeMap<(AntennaId, &'static str), Timestamp>,
     alarms: Vec<Alarm>,
-    /// Revision of the schedule, and its entries and left out passes.
-    schedule: (u64, Map<String, Value>),
+    /// The schedule that was recorded last.
+    schedule: Arc<Planned>,
     /// The clocks of the last turn, and how long the computer had slept by then.
     clock: Option<(Moment, Duration, TimeSync)>,
     /// The antenna that a held key turns, and when that was last heard of.
@@ -326,38 +328,6 @@ impl Engine {
             }
         }
         self.recording.alarms = list.to_vec();
-    }
-
-    fn note_schedule(&mut self, at: Moment) {
-        let planned = &self.schedule;
-        if planned.revision == self.recording.schedule.0 {
-            return;
-        }
-        let mut now = Map::new();
-        for entry in &planned.schedule.entries {
-            let key = format!("{:?} {}", entry.pass, entry.antenna.0);
-            now.insert(key, serde_json::to_value(entry).unwrap_or_default());
-        }
-        for left_out in &planned.schedule.left_out {
-            let key = format!("{:?}", left_out.pass);
-            now.insert(key, serde_json::to_value(left_out).unwrap_or_default());
-        }
-        let (_, before) = std::mem::replace(&mut self.recording.schedule, (planned.revision, now));
-        let now = &self.recording.schedule.1;
-        let news: Vec<&Value> = (now.iter())
-            .filter(|(key, entry)| before.get(*key) != Some(entry))
-            .map(|(_, entry)| entry)
-            .collect();
-        let gone: Vec<&Value> = (before.iter())
-            .filter(|(key, _)| !now.contains_key(*key))
-            .filter_map(|(_, entry)| entry.get("pass"))
-            .collect();
-        if !news.is_empty() || !gone.is_empty() {
-            let data = json!({
-                "revision": planned.revision, "new": news, "gone": gone, "changes": planned.changes,
-            });
-            self.recording.note(at, None, Kind::Schedule, &data);
-        }
     }
 }
 

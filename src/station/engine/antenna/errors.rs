@@ -62,7 +62,12 @@ impl Errors {
     /// Adds an error and drops old ones, a chunk at a time.
     pub(super) fn push(&mut self, sample: ErrorSample) {
         match self.chunks.back_mut().filter(|chunk| chunk.len() < CHUNK) {
-            Some(chunk) => Arc::make_mut(chunk).push(sample),
+            Some(chunk) => {
+                let chunk = Arc::make_mut(chunk);
+                // A copy has no room left; doubled, half of it would stay empty for good.
+                chunk.reserve_exact(CHUNK - chunk.len());
+                chunk.push(sample);
+            }
             None => self.chunks.push_back(Arc::new(vec![sample])),
         }
         let is_old = |chunk: &Arc<Vec<ErrorSample>>| {
