@@ -81,6 +81,19 @@ async fn at_the_end_of_the_window_the_operator_is_back_in_standby() {
     assert_eq!(rig.events(), []);
 }
 
+/// A file of the same name may have come with new elements.
+#[tokio::test(start_paused = true)]
+async fn a_file_that_the_station_names_is_chosen_for_each_track() {
+    let mut rig = Rig::usual().await;
+    let target = TrackTarget { element_file: Some("stations.txt".to_owned()), ..iss() };
+    for round in 1..=2 {
+        tracking(&mut rig, &target).await;
+        rig.send(Command::Standby);
+        rig.until("the track is over", 20, |shown| shown.intent == Intent::Standby).await;
+        assert_eq!(rig.sent("SATELLITE=,stations.txt,ISS").len(), round);
+    }
+}
+
 #[tokio::test(start_paused = true)]
 async fn a_satellite_that_the_unit_does_not_have_is_told_and_nothing_moves() {
     let mut rig = Rig::usual().await;

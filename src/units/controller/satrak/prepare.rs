@@ -91,7 +91,14 @@ impl Preparation {
         self.step = match (self.step, reply) {
             (PrepareStep::AskSatellite, Reply::Satellite(held)) => {
                 self.held = Some(held.clone());
-                if self.holds_target() { PrepareStep::SetWindow } else { PrepareStep::SetSatellite }
+                // A file of this name may have new elements, and the unit reads it only when it is told
+                // the satellite.
+                let is_from_file = self.target.element_file.is_some();
+                if !is_from_file && self.holds_target() {
+                    PrepareStep::SetWindow
+                } else {
+                    PrepareStep::SetSatellite
+                }
             }
             (PrepareStep::SetSatellite, Reply::Done) => PrepareStep::ReadSatellite,
             (PrepareStep::ReadSatellite, Reply::Satellite(held)) => {
