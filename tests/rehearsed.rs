@@ -13,6 +13,7 @@ pub(crate) mod scene;
 mod size;
 mod trouble;
 mod unattended;
+mod upkeep;
 
 use std::{sync::Arc, time::Duration};
 

@@ -1,7 +1,7 @@
 //! Settings of the station: site, satellites and antennas, in forms with a page each.
 
 mod antenna;
-mod antenna_fields;
+pub(super) mod antenna_fields;
 mod appearance;
 mod checks;
 mod columns;

@@ -29,7 +29,7 @@ pub use on_board::{
 pub use state::{
     AntennaState, Axis, AxisMotion, Drive, Measured, Phase, Pointing, Program, Traffic,
 };
-pub use variant::Variant;
+pub use variant::{ClockSetting, Variant};
 pub use wire::{Direction, Explained, ExplainedValue, Finding, Meaning, WireLine};
 
 use crate::{

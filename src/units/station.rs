@@ -24,6 +24,7 @@ mod satellite_group;
 mod scheduling;
 mod setting;
 mod track_settings;
+mod upkeep;
 mod watch;
 
 pub use antenna::{Antenna, AntennaId, Direction, MotionLimits, PollRates};
@@ -48,6 +49,7 @@ pub use satellite_group::SatelliteGroup;
 pub use scheduling::{Automatic, BetweenPasses, ChooseBy, Partly, Scheduling};
 pub use setting::{Setting, Table};
 pub use track_settings::{AfterPass, TrackSettings};
+pub use upkeep::{Upkeep, UploadWay};
 pub use watch::{DEFAULT_RESUME_AFTER_S, DEFAULT_SWAY_DEG, Monitor, OnClose, Resume};
 
 use std::collections::{BTreeMap, BTreeSet};

@@ -70,7 +70,10 @@ fn before_a_pass() -> Timestamp {
     add_seconds(first, -BEFORE_S)
 }
 
-async fn scene_of(antenna: &str, set: impl FnOnce(&mut Antenna)) -> (Scene, Client, AntennaId) {
+pub(super) async fn scene_of(
+    antenna: &str,
+    set: impl FnOnce(&mut Antenna),
+) -> (Scene, Client, AntennaId) {
     let scene = Scene::new(before_a_pass(), &station(antenna, set));
     let client = scene.client();
     let id = measured(&client, antenna).await;
@@ -79,7 +82,7 @@ async fn scene_of(antenna: &str, set: impl FnOnce(&mut Antenna)) -> (Scene, Clie
 }
 
 /// The antenna is on its way to its first pass, and the unit is proved to hold it.
-async fn proved(client: &Client, id: AntennaId) {
+pub(super) async fn proved(client: &Client, id: AntennaId) {
     set_automatic(client, id, true).await;
     until("the proof", || operation(client, id).taking()?.proved_at).await;
 }
@@ -119,7 +122,7 @@ fn elsewhere() -> Vec<u8> {
 }
 
 /// Another program sends this to the unit of the dish.
-async fn by_another(scene: &Scene, bytes: &[u8]) {
+pub(super) async fn by_another(scene: &Scene, bytes: &[u8]) {
     let (mut near, far) = tokio::io::duplex(4096);
     near.write_all(bytes).await.unwrap();
     near.shutdown().await.unwrap();
@@ -518,7 +521,7 @@ async fn after_a_crash(
     (scene, client, id)
 }
 
-async fn seconds(client: &Client, seconds: f64) {
+pub(super) async fn seconds(client: &Client, seconds: f64) {
     let at = client.now().utc;
     let is_over = || (seconds_between(at, client.now().utc) > seconds).then_some(());
     until("seconds", is_over).await;

@@ -6,6 +6,7 @@ mod day;
 mod operation;
 mod resumption;
 mod seen;
+mod upkeep;
 
 use std::path::PathBuf;
 
@@ -17,6 +18,7 @@ use self::{
     operation::{Act, LATE_S, Outcome, Seen, WINDOW_STEP_S, Wishes},
     resumption::Resumption,
     seen::seen,
+    upkeep::UpkeepWork,
 };
 pub use self::{
     day::{DayEvent, DayLine, Flown, MissCause},
@@ -50,12 +52,14 @@ pub(super) struct AtWork {
     has_auto_track_on: bool,
     /// After a crash it waits to be switched on again.
     resumption: Option<Resumption>,
+    upkeep: UpkeepWork,
 }
 
 impl AtWork {
     /// What remains of it when the antenna is given another unit.
     pub(super) fn without_unit(self) -> Self {
-        Self { has_auto_track_on: false, resumption: None, ..self }
+        let upkeep = UpkeepWork::default();
+        Self { has_auto_track_on: false, resumption: None, upkeep, ..self }
     }
 }
 
@@ -292,6 +296,7 @@ impl Engine {
             self.keep_last_run();
             self.switch_auto_track_on(index);
         }
+        self.keep_up(index);
     }
 
     /// The passes that the schedule gives to an antenna.

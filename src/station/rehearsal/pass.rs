@@ -153,7 +153,10 @@ impl Passes {
                 DayEvent::SwitchedOff(_) | DayEvent::Suspended(_) => {
                     self.interruptions.push(line.clone());
                 }
-                DayEvent::SwitchedOn | DayEvent::WentOn => {}
+                DayEvent::SwitchedOn
+                | DayEvent::WentOn
+                | DayEvent::ClockSet { .. }
+                | DayEvent::ClockNotSet { .. } => {}
                 DayEvent::Flown(flown) => self.take_flown(line.antenna, flown),
             }
         }

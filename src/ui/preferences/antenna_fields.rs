@@ -16,12 +16,14 @@ type Of = Description<Antenna>;
 /// Sections of the page, each of which is a card.
 const MOUNT: &str = "Mount and travel";
 pub(super) const POINTING: &str = "Pointing model";
+pub(in crate::ui) const UPKEEP: &str = "Upkeep between passes";
 const FOLLOWING: &str = "Following and outages";
 pub(super) const WATCH: &str = "Polling and supervision";
 
 /// All fields that an antenna of this make may have.
 pub(super) fn all(spec: &'static ControllerSpec) -> Vec<Placed<Antenna>> {
     let mut all = connection_fields::unit(spec);
+    all.extend(placed(UPKEEP, upkeep()));
     all.extend(placed(MOUNT, mount()));
     all.extend(placed(MOUNT, beam()));
     all.extend(placed(MOUNT, limits()));
@@ -211,6 +213,28 @@ fn follow() -> [Of; 4] {
             &[AfterPass::Hold, AfterPass::Park, AfterPass::Next],
             |antenna| &mut antenna.follow.after,
         ),
+    ]
+}
+
+fn upkeep() -> [Of; 2] {
+    let has_clock = |antenna: &Antenna| antenna.connection.variant().clock.is_some();
+    [
+        Of::choice(
+            "Clock of the unit",
+            &[(0, "Leave it alone"), (1, "Set it between passes")],
+            &[false, true],
+            |antenna| &mut antenna.upkeep.sets_clock,
+        )
+        .when(has_clock)
+        .noted(|antenna| {
+            let words =
+                "While automatic operation is on and the clock of this computer is synchronised.";
+            antenna.upkeep.sets_clock.then(|| words.to_owned())
+        }),
+        Of::number("Set it when it is off by", ranges::CLOCK_LIMIT_S, "s", |antenna| {
+            Some(&mut antenna.upkeep.clock_limit_s)
+        })
+        .when(|antenna| antenna.upkeep.sets_clock && antenna.connection.variant().clock.is_some()),
     ]
 }
 

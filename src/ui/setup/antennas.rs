@@ -9,6 +9,7 @@ use crate::{
     ui::{
         icons::Icon,
         preferences::{
+            antenna_fields::UPKEEP,
             connection_fields::{ADDRESS, CONNECTION},
             form,
         },
@@ -101,7 +102,8 @@ fn one(
         });
     });
     ui.add_space(4.0);
-    let count = typed.fields.iter().take_while(|field| field.section == CONNECTION).count();
+    let is_here = |section: &str| [CONNECTION, UPKEEP].contains(&section);
+    let count = typed.fields.iter().take_while(|field| is_here(field.section)).count();
     let fields = typed.fields.get_mut(..count).unwrap_or_default();
     let responses = form::fields(ui, &format!("set-up {index}"), fields, &standings);
     if let (Some(response), Some(field)) = (responses.first(), fields.first())

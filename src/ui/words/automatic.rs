@@ -106,5 +106,11 @@ pub fn day_line(line: &DayLine, now: Timestamp) -> String {
         }
         DayEvent::WentOn => "Automatic operation resumed.".to_owned(),
         DayEvent::Flown(of) => flown(of, now),
+        DayEvent::ClockSet { was_ahead_s } => {
+            let by = format::number(was_ahead_s.abs(), 1);
+            let way = if *was_ahead_s < 0.0 { "behind" } else { "ahead" };
+            format!("Azel set the unit's clock, which was {by} s {way}.")
+        }
+        DayEvent::ClockNotSet { why } => format!("Azel could not set the unit's clock: {why}."),
     }
 }

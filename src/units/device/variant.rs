@@ -1,7 +1,11 @@
 //! Capabilities, settings and actions of a unit, as the settings of its connection
 //! determine them.
 
-use super::{Capabilities, TrackOffsetFields, panel::Action, settings::Group};
+use super::{
+    Capabilities, TrackOffsetFields,
+    panel::Action,
+    settings::{Group, Values},
+};
 
 /// Capabilities, settings and actions of a unit. A make has several variants where the
 /// settings of the connection change them, such as for a rotator without elevation.
@@ -14,6 +18,19 @@ pub struct Variant {
     pub actions: &'static [Action],
     /// `None` for a unit that computes no tracks, or whose tracks cannot be shifted.
     pub track_offsets: Option<&'static TrackOffsetFields>,
+    /// `None` for a unit without a clock.
+    pub clock: Option<&'static ClockSetting>,
+}
+
+/// How a unit's clock is set.
+#[derive(Debug)]
+pub struct ClockSetting {
+    /// Key of the settings group of the clock.
+    pub group: &'static str,
+    /// Values of that group that set the clock from this computer.
+    pub from_here: fn() -> Values,
+    /// Returns `true` if the unit sets its clock by itself, by the values of that group.
+    pub is_kept_by_unit: fn(&Values) -> bool,
 }
 
 impl Variant {

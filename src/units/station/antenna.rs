@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::{
     Automatic, Connection, DEFAULT_RESUME_AFTER_S, DEFAULT_SWAY_DEG, Monitor, Mount, Resume,
-    TrackSettings, is_default,
+    TrackSettings, Upkeep, is_default,
 };
 use crate::{
     astro::{Angle, AzEl, PointingModel},
@@ -73,6 +73,9 @@ pub struct Antenna {
     pub resume_after_s: f64,
     #[serde(flatten)]
     pub automatic: Automatic,
+    /// Upkeep of the unit between passes.
+    #[serde(skip_serializing_if = "is_default")]
+    pub upkeep: Upkeep,
 }
 
 // The signatures are serde's.

@@ -5,7 +5,7 @@ use std::fmt;
 
 use super::{
     Antenna, AntennaId, Automatic, Connection, DEFAULT_RESUME_AFTER_S, DEFAULT_SWAY_DEG, Direction,
-    Monitor, MotionLimits, Mount, PollRates, Resume, Setting, TrackSettings,
+    Monitor, MotionLimits, Mount, PollRates, Resume, Setting, TrackSettings, Upkeep,
     connection::{check_address, check_line},
 };
 use crate::{
@@ -102,6 +102,7 @@ impl ControllerSpec {
             limits,
             poll,
             follow,
+            upkeep: Upkeep::default(),
             monitor: Monitor::default(),
             pointing_model: PointingModel::default(),
             sway_deg: DEFAULT_SWAY_DEG,

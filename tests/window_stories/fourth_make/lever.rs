@@ -73,6 +73,7 @@ static VARIANT: Variant = Variant {
     groups: &[],
     actions: &[],
     track_offsets: None,
+    clock: None,
 };
 
 /// Variant on one shaft, which turns the azimuth alone.
@@ -85,6 +86,7 @@ static LEVEL: Variant = Variant {
     groups: &[],
     actions: &[],
     track_offsets: None,
+    clock: None,
 };
 
 /// Command at which the controller panics instead of sending it.

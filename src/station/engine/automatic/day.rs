@@ -36,6 +36,14 @@ pub enum DayEvent {
     Suspended(Interruption),
     WentOn,
     Flown(Flown),
+    /// The clock of the unit was set between two passes.
+    ClockSet {
+        /// Seconds by which it was ahead of this computer's; negative if it was behind.
+        was_ahead_s: f64,
+    },
+    ClockNotSet {
+        why: String,
+    },
 }
 
 /// What became of a pass.

@@ -4,7 +4,7 @@ use super::file::{load, written};
 use crate::station::{
     self, AntennaId, Automatic, AutomationRule, BetweenPasses, ChooseBy, Favourite, HoursOfDay,
     Light, Loaded, Partly, PassChoice, PassLimits, Priority, RuleOf, SatelliteGroup, Scheduling,
-    SunIs, Take, Then,
+    SunIs, Take, Then, Upkeep, UploadWay,
 };
 
 const ANTENNA: &str = "[[antenna]]\nid = 4\nname = 'Dish'\n[antenna.connection]\n\
@@ -75,6 +75,20 @@ fn everything_about_the_schedule_comes_back_as_it_was_saved() {
         resumes_after_crash: true,
         uses_auto_track: true,
         set_up_s: Some(20.0),
+    };
+    station.antennas[0].upkeep = Upkeep {
+        sets_clock: true,
+        clock_limit_s: 7.5,
+        uploads_elements: true,
+        element_limit_d: 1.5,
+        way: Some(UploadWay {
+            host: "::1".to_owned(),
+            port: 2222,
+            folder: "/tle".to_owned(),
+            file: "oper.txt".to_owned(),
+            user: "op".to_owned(),
+            key_file: Some("/home/op/.ssh/id".into()),
+        }),
     };
     station::save(&station, &path, crate::makes::SPECS).unwrap();
     let text = std::fs::read_to_string(&path).unwrap();

@@ -75,6 +75,7 @@ pub static VARIANT: Variant = Variant {
         stop_note: None,
     },
     track_offsets: None,
+    clock: None,
     groups: &[],
     actions: actions::ACTIONS,
 };

@@ -79,6 +79,7 @@ pub static PAIR: Variant = Variant {
     },
     groups: GROUPS,
     track_offsets: None,
+    clock: None,
     actions: &[actions::ARM_RESCUE],
 };
 
@@ -91,6 +92,7 @@ pub static ALONE: Variant = Variant {
     },
     groups: GROUPS,
     track_offsets: None,
+    clock: None,
     actions: &[actions::SEND_OTHER, actions::ARM_RESCUE],
 };
 

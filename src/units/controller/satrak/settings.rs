@@ -28,7 +28,7 @@ pub use source::{
     SATELLITE, SATELLITE_NAME, URL, USER, WEB,
 };
 pub use times::{AHEAD_S, CLOCK, FROM_GPS, FROM_THIS_PC, SET_FROM, START, STOP, WINDOW};
-pub(super) use times::{ahead, is_from_gps};
+pub(super) use times::{CLOCK_SETTING, ahead, is_from_gps};
 
 /// All groups in the order of the forms, with how each is read and written.
 static PLANS: [Plan; 13] = [

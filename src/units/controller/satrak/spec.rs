@@ -1,6 +1,6 @@
 //! The description of a Satrak.
 
-use super::{ELEMENT_FILES, GROUPS, Satrak, TRACK_OFFSETS, words};
+use super::{ELEMENT_FILES, GROUPS, Satrak, TRACK_OFFSETS, settings::CLOCK_SETTING, words};
 use crate::{
     device::{
         Capabilities, Effect, JogSpeeds, SecondAxis, Standstill, Variant,
@@ -77,6 +77,7 @@ pub static VARIANT: Variant = Variant {
     groups: GROUPS,
     actions: &[],
     track_offsets: Some(&TRACK_OFFSETS),
+    clock: Some(&CLOCK_SETTING),
 };
 
 /// The element file on the unit from which satellites are chosen; empty for the file in use.

@@ -52,6 +52,7 @@ impl Fields<'_> {
                 default.resume_after_s,
             ),
             automatic: self.automatic(),
+            upkeep: self.upkeep(),
             connection: default.connection,
         })
     }

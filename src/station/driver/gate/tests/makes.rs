@@ -51,6 +51,7 @@ fn an_axis_that_is_absent_is_not_turned() {
         groups: &[],
         actions: &[],
         track_offsets: None,
+        clock: None,
     };
     static MAST: ControllerSpec =
         ControllerSpec { variants: &[&AZIMUTH], variant: |_| &AZIMUTH, ..SPEC };

@@ -9,7 +9,7 @@ use super::{
 use crate::{
     astro::time::add_seconds,
     device::{
-        LONGEST_WINDOW_S, UnitClock,
+        ClockSetting, LONGEST_WINDOW_S, UnitClock,
         settings::{Field, Group, Key, Unfit, Value, Values, WriteError},
     },
     protocol::satrak::{ClockTime, Reply, Setting, TrackWindow},
@@ -69,6 +69,13 @@ pub(super) fn window(reply: &Reply) -> Option<Values> {
     let Reply::StartStopTime(window) = reply else { return None };
     Some(Values::from([START.with(window.start), STOP.with(window.stop)]))
 }
+
+/// A unit that updates its clock from GPS is left alone: it would take the setting back.
+pub(in crate::controller::satrak) static CLOCK_SETTING: ClockSetting = ClockSetting {
+    group: CLOCK.key,
+    from_here: || Values::from([SET_FROM.with(FROM_THIS_PC)]),
+    is_kept_by_unit: |values| IS_FROM_GPS.of(values) == Some(true),
+};
 
 /// The values [`ahead`] and [`is_from_gps`] come from elsewhere.
 pub(super) fn clock(reply: &Reply) -> Option<Values> {

@@ -1,0 +1,116 @@
+//! The clock of a unit is kept right between passes.
+
+use azel::{
+    astro::time::{add_seconds, seconds_between},
+    driver::TimeSync,
+    engine::{Client, automatic::DayEvent},
+    protocol::satrak::{ClockTime, Request, Setting},
+    station::AntennaId,
+};
+
+use super::{
+    flown,
+    scene::{Scene, set_automatic},
+    unattended::{by_another, proved, scene_of, seconds},
+};
+use crate::common::units::{measured, until};
+
+/// The dish some minutes before a pass, at a computer with a synchronised clock.
+async fn scene(sets_clock: bool, uses_auto_track: bool) -> (Scene, Client, AntennaId) {
+    let (mut scene, client, id) = scene_of("Dish", |dish| {
+        dish.upkeep.sets_clock = sets_clock;
+        dish.upkeep.clock_limit_s = 5.0;
+        dish.automatic.uses_auto_track = uses_auto_track;
+    })
+    .await;
+    drop(client);
+    scene.units.time_sync = || TimeSync::Synchronised;
+    let scene = scene.started_again(false).await;
+    let client = scene.client();
+    measured(&client, "Dish").await;
+    until("the schedule", || client.snapshot().schedule.made_at).await;
+    (scene, client, id)
+}
+
+/// Somebody sets the unit's clock wrong, after it has set its clock from GPS.
+async fn put_ahead(scene: &Scene, client: &Client, by_s: f64) {
+    seconds(client, 10.0).await;
+    let time = add_seconds(client.now().utc, by_s);
+    let request = Request::Setting(Setting::Time(ClockTime::new(time).unwrap()));
+    by_another(scene, &request.to_bytes()).await;
+}
+
+fn ahead_s(client: &Client) -> Option<f64> {
+    let snapshot = client.snapshot();
+    Some(snapshot.antennas.first()?.snapshot.state.on_board.clock?.ahead_s)
+}
+
+/// The upkeep of the day, with the times.
+fn upkeep(client: &Client) -> Vec<DayEvent> {
+    let day = client.snapshot().day.clone();
+    let is_upkeep =
+        |what: &DayEvent| matches!(what, DayEvent::ClockSet { .. } | DayEvent::ClockNotSet { .. });
+    day.iter().map(|line| line.what.clone()).filter(is_upkeep).collect()
+}
+
+async fn until_seen_ahead(client: &Client, least_s: f64) {
+    until("the wrong clock", || ahead_s(client).filter(|ahead_s| ahead_s.abs() > least_s)).await;
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_clock_that_is_off_is_set_before_the_pass_and_once() {
+    let (scene, client, id) = scene(true, false).await;
+    put_ahead(&scene, &client, -20.0).await;
+    set_automatic(&client, id, true).await;
+    until("the upkeep", || (!upkeep(&client).is_empty()).then_some(())).await;
+    let [DayEvent::ClockSet { was_ahead_s }] = upkeep(&client)[..] else {
+        panic!("{:?}", upkeep(&client))
+    };
+    assert!((-21.0..-19.0).contains(&was_ahead_s), "{was_ahead_s}");
+    until("the right clock", || ahead_s(&client).filter(|ahead_s| ahead_s.abs() < 2.0)).await;
+    let (_, of) = until("LOS", || flown(&client).first().cloned()).await;
+    assert!(of.in_beam_s > of.of_s - 2.0, "{of:?}");
+    assert_eq!(upkeep(&client).len(), 1);
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_clock_is_left_alone_without_the_rule_below_its_limit_and_without_automatic_operation() {
+    for (sets_clock, is_on, by_s) in [(false, true, 20.0), (true, true, 3.0), (true, false, 20.0)] {
+        let (scene, client, id) = scene(sets_clock, false).await;
+        put_ahead(&scene, &client, by_s).await;
+        set_automatic(&client, id, is_on).await;
+        until_seen_ahead(&client, 1.0).await;
+        seconds(&client, 60.0).await;
+        assert_eq!(upkeep(&client), [], "{sets_clock} {is_on} {by_s}");
+        assert!(ahead_s(&client).is_some_and(|ahead_s| ahead_s > 1.0));
+    }
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_clock_is_not_set_by_a_computer_that_may_be_wrong_itself() {
+    let (scene, client, id) = scene_of("Dish", |dish| dish.upkeep.sets_clock = true).await;
+    put_ahead(&scene, &client, 20.0).await;
+    set_automatic(&client, id, true).await;
+    until_seen_ahead(&client, 10.0).await;
+    seconds(&client, 60.0).await;
+    assert_eq!(upkeep(&client), []);
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_clock_is_not_set_during_a_pass_or_shortly_before_but_after_it() {
+    for uses_auto_track in [false, true] {
+        let (scene, client, id) = scene(true, uses_auto_track).await;
+        proved(&client, id).await;
+        put_ahead(&scene, &client, 8.0).await;
+        until_seen_ahead(&client, 7.0).await;
+        let (_, of) = until("LOS", || {
+            assert_eq!(upkeep(&client), []);
+            flown(&client).first().cloned()
+        })
+        .await;
+        let los = client.now().utc;
+        until("the upkeep", || (!upkeep(&client).is_empty()).then_some(())).await;
+        assert!(seconds_between(los, client.now().utc) < 120.0, "{of:?}");
+        assert!(matches!(upkeep(&client)[..], [DayEvent::ClockSet { .. }]));
+    }
+}
