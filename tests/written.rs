@@ -174,6 +174,7 @@ fn order() -> Order {
         key_file: Some("/home/o/.ssh/id".into()),
         cargo: Cargo::New(TleFile::of([catalog.get(25_544).unwrap()], takes).unwrap()),
         satellite: Some(25_544),
+        is_unattended: false,
     }
 }
 

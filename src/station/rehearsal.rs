@@ -95,6 +95,10 @@ pub fn run(
         let start = add_seconds(what.from, -LEAD_S);
         let clock = Clock::at_speed(start, NonZeroU32::MIN);
         let mut station = what.station.clone();
+        // An upload would go to a real server.
+        for antenna in &mut station.antennas {
+            antenna.upkeep.uploads_elements = false;
+        }
         let (units, left_out) =
             Units::of(&mut station, &what.elements, what.mechanics, what.seed, &clock)?;
         let units = Arc::new(units);

@@ -284,6 +284,7 @@ fn order() -> Order {
         key_file: None,
         cargo: Cargo::New(TleFile::of([catalog.get(25_544).unwrap()], takes).unwrap()),
         satellite: Some(25_544),
+        is_unattended: false,
     }
 }
 

@@ -14,12 +14,13 @@ use azel::{
     clock::Clock,
     controller::satrak::ELEMENT_FILE,
     engine::{
-        CatalogState, Settings,
+        CatalogState, Command, Settings,
+        automatic::DayEvent,
         uploads::{Failure, Places, Stage},
     },
     model::Model,
     sim::satrak::{Control, Options, Simulator},
-    station::{self, Antenna, Station},
+    station::{self, Antenna, AntennaId, Station},
     transfer::{Account, KeptFiles, Keyring as _, MemoryKeyring, SecretString},
 };
 use egui::{Event, Key, Modifiers, Role};
@@ -54,8 +55,11 @@ impl Fixture {
         let (address, control, end) = simulate(&files);
         let mut antenna = Antenna::satrak("Satrak", &address);
         antenna.connection.put(&ELEMENT_FILE, FILE).unwrap();
+        antenna.upkeep.uploads_elements = true;
         let favourites = favourites.into_iter().collect();
-        let station = Station { antennas: vec![antenna], favourites, ..Station::default() };
+        let mut station = Station { antennas: vec![antenna], favourites, ..Station::default() };
+        // Whatever the time of day, no pass is near.
+        station.scheduling.max_element_age_d = Some(0.1);
         let path = folder.path().join("station.toml");
         station::save(&station, &path, azel::makes::SPECS).unwrap();
         let keyring = Arc::new(MemoryKeyring::default());
@@ -291,6 +295,34 @@ fn the_file_that_was_verified_is_the_one_of_the_next_track() {
     let antenna = fixture.window.state().model().antenna().unwrap();
     assert_eq!(antenna.config.connection.element_file().as_deref(), Some("oper.txt"));
     assert!(antenna.is_live(), "the session goes on");
+}
+
+#[test]
+#[ignore = "needs sshd and root"]
+fn the_rule_repeats_the_upload_for_all_favourites() {
+    let mut fixture = Fixture::typed(Unit::new());
+    fixture.click("Leave out ISS (ZARYA)");
+    fixture.click("Upload and verify");
+    fixture.log_in(PASSWORD);
+    fixture.assert_proved();
+    let before = fixture.files.files();
+    let client = fixture.window.state().station().client().clone();
+    let antenna = AntennaId::FIRST;
+    let _ = client.send(Command::SetAutomatic { antenna, is_on: true });
+    let is_upload = |what: &DayEvent| matches!(what, DayEvent::ElementsUploaded { file, satellites: 2 } if file == FILE);
+    fixture.until("the rule", |model| model.day.iter().any(|line| is_upload(&line.what)));
+    assert_ne!(fixture.files.files(), before);
+    let model = fixture.window.state().model();
+    assert_eq!(model.uploads.stage, Stage::Idle);
+    assert!(model.antenna().unwrap().operation.is_on());
+    let sent = fixture.sent();
+    assert_eq!(sent.len(), 2, "{sent:?}");
+
+    // The way, and what the unit holds now, outlast a restart.
+    let text = fs::read_to_string(fixture.folder.path().join("station.toml")).unwrap();
+    assert!(text.contains("[antenna.upkeep.upload]") && !text.contains(PASSWORD), "{text}");
+    let kept = fs::read_to_string(fixture.folder.path().join("station.automatic.toml")).unwrap();
+    assert!(kept.contains("25544") && kept.contains("43013"), "{kept}");
 }
 
 #[test]

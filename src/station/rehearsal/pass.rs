@@ -156,7 +156,9 @@ impl Passes {
                 DayEvent::SwitchedOn
                 | DayEvent::WentOn
                 | DayEvent::ClockSet { .. }
-                | DayEvent::ClockNotSet { .. } => {}
+                | DayEvent::ClockNotSet { .. }
+                | DayEvent::ElementsUploaded { .. }
+                | DayEvent::ElementsNotUploaded { .. } => {}
                 DayEvent::Flown(flown) => self.take_flown(line.antenna, flown),
             }
         }

@@ -216,7 +216,7 @@ fn follow() -> [Of; 4] {
     ]
 }
 
-fn upkeep() -> [Of; 2] {
+fn upkeep() -> [Of; 4] {
     let has_clock = |antenna: &Antenna| antenna.connection.variant().clock.is_some();
     [
         Of::choice(
@@ -235,7 +235,30 @@ fn upkeep() -> [Of; 2] {
             Some(&mut antenna.upkeep.clock_limit_s)
         })
         .when(|antenna| antenna.upkeep.sets_clock && antenna.connection.variant().clock.is_some()),
+        Of::choice(
+            "Elements on the unit",
+            &[(0, "Leave them alone"), (1, "Upload newer ones between passes")],
+            &[false, true],
+            |antenna| &mut antenna.upkeep.uploads_elements,
+        )
+        .when(takes_elements)
+        .noted(|antenna| {
+            let words = if antenna.upkeep.way.is_some() {
+                "Azel uploads the favourites the way of the last verified upload."
+            } else {
+                "Upload elements once by hand first: Azel then repeats that upload."
+            };
+            antenna.upkeep.uploads_elements.then(|| words.to_owned())
+        }),
+        Of::number("Upload when they are older than", ranges::ELEMENT_AGE_D, "days", |antenna| {
+            Some(&mut antenna.upkeep.element_limit_d)
+        })
+        .when(|antenna| antenna.upkeep.uploads_elements && takes_elements(antenna)),
     ]
+}
+
+fn takes_elements(antenna: &Antenna) -> bool {
+    antenna.connection.spec().element_files.is_some()
 }
 
 fn connects_at_start() -> Of {

@@ -224,6 +224,10 @@ pub fn alarm(kind: &AlarmKind, antenna: &str, now: Timestamp) -> String {
                  antenna may miss it. Refresh the elements."
             )
         }
+        AlarmKind::ElementsNotUploaded { why } => format!(
+            "Azel could not upload newer elements to {antenna}: {why}. The unit goes on with its elements. \
+             Azel tries again in an hour. Upload them by hand in Elements to see each step."
+        ),
         AlarmKind::NotTaken => {
             format!("{antenna} is too busy: the command was not sent. Try again.")
         }

@@ -111,6 +111,13 @@ pub fn day_line(line: &DayLine, now: Timestamp) -> String {
             let way = if *was_ahead_s < 0.0 { "behind" } else { "ahead" };
             format!("Azel set the unit's clock, which was {by} s {way}.")
         }
+        DayEvent::ElementsUploaded { file, satellites } => {
+            let of = if *satellites == 1 { "satellite" } else { "satellites" };
+            format!("Azel uploaded the elements of {satellites} {of} to the unit, as {file}.")
+        }
+        DayEvent::ElementsNotUploaded { why } => {
+            format!("Azel could not upload elements to the unit: {why}.")
+        }
         DayEvent::ClockNotSet { why } => format!("Azel could not set the unit's clock: {why}."),
     }
 }

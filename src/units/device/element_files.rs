@@ -20,11 +20,15 @@ pub struct ElementFiles {
     pub setting: &'static str,
     /// Key of the settings group that chooses file and satellite.
     pub group: &'static str,
-    /// Values of that group for a file and the name of a satellite in it. Writing them ends
+    /// Values of [`Self::group`] for a file and the name of a satellite in it. Writing them ends
     /// the present track.
     pub choose: fn(&str, &str) -> Values,
-    /// Value of that group with the catalog number that the unit found.
+    /// Value of [`Self::group`] with the catalog number that the unit found.
     pub number: Key<i64>,
+    /// Key of the settings group that tells where the unit's elements come from.
+    pub source_group: &'static str,
+    /// Returns `true` if the unit fetches its elements by itself, by the values of that group.
+    pub are_fetched_by_unit: fn(&Values) -> bool,
     /// Names of the checks that are bad when the unit does not find the satellite.
     pub checks: &'static [&'static str],
 }

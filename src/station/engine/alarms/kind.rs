@@ -155,6 +155,10 @@ pub enum AlarmKind {
         name: String,
         others: usize,
     },
+    /// Newer elements cannot be uploaded to the unit by the rule.
+    ElementsNotUploaded {
+        why: String,
+    },
     /// The program was too busy to take a request.
     NotTaken,
     /// A fault or warning that the unit names itself.
@@ -227,6 +231,7 @@ impl AlarmKind {
             | Self::AutomaticSuspended(_)
             | Self::SourceFails { .. }
             | Self::ElementsOld { .. }
+            | Self::ElementsNotUploaded { .. }
             | Self::Check(Check { state: CheckState::Fault, .. }) => Priority::Warning,
             _ => Priority::Caution,
         }
@@ -250,6 +255,7 @@ impl AlarmKind {
                 | Self::SourceSetAside(_)
                 | Self::SourceFails { .. }
                 | Self::ElementsOld { .. }
+                | Self::ElementsNotUploaded { .. }
                 | Self::LockOutUnproved
                 | Self::LockOuts(_)
                 | Self::Check(_)
@@ -285,7 +291,8 @@ pub(super) fn same_matter(a: &AlarmKind, b: &AlarmKind) -> bool {
         | (AlarmKind::StationElsewhere(_), AlarmKind::StationElsewhere(_))
         | (AlarmKind::UnitElsewhere(_), AlarmKind::UnitElsewhere(_))
         | (AlarmKind::OffTarget { .. }, AlarmKind::OffTarget { .. })
-        | (AlarmKind::ElementsOld { .. }, AlarmKind::ElementsOld { .. }) => true,
+        | (AlarmKind::ElementsOld { .. }, AlarmKind::ElementsOld { .. })
+        | (AlarmKind::ElementsNotUploaded { .. }, AlarmKind::ElementsNotUploaded { .. }) => true,
         (
             AlarmKind::Safety(Safety::ForeignHands { axis: a, .. }),
             AlarmKind::Safety(Safety::ForeignHands { axis: b, .. }),

@@ -1,7 +1,7 @@
 //! Whether automatic operation may be on from the start: what the run before has left, in a file
 //! beside the station file.
 
-use std::{fs, io, path::Path};
+use std::{collections::BTreeMap, fs, io, path::Path};
 
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
@@ -28,6 +28,16 @@ pub(in crate::engine) struct LastRun {
     pub(super) station: Option<FileHash>,
     /// The pass that was proved last, by antenna: its unit may still be at work on it.
     held: Vec<Held>,
+    /// Elements of the last verified upload to each antenna's unit.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    unit_elements: Vec<UnitElements>,
+}
+
+/// Elements on a unit: catalog numbers, and the epochs of their elements.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+struct UnitElements {
+    antenna: AntennaId,
+    satellites: Vec<(u32, Timestamp)>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -77,6 +87,21 @@ impl LastRun {
     pub(super) fn holds(&mut self, antenna: AntennaId, (satellite, aos): PassKey) {
         self.held.retain(|held| held.antenna != antenna);
         self.held.push(Held { antenna, satellite, aos });
+    }
+
+    /// Epochs of the elements that this antenna's unit holds, by catalog number.
+    pub(super) fn unit_elements(&self, antenna: AntennaId) -> BTreeMap<u32, Timestamp> {
+        let known = self.unit_elements.iter().find(|known| known.antenna == antenna);
+        known.map(|known| known.satellites.iter().copied().collect()).unwrap_or_default()
+    }
+
+    pub(super) fn note_unit_elements(
+        &mut self,
+        antenna: AntennaId,
+        satellites: Vec<(u32, Timestamp)>,
+    ) {
+        self.unit_elements.retain(|known| known.antenna != antenna);
+        self.unit_elements.push(UnitElements { antenna, satellites });
     }
 
     /// Records that automatic operation of this antenna is on or off.

@@ -44,6 +44,14 @@ pub enum DayEvent {
     ClockNotSet {
         why: String,
     },
+    /// Newer elements were uploaded to the unit between two passes, and verified.
+    ElementsUploaded {
+        file: String,
+        satellites: usize,
+    },
+    ElementsNotUploaded {
+        why: String,
+    },
 }
 
 /// What became of a pass.

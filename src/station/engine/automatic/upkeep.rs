@@ -1,4 +1,7 @@
-//! Sets the clock of a unit between passes, by the rule of its antenna.
+//! Keeps a unit fit between passes, by the rules of its antenna: sets its clock here, and uploads
+//! elements in [`elements`].
+
+mod elements;
 
 use jiff::Timestamp;
 
@@ -32,6 +35,8 @@ pub(super) struct UpkeepWork {
     setting: Option<ClockChange>,
     tickets: u64,
     next_try: Option<Timestamp>,
+    /// When the elements of the unit are looked at again.
+    next_look: Option<Timestamp>,
 }
 
 /// A clock that is being set.
@@ -47,14 +52,15 @@ impl Engine {
     /// Does what the rules of an antenna say about its unit.
     pub(super) fn keep_up(&mut self, index: usize) {
         self.end_clock_change(index);
+        self.set_clock(index);
+        self.keep_elements(index);
+    }
+
+    fn set_clock(&mut self, index: usize) {
         let Some(antenna) = self.antennas.get(index) else { return };
         let Some((setting, was_ahead_s)) = self.clock_to_set(antenna) else { return };
-        let uses_auto_track = antenna.at_work.has_auto_track_on;
-        match self.hindrance(&antenna.shown) {
-            None => {}
-            // The next pass switches it on again.
-            Some(Hindrance::AutoTrack) if uses_auto_track => return self.end_auto_track(index),
-            Some(_) => return,
+        if !self.is_at_rest(index) {
+            return;
         }
         let now = self.now;
         let Some(antenna) = self.antennas.get_mut(index) else { return };
@@ -78,6 +84,7 @@ impl Engine {
             && work.setting.is_none()
             && work.next_try.is_none_or(|at| self.now >= at)
             && !is_kept_by_unit(setting, shown)
+            && self.time_sync == TimeSync::Synchronised
             && self.is_between_passes(shown, CLOCK_TAKES_S);
         is_due.then_some((setting, clock.ahead_s))
     }
@@ -89,10 +96,8 @@ impl Engine {
             antenna.operation,
             Operation::On(On { doing: Doing::Rests | Doing::Parks, .. })
         );
-        let knows_time = self.time_sync == TimeSync::Synchronised && !self.clock_watch.is_in_doubt;
         let entries = &self.schedule.schedule.entries;
         rests
-            && knows_time
             && antenna.is_live()
             && antenna.held_by.is_none()
             && antenna.snapshot.lock_out.is_none()
@@ -101,8 +106,19 @@ impl Engine {
             && is_free(entries, antenna.id(), self.now, takes_s)
     }
 
-    fn hindrance(&self, antenna: &AntennaModel) -> Option<Hindrance> {
-        antenna.snapshot.hindrance(antenna.variant().capabilities, self.steady)
+    /// Returns `true` if the unit takes settings that decide where it points. Auto-track of automatic
+    /// operation ends first; the next pass switches it on again.
+    fn is_at_rest(&mut self, index: usize) -> bool {
+        let Some(antenna) = self.antennas.get(index) else { return false };
+        let shown = &antenna.shown;
+        match shown.snapshot.hindrance(shown.variant().capabilities, self.steady) {
+            None => true,
+            Some(Hindrance::AutoTrack) if antenna.at_work.has_auto_track_on => {
+                self.end_auto_track(index);
+                false
+            }
+            Some(_) => false,
+        }
     }
 
     /// Takes the unit's answer to a clock that was set.

@@ -297,6 +297,7 @@ fn every_kind() -> Vec<AlarmKind> {
         K::SourceSetAside(text()),
         K::SourceFails { source: text(), as_of: Some(time()) },
         K::ElementsOld { name: text(), others: 2 },
+        K::ElementsNotUploaded { why: text() },
         K::NotTaken,
         K::Check(Check::new("Drive", CheckState::Fault, "Look at it.")),
         K::Check(Check::new("Drive", CheckState::Caution, "Look at it.")),
@@ -362,6 +363,7 @@ fn is_listed(kind: &AlarmKind) {
         | K::SourceSetAside(_)
         | K::SourceFails { .. }
         | K::ElementsOld { .. }
+        | K::ElementsNotUploaded { .. }
         | K::NotTaken
         | K::Check(_)
         | K::ClockOff(_)

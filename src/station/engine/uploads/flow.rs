@@ -6,7 +6,7 @@ use jiff::Timestamp;
 use super::{
     Cargo, Failure, Order, Proved, SecretWanted, Stage, Uploads, Warning,
     errand::{Errand, Outcome, Report},
-    select::{Selection, TICKETS, UnitNow, pick},
+    select::{Busy, Selection, TICKETS, UnitNow, pick},
 };
 use crate::{
     engine::host_keys::{Decision, doubtful},
@@ -52,6 +52,11 @@ impl Flow {
         self.order.as_ref()
     }
 
+    /// Returns `true` if nobody answers questions about the order.
+    pub(super) fn is_unattended(&self) -> bool {
+        self.order.as_ref().is_some_and(|order| order.is_unattended)
+    }
+
     pub(super) fn begin(
         &mut self,
         order: Order,
@@ -71,7 +76,11 @@ impl Flow {
             return None;
         }
         if let Some(busy) = unit.busy {
-            shown.stage = Stage::AsksAboutTracking(busy);
+            if self.is_unattended() {
+                fail(shown, format!("nothing was sent, {}", tracks(busy)));
+            } else {
+                shown.stage = Stage::AsksAboutTracking(busy);
+            }
             return None;
         }
         self.run(shown)
@@ -197,6 +206,7 @@ impl Flow {
                         let failure = Failure { text, changed_key, ..Failure::default() };
                         shown.stage = Stage::Failed(failure);
                     }
+                    Ok(_) if self.is_unattended() => fail(shown, text),
                     Ok((offered, key)) => {
                         self.offered = Some(offered);
                         shown.stage = Stage::AsksAboutHostKey(key);
@@ -207,6 +217,12 @@ impl Flow {
             Outcome::Secret { refused } => {
                 self.secret = None;
                 let order = self.order.as_ref()?;
+                if order.is_unattended {
+                    let why = refused.or(self.keyring_problem.take());
+                    let why = why.unwrap_or_else(|| "it is not in the keyring".to_owned());
+                    fail(shown, format!("the password or passphrase is missing: {why}"));
+                    return None;
+                }
                 let account = order.account();
                 shown.stage = Stage::AsksForSecret(SecretWanted {
                     user: account.user,
@@ -231,6 +247,11 @@ impl Flow {
         shown: &mut Uploads,
     ) -> Option<Next> {
         if let Some(busy) = unit.busy.filter(|_| !self.is_agreed) {
+            if self.is_unattended() {
+                let text = format!("the file is on the unit but not in use yet, {}", tracks(busy));
+                fail_after(shown, text, uploaded);
+                return None;
+            }
             self.uploaded = Some(uploaded);
             shown.stage = Stage::AsksAboutTracking(busy);
             return None;
@@ -296,6 +317,13 @@ impl Flow {
             }
             Err(text) => fail_after(shown, text, uploaded),
         }
+    }
+}
+
+fn tracks(busy: Busy) -> &'static str {
+    match busy {
+        Busy::Tracks => "because the unit tracks",
+        Busy::MayTrack => "because auto-track is on",
     }
 }
 

@@ -7,6 +7,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error as _};
 use crate::engine::written;
 use crate::{
     device::ElementFiles,
+    station::UploadWay,
     transfer::{Account, FileName, KeptFile, Peer, TleFile},
 };
 
@@ -34,6 +35,9 @@ pub struct Order {
     /// Catalog number of the satellite to track; `None` for the one that the unit holds, or
     /// the first of the file.
     pub satellite: Option<u32>,
+    /// Nobody answers questions: what would be asked ends the order.
+    #[serde(default)]
+    pub is_unattended: bool,
 }
 
 /// Content of a file.
@@ -61,6 +65,18 @@ impl<'de> Deserialize<'de> for Order {
 }
 
 impl Order {
+    /// The way for the next upload to this unit.
+    pub(in crate::engine) fn way(&self) -> UploadWay {
+        UploadWay {
+            host: self.unit.host.clone(),
+            port: self.unit.port,
+            folder: self.folder.clone(),
+            file: self.file.as_str().to_owned(),
+            user: self.user.clone(),
+            key_file: self.key_file.clone(),
+        }
+    }
+
     /// Account under which the password or passphrase is kept.
     pub fn account(&self) -> Account {
         let user = self

@@ -3,7 +3,7 @@
 use std::{io, sync::Arc, time::Duration};
 
 use super::{
-    Ask, Kept, KeptEntry, Places, Stage, Uploads, Warning,
+    Ask, Kept, KeptEntry, Order, Places, Stage, Uploads, Warning,
     errand::{self, Report},
     flow::{Flow, Next},
     select::{Selection, UnitNow},
@@ -92,6 +92,11 @@ impl Runner {
             }
         };
         self.carry_out(next, shown)
+    }
+
+    /// The order that was given last.
+    pub(in crate::engine) fn order(&self) -> Option<&Order> {
+        self.flow.order()
     }
 
     /// Takes note that the operator has stopped the antennas.

@@ -1,9 +1,10 @@
 //! Connects uploads with the sessions of the antennas.
 
-use super::{Ask, SessionRequest, Stage, UnitNow};
+use super::{Ask, Order, SessionRequest, Stage, UnitNow};
 use crate::{
     driver::Command,
     engine::{Antenna, Engine, automatic::Interruption},
+    transfer::FileObject,
 };
 
 impl Engine {
@@ -22,28 +23,35 @@ impl Engine {
         let request = self.upload_runner.poll(&unit, self.steady, &mut self.uploads);
         self.tell_unit(request);
         if was_open && let Stage::Proved(proved) = &self.uploads.stage {
-            let file = proved.uploaded.file.as_str().to_owned();
-            self.use_element_file(&file);
+            let objects = proved.uploaded.objects.clone();
+            self.use_upload(&objects);
         }
+        self.end_unattended();
     }
 
-    /// Configures the antenna to track from the verified upload. Skips an antenna without a configured
-    /// file, because it uses the unit's current file.
-    fn use_element_file(&mut self, file: &str) {
+    /// Remembers what the unit holds after a verified upload and the way there, and configures the
+    /// antenna to track from the file. An antenna without a configured file uses the unit's current
+    /// one.
+    fn use_upload(&mut self, objects: &[FileObject]) {
         let Some(config) = self.upload_antenna().map(|antenna| &antenna.shown.config) else {
             return;
         };
-        if config.connection.element_file().is_none_or(|known| known == file) {
-            return;
-        }
+        let Some(way) = self.upload_runner.order().map(Order::way) else { return };
         let (id, mut config) = (config.id, config.clone());
-        if let Err(why) = config.connection.use_element_file(file) {
-            tracing::error!(file, ?why, "the element file cannot be set");
+        self.note_unit_elements(id, objects);
+        if config.connection.element_file().is_some_and(|known| known != way.file)
+            && let Err(why) = config.connection.use_element_file(&way.file)
+        {
+            tracing::error!(way.file, ?why, "the element file cannot be set");
+        }
+        config.upkeep.way = Some(way);
+        if self.station.antennas.contains(&config) {
             return;
         }
         self.change_station(|station| {
             if let Some(known) = station.antennas.iter_mut().find(|antenna| antenna.id == id) {
                 known.connection = config.connection.clone();
+                known.upkeep = config.upkeep.clone();
             }
         });
         let is_kept = self.station.antennas.contains(&config);

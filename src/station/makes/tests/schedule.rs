@@ -98,6 +98,28 @@ fn everything_about_the_schedule_comes_back_as_it_was_saved() {
 }
 
 #[test]
+fn a_way_for_uploads_that_is_not_whole_is_left_out_with_a_note() {
+    let whole = "host = 'unit'\nport = 22\nfolder = '/tle'\nfile = 'a.txt'\nuser = 'op'\n";
+    for (from, to) in [
+        ("port = 22", "port = 0"),
+        ("port = 22", "port = 65536"),
+        ("port = 22", "port = 'ssh'"),
+        ("user = 'op'", "user = ''"),
+        ("host = 'unit'\n", ""),
+        ("folder = '/tle'", "folder = 7"),
+    ] {
+        let way = whole.replace(from, to);
+        let upkeep =
+            format!("[antenna.upkeep]\nuploads_elements = true\n[antenna.upkeep.upload]\n{way}");
+        let (_folder, path) = written(&format!("{ANTENNA}{upkeep}"));
+        let Loaded { station, notes } = load(&path).unwrap();
+        let upkeep = &station.antennas[0].upkeep;
+        assert_eq!((upkeep.uploads_elements, &upkeep.way), (true, &None), "{to}");
+        assert!(!notes.is_empty(), "{to}");
+    }
+}
+
+#[test]
 fn a_station_file_from_before_schedules_means_what_it_meant() {
     let (_folder, path) = written(&format!("favourites = [43013]\n{ANTENNA}"));
     let Loaded { station, notes } = load(&path).unwrap();

@@ -3,7 +3,10 @@
 use super::{
     ELEMENT_FILE,
     checks::FILE_CHECKS,
-    settings::{CATALOG_NUMBER, CONTINUE_TRACKING, FILE, FILE_NAME, SATELLITE_NAME},
+    settings::{
+        CATALOG_NUMBER, CONTINUE_TRACKING, FILE, FILE_NAME, GENERAL, SATELLITE_NAME, TLE_FROM_FILE,
+        TLE_SOURCE,
+    },
 };
 use crate::{
     device::{ElementFiles, settings::Values},
@@ -28,5 +31,9 @@ pub static ELEMENT_FILES: ElementFiles = ElementFiles {
         ])
     },
     number: CATALOG_NUMBER,
+    source_group: GENERAL.key,
+    are_fetched_by_unit: |values| {
+        TLE_SOURCE.of(values).is_some_and(|source| source != TLE_FROM_FILE)
+    },
     checks: &FILE_CHECKS,
 };

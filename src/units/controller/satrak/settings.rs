@@ -17,7 +17,7 @@ use crate::{
     protocol::satrak::{Query, Reply, Setting, TextValue, UrlValue, ValueError},
 };
 pub(super) use desired::Desired;
-pub use general::{GENERAL, MINIMUM_ELEVATION_DEG, TLE_SOURCE, TRACK_OFFSETS};
+pub use general::{GENERAL, MINIMUM_ELEVATION_DEG, TLE_FROM_FILE, TLE_SOURCE, TRACK_OFFSETS};
 pub(super) use place::lock_delay;
 pub use place::{GPS, IS_AUTOMATIC, IS_VALID, LATITUDE_DEG, LONGITUDE_DEG, RECEIVER};
 pub(super) use proof::{Differing, Judge, Proof};

@@ -32,6 +32,7 @@ fn order() -> Order {
         key_file: None,
         cargo: Cargo::New(file),
         satellite: Some(NOAA_20),
+        is_unattended: false,
     }
 }
 
@@ -321,4 +322,31 @@ fn a_passphrase_is_kept_under_its_key_file() {
     let key_file = Some(PathBuf::from("/home/op/key"));
     let account = Order { key_file, ..order() }.account();
     assert_eq!(account.to_string(), "/home/op/key@192.168.10.21:22");
+}
+
+#[test]
+fn an_unattended_order_asks_nothing() {
+    let unattended = || Order { is_unattended: true, ..order() };
+    for busy in [Busy::Tracks, Busy::MayTrack] {
+        let mut fixture = Fixture::default();
+        fixture.unit.busy = Some(busy);
+        assert!(fixture.flow.begin(unattended(), &fixture.unit, &mut fixture.shown).is_none());
+        assert!(fixture.failure().uploaded.is_none());
+
+        let mut fixture = Fixture::default();
+        assert_runs(fixture.flow.begin(unattended(), &fixture.unit, &mut fixture.shown));
+        fixture.unit.busy = Some(busy);
+        assert!(fixture.reported(Outcome::Uploaded(uploaded())).is_none());
+        assert!(fixture.failure().uploaded.is_some(), "the file is on the unit");
+    }
+    for refused in [None, Some("wrong".to_owned())] {
+        let mut fixture = Fixture::default();
+        assert_runs(fixture.flow.begin(unattended(), &fixture.unit, &mut fixture.shown));
+        assert!(fixture.reported(Outcome::Secret { refused: refused.clone() }).is_none());
+        assert!(fixture.failure().text.contains(refused.as_deref().unwrap_or("keyring")));
+    }
+    let mut fixture = Fixture::default();
+    assert_runs(fixture.flow.begin(unattended(), &fixture.unit, &mut fixture.shown));
+    assert!(fixture.reported(Outcome::HostKey(ConnectError::UnknownHostKey(offered()))).is_none());
+    assert!(matches!(fixture.shown.stage, Stage::Failed(_)));
 }

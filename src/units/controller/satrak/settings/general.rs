@@ -23,7 +23,9 @@ const NORTH_OFFSET_DEG: Key<f64> = Key::decimal("north_offset_deg", -360.0, 360.
 const SSPA: Key<i64> = Key::choice("sspa", &[(0, "Off"), (1, "On"), (2, "Auto")]);
 const SSPA_RULE: Key<i64> =
     Key::choice("sspa_rule", &[(0, "Tracking"), (1, "Carrier lock"), (2, "Both"), (3, "Either")]);
-pub const TLE_SOURCE: Key<i64> = Key::choice("tle_source", &[(0, "File"), (1, "Web"), (2, "FTP")]);
+pub const TLE_FROM_FILE: i64 = 0;
+pub const TLE_SOURCE: Key<i64> =
+    Key::choice("tle_source", &[(TLE_FROM_FILE, "File"), (1, "Web"), (2, "FTP")]);
 const ELEVATION_THRESHOLD_DEG: Key<f64> = Key::decimal("elevation_threshold_deg", 0.0, 90.0, 1);
 
 pub static TRACK_OFFSETS: TrackOffsetFields = TrackOffsetFields {
