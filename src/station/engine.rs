@@ -63,7 +63,7 @@ use tokio::sync::{Notify, mpsc, watch};
 use self::{
     alarms::{AlarmKind, Alarms},
     antenna::AntennaModel,
-    automatic::{AtWork, DayLine, LastRun},
+    automatic::{AtWork, DayLine, LastRun, RuleUpload},
     claim::{Claim, HeldBy, UnitClaim, lock::Lock},
     claims::{ClaimsInUse, NoClaims},
     clock_watch::ClockWatch,
@@ -138,6 +138,8 @@ struct Engine {
     /// What became of the passes of this day, and of automatic operation.
     day: Vec<DayLine>,
     last_run: LastRun,
+    /// The upload that a rule has begun.
+    rule_upload: Option<RuleUpload>,
     uploads: Uploads,
     source_tests: SourceTests,
     link_tests: Vec<LinkTest>,
@@ -312,6 +314,7 @@ impl Engine {
             schedule: Arc::default(),
             day: Vec::new(),
             last_run: LastRun::default(),
+            rule_upload: None,
             uploads: Uploads::default(),
             source_tests: SourceTests::default(),
             link_tests: Vec::new(),

@@ -49,7 +49,7 @@ pub use satellite_group::SatelliteGroup;
 pub use scheduling::{Automatic, BetweenPasses, ChooseBy, Partly, Scheduling};
 pub use setting::{Setting, Table};
 pub use track_settings::{AfterPass, TrackSettings};
-pub use upkeep::{Upkeep, UploadWay};
+pub use upkeep::Upkeep;
 pub use watch::{DEFAULT_RESUME_AFTER_S, DEFAULT_SWAY_DEG, Monitor, OnClose, Resume};
 
 use std::collections::{BTreeMap, BTreeSet};

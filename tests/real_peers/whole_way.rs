@@ -4,6 +4,7 @@
 use std::{
     fs,
     net::SocketAddr,
+    path::Path,
     sync::{Arc, LazyLock, Mutex},
     thread,
     time::{Duration, Instant},
@@ -42,6 +43,7 @@ const PATIENCE: Duration = Duration::from_mins(1);
 /// A unit with files and a protocol, and a window on it.
 struct Fixture {
     window: Harness<'static, App>,
+    settings: Settings,
     files: Unit,
     control: Control,
     keyring: Arc<MemoryKeyring>,
@@ -76,18 +78,31 @@ impl Fixture {
             upload_places: Some(places),
             ..Settings::default()
         };
-        let window = Harness::builder()
-            .with_size([1440.0, 3200.0])
-            .build_eframe(move |cc| App::new(&cc.egui_ctx, &settings, Clock::system()).unwrap());
-        let mut fixture = Self { window, files, control, keyring, folder, _end: end };
-        fixture.until("the unit is heard and the elements are read", |model| {
+        let window = window(settings.clone());
+        let mut fixture = Self { window, settings, files, control, keyring, folder, _end: end };
+        fixture.until_read();
+        fixture
+    }
+
+    /// Ends the program and starts it again. It has forgotten typed passwords. `between`: with the
+    /// folder of the station.
+    fn start_again(&mut self, between: impl FnOnce(&Path)) {
+        let places = self.settings.upload_places.as_mut().unwrap();
+        places.session = Arc::default();
+        self.window = window(Settings::default());
+        between(self.folder.path());
+        self.window = window(self.settings.clone());
+        self.until_read();
+    }
+
+    fn until_read(&mut self) {
+        self.until("the unit is heard and the elements are read", |model| {
             matches!(model.catalog, CatalogState::Ready(_))
                 && model.antenna().is_some_and(|antenna| {
                     antenna.snapshot.state.measured.is_some()
                         && antenna.snapshot.state.checked_at.is_some()
                 })
         });
-        fixture
     }
 
     /// A fixture with the upload part open, and everything typed but the password.
@@ -189,6 +204,12 @@ impl Fixture {
         let received = self.control.received().into_iter().map(|(_, frame)| frame);
         received.filter(|frame| frame.contains("SATELLITE=")).collect()
     }
+}
+
+fn window(settings: Settings) -> Harness<'static, App> {
+    Harness::builder()
+        .with_size([1440.0, 3200.0])
+        .build_eframe(move |cc| App::new(&cc.egui_ctx, &settings, Clock::system()).unwrap())
 }
 
 /// A simulated unit that reads the folder of `files`.
@@ -299,30 +320,36 @@ fn the_file_that_was_verified_is_the_one_of_the_next_track() {
 
 #[test]
 #[ignore = "needs sshd and root"]
-fn the_rule_repeats_the_upload_for_all_favourites() {
+fn the_rule_repeats_the_upload_once_the_elements_are_too_old() {
+    const STATE: &str = "station.automatic.toml";
     let mut fixture = Fixture::typed(Unit::new());
-    fixture.click("Leave out ISS (ZARYA)");
     fixture.click("Upload and verify");
+    fixture.until("the password is asked for", |model| {
+        matches!(model.uploads.stage, Stage::AsksForSecret(_))
+    });
+    fixture.window.get_by_label("Keep it in the keyring of this computer").click();
+    fixture.window.run_steps(2);
+    fixture.window.get_by_role(Role::PasswordInput).focus();
     fixture.log_in(PASSWORD);
     fixture.assert_proved();
-    let before = fixture.files.files();
+    // As if that upload was a year ago.
+    fixture.start_again(|folder| {
+        let kept = fs::read_to_string(folder.join(STATE)).unwrap();
+        assert!(kept.contains("25544") && !kept.contains(PASSWORD), "{kept}");
+        fs::write(folder.join(STATE), kept.replace("\"2026-", "\"2025-")).unwrap();
+    });
+    let sent_before = fixture.sent().len();
     let client = fixture.window.state().station().client().clone();
     let antenna = AntennaId::FIRST;
     let _ = client.send(Command::SetAutomatic { antenna, is_on: true });
     let is_upload = |what: &DayEvent| matches!(what, DayEvent::ElementsUploaded { file, satellites: 2 } if file == FILE);
     fixture.until("the rule", |model| model.day.iter().any(|line| is_upload(&line.what)));
-    assert_ne!(fixture.files.files(), before);
     let model = fixture.window.state().model();
-    assert_eq!(model.uploads.stage, Stage::Idle);
+    assert!(matches!(model.uploads.stage, Stage::Proved(_)), "{:?}", model.uploads.stage);
     assert!(model.antenna().unwrap().operation.is_on());
-    let sent = fixture.sent();
-    assert_eq!(sent.len(), 2, "{sent:?}");
-
-    // The way, and what the unit holds now, outlast a restart.
-    let text = fs::read_to_string(fixture.folder.path().join("station.toml")).unwrap();
-    assert!(text.contains("[antenna.upkeep.upload]") && !text.contains(PASSWORD), "{text}");
-    let kept = fs::read_to_string(fixture.folder.path().join("station.automatic.toml")).unwrap();
-    assert!(kept.contains("25544") && kept.contains("43013"), "{kept}");
+    assert_eq!(fixture.sent().len(), sent_before + 1, "the unit is told to use the file");
+    let kept = fs::read_to_string(fixture.folder.path().join(STATE)).unwrap();
+    assert!(!kept.contains("\"2025-"), "{kept}");
 }
 
 #[test]

@@ -1,10 +1,13 @@
 //! The clock of a unit is kept right between passes.
 
+use std::time::Duration;
+
 use azel::{
     astro::time::{add_seconds, seconds_between},
     driver::TimeSync,
     engine::{Client, automatic::DayEvent},
     protocol::satrak::{ClockTime, Request, Setting},
+    sim::{InMemory as _, Trouble},
     station::AntennaId,
 };
 
@@ -45,7 +48,7 @@ fn ahead_s(client: &Client) -> Option<f64> {
     Some(snapshot.antennas.first()?.snapshot.state.on_board.clock?.ahead_s)
 }
 
-/// The upkeep of the day, with the times.
+/// The upkeep of the day.
 fn upkeep(client: &Client) -> Vec<DayEvent> {
     let day = client.snapshot().day.clone();
     let is_upkeep =
@@ -63,7 +66,7 @@ async fn a_clock_that_is_off_is_set_before_the_pass_and_once() {
     put_ahead(&scene, &client, -20.0).await;
     set_automatic(&client, id, true).await;
     until("the upkeep", || (!upkeep(&client).is_empty()).then_some(())).await;
-    let [DayEvent::ClockSet { was_ahead_s }] = upkeep(&client)[..] else {
+    let [DayEvent::ClockSet { was_ahead_s: Some(was_ahead_s) }] = upkeep(&client)[..] else {
         panic!("{:?}", upkeep(&client))
     };
     assert!((-21.0..-19.0).contains(&was_ahead_s), "{was_ahead_s}");
@@ -84,6 +87,18 @@ async fn a_clock_is_left_alone_without_the_rule_below_its_limit_and_without_auto
         assert_eq!(upkeep(&client), [], "{sets_clock} {is_on} {by_s}");
         assert!(ahead_s(&client).is_some_and(|ahead_s| ahead_s > 1.0));
     }
+}
+
+/// A unit with GPS would take the setting back.
+#[tokio::test(start_paused = true)]
+async fn a_clock_that_the_unit_sets_from_gps_is_left_alone() {
+    let (scene, client, id) = scene(true, false).await;
+    seconds(&client, 10.0).await;
+    assert!(scene.units.dish.set_trouble(Trouble::ClockLate(Duration::from_secs(20)), true));
+    set_automatic(&client, id, true).await;
+    until_seen_ahead(&client, 10.0).await;
+    seconds(&client, 60.0).await;
+    assert_eq!(upkeep(&client), []);
 }
 
 #[tokio::test(start_paused = true)]
@@ -112,5 +127,10 @@ async fn a_clock_is_not_set_during_a_pass_or_shortly_before_but_after_it() {
         until("the upkeep", || (!upkeep(&client).is_empty()).then_some(())).await;
         assert!(seconds_between(los, client.now().utc) < 120.0, "{of:?}");
         assert!(matches!(upkeep(&client)[..], [DayEvent::ClockSet { .. }]));
+        // Once more within an hour would be a fight with somebody.
+        put_ahead(&scene, &client, 8.0).await;
+        until_seen_ahead(&client, 7.0).await;
+        seconds(&client, 120.0).await;
+        assert_eq!(upkeep(&client).len(), 1);
     }
 }

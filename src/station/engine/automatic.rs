@@ -12,7 +12,7 @@ use std::path::PathBuf;
 
 use jiff::Timestamp;
 
-pub(super) use self::{at_start::LastRun, operation::is_same_pass};
+pub(super) use self::{at_start::LastRun, operation::is_same_pass, upkeep::RuleUpload};
 use self::{
     day::Flight,
     operation::{Act, LATE_S, Outcome, Seen, WINDOW_STEP_S, Wishes},
@@ -252,6 +252,7 @@ impl Engine {
     /// Does what is due. A STOP since `turn` was drawn voids what is sent here.
     pub(super) fn run_automatic(&mut self, turn: u64) {
         self.asked = Some(CurrentRequest { number: turn, by: By::Station });
+        self.limit_rule_upload();
         for index in 0..self.antennas.len() {
             self.run_automatic_of(index);
         }
@@ -296,7 +297,7 @@ impl Engine {
             self.keep_last_run();
             self.switch_auto_track_on(index);
         }
-        self.keep_up(index);
+        self.run_upkeep(index);
     }
 
     /// The passes that the schedule gives to an antenna.

@@ -18,6 +18,7 @@ use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
 pub use choice::{Chosen, ChosenObject};
+pub(super) use order::UploadTarget;
 pub use order::{Cargo, Order};
 pub use places::Places;
 pub(super) use runner::{Runner, SessionRequest};

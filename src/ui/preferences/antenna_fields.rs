@@ -221,36 +221,34 @@ fn upkeep() -> [Of; 4] {
     [
         Of::choice(
             "Clock of the unit",
-            &[(0, "Leave it alone"), (1, "Set it between passes")],
+            &[(0, "Leave alone"), (1, "Set")],
             &[false, true],
             |antenna| &mut antenna.upkeep.sets_clock,
         )
         .when(has_clock)
         .noted(|antenna| {
             let words =
-                "While automatic operation is on and the clock of this computer is synchronised.";
+                "Azel sets the clock only while automatic operation is on and the clock of this \
+                 computer is synchronised.";
             antenna.upkeep.sets_clock.then(|| words.to_owned())
         }),
-        Of::number("Set it when it is off by", ranges::CLOCK_LIMIT_S, "s", |antenna| {
+        Of::number("Maximum clock error", ranges::CLOCK_LIMIT_S, "s", |antenna| {
             Some(&mut antenna.upkeep.clock_limit_s)
         })
         .when(|antenna| antenna.upkeep.sets_clock && antenna.connection.variant().clock.is_some()),
         Of::choice(
             "Elements on the unit",
-            &[(0, "Leave them alone"), (1, "Upload newer ones between passes")],
+            &[(0, "Leave alone"), (1, "Upload newer")],
             &[false, true],
             |antenna| &mut antenna.upkeep.uploads_elements,
         )
         .when(takes_elements)
         .noted(|antenna| {
-            let words = if antenna.upkeep.way.is_some() {
-                "Azel uploads the favourites the way of the last verified upload."
-            } else {
-                "Upload elements once by hand first: Azel then repeats that upload."
-            };
+            let words = "Azel repeats the last verified upload with all favourites. Upload once by hand \
+                         first.";
             antenna.upkeep.uploads_elements.then(|| words.to_owned())
         }),
-        Of::number("Upload when they are older than", ranges::ELEMENT_AGE_D, "days", |antenna| {
+        Of::number("Maximum age of elements", ranges::ELEMENT_AGE_D, "days", |antenna| {
             Some(&mut antenna.upkeep.element_limit_d)
         })
         .when(|antenna| antenna.upkeep.uploads_elements && takes_elements(antenna)),

@@ -51,23 +51,18 @@ struct Checked {
 }
 
 impl Form {
-    /// The form prefilled from the settings of `antenna` and its last verified upload, whose unit accepts these files.
+    /// The form prefilled from the settings of `antenna`, whose unit accepts these files.
     pub(super) fn of(antenna: &Antenna, takes: &'static ElementFiles) -> Self {
         let connection = &antenna.connection;
-        let way = antenna.upkeep.way.as_ref();
-        let key_file = way.and_then(|way| way.key_file.as_ref());
         Self {
             takes,
-            file: connection
-                .element_file()
-                .or_else(|| way.map(|way| way.file.clone()))
-                .unwrap_or_default(),
-            host: way.map_or_else(|| host(&connection.address), |way| way.host.clone()),
-            port: way.map_or_else(|| SSH.to_owned(), |way| way.port.to_string()),
-            folder: way.map_or(takes.folder, |way| &way.folder).to_owned(),
-            user: way.map(|way| way.user.clone()).unwrap_or_default(),
-            uses_key: key_file.is_some(),
-            key_file: key_file.map(|path| path.display().to_string()).unwrap_or_default(),
+            file: connection.element_file().unwrap_or_default(),
+            host: host(&connection.address),
+            port: SSH.to_owned(),
+            folder: takes.folder.to_owned(),
+            user: String::new(),
+            uses_key: false,
+            key_file: String::new(),
             numbers: None,
             marked: None,
             satellite: None,

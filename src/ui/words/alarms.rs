@@ -225,7 +225,7 @@ pub fn alarm(kind: &AlarmKind, antenna: &str, now: Timestamp) -> String {
             )
         }
         AlarmKind::ElementsNotUploaded { why } => format!(
-            "Azel could not upload newer elements to {antenna}: {why}. The unit goes on with its elements. \
+            "Azel could not upload newer elements to {antenna}: {why}. The unit keeps its current elements. \
              Azel tries again in an hour. Upload them by hand in Elements to see each step."
         ),
         AlarmKind::NotTaken => {

@@ -107,13 +107,19 @@ pub fn day_line(line: &DayLine, now: Timestamp) -> String {
         DayEvent::WentOn => "Automatic operation resumed.".to_owned(),
         DayEvent::Flown(of) => flown(of, now),
         DayEvent::ClockSet { was_ahead_s } => {
-            let by = format::number(was_ahead_s.abs(), 1);
-            let way = if *was_ahead_s < 0.0 { "behind" } else { "ahead" };
-            format!("Azel set the unit's clock, which was {by} s {way}.")
+            let was = was_ahead_s.map_or_else(
+                || "was not set".to_owned(),
+                |ahead_s| {
+                    let error_s = format::number(ahead_s.abs(), 1);
+                    let direction = if ahead_s < 0.0 { "behind" } else { "ahead" };
+                    format!("was {error_s} s {direction}")
+                },
+            );
+            format!("Azel set the unit's clock, which {was}.")
         }
         DayEvent::ElementsUploaded { file, satellites } => {
-            let of = if *satellites == 1 { "satellite" } else { "satellites" };
-            format!("Azel uploaded the elements of {satellites} {of} to the unit, as {file}.")
+            let noun = if *satellites == 1 { "satellite" } else { "satellites" };
+            format!("Azel uploaded the elements of {satellites} {noun} to the unit, as {file}.")
         }
         DayEvent::ElementsNotUploaded { why } => {
             format!("Azel could not upload elements to the unit: {why}.")

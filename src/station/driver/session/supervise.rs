@@ -300,7 +300,7 @@ impl Session {
             (_, Activity::OnBoardTrack(track)) if matches!(track.stage, OnBoardStage::Tracking) => {
                 found == Found::Still && now.utc >= track.target.until
             }
-            // What a STOP of Azel has not reached yet moves on as it was commanded.
+            // Until a STOP reaches the unit, its last command explains the motion.
             (Found::Moving, _) => {
                 (is_under_way || self.stop.is_under_way()) && self.gate.explains_position()
             }

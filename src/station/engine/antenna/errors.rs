@@ -64,7 +64,7 @@ impl Errors {
         match self.chunks.back_mut().filter(|chunk| chunk.len() < CHUNK) {
             Some(chunk) => {
                 let chunk = Arc::make_mut(chunk);
-                // A copy has no room left; doubled, half of it would stay empty for good.
+                // A copied chunk has no spare capacity. Growing would double it and waste half.
                 chunk.reserve_exact(CHUNK - chunk.len());
                 chunk.push(sample);
             }

@@ -6,7 +6,11 @@ use std::{collections::BTreeMap, fs, io, path::Path};
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
-use crate::{engine::passes::PassKey, station::AntennaId, transfer::FileHash};
+use crate::{
+    engine::{passes::PassKey, uploads::UploadTarget},
+    station::AntennaId,
+    transfer::{FileHash, FileObject},
+};
 
 /// The file is named like the station file, but for this.
 pub(super) const EXTENSION: &str = "automatic.toml";
@@ -28,16 +32,9 @@ pub(in crate::engine) struct LastRun {
     pub(super) station: Option<FileHash>,
     /// The pass that was proved last, by antenna: its unit may still be at work on it.
     held: Vec<Held>,
-    /// Elements of the last verified upload to each antenna's unit.
+    /// The last verified upload to each antenna's unit.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     unit_elements: Vec<UnitElements>,
-}
-
-/// Elements on a unit: catalog numbers, and the epochs of their elements.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-struct UnitElements {
-    antenna: AntennaId,
-    satellites: Vec<(u32, Timestamp)>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -45,6 +42,17 @@ struct Held {
     antenna: AntennaId,
     satellite: u32,
     aos: Timestamp,
+}
+
+/// The last verified upload to a unit.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub(in crate::engine) struct UnitElements {
+    antenna: AntennaId,
+    /// Address of the unit. At another address another unit answers, of which nothing is known.
+    address: String,
+    pub(in crate::engine) target: UploadTarget,
+    /// Catalog numbers, and the epochs of their elements.
+    pub(in crate::engine) epochs: Vec<(u32, Timestamp)>,
 }
 
 impl LastRun {
@@ -89,19 +97,36 @@ impl LastRun {
         self.held.push(Held { antenna, satellite, aos });
     }
 
-    /// Epochs of the elements that this antenna's unit holds, by catalog number.
-    pub(super) fn unit_elements(&self, antenna: AntennaId) -> BTreeMap<u32, Timestamp> {
-        let known = self.unit_elements.iter().find(|known| known.antenna == antenna);
-        known.map(|known| known.satellites.iter().copied().collect()).unwrap_or_default()
+    /// The last verified upload to the unit of this antenna at this address.
+    pub(super) fn unit_elements(&self, antenna: AntennaId, address: &str) -> Option<&UnitElements> {
+        let is_it = |known: &&UnitElements| known.antenna == antenna && known.address == address;
+        self.unit_elements.iter().find(is_it)
     }
 
-    pub(super) fn note_unit_elements(
+    /// Records a verified upload. After a roll-back the newer of both epochs counts for each
+    /// satellite: the rule waits for elements newer than those that the operator took back.
+    pub(super) fn note_upload(
         &mut self,
-        antenna: AntennaId,
-        satellites: Vec<(u32, Timestamp)>,
+        (antenna, address): (AntennaId, &str),
+        target: UploadTarget,
+        objects: &[FileObject],
+        is_roll_back: bool,
     ) {
+        let mut epochs: BTreeMap<u32, Timestamp> =
+            objects.iter().map(|object| (object.catalog_number, object.epoch)).collect();
+        if is_roll_back && let Some(known) = self.unit_elements(antenna, address) {
+            for (number, epoch) in &known.epochs {
+                let newest = epochs.entry(*number).or_insert(*epoch);
+                *newest = (*newest).max(*epoch);
+            }
+        }
         self.unit_elements.retain(|known| known.antenna != antenna);
-        self.unit_elements.push(UnitElements { antenna, satellites });
+        self.unit_elements.push(UnitElements {
+            antenna,
+            address: address.to_owned(),
+            target,
+            epochs: epochs.into_iter().collect(),
+        });
     }
 
     /// Records that automatic operation of this antenna is on or off.

@@ -38,8 +38,9 @@ pub enum DayEvent {
     Flown(Flown),
     /// The clock of the unit was set between two passes.
     ClockSet {
-        /// Seconds by which it was ahead of this computer's; negative if it was behind.
-        was_ahead_s: f64,
+        /// Seconds by which it was ahead of this computer's, negative if it was behind; `None` if it
+        /// was never set.
+        was_ahead_s: Option<f64>,
     },
     ClockNotSet {
         why: String,

@@ -239,6 +239,11 @@ impl Operation {
     }
 
     /// The pass that is being taken.
+    /// Returns `true` while it is on and asks nothing of the antenna.
+    pub(in crate::engine) fn is_idle(&self) -> bool {
+        matches!(self, Self::On(On { doing: Doing::Rests | Doing::Parks, .. }))
+    }
+
     pub fn taking(&self) -> Option<&Taking> {
         match self {
             Self::On(On { doing: Doing::Takes(taking), .. }) => Some(taking),

@@ -1,13 +1,17 @@
-//! Keeps a unit fit between passes, by the rules of its antenna: sets its clock here, and uploads
-//! elements in [`elements`].
+//! Maintenance of a unit between passes, by the rules of its antenna: sets its clock here, and
+//! uploads elements in [`elements`].
 
 mod elements;
 
+use std::time::Duration;
+
 use jiff::Timestamp;
 
-use super::{DayEvent, Doing, On, Operation, sets_out};
+pub(in crate::engine) use self::elements::RuleUpload;
+use super::{DayEvent, sets_out};
 use crate::{
-    astro::time::{add_seconds, seconds_between},
+    astro::time::seconds_between,
+    clock::Instant,
     device::{
         ClockSetting, UnitClock,
         settings::{Change, Hindrance},
@@ -18,14 +22,14 @@ use crate::{
     station::{AntennaId, BetweenPasses, Upkeep},
 };
 
-/// Time that must be left before the antenna sets out, for its clock to be set, seconds.
-const CLOCK_TAKES_S: f64 = 60.0;
-/// A reading of the clock that is older tells nothing, seconds.
-const READING_LASTS_S: f64 = 30.0;
-/// Time limit for the unit's answer, seconds.
-const ANSWER_S: f64 = 90.0;
-/// Time between two attempts, seconds.
-const AGAIN_S: f64 = 3600.0;
+/// Least time before the antenna sets out, for its clock to be set, seconds.
+const MIN_TIME_FOR_CLOCK_S: f64 = 60.0;
+/// Largest age of a clock reading, seconds.
+const MAX_READING_AGE_S: f64 = 30.0;
+/// Time limit for the unit's answer.
+const ANSWER_TIMEOUT: Duration = Duration::from_secs(90);
+/// Time between two attempts.
+const RETRY: Duration = Duration::from_hours(1);
 /// Tickets begin here; those of sessions, uploads and forms are lower.
 const TICKETS: u64 = 3 << 62;
 
@@ -34,9 +38,12 @@ const TICKETS: u64 = 3 << 62;
 pub(super) struct UpkeepWork {
     setting: Option<ClockChange>,
     tickets: u64,
-    next_try: Option<Timestamp>,
-    /// When the elements of the unit are looked at again.
-    next_look: Option<Timestamp>,
+    /// When the clock may be set again.
+    next_setting: Option<Instant>,
+    /// When the elements of the unit are checked again.
+    next_check: Option<Instant>,
+    /// Checks in a row at which an upload was due, but another one was open.
+    blocked: u32,
 }
 
 /// A clock that is being set.
@@ -44,13 +51,14 @@ pub(super) struct UpkeepWork {
 struct ClockChange {
     ticket: u64,
     group: &'static str,
-    sent_at: Timestamp,
-    was_ahead_s: f64,
+    sent: Instant,
+    /// `None` for a clock that was never set.
+    was_ahead_s: Option<f64>,
 }
 
 impl Engine {
-    /// Does what the rules of an antenna say about its unit.
-    pub(super) fn keep_up(&mut self, index: usize) {
+    /// Carries out the rules of an antenna for its unit.
+    pub(super) fn run_upkeep(&mut self, index: usize) {
         self.end_clock_change(index);
         self.set_clock(index);
         self.keep_elements(index);
@@ -59,45 +67,41 @@ impl Engine {
     fn set_clock(&mut self, index: usize) {
         let Some(antenna) = self.antennas.get(index) else { return };
         let Some((setting, was_ahead_s)) = self.clock_to_set(antenna) else { return };
-        if !self.is_at_rest(index) {
+        if !self.prepare_for_settings(index) {
             return;
         }
-        let now = self.now;
+        let steady = self.steady;
         let Some(antenna) = self.antennas.get_mut(index) else { return };
         let work = &mut antenna.at_work.upkeep;
         work.tickets += 1;
-        work.next_try = Some(add_seconds(now, AGAIN_S));
+        work.next_setting = Some(steady + RETRY);
         let ticket = TICKETS + work.tickets;
         let ClockSetting { group, from_here, .. } = *setting;
-        work.setting = Some(ClockChange { ticket, group, sent_at: now, was_ahead_s });
+        work.setting = Some(ClockChange { ticket, group, sent: steady, was_ahead_s });
         let values = from_here();
         let change = Change { ticket, group, values, seen: None, is_unlocked: false };
         self.send(index, driver::Command::WriteSettings(change));
     }
 
     /// The clock of an antenna's unit, and how far it is ahead, if it is to be set now.
-    fn clock_to_set(&self, antenna: &Antenna) -> Option<(&'static ClockSetting, f64)> {
+    fn clock_to_set(&self, antenna: &Antenna) -> Option<(&'static ClockSetting, Option<f64>)> {
         let (shown, work) = (&antenna.shown, &antenna.at_work.upkeep);
         let setting = shown.variant().clock?;
         let clock = shown.snapshot.state.on_board.clock?;
         let is_due = is_clock_off(&shown.config.upkeep, clock, self.now)
             && work.setting.is_none()
-            && work.next_try.is_none_or(|at| self.now >= at)
+            && work.next_setting.is_none_or(|at| self.steady >= at)
             && !is_kept_by_unit(setting, shown)
             && self.time_sync == TimeSync::Synchronised
-            && self.is_between_passes(shown, CLOCK_TAKES_S);
-        is_due.then_some((setting, clock.ahead_s))
+            && self.is_between_passes(shown, MIN_TIME_FOR_CLOCK_S);
+        is_due.then(|| (setting, clock.is_set.then_some(clock.ahead_s)))
     }
 
     /// Automatic operation is on, nothing is asked of the antenna, and it does not set out within
     /// `takes_s` seconds.
     fn is_between_passes(&self, antenna: &AntennaModel, takes_s: f64) -> bool {
-        let rests = matches!(
-            antenna.operation,
-            Operation::On(On { doing: Doing::Rests | Doing::Parks, .. })
-        );
         let entries = &self.schedule.schedule.entries;
-        rests
+        antenna.operation.is_idle()
             && antenna.is_live()
             && antenna.held_by.is_none()
             && antenna.snapshot.lock_out.is_none()
@@ -106,9 +110,9 @@ impl Engine {
             && is_free(entries, antenna.id(), self.now, takes_s)
     }
 
-    /// Returns `true` if the unit takes settings that decide where it points. Auto-track of automatic
-    /// operation ends first; the next pass switches it on again.
-    fn is_at_rest(&mut self, index: usize) -> bool {
+    /// Returns `true` if the unit takes settings that decide where it points. Switches auto-track of
+    /// automatic operation off first; the next pass switches it on again.
+    fn prepare_for_settings(&mut self, index: usize) -> bool {
         let Some(antenna) = self.antennas.get(index) else { return false };
         let shown = &antenna.shown;
         match shown.snapshot.hindrance(shown.variant().capabilities, self.steady) {
@@ -123,7 +127,7 @@ impl Engine {
 
     /// Takes the unit's answer to a clock that was set.
     fn end_clock_change(&mut self, index: usize) {
-        let now = self.now;
+        let steady = self.steady;
         let Some(antenna) = self.antennas.get_mut(index) else { return };
         let Some(change) = antenna.at_work.upkeep.setting else { return };
         let held = &antenna.shown.snapshot.state.held;
@@ -134,8 +138,10 @@ impl Engine {
                 Ok(()) => DayEvent::ClockSet { was_ahead_s: change.was_ahead_s },
                 Err(why) => DayEvent::ClockNotSet { why: why.to_string() },
             },
-            None if seconds_between(change.sent_at, now) > ANSWER_S => {
-                DayEvent::ClockNotSet { why: "the unit did not answer".to_owned() }
+            None if steady.saturating_duration_since(change.sent) > ANSWER_TIMEOUT => {
+                DayEvent::ClockNotSet {
+                    why: "the unit did not answer, or STOP came first".to_owned(),
+                }
             }
             None => return,
         };
@@ -149,7 +155,7 @@ impl Engine {
 fn is_clock_off(rule: &Upkeep, clock: UnitClock, now: Timestamp) -> bool {
     let age_s = seconds_between(clock.read_at, now);
     let is_off = !clock.is_set || clock.surely_ahead_s().abs() > rule.clock_limit_s;
-    rule.sets_clock && (0.0..=READING_LASTS_S).contains(&age_s) && is_off
+    rule.sets_clock && (0.0..=MAX_READING_AGE_S).contains(&age_s) && is_off
 }
 
 /// Returns `true` if no pass of the antenna is under way, and it does not set out for one within

@@ -1,4 +1,4 @@
-//! What each new schedule changes.
+//! Records the changes of each new schedule.
 
 use std::{collections::BTreeMap, sync::Arc};
 
@@ -12,7 +12,7 @@ use crate::{
     station::AntennaId,
 };
 
-/// What the schedule says of a pass.
+/// How the schedule treats a pass.
 #[derive(PartialEq, Serialize)]
 #[serde(untagged)]
 enum Planning<'a> {
@@ -20,7 +20,7 @@ enum Planning<'a> {
     LeftOut(&'a LeftOut),
 }
 
-/// What is recorded of a new schedule.
+/// Record entry of a new schedule.
 #[derive(Serialize)]
 struct News<'a> {
     revision: u64,

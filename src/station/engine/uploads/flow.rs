@@ -6,13 +6,16 @@ use jiff::Timestamp;
 use super::{
     Cargo, Failure, Order, Proved, SecretWanted, Stage, Uploads, Warning,
     errand::{Errand, Outcome, Report},
-    select::{Busy, Selection, TICKETS, UnitNow, pick},
+    select::{Selection, TICKETS, UnitNow, pick},
 };
 use crate::{
     engine::host_keys::{Decision, doubtful},
     secret::Secret,
     transfer::{OfferedKey, Uploaded},
 };
+
+/// Why an unattended order ends.
+const IN_USE: &str = "the antenna is in use or automatic operation is off";
 
 /// The next step of an order.
 pub(super) enum Next {
@@ -75,12 +78,12 @@ impl Flow {
             fail(shown, text);
             return None;
         }
+        if self.is_unattended() && !unit.is_free() {
+            fail(shown, format!("nothing was sent, because {IN_USE}"));
+            return None;
+        }
         if let Some(busy) = unit.busy {
-            if self.is_unattended() {
-                fail(shown, format!("nothing was sent, {}", tracks(busy)));
-            } else {
-                shown.stage = Stage::AsksAboutTracking(busy);
-            }
+            shown.stage = Stage::AsksAboutTracking(busy);
             return None;
         }
         self.run(shown)
@@ -158,6 +161,12 @@ impl Flow {
         std::mem::take(&mut self.keeps).then(|| self.secret.clone()).flatten()
     }
 
+    /// Ends an order that takes too long.
+    pub(super) fn give_up(&mut self, text: String, shown: &mut Uploads) {
+        *self = Self { selections: self.selections, ..Self::default() };
+        fail(shown, text);
+    }
+
     /// Cancels. Returns `true` if the work under way must be cancelled too.
     pub(super) fn cancel(&mut self, shown: &mut Uploads) -> bool {
         let can_cancel = shown.stage.can_cancel();
@@ -218,9 +227,12 @@ impl Flow {
                 self.secret = None;
                 let order = self.order.as_ref()?;
                 if order.is_unattended {
-                    let why = refused.or(self.keyring_problem.take());
-                    let why = why.unwrap_or_else(|| "it is not in the keyring".to_owned());
-                    fail(shown, format!("the password or passphrase is missing: {why}"));
+                    let missing = || match self.keyring_problem.take() {
+                        Some(problem) => format!("the keyring gave no password: {problem}"),
+                        None => "no password or passphrase is in the keyring".to_owned(),
+                    };
+                    let text = refused.map(|why| format!("the log-in failed: {why}"));
+                    fail(shown, text.unwrap_or_else(missing));
                     return None;
                 }
                 let account = order.account();
@@ -246,12 +258,12 @@ impl Flow {
         unit: &UnitNow,
         shown: &mut Uploads,
     ) -> Option<Next> {
+        if self.is_unattended() && !unit.is_free() {
+            let text = format!("the file is on the unit but not in use yet, because {IN_USE}");
+            fail_after(shown, text, uploaded);
+            return None;
+        }
         if let Some(busy) = unit.busy.filter(|_| !self.is_agreed) {
-            if self.is_unattended() {
-                let text = format!("the file is on the unit but not in use yet, {}", tracks(busy));
-                fail_after(shown, text, uploaded);
-                return None;
-            }
             self.uploaded = Some(uploaded);
             shown.stage = Stage::AsksAboutTracking(busy);
             return None;
@@ -317,13 +329,6 @@ impl Flow {
             }
             Err(text) => fail_after(shown, text, uploaded),
         }
-    }
-}
-
-fn tracks(busy: Busy) -> &'static str {
-    match busy {
-        Busy::Tracks => "because the unit tracks",
-        Busy::MayTrack => "because auto-track is on",
     }
 }
 

@@ -7,7 +7,6 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error as _};
 use crate::engine::written;
 use crate::{
     device::ElementFiles,
-    station::UploadWay,
     transfer::{Account, FileName, KeptFile, Peer, TleFile},
 };
 
@@ -35,9 +34,23 @@ pub struct Order {
     /// Catalog number of the satellite to track; `None` for the one that the unit holds, or
     /// the first of the file.
     pub satellite: Option<u32>,
-    /// Nobody answers questions: what would be asked ends the order.
+    /// Started by a rule: the order fails instead of asking.
     #[serde(default)]
     pub is_unattended: bool,
+}
+
+/// Where an upload goes.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub(in crate::engine) struct UploadTarget {
+    pub(in crate::engine) unit: Peer,
+    /// Folder on the unit.
+    pub(in crate::engine) folder: String,
+    /// Name of the file in the folder.
+    pub(in crate::engine) file: String,
+    pub(in crate::engine) user: String,
+    /// Private key for the log-in; `None` for a password.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(in crate::engine) key_file: Option<PathBuf>,
 }
 
 /// Content of a file.
@@ -65,11 +78,10 @@ impl<'de> Deserialize<'de> for Order {
 }
 
 impl Order {
-    /// The way for the next upload to this unit.
-    pub(in crate::engine) fn way(&self) -> UploadWay {
-        UploadWay {
-            host: self.unit.host.clone(),
-            port: self.unit.port,
+    /// Where the next upload to this unit goes.
+    pub(in crate::engine) fn target(&self) -> UploadTarget {
+        UploadTarget {
+            unit: self.unit.clone(),
             folder: self.folder.clone(),
             file: self.file.as_str().to_owned(),
             user: self.user.clone(),

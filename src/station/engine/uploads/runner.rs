@@ -99,6 +99,12 @@ impl Runner {
         self.flow.order()
     }
 
+    /// Ends the order under way, for the reason `text`. A thread that does not end is left behind.
+    pub(in crate::engine) fn give_up(&mut self, text: String, shown: &mut Uploads) {
+        self.transfer = None;
+        self.flow.give_up(text, shown);
+    }
+
     /// Takes note that the operator has stopped the antennas.
     pub(in crate::engine) fn stopped(&mut self) {
         self.flow.stopped();

@@ -51,6 +51,8 @@ pub(in crate::engine) struct UnitNow {
     pub(super) locked_out: Option<String>,
     /// Why the driver would refuse to let it use a file now.
     pub(super) hindrance: Option<Hindrance>,
+    /// Automatic operation is on and asks nothing of the antenna.
+    pub(super) is_idle: bool,
     /// Catalog number of the satellite that the unit holds.
     pub(super) held: Option<u32>,
     /// Answer to the last finished selection.
@@ -91,7 +93,13 @@ impl UnitNow {
         let locked_out = antenna.snapshot.lock_out.as_ref();
         let locked_out = locked_out.map(|lock_out| format!("{}: {}", lock_out.by, lock_out.reason));
         let hindrance = antenna.snapshot.hindrance(antenna.variant().capabilities, steady);
-        Self { at, busy: Busy::of(antenna), locked_out, hindrance, held, answer }
+        let is_idle = antenna.operation.is_idle();
+        Self { at, busy: Busy::of(antenna), locked_out, hindrance, is_idle, held, answer }
+    }
+
+    /// Returns `true` if a rule may change what the unit tracks from.
+    pub(super) fn is_free(&self) -> bool {
+        self.is_idle && self.hindrance.is_none() && self.locked_out.is_none()
     }
 }
 

@@ -26,32 +26,29 @@ impl Engine {
             let objects = proved.uploaded.objects.clone();
             self.use_upload(&objects);
         }
-        self.end_unattended();
+        self.end_rule_upload();
     }
 
-    /// Remembers what the unit holds after a verified upload and the way there, and configures the
-    /// antenna to track from the file. An antenna without a configured file uses the unit's current
-    /// one.
+    /// Records a verified upload, and configures the antenna to track from its file. An antenna without
+    /// a configured file uses the unit's current one.
     fn use_upload(&mut self, objects: &[FileObject]) {
-        let Some(config) = self.upload_antenna().map(|antenna| &antenna.shown.config) else {
+        let Some(config) = self.upload_antenna().map(|antenna| antenna.shown.config.clone()) else {
             return;
         };
-        let Some(way) = self.upload_runner.order().map(Order::way) else { return };
-        let (id, mut config) = (config.id, config.clone());
-        self.note_unit_elements(id, objects);
-        if config.connection.element_file().is_some_and(|known| known != way.file)
-            && let Err(why) = config.connection.use_element_file(&way.file)
-        {
-            tracing::error!(way.file, ?why, "the element file cannot be set");
+        let Some(target) = self.upload_runner.order().map(Order::target) else { return };
+        let file = target.file.clone();
+        self.note_upload(&config, target, objects);
+        if config.connection.element_file().is_none_or(|known| known == file) {
+            return;
         }
-        config.upkeep.way = Some(way);
-        if self.station.antennas.contains(&config) {
+        let (id, mut config) = (config.id, config);
+        if let Err(why) = config.connection.use_element_file(&file) {
+            tracing::error!(file, ?why, "the element file cannot be set");
             return;
         }
         self.change_station(|station| {
             if let Some(known) = station.antennas.iter_mut().find(|antenna| antenna.id == id) {
                 known.connection = config.connection.clone();
-                known.upkeep = config.upkeep.clone();
             }
         });
         let is_kept = self.station.antennas.contains(&config);
@@ -64,7 +61,12 @@ impl Engine {
 
     fn upload_antenna(&self) -> Option<&Antenna> {
         let name = &self.uploads.antenna;
-        self.antennas.iter().find(|antenna| antenna.shown.config.name == *name)
+        let is_it = |antenna: &&Antenna| {
+            let shown = &antenna.shown;
+            let id = self.rule_upload.as_ref().map(|upload| upload.antenna);
+            shown.config.name == *name && id.is_none_or(|id| shown.id() == id)
+        };
+        self.antennas.iter().find(is_it)
     }
 
     fn tell_unit(&mut self, request: Option<SessionRequest>) {

@@ -4,7 +4,7 @@ use super::file::{load, written};
 use crate::station::{
     self, AntennaId, Automatic, AutomationRule, BetweenPasses, ChooseBy, Favourite, HoursOfDay,
     Light, Loaded, Partly, PassChoice, PassLimits, Priority, RuleOf, SatelliteGroup, Scheduling,
-    SunIs, Take, Then, Upkeep, UploadWay,
+    SunIs, Take, Then, Upkeep,
 };
 
 const ANTENNA: &str = "[[antenna]]\nid = 4\nname = 'Dish'\n[antenna.connection]\n\
@@ -81,42 +81,12 @@ fn everything_about_the_schedule_comes_back_as_it_was_saved() {
         clock_limit_s: 7.5,
         uploads_elements: true,
         element_limit_d: 1.5,
-        way: Some(UploadWay {
-            host: "::1".to_owned(),
-            port: 2222,
-            folder: "/tle".to_owned(),
-            file: "oper.txt".to_owned(),
-            user: "op".to_owned(),
-            key_file: Some("/home/op/.ssh/id".into()),
-        }),
     };
     station::save(&station, &path, crate::makes::SPECS).unwrap();
     let text = std::fs::read_to_string(&path).unwrap();
     assert!(text.contains("automatic_operation_at_start = true"), "{text}");
     let Loaded { station: read, notes } = load(&path).unwrap();
     assert_eq!((read, notes), (station, Vec::new()), "{text}");
-}
-
-#[test]
-fn a_way_for_uploads_that_is_not_whole_is_left_out_with_a_note() {
-    let whole = "host = 'unit'\nport = 22\nfolder = '/tle'\nfile = 'a.txt'\nuser = 'op'\n";
-    for (from, to) in [
-        ("port = 22", "port = 0"),
-        ("port = 22", "port = 65536"),
-        ("port = 22", "port = 'ssh'"),
-        ("user = 'op'", "user = ''"),
-        ("host = 'unit'\n", ""),
-        ("folder = '/tle'", "folder = 7"),
-    ] {
-        let way = whole.replace(from, to);
-        let upkeep =
-            format!("[antenna.upkeep]\nuploads_elements = true\n[antenna.upkeep.upload]\n{way}");
-        let (_folder, path) = written(&format!("{ANTENNA}{upkeep}"));
-        let Loaded { station, notes } = load(&path).unwrap();
-        let upkeep = &station.antennas[0].upkeep;
-        assert_eq!((upkeep.uploads_elements, &upkeep.way), (true, &None), "{to}");
-        assert!(!notes.is_empty(), "{to}");
-    }
 }
 
 #[test]

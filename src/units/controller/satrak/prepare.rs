@@ -91,8 +91,7 @@ impl Preparation {
         self.step = match (self.step, reply) {
             (PrepareStep::AskSatellite, Reply::Satellite(held)) => {
                 self.held = Some(held.clone());
-                // A file of this name may have new elements, and the unit reads it only when it is told
-                // the satellite.
+                // The file may have new elements, and the unit reads it only when `SATELLITE=` names it.
                 let is_from_file = self.target.element_file.is_some();
                 if !is_from_file && self.holds_target() {
                     PrepareStep::SetWindow

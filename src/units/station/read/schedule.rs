@@ -8,7 +8,7 @@ use toml::Value;
 use super::Fields;
 use crate::station::{
     AntennaId, Automatic, AutomationRule, BetweenPasses, ChooseBy, HoursOfDay, Partly, PassChoice,
-    RuleOf, Scheduling, SunIs, Take, Then, Upkeep, UploadWay, ranges,
+    RuleOf, Scheduling, SunIs, Take, Then, Upkeep, ranges,
 };
 
 impl Fields<'_> {
@@ -77,31 +77,6 @@ impl Fields<'_> {
                 &ranges::ELEMENT_AGE_D,
                 default.element_limit_d,
             ),
-            way: fields.upload_way(),
-        })
-    }
-
-    /// A way that is not whole is left out: an upload by hand tells it again.
-    fn upload_way(&mut self) -> Option<UploadWay> {
-        const KEY: &str = "upload";
-        if !self.table.contains_key(KEY) {
-            return None;
-        }
-        self.inner(KEY, |fields| {
-            let [host, folder, file, user, key_file] =
-                ["host", "folder", "file", "user", "key_file"].map(|key| fields.text(key, ""));
-            let port = fields.table.remove("port").and_then(|value| value.as_integer());
-            let port = port.and_then(|port| u16::try_from(port).ok()).filter(|port| *port > 0);
-            let is_whole = [&host, &folder, &file, &user].iter().all(|text| !text.is_empty());
-            let Some(port) = port.filter(|_| is_whole) else {
-                fields.invalid(
-                    "host",
-                    "must come with folder, file, user and a port from 1 to 65535",
-                );
-                return None;
-            };
-            let key_file = (!key_file.is_empty()).then(|| key_file.into());
-            Some(UploadWay { host, port, folder, file, user, key_file })
         })
     }
 

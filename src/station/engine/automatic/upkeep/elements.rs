@@ -1,69 +1,91 @@
 //! Uploads newer elements to a unit between passes.
 
-use std::{collections::BTreeMap, mem};
+use std::{collections::BTreeMap, mem, time::Duration};
 
 use jiff::Timestamp;
 
-use super::{AGAIN_S, DayEvent};
+use super::{DayEvent, RETRY, is_free};
 use crate::{
-    astro::time::{DAY_S, add_seconds, seconds_between},
+    astro::time::{DAY_S, seconds_between},
+    clock::Instant,
     device::ElementFiles,
     engine::{
         CatalogState, Engine,
         alarms::AlarmKind,
         antenna::AntennaModel,
-        uploads::{Ask, Cargo, Order, Stage},
+        uploads::{Ask, Cargo, Order, Stage, UploadTarget},
     },
     orbit::{Catalog, Elements},
-    station::{AntennaId, UploadWay},
-    transfer::{FileName, FileObject, Peer, TleFile},
+    station::{self, AntennaId},
+    transfer::{FileName, FileObject, TleFile},
 };
 
-/// Time that must be left before the antenna sets out, for an upload, seconds.
-const UPLOAD_TAKES_S: f64 = 300.0;
-/// Time between two looks at the age of the elements, seconds.
-const LOOK_S: f64 = 60.0;
+/// Least time before the antenna sets out, for an upload to begin, seconds.
+const MIN_TIME_FOR_UPLOAD_S: f64 = 300.0;
+/// An upload is cancelled so long before the antenna sets out, seconds.
+const ENDS_BEFORE_S: f64 = 60.0;
+/// Time between two checks of the age of the elements.
+const CHECK_PERIOD: Duration = Duration::from_mins(1);
+/// Checks after which an upload that is due and blocked by another raises an alarm.
+const MAX_BLOCKED: u32 = 60;
+/// Longest upload. A locked keyring may wait for somebody for ever.
+const UPLOAD_TIMEOUT: Duration = Duration::from_mins(30);
+
+/// An upload that a rule has begun.
+pub(in crate::engine) struct RuleUpload {
+    pub(in crate::engine) antenna: AntennaId,
+    since: Instant,
+}
 
 impl Engine {
-    /// Uploads newer elements if those on the unit are too old. Ends an upload once there is no time
-    /// for it, or once automatic operation ends.
+    /// Uploads newer elements if those on the unit are too old.
     pub(super) fn keep_elements(&mut self, index: usize) {
+        let steady = self.steady;
         let Some(antenna) = self.antennas.get(index) else { return };
         let shown = &antenna.shown;
         let id = shown.id();
-        if !shown.config.upkeep.uploads_elements {
-            self.forget_failure(id);
-            return;
+        if !shown.config.upkeep.uploads_elements || !shown.operation.is_on() {
+            return self.clear_upload_alarm(id);
         }
-        let is_ours = self.upload_runner.order().is_some_and(|order| order.is_unattended)
-            && self.uploads.antenna == shown.config.name;
-        if is_ours && self.uploads.stage.can_cancel() && !self.is_between_passes(shown, 0.0) {
-            return self.ask_about_upload(Ask::Cancel);
-        }
-        let is_due = antenna.at_work.upkeep.next_look.is_none_or(|at| self.now >= at)
+        let is_due = self.rule_upload.is_none()
             && self.demo.is_none()
-            && !self.uploads.stage.is_open()
-            && self.is_between_passes(shown, UPLOAD_TAKES_S);
+            && antenna.at_work.upkeep.next_check.is_none_or(|at| steady >= at)
+            && self.is_between_passes(shown, MIN_TIME_FOR_UPLOAD_S);
         if !is_due {
             return;
         }
         let order = self.order_for(shown);
-        let wait_s = if order.is_some() { AGAIN_S } else { LOOK_S };
-        if order.is_some() && !self.is_at_rest(index) {
-            return;
-        }
-        let now = self.now;
-        if let Some(antenna) = self.antennas.get_mut(index) {
-            antenna.at_work.upkeep.next_look = Some(add_seconds(now, wait_s));
-        }
+        self.check_elements_after(id, CHECK_PERIOD);
         match order {
-            None => {}
+            None => self.clear_upload_alarm(id),
+            Some(Err(why)) => self.note_upload_failure(id, why),
             Some(Ok(order)) => {
-                self.ask_about_upload(Ask::Begin(Box::new(order)));
-                self.end_unattended();
+                if !self.is_blocked(index) && self.prepare_for_settings(index) {
+                    self.rule_upload = Some(RuleUpload { antenna: id, since: steady });
+                    self.check_elements_after(id, RETRY);
+                    self.ask_about_upload(Ask::Begin(Box::new(order)));
+                    self.end_rule_upload();
+                }
             }
-            Some(Err(why)) => self.note_failure(id, why),
         }
+    }
+
+    /// Returns `true` if an upload by hand is under way, or has failed and is still shown.
+    fn is_blocked(&mut self, index: usize) -> bool {
+        let Some(antenna) = self.antennas.get_mut(index) else { return true };
+        let work = &mut antenna.at_work.upkeep;
+        if matches!(self.uploads.stage, Stage::Idle | Stage::Proved(_)) {
+            work.blocked = 0;
+            return false;
+        }
+        work.blocked += 1;
+        if work.blocked >= MAX_BLOCKED {
+            work.blocked = 0;
+            let id = antenna.shown.id();
+            let why = format!("an upload to {} is still open", self.uploads.antenna);
+            self.note_upload_failure(id, why);
+        }
+        true
     }
 
     /// The upload that an antenna's unit needs now, or why there can be none; `None` if it needs none.
@@ -75,75 +97,128 @@ impl Engine {
         if (takes.are_fetched_by_unit)(&held.values) {
             return None;
         }
-        let favourites = self.station.favourites.numbers();
-        let chosen = chosen(catalog, &favourites, takes);
-        let on_unit = self.last_run.unit_elements(antenna.id());
+        let address = &antenna.config.connection.address;
+        let last = self.last_run.unit_elements(antenna.id(), address);
+        let on_unit: BTreeMap<u32, Timestamp> =
+            last.map(|last| last.epochs.iter().copied().collect()).unwrap_or_default();
+        // What somebody has put there besides the favourites stays there.
+        let mut numbers = self.station.favourites.numbers();
+        let others: Vec<u32> =
+            on_unit.keys().copied().filter(|number| !numbers.contains(number)).collect();
+        numbers.extend(others);
+        let chosen = chosen(catalog, &numbers, takes);
         let limit_s = antenna.config.upkeep.element_limit_d * DAY_S;
-        if !are_old(&chosen, &on_unit, limit_s, self.now) {
-            return None;
+        match is_upload_due(&chosen, &on_unit, limit_s, self.now) {
+            Ok(false) => None,
+            Ok(true) => Some(match last {
+                Some(last) => order(antenna, &last.target, takes, &chosen),
+                None => {
+                    Err("the host and the folder are not known. Upload once by hand".to_owned())
+                }
+            }),
+            Err(why) => Some(Err(why)),
         }
-        let Some(way) = &antenna.config.upkeep.way else {
-            return Some(
-                Err("nobody has uploaded any by hand yet, so the way is not known".into()),
-            );
-        };
-        Some(order(antenna, way, takes, &chosen))
     }
 
-    pub(in crate::engine) fn note_unit_elements(&mut self, id: AntennaId, objects: &[FileObject]) {
-        let satellites = objects.iter().map(|object| (object.catalog_number, object.epoch));
-        self.last_run.note_unit_elements(id, satellites.collect());
+    /// Records a verified upload to the unit of an antenna.
+    pub(in crate::engine) fn note_upload(
+        &mut self,
+        config: &station::Antenna,
+        target: UploadTarget,
+        objects: &[FileObject],
+    ) {
+        let unit = (config.id, config.connection.address.as_str());
+        self.last_run.note_upload(unit, target, objects, self.uploads.is_roll_back);
         self.keep_last_run();
+        self.clear_upload_alarm(config.id);
+        // What somebody has done by hand stands for a while.
+        self.check_elements_after(config.id, RETRY);
     }
 
-    /// Notes how an upload by the rule has ended.
-    pub(in crate::engine) fn end_unattended(&mut self) {
-        if !self.upload_runner.order().is_some_and(|order| order.is_unattended) {
+    /// Cancels the upload of a rule whose antenna is needed, or that nobody wants any more.
+    pub(in crate::engine) fn limit_rule_upload(&mut self) {
+        let Some(upload) = &self.rule_upload else { return };
+        let (id, since) = (upload.antenna, upload.since);
+        let entries = &self.schedule.schedule.entries;
+        let is_wanted = |shown: &AntennaModel| {
+            shown.config.name == self.uploads.antenna
+                && shown.config.upkeep.uploads_elements
+                && shown.operation.is_idle()
+                && shown.snapshot.lock_out.is_none()
+                && is_free(entries, id, self.now, ENDS_BEFORE_S)
+        };
+        let antenna = self.antennas.iter().find(|antenna| antenna.shown.id() == id);
+        let goes_on = self.closing.is_none() && antenna.is_some_and(|it| is_wanted(&it.shown));
+        if !goes_on && self.uploads.stage.can_cancel() {
+            self.ask_about_upload(Ask::Cancel);
+        }
+        if self.steady.saturating_duration_since(since) > UPLOAD_TIMEOUT {
+            let text = "it did not end within half an hour. Is the keyring locked?".to_owned();
+            self.upload_runner.give_up(text, &mut self.uploads);
+        }
+        self.end_rule_upload();
+    }
+
+    /// Records how the upload of a rule has ended.
+    pub(in crate::engine) fn end_rule_upload(&mut self) {
+        if self.uploads.stage.is_open() {
             return;
         }
-        let name = &self.uploads.antenna;
-        let antenna = self.antennas.iter().find(|one| one.shown.config.name == *name);
-        let Some(id) = antenna.map(|antenna| antenna.shown.id()) else { return };
+        let Some(upload) = self.rule_upload.take() else { return };
+        let id = upload.antenna;
         match &self.uploads.stage {
             Stage::Proved(proved) => {
                 let file = proved.uploaded.file.as_str().to_owned();
                 let satellites = proved.uploaded.objects.len();
                 self.note_day(id, DayEvent::ElementsUploaded { file, satellites });
-                self.forget_failure(id);
             }
             Stage::Failed(failure) => {
-                let why = failure.text.clone();
-                self.note_failure(id, why);
+                let (why, is_cancel) = (failure.text.clone(), failure.is_cancel);
+                // The window offers what an operator can do about an order by hand.
+                mem::take(&mut self.uploads.stage);
+                if is_cancel {
+                    self.note_day(id, DayEvent::ElementsNotUploaded { why });
+                    self.check_elements_after(id, CHECK_PERIOD);
+                } else {
+                    self.note_upload_failure(id, why);
+                }
             }
             Stage::Idle
             | Stage::AsksAboutTracking(_)
             | Stage::Working { .. }
             | Stage::AsksAboutHostKey(_)
             | Stage::AsksForSecret(_)
-            | Stage::Selecting(_) => return,
+            | Stage::Selecting(_) => {}
         }
-        mem::take(&mut self.uploads.stage);
     }
 
-    fn note_failure(&mut self, id: AntennaId, why: String) {
+    fn check_elements_after(&mut self, id: AntennaId, wait: Duration) {
+        let at = self.steady + wait;
+        if let Some(antenna) = self.antennas.iter_mut().find(|antenna| antenna.shown.id() == id) {
+            antenna.at_work.upkeep.next_check = Some(at);
+        }
+    }
+
+    fn note_upload_failure(&mut self, id: AntennaId, why: String) {
+        self.check_elements_after(id, RETRY);
         self.alarms.raise(Some(id), AlarmKind::ElementsNotUploaded { why: why.clone() }, self.now);
         self.note_day(id, DayEvent::ElementsNotUploaded { why });
     }
 
-    fn forget_failure(&mut self, id: AntennaId) {
+    fn clear_upload_alarm(&mut self, id: AntennaId) {
         let is_that = |kind: &AlarmKind| matches!(kind, AlarmKind::ElementsNotUploaded { .. });
         self.alarms.clear(Some(id), self.now, is_that);
     }
 }
 
-/// The elements of those favourites that a unit takes in one file.
+/// The elements of those satellites that a unit takes in one file.
 fn chosen<'a>(
     catalog: &'a Catalog,
-    favourites: &[u32],
+    numbers: &[u32],
     takes: &ElementFiles,
 ) -> Vec<(FileObject, &'a Elements)> {
     let mut chosen: Vec<(FileObject, &Elements)> = Vec::new();
-    for elements in favourites.iter().filter_map(|number| catalog.get(*number)) {
+    for elements in numbers.iter().filter_map(|number| catalog.get(*number)) {
         let Ok(alone) = TleFile::of([elements], takes) else { continue };
         let Some(object) = alone.objects().first().cloned() else { continue };
         // The unit looks for a satellite by its name.
@@ -154,36 +229,48 @@ fn chosen<'a>(
     chosen
 }
 
-/// Returns `true` if newer elements are at hand for one that is missing on the unit or too old there.
-fn are_old(
+/// Returns `true` if newer elements are at hand for a satellite that is missing on the unit or too
+/// old there. The whole file is replaced, so it fails if it would make a satellite older.
+fn is_upload_due(
     chosen: &[(FileObject, &Elements)],
     on_unit: &BTreeMap<u32, Timestamp>,
     limit_s: f64,
     now: Timestamp,
-) -> bool {
-    chosen.iter().any(|(object, _)| {
-        on_unit
-            .get(&object.catalog_number)
-            .is_none_or(|epoch| object.epoch > *epoch && seconds_between(*epoch, now) > limit_s)
-    })
+) -> Result<bool, String> {
+    let is_old = |epoch: Timestamp| seconds_between(epoch, now) > limit_s;
+    let epoch_on_unit = |object: &FileObject| on_unit.get(&object.catalog_number).copied();
+    let is_due = chosen.iter().any(|(object, _)| match epoch_on_unit(object) {
+        Some(epoch) => object.epoch > epoch && is_old(epoch),
+        None => !is_old(object.epoch),
+    });
+    let mut older = chosen
+        .iter()
+        .filter(|(object, _)| epoch_on_unit(object).is_some_and(|epoch| object.epoch < epoch));
+    match older.next() {
+        Some((object, _)) if is_due => {
+            Err(format!("the elements of {} on the unit are newer than those here", object.name))
+        }
+        _ => Ok(is_due),
+    }
 }
 
 fn order(
     antenna: &AntennaModel,
-    way: &UploadWay,
+    target: &UploadTarget,
     takes: &'static ElementFiles,
     chosen: &[(FileObject, &Elements)],
 ) -> Result<Order, String> {
-    let file = TleFile::of(chosen.iter().map(|(_, elements)| *elements), takes);
+    let content = TleFile::of(chosen.iter().map(|(_, elements)| *elements), takes);
+    let file = antenna.config.connection.element_file().unwrap_or_else(|| target.file.clone());
     Ok(Order {
         antenna: antenna.config.name.clone(),
         takes,
-        unit: Peer { host: way.host.clone(), port: way.port },
-        folder: way.folder.clone(),
-        file: FileName::new(&way.file, takes).map_err(|error| error.to_string())?,
-        user: way.user.clone(),
-        key_file: way.key_file.clone(),
-        cargo: Cargo::New(file.map_err(|error| error.to_string())?),
+        unit: target.unit.clone(),
+        folder: target.folder.clone(),
+        file: FileName::new(&file, takes).map_err(|error| error.to_string())?,
+        user: target.user.clone(),
+        key_file: target.key_file.clone(),
+        cargo: Cargo::New(content.map_err(|error| error.to_string())?),
         satellite: None,
         is_unattended: true,
     })
@@ -192,12 +279,21 @@ fn order(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{controller::satrak::ELEMENT_FILES, orbit::bundled};
+    use crate::{
+        astro::time::add_seconds,
+        controller::satrak::ELEMENT_FILES,
+        engine::{
+            automatic::{LastRun, tests::station},
+            uploads::Failure,
+        },
+        orbit::bundled,
+        transfer::Peer,
+    };
 
     const FAVOURITES: [u32; 2] = [25_544, 43_013];
 
     #[test]
-    fn elements_are_old_past_the_limit_while_newer_ones_are_at_hand() {
+    fn newer_elements_are_due_for_what_is_missing_or_past_the_limit() {
         let catalog = bundled().unwrap();
         let chosen = chosen(&catalog, &FAVOURITES, &ELEMENT_FILES);
         assert_eq!(chosen.len(), FAVOURITES.len());
@@ -206,16 +302,23 @@ mod tests {
         };
         let [iss, noaa] = FAVOURITES;
         let later = |days: f64| add_seconds(at_hand(iss).max(at_hand(noaa)), days * DAY_S);
-        let are_old = |iss_before_d: f64, days: f64| {
+        let limit_s = 2.0 * DAY_S;
+        let is_due = |iss_before_d: f64, days: f64| {
             let iss_epoch = add_seconds(at_hand(iss), -iss_before_d * DAY_S);
             let on_unit = BTreeMap::from([(iss, iss_epoch), (noaa, at_hand(noaa))]);
-            are_old(&chosen, &on_unit, 2.0 * DAY_S, later(days))
+            is_upload_due(&chosen, &on_unit, limit_s, later(days))
         };
-        assert!(!are_old(1.0, 0.5), "within the limit");
-        assert!(are_old(1.0, 1.5), "past the limit");
-        assert!(!are_old(0.0, 30.0), "nothing newer is at hand");
+        assert_eq!(is_due(1.0, 0.5), Ok(false), "within the limit");
+        assert_eq!(is_due(1.0, 1.9), Ok(true), "past the limit");
+        assert_eq!(is_due(0.0, 30.0), Ok(false), "nothing newer is at hand");
+        assert_eq!(is_due(-0.5, 30.0), Ok(false), "those on the unit are newer");
         let missing = BTreeMap::from([(iss, at_hand(iss))]);
-        assert!(super::are_old(&chosen, &missing, 2.0 * DAY_S, later(0.1)), "one is missing");
+        let one_missing = |days| is_upload_due(&chosen, &missing, limit_s, later(days));
+        assert_eq!(one_missing(0.1), Ok(true));
+        assert_eq!(one_missing(30.0), Ok(false), "those at hand are old themselves");
+        let noaa_newer = BTreeMap::from([(noaa, later(0.1))]);
+        let mixed = is_upload_due(&chosen, &noaa_newer, limit_s, later(0.2));
+        assert!(mixed.unwrap_err().contains("newer than those here"));
     }
 
     #[test]
@@ -226,5 +329,122 @@ mod tests {
         let numbers: Vec<u32> = chosen.iter().map(|(object, _)| object.catalog_number).collect();
         assert_eq!(numbers, FAVOURITES);
         assert!(TleFile::of(chosen.iter().map(|(_, elements)| *elements), &ELEMENT_FILES).is_ok());
+    }
+
+    fn target() -> UploadTarget {
+        UploadTarget {
+            unit: Peer { host: "dish".to_owned(), port: 22 },
+            folder: "/tle".to_owned(),
+            file: "a.txt".to_owned(),
+            user: "op".to_owned(),
+            key_file: None,
+        }
+    }
+
+    fn object(catalog_number: u32, day: f64) -> FileObject {
+        let epoch = add_seconds(Timestamp::UNIX_EPOCH, day * DAY_S);
+        FileObject { name: catalog_number.to_string(), catalog_number, epoch }
+    }
+
+    #[test]
+    fn what_a_unit_holds_outlasts_a_restart_and_belongs_to_its_address() {
+        let folder = tempfile::tempdir().unwrap();
+        let (mut engine, left) = station(folder.path());
+        let config = engine.antennas[0].shown.config.clone();
+        engine.note_upload(&config, target(), &[object(1, 10.0), object(2, 11.0)]);
+        // The rule waits for elements newer than those that the operator took back.
+        engine.uploads.is_roll_back = true;
+        engine.note_upload(&config, target(), &[object(1, 9.0), object(3, 7.0)]);
+        let read = LastRun::load(&left);
+        let known = read.unit_elements(config.id, &config.connection.address).unwrap();
+        let wanted = [object(1, 10.0), object(2, 11.0), object(3, 7.0)];
+        assert_eq!(known.epochs, wanted.map(|it| (it.catalog_number, it.epoch)));
+        assert_eq!(known.target, target());
+        assert!(read.unit_elements(config.id, "another:4001").is_none());
+        assert!(read.unit_elements(AntennaId(2), &config.connection.address).is_none());
+    }
+
+    /// An engine whose rule has begun an upload.
+    fn uploading(folder: &std::path::Path) -> Engine {
+        let (mut engine, _) = station(folder);
+        let shown = &mut engine.antennas[0].shown;
+        shown.config.upkeep.uploads_elements = true;
+        engine.uploads.antenna.clone_from(&shown.config.name);
+        engine.uploads.stage = Stage::Working { progress: None, is_cancelled: false };
+        engine.rule_upload = Some(RuleUpload { antenna: AntennaId(1), since: engine.steady });
+        engine
+    }
+
+    fn is_cancelled(engine: &Engine) -> bool {
+        matches!(engine.uploads.stage, Stage::Working { is_cancelled: true, .. })
+    }
+
+    fn alarms(engine: &Engine) -> usize {
+        engine.alarms.list().iter().filter(|alarm| !alarm.is_over()).count()
+    }
+
+    #[test]
+    fn an_upload_goes_on_while_its_antenna_is_idle_and_no_longer() {
+        let ends: [fn(&mut Engine); 5] = [
+            |_| {},
+            |engine| engine.set_automatic(0, false),
+            |engine| engine.antennas[0].shown.config.upkeep.uploads_elements = false,
+            |engine| engine.antennas[0].shown.config.name = "Another".to_owned(),
+            |engine| engine.antennas.clear(),
+        ];
+        for (number, change) in ends.into_iter().enumerate() {
+            let folder = tempfile::tempdir().unwrap();
+            let mut engine = uploading(folder.path());
+            change(&mut engine);
+            engine.limit_rule_upload();
+            assert_eq!(is_cancelled(&engine), number > 0, "{number}");
+        }
+    }
+
+    #[test]
+    fn an_upload_that_hangs_is_given_up_with_an_alarm() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut engine = uploading(folder.path());
+        engine.steady += UPLOAD_TIMEOUT;
+        engine.limit_rule_upload();
+        assert!(engine.uploads.stage.is_open() && alarms(&engine) == 0);
+        engine.steady += Duration::from_secs(1);
+        engine.limit_rule_upload();
+        assert_eq!(engine.uploads.stage, Stage::Idle);
+        assert!(engine.rule_upload.is_none() && alarms(&engine) == 1);
+        // The next upload by hand clears it.
+        let config = engine.antennas[0].shown.config.clone();
+        engine.note_upload(&config, target(), &[]);
+        assert_eq!(alarms(&engine), 0);
+    }
+
+    #[test]
+    fn a_cancelled_upload_raises_no_alarm_and_a_failed_one_does() {
+        for is_cancel in [true, false] {
+            let folder = tempfile::tempdir().unwrap();
+            let mut engine = uploading(folder.path());
+            let failure = Failure { text: "why".to_owned(), is_cancel, ..Failure::default() };
+            engine.uploads.stage = Stage::Failed(failure);
+            engine.end_rule_upload();
+            let expected = DayEvent::ElementsNotUploaded { why: "why".to_owned() };
+            assert_eq!(engine.day.last().map(|line| &line.what), Some(&expected));
+            assert_eq!((alarms(&engine) == 0, &engine.uploads.stage), (is_cancel, &Stage::Idle));
+        }
+    }
+
+    #[test]
+    fn the_failure_of_an_upload_by_hand_is_left_alone() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut engine = uploading(folder.path());
+        engine.rule_upload = None;
+        engine.uploads.stage = Stage::Failed(Failure::default());
+        engine.end_rule_upload();
+        assert!(matches!(engine.uploads.stage, Stage::Failed(_)));
+        for _ in 1..MAX_BLOCKED {
+            assert!(engine.is_blocked(0) && alarms(&engine) == 0);
+        }
+        assert!(engine.is_blocked(0) && alarms(&engine) == 1);
+        engine.uploads.stage = Stage::Idle;
+        assert!(!engine.is_blocked(0));
     }
 }

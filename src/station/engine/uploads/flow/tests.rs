@@ -69,6 +69,11 @@ impl Fixture {
         self.flow.begin(order(), &self.unit, &mut self.shown)
     }
 
+    fn begin_unattended(&mut self) -> Option<Next> {
+        let order = Order { is_unattended: true, ..order() };
+        self.flow.begin(order, &self.unit, &mut self.shown)
+    }
+
     fn reported(&mut self, outcome: Outcome) -> Option<Next> {
         self.flow.reported(report(outcome), &self.unit, &mut self.shown)
     }
@@ -324,29 +329,51 @@ fn a_passphrase_is_kept_under_its_key_file() {
     assert_eq!(account.to_string(), "/home/op/key@192.168.10.21:22");
 }
 
+/// A fixture whose antenna a rule may use.
+fn idle() -> Fixture {
+    Fixture { unit: UnitNow { is_idle: true, ..UnitNow::default() }, ..Fixture::default() }
+}
+
 #[test]
-fn an_unattended_order_asks_nothing() {
-    let unattended = || Order { is_unattended: true, ..order() };
-    for busy in [Busy::Tracks, Busy::MayTrack] {
-        let mut fixture = Fixture::default();
-        fixture.unit.busy = Some(busy);
-        assert!(fixture.flow.begin(unattended(), &fixture.unit, &mut fixture.shown).is_none());
+fn an_unattended_order_fails_while_its_antenna_is_in_use() {
+    let in_use: [fn(&mut UnitNow); 3] = [
+        |unit| unit.is_idle = false,
+        |unit| unit.hindrance = Some(Hindrance::Tracks),
+        |unit| unit.locked_out = Some("Eva: grease".to_owned()),
+    ];
+    for change in in_use {
+        let mut fixture = idle();
+        change(&mut fixture.unit);
+        assert!(fixture.begin_unattended().is_none());
         assert!(fixture.failure().uploaded.is_none());
 
-        let mut fixture = Fixture::default();
-        assert_runs(fixture.flow.begin(unattended(), &fixture.unit, &mut fixture.shown));
-        fixture.unit.busy = Some(busy);
+        let mut fixture = idle();
+        assert_runs(fixture.begin_unattended());
+        change(&mut fixture.unit);
         assert!(fixture.reported(Outcome::Uploaded(uploaded())).is_none());
         assert!(fixture.failure().uploaded.is_some(), "the file is on the unit");
     }
+    let mut fixture = idle();
+    assert_runs(fixture.begin_unattended());
+    selection(fixture.reported(Outcome::Uploaded(uploaded())));
+}
+
+#[test]
+fn an_unattended_order_asks_for_no_password_and_no_host_key() {
     for refused in [None, Some("wrong".to_owned())] {
-        let mut fixture = Fixture::default();
-        assert_runs(fixture.flow.begin(unattended(), &fixture.unit, &mut fixture.shown));
+        let mut fixture = idle();
+        assert_runs(fixture.begin_unattended());
         assert!(fixture.reported(Outcome::Secret { refused: refused.clone() }).is_none());
         assert!(fixture.failure().text.contains(refused.as_deref().unwrap_or("keyring")));
     }
-    let mut fixture = Fixture::default();
-    assert_runs(fixture.flow.begin(unattended(), &fixture.unit, &mut fixture.shown));
-    assert!(fixture.reported(Outcome::HostKey(ConnectError::UnknownHostKey(offered()))).is_none());
-    assert!(matches!(fixture.shown.stage, Stage::Failed(_)));
+    let pinned = vec!["SHA256:old".to_owned()];
+    for error in [
+        ConnectError::UnknownHostKey(offered()),
+        ConnectError::HostKeyChanged { pinned, offered: offered() },
+    ] {
+        let mut fixture = idle();
+        assert_runs(fixture.begin_unattended());
+        assert!(fixture.reported(Outcome::HostKey(error)).is_none());
+        assert!(matches!(fixture.shown.stage, Stage::Failed(_)));
+    }
 }
