@@ -202,6 +202,19 @@ async fn a_unit_at_rest_that_was_turned_while_out_of_reach_is_not_as_it_was_left
     }
 }
 
+/// Near the end of the lower axis, directions tell little of the axes. The axes at rest still do.
+#[tokio::test(start_paused = true)]
+async fn one_at_rest_near_the_end_of_its_lower_axis_is_compared_with_where_it_was_left() {
+    for (request, wanted) in [(None, true), (Some(goto()), false)] {
+        let mut rig = Rig::usual().await;
+        let [azimuth, elevation] = [0.0, 7.0].map(|deg| Some(Angle::from_degrees(deg)));
+        rig.send(Command::Position { azimuth, elevation });
+        rig.until_event(200, |event| matches!(event, Event::Arrived(_))).await;
+        rig.seconds(30.0).await;
+        assert_eq!(after_an_outage(&mut rig, request, 90.0).await, (Found::Still, wanted));
+    }
+}
+
 /// The position alone decides: a STOP that has not been sent, or was not answered, turns nothing.
 #[tokio::test(start_paused = true)]
 async fn a_stop_that_is_owed_after_an_outage_hides_no_foreign_motion_and_pretends_none() {

@@ -31,7 +31,7 @@ use super::{
 use crate::{
     astro::time::{add_seconds, seconds_between},
     device::{Asked, Motion},
-    driver::{self, Event, Found, Refusal, Response, Safety, StopState, Unit},
+    driver::{self, Event, Found, Refusal, Response, Safety, StopState, TrackProblem, Unit},
     plan::schedule::{Entry, sun_is},
     promises::FileState,
     station::{self, AntennaId, AutomationRule, BetweenPasses, Station, Then},
@@ -209,7 +209,11 @@ impl Engine {
             | Event::Unanswered(Asked::Motion(Motion::EnableAuto))
             | Event::NotSent(Refusal::Forbidden { .. }) => {}
             Event::NotSent(_) if operation.is_proved() => {}
-            Event::NotSent(Refusal::Path(_)) => operation.take_outcome(Outcome::Blocked, now),
+            Event::NotSent(Refusal::Path(_))
+            | Event::CannotProgramTrack(
+                _,
+                TrackProblem::Refused(Refusal::Path(_) | Refusal::Forbidden { .. }),
+            ) => operation.take_outcome(Outcome::Blocked, now),
             Event::WouldMiss { .. } => operation.take_outcome(Outcome::WouldMiss, now),
             Event::CannotTrack(..)
             | Event::CannotProgramTrack(..)

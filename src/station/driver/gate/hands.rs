@@ -159,9 +159,13 @@ impl Gate {
         if self.state().program.is_some_and(|program| program.enabled) {
             self.watch.opened(now.steady);
         }
-        let received = self.state().measured?.received;
-        if self.looked.replace(received) == Some(received) {
+        let measured = self.state().measured?;
+        if self.looked.replace(measured.received) == Some(measured.received) {
             return None;
+        }
+        // Then commands are not known in degrees of the axes, and angles accuse nobody.
+        if !self.geometry_fits(&measured) {
+            self.watch.opened(now.steady);
         }
         let Some(readings) = self.readings() else {
             self.watch.start_anew();
@@ -170,12 +174,9 @@ impl Gate {
         self.watch.take(readings)
     }
 
-    /// The last position by axis; `None` while it does not describe the axes.
+    /// The last position by axis.
     fn readings(&self) -> Option<[Option<AxisReading>; 2]> {
         let measured = self.state().measured?;
-        if !self.geometry_fits(&measured) {
-            return None;
-        }
         let reading = |axis: Axis| {
             let angle_deg = axis.angle_deg.filter(|deg| deg.is_finite())?;
             let Measured { asked, received, .. } = measured;
