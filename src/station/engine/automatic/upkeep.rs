@@ -130,8 +130,8 @@ impl Engine {
         let steady = self.steady;
         let Some(antenna) = self.antennas.get_mut(index) else { return };
         let Some(change) = antenna.at_work.upkeep.setting else { return };
-        let held = &antenna.shown.snapshot.state.held;
-        let written = held.get(change.group).and_then(|group| group.written.as_ref());
+        let groups = &antenna.shown.snapshot.state.held;
+        let written = groups.get(change.group).and_then(|group| group.written.as_ref());
         let answer = written.filter(|written| written.change.ticket == change.ticket);
         let what = match answer {
             Some(written) => match &written.result {
@@ -169,6 +169,6 @@ fn is_free(entries: &[Entry], antenna: AntennaId, now: Timestamp, takes_s: f64) 
 
 fn is_kept_by_unit(setting: &ClockSetting, antenna: &AntennaModel) -> bool {
     let group = antenna.snapshot.state.held.get(setting.group);
-    let held = group.and_then(|group| group.held.as_ref());
-    held.is_some_and(|held| (setting.is_kept_by_unit)(&held.values))
+    let reading = group.and_then(|group| group.held.as_ref());
+    reading.is_some_and(|reading| (setting.is_kept_by_unit)(&reading.values))
 }

@@ -93,15 +93,15 @@ impl Engine {
         let takes = antenna.spec().element_files?;
         let CatalogState::Ready(catalog) = &self.catalog else { return None };
         let group = antenna.snapshot.state.held.get(takes.source_group);
-        let held = group.and_then(|group| group.held.as_ref())?;
-        if (takes.are_fetched_by_unit)(&held.values) {
+        let reading = group.and_then(|group| group.held.as_ref())?;
+        if (takes.are_fetched_by_unit)(&reading.values) {
             return None;
         }
         let address = &antenna.config.connection.address;
         let last = self.last_run.unit_elements(antenna.id(), address);
         let on_unit: BTreeMap<u32, Timestamp> =
             last.map(|last| last.epochs.iter().copied().collect()).unwrap_or_default();
-        // What somebody has put there besides the favourites stays there.
+        // The upload replaces the whole file. Satellites that an operator added must stay in it.
         let mut numbers = self.station.favourites.numbers();
         let others: Vec<u32> =
             on_unit.keys().copied().filter(|number| !numbers.contains(number)).collect();
@@ -131,11 +131,11 @@ impl Engine {
         self.last_run.note_upload(unit, target, objects, self.uploads.is_roll_back);
         self.keep_last_run();
         self.clear_upload_alarm(config.id);
-        // What somebody has done by hand stands for a while.
+        // An upload by hand is not replaced at once.
         self.check_elements_after(config.id, RETRY);
     }
 
-    /// Cancels the upload of a rule whose antenna is needed, or that nobody wants any more.
+    /// Cancels the upload of a rule once its antenna is needed, the rule is off or the station closes.
     pub(in crate::engine) fn limit_rule_upload(&mut self) {
         let Some(upload) = &self.rule_upload else { return };
         let (id, since) = (upload.antenna, upload.since);
@@ -148,8 +148,9 @@ impl Engine {
                 && is_free(entries, id, self.now, ENDS_BEFORE_S)
         };
         let antenna = self.antennas.iter().find(|antenna| antenna.shown.id() == id);
-        let goes_on = self.closing.is_none() && antenna.is_some_and(|it| is_wanted(&it.shown));
-        if !goes_on && self.uploads.stage.can_cancel() {
+        let continues =
+            self.closing.is_none() && antenna.is_some_and(|antenna| is_wanted(&antenna.shown));
+        if !continues && self.uploads.stage.can_cancel() {
             self.ask_about_upload(Ask::Cancel);
         }
         if self.steady.saturating_duration_since(since) > UPLOAD_TIMEOUT {
@@ -250,7 +251,7 @@ fn is_upload_due(
         Some((object, _)) if is_due => {
             Err(format!("the elements of {} on the unit are newer than those here", object.name))
         }
-        _ => Ok(is_due),
+        Some(_) | None => Ok(is_due),
     }
 }
 
