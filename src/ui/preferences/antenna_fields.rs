@@ -227,10 +227,13 @@ fn upkeep() -> [Of; 4] {
         )
         .when(has_clock)
         .noted(|antenna| {
-            let words =
+            let words = if antenna.upkeep.sets_clock {
                 "Azel sets the clock only while automatic operation is on and the clock of this \
-                 computer is synchronised.";
-            antenna.upkeep.sets_clock.then(|| words.to_owned())
+                 computer is synchronised."
+            } else {
+                "Azel can set it between the passes of automatic operation."
+            };
+            Some(words.to_owned())
         }),
         Of::number("Maximum clock error", ranges::CLOCK_LIMIT_S, "s", |antenna| {
             Some(&mut antenna.upkeep.clock_limit_s)
@@ -244,9 +247,12 @@ fn upkeep() -> [Of; 4] {
         )
         .when(takes_elements)
         .noted(|antenna| {
-            let words = "Azel repeats the last verified upload with all favourites. Upload once by hand \
-                         first.";
-            antenna.upkeep.uploads_elements.then(|| words.to_owned())
+            let words = if antenna.upkeep.uploads_elements {
+                "Azel repeats the last verified upload with all favourites. Upload once by hand first."
+            } else {
+                "Azel can upload newer ones between the passes of automatic operation."
+            };
+            Some(words.to_owned())
         }),
         Of::number("Maximum age of elements", ranges::ELEMENT_AGE_D, "days", |antenna| {
             Some(&mut antenna.upkeep.element_limit_d)
