@@ -88,7 +88,13 @@ impl Scene {
     }
 
     fn open(&self, antenna: &Antenna) -> AntennaHandle {
-        self.driver.open(antenna, Bounds::of_antenna(antenna), None, Box::new(()))
+        self.driver.open(
+            antenna,
+            Bounds::of_antenna(antenna),
+            Default::default(),
+            None,
+            Box::new(()),
+        )
     }
 
     fn until(&self, handle: &AntennaHandle, what: &str, is_so: impl Fn(&Snapshot) -> bool) {
@@ -237,7 +243,8 @@ fn a_mark_of_an_earlier_run_makes_stop_the_first_word() {
     let next =
         Driver::start(Clock::system(), wake).unwrap().marking_in(Some(marks.path().to_owned()));
     let antenna = Antenna::satrak("Dish", &relay.to_string());
-    let handle = next.open(&antenna, Bounds::of_antenna(&antenna), None, Box::new(()));
+    let handle =
+        next.open(&antenna, Bounds::of_antenna(&antenna), Default::default(), None, Box::new(()));
     let since = Instant::now();
     while !matches!(handle.snapshot().stop, StopState::Stopped { .. }) {
         assert!(since.elapsed() < PATIENCE, "{:?}", handle.snapshot());

@@ -56,7 +56,8 @@ fn pair(units: &Runtime, driver: &Driver, number: usize) -> Pair {
     let (control, address) = (simulator.control(), simulator.local_addr().expect("an address"));
     units.spawn(simulator.run());
     let antenna = Antenna::satrak(&format!("Satrak {number}"), &address.to_string());
-    let handle = driver.open(&antenna, Bounds::of_antenna(&antenna), None, Box::new(()));
+    let handle =
+        driver.open(&antenna, Bounds::of_antenna(&antenna), Default::default(), None, Box::new(()));
     Pair { control, port: address.port(), handle }
 }
 

@@ -5,6 +5,7 @@
 mod automatic;
 mod explained;
 mod full_disk;
+mod learned;
 mod prices;
 mod recorded;
 mod rehearsal;

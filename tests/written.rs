@@ -86,6 +86,7 @@ fn commands_of_antennas() -> Vec<driver::Command> {
         C::EndJog,
         C::AllowUnguarded,
         C::AllowWayOut,
+        C::ForgetDrives,
         C::MoveAway,
         C::Step { steps_deg: [0.1, f64::MIN_POSITIVE] },
         C::Position { azimuth: Some(Angle::from_degrees(0.1)), elevation: None },
@@ -122,6 +123,7 @@ fn commands_of_antennas() -> Vec<driver::Command> {
             | C::EndJog
             | C::AllowUnguarded
             | C::AllowWayOut
+            | C::ForgetDrives
             | C::MoveAway
             | C::Step { .. }
             | C::Position { .. }

@@ -44,7 +44,7 @@ pub use gate::{Preview, Refusal, Way};
 pub use intent::Intent;
 pub use link::{Dial, Endpoint, Stream, UnitLock, dial_line, endpoints, known_endpoints};
 pub use link_test::{LinkFault, LinkFinding, test_link};
-pub use motion_watch::Evidence;
+pub use motion_watch::{AxisLessons, Evidence};
 pub use position_log::PositionLog;
 pub use safety::{Mover, Response, Safety, Unlike};
 pub use session::{Command, JOG_LEASE, OffsetChange, Session, Wires, is_ticket_of_session};
@@ -316,12 +316,14 @@ impl Driver {
         &self.runtime
     }
 
-    /// Starts the session of an antenna, whose unit may be locked out. `lock` is dropped when the
+    /// Starts the session of an antenna, with what was learned of its axes before. Its unit may be
+    /// locked out. `lock` is dropped when the
     /// session has ended.
     pub fn open(
         &self,
         antenna: &Antenna,
         bounds: Bounds,
+        learned: [AxisLessons; 2],
         lock_out: Option<LockOut>,
         lock: Box<dyn UnitLock>,
     ) -> AntennaHandle {
@@ -332,6 +334,7 @@ impl Driver {
             Arc::clone(&self.wake),
             &self.orders,
         );
+        wires.begin_with(learned);
         let wires = match &self.thread {
             Some(thread) => wires.hearing(thread.before_sleep.hear()),
             None => wires,

@@ -18,6 +18,7 @@ pub mod film;
 mod handle;
 pub mod host_keys;
 pub mod in_place;
+mod learned;
 pub mod link_tests;
 mod lock_outs;
 pub mod notices;
@@ -71,6 +72,7 @@ use self::{
     copies::{Copies, CopyWork},
     demo::Demo,
     handle::{AntennaEnds, Published, Request},
+    learned::LearnedDrives,
     link_tests::LinkTest,
     older_sets::OlderSets,
     passes::{PassLists, Searches},
@@ -138,6 +140,7 @@ struct Engine {
     /// What became of the passes of this day, and of automatic operation.
     day: Vec<DayLine>,
     last_run: LastRun,
+    learned_drives: LearnedDrives,
     /// The upload that a rule has begun.
     rule_upload: Option<RuleUpload>,
     uploads: Uploads,
@@ -314,6 +317,7 @@ impl Engine {
             schedule: Arc::default(),
             day: Vec::new(),
             last_run: LastRun::default(),
+            learned_drives: LearnedDrives::default(),
             rule_upload: None,
             uploads: Uploads::default(),
             source_tests: SourceTests::default(),
@@ -424,6 +428,7 @@ impl Engine {
         self.set_time();
         self.report_last_passes();
         self.end_automatic();
+        self.save_learned_drives();
     }
 
     /// Handles items that must not wait behind requests.

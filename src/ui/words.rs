@@ -30,7 +30,7 @@ pub use refusals::{
     prepare_error, refusal, track_problem,
 };
 pub use safety::{
-    SUN_IS_LIFTED, UNGUARDED, asks_standing, auto_track_owed, forbidden, inside, kept_still,
+    SUN_IS_LIFTED, UNGUARDED, asks_standing, auto_track_owed, drive, forbidden, inside, kept_still,
     offsets_owed, owed, reason, safety, stopping_way, sun_lifted, way_out,
 };
 pub use site::{off_the_told, sun_there};

@@ -99,6 +99,7 @@ pub(super) fn commands(values: &Values) -> Vec<Command> {
         C::EndJog => C::EndJog,
         C::AllowUnguarded => C::AllowUnguarded,
         C::AllowWayOut => C::AllowWayOut,
+        C::ForgetDrives => C::ForgetDrives,
         C::MoveAway => C::MoveAway,
         C::Step { .. } => C::Step { steps_deg: [1.0, 0.0] },
         C::Position { .. } => go_elsewhere(),

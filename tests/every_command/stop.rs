@@ -118,6 +118,7 @@ async fn voids_what_waits_as_the_table_says() {
         "AutoTrack(false)",
         "EndJog",
         "FirstOffsets",
+        "ForgetDrives",
         "Jog",
         "Resume",
         "Standby",

@@ -42,12 +42,14 @@ fn an_antenna_over_tcp_is_read_sent_and_stopped_and_a_second_client_turned_away(
     let clock = Clock::new(jiff::Timestamp::now);
     let driver = Driver::start(clock, wake).unwrap();
     let antenna = Antenna::genius("Mast", &address);
-    let first = driver.open(&antenna, Bounds::of_antenna(&antenna), None, Box::new(()));
+    let first =
+        driver.open(&antenna, Bounds::of_antenna(&antenna), Default::default(), None, Box::new(()));
     until(&first, &woken, |shown| shown.state.measured.is_some());
     let measured = first.snapshot().state.measured.unwrap();
     assert_eq!(measured.axes.map(|axis| axis.angle_deg), [Some(173.0), Some(0.0)]);
 
-    let second = driver.open(&antenna, Bounds::of_antenna(&antenna), None, Box::new(()));
+    let second =
+        driver.open(&antenna, Bounds::of_antenna(&antenna), Default::default(), None, Box::new(()));
     until(&second, &woken, |shown| {
         // Closed, or reset when the question comes too late.
         let LinkState::Lost { reason, .. } = &shown.link else { return false };

@@ -144,7 +144,7 @@ fn it_is_told_its_settings_read_sent_and_stopped_and_shown() {
     });
     let driver = Driver::start(Clock::new(jiff::Timestamp::now), wake).unwrap();
     let handle: AntennaHandle =
-        driver.open(&antenna, Bounds::of_antenna(&antenna), None, Box::new(()));
+        driver.open(&antenna, Bounds::of_antenna(&antenna), Default::default(), None, Box::new(()));
     let until = |is_so: &dyn Fn(&Snapshot) -> bool| {
         let since = Instant::now();
         while !is_so(&handle.snapshot()) {
@@ -181,7 +181,7 @@ fn a_controller_that_breaks_down_is_started_again_with_stop() {
     });
     let driver = Driver::start(Clock::new(jiff::Timestamp::now), wake).unwrap();
     let mut handle: AntennaHandle =
-        driver.open(&antenna, Bounds::of_antenna(&antenna), None, Box::new(()));
+        driver.open(&antenna, Bounds::of_antenna(&antenna), Default::default(), None, Box::new(()));
     let to = |azimuth: f64, elevation: f64| Command::Position {
         azimuth: Some(Angle::from_degrees(azimuth)),
         elevation: Some(Angle::from_degrees(elevation)),

@@ -130,7 +130,7 @@ impl Command {
                 let (offline, locked_out) = (Offline::Refused, LockedOut::RefusedAtTheGate);
                 Row { offline, locked_out, ..Row::MOVES }
             }
-            Self::AllowUnguarded | Self::AllowWayOut | Self::Unlock => {
+            Self::AllowUnguarded | Self::AllowWayOut | Self::Unlock | Self::ForgetDrives => {
                 Row { effect: Effect::ChangesSafety, ..Row::CHANGES }
             }
             Self::SeenStanding => {

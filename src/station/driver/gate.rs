@@ -23,7 +23,7 @@ use glam::DQuat;
 
 use super::{
     intent::Intent,
-    motion_watch::{Lead, MotionWatch},
+    motion_watch::{AxisLessons, Lead, MotionWatch},
 };
 use crate::{
     astro::{Angle, AzEl},
@@ -117,7 +117,13 @@ pub(super) struct Gate {
 }
 
 impl Gate {
-    pub(super) fn new(controller: Box<dyn Controller>, antenna: &Antenna, bounds: Bounds) -> Self {
+    /// `learned`: what an earlier watch learned of each axis.
+    pub(super) fn new(
+        controller: Box<dyn Controller>,
+        antenna: &Antenna,
+        bounds: Bounds,
+        learned: &[AxisLessons; 2],
+    ) -> Self {
         let variant = antenna.connection.variant();
         let mount = bounds.mount();
         Self {
@@ -132,7 +138,7 @@ impl Gate {
             turns: [false; 2],
             started_from_deg: None,
             last_angles: LastAngles::default(),
-            watch: hands::watch(variant.capabilities, mount, antenna.sway_deg),
+            watch: hands::watch(variant.capabilities, mount, antenna.sway_deg, learned),
             looked: None,
             lock_out: None,
             unproved_since: None,

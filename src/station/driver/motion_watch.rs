@@ -14,6 +14,7 @@ use serde::{Deserialize, Serialize};
 
 use axis::AxisWatch;
 pub(super) use lead::Lead;
+pub use lessons::AxisLessons;
 
 use crate::{
     clock::Instant,
@@ -82,8 +83,24 @@ pub(super) struct MotionWatch {
 }
 
 impl MotionWatch {
-    pub(super) fn new(figures: [AxisFigures; 2]) -> Self {
-        Self { axes: figures.map(AxisWatch::new), sent: 0, answered: 0 }
+    /// Begins with what was learned of each axis before.
+    pub(super) fn new(figures: [AxisFigures; 2], lessons: &[AxisLessons; 2]) -> Self {
+        let [first, second] = figures;
+        let [first_lessons, second_lessons] = lessons;
+        let axes = [AxisWatch::new(first, first_lessons), AxisWatch::new(second, second_lessons)];
+        Self { axes, sent: 0, answered: 0 }
+    }
+
+    /// Returns what was learned of each axis.
+    pub(super) fn lessons(&self) -> [AxisLessons; 2] {
+        self.axes.each_ref().map(AxisWatch::lessons)
+    }
+
+    /// The drives have changed: what was learned no longer holds.
+    pub(super) fn forget_lessons(&mut self) {
+        for axis in &mut self.axes {
+            axis.forget_lessons();
+        }
     }
 
     /// A motion goes out that leads each axis there; an axis with `None` keeps what it has.

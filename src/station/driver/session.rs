@@ -50,8 +50,8 @@ pub use jog::LEASE as JOG_LEASE;
 pub use offsets::OffsetChange;
 
 use super::{
-    AntennaHandle, COMMANDS, Clock, Dial, EVENTS, Event, Intent, LinkState, Numbered, Orbits,
-    Orders, PositionLog, Preview, Snapshot, Stopper, Wake, WireLog,
+    AntennaHandle, AxisLessons, COMMANDS, Clock, Dial, EVENTS, Event, Intent, LinkState, Numbered,
+    Orbits, Orders, PositionLog, Preview, Snapshot, Stopper, Wake, WireLog,
     before_sleep::Awake,
     debts::{Debts, Unit},
     gate::Gate,
@@ -160,6 +160,11 @@ impl Wires {
     pub(super) fn hearing(mut self, before_sleep: mpsc::Receiver<Awake>) -> Self {
         self.before_sleep = Some(Arc::new(AsyncMutex::new(before_sleep)));
         self
+    }
+
+    /// With what was learned of the axes before.
+    pub(super) fn begin_with(&self, learned: [AxisLessons; 2]) {
+        self.snapshots.send_modify(|first| Arc::make_mut(first).learned = learned);
     }
 
     /// Sends a STOP ahead of the next command.
@@ -333,7 +338,9 @@ impl Session {
         debts: Debts,
     ) -> Self {
         let bounds = wires.bounds.borrow_and_update().clone();
-        let mut gate = Gate::new(controller, antenna, bounds);
+        // Also that of a session that broke down.
+        let learned = wires.snapshots.borrow().learned;
+        let mut gate = Gate::new(controller, antenna, bounds, &learned);
         let variant = antenna.connection.variant();
         let (wanted, link) = first_link(antenna, clock.now().steady);
         let unit = Unit::of(antenna);
@@ -436,6 +443,7 @@ impl Session {
             not_on_disk: self.not_on_disk(now),
             jog: self.key.started().map(|jog| jog.rates_deg_s),
             stopping_way: self.stopping_way(),
+            learned: self.gate.lessons(),
             step: self.stepping.map(|stepping| stepping.steps_deg),
             preview: self.preview(now),
             state: self.gate.state().clone(),

@@ -5,7 +5,7 @@ use std::{sync::Arc, time::Duration};
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
-use super::{Intent, Preview, Refusal, Safety};
+use super::{AxisLessons, Intent, Preview, Refusal, Safety};
 use crate::{
     astro::{Angle, TrackOffsets},
     clock::Instant,
@@ -69,6 +69,9 @@ pub struct Snapshot {
     /// Signed rates of a held jog, degrees a second.
     pub jog: Option<[f64; 2]>,
     pub stopping_way: StoppingWay,
+    /// Properties of each axis that its motions have shown.
+    #[serde(default)]
+    pub learned: [AxisLessons; 2],
     /// Signed amounts of a step that may not be over, degrees.
     pub step: Option<[f64; 2]>,
     /// What would come of going to the direction that the operator looks at.
@@ -106,6 +109,7 @@ impl Snapshot {
             not_on_disk: None,
             jog: None,
             stopping_way: StoppingWay::default(),
+            learned: Default::default(),
             step: None,
             preview: None,
             state: AntennaState::default(),
@@ -163,6 +167,7 @@ impl Snapshot {
         newer.state.measured = self.state.measured;
         newer.state.traffic = self.state.traffic;
         newer.state.checked_at = self.state.checked_at;
+        newer.learned = self.learned;
         newer.state.held = Arc::clone(&self.state.held);
         newer.state.on_board.clock = self.state.on_board.clock;
         if let (Some(old), Some(new)) = (&self.program_track, &mut newer.program_track) {

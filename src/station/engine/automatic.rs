@@ -137,11 +137,15 @@ impl Engine {
         self.keep_last_run();
     }
 
-    /// Beside the station file. `None` for what another Azel holds, and for the demo station.
-    fn last_run_path(&self) -> Option<PathBuf> {
+    /// A file beside the station file. `None` for what another Azel holds, and for the demo station.
+    pub(super) fn beside_station(&self, extension: &str) -> Option<PathBuf> {
         let is_ours = self.demo.is_none() && !matches!(self.station_claim, StationClaim::Theirs(_));
         let path = self.settings_path.as_deref().filter(|_| is_ours)?;
-        Some(path.with_extension(at_start::EXTENSION))
+        Some(path.with_extension(extension))
+    }
+
+    fn last_run_path(&self) -> Option<PathBuf> {
+        self.beside_station(at_start::EXTENSION)
     }
 
     fn keep_last_run(&self) {

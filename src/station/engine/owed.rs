@@ -34,7 +34,8 @@ impl Engine {
                     let bounds = Bounds::of_antenna(&antenna);
                     self.left_units
                         .extend(claim.as_ref().map(|claim| (unit, Arc::downgrade(claim))));
-                    drop(self.driver.open(&antenna, bounds, None, Box::new(claim)));
+                    let learned = self.learned_drives(&antenna);
+                    drop(self.driver.open(&antenna, bounds, learned, None, Box::new(claim)));
                 }
                 // Whoever drives it looks after it.
                 Err(_) => debts.leave(&unit),

@@ -52,6 +52,7 @@ impl Engine {
         self.poll_uploads();
         self.source_test_runner.poll(&mut self.source_tests);
         self.link_test_runner.poll(&mut self.link_tests);
+        self.keep_learned_drives();
         self.record_turn();
     }
 

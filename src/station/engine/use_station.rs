@@ -50,6 +50,7 @@ impl Engine {
             Some(path) => station::load(path, makes::SPECS),
             None => Err(LoadError::Missing),
         };
+        self.load_learned_drives();
         match loaded {
             Ok(loaded) => {
                 self.station_saved_at = self.settings_path.as_deref().and_then(station::saved_at);
@@ -169,7 +170,9 @@ impl Engine {
                 // Only a start connects without the operator, and not a change of a setting later.
                 let connects_at_start = config.connects_at_start && !self.has_started;
                 let opened = station::Antenna { connects_at_start, ..config.clone() };
-                (self.driver.open(&opened, bounds, lock_out, lock), None, Hold::Ours(claim))
+                let learned = self.learned_drives(&config);
+                let handle = self.driver.open(&opened, bounds, learned, lock_out, lock);
+                (handle, None, Hold::Ours(claim))
             }
             Err(Elsewhere { by, lock }) => {
                 (Driver::leave_alone(&config), Some(by), Hold::Elsewhere(lock))

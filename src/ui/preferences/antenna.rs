@@ -18,7 +18,8 @@ use super::{
     preview,
 };
 use crate::{
-    engine::passes::mount_limits,
+    driver::{AxisLessons, Command},
+    engine::{antenna::AntennaModel, passes::mount_limits},
     model::{
         Model, UiCommand,
         effects::{DEBOUNCE, Effect, mounts},
@@ -77,6 +78,7 @@ pub(super) fn show(
                     if let Some(known) = known.filter(|_| *section == WATCH) {
                         let words = words::stopping_way(known.snapshot.stopping_way);
                         form::told(ui, "Coasting after STOP", &words);
+                        learned_drives(ui, known, commands);
                     }
                     if *section == POINTING && !is_new {
                         fit = pointing::show(ui, model, id, &config, peak, commands);
@@ -115,6 +117,26 @@ pub(super) fn show(
         ui.ctx().request_repaint_after_for(DEBOUNCE, egui::ViewportId::ROOT);
         commands.push(UiCommand::ShowTracked(Box::new(question)));
     }
+}
+
+/// Shows what Azel has learned of each drive, and lets the operator have it learned anew.
+fn learned_drives(ui: &mut Ui, antenna: &AntennaModel, commands: &mut Vec<UiCommand>) {
+    let can = antenna.config.connection.variant().capabilities;
+    let axes = can.axes.iter().zip(&antenna.snapshot.learned).take(can.axis_count());
+    for (name, lessons) in axes {
+        form::told(ui, &format!("{name} drive"), &words::drive(lessons));
+    }
+    let is_known = antenna.snapshot.learned != <[AxisLessons; 2]>::default();
+    form::labelled(ui, "", |ui, _| {
+        let forget = ui.add_enabled(is_known, egui::Button::new("Learn the drives anew"));
+        let forget = forget.on_hover_text(
+            "After work on the drives, Azel would otherwise take a changed motion for that of \
+             somebody else.",
+        );
+        if forget.clicked() {
+            commands.push(UiCommand::antenna(antenna.id(), Command::ForgetDrives));
+        }
+    });
 }
 
 /// Shows the reach of an antenna, and beside it what comes of the passes.

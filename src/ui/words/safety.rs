@@ -4,7 +4,8 @@ use jiff::Timestamp;
 
 use crate::{
     driver::{
-        Evidence, Inside, Mover, Response, Safety, Snapshot, StopState, StoppingWay, Unit, Unlike,
+        AxisLessons, Evidence, Inside, Mover, Response, Safety, Snapshot, StopState, StoppingWay,
+        Unit, Unlike,
     },
     makes,
     plan::Barrier,
@@ -125,6 +126,46 @@ pub fn stopping_way(StoppingWay { overrun_s, stops, is_learned }: StoppingWay) -
     format!("{overrun}, assumed for its make: {stops} of {enough} STOPs seen.")
 }
 
+/// The properties of a drive that Azel has learned from its motions, and those still to be learned.
+pub fn drive(lessons: &AxisLessons) -> String {
+    let properties = [
+        (
+            "dead time",
+            lessons.dead_time_s().map(|s| format!("starts within {} s", format::number(s, 1))),
+        ),
+        (
+            "top rate",
+            lessons
+                .max_rate_deg_s()
+                .map(|rate| format!("turns at up to {}/s", format::degrees(rate, 1))),
+        ),
+        (
+            "coasting",
+            lessons
+                .runs_past_deg()
+                .map(|deg| format!("runs up to {} past a target", format::degrees(deg, 1))),
+        ),
+        (
+            "noise",
+            lessons
+                .spread_deg()
+                .map(|deg| format!("reads within {} at rest", format::degrees(deg, 2))),
+        ),
+    ];
+    let learned: Vec<String> = properties.iter().filter_map(|(_, figure)| figure.clone()).collect();
+    let assumed: Vec<&str> =
+        properties.iter().filter(|(_, figure)| figure.is_none()).map(|(name, _)| *name).collect();
+    let mut sentences = Vec::new();
+    if !learned.is_empty() {
+        sentences.push(format!("It {}.", format::list(&learned)));
+    }
+    if !assumed.is_empty() {
+        sentences
+            .push(format!("Not learned yet, so the worst is assumed: {}.", format::list(&assumed)));
+    }
+    sentences.join(" ")
+}
+
 /// The reason why jogging waits for the operator's permission.
 pub const UNGUARDED: &str = "The dead-man timer could not be started: if Azel ended while the \
      key is held, nothing would stop the antenna.";
@@ -200,7 +241,8 @@ fn foreign_hands(antenna: &str, axis: &str, evidence: Evidence) -> String {
     };
     format!(
         "Somebody else moved {antenna}, by its panel, by another program or by hand: {evidence}. Azel \
-         does not move it on. Find out who moves it before you move it again."
+         does not move it on. Find out who moves it before you move it again. After work on its drives, \
+         let Azel learn them anew in Preferences."
     )
 }
 

@@ -11,7 +11,7 @@ use crate::{
     },
     driver::{
         Intent,
-        motion_watch::{AxisFigures, AxisReading, Foreign, Lead, MotionWatch},
+        motion_watch::{AxisFigures, AxisLessons, AxisReading, Foreign, Lead, MotionWatch},
     },
 };
 
@@ -27,7 +27,12 @@ const TURN_DEG: f64 = 360.0;
 /// A unit applies a setting within this time.
 const APPLIES_WITHIN: Duration = Duration::from_mins(1);
 
-pub(super) fn watch(can: Capabilities, mount: Mount, sway_deg: f64) -> MotionWatch {
+pub(super) fn watch(
+    can: Capabilities,
+    mount: Mount,
+    sway_deg: f64,
+    lessons: &[AxisLessons; 2],
+) -> MotionWatch {
     let is_azel = matches!(mount, Mount::AzEl { .. });
     let slack_deg = if is_azel { 0.0 } else { FITS_DEG };
     let figures = |wraps| AxisFigures {
@@ -36,7 +41,7 @@ pub(super) fn watch(can: Capabilities, mount: Mount, sway_deg: f64) -> MotionWat
         arrives_within_deg: can.arrives_within_deg + slack_deg,
         wraps,
     };
-    MotionWatch::new([figures(is_azel), figures(false)])
+    MotionWatch::new([figures(is_azel), figures(false)], lessons)
 }
 
 impl Gate {
@@ -130,6 +135,15 @@ impl Gate {
     /// measured.
     pub(in crate::driver) fn measured_sway_deg(&self) -> Option<f64> {
         self.watch.measured_sway_deg(self.variant.capabilities.axis_count())
+    }
+
+    /// Returns what the watch has learned of each axis.
+    pub(in crate::driver) fn lessons(&self) -> [AxisLessons; 2] {
+        self.watch.lessons()
+    }
+
+    pub(in crate::driver) fn forget_lessons(&mut self) {
+        self.watch.forget_lessons();
     }
 
     /// Returns `true` if commands lead the axes to where they are read now, after an outage. Call it before

@@ -196,7 +196,7 @@ impl Case {
             ..Station::default()
         };
         let bounds = Bounds::of(&station, &self.antenna);
-        let mut gate = Gate::new(Box::new(metal), &self.antenna, bounds);
+        let mut gate = Gate::new(Box::new(metal), &self.antenna, bounds, &Default::default());
         gate.held = self.held.clone();
         gate.program = self.pass_is_known.then(|| Arc::clone(&PROGRAM));
         gate.set_lock_out(self.lock_out.clone());
@@ -452,6 +452,7 @@ fn an_azimuth_beyond_the_sky_is_meant_as_the_axis_counts() {
         Box::new(metal),
         &case.antenna,
         Bounds::of_antenna(&Antenna { mount, ..case.antenna.clone() }),
+        &Default::default(),
     );
     // The axis stands at 90.
     for (asked_deg, meant_deg) in [(10.0, 10.0), (370.0, 370.0), (360.0, 360.0), (-10.0, 350.0)] {

@@ -5,7 +5,7 @@ use std::time::Duration;
 use super::{
     APART, AxisFigures, AxisReading, Evidence, SWINGS_BACK,
     lead::{COASTS, Lead, Live},
-    lessons::{DEAD_TIME, DeadTime, FASTEST_DEG_S, RATE_APART, RunsPast, Spread},
+    lessons::{AxisLessons, DEAD_TIME, DeadTime, FASTEST_DEG_S, RATE_APART, RunsPast, Spread},
     range::Range,
 };
 use crate::{
@@ -64,6 +64,10 @@ pub(super) struct AxisWatch {
     /// stood before.
     sent: Option<Instant>,
     starts: bool,
+    /// Signed length of the last motion, degrees.
+    last_way_deg: f64,
+    /// When the axis was last sent elsewhere on its way.
+    redirected: Option<Instant>,
     turned: Option<Turned>,
     /// The reading from which the rate is measured, degrees.
     rate_from: Option<(f64, Instant)>,
@@ -83,13 +87,16 @@ pub(super) struct AxisWatch {
 }
 
 impl AxisWatch {
-    pub(super) fn new(figures: AxisFigures) -> Self {
+    pub(super) fn new(figures: AxisFigures, lessons: &AxisLessons) -> Self {
+        let AxisLessons { past_ends, dead_time, at_rest } = *lessons;
         Self {
             figures,
             known: None,
             motions: Vec::with_capacity(MOST_MOTIONS + 1),
             sent: None,
             starts: false,
+            last_way_deg: 0.0,
+            redirected: None,
             turned: None,
             rate_from: None,
             was_found_turning: false,
@@ -98,10 +105,20 @@ impl AxisWatch {
             outside: None,
             reported_since: None,
             open_until: None,
-            spread: Spread::default(),
-            runs_past: RunsPast::default(),
-            dead_time: DeadTime::default(),
+            spread: Spread::new(at_rest),
+            runs_past: RunsPast::new(past_ends),
+            dead_time,
         }
+    }
+
+    pub(super) fn lessons(&self) -> AxisLessons {
+        let (past_ends, at_rest) = (self.runs_past.known, self.spread.known);
+        AxisLessons { past_ends, dead_time: self.dead_time, at_rest }
+    }
+
+    pub(super) fn forget_lessons(&mut self) {
+        self.runs_past = RunsPast::default();
+        (self.dead_time, self.spread) = (DeadTime::default(), Spread::default());
     }
 
     pub(super) fn commanded(&mut self, lead: Lead, number: u64, now: Instant) {
@@ -126,7 +143,13 @@ impl AxisWatch {
         self.starts = self.is_settled(now);
         let are_steps = self.sent.is_some_and(|sent| now < sent + STEPS);
         let end = Range { from_deg: down_to_deg, to_deg: up_to_deg };
-        self.runs_past.commanded(self.way_deg(end, here), are_steps);
+        let way_deg = self.way_deg(end, here);
+        let goes_on = are_steps && way_deg.is_finite() && way_deg * self.last_way_deg >= 0.0;
+        if !self.starts && !goes_on {
+            self.redirected = Some(now);
+        }
+        self.last_way_deg = way_deg;
+        self.runs_past.commanded(way_deg.abs(), are_steps);
         (self.sent, self.has_settled) = (Some(now), false);
         let until = None;
         let passed = [None; 2];
@@ -150,7 +173,7 @@ impl AxisWatch {
         let Some(from) = from.or(here) else { return f64::INFINITY };
         let way_deg = end.middle_deg() - from.middle_deg();
         let way_deg = if way_deg.is_nan() { f64::INFINITY } else { way_deg };
-        self.turned_deg(way_deg).abs()
+        self.turned_deg(way_deg)
     }
 
     /// The shorter way round, where the reading wraps.
@@ -303,7 +326,7 @@ impl AxisWatch {
             return self.report_once(Evidence::Outside { off_deg: reachable.off_deg(deg) });
         };
         self.outside = None;
-        self.know(angle_deg, turns_deg, range, asked);
+        self.know(angle_deg, turns_deg, range, [asked, received]);
         self.learn(deg, drive, asked);
         None
     }
@@ -327,12 +350,14 @@ impl AxisWatch {
         }
     }
 
-    fn know(&mut self, angle_deg: f64, turns_deg: f64, range: Range, at: Instant) {
+    fn know(&mut self, angle_deg: f64, turns_deg: f64, range: Range, [at, received]: [Instant; 2]) {
         let before = self.known.replace(Known { range, at, turns_deg });
         let gap = before.map(|before| at.saturating_duration_since(before.at));
         let deg = angle_deg + turns_deg;
         // Between two readings it may have been further.
-        let went_deg = gap.map_or(0.0, |gap| self.runs_past.most_deg_s() * gap.as_secs_f64() / 2.0);
+        let longest = before.map(|before| received.saturating_duration_since(before.at));
+        let went_s = longest.unwrap_or_default().as_secs_f64() / 2.0;
+        let went_deg = self.runs_past.most_deg_s() * went_s;
         for motion in &mut self.motions {
             motion.look(Some(range.widened(went_deg)), self.figures.arrives_within_deg, at);
         }
@@ -345,7 +370,7 @@ impl AxisWatch {
         }
         let first = Turned { from_deg: deg, at: Some(at), is_up: false };
         let Turned { from_deg, .. } = *self.turned.get_or_insert(first);
-        self.measure_rate(deg, at);
+        self.measure_rate(deg, at, received);
         if (deg - from_deg).abs() > self.error_deg_of_two() {
             let is_up = deg > from_deg;
             if self.is_led(is_up, deg, at) {
@@ -378,7 +403,7 @@ impl AxisWatch {
     }
 
     /// Learns the rate between readings that are far enough apart, however often the axis is read.
-    fn measure_rate(&mut self, deg: f64, at: Instant) {
+    fn measure_rate(&mut self, deg: f64, at: Instant, received: Instant) {
         let (from_deg, from) = *self.rate_from.get_or_insert((deg, at));
         let lasted = at.saturating_duration_since(from);
         let turned_deg = (deg - from_deg).abs();
@@ -386,7 +411,8 @@ impl AxisWatch {
             return;
         }
         if self.is_led(deg > from_deg, deg, at) {
-            self.runs_past.turned(turned_deg / lasted.as_secs_f64());
+            let longest = received.saturating_duration_since(from);
+            self.runs_past.turned(turned_deg / longest.as_secs_f64());
         }
         self.rate_from = Some((deg, at));
     }
@@ -490,6 +516,15 @@ impl AxisWatch {
         best_deg.unwrap_or(known.turns_deg)
     }
 
+    /// How far it may run past the end of a motion, degrees: from its full rate, if it was sent
+    /// elsewhere.
+    fn most_past_deg(&self, at: Instant) -> f64 {
+        let is_redirected =
+            self.redirected.is_some_and(|from| at <= from + DEAD_TIME + COASTS + LATE);
+        let most_deg = self.runs_past.most_deg();
+        if is_redirected { most_deg.max(self.runs_past.coasts_deg()) } else { most_deg }
+    }
+
     /// Where the axis can be at `at`.
     fn reachable(&self, at: Instant) -> Option<Range> {
         let Known { range, at: since, .. } = self.known?;
@@ -502,7 +537,7 @@ impl AxisWatch {
             let Live { mut down_to_deg, mut up_to_deg, passed: [from_above, from_below], .. } =
                 motion;
             let arrives_deg = self.figures.arrives_within_deg;
-            let past_deg = arrives_deg + self.runs_past.most_deg() + self.error_deg();
+            let past_deg = arrives_deg + self.most_past_deg(since) + self.error_deg();
             let may_pass = |passed: Option<Instant>| {
                 let passed = passed.is_some_and(|passed| since <= passed + COASTS + LATE);
                 !is_settled && (passed || is_unseen)

@@ -2,6 +2,8 @@
 
 use std::time::Duration;
 
+use serde::{Deserialize, Serialize};
+
 use crate::clock::Instant;
 
 /// Longest time from a command until the drive obeys it.
@@ -11,13 +13,13 @@ const RUNS_PAST_DEG: f64 = 60.0;
 /// Number of windows after which what was seen in them counts.
 const ENOUGH: u8 = 8;
 /// A drive may run for so long at least, seconds.
-const RUNS_S: f64 = 0.3;
+const RUNS_S: f64 = 0.45;
 /// No axis turns faster, degrees a second.
 pub(super) const FASTEST_DEG_S: f64 = 30.0;
 /// Without lessons: seconds at the fastest rate that an axis runs past the end of a motion.
 const COASTS_S: f64 = 2.7;
 /// A rate is taken between readings this far apart at least.
-pub(super) const RATE_APART: Duration = Duration::from_millis(250);
+pub(super) const RATE_APART: Duration = Duration::from_secs(1);
 /// A motion may run past its end by this many times as much as those before.
 const MARGIN: f64 = 2.5;
 /// Motions count together up to these lengths, degrees: an axis runs further past the end of a longer
@@ -41,12 +43,85 @@ const READINGS: u16 = 20;
 /// Further readings may differ by this many times as much.
 const SPREADS: f64 = 1.3;
 
-/// How far an axis runs past the end of a motion, by the length of the motion.
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct RunsPast {
+/// Properties of one axis that its motions have shown.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[serde(default)]
+pub struct AxisLessons {
+    pub(super) past_ends: PastEnds,
+    pub(super) dead_time: DeadTime,
+    pub(super) at_rest: AtRest,
+}
+
+impl AxisLessons {
+    /// Returns `true` if an axis can have such properties. A file may have been edited or damaged.
+    pub fn is_plausible(&self) -> bool {
+        let PastEnds { seen_deg, fastest_deg_s, .. } = self.past_ends;
+        let angles_deg = seen_deg.into_iter().chain(self.at_rest.widest_deg);
+        let mut all = angles_deg.chain([fastest_deg_s, self.dead_time.longest_s]);
+        all.all(|figure| figure.is_finite() && figure >= 0.0)
+    }
+
+    /// Returns the longest time from a command until the axis turns, seconds; `None` until it is known.
+    pub fn dead_time_s(&self) -> Option<f64> {
+        (self.dead_time.starts >= STARTS).then_some(self.dead_time.longest_s)
+    }
+
+    /// Returns the largest rate between two readings, degrees a second; `None` until it is known.
+    pub fn max_rate_deg_s(&self) -> Option<f64> {
+        self.past_ends.knows_rate().then_some(self.past_ends.fastest_deg_s)
+    }
+
+    /// Returns how far the axis has run past the end of a motion, by coasting and because its drive
+    /// runs for a minimum time, degrees; `None` until it is known.
+    pub fn runs_past_deg(&self) -> Option<f64> {
+        let is_known = self.past_ends.windows.iter().any(|windows| *windows >= ENOUGH);
+        is_known.then(|| self.past_ends.furthest_deg())
+    }
+
+    /// Returns the largest difference between readings of the standing axis, degrees; `None` until it
+    /// is known.
+    pub fn spread_deg(&self) -> Option<f64> {
+        self.at_rest.widest_deg
+    }
+}
+
+/// How far an axis has run past the ends of its motions, by their lengths.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[serde(default)]
+pub(super) struct PastEnds {
     seen_deg: [f64; CLASSES],
     /// Number of windows in which the end of a motion was watched.
     windows: [u8; CLASSES],
+    /// The fastest turn that was seen, degrees a second.
+    fastest_deg_s: f64,
+    /// Number of readings between which the axis has turned.
+    turns: u8,
+}
+
+impl PastEnds {
+    fn knows_rate(&self) -> bool {
+        self.turns >= ENOUGH
+    }
+
+    /// Returns `true` once enough ends of motions were watched that are as long as those of `class`, or
+    /// longer: an axis runs no further past the end of a shorter motion.
+    fn knows_class(&self, class: usize) -> bool {
+        let last = if class < LENGTHS_DEG.len() { LENGTHS_DEG.len() } else { CLASSES };
+        let windows = self.windows.get(class..last).unwrap_or_default();
+        windows.iter().fold(0, |sum: u8, windows| sum.saturating_add(*windows)) >= ENOUGH
+    }
+
+    /// The furthest that it was seen to run past the end of any motion, degrees.
+    fn furthest_deg(&self) -> f64 {
+        let seen_deg = self.seen_deg.into_iter().filter(|deg| *deg <= RUNS_PAST_DEG / 2.0);
+        seen_deg.fold(0.0, f64::max)
+    }
+}
+
+/// How far an axis runs past the end of its motion.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct RunsPast {
+    pub(super) known: PastEnds,
     /// Each motion replaces the one before on its way.
     are_steps: bool,
     /// How far it has run past the present end, degrees.
@@ -56,15 +131,17 @@ pub(super) struct RunsPast {
     /// The longest such way in this window and in the one before, degrees.
     left_deg: [f64; 2],
     since: Option<Instant>,
-    /// The fastest turn that was seen, degrees a second.
-    fastest_deg_s: f64,
-    /// Number of readings between which the axis has turned.
-    turns: u8,
     /// An end was reached in this window.
     has_reached: bool,
+    /// A motion went out since the last window that counts.
+    was_commanded: bool,
 }
 
 impl RunsPast {
+    pub(super) fn new(known: PastEnds) -> Self {
+        Self { known, ..Self::default() }
+    }
+
     /// Takes a reading; `is_there`: near the end of the motion.
     pub(super) fn look(&mut self, is_there: bool, at: Instant) {
         let left_deg = self.way_deg;
@@ -72,7 +149,7 @@ impl RunsPast {
             self.way_deg = 0.0;
             // Only an axis that comes back has run past the end by itself.
             let (class, past_deg) = (self.class(), std::mem::take(&mut self.past_deg));
-            if let Some(seen_deg) = self.seen_deg.get_mut(class) {
+            if let Some(seen_deg) = self.known.seen_deg.get_mut(class) {
                 *seen_deg = seen_deg.max(past_deg);
             }
         }
@@ -80,9 +157,11 @@ impl RunsPast {
         self.has_reached |= is_there;
         if at.saturating_duration_since(since) > WINDOW {
             let class = self.class();
-            let has_reached = std::mem::take(&mut self.has_reached);
-            if let Some(windows) = self.windows.get_mut(class).filter(|_| has_reached) {
+            // An axis that hunts about one end shows only once how far it runs past an end.
+            let shows = std::mem::take(&mut self.has_reached) && self.was_commanded;
+            if let Some(windows) = self.known.windows.get_mut(class).filter(|_| shows) {
                 *windows = windows.saturating_add(1);
+                self.was_commanded = false;
             }
             self.since = Some(at);
             let [now_deg, _] = self.left_deg;
@@ -94,7 +173,7 @@ impl RunsPast {
 
     /// A motion of this length goes out; `are_steps`: right after another one.
     pub(super) fn commanded(&mut self, way_deg: f64, are_steps: bool) {
-        self.are_steps = are_steps;
+        (self.are_steps, self.was_commanded) = (are_steps, true);
         // As long as the end was not reached, the axis may turn as fast as it does on a long way.
         self.way_deg = self.way_deg.max(way_deg);
         let [now_deg, before_deg] = self.left_deg;
@@ -110,13 +189,17 @@ impl RunsPast {
 
     /// The axis has turned at this rate between two readings, degrees a second.
     pub(super) fn turned(&mut self, rate_deg_s: f64) {
-        self.fastest_deg_s = self.fastest_deg_s.max(rate_deg_s);
-        self.turns = self.turns.saturating_add(1);
+        self.known.fastest_deg_s = self.known.fastest_deg_s.max(rate_deg_s);
+        self.known.turns = self.known.turns.saturating_add(1);
     }
 
     /// The fastest that it turns, degrees a second.
     pub(super) fn most_deg_s(&self) -> f64 {
-        if self.turns < ENOUGH { FASTEST_DEG_S } else { self.fastest_deg_s.min(FASTEST_DEG_S) }
+        if self.known.knows_rate() {
+            (self.known.fastest_deg_s * 1.3).min(FASTEST_DEG_S)
+        } else {
+            FASTEST_DEG_S
+        }
     }
 
     /// The axis was read this far past the end, degrees.
@@ -131,48 +214,66 @@ impl RunsPast {
 
     /// How far it may run past the end of the present motion, degrees.
     pub(super) fn most_deg(&self) -> f64 {
-        let class = self.class();
-        if self.windows.get(class).is_none_or(|windows| *windows < ENOUGH) {
-            return (self.most_deg_s() * COASTS_S).min(RUNS_PAST_DEG);
+        if !self.known.knows_class(self.class()) {
+            return self.coasts_deg();
         }
-        let seen_deg = self.seen_deg.into_iter().filter(|deg| *deg <= RUNS_PAST_DEG / 2.0);
-        let seen_deg = seen_deg.fold(0.0, f64::max);
-        (seen_deg * MARGIN).max(self.fastest_deg_s * RUNS_S).min(RUNS_PAST_DEG)
+        (self.known.furthest_deg() * MARGIN).max(self.most_deg_s() * RUNS_S).min(RUNS_PAST_DEG)
+    }
+
+    /// How far it may coast from its full rate, degrees.
+    pub(super) fn coasts_deg(&self) -> f64 {
+        (self.most_deg_s() * COASTS_S).min(RUNS_PAST_DEG)
     }
 }
 
 /// The time from a command to a standing axis until it turns.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[serde(default)]
 pub(super) struct DeadTime {
-    longest: Duration,
+    longest_s: f64,
     starts: u8,
 }
 
 impl DeadTime {
     pub(super) fn seen(&mut self, lasted: Duration) {
-        self.longest = self.longest.max(lasted);
+        self.longest_s = self.longest_s.max(lasted.as_secs_f64());
         self.starts = self.starts.saturating_add(1);
     }
 
     pub(super) fn most(&self) -> Duration {
-        let seen = self.longest * 5 / 4 + SPARE;
-        if self.starts < STARTS { DEAD_TIME } else { seen.min(DEAD_TIME) }
+        if self.starts < STARTS {
+            return DEAD_TIME;
+        }
+        let seen = Duration::try_from_secs_f64(self.longest_s * 1.25).unwrap_or(DEAD_TIME);
+        seen.saturating_add(SPARE).min(DEAD_TIME)
     }
+}
+
+/// By how much readings of a standing axis have differed.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[serde(default)]
+pub(super) struct AtRest {
+    /// The largest difference that was seen, degrees.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    widest_deg: Option<f64>,
+    /// Number of places where the axis stood.
+    places: u8,
 }
 
 /// By how much readings of a standing axis differ.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Spread {
+    pub(super) known: AtRest,
     /// Lowest and highest reading since it stands, degrees, and their number.
     now: Option<(f64, f64, u16)>,
-    /// The largest difference that was seen, degrees.
-    widest_deg: Option<f64>,
-    /// Number of places where the axis stood.
-    places: u8,
     has_turned: bool,
 }
 
 impl Spread {
+    pub(super) fn new(known: AtRest) -> Self {
+        Self { known, ..Self::default() }
+    }
+
     /// Takes a reading of an axis that stands.
     pub(super) fn stands(&mut self, deg: f64) {
         let (from_deg, to_deg, readings) = self.now.unwrap_or((deg, deg, 0));
@@ -180,10 +281,11 @@ impl Spread {
         self.now = Some((from_deg, to_deg, readings + 1));
         if readings + 1 >= READINGS {
             let spread_deg = to_deg - from_deg;
-            self.widest_deg = Some(self.widest_deg.map_or(spread_deg, |deg| deg.max(spread_deg)));
+            self.known.widest_deg =
+                Some(self.known.widest_deg.map_or(spread_deg, |deg| deg.max(spread_deg)));
             self.now = None;
             if std::mem::take(&mut self.has_turned) {
-                self.places = self.places.saturating_add(1);
+                self.known.places = self.known.places.saturating_add(1);
             }
         }
     }
@@ -195,15 +297,16 @@ impl Spread {
     /// Returns the largest expected difference between two readings of a standing axis, degrees; `None`
     /// until it has been measured.
     pub(super) fn expected_deg(&self) -> Option<f64> {
-        self.widest_deg.map(|widest_deg| (widest_deg * SPREADS).min(MAX_NOISE_DEG))
+        self.known.widest_deg.map(|widest_deg| (widest_deg * SPREADS).min(MAX_NOISE_DEG))
     }
 
     /// Largest error of a reading, degrees, where the unit reports steps of `resolution_deg`.
     pub(super) fn error_deg(&self, resolution_deg: f64) -> f64 {
         let half_step_deg = resolution_deg / 2.0;
         // Elsewhere the noise may reach one more step.
-        let step_deg = if self.places < PLACES { half_step_deg } else { 0.0 };
-        let seen_deg = self.widest_deg.map(|deg| (deg / 2.0 * SPREADS).max(deg / 2.0 + step_deg));
+        let step_deg = if self.known.places < PLACES { half_step_deg } else { 0.0 };
+        let seen_deg =
+            self.known.widest_deg.map(|deg| (deg / 2.0 * SPREADS).max(deg / 2.0 + step_deg));
         let error_deg = seen_deg.unwrap_or(half_step_deg + NOISE_DEG);
         error_deg.clamp(half_step_deg, half_step_deg + MAX_NOISE_DEG) + resolution_deg * 0.05
     }

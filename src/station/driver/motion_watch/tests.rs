@@ -17,6 +17,17 @@ fn cases(cases: u64) -> std::ops::Range<u64> {
     first..first + cases
 }
 
+impl Kind {
+    fn figures(self) -> AxisFigures {
+        AxisFigures {
+            resolution_deg: self.step_deg,
+            sway_deg: self.sway_deg,
+            arrives_within_deg: self.leaves_deg,
+            wraps: self.wraps,
+        }
+    }
+}
+
 /// An axis, the session that reads and commands it, and the watch.
 struct Scene {
     plant: Plant,
@@ -44,15 +55,9 @@ impl Scene {
         let kind = Kind::any(&mut dice);
         let (from_deg, to_deg) = kind.travel_deg;
         let plant = Plant::new(kind, dice.between(from_deg, to_deg));
-        let figures = AxisFigures {
-            resolution_deg: kind.step_deg,
-            sway_deg: kind.sway_deg,
-            arrives_within_deg: kind.leaves_deg,
-            wraps: kind.wraps,
-        };
         Self {
             plant,
-            watch: MotionWatch::new([figures; 2]),
+            watch: MotionWatch::new([kind.figures(); 2], &[AxisLessons::default(); 2]),
             dice,
             began: Instant::now(),
             question: None,
@@ -65,6 +70,13 @@ impl Scene {
             found: Vec::new(),
             is_flagged: false,
         }
+    }
+
+    /// Only what was learned of the axis is kept.
+    fn restarts(&mut self) {
+        let figures = self.plant.kind.figures();
+        self.watch = MotionWatch::new([figures; 2], &self.watch.lessons());
+        self.answers.clear();
     }
 
     fn at(&self, at_s: f64) -> Instant {
@@ -338,14 +350,22 @@ fn one_that_is_pushed_at_rest_is_found_within_ten_seconds() {
     assert!(missed.len() * 100 <= pushes.max(100), "{missed:?}");
 }
 
-/// Pushes by more than `beyond_deg` that are missed in a track of an axis that has been watched for
-/// `watched_s`.
-fn missed_in_a_track(seeds: std::ops::Range<u64>, beyond_deg: f64, watched_s: f64) -> Vec<u64> {
+/// Pushes by more than `beyond_deg` that are missed in a track.
+fn missed_in_a_track(seeds: std::ops::Range<u64>, beyond_deg: f64) -> Vec<u64> {
     let is_missed = |seed: &u64| {
         let mut scene = Scene::new(*seed);
         scene.plant.kind.follows_well();
+        // On the days before.
+        for _ in 0..8 {
+            scene.seconds(20.0);
+            scene.any_slew();
+            scene.seconds(20.0);
+            scene.track(100.0);
+            scene.stop();
+        }
+        scene.restarts();
         scene.any_slew();
-        let (mut target_deg, rate_deg_s) = scene.track(watched_s);
+        let (mut target_deg, rate_deg_s) = scene.track(60.0);
         let way = if scene.dice.chance(0.5) { 1.0 } else { -1.0 };
         let push = Push::any(&mut scene, way);
         // Past every target that the drive may still go to.
@@ -365,12 +385,12 @@ fn missed_in_a_track(seeds: std::ops::Range<u64>, beyond_deg: f64, watched_s: f6
 
 #[test]
 fn one_that_is_pushed_far_in_a_track_is_found_within_fifteen_seconds() {
-    let seeds = cases(60);
+    let seeds = cases(200);
     let pushes = seeds.end - seeds.start;
-    let missed = missed_in_a_track(seeds, 20.0, 300.0);
+    let missed = missed_in_a_track(seeds, 15.0);
     println!("{} of {pushes} missed: {missed:?}", missed.len());
     // Smaller ones hide in what a drive runs past its targets by itself.
-    assert!(missed.len() as u64 * 50 <= pushes.max(50), "{missed:?}");
+    assert!(missed.len() as u64 * 100 <= pushes.max(100), "{missed:?}");
 }
 
 /// Returns the evidence from a standing axis, read once a second, whose unit reports `drives`.
@@ -390,8 +410,13 @@ fn a_unit_that_reports_a_jog_or_a_runaway_accuses_by_its_word() {
     let figures =
         AxisFigures { resolution_deg: 0.1, sway_deg: 0.5, arrives_within_deg: 0.3, wraps: false };
     let start = Instant::now();
-    let evidence =
-        |drives: &[Drive]| evidence_from(&mut MotionWatch::new([figures; 2]), start, drives);
+    let evidence = |drives: &[Drive]| {
+        evidence_from(
+            &mut MotionWatch::new([figures; 2], &[AxisLessons::default(); 2]),
+            start,
+            drives,
+        )
+    };
     assert_eq!(
         evidence(&[Drive::Off, Drive::Jogged, Drive::Jogged, Drive::Jogged]),
         [Evidence::Jogged]
@@ -400,7 +425,7 @@ fn a_unit_that_reports_a_jog_or_a_runaway_accuses_by_its_word() {
     assert_eq!(evidence(&[Drive::Off, Drive::Jogged, Drive::Off, Drive::Jogged, Drive::On]), []);
 
     // A jog of Azel, until it is proved to be over.
-    let mut watch = MotionWatch::new([figures; 2]);
+    let mut watch = MotionWatch::new([figures; 2], &[AxisLessons::default(); 2]);
     assert_eq!(evidence_from(&mut watch, start, &[Drive::Off]), []);
     let later = start + Duration::from_secs(10);
     watch.commanded([Some(Lead::ToEnd { is_up: true }), None], later);

@@ -104,6 +104,8 @@ pub enum Command {
     LockOut(LockOut),
     /// The maintenance is over.
     Unlock,
+    /// The drives have changed: learn their properties anew.
+    ForgetDrives,
     /// Send a question to the unit; the answer appears in the wire log.
     Ask(SmolStr),
 }
@@ -138,6 +140,7 @@ impl Session {
             Command::EndJog => self.release_jog(now),
             Command::AllowUnguarded => self.allow_unguarded(now),
             Command::AllowWayOut => self.allow_way_out(now),
+            Command::ForgetDrives => self.gate.forget_lessons(),
             Command::MoveAway => self.move_away(now),
             Command::SeenStanding => self.take_word_for_standstill(),
             Command::Resume => self.resume(),
@@ -353,6 +356,7 @@ impl Session {
             Command::EndJog => self.key = JogKey::Up,
             Command::AllowUnguarded => self.allow_unguarded(now),
             Command::AllowWayOut => self.allow_way_out(now),
+            Command::ForgetDrives => self.gate.forget_lessons(),
             Command::SeenStanding => self.take_word_for_standstill(),
             Command::Resume => self.resume(),
             Command::Standby => self.leave_for(Activity::Standby, now),

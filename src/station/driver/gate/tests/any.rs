@@ -239,7 +239,7 @@ fn look_closely(seed: u64) -> Outcome {
     let started = Arc::default();
     let (objection, leads_to) = (None, Lead::Nowhere);
     let metal = Metal { state: case.state.clone(), started, objection, leads_to };
-    let mut gate = Gate::new(Box::new(metal), &antenna, bounds.clone());
+    let mut gate = Gate::new(Box::new(metal), &antenna, bounds.clone(), &Default::default());
     let now = Moment { steady: measured_at(&case) + case.age, utc };
     gate.let_out(Some(now.steady + Duration::from_secs(1)));
     if gate.check(motion, intent, now).is_err() {

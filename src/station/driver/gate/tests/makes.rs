@@ -118,6 +118,7 @@ fn an_azimuth_of_the_sky_goes_to_the_nearest_position_of_the_axis() {
             Box::new(metal),
             &case.antenna,
             Bounds::of_antenna(&Antenna { mount, ..case.antenna.clone() }),
+            &Default::default(),
         );
         let Ok(Motion::Position { azimuth: Some(axis), .. }) =
             gate.nearest(position(asked_deg, 30.0))
@@ -152,7 +153,12 @@ fn flipped(intent: Intent) -> (Case, Gate) {
     case.axes()[1].angle_deg = Some(120.0);
     case.state.measured.as_mut().unwrap().pointing = AzEl::from_degrees(20.0, 60.0).into();
     let metal = Metal::of(&case, Arc::default());
-    let gate = Gate::new(Box::new(metal), &case.antenna, Bounds::of_antenna(&case.antenna));
+    let gate = Gate::new(
+        Box::new(metal),
+        &case.antenna,
+        Bounds::of_antenna(&case.antenna),
+        &Default::default(),
+    );
     (case, gate)
 }
 
