@@ -12,6 +12,7 @@ use crate::{
 const UNSTEADY: u16 = 1;
 /// Largest noise of a sensor, degrees.
 const NOISE_DEG: f64 = 1.0;
+const TURN_DEG: f64 = 360.0;
 /// Drive number of an auto move, which shows no direction.
 const AUTO_MOVE: i64 = 7;
 
@@ -59,6 +60,46 @@ impl Axes {
             axis(azimuth, az_line, az_drive, before.map(|[azimuth, _]| azimuth)),
             axis(elevation, el_line, el_drive, before.map(|[_, elevation]| elevation)),
         ]
+    }
+
+    /// Finds the turn of an azimuth that the display has wrapped to 0 to 360 degrees. The axis is
+    /// near where it was `before`, if that is known. Where it may be on either of two turns, it
+    /// has no angle.
+    pub(super) fn unwrapped(
+        azimuth: Axis,
+        position: Position,
+        before: Option<&Axis>,
+        mount: &Mount,
+    ) -> Axis {
+        let (Position::TenthsOfDegree(_), Some(shown_deg)) = (position, azimuth.angle_deg) else {
+            return azimuth;
+        };
+        if shown_deg > TURN_DEG {
+            return azimuth;
+        }
+        let [(from_deg, to_deg), _] = mount.travel_deg();
+        let before_deg = before.and_then(|before| match before {
+            Axis { minus_limit: true, .. } => Some(from_deg),
+            Axis { plus_limit: true, .. } => Some(to_deg),
+            Axis { angle_deg, .. } => *angle_deg,
+        });
+        let angle_deg = match before_deg {
+            Some(before_deg) => {
+                Some(shown_deg + ((before_deg - shown_deg) / TURN_DEG).round() * TURN_DEG)
+            }
+            None => {
+                let first = ((from_deg - NOISE_DEG - shown_deg) / TURN_DEG).ceil();
+                let lowest_deg = shown_deg + first * TURN_DEG;
+                let is_ambiguous = lowest_deg + TURN_DEG <= to_deg + NOISE_DEG;
+                (!is_ambiguous).then_some(if lowest_deg <= to_deg + NOISE_DEG {
+                    lowest_deg
+                } else {
+                    // Outside its travel.
+                    shown_deg
+                })
+            }
+        };
+        Axis { angle_deg, ..azimuth }
     }
 
     /// The direction of the antenna with these axes. On a mount that does not flip, an

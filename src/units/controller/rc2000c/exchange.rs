@@ -1,5 +1,7 @@
 //! One command and its reply: matching, time-outs, effects.
 
+use std::time::Duration;
+
 use super::{Order, Rc2000c, axes::Axes, checks, line::GAP, line::Line, readings, refusal};
 use crate::{
     clock::{Instant, Moment},
@@ -13,6 +15,8 @@ use crate::{
 
 /// Maximum number of times that a question is asked in a row; other commands are sent once.
 const MAX_TRIES: usize = 3;
+/// An axis turns by less than half a turn in this time.
+const CONTINUOUS: Duration = Duration::from_secs(5);
 const REMOTE_DISABLED: &str = "remote mode is disabled on the unit";
 
 /// Reason for a command.
@@ -207,13 +211,22 @@ impl Rc2000c {
         let axes = self.axes.read(&status, self.past.before(now.steady));
         self.past.push(status, now.steady);
         self.status = Some(status);
+        let pointing = Axes::pointing(axes, &self.mount);
+        let [azimuth, elevation] = axes;
+        let before = self
+            .state
+            .measured
+            .as_ref()
+            .filter(|before| now.steady.saturating_duration_since(before.asked) <= CONTINUOUS);
+        let before = before.map(|before| &before.axes[0]);
+        let azimuth = Axes::unwrapped(azimuth, status.azimuth, before, &self.mount);
         let way = now.steady.saturating_duration_since(sent.steady) / 2;
         self.state.measured = Some(Measured {
             at: now.utc.checked_sub(way).unwrap_or(now.utc),
             asked: asked.steady,
             received: now.steady,
-            pointing: Axes::pointing(axes, &self.mount),
-            axes,
+            pointing,
+            axes: [azimuth, elevation],
         });
         self.state.motion_lock = Some(checks::forbids_motion(&status));
         self.state.checked_at = Some(now.utc);

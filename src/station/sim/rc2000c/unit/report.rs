@@ -137,6 +137,7 @@ impl Rc2000c {
 /// Azimuth and elevation in tenths of a degree, as the display computes them.
 fn angles([az_counts, el_counts]: [u16; 2]) -> [i16; 2] {
     let from = |counts: u16, zero: i32| (i32::from(counts) - zero) * 100 / DISPLAY_GAIN;
-    [1800 + from(az_counts, AZIMUTH_CENTRE), from(el_counts, ELEVATION_ZERO)]
+    let azimuth = (1800 + from(az_counts, AZIMUTH_CENTRE)).rem_euclid(3600);
+    [azimuth, from(el_counts, ELEVATION_ZERO)]
         .map(|tenths| i16::try_from(tenths).unwrap_or(i16::MAX))
 }

@@ -100,6 +100,49 @@ fn shown_angles_are_taken_without_a_calibration_but_make_no_counts() {
 }
 
 #[test]
+fn a_shown_azimuth_has_no_angle_until_its_turn_is_known() {
+    let mut mount = mount(90.0);
+    if let Mount::AzEl { azimuth_from_deg, azimuth_to_deg, .. } = &mut mount {
+        (*azimuth_from_deg, *azimuth_to_deg) = (0.0, 450.0);
+    }
+    let nowhere = Axis { angle_deg: None, ..calibrated().read(&status(IDLE), None)[0] };
+    let at = |angle_deg| Axis { angle_deg: Some(angle_deg), ..nowhere };
+    let lower_end = Axis { minus_limit: true, ..nowhere };
+    let upper_end = Axis { plus_limit: true, ..nowhere };
+    for (tenths, before, expected_deg) in [
+        // Only one turn of the travel has it.
+        (1800, None, Some(180.0)),
+        (3585, None, Some(358.5)),
+        // Both ends of the travel have it.
+        (450, None, None),
+        (450, Some(nowhere), None),
+        (450, Some(at(44.0)), Some(45.0)),
+        (450, Some(at(404.0)), Some(405.0)),
+        // Through north.
+        (5, Some(at(359.8)), Some(360.5)),
+        (3598, Some(at(360.5)), Some(359.8)),
+        (3600, Some(at(0.2)), Some(0.0)),
+        // At the end that it comes from.
+        (3, Some(lower_end), Some(0.3)),
+        (895, Some(upper_end), Some(449.5)),
+        // Noise, and an overrun.
+        (3595, Some(at(0.1)), Some(-0.5)),
+        (920, Some(at(449.0)), Some(452.0)),
+        // A display that does not wrap.
+        (4000, None, Some(400.0)),
+    ] {
+        let position = Position::TenthsOfDegree(tenths);
+        let shown = Axis { angle_deg: Some(f64::from(tenths) / 10.0), ..nowhere };
+        let axis = Axes::unwrapped(shown, position, before.as_ref(), &mount);
+        let is_right = match (axis.angle_deg, expected_deg) {
+            (Some(deg), Some(expected_deg)) => (deg - expected_deg).abs() < 1e-9,
+            (found, expected) => found == expected,
+        };
+        assert!(is_right, "{tenths} after {before:?}: {:?}", axis.angle_deg);
+    }
+}
+
+#[test]
 fn an_axis_that_stays_is_sent_to_its_present_counts() {
     let axes = calibrated();
     let angle = |degrees| Some(Angle::from_degrees(degrees));
