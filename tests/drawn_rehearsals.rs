@@ -187,7 +187,10 @@ fn draw(seed: u64) -> Rehearsal {
 
 /// Counts the suspensions for foreign motion.
 fn accusations(rehearsed: &Rehearsed) -> usize {
-    let accuses = |what: &DayEvent| *what == DayEvent::Suspended(Interruption::Elsewhere);
+    let accuses = |what: &DayEvent| {
+        let by = [Interruption::Elsewhere, Interruption::EndedByUnit];
+        by.iter().any(|by| *what == DayEvent::Suspended(*by))
+    };
     rehearsed.interruptions.iter().filter(|line| accuses(&line.what)).count()
 }
 

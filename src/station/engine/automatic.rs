@@ -217,24 +217,21 @@ impl Engine {
             | Event::CannotProgramTrack(
                 _,
                 TrackProblem::Refused(Refusal::Path(_) | Refusal::Forbidden { .. }),
-            ) => operation.take_outcome(Outcome::Blocked, now),
-            Event::WouldMiss { .. } => operation.take_outcome(Outcome::WouldMiss, now),
+            ) => operation.take_outcome(Outcome::Blocked),
+            Event::WouldMiss { .. } => operation.take_outcome(Outcome::WouldMiss),
             Event::CannotTrack(..)
             | Event::CannotProgramTrack(..)
             | Event::NotSent(_)
             | Event::Refused(Asked::Motion(_), _)
-            | Event::Unanswered(Asked::Motion(_)) => operation.take_outcome(Outcome::Failed, now),
-            Event::EndedShort { .. } => operation.ended_short(now),
-            Event::TrackingEnded { completed: false } => {
-                let outcome =
-                    if operation.is_proved() { Outcome::EndedEarly } else { Outcome::Failed };
-                operation.take_outcome(outcome, now);
-            }
+            | Event::Unanswered(Asked::Motion(_)) => operation.take_outcome(Outcome::Failed),
+            // A motion to the start of a pass is asked for again.
+            Event::EndedShort { .. } if operation.is_idle() => operation.ended_by_unit(now),
+            Event::TrackingEnded { completed: false } => operation.ended_by_unit(now),
             Event::StartedByItself if !uses_auto_track => {
                 operation.suspend(Interruption::Elsewhere, now);
             }
             Event::Safety(Safety::OffTarget { .. }) => {
-                operation.take_outcome(Outcome::OffTarget, now);
+                operation.take_outcome(Outcome::OffTarget);
             }
             Event::Safety(Safety::ForeignHands { .. }) => {
                 operation.suspend(Interruption::Elsewhere, now);

@@ -29,6 +29,10 @@ pub fn interruption(by: Interruption) -> &'static str {
     match by {
         Interruption::ByHand => "The antenna was commanded by hand.",
         Interruption::Elsewhere => "The antenna was moved by its panel or by another program.",
+        Interruption::EndedByUnit => {
+            "The unit ended a motion that Azel had not ended: by its panel, by another program or by \
+             itself."
+        }
         Interruption::Clock => {
             "The clock of this computer jumped, and no time service is known to keep it: check the \
              clock first."

@@ -64,6 +64,9 @@ pub enum Interruption {
     ByHand,
     /// By the panel of the unit, or by another program.
     Elsewhere,
+    /// The unit ended a motion before its end, and Azel had not: by its panel, by another program, or by
+    /// a fault of its own.
+    EndedByUnit,
     /// The clock of this computer was set, and no time service is known to keep it.
     Clock,
 }
@@ -210,8 +213,6 @@ pub(super) enum Outcome {
     OffTarget,
     /// The unit's clock, site or elements would make it miss the pass.
     WouldMiss,
-    /// The track ended before its end, and nobody here has ended it.
-    EndedEarly,
 }
 
 impl OffBecause {
@@ -238,12 +239,12 @@ impl Operation {
         matches!(self, Self::On(_))
     }
 
-    /// The pass that is being taken.
     /// Returns `true` while it is on and asks nothing of the antenna.
     pub(in crate::engine) fn is_idle(&self) -> bool {
         matches!(self, Self::On(On { doing: Doing::Rests | Doing::Parks, .. }))
     }
 
+    /// The pass that is being taken.
     pub fn taking(&self) -> Option<&Taking> {
         match self {
             Self::On(On { doing: Doing::Takes(taking), .. }) => Some(taking),
@@ -287,7 +288,7 @@ impl Operation {
     }
 
     /// Takes what became of the request for the present pass.
-    pub(super) fn take_outcome(&mut self, outcome: Outcome, now: Timestamp) {
+    pub(super) fn take_outcome(&mut self, outcome: Outcome) {
         let Self::On(on) = self else { return };
         let Doing::Takes(taking) = &mut on.doing else { return };
         if taking.given_up.is_some() {
@@ -305,14 +306,19 @@ impl Operation {
             Outcome::OffTarget => taking.given_up = Some(GivenUp::OffTarget),
             // The unit may be able to take the next pass.
             Outcome::WouldMiss => taking.given_up = Some(GivenUp::WouldMiss),
-            Outcome::EndedEarly => self.suspend(Interruption::Elsewhere, now),
         }
     }
 
-    /// A motion ended before its target.
-    pub(super) fn ended_short(&mut self, now: Timestamp) {
-        if matches!(self, Self::On(On { doing: Doing::Parks, .. })) {
-            self.suspend(Interruption::Elsewhere, now);
+    /// The unit ended a motion before its end, and Azel had not. A unit that has not begun its track
+    /// yet has failed to.
+    pub(super) fn ended_by_unit(&mut self, now: Timestamp) {
+        let Self::On(on) = self else { return };
+        match &on.doing {
+            Doing::Takes(Taking { given_up: Some(_), .. })
+            | Doing::Rests
+            | Doing::Announces { .. } => {}
+            Doing::Takes(Taking { proved_at: None, .. }) => self.take_outcome(Outcome::Failed),
+            Doing::Takes(_) | Doing::Parks => self.suspend(Interruption::EndedByUnit, now),
         }
     }
 

@@ -83,21 +83,17 @@ impl Axes {
             Axis { plus_limit: true, .. } => Some(to_deg),
             Axis { angle_deg, .. } => *angle_deg,
         });
-        let angle_deg = match before_deg {
-            Some(before_deg) => {
-                Some(shown_deg + ((before_deg - shown_deg) / TURN_DEG).round() * TURN_DEG)
-            }
-            None => {
-                let first = ((from_deg - NOISE_DEG - shown_deg) / TURN_DEG).ceil();
-                let lowest_deg = shown_deg + first * TURN_DEG;
-                let is_ambiguous = lowest_deg + TURN_DEG <= to_deg + NOISE_DEG;
-                (!is_ambiguous).then_some(if lowest_deg <= to_deg + NOISE_DEG {
-                    lowest_deg
-                } else {
-                    // Outside its travel.
-                    shown_deg
-                })
-            }
+        let first = ((from_deg - NOISE_DEG - shown_deg) / TURN_DEG).ceil();
+        let lowest_deg = shown_deg + first * TURN_DEG;
+        let angle_deg = if let Some(before_deg) = before_deg {
+            Some(shown_deg + ((before_deg - shown_deg) / TURN_DEG).round() * TURN_DEG)
+        } else if lowest_deg + TURN_DEG <= to_deg + NOISE_DEG {
+            None
+        } else if lowest_deg <= to_deg + NOISE_DEG {
+            Some(lowest_deg)
+        } else {
+            // Outside its travel.
+            Some(shown_deg)
         };
         Axis { angle_deg, ..azimuth }
     }

@@ -74,7 +74,7 @@ impl Fixture {
     }
 
     fn outcome(&mut self, outcome: Outcome) {
-        self.operation.take_outcome(outcome, at(self.now_s));
+        self.operation.take_outcome(outcome);
     }
 }
 
@@ -144,8 +144,9 @@ fn a_track_that_somebody_ends_suspends_it() {
     let mut fixture = Fixture::new(&[duty(1, 200.0)]);
     fixture.until(150.0, |_| STANDS);
     fixture.until(250.0, |_| taking(1));
-    fixture.outcome(Outcome::EndedEarly);
-    assert!(matches!(fixture.operation, Operation::Suspended { .. }));
+    fixture.operation.ended_by_unit(at(250.0));
+    let by = Interruption::EndedByUnit;
+    assert_eq!(fixture.operation, Operation::Suspended { by, since: at(250.0) });
 }
 
 #[test]
@@ -334,6 +335,7 @@ fn a_park_that_somebody_ends_suspends_it() {
     fixture.until(150.0, |_| STANDS);
     fixture.until(810.0, |_| taking(1));
     assert!(!fixture.until(815.0, |_| STANDS).is_empty(), "it parks");
-    fixture.operation.ended_short(at(820.0));
-    assert!(matches!(fixture.operation, Operation::Suspended { .. }));
+    fixture.operation.ended_by_unit(at(820.0));
+    let by = Interruption::EndedByUnit;
+    assert_eq!(fixture.operation, Operation::Suspended { by, since: at(820.0) });
 }
