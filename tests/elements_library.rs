@@ -102,6 +102,16 @@ fn object(number: u32, day: u32) -> String {
     )
 }
 
+/// A set as `SatNOGS` DB lists it, under the number `listed`.
+fn satnogs(listed: u32) -> String {
+    format!(
+        r#"{{"tle0": "TESTSAT A",
+        "tle1": "1 90001U 98067ZZ  26220.25000000  .00001000  00000-0  10000-3 0  9994",
+        "tle2": "2 90001  51.6400  10.0000 0004000  90.0000  30.0000 15.50000000000017",
+        "tle_source": "SatNOGS", "sat_id": "TEST-0000-0000", "norad_cat_id": {listed}}}"#
+    )
+}
+
 fn start() -> Timestamp {
     "2026-08-12T12:00:00Z".parse().unwrap()
 }
@@ -119,6 +129,32 @@ fn refresh(
     let renewed = library.refresh(sources, now, forced, &|| false).unwrap();
     let (_, mut reports) = Library::open(folder, limits).unwrap().load(sources);
     (renewed, reports.remove(0))
+}
+
+#[test]
+fn a_list_of_satnogs_is_a_source_and_its_bad_sets_cost_themselves() {
+    let folder = tempfile::tempdir().unwrap();
+    let list = format!("[{}, {}]", satnogs(90_001), satnogs(5));
+    let server = Server::new(vec![ok("", &list)]);
+    let (renewed, report) =
+        refresh(folder.path(), &server.source("satnogs"), start(), false, LIMITS);
+    assert_eq!((renewed, report.objects(), report.refused()), (1, 1, 1));
+    let refusal = report.files[0].merge.refused[0].reason.to_string();
+    assert_eq!(refusal, "it is listed as 5, but its lines are of 90001");
+    assert_eq!(report.newest_epoch, Some("2026-08-08T06:00:00Z".parse().unwrap()));
+}
+
+#[test]
+fn a_set_for_a_launch_to_come_does_not_make_later_answers_older() {
+    let folder = tempfile::tempdir().unwrap();
+    let (ahead, today) = (object(6, 30), object(5, 11));
+    let both = format!("[{},{}]", ahead.trim_matches(['[', ']']), today.trim_matches(['[', ']']));
+    let server = Server::new(vec![ok("", &both), ok("", &object(5, 12)), ok("", &object(5, 11))]);
+    let source = server.source("satnogs");
+    let ask = |hours| refresh(folder.path(), &source, start() + HOUR * hours, false, LIMITS).1;
+    assert_eq!(ask(0).fetch_problem, None);
+    assert_eq!(ask(2).fetch_problem, None, "the launch was taken off the list");
+    assert_eq!(ask(4).fetch_problem, Some(FetchProblem::Older));
 }
 
 #[test]

@@ -61,6 +61,12 @@ impl Source {
         Self { name: group.to_owned(), place: SourcePlace::Web(url), refresh: None }
     }
 
+    /// The newest TLE of each satellite that `SatNOGS` DB lists.
+    pub fn satnogs() -> Self {
+        let url = "https://db.satnogs.org/api/tle/?format=json".to_owned();
+        Self { name: "SatNOGS".to_owned(), place: SourcePlace::Web(url), refresh: None }
+    }
+
     /// When the server of this source is asked the next time without the operator; `None` where
     /// it is not. A failure doubles the time, four times at most. A part of up to a tenth keeps
     /// many consoles from asking at once.

@@ -233,10 +233,10 @@ impl Library {
                 Ok(false)
             }
             ServerAnswer::New { body, etag, last_modified } => {
-                let newest = newest_epoch(&body)?;
-                if held
-                    .is_some_and(|held| newest_epoch(&held.bytes).is_ok_and(|held| held > newest))
-                {
+                let newest = newest_epoch(&body, now)?;
+                if held.is_some_and(|held| {
+                    newest_epoch(&held.bytes, now).is_ok_and(|held| held > newest)
+                }) {
                     return Err(FetchProblem::Older);
                 }
                 whole_file::replace_and_keep_old(&path, &body)
@@ -249,9 +249,14 @@ impl Library {
     }
 }
 
-fn newest_epoch(bytes: &[u8]) -> Result<Timestamp, FetchProblem> {
+/// The newest epoch in an answer. One that lies ahead counts only if there is no other: lists such
+/// as that of `SatNOGS` hold sets for launches to come, whose dates change in both directions.
+fn newest_epoch(bytes: &[u8], now: Timestamp) -> Result<Timestamp, FetchProblem> {
     let report = read_element_bytes(bytes);
-    let newest = report.elements.iter().map(Elements::epoch).max();
+    let newest = report.elements.iter().map(Elements::epoch).max_by_key(|epoch| {
+        let is_past = *epoch <= now;
+        (is_past, *epoch)
+    });
     newest.ok_or(report.nothing.map_or(FetchProblem::NoElements, FetchProblem::Nothing))
 }
 

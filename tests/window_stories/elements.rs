@@ -249,7 +249,7 @@ fn a_typed_source_is_added_once_it_is_right_and_stays_typed_until_it_is_there() 
 }
 
 #[test]
-fn a_group_of_celestrak_is_filled_in_and_a_plain_address_is_refused() {
+fn a_known_server_is_filled_in_and_a_plain_address_is_refused() {
     for size in rig::sizes() {
         let mut window = view(size, vec![server(3.0)]);
         click(&mut window, "Add a source");
@@ -264,6 +264,14 @@ fn a_group_of_celestrak_is_filled_in_and_a_plain_address_is_refused() {
         assert_eq!(
             asked(&mut window),
             [UiCommand::Station(engine::Command::AddSource(Source::celestrak("stations")))]
+        );
+        click(&mut window, "SatNOGS");
+        window.get_by_role_and_label(Role::Button, "Add source").scroll_to_me();
+        settle(&mut window);
+        click(&mut window, "Add source");
+        assert_eq!(
+            asked(&mut window),
+            [UiCommand::Station(engine::Command::AddSource(Source::satnogs()))]
         );
     }
 }

@@ -15,14 +15,15 @@ use std::borrow::Cow;
 
 use jiff::{Timestamp, civil, tz::TimeZone};
 
-use super::{ReadReport, RefusalReason, clean, numbers};
+use super::{ReadReport, RefusalReason, clean, numbers, tle};
 use crate::{
     Elements,
     elements::{Classification, ElementsError, catalog_number},
 };
 
-/// The fields that are read. All others are ignored.
-const FIELDS: [&str; 21] = [
+/// The fields that are read. All others are ignored. The last three are not of OMM: `SatNOGS` DB
+/// writes the lines of a TLE under these names.
+const FIELDS: [&str; 24] = [
     "OBJECT_NAME",
     "OBJECT_ID",
     "NORAD_CAT_ID",
@@ -44,6 +45,9 @@ const FIELDS: [&str; 21] = [
     "CENTER_NAME",
     "REF_FRAME",
     "TIME_SYSTEM",
+    "TLE0",
+    "TLE1",
+    "TLE2",
 ];
 
 /// A field that is read: its index in [`FIELDS`].
@@ -60,6 +64,11 @@ impl Field {
     fn is_text(self) -> bool {
         FIELDS.get(self.0).is_some_and(|name| name.starts_with("OBJECT_"))
     }
+
+    /// Returns `true` if the field holds a line of a TLE.
+    fn is_tle(self) -> bool {
+        FIELDS.get(self.0).is_some_and(|name| name.starts_with("TLE"))
+    }
 }
 
 #[derive(Debug, Clone, PartialEq)]
@@ -75,6 +84,8 @@ enum Value<'a> {
 #[derive(Debug, Default)]
 struct Message<'a> {
     values: [Option<Value<'a>>; FIELDS.len()],
+    /// Lines of a TLE have a place in the message, even if they are empty.
+    has_tle: bool,
 }
 
 impl<'a> Message<'a> {
@@ -116,7 +127,29 @@ impl<'a> Message<'a> {
             Value::Number(number) => Some(number.to_string()),
             Value::Other => None,
         };
-        field("OBJECT_NAME").or_else(|| field("NORAD_CAT_ID"))
+        let name = || self.text("TLE0").map(|line| tle::name_in(line).to_owned());
+        field("OBJECT_NAME").or_else(name).or_else(|| field("NORAD_CAT_ID"))
+    }
+
+    /// Reads the TLE of a message that holds one in place of an orbit; `None` for an OMM.
+    fn tle(&self) -> Option<Result<tle::Read, RefusalReason>> {
+        if !self.has_tle || self.text("EPOCH").is_some() {
+            return None;
+        }
+        Some(self.read_tle())
+    }
+
+    fn read_tle(&self) -> Result<tle::Read, RefusalReason> {
+        let name = tle::name_in(self.text("TLE0").unwrap_or_default());
+        let read = tle::read_lines(name, self.text("TLE1"), self.text("TLE2"))?;
+        // `SatNOGS` DB may list a satellite with the lines of another object that flies with it.
+        let lines = read.elements.catalog_number();
+        match self.whole("NORAD_CAT_ID")? {
+            Some(stated) if stated != u64::from(lines) => {
+                Err(RefusalReason::OtherNumber { stated, lines })
+            }
+            _ => Ok(read),
+        }
     }
 
     fn elements(&self) -> Result<Elements, RefusalReason> {

@@ -109,6 +109,9 @@ pub enum RefusalReason {
     /// The two lines of a TLE carry different catalog numbers.
     #[error("the two lines are of different objects")]
     TwoObjects,
+    /// The catalog number beside the lines of a TLE is not theirs.
+    #[error("it is listed as {stated}, but its lines are of {lines}")]
+    OtherNumber { stated: u64, lines: u32 },
     /// A field is missing, given by its name in an OMM.
     #[error("{0} is missing")]
     MissingField(#[serde(deserialize_with = "name::one")] Name),

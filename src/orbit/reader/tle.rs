@@ -35,12 +35,7 @@ pub(super) fn read(text: &str) -> ReadReport {
     report.elements.reserve_exact(read.len());
     for (set, read) in sets.iter().zip(read) {
         match read {
-            Ok(Read { elements, unprotected }) => {
-                for line in unprotected.into_iter().flatten() {
-                    report.note(set.place, set.object(), NoteKind::BlankChecksum { line });
-                }
-                report.elements.push(elements);
-            }
+            Ok(read) => read.finish(set.place, set.object(), &mut report),
             Err(reason) => report.refuse(set.place, set.object(), reason),
         }
     }
@@ -60,9 +55,34 @@ struct TleSet<'a> {
 }
 
 /// What a set holds, and those of its lines that have no checksum.
-struct Read {
-    elements: Elements,
+pub(super) struct Read {
+    pub(super) elements: Elements,
     unprotected: [Option<u8>; 2],
+}
+
+impl Read {
+    /// Adds the elements to `report`, with a note for each line without a checksum.
+    pub(super) fn finish(self, place: usize, object: Option<&str>, report: &mut ReadReport) {
+        for line in self.unprotected.into_iter().flatten() {
+            report.note(place, object, NoteKind::BlankChecksum { line });
+        }
+        report.elements.push(self.elements);
+    }
+}
+
+/// The name in a line 0. Space-Track starts it with the number of the line.
+pub(super) fn name_in(line: &str) -> &str {
+    let line = line.trim();
+    line.strip_prefix("0 ").unwrap_or(line).trim()
+}
+
+/// Reads one set whose lines come apart from each other, as in JSON.
+pub(super) fn read_lines(
+    name: &str,
+    first: Option<&str>,
+    second: Option<&str>,
+) -> Result<Read, RefusalReason> {
+    TleSet { name, place: 1, first, second }.read()
 }
 
 /// All sets of a text, in its order.
@@ -85,8 +105,7 @@ fn sets(text: &str) -> impl Iterator<Item = TleSet<'_>> {
             } else if line.is_numbered('2') {
                 (None, Some(text))
             } else {
-                // Space-Track also starts name lines with a line number.
-                name = text.strip_prefix("0 ").unwrap_or(text).trim();
+                name = name_in(text);
                 continue;
             };
             return Some(TleSet { name: std::mem::take(&mut name), place, first, second });

@@ -116,16 +116,31 @@ fn suggestions(ui: &mut Ui, sources: &Sources, state: &mut AddState) {
     ui.horizontal_wrapped(|ui| {
         ui.label(RichText::new("CelesTrak").font(text::body()).color(t.t2));
         for group in GROUPS {
-            let known = sources.list.iter().any(|source| source.name == group);
-            if named_button(ui, !known, group, &format!("CelesTrak {group}")) {
-                let source = Source::celestrak(group);
-                state.name = source.name;
-                if let SourcePlace::Web(url) = source.place {
-                    state.place = url;
-                }
-            }
+            let name = format!("CelesTrak {group}");
+            suggestion(ui, sources, state, (group, &name), Source::celestrak(group));
         }
     });
+    ui.horizontal_wrapped(|ui| {
+        ui.label(RichText::new("Others").font(text::body()).color(t.t2));
+        suggestion(ui, sources, state, ("SatNOGS", "SatNOGS"), Source::satnogs());
+    });
+}
+
+/// Shows a button that fills the form with `source`.
+fn suggestion(
+    ui: &mut Ui,
+    sources: &Sources,
+    state: &mut AddState,
+    (word, name): (&str, &str),
+    source: Source,
+) {
+    let is_known = sources.list.iter().any(|known| known.name == source.name);
+    if named_button(ui, !is_known, word, name) {
+        state.name = source.name;
+        if let SourcePlace::Web(url) = source.place {
+            state.place = url;
+        }
+    }
 }
 
 fn field(ui: &mut Ui, (label, hint): (&str, &str), width: f32, typed: &mut String) {

@@ -1,4 +1,4 @@
-//! OMM in JSON: one object, or a list of them.
+//! OMM in JSON: one object, or a list of them. The TLE that `SatNOGS` DB writes as JSON are read too.
 
 mod split;
 
@@ -31,9 +31,18 @@ pub(in crate::reader) fn read(text: &str) -> ReadReport {
             continue;
         }
         is_sound = filled.is_ok();
-        match filled.map_err(|_| RefusalReason::Json).and_then(|()| message.elements()) {
-            Ok(elements) => report.elements.push(elements),
-            Err(reason) => report.refuse(line, message.object().as_deref(), reason),
+        let filled = filled.map_err(|_| RefusalReason::Json);
+        let object = message.object();
+        let read = match message.tle() {
+            Some(tle) => filled.and(tle).map(|read| {
+                read.finish(line, object.as_deref(), &mut report);
+            }),
+            None => filled.and_then(|()| message.elements()).map(|elements| {
+                report.elements.push(elements);
+            }),
+        };
+        if let Err(reason) = read {
+            report.refuse(line, object.as_deref(), reason);
         }
     }
     // An object that breaks off has been refused already.
@@ -64,6 +73,7 @@ impl<'de> Visitor<'de> for Fill<'_, 'de> {
     fn visit_map<A: MapAccess<'de>>(self, mut fields: A) -> Result<(), A::Error> {
         while let Some(field) = fields.next_key_seed(KeySeed)? {
             let value = fields.next_value_seed(ValueSeed)?;
+            self.0.has_tle |= field.is_some_and(Field::is_tle);
             if let (Some(field), Some(value)) = (field, value) {
                 self.0.set(field, value);
             }
@@ -273,6 +283,63 @@ mod tests {
             let report = read(&around.to_string());
             assert_eq!((report.elements.len(), report.refused.len()), (2, 0), "{around}");
         }
+    }
+
+    /// A set as `SatNOGS` DB lists it.
+    fn satnogs() -> Json {
+        json!({
+            "tle0": "0 TESTSAT A",
+            "tle1": "1 90001U 98067ZZ  26331.25000000  .00001000  00000-0  10000-3 0  9997",
+            "tle2": "2 90001  51.6400  10.0000 0004000  90.0000  30.0000 15.50000000000017",
+            "tle_source": "Space-Track.org", "sat_id": "TEST-0000-0000", "norad_cat_id": 90_001,
+            "updated": "2026-11-27T07:00:00.000000+0000"
+        })
+    }
+
+    #[test]
+    fn the_sets_of_satnogs_are_read() {
+        let mut bare = satnogs();
+        bare["norad_cat_id"] = Json::Null;
+        bare["tle0"] = json!("TESTSAT A");
+        for around in [json!([satnogs(), bare]), json!({"results": [satnogs(), bare]})] {
+            let report = read(&around.to_string());
+            assert_eq!((report.elements.len(), &report.refused), (2, &vec![]), "{around}");
+            assert_eq!(report.elements[0], report.elements[1]);
+            let read = &report.elements[0];
+            assert_eq!((read.catalog_number(), read.name()), (90_001, "TESTSAT A"));
+            assert_eq!(read.epoch(), "2026-11-27T06:00:00Z".parse().unwrap());
+        }
+        let mut unprotected = satnogs();
+        let line = unprotected["tle1"].as_str().unwrap()[..68].to_owned();
+        unprotected["tle1"] = json!(line);
+        let report = read(&json!([unprotected]).to_string());
+        assert_eq!((report.elements.len(), report.notes.len()), (1, 1));
+    }
+
+    #[test]
+    fn a_bad_set_of_satnogs_is_refused_alone_and_says_why() {
+        use RefusalReason as Why;
+        let wrong = satnogs()["tle2"].as_str().unwrap().replace("51.6400", "51.7400");
+        for (key, value, reason) in [
+            ("tle1", Json::Null, Why::MissingLine { missing: 1 }),
+            ("tle2", json!(""), Why::MissingLine { missing: 2 }),
+            ("tle1", json!("1 90001U"), Why::TooShort { line: 1, columns: 8 }),
+            ("tle2", json!(wrong), Why::Checksum { line: 2, found: 7, expected: 8 }),
+            ("norad_cat_id", json!(25_544), Why::OtherNumber { stated: 25_544, lines: 90_001 }),
+            ("norad_cat_id", json!("soon"), Why::Field("NORAD_CAT_ID")),
+        ] {
+            let mut bad = satnogs();
+            bad[key] = value;
+            let report = read(&format!("[{bad},\n{}]", satnogs()));
+            assert_eq!(report.elements.len(), 1, "{key}");
+            let object = Some("TESTSAT A".to_owned());
+            assert_eq!(report.refused, [Refusal { line: 1, object, reason }], "{key}");
+        }
+        let nothing = json!([{ "tle0": null, "tle1": null, "tle2": null, "norad_cat_id": 7 }]);
+        let report = read(&nothing.to_string());
+        let object = Some("7".to_owned());
+        let reason = Why::MissingLine { missing: 1 };
+        assert_eq!(report.refused, [Refusal { line: 1, object, reason }]);
     }
 
     #[test]
