@@ -214,6 +214,7 @@ fn what_is_asked_of_a_station_comes_back() {
             frequencies: Frequency::read_list("25544 145.8 Voice").unwrap(),
         },
         Command::KeepOffsets { of: OffsetsOf::Antenna(ANTENNA), offsets: TrackOffsets::NONE },
+        Command::SetSourceOrder { satellite: 25_544, sources: vec!["own".to_owned()] },
         Command::SetPriority { numbers: vec![25_544], priority: Priority::default() },
         Command::AddSource(Source::celestrak("weather")),
         Command::RemoveSource("weather".to_owned()),

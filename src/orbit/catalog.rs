@@ -1,12 +1,19 @@
 //! The catalog: all elements that the operator has, with the newest set of every object, or an
-//! older one where the operator uses that.
+//! older one where the operator uses that or prefers its source.
 
 use std::{cmp::Ordering, collections::BTreeMap, ops::Range};
 
-use jiff::Timestamp;
+use jiff::{SignedDuration, Timestamp};
 use serde::{Deserialize, Serialize};
 
 use super::{Elements, Note, Nothing, ReadReport, Refusal};
+
+/// A preferred source stays in use while its set is at most this much older than the newest one.
+/// The limit compares epochs, not ages: a set that nobody else renews is still the best one.
+pub const SOURCE_LAG: SignedDuration = SignedDuration::from_hours(72);
+
+/// The names of the sources that an object prefers, the first one first, by catalog number.
+pub type SourceOrders = BTreeMap<u32, Vec<String>>;
 
 #[derive(Debug, Clone, Default)]
 pub struct Catalog {
@@ -17,6 +24,11 @@ pub struct Catalog {
     superseded: Vec<Entry>,
     /// The newest sets of the objects of which an older one is in use, by catalog number.
     set_aside: BTreeMap<u32, SetAside>,
+    /// The same for the objects whose preferred source has an older one.
+    passed_over: BTreeMap<u32, SetAside>,
+    orders: SourceOrders,
+    /// All sets of the objects with an order of sources.
+    candidates: BTreeMap<u32, Vec<Entry>>,
 }
 
 /// The newest set of an object, while an older one is in use.
@@ -70,6 +82,57 @@ pub struct MergeSummary {
 }
 
 impl Catalog {
+    /// Sets the orders of sources. To be called before the merges of these sources;
+    /// [`Self::apply_orders`] applies the orders after them.
+    pub fn set_orders(&mut self, orders: SourceOrders) {
+        self.candidates = orders.keys().map(|number| (*number, Vec::new())).collect();
+        self.orders = orders;
+    }
+
+    /// Uses the set of the first source in the order of each object that is at most
+    /// [`SOURCE_LAG`] older than the newest one; leaves the newest set in use if there is none.
+    /// Skips the objects for which `has_choice` is true: the operator has chosen their set.
+    pub fn apply_orders(&mut self, has_choice: impl Fn(u32) -> bool) {
+        let candidates = std::mem::take(&mut self.candidates);
+        for (number, sets) in candidates {
+            if has_choice(number) {
+                continue;
+            }
+            if let Some(chosen) = self.preferred(number, &sets) {
+                self.use_preferred(number, chosen);
+            }
+        }
+    }
+
+    fn preferred(&self, number: u32, sets: &[Entry]) -> Option<Entry> {
+        let newest = self.get(number)?.epoch();
+        let is_current = |set: &&Entry| newest.duration_since(set.elements.epoch()) <= SOURCE_LAG;
+        self.orders.get(&number)?.iter().find_map(|name| {
+            let place = self.groups.iter().position(|group| group.name == *name)?;
+            let own = sets.iter().filter(|set| set.group as usize == place);
+            own.max_by_key(|set| set.elements.epoch()).filter(is_current).cloned()
+        })
+    }
+
+    fn use_preferred(&mut self, number: u32, mut chosen: Entry) {
+        let source_in_use = self.groups.get(chosen.group as usize).map(|group| group.name.clone());
+        let Ok(place) = self.entries.binary_search_by_key(&number, Entry::number) else { return };
+        let Some(held) = self.entries.get_mut(place) else { return };
+        chosen.elements.take_name(&held.elements);
+        if held.elements.epoch() == chosen.elements.epoch() {
+            *held = chosen;
+            return;
+        }
+        let newest = std::mem::replace(&mut held.elements, chosen.elements);
+        let aside = SetAside { newest, source_in_use: source_in_use.unwrap_or_default() };
+        self.passed_over.insert(number, aside);
+    }
+
+    /// The newest set of an object whose preferred source has an older one.
+    pub fn passed_over(&self, catalog_number: u32) -> Option<&Elements> {
+        self.passed_over.get(&catalog_number).map(|aside| &aside.newest)
+    }
+
     /// Adds the elements of `source`. The newest epoch of an object wins, whatever the order of
     /// merging. A set without a name keeps the known name.
     pub fn merge(&mut self, report: ReadReport, source: &str) -> MergeSummary {
@@ -88,6 +151,9 @@ impl Catalog {
             let number = elements.catalog_number();
             let entry = Entry { elements, group };
             members.push(number);
+            if let Some(sets) = self.candidates.get_mut(&number) {
+                sets.push(entry.clone());
+            }
             let (sorted, _) = self.entries.split_at_mut(known);
             let place = sorted.binary_search_by_key(&number, Entry::number).ok();
             match place.and_then(|place| sorted.get_mut(place)) {
@@ -135,7 +201,8 @@ impl Catalog {
     /// The source of the elements in use of an object: the first that gave the newest set, or
     /// that of the older set in its place.
     pub fn source_of(&self, catalog_number: u32) -> Option<&str> {
-        if let Some(aside) = self.set_aside.get(&catalog_number) {
+        let aside = self.set_aside.get(&catalog_number);
+        if let Some(aside) = aside.or_else(|| self.passed_over.get(&catalog_number)) {
             return Some(&aside.source_in_use);
         }
         self.source_of_newest(catalog_number)
@@ -166,9 +233,9 @@ impl Catalog {
         self.set_aside.get(&catalog_number).map(|aside| &aside.newest)
     }
 
-    /// All sets that [`Self::use_in_place`] has set aside, each with its source.
+    /// All newest sets that are not in use, each with its source.
     pub fn all_set_aside(&self) -> impl Iterator<Item = (&Elements, &str)> {
-        self.set_aside.iter().map(|(number, aside)| {
+        self.set_aside.iter().chain(&self.passed_over).map(|(number, aside)| {
             (&aside.newest, self.source_of_newest(*number).unwrap_or_default())
         })
     }
@@ -318,6 +385,53 @@ mod tests {
         assert_eq!(catalog.in_use(), [("own", 0), ("weather", 2)], "the sum is the catalog");
         catalog.use_in_place(catalog.get(6).unwrap().clone(), "own");
         assert_eq!(catalog.set_aside(6), None, "it is the set in use");
+    }
+
+    /// A catalog with these sources, each with the day of its set of object 5, and this order.
+    fn ordered(order: &[&str], sources: &[(&str, u32)]) -> Catalog {
+        let mut catalog = Catalog::default();
+        catalog.merge(report(&[(5, "FIVE", 1)]), "bundled");
+        let order = order.iter().map(|name| (*name).to_owned()).collect();
+        catalog.set_orders(SourceOrders::from([(5, order)]));
+        for (name, day) in sources {
+            catalog.merge(report(&[(5, "", *day), (6, "SIX", *day)]), name);
+        }
+        catalog
+    }
+
+    #[test]
+    fn the_first_source_of_the_order_is_used_until_it_lags_behind() {
+        for (order, sources, wanted) in [
+            (&["own", "web"][..], &[("web", 12), ("own", 11)][..], ("own", 11)),
+            (&["own", "web"], &[("web", 12), ("own", 9)], ("own", 9)),
+            (&["own", "web"], &[("web", 12), ("own", 8)], ("web", 12)),
+            (&["own", "web"], &[("web", 12), ("own", 12)], ("own", 12)),
+            (&["own", "web"], &[("other", 12), ("web", 10), ("own", 8)], ("web", 10)),
+            (&["own", "web"], &[("other", 20), ("web", 10), ("own", 8)], ("other", 20)),
+            (&["own", "web"], &[("web", 12)], ("web", 12)),
+            (&["gone"], &[("web", 12), ("own", 11)], ("web", 12)),
+            (&["own"], &[("own", 9)], ("own", 9)),
+            (&["own"], &[], ("bundled", 1)),
+        ] {
+            let mut catalog = ordered(order, sources);
+            catalog.apply_orders(|_| false);
+            let day = |elements: &Elements| elements.epoch().to_string()[8..10].parse().unwrap();
+            let in_use = catalog.get(5).unwrap();
+            assert_eq!((catalog.source_of(5).unwrap(), day(in_use)), wanted, "{sources:?}");
+            assert_eq!(in_use.name(), "FIVE");
+            let newest = sources.iter().map(|(_, day)| *day).max().unwrap_or(1);
+            let passed_over = catalog.passed_over(5).map(day);
+            assert_eq!(passed_over, Some(newest).filter(|newest| *newest != wanted.1));
+            assert_eq!(catalog.all_set_aside().count(), usize::from(passed_over.is_some()));
+            assert_eq!((catalog.set_aside(5), catalog.passed_over(6)), (None, None));
+        }
+    }
+
+    #[test]
+    fn a_set_that_the_operator_chose_comes_before_the_order() {
+        let mut catalog = ordered(&["own"], &[("web", 12), ("own", 11)]);
+        catalog.apply_orders(|number| number == 5);
+        assert_eq!(catalog.source_of(5), Some("web"));
     }
 
     #[test]

@@ -16,7 +16,7 @@ mod sources;
 mod writer;
 
 pub use bundled::{BUNDLED_NEWEST, BUNDLED_SOURCE, BundledError, bundled};
-pub use catalog::{Catalog, MergeSummary};
+pub use catalog::{Catalog, MergeSummary, SOURCE_LAG, SourceOrders};
 pub use elements::{EPOCH_YEARS, Elements, ElementsError, Heights};
 pub use ground::{SubPoint, TrackPoint};
 pub use look::{Distance, Local, LookAngles, OverGround};

@@ -161,6 +161,8 @@ struct Engine {
     settings_path: Option<PathBuf>,
     places: Places,
     elements_job: Option<Job<Outcome>>,
+    /// The station whose orders of sources the last reading applied.
+    orders_of: Arc<Station>,
     /// When servers were last asked without a client.
     refreshed_at: Option<Timestamp>,
     older_sets: Option<Arc<OlderSets>>,
@@ -335,6 +337,7 @@ impl Engine {
             settings_path,
             places,
             elements_job,
+            orders_of: Arc::default(),
             refreshed_at: None,
             older_sets: None,
             older_reading: older_sets::Reading::default(),

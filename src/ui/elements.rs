@@ -16,6 +16,7 @@ mod refused;
 mod selection;
 mod set_menu;
 mod sets;
+mod source_order;
 mod sources;
 mod table;
 pub(super) mod words;

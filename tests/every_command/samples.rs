@@ -164,6 +164,9 @@ pub(super) fn commands_of_stations(
         C::SetPriority { .. } => {
             C::SetPriority { numbers: numbers(), priority: Priority::default() }
         },
+        C::SetSourceOrder { .. } => {
+            C::SetSourceOrder { satellite: number, sources: vec!["own".to_owned()] }
+        },
         C::SetFrequencies { .. } => {
             C::SetFrequencies { satellite: number, frequencies: Vec::new() }
         },

@@ -2,6 +2,7 @@
 //! on standard error, object by object.
 
 use std::{
+    collections::BTreeMap,
     fs::File,
     io::{self, Write as _},
     path::{Path, PathBuf},
@@ -16,11 +17,13 @@ use crate::{
         Exceptions, Library, Limits, disk::read_limited, element_files, library_folder,
         load_sources,
     },
+    makes,
     orbit::{
-        Catalog, Elements, MAX_ELEMENT_BYTES, MergeSummary, Note, Refusal, Source,
+        Catalog, Elements, MAX_ELEMENT_BYTES, MergeSummary, Note, Refusal, Source, SourceOrders,
         read_element_bytes,
     },
     plan::pass_export::Satellite,
+    station,
 };
 
 /// Requested satellites.
@@ -43,10 +46,14 @@ impl InputOptions {
         let mut said = Said { errors: io::stderr().lock(), is_complete: true };
         let mut files = self.own_files(&mut said);
         let mut older_sets = None;
+        let mut orders = SourceOrders::default();
+        let mut sources: BTreeMap<PathBuf, String> = BTreeMap::new();
         if let Some(station) = station
             && (self.elements.is_empty() || !self.group.is_empty())
         {
-            files.extend(self.library_files(station, &mut said)?);
+            sources = self.library_files(station, &mut said)?;
+            files.extend(sources.keys().cloned());
+            orders = source_orders(station);
             older_sets = library_folder().map(|folder| Exceptions::load(&folder));
         }
         // Of two sets with the same epoch the first stays: make the order on the command line
@@ -54,6 +61,7 @@ impl InputOptions {
         files.sort();
         files.dedup();
         let mut catalog = Catalog::default();
+        catalog.set_orders(orders);
         let mut merged = Vec::new();
         for path in &files {
             let file = path.display().to_string();
@@ -61,15 +69,17 @@ impl InputOptions {
                 Ok(bytes) => {
                     let report = read_element_bytes(&bytes);
                     let holds_elements = !report.elements.is_empty();
-                    let summary = catalog.merge(report, &file);
+                    let summary = catalog.merge(report, sources.get(path).unwrap_or(&file));
                     merged.push(Merged { file, summary, holds_elements });
                 }
                 Err(error) => said.unusable(&format!("{file} cannot be read: {error}")),
             }
         }
-        if let Some(older_sets) = older_sets {
+        if let Some(older_sets) = &older_sets {
             older_sets.apply(&mut catalog);
         }
+        let has_choice = |number| older_sets.as_ref().is_some_and(|sets| sets.has(number));
+        catalog.apply_orders(has_choice);
         let asked = Asked::new(self, &catalog);
         for file in &merged {
             said.file(file, &asked);
@@ -117,8 +127,12 @@ impl InputOptions {
         files
     }
 
-    /// Library files of the requested sources of a station.
-    fn library_files(&self, station: &Path, said: &mut Said) -> anyhow::Result<Vec<PathBuf>> {
+    /// Library files of the requested sources of a station, each with the name of its source.
+    fn library_files(
+        &self,
+        station: &Path,
+        said: &mut Said,
+    ) -> anyhow::Result<BTreeMap<PathBuf, String>> {
         let sources = load_sources(&station.with_file_name("sources.toml"))?;
         let names = || sources.iter().map(|source| source.name.as_str()).collect::<Vec<_>>();
         if sources.is_empty() {
@@ -133,13 +147,15 @@ impl InputOptions {
         let library = Library::open(&folder, Limits::default())?;
         let is_asked =
             |source: &&Source| self.group.is_empty() || self.group.contains(&source.name);
-        let mut files = Vec::new();
+        let mut files = BTreeMap::new();
         for source in sources.iter().filter(is_asked) {
             match library.files_of(source) {
                 Ok(found) if found.is_empty() => {
                     said.unusable(&format!("{}: nothing of this source is held", source.name));
                 }
-                Ok(found) => files.extend(found),
+                Ok(found) => {
+                    files.extend(found.into_iter().map(|file| (file, source.name.clone())));
+                }
                 Err((folder, error)) => {
                     said.unusable(&format!("{} cannot be read: {error}", folder.display()));
                 }
@@ -147,6 +163,12 @@ impl InputOptions {
         }
         Ok(files)
     }
+}
+
+/// The orders of sources in a station file. [`InputOptions::place`] reports a file that cannot be read.
+fn source_orders(station: &Path) -> SourceOrders {
+    let loaded = station::load(station, makes::SPECS);
+    loaded.map(|loaded| loaded.station.favourites.source_orders()).unwrap_or_default()
 }
 
 fn bytes_of(file: &Path) -> io::Result<Vec<u8>> {

@@ -97,6 +97,9 @@ impl Engine {
                     station.favourites.set_priority(number, priority);
                 }
             }),
+            Command::SetSourceOrder { satellite, sources } => self.change_station(|station| {
+                station.favourites.set_sources(satellite, sources);
+            }),
             Command::SetFrequencies { satellite, frequencies } => self.change_station(|station| {
                 station.frequencies.retain(|of| of.satellite != satellite);
                 station.frequencies.extend(frequencies);
@@ -336,11 +339,27 @@ impl Engine {
         }
     }
 
+    /// Reads the elements again if the station now has other orders of sources.
+    pub(super) fn follow_source_orders(&mut self) {
+        if self.elements_job.is_some() || Arc::ptr_eq(&self.orders_of, &self.station) {
+            return;
+        }
+        let [before, after] =
+            [&self.orders_of, &self.station].map(|of| of.favourites.source_orders());
+        if before == after {
+            self.orders_of = Arc::clone(&self.station);
+        } else {
+            self.begin_elements(Task::default());
+        }
+    }
+
     /// Starts reading the elements. One job at a time: two would write the same files.
     pub(super) fn begin_elements(&mut self, task: Task) {
         if self.elements_job.is_some() || self.sources.is_locked {
             return;
         }
+        let task = Task { orders: self.station.favourites.source_orders(), ..task };
+        self.orders_of = Arc::clone(&self.station);
         let work = if task.ask.is_empty() { SourceWork::Reading } else { SourceWork::Asking };
         let in_use = match &self.catalog {
             CatalogState::Ready(catalog) => Some(Arc::clone(catalog)),

@@ -84,6 +84,14 @@ pub enum Command {
         numbers: Vec<u32>,
         priority: Priority,
     },
+    /// Let a satellite prefer the elements of these sources, the first one first; none for the
+    /// newest of all. With an order, the satellite becomes a favourite.
+    SetSourceOrder {
+        /// Catalog number.
+        satellite: u32,
+        /// Names of the sources.
+        sources: Vec<String>,
+    },
     /// Give a satellite these frequencies in place of its own.
     SetFrequencies {
         /// Catalog number.
@@ -198,6 +206,7 @@ impl Command {
             | Self::ResumeSearch(_)
             | Self::SetFavourites { .. }
             | Self::SetPriority { .. }
+            | Self::SetSourceOrder { .. }
             | Self::SetFrequencies { .. }
             | Self::KeepOffsets { .. }
             | Self::AddSource(_)
@@ -258,6 +267,7 @@ impl Command {
             | Self::ResumeSearch(_)
             | Self::SetFavourites { .. }
             | Self::SetPriority { .. }
+            | Self::SetSourceOrder { .. }
             | Self::SetFrequencies { .. }
             | Self::KeepOffsets { .. }
             | Self::AddSource(_)
@@ -291,6 +301,7 @@ impl Command {
                 | Self::SetScheduling(_)
                 | Self::SetFavourites { .. }
                 | Self::SetPriority { .. }
+                | Self::SetSourceOrder { .. }
                 | Self::SetFrequencies { .. }
                 | Self::KeepOffsets { .. }
         )

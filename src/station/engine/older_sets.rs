@@ -63,7 +63,8 @@ impl Engine {
     }
 }
 
-/// Takes `choice` into the library, and puts the older sets that the operator uses into `catalog`.
+/// Takes `choice` into the library, and puts the older sets that the operator uses, and those of
+/// preferred sources, into `catalog`.
 pub(super) fn use_older_sets(
     folder: &Path,
     choice: Option<SetChoice>,
@@ -73,6 +74,7 @@ pub(super) fn use_older_sets(
     let ended = exceptions.forget_ended(catalog);
     let chosen = choice.map_or(Ok(()), |choice| choose(choice, &mut exceptions, folder, catalog));
     exceptions.apply(catalog);
+    catalog.apply_orders(|number| exceptions.has(number));
     chosen?;
     ended.map_err(|error| format!("the older sets in use are not kept: {error}"))
 }

@@ -17,7 +17,7 @@ use crate::{
         self, History, IndexError, Library, Limits, OlderSet, check_source, load_sources,
         read_element_file, save_sources,
     },
-    orbit::{Catalog, Source, SourcePlace, SourceReport, bundled},
+    orbit::{Catalog, Source, SourceOrders, SourcePlace, SourceReport, bundled},
     whole_file,
 };
 
@@ -116,6 +116,8 @@ pub(super) struct Task {
     /// Names of the sources whose servers are asked, where they may be.
     pub(super) ask: Vec<String>,
     pub(super) set: Option<SetChoice>,
+    /// Sources that satellites prefer.
+    pub(super) orders: SourceOrders,
     /// Ask even if they were asked lately.
     pub(super) forced: bool,
 }
@@ -140,10 +142,12 @@ pub(super) fn start(
     let places = places.clone();
     Job::start("azel-elements", wake, move |cancelled| {
         let mut outcome = carry_out(&places, &task, now, cancelled);
-        if let Some(folder) = places.library()
-            && let Err(problem) = use_older_sets(folder, task.set, &mut outcome.catalog)
-        {
-            outcome.sources.problems.push(problem);
+        match places.library() {
+            Some(folder) => {
+                let used = use_older_sets(folder, task.set, &mut outcome.catalog);
+                outcome.sources.problems.extend(used.err());
+            }
+            None => outcome.catalog.apply_orders(|_| false),
         }
         keep_superseded(&places, &mut outcome.catalog, in_use.as_deref());
         outcome
@@ -238,6 +242,7 @@ fn carry_out(
         Ok(catalog) => (catalog, None),
         Err(error) => (Catalog::default(), Some(error.to_string())),
     };
+    catalog.set_orders(task.orders.clone());
     if !sources.list.is_empty() {
         match read(places, &sources.list, task, now, &mut catalog, cancelled) {
             Ok(reports) => sources.reports = reports,

@@ -75,6 +75,11 @@ impl Exceptions {
         self.retain(|known| !known.is_over(catalog))
     }
 
+    /// Returns `true` if the operator has chosen the set of this object.
+    pub fn has(&self, catalog_number: u32) -> bool {
+        self.list.iter().any(|known| known.number() == catalog_number)
+    }
+
     /// Puts the older sets in use in `catalog`, which holds all newest sets.
     pub fn apply(&self, catalog: &mut Catalog) {
         for exception in &self.list {

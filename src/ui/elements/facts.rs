@@ -2,9 +2,9 @@
 
 use egui::{Align2, Color32, Rect, Ui, pos2, vec2};
 
-use super::{PADDING, words};
+use super::{PADDING, source_order, words};
 use crate::{
-    model::Model,
+    model::{Model, UiCommand},
     orbit::{Catalog, Elements},
     ui::{
         format,
@@ -25,7 +25,15 @@ const HALVES: usize = 4;
 
 pub(super) const HEIGHT: f32 = TITLE + (WIDE + HALVES) as f32 * LINE + 8.0;
 
-pub(super) fn show(ui: &Ui, rect: Rect, model: &Model, elements: &Elements, catalog: &Catalog) {
+pub(super) fn show(
+    ui: &Ui,
+    rect: Rect,
+    model: &Model,
+    elements: &Elements,
+    catalog: &Catalog,
+    lock: Option<&str>,
+    commands: &mut Vec<UiCommand>,
+) {
     let t = theme::tokens(ui);
     let inner = rect.shrink2(vec2(PADDING, 0.0));
     let title = inner.with_max_y(inner.top() + TITLE);
@@ -46,7 +54,6 @@ pub(super) fn show(ui: &Ui, rect: Rect, model: &Model, elements: &Elements, cata
     let epoch = format::copied(elements.epoch());
     let (icon, colour) = words::age_look(words::age_tone(elements, model.now), t);
     let age = words::age(elements.age_s(model.now));
-    let groups: Vec<&str> = catalog.groups_of(number).collect();
     let line = |index: usize| {
         let min = pos2(inner.left(), title.bottom() + index as f32 * LINE);
         Rect::from_min_size(min, vec2(inner.width(), LINE))
@@ -57,7 +64,7 @@ pub(super) fn show(ui: &Ui, rect: Rect, model: &Model, elements: &Elements, cata
         let at = pos2(place.left() - 11.0, place.center().y);
         icons::paint(ui.painter(), paint::square(at, 12.0), icon, colour);
     }
-    fact(ui, line(2), "Groups", &groups.join(", "), t.t1);
+    source_order::show(ui, line(2), model, catalog, number, lock, commands);
     let unit = model.appearance.distances;
     let heights = words::heights(elements.heights(), unit);
     let heights = format!("{heights} {}", format::distance_unit(unit));

@@ -98,7 +98,7 @@ impl Object<'_> {
             rect
         };
         let part = place(ui, facts::HEIGHT);
-        facts::show(ui, part, model, elements, catalog);
+        facts::show(ui, part, model, elements, catalog, lock, commands);
         let part = place(ui, holds::height(model));
         holds::show(ui, part, model, elements);
         let detail = sets::detail(model, number);

@@ -1,5 +1,7 @@
 //! The satellites that the operator has marked, with their priorities and limits.
 
+use std::collections::BTreeMap;
+
 use serde::{Serialize, Serializer};
 
 use super::{PassLimits, is_default};
@@ -20,6 +22,9 @@ pub struct Favourite {
     pub priority: Option<Priority>,
     /// Those of its groups hold for what has no limit here.
     pub limits: PassLimits,
+    /// Names of the sources whose elements it prefers, the first one first. Without any, the
+    /// newest elements of all sources are used.
+    pub sources: Vec<String>,
 }
 
 /// Importance of a favourite, from 1, the first, to 5.
@@ -66,7 +71,7 @@ impl From<Priority> for i64 {
 impl Favourite {
     /// A favourite without a priority or limits of its own.
     pub fn new(satellite: u32) -> Self {
-        Self { satellite, priority: None, limits: PassLimits::default() }
+        Self { satellite, priority: None, limits: PassLimits::default(), sources: Vec::new() }
     }
 }
 
@@ -108,6 +113,21 @@ impl Favourites {
         let known = self.get(satellite).cloned();
         let favourite = known.unwrap_or_else(|| Favourite::new(satellite));
         self.put(Favourite { limits, ..favourite });
+    }
+
+    /// Gives a satellite this order of sources. It becomes a favourite if the order names any.
+    pub fn set_sources(&mut self, satellite: u32, sources: Vec<String>) {
+        let known = self.get(satellite).cloned();
+        if known.is_some() || !sources.is_empty() {
+            let favourite = known.unwrap_or_else(|| Favourite::new(satellite));
+            self.put(Favourite { sources, ..favourite });
+        }
+    }
+
+    /// The order of sources of each satellite that has one, by catalog number.
+    pub fn source_orders(&self) -> BTreeMap<u32, Vec<String>> {
+        let ordered = self.iter().filter(|favourite| !favourite.sources.is_empty());
+        ordered.map(|favourite| (favourite.satellite, favourite.sources.clone())).collect()
     }
 
     /// Marks a satellite, or unmarks it.
@@ -155,14 +175,16 @@ impl Serialize for Favourite {
             satellite: u32,
             #[serde(skip_serializing_if = "Option::is_none")]
             priority: Option<Priority>,
+            #[serde(skip_serializing_if = "<[_]>::is_empty")]
+            sources: &'a [String],
             #[serde(flatten)]
             limits: &'a PassLimits,
         }
-        let Self { satellite, priority, limits } = self;
-        if priority.is_none() && is_default(limits) {
+        let Self { satellite, priority, limits, sources } = self;
+        if priority.is_none() && is_default(limits) && sources.is_empty() {
             return satellite.serialize(out);
         }
-        Table { satellite: *satellite, priority: *priority, limits }.serialize(out)
+        Table { satellite: *satellite, priority: *priority, sources, limits }.serialize(out)
     }
 }
 

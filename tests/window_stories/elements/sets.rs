@@ -15,7 +15,10 @@ use azel::{
     ui::format,
 };
 use egui::{Key, Role};
-use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use egui_kittest::{
+    Node,
+    kittest::{NodeT as _, Queryable as _},
+};
 use jiff::Timestamp;
 
 use super::{
@@ -149,8 +152,93 @@ fn a_set_between_the_older_one_in_use_and_the_newest_is_not_called_the_newest() 
     }
 }
 
+fn with_order(window: &mut Window, order: &[&str]) {
+    let station = Arc::make_mut(&mut window.state_mut().model.station);
+    let order = order.iter().map(|name| (*name).to_owned()).collect();
+    station.favourites.set_sources(NOAA_20, order);
+    settle(window);
+}
+
+/// The line of the sources, which opens the menu of their order.
+fn sources_line(window: &Window) -> Node<'_> {
+    window.get_by(|node| {
+        let label = node.label().unwrap_or_default();
+        node.role() == Role::ComboBox && label.starts_with("Sources: ")
+    })
+}
+
+#[test]
+fn the_order_of_sources_is_shown_with_the_source_in_use_and_set_by_a_menu() {
+    for size in rig::sizes() {
+        let named = |name: &str| {
+            let source = Source { name: name.to_owned(), ..Source::satnogs() };
+            let report = super::report(&source, 71);
+            (source, report)
+        };
+        let mut window = view(size, vec![named("own"), named("web")]);
+        detail(&mut window, size);
+        let order = |order: &[&str]| {
+            let sources = order.iter().map(|name| (*name).to_owned()).collect();
+            [UiCommand::Station(engine::Command::SetSourceOrder { satellite: NOAA_20, sources })]
+        };
+        for (present, choice, wanted) in [
+            (&[][..], "own first", &["own"][..]),
+            (&["own"], "web first", &["web", "own"]),
+            (&["web", "own"], "own first", &["own", "web"]),
+            (&["own", "web"], "Newest of all sources", &[]),
+        ] {
+            with_order(&mut window, present);
+            asked(&mut window);
+            sources_line(&window).click();
+            settle(&mut window);
+            click(&mut window, choice);
+            assert_eq!(asked(&mut window), order(wanted));
+        }
+        with_order(&mut window, &["own", "web"]);
+        let line = "Sources: own, then web, then the newest";
+        window.get_by_role_and_label(Role::ComboBox, line);
+    }
+}
+
 fn send(window: &RealWindow, command: engine::Command) {
     assert!(window.state().station().client().send(command).is_ok());
+}
+
+#[test]
+fn a_preferred_source_is_used_until_its_elements_lag_and_over_the_next_start() {
+    let folder = tempfile::tempdir().unwrap();
+    let settings = folder.path().join("station.toml");
+    let unit = Unit::start(rig::now());
+    station::save(&unit.station(), &settings, azel::makes::SPECS).unwrap();
+    let mut window = open(&settings, clock_from(rig::now()));
+    step_until(&mut window, "the elements", |model| epoch_of_noaa_20(model).is_some());
+    let own = newer_elements(&folder);
+    let web = folder.path().join("web.json");
+    let text = std::fs::read_to_string(&own).unwrap();
+    std::fs::write(&web, text.replace("08-14T", "08-17T")).unwrap();
+    for (name, path) in [("own", &own), ("web", &web)] {
+        let place = SourcePlace::File(path.clone());
+        let source = Source { name: name.to_owned(), place, refresh: None };
+        send(&window, engine::Command::AddSource(source));
+        step_until(&mut window, "the source", |model| {
+            model.sources.is_free() && model.sources.list.iter().any(|known| known.name == name)
+        });
+    }
+    let at = |day: u32| format!("2026-08-{day}T00:00:00Z").parse::<Timestamp>().ok();
+    step_until(&mut window, "the newest set", |model| epoch_of_noaa_20(model) == at(17));
+    let sources = vec!["own".to_owned()];
+    send(&window, engine::Command::SetSourceOrder { satellite: NOAA_20, sources });
+    step_until(&mut window, "the preferred set", |model| epoch_of_noaa_20(model) == at(14));
+    drop(window);
+
+    let file = std::fs::read_to_string(&settings).unwrap();
+    assert!(file.contains("sources = [\"own\"]"), "{file}");
+    let mut window = open(&settings, clock_from(rig::now()));
+    step_until(&mut window, "the preferred set again", |model| epoch_of_noaa_20(model) == at(14));
+    std::fs::write(&web, text.replace("08-14T", "08-18T")).unwrap();
+    let read = engine::Command::RefreshSources { names: vec!["web".to_owned()], forced: false };
+    send(&window, read);
+    step_until(&mut window, "the next source", |model| epoch_of_noaa_20(model) == at(18));
 }
 
 #[test]

@@ -28,6 +28,7 @@ fn everything_about_the_schedule_comes_back_as_it_was_saved() {
             antennas: Some(vec![AntennaId(4)]),
             max_per_day: Some(3),
         },
+        sources: vec!["own".to_owned(), "weather".to_owned()],
     });
     station.scheduling = Scheduling {
         choose_by: ChooseBy::MostMinutes,

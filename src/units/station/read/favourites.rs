@@ -43,7 +43,25 @@ impl Fields<'_> {
 
     fn favourite(&mut self, antennas: &[AntennaId]) -> Option<Favourite> {
         let (priority, limits) = (self.priority(), self.pass_limits(antennas));
-        Some(Favourite { satellite: self.satellite()?, priority, limits })
+        let sources = self.sources();
+        Some(Favourite { satellite: self.satellite()?, priority, limits, sources })
+    }
+
+    /// Names of sources, each once. The list of sources is another file, so any name is valid.
+    fn sources(&mut self) -> Vec<String> {
+        const KEY: &str = "sources";
+        let Some(value) = self.table.remove(KEY) else { return Vec::new() };
+        let Ok(given) = value.try_into::<Vec<String>>() else {
+            self.invalid(KEY, "must be a list of names of element sources");
+            return Vec::new();
+        };
+        let mut names: Vec<String> = Vec::new();
+        for name in given {
+            if !names.contains(&name) {
+                names.push(name);
+            }
+        }
+        names
     }
 
     /// A group without a name is left out: rules could not name it.
