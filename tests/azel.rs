@@ -41,6 +41,7 @@ mod satrak_any;
 mod satrak_session;
 mod satrak_vectors;
 mod sgp4_verification;
+mod space_track;
 mod three_units;
 mod window_stories;
 mod written;

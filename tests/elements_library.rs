@@ -17,7 +17,7 @@ use azel::{
 use jiff::{SignedDuration, Timestamp};
 
 const BUNDLED: &[u8] = include_bytes!("../assets/elements/active_2026-08-11.tle.gz");
-const LIMITS: Limits = Limits { timeout: Duration::from_secs(20), bytes: 8 << 20 };
+pub(crate) const LIMITS: Limits = Limits { timeout: Duration::from_secs(20), bytes: 8 << 20 };
 const HOUR: SignedDuration = SignedDuration::from_hours(1);
 
 /// Answer of the server to one connection.
@@ -34,7 +34,7 @@ pub(crate) fn ok(headers: &str, body: &str) -> Reply {
     Reply::Whole(200, headers.to_owned(), body.as_bytes().to_vec())
 }
 
-fn status(status: u16) -> Reply {
+pub(crate) fn status(status: u16) -> Reply {
     Reply::Whole(status, String::new(), Vec::new())
 }
 
@@ -58,6 +58,12 @@ impl Server {
                 while !request.ends_with("\r\n\r\n") {
                     assert_ne!(reader.read_line(&mut request).unwrap(), 0);
                 }
+                let lower = request.to_lowercase();
+                let length = lower.split("content-length: ").nth(1);
+                let length = length.and_then(|text| text.lines().next()?.parse().ok());
+                let mut body = vec![0; length.unwrap_or(0)];
+                reader.read_exact(&mut body).unwrap();
+                request.push_str(std::str::from_utf8(&body).unwrap());
                 asked.lock().unwrap().push(request);
                 let (head, body) = match reply {
                     Reply::Whole(status, headers, body) => {
@@ -81,6 +87,10 @@ impl Server {
         Self { address, requests }
     }
 
+    pub(crate) fn url(&self) -> String {
+        format!("http://{}", self.address)
+    }
+
     pub(crate) fn source(&self, name: &str) -> Source {
         Source {
             name: name.to_owned(),
@@ -94,7 +104,7 @@ impl Server {
     }
 }
 
-fn object(number: u32, day: u32) -> String {
+pub(crate) fn object(number: u32, day: u32) -> String {
     format!(
         "[{{\"OBJECT_NAME\":\"A\",\"NORAD_CAT_ID\":{number},\"EPOCH\":\"2026-08-{day:02}T00:00:00\",\
          \"MEAN_MOTION\":15.5,\"ECCENTRICITY\":0.001,\"INCLINATION\":51.6,\"RA_OF_ASC_NODE\":0,\
@@ -112,7 +122,7 @@ fn satnogs(listed: u32) -> String {
     )
 }
 
-fn start() -> Timestamp {
+pub(crate) fn start() -> Timestamp {
     "2026-08-12T12:00:00Z".parse().unwrap()
 }
 

@@ -51,6 +51,18 @@ pub enum SourcePlace {
     Folder(PathBuf),
     /// An `https` address that answers with elements in any form.
     Web(String),
+    /// The elements of the favourites at Space-Track, with this log-in name.
+    SpaceTrack(String),
+}
+
+impl SourcePlace {
+    /// Returns `true` if a server gives the elements.
+    pub fn is_server(&self) -> bool {
+        match self {
+            Self::Web(_) | Self::SpaceTrack(_) => true,
+            Self::File(_) | Self::Folder(_) => false,
+        }
+    }
 }
 
 impl Source {
@@ -68,11 +80,11 @@ impl Source {
     }
 
     /// When the server of this source is asked the next time without the operator; `None` where
-    /// it is not. A failure doubles the time, four times at most. A part of up to a tenth keeps
+    /// it is not, such as after a refused log-in. A failure doubles the time, four times at most. A part of up to a tenth keeps
     /// many consoles from asking at once.
     pub fn next_by_itself(&self, report: Option<&SourceReport>) -> Option<Timestamp> {
-        let hours = self.refresh.filter(|_| matches!(self.place, SourcePlace::Web(_)))?;
-        let report = report.filter(|report| !report.is_set_aside)?;
+        let hours = self.refresh.filter(|_| self.place.is_server())?;
+        let report = report.filter(|report| !report.is_set_aside && !report.awaits_operator())?;
         let Some(last) = report.next_fetch.and_then(|next| next.checked_sub(FETCH_PAUSE).ok())
         else {
             return Some(Timestamp::UNIX_EPOCH);
@@ -126,6 +138,23 @@ pub enum FetchProblem {
     Nothing(Nothing),
     #[error("the answer is older than what is held")]
     Older,
+    /// The keyring has no password for the log-in name. No server was asked.
+    #[error("no password is stored for this log-in")]
+    NoPassword,
+    /// The keyring did not give the password. No server was asked.
+    #[error("the password cannot be read: {0}")]
+    Keyring(String),
+    /// A wrong name or password, or a closed account. Servers lock accounts that try again.
+    #[error("the server refused the log-in")]
+    LogIn,
+    #[error("the server opened no session")]
+    NoSession,
+    /// The server's own reason why it gave no elements.
+    #[error("the server answered: {0}")]
+    Refused(String),
+    /// A source of the elements of favourites, without favourites. No server was asked.
+    #[error("there are no favourites to ask for")]
+    NoFavourites,
     /// The answer could not be written to disk.
     #[error("the answer could not be kept: {0}")]
     Disk(String),
@@ -148,6 +177,9 @@ pub struct SourceReport {
     pub failures: u32,
     /// When the server may be asked again without force, if the source is a server.
     pub next_fetch: Option<Timestamp>,
+    /// When the server may be asked again even by the operator, if it sets such a limit.
+    #[serde(default)]
+    pub not_before: Option<Timestamp>,
     /// The source was not read, because the program ended while reading it the last time.
     pub is_set_aside: bool,
 }
@@ -171,6 +203,11 @@ impl SourceReport {
     pub fn refused(&self) -> usize {
         let merges = self.files.iter().map(|file| &file.merge);
         merges.map(|merge| merge.refused.len() + merge.refused_unlisted).sum()
+    }
+
+    /// Returns `true` if the server is not asked again until the operator acts.
+    pub fn awaits_operator(&self) -> bool {
+        self.fetch_problem == Some(FetchProblem::LogIn)
     }
 
     /// Age of the held elements at `now`, in seconds.
@@ -206,6 +243,7 @@ mod tests {
             failures,
             // Asked at 12:00.
             next_fetch: Some(at("2026-08-12T14:00:00Z")),
+            not_before: None,
             is_set_aside: false,
         };
         let off = Source::celestrak("active");
@@ -221,6 +259,8 @@ mod tests {
         assert!(after_h(0) > 2.0, "not all consoles at once");
         let never = SourceReport { next_fetch: None, ..report(0) };
         assert_eq!(source.next_by_itself(Some(&never)), Some(Timestamp::UNIX_EPOCH));
+        let refused = SourceReport { fetch_problem: Some(FetchProblem::LogIn), ..report(1) };
+        assert_eq!(source.next_by_itself(Some(&refused)), None, "the account would be locked");
         let aside = SourceReport { is_set_aside: true, ..report(0) };
         assert_eq!(source.next_by_itself(Some(&aside)), None);
         let file = Source { place: SourcePlace::File("own.tle".into()), ..source.clone() };
@@ -239,10 +279,16 @@ mod tests {
             refresh: None,
         };
         let active = Source { refresh: Some(RefreshHours::from(6)), ..Source::celestrak("active") };
-        let settings = Settings { source: vec![active, file] };
+        let space_track = Source {
+            name: "Space-Track".to_owned(),
+            place: SourcePlace::SpaceTrack("op@example.org".to_owned()),
+            refresh: Some(RefreshHours::from(12)),
+        };
+        let settings = Settings { source: vec![active, space_track, file] };
         let text = toml::to_string(&settings).unwrap();
         assert!(text.contains("web = \"https://celestrak.org/"), "{text}");
         assert!(text.contains("refresh_hours = 6"), "{text}");
+        assert!(text.contains("space_track = \"op@example.org\""), "{text}");
         assert_eq!(toml::from_str::<Settings>(&text).unwrap(), settings);
     }
 }

@@ -82,7 +82,7 @@ use self::{
     reminders::Reminder,
     schedule::{Planned, Scheduler},
     source_tests::SourceTests,
-    sources::{Outcome, Places, Sources, Task},
+    sources::{Outcome, Passwords, Places, Sources, Task},
     uploads::Uploads,
 };
 pub use self::{
@@ -163,6 +163,7 @@ struct Engine {
     elements_job: Option<Job<Outcome>>,
     /// The station whose orders of sources the last reading applied.
     orders_of: Arc<Station>,
+    passwords: Option<Passwords>,
     /// When servers were last asked without a client.
     refreshed_at: Option<Timestamp>,
     older_sets: Option<Arc<OlderSets>>,
@@ -282,6 +283,7 @@ impl Engine {
         };
         let catalog = given.map_or(CatalogState::Loading, CatalogState::Ready);
         let upload_places = settings.upload_places.clone().or_else(uploads::Places::of_this_user);
+        let passwords = upload_places.as_ref().map(Passwords::new);
         let upload_runner =
             uploads::Runner::new(upload_places.clone(), clock.clone(), Arc::clone(&wake));
         let source_test_runner =
@@ -338,6 +340,7 @@ impl Engine {
             places,
             elements_job,
             orders_of: Arc::default(),
+            passwords,
             refreshed_at: None,
             older_sets: None,
             older_reading: older_sets::Reading::default(),

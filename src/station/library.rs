@@ -11,9 +11,11 @@ mod fetch;
 mod history;
 mod index;
 mod list;
+mod space_track;
 mod unfinished;
 
 use std::{
+    borrow::Cow,
     io,
     path::{Path, PathBuf},
 };
@@ -28,10 +30,12 @@ pub use self::{
     history::{History, OlderSet},
     index::IndexError,
     list::{SourceProblem, SourcesError, check_source, load_sources, save_sources},
+    space_track::{LOG_IN_PAUSE, PasswordOf, SPACE_TRACK_HOST, SpaceTrackAccess},
 };
 use self::{
-    fetch::{ServerAnswer, fetch, host},
+    fetch::{ServerAnswer, agent, fetch, host},
     index::{Index, Record},
+    space_track::Visit,
     unfinished::Unfinished,
 };
 use crate::{
@@ -54,6 +58,7 @@ pub fn element_files(folder: &Path) -> io::Result<Vec<PathBuf>> {
 pub fn server_of(source: &Source) -> Option<String> {
     match &source.place {
         SourcePlace::Web(url) => Some(host(url)),
+        SourcePlace::SpaceTrack(_) => Some(SPACE_TRACK_HOST.to_owned()),
         SourcePlace::File(_) | SourcePlace::Folder(_) => None,
     }
 }
@@ -70,6 +75,16 @@ pub struct Library {
     index: Index,
     limits: Limits,
     authorities: RootCerts,
+    space_track: Option<SpaceTrackAccess>,
+}
+
+/// Key of a source in the index; `None` for a source without a server.
+fn key(source: &Source) -> Option<Cow<'_, str>> {
+    match &source.place {
+        SourcePlace::Web(url) => Some(url.into()),
+        SourcePlace::SpaceTrack(user) => Some(space_track::key(user).into()),
+        SourcePlace::File(_) | SourcePlace::Folder(_) => None,
+    }
 }
 
 /// Folder for the elements of this user; `None` on a machine without a home.
@@ -81,7 +96,7 @@ impl Library {
     /// Opens the library in `folder`, which need not exist yet.
     pub fn open(folder: &Path, limits: Limits) -> Result<Self, IndexError> {
         let (folder, index) = (folder.to_owned(), Index::load(folder)?);
-        Ok(Self { folder, index, limits, authorities: RootCerts::WebPki })
+        Ok(Self { folder, index, limits, authorities: RootCerts::WebPki, space_track: None })
     }
 
     /// Trusts these certificate authorities, in DER, in place of the public ones.
@@ -89,6 +104,12 @@ impl Library {
     pub fn trusting_only(self, authorities: &[CertificateDer<'static>]) -> Self {
         let own = authorities.iter().map(|own| Certificate::from_der(own).to_owned());
         Self { authorities: own.into(), ..self }
+    }
+
+    /// Asks Space-Track with this access. Without it, sources of Space-Track are not asked.
+    #[must_use]
+    pub fn with_space_track(self, access: SpaceTrackAccess) -> Self {
+        Self { space_track: Some(access), ..self }
     }
 
     /// Reads all `sources` from disk, without asking a server.
@@ -120,9 +141,10 @@ impl Library {
 
     fn load_one(&self, source: &Source, catalog: &mut Catalog) -> SourceReport {
         let mut report = no_report(source);
-        if let SourcePlace::Web(url) = &source.place
-            && let Some(record) = self.index.get(url)
-        {
+        if let Some(record) = key(source).and_then(|key| self.index.get(&key)) {
+            if let SourcePlace::SpaceTrack(_) = source.place {
+                report.not_before = space_track::not_before(record);
+            }
             report.fetch_problem.clone_from(&record.problem);
             report.failures = record.failures;
             report.next_fetch = record.attempted_at.checked_add(FETCH_PAUSE).ok();
@@ -142,7 +164,7 @@ impl Library {
                     drop(file.bytes);
                     let newest = read.elements.iter().map(Elements::epoch).max();
                     report.newest_epoch = report.newest_epoch.max(newest);
-                    if !matches!(source.place, SourcePlace::Web(_)) {
+                    if !source.place.is_server() {
                         report.as_of = report.as_of.max(file.modified);
                     }
                     let objects = read.elements.len();
@@ -161,15 +183,16 @@ impl Library {
         match &source.place {
             SourcePlace::File(path) => Ok(vec![path.clone()]),
             SourcePlace::Folder(path) => element_files(path).map_err(|error| (path.clone(), error)),
-            SourcePlace::Web(url) => {
-                let kept = self.index.get(url).filter(|record| record.confirmed_at.is_some());
+            SourcePlace::Web(_) | SourcePlace::SpaceTrack(_) => {
+                let record = key(source).and_then(|key| self.index.get(&key));
+                let kept = record.filter(|record| record.confirmed_at.is_some());
                 Ok(kept.map(|record| self.folder.join(&record.file)).into_iter().collect())
             }
         }
     }
 
     /// Asks the servers of `sources` for new elements at `now`: every server that may be asked
-    /// again, or all if the operator demands it (`forced`). Returns the number of sources with
+    /// again, or all if the operator demands it (`forced`) and the server allows it. Returns the number of sources with
     /// new elements; [`Library::load`] then reports the result of each.
     ///
     /// A server that gives an answer other than 200 or 304, or none, is not asked for its
@@ -184,16 +207,18 @@ impl Library {
         let mut renewed = 0;
         let mut silent_hosts: Vec<String> = Vec::new();
         for source in sources {
-            let SourcePlace::Web(url) = &source.place else { continue };
-            let last = self.index.get(url).map(|record| record.attempted_at);
+            let (Some(key), Some(host)) = (key(source), server_of(source)) else { continue };
             if cancelled() {
                 break;
             }
-            let host = host(url);
-            if silent_hosts.contains(&host) || !may_fetch(last, now, forced) {
+            if silent_hosts.contains(&host) || !self.may_ask(source, &key, now, forced) {
                 continue;
             }
-            let problem = match self.refresh_one(&source.name, url, now) {
+            let asked = match &source.place {
+                SourcePlace::SpaceTrack(user) => self.refresh_space_track(source, user, now),
+                _ => self.refresh_one(&source.name, &key, now),
+            };
+            let problem = match asked {
                 Ok(is_new) => {
                     renewed += usize::from(is_new);
                     None
@@ -206,17 +231,67 @@ impl Library {
                     FetchProblem::Answer(_)
                         | FetchProblem::Unreachable(_)
                         | FetchProblem::Certificate(_)
+                        | FetchProblem::Refused(_)
+                        | FetchProblem::NoSession
                 )
             );
             if is_silent {
                 silent_hosts.push(host);
             }
-            let record = self.index.entry(url, &source.name, now);
+            let record = self.index.entry(&key, &source.name, now);
             record.failures = if problem.is_some() { record.failures.saturating_add(1) } else { 0 };
             record.problem = problem;
             self.index.save(&self.folder)?;
         }
         Ok(renewed)
+    }
+
+    /// The earliest time at which the server of `source` may be asked, if it sets a limit.
+    pub fn not_before(&self, source: &Source) -> Option<Timestamp> {
+        let SourcePlace::SpaceTrack(user) = &source.place else { return None };
+        self.index.get(&space_track::key(user)).and_then(space_track::not_before)
+    }
+
+    /// Returns `true` if the server of `source` may be asked at `now`. A limit of the server holds for
+    /// the operator too.
+    fn may_ask(&self, source: &Source, key: &str, now: Timestamp, forced: bool) -> bool {
+        let record = self.index.get(key);
+        let last = record.map(|record| record.attempted_at);
+        let is_allowed = match source.place {
+            SourcePlace::SpaceTrack(_) => {
+                // A clock that was set back must not block the source.
+                let record = record.filter(|record| record.attempted_at <= now);
+                let is_early = record.is_some() && self.not_before(source) > Some(now);
+                self.space_track.is_some() && !is_early
+            }
+            _ => true,
+        };
+        is_allowed && may_fetch(last, now, forced)
+    }
+
+    /// Asks Space-Track for the elements of the favourites.
+    ///
+    /// The answer replaces the stored one even if its newest epoch is older: it may be about other
+    /// favourites.
+    fn refresh_space_track(
+        &mut self,
+        source: &Source,
+        user: &str,
+        now: Timestamp,
+    ) -> Result<bool, FetchProblem> {
+        let Some(access) = self.space_track.clone() else { return Ok(false) };
+        let (limits, key) = (self.limits, space_track::key(user));
+        let agent = agent(access.server(), limits, &self.authorities)?;
+        let record = self.index.entry(&key, &source.name, now);
+        record.attempted_at = now;
+        let visit = Visit { access: &access, agent, limits };
+        let body = visit.run(user, || record.queried_at = Some(now))?;
+        newest_epoch(&body, now)?;
+        let path = self.folder.join(&record.file);
+        whole_file::replace_and_keep_old(&path, &body)
+            .map_err(|error| FetchProblem::Disk(error.to_string()))?;
+        record.confirmed_at = Some(now);
+        Ok(true)
     }
 
     /// Requests one source; returns whether something new came.
@@ -269,6 +344,7 @@ fn no_report(source: &Source) -> SourceReport {
         fetch_problem: None,
         failures: 0,
         next_fetch: None,
+        not_before: None,
         is_set_aside: false,
     }
 }

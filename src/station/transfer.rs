@@ -29,7 +29,7 @@ pub use folder::FolderError;
 pub use hash::{FileHash, NoHash};
 pub use host_key::{KeyVerdict, KnownHosts, KnownHostsError, OfferedKey};
 pub use kept::{KeptError, KeptFile, KeptFiles, Origin};
-pub use keyring::{Account, Keyring, KeyringError, MemoryKeyring, SystemKeyring};
+pub use keyring::{Account, Keyring, KeyringError, MemoryKeyring, SystemKeyring, TimedKeyring};
 pub use limits::{Interruption, Limits};
 pub use login::{Login, Proof, is_factory_password};
 pub use secrecy::SecretString;

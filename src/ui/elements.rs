@@ -17,6 +17,7 @@ mod selection;
 mod set_menu;
 mod sets;
 mod source_order;
+mod source_password;
 mod sources;
 mod table;
 pub(super) mod words;
@@ -56,6 +57,7 @@ pub struct ElementsState {
     /// `None` until the operator folds or unfolds them.
     sources_are_open: Option<bool>,
     refused_are_open: bool,
+    source_password: source_password::SourcePassword,
     /// The columns of the table that the operator has chosen.
     pub columns: ChosenColumns,
     inspector_is_open: bool,
@@ -128,6 +130,7 @@ pub fn show(
         state.taken.clear();
         show_main(ui, rest, rect.height(), model, lock, state, question, commands);
     }
+    state.source_password.show(ui, model, commands);
     if state.question != model.catalog_table.asked {
         commands.push(UiCommand::ShowCatalog(state.question.clone()));
     }

@@ -19,6 +19,7 @@ use azel::{
     orbit::{Source, SourcePlace},
     plan::{OnBoardPass, ProgramTrack, Target},
     record::{Peak, PeakChange, PeakOf},
+    secret::Secret,
     station::{AntennaId, LockOut, OffsetsOf, PassLimits, Priority, Station},
 };
 use jiff::Timestamp;
@@ -185,6 +186,11 @@ pub(super) fn commands_of_stations(
         C::ChangePeaks(..) => C::ChangePeaks(antenna, PeakChange::Added(peak)),
         C::UseSet(_) => C::UseSet(SetChoice::Newest { catalog_number: number }),
         C::RefreshSources { .. } => C::RefreshSources { names: Vec::new(), forced: false },
+        C::SetSourcePassword { .. } => C::SetSourcePassword {
+            name: "own".to_owned(),
+            secret: Secret::new("hunter2"),
+            keep: false,
+        },
         C::OpenedAlarms => C::OpenedAlarms,
         C::AcknowledgeAlarm(_) => C::AcknowledgeAlarm(1),
         C::AcknowledgeAlarms { .. } => C::AcknowledgeAlarms { newest: 1 },

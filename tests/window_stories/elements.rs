@@ -17,6 +17,7 @@ use azel::{
     orbit::{
         FetchProblem, FileReport, MergeSummary, RefreshHours, Source, SourcePlace, SourceReport,
     },
+    secret::Secret,
 };
 use egui::{Event, Key, Modifiers, Role};
 use egui_kittest::{
@@ -52,6 +53,7 @@ pub(crate) fn report(source: &Source, objects: usize) -> SourceReport {
         fetch_problem: None,
         failures: 0,
         next_fetch: None,
+        not_before: None,
         is_set_aside: false,
     }
 }
@@ -273,6 +275,71 @@ fn a_known_server_is_filled_in_and_a_plain_address_is_refused() {
             asked(&mut window),
             [UiCommand::Station(engine::Command::AddSource(Source::satnogs()))]
         );
+    }
+}
+
+/// Space-Track, whose server has no password.
+fn space_track() -> (Source, SourceReport) {
+    let source = Source {
+        name: "Space-Track".to_owned(),
+        place: SourcePlace::SpaceTrack("op@example.org".to_owned()),
+        refresh: None,
+    };
+    let next_fetch = Some(add_seconds(rig::now(), -HOUR_S));
+    let fetch_problem = Some(FetchProblem::NoPassword);
+    let report = SourceReport { fetch_problem, next_fetch, failures: 1, ..report(&source, 7) };
+    (source, report)
+}
+
+#[test]
+fn space_track_is_added_with_its_log_in_name() {
+    for size in rig::sizes() {
+        let mut window = view(size, vec![server(3.0)]);
+        click(&mut window, "Add a source");
+        window.get_by_role_and_label(Role::RadioButton, "Space-Track").click();
+        settle(&mut window);
+        write(&mut window, "Name", "Space-Track");
+        assert!(says(&window, "Cannot be added: it has no log-in name."));
+        write(&mut window, "Log-in", " op@example.org");
+        window.get_by_role_and_label(Role::Button, "Add source").scroll_to_me();
+        settle(&mut window);
+        click(&mut window, "Add source");
+        let wanted = engine::Command::AddSource(space_track().0);
+        assert_eq!(asked(&mut window), [UiCommand::Station(wanted)]);
+    }
+}
+
+#[test]
+fn a_missing_or_refused_password_is_told_and_entered_in_a_dialog() {
+    for size in rig::sizes() {
+        let mut window = view(size, vec![space_track()]);
+        assert!(says(&window, "No password is stored for this log-in. The previous elements stay"));
+        assert!(says(&window, "Choose Password in Elements to enter it."));
+        click(&mut window, "Password of Space-Track");
+        assert!(says(&window, "Password of op@example.org"));
+        window.event(Event::Text("hunter2".to_owned()));
+        settle(&mut window);
+        click(&mut window, "Log in (Enter)");
+        let wanted = engine::Command::SetSourcePassword {
+            name: "Space-Track".to_owned(),
+            secret: Secret::new("hunter2"),
+            keep: false,
+        };
+        assert_eq!(asked(&mut window), [UiCommand::Station(wanted)]);
+        assert!(!says(&window, "Password of op@example.org"), "the dialog is closed");
+
+        let set = |window: &mut Window, problem, not_before| {
+            let sources = Arc::make_mut(&mut window.state_mut().model.sources);
+            sources.reports[0].fetch_problem = problem;
+            sources.reports[0].not_before = not_before;
+            settle(window);
+        };
+        set(&mut window, Some(FetchProblem::LogIn), None);
+        assert!(says(&window, "The server refused the log-in."));
+        assert!(says(&window, "Azel does not try again by itself"));
+        assert!(!is_disabled(&window, "Fetch Space-Track"));
+        set(&mut window, None, Some(add_seconds(rig::now(), 0.5 * HOUR_S)));
+        assert!(is_disabled(&window, "Fetch Space-Track"));
     }
 }
 

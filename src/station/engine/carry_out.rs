@@ -9,7 +9,7 @@ use super::{
     handle::{By, Stopped},
     on_board,
     passes::{PassKey, PredictedPass},
-    sources::{self, SourceWork, Task},
+    sources::{self, SourceWork, Task, TypedPassword},
     uploads,
 };
 use jiff::Timestamp;
@@ -17,7 +17,9 @@ use jiff::Timestamp;
 use crate::{
     astro::time::seconds_between,
     driver,
+    orbit::SourcePlace,
     plan::ProgramTrack,
+    secret::Secret,
     station::{self, AntennaId, Station},
 };
 
@@ -139,6 +141,9 @@ impl Engine {
             }
             Command::RefreshSources { names, forced } => {
                 self.begin_elements(Task { ask: names, forced, ..Task::default() });
+            }
+            Command::SetSourcePassword { name, secret, keep } => {
+                self.set_source_password(name, secret, keep);
             }
             Command::OpenedAlarms => self.alarms.unopened = false,
             Command::AcknowledgeAlarm(id) => self.alarms.acknowledge(id, self.now),
@@ -353,12 +358,31 @@ impl Engine {
         }
     }
 
+    /// Takes a typed password, and asks the server of its source again.
+    fn set_source_password(&mut self, name: String, secret: Secret, is_kept: bool) {
+        let sources = &mut self.sources.list.iter();
+        let user = sources.find_map(|source| match &source.place {
+            SourcePlace::SpaceTrack(user) if source.name == name => Some(user.clone()),
+            _ => None,
+        });
+        // A secret that was written down on its way is empty, and must replace no password.
+        if let Some(user) = user.filter(|_| !secret.reveal().is_empty()) {
+            let typed = Some(TypedPassword { user, secret, is_kept });
+            self.begin_elements(Task { typed, ask: vec![name], forced: true, ..Task::default() });
+        }
+    }
+
     /// Starts reading the elements. One job at a time: two would write the same files.
     pub(super) fn begin_elements(&mut self, task: Task) {
         if self.elements_job.is_some() || self.sources.is_locked {
             return;
         }
-        let task = Task { orders: self.station.favourites.source_orders(), ..task };
+        let task = Task {
+            orders: self.station.favourites.source_orders(),
+            favourites: self.station.favourites.numbers(),
+            passwords: self.passwords.clone(),
+            ..task
+        };
         self.orders_of = Arc::clone(&self.station);
         let work = if task.ask.is_empty() { SourceWork::Reading } else { SourceWork::Asking };
         let in_use = match &self.catalog {

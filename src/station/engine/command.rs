@@ -20,6 +20,7 @@ use crate::{
     driver::{self, Effect, Row},
     orbit::{RefreshHours, Source},
     record::PeakChange,
+    secret::Secret,
     station::{
         Antenna, AntennaId, Frequency, OffsetsOf, PassLimits, Priority, Scheduling, Station, Take,
     },
@@ -134,6 +135,14 @@ pub enum Command {
         /// Ask even if they were asked lately.
         forced: bool,
     },
+    /// Log in at the server of this source with this password, and ask it.
+    SetSourcePassword {
+        /// Name of the source.
+        name: String,
+        secret: Secret,
+        /// Keep it in the keyring of the operating system.
+        keep: bool,
+    },
     /// The operator has opened the alarm list.
     OpenedAlarms,
     /// The operator has seen this alarm.
@@ -217,6 +226,7 @@ impl Command {
             | Self::LookAtRecord(_)
             | Self::UseSet(_)
             | Self::RefreshSources { .. }
+            | Self::SetSourcePassword { .. }
             | Self::OpenedAlarms
             | Self::AcknowledgeAlarm(_)
             | Self::AcknowledgeAlarms { .. }
@@ -277,6 +287,7 @@ impl Command {
             | Self::ChangePeaks(..)
             | Self::UseSet(_)
             | Self::RefreshSources { .. }
+            | Self::SetSourcePassword { .. }
             | Self::AcknowledgeAlarm(_)
             | Self::AcknowledgeAlarms { .. }
             | Self::ShelveAlarm { .. }

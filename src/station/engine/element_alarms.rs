@@ -6,7 +6,11 @@ use std::collections::BTreeSet;
 use jiff::Timestamp;
 
 use super::{CatalogState, Engine, alarms::AlarmKind};
-use crate::{astro::time::DAY_S, orbit::Catalog, plan::schedule::Entry};
+use crate::{
+    astro::time::DAY_S,
+    orbit::{Catalog, SourceReport},
+    plan::schedule::Entry,
+};
 
 /// A source raises an alarm after this many requests in a row that brought nothing.
 const FAILURES: u32 = 2;
@@ -16,15 +20,17 @@ const MAX_AGE_DAYS: f64 = 7.0;
 impl Engine {
     /// Raises an alarm for each source that keeps failing, and clears the alarm once a request succeeds.
     pub(super) fn watch_sources(&mut self) {
+        let is_failing =
+            |report: &SourceReport| report.failures >= FAILURES || report.awaits_operator();
         let failing = |name: &str| {
             let reports = self.sources.reports.iter();
-            reports.into_iter().any(|report| report.source == name && report.failures >= FAILURES)
+            reports.into_iter().any(|report| report.source == name && is_failing(report))
         };
         self.alarms.clear(None, self.now, |kind| match kind {
             AlarmKind::SourceFails { source, .. } => !failing(source),
             _ => false,
         });
-        for report in self.sources.reports.iter().filter(|report| report.failures >= FAILURES) {
+        for report in self.sources.reports.iter().filter(|report| is_failing(report)) {
             let kind =
                 AlarmKind::SourceFails { source: report.source.clone(), as_of: report.as_of };
             self.alarms.raise(None, kind, self.now);
@@ -77,22 +83,32 @@ mod tests {
     use crate::{
         astro::time::add_seconds,
         engine::automatic::tests::station,
-        orbit::{SourceReport, bundled},
+        orbit::{FetchProblem, bundled},
     };
 
     #[test]
     fn a_source_alarm_ends_with_a_successful_request() {
         let folder = tempfile::tempdir().unwrap();
         let (mut engine, _) = station(folder.path());
-        for (failures, wanted) in [(0, false), (1, false), (2, true), (5, true), (0, false)] {
+        let refused = Some(FetchProblem::LogIn);
+        for (failures, fetch_problem, wanted) in [
+            (0, None, false),
+            (1, None, false),
+            (2, None, true),
+            (5, None, true),
+            (0, None, false),
+            (1, refused, true),
+            (0, None, false),
+        ] {
             engine.sources.reports = vec![SourceReport {
                 source: "server".to_owned(),
                 files: Vec::new(),
                 as_of: None,
                 newest_epoch: None,
-                fetch_problem: None,
+                fetch_problem,
                 failures,
                 next_fetch: None,
+                not_before: None,
                 is_set_aside: false,
             }];
             engine.watch_sources();

@@ -4,22 +4,31 @@
 use std::{
     path::{Path, PathBuf},
     sync::Arc,
+    time::Duration,
 };
 
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
-use super::older_sets::{SetChoice, use_older_sets};
+use super::{
+    older_sets::{SetChoice, use_older_sets},
+    uploads,
+};
 use crate::job::Job;
 use crate::{
     job::Wake,
     library::{
-        self, History, IndexError, Library, Limits, OlderSet, check_source, load_sources,
-        read_element_file, save_sources,
+        self, History, IndexError, LOG_IN_PAUSE, Library, Limits, OlderSet, SPACE_TRACK_HOST,
+        SpaceTrackAccess, check_source, load_sources, read_element_file, save_sources,
     },
-    orbit::{Catalog, Source, SourceOrders, SourcePlace, SourceReport, bundled},
+    orbit::{Catalog, FetchProblem, Source, SourceOrders, SourcePlace, SourceReport, bundled},
+    secret::Secret,
+    transfer::{Account, Keyring as _, MemoryKeyring, TimedKeyring},
     whole_file,
 };
+
+/// Time limit for an answer of the keyring. A locked one may ask the operator, who may be away.
+const KEYRING_LIMIT: Duration = Duration::from_secs(20);
 
 /// The sources as last read.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
@@ -118,8 +127,66 @@ pub(super) struct Task {
     pub(super) set: Option<SetChoice>,
     /// Sources that satellites prefer.
     pub(super) orders: SourceOrders,
+    /// The favourites, for servers that are asked for them alone.
+    pub(super) favourites: Vec<u32>,
+    pub(super) passwords: Option<Passwords>,
+    /// A password that the operator has typed.
+    pub(super) typed: Option<TypedPassword>,
     /// Ask even if they were asked lately.
     pub(super) forced: bool,
+}
+
+/// A typed password, and the log-in name that it belongs to.
+#[derive(Debug)]
+pub(super) struct TypedPassword {
+    pub(super) user: String,
+    pub(super) secret: Secret,
+    /// Keep it in the keyring of the operating system.
+    pub(super) is_kept: bool,
+}
+
+/// Passwords for servers: those of this session, and those in the keyring.
+#[derive(Debug, Clone)]
+pub(super) struct Passwords {
+    keyring: TimedKeyring,
+    session: Arc<MemoryKeyring>,
+}
+
+impl Passwords {
+    pub(super) fn new(places: &uploads::Places) -> Self {
+        let keyring = TimedKeyring::new(Arc::clone(&places.keyring), KEYRING_LIMIT);
+        Self { keyring, session: Arc::clone(&places.session) }
+    }
+
+    fn get(&self, user: &str) -> Result<Secret, FetchProblem> {
+        let account = account(user);
+        if let Ok(Some(secret)) = self.session.get(&account) {
+            return Ok(secret.into());
+        }
+        match self.keyring.get(account) {
+            Ok(Some(secret)) => Ok(secret.into()),
+            Ok(None) => Err(FetchProblem::NoPassword),
+            Err(error) => Err(FetchProblem::Keyring(error.to_string())),
+        }
+    }
+
+    /// Uses the password from now on. The error says why the keyring did not store it.
+    fn take(&self, typed: &TypedPassword) -> Result<(), String> {
+        let (account, secret) = (account(&typed.user), typed.secret.inner());
+        // The keyring in memory never fails.
+        let _ = self.session.set(&account, secret);
+        if !typed.is_kept {
+            return Ok(());
+        }
+        self.keyring
+            .set(account, secret.clone())
+            .map_err(|error| format!("the password is not kept: {error}"))
+    }
+}
+
+/// The account of a log-in name at Space-Track.
+fn account(user: &str) -> Account {
+    Account { user: user.to_owned(), address: format!("{SPACE_TRACK_HOST}:443") }
 }
 
 /// Result of reading.
@@ -230,6 +297,9 @@ fn carry_out(
             None => sources.problems.push("this user has no folder for settings".to_owned()),
         }
     }
+    if let Some((typed, passwords)) = task.typed.as_ref().zip(task.passwords.as_ref()) {
+        sources.problems.extend(passwords.take(typed).err());
+    }
     // Only the list on disk counts, whatever was requested.
     match places.list.as_deref().map_or(Ok(Vec::new()), load_sources) {
         Ok(list) => sources.list = list,
@@ -263,11 +333,39 @@ fn read(
     let folder = places.library.as_deref().ok_or("this user has no folder for data")?;
     let in_words = |error: IndexError| error.to_string();
     let mut library = Library::open(folder, Limits::default()).map_err(in_words)?;
+    if let Some(passwords) = task.passwords.clone() {
+        let password_of = Arc::new(move |user: &str| passwords.get(user));
+        let access = SpaceTrackAccess::new(task.favourites.clone(), password_of);
+        library = library.with_space_track(access);
+    }
     let asked: Vec<Source> =
         list.iter().filter(|source| task.ask.contains(&source.name)).cloned().collect();
+    let now = match task.typed {
+        Some(_) => after_pause(&library, &asked, now, cancelled),
+        None => now,
+    };
     library.refresh(&asked, now, task.forced, cancelled).map_err(in_words)?;
     library.read_again(list, &task.ask);
     Ok(library.load_into(list, catalog))
+}
+
+/// Waits until the servers of `asked` take another log-in, and returns the time then: a password may
+/// be typed within seconds after a refused one. Does not wait for the end of longer limits.
+fn after_pause(
+    library: &Library,
+    asked: &[Source],
+    now: Timestamp,
+    cancelled: &dyn Fn() -> bool,
+) -> Timestamp {
+    let is_near = |at: &Timestamp| *at > now && at.duration_since(now) <= LOG_IN_PAUSE;
+    let times = asked.iter().filter_map(|source| library.not_before(source)).filter(is_near);
+    let Some(at) = times.max() else { return now };
+    let pause = Duration::try_from(at.duration_since(now)).unwrap_or_default();
+    let start = std::time::Instant::now();
+    while start.elapsed() < pause && !cancelled() {
+        std::thread::sleep(Duration::from_millis(50));
+    }
+    at
 }
 
 #[cfg(test)]
@@ -275,7 +373,10 @@ mod tests {
     use std::fs;
 
     use super::*;
-    use crate::orbit::{RefreshHours, write_omm_json};
+    use crate::{
+        orbit::{RefreshHours, write_omm_json},
+        transfer::{Keyring, KeyringError, SecretString},
+    };
 
     const ISS: u32 = 25_544;
 
@@ -375,6 +476,76 @@ mod tests {
         assert_eq!(sources.due_by_themselves(now), ["weather"]);
         sources.list[1].refresh = None;
         assert_eq!(sources.due_by_themselves(now), [""; 0]);
+    }
+
+    fn passwords(keyring: Arc<dyn Keyring>) -> Passwords {
+        let keyring = TimedKeyring::new(keyring, Duration::from_millis(50));
+        Passwords { keyring, session: Arc::default() }
+    }
+
+    fn space_track() -> Source {
+        let place = SourcePlace::SpaceTrack("op".to_owned());
+        Source { name: "Space-Track".to_owned(), place, refresh: None }
+    }
+
+    #[test]
+    fn a_password_that_is_missing_or_locked_is_told_and_no_server_is_asked() {
+        /// A keyring that waits for its operator for longer than anybody asks.
+        struct Locked;
+
+        impl Keyring for Locked {
+            fn get(&self, _: &Account) -> Result<Option<SecretString>, KeyringError> {
+                std::thread::sleep(Duration::from_secs(5));
+                Ok(None)
+            }
+
+            fn set(&self, _: &Account, _: &SecretString) -> Result<(), KeyringError> {
+                Ok(())
+            }
+
+            fn remove(&self, _: &Account) -> Result<(), KeyringError> {
+                Ok(())
+            }
+        }
+
+        let locked = FetchProblem::Keyring(KeyringError::NoAnswer.to_string());
+        let keyrings: [(Arc<dyn Keyring>, _); 2] = [
+            (Arc::new(MemoryKeyring::default()), FetchProblem::NoPassword),
+            (Arc::new(Locked), locked),
+        ];
+        for (keyring, problem) in keyrings {
+            let fixture = Fixture::new();
+            let task = |favourites| Task {
+                list: Some(vec![space_track(), fixture.newer_file()]),
+                ask: vec!["Space-Track".to_owned()],
+                favourites,
+                passwords: Some(passwords(Arc::clone(&keyring))),
+                forced: true,
+                ..Task::default()
+            };
+            let outcome = fixture.run(&task(vec![ISS]));
+            assert_eq!(outcome.sources.reports[0].fetch_problem, Some(problem));
+            assert_eq!(iss_epoch(&outcome.catalog), own_epoch(), "the other source is read");
+        }
+    }
+
+    #[test]
+    fn a_typed_password_is_used_and_kept_only_if_the_operator_says_so() {
+        for is_kept in [false, true] {
+            let keyring = Arc::new(MemoryKeyring::default());
+            let passwords = passwords(Arc::clone(&keyring) as Arc<dyn Keyring>);
+            assert_eq!(passwords.get("op"), Err(FetchProblem::NoPassword));
+            let secret = Secret::new("hunter2");
+            let typed = TypedPassword { user: "op".to_owned(), secret: secret.clone(), is_kept };
+            let task =
+                Task { typed: Some(typed), passwords: Some(passwords.clone()), ..Task::default() };
+            let outcome = Fixture::new().run(&task);
+            assert_eq!(outcome.sources.problems, [""; 0]);
+            assert_eq!(passwords.get("op"), Ok(secret));
+            assert_eq!(passwords.get("other"), Err(FetchProblem::NoPassword));
+            assert_eq!(keyring.get(&account("op")).unwrap().is_some(), is_kept);
+            assert!(!format!("{task:?}").contains("hunter2"));
+        }
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use std::{io, net::IpAddr, time::Duration};
 
 use ureq::{
-    Agent,
+    Agent, Body,
     http::{Response, Uri, header},
     tls::{RootCerts, TlsConfig},
 };
@@ -49,19 +49,7 @@ pub(super) fn fetch(
     limits: Limits,
     authorities: &RootCerts,
 ) -> Result<ServerAnswer, FetchProblem> {
-    let is_local = check(url)?;
-    let mut config = Agent::config_builder()
-        .https_only(!is_local)
-        .http_status_as_error(false)
-        .max_redirects(0)
-        .max_redirects_will_error(false)
-        .timeout_global(Some(limits.timeout))
-        .tls_config(TlsConfig::builder().root_certs(authorities.clone()).build())
-        .user_agent(concat!("azel/", env!("CARGO_PKG_VERSION")));
-    if is_local {
-        config = config.proxy(None);
-    }
-    let mut request = Agent::from(config.build()).get(url);
+    let mut request = agent(url, limits, authorities)?.get(url);
     for (name, value) in [
         (header::IF_NONE_MATCH, known.and_then(|known| known.etag.as_deref())),
         (header::IF_MODIFIED_SINCE, known.and_then(|known| known.last_modified.as_deref())),
@@ -81,19 +69,43 @@ pub(super) fn fetch(
         Some(value.to_owned())
     };
     let (etag, last_modified) = (mark(header::ETAG), mark(header::LAST_MODIFIED));
-    // Unpacked bytes count: a small answer may unpack to anything.
-    let body =
-        read_limited(response.into_body().into_reader(), limits.bytes).map_err(
-            |error| match error.kind() {
-                io::ErrorKind::FileTooLarge => FetchProblem::TooLarge(limits.bytes),
-                _ => FetchProblem::Unreachable(error.to_string()),
-            },
-        )?;
+    let body = body_of(response, limits)?;
     Ok(ServerAnswer::New { body, etag, last_modified })
 }
 
+/// A client for requests to the server of `url`, which must be allowed.
+pub(super) fn agent(
+    url: &str,
+    limits: Limits,
+    authorities: &RootCerts,
+) -> Result<Agent, FetchProblem> {
+    let is_local = check(url)?;
+    let mut config = Agent::config_builder()
+        .https_only(!is_local)
+        .http_status_as_error(false)
+        .max_redirects(0)
+        .max_redirects_will_error(false)
+        .timeout_global(Some(limits.timeout))
+        .tls_config(TlsConfig::builder().root_certs(authorities.clone()).build())
+        .user_agent(concat!("azel/", env!("CARGO_PKG_VERSION")));
+    if is_local {
+        config = config.proxy(None);
+    }
+    Ok(Agent::from(config.build()))
+}
+
+/// The unpacked body of an answer. Unpacked bytes count: a small answer may unpack to anything.
+pub(super) fn body_of(response: Response<Body>, limits: Limits) -> Result<Vec<u8>, FetchProblem> {
+    read_limited(response.into_body().into_reader(), limits.bytes).map_err(|error| {
+        match error.kind() {
+            io::ErrorKind::FileTooLarge => FetchProblem::TooLarge(limits.bytes),
+            _ => FetchProblem::Unreachable(error.to_string()),
+        }
+    })
+}
+
 /// Reason why there is no answer.
-fn unanswered(error: &ureq::Error) -> FetchProblem {
+pub(super) fn unanswered(error: &ureq::Error) -> FetchProblem {
     let cause = match error {
         ureq::Error::Rustls(error) => Some(error),
         ureq::Error::Io(error) => error.get_ref().and_then(|inner| inner.downcast_ref()),

@@ -32,6 +32,9 @@ pub(super) struct Record {
     pub(super) file: String,
     /// Time of the last request.
     pub(super) attempted_at: Timestamp,
+    /// Time of the last query of elements, for servers that limit queries.
+    #[serde(default)]
+    pub(super) queried_at: Option<Timestamp>,
     /// Time at which the server last sent this content, or confirmed it as current.
     pub(super) confirmed_at: Option<Timestamp>,
     /// Entity tag of the content.
@@ -115,6 +118,7 @@ impl Index {
         self.address.entry(url.to_owned()).or_insert(Record {
             file,
             attempted_at: now,
+            queried_at: None,
             confirmed_at: None,
             etag: None,
             last_modified: None,

@@ -30,6 +30,11 @@ pub enum SourceProblem {
     /// Not an `https` address, or one with a user name in it.
     #[error("the address is not a plain https address")]
     Address,
+    #[error("it has no log-in name")]
+    NoLogIn,
+    /// Two sources would share one account and its limits.
+    #[error("another source has this log-in")]
+    LogInTaken,
 }
 
 /// Reason why the list of sources cannot be used or written. The file stays unchanged.
@@ -62,6 +67,10 @@ pub fn check_source(source: &Source, others: &[Source]) -> Result<(), SourceProb
     match &source.place {
         SourcePlace::File(path) | SourcePlace::Folder(path) if path.is_relative() => {
             Err(SourceProblem::RelativePath)
+        }
+        SourcePlace::SpaceTrack(user) if user.trim().is_empty() => Err(SourceProblem::NoLogIn),
+        SourcePlace::SpaceTrack(_) if others.iter().any(|other| other.place == source.place) => {
+            Err(SourceProblem::LogInTaken)
         }
         SourcePlace::Web(url) if fetch::check(url).is_err() => Err(SourceProblem::Address),
         _ => Ok(()),

@@ -3,7 +3,13 @@
 use std::{
     collections::BTreeMap,
     fmt,
-    sync::{Mutex, PoisonError},
+    sync::{
+        Arc, Mutex, PoisonError,
+        atomic::{AtomicBool, Ordering},
+        mpsc,
+    },
+    thread,
+    time::Duration,
 };
 
 use keyring::Error;
@@ -36,6 +42,9 @@ pub enum KeyringError {
     /// The keyring refused, for instance because it is locked.
     #[error("the keyring refused ({0}); unlock it, or type the password")]
     Refused(String),
+    /// The keyring waits for the operator to unlock it.
+    #[error("the keyring does not answer; unlock it, or type the password")]
+    NoAnswer,
 }
 
 /// Store of passwords. Calls may wait for the operator to unlock it: make them on a worker
@@ -47,6 +56,66 @@ pub trait Keyring: Send + Sync {
     fn set(&self, account: &Account, secret: &SecretString) -> Result<(), KeyringError>;
     /// Removes the secret of `account`, if one is stored.
     fn remove(&self, account: &Account) -> Result<(), KeyringError>;
+}
+
+/// A keyring that is asked on a thread of its own with a time limit, so that a locked keyring
+/// blocks nobody. At most one thread waits for it at a time.
+#[derive(Clone)]
+pub struct TimedKeyring {
+    keyring: Arc<dyn Keyring>,
+    is_asked: Arc<AtomicBool>,
+    limit: Duration,
+}
+
+impl TimedKeyring {
+    pub fn new(keyring: Arc<dyn Keyring>, limit: Duration) -> Self {
+        Self { keyring, is_asked: Arc::default(), limit }
+    }
+
+    /// Returns the secret of `account`, if one is stored.
+    pub fn get(&self, account: Account) -> Result<Option<SecretString>, KeyringError> {
+        self.ask(move |keyring| keyring.get(&account))
+    }
+
+    /// Stores the secret of `account` in place of the previous one.
+    pub fn set(&self, account: Account, secret: SecretString) -> Result<(), KeyringError> {
+        self.ask(move |keyring| keyring.set(&account, &secret))
+    }
+
+    fn ask<T: Send + 'static>(
+        &self,
+        question: impl FnOnce(&dyn Keyring) -> Result<T, KeyringError> + Send + 'static,
+    ) -> Result<T, KeyringError> {
+        if self.is_asked.swap(true, Ordering::AcqRel) {
+            return Err(KeyringError::NoAnswer);
+        }
+        let (keyring, is_asked) = (Arc::clone(&self.keyring), Free(Arc::clone(&self.is_asked)));
+        let (send, answer) = mpsc::sync_channel(1);
+        let ask = move || {
+            let answer = question(&*keyring);
+            drop(is_asked);
+            // Nobody waits any more after the time limit.
+            let _ = send.send(answer);
+        };
+        let started = thread::Builder::new().name("azel-keyring".to_owned()).spawn(ask);
+        started.map_err(|error| KeyringError::Missing(error.to_string()))?;
+        answer.recv_timeout(self.limit).unwrap_or(Err(KeyringError::NoAnswer))
+    }
+}
+
+impl fmt::Debug for TimedKeyring {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("TimedKeyring").field("limit", &self.limit).finish_non_exhaustive()
+    }
+}
+
+/// Clears the mark when the keyring has answered, or the thread has ended otherwise.
+struct Free(Arc<AtomicBool>);
+
+impl Drop for Free {
+    fn drop(&mut self) {
+        self.0.store(false, Ordering::Release);
+    }
 }
 
 /// Keyring of the operating system: Secret Service, Keychain or Credential Manager.
@@ -140,6 +209,50 @@ mod tests {
         keyring.remove(&account).unwrap();
         keyring.remove(&account).unwrap();
         assert!(keyring.get(&account).unwrap().is_none());
+    }
+
+    /// A keyring that answers once its lock is free.
+    struct Locked(Arc<Mutex<()>>);
+
+    impl Keyring for Locked {
+        fn get(&self, _: &Account) -> Result<Option<SecretString>, KeyringError> {
+            drop(self.0.lock());
+            Ok(Some("hunter2".into()))
+        }
+
+        fn set(&self, _: &Account, _: &SecretString) -> Result<(), KeyringError> {
+            drop(self.0.lock());
+            Ok(())
+        }
+
+        fn remove(&self, _: &Account) -> Result<(), KeyringError> {
+            Ok(())
+        }
+    }
+
+    #[test]
+    fn a_locked_keyring_blocks_nobody_and_gets_one_thread() {
+        let lock = Arc::new(Mutex::new(()));
+        let locked = lock.lock().unwrap();
+        let keyring =
+            TimedKeyring::new(Arc::new(Locked(Arc::clone(&lock))), Duration::from_millis(50));
+        let account = Account { user: "op".to_owned(), address: "server:443".to_owned() };
+        for _ in 0..3 {
+            let answer = keyring.get(account.clone());
+            assert!(matches!(answer, Err(KeyringError::NoAnswer)));
+        }
+        // Held by the keyring and by the one thread that waits.
+        assert_eq!(Arc::strong_count(&keyring.is_asked), 2);
+        drop(locked);
+        let waits = |keyring: &TimedKeyring| keyring.is_asked.load(Ordering::Acquire);
+        for _ in 0..1000 {
+            if !waits(&keyring) {
+                break;
+            }
+            thread::sleep(Duration::from_millis(5));
+        }
+        let patient = TimedKeyring { limit: Duration::from_mins(1), ..keyring };
+        assert_eq!(patient.get(account).unwrap().unwrap().expose_secret(), "hunter2");
     }
 
     #[test]

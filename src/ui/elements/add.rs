@@ -37,6 +37,7 @@ enum Kind {
     Web,
     File,
     Folder,
+    SpaceTrack,
 }
 
 impl AddState {
@@ -46,6 +47,7 @@ impl AddState {
             Kind::Web => SourcePlace::Web(place.to_owned()),
             Kind::File => SourcePlace::File(PathBuf::from(place)),
             Kind::Folder => SourcePlace::Folder(PathBuf::from(place)),
+            Kind::SpaceTrack => SourcePlace::SpaceTrack(place.to_owned()),
         };
         Source { name: self.name.trim().to_owned(), place, refresh: None }
     }
@@ -78,9 +80,12 @@ pub(in crate::ui) fn show(
             ui.label(RichText::new(words).font(text::body()).color(t.t2));
         });
         ui.horizontal(|ui| {
-            for (kind, word) in
-                [(Kind::Web, "Server"), (Kind::File, "File"), (Kind::Folder, "Folder")]
-            {
+            for (kind, word) in [
+                (Kind::Web, "Server"),
+                (Kind::File, "File"),
+                (Kind::Folder, "Folder"),
+                (Kind::SpaceTrack, "Space-Track"),
+            ] {
                 radio::show(ui, &mut state.kind, kind, word);
             }
         });
@@ -91,9 +96,15 @@ pub(in crate::ui) fn show(
             Kind::Web => ("Address", "https://…"),
             Kind::File => ("Path", "/… or C:\\…"),
             Kind::Folder => ("Path", "/… or C:\\…, all element files in it"),
+            Kind::SpaceTrack => ("Log-in", "the name of your account at space-track.org"),
         };
         field(ui, ("Name", "also the name of the group"), NAME, &mut state.name);
         field(ui, place, f32::INFINITY, &mut state.place);
+        if state.kind == Kind::SpaceTrack {
+            let words =
+                "Azel asks for your favourites. After Add, enter the password with Password.";
+            ui.label(RichText::new(words).font(text::small()).color(t.t2));
+        }
         let source = state.source();
         let checked = check_source(&source, &sources.list);
         let can = checked.is_ok() && sources.is_free();

@@ -7,7 +7,7 @@ use egui::{
     vec2,
 };
 
-use super::{ElementsState, PADDING, words};
+use super::{ElementsState, PADDING, source_password::SourcePassword, words};
 use crate::{
     astro::time::seconds_between,
     engine::{self, CatalogState, passes::ListedSatellite},
@@ -38,6 +38,7 @@ const WIDTH: f32 = 1024.0;
 /// Ends of the columns.
 const NAME: f32 = 38.0;
 const WHERE: f32 = 196.0;
+const PASSWORD: f32 = 308.0;
 const STATE: f32 = 384.0;
 const NEWEST: f32 = 670.0;
 const OBJECTS: f32 = 744.0;
@@ -90,7 +91,7 @@ pub(super) fn show(
                 let (_, place) = ui.allocate_space(vec2(body.width(), ROW));
                 let report = model.sources.reports.get(index);
                 let row = Row { place, source, report, in_use: count(&in_use, &source.name) };
-                row.show(ui, model, question, commands);
+                row.show(ui, model, &mut state.source_password, question, commands);
             }
             let (_, place) = ui.allocate_space(vec2(body.width(), ROW));
             bundled(ui, place, count(&in_use, BUNDLED_SOURCE), model);
@@ -215,12 +216,13 @@ impl Row<'_> {
         &self,
         ui: &mut Ui,
         model: &Model,
+        password: &mut SourcePassword,
         question: &mut Option<Question>,
         commands: &mut Vec<UiCommand>,
     ) {
         let (now, source, report) = (model.now, self.source, self.report);
         let icon = match source.place {
-            SourcePlace::Web(_) => Icon::Server,
+            SourcePlace::Web(_) | SourcePlace::SpaceTrack(_) => Icon::Server,
             SourcePlace::File(_) => Icon::File,
             SourcePlace::Folder(_) => Icon::Folder,
         };
@@ -231,6 +233,7 @@ impl Row<'_> {
             icon,
             name: &source.name,
             place: &words::place(source),
+            place_end: if has_password(source) { PASSWORD } else { STATE },
             state: words::state(source, report, now),
             newest: report.and_then(|report| report.newest_epoch),
             objects: report.map_or(0, SourceReport::objects),
@@ -240,7 +243,20 @@ impl Row<'_> {
         };
         let label = cells.show(ui, self.place, &source.name, &spoken, model);
         label.on_hover_text(format!("{}\n{}", words::place(source), sentences.join("\n")));
+        if has_password(source) {
+            self.password(ui, words::sources_lock(model), password);
+        }
         self.buttons(ui, model, question, commands);
+    }
+
+    /// Shows the button that opens the dialog for the password.
+    fn password(&self, ui: &Ui, lock: Option<&str>, password: &mut SourcePassword) {
+        let room = between(self.place, PASSWORD, STATE - 8.0);
+        let place = Rect::from_center_size(room.center(), vec2(room.width(), 20.0));
+        let spoken = format!("Password of {}", self.source.name);
+        if small_button(ui, place, lock, "Password", &spoken) {
+            password.open(self.source);
+        }
     }
 
     fn buttons(
@@ -258,14 +274,16 @@ impl Row<'_> {
             let min = pos2(self.place.left() + x * scale, self.place.center().y - 10.0);
             Rect::from_min_size(min, vec2(width, 20.0))
         };
-        if matches!(self.source.place, SourcePlace::Web(_)) {
+        if self.source.place.is_server() {
             self.refresh(ui, lock, commands);
         }
         let (word, spoken) = match self.source.place {
-            SourcePlace::Web(_) => ("Fetch", format!("Fetch {name}")),
+            SourcePlace::Web(_) | SourcePlace::SpaceTrack(_) => ("Fetch", format!("Fetch {name}")),
             SourcePlace::File(_) | SourcePlace::Folder(_) => ("Read", format!("Read {name} again")),
         };
-        if small_button(ui, at(ASK, 48.0), lock, word, &spoken) {
+        let pause = words::pause(self.report, model.now);
+        let fetch_lock = lock.or(pause.as_deref());
+        if small_button(ui, at(ASK, 48.0), fetch_lock, word, &spoken) {
             let again = words::ask_again(name, self.report, model.now);
             let forced = again.is_some();
             let command = UiCommand::Station(engine::Command::RefreshSources {
@@ -334,6 +352,8 @@ struct Cells<'a> {
     icon: Icon,
     name: &'a str,
     place: &'a str,
+    /// Where the place ends in the layout.
+    place_end: f32,
     state: (Tone, String),
     newest: Option<jiff::Timestamp>,
     objects: usize,
@@ -357,7 +377,7 @@ impl Cells<'_> {
             paint::text_in(ui, room, Align2::RIGHT_CENTER, words, text::small(), colour)
         };
         left(NAME, WHERE, self.name, text::body_medium(), t.t1);
-        left(WHERE, STATE, self.place, text::small(), t.t2);
+        left(WHERE, self.place_end, self.place, text::small(), t.t2);
         let (tone, words) = &self.state;
         let (mark, colour) = look(*tone, ui);
         let at = between(row, STATE, WIDTH).left() + 6.0;
@@ -392,6 +412,7 @@ fn bundled(ui: &Ui, row: Rect, in_use: usize, model: &Model) {
         icon: Icon::Package,
         name: BUNDLED_SOURCE,
         place: "comes with Azel",
+        place_end: STATE,
         state: (Tone::Plain, "not fetched".to_owned()),
         newest: Some(BUNDLED_NEWEST),
         objects,
@@ -401,6 +422,11 @@ fn bundled(ui: &Ui, row: Rect, in_use: usize, model: &Model) {
     };
     let spoken = format!("{BUNDLED_SOURCE}, comes with Azel, {}", words::objects(objects));
     cells.show(ui, row, BUNDLED_SOURCE, &spoken, model);
+}
+
+/// Returns `true` if the server of the source takes a password.
+fn has_password(source: &Source) -> bool {
+    matches!(source.place, SourcePlace::SpaceTrack(_))
 }
 
 fn small_button(ui: &Ui, place: Rect, lock: Option<&str>, word: &str, name: &str) -> bool {

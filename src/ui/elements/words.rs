@@ -12,8 +12,8 @@ use crate::{
         catalog_table::{Among, NEXT_PASSES_H, Question},
     },
     orbit::{
-        Elements, FETCH_PAUSE, Heights, RefreshHours, Source, SourcePlace, SourceReport, tle_lines,
-        write_omm_json,
+        Elements, FETCH_PAUSE, FetchProblem, Heights, RefreshHours, Source, SourcePlace,
+        SourceReport, tle_lines, write_omm_json,
     },
     station::Priority,
     ui::{
@@ -152,6 +152,7 @@ pub(super) fn place(source: &Source) -> String {
     match &source.place {
         SourcePlace::File(path) | SourcePlace::Folder(path) => path.display().to_string(),
         SourcePlace::Web(url) => url.strip_prefix("https://").unwrap_or(url).to_owned(),
+        SourcePlace::SpaceTrack(user) => format!("space-track.org as {user}"),
     }
 }
 
@@ -174,7 +175,7 @@ pub(super) fn state(
             (Tone::Caution, format!("{when}, {} of {all} refused", report.refused()))
         }
         (None, _) if when.is_empty() => (Tone::Good, "read".to_owned()),
-        (None, _) if matches!(source.place, SourcePlace::Web(_)) => (Tone::Good, when),
+        (None, _) if source.place.is_server() => (Tone::Good, when),
         (None, _) => (Tone::Good, format!("changed {when}")),
     }
 }
@@ -213,15 +214,42 @@ pub(in crate::ui) fn sentences(
     if let Some(problem) = &report.fetch_problem {
         let stays = if report.objects() > 0 { " The previous elements stay in use." } else { "" };
         lines.push((Tone::Bad, format!("{}{stays}", sentence(&problem.to_string()))));
+        lines.extend(advice(problem).map(|words| (Tone::Plain, words.to_owned())));
     }
     lines.extend(asked(report, now).map(|words| (Tone::Plain, words)));
     lines
 }
 
+/// What the operator can do about a problem of a log-in.
+fn advice(problem: &FetchProblem) -> Option<&'static str> {
+    match problem {
+        FetchProblem::NoPassword => Some("Choose Password in Elements to enter it."),
+        FetchProblem::Keyring(_) => {
+            Some("Unlock the keyring, or choose Password in Elements to enter it.")
+        }
+        FetchProblem::LogIn => Some(
+            "Azel does not try again by itself, because the server locks accounts. Choose Password \
+             in Elements to enter it again, or Fetch to try again.",
+        ),
+        FetchProblem::NoFavourites => Some("Mark the satellites that you want as favourites."),
+        FetchProblem::Address
+        | FetchProblem::Answer(_)
+        | FetchProblem::Unreachable(_)
+        | FetchProblem::Certificate(_)
+        | FetchProblem::TooLarge(_)
+        | FetchProblem::NoElements
+        | FetchProblem::Nothing(_)
+        | FetchProblem::Older
+        | FetchProblem::NoSession
+        | FetchProblem::Refused(_)
+        | FetchProblem::Disk(_) => None,
+    }
+}
+
 fn held(source: &Source, report: &SourceReport, now: Timestamp) -> (Tone, String) {
     if report.objects() == 0 {
         let words = match source.place {
-            SourcePlace::Web(_) => "Holds nothing yet.",
+            SourcePlace::Web(_) | SourcePlace::SpaceTrack(_) => "Holds nothing yet.",
             SourcePlace::File(_) | SourcePlace::Folder(_) => "Holds no elements.",
         };
         return (Tone::Caution, words.to_owned());
@@ -231,7 +259,7 @@ fn held(source: &Source, report: &SourceReport, now: Timestamp) -> (Tone, String
         format!(", newest epoch {}, {age} old", format::iso_date(epoch))
     });
     let word = match source.place {
-        SourcePlace::Web(_) => "Sent or confirmed",
+        SourcePlace::Web(_) | SourcePlace::SpaceTrack(_) => "Sent or confirmed",
         SourcePlace::File(_) | SourcePlace::Folder(_) => "Changed",
     };
     let age = report
@@ -269,16 +297,27 @@ pub(super) fn ask_again(
     ))
 }
 
+/// Why a server may not be asked now, even by the operator.
+pub(super) fn pause(report: Option<&SourceReport>, now: Timestamp) -> Option<String> {
+    let from = report?.not_before.filter(|from| *from > now)?;
+    let from = format::moment(from, now);
+    Some(format!("The server limits requests. It may be asked again from {from}."))
+}
+
 /// Whether a source may be asked now.
 pub(super) fn is_due(source: &Source, report: Option<&SourceReport>, now: Timestamp) -> bool {
-    let is_web = matches!(source.place, SourcePlace::Web(_));
-    is_web && report.and_then(|report| report.next_fetch).is_none_or(|next| next <= now)
+    let awaits_operator = report.is_some_and(SourceReport::awaits_operator);
+    let is_asked = source.place.is_server() && !awaits_operator;
+    is_asked && report.and_then(|report| report.next_fetch).is_none_or(|next| next <= now)
 }
 
 /// When a source is asked or read the next time.
 pub(super) fn next(source: &Source, report: Option<&SourceReport>, now: Timestamp) -> String {
-    if !matches!(source.place, SourcePlace::Web(_)) {
+    if !source.place.is_server() {
         return "when you read it".to_owned();
+    }
+    if report.is_some_and(SourceReport::awaits_operator) {
+        return "when you log in".to_owned();
     }
     match report.and_then(|report| report.next_fetch) {
         _ if source.refresh.is_some() => match source.next_by_itself(report) {

@@ -1,0 +1,236 @@
+//! Elements from Space-Track: a log-in, one query, and the log-out.
+//!
+//! Source: the API documentation of www.space-track.org. It allows less than 30 requests a minute
+//! and 300 an hour of one account, and one query of the class `gp` an hour. It answers 200 to a
+//! log-in that it refuses, with the reason as JSON. Accounts that break the limits are closed.
+
+use std::{fmt, sync::Arc};
+
+use jiff::{SignedDuration, Timestamp};
+use serde::Deserialize;
+use ureq::{
+    Agent, Body,
+    http::{HeaderValue, Response, header},
+};
+
+use super::{
+    disk::read_limited,
+    fetch::{Limits, body_of, unanswered},
+    index::Record,
+};
+use crate::{orbit::FetchProblem, secret::Secret};
+
+/// Host of the server.
+pub const SPACE_TRACK_HOST: &str = "www.space-track.org";
+const SERVER: &str = "https://www.space-track.org";
+
+/// Objects that one query names. With more of them the query asks for all objects.
+const MAX_NUMBERS: usize = 500;
+/// Least time between two queries, whoever asks.
+const QUERY_PAUSE: SignedDuration = SignedDuration::from_hours(1);
+/// Least time between two log-ins. One attempt without a query is a log-in alone, so that the
+/// account stays below 4 requests a minute and 240 an hour.
+pub const LOG_IN_PAUSE: SignedDuration = SignedDuration::from_secs(15);
+/// Maximum size of an answer that reports an error, bytes.
+const MAX_ERROR_BYTES: u64 = 64 << 10;
+/// Maximum length of a reason of the server, characters.
+const MAX_REASON_CHARS: usize = 200;
+
+/// Returns the password of a log-in name. It may wait for the operator's keyring.
+pub type PasswordOf = dyn Fn(&str) -> Result<Secret, FetchProblem> + Send + Sync;
+
+/// Access to Space-Track.
+#[derive(Clone)]
+pub struct SpaceTrackAccess {
+    server: String,
+    /// Catalog numbers of the objects to ask for.
+    numbers: Vec<u32>,
+    password_of: Arc<PasswordOf>,
+}
+
+impl SpaceTrackAccess {
+    pub fn new(numbers: Vec<u32>, password_of: Arc<PasswordOf>) -> Self {
+        Self { server: SERVER.to_owned(), numbers, password_of }
+    }
+
+    /// Asks another server, for tests. Like all addresses it must be `https` or on this computer.
+    #[must_use]
+    pub fn at(self, server: &str) -> Self {
+        Self { server: server.to_owned(), ..self }
+    }
+
+    /// Address of the server.
+    pub(super) fn server(&self) -> &str {
+        &self.server
+    }
+}
+
+impl fmt::Debug for SpaceTrackAccess {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { server, numbers, .. } = self;
+        f.debug_struct("SpaceTrackAccess")
+            .field("server", server)
+            .field("numbers", &numbers.len())
+            .finish_non_exhaustive()
+    }
+}
+
+/// The key of an account in the index of the library.
+pub(super) fn key(user: &str) -> String {
+    format!("{SPACE_TRACK_HOST}/{user}")
+}
+
+/// The earliest time at which the operator may ask again.
+pub(super) fn not_before(record: &Record) -> Option<Timestamp> {
+    let log_in = record.attempted_at.checked_add(LOG_IN_PAUSE).ok();
+    let query = record.queried_at.and_then(|at| at.checked_add(QUERY_PAUSE).ok());
+    log_in.max(query)
+}
+
+/// A session that has not begun.
+pub(super) struct Visit<'a> {
+    pub(super) access: &'a SpaceTrackAccess,
+    pub(super) agent: Agent,
+    pub(super) limits: Limits,
+}
+
+impl Visit<'_> {
+    /// Logs in as `user`, asks for the objects once, and logs out. Calls `queries` before the query.
+    pub(super) fn run(&self, user: &str, queries: impl FnOnce()) -> Result<Vec<u8>, FetchProblem> {
+        if self.access.numbers.is_empty() {
+            return Err(FetchProblem::NoFavourites);
+        }
+        let password = (self.access.password_of)(user)?;
+        let cookie = self.log_in(user, &password)?;
+        queries();
+        let answer = self.query(&cookie);
+        // The server ends the session by itself some time later.
+        let _ = self.get("/ajaxauth/logout", &cookie);
+        answer
+    }
+
+    fn log_in(&self, user: &str, password: &Secret) -> Result<HeaderValue, FetchProblem> {
+        let url = format!("{}/ajaxauth/login", self.access.server);
+        let form = [("identity", user), ("password", password.reveal())];
+        let response = self.agent.post(&url).send_form(form);
+        let response = response.map_err(|error| unanswered(&error))?;
+        let cookie = cookie(&response);
+        let status = response.status().as_u16();
+        let problem = match status {
+            401 | 403 => Some(FetchProblem::LogIn),
+            200 => refusal(response),
+            _ => refusal(response).or(Some(FetchProblem::Answer(status))),
+        };
+        match problem {
+            // The answer to a log-in could repeat it.
+            Some(FetchProblem::Refused(text)) if text.contains(password.reveal()) => {
+                Err(FetchProblem::Answer(status))
+            }
+            Some(problem) => Err(problem),
+            None => cookie.ok_or(FetchProblem::NoSession),
+        }
+    }
+
+    fn query(&self, cookie: &HeaderValue) -> Result<Vec<u8>, FetchProblem> {
+        let response = self.get(&query_path(&self.access.numbers), cookie)?;
+        match response.status().as_u16() {
+            200 => {}
+            status => return Err(refusal(response).unwrap_or(FetchProblem::Answer(status))),
+        }
+        let body = body_of(response, self.limits)?;
+        match reason(&body) {
+            Some(problem) => Err(problem),
+            None => Ok(body),
+        }
+    }
+
+    fn get(&self, path: &str, cookie: &HeaderValue) -> Result<Response<Body>, FetchProblem> {
+        let url = format!("{}{path}", self.access.server);
+        let request = self.agent.get(&url).header(header::COOKIE, cookie);
+        request.call().map_err(|error| unanswered(&error))
+    }
+}
+
+/// The newest elements of these objects; those of all objects of the last 30 days if the address
+/// would be too long.
+fn query_path(numbers: &[u32]) -> String {
+    let objects = if numbers.len() > MAX_NUMBERS {
+        "decay_date/null-val/EPOCH/%3Enow-30".to_owned()
+    } else {
+        let numbers: Vec<String> = numbers.iter().map(u32::to_string).collect();
+        format!("NORAD_CAT_ID/{}", numbers.join(","))
+    };
+    format!("/basicspacedata/query/class/gp/{objects}/orderby/NORAD_CAT_ID/format/json")
+}
+
+/// The cookies that an answer sets, as the next request sends them.
+fn cookie(response: &Response<Body>) -> Option<HeaderValue> {
+    let set = response.headers().get_all(header::SET_COOKIE).iter();
+    let pairs: Vec<&str> = set
+        .filter_map(|value| value.to_str().ok()?.split(';').next())
+        .map(str::trim)
+        .filter(|pair| pair.contains('='))
+        .collect();
+    let mut value = HeaderValue::from_str(&pairs.join("; ")).ok().filter(|_| !pairs.is_empty())?;
+    value.set_sensitive(true);
+    Some(value)
+}
+
+/// The reason in a short answer, if it is one.
+fn refusal(response: Response<Body>) -> Option<FetchProblem> {
+    let body = read_limited(response.into_body().into_reader(), MAX_ERROR_BYTES).ok()?;
+    reason(&body)
+}
+
+/// An answer in place of elements.
+#[derive(Deserialize)]
+struct Reason {
+    error: Option<String>,
+    #[serde(rename = "Login")]
+    login: Option<serde_json::Value>,
+}
+
+fn reason(body: &[u8]) -> Option<FetchProblem> {
+    // A list of elements does not begin like this, and is not parsed twice.
+    if body.trim_ascii_start().first() != Some(&b'{') {
+        return None;
+    }
+    let reason: Reason = serde_json::from_slice(body).ok()?;
+    if reason.login.is_some() {
+        return Some(FetchProblem::LogIn);
+    }
+    let text = reason.error?;
+    let plain = |letter: char| if letter.is_control() { ' ' } else { letter };
+    Some(FetchProblem::Refused(text.trim().chars().map(plain).take(MAX_REASON_CHARS).collect()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_query_names_the_objects_or_asks_for_all() {
+        let some = query_path(&[25_544, 43_013]);
+        assert!(some.contains("/class/gp/NORAD_CAT_ID/25544,43013/"), "{some}");
+        let numbers: Vec<u32> = (1..=501).collect();
+        assert!(query_path(&numbers).contains("/EPOCH/%3Enow-30/"));
+        assert!(query_path(&numbers[..500]).contains("/NORAD_CAT_ID/1,2,"));
+    }
+
+    #[test]
+    fn a_reason_of_the_server_is_shown_on_one_line() {
+        let refused = |text: &str| Some(FetchProblem::Refused(text.to_owned()));
+        for (body, problem) in [
+            (&b"[]"[..], None),
+            (b"\"\"", None),
+            (b"{\"Login\":\"Failed\"}", Some(FetchProblem::LogIn)),
+            (b" {\"error\":\"You have\\nexceeded\"}", refused("You have exceeded")),
+            (b"{\"OBJECT_NAME\":\"A\"}", None),
+            (b"{", None),
+        ] {
+            assert_eq!(reason(body), problem, "{}", String::from_utf8_lossy(body));
+        }
+        let long = format!("{{\"error\":\"{}\"}}", "x".repeat(5000));
+        assert_eq!(reason(long.as_bytes()), refused(&"x".repeat(MAX_REASON_CHARS)));
+    }
+}

@@ -1,0 +1,200 @@
+//! Space-Track as a source, against a server on loopback.
+
+use std::{
+    fs,
+    path::Path,
+    sync::{Arc, Mutex},
+};
+
+use azel::{
+    library::{Library, SpaceTrackAccess},
+    orbit::{FetchProblem, RefreshHours, Source, SourcePlace, SourceReport},
+    secret::Secret,
+};
+use jiff::{SignedDuration, Timestamp};
+
+use crate::elements_library::{LIMITS, Reply, Server, object, ok, start, status};
+
+const PASSWORD: &str = "hunter2 &=+%";
+const SESSION: &str = "Set-Cookie: chocolatechip=s3ss10n; path=/; secure; HttpOnly\r\n";
+
+fn source() -> Source {
+    Source {
+        name: "Space-Track".to_owned(),
+        place: SourcePlace::SpaceTrack("op@example.org".to_owned()),
+        refresh: Some(RefreshHours::from(2)),
+    }
+}
+
+/// Answers to a log-in, a query with `answer`, and the log-out.
+fn visit(answer: Reply) -> [Reply; 3] {
+    [ok(SESSION, "\"\""), answer, ok("", "\"Successfully logged out\"")]
+}
+
+/// A station with Space-Track as its source.
+struct Station {
+    folder: tempfile::TempDir,
+    server: Server,
+    password: Arc<Mutex<Option<&'static str>>>,
+    numbers: Vec<u32>,
+}
+
+impl Station {
+    fn new(replies: impl IntoIterator<Item = Reply>) -> Self {
+        Self {
+            folder: tempfile::tempdir().unwrap(),
+            server: Server::new(replies.into_iter().collect()),
+            password: Arc::new(Mutex::new(Some(PASSWORD))),
+            numbers: vec![5, 25_544],
+        }
+    }
+
+    fn path(&self) -> &Path {
+        self.folder.path()
+    }
+
+    /// Asks `after_s` seconds after the start; returns whether something new came.
+    fn ask(&self, after_s: i64, forced: bool) -> (bool, SourceReport) {
+        let password = Arc::clone(&self.password);
+        let password_of = move |user: &str| {
+            assert_eq!(user, "op@example.org");
+            password.lock().unwrap().map(Secret::new).ok_or(FetchProblem::NoPassword)
+        };
+        let access = SpaceTrackAccess::new(self.numbers.clone(), Arc::new(password_of));
+        let library = Library::open(self.path(), LIMITS).unwrap();
+        let mut library = library.with_space_track(access.at(&self.server.url()));
+        let renewed = library.refresh(&[source()], at(after_s), forced, &|| false).unwrap();
+        let (_, mut reports) = Library::open(self.path(), LIMITS).unwrap().load(&[source()]);
+        (renewed > 0, reports.remove(0))
+    }
+
+    fn first_lines(&self) -> Vec<String> {
+        let requests = self.server.requests();
+        let first = |request: &String| request.lines().next().unwrap_or_default().to_owned();
+        requests.iter().map(first).collect()
+    }
+}
+
+fn at(after_s: i64) -> Timestamp {
+    start() + SignedDuration::from_secs(after_s)
+}
+
+#[test]
+fn a_visit_logs_in_asks_for_the_favourites_once_and_logs_out() {
+    let station = Station::new(visit(ok("", &object(5, 11))));
+    let (is_new, report) = station.ask(0, false);
+    assert!(is_new);
+    assert_eq!((report.objects(), report.fetch_problem.clone()), (1, None));
+    assert_eq!((report.as_of, report.next_fetch), (Some(at(0)), Some(at(7200))));
+    assert_eq!(
+        station.first_lines(),
+        [
+            "POST /ajaxauth/login HTTP/1.1",
+            "GET /basicspacedata/query/class/gp/NORAD_CAT_ID/5,25544/orderby/NORAD_CAT_ID/format/json \
+             HTTP/1.1",
+            "GET /ajaxauth/logout HTTP/1.1",
+        ]
+    );
+    let requests = station.server.requests();
+    let form = "identity=op%40example.org&password=hunter2";
+    assert!(requests[0].contains(form), "{}", requests[0]);
+    assert!(!requests[0].contains(PASSWORD), "the form is encoded: {}", requests[0]);
+    for request in &requests[1..] {
+        assert!(request.to_lowercase().contains("cookie: chocolatechip=s3ss10n\r\n"), "{request}");
+        assert!(!request.contains("hunter2"), "{request}");
+    }
+}
+
+#[test]
+fn the_server_is_asked_once_an_hour_even_if_the_operator_asks_more_often() {
+    let replies = [visit(ok("", &object(5, 11))), visit(ok("", &object(5, 12)))];
+    let station = Station::new(replies.into_iter().flatten());
+    let (_, report) = station.ask(0, false);
+    assert_eq!(report.not_before, Some(at(3600)));
+    for (after_s, forced) in [(1, true), (3599, true), (3600, false)] {
+        assert!(!station.ask(after_s, forced).0);
+    }
+    assert_eq!(station.server.requests().len(), 3);
+    assert!(station.ask(3600, true).0);
+}
+
+#[test]
+fn a_refused_log_in_is_not_repeated_until_the_operator_asks() {
+    let refused = || ok("", "{\"Login\":\"Failed\"}");
+    let answer = visit(ok("", &object(5, 11)));
+    let station = Station::new([refused(), status(401)].into_iter().chain(answer));
+    let (_, report) = station.ask(0, false);
+    assert_eq!((report.fetch_problem.clone(), report.failures), (Some(FetchProblem::LogIn), 1));
+    assert!(report.awaits_operator());
+    assert_eq!(source().next_by_itself(Some(&report)), None);
+    assert!(!station.ask(14, true).0, "too soon for another log-in");
+    assert_eq!(station.first_lines(), ["POST /ajaxauth/login HTTP/1.1"], "no query, no log-out");
+    let (_, report) = station.ask(15, true);
+    assert_eq!(report.fetch_problem, Some(FetchProblem::LogIn));
+    let (is_new, report) = station.ask(30, true);
+    assert!(is_new && !report.awaits_operator());
+    assert!(source().next_by_itself(Some(&report)).is_some());
+}
+
+#[test]
+fn whatever_goes_wrong_leaves_what_was_held_and_no_secret_on_disk() {
+    let good = || ok("", &object(5, 11));
+    let error = "{\"error\":\"You've violated your query rate limit.\"}";
+    let moved = || Reply::Whole(302, "Location: http://127.0.0.1:9/\r\n".to_owned(), Vec::new());
+    let refused = || FetchProblem::Refused("You've violated your query rate limit.".to_owned());
+    let log_out = || ok("", "");
+    let echo = format!("{{\"error\":\"no {PASSWORD}\"}}");
+    let cases: Vec<(Vec<Reply>, Option<FetchProblem>)> = vec![
+        (visit(ok("", error)).into(), Some(refused())),
+        (visit(Reply::Whole(500, String::new(), error.into())).into(), Some(refused())),
+        (visit(status(500)).into(), Some(FetchProblem::Answer(500))),
+        (visit(moved()).into(), Some(FetchProblem::Answer(302))),
+        (visit(Reply::Torn(object(5, 12).into_bytes())).into(), None),
+        (vec![moved()], Some(FetchProblem::Answer(302))),
+        (vec![ok("", error)], Some(refused())),
+        (vec![ok("", &echo)], Some(FetchProblem::Answer(200))),
+        (vec![ok("", "\"\"")], Some(FetchProblem::NoSession)),
+        (vec![status(503)], Some(FetchProblem::Answer(503))),
+        (vec![ok(SESSION, "\"\""), ok("", "[]"), log_out()], None),
+    ];
+    let (replies, problems): (Vec<_>, Vec<_>) = cases.into_iter().unzip();
+    let first: Vec<Reply> = visit(good()).into();
+    let station = Station::new(first.into_iter().chain(replies.into_iter().flatten()));
+    assert!(station.ask(0, false).0);
+    for (place, problem) in (1..).zip(problems) {
+        let (is_new, report) = station.ask(place * 7200, true);
+        assert!(!is_new && report.fetch_problem.is_some(), "{place}");
+        if problem.is_some() {
+            assert_eq!(report.fetch_problem, problem, "{place}");
+        }
+        assert_eq!((report.objects(), report.as_of), (1, Some(at(0))), "{place}");
+        assert_eq!(i64::from(report.failures), place);
+    }
+    for entry in fs::read_dir(station.path()).unwrap() {
+        let text = String::from_utf8_lossy(&fs::read(entry.unwrap().path()).unwrap()).into_owned();
+        assert!(!text.contains("hunter2") && !text.contains("s3ss10n"), "{text}");
+    }
+}
+
+#[test]
+fn without_a_password_or_favourites_no_server_is_asked() {
+    let mut station = Station::new(visit(ok("", &object(5, 11))));
+    *station.password.lock().unwrap() = None;
+    assert_eq!(station.ask(0, false).1.fetch_problem, Some(FetchProblem::NoPassword));
+    let numbers = std::mem::take(&mut station.numbers);
+    assert_eq!(station.ask(7200, false).1.fetch_problem, Some(FetchProblem::NoFavourites));
+    assert_eq!(station.server.requests(), [""; 0]);
+    (*station.password.lock().unwrap(), station.numbers) = (Some(PASSWORD), numbers);
+    assert!(station.ask(14_400, false).0);
+}
+
+#[test]
+fn a_password_goes_to_no_other_computer_in_the_open() {
+    let folder = tempfile::tempdir().unwrap();
+    let password_of = |_: &str| unreachable!("nobody asks for the password");
+    let access = SpaceTrackAccess::new(vec![5], Arc::new(password_of)).at("http://example.org");
+    let mut library = Library::open(folder.path(), LIMITS).unwrap().with_space_track(access);
+    library.refresh(&[source()], start(), true, &|| false).unwrap();
+    let (_, reports) = library.load(&[source()]);
+    assert_eq!(reports[0].fetch_problem, Some(FetchProblem::Address));
+}
