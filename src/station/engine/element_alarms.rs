@@ -5,11 +5,12 @@ use std::collections::BTreeSet;
 
 use jiff::Timestamp;
 
-use super::{CatalogState, Engine, alarms::AlarmKind};
+use super::{CatalogState, Engine, alarms::AlarmKind, antenna::AntennaModel};
 use crate::{
     astro::time::DAY_S,
     orbit::{Catalog, SourceReport},
-    plan::schedule::Entry,
+    plan::schedule::{LeftOut, Refusal, Schedule, Why},
+    station::{AntennaId, Scheduling},
 };
 
 /// A source raises an alarm after this many requests in a row that brought nothing.
@@ -20,8 +21,6 @@ const MAX_AGE_DAYS: f64 = 7.0;
 impl Engine {
     /// Raises an alarm for each source that keeps failing, and clears the alarm once a request succeeds.
     pub(super) fn watch_sources(&mut self) {
-        let is_failing =
-            |report: &SourceReport| report.failures >= FAILURES || report.awaits_operator();
         let failing = |name: &str| {
             let reports = self.sources.reports.iter();
             reports.into_iter().any(|report| report.source == name && is_failing(report))
@@ -37,7 +36,8 @@ impl Engine {
         }
     }
 
-    /// Raises an alarm while the elements of passes that automatic operation will take are too old.
+    /// Raises an alarm while the elements of passes that automatic operation will take, or leaves out
+    /// for their age, are too old.
     pub(super) fn watch_element_age(&mut self) {
         let found = self.old_elements();
         match found {
@@ -54,23 +54,45 @@ impl Engine {
         if self.demo.is_some() {
             return None;
         }
-        let is_automatic = |entry: &&Entry| {
-            let mut antennas = self.antennas.iter().map(|antenna| &antenna.shown);
-            antennas.any(|shown| shown.id() == entry.antenna && shown.operation.is_on())
-        };
-        let entries = self.schedule.schedule.entries.iter().filter(is_automatic);
-        elements_old_alarm(catalog, entries.map(|entry| (entry.pass.satellite, entry.from)))
+        let antennas = self.antennas.iter().map(|antenna| &antenna.shown);
+        let on = antennas.filter(|shown| shown.operation.is_on());
+        let automatic: Vec<AntennaId> = on.map(AntennaModel::id).collect();
+        let passes = concerned(&self.schedule.schedule, &automatic);
+        elements_old_alarm(catalog, max_age_d(&self.station.scheduling), passes.into_iter())
     }
+}
+
+/// Returns `true` if a source raises an alarm.
+fn is_failing(report: &SourceReport) -> bool {
+    let is_unread = report.files.iter().any(|file| file.problem.is_some());
+    report.failures >= FAILURES || report.awaits_operator() || is_unread
+}
+
+/// Age of elements at a pass from which they raise an alarm, days.
+fn max_age_d(scheduling: &Scheduling) -> f64 {
+    scheduling.max_element_age_d.map_or(MAX_AGE_DAYS, |own| own.min(MAX_AGE_DAYS))
+}
+
+/// The satellites and times of the passes that `automatic` antennas will take, or would take with
+/// newer elements.
+fn concerned(schedule: &Schedule, automatic: &[AntennaId]) -> Vec<(u32, Timestamp)> {
+    let entries = schedule.entries.iter().filter(|entry| automatic.contains(&entry.antenna));
+    let taken = entries.map(|entry| (entry.pass.satellite, entry.from));
+    let is_old = |why: &Why| matches!(why, Why::Refused(Refusal::OldElements { .. }));
+    let is_left_out = |left: &&LeftOut| is_old(&left.why) && !automatic.is_empty();
+    let left_out = schedule.left_out.iter().filter(is_left_out);
+    taken.chain(left_out.map(|left| (left.pass.satellite, left.pass.aos))).collect()
 }
 
 /// Returns an alarm if elements are too old for their passes.
 fn elements_old_alarm(
     catalog: &Catalog,
+    max_days: f64,
     passes: impl Iterator<Item = (u32, Timestamp)>,
 ) -> Option<AlarmKind> {
     let is_old = |(satellite, from): &(u32, Timestamp)| {
         let elements = catalog.get(*satellite);
-        elements.is_some_and(|elements| elements.age_s(*from) > MAX_AGE_DAYS * DAY_S)
+        elements.is_some_and(|elements| elements.age_s(*from) > max_days * DAY_S)
     };
     let old: BTreeSet<u32> = passes.filter(is_old).map(|(satellite, _)| satellite).collect();
     let name = catalog.get(*old.first()?)?.short_name().to_owned();
@@ -83,7 +105,9 @@ mod tests {
     use crate::{
         astro::time::add_seconds,
         engine::automatic::tests::station,
-        orbit::{FetchProblem, bundled},
+        library::{Library, Limits},
+        orbit::{FetchProblem, Source, SourcePlace, bundled},
+        plan::schedule::PassKey,
     };
 
     #[test]
@@ -131,6 +155,7 @@ mod tests {
         let alarm = |passes: &[(u32, f64)]| {
             elements_old_alarm(
                 &catalog,
+                max_age_d(&Scheduling::default()),
                 passes.iter().map(|(satellite, days)| after(*satellite, *days)),
             )
         };
@@ -140,5 +165,44 @@ mod tests {
             panic!("{:?}", alarm(&both));
         };
         assert_eq!(alarm(&[(1, 100.0); 0]), None);
+    }
+
+    #[test]
+    fn a_file_that_cannot_be_read_raises_an_alarm() {
+        let folder = tempfile::tempdir().unwrap();
+        let list = [Source {
+            name: "own".to_owned(),
+            place: SourcePlace::File(folder.path().join("gone.tle")),
+            refresh: None,
+        }];
+        let library = Library::open(folder.path(), Limits::default()).unwrap();
+        let failing = || library.load(&list).1.iter().filter(|report| is_failing(report)).count();
+        assert_eq!(failing(), 1);
+        std::fs::write(folder.path().join("gone.tle"), "").unwrap();
+        assert_eq!(failing(), 0);
+    }
+
+    #[test]
+    fn a_pass_that_is_left_out_for_old_elements_raises_the_alarm() {
+        const NOAA_20: u32 = 43_013;
+        let catalog = bundled().unwrap();
+        let aos = add_seconds(catalog.get(NOAA_20).unwrap().epoch(), 5.5 * DAY_S);
+        let alarm = |refusal, automatic: &[AntennaId], max_element_age_d| {
+            let left_out = vec![LeftOut {
+                pass: PassKey { satellite: NOAA_20, aos },
+                why: Why::Refused(refusal),
+                by_antenna: Vec::new(),
+            }];
+            let schedule = Schedule { left_out, ..Schedule::default() };
+            let scheduling = Scheduling { max_element_age_d, ..Scheduling::default() };
+            let passes = concerned(&schedule, automatic);
+            elements_old_alarm(&catalog, max_age_d(&scheduling), passes.into_iter()).is_some()
+        };
+        let old = Refusal::OldElements { age_s: 5.5 * DAY_S };
+        let automatic = [AntennaId(1)];
+        assert!(alarm(old, &automatic, Some(5.0)));
+        assert!(!alarm(old, &automatic, Some(6.0)), "it will be taken");
+        assert!(!alarm(old, &[], Some(5.0)), "nobody plans for it");
+        assert!(!alarm(Refusal::Never, &automatic, Some(5.0)), "the operator's choice");
     }
 }

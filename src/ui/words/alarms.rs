@@ -209,8 +209,8 @@ pub fn alarm(kind: &AlarmKind, antenna: &str, now: Timestamp) -> String {
                 },
             );
             format!(
-                "The last requests to {source} returned no elements. {current} See the cause in Elements. \
-                 Add another source or a file before the elements get too old."
+                "The source {source} gives no elements. {current} See the cause in Elements. Add another \
+                 source or a file before the elements get too old."
             )
         }
         AlarmKind::ElementsOld { name, others } => {
@@ -220,8 +220,9 @@ pub fn alarm(kind: &AlarmKind, antenna: &str, now: Timestamp) -> String {
                 others => format!(" and of {others} other satellites"),
             };
             format!(
-                "The elements of {name}{others} will be more than 7 days old at a planned pass, and the \
-                 antenna may miss it. Refresh the elements."
+                "The elements of {name}{others} will be more than 7 days old at a planned pass, or older \
+                 than the station allows. The antenna may miss the pass, or Azel leaves it out. Refresh \
+                 the elements."
             )
         }
         AlarmKind::ElementsNotUploaded { why } => format!(

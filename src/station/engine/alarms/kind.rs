@@ -143,14 +143,15 @@ pub enum AlarmKind {
     /// The source of elements with this name is not read: its last reading ended the
     /// program.
     SourceSetAside(String),
-    /// The last requests to this source returned no elements.
+    /// The last requests to this source returned no elements, its server refused the log-in, or its
+    /// file cannot be read.
     SourceFails {
         source: String,
         /// When its elements were last known to be current.
         as_of: Option<Timestamp>,
     },
     /// The elements of this satellite, and of `others`, are too old for the passes that automatic
-    /// operation will take.
+    /// operation will take, or leaves out for this reason.
     ElementsOld {
         name: String,
         others: usize,
