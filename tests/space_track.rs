@@ -180,12 +180,16 @@ fn whatever_goes_wrong_leaves_what_was_held_and_no_secret_on_disk() {
 fn without_a_password_or_favourites_no_server_is_asked() {
     let mut station = Station::new(visit(ok("", &object(5, 11))));
     *station.password.lock().unwrap() = None;
-    assert_eq!(station.ask(0, false).1.fetch_problem, Some(FetchProblem::NoPassword));
+    let (_, report) = station.ask(0, false);
+    assert_eq!(report.fetch_problem, Some(FetchProblem::NoPassword));
+    assert_eq!((report.not_before, report.next_request()), (None, None), "no limit has begun");
     let numbers = std::mem::take(&mut station.numbers);
-    assert_eq!(station.ask(7200, false).1.fetch_problem, Some(FetchProblem::NoFavourites));
+    assert_eq!(station.ask(1, false).1.fetch_problem, Some(FetchProblem::NoFavourites));
     assert_eq!(station.server.requests(), [""; 0]);
     (*station.password.lock().unwrap(), station.numbers) = (Some(PASSWORD), numbers);
-    assert!(station.ask(14_400, false).0);
+    let (is_new, report) = station.ask(2, false);
+    assert!(is_new);
+    assert_eq!(report.not_before, Some(at(3602)));
 }
 
 #[test]

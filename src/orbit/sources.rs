@@ -160,6 +160,27 @@ pub enum FetchProblem {
     Disk(String),
 }
 
+impl FetchProblem {
+    /// Returns `true` if the problem came up before any server was asked, so that no limit of a
+    /// server has begun.
+    pub fn is_before_request(&self) -> bool {
+        match self {
+            Self::Address | Self::NoPassword | Self::Keyring(_) | Self::NoFavourites => true,
+            Self::Answer(_)
+            | Self::Unreachable(_)
+            | Self::Certificate(_)
+            | Self::TooLarge(_)
+            | Self::NoElements
+            | Self::Nothing(_)
+            | Self::Older
+            | Self::LogIn
+            | Self::NoSession
+            | Self::Refused(_)
+            | Self::Disk(_) => false,
+        }
+    }
+}
+
 /// The state of one source.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SourceReport {
@@ -208,6 +229,13 @@ impl SourceReport {
     /// Returns `true` if the server is not asked again until the operator acts.
     pub fn awaits_operator(&self) -> bool {
         self.fetch_problem == Some(FetchProblem::LogIn)
+    }
+
+    /// When the operator may ask the server without force; `None` if it was never asked, or not the
+    /// last time.
+    pub fn next_request(&self) -> Option<Timestamp> {
+        let is_unasked = self.fetch_problem.as_ref().is_some_and(FetchProblem::is_before_request);
+        self.next_fetch.filter(|_| !is_unasked)
     }
 
     /// Age of the held elements at `now`, in seconds.

@@ -256,7 +256,7 @@ impl Library {
     /// the operator too.
     fn may_ask(&self, source: &Source, key: &str, now: Timestamp, forced: bool) -> bool {
         let record = self.index.get(key);
-        let last = record.map(|record| record.attempted_at);
+        let last = record.and_then(Record::asked_at);
         let is_allowed = match source.place {
             SourcePlace::SpaceTrack(_) => {
                 // A clock that was set back must not block the source.

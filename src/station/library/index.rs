@@ -67,6 +67,14 @@ pub enum IndexError {
     Newer { found: u32, path: PathBuf },
 }
 
+impl Record {
+    /// Time of the last attempt, if it reached a server.
+    pub(super) fn asked_at(&self) -> Option<Timestamp> {
+        let is_unasked = self.problem.as_ref().is_some_and(FetchProblem::is_before_request);
+        (!is_unasked).then_some(self.attempted_at)
+    }
+}
+
 impl Default for Index {
     fn default() -> Self {
         Self { version: VERSION, address: BTreeMap::new() }

@@ -82,7 +82,7 @@ pub(super) fn key(user: &str) -> String {
 
 /// The earliest time at which the operator may ask again.
 pub(super) fn not_before(record: &Record) -> Option<Timestamp> {
-    let log_in = record.attempted_at.checked_add(LOG_IN_PAUSE).ok();
+    let log_in = record.asked_at().and_then(|at| at.checked_add(LOG_IN_PAUSE).ok());
     let query = record.queried_at.and_then(|at| at.checked_add(QUERY_PAUSE).ok());
     log_in.max(query)
 }

@@ -130,7 +130,13 @@ fn summary(model: &Model) -> String {
         CatalogState::Ready(catalog) => {
             let from = words::counted(catalog.groups().count(), "source");
             let all = words::objects(catalog.len());
-            format!("{all} from {from}. The newest set of each object is used.")
+            let mut favourites = model.station.favourites.iter();
+            let rule = if favourites.any(|favourite| !favourite.sources.is_empty()) {
+                "The newest set is used, unless a satellite prefers a source."
+            } else {
+                "The newest set of each object is used."
+            };
+            format!("{all} from {from}. {rule}")
         }
     }
 }

@@ -38,7 +38,7 @@ const WIDTH: f32 = 1024.0;
 /// Ends of the columns.
 const NAME: f32 = 38.0;
 const WHERE: f32 = 196.0;
-const PASSWORD: f32 = 308.0;
+const PASSWORD: f32 = 288.0;
 const STATE: f32 = 384.0;
 const NEWEST: f32 = 670.0;
 const OBJECTS: f32 = 744.0;

@@ -152,7 +152,7 @@ pub(super) fn place(source: &Source) -> String {
     match &source.place {
         SourcePlace::File(path) | SourcePlace::Folder(path) => path.display().to_string(),
         SourcePlace::Web(url) => url.strip_prefix("https://").unwrap_or(url).to_owned(),
-        SourcePlace::SpaceTrack(user) => format!("space-track.org as {user}"),
+        SourcePlace::SpaceTrack(user) => format!("{user} at space-track.org"),
     }
 }
 
@@ -270,7 +270,7 @@ fn held(source: &Source, report: &SourceReport, now: Timestamp) -> (Tone, String
 
 /// Times of the last and the next permitted request to the server.
 fn asked(report: &SourceReport, now: Timestamp) -> Option<String> {
-    let next = report.next_fetch?;
+    let next = report.next_request()?;
     let last = next.checked_sub(FETCH_PAUSE).ok()?;
     let ago = format::age(seconds_between(last, now));
     let again = if next > now {
@@ -288,7 +288,7 @@ pub(super) fn ask_again(
     report: Option<&SourceReport>,
     now: Timestamp,
 ) -> Option<String> {
-    let next = report?.next_fetch.filter(|next| *next > now)?;
+    let next = report?.next_request().filter(|next| *next > now)?;
     let last = next.checked_sub(FETCH_PAUSE).ok()?;
     let ago = format::age(seconds_between(last, now));
     Some(format!(
@@ -308,7 +308,7 @@ pub(super) fn pause(report: Option<&SourceReport>, now: Timestamp) -> Option<Str
 pub(super) fn is_due(source: &Source, report: Option<&SourceReport>, now: Timestamp) -> bool {
     let awaits_operator = report.is_some_and(SourceReport::awaits_operator);
     let is_asked = source.place.is_server() && !awaits_operator;
-    is_asked && report.and_then(|report| report.next_fetch).is_none_or(|next| next <= now)
+    is_asked && report.and_then(SourceReport::next_request).is_none_or(|next| next <= now)
 }
 
 /// When a source is asked or read the next time.
@@ -319,7 +319,7 @@ pub(super) fn next(source: &Source, report: Option<&SourceReport>, now: Timestam
     if report.is_some_and(SourceReport::awaits_operator) {
         return "when you log in".to_owned();
     }
-    match report.and_then(|report| report.next_fetch) {
+    match report.and_then(SourceReport::next_request) {
         _ if source.refresh.is_some() => match source.next_by_itself(report) {
             Some(next) if next > now => format!("automatically {}", until_minute(next, now)),
             _ => "automatically, now".to_owned(),
