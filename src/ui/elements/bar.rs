@@ -132,7 +132,7 @@ fn summary(model: &Model) -> String {
             let all = words::objects(catalog.len());
             let mut favourites = model.station.favourites.iter();
             let rule = if favourites.any(|favourite| !favourite.sources.is_empty()) {
-                "The newest set is used, unless a satellite prefers a source."
+                "The newest or a preferred set is used."
             } else {
                 "The newest set of each object is used."
             };
