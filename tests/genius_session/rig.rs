@@ -49,7 +49,7 @@ pub(super) fn is_stopping(stop: StopState) -> bool {
     matches!(stop, StopState::Stopping { .. })
 }
 
-pub(super) type Rig = rig::Rig<Control>;
+pub(crate) type Rig = rig::Rig<Control>;
 
 impl Rig {
     /// A running session, not connected yet.

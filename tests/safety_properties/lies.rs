@@ -5,7 +5,9 @@ use std::time::Duration;
 use azel::{
     astro::Angle,
     clock::Instant,
+    controller::rotator_genius::Rotators,
     driver::{Command, Event, Safety},
+    sim::rotator_genius::Fault,
 };
 
 use super::{
@@ -14,7 +16,7 @@ use super::{
     unit::Lie,
     world::{Wish, World},
 };
-use crate::common::dice::Dice;
+use crate::{common::dice::Dice, genius_session::rig};
 
 async fn scene(dice: &mut Dice, others_jog: bool) -> Scene {
     let wish = Wish { others_jog, ..Wish::default() };
@@ -147,6 +149,45 @@ async fn angles_freeze_on_the_way(mut dice: Dice) {
     assert!(was_stopped || ended, "{azimuth:?}\n{}", scene.report());
     scene.seconds(4.0).await;
     assert!(!scene.world.unit.is_turning(), "turns on: {azimuth:?}\n{}", scene.report());
+}
+
+/// The drives of two rotators were exchanged: a motion of one axis turns the other one.
+async fn drives_are_crossed(mut dice: Dice) {
+    let mut rig = rig::Rig::connected(&rig::pair(), Rotators::Pair).await;
+    rig.control.set_fault(Fault::CrossedDrives, true);
+    let asked_deg = [dice.between(0.0, 359.0), dice.between(20.0, 85.0)];
+    let axes = dice.below(3);
+    let [azimuth, elevation] = asked_deg.map(|deg| Some(Angle::from_degrees(deg)));
+    let is_found = |event: &Event| {
+        let told = matches!(event, Event::Safety(Safety::ForeignHands { .. }));
+        told || is_without_effect(event) || matches!(event, Event::Refused(..) | Event::NotSent(_))
+    };
+    if dice.chance(0.5) {
+        let azimuth = azimuth.filter(|_| axes != 1);
+        let elevation = elevation.filter(|_| axes != 0);
+        rig.send(Command::Position { azimuth, elevation });
+        rig.until_event(GO_TO_ENDS_WITHIN.as_secs(), is_found).await;
+    } else {
+        let mut rates_deg_s = [0.0; 2];
+        // Up from the horizon.
+        rates_deg_s[usize::from(axes != 0)] = 5.0;
+        rig.send(Command::Manual);
+        let mut is_told = false;
+        for _ in 0..JOG_ENDS_WITHIN.as_secs() * 10 {
+            rig.send(Command::Jog { rates_deg_s });
+            rig.seconds(0.1).await;
+            is_told |= rig.events().iter().any(is_found);
+        }
+        assert!(is_told, "{rates_deg_s:?}");
+    }
+    rig.seconds(4.0).await;
+    let rotators = rig.control.state().rotators;
+    assert!(rotators.iter().all(|rotator| !rotator.is_turning), "{asked_deg:?} {rotators:?}");
+}
+
+#[test]
+fn any_motion_that_turns_the_other_axis_is_stopped_and_reported() {
+    for_each_case("drives are crossed", 50, drives_are_crossed);
 }
 
 #[test]

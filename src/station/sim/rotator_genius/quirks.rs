@@ -66,10 +66,12 @@ pub enum Fault {
     NoSensor(RotatorNumber),
     /// This rotator is driven but does not turn.
     Stuck(RotatorNumber),
+    /// The drives of the two rotators are exchanged: each order turns the other rotator.
+    CrossedDrives,
 }
 
 impl Fault {
-    pub const ALL: [(Self, &'static str); 14] = [
+    pub const ALL: [(Self, &'static str); 15] = [
         (Self::Silence, "silence"),
         (Self::DropReply, "drop_reply"),
         (Self::HangUp, "hang_up"),
@@ -84,6 +86,7 @@ impl Fault {
         (Self::NoSensor(RotatorNumber::Two), "no_sensor_2"),
         (Self::Stuck(RotatorNumber::One), "stuck_1"),
         (Self::Stuck(RotatorNumber::Two), "stuck_2"),
+        (Self::CrossedDrives, "crossed_drives"),
     ];
 }
 

@@ -51,6 +51,8 @@ pub struct RotatorGenius {
     rotors: [Rotor; 2],
     panic: u8,
     refuses: bool,
+    /// Each order turns the other rotator.
+    is_crossed: bool,
     /// Time since the start of the unit, in whole steps.
     elapsed: Duration,
 }
@@ -65,6 +67,7 @@ impl RotatorGenius {
             rotors: [rotor(first, 0), rotor(second, 1)],
             panic: 0,
             refuses: false,
+            is_crossed: false,
             elapsed: Duration::ZERO,
         }
     }
@@ -100,11 +103,16 @@ impl RotatorGenius {
     }
 
     fn start(&mut self, motion: Motion) -> bool {
+        let (Motion::GoTo { rotator, .. } | Motion::Rotate { rotator, .. }) = motion;
+        let turned = match rotator {
+            RotatorNumber::One if self.is_crossed => RotatorNumber::Two,
+            RotatorNumber::Two if self.is_crossed => RotatorNumber::One,
+            RotatorNumber::One | RotatorNumber::Two => rotator,
+        };
+        let rotor = turned.of_mut(&mut self.rotors);
         match motion {
-            Motion::GoTo { rotator, target } => rotator.of_mut(&mut self.rotors).go_to(target),
-            Motion::Rotate { rotator, direction } => {
-                rotator.of_mut(&mut self.rotors).rotate(direction)
-            }
+            Motion::GoTo { target, .. } => rotor.go_to(target),
+            Motion::Rotate { direction, .. } => rotor.rotate(direction),
         }
     }
 
@@ -146,6 +154,7 @@ impl harness::Unit for RotatorGenius {
     fn set_switches(&mut self, switches: &Switches<Quirk, Fault>) {
         self.panic = if switches.has_fault(Fault::Panic) { PANIC_CODE } else { 0 };
         self.refuses = switches.has_fault(Fault::Refuse);
+        self.is_crossed = switches.has_fault(Fault::CrossedDrives);
         for number in RotatorNumber::ALL {
             let has_no_sensor = switches.has_fault(Fault::NoSensor(number));
             let is_stuck = switches.has_fault(Fault::Stuck(number));
