@@ -434,7 +434,7 @@ impl Engine {
         self.set_time();
         self.report_last_passes();
         self.end_automatic();
-        self.save_learned_drives();
+        self.save_learned_drives(true);
     }
 
     /// Handles items that must not wait behind requests.

@@ -1,8 +1,9 @@
-//! What the sessions learn of the drives outlasts the station that learned it.
+//! Learned figures of the drives outlast the session and the station that learned them.
 
 use azel::{
     driver::{self, AxisLessons},
     engine::{Client, Command},
+    station::Station,
 };
 
 use super::unattended::scene_of;
@@ -38,8 +39,23 @@ async fn a_start_knows_the_drives_until_the_operator_has_them_learned_anew() {
     measured(&client, "Mast").await;
     assert_eq!(learned(&client), Some(taught), "a new session begins with them");
 
+    let mut station = Station::clone(&client.snapshot().station);
+    station.antennas[0].sway_deg += 0.1;
+    let save = |station: &Station| Command::SaveStation(Box::new(station.clone()));
+    let _ = client.send(save(&station));
+    let has_new_settings =
+        || (client.snapshot().station.antennas == station.antennas).then_some(());
+    until("the new settings", has_new_settings).await;
+    assert_eq!(learned(&client), Some(taught), "so does one with other settings");
+
     let _ = client.send(Command::Antenna(id, driver::Command::ForgetDrives));
     until("the end of the lessons", || learned(&client).is_none().then_some(())).await;
+    station.antennas[0].sway_deg += 0.1;
+    let _ = client.send(save(&station));
+    let has_new_settings =
+        || (client.snapshot().station.antennas == station.antennas).then_some(());
+    until("the settings after that", has_new_settings).await;
+    assert_eq!(learned(&client), None, "other settings bring nothing back");
     drop(client);
     let scene = scene.started_again(false).await;
     assert_eq!(learned(&scene.client()), None, "nor does the next start know them");

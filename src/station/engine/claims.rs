@@ -272,6 +272,7 @@ impl Engine {
         let Some(antenna) = self.antennas.get(index) else { return };
         let config = antenna.shown.config.clone();
         let bounds = Bounds::of(&self.station, &config);
+        self.note_learned_drives();
         let opened = self.open_claimed(config, bounds, claim);
         self.cancel_resumption(index);
         if let Some(antenna) = self.antennas.get_mut(index) {

@@ -8,7 +8,7 @@ use super::Engine;
 use crate::{
     clock::Instant,
     driver::{AxisLessons, Unit},
-    promises::FileState,
+    promises::{FileState, Kept},
     station,
 };
 
@@ -16,14 +16,25 @@ use crate::{
 const EXTENSION: &str = "drives.toml";
 /// The disk is not written more often.
 const SAVES_EVERY: Duration = Duration::from_mins(10);
+/// Maximum number of units in the file. Those that left the station first are dropped.
+const MAX_UNITS: usize = 256;
 
-/// The drives of each unit of the station.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+/// The drives of each unit, also of those that the station no longer has: an antenna may come back.
+#[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct LearnedDrives {
-    #[serde(default)]
-    unit: Vec<UnitDrives>,
-    #[serde(skip)]
+    units: Vec<UnitDrives>,
+    /// Content of the file, as last requested.
+    requested: Vec<UnitDrives>,
     saved: Option<Instant>,
+    /// The file is there, but it cannot be read. It is left as it is.
+    is_unread: bool,
+}
+
+/// Content of the file.
+#[derive(Debug, Default, Serialize, Deserialize)]
+struct DrivesFile<Entry> {
+    #[serde(default = "Vec::new")]
+    unit: Vec<Entry>,
 }
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -34,41 +45,73 @@ struct UnitDrives {
 }
 
 impl UnitDrives {
-    fn is_of(&self, unit: &Unit) -> bool {
+    fn belongs_to(&self, unit: &Unit) -> bool {
         self.make == unit.make && self.address == unit.address
     }
 }
 
 impl LearnedDrives {
-    /// Reads the file at `path`. Figures that cannot be read, or that no drive can have, are learned
-    /// anew.
+    /// Reads the file at `path`. Entries that cannot be read, or that no drive can have, are left
+    /// out.
     fn load(path: &Path) -> Self {
         let text = match fs::read_to_string(path) {
             Ok(text) => text,
-            Err(error) => {
-                if error.kind() != io::ErrorKind::NotFound {
-                    tracing::warn!(%error, "the drives are learned anew");
-                }
-                return Self::default();
-            }
+            Err(error) if error.kind() == io::ErrorKind::NotFound => return Self::default(),
+            Err(error) => return Self::unread(path, &error),
         };
-        let mut read: Self = toml::from_str(&text).unwrap_or_else(|error| {
-            tracing::warn!(%error, "the drives are learned anew");
-            Self::default()
-        });
-        read.unit.retain(|unit| {
-            let is_plausible = unit.axis.iter().all(AxisLessons::is_plausible);
-            if !is_plausible {
-                tracing::warn!(unit.address, "the drives are learned anew");
+        let file: DrivesFile<toml::Value> = match toml::from_str(&text) {
+            Ok(file) => file,
+            Err(error) => return Self::unread(path, &error),
+        };
+        let units = file.unit.into_iter().take(MAX_UNITS).filter_map(|entry| {
+            let unit: Result<UnitDrives, _> = entry.try_into();
+            let unit = unit.ok().filter(|unit| unit.axis.iter().all(AxisLessons::is_plausible));
+            if unit.is_none() {
+                let path = path.display();
+                tracing::warn!(%path, "Azel leaves out a unit whose drives it cannot read");
             }
-            is_plausible
+            unit
         });
-        read
+        let units: Vec<UnitDrives> = units.collect();
+        Self { requested: units.clone(), units, ..Self::default() }
+    }
+
+    fn unread(path: &Path, error: &dyn std::fmt::Display) -> Self {
+        let path = path.display();
+        tracing::warn!(
+            %path,
+            %error,
+            "Azel cannot read the learned figures of the drives and does not save new ones"
+        );
+        Self { is_unread: true, ..Self::default() }
     }
 
     fn axes(&self, unit: &Unit) -> [AxisLessons; 2] {
-        let known = self.unit.iter().find(|known| known.is_of(unit));
+        let known = self.units.iter().find(|known| known.belongs_to(unit));
         known.map(|known| known.axis).unwrap_or_default()
+    }
+
+    fn note(&mut self, unit: Unit, axis: [AxisLessons; 2]) {
+        let place = self.units.iter().position(|known| known.belongs_to(&unit));
+        let is_learned = axis != <[AxisLessons; 2]>::default();
+        match (place.and_then(|place| self.units.get_mut(place)), place) {
+            (Some(known), _) if is_learned => known.axis = axis,
+            (_, Some(place)) => {
+                self.units.remove(place);
+            }
+            (_, None) if is_learned => {
+                let Unit { make, address } = unit;
+                self.units.push(UnitDrives { make, address, axis });
+                if self.units.len() > MAX_UNITS {
+                    self.units.remove(0);
+                }
+            }
+            (_, None) => {}
+        }
+    }
+
+    fn text(&self) -> Result<String, toml::ser::Error> {
+        toml::to_string(&DrivesFile { unit: self.units.clone() })
     }
 }
 
@@ -83,38 +126,53 @@ impl Engine {
         self.learned_drives.axes(&Unit::of(config))
     }
 
-    /// Saves what was learned since the last time, unless that was recently.
-    pub(super) fn keep_learned_drives(&mut self) {
-        let saved = self.learned_drives.saved.get_or_insert(self.steady);
-        if self.steady >= *saved + SAVES_EVERY {
-            self.save_learned_drives();
+    /// Takes what the sessions have learned. A unit that another Azel drives keeps what is known of it.
+    pub(super) fn note_learned_drives(&mut self) {
+        let ours = self.antennas.iter().filter(|antenna| antenna.shown.held_by.is_none());
+        let learned = ours
+            .map(|antenna| (Unit::of(&antenna.shown.config), antenna.handle.snapshot().learned));
+        let learned: Vec<_> = learned.collect();
+        for (unit, axes) in learned {
+            self.learned_drives.note(unit, axes);
         }
     }
 
-    /// Saves what was learned. A unit that another Azel drives keeps what is known of it.
-    pub(super) fn save_learned_drives(&mut self) {
-        let Some(path) = self.beside_station(EXTENSION) else { return };
-        let units = self.antennas.iter().map(|antenna| {
-            let Unit { make, address } = Unit::of(&antenna.shown.config);
-            let axis = if antenna.shown.held_by.is_some() {
-                self.learned_drives(&antenna.shown.config)
-            } else {
-                antenna.handle.snapshot().learned
-            };
-            UnitDrives { make, address, axis }
-        });
-        let unit: Vec<UnitDrives> =
-            units.filter(|unit| unit.axis != <[AxisLessons; 2]>::default()).collect();
-        let is_changed = unit != self.learned_drives.unit;
-        self.learned_drives = LearnedDrives { unit, saved: Some(self.steady) };
-        if !is_changed {
+    /// Requests that the disk takes what was learned, unless that was recently.
+    pub(super) fn keep_learned_drives(&mut self) {
+        let saved = self.learned_drives.saved.get_or_insert(self.steady);
+        if self.steady < *saved + SAVES_EVERY {
             return;
         }
-        let text = toml::to_string(&self.learned_drives).map_err(|error| error.to_string());
+        self.learned_drives.saved = Some(self.steady);
+        self.save_learned_drives(false);
+    }
+
+    /// Saves what was learned; `waits`: before the program ends.
+    pub(super) fn save_learned_drives(&mut self, waits: bool) {
+        let Some(path) = self.beside_station(EXTENSION) else { return };
+        if self.learned_drives.is_unread {
+            return;
+        }
+        self.note_learned_drives();
         let promises = self.driver.debts().promises();
-        let kept = text.and_then(|text| promises.put_and_wait(&path, FileState::Holds(text)));
-        if let Err(error) = kept {
-            tracing::error!(error, "what was learned of the drives is not on the disk");
+        let LearnedDrives { units, requested, .. } = &self.learned_drives;
+        let has_failed = matches!(promises.kept(&path), Kept::Failed(_));
+        if units == requested && !has_failed {
+            return;
+        }
+        let text = match self.learned_drives.text() {
+            Ok(text) => text,
+            Err(error) => {
+                tracing::error!(%error, "Azel cannot save the learned figures of the drives");
+                return;
+            }
+        };
+        self.learned_drives.requested.clone_from(&self.learned_drives.units);
+        if !waits {
+            return promises.put(&path, FileState::Holds(text));
+        }
+        if let Err(error) = promises.put_and_wait(&path, FileState::Holds(text)) {
+            tracing::error!(error, "the learned figures of the drives are not on the disk");
         }
     }
 }
@@ -124,27 +182,54 @@ mod tests {
     use super::*;
 
     #[test]
-    fn figures_that_no_drive_can_have_are_learned_anew() {
+    fn figures_that_no_drive_can_have_are_learned_again() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("station.drives.toml");
         assert_eq!(LearnedDrives::load(&path), LearnedDrives::default());
         let file = |dead_time_s: &str| {
-            format!(
-                "[[unit]]\nmake = \"satrak\"\naddress = \"mast:5000\"\n\
-                 [[unit.axis]]\ndead_time = {{ longest_s = {dead_time_s}, starts = 9 }}\n\
-                 [[unit.axis]]\n"
-            )
+            let unit = |address: &str, dead_time_s: &str| {
+                format!(
+                    "[[unit]]\nmake = \"satrak\"\naddress = \"{address}\"\n\
+                     [[unit.axis]]\ndead_time = {{ longest_s = {dead_time_s}, starts = 9 }}\n\
+                     [[unit.axis]]\n"
+                )
+            };
+            [unit("mast:5000", dead_time_s), unit("dish:5000", "0.5")].concat()
         };
-        let unit = Unit { make: "satrak".to_owned(), address: "mast:5000".to_owned() };
+        let unit = |address: &str| Unit { make: "satrak".to_owned(), address: address.to_owned() };
         for (dead_time_s, expected_s) in
-            [("0.75", Some(0.75)), ("-1.0", None), ("nan", None), ("inf", None), ("x", None)]
+            [("0.75", Some(0.75)), ("-1.0", None), ("nan", None), ("inf", None), ("\"x\"", None)]
         {
             fs::write(&path, file(dead_time_s)).unwrap();
-            let [first, _] = LearnedDrives::load(&path).axes(&unit);
-            assert_eq!(first.dead_time_s(), expected_s, "{dead_time_s}");
+            let read = LearnedDrives::load(&path);
+            let dead_time_s = |address| read.axes(&unit(address))[0].dead_time_s();
+            assert_eq!(dead_time_s("mast:5000"), expected_s);
+            assert_eq!(dead_time_s("dish:5000"), Some(0.5), "the other one is kept");
+            assert_eq!(dead_time_s("horn:5000"), None);
         }
-        let elsewhere = Unit { address: "dish:5000".to_owned(), ..unit };
-        fs::write(&path, file("0.75")).unwrap();
-        assert_eq!(LearnedDrives::load(&path).axes(&elsewhere), <[AxisLessons; 2]>::default());
+        fs::write(&path, "[[unit]").unwrap();
+        assert!(LearnedDrives::load(&path).is_unread);
+    }
+
+    #[test]
+    fn a_unit_that_leaves_the_station_is_remembered_up_to_a_limit() {
+        let lessons: [AxisLessons; 2] = toml::from_str::<DrivesFile<UnitDrives>>(
+            "[[unit]]\nmake = \"satrak\"\naddress = \"a\"\n\
+                 [[unit.axis]]\nat_rest = { widest_deg = 0.2, places = 7 }\n[[unit.axis]]\n",
+        )
+        .unwrap()
+        .unit[0]
+            .axis;
+        let unit = |number: usize| Unit { make: "satrak".to_owned(), address: number.to_string() };
+        let mut drives = LearnedDrives::default();
+        for number in 0..MAX_UNITS + 2 {
+            drives.note(unit(number), lessons);
+        }
+        assert_eq!(drives.units.len(), MAX_UNITS);
+        assert_eq!(drives.axes(&unit(1)), <[AxisLessons; 2]>::default());
+        assert_eq!(drives.axes(&unit(2)), lessons);
+        drives.note(unit(2), <[AxisLessons; 2]>::default());
+        assert_eq!(drives.axes(&unit(2)), <[AxisLessons; 2]>::default(), "the operator reset it");
+        assert_eq!(drives.axes(&unit(3)), lessons);
     }
 }

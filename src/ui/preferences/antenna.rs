@@ -119,7 +119,7 @@ pub(super) fn show(
     }
 }
 
-/// Shows what Azel has learned of each drive, and lets the operator have it learned anew.
+/// Shows what Azel has learned of each drive, and lets the operator reset it.
 fn learned_drives(ui: &mut Ui, antenna: &AntennaModel, commands: &mut Vec<UiCommand>) {
     let can = antenna.config.connection.variant().capabilities;
     let axes = can.axes.iter().zip(&antenna.snapshot.learned).take(can.axis_count());
@@ -128,7 +128,7 @@ fn learned_drives(ui: &mut Ui, antenna: &AntennaModel, commands: &mut Vec<UiComm
     }
     let is_known = antenna.snapshot.learned != <[AxisLessons; 2]>::default();
     form::labelled(ui, "", |ui, _| {
-        let forget = ui.add_enabled(is_known, egui::Button::new("Learn the drives anew"));
+        let forget = ui.add_enabled(is_known, egui::Button::new("Reset learned figures"));
         let forget = forget.on_hover_text(
             "After work on the drives, Azel would otherwise take a changed motion for that of \
              somebody else.",

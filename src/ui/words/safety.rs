@@ -157,11 +157,13 @@ pub fn drive(lessons: &AxisLessons) -> String {
         properties.iter().filter(|(_, figure)| figure.is_none()).map(|(name, _)| *name).collect();
     let mut sentences = Vec::new();
     if !learned.is_empty() {
-        sentences.push(format!("It {}.", format::list(&learned)));
+        sentences.push(format!("The drive {}.", format::list(&learned)));
     }
     if !assumed.is_empty() {
-        sentences
-            .push(format!("Not learned yet, so the worst is assumed: {}.", format::list(&assumed)));
+        sentences.push(format!(
+            "Azel assumes the worst until it has learned {}.",
+            format::list(&assumed)
+        ));
     }
     sentences.join(" ")
 }
@@ -242,7 +244,7 @@ fn foreign_hands(antenna: &str, axis: &str, evidence: Evidence) -> String {
     format!(
         "Somebody else moved {antenna}, by its panel, by another program or by hand: {evidence}. Azel \
          does not move it on. Find out who moves it before you move it again. After work on its drives, \
-         let Azel learn them anew in Preferences."
+         reset their learned figures in Preferences."
     )
 }
 

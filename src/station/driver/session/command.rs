@@ -104,7 +104,7 @@ pub enum Command {
     LockOut(LockOut),
     /// The maintenance is over.
     Unlock,
-    /// The drives have changed: learn their properties anew.
+    /// The drives have changed: reset their learned figures.
     ForgetDrives,
     /// Send a question to the unit; the answer appears in the wire log.
     Ask(SmolStr),

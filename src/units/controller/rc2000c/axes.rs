@@ -229,14 +229,20 @@ fn motion(
                 counts_grow(now > before)
             }
             (Some(Position::TenthsOfDegree(before)), Position::TenthsOfDegree(now))
-                if now.abs_diff(before) > UNSTEADY =>
+                if turned_tenths(before, now).unsigned_abs() > UNSTEADY =>
             {
-                turning(now > before)
+                turning(turned_tenths(before, now) > 0)
             }
             _ if drive == AxisDrive::AutoMove => AxisMotion::Unknown(AUTO_MOVE),
             _ => AxisMotion::Still,
         },
     }
+}
+
+/// The shorter way round from one shown angle to another, tenths of a degree: the display may wrap.
+fn turned_tenths(before: i16, now: i16) -> i16 {
+    let turned = (i32::from(now) - i32::from(before) + 1800).rem_euclid(3600) - 1800;
+    i16::try_from(turned).unwrap_or_default()
 }
 
 fn drive_state(drive: AxisDrive) -> Drive {

@@ -143,6 +143,20 @@ fn a_shown_azimuth_has_no_angle_until_its_turn_is_known() {
 }
 
 #[test]
+fn a_display_that_wraps_at_north_shows_no_turn_of_a_standing_axis() {
+    let shown = |tenths| Status { azimuth: Position::TenthsOfDegree(tenths), ..status(IDLE) };
+    let motion = |before, after| {
+        let [azimuth, _] = calibrated().read(&shown(after), Some(&shown(before)));
+        azimuth.motion
+    };
+    assert_eq!(motion(0, 3599), AxisMotion::Still);
+    assert_eq!(motion(3599, 0), AxisMotion::Still);
+    assert_eq!(motion(3590, 10), AxisMotion::Plus);
+    assert_eq!(motion(10, 3590), AxisMotion::Minus);
+    assert_eq!(motion(1000, 1010), AxisMotion::Plus);
+}
+
+#[test]
 fn an_axis_that_stays_is_sent_to_its_present_counts() {
     let axes = calibrated();
     let angle = |degrees| Some(Angle::from_degrees(degrees));
