@@ -380,7 +380,7 @@ impl AxisWatch {
             if std::mem::take(&mut self.starts)
                 && let Some(sent) = self.sent
             {
-                self.dead_time.seen(at.saturating_duration_since(sent));
+                self.dead_time.note_start(at.saturating_duration_since(sent));
             }
             self.turned = Some(Turned { from_deg: deg, at: Some(at), is_up });
             // It hunts.

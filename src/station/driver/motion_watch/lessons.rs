@@ -235,7 +235,7 @@ pub(super) struct DeadTime {
 }
 
 impl DeadTime {
-    pub(super) fn seen(&mut self, lasted: Duration) {
+    pub(super) fn note_start(&mut self, lasted: Duration) {
         self.longest_s = self.longest_s.max(lasted.as_secs_f64());
         self.starts = self.starts.saturating_add(1);
     }
@@ -244,8 +244,8 @@ impl DeadTime {
         if self.starts < STARTS {
             return DEAD_TIME;
         }
-        let seen = Duration::try_from_secs_f64(self.longest_s * 1.25).unwrap_or(DEAD_TIME);
-        seen.saturating_add(SPARE).min(DEAD_TIME)
+        let longest = Duration::try_from_secs_f64(self.longest_s * 1.25).unwrap_or(DEAD_TIME);
+        longest.saturating_add(SPARE).min(DEAD_TIME)
     }
 }
 
