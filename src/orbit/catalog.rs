@@ -1,7 +1,11 @@
 //! The catalog: all elements that the operator has, with the newest set of every object, or an
 //! older one where the operator uses that or prefers its source.
 
-use std::{cmp::Ordering, collections::BTreeMap, ops::Range};
+use std::{
+    cmp::Ordering,
+    collections::{BTreeMap, BTreeSet},
+    ops::Range,
+};
 
 use jiff::{SignedDuration, Timestamp};
 use serde::{Deserialize, Serialize};
@@ -29,6 +33,8 @@ pub struct Catalog {
     orders: SourceOrders,
     /// All sets of the objects with an order of sources.
     candidates: BTreeMap<u32, Vec<Entry>>,
+    /// Objects with an order of sources whose set the operator has chosen.
+    chosen: BTreeSet<u32>,
 }
 
 /// The newest set of an object, while an older one is in use.
@@ -91,11 +97,12 @@ impl Catalog {
 
     /// Uses the set of the first source in the order of each object that is at most
     /// [`SOURCE_LAG`] older than the newest one; leaves the newest set in use if there is none.
-    /// Skips the objects for which `has_choice` is true: the operator has chosen their set.
+    /// Skips the objects for which `has_choice` returns true: the operator has chosen their set.
     pub fn apply_orders(&mut self, has_choice: impl Fn(u32) -> bool) {
         let candidates = std::mem::take(&mut self.candidates);
         for (number, sets) in candidates {
             if has_choice(number) {
+                self.chosen.insert(number);
                 continue;
             }
             if let Some(chosen) = self.preferred(number, &sets) {
@@ -117,15 +124,20 @@ impl Catalog {
     fn use_preferred(&mut self, number: u32, mut chosen: Entry) {
         let source_in_use = self.groups.get(chosen.group as usize).map(|group| group.name.clone());
         let Ok(place) = self.entries.binary_search_by_key(&number, Entry::number) else { return };
-        let Some(held) = self.entries.get_mut(place) else { return };
-        chosen.elements.take_name(&held.elements);
-        if held.elements.epoch() == chosen.elements.epoch() {
-            *held = chosen;
+        let Some(current) = self.entries.get_mut(place) else { return };
+        chosen.elements.take_name(&current.elements);
+        if current.elements.epoch() == chosen.elements.epoch() {
+            *current = chosen;
             return;
         }
-        let newest = std::mem::replace(&mut held.elements, chosen.elements);
+        let newest = std::mem::replace(&mut current.elements, chosen.elements);
         let aside = SetAside { newest, source_in_use: source_in_use.unwrap_or_default() };
         self.passed_over.insert(number, aside);
+    }
+
+    /// Returns `true` if the operator has chosen the set of an object in place of its order.
+    pub fn is_chosen(&self, catalog_number: u32) -> bool {
+        self.chosen.contains(&catalog_number) || self.set_aside.contains_key(&catalog_number)
     }
 
     /// The newest set of an object whose preferred source has an older one.
@@ -157,17 +169,17 @@ impl Catalog {
             let (sorted, _) = self.entries.split_at_mut(known);
             let place = sorted.binary_search_by_key(&number, Entry::number).ok();
             match place.and_then(|place| sorted.get_mut(place)) {
-                Some(held) => self.superseded.extend(settle(held, entry, &mut summary)),
+                Some(current) => self.superseded.extend(settle(current, entry, &mut summary)),
                 None => self.entries.push(entry),
             }
         }
         // The sort is stable, so that sets of one object stay in the order of the text.
         self.entries.sort_by_key(Entry::number);
         let superseded = &mut self.superseded;
-        self.entries.dedup_by(|later, held| {
-            let is_same = later.number() == held.number();
+        self.entries.dedup_by(|later, current| {
+            let is_same = later.number() == current.number();
             if is_same {
-                superseded.extend(settle(held, later.clone(), &mut summary));
+                superseded.extend(settle(current, later.clone(), &mut summary));
             }
             is_same
         });
@@ -218,12 +230,12 @@ impl Catalog {
     pub fn use_in_place(&mut self, mut older: Elements, source: &str) {
         let number = older.catalog_number();
         let Ok(place) = self.entries.binary_search_by_key(&number, Entry::number) else { return };
-        let Some(held) = self.entries.get_mut(place) else { return };
-        if held.elements.epoch() == older.epoch() {
+        let Some(current) = self.entries.get_mut(place) else { return };
+        if current.elements.epoch() == older.epoch() {
             return;
         }
-        older.take_name(&held.elements);
-        let newest = std::mem::replace(&mut held.elements, older);
+        older.take_name(&current.elements);
+        let newest = std::mem::replace(&mut current.elements, older);
         let aside = SetAside { newest, source_in_use: source.to_owned() };
         self.set_aside.insert(number, aside);
     }
@@ -316,19 +328,19 @@ impl Catalog {
     }
 }
 
-/// Keeps the newer of two sets of one object in `held`; returns the other, unless it is of the
+/// Keeps the newer of two sets of one object in `current`; returns the other, unless it is of the
 /// same epoch.
-fn settle(held: &mut Entry, mut other: Entry, summary: &mut MergeSummary) -> Option<Entry> {
-    let order = other.elements.epoch().cmp(&held.elements.epoch());
+fn settle(current: &mut Entry, mut other: Entry, summary: &mut MergeSummary) -> Option<Entry> {
+    let order = other.elements.epoch().cmp(&current.elements.epoch());
     match order {
         Ordering::Greater => {
-            std::mem::swap(held, &mut other);
+            std::mem::swap(current, &mut other);
             summary.updated += 1;
         }
         Ordering::Equal => summary.known += 1,
         Ordering::Less => summary.older += 1,
     }
-    held.elements.take_name(&other.elements);
+    current.elements.take_name(&other.elements);
     (order != Ordering::Equal).then_some(other)
 }
 

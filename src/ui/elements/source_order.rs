@@ -89,14 +89,16 @@ fn value(catalog: &Catalog, number: u32, order: &[String]) -> String {
     format!("{}, then the newest", order.join(", then "))
 }
 
-/// Why the first source of the order is not in use, if it is not.
+/// Returns the reason why the first source of the order is not in use, if it is not.
 fn lags(catalog: &Catalog, number: u32, order: &[String]) -> Option<String> {
     let first = order.first()?;
     let in_use = catalog.source_of(number).unwrap_or(BUNDLED_SOURCE);
-    if in_use == first || catalog.set_aside(number).is_some() {
+    if in_use == first {
         return None;
     }
-    let why = if catalog.groups_of(number).any(|group| group == first) {
+    let why = if catalog.is_chosen(number) {
+        "You chose the set in use yourself, which comes before the order.".to_owned()
+    } else if catalog.groups_of(number).any(|group| group == first) {
         format!("The elements of {first} are more than {} older than the newest.", lag())
     } else {
         format!("{first} has no elements of this satellite.")
@@ -116,4 +118,42 @@ fn rule(order: &[String]) -> String {
 
 fn lag() -> String {
     format!("{} days", SOURCE_LAG.as_hours() / 24)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::orbit::{bundled, read_elements, write_omm_json};
+
+    const ISS: u32 = 25_544;
+
+    /// A catalog of the ISS with a set of each source, which prefers `own`.
+    fn catalog(own_epoch: &str, has_choice: bool) -> Catalog {
+        let mut text = Vec::new();
+        write_omm_json([bundled().unwrap().get(ISS).unwrap()], &mut text).unwrap();
+        let mut catalog = Catalog::default();
+        catalog.set_orders([(ISS, vec!["own".to_owned()])].into());
+        for (source, epoch) in [("web", "2026-08-14T00:00:00"), ("own", own_epoch)] {
+            let mut list: serde_json::Value = serde_json::from_slice(&text).unwrap();
+            list[0]["EPOCH"] = epoch.into();
+            catalog.merge(read_elements(&list.to_string()), source);
+        }
+        catalog.apply_orders(|_| has_choice);
+        catalog
+    }
+
+    #[test]
+    fn a_source_that_is_not_in_use_has_its_true_reason() {
+        for (own_epoch, has_choice, reason) in [
+            ("2026-08-13T00:00:00", false, None),
+            ("2026-08-13T00:00:00", true, Some("You chose the set in use yourself")),
+            ("2026-08-10T00:00:00", false, Some("The elements of own are more than 3 days older")),
+        ] {
+            let lags = lags(&catalog(own_epoch, has_choice), ISS, &["own".to_owned()]);
+            assert_eq!(lags.is_some(), reason.is_some(), "{lags:?}");
+            if let Some((lags, reason)) = lags.zip(reason) {
+                assert!(lags.starts_with(reason) && lags.ends_with("In use: web."), "{lags}");
+            }
+        }
+    }
 }
