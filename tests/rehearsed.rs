@@ -3,6 +3,7 @@
 //! time.
 
 mod automatic;
+mod elements;
 mod explained;
 mod full_disk;
 mod learned;

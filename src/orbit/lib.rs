@@ -31,8 +31,8 @@ pub use reader::{
 };
 pub use shadow::{is_lit, is_sunlit};
 pub use sources::{
-    FETCH_PAUSE, FetchProblem, FileReport, RefreshHours, Source, SourcePlace, SourceReport,
-    may_fetch,
+    FETCH_PAUSE, FetchProblem, FileReport, RefreshHours, RequestLimit, Source, SourcePlace,
+    SourceReport, may_fetch, not_before,
 };
 pub use writer::{
     TleRefusal, TleRefusalReason, tle_lines, write_omm_csv, write_omm_json, write_tle,

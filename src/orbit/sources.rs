@@ -79,16 +79,19 @@ impl Source {
         Self { name: "SatNOGS".to_owned(), place: SourcePlace::Web(url), refresh: None }
     }
 
-    /// When the server of this source is asked the next time without the operator; `None` where
-    /// it is not, such as after a refused log-in. A failure doubles the time, four times at most. A part of up to a tenth keeps
-    /// many consoles from asking at once.
-    pub fn next_by_itself(&self, report: Option<&SourceReport>) -> Option<Timestamp> {
+    /// Returns the time of the next request without the operator; `None` if there is none, such as
+    /// after a refused log-in.
+    ///
+    /// A failure doubles the time, four times at most. A part of up to a tenth keeps many consoles
+    /// from asking at once.
+    pub fn next_by_itself(
+        &self,
+        report: Option<&SourceReport>,
+        now: Timestamp,
+    ) -> Option<Timestamp> {
         let hours = self.refresh.filter(|_| self.place.is_server())?;
         let report = report.filter(|report| !report.is_set_aside && !report.awaits_operator())?;
-        let Some(last) = report.next_fetch.and_then(|next| next.checked_sub(FETCH_PAUSE).ok())
-        else {
-            return Some(Timestamp::UNIX_EPOCH);
-        };
+        let Some(last) = report.attempted_at(now) else { return Some(Timestamp::UNIX_EPOCH) };
         let interval_s = f64::from(hours.0) * 3600.0 * f64::from(1_u32 << report.failures.min(4));
         let spread = f64::from(spread(&self.name, last)) / f64::from(u16::MAX);
         Some(time::add_seconds(last, interval_s * (1.0 + 0.1 * spread)))
@@ -109,6 +112,21 @@ fn spread(name: &str, last: Timestamp) -> u16 {
 pub fn may_fetch(last_attempt: Option<Timestamp>, now: Timestamp, forced: bool) -> bool {
     // A clock that was set back must not block the source.
     forced || last_attempt.is_none_or(|last| last > now || now.duration_since(last) >= FETCH_PAUSE)
+}
+
+/// A limit of a server, which holds for the operator too: no request for `pause` after `at`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub struct RequestLimit {
+    /// Time of the request that began the limit.
+    pub at: Timestamp,
+    pub pause: SignedDuration,
+}
+
+/// Returns the end of the last of `limits`. A limit that begins after `now` does not count: the
+/// clock was ahead, and must not block the source for years.
+pub fn not_before(limits: &[RequestLimit], now: Timestamp) -> Option<Timestamp> {
+    let limits = limits.iter().filter(|limit| limit.at <= now);
+    limits.filter_map(|limit| limit.at.checked_add(limit.pause).ok()).max()
 }
 
 /// The reason why a server gave no new elements. The elements that are held stay.
@@ -152,6 +170,13 @@ pub enum FetchProblem {
     /// The server's own reason why it gave no elements.
     #[error("the server answered: {0}")]
     Refused(String),
+    /// The library on disk takes no record of a request, so that a restart could ask too often. No
+    /// server was asked.
+    #[error("no server was asked, because the request cannot be recorded: {0}")]
+    Unrecorded(String),
+    /// The same after the log-in.
+    #[error("the query was not sent, because it cannot be recorded: {0}")]
+    QueryUnrecorded(String),
     /// A source of the elements of favourites, without favourites. No server was asked.
     #[error("there are no favourites to ask for")]
     NoFavourites,
@@ -165,7 +190,11 @@ impl FetchProblem {
     /// server has begun.
     pub fn is_before_request(&self) -> bool {
         match self {
-            Self::Address | Self::NoPassword | Self::Keyring(_) | Self::NoFavourites => true,
+            Self::Address
+            | Self::NoPassword
+            | Self::Keyring(_)
+            | Self::Unrecorded(_)
+            | Self::NoFavourites => true,
             Self::Answer(_)
             | Self::Unreachable(_)
             | Self::Certificate(_)
@@ -176,6 +205,7 @@ impl FetchProblem {
             | Self::LogIn
             | Self::NoSession
             | Self::Refused(_)
+            | Self::QueryUnrecorded(_)
             | Self::Disk(_) => false,
         }
     }
@@ -198,9 +228,9 @@ pub struct SourceReport {
     pub failures: u32,
     /// When the server may be asked again without force, if the source is a server.
     pub next_fetch: Option<Timestamp>,
-    /// When the server may be asked again even by the operator, if it sets such a limit.
+    /// Limits of the server that hold for the operator too.
     #[serde(default)]
-    pub not_before: Option<Timestamp>,
+    pub limits: Vec<RequestLimit>,
     /// The source was not read, because the program ended while reading it the last time.
     pub is_set_aside: bool,
 }
@@ -231,11 +261,28 @@ impl SourceReport {
         self.fetch_problem == Some(FetchProblem::LogIn)
     }
 
-    /// When the operator may ask the server without force; `None` if it was never asked, or not the
-    /// last time.
-    pub fn next_request(&self) -> Option<Timestamp> {
+    /// Returns the time at which the operator may ask the server without force; `None` if it was
+    /// never asked, or not the last time.
+    pub fn next_request(&self, now: Timestamp) -> Option<Timestamp> {
         let is_unasked = self.fetch_problem.as_ref().is_some_and(FetchProblem::is_before_request);
-        self.next_fetch.filter(|_| !is_unasked)
+        self.pause_end(now).filter(|_| !is_unasked)
+    }
+
+    /// Returns the time at which the server may be asked again without force, after an attempt of
+    /// any outcome.
+    pub fn pause_end(&self, now: Timestamp) -> Option<Timestamp> {
+        self.next_fetch.filter(|_| self.attempted_at(now).is_some())
+    }
+
+    /// Returns the time at which the operator may ask the server again, if it sets such a limit.
+    pub fn not_before(&self, now: Timestamp) -> Option<Timestamp> {
+        not_before(&self.limits, now)
+    }
+
+    /// Time of the last attempt. [`may_fetch`] ignores one that lies after `now` too.
+    fn attempted_at(&self, now: Timestamp) -> Option<Timestamp> {
+        let last = self.next_fetch?.checked_sub(FETCH_PAUSE).ok()?;
+        Some(last).filter(|last| *last <= now)
     }
 
     /// Age of the held elements at `now`, in seconds.
@@ -271,28 +318,55 @@ mod tests {
             failures,
             // Asked at 12:00.
             next_fetch: Some(at("2026-08-12T14:00:00Z")),
-            not_before: None,
+            limits: Vec::new(),
             is_set_aside: false,
         };
+        let now = at("2026-08-12T12:00:00Z");
         let off = Source::celestrak("active");
-        assert_eq!(off.next_by_itself(Some(&report(0))), None);
+        assert_eq!(off.next_by_itself(Some(&report(0)), now), None);
         let source = Source { refresh: Some(RefreshHours::from(1)), ..off };
         let after_h = |failures| {
-            let next = source.next_by_itself(Some(&report(failures))).unwrap();
+            let next = source.next_by_itself(Some(&report(failures)), now).unwrap();
             time::seconds_between(at("2026-08-12T12:00:00Z"), next) / 3600.0
         };
-        for (failures, least) in [(0, 2.0), (1, 4.0), (2, 8.0), (4, 32.0), (9, 32.0)] {
-            assert!((least..=1.1 * least).contains(&after_h(failures)), "{}", after_h(failures));
+        for (failures, min_h) in [(0, 2.0), (1, 4.0), (2, 8.0), (4, 32.0), (9, 32.0)] {
+            assert!((min_h..=1.1 * min_h).contains(&after_h(failures)), "{}", after_h(failures));
         }
         assert!(after_h(0) > 2.0, "not all consoles at once");
         let never = SourceReport { next_fetch: None, ..report(0) };
-        assert_eq!(source.next_by_itself(Some(&never)), Some(Timestamp::UNIX_EPOCH));
+        assert_eq!(source.next_by_itself(Some(&never), now), Some(Timestamp::UNIX_EPOCH));
         let refused = SourceReport { fetch_problem: Some(FetchProblem::LogIn), ..report(1) };
-        assert_eq!(source.next_by_itself(Some(&refused)), None, "the account would be locked");
+        assert_eq!(source.next_by_itself(Some(&refused), now), None, "the account would be locked");
         let aside = SourceReport { is_set_aside: true, ..report(0) };
-        assert_eq!(source.next_by_itself(Some(&aside)), None);
+        assert_eq!(source.next_by_itself(Some(&aside), now), None);
         let file = Source { place: SourcePlace::File("own.tle".into()), ..source.clone() };
-        assert_eq!(file.next_by_itself(Some(&report(0))), None);
+        assert_eq!(file.next_by_itself(Some(&report(0)), now), None);
+    }
+
+    #[test]
+    fn a_request_by_a_clock_that_was_ahead_blocks_nothing() {
+        let at = |text: &str| -> Timestamp { text.parse().unwrap() };
+        let now = at("2026-08-12T12:00:00Z");
+        let hour = SignedDuration::from_hours(1);
+        let limits = [("2031-01-01T00:00:00Z", hour), ("2026-08-12T11:59:50Z", hour / 240)]
+            .map(|(text, pause)| RequestLimit { at: at(text), pause });
+        assert_eq!(not_before(&limits, now), Some(at("2026-08-12T12:00:05Z")));
+        assert_eq!(not_before(&limits[..1], now), None);
+        let report = SourceReport {
+            source: "active".to_owned(),
+            files: Vec::new(),
+            as_of: None,
+            newest_epoch: None,
+            fetch_problem: None,
+            failures: 0,
+            next_fetch: Some(at("2031-01-01T02:00:00Z")),
+            limits: limits.to_vec(),
+            is_set_aside: false,
+        };
+        let source = Source { refresh: Some(RefreshHours::from(2)), ..Source::celestrak("active") };
+        assert_eq!(source.next_by_itself(Some(&report), now), Some(Timestamp::UNIX_EPOCH));
+        assert_eq!((report.next_request(now), report.pause_end(now)), (None, None));
+        assert_eq!(report.not_before(now), Some(at("2026-08-12T12:00:05Z")));
     }
 
     #[test]

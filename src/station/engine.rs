@@ -161,8 +161,13 @@ struct Engine {
     settings_path: Option<PathBuf>,
     places: Places,
     elements_job: Option<Job<Outcome>>,
+    /// The elements came with the settings, and no sources are read.
+    has_given_elements: bool,
     /// The station whose orders of sources the last reading applied.
-    orders_of: Arc<Station>,
+    ordered_for: Arc<Station>,
+    /// Names of the sources whose servers are asked with a typed password once no other work on
+    /// elements is under way.
+    typed_passwords: Vec<String>,
     passwords: Option<Passwords>,
     /// When servers were last asked without a client.
     refreshed_at: Option<Timestamp>,
@@ -275,12 +280,7 @@ impl Engine {
         let link_test_runner = link_tests::Runner::new(outside, Arc::clone(&wake));
         let places = Places::new(settings_path.as_deref(), settings.library.clone());
         let given = settings.elements.clone();
-        let elements_job = if given.is_none() {
-            let (task, now) = (Task::default(), clock.utc());
-            Some(sources::start(&places, task, None, now, Arc::clone(&wake))?)
-        } else {
-            None
-        };
+        let has_given_elements = given.is_some();
         let catalog = given.map_or(CatalogState::Loading, CatalogState::Ready);
         let upload_places = settings.upload_places.clone().or_else(uploads::Places::of_this_user);
         let passwords = upload_places.as_ref().map(Passwords::new);
@@ -309,7 +309,7 @@ impl Engine {
             demo: None,
             catalog,
             catalog_revision: 0,
-            sources: Sources::at_start(elements_job.is_some()),
+            sources: Sources::default(),
             antennas: Vec::new(),
             sessions: 0,
             has_started: false,
@@ -338,8 +338,10 @@ impl Engine {
             copy_work: CopyWork::beside(settings_path.as_deref()),
             settings_path,
             places,
-            elements_job,
-            orders_of: Arc::default(),
+            elements_job: None,
+            has_given_elements,
+            ordered_for: Arc::default(),
+            typed_passwords: Vec::new(),
             passwords,
             refreshed_at: None,
             older_sets: None,
@@ -365,6 +367,9 @@ impl Engine {
         engine.take_claims(settings.claims.clone());
         engine.load_lock_outs();
         engine.load_station();
+        if !has_given_elements {
+            engine.start_elements(Task::default())?;
+        }
         engine.has_started = true;
         engine.start_automatic();
         engine.publish();

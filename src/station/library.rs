@@ -11,6 +11,7 @@ mod fetch;
 mod history;
 mod index;
 mod list;
+mod lock;
 mod space_track;
 mod unfinished;
 
@@ -29,25 +30,29 @@ pub use self::{
     fetch::Limits,
     history::{History, OlderSet},
     index::IndexError,
-    list::{SourceProblem, SourcesError, check_source, load_sources, save_sources},
-    space_track::{LOG_IN_PAUSE, PasswordOf, SPACE_TRACK_HOST, SpaceTrackAccess},
+    list::{SourceProblem, SourcesError, check_source, has_log_in, load_sources, save_sources},
+    space_track::{LOG_IN_PAUSE, PasswordStore, SPACE_TRACK_HOST, SpaceTrackAccess, log_in_key},
 };
 use self::{
     fetch::{ServerAnswer, agent, fetch, host},
     index::{Index, Record},
-    space_track::Visit,
+    lock::Lock,
+    space_track::{Step, Visit},
     unfinished::Unfinished,
 };
 use crate::{
     orbit::{
         Catalog, Elements, FETCH_PAUSE, FetchProblem, FileReport, MergeSummary, Source,
-        SourcePlace, SourceReport, may_fetch, read_element_bytes,
+        SourcePlace, SourceReport, may_fetch, not_before, read_element_bytes,
     },
     whole_file,
 };
 
 /// Extensions of element files in a folder.
 const ENDINGS: [&str; 9] = ["tle", "2le", "3le", "txt", "json", "csv", "xml", "kvn", "omm"];
+
+/// Lock of the visits to Space-Track.
+const VISIT_LOCK: &str = "space-track.lock";
 
 /// Element files in `folder`, sorted by name, without those of its subfolders.
 pub fn element_files(folder: &Path) -> io::Result<Vec<PathBuf>> {
@@ -143,7 +148,7 @@ impl Library {
         let mut report = no_report(source);
         if let Some(record) = key(source).and_then(|key| self.index.get(&key)) {
             if let SourcePlace::SpaceTrack(_) = source.place {
-                report.not_before = space_track::not_before(record);
+                report.limits = space_track::limits(record);
             }
             report.fetch_problem.clone_from(&record.problem);
             report.failures = record.failures;
@@ -192,11 +197,12 @@ impl Library {
     }
 
     /// Asks the servers of `sources` for new elements at `now`: every server that may be asked
-    /// again, or all if the operator demands it (`forced`) and the server allows it. Returns the number of sources with
-    /// new elements; [`Library::load`] then reports the result of each.
+    /// again, or all if the operator demands it (`forced`) and the server allows it. Returns the
+    /// number of sources with new elements; [`Library::load_into`] then reports the result of each,
+    /// even after an error.
     ///
     /// A server that gives an answer other than 200 or 304, or none, is not asked for its
-    /// other sources.
+    /// other sources. Another process that visits Space-Track keeps this one from a visit.
     pub fn refresh(
         &mut self,
         sources: &[Source],
@@ -214,8 +220,22 @@ impl Library {
             if silent_hosts.contains(&host) || !self.may_ask(source, &key, now, forced) {
                 continue;
             }
+            // Dropped once the index is saved.
+            let mut _lock = None;
             let asked = match &source.place {
-                SourcePlace::SpaceTrack(user) => self.refresh_space_track(source, user, now),
+                SourcePlace::SpaceTrack(user) => match Lock::try_take(&self.folder, VISIT_LOCK) {
+                    Ok(Some(taken)) => {
+                        _lock = Some(taken);
+                        // Another process may have asked since the index was read.
+                        self.index = Index::load(&self.folder)?;
+                        if !self.may_ask(source, &key, now, forced) {
+                            continue;
+                        }
+                        self.refresh_space_track(source, user, now)
+                    }
+                    Ok(None) => continue,
+                    Err(error) => Err(FetchProblem::Unrecorded(error.to_string())),
+                },
                 _ => self.refresh_one(&source.name, &key, now),
             };
             let problem = match asked {
@@ -241,28 +261,29 @@ impl Library {
             let record = self.index.entry(&key, &source.name, now);
             record.failures = if problem.is_some() { record.failures.saturating_add(1) } else { 0 };
             record.problem = problem;
-            self.index.save(&self.folder)?;
+            self.index.save_record(&key, &self.folder)?;
         }
         Ok(renewed)
     }
 
-    /// The earliest time at which the server of `source` may be asked, if it sets a limit.
-    pub fn not_before(&self, source: &Source) -> Option<Timestamp> {
+    /// Returns the earliest time at which the server of `source` may be asked, if it sets a limit.
+    pub fn not_before(&self, source: &Source, now: Timestamp) -> Option<Timestamp> {
         let SourcePlace::SpaceTrack(user) = &source.place else { return None };
-        self.index.get(&space_track::key(user)).and_then(space_track::not_before)
+        let record = self.index.get(&space_track::key(user))?;
+        not_before(&space_track::limits(record), now)
     }
 
-    /// Returns `true` if the server of `source` may be asked at `now`. A limit of the server holds for
-    /// the operator too.
+    /// Returns `true` if the server of `source` may be asked at `now`. A limit of the server holds
+    /// for the operator too. Only the operator repeats a refused log-in.
     fn may_ask(&self, source: &Source, key: &str, now: Timestamp, forced: bool) -> bool {
         let record = self.index.get(key);
         let last = record.and_then(Record::asked_at);
         let is_allowed = match source.place {
             SourcePlace::SpaceTrack(_) => {
-                // A clock that was set back must not block the source.
-                let record = record.filter(|record| record.attempted_at <= now);
-                let is_early = record.is_some() && self.not_before(source) > Some(now);
-                self.space_track.is_some() && !is_early
+                let is_early = self.not_before(source, now) > Some(now);
+                let refused = Some(FetchProblem::LogIn);
+                let is_refused = record.is_some_and(|record| record.problem == refused);
+                self.space_track.is_some() && !is_early && (forced || !is_refused)
             }
             _ => true,
         };
@@ -282,16 +303,43 @@ impl Library {
         let Some(access) = self.space_track.clone() else { return Ok(false) };
         let (limits, key) = (self.limits, space_track::key(user));
         let agent = agent(access.server(), limits, &self.authorities)?;
-        let record = self.index.entry(&key, &source.name, now);
-        record.attempted_at = now;
+        self.index.entry(&key, &source.name, now).attempted_at = now;
         let visit = Visit { access: &access, agent, limits };
-        let body = visit.run(user, || record.queried_at = Some(now))?;
+        let body = visit.run(user, |step| self.record_step(source, &key, now, step))?;
         newest_epoch(&body, now)?;
+        let record = self.index.entry(&key, &source.name, now);
         let path = self.folder.join(&record.file);
         whole_file::replace_and_keep_old(&path, &body)
             .map_err(|error| FetchProblem::Disk(error.to_string()))?;
         record.confirmed_at = Some(now);
         Ok(true)
+    }
+
+    /// Saves a request to Space-Track before it is sent, so that its limit holds even if Azel is
+    /// killed during the visit.
+    fn record_step(
+        &mut self,
+        source: &Source,
+        key: &str,
+        now: Timestamp,
+        step: Step,
+    ) -> Result<(), FetchProblem> {
+        let record = self.index.entry(key, &source.name, now);
+        let previous = record.queried_at;
+        match step {
+            // The time of an attempt that reached no server begins no limit.
+            Step::LogIn => {
+                record.problem.take_if(|problem| problem.is_before_request());
+            }
+            // The server has accepted the log-in.
+            Step::Query => (record.problem, record.queried_at) = (None, Some(now)),
+        }
+        let Err(error) = self.index.save_record(key, &self.folder) else { return Ok(()) };
+        self.index.entry(key, &source.name, now).queried_at = previous;
+        Err(match step {
+            Step::LogIn => FetchProblem::Unrecorded(error.to_string()),
+            Step::Query => FetchProblem::QueryUnrecorded(error.to_string()),
+        })
     }
 
     /// Requests one source; returns whether something new came.
@@ -344,7 +392,7 @@ fn no_report(source: &Source) -> SourceReport {
         fetch_problem: None,
         failures: 0,
         next_fetch: None,
-        not_before: None,
+        limits: Vec::new(),
         is_set_aside: false,
     }
 }

@@ -1,14 +1,15 @@
 //! A station in tokio's paused time, and what is asked of it.
 
-use std::{fs, num::NonZeroU32, path::Path, slice};
+use std::{fs, num::NonZeroU32, path::Path, slice, sync::Arc};
 
 use azel::{
     clock::Clock,
-    engine::{Client, Command, Settings, automatic::Operation, in_place::InPlace},
+    engine::{Client, Command, Settings, automatic::Operation, in_place::InPlace, uploads},
     job,
     library::{History, OlderSet},
     orbit::Elements,
     station::{self, AntennaId, Station},
+    transfer::{KeptFiles, KnownHosts, Limits, MemoryKeyring},
 };
 use jiff::Timestamp;
 use tokio::task::JoinHandle;
@@ -79,6 +80,7 @@ impl Scene {
             library: place("elements"),
             records: place("records").filter(|_| keeps.record),
             marks: place("marks").filter(|_| keeps.marks),
+            upload_places: Some(upload_places(folder.path())),
             ..Settings::default()
         };
         let (station, run) = InPlace::start(&settings, units.outside(&clock)).unwrap();
@@ -110,6 +112,18 @@ impl Scene {
 
     pub(crate) fn client(&self) -> Client {
         self.station.client().clone()
+    }
+}
+
+/// Places for passwords and files, away from the keyring of the user.
+fn upload_places(folder: &Path) -> uploads::Places {
+    let session = Arc::<MemoryKeyring>::default();
+    uploads::Places {
+        known_hosts: KnownHosts::new(folder.join("known_hosts")),
+        kept: KeptFiles::new(folder.join("uploads")),
+        keyring: session.clone(),
+        session,
+        limits: Limits::default(),
     }
 }
 

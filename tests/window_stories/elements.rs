@@ -15,7 +15,8 @@ use azel::{
     },
     model::{UiCommand, View},
     orbit::{
-        FetchProblem, FileReport, MergeSummary, RefreshHours, Source, SourcePlace, SourceReport,
+        FetchProblem, FileReport, MergeSummary, RefreshHours, RequestLimit, Source, SourcePlace,
+        SourceReport,
     },
     secret::Secret,
 };
@@ -24,6 +25,7 @@ use egui_kittest::{
     Node,
     kittest::{NodeT as _, Queryable as _},
 };
+use jiff::SignedDuration;
 
 use crate::window_stories::{
     rig::{self, Window, asked, says, settle},
@@ -53,7 +55,7 @@ pub(crate) fn report(source: &Source, objects: usize) -> SourceReport {
         fetch_problem: None,
         failures: 0,
         next_fetch: None,
-        not_before: None,
+        limits: Vec::new(),
         is_set_aside: false,
     }
 }
@@ -328,18 +330,24 @@ fn a_missing_or_refused_password_is_told_and_entered_in_a_dialog() {
         assert_eq!(asked(&mut window), [UiCommand::Station(wanted)]);
         assert!(!says(&window, "Password of op@example.org"), "the dialog is closed");
 
-        let set = |window: &mut Window, problem, not_before| {
+        let set = |window: &mut Window, problem, limits| {
             let sources = Arc::make_mut(&mut window.state_mut().model.sources);
             sources.reports[0].fetch_problem = problem;
-            sources.reports[0].not_before = not_before;
+            sources.reports[0].limits = limits;
             settle(window);
         };
-        set(&mut window, Some(FetchProblem::LogIn), None);
+        set(&mut window, Some(FetchProblem::LogIn), Vec::new());
         assert!(says(&window, "The server refused the log-in."));
         assert!(says(&window, "Azel does not try again by itself"));
         assert!(!is_disabled(&window, "Fetch Space-Track"));
-        set(&mut window, None, Some(add_seconds(rig::now(), 0.5 * HOUR_S)));
+        let query = |after_s| {
+            let at = add_seconds(rig::now(), after_s);
+            vec![RequestLimit { at, pause: SignedDuration::from_hours(1) }]
+        };
+        set(&mut window, None, query(-0.5 * HOUR_S));
         assert!(is_disabled(&window, "Fetch Space-Track"));
+        set(&mut window, None, query(24.0 * HOUR_S));
+        assert!(!is_disabled(&window, "Fetch Space-Track"), "the clock was ahead");
     }
 }
 

@@ -1,6 +1,6 @@
 //! Carries out the commands of clients.
 
-use std::sync::Arc;
+use std::{io, sync::Arc};
 
 use super::{
     CatalogState, Command, Engine, Event, StationClaim,
@@ -9,7 +9,7 @@ use super::{
     handle::{By, Stopped},
     on_board,
     passes::{PassKey, PredictedPass},
-    sources::{self, SourceWork, Task, TypedPassword},
+    sources::{self, SourceWork, Task},
     uploads,
 };
 use jiff::Timestamp;
@@ -23,8 +23,7 @@ use crate::{
     station::{self, AntennaId, Station},
 };
 
-/// Least time between two rounds of requests that nobody asked for, whatever became of the
-/// first.
+/// Minimum time between two rounds of requests without the operator, after any outcome.
 const REFRESH_PAUSE_S: f64 = 600.0;
 
 impl Engine {
@@ -143,7 +142,7 @@ impl Engine {
                 self.begin_elements(Task { ask: names, forced, ..Task::default() });
             }
             Command::SetSourcePassword { name, secret, keep } => {
-                self.set_source_password(name, secret, keep);
+                self.set_source_password(name, &secret, keep);
             }
             Command::OpenedAlarms => self.alarms.unopened = false,
             Command::AcknowledgeAlarm(id) => self.alarms.acknowledge(id, self.now),
@@ -344,32 +343,46 @@ impl Engine {
         }
     }
 
-    /// Reads the elements again if the station now has other orders of sources.
+    /// Reads the elements again if the station now has other orders of sources. Elements that came
+    /// with the settings are in no source, and stay.
     pub(super) fn follow_source_orders(&mut self) {
-        if self.elements_job.is_some() || Arc::ptr_eq(&self.orders_of, &self.station) {
+        let is_known = Arc::ptr_eq(&self.ordered_for, &self.station);
+        if self.has_given_elements || self.elements_job.is_some() || is_known {
             return;
         }
-        let [before, after] =
-            [&self.orders_of, &self.station].map(|of| of.favourites.source_orders());
-        if before == after {
-            self.orders_of = Arc::clone(&self.station);
+        let [previous, current] =
+            [&self.ordered_for, &self.station].map(|station| station.favourites.source_orders());
+        if previous == current {
+            self.ordered_for = Arc::clone(&self.station);
         } else {
             self.begin_elements(Task::default());
         }
     }
 
-    /// Takes a typed password, and asks the server of its source again.
-    fn set_source_password(&mut self, name: String, secret: Secret, is_kept: bool) {
+    /// Takes a typed password, and asks the server of its source again as soon as possible.
+    fn set_source_password(&mut self, name: String, secret: &Secret, is_kept: bool) {
         let sources = &mut self.sources.list.iter();
         let user = sources.find_map(|source| match &source.place {
             SourcePlace::SpaceTrack(user) if source.name == name => Some(user.clone()),
             _ => None,
         });
         // A secret that was written down on its way is empty, and must replace no password.
-        if let Some(user) = user.filter(|_| !secret.reveal().is_empty()) {
-            let typed = Some(TypedPassword { user, secret, is_kept });
-            self.begin_elements(Task { typed, ask: vec![name], forced: true, ..Task::default() });
+        let user = user.filter(|_| !secret.reveal().is_empty());
+        let Some((user, passwords)) = user.zip(self.passwords.as_ref()) else { return };
+        passwords.take(&user, secret, is_kept);
+        self.typed_passwords.retain(|waiting| *waiting != name);
+        self.typed_passwords.push(name);
+        self.ask_with_typed_passwords();
+    }
+
+    /// Asks the servers whose passwords the operator has typed, unless other work is under way.
+    pub(super) fn ask_with_typed_passwords(&mut self) {
+        if self.typed_passwords.is_empty() || self.elements_job.is_some() || self.sources.is_locked
+        {
+            return;
         }
+        let ask = std::mem::take(&mut self.typed_passwords);
+        self.begin_elements(Task { ask, forced: true, awaits_log_in: true, ..Task::default() });
     }
 
     /// Starts reading the elements. One job at a time: two would write the same files.
@@ -377,25 +390,29 @@ impl Engine {
         if self.elements_job.is_some() || self.sources.is_locked {
             return;
         }
+        if let Err(error) = self.start_elements(task) {
+            tracing::error!(%error, "no thread for the elements");
+        }
+    }
+
+    /// Starts reading the elements while nothing else does.
+    pub(super) fn start_elements(&mut self, task: Task) -> io::Result<()> {
         let task = Task {
             orders: self.station.favourites.source_orders(),
             favourites: self.station.favourites.numbers(),
             passwords: self.passwords.clone(),
             ..task
         };
-        self.orders_of = Arc::clone(&self.station);
+        self.ordered_for = Arc::clone(&self.station);
         let work = if task.ask.is_empty() { SourceWork::Reading } else { SourceWork::Asking };
         let in_use = match &self.catalog {
             CatalogState::Ready(catalog) => Some(Arc::clone(catalog)),
             CatalogState::Loading | CatalogState::Failed => None,
         };
-        match sources::start(&self.places, task, in_use, self.now, Arc::clone(&self.wake)) {
-            Ok(job) => {
-                self.elements_job = Some(job);
-                self.sources.work = work;
-            }
-            Err(error) => tracing::error!(%error, "no thread for the elements"),
-        }
+        let job = sources::start(&self.places, task, in_use, self.now, Arc::clone(&self.wake))?;
+        self.elements_job = Some(job);
+        self.sources.work = work;
+        Ok(())
     }
 
     /// Changes what the station knows of satellites. The change lasts only as long as the program for the

@@ -132,7 +132,7 @@ mod tests {
                 fetch_problem,
                 failures,
                 next_fetch: None,
-                not_before: None,
+                limits: Vec::new(),
                 is_set_aside: false,
             }];
             engine.watch_sources();

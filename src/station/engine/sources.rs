@@ -3,7 +3,7 @@
 
 use std::{
     path::{Path, PathBuf},
-    sync::Arc,
+    sync::{Arc, Mutex, PoisonError},
     time::Duration,
 };
 
@@ -18,12 +18,13 @@ use crate::job::Job;
 use crate::{
     job::Wake,
     library::{
-        self, History, IndexError, LOG_IN_PAUSE, Library, Limits, OlderSet, SPACE_TRACK_HOST,
-        SpaceTrackAccess, check_source, load_sources, read_element_file, save_sources,
+        self, History, IndexError, LOG_IN_PAUSE, Library, Limits, OlderSet, PasswordStore,
+        SPACE_TRACK_HOST, SpaceTrackAccess, check_source, has_log_in, load_sources, log_in_key,
+        read_element_file, save_sources,
     },
     orbit::{Catalog, FetchProblem, Source, SourceOrders, SourcePlace, SourceReport, bundled},
     secret::Secret,
-    transfer::{Account, Keyring as _, MemoryKeyring, TimedKeyring},
+    transfer::{Account, Keyring as _, KeyringError, MemoryKeyring, TimedKeyring},
     whole_file,
 };
 
@@ -55,11 +56,6 @@ pub enum SourceWork {
 }
 
 impl Sources {
-    pub(super) fn at_start(are_read: bool) -> Self {
-        let work = if are_read { SourceWork::Reading } else { SourceWork::Nothing };
-        Self { work, ..Self::default() }
-    }
-
     /// Returns `true` if a change would be accepted now.
     pub fn is_free(&self) -> bool {
         self.work == SourceWork::Nothing && !self.is_locked
@@ -70,7 +66,8 @@ impl Sources {
     /// Names of the sources whose servers are to be asked at `now` without a client.
     pub(super) fn due_by_themselves(&self, now: Timestamp) -> Vec<String> {
         let sources = self.list.iter().zip(&self.reports);
-        let is_pausing = |report: &SourceReport| report.next_fetch.is_some_and(|next| next > now);
+        let is_pausing =
+            |report: &SourceReport| report.pause_end(now).is_some_and(|next| next > now);
         // A server that has just failed is not asked for its other sources either.
         let failed: Vec<String> = sources
             .clone()
@@ -79,7 +76,7 @@ impl Sources {
             .collect();
         let is_due = |(source, report): &(&Source, &SourceReport)| {
             let has_failed = library::server_of(source).is_some_and(|host| failed.contains(&host));
-            let next = source.next_by_itself(Some(report));
+            let next = source.next_by_itself(Some(report), now);
             !is_pausing(report) && !has_failed && next.is_some_and(|next| next <= now)
         };
         sources.filter(is_due).map(|(source, _)| source.name.clone()).collect()
@@ -130,19 +127,10 @@ pub(super) struct Task {
     /// The favourites, for servers that are asked for them alone.
     pub(super) favourites: Vec<u32>,
     pub(super) passwords: Option<Passwords>,
-    /// A password that the operator has typed.
-    pub(super) typed: Option<TypedPassword>,
+    /// Wait for the servers to take another log-in: the operator has typed a password.
+    pub(super) awaits_log_in: bool,
     /// Ask even if they were asked lately.
     pub(super) forced: bool,
-}
-
-/// A typed password, and the log-in name that it belongs to.
-#[derive(Debug)]
-pub(super) struct TypedPassword {
-    pub(super) user: String,
-    pub(super) secret: Secret,
-    /// Keep it in the keyring of the operating system.
-    pub(super) is_kept: bool,
 }
 
 /// Passwords for servers: those of this session, and those in the keyring.
@@ -150,14 +138,63 @@ pub(super) struct TypedPassword {
 pub(super) struct Passwords {
     keyring: TimedKeyring,
     session: Arc<MemoryKeyring>,
+    /// Typed passwords for the keyring, until the server accepts them.
+    unproved: Arc<MemoryKeyring>,
+    /// Problems with the keyring.
+    problems: Arc<Mutex<Vec<String>>>,
 }
 
 impl Passwords {
     pub(super) fn new(places: &uploads::Places) -> Self {
         let keyring = TimedKeyring::new(Arc::clone(&places.keyring), KEYRING_LIMIT);
-        Self { keyring, session: Arc::clone(&places.session) }
+        Self::over(keyring, Arc::clone(&places.session))
     }
 
+    fn over(keyring: TimedKeyring, session: Arc<MemoryKeyring>) -> Self {
+        Self { keyring, session, unproved: Arc::default(), problems: Arc::default() }
+    }
+
+    /// Uses a typed password from now on, and keeps it in the keyring once the server has accepted
+    /// it, if the operator wants that.
+    pub(super) fn take(&self, user: &str, secret: &Secret, is_kept: bool) {
+        let account = account(user);
+        // Keyrings in memory never fail.
+        let _ = self.session.set(&account, secret.inner());
+        let _ = if is_kept {
+            self.unproved.set(&account, secret.inner())
+        } else {
+            self.unproved.remove(&account)
+        };
+    }
+
+    /// Forgets the password of `user`, in the keyring too.
+    fn forget(&self, user: &str) {
+        let account = account(user);
+        let _ = self.session.remove(&account);
+        let _ = self.unproved.remove(&account);
+        match self.keyring.remove(account) {
+            // Without a keyring there is nothing to remove.
+            Ok(()) | Err(KeyringError::Missing(_)) => {}
+            Err(error) => self.add_problem(format!("the password stays in the keyring: {error}")),
+        }
+    }
+
+    fn add_problem(&self, problem: String) {
+        self.problems.lock().unwrap_or_else(PoisonError::into_inner).push(problem);
+    }
+
+    fn take_problems(&self) -> Vec<String> {
+        std::mem::take(&mut self.problems.lock().unwrap_or_else(PoisonError::into_inner))
+    }
+}
+
+/// Returns `true` if `keyring` has this password.
+fn has(keyring: &MemoryKeyring, account: &Account, password: &Secret) -> bool {
+    let stored = keyring.get(account).ok().flatten();
+    stored.is_some_and(|stored| Secret::from(stored) == *password)
+}
+
+impl PasswordStore for Passwords {
     fn get(&self, user: &str) -> Result<Secret, FetchProblem> {
         let account = account(user);
         if let Ok(Some(secret)) = self.session.get(&account) {
@@ -170,30 +207,38 @@ impl Passwords {
         }
     }
 
-    /// Uses the password from now on. The error says why the keyring did not store it.
-    fn take(&self, typed: &TypedPassword) -> Result<(), String> {
-        let (account, secret) = (account(&typed.user), typed.secret.inner());
-        // The keyring in memory never fails.
-        let _ = self.session.set(&account, secret);
-        if !typed.is_kept {
-            return Ok(());
+    fn accepted(&self, user: &str, password: &Secret) {
+        let account = account(user);
+        if !has(&self.unproved, &account, password) {
+            return;
         }
-        self.keyring
-            .set(account, secret.clone())
-            .map_err(|error| format!("the password is not kept: {error}"))
+        let _ = self.unproved.remove(&account);
+        if let Err(error) = self.keyring.set(account, password.inner().clone()) {
+            self.add_problem(format!("the password is not kept: {error}"));
+        }
+    }
+
+    /// Another password that the operator has typed since stays.
+    fn refused(&self, user: &str, password: &Secret) {
+        let account = account(user);
+        for keyring in [&self.session, &self.unproved] {
+            if has(keyring, &account, password) {
+                let _ = keyring.remove(&account);
+            }
+        }
     }
 }
 
 /// The account of a log-in name at Space-Track.
 fn account(user: &str) -> Account {
-    Account { user: user.to_owned(), address: format!("{SPACE_TRACK_HOST}:443") }
+    Account { user: log_in_key(user), address: format!("{SPACE_TRACK_HOST}:443") }
 }
 
 /// Result of reading.
 pub(super) struct Outcome {
     /// Elements of all sources.
     pub(super) catalog: Catalog,
-    /// Why the bundled elements are missing.
+    /// The reason why the bundled elements are missing.
     pub(super) bundled_problem: Option<String>,
     pub(super) sources: Sources,
 }
@@ -290,15 +335,18 @@ fn carry_out(
         None
     });
     if let Some(list) = &list {
+        let previous = places.list.as_deref().and_then(|path| load_sources(path).ok());
         let saved = places.list.as_deref().map(|path| save_sources(list, path));
         match saved {
-            Some(Ok(())) => {}
+            Some(Ok(())) => {
+                let previous = previous.unwrap_or_default();
+                if let Some(passwords) = &task.passwords {
+                    unused_log_ins(&previous, list).for_each(|user| passwords.forget(user));
+                }
+            }
             Some(Err(error)) => sources.problems.push(error.to_string()),
             None => sources.problems.push("this user has no folder for settings".to_owned()),
         }
-    }
-    if let Some((typed, passwords)) = task.typed.as_ref().zip(task.passwords.as_ref()) {
-        sources.problems.extend(passwords.take(typed).err());
     }
     // Only the list on disk counts, whatever was requested.
     match places.list.as_deref().map_or(Ok(Vec::new()), load_sources) {
@@ -314,17 +362,27 @@ fn carry_out(
     };
     catalog.set_orders(task.orders.clone());
     if !sources.list.is_empty() {
-        match read(places, &sources.list, task, now, &mut catalog, cancelled) {
+        match read(places, &mut sources, task, now, &mut catalog, cancelled) {
             Ok(reports) => sources.reports = reports,
             Err(problem) => sources.problems.push(problem),
         }
     }
+    sources.problems.extend(task.passwords.iter().flat_map(Passwords::take_problems));
     Outcome { catalog, bundled_problem, sources }
+}
+
+/// Log-in names of `previous` that no source in `list` uses any more.
+fn unused_log_ins<'a>(previous: &'a [Source], list: &'a [Source]) -> impl Iterator<Item = &'a str> {
+    let users = previous.iter().filter_map(|source| match &source.place {
+        SourcePlace::SpaceTrack(user) => Some(user.as_str()),
+        SourcePlace::Web(_) | SourcePlace::File(_) | SourcePlace::Folder(_) => None,
+    });
+    users.filter(|user| !list.iter().any(|source| has_log_in(source, user)))
 }
 
 fn read(
     places: &Places,
-    list: &[Source],
+    sources: &mut Sources,
     task: &Task,
     now: Timestamp,
     catalog: &mut Catalog,
@@ -334,17 +392,16 @@ fn read(
     let in_words = |error: IndexError| error.to_string();
     let mut library = Library::open(folder, Limits::default()).map_err(in_words)?;
     if let Some(passwords) = task.passwords.clone() {
-        let password_of = Arc::new(move |user: &str| passwords.get(user));
-        let access = SpaceTrackAccess::new(task.favourites.clone(), password_of);
+        let access = SpaceTrackAccess::new(task.favourites.clone(), Arc::new(passwords));
         library = library.with_space_track(access);
     }
+    let list = &sources.list;
     let asked: Vec<Source> =
         list.iter().filter(|source| task.ask.contains(&source.name)).cloned().collect();
-    let now = match task.typed {
-        Some(_) => after_pause(&library, &asked, now, cancelled),
-        None => now,
-    };
-    library.refresh(&asked, now, task.forced, cancelled).map_err(in_words)?;
+    let now = if task.awaits_log_in { after_pause(&library, &asked, now, cancelled) } else { now };
+    // The stored elements stay in use if the disk is full.
+    let refreshed = library.refresh(&asked, now, task.forced, cancelled);
+    sources.problems.extend(refreshed.err().map(in_words));
     library.read_again(list, &task.ask);
     Ok(library.load_into(list, catalog))
 }
@@ -358,7 +415,7 @@ fn after_pause(
     cancelled: &dyn Fn() -> bool,
 ) -> Timestamp {
     let is_near = |at: &Timestamp| *at > now && at.duration_since(now) <= LOG_IN_PAUSE;
-    let times = asked.iter().filter_map(|source| library.not_before(source)).filter(is_near);
+    let times = asked.iter().filter_map(|source| library.not_before(source, now)).filter(is_near);
     let Some(at) = times.max() else { return now };
     let pause = Duration::try_from(at.duration_since(now)).unwrap_or_default();
     let start = std::time::Instant::now();
@@ -375,7 +432,7 @@ mod tests {
     use super::*;
     use crate::{
         orbit::{RefreshHours, write_omm_json},
-        transfer::{Keyring, KeyringError, SecretString},
+        transfer::{Keyring, SecretString},
     };
 
     const ISS: u32 = 25_544;
@@ -480,7 +537,7 @@ mod tests {
 
     fn passwords(keyring: Arc<dyn Keyring>) -> Passwords {
         let keyring = TimedKeyring::new(keyring, Duration::from_millis(50));
-        Passwords { keyring, session: Arc::default() }
+        Passwords::over(keyring, Arc::default())
     }
 
     fn space_track() -> Source {
@@ -530,22 +587,80 @@ mod tests {
     }
 
     #[test]
-    fn a_typed_password_is_used_and_kept_only_if_the_operator_says_so() {
+    fn a_typed_password_is_used_and_kept_once_the_server_accepts_it() {
         for is_kept in [false, true] {
             let keyring = Arc::new(MemoryKeyring::default());
             let passwords = passwords(Arc::clone(&keyring) as Arc<dyn Keyring>);
+            let stored = || keyring.get(&account("op")).unwrap().map(Secret::from);
             assert_eq!(passwords.get("op"), Err(FetchProblem::NoPassword));
             let secret = Secret::new("hunter2");
-            let typed = TypedPassword { user: "op".to_owned(), secret: secret.clone(), is_kept };
-            let task =
-                Task { typed: Some(typed), passwords: Some(passwords.clone()), ..Task::default() };
-            let outcome = Fixture::new().run(&task);
-            assert_eq!(outcome.sources.problems, [""; 0]);
-            assert_eq!(passwords.get("op"), Ok(secret));
+            passwords.take(" OP", &secret, is_kept);
+            assert_eq!(passwords.get("op"), Ok(secret.clone()));
             assert_eq!(passwords.get("other"), Err(FetchProblem::NoPassword));
-            assert_eq!(keyring.get(&account("op")).unwrap().is_some(), is_kept);
-            assert!(!format!("{task:?}").contains("hunter2"));
+            assert_eq!(stored(), None, "the server has not accepted it");
+            passwords.accepted("op", &secret);
+            assert_eq!(stored(), Some(secret.clone()).filter(|_| is_kept));
+            assert!(!format!("{passwords:?}").contains("hunter2"));
         }
+    }
+
+    #[test]
+    fn a_refused_password_is_dropped_and_replaces_no_kept_one() {
+        let keyring = Arc::new(MemoryKeyring::default());
+        let passwords = passwords(Arc::clone(&keyring) as Arc<dyn Keyring>);
+        let [kept, wrong, newer] = ["kept", "wrong", "newer"].map(Secret::new);
+        keyring.set(&account("op"), kept.inner()).unwrap();
+        passwords.take("op", &wrong, true);
+        passwords.refused("op", &wrong);
+        passwords.accepted("op", &wrong);
+        assert_eq!(passwords.get("op"), Ok(kept.clone()), "a kept password outlasts a wrong one");
+        passwords.take("op", &newer, false);
+        passwords.refused("op", &kept);
+        assert_eq!(passwords.get("op"), Ok(newer), "typed since");
+    }
+
+    #[test]
+    fn the_password_goes_with_the_last_source_of_its_log_in() {
+        let keyring = Arc::new(MemoryKeyring::default());
+        let passwords = passwords(Arc::clone(&keyring) as Arc<dyn Keyring>);
+        let fixture = Fixture::new();
+        let run = |list: Vec<Source>| {
+            let passwords = Some(passwords.clone());
+            fixture.run(&Task { list: Some(list), passwords, ..Task::default() })
+        };
+        let renamed = Source { name: "again".to_owned(), ..space_track() };
+        run(vec![space_track()]);
+        let secret = Secret::new("hunter2");
+        passwords.take("op", &secret, true);
+        passwords.accepted("op", &secret);
+        run(vec![renamed]);
+        assert_eq!(passwords.get("op"), Ok(secret), "another source uses it");
+        assert_eq!(run(Vec::new()).sources.problems, [""; 0]);
+        assert_eq!(passwords.get("op"), Err(FetchProblem::NoPassword));
+        assert!(keyring.get(&account("op")).unwrap().is_none());
+    }
+
+    #[test]
+    fn elements_are_read_where_no_request_can_be_recorded() {
+        let fixture = Fixture::new();
+        let data = fixture.folder.path().join("data");
+        let list = vec![fixture.newer_file(), space_track()];
+        let ask = || Task {
+            list: Some(list.clone()),
+            ask: vec!["Space-Track".to_owned()],
+            passwords: Some(passwords(Arc::new(MemoryKeyring::default()))),
+            forced: true,
+            ..Task::default()
+        };
+        assert_eq!(fixture.run(&ask()).sources.problems, [""; 0]);
+        // A folder stands in the way of the index.
+        let old = whole_file::old(&data.join("index.toml"));
+        let _ = fs::remove_file(&old);
+        fs::create_dir_all(old.join("x")).unwrap();
+        let outcome = fixture.run(&ask());
+        assert_eq!(outcome.sources.problems.len(), 1);
+        assert_eq!(iss_epoch(&outcome.catalog), own_epoch());
+        assert_eq!(outcome.sources.reports.len(), 2);
     }
 
     #[test]

@@ -30,6 +30,7 @@ impl Engine {
         self.watch_driver();
         self.watch_claims();
         self.take_catalog();
+        self.ask_with_typed_passwords();
         self.follow_source_orders();
         self.refresh_by_itself();
         self.take_older_sets();

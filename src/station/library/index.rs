@@ -9,6 +9,7 @@ use std::{
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
+use super::lock::Lock;
 use crate::{orbit::FetchProblem, whole_file};
 
 /// Version that this program writes. A file of a later version is left alone.
@@ -114,6 +115,20 @@ impl Index {
         let text = toml::to_string_pretty(self)?;
         whole_file::replace_and_keep_old(&path, text.as_bytes())
             .map_err(|source| IndexError::Disk { source, path })
+    }
+
+    /// Writes the record of `url` into the index in `folder`, and takes over the other records from
+    /// there: another process may have changed them.
+    pub(super) fn save_record(&mut self, url: &str, folder: &Path) -> Result<(), IndexError> {
+        let lock = Lock::wait(folder, "index.lock");
+        let mut index = Self::load(folder)?;
+        if let Some(record) = self.get(url) {
+            index.address.insert(url.to_owned(), record.clone());
+        }
+        index.save(folder)?;
+        drop(lock);
+        *self = index;
+        Ok(())
     }
 
     pub(super) fn get(&self, url: &str) -> Option<&Record> {

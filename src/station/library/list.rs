@@ -7,7 +7,7 @@ use std::{
 
 use serde::{Deserialize, Serialize};
 
-use super::fetch;
+use super::{fetch, space_track::log_in_key};
 use crate::{
     orbit::{BUNDLED_SOURCE, Source, SourcePlace},
     whole_file,
@@ -69,11 +69,19 @@ pub fn check_source(source: &Source, others: &[Source]) -> Result<(), SourceProb
             Err(SourceProblem::RelativePath)
         }
         SourcePlace::SpaceTrack(user) if user.trim().is_empty() => Err(SourceProblem::NoLogIn),
-        SourcePlace::SpaceTrack(_) if others.iter().any(|other| other.place == source.place) => {
+        SourcePlace::SpaceTrack(user) if others.iter().any(|other| has_log_in(other, user)) => {
             Err(SourceProblem::LogInTaken)
         }
         SourcePlace::Web(url) if fetch::check(url).is_err() => Err(SourceProblem::Address),
         _ => Ok(()),
+    }
+}
+
+/// Returns `true` if `source` logs in as `user`.
+pub fn has_log_in(source: &Source, user: &str) -> bool {
+    match &source.place {
+        SourcePlace::SpaceTrack(own) => log_in_key(own) == log_in_key(user),
+        SourcePlace::Web(_) | SourcePlace::File(_) | SourcePlace::Folder(_) => false,
     }
 }
 
@@ -165,7 +173,8 @@ mod tests {
 
     #[test]
     fn only_what_can_be_asked_and_told_apart_is_added() {
-        let known = [Source::celestrak("weather")];
+        let log_in = |user: &str| SourcePlace::SpaceTrack(user.to_owned());
+        let known = [Source::celestrak("weather"), source("Space-Track", log_in("Op@Example.org"))];
         let web = |url: &str| SourcePlace::Web(url.to_owned());
         for (name, place, expected) in [
             ("own", SourcePlace::File("/a/b.tle".into()), Ok(())),
@@ -176,6 +185,9 @@ mod tests {
             ("own", SourcePlace::Folder("b".into()), Err(SourceProblem::RelativePath)),
             ("own", SourcePlace::File("".into()), Err(SourceProblem::RelativePath)),
             ("own", web("http://celestrak.org/x"), Err(SourceProblem::Address)),
+            ("own", log_in("other@example.org"), Ok(())),
+            ("own", log_in(" op@example.ORG "), Err(SourceProblem::LogInTaken)),
+            ("own", log_in(" "), Err(SourceProblem::NoLogIn)),
             ("own", web("https://me:word@celestrak.org/x"), Err(SourceProblem::Address)),
         ] {
             assert_eq!(check_source(&source(name, place), &known), expected, "{name}");

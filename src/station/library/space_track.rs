@@ -6,7 +6,7 @@
 
 use std::{fmt, sync::Arc};
 
-use jiff::{SignedDuration, Timestamp};
+use jiff::SignedDuration;
 use serde::Deserialize;
 use ureq::{
     Agent, Body,
@@ -18,7 +18,10 @@ use super::{
     fetch::{Limits, body_of, unanswered},
     index::Record,
 };
-use crate::{orbit::FetchProblem, secret::Secret};
+use crate::{
+    orbit::{FetchProblem, RequestLimit},
+    secret::Secret,
+};
 
 /// Host of the server.
 pub const SPACE_TRACK_HOST: &str = "www.space-track.org";
@@ -26,18 +29,33 @@ const SERVER: &str = "https://www.space-track.org";
 
 /// Objects that one query names. With more of them the query asks for all objects.
 const MAX_NUMBERS: usize = 500;
-/// Least time between two queries, whoever asks.
+/// Minimum time between two queries, with or without the operator.
 const QUERY_PAUSE: SignedDuration = SignedDuration::from_hours(1);
-/// Least time between two log-ins. One attempt without a query is a log-in alone, so that the
-/// account stays below 4 requests a minute and 240 an hour.
+/// Minimum time between two log-ins. An attempt without a query is a log-in alone, so that log-ins
+/// make at most 4 requests a minute and 240 an hour. Query and log-out add 2 an hour.
 pub const LOG_IN_PAUSE: SignedDuration = SignedDuration::from_secs(15);
 /// Maximum size of an answer that reports an error, bytes.
 const MAX_ERROR_BYTES: u64 = 64 << 10;
 /// Maximum length of a reason of the server, characters.
 const MAX_REASON_CHARS: usize = 200;
 
-/// Returns the password of a log-in name. It may wait for the operator's keyring.
-pub type PasswordOf = dyn Fn(&str) -> Result<Secret, FetchProblem> + Send + Sync;
+/// Passwords of log-in names.
+pub trait PasswordStore: Send + Sync {
+    /// Returns the password of `user`. It may wait for the operator's keyring.
+    fn get(&self, user: &str) -> Result<Secret, FetchProblem>;
+
+    /// Takes note that the server accepted the password. Called after the log-out.
+    fn accepted(&self, _user: &str, _password: &Secret) {}
+
+    /// Takes note that the server refused the log-in.
+    fn refused(&self, _user: &str, _password: &Secret) {}
+}
+
+impl<F: Fn(&str) -> Result<Secret, FetchProblem> + Send + Sync> PasswordStore for F {
+    fn get(&self, user: &str) -> Result<Secret, FetchProblem> {
+        self(user)
+    }
+}
 
 /// Access to Space-Track.
 #[derive(Clone)]
@@ -45,12 +63,12 @@ pub struct SpaceTrackAccess {
     server: String,
     /// Catalog numbers of the objects to ask for.
     numbers: Vec<u32>,
-    password_of: Arc<PasswordOf>,
+    passwords: Arc<dyn PasswordStore>,
 }
 
 impl SpaceTrackAccess {
-    pub fn new(numbers: Vec<u32>, password_of: Arc<PasswordOf>) -> Self {
-        Self { server: SERVER.to_owned(), numbers, password_of }
+    pub fn new(numbers: Vec<u32>, passwords: Arc<dyn PasswordStore>) -> Self {
+        Self { server: SERVER.to_owned(), numbers, passwords }
     }
 
     /// Asks another server, for tests. Like all addresses it must be `https` or on this computer.
@@ -77,14 +95,27 @@ impl fmt::Debug for SpaceTrackAccess {
 
 /// The key of an account in the index of the library.
 pub(super) fn key(user: &str) -> String {
-    format!("{SPACE_TRACK_HOST}/{user}")
+    format!("{SPACE_TRACK_HOST}/{}", log_in_key(user))
 }
 
-/// The earliest time at which the operator may ask again.
-pub(super) fn not_before(record: &Record) -> Option<Timestamp> {
-    let log_in = record.asked_at().and_then(|at| at.checked_add(LOG_IN_PAUSE).ok());
-    let query = record.queried_at.and_then(|at| at.checked_add(QUERY_PAUSE).ok());
-    log_in.max(query)
+/// Returns the form in which log-in names are compared and stored as a key: two spellings of one
+/// name share an account and its limits.
+pub fn log_in_key(user: &str) -> String {
+    user.trim().to_lowercase()
+}
+
+/// Limits that the requests of `record` have begun.
+pub(super) fn limits(record: &Record) -> Vec<RequestLimit> {
+    let log_in = record.asked_at().map(|at| RequestLimit { at, pause: LOG_IN_PAUSE });
+    let query = record.queried_at.map(|at| RequestLimit { at, pause: QUERY_PAUSE });
+    log_in.into_iter().chain(query).collect()
+}
+
+/// A request that is recorded before it is sent.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Step {
+    LogIn,
+    Query,
 }
 
 /// A session that has not begun.
@@ -95,17 +126,27 @@ pub(super) struct Visit<'a> {
 }
 
 impl Visit<'_> {
-    /// Logs in as `user`, asks for the objects once, and logs out. Calls `queries` before the query.
-    pub(super) fn run(&self, user: &str, queries: impl FnOnce()) -> Result<Vec<u8>, FetchProblem> {
+    /// Logs in as `user`, asks for the objects once, and logs out. Calls `record` before the log-in
+    /// and before the query, and does not send a request that is not recorded.
+    pub(super) fn run(
+        &self,
+        user: &str,
+        mut record: impl FnMut(Step) -> Result<(), FetchProblem>,
+    ) -> Result<Vec<u8>, FetchProblem> {
         if self.access.numbers.is_empty() {
             return Err(FetchProblem::NoFavourites);
         }
-        let password = (self.access.password_of)(user)?;
-        let cookie = self.log_in(user, &password)?;
-        queries();
-        let answer = self.query(&cookie);
+        let password = self.access.passwords.get(user)?;
+        record(Step::LogIn)?;
+        let cookie = self.log_in(user.trim(), &password).inspect_err(|problem| {
+            if *problem == FetchProblem::LogIn {
+                self.access.passwords.refused(user, &password);
+            }
+        })?;
+        let answer = record(Step::Query).and_then(|()| self.query(&cookie));
         // The server ends the session by itself some time later.
         let _ = self.get("/ajaxauth/logout", &cookie);
+        self.access.passwords.accepted(user, &password);
         answer
     }
 

@@ -82,6 +82,11 @@ impl TimedKeyring {
         self.ask(move |keyring| keyring.set(&account, &secret))
     }
 
+    /// Removes the secret of `account`, if one is stored.
+    pub fn remove(&self, account: Account) -> Result<(), KeyringError> {
+        self.ask(move |keyring| keyring.remove(&account))
+    }
+
     fn ask<T: Send + 'static>(
         &self,
         question: impl FnOnce(&dyn Keyring) -> Result<T, KeyringError> + Send + 'static,
@@ -89,12 +94,13 @@ impl TimedKeyring {
         if self.is_asked.swap(true, Ordering::AcqRel) {
             return Err(KeyringError::NoAnswer);
         }
-        let (keyring, is_asked) = (Arc::clone(&self.keyring), Free(Arc::clone(&self.is_asked)));
+        let (keyring, is_asked) =
+            (Arc::clone(&self.keyring), AskedMark(Arc::clone(&self.is_asked)));
         let (send, answer) = mpsc::sync_channel(1);
         let ask = move || {
             let answer = question(&*keyring);
             drop(is_asked);
-            // Nobody waits any more after the time limit.
+            // After the time limit the receiver is gone.
             let _ = send.send(answer);
         };
         let started = thread::Builder::new().name("azel-keyring".to_owned()).spawn(ask);
@@ -110,9 +116,9 @@ impl fmt::Debug for TimedKeyring {
 }
 
 /// Clears the mark when the keyring has answered, or the thread has ended otherwise.
-struct Free(Arc<AtomicBool>);
+struct AskedMark(Arc<AtomicBool>);
 
-impl Drop for Free {
+impl Drop for AskedMark {
     fn drop(&mut self) {
         self.0.store(false, Ordering::Release);
     }

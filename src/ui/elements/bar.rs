@@ -188,7 +188,7 @@ fn due(model: &Model) -> Vec<String> {
 }
 
 fn next_due(model: &Model) -> Option<jiff::Timestamp> {
-    model.sources.reports.iter().filter_map(|report| report.next_fetch).min()
+    model.sources.reports.iter().filter_map(|report| report.pause_end(model.now)).min()
 }
 
 /// Asks the servers that may be asked, and reads all other sources.

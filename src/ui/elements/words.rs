@@ -205,7 +205,7 @@ pub(in crate::ui) fn sentences(
         Some((Tone::Caution, format!("No elements: {why}: {place}.")))
     }));
     if report.objects() > 0 || lines.is_empty() {
-        lines.insert(0, held(source, report, now));
+        lines.insert(0, holdings(source, report, now));
     }
     if report.refused() > 0 {
         let refused = format::number(report.refused() as f64, 0);
@@ -220,7 +220,7 @@ pub(in crate::ui) fn sentences(
     lines
 }
 
-/// What the operator can do about a problem of a log-in.
+/// Returns the operator's next step after a problem of a log-in.
 fn advice(problem: &FetchProblem) -> Option<&'static str> {
     match problem {
         FetchProblem::NoPassword => Some("Choose Password in Elements to enter it."),
@@ -230,6 +230,10 @@ fn advice(problem: &FetchProblem) -> Option<&'static str> {
         FetchProblem::LogIn => Some(
             "Azel does not try again by itself, because the server locks accounts. Choose Password \
              in Elements to enter it again, or Fetch to try again.",
+        ),
+        FetchProblem::Unrecorded(_) | FetchProblem::QueryUnrecorded(_) => Some(
+            "Make room on the disk, or give Azel access to its data folder. Azel asks a server with \
+             limits only if it can record the time.",
         ),
         FetchProblem::NoFavourites => Some("Mark the satellites that you want as favourites."),
         FetchProblem::Address
@@ -246,7 +250,7 @@ fn advice(problem: &FetchProblem) -> Option<&'static str> {
     }
 }
 
-fn held(source: &Source, report: &SourceReport, now: Timestamp) -> (Tone, String) {
+fn holdings(source: &Source, report: &SourceReport, now: Timestamp) -> (Tone, String) {
     if report.objects() == 0 {
         let words = match source.place {
             SourcePlace::Web(_) | SourcePlace::SpaceTrack(_) => "Holds nothing yet.",
@@ -270,7 +274,7 @@ fn held(source: &Source, report: &SourceReport, now: Timestamp) -> (Tone, String
 
 /// Times of the last and the next permitted request to the server.
 fn asked(report: &SourceReport, now: Timestamp) -> Option<String> {
-    let next = report.next_request()?;
+    let next = report.next_request(now)?;
     let last = next.checked_sub(FETCH_PAUSE).ok()?;
     let ago = format::age(seconds_between(last, now));
     let again = if next > now {
@@ -288,7 +292,7 @@ pub(super) fn ask_again(
     report: Option<&SourceReport>,
     now: Timestamp,
 ) -> Option<String> {
-    let next = report?.next_request().filter(|next| *next > now)?;
+    let next = report?.next_request(now).filter(|next| *next > now)?;
     let last = next.checked_sub(FETCH_PAUSE).ok()?;
     let ago = format::age(seconds_between(last, now));
     Some(format!(
@@ -297,18 +301,18 @@ pub(super) fn ask_again(
     ))
 }
 
-/// Why a server may not be asked now, even by the operator.
+/// Returns the reason why even the operator may not ask a server now.
 pub(super) fn pause(report: Option<&SourceReport>, now: Timestamp) -> Option<String> {
-    let from = report?.not_before.filter(|from| *from > now)?;
-    let from = format::moment(from, now);
-    Some(format!("The server limits requests. It may be asked again from {from}."))
+    let end = report?.not_before(now).filter(|end| *end > now)?;
+    let end = format::moment(end, now);
+    Some(format!("The server limits requests. It may be asked again from {end}."))
 }
 
-/// Whether a source may be asked now.
+/// Returns `true` if a source may be asked now.
 pub(super) fn is_due(source: &Source, report: Option<&SourceReport>, now: Timestamp) -> bool {
     let awaits_operator = report.is_some_and(SourceReport::awaits_operator);
     let is_asked = source.place.is_server() && !awaits_operator;
-    is_asked && report.and_then(SourceReport::next_request).is_none_or(|next| next <= now)
+    is_asked && report.and_then(|report| report.next_request(now)).is_none_or(|next| next <= now)
 }
 
 /// When a source is asked or read the next time.
@@ -319,8 +323,8 @@ pub(super) fn next(source: &Source, report: Option<&SourceReport>, now: Timestam
     if report.is_some_and(SourceReport::awaits_operator) {
         return "when you log in".to_owned();
     }
-    match report.and_then(SourceReport::next_request) {
-        _ if source.refresh.is_some() => match source.next_by_itself(report) {
+    match report.and_then(|report| report.next_request(now)) {
+        _ if source.refresh.is_some() => match source.next_by_itself(report, now) {
             Some(next) if next > now => format!("automatically {}", until_minute(next, now)),
             _ => "automatically, now".to_owned(),
         },

@@ -234,7 +234,8 @@ fn a_preferred_source_is_used_until_its_elements_lag_and_over_the_next_start() {
     let file = std::fs::read_to_string(&settings).unwrap();
     assert!(file.contains("sources = [\"own\"]"), "{file}");
     let mut window = open(&settings, clock_from(rig::now()));
-    step_until(&mut window, "the preferred set again", |model| epoch_of_noaa_20(model) == at(14));
+    step_until(&mut window, "the elements again", |model| epoch_of_noaa_20(model).is_some());
+    assert_eq!(epoch_of_noaa_20(window.state().model()), at(14), "from the first reading");
     std::fs::write(&web, text.replace("08-14T", "08-18T")).unwrap();
     let read = engine::Command::RefreshSources { names: vec!["web".to_owned()], forced: false };
     send(&window, read);

@@ -1,0 +1,47 @@
+//! Locks between processes that share a library.
+
+use std::{
+    fs::{self, File, OpenOptions, TryLockError},
+    io,
+    path::Path,
+    thread,
+    time::Duration,
+};
+
+/// Pause between two tries to take a lock.
+const RETRY: Duration = Duration::from_millis(10);
+/// Tries to take a lock that its owner releases at once.
+const MAX_TRIES: usize = 100;
+
+/// A lock, until it is dropped or its process ends.
+#[derive(Debug)]
+pub(super) struct Lock {
+    _file: File,
+}
+
+impl Lock {
+    /// Takes the lock `name` in `folder`. Returns `None` while another process has it.
+    pub(super) fn try_take(folder: &Path, name: &str) -> io::Result<Option<Self>> {
+        fs::create_dir_all(folder)?;
+        let mut options = OpenOptions::new();
+        options.read(true).write(true).create(true).truncate(false);
+        let file = options.open(folder.join(name))?;
+        match file.try_lock() {
+            Ok(()) => Ok(Some(Self { _file: file })),
+            Err(TryLockError::WouldBlock) => Ok(None),
+            Err(TryLockError::Error(error)) => Err(error),
+        }
+    }
+
+    /// Takes a lock that every owner releases at once. Returns `None` after a second, or where no
+    /// lock can be made.
+    pub(super) fn wait(folder: &Path, name: &str) -> Option<Self> {
+        for _ in 0..MAX_TRIES {
+            match Self::try_take(folder, name) {
+                Ok(None) => thread::sleep(RETRY),
+                taken => return taken.ok().flatten(),
+            }
+        }
+        None
+    }
+}
