@@ -66,7 +66,7 @@ struct Group {
     members: Vec<u32>,
 }
 
-/// What a merge changed.
+/// Changes of a merge.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct MergeSummary {
     /// Objects that are new to the catalog.
@@ -83,7 +83,7 @@ pub struct MergeSummary {
     pub refused_unlisted: usize,
     /// Oddities of sets that were accepted.
     pub notes: Vec<Note>,
-    /// Why there was nothing to merge, if there was nothing.
+    /// The reason why there was nothing to merge, if there was nothing.
     pub nothing: Option<Nothing>,
 }
 

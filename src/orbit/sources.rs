@@ -242,7 +242,7 @@ pub struct FileReport {
     pub objects: usize,
     /// Changes in the catalog and refusals.
     pub merge: MergeSummary,
-    /// Why the file could not be read at all, in the words of the operating system.
+    /// The reason why the file could not be read at all, in the words of the operating system.
     pub problem: Option<String>,
 }
 

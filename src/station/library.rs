@@ -2,7 +2,7 @@
 //! for new ones.
 //!
 //! Answers of servers are kept unchanged, one file for each source, beside an index. Being
-//! offline is a normal state: the elements held stay and their age is shown. All calls
+//! offline is a normal state: the stored elements stay and their age is shown. All calls
 //! wait for disks and servers: make them on a worker thread.
 
 pub mod disk;
@@ -130,13 +130,13 @@ impl Library {
     /// says so, until [`Self::read_again`] names it.
     pub fn load_into(&self, sources: &[Source], catalog: &mut Catalog) -> Vec<SourceReport> {
         let mut unfinished = Unfinished::load(&self.folder);
-        let of = |source: &Source| {
+        let report = |source: &Source| {
             if unfinished.holds(source) {
                 return SourceReport { is_set_aside: true, ..no_report(source) };
             }
             unfinished.during(source, || self.load_one(source, catalog))
         };
-        sources.iter().map(of).collect()
+        sources.iter().map(report).collect()
     }
 
     /// Stops setting aside the sources in `names`, and those that are no longer in `sources`.
@@ -342,14 +342,14 @@ impl Library {
         })
     }
 
-    /// Requests one source; returns whether something new came.
+    /// Requests one source; returns `true` if something new came.
     fn refresh_one(&mut self, name: &str, url: &str, now: Timestamp) -> Result<bool, FetchProblem> {
         let record = self.index.entry(url, name, now);
         record.attempted_at = now;
         let record = record.clone();
         let path = self.folder.join(&record.file);
-        let held = disk::read(&path, self.limits.bytes).ok();
-        let known = held.as_ref().map(|_| &record);
+        let stored = disk::read(&path, self.limits.bytes).ok();
+        let known = stored.as_ref().map(|_| &record);
         match fetch(url, known, self.limits, &self.authorities)? {
             ServerAnswer::NotModified => {
                 self.index.entry(url, name, now).confirmed_at = Some(now);
@@ -357,8 +357,8 @@ impl Library {
             }
             ServerAnswer::New { body, etag, last_modified } => {
                 let newest = newest_epoch(&body, now)?;
-                if held.is_some_and(|held| {
-                    newest_epoch(&held.bytes, now).is_ok_and(|held| held > newest)
+                if stored.is_some_and(|stored| {
+                    newest_epoch(&stored.bytes, now).is_ok_and(|stored| stored > newest)
                 }) {
                     return Err(FetchProblem::Older);
                 }

@@ -102,7 +102,7 @@ impl Engine {
                 station.favourites.set_sources(satellite, sources);
             }),
             Command::SetFrequencies { satellite, frequencies } => self.change_station(|station| {
-                station.frequencies.retain(|of| of.satellite != satellite);
+                station.frequencies.retain(|frequency| frequency.satellite != satellite);
                 station.frequencies.extend(frequencies);
             }),
             Command::KeepOffsets { of, offsets } => {
@@ -455,7 +455,7 @@ impl Engine {
             _ if let StationClaim::Theirs(by) = &self.station_claim => {
                 Err(format!("it is open in {by}: save it there, or close it there first"))
             }
-            // What stands there by now is somebody's station, not what the operator has seen.
+            // The file there by now is another station than the operator has seen.
             Some(path) if self.demo.is_some() && path.exists() => Err(format!(
                 "a station has been set up elsewhere meanwhile: open it in the station menu: {}",
                 path.display()

@@ -347,7 +347,7 @@ impl Row<'_> {
     }
 }
 
-/// What a row of any source says.
+/// Texts of a row of any source.
 struct Cells<'a> {
     icon: Icon,
     name: &'a str,

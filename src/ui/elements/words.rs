@@ -54,7 +54,7 @@ pub(super) fn plain(count: usize) -> String {
 /// The reason why favourites may not change while the preferences are edited.
 pub(super) const EDITED: &str = "Save or revert the preferences before you change favourites.";
 
-/// Why no source and no set in use may change now.
+/// Returns the reason why no source and no set in use may change now.
 pub(super) fn sources_lock(model: &Model) -> Option<&'static str> {
     replay::lock(model).or_else(|| match *model.sources {
         Sources { is_locked: true, .. } => Some("The list of sources cannot be read."),
@@ -90,7 +90,7 @@ pub(super) fn age(seconds: f64) -> String {
     if seconds < 0.0 { "ahead".to_owned() } else { format::age(seconds) }
 }
 
-/// Whether the age of elements needs a look: sooner in low orbits, which drag changes.
+/// Returns the tone of the age of elements: a caution comes sooner in low orbits, which drag changes.
 pub(in crate::ui) fn age_tone(elements: &Elements, now: Timestamp) -> Tone {
     let age_s = elements.age_s(now);
     let times = if elements.is_geosynchronous() { (30.0, 90.0) } else { (7.0, 30.0) };
@@ -130,7 +130,7 @@ pub(super) fn next_pass(next: Next, now: Timestamp) -> String {
     }
 }
 
-/// Why the table is empty.
+/// Returns the reason why the table is empty.
 pub(super) fn nothing_found(question: &Question, all: usize) -> String {
     let search = question.search.trim();
     match (&question.among, search.is_empty()) {
@@ -358,9 +358,9 @@ pub(super) enum Form {
 pub(super) fn copied<'a>(elements: impl Iterator<Item = &'a Elements>, form: Form) -> String {
     match form {
         Form::Tle => elements
-            .filter_map(|of| {
-                let [first, second] = tle_lines(of).ok()?;
-                Some(format!("{}\n{first}\n{second}\n", of.name()))
+            .filter_map(|object| {
+                let [first, second] = tle_lines(object).ok()?;
+                Some(format!("{}\n{first}\n{second}\n", object.name()))
             })
             .collect(),
         Form::Omm => {
@@ -372,7 +372,7 @@ pub(super) fn copied<'a>(elements: impl Iterator<Item = &'a Elements>, form: For
     }
 }
 
-/// Whether elements are old enough to be mentioned.
+/// Returns `true` if elements are old enough to be mentioned.
 pub(super) fn is_old(elements: &Elements, now: Timestamp) -> bool {
     elements.age_s(now) > OLD_ELEMENTS_S
 }
