@@ -59,7 +59,11 @@ fn a_fault_is_told_with_what_it_cost_and_a_wrong_one_with_the_list_of_right_ones
     assert!(table.contains("lost: The unit did not answer."), "{table}");
     let wrong = rehearse(folder.path(), &["--fault", "fire"]);
     assert_eq!(wrong.status.code(), Some(2));
-    assert!(text(&wrong.stderr).contains("link-lost, silence"), "{}", text(&wrong.stderr));
+    assert!(
+        text(&wrong.stderr).contains("link-lost, power-cut, silence"),
+        "{}",
+        text(&wrong.stderr)
+    );
     let nobody = rehearse(folder.path(), &["--fault", "noise,antenna=Nobody"]);
     assert_eq!(nobody.status.code(), Some(1));
     assert!(text(&nobody.stderr).contains("Nobody"), "{}", text(&nobody.stderr));

@@ -50,9 +50,9 @@ pub(super) struct Options {
     /// Speed in multiples of real time, 1 to 200, or `max`; the result is the same
     #[arg(long, value_name = "SPEED", default_value = "max", value_parser = speed)]
     speed: Speed,
-    /// Fault to add; may be repeated. Its kind first: link-lost, silence, noise, refusal,
-    /// slow-drives=SHARE, clock-late=MS or late-replies=MS; then, each after a comma, antenna=NAME (or all),
-    /// after=MIN from the start and for=S (or to the end)
+    /// Fault to add; may be repeated. Its kind first: link-lost, power-cut, silence, noise, refusal,
+    /// slow-drives=SHARE, clock-late=MS, clock-drift=S (a day) or late-replies=MS; then, each after a comma,
+    /// antenna=NAME (or all), after=MIN from the start and for=S (or to the end)
     #[arg(long = "fault", value_name = "FAULT")]
     faults: Vec<Fault>,
     #[command(flatten, next_help_heading = "Drives and sensors of all antennas")]

@@ -20,6 +20,8 @@ pub struct Fault {
 pub enum FaultKind {
     /// The link breaks, and no other comes up.
     LinkLost,
+    /// The unit has no power: it stands and does not answer. Afterwards it does nothing by itself.
+    PowerCut,
     OfUnit(Trouble),
 }
 
@@ -27,8 +29,8 @@ pub enum FaultKind {
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum WrongFault {
     #[error(
-        "{0} is no fault; there are link-lost, silence, noise, refusal, slow-drives=SHARE, \
-         clock-late=MS and late-replies=MS"
+        "{0} is no fault; there are link-lost, power-cut, silence, noise, refusal, slow-drives=SHARE, \
+         clock-late=MS, clock-drift=S and late-replies=MS"
     )]
     Kind(String),
     #[error("{0} says nothing of a fault; there are antenna=NAME, after=MIN and for=S")]
@@ -69,8 +71,14 @@ fn kind(word: &str) -> Result<FaultKind, WrongFault> {
             Trouble::SlowDrives(number)
         }
         Some(("clock-late", ms)) => Trouble::ClockLate(span(ms, 0.001)?),
+        Some(("clock-drift", gains_s_day)) => {
+            let number = gains_s_day.parse().ok().filter(|number: &f64| number.is_finite());
+            let wrong = || WrongFault::Number(gains_s_day.to_owned());
+            Trouble::ClockDrifts(number.ok_or_else(wrong)?)
+        }
         Some(("late-replies", ms)) => Trouble::LateReplies(span(ms, 0.001)?),
         None if word == "link-lost" => return Ok(FaultKind::LinkLost),
+        None if word == "power-cut" => return Ok(FaultKind::PowerCut),
         None if word == "silence" => Trouble::Silence,
         None if word == "noise" => Trouble::Noise,
         None if word == "refusal" => Trouble::Refusal,
@@ -112,6 +120,8 @@ mod tests {
         assert_eq!(kind("clock-late=250"), Ok(FaultKind::OfUnit(late)));
         let late = Trouble::LateReplies(Duration::from_millis(250));
         assert_eq!(kind("late-replies=250"), Ok(FaultKind::OfUnit(late)));
+        assert_eq!(kind("clock-drift=-4.5"), Ok(FaultKind::OfUnit(Trouble::ClockDrifts(-4.5))));
+        assert_eq!(kind("power-cut"), Ok(FaultKind::PowerCut));
         assert_eq!(kind("slow-drives=0.5"), Ok(FaultKind::OfUnit(Trouble::SlowDrives(0.5))));
         for (text, trouble) in [
             ("silence", Trouble::Silence),
@@ -129,7 +139,13 @@ mod tests {
         assert_eq!(wrong("noise=3"), WrongFault::Kind("noise=3".to_owned()));
         assert_eq!(wrong("noise,when=3"), WrongFault::Word("when=3".to_owned()));
         assert_eq!(wrong("noise,for"), WrongFault::Word("for".to_owned()));
-        for text in ["slow-drives=1.5", "slow-drives=-1", "clock-late=x", "noise,for=inf"] {
+        for text in [
+            "slow-drives=1.5",
+            "slow-drives=-1",
+            "clock-late=x",
+            "clock-drift=nan",
+            "noise,for=inf",
+        ] {
             assert!(matches!(wrong(text), WrongFault::Number(_)), "{text}");
         }
     }

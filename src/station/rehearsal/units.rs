@@ -141,6 +141,13 @@ impl Linked {
                 }
                 true
             }
+            FaultKind::PowerCut => {
+                self.is_down.store(is_on, Ordering::Relaxed);
+                if is_on {
+                    self.unit.cut_power();
+                }
+                true
+            }
             FaultKind::OfUnit(trouble) => self.unit.set_trouble(trouble, is_on),
         }
     }

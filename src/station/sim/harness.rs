@@ -56,6 +56,15 @@ pub trait Unit: fmt::Debug + Send + Sized + 'static {
         false
     }
 
+    /// Takes GPS from the unit, whose own clock then gains so many seconds a day; `None` brings it
+    /// back. Returns `false` if the unit has no clock that matters.
+    fn set_clock_drift(&mut self, _gains_s_day: Option<f64>) -> bool {
+        false
+    }
+
+    /// Cuts the power: the drives stop and a track ends. Settings, clock and angles stay.
+    fn cut_power(&mut self);
+
     /// Makes the sensors of the axes read something else. Returns `false` if they cannot.
     fn set_misreading(&mut self, _misreading: Misreading) -> bool {
         false

@@ -20,6 +20,8 @@ pub enum Trouble {
     SlowDrives(f64),
     /// The unit's own clock is late.
     ClockLate(Duration),
+    /// The unit has lost GPS, and its own clock gains so many seconds a day.
+    ClockDrifts(f64),
     /// Max extra reply delay.
     LateReplies(Duration),
     /// The sensors of the axes read something else.
@@ -42,6 +44,9 @@ pub trait InMemory: Send + Sync {
     /// Closes every connection. The unit goes on with its activity.
     fn drop_clients(&self);
 
+    /// Cuts the unit's power: its connections close, its drives stop and a track ends. It answers again at once.
+    fn cut_power(&self);
+
     /// Begins or ends a trouble. Returns `false` for one that this make cannot have.
     fn set_trouble(&self, trouble: Trouble, is_on: bool) -> bool;
 }
@@ -63,6 +68,11 @@ where
         Control::drop_clients(self);
     }
 
+    fn cut_power(&self) {
+        self.with_unit(Unit::cut_power);
+        Control::drop_clients(self);
+    }
+
     fn set_trouble(&self, trouble: Trouble, is_on: bool) -> bool {
         match trouble {
             Trouble::Silence => self.set_fault(U::SILENCE, is_on),
@@ -75,6 +85,10 @@ where
             Trouble::ClockLate(late) => {
                 let late = if is_on { late } else { Duration::ZERO };
                 return self.with_unit(|unit| unit.set_clock_late(late));
+            }
+            Trouble::ClockDrifts(gains_s_day) => {
+                let gains_s_day = is_on.then_some(gains_s_day);
+                return self.with_unit(|unit| unit.set_clock_drift(gains_s_day));
             }
             Trouble::LateReplies(lateness) => {
                 self.set_lateness(if is_on { lateness } else { Duration::ZERO });

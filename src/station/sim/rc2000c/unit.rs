@@ -242,6 +242,10 @@ impl harness::Unit for Rc2000c {
         self.elevation.set_strength(share);
     }
 
+    fn cut_power(&mut self) {
+        self.use_panel();
+    }
+
     fn place(&mut self, counts: [u16; 2]) {
         [self.azimuth, self.elevation] = stand(counts, &self.axes, &self.mechanics, self.seed);
         self.suffer();

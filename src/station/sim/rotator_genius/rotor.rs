@@ -149,6 +149,12 @@ impl Rotor {
         self.dead_time.command(self.moving());
     }
 
+    /// The motor stops, and the axis coasts.
+    pub(super) fn lose_power(&mut self) {
+        self.drive = Drive::Off;
+        self.cut_power();
+    }
+
     fn cut_power(&mut self) {
         self.dead_time.clear();
         self.powered = Moving::Stopped;

@@ -169,6 +169,10 @@ impl harness::Unit for RotatorGenius {
         self.rotors.iter_mut().for_each(|rotor| rotor.set_strength(share));
     }
 
+    fn cut_power(&mut self) {
+        self.rotors.iter_mut().for_each(Rotor::lose_power);
+    }
+
     fn place(&mut self, angles: [WholeDegrees; 2]) {
         for (rotor, angle) in self.rotors.iter_mut().zip(angles) {
             rotor.place(angle);

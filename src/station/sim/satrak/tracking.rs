@@ -76,6 +76,11 @@ impl Tracking {
         self.is_declined |= std::mem::take(&mut self.is_enabled);
     }
 
+    /// Forgets satellite and window, and ends.
+    pub(super) fn forget(&mut self) {
+        *self = Self { restarts: self.restarts, ..Self::default() };
+    }
+
     pub(super) fn enable_auto(&mut self) {
         self.is_auto = true;
         self.is_declined = false;

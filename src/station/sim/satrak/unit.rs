@@ -63,6 +63,8 @@ pub struct Satrak {
     elapsed: Duration,
     /// The unit's clock minus what GPS tells.
     clock_error: SignedDuration,
+    /// Seconds a day that the unit's clock gains without GPS, and since when it does.
+    drift: Option<(f64, Duration)>,
     /// How far what GPS tells is behind UTC.
     late: Duration,
     misreading: Misreading,
@@ -114,6 +116,7 @@ impl Satrak {
             ),
             tracking: Tracking::default(),
             memory: Memory::default(),
+            drift: None,
             late: Duration::ZERO,
             misreading: Misreading::default(),
             noise: Prng::new(1),
@@ -198,15 +201,30 @@ impl Satrak {
     fn rtc(&self) -> Timestamp {
         let utc = self.utc();
         let by_gps = utc.checked_sub(self.late).unwrap_or(utc);
-        by_gps.checked_add(self.clock_error).unwrap_or(by_gps)
+        by_gps.checked_add(self.clock_error + self.drifted()).unwrap_or(by_gps)
+    }
+
+    /// Time that the unit's clock has gained since it was set.
+    fn drifted(&self) -> SignedDuration {
+        let Some((gains_s_day, since)) = self.drift else { return SignedDuration::ZERO };
+        let days = self.elapsed.saturating_sub(since).as_secs_f64() / 86_400.0;
+        SignedDuration::try_from_secs_f64(gains_s_day * days).unwrap_or(SignedDuration::ZERO)
+    }
+
+    /// Sets the unit's clock so far ahead of what GPS tells.
+    fn set_clock_error(&mut self, clock_error: SignedDuration) {
+        self.clock_error = clock_error;
+        self.drift = self.drift.map(|(gains_s_day, _)| (gains_s_day, self.elapsed));
     }
 
     fn is_gps_locked(&self) -> bool {
-        self.elapsed >= self.gps_lock_after && !self.injected.contains(&FaultKind::GpsLink)
+        self.elapsed >= self.gps_lock_after
+            && self.drift.is_none()
+            && !self.injected.contains(&FaultKind::GpsLink)
     }
 
     fn set_clock_from_gps(&mut self) {
-        self.clock_error = SignedDuration::ZERO;
+        self.set_clock_error(SignedDuration::ZERO);
         self.is_clock_from_gps = true;
     }
 
@@ -318,6 +336,19 @@ impl harness::Unit for Satrak {
     fn set_clock_late(&mut self, late: Duration) -> bool {
         self.late = late;
         true
+    }
+
+    fn set_clock_drift(&mut self, gains_s_day: Option<f64>) -> bool {
+        self.clock_error += self.drifted();
+        self.drift = gains_s_day.map(|gains_s_day| (gains_s_day, self.elapsed));
+        self.is_clock_from_gps &= gains_s_day.is_none();
+        true
+    }
+
+    fn cut_power(&mut self) {
+        self.tracking.forget();
+        self.mount.stop();
+        self.late_changes.clear();
     }
 
     fn set_misreading(&mut self, misreading: Misreading) -> bool {

@@ -94,7 +94,7 @@ impl Satrak {
         }
         match setting {
             Setting::Time(time) => {
-                self.clock_error = time.time().duration_since(self.utc());
+                self.set_clock_error(time.time().duration_since(self.utc()));
                 self.is_clock_from_gps = false;
             }
             Setting::StartStopTime(window) => self.tracking.set_window(window),
