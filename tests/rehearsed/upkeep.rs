@@ -89,6 +89,21 @@ async fn a_clock_is_left_alone_without_the_rule_below_its_limit_and_without_auto
     }
 }
 
+/// A second is the width of the beam to a low satellite.
+#[tokio::test(start_paused = true)]
+async fn a_clock_that_is_off_by_two_seconds_is_set_at_the_default_limit() {
+    let (mut scene, client, id) = scene_of("Dish", |dish| dish.upkeep.sets_clock = true).await;
+    drop(client);
+    scene.units.time_sync = || TimeSync::Synchronised;
+    let scene = scene.started_again(false).await;
+    let client = scene.client();
+    measured(&client, "Dish").await;
+    put_ahead(&scene, &client, 2.0).await;
+    set_automatic(&client, id, true).await;
+    until("the upkeep", || (!upkeep(&client).is_empty()).then_some(())).await;
+    until("the right clock", || ahead_s(&client).filter(|ahead_s| ahead_s.abs() < 0.2)).await;
+}
+
 /// A unit with GPS would take the setting back.
 #[tokio::test(start_paused = true)]
 async fn a_clock_that_the_unit_sets_from_gps_is_left_alone() {

@@ -72,7 +72,7 @@ pub const LEAST_PERCENT: RangeInclusive<f64> = 1.0..=100.0;
 /// Age of elements by which passes are still taken, days.
 pub const ELEMENT_AGE_D: RangeInclusive<f64> = 0.1..=1000.0;
 /// Error of a unit's clock from which it is set, seconds: a clock that was set is proved within 2.
-pub const CLOCK_LIMIT_S: RangeInclusive<f64> = 2.0..=60.0;
+pub const CLOCK_LIMIT_S: RangeInclusive<f64> = 0.2..=60.0;
 /// Rest after which a motion of automatic operation is announced, minutes.
 pub const REST_MIN: RangeInclusive<f64> = 0.0..=1440.0;
 /// How long such a motion is announced, seconds.

@@ -10,7 +10,8 @@ pub struct Upkeep {
     /// Sets the unit's clock when it is off by more than the limit.
     #[serde(skip_serializing_if = "is_default")]
     pub sets_clock: bool,
-    /// Error of the unit's clock from which it is set, seconds, 2 to 60.
+    /// Error of the unit's clock from which it is set, seconds, 0.2 to 60. A low satellite crosses a beam of
+    /// one degree in a second.
     pub clock_limit_s: f64,
     /// Uploads newer elements when the unit's are older than the limit.
     #[serde(skip_serializing_if = "is_default")]
@@ -23,7 +24,7 @@ impl Default for Upkeep {
     fn default() -> Self {
         Self {
             sets_clock: false,
-            clock_limit_s: 5.0,
+            clock_limit_s: 0.3,
             uploads_elements: false,
             element_limit_d: 2.0,
         }

@@ -14,7 +14,7 @@ use crate::{
     clock::Instant,
     device::{
         ClockSetting, UnitClock,
-        settings::{Change, Hindrance},
+        settings::{Change, Hindrance, WriteError},
     },
     driver::{self, TimeSync},
     engine::{Antenna, Engine, antenna::AntennaModel},
@@ -28,6 +28,8 @@ const MIN_TIME_FOR_CLOCK_S: f64 = 60.0;
 const MAX_READING_AGE_S: f64 = 30.0;
 /// Time limit for the unit's answer.
 const ANSWER_TIMEOUT: Duration = Duration::from_secs(90);
+/// Time until the next attempt where nothing was sent, because the antenna was not at rest.
+const RETRY_AT_REST: Duration = Duration::from_secs(10);
 /// Time between two attempts.
 const RETRY: Duration = Duration::from_hours(1);
 /// Tickets begin here; those of sessions, uploads and forms are lower.
@@ -136,6 +138,13 @@ impl Engine {
         let what = match answer {
             Some(written) => match &written.result {
                 Ok(()) => DayEvent::ClockSet { was_ahead_s: change.was_ahead_s },
+                // At the end of a pass the unit may still be stopped.
+                Err(WriteError::Hindered { .. }) => {
+                    let work = &mut antenna.at_work.upkeep;
+                    work.setting = None;
+                    work.next_setting = Some(steady + RETRY_AT_REST);
+                    return;
+                }
                 Err(why) => DayEvent::ClockNotSet { why: why.to_string() },
             },
             None if steady.saturating_duration_since(change.sent) > ANSWER_TIMEOUT => {
