@@ -740,6 +740,37 @@ async fn a_clock_step_suspends_automatic_operation_first() {
     }
 }
 
+/// A Genius in the middle of a pass: the clock is set and set back.
+#[tokio::test(start_paused = true)]
+async fn a_track_goes_on_after_a_clock_step_if_a_time_service_keeps_the_clock() {
+    for by_s in [-40, 40] {
+        let (begun, at) = (Instant::now(), before_a_pass());
+        let ahead_s: Arc<AtomicI64> = Arc::default();
+        let set = Arc::clone(&ahead_s);
+        let clock = Clock::new(move || {
+            let elapsed_s = (Instant::now() - begun).as_secs_f64();
+            add_seconds(at, elapsed_s + set.load(Ordering::Relaxed) as f64)
+        });
+        let mut scene = Scene::by(clock, &station("Mast", |_| {}));
+        scene.units.time_sync = || TimeSync::Synchronised;
+        let scene = scene.started_again(false).await;
+        let client = scene.client();
+        let id = measured(&client, "Mast").await;
+        until("the schedule", || client.snapshot().schedule.made_at).await;
+        proved(&client, id).await;
+        let taken = operation(&client, id).taking().copied().unwrap();
+        until("the pass", || (client.now().utc > add_seconds(taken.from, 60.0)).then_some(()))
+            .await;
+        for ahead in [by_s, 0] {
+            ahead_s.store(ahead, Ordering::Relaxed);
+            tokio::time::sleep(Duration::from_secs(20)).await;
+        }
+        let (_, of) = until("LOS", || flown(&client).first().cloned()).await;
+        assert!(of.in_beam_s > of.of_s - 60.0, "{by_s}: {of:?}");
+        assert!(operation(&client, id).is_on());
+    }
+}
+
 fn sent_to_dish(scene: &Scene) -> Vec<String> {
     scene.units.dish.received().into_iter().map(|(_, payload)| payload).collect()
 }

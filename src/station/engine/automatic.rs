@@ -2,6 +2,7 @@
 
 mod at_start;
 mod auto_track;
+mod clock_stop;
 mod day;
 mod operation;
 mod resumption;
@@ -14,6 +15,7 @@ use jiff::Timestamp;
 
 pub(super) use self::{at_start::LastRun, operation::is_same_pass, upkeep::RuleUpload};
 use self::{
+    clock_stop::ClockStop,
     day::Flight,
     operation::{Act, LATE_S, Outcome, Seen, WINDOW_STEP_S, Wishes},
     resumption::Resumption,
@@ -52,14 +54,15 @@ pub(super) struct AtWork {
     has_auto_track_on: bool,
     /// After a crash it waits to be switched on again.
     resumption: Option<Resumption>,
+    clock_stop: ClockStop,
     upkeep: UpkeepWork,
 }
 
 impl AtWork {
     /// What remains of it when the antenna is given another unit.
     pub(super) fn without_unit(self) -> Self {
-        let upkeep = UpkeepWork::default();
-        Self { has_auto_track_on: false, resumption: None, upkeep, ..self }
+        let (clock_stop, upkeep) = Default::default();
+        Self { has_auto_track_on: false, resumption: None, clock_stop, upkeep, ..self }
     }
 }
 
@@ -200,7 +203,7 @@ impl Engine {
 
     /// Takes what an antenna tells of a pass that it was given, or of its safety.
     pub(super) fn take_automatic_event(&mut self, index: usize, event: &Event) {
-        let now = self.now;
+        let (now, steady) = (self.now, self.steady);
         if resumption::ends_with(event) {
             self.cancel_resumption(index);
         }
@@ -229,6 +232,12 @@ impl Engine {
             Event::TrackingEnded { completed: false } => operation.ended_by_unit(now),
             Event::StartedByItself if !uses_auto_track => {
                 operation.suspend(Interruption::Elsewhere, now);
+            }
+            Event::Safety(Safety::ClockStepped { .. }) => {
+                antenna.at_work.clock_stop.take_step(steady);
+            }
+            Event::Safety(Safety::AsksToResume { unlike: None, .. }) => {
+                antenna.at_work.clock_stop.take_question(steady);
             }
             Event::Safety(Safety::OffTarget { .. }) => {
                 operation.take_outcome(Outcome::OffTarget);
@@ -302,6 +311,7 @@ impl Engine {
             self.keep_last_run();
             self.switch_auto_track_on(index);
         }
+        self.resume_after_step(index);
         self.run_upkeep(index);
     }
 

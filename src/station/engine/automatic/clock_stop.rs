@@ -1,0 +1,61 @@
+//! Continues a program track that a clock step has stopped, once the time service has confirmed the clock.
+
+use std::time::Duration;
+
+use crate::{
+    clock::Instant,
+    driver::{self, TimeSync},
+    engine::Engine,
+};
+
+/// A session reports the step and its question at once; they may arrive in two turns.
+const SAME_STEP: Duration = Duration::from_secs(1);
+
+/// A program track that waits for the operator since a clock step.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct ClockStop {
+    stepped: Option<Instant>,
+    asked: Option<Instant>,
+}
+
+impl ClockStop {
+    pub(super) fn take_step(&mut self, at: Instant) {
+        self.stepped = Some(at);
+    }
+
+    /// Takes the question of a session, which an outage may cause too.
+    pub(super) fn take_question(&mut self, at: Instant) {
+        let is_by_step =
+            self.stepped.is_some_and(|stepped| at.saturating_duration_since(stepped) < SAME_STEP);
+        if is_by_step {
+            self.asked = Some(at);
+        }
+    }
+}
+
+impl Engine {
+    /// Answers the question for the operator while automatic operation is on. Automatic operation is
+    /// suspended if no time service keeps the clock.
+    pub(super) fn resume_after_step(&mut self, index: usize) {
+        let is_kept = self.time_sync == TimeSync::Synchronised;
+        let (now, steady) = (self.now, self.steady);
+        let Some(antenna) = self.antennas.get_mut(index) else { return };
+        // The clock watch of this turn may have looked before the step.
+        let is_later = |asked: Instant| asked < steady;
+        if !antenna.at_work.clock_stop.asked.is_some_and(is_later) {
+            return;
+        }
+        let track = antenna.shown.snapshot.program_track.as_ref();
+        if !track.is_some_and(|track| track.awaits_operator) {
+            antenna.at_work.clock_stop = ClockStop::default();
+            return;
+        }
+        let taking = antenna.shown.operation.taking();
+        let is_taken = taking.is_some_and(|taking| taking.given_up.is_none() && now < taking.until);
+        if is_kept && is_taken {
+            antenna.at_work.clock_stop = ClockStop::default();
+            antenna.shown.track_again = None;
+            self.send(index, driver::Command::Resume);
+        }
+    }
+}
