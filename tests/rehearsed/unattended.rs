@@ -27,7 +27,7 @@ use azel::{
         satrak::{FaultKind, Goto, Motion, Request, encode},
     },
     sim::satrak,
-    station::{Antenna, AntennaId, LockOut, Monitor, Station},
+    station::{Antenna, AntennaId, LockOut, Monitor, Resume, Station},
 };
 use jiff::{Timestamp, ToSpan as _};
 use tokio::io::AsyncWriteExt as _;
@@ -737,6 +737,32 @@ async fn a_clock_step_suspends_automatic_operation_first() {
         let moved = |payload: &String| payload.starts_with("GOTO=") || payload.starts_with("TRACK");
         let after = sent_to_dish(&scene);
         assert!(!after[sent.len()..].iter().any(moved), "{by_s}: {after:?}");
+    }
+}
+
+/// The link breaks in the middle of a pass, and comes back after LOS.
+#[tokio::test(start_paused = true)]
+async fn after_an_outage_over_the_end_of_a_pass_the_next_ones_are_taken() {
+    for resume in [Resume::Ask, Resume::Continue] {
+        let (scene, client, id) = scene_of("Dish", |dish| {
+            dish.resume = resume;
+            dish.resume_after_s = 600.0;
+        })
+        .await;
+        proved(&client, id).await;
+        let taken = operation(&client, id).taking().copied().unwrap();
+        let before_los = add_seconds(taken.until, -60.0);
+        until("the middle", || (client.now().utc > before_los).then_some(())).await;
+        scene.units.dish.set_fault(satrak::Fault::Silence, true);
+        let after_los = add_seconds(taken.until, 60.0);
+        until("LOS", || (client.now().utc > after_los).then_some(())).await;
+        scene.units.dish.set_fault(satrak::Fault::Silence, false);
+        until("the next pass", || {
+            let next = flown(&client).get(1).cloned();
+            next.map(|(_, of)| assert!(of.in_beam_s > of.of_s - 2.0, "{resume:?}: {of:?}"))
+        })
+        .await;
+        assert!(operation(&client, id).is_on());
     }
 }
 

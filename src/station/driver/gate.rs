@@ -185,6 +185,8 @@ impl Gate {
 
     pub(super) fn proved_still(&mut self) {
         self.unproved_since = None;
+        // A motion that ended without a halt, such as a track of the unit, turns nothing any more.
+        self.turns = [false; 2];
         self.watch.stands();
     }
 
