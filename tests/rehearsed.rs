@@ -16,6 +16,7 @@ mod size;
 mod trouble;
 mod unattended;
 mod upkeep;
+mod week;
 
 use std::{sync::Arc, time::Duration};
 
