@@ -188,8 +188,9 @@ fn draw(seed: u64) -> Rehearsal {
 /// Counts the suspensions for foreign motion.
 fn accusations(rehearsed: &Rehearsed) -> usize {
     let accuses = |what: &DayEvent| {
-        let by = [Interruption::Elsewhere, Interruption::EndedByUnit];
-        by.iter().any(|by| *what == DayEvent::Suspended(*by))
+        let suspended =
+            [Interruption::Elsewhere, Interruption::EndedByUnit].map(DayEvent::Suspended);
+        suspended.contains(what)
     };
     rehearsed.interruptions.iter().filter(|line| accuses(&line.what)).count()
 }

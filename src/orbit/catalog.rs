@@ -24,11 +24,11 @@ pub struct Catalog {
     /// By catalog number: a sorted list takes half the memory of a map.
     entries: Vec<Entry>,
     groups: Vec<Group>,
-    /// Sets that came and were not the newest, or are not any more.
+    /// Sets that newer ones have replaced.
     superseded: Vec<Entry>,
     /// The newest sets of the objects of which an older one is in use, by catalog number.
     set_aside: BTreeMap<u32, SetAside>,
-    /// The same for the objects whose preferred source has an older one.
+    /// The newest sets of the objects whose preferred source has an older one, by catalog number.
     passed_over: BTreeMap<u32, SetAside>,
     orders: SourceOrders,
     /// All sets of the objects with an order of sources.
@@ -88,7 +88,7 @@ pub struct MergeSummary {
 }
 
 impl Catalog {
-    /// Sets the orders of sources. To be called before the merges of these sources;
+    /// Sets the orders of sources. Call it before the merges of these sources;
     /// [`Self::apply_orders`] applies the orders after them.
     pub fn set_orders(&mut self, orders: SourceOrders) {
         self.candidates = orders.keys().map(|number| (*number, Vec::new())).collect();

@@ -174,7 +174,7 @@ pub enum FetchProblem {
     /// server was asked.
     #[error("no server was asked, because the request cannot be recorded: {0}")]
     Unrecorded(String),
-    /// The same after the log-in.
+    /// Azel had logged in, but the library on disk takes no record of the query, which was not sent.
     #[error("the query was not sent, because it cannot be recorded: {0}")]
     QueryUnrecorded(String),
     /// A source of the elements of favourites, without favourites. No server was asked.

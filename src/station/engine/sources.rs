@@ -1,35 +1,28 @@
 //! Sources of elements: the bundled ones and the operator's. They are read, saved and
 //! fetched on a thread of their own.
 
+mod passwords;
+
 use std::{
     path::{Path, PathBuf},
-    sync::{Arc, Mutex, PoisonError},
+    sync::Arc,
     time::Duration,
 };
 
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
-use super::{
-    older_sets::{SetChoice, use_older_sets},
-    uploads,
-};
-use crate::job::Job;
+pub(super) use self::passwords::Passwords;
+use super::older_sets::{SetChoice, use_older_sets};
 use crate::{
-    job::Wake,
+    job::{Job, Wake},
     library::{
-        self, History, IndexError, LOG_IN_PAUSE, Library, Limits, OlderSet, PasswordStore,
-        SPACE_TRACK_HOST, SpaceTrackAccess, check_source, has_log_in, load_sources, log_in_key,
-        read_element_file, save_sources,
+        self, History, IndexError, LOG_IN_PAUSE, Library, Limits, OlderSet, SpaceTrackAccess,
+        check_source, has_log_in, load_sources, read_element_file, save_sources,
     },
-    orbit::{Catalog, FetchProblem, Source, SourceOrders, SourcePlace, SourceReport, bundled},
-    secret::Secret,
-    transfer::{Account, Keyring as _, KeyringError, MemoryKeyring, TimedKeyring},
+    orbit::{Catalog, Source, SourceOrders, SourcePlace, SourceReport, bundled},
     whole_file,
 };
-
-/// Time limit for an answer of the keyring. A locked one may ask the operator, who may be away.
-const KEYRING_LIMIT: Duration = Duration::from_secs(20);
 
 /// The sources as last read.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
@@ -131,107 +124,6 @@ pub(super) struct Task {
     pub(super) awaits_log_in: bool,
     /// Ask even if they were asked lately.
     pub(super) forced: bool,
-}
-
-/// Passwords for servers: those of this session, and those in the keyring.
-#[derive(Debug, Clone)]
-pub(super) struct Passwords {
-    keyring: TimedKeyring,
-    session: Arc<MemoryKeyring>,
-    /// Typed passwords for the keyring, until the server accepts them.
-    unproved: Arc<MemoryKeyring>,
-    /// Problems with the keyring.
-    problems: Arc<Mutex<Vec<String>>>,
-}
-
-impl Passwords {
-    pub(super) fn new(places: &uploads::Places) -> Self {
-        let keyring = TimedKeyring::new(Arc::clone(&places.keyring), KEYRING_LIMIT);
-        Self::over(keyring, Arc::clone(&places.session))
-    }
-
-    fn over(keyring: TimedKeyring, session: Arc<MemoryKeyring>) -> Self {
-        Self { keyring, session, unproved: Arc::default(), problems: Arc::default() }
-    }
-
-    /// Uses a typed password from now on, and keeps it in the keyring once the server has accepted
-    /// it, if the operator wants that.
-    pub(super) fn take(&self, user: &str, secret: &Secret, is_kept: bool) {
-        let account = account(user);
-        // Keyrings in memory never fail.
-        let _ = self.session.set(&account, secret.inner());
-        let _ = if is_kept {
-            self.unproved.set(&account, secret.inner())
-        } else {
-            self.unproved.remove(&account)
-        };
-    }
-
-    /// Forgets the password of `user`, in the keyring too.
-    fn forget(&self, user: &str) {
-        let account = account(user);
-        let _ = self.session.remove(&account);
-        let _ = self.unproved.remove(&account);
-        match self.keyring.remove(account) {
-            // Without a keyring there is nothing to remove.
-            Ok(()) | Err(KeyringError::Missing(_)) => {}
-            Err(error) => self.add_problem(format!("the password stays in the keyring: {error}")),
-        }
-    }
-
-    fn add_problem(&self, problem: String) {
-        self.problems.lock().unwrap_or_else(PoisonError::into_inner).push(problem);
-    }
-
-    fn take_problems(&self) -> Vec<String> {
-        std::mem::take(&mut self.problems.lock().unwrap_or_else(PoisonError::into_inner))
-    }
-}
-
-/// Returns `true` if `keyring` has this password.
-fn has(keyring: &MemoryKeyring, account: &Account, password: &Secret) -> bool {
-    let stored = keyring.get(account).ok().flatten();
-    stored.is_some_and(|stored| Secret::from(stored) == *password)
-}
-
-impl PasswordStore for Passwords {
-    fn get(&self, user: &str) -> Result<Secret, FetchProblem> {
-        let account = account(user);
-        if let Ok(Some(secret)) = self.session.get(&account) {
-            return Ok(secret.into());
-        }
-        match self.keyring.get(account) {
-            Ok(Some(secret)) => Ok(secret.into()),
-            Ok(None) => Err(FetchProblem::NoPassword),
-            Err(error) => Err(FetchProblem::Keyring(error.to_string())),
-        }
-    }
-
-    fn accepted(&self, user: &str, password: &Secret) {
-        let account = account(user);
-        if !has(&self.unproved, &account, password) {
-            return;
-        }
-        let _ = self.unproved.remove(&account);
-        if let Err(error) = self.keyring.set(account, password.inner().clone()) {
-            self.add_problem(format!("the password is not kept: {error}"));
-        }
-    }
-
-    /// Another password that the operator has typed since stays.
-    fn refused(&self, user: &str, password: &Secret) {
-        let account = account(user);
-        for keyring in [&self.session, &self.unproved] {
-            if has(keyring, &account, password) {
-                let _ = keyring.remove(&account);
-            }
-        }
-    }
-}
-
-/// The account of a log-in name at Space-Track.
-fn account(user: &str) -> Account {
-    Account { user: log_in_key(user), address: format!("{SPACE_TRACK_HOST}:443") }
 }
 
 /// Result of reading.
@@ -429,10 +321,15 @@ fn after_pause(
 mod tests {
     use std::fs;
 
-    use super::*;
+    use super::{
+        passwords::{account, tests::passwords},
+        *,
+    };
     use crate::{
-        orbit::{RefreshHours, write_omm_json},
-        transfer::{Keyring, SecretString},
+        library::PasswordStore as _,
+        orbit::{FetchProblem, RefreshHours, write_omm_json},
+        secret::Secret,
+        transfer::{Account, Keyring, KeyringError, MemoryKeyring, SecretString},
     };
 
     const ISS: u32 = 25_544;
@@ -535,11 +432,6 @@ mod tests {
         assert_eq!(sources.due_by_themselves(now), [""; 0]);
     }
 
-    fn passwords(keyring: Arc<dyn Keyring>) -> Passwords {
-        let keyring = TimedKeyring::new(keyring, Duration::from_millis(50));
-        Passwords::over(keyring, Arc::default())
-    }
-
     fn space_track() -> Source {
         let place = SourcePlace::SpaceTrack("op".to_owned());
         Source { name: "Space-Track".to_owned(), place, refresh: None }
@@ -584,39 +476,6 @@ mod tests {
             assert_eq!(outcome.sources.reports[0].fetch_problem, Some(problem));
             assert_eq!(iss_epoch(&outcome.catalog), own_epoch(), "the other source is read");
         }
-    }
-
-    #[test]
-    fn a_typed_password_is_used_and_kept_once_the_server_accepts_it() {
-        for is_kept in [false, true] {
-            let keyring = Arc::new(MemoryKeyring::default());
-            let passwords = passwords(Arc::clone(&keyring) as Arc<dyn Keyring>);
-            let stored = || keyring.get(&account("op")).unwrap().map(Secret::from);
-            assert_eq!(passwords.get("op"), Err(FetchProblem::NoPassword));
-            let secret = Secret::new("hunter2");
-            passwords.take(" OP", &secret, is_kept);
-            assert_eq!(passwords.get("op"), Ok(secret.clone()));
-            assert_eq!(passwords.get("other"), Err(FetchProblem::NoPassword));
-            assert_eq!(stored(), None, "the server has not accepted it");
-            passwords.accepted("op", &secret);
-            assert_eq!(stored(), Some(secret.clone()).filter(|_| is_kept));
-            assert!(!format!("{passwords:?}").contains("hunter2"));
-        }
-    }
-
-    #[test]
-    fn a_refused_password_is_dropped_and_replaces_no_kept_one() {
-        let keyring = Arc::new(MemoryKeyring::default());
-        let passwords = passwords(Arc::clone(&keyring) as Arc<dyn Keyring>);
-        let [kept, wrong, newer] = ["kept", "wrong", "newer"].map(Secret::new);
-        keyring.set(&account("op"), kept.inner()).unwrap();
-        passwords.take("op", &wrong, true);
-        passwords.refused("op", &wrong);
-        passwords.accepted("op", &wrong);
-        assert_eq!(passwords.get("op"), Ok(kept.clone()), "a kept password outlasts a wrong one");
-        passwords.take("op", &newer, false);
-        passwords.refused("op", &kept);
-        assert_eq!(passwords.get("op"), Ok(newer), "typed since");
     }
 
     #[test]

@@ -44,10 +44,10 @@ pub trait PasswordStore: Send + Sync {
     /// Returns the password of `user`. It may wait for the operator's keyring.
     fn get(&self, user: &str) -> Result<Secret, FetchProblem>;
 
-    /// Takes note that the server accepted the password. Called after the log-out.
+    /// Notes that the server accepted the password. Called after the log-out.
     fn accepted(&self, _user: &str, _password: &Secret) {}
 
-    /// Takes note that the server refused the log-in.
+    /// Notes that the server refused the log-in.
     fn refused(&self, _user: &str, _password: &Secret) {}
 }
 

@@ -218,7 +218,8 @@ fn satellites() -> Vec<Elements> {
     let mut chosen: Vec<Elements> = Vec::new();
     for elements in known.iter().filter_map(|number| all.get(*number)).chain(others) {
         let number = elements.catalog_number();
-        if chosen.len() < SATELLITES && chosen.iter().all(|of| of.catalog_number() != number) {
+        if chosen.len() < SATELLITES && chosen.iter().all(|known| known.catalog_number() != number)
+        {
             chosen.push(elements.clone());
         }
     }

@@ -145,8 +145,8 @@ fn a_track_that_somebody_ends_suspends_it() {
     fixture.until(150.0, |_| STANDS);
     fixture.until(250.0, |_| taking(1));
     fixture.operation.ended_by_unit(at(250.0));
-    let by = Interruption::EndedByUnit;
-    assert_eq!(fixture.operation, Operation::Suspended { by, since: at(250.0) });
+    let suspended = Operation::Suspended { by: Interruption::EndedByUnit, since: at(250.0) };
+    assert_eq!(fixture.operation, suspended);
 }
 
 #[test]
@@ -336,6 +336,6 @@ fn a_park_that_somebody_ends_suspends_it() {
     fixture.until(810.0, |_| taking(1));
     assert!(!fixture.until(815.0, |_| STANDS).is_empty(), "it parks");
     fixture.operation.ended_by_unit(at(820.0));
-    let by = Interruption::EndedByUnit;
-    assert_eq!(fixture.operation, Operation::Suspended { by, since: at(820.0) });
+    let suspended = Operation::Suspended { by: Interruption::EndedByUnit, since: at(820.0) };
+    assert_eq!(fixture.operation, suspended);
 }

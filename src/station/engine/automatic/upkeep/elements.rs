@@ -359,7 +359,7 @@ mod tests {
         let read = LastRun::load(&left);
         let known = read.unit_elements(config.id, &config.connection.address).unwrap();
         let wanted = [object(1, 10.0), object(2, 11.0), object(3, 7.0)];
-        assert_eq!(known.epochs, wanted.map(|it| (it.catalog_number, it.epoch)));
+        assert_eq!(known.epochs, wanted.map(|object| (object.catalog_number, object.epoch)));
         assert_eq!(known.target, target());
         assert!(read.unit_elements(config.id, "another:4001").is_none());
         assert!(read.unit_elements(AntennaId(2), &config.connection.address).is_none());
