@@ -317,8 +317,7 @@ impl Driver {
     }
 
     /// Starts the session of an antenna, with what was learned of its axes before. Its unit may be
-    /// locked out. `lock` is dropped when the
-    /// session has ended.
+    /// locked out. `lock` is dropped when the session has ended.
     pub fn open(
         &self,
         antenna: &Antenna,
@@ -334,7 +333,7 @@ impl Driver {
             Arc::clone(&self.wake),
             &self.orders,
         );
-        wires.begin_with(learned);
+        wires.begin_with(learned, lock_out);
         let wires = match &self.thread {
             Some(thread) => wires.hearing(thread.before_sleep.hear()),
             None => wires,
@@ -347,8 +346,10 @@ impl Driver {
         let open = move || {
             let (controller, dial) = (antenna.controller(), dial(&antenna, Arc::clone(&lock)));
             let (wires, debts) = (ends.clone(), debts.clone());
+            // Also that of a session that broke down.
+            let lock_out = wires.shown_lock_out();
             let session = Session::over(controller, &antenna, dial, clock.clone(), wires, debts)
-                .locked_out(lock_out.clone());
+                .locked_out(lock_out);
             match &dead_man {
                 Some(program) => session.guarded_by(program.clone()),
                 None => session,
@@ -478,6 +479,25 @@ mod tests {
         drop(go_on);
         wait_for("it runs", || driver.stood_for().is_none());
         wakes.recv_timeout(Duration::from_secs(20)).unwrap();
+    }
+
+    #[test]
+    fn the_lock_out_of_a_unit_is_shown_before_its_session_runs() {
+        let driver = Driver::start(Clock::system(), Arc::new(|| {})).unwrap();
+        let (go_on, held_up) = std::sync::mpsc::sync_channel::<()>(1);
+        driver.runtime().spawn(async move { held_up.recv() });
+        let antenna = antenna();
+        let lock_out = LockOut {
+            by: "Ada".to_owned(),
+            reason: "gear box open".to_owned(),
+            since: jiff::Timestamp::UNIX_EPOCH,
+        };
+        let (bounds, locked) = (Bounds::of_antenna(&antenna), Some(lock_out.clone()));
+        let learned = [AxisLessons::default(); 2];
+        let handle = driver.open(&antenna, bounds, learned, locked, Box::new(()));
+        let first = handle.snapshot();
+        assert_eq!((first.lock_out.as_ref(), first.locking), (Some(&lock_out), true));
+        drop(go_on);
     }
 
     #[tokio::test(start_paused = true)]

@@ -60,7 +60,7 @@ use crate::{
     clock::{Instant, Moment},
     device::{AxisMotion, Controller, Pointing, Variant},
     plan::{Bounds, on_board::Ability},
-    station::{Antenna, Monitor},
+    station::{Antenna, LockOut, Monitor},
 };
 use activity::Activity;
 use clocks::Clocks;
@@ -162,9 +162,20 @@ impl Wires {
         self
     }
 
-    /// With what was learned of the axes before.
-    pub(super) fn begin_with(&self, learned: [AxisLessons; 2]) {
-        self.snapshots.send_modify(|first| Arc::make_mut(first).learned = learned);
+    /// Fills in the first snapshot, before the session runs: what was learned of the axes before,
+    /// and the lock-out of the unit.
+    pub(super) fn begin_with(&self, learned: [AxisLessons; 2], lock_out: Option<LockOut>) {
+        self.snapshots.send_modify(|first| {
+            let first = Arc::make_mut(first);
+            first.learned = learned;
+            first.locking = lock_out.is_some();
+            first.lock_out = lock_out;
+        });
+    }
+
+    /// The lock-out that was shown last.
+    pub(super) fn shown_lock_out(&self) -> Option<LockOut> {
+        self.snapshots.borrow().lock_out.clone()
     }
 
     /// Sends a STOP ahead of the next command.
