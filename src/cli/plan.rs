@@ -142,11 +142,8 @@ pub(super) fn run(station: Option<&Path>, options: &Options) -> anyhow::Result<E
         steadiness: Steadiness::default(),
         fixed: &[],
     });
-    if let Some(percent) = words::schedule::most_below_best(&schedule) {
-        input::note(&format!(
-            "The best schedule is at most {percent:.1} % better in the first class that is not \
-             proved to be the best."
-        ));
+    if let Some(unproved) = words::schedule::unproved(&schedule) {
+        input::note(&unproved);
     }
     let now = Timestamp::now();
     let written = match options.format {

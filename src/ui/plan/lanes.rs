@@ -133,7 +133,9 @@ fn title(ui: &Ui, bar: Rect, model: &Model, satellites: &[PlannedSatellite<'_>],
 
 /// What the schedule comes to, class by class.
 fn worth(model: &Model) -> String {
-    let lines = model.schedule.schedule.worth.iter().map(words::schedule::class_worth);
+    let choose_by = model.station.scheduling.choose_by;
+    let classes = model.schedule.schedule.worth.iter();
+    let lines = classes.map(|class| words::schedule::class_worth(class, choose_by));
     lines.collect::<Vec<_>>().join("\n")
 }
 

@@ -207,39 +207,47 @@ pub fn change(model: &Model, change: &Change) -> String {
 
 /// How good a schedule is known to be, in a few words.
 pub fn proof(schedule: &Schedule) -> String {
-    match most_below_best(schedule) {
-        None => "No better plan exists.".to_owned(),
-        Some(percent) => {
-            format!("At most {percent:.1} % below the best possible.")
+    unproved(schedule).unwrap_or_else(|| "No better plan exists.".to_owned())
+}
+
+/// By how much a better schedule is not ruled out, by class; `None` where all classes are proved to
+/// be the best.
+pub fn unproved(schedule: &Schedule) -> Option<String> {
+    let classes = schedule.worth.iter().filter_map(|class| match class.proof {
+        Proof::AtMost(bound) => {
+            let percent = 100.0 * (bound - class.worth) as f64 / bound.max(1) as f64;
+            Some(format!("{} by {percent:.1} %", class_name(class.class)))
         }
-    }
+        Proof::Best => None,
+    });
+    let classes: Vec<String> = classes.collect();
+    let list = classes.join(", ");
+    (!classes.is_empty()).then(|| format!("At most below the best plan: {list}."))
 }
 
-/// By how many per cent a better schedule is not ruled out, in the first class that is not proved
-/// to be the best; `None` where all are proved.
-pub fn most_below_best(schedule: &Schedule) -> Option<f64> {
-    schedule.worth.iter().find_map(|class| match class.proof {
-        Proof::AtMost(bound) => Some(100.0 * (bound - class.worth) as f64 / bound.max(1) as f64),
-        Proof::Best | Proof::Open => None,
-    })
-}
-
-/// What a class comes to, as a sentence.
-pub fn class_worth(of: &ClassWorth) -> String {
-    let class = match of.class {
+fn class_name(class: Class) -> String {
+    match class {
         Class::Fixed => "Under way".to_owned(),
         Class::Always => "Always".to_owned(),
         Class::Priority(priority) => format!("Priority {}", priority.number()),
         Class::All => "All passes".to_owned(),
         Class::Kept => "Kept from before".to_owned(),
+    }
+}
+
+/// What a class comes to, as a sentence.
+pub fn class_worth(class: &ClassWorth, choose_by: ChooseBy) -> String {
+    let number = |worth: i64| match choose_by {
+        ChooseBy::MostPasses => format::number(worth as f64, 0),
+        ChooseBy::Elevation | ChooseBy::Duration | ChooseBy::MostMinutes => {
+            format::number(worth as f64 / 1000.0, 0)
+        }
     };
-    let seconds = |worth: i64| format::number(worth as f64 / 1000.0, 0);
-    let proof = match of.proof {
+    let proof = match class.proof {
         Proof::Best => "the best there is".to_owned(),
-        Proof::AtMost(bound) => format!("the best is at most {}", seconds(bound)),
-        Proof::Open => "not compared with the best".to_owned(),
+        Proof::AtMost(bound) => format!("the best is at most {}", number(bound)),
     };
-    format!("{class}: {}, {proof}.", seconds(of.worth))
+    format!("{}: {}, {proof}.", class_name(class.class), number(class.worth))
 }
 
 /// Name of an antenna.

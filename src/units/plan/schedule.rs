@@ -116,12 +116,8 @@ impl Board<'_> {
             let own = entries.iter().filter(|entry| entry.class == class);
             let worth = own.map(|entry| entry.worth).sum();
             let bound = solution.bound.number(class.index());
-            let proof = match (is_open, bound == worth) {
-                (true, _) => Proof::Open,
-                (false, true) => Proof::Best,
-                (false, false) => Proof::AtMost(bound),
-            };
             is_open |= bound != worth;
+            let proof = if is_open { Proof::AtMost(bound) } else { Proof::Best };
             ClassWorth { class, worth, proof }
         };
         Class::shown(self.request.choose_by).into_iter().map(with_worth).collect()

@@ -143,6 +143,7 @@ impl<'a> Board<'a> {
             to_ms: ms(entry.to),
             share: 1000,
             is_whole: true,
+            height_mdeg: 0,
             row: Row::of(Class::Fixed, 1) + Row::of(entry.class, entry.worth),
         });
         self.facts.push(Fact {
@@ -225,6 +226,7 @@ impl<'a> Board<'a> {
                 Part::First | Part::Second => span.length_ms() * 1000 / whole.sight_ms,
             },
             is_whole: span == all,
+            height_mdeg: (candidate.max_elevation.degrees() * 1000.0) as i64,
             row,
         });
         self.facts.push(Fact {
@@ -319,6 +321,7 @@ impl Crowd {
                 to_ms: span.to_ms,
                 share: 1000,
                 is_whole: true,
+                height_mdeg: 0,
                 row: Row::ZERO,
             };
             (take, [span.from_ms, span.to_ms].map(|at| whole.way.axes_deg(at)), false)

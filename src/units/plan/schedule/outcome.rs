@@ -121,12 +121,10 @@ pub struct ClassWorth {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Proof {
-    /// No schedule with the same classes before is worth more.
+    /// The classes before are the best, and no schedule that has them is worth more.
     Best,
-    /// None is worth more than this.
+    /// No schedule that is worth as much in the classes before is worth more than this.
     AtMost(i64),
-    /// Nothing is known, because a class before is not proved to be the best.
-    Open,
 }
 
 impl Schedule {

@@ -75,17 +75,15 @@ impl Row {
         self.0.split_at(Self::CLASSES).0
     }
 
-    pub(super) fn times(mut self, factor: i64) -> Self {
-        for cell in &mut self.0 {
-            *cell *= factor;
-        }
-        self
+    /// Index of the first class with a number, or [`Self::CLASSES`].
+    pub(super) fn first_class(&self) -> usize {
+        self.classes().iter().position(|number| *number != 0).unwrap_or(Self::CLASSES)
     }
 
-    /// So many thousandths of the row, rounded down.
-    pub(super) fn thousandths(mut self, share: i64) -> Self {
-        for cell in &mut self.0 {
-            *cell = (*cell * share).div_euclid(1000);
+    /// The row with another number in `class`.
+    pub(super) fn with(mut self, class: usize, number: i64) -> Self {
+        if let Some(cell) = self.0.get_mut(class) {
+            *cell = number;
         }
         self
     }

@@ -2,21 +2,21 @@
 //! Knows only spans, rows and slews.
 //!
 //! One antenna without a limit of takes a day is solved exactly (`line.rs`). Several antennas, or
-//! one with limits, are solved exactly as long as the number of states allows (`vector.rs`);
-//! beyond that by prices of passes (`prices.rs`), which bound what any schedule can be worth.
+//! one with limits, are solved exactly as long as the number of states allows (`vector.rs`). Beyond
+//! that, the better of two greedy schedules (`greedy.rs`) is improved part by part
+//! (`neighbourhoods.rs`), and prices bound what any schedule can be worth (`prices.rs`).
 
-mod hand_over;
+mod greedy;
 mod line;
+mod neighbourhoods;
 mod prices;
 #[cfg(test)]
 mod tests;
 mod vector;
 
-use super::row::{Class, Row};
+use super::row::Row;
 use line::Line;
-
-/// A part that stays counts for more than anything else.
-const STAYS: i64 = 1 << 40;
+use vector::Role;
 
 /// How a take shares its pass with others.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -47,6 +47,8 @@ pub(super) struct Take {
     pub(super) share: i64,
     /// Nothing that the antenna could take is cut off.
     pub(super) is_whole: bool,
+    /// The greatest elevation of its pass, thousandths of a degree.
+    pub(super) height_mdeg: i64,
     pub(super) row: Row,
 }
 
@@ -102,19 +104,30 @@ impl Problem<'_> {
     pub(super) fn solve(&self) -> Solution {
         let lines: Vec<Line> = (0..self.antennas).map(|antenna| Line::new(self, antenna)).collect();
         if let [line] = &lines[..] {
-            let takes = line.best(self, &|_, take| Some(take.row)).takes;
-            let row = self.row(std::slice::from_ref(&takes));
-            if self.keeps_limits(std::slice::from_ref(&takes)) {
-                return Solution { takes: vec![takes], row, bound: row };
+            let takes = vec![line.best(self, &|_, take| Some(take.row)).takes];
+            let row = self.row(&takes);
+            if self.keeps_limits(&takes) {
+                return Solution { takes, row, bound: row };
             }
         }
-        match vector::best(self, &|_| true) {
-            Some(takes) => {
-                let (takes, row) = self.improved(&lines, takes);
-                Solution { takes, row, bound: row }
-            }
-            None => prices::solve(self, &lines),
+        let mut effort = self.effort;
+        if let Some(takes) = vector::best(self, &|_, _| Role::Free, &mut effort) {
+            let takes = self.refined(takes, &mut self.effort.clone());
+            let row = self.row(&takes);
+            return Solution { takes, row, bound: row };
         }
+        self.solve_in_part(&lines)
+    }
+
+    /// The best schedule that is found, for where there are too many states to try them all.
+    fn solve_in_part(&self, lines: &[Line]) -> Solution {
+        let start = self.greedy().into_iter().max_by_key(|takes| self.row(takes));
+        let takes = self.refined(start.unwrap_or_default(), &mut self.effort.clone());
+        let row = self.row(&takes);
+        let bound = (0..Row::CLASSES).fold(row, |bound, class| {
+            bound.with(class, prices::bound(self, lines, &row, class))
+        });
+        Solution { takes, row, bound }
     }
 
     /// What takes are worth, with their slews.
@@ -138,13 +151,9 @@ impl Problem<'_> {
         (earlier.to_ms + needs_ms <= later.from_ms).then_some(slew_ms)
     }
 
-    /// Returns `true` if each antenna is at all of its takes in time.
-    fn is_in_time(&self, takes: &[Vec<u32>]) -> bool {
-        takes.iter().all(|takes| {
-            let mut pairs = takes.iter().zip(takes.iter().skip(1));
-            takes.first().is_none_or(|first| self.slews.first_ms(*first as usize).is_some())
-                && pairs.all(|(before, take)| self.fits(*before, *take))
-        })
+    /// Returns `true` if the second take can follow the first.
+    fn fits(&self, before: u32, take: u32) -> bool {
+        self.slew_ms(before, take).is_some()
     }
 
     fn keeps_limits(&self, takes: &[Vec<u32>]) -> bool {
@@ -161,64 +170,5 @@ impl Problem<'_> {
             }
         }
         used
-    }
-
-    /// Solves one antenna after the other again, with what the others take left to them, for as
-    /// long as that is worth more.
-    fn improved(&self, lines: &[Line], mut takes: Vec<Vec<u32>>) -> (Vec<Vec<u32>>, Row) {
-        let mut row = self.row(&takes);
-        loop {
-            let before = row;
-            for (antenna, line) in lines.iter().enumerate() {
-                let Some(found) = self.again(line, antenna, &takes) else { continue };
-                let Some(old) = takes.get_mut(antenna) else { continue };
-                let old = std::mem::replace(old, found);
-                let new_row = self.row(&takes);
-                if new_row > row {
-                    row = new_row;
-                } else if let Some(place) = takes.get_mut(antenna) {
-                    *place = old;
-                }
-            }
-            if row == before {
-                return (takes, row);
-            }
-        }
-    }
-
-    /// The best takes of one antenna beside those of the others. Parts of passes that are handed
-    /// over stay.
-    fn again(&self, line: &Line, antenna: usize, takes: &[Vec<u32>]) -> Option<Vec<u32>> {
-        let others = || {
-            let others = takes.iter().enumerate().filter(|(index, _)| *index != antenna);
-            others.flat_map(|(_, takes)| takes)
-        };
-        let mut is_out = vec![false; self.passes];
-        for take in others().filter_map(|take| self.take(*take)) {
-            *is_out.get_mut(take.pass as usize)? = true;
-        }
-        let own = takes.get(antenna)?;
-        let by_others = self.used(others());
-        loop {
-            let found = line.best(self, &|index, take| {
-                if take.part != Part::Alone {
-                    let stays = own.contains(&index);
-                    return stays.then(|| take.row + Row::of(Class::Fixed, STAYS));
-                }
-                (!is_out.get(take.pass as usize)?).then_some(take.row)
-            });
-            // Beyond its limit, a satellite loses the passes that are worth least.
-            let used = self.used(found.takes.iter());
-            let over = used.iter().zip(&by_others).zip(self.limits);
-            let over = over.map(|((own, others), most)| (own + others).saturating_sub(*most));
-            let Some((limit, _)) = over.enumerate().find(|(_, over)| *over > 0) else {
-                return Some(found.takes);
-            };
-            let of_limit = found.takes.iter().filter_map(|take| self.take(*take));
-            let of_limit = of_limit
-                .filter(|take| take.limit == Some(limit as u32) && take.part == Part::Alone);
-            let least = of_limit.min_by_key(|take| (take.row, take.pass))?;
-            *is_out.get_mut(least.pass as usize)? = true;
-        }
     }
 }

@@ -1,105 +1,110 @@
-//! Prices of passes and of limits: the price that a take of a pass has to pay makes the antennas
-//! independent of each other. With any prices, the best sequences of all antennas together with
-//! the prices themselves are worth at least as much as any schedule (weak duality, which holds for
-//! rows as for numbers). Prices rise while a pass is taken more than once and fall while nobody
-//! takes it, class after class, until the bound meets what was found.
+//! Bounds by prices of passes and of limits: the price that a take of a pass has to pay makes the
+//! antennas independent of each other. With any prices, the best sequences of all antennas together
+//! with the prices themselves are worth at least as much as any schedule (weak duality). Prices rise
+//! while a pass is taken more than once and fall while nobody takes it, until the bound meets what
+//! was found.
+//!
+//! One class is bounded at a time, over the schedules that are worth no less in the classes before:
+//! a round that is worth less there pays for what is missing.
 
-use super::{Line, Part, Problem, Row, Solution, Take, vector};
+use super::{Line, Problem, Row, Take};
 
-/// The share of a whole pass.
+/// The share of a whole pass, and the smallest step of a price.
 const ONE: i64 = 1000;
-/// Rounds of new prices in each class.
+/// Rounds of new prices.
 const ROUNDS: usize = 60;
 /// Rounds without a better bound after which the steps are halved.
 const PATIENCE: usize = 5;
-/// Rounds between two attempts to make a schedule of what the antennas take.
-const REPAIR_EVERY: usize = 6;
+/// Prices count in the only cell of their rows.
+const CELL: usize = 0;
 
 #[derive(Clone)]
 struct Prices {
-    of_pass: Vec<Row>,
-    of_limit: Vec<Row>,
+    of_pass: Vec<i64>,
+    of_limit: Vec<i64>,
+    /// Of as much as the most valuable take of each class before, where that is missing.
+    of_class: Vec<i64>,
+}
+
+/// The class to be bounded, and what it stands behind.
+struct Bounded<'a> {
+    problem: &'a Problem<'a>,
+    lines: &'a [Line],
+    class: usize,
+    /// The schedule that was found.
+    row: &'a Row,
+    /// Of each class before: what the most valuable take is worth.
+    most: Vec<i64>,
 }
 
 /// What all antennas take at some prices.
-#[derive(Clone)]
 struct Round {
-    bound: Row,
-    takes: Vec<Vec<u32>>,
-    /// In thousandths: how much more than once each pass is taken.
-    over_pass: Vec<i64>,
-    over_limit: Vec<i64>,
+    /// In thousandths.
+    bound: i64,
+    /// In thousandths: how much more than once each pass is taken, how much more than its limit
+    /// each limit is used, and how many of its most valuable takes are missing in each class
+    /// before.
+    over: Vec<i64>,
 }
 
-pub(super) fn solve(problem: &Problem<'_>, lines: &[Line]) -> Solution {
-    let mut prices = Prices {
-        of_pass: vec![Row::ZERO; problem.passes],
-        of_limit: vec![Row::ZERO; problem.limits.len()],
+/// At most this much is in `class` of any schedule that is worth no less than `row` in the classes
+/// before.
+pub(super) fn bound(problem: &Problem<'_>, lines: &[Line], row: &Row, class: usize) -> i64 {
+    let most = |class| {
+        let numbers = problem.takes.iter().map(|take| take.row.number(class));
+        numbers.max().unwrap_or_default().max(1)
     };
-    let mut now = prices.round(problem, lines);
-    let mut best = (prices.clone(), now.clone());
-    let (mut takes, mut row) = problem.repaired(lines, now.takes.clone());
-    // Whole passes make a smaller search.
-    if let Some(whole) = vector::best(problem, &|take| take.is_whole) {
-        let found = problem.improved(lines, whole);
-        if found.1 > row {
-            (takes, row) = found;
-        }
-    }
-    for class in 0..Row::CLASSES {
-        if best.1.bound.number(class) == row.number(class) {
-            continue;
-        }
-        (prices, now) = best.clone();
-        let (mut share, mut patience) = (1.0_f64, PATIENCE);
-        for round in 0..ROUNDS {
-            let gap = now.bound.number(class) - row.number(class);
-            if gap <= 0 || !prices.step(&now, class, gap as f64 * share) {
-                break;
-            }
-            now = prices.round(problem, lines);
-            if now.bound < best.1.bound {
-                (best, patience) = ((prices.clone(), now.clone()), PATIENCE);
-            } else {
-                patience -= 1;
-                if patience == 0 {
-                    (share, patience) = (share / 2.0, PATIENCE);
-                }
-            }
-            if round % REPAIR_EVERY == 0 {
-                let found = problem.repaired(lines, now.takes.clone());
-                if found.1 > row {
-                    (takes, row) = found;
-                }
-            }
-            if best.1.bound.number(class) == row.number(class) {
-                break;
-            }
-        }
-        // Below an open class, a bound says nothing.
-        if best.1.bound.number(class) != row.number(class) {
+    let bounded = Bounded { problem, lines, class, row, most: (0..class).map(most).collect() };
+    let mut prices = Prices {
+        of_pass: vec![0; problem.passes],
+        of_limit: vec![0; problem.limits.len()],
+        of_class: vec![0; class],
+    };
+    let reached = row.number(class);
+    let mut now = bounded.round(&prices);
+    let mut best = now.bound;
+    let (mut share, mut patience) = (1.0_f64, PATIENCE);
+    for _ in 0..ROUNDS {
+        let gap = now.bound - reached * ONE;
+        if best.div_euclid(ONE) <= reached || !prices.step(&now, gap as f64 * share) {
             break;
         }
+        now = bounded.round(&prices);
+        if now.bound < best {
+            (best, patience) = (now.bound, PATIENCE);
+        } else {
+            patience -= 1;
+            if patience == 0 {
+                (share, patience) = (share / 2.0, PATIENCE);
+            }
+        }
     }
-    let bound = best.1.bound;
-    let (takes, row) = problem.handed_over(lines, (takes, row));
-    Solution { takes, row, bound: bound.max(row) }
+    best.div_euclid(ONE).max(reached)
 }
 
-impl Prices {
-    fn of(&self, take: &Take) -> Row {
-        let of_pass = self.of_pass.get(take.pass as usize).copied().unwrap_or_default();
-        let of_pass = if take.share == ONE { of_pass } else { of_pass.thousandths(take.share) };
-        let of_limit = take.limit.and_then(|limit| self.of_limit.get(limit as usize));
-        of_pass + of_limit.copied().unwrap_or_default()
+impl Bounded<'_> {
+    /// What a take is worth once it has paid, in thousandths. It is rounded up, so that the bound
+    /// stays one.
+    fn paid(&self, prices: &Prices, take: &Take) -> i64 {
+        let of_pass = prices.of_pass.get(take.pass as usize).copied().unwrap_or_default();
+        let of_limit = take.limit.and_then(|limit| prices.of_limit.get(limit as usize));
+        let before = prices.of_class.iter().zip(&self.most).enumerate();
+        let before = before.map(|(class, (price, most))| {
+            -(-price * take.row.number(class)).div_euclid(*most)
+        });
+        take.row.number(self.class) * ONE + before.sum::<i64>()
+            - (of_pass * take.share).div_euclid(ONE)
+            - of_limit.copied().unwrap_or_default()
     }
 
-    fn round(&self, problem: &Problem<'_>, lines: &[Line]) -> Round {
-        let paid = |_, take: &Take| Some(take.row - self.of(take));
+    fn round(&self, prices: &Prices) -> Round {
+        let Self { problem, lines, class, row, most } = self;
+        let paid = |_, take: &Take| Some(Row::at(CELL, self.paid(prices, take)));
         let found: Vec<_> = lines.iter().map(|line| line.best(problem, &paid)).collect();
         let mut over_pass = vec![-ONE; problem.passes];
-        let mut over_limit: Vec<i64> =
-            problem.limits.iter().map(|most| -ONE * i64::from(*most)).collect();
+        let limits = problem.limits.iter().map(|most| -ONE * i64::from(*most));
+        let mut over_limit: Vec<i64> = limits.collect();
+        let mut missing: Vec<i64> = (0..*class).map(|class| row.number(class)).collect();
         let all = found.iter().flat_map(|sequence| &sequence.takes);
         for take in all.filter_map(|take| problem.take(*take)) {
             if let Some(over) = over_pass.get_mut(take.pass as usize) {
@@ -109,73 +114,43 @@ impl Prices {
             if let Some(over) = limit {
                 *over += ONE;
             }
+            for (class, missing) in missing.iter_mut().enumerate() {
+                *missing -= take.row.number(class);
+            }
         }
-        let of_limits = self.of_limit.iter().zip(problem.limits);
-        let of_limits = of_limits.map(|(price, most)| price.times(i64::from(*most)));
-        let bound = found.iter().map(|sequence| sequence.row).sum::<Row>()
-            + self.of_pass.iter().copied().sum()
-            + of_limits.sum();
-        let takes = found.into_iter().map(|sequence| sequence.takes).collect();
-        Round { bound, takes, over_pass, over_limit }
+        let of_limits = prices.of_limit.iter().zip(problem.limits);
+        let of_limits: i64 = of_limits.map(|(price, most)| price * i64::from(*most)).sum();
+        let of_classes = prices.of_class.iter().zip(most).enumerate();
+        let of_classes = of_classes
+            .map(|(class, (price, most))| (price * row.number(class)).div_euclid(*most));
+        let bound = found.iter().map(|sequence| sequence.row.number(CELL)).sum::<i64>()
+            + prices.of_pass.iter().sum::<i64>()
+            + of_limits
+            - of_classes.sum::<i64>();
+        let missing = missing.into_iter().zip(most).map(|(missing, most)| missing * ONE / most);
+        let over = over_pass.into_iter().chain(over_limit).chain(missing).collect();
+        Round { bound, over }
     }
+}
 
-    /// Moves the prices in one class by a step whose size follows from `gap`. Returns `false` if
-    /// nothing is left to move.
-    fn step(&mut self, round: &Round, class: usize, gap: f64) -> bool {
-        let over = round.over_pass.iter().chain(&round.over_limit);
-        let moving = over.zip(self.of_pass.iter().chain(&self.of_limit));
-        let moving = moving.filter(|(over, price)| **over > 0 || **price > Row::ZERO);
+impl Prices {
+    /// Moves the prices by a step whose size follows from `gap`. Returns `false` if nothing is left
+    /// to move.
+    fn step(&mut self, round: &Round, gap: f64) -> bool {
+        let prices = || self.of_pass.iter().chain(&self.of_limit).chain(&self.of_class);
+        let moving = round.over.iter().zip(prices());
+        let moving = moving.filter(|(over, price)| **over > 0 || **price > 0);
         let length: f64 = moving.map(|(over, _)| (*over as f64 / ONE as f64).powi(2)).sum();
         if length <= 0.0 {
             return false;
         }
-        let step = (gap / length).ceil().max(1.0) as i64;
-        let each = round.over_pass.iter().zip(&mut self.of_pass);
-        for (over, price) in each.chain(round.over_limit.iter().zip(&mut self.of_limit)) {
-            let moved = *price + Row::at(class, (step * over).div_euclid(ONE));
-            *price = moved.max(Row::ZERO);
+        let step = gap / length;
+        let prices =
+            self.of_pass.iter_mut().chain(&mut self.of_limit).chain(&mut self.of_class);
+        for (over, price) in round.over.iter().zip(prices) {
+            let moved = (step * *over as f64 / ONE as f64).round() as i64;
+            *price = price.saturating_add(moved).max(0);
         }
         true
-    }
-}
-
-impl Problem<'_> {
-    /// A schedule of what the antennas would take, which may hold passes twice and more of a
-    /// satellite than its limit allows.
-    fn repaired(&self, lines: &[Line], mut takes: Vec<Vec<u32>>) -> (Vec<Vec<u32>>, Row) {
-        let mut is_taken = vec![false; self.passes];
-        let mut left = self.limits.to_vec();
-        for takes in &mut takes {
-            takes.retain(|take| {
-                let Some(it) = self.take(*take) else { return false };
-                let taken = is_taken.get_mut(it.pass as usize);
-                let Some(taken) = taken.filter(|taken| !**taken) else { return false };
-                let limit = it.limit.and_then(|limit| left.get_mut(limit as usize));
-                if it.part != Part::Alone || limit.as_deref() == Some(&0) {
-                    return false;
-                }
-                *taken = true;
-                if let Some(left) = limit {
-                    *left -= 1;
-                }
-                true
-            });
-            // A pass that is gone leaves two neighbours without the leg that led over it.
-            let mut kept: Vec<u32> = Vec::new();
-            for take in takes.iter() {
-                let fits = kept.last().is_none_or(|last| self.fits(*last, *take))
-                    && (!kept.is_empty() || self.slews.first_ms(*take as usize).is_some());
-                if fits {
-                    kept.push(*take);
-                }
-            }
-            *takes = kept;
-        }
-        self.improved(lines, takes)
-    }
-
-    /// Returns `true` if the second take can follow the first.
-    pub(super) fn fits(&self, before: u32, take: u32) -> bool {
-        self.slew_ms(before, take).is_some()
     }
 }

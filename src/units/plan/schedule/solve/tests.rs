@@ -68,6 +68,7 @@ impl Case {
                         to_ms,
                         share,
                         is_whole,
+                        height_mdeg: at_ms % 90_000,
                         row,
                     });
                 }
@@ -88,6 +89,7 @@ impl Case {
                             to_ms,
                             share,
                             is_whole,
+                            height_mdeg: at_ms % 90_000,
                             row,
                         });
                     }
@@ -225,55 +227,30 @@ fn several_antennas_do_as_well_as_brute_force() {
 }
 
 #[test]
-fn prices_bound_what_can_be_reached_and_often_reach_it() {
+fn where_not_all_is_tried_bounds_hold_and_the_best_is_often_reached() {
     let mut random = Random::new(SEED + 2);
     let mut reached = 0;
     for case in 0..cases() / 4 {
         let antennas = 1 + random.below(3) as usize;
         let passes = 1 + random.below(4) as usize;
         let case_ = Case::random(&mut random, antennas, passes);
-        let problem = case_.problem(0);
+        // Sometimes too little effort is left for every neighbourhood.
+        let problem = case_.problem(u64::from(random.below(400)));
         let lines: Vec<Line> = (0..antennas).map(|antenna| Line::new(&problem, antenna)).collect();
-        let solution = prices::solve(&problem, &lines);
+        let solution = problem.solve_in_part(&lines);
         assert_eq!(case_.worth(&solution.takes), Some(solution.row), "case {case}");
+        for greedy in problem.greedy() {
+            assert!(case_.worth(&greedy).unwrap() <= solution.row, "case {case}");
+        }
         let best = case_.brute_force();
         assert!(solution.row.classes() <= best.classes(), "case {case}");
-        assert!(best.classes() <= solution.bound.classes(), "case {case}");
+        for class in 0..Row::CLASSES {
+            let is_as_good = (0..class).all(|it| best.number(it) >= solution.row.number(it));
+            let bound = solution.bound.number(class);
+            assert!(!is_as_good || best.number(class) <= bound, "case {case}, class {class}");
+        }
         reached += u64::from(solution.row.classes() == best.classes());
     }
     println!("{} cases of seed {}, best reached in {reached}", cases() / 4, SEED + 2);
     assert!(reached * 10 > cases() / 4 * 7, "{reached}");
-}
-
-#[test]
-fn a_hand_over_leaves_no_take_that_its_antenna_cannot_begin_with() {
-    let take = |pass, antenna, part, from_ms, to_ms, worth| Take {
-        pass,
-        antenna,
-        limit: None,
-        part,
-        from_ms,
-        to_ms,
-        share: if part == Part::Alone { 1000 } else { 500 },
-        is_whole: false,
-        row: Row::of(Class::Priority(Priority::default()), worth),
-    };
-    // The first antenna can be at the second pass only by way of the first one, which would be
-    // worth more if the others took it in two parts.
-    let takes = vec![
-        take(0, 0, Part::Alone, 0, 20, 3),
-        take(1, 0, Part::Alone, 50, 70, 3),
-        take(0, 1, Part::First, 0, 10, 4),
-        take(0, 2, Part::Second, 10, 20, 4),
-    ];
-    let leg = Leg { needs_ms: 0, slew_ms: 0 };
-    let first_ms = vec![Some(0), None, Some(0), Some(0)];
-    let slews = Table { legs: vec![leg; 16], first_ms, takes: 4 };
-    let case = Case { antennas: 3, passes: 2, takes, limits: Vec::new(), slews };
-    let problem = case.problem(0);
-    let lines: Vec<Line> = (0..3).map(|antenna| Line::new(&problem, antenna)).collect();
-    let alone = vec![vec![0, 1], vec![], vec![]];
-    let row = problem.row(&alone);
-    let (takes, row) = problem.handed_over(&lines, (alone, row));
-    assert_eq!(case.worth(&takes), Some(row));
 }

@@ -40,58 +40,97 @@ struct Closes {
     limit: bool,
 }
 
-/// The best takes by antenna of those that are in; `None` if there are too many states.
-pub(super) fn best(problem: &Problem<'_>, is_in: &dyn Fn(&Take) -> bool) -> Option<Vec<Vec<u32>>> {
-    let all = (0..).zip(problem.takes).filter(|(_, take)| is_in(take));
-    let mut order: Vec<u32> = all.map(|(index, _)| index).collect();
-    let key = |take: &u32| problem.take(*take).map(|it| (it.from_ms, it.to_ms, it.antenna));
-    order.sort_by_key(|take| (key(take), *take));
-    let closes = closes(problem, &order);
-
-    let mut search = Search { problem, trail: Vec::new(), effort: 0 };
-    let start = State {
-        row: Row::ZERO,
-        last: vec![NONE; problem.antennas],
-        open: Vec::new(),
-        used: Vec::new(),
-        step: NONE,
-    };
-    let mut states = vec![start];
-    let mut after_pruning = 1;
-    for (take, closes) in order.iter().zip(closes) {
-        let it = problem.take(*take)?;
-        for index in 0..states.len() {
-            let found = states.get(index).and_then(|state| search.with(state, *take));
-            states.extend(found);
-        }
-        search.effort += states.len() as u64;
-        if closes.pass {
-            let waits = |state: &State| {
-                state.open.iter().any(|open| open.pass == it.pass && open.first.is_some())
-            };
-            states.retain(|state| !waits(state));
-            for state in &mut states {
-                state.open.retain(|open| open.pass != it.pass);
-            }
-        }
-        if let Some(limit) = it.limit.filter(|_| closes.limit) {
-            for state in &mut states {
-                state.used.retain(|(used, _)| *used != limit);
-            }
-        }
-        if states.len() > FEW_STATES.max(2 * after_pruning) {
-            search.prune(&mut states, it.from_ms);
-            after_pruning = states.len();
-        }
-        if states.len() > MAX_STATES || search.effort > problem.effort {
-            return None;
-        }
-    }
-    let best = states.into_iter().reduce(|a, b| if b.row > a.row { b } else { a })?;
-    Some(search.traced(best.step))
+/// How the search treats a take.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Role {
+    /// No schedule has it.
+    Out,
+    /// Every schedule has it.
+    Stays,
+    Free,
 }
 
-fn closes(problem: &Problem<'_>, order: &[u32]) -> Vec<Closes> {
+/// The best takes by antenna; `None` if there are too many states, or if what the search costs is
+/// more than is left of `effort`, from which it is taken.
+pub(super) fn best(
+    problem: &Problem<'_>,
+    role: &dyn Fn(u32, &Take) -> Role,
+    effort: &mut u64,
+) -> Option<Vec<Vec<u32>>> {
+    let mut order = Vec::new();
+    let mut left = problem.limits.to_vec();
+    for (index, take) in (0..).zip(problem.takes) {
+        let role = role(index, take);
+        if role == Role::Out {
+            continue;
+        }
+        let stays = role == Role::Stays;
+        order.push((index, stays));
+        let limit = take.limit.filter(|_| stays).and_then(|limit| left.get_mut(limit as usize));
+        if let Some(left) = limit {
+            *left = left.saturating_sub(1);
+        }
+    }
+    let key = |take: u32| problem.take(take).map(|it| (it.from_ms, it.to_ms, it.antenna));
+    order.sort_by_key(|(take, _)| (key(*take), *take));
+    let closes = closes(problem, &order);
+
+    let mut search = Search { problem, left, trail: Vec::new(), effort: 0 };
+    let found = search.through(&order, &closes, *effort);
+    *effort = effort.saturating_sub(search.effort);
+    Some(search.traced(found?))
+}
+
+impl Search<'_> {
+    /// The last step of the best trail.
+    fn through(&mut self, order: &[(u32, bool)], closes: &[Closes], effort: u64) -> Option<u32> {
+        let start = State {
+            row: Row::ZERO,
+            last: vec![NONE; self.problem.antennas],
+            open: Vec::new(),
+            used: Vec::new(),
+            step: NONE,
+        };
+        let mut states = vec![start];
+        let mut after_pruning = 1;
+        for ((take, stays), closes) in order.iter().zip(closes) {
+            let it = self.problem.take(*take)?;
+            let with: Vec<State> =
+                states.iter().filter_map(|state| self.with(state, *take, *stays)).collect();
+            if *stays {
+                states = with;
+            } else {
+                states.extend(with);
+            }
+            self.effort += 1 + states.len() as u64;
+            if closes.pass {
+                let waits = |state: &State| {
+                    state.open.iter().any(|open| open.pass == it.pass && open.first.is_some())
+                };
+                states.retain(|state| !waits(state));
+                for state in &mut states {
+                    state.open.retain(|open| open.pass != it.pass);
+                }
+            }
+            if let Some(limit) = it.limit.filter(|_| closes.limit) {
+                for state in &mut states {
+                    state.used.retain(|(used, _)| *used != limit);
+                }
+            }
+            if states.len() > FEW_STATES.max(2 * after_pruning) {
+                self.prune(&mut states, it.from_ms);
+                after_pruning = states.len();
+            }
+            if states.len() > MAX_STATES || self.effort > effort {
+                return None;
+            }
+        }
+        let best = states.into_iter().reduce(|a, b| if b.row > a.row { b } else { a })?;
+        Some(best.step)
+    }
+}
+
+fn closes(problem: &Problem<'_>, order: &[(u32, bool)]) -> Vec<Closes> {
     let mut pass_seen = vec![false; problem.passes];
     let mut limit_seen = vec![false; problem.limits.len()];
     let first = |seen: &mut Vec<bool>, index: u32| {
@@ -100,11 +139,12 @@ fn closes(problem: &Problem<'_>, order: &[u32]) -> Vec<Closes> {
     let mut closes: Vec<Closes> = order
         .iter()
         .rev()
-        .map(|take| {
+        .map(|(take, stays)| {
             let Some(it) = problem.take(*take) else { return Closes::default() };
+            let limit = it.limit.filter(|_| !stays);
             Closes {
                 pass: first(&mut pass_seen, it.pass),
-                limit: it.limit.is_some_and(|limit| first(&mut limit_seen, limit)),
+                limit: limit.is_some_and(|limit| first(&mut limit_seen, limit)),
             }
         })
         .collect();
@@ -114,14 +154,17 @@ fn closes(problem: &Problem<'_>, order: &[u32]) -> Vec<Closes> {
 
 struct Search<'a> {
     problem: &'a Problem<'a>,
+    /// How many takes that are free may count towards each limit.
+    left: Vec<u32>,
     /// The step before, and the take.
     trail: Vec<(u32, u32)>,
     effort: u64,
 }
 
 impl Search<'_> {
-    /// `state` with one more take; `None` where it does not fit.
-    fn with(&mut self, state: &State, take: u32) -> Option<State> {
+    /// `state` with one more take; `None` where it does not fit. One that stays counts towards no
+    /// limit.
+    fn with(&mut self, state: &State, take: u32, stays: bool) -> Option<State> {
         let it = self.problem.take(take)?;
         let antenna = it.antenna as usize;
         let open = state.open.iter().position(|open| open.pass == it.pass);
@@ -135,12 +178,12 @@ impl Search<'_> {
             }
             _ => return None,
         }
-        let used = it.limit.map(|limit| {
+        let used = it.limit.filter(|_| !stays).map(|limit| {
             let used = state.used.iter().find(|(used, _)| *used == limit);
             (limit, used.map_or(0, |(_, count)| *count) + 1)
         });
         if let Some((limit, count)) = used
-            && count > self.problem.limits.get(limit as usize).copied().unwrap_or(u32::MAX)
+            && count > self.left.get(limit as usize).copied().unwrap_or(u32::MAX)
         {
             return None;
         }
