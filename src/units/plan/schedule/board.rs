@@ -47,8 +47,6 @@ struct Whole<'a> {
     pass: usize,
     antenna: usize,
     way: &'a Way,
-    /// In all ways of this pass on this antenna.
-    middle_ms: i64,
     /// From AOS to LOS.
     sight_ms: i64,
 }
@@ -170,14 +168,13 @@ impl<'a> Board<'a> {
         let is_enough = |part: Span| way.counted_ms(part) >= least_ms.max(1);
         let step_ms = ((partial.step_s * 1000.0) as i64).max(1_000);
         let cuts = |room_ms: i64| (0..=room_ms / step_ms).map(move |step| step * step_ms);
-        // All parts that stand alone hold the millisecond after the middle.
-        let room = (whole.middle_ms - span.from_ms, span.to_ms - whole.middle_ms - 1);
-        let (is_late, is_early) = crowd.around(whole, span, room);
-        let (late, early) = (if is_late { room.0 } else { 0 }, if is_early { room.1 } else { 0 });
+        let room_ms = (span.length_ms() - least_ms).max(0);
+        let (is_late, is_early) = crowd.around(whole, span, room_ms);
+        let (late, early) = (if is_late { room_ms } else { 0 }, if is_early { room_ms } else { 0 });
         for late_ms in cuts(late) {
             let part =
                 |early_ms| Span { from_ms: span.from_ms + late_ms, to_ms: span.to_ms - early_ms };
-            let cut = cuts(early.max(0)).map(part).take_while(|part| is_enough(*part));
+            let cut = cuts(early).map(part).take_while(|part| is_enough(*part));
             parts.extend(cut.filter(|part| *part != span).map(|part| (part, Part::Alone)));
         }
         if partial.hand_over && self.request.antennas.len() > 1 {
@@ -204,7 +201,7 @@ impl<'a> Board<'a> {
         let counted_ms = way.counted_ms(span);
         let worth = candidate.worth(choose_by, counted_ms, part);
         let class = candidate.class(choose_by);
-        let mut row = Row::of(class, worth).risen(ms(candidate.key.aos) - kept.epoch_ms);
+        let mut row = Row::of(class, worth).counting(counted_ms).risen(ms(candidate.key.aos) - kept.epoch_ms);
         if kept.holds(whole.pass, antenna.id) {
             let steadiness = self.request.steadiness;
             let seconds = match choose_by {
@@ -274,14 +271,8 @@ fn wholes<'a>(request: &'a Request<'a>, antenna: usize) -> Vec<Whole<'a>> {
     for (pass, candidate) in candidates.filter(|(_, it)| it.refusal.is_none()) {
         let option = candidate.options.iter().find(|(id, _)| *id == planned.id);
         let Some((_, Choice::Judged(Verdict::Possible(ways)))) = option else { continue };
-        let from_ms = ways.iter().map(|way| way.span().from_ms).max().unwrap_or_default();
-        let to_ms = ways.iter().map(|way| way.span().to_ms).min().unwrap_or_default();
-        let middle_ms = ms(candidate.tca).min(to_ms).max(from_ms);
         let sight_ms = (ms(candidate.los) - ms(candidate.key.aos)).max(1);
-        let holds = |way: &&Way| way.span().from_ms <= middle_ms && middle_ms <= way.span().to_ms;
-        for way in ways.iter().filter(holds) {
-            found.push(Whole { candidate, pass, antenna, way, middle_ms, sight_ms });
-        }
+        found.extend(ways.iter().map(|way| Whole { candidate, pass, antenna, way, sight_ms }));
     }
     found
 }
@@ -336,23 +327,23 @@ impl Crowd {
         }
     }
 
-    /// Whether another pass may need the first or the last part of `span`, of which `room` may be
-    /// given up at the start and at the end.
-    fn around(&self, whole: &Whole<'_>, span: Span, room: (i64, i64)) -> (bool, bool) {
-        let of = |list: &[i64]| list.get(whole.antenna).copied().unwrap_or_default();
-        let reach_ms = of(&self.reach_ms);
+    /// Returns whether another pass may need the first part of `span`, and the last one, of which
+    /// `room_ms` may be given up.
+    fn around(&self, whole: &Whole<'_>, span: Span, room_ms: i64) -> (bool, bool) {
+        let own = |list: &[i64]| list.get(whole.antenna).copied().unwrap_or_default();
+        let reach_ms = own(&self.reach_ms);
         let Some(spans) = self.spans.get(whole.antenna) else { return (false, false) };
-        let earliest_ms = span.from_ms - reach_ms - of(&self.longest_pass_ms);
+        let earliest_ms = span.from_ms - reach_ms - own(&self.longest_pass_ms);
         let first = spans.partition_point(|(_, other)| other.from_ms < earliest_ms);
         let near = spans.get(first..).unwrap_or_default().iter();
         let near = near.take_while(|(_, other)| other.from_ms < span.to_ms + reach_ms);
         let near = near.filter(|(pass, _)| *pass != whole.pass);
-        let mut is_late = of(&self.free_ms) + reach_ms > span.from_ms;
+        let mut is_late = own(&self.free_ms) + reach_ms > span.from_ms;
         let mut is_early = false;
         for (_, other) in near {
             is_late |=
-                other.from_ms < span.from_ms + room.0 && other.to_ms + reach_ms > span.from_ms;
-            is_early |= other.to_ms > span.to_ms - room.1 && other.from_ms < span.to_ms + reach_ms;
+                other.from_ms < span.from_ms + room_ms && other.to_ms + reach_ms > span.from_ms;
+            is_early |= other.to_ms > span.to_ms - room_ms && other.from_ms < span.to_ms + reach_ms;
         }
         (is_late, is_early)
     }

@@ -25,8 +25,9 @@ pub enum Class {
     Kept,
 }
 
-/// One number a class, then the slews and the times of AOS with a minus: of two rows the one that
-/// is greater in the first number in which they differ is the greater.
+/// One number a class, then the milliseconds that count, then the slews and the times of AOS with a
+/// minus: of two rows the one that is greater in the first number in which they differ is the
+/// greater.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
 pub(super) struct Row([i64; Self::LEN]);
 
@@ -34,9 +35,10 @@ impl Row {
     pub(super) const ZERO: Self = Self([0; Self::LEN]);
     /// Number of classes; what comes after them breaks ties.
     pub(super) const CLASSES: usize = 8;
-    const LEN: usize = Self::CLASSES + 2;
-    const SLEW: usize = Self::CLASSES;
-    const AOS: usize = Self::CLASSES + 1;
+    const LEN: usize = Self::CLASSES + 3;
+    const COUNTED: usize = Self::CLASSES;
+    const SLEW: usize = Self::CLASSES + 1;
+    const AOS: usize = Self::CLASSES + 2;
 
     /// A row with one number.
     pub(super) fn of(class: Class, number: i64) -> Self {
@@ -50,6 +52,11 @@ impl Row {
             *cell = number;
         }
         row
+    }
+
+    /// A pass counts so long, which tells apart what is worth the same.
+    pub(super) fn counting(self, counted_ms: i64) -> Self {
+        self.with(Self::COUNTED, counted_ms)
     }
 
     pub(super) fn slewed(mut self, slew_ms: i64) -> Self {
@@ -71,18 +78,25 @@ impl Row {
     }
 
     /// The numbers of the classes, without what breaks ties.
+    #[cfg(test)]
     pub(super) fn classes(&self) -> &[i64] {
         self.0.split_at(Self::CLASSES).0
     }
 
-    /// Index of the first class with a number, or [`Self::CLASSES`].
-    pub(super) fn first_class(&self) -> usize {
-        self.classes().iter().position(|number| *number != 0).unwrap_or(Self::CLASSES)
+    /// The numbers that no slew changes, but for the last one.
+    pub(super) fn before_slews(&self) -> &[i64] {
+        self.0.split_at(Self::SLEW).0
     }
 
-    /// The row with another number in `class`.
-    pub(super) fn with(mut self, class: usize, number: i64) -> Self {
-        if let Some(cell) = self.0.get_mut(class) {
+    /// Index of the first class with a number, or [`Self::CLASSES`].
+    pub(super) fn first_class(&self) -> usize {
+        let mut classes = self.0.iter().take(Self::CLASSES);
+        classes.position(|number| *number != 0).unwrap_or(Self::CLASSES)
+    }
+
+    /// The row with another number in the cell of a class.
+    pub(super) fn with(mut self, cell: usize, number: i64) -> Self {
+        if let Some(cell) = self.0.get_mut(cell) {
             *cell = number;
         }
         self

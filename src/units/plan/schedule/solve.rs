@@ -1,8 +1,8 @@
 //! The best choice among takes: ways of taking passes, each on one antenna for a span of time.
 //! Knows only spans, rows and slews.
 //!
-//! One antenna without a limit of takes a day is solved exactly (`line.rs`). Several antennas, or
-//! one with limits, are solved exactly as long as the number of states allows (`vector.rs`). Beyond
+//! One antenna that can take each pass only once is solved exactly (`line.rs`). Several antennas, or
+//! one with limits of takes a day, are solved exactly as long as the number of states allows (`vector.rs`). Beyond
 //! that, the better of two greedy schedules (`greedy.rs`) is improved part by part
 //! (`neighbourhoods.rs`), and prices bound what any schedule can be worth (`prices.rs`).
 
@@ -21,7 +21,7 @@ use vector::Role;
 /// How a take shares its pass with others.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Part {
-    /// It excludes all other takes of its pass. Those on one antenna overlap.
+    /// It excludes all other takes of its pass.
     Alone,
     /// It counts only together with a [`Part::Second`] of its pass on another antenna, which
     /// begins when it has ended.
@@ -106,7 +106,7 @@ impl Problem<'_> {
         if let [line] = &lines[..] {
             let takes = vec![line.best(self, &|_, take| Some(take.row)).takes];
             let row = self.row(&takes);
-            if self.keeps_limits(&takes) {
+            if self.keeps_limits(&takes) && self.takes_none_twice(&takes) {
                 return Solution { takes, row, bound: row };
             }
         }
@@ -159,6 +159,14 @@ impl Problem<'_> {
     fn keeps_limits(&self, takes: &[Vec<u32>]) -> bool {
         let used = self.used(takes.iter().flatten());
         used.iter().zip(self.limits).all(|(used, most)| used <= most)
+    }
+
+    fn takes_none_twice(&self, takes: &[Vec<u32>]) -> bool {
+        let mut is_taken = vec![false; self.passes];
+        takes.iter().flatten().filter_map(|take| self.take(*take)).all(|take| {
+            let taken = is_taken.get_mut(take.pass as usize);
+            taken.is_none_or(|taken| !std::mem::replace(taken, true))
+        })
     }
 
     /// How many of these takes count towards each limit.

@@ -1,6 +1,7 @@
 //! One antenna: the best sequence of takes, by dynamic programming over the last take. Only
 //! neighbours in a sequence need time between them, so the best sequence that ends with a take
-//! follows from the best ones that end with each take before it, whatever the slews are.
+//! follows from the best ones that end with each take before it, whatever the slews are. It may hold
+//! several parts of a pass, one after the other.
 
 use super::{Problem, Row, Take};
 
@@ -135,7 +136,7 @@ impl Ahead {
             self.best.push((position, row));
             return;
         };
-        match row.classes().cmp(top.classes()) {
+        match row.before_slews().cmp(top.before_slews()) {
             std::cmp::Ordering::Less => {}
             std::cmp::Ordering::Greater => {
                 self.best.clear();

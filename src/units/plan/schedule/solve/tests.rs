@@ -54,8 +54,7 @@ impl Case {
             for antenna in 0..antennas as u32 {
                 for _ in 0..random.below(3) {
                     let from_ms = at_ms + random.below(30) as i64;
-                    // All hold the same moment.
-                    let length_ms = at_ms + 31 - from_ms + random.below(60) as i64;
+                    let length_ms = 1 + random.below(90) as i64;
                     let row = Row::of(class, random.below(5) as i64).risen(at_ms);
                     let (to_ms, part) = (from_ms + length_ms, Part::Alone);
                     let (share, is_whole) = (1000, random.below(2) == 0);

@@ -1,7 +1,8 @@
-//! Fifty random days, and after them ten times some hours in which passes are taken in part and
-//! handed over, against a MILP of the same data, solved by `HiGHS`: its results stand in
-//! `tests/data/schedule_milp.csv`. `cargo test` looks at every tenth day; all of them, and how they
-//! are solved again:
+//! Fifty random days, after them ten times some hours in which passes are taken in part and handed
+//! over, then two hundred days of other antennas and rules, with a limit of passes a day for a
+//! quarter of the satellites. They are compared with a MILP of the same data, solved by `HiGHS`: its
+//! results stand in `tests/data/schedule_milp.csv`. `cargo test` looks at every tenth day; all of
+//! them, and how they are solved again:
 //!
 //! ```text
 //! AZEL_SCHEDULE_EVERY=1 cargo test --release --lib days_are_as_good -- --nocapture
@@ -18,11 +19,38 @@ use crate::plan::schedule::{
 
 const DAYS: u64 = 50;
 const DAYS_IN_PARTS: u64 = 10;
+const DAYS_WITH_LIMITS: u64 = 200;
 const RESULTS: &str = include_str!("../../../../../tests/data/schedule_milp.csv");
+
+/// A day with three or four antennas of any kind, by any rule, with limits.
+fn day_with_limits(day: u64, check: impl FnOnce(&Request<'_>)) {
+    let mut random = Random::new(SEED + 100 + day);
+    let mut station = any_three_antennas(&mut random);
+    if random.below(2) == 0 {
+        let mut more = any_three_antennas(&mut random).antennas.swap_remove(1);
+        more.id = crate::station::AntennaId(4);
+        station.antennas.push(more);
+    }
+    let from = add_seconds(noon(), day as f64 * 86_400.0);
+    let mut satellites = low_satellites(&mut random, 30);
+    for satellite in &mut satellites {
+        let most = 1 + random.below(3);
+        satellite.limits.max_per_day = (random.below(4) == 0).then_some(most);
+    }
+    let rules =
+        [ChooseBy::Elevation, ChooseBy::Duration, ChooseBy::MostPasses, ChooseBy::MostMinutes];
+    let choose_by = rules[random.below(4) as usize];
+    let antennas = planned(&station, from);
+    let list = candidates(&station, &antennas, &satellites, from, 24.0);
+    check(&Request { choose_by, ..request(&antennas, &list) });
+}
 
 /// A day, or some hours in parts, with so many satellites that each antenna has to choose, every
 /// fifth time with a limit of passes for some of them.
 fn day(day: u64, check: impl FnOnce(&Request<'_>)) {
+    if day >= DAYS + DAYS_IN_PARTS {
+        return day_with_limits(day, check);
+    }
     let station = three_antennas();
     let mut random = Random::new(SEED + 100 + day);
     let from = add_seconds(noon(), day as f64 * 86_400.0);
@@ -86,7 +114,7 @@ fn written(day: u64, request: &Request<'_>) -> serde_json::Value {
 fn days_are_as_good_as_a_general_solver_makes_them() {
     if let Some(path) = std::env::var_os("AZEL_SCHEDULE_DAYS") {
         let mut days = Vec::new();
-        for number in 0..DAYS + DAYS_IN_PARTS {
+        for number in 0..DAYS + DAYS_IN_PARTS + DAYS_WITH_LIMITS {
             day(number, |request| days.push(written(number, request)));
         }
         std::fs::write(path, serde_json::to_vec(&days).unwrap()).unwrap();
@@ -99,7 +127,7 @@ fn days_are_as_good_as_a_general_solver_makes_them() {
         .filter(|line| !line.starts_with('#'))
         .map(|line| line.split(',').map(|cell| cell.parse().unwrap()).collect())
         .collect();
-    assert_eq!(rows.len() as u64, DAYS + DAYS_IN_PARTS);
+    assert_eq!(rows.len() as u64, DAYS + DAYS_IN_PARTS + DAYS_WITH_LIMITS);
     let (mut optimal, mut days, mut count) = (0, 0, 0);
     for numbers in rows.iter().step_by(every) {
         let (number, best) = (numbers[0], &numbers[1..]);
