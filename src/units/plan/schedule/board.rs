@@ -201,7 +201,8 @@ impl<'a> Board<'a> {
         let counted_ms = way.counted_ms(span);
         let worth = candidate.worth(choose_by, counted_ms, part);
         let class = candidate.class(choose_by);
-        let mut row = Row::of(class, worth).counting(counted_ms).risen(ms(candidate.key.aos) - kept.epoch_ms);
+        let mut row =
+            Row::of(class, worth).counting(counted_ms).risen(ms(candidate.key.aos) - kept.epoch_ms);
         if kept.holds(whole.pass, antenna.id) {
             let steadiness = self.request.steadiness;
             let seconds = match choose_by {

@@ -47,9 +47,8 @@ impl Problem<'_> {
                 continue;
             }
             let Some(own) = takes.get_mut(take.antenna as usize) else { continue };
-            let starts_before = |other: &u32| {
-                self.take(*other).is_some_and(|other| other.from_ms <= take.from_ms)
-            };
+            let starts_before =
+                |other: &u32| self.take(*other).is_some_and(|other| other.from_ms <= take.from_ms);
             let place = own.partition_point(starts_before);
             let fits_after = match place.checked_sub(1).and_then(|before| own.get(before)) {
                 Some(before) => self.fits(*before, index),

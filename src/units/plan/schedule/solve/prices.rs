@@ -89,9 +89,8 @@ impl Bounded<'_> {
         let of_pass = prices.of_pass.get(take.pass as usize).copied().unwrap_or_default();
         let of_limit = take.limit.and_then(|limit| prices.of_limit.get(limit as usize));
         let before = prices.of_class.iter().zip(&self.most).enumerate();
-        let before = before.map(|(class, (price, most))| {
-            -(-price * take.row.number(class)).div_euclid(*most)
-        });
+        let before = before
+            .map(|(class, (price, most))| -(-price * take.row.number(class)).div_euclid(*most));
         take.row.number(self.class) * ONE + before.sum::<i64>()
             - (of_pass * take.share).div_euclid(ONE)
             - of_limit.copied().unwrap_or_default()
@@ -121,8 +120,8 @@ impl Bounded<'_> {
         let of_limits = prices.of_limit.iter().zip(problem.limits);
         let of_limits: i64 = of_limits.map(|(price, most)| price * i64::from(*most)).sum();
         let of_classes = prices.of_class.iter().zip(most).enumerate();
-        let of_classes = of_classes
-            .map(|(class, (price, most))| (price * row.number(class)).div_euclid(*most));
+        let of_classes =
+            of_classes.map(|(class, (price, most))| (price * row.number(class)).div_euclid(*most));
         let bound = found.iter().map(|sequence| sequence.row.number(CELL)).sum::<i64>()
             + prices.of_pass.iter().sum::<i64>()
             + of_limits
@@ -145,8 +144,7 @@ impl Prices {
             return false;
         }
         let step = gap / length;
-        let prices =
-            self.of_pass.iter_mut().chain(&mut self.of_limit).chain(&mut self.of_class);
+        let prices = self.of_pass.iter_mut().chain(&mut self.of_limit).chain(&mut self.of_class);
         for (over, price) in round.over.iter().zip(prices) {
             let moved = (step * *over as f64 / ONE as f64).round() as i64;
             *price = price.saturating_add(moved).max(0);

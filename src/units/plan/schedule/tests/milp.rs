@@ -135,7 +135,14 @@ fn days_are_as_good_as_a_general_solver_makes_them() {
         day(number as u64, |request| {
             let schedule = plan(request);
             let reached = worth(&schedule);
-            assert!(reached[..] <= best[..], "day {number}: {reached:?} {best:?}");
+            // Where the rule knows no priorities, one class follows that of *Always*.
+            let best = &best[..reached.len()];
+            assert!(reached[..] <= *best, "day {number}: {reached:?} {best:?}");
+            let first = reached.iter().zip(best).find(|(reached, best)| reached != best);
+            if let Some((reached, best)) = first {
+                println!("day {number}: {reached} of {best}");
+                assert!(reached * 100 >= best * 99, "day {number}: {reached} of {best}");
+            }
             let mut is_as_good = true;
             for (class, best) in schedule.worth.iter().zip(best) {
                 match class.proof {
@@ -147,7 +154,7 @@ fn days_are_as_good_as_a_general_solver_makes_them() {
                 is_as_good &= *best >= class.worth;
             }
             count += schedule.entries.len();
-            optimal += u64::from(reached[..] == best[..]);
+            optimal += u64::from(reached[..] == *best);
         });
     }
     println!("{days} days with {count} entries: the best in {optimal}");
