@@ -1,9 +1,6 @@
 //! Detours: routes of both axes round the barriers of an antenna.
 
-use std::{
-    cmp::Reverse,
-    collections::{BinaryHeap, HashMap},
-};
+use std::{cmp::Reverse, collections::BinaryHeap, ops::RangeInclusive};
 
 use jiff::Timestamp;
 
@@ -17,6 +14,10 @@ const ROOM_DEG: f64 = 0.75;
 /// Maximum number of positions that a search examines: some hundredths of a second for zones
 /// with many corners.
 const MAX_PLACES: usize = 20_000;
+/// Where any route will do, what is left counts so many times: the search heads for the end.
+const GREED: u64 = 4;
+/// The grid ends so many positions from the start, which no travel does.
+const MAX_CELLS: i32 = 1_000;
 /// Cost of a degree of turn, microseconds: of two routes that take equally long, the
 /// straighter one is taken.
 const STRAIGHT: f64 = 1000.0;
@@ -65,11 +66,33 @@ pub fn between(
     to_deg: [f64; 2],
     at: Timestamp,
 ) -> Option<Vec<[f64; 2]>> {
-    let now = bounds.at(at);
-    let room_deg = limits.room_deg * now.max_beam_turn();
-    let search = Search { now, limits, room_deg, from_deg, to_deg };
-    let way = search.way()?;
+    between_within(bounds, limits, (from_deg, to_deg), at, f64::INFINITY)
+}
+
+/// As [`between`]; a route that takes much more than `most_s` seconds is not looked for.
+pub fn between_within(
+    bounds: &Bounds,
+    limits: &AxisLimits,
+    (from_deg, to_deg): ([f64; 2], [f64; 2]),
+    at: Timestamp,
+    most_s: f64,
+) -> Option<Vec<[f64; 2]>> {
+    let search = Search::new(bounds, limits, (from_deg, to_deg), at);
+    // What straightens the route costs too.
+    let most = (most_s * 1.1 + 1.0) * 1e6;
+    let way = search.way(most as u64, 1)?;
     Some(search.pulled_straight(&way))
+}
+
+/// Returns `true` where a route as [`between`] finds leads from one position to the other.
+pub fn leads(
+    bounds: &Bounds,
+    limits: &AxisLimits,
+    from_deg: [f64; 2],
+    to_deg: [f64; 2],
+    at: Timestamp,
+) -> bool {
+    Search::new(bounds, limits, (from_deg, to_deg), at).way(u64::MAX, GREED).is_some()
 }
 
 /// The positions of the route through `turns_deg` in steps of at most `step_deg` on either axis,
@@ -88,6 +111,60 @@ pub fn in_steps(turns_deg: &[[f64; 2]], step_deg: f64) -> Vec<[f64; 2]> {
     places
 }
 
+/// What a search knows of a position.
+#[derive(Debug, Clone, Copy)]
+enum Place {
+    Unknown,
+    /// Not free.
+    Taken,
+    Known {
+        spent: u64,
+        before: Cell,
+    },
+}
+
+/// The positions within the travel of both axes.
+struct Grid {
+    first: RangeInclusive<i32>,
+    second: RangeInclusive<i32>,
+    places: Vec<Place>,
+}
+
+impl Grid {
+    fn over(travel_deg: [(f64, f64); 2], from_deg: [f64; 2]) -> Self {
+        let range = |(least_deg, most_deg): (f64, f64), from_deg: f64| {
+            let cells = |to_deg: f64| ((to_deg - from_deg) / CELL_DEG) as i32;
+            cells(least_deg).max(-MAX_CELLS)..=cells(most_deg).min(MAX_CELLS)
+        };
+        let [first, second] = travel_deg;
+        let first = range(first, from_deg[0]);
+        let second = range(second, from_deg[1]);
+        let count = first.clone().count() * second.clone().count();
+        Self { first, second, places: vec![Place::Unknown; count] }
+    }
+
+    fn index(&self, (first, second): Cell) -> Option<usize> {
+        if !self.first.contains(&first) || !self.second.contains(&second) {
+            return None;
+        }
+        let row = usize::try_from(first - self.first.start()).ok()?;
+        let column = usize::try_from(second - self.second.start()).ok()?;
+        Some(row * self.second.clone().count() + column)
+    }
+
+    fn at(&self, cell: Cell) -> Place {
+        let place = self.index(cell).and_then(|index| self.places.get(index));
+        place.copied().unwrap_or(Place::Taken)
+    }
+
+    fn put(&mut self, cell: Cell, place: Place) {
+        let index = self.index(cell);
+        if let Some(old) = index.and_then(|index| self.places.get_mut(index)) {
+            *old = place;
+        }
+    }
+}
+
 struct Search<'a> {
     now: BoundsAt<'a>,
     limits: &'a AxisLimits,
@@ -97,7 +174,18 @@ struct Search<'a> {
     to_deg: [f64; 2],
 }
 
-impl Search<'_> {
+impl<'a> Search<'a> {
+    fn new(
+        bounds: &'a Bounds,
+        limits: &'a AxisLimits,
+        (from_deg, to_deg): ([f64; 2], [f64; 2]),
+        at: Timestamp,
+    ) -> Self {
+        let now = bounds.at(at);
+        let room_deg = limits.room_deg * now.max_beam_turn();
+        Self { now, limits, room_deg, from_deg, to_deg }
+    }
+
     fn axes_deg(&self, (first, second): Cell) -> [f64; 2] {
         let [a, b] = self.from_deg;
         [a + f64::from(first) * CELL_DEG, b + f64::from(second) * CELL_DEG]
@@ -113,7 +201,8 @@ impl Search<'_> {
         (self.limits.seconds(from_deg, to_deg) * 1e6 + straight_deg * STRAIGHT) as u64
     }
 
-    fn way(&self) -> Option<Vec<[f64; 2]>> {
+    /// A route that costs at most `most`: the cheapest one with a `greed` of 1.
+    fn way(&self, most: u64, greed: u64) -> Option<Vec<[f64; 2]>> {
         let room_deg = self.room_deg;
         // Both ends may touch the edge of the room.
         let ends = [self.from_deg, self.to_deg];
@@ -121,43 +210,67 @@ impl Search<'_> {
             return None;
         }
         let mut open = BinaryHeap::new();
-        // Cost and predecessor of each position; `None` for a position that is not free.
-        let mut known: HashMap<Cell, Option<(u64, Cell)>> = HashMap::new();
-        known.insert((0, 0), Some((0, (0, 0))));
-        open.push((Reverse(self.cost(self.from_deg, self.to_deg)), (0, 0)));
-        while let Some((_, place)) = open.pop() {
+        let mut grid = Grid::over(self.limits.travel_deg, self.from_deg);
+        grid.put((0, 0), Place::Known { spent: 0, before: (0, 0) });
+        open.push((Reverse(self.cost(self.from_deg, self.to_deg)), (0, 0), 0));
+        let steps = NEIGHBOURS.map(|(first, second)| {
+            self.cost([0.0; 2], [f64::from(first) * CELL_DEG, f64::from(second) * CELL_DEG])
+        });
+        let mut count = 1;
+        while let Some((_, place, spent)) = open.pop() {
+            let is_reached_for_less = match grid.at(place) {
+                Place::Known { spent: least, .. } => least < spent,
+                Place::Unknown | Place::Taken => true,
+            };
+            if is_reached_for_less {
+                continue;
+            }
             let here_deg = self.axes_deg(place);
             let is_there = here_deg
                 .into_iter()
                 .zip(self.to_deg)
                 .all(|(here, to)| (here - to).abs() <= CELL_DEG / 2.0);
             if is_there {
-                return Some(self.traced(&known, place));
+                return Some(self.traced(&grid, place));
             }
-            if known.len() > MAX_PLACES {
+            if count > MAX_PLACES {
                 return None;
             }
-            let Some(Some((spent, _))) = known.get(&place).copied() else { continue };
-            for (first, second) in NEIGHBOURS {
+            for ((first, second), step) in NEIGHBOURS.into_iter().zip(steps) {
                 let next = (place.0 + first, place.1 + second);
                 let next_deg = self.axes_deg(next);
-                let cost = spent + self.cost(here_deg, next_deg);
-                let before = known.entry(next).or_insert_with(|| {
-                    self.is_free(next_deg, room_deg).then_some((u64::MAX, place))
-                });
-                if let Some(before) = before.as_mut().filter(|before| cost < before.0) {
-                    *before = (cost, place);
-                    open.push((Reverse(cost + self.cost(next_deg, self.to_deg)), next));
+                let reached = match grid.at(next) {
+                    Place::Taken => continue,
+                    Place::Known { spent, .. } => Some(spent),
+                    Place::Unknown => {
+                        count += 1;
+                        if !self.is_free(next_deg, room_deg) {
+                            grid.put(next, Place::Taken);
+                            continue;
+                        }
+                        None
+                    }
+                };
+                let cost = spent + step;
+                // Where any route will do, the first one to a place does.
+                let is_better = reached.is_none_or(|reached| cost < reached && greed == 1);
+                if !is_better {
+                    continue;
+                }
+                let whole = cost + greed * self.cost(next_deg, self.to_deg);
+                if whole <= most {
+                    grid.put(next, Place::Known { spent: cost, before: place });
+                    open.push((Reverse(whole), next, cost));
                 }
             }
         }
         None
     }
 
-    fn traced(&self, known: &HashMap<Cell, Option<(u64, Cell)>>, end: Cell) -> Vec<[f64; 2]> {
-        let before = |place: &Cell| {
-            let (_, before) = known.get(place).copied().flatten()?;
-            (*place != (0, 0)).then_some(before)
+    fn traced(&self, grid: &Grid, end: Cell) -> Vec<[f64; 2]> {
+        let before = |place: &Cell| match grid.at(*place) {
+            Place::Known { before, .. } => (*place != (0, 0)).then_some(before),
+            Place::Unknown | Place::Taken => None,
         };
         let places = std::iter::successors(Some(end), before);
         let mut way: Vec<[f64; 2]> = places.map(|place| self.axes_deg(place)).collect();

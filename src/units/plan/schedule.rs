@@ -77,8 +77,8 @@ impl Board<'_> {
         let set_up_ms = legs::set_up_ms(antenna);
         let earlier = before.and_then(|before| self.at(before));
         let (slew_ms, spare_ms) = if let Some((before, (earlier, _))) = before.zip(earlier) {
-            let leg = self.legs.between(before as usize, take as usize);
-            (leg.slew_ms, Some(it.from_ms - earlier.to_ms - leg.slew_ms - set_up_ms))
+            let slew_ms = self.legs.turning_ms(before as usize, take as usize);
+            (slew_ms, Some(it.from_ms - earlier.to_ms - slew_ms - set_up_ms))
         } else {
             let slew_ms = self.legs.first_ms(take as usize).unwrap_or_default();
             let spare_ms = it.from_ms - way::ms(antenna.free_from) - slew_ms - set_up_ms;

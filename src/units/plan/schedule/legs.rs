@@ -1,10 +1,13 @@
 //! The slews between takes, by the real axes of each antenna.
 
-use std::{cell::RefCell, collections::HashMap};
+use std::{
+    cell::{OnceCell, RefCell},
+    collections::HashMap,
+};
 
 use super::{
     request::PlannedAntenna,
-    solve::{Leg, Slews, Take},
+    solve::{Slews, Take},
     way::ms,
 };
 use crate::station::BetweenPasses;
@@ -12,13 +15,13 @@ use crate::station::BetweenPasses;
 /// Where the axes stand at both ends of a take, degrees as the mount counts.
 pub(super) type Ends = [[f64; 2]; 2];
 
-/// The takes of a schedule with the ways between them.
+/// The takes of a schedule with the ways between them. Ways round what must not be entered are
+/// searched for where they decide, once each.
 pub(super) struct Legs<'a> {
     antennas: &'a [PlannedAntenna],
     takes: Vec<Stop>,
     longest_ms: Vec<i64>,
-    /// Ways past what must not be entered are searched for once.
-    found: RefCell<HashMap<(usize, usize), i64>>,
+    found: RefCell<HashMap<(usize, usize, i64), Option<i64>>>,
 }
 
 struct Stop {
@@ -26,9 +29,11 @@ struct Stop {
     from_ms: i64,
     to_ms: i64,
     ends_deg: Ends,
-    from_park_ms: i64,
-    to_park_ms: i64,
     is_fixed: bool,
+    /// From the park position to its start, and from its end back, milliseconds; `None` where no
+    /// way leads.
+    from_park_ms: OnceCell<Option<i64>>,
+    to_park_ms: OnceCell<Option<i64>>,
 }
 
 impl<'a> Legs<'a> {
@@ -37,61 +42,103 @@ impl<'a> Legs<'a> {
         antennas: &'a [PlannedAntenna],
         takes: impl Iterator<Item = (Take, Ends, bool)>,
     ) -> Self {
-        let mut stops: Vec<Stop> = Vec::new();
-        for (take, ends_deg, is_fixed) in takes {
-            let index = take.antenna as usize;
-            let Take { from_ms, to_ms, .. } = take;
-            let park = antennas.get(index).map_or((0, 0), |antenna| {
-                let (reach, [start, end]) = (&antenna.reach, ends_deg);
-                let there = reach.leg_ms(reach.park_deg(), start, from_ms);
-                let back = reach.leg_ms(end, reach.park_deg(), to_ms);
-                (
-                    there.unwrap_or_else(|| reach.straight_ms(reach.park_deg(), start)),
-                    back.unwrap_or_else(|| reach.straight_ms(end, reach.park_deg())),
-                )
-            });
-            let (from_park_ms, to_park_ms) = park;
-            let stop = Stop {
-                antenna: index,
-                from_ms,
-                to_ms,
-                ends_deg,
-                from_park_ms,
-                to_park_ms,
-                is_fixed,
-            };
-            stops.push(stop);
-        }
+        let stops = takes.map(|(take, ends_deg, is_fixed)| Stop {
+            antenna: take.antenna as usize,
+            from_ms: take.from_ms,
+            to_ms: take.to_ms,
+            ends_deg,
+            is_fixed,
+            from_park_ms: OnceCell::new(),
+            to_park_ms: OnceCell::new(),
+        });
+        let stops: Vec<Stop> = stops.collect();
         let longest_ms = antennas.iter().enumerate().map(|(index, antenna)| {
-            let own = || stops.iter().filter(|stop| stop.antenna == index);
-            let by_park = own().map(|stop| stop.from_park_ms).max().unwrap_or_default()
-                + own().map(|stop| stop.to_park_ms).max().unwrap_or_default();
-            let places = own().flat_map(|stop| stop.ends_deg);
-            let direct = antenna.reach.widest_ms(places);
-            let parks = antenna.between == BetweenPasses::Park || antenna.reach.has_barriers();
-            (if parks { by_park.max(direct) } else { direct }) + set_up_ms(antenna)
+            let own = stops.iter().filter(|stop| stop.antenna == index);
+            let widest_ms = antenna.reach.widest_ms(own.flat_map(|stop| stop.ends_deg));
+            // By way of the park position, or round a barrier.
+            let is_round = antenna.between == BetweenPasses::Park || antenna.reach.has_barriers();
+            widest_ms * if is_round { 2 } else { 1 } + set_up_ms(antenna)
         });
         let longest_ms = longest_ms.collect();
         Self { antennas, takes: stops, longest_ms, found: RefCell::default() }
     }
 
-    fn direct_ms(&self, antenna: &PlannedAntenna, from: usize, to: usize) -> i64 {
-        let (Some(before), Some(after)) = (self.takes.get(from), self.takes.get(to)) else {
-            return 0;
-        };
-        let (reach, [_, end], [start, _]) = (&antenna.reach, before.ends_deg, after.ends_deg);
-        if !reach.has_barriers() {
-            return reach.leg_ms(end, start, before.to_ms).unwrap_or_default();
+    /// Least time between two takes of one antenna, with the set-up; `None` where no way leads from
+    /// one to the other within the longest time that a leg may take.
+    pub(super) fn needs_ms(&self, from: usize, to: usize) -> Option<i64> {
+        let (before, after) = (self.takes.get(from)?, self.takes.get(to)?);
+        let antenna = self.antennas.get(before.antenna)?;
+        if before.is_fixed && after.is_fixed {
+            return Some(0);
         }
-        if let Some(found) = self.found.borrow().get(&(from, to)) {
-            return *found;
+        let set_up_ms = set_up_ms(antenna);
+        let most_ms = self.longest_ms(before.antenna) - set_up_ms;
+        Some(search_ms(antenna, before, after, most_ms)? + set_up_ms)
+    }
+
+    /// How long the axes turn between two takes that follow each other, milliseconds.
+    pub(super) fn turning_ms(&self, from: usize, to: usize) -> i64 {
+        let known = self.known_ms(from, to, i64::MAX);
+        known.or_else(|| self.slew_ms(from, to)).unwrap_or_default()
+    }
+
+    /// As [`search_ms`], once for each two takes past barriers.
+    fn known_ms(&self, from: usize, to: usize, most_ms: i64) -> Option<i64> {
+        let (before, after) = (self.takes.get(from)?, self.takes.get(to)?);
+        let antenna = self.antennas.get(before.antenna)?;
+        if !antenna.reach.has_barriers() {
+            return search_ms(antenna, before, after, most_ms);
         }
-        let by_park_ms = before.to_park_ms + after.from_park_ms;
-        let direct = reach.leg_ms(end, start, before.to_ms);
-        let found = direct.map_or(by_park_ms, |direct| direct.min(by_park_ms));
-        self.found.borrow_mut().insert((from, to), found);
+        if let Some(known) = self.found.borrow().get(&(from, to, most_ms)) {
+            return *known;
+        }
+        let found = search_ms(antenna, before, after, most_ms);
+        self.found.borrow_mut().insert((from, to, most_ms), found);
         found
     }
+
+    /// Returns `true` where a way leads from where the antenna stands at first to a take.
+    pub(super) fn is_in_reach(&self, to: usize) -> bool {
+        let Some(take) = self.takes.get(to) else { return false };
+        let antenna = self.antennas.get(take.antenna);
+        let way = antenna.and_then(|antenna| {
+            let Some(stands_deg) = antenna.stands_deg else { return Some(0) };
+            antenna.reach.leg_ms(stands_deg, take.ends_deg[0], ms(antenna.free_from))
+        });
+        way.is_some()
+    }
+}
+
+/// How long the axes turn from one take to another as the antenna is told to wait, if that is no
+/// longer than `most_ms`.
+fn search_ms(antenna: &PlannedAntenna, before: &Stop, after: &Stop, most_ms: i64) -> Option<i64> {
+    let by_park = || by_park_ms(antenna, before, after).filter(|ms| *ms <= most_ms);
+    let direct = || direct_ms(antenna, before, after, most_ms);
+    if antenna.between == BetweenPasses::Park && !(before.is_fixed && after.is_fixed) {
+        let gap_ms = after.from_ms - before.to_ms - set_up_ms(antenna);
+        by_park().filter(|ms| *ms <= gap_ms).or_else(direct)
+    } else if antenna.reach.has_barriers() {
+        direct().or_else(by_park)
+    } else {
+        direct()
+    }
+}
+
+/// The way from one take to another that does not go by the park position, if it takes no longer
+/// than `most_ms`.
+fn direct_ms(antenna: &PlannedAntenna, before: &Stop, after: &Stop, most_ms: i64) -> Option<i64> {
+    let ([_, end_deg], [start_deg, _]) = (before.ends_deg, after.ends_deg);
+    antenna.reach.leg_within_ms(end_deg, start_deg, before.to_ms, most_ms)
+}
+
+fn by_park_ms(antenna: &PlannedAntenna, before: &Stop, after: &Stop) -> Option<i64> {
+    let reach = &antenna.reach;
+    let [start_deg, _] = after.ends_deg;
+    let from_park = || reach.leg_ms(reach.park_deg(), start_deg, after.from_ms);
+    let [_, end_deg] = before.ends_deg;
+    let to_park = || reach.leg_ms(end_deg, reach.park_deg(), before.to_ms);
+    let back_ms = (*before.to_park_ms.get_or_init(to_park))?;
+    Some(back_ms + (*after.from_park_ms.get_or_init(from_park))?)
 }
 
 pub(super) fn set_up_ms(antenna: &PlannedAntenna) -> i64 {
@@ -105,31 +152,28 @@ impl Slews for Legs<'_> {
             return Some(0);
         }
         let antenna = self.antennas.get(take.antenna)?;
-        let (start, _) = (take.ends_deg[0], take.ends_deg[1]);
+        let [start_deg, _] = take.ends_deg;
         let free_ms = ms(antenna.free_from);
-        let slew_ms = match antenna.stands_deg {
-            None => 0,
-            Some(stands) => antenna.reach.leg_ms(stands, start, free_ms)?,
-        };
-        (free_ms + slew_ms + set_up_ms(antenna) <= take.from_ms).then_some(slew_ms)
+        let gap_ms = take.from_ms - free_ms - set_up_ms(antenna);
+        let Some(stands_deg) = antenna.stands_deg else { return (gap_ms >= 0).then_some(0) };
+        antenna.reach.leg_within_ms(stands_deg, start_deg, free_ms, gap_ms)
     }
 
-    fn between(&self, from: usize, to: usize) -> Leg {
-        let none = Leg { needs_ms: 0, slew_ms: 0 };
-        let (Some(before), Some(after)) = (self.takes.get(from), self.takes.get(to)) else {
-            return none;
-        };
-        let Some(antenna) = self.antennas.get(before.antenna) else { return none };
-        let set_up_ms = set_up_ms(antenna);
-        let direct_ms = self.direct_ms(antenna, from, to);
+    fn slew_ms(&self, from: usize, to: usize) -> Option<i64> {
+        let (before, after) = (self.takes.get(from)?, self.takes.get(to)?);
+        let antenna = self.antennas.get(before.antenna)?;
         if before.is_fixed && after.is_fixed {
-            return Leg { needs_ms: 0, slew_ms: direct_ms };
+            return Some(self.known_ms(from, to, i64::MAX).unwrap_or_default());
         }
-        let by_park_ms = before.to_park_ms + after.from_park_ms;
-        let parks = antenna.between == BetweenPasses::Park
-            && before.to_ms + by_park_ms + set_up_ms <= after.from_ms;
-        let slew_ms = if parks { by_park_ms } else { direct_ms };
-        Leg { needs_ms: direct_ms + set_up_ms, slew_ms }
+        let gap_ms = after.from_ms - before.to_ms - set_up_ms(antenna);
+        let longest_ms = self.longest_ms(before.antenna) - set_up_ms(antenna);
+        let is_far = gap_ms >= longest_ms && antenna.reach.has_barriers();
+        if is_far && antenna.between != BetweenPasses::Park {
+            // A way leads there in time, and only tells apart what is worth the same.
+            let [[_, end_deg], [start_deg, _]] = [before.ends_deg, after.ends_deg];
+            return Some(antenna.reach.straight_ms(end_deg, start_deg));
+        }
+        self.known_ms(from, to, gap_ms.min(longest_ms))
     }
 
     fn longest_ms(&self, antenna: usize) -> i64 {

@@ -33,6 +33,10 @@ const TURN_DEG: f64 = 360.0;
 const SLOW: f64 = 0.4;
 /// An axis of an X/Y mount at the zenith, degrees as the mount counts.
 const ZENITH_DEG: f64 = 90.0;
+/// Meanwhile the Sun moves less than [`FINEST_DEG`].
+const SUN_STAYS_MS: i64 = 10_000;
+/// Places that are looked at on the way from the park position to the zenith.
+const TO_ZENITH: u32 = 18;
 /// Elevation from which a loss counts as overhead, degrees.
 const OVERHEAD_FROM_DEG: f64 = 60.0;
 /// Angle from the direction in which the first axis turns on the spot (the zenith, or an end of
@@ -243,10 +247,19 @@ impl Reach {
         let mut lost_at = is_late.then_some(Loss::OutOfReach);
         // As trackability has it, what lies between two samples is judged by the later one.
         let later = samples.list.iter().zip(places).skip(1);
+        // The Sun stays where it is for so long.
+        let mut bounds = None;
         for (before, (sample, axes_deg)) in samples.list.iter().zip(later) {
             if self.has_barriers() {
                 let direction = self.bounds.direction(axes_deg);
-                if let Some(barrier) = self.bounds.at(sample.time).forbids(direction) {
+                let at = at_ms(ms(sample.time).div_euclid(SUN_STAYS_MS) * SUN_STAYS_MS);
+                let now = match bounds.take() {
+                    Some((since, now)) if since == at => now,
+                    Some(_) | None => self.bounds.at(at),
+                };
+                let barrier = now.forbids(direction);
+                bounds = Some((at, now));
+                if let Some(barrier) = barrier {
                     entered = entered.or(Some(barrier));
                     continue;
                 }
@@ -270,12 +283,45 @@ impl Reach {
         Judged { way, entered, lost_at }
     }
 
-    /// Returns `true` if ways lead from the park position to the start, and back from the end.
+    /// Returns `true` if ways lead from the open sky to the start, and back from the end.
     fn is_within_reach(&self, way: &Way) -> bool {
+        if !self.has_barriers() {
+            return true;
+        }
         let Span { from_ms, to_ms } = way.span();
-        let [from_deg, to_deg] = [from_ms, to_ms].map(|at| way.axes_deg(at));
-        self.leg_ms(self.park_deg, from_deg, from_ms).is_some()
-            && self.leg_ms(to_deg, self.park_deg, to_ms).is_some()
+        let (start_deg, end_deg) = (way.axes_deg(from_ms), way.axes_deg(to_ms));
+        let (from, to) = (at_ms(from_ms), at_ms(to_ms));
+        self.open_sky_deg(from).is_none_or(|open_deg| self.is_way(start_deg, open_deg, from))
+            && self.open_sky_deg(to).is_none_or(|open_deg| self.is_way(end_deg, open_deg, to))
+    }
+
+    fn is_way(&self, place_deg: [f64; 2], open_deg: [f64; 2], at: Timestamp) -> bool {
+        let sweep = Sweep::between(place_deg, open_deg);
+        self.bounds.at(at).blocks(sweep, Sweep::at(place_deg)).is_none() || {
+            // From the place that may be shut in, where a search ends soon if it is.
+            let limits = self.drives.axis_limits();
+            detour::leads(&self.bounds, &limits, place_deg, open_deg, at)
+        }
+    }
+
+    /// The first place outside of all barriers on the way from the park position, which may itself
+    /// be inside one, up to the zenith; `None` where there is none.
+    fn open_sky_deg(&self, at: Timestamp) -> Option<[f64; 2]> {
+        let [first_deg, second_deg] = self.park_deg;
+        let zenith_deg = match self.drives.mount {
+            Mount::AzEl { .. } => [first_deg, ZENITH_DEG],
+            Mount::Xy { .. } => [ZENITH_DEG; 2],
+        };
+        let now = self.bounds.at(at);
+        let room_deg = self.drives.axis_limits().room_deg;
+        let mut places = (0..=TO_ZENITH).map(|step| {
+            let share = f64::from(step) / f64::from(TO_ZENITH);
+            [
+                first_deg + (zenith_deg[0] - first_deg) * share,
+                second_deg + (zenith_deg[1] - second_deg) * share,
+            ]
+        });
+        places.find(|place| now.has_room(*place, room_deg))
     }
 
     /// Where an antenna whose azimuth axis slews at `slews` loses what is at `at`.
@@ -413,20 +459,43 @@ impl Reach {
     /// Time from one place of the axes to another at `at_ms`, round what must not be entered;
     /// `None` where no way leads.
     pub(super) fn leg_ms(&self, from_deg: [f64; 2], to_deg: [f64; 2], at: i64) -> Option<i64> {
+        self.leg_within_ms(from_deg, to_deg, at, i64::MAX)
+    }
+
+    /// As [`Self::leg_ms`]; also `None` for a leg that takes longer than `most_ms`.
+    pub(super) fn leg_within_ms(
+        &self,
+        from_deg: [f64; 2],
+        to_deg: [f64; 2],
+        at: i64,
+        most_ms: i64,
+    ) -> Option<i64> {
         let straight_ms = self.straight_ms(from_deg, to_deg);
-        if !self.has_barriers() {
-            let dips = self.may_dip(from_deg, to_deg);
-            return Some(if dips { self.by_corner_ms(from_deg, to_deg) } else { straight_ms });
+        // A search costs more than all else.
+        if straight_ms > most_ms {
+            return None;
         }
+        let leg_ms = if self.has_barriers() {
+            self.round_ms(from_deg, to_deg, at, most_ms)?.max(straight_ms)
+        } else if self.may_dip(from_deg, to_deg) {
+            self.by_corner_ms(from_deg, to_deg)
+        } else {
+            straight_ms
+        };
+        (leg_ms <= most_ms).then_some(leg_ms)
+    }
+
+    fn round_ms(&self, from_deg: [f64; 2], to_deg: [f64; 2], at: i64, most_ms: i64) -> Option<i64> {
         let (at, sweep) = (at_ms(at), Sweep::between(from_deg, to_deg));
         if self.bounds.at(at).blocks(sweep, Sweep::at(from_deg)).is_none() {
-            return Some(straight_ms);
+            return Some(0);
         }
         let limits = self.drives.axis_limits();
-        let route = detour::between(&self.bounds, &limits, from_deg, to_deg, at)?;
+        let most_s = most_ms as f64 / 1000.0;
+        let route = detour::between_within(&self.bounds, &limits, (from_deg, to_deg), at, most_s)?;
         let legs = route.iter().zip(route.iter().skip(1));
         let seconds: f64 = legs.map(|(from, to)| limits.seconds(*from, *to)).sum();
-        Some(straight_ms.max((seconds * 1000.0).ceil() as i64))
+        Some((seconds * 1000.0).ceil() as i64)
     }
 }
 

@@ -52,24 +52,17 @@ pub(super) struct Take {
     pub(super) row: Row,
 }
 
-/// The way from the end of one take to the start of another.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Leg {
-    /// Least time between the two, with the set-up.
-    pub(super) needs_ms: i64,
-    /// How long the axes turn.
-    pub(super) slew_ms: i64,
-}
-
 /// The slews of all antennas.
 pub(super) trait Slews {
-    /// From where the antenna stands at first; `None` if it cannot be at `to` in time.
+    /// From where the antenna stands at first, milliseconds; `None` if it cannot be at `to` in time.
     fn first_ms(&self, to: usize) -> Option<i64>;
 
-    /// Between two takes of one antenna.
-    fn between(&self, from: usize, to: usize) -> Leg;
+    /// Between two takes of one antenna of which the second begins later, milliseconds; `None` if
+    /// it cannot be at the second in time.
+    fn slew_ms(&self, from: usize, to: usize) -> Option<i64>;
 
-    /// No leg of the antenna needs more, and no slew takes longer.
+    /// No slew between takes takes longer, with the set-up. Where two takes are that far apart, the
+    /// second can follow, if a way leads there at all.
     fn longest_ms(&self, antenna: usize) -> i64;
 }
 
@@ -138,7 +131,7 @@ impl Problem<'_> {
         let worth: Row = takes.iter().filter_map(|take| self.take(*take)).map(|it| it.row).sum();
         let first = takes.first().and_then(|first| self.slews.first_ms(*first as usize));
         let pairs = takes.iter().zip(takes.iter().skip(1));
-        let slews = pairs.map(|(a, b)| self.slews.between(*a as usize, *b as usize).slew_ms);
+        let slews = pairs.filter_map(|(a, b)| self.slews.slew_ms(*a as usize, *b as usize));
         worth.slewed(slews.sum::<i64>() + first.unwrap_or_default())
     }
 
@@ -146,8 +139,10 @@ impl Problem<'_> {
     /// not fit.
     fn slew_ms(&self, before: u32, take: u32) -> Option<i64> {
         let (earlier, later) = (self.take(before)?, self.take(take)?);
-        let Leg { needs_ms, slew_ms } = self.slews.between(before as usize, take as usize);
-        (earlier.to_ms + needs_ms <= later.from_ms).then_some(slew_ms)
+        if earlier.to_ms > later.from_ms {
+            return None;
+        }
+        self.slews.slew_ms(before as usize, take as usize)
     }
 
     /// Returns `true` if the second take can follow the first.

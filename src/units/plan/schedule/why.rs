@@ -5,7 +5,7 @@ use super::{
     outcome::{Conflict, LeftOut, Why},
     request::{Candidate, Choice, PlannedAntenna},
     solve::{Part, Slews as _, Solution, Take},
-    way::Verdict,
+    way::{Impossible, Verdict},
 };
 
 impl Board<'_> {
@@ -115,7 +115,9 @@ impl Board<'_> {
             if common_ms <= -self.legs.longest_ms(it.antenna as usize) {
                 continue;
             }
-            let missing_ms = self.missing_ms((*entry, other), (take, it));
+            let Some(missing_ms) = self.missing_ms((*entry, other), (take, it)) else {
+                return Some(Why::Impossible(Impossible::NoWay));
+            };
             if missing_ms > 0 {
                 too_short.push((missing_ms, *fact));
             }
@@ -128,13 +130,18 @@ impl Board<'_> {
         }
         let is_first = entries.iter().filter_map(|entry| self.takes.get(*entry as usize));
         let is_first = is_first.into_iter().all(|other| other.from_ms >= it.to_ms);
-        (is_first && self.legs.first_ms(take as usize).is_none()).then_some(Why::TooFar)
+        if !is_first || self.legs.first_ms(take as usize).is_some() {
+            return None;
+        }
+        let is_in_reach = self.legs.is_in_reach(take as usize);
+        Some(if is_in_reach { Why::TooFar } else { Why::Impossible(Impossible::NoWay) })
     }
 
-    fn missing_ms(&self, a: (u32, &Take), b: (u32, &Take)) -> i64 {
+    /// `None` where no way leads from one to the other.
+    fn missing_ms(&self, a: (u32, &Take), b: (u32, &Take)) -> Option<i64> {
         let (before, after) = if a.1.to_ms <= b.1.from_ms { (a, b) } else { (b, a) };
-        let needs_ms = self.legs.between(before.0 as usize, after.0 as usize).needs_ms;
-        before.1.to_ms + needs_ms - after.1.from_ms
+        let needs_ms = self.legs.needs_ms(before.0 as usize, after.0 as usize)?;
+        Some(before.1.to_ms + needs_ms - after.1.from_ms)
     }
 }
 

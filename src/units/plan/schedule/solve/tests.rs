@@ -10,11 +10,25 @@ use crate::station::Priority;
 
 const SEED: u64 = 15;
 
+/// The way from the end of one take to the start of another.
+#[derive(Clone, Copy)]
+struct Leg {
+    needs_ms: i64,
+    slew_ms: i64,
+}
+
 /// Slews by table: they follow no geometry, so a way over a third place may be shorter.
 struct Table {
     legs: Vec<Leg>,
     first_ms: Vec<Option<i64>>,
-    takes: usize,
+    /// When each take begins and ends.
+    spans_ms: Vec<(i64, i64)>,
+}
+
+impl Table {
+    fn leg(&self, from: usize, to: usize) -> Leg {
+        self.legs[from * self.spans_ms.len() + to]
+    }
 }
 
 impl Slews for Table {
@@ -22,8 +36,9 @@ impl Slews for Table {
         self.first_ms[to]
     }
 
-    fn between(&self, from: usize, to: usize) -> Leg {
-        self.legs[from * self.takes + to]
+    fn slew_ms(&self, from: usize, to: usize) -> Option<i64> {
+        let Leg { needs_ms, slew_ms } = self.leg(from, to);
+        (self.spans_ms[from].1 + needs_ms <= self.spans_ms[to].0).then_some(slew_ms)
     }
 
     fn longest_ms(&self, _: usize) -> i64 {
@@ -104,7 +119,8 @@ impl Case {
         let legs = (0..count * count).map(|_| leg(random)).collect();
         let first = |random: &mut Random| (random.below(9) > 0).then(|| random.below(30) as i64);
         let first_ms = (0..count).map(|_| first(random)).collect();
-        let slews = Table { legs, first_ms, takes: count };
+        let spans_ms = takes.iter().map(|take| (take.from_ms, take.to_ms)).collect();
+        let slews = Table { legs, first_ms, spans_ms };
         Self { antennas, passes, takes, limits, slews }
     }
 
@@ -128,7 +144,7 @@ impl Case {
             }
             for pair in takes.windows(2) {
                 let [a, b] = [pair[0], pair[1]].map(|take| self.takes[take as usize]);
-                let leg = self.slews.between(pair[0] as usize, pair[1] as usize);
+                let leg = self.slews.leg(pair[0] as usize, pair[1] as usize);
                 if a.to_ms + leg.needs_ms > b.from_ms {
                     return None;
                 }

@@ -70,8 +70,7 @@ fn written(day: u64, request: &Request<'_>) -> serde_json::Value {
     let board = Board::new(request);
     let all = 0..board.takes.len();
     let fits = |a: usize, b: usize| {
-        let needs_ms = board.legs.between(a, b).needs_ms;
-        board.takes[a].to_ms + needs_ms <= board.takes[b].from_ms
+        board.takes[a].to_ms <= board.takes[b].from_ms && board.legs.slew_ms(a, b).is_some()
     };
     // The second part of a pass goes on, on another antenna, when the first has ended.
     let go_on = |a: usize, b: usize| {
