@@ -4,6 +4,7 @@
 
 mod automatic;
 mod elements;
+mod ends;
 mod explained;
 mod full_disk;
 mod learned;

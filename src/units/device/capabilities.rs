@@ -14,6 +14,9 @@ pub struct Capabilities {
     pub arrives_within_deg: f64,
     /// The unit takes and reports positions in multiples of this many degrees; 0 for any.
     pub position_step_deg: f64,
+    /// The unit reports azimuths on a circle, so an axis that runs past an end of a whole turn reads as
+    /// standing at the other end.
+    pub azimuth_wraps: bool,
     pub second_axis: SecondAxis,
     pub jog: JogSpeeds,
     /// Only one axis at a time is jogged.
@@ -48,6 +51,11 @@ impl Capabilities {
     /// Returns `true` if the axes turn both angles of the sky.
     pub fn has_elevation(self) -> bool {
         self.second_axis == SecondAxis::Elevation
+    }
+
+    /// Farthest reported rest from the position that an axis was sent to, degrees.
+    pub fn rests_within_deg(self) -> f64 {
+        self.arrives_within_deg + self.position_step_deg
     }
 
     /// Number of axes that point the antenna.

@@ -13,6 +13,9 @@ use crate::{
     device::Controller,
 };
 
+/// A whole turn of an azimuth axis, degrees.
+const TURN_DEG: f64 = 360.0;
+
 /// Permanent id of an antenna in the station file: it stays when the name or address
 /// changes. No two antennas of a station have the same.
 #[derive(
@@ -135,11 +138,24 @@ impl Antenna {
         spans.into_iter().fold(0.0, f64::max) / self.limits.maximum_rate_deg_s
     }
 
-    /// The mount as program track uses it. A pointing model holds on this side of the zenith.
+    /// The mount as program track uses it. A pointing model holds on this side of the zenith. Targets
+    /// keep away from ends past which the azimuth would wrap.
     pub fn track_mount(&self) -> Mount {
-        let Mount::AzEl { .. } = self.mount else { return self.mount };
-        let ends_deg = (f64::MIN, if self.pointing_model.is_none() { f64::MAX } else { 90.0 });
-        self.mount.within([None, Some(ends_deg)])
+        let Mount::AzEl { azimuth_from_deg, azimuth_to_deg, .. } = self.mount else {
+            return self.mount;
+        };
+        let margin_deg = self.wrap_margin_deg(azimuth_to_deg - azimuth_from_deg);
+        let azimuth_deg = (azimuth_from_deg + margin_deg, azimuth_to_deg - margin_deg);
+        let top_deg = if self.pointing_model.is_none() { f64::MAX } else { 90.0 };
+        self.mount.within([Some(azimuth_deg), Some((f64::MIN, top_deg))])
+    }
+
+    /// Distance of a target from either end at which an axis that comes to rest past its target still
+    /// reads as being at this end, degrees. The directions that the travel leaves out are room too.
+    fn wrap_margin_deg(&self, travel_deg: f64) -> f64 {
+        let can = self.connection.variant().capabilities;
+        let room_deg = (TURN_DEG - travel_deg).max(0.0) / 2.0;
+        if can.azimuth_wraps { (can.rests_within_deg() - room_deg).max(0.0) } else { 0.0 }
     }
 
     /// The pointing model that program track and the bounds apply.
@@ -186,5 +202,29 @@ impl Antenna {
 
     pub fn park_direction(&self) -> AzEl {
         AzEl::from_degrees(self.park.azimuth_deg, self.park.elevation_deg)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn targets_keep_away_from_ends_where_the_azimuth_wraps() {
+        let azimuth_deg = |antenna: Antenna, travel_deg: (f64, f64)| {
+            let mount = Mount::AzEl {
+                azimuth_from_deg: travel_deg.0,
+                azimuth_to_deg: travel_deg.1,
+                elevation_from_deg: 0.0,
+                elevation_to_deg: 90.0,
+            };
+            Antenna { mount, ..antenna }.track_mount().travel_deg()[0]
+        };
+        let genius = || Antenna::genius("", "");
+        assert_eq!(azimuth_deg(genius(), (0.0, 360.0)), (2.5, 357.5));
+        assert_eq!(azimuth_deg(genius(), (-180.0, 180.0)), (-177.5, 177.5));
+        assert_eq!(azimuth_deg(genius(), (0.0, 358.0)), (1.5, 356.5));
+        assert_eq!(azimuth_deg(genius(), (10.0, 350.0)), (10.0, 350.0));
+        assert_eq!(azimuth_deg(Antenna::rc2000c("", ""), (0.0, 360.0)), (0.0, 360.0));
     }
 }

@@ -20,7 +20,7 @@ use azel::{
     makes::{self, DemoAddresses, Surroundings},
     orbit::{Elements, RefreshHours, Source, SourcePlace, bundled, write_omm_json},
     sim::{InMemory, Trouble},
-    station::{self, Antenna, AntennaId, Mount, Resume, Station},
+    station::{self, Antenna, AntennaId, Resume, Station},
 };
 use jiff::Timestamp;
 use tokio::task::JoinHandle;
@@ -30,8 +30,6 @@ use super::{faults::Faults, source::ElementServer};
 const SATELLITES: usize = 60;
 /// Revolutions a day of a low orbit.
 const LOW_REV_DAY: f64 = 12.0;
-/// Distance of the travel of a whole turn from either end, degrees.
-const END_MARGIN_DEG: f64 = 3.0;
 
 /// A unit and its link.
 #[derive(Clone)]
@@ -242,13 +240,6 @@ fn station(elements: &[Elements], faults: &Faults) -> Station {
         antenna.automatic.is_on_at_start = true;
         antenna.automatic.resumes_after_crash = true;
         antenna.upkeep.sets_clock = true;
-        if let Mount::AzEl { azimuth_from_deg, azimuth_to_deg, .. } = &mut antenna.mount
-            && *azimuth_to_deg - *azimuth_from_deg >= 360.0
-        {
-            // A rotator that runs past 360 degrees counts from 0 again and turns all the way round.
-            *azimuth_from_deg += END_MARGIN_DEG;
-            *azimuth_to_deg -= END_MARGIN_DEG;
-        }
     }
     station
 }

@@ -60,6 +60,7 @@ static VARIANT: Variant = Variant {
         takes_positions: true,
         arrives_within_deg: 1.0,
         position_step_deg: 0.0,
+        azimuth_wraps: false,
         second_axis: SecondAxis::Elevation,
         jog: JogSpeeds::AnyRate,
         jogs_one_axis: false,

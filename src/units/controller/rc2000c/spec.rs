@@ -63,6 +63,7 @@ pub static VARIANT: Variant = Variant {
         takes_positions: true,
         arrives_within_deg: 0.5,
         position_step_deg: 0.0,
+        azimuth_wraps: false,
         second_axis: SecondAxis::Elevation,
         jog: JogSpeeds::Named(&[SLOW, FAST]),
         jogs_one_axis: true,

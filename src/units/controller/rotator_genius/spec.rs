@@ -66,6 +66,7 @@ pub static PAIR: Variant = Variant {
         takes_positions: true,
         arrives_within_deg: 1.5,
         position_step_deg: 1.0,
+        azimuth_wraps: true,
         second_axis: SecondAxis::Elevation,
         jog: SPEEDS,
         jogs_one_axis: true,

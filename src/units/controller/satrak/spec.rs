@@ -62,6 +62,7 @@ pub static VARIANT: Variant = Variant {
         takes_positions: true,
         arrives_within_deg: 0.3,
         position_step_deg: 0.0,
+        azimuth_wraps: false,
         second_axis: SecondAxis::Elevation,
         jog: JogSpeeds::AnyRate,
         jogs_one_axis: false,

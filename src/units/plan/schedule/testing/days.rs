@@ -47,6 +47,14 @@ pub(in crate::plan) fn three_antennas() -> Station {
     for (antenna, number) in antennas.iter_mut().zip(1..) {
         antenna.id = AntennaId(number);
     }
+    // Program track keeps away from both ends: its targets lie from 0 to 360 degrees, as in the days
+    // that a general solver has solved.
+    antennas[1].mount = Mount::AzEl {
+        azimuth_from_deg: -2.5,
+        azimuth_to_deg: 362.5,
+        elevation_from_deg: 0.0,
+        elevation_to_deg: 90.0,
+    };
     antennas[2].mount = Mount::AzEl {
         azimuth_from_deg: 90.0,
         azimuth_to_deg: 270.0,
