@@ -17,7 +17,7 @@ use azel::{
         Client, Command,
         alarms::AlarmKind,
         automatic::{
-            DayEvent, Doing, Interruption, MissCause, NotReady, OffBecause, On, Operation,
+            DayEvent, Doing, GivenUp, Interruption, MissCause, NotReady, OffBecause, On, Operation,
         },
         closing::CloseHow,
     },
@@ -26,7 +26,7 @@ use azel::{
         rotator_genius::WholeDegrees,
         satrak::{FaultKind, Goto, Motion, Request, encode},
     },
-    sim::satrak,
+    sim::{InMemory as _, Trouble, satrak},
     station::{Antenna, AntennaId, LockOut, Monitor, Resume, Station},
 };
 use jiff::{Timestamp, ToSpan as _};
@@ -738,6 +738,27 @@ async fn a_clock_step_suspends_automatic_operation_first() {
         let after = sent_to_dish(&scene);
         assert!(!after[sent.len()..].iter().any(moved), "{by_s}: {after:?}");
     }
+}
+
+#[tokio::test(start_paused = true)]
+async fn the_rest_of_a_pass_is_taken_once_the_clock_of_the_unit_is_right() {
+    let (scene, client, id) = scene_of("Dish", |_| {}).await;
+    let late = Trouble::ClockLate(Duration::from_mins(2));
+    scene.units.dish.set_trouble(late, true);
+    tokio::time::sleep(Duration::from_secs(20)).await;
+    set_automatic(&client, id, true).await;
+    let taken = until("the objection", || {
+        let taking = *operation(&client, id).taking()?;
+        (taking.given_up == Some(GivenUp::WouldMiss)).then_some(taking)
+    })
+    .await;
+    let middle = add_seconds(taken.from, 120.0);
+    until("the middle", || (client.now().utc > middle).then_some(())).await;
+    assert!(scene.units.all_stand());
+    scene.units.dish.set_trouble(late, false);
+    let (_, of) = until("LOS", || flown(&client).first().cloned()).await;
+    assert!(of.in_beam_s > of.of_s - 200.0, "{of:?}");
+    assert_eq!(of.cause, Some(MissCause::NotReady(NotReady::WouldMiss)));
 }
 
 /// The link breaks in the middle of a pass, and comes back after LOS.

@@ -107,8 +107,15 @@ pub struct Taking {
     /// When it was proved that the antenna is on its way; for a unit with a program of its own
     /// by reading back.
     pub proved_at: Option<Timestamp>,
-    /// Reason why Azel skips the rest of the pass.
+    /// Reason why Azel does not track the pass now.
     pub given_up: Option<GivenUp>,
+}
+
+impl Taking {
+    /// Returns `true` if the rest of the pass is skipped.
+    fn is_skipped(&self) -> bool {
+        self.given_up.is_some_and(GivenUp::is_final)
+    }
 }
 
 /// Reason why a unit cannot begin its pass now. Azel judges this when the antenna should set out,
@@ -124,7 +131,7 @@ pub enum NotReady {
     WouldMiss,
 }
 
-/// Reason why Azel skips the rest of a pass.
+/// Reason why Azel does not track a pass.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum GivenUp {
@@ -132,8 +139,19 @@ pub enum GivenUp {
     Refused,
     /// The antenna stayed off its target.
     OffTarget,
-    /// The unit's clock, site or elements would make it miss the pass.
+    /// The unit's clock, site or elements would make it miss the rest of the pass.
     WouldMiss,
+}
+
+impl GivenUp {
+    /// Returns `false` if Azel judges the rest of the pass again.
+    fn is_final(self) -> bool {
+        match self {
+            Self::Refused | Self::OffTarget => true,
+            // A clock or a setting may be corrected before the pass is over.
+            Self::WouldMiss => false,
+        }
+    }
 }
 
 /// A pass that the schedule gives to the antenna.
@@ -291,7 +309,7 @@ impl Operation {
     pub(super) fn take_outcome(&mut self, outcome: Outcome) {
         let Self::On(on) = self else { return };
         let Doing::Takes(taking) = &mut on.doing else { return };
-        if taking.given_up.is_some() {
+        if taking.is_skipped() {
             return;
         }
         match outcome {
@@ -304,8 +322,10 @@ impl Operation {
             Outcome::Blocked => taking.given_up = Some(GivenUp::Refused),
             // The antenna must be proved still before the next pass.
             Outcome::OffTarget => taking.given_up = Some(GivenUp::OffTarget),
-            // The unit may be able to take the next pass.
-            Outcome::WouldMiss => taking.given_up = Some(GivenUp::WouldMiss),
+            // The unit may be able to take the rest, or the next pass.
+            Outcome::WouldMiss => {
+                (taking.given_up, taking.proved_at) = (Some(GivenUp::WouldMiss), None);
+            }
         }
     }
 
@@ -377,6 +397,7 @@ impl On {
                 if seen.is_proved && taking.proved_at.is_none() {
                     taking.proved_at = Some(now);
                     taking.requests = 0;
+                    taking.given_up = taking.given_up.filter(|given_up| given_up.is_final());
                 }
             }
             if now >= taking.until {
@@ -499,15 +520,18 @@ impl On {
         let is_asked = seconds_between(taking.asked_at, now) < LATE_S;
         let is_idle = seen.takes != Some(taking.pass.0) && !seen.moves;
         // Somebody may stand beside the unit that he repairs: its next motion is announced.
-        if seen.not_ready.is_some() && is_idle && taking.given_up.is_none() {
+        if seen.not_ready.is_some() && is_idle && !taking.is_skipped() {
             (self.doing, self.moved_at) = (Doing::Rests, None);
             return None;
         }
         let is_ready = seen.is_live && seen.can_be_sent;
-        if taking.given_up.is_some() || is_asked || !is_idle || !is_ready {
+        if taking.is_skipped() || is_asked || !is_idle || !is_ready {
             return None;
         }
         let duty = duties.iter().find(|duty| is_same_pass(duty.pass, taking.pass))?;
+        if taking.given_up.is_some() {
+            return self.judge_again(*duty, now);
+        }
         if taking.requests >= REQUESTS {
             if let Doing::Takes(taking) = &mut self.doing {
                 taking.given_up = Some(GivenUp::Refused);
@@ -520,6 +544,17 @@ impl On {
             self.take(*duty, taking.requests + 1, now);
             Act::Take(*duty)
         })
+    }
+
+    /// Asks again for a pass that the unit would have missed. The session judges what is left of it.
+    fn judge_again(&mut self, duty: Duty, now: Timestamp) -> Option<Act> {
+        let Doing::Takes(taking) = &mut self.doing else { return None };
+        if seconds_between(now, duty.until) <= WORTH_S {
+            return None;
+        }
+        // The reason stands until the unit is proved to take the pass, so that its alarm stands too.
+        taking.asked_at = now;
+        Some(Act::Take(duty))
     }
 
     /// Parks until the next pass, where the time is enough for both ways.

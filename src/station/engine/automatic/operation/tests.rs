@@ -221,6 +221,38 @@ fn a_unit_that_would_miss_its_passes_is_tried_again_with_the_next() {
 }
 
 #[test]
+fn the_rest_of_a_pass_that_a_unit_would_miss_is_judged_again_until_it_is_over() {
+    let duties = [duty(1, 200.0), duty(2, 1000.0)];
+    let mut fixture = Fixture::new(&duties);
+    let take = Act::Take(duties[0]);
+    assert_eq!(fixture.until(141.0, |_| STANDS), [(140.0, take)]);
+    for asked_s in [170.0, 200.0, 230.0] {
+        fixture.outcome(Outcome::WouldMiss);
+        assert_eq!(fixture.until(asked_s + 1.0, |_| STANDS), [(asked_s, take)]);
+        assert_eq!(fixture.operation.not_ready(), Some(NotReady::WouldMiss));
+    }
+    fixture.until(240.0, |_| taking(1));
+    assert!(fixture.operation.is_proved(), "the rest of it would be in the beam");
+    assert_eq!(fixture.operation.not_ready(), None);
+    fixture.outcome(Outcome::WouldMiss);
+    let rest = fixture.until(935.0, |_| STANDS);
+    assert_eq!(rest.first(), Some(&(260.0, take)));
+    assert_eq!(rest.last(), Some(&(770.0, take)), "until too little of it is left");
+    assert!(fixture.operation.is_on());
+}
+
+#[test]
+fn a_unit_that_refuses_what_it_would_have_missed_before_is_asked_no_more() {
+    let duties = [duty(1, 200.0)];
+    let mut fixture = Fixture::new(&duties);
+    fixture.until(141.0, |_| STANDS);
+    fixture.outcome(Outcome::WouldMiss);
+    fixture.until(171.0, |_| STANDS);
+    fixture.outcome(Outcome::Failed);
+    assert_eq!(fixture.until(790.0, |_| STANDS), []);
+}
+
+#[test]
 fn it_parks_between_passes_where_the_time_is_enough() {
     let duties = [duty(1, 200.0), duty(2, 1000.0), duty(3, 2000.0)];
     let mut fixture = Fixture::new(&duties);
