@@ -588,6 +588,26 @@ async fn automatic_operation_stays_off_if_anything_changed() {
 }
 
 #[tokio::test(start_paused = true)]
+async fn the_rest_of_a_pass_is_taken_after_a_crash_although_passes_are_taken_whole() {
+    let in_the_pass = async |_: &Scene, client: &Client, id: AntennaId| {
+        until("the proof", || operation(client, id).taking()?.proved_at).await;
+        let from = operation(client, id).taking().unwrap().from;
+        until("the pass", || (client.now().utc > add_seconds(from, 60.0)).then_some(())).await;
+    };
+    let (_scene, client, id) = after_a_crash(|_| {}, in_the_pass).await;
+    assert_eq!(client.snapshot().station.scheduling.partly, None);
+    let crashed_at = client.now().utc;
+    let taken = until("the rest", || {
+        let taking = *operation(&client, id).taking()?;
+        taking.proved_at.map(|_| taking)
+    })
+    .await;
+    assert!(taken.pass.1 < crashed_at && crashed_at < taken.until, "{taken:?}");
+    let (_, of) = until("LOS", || flown(&client).first().cloned()).await;
+    assert!(of.in_beam_s > seconds_between(crashed_at, taken.until) - 120.0, "{of:?}");
+}
+
+#[tokio::test(start_paused = true)]
 async fn automatic_operation_waits_for_a_synchronised_clock() {
     let (scene, client, id) = scene_of("Mast", |mast| {
         mast.automatic.resumes_after_crash = true;

@@ -54,6 +54,8 @@ pub(super) struct AtWork {
     has_auto_track_on: bool,
     /// After a crash it waits to be switched on again.
     resumption: Option<Resumption>,
+    /// The pass that the last run was taking, until the antenna takes one in this run.
+    interrupted: Option<PassKey>,
     clock_stop: ClockStop,
     upkeep: UpkeepWork,
 }
@@ -62,7 +64,19 @@ impl AtWork {
     /// What remains of it when the antenna is given another unit.
     pub(super) fn without_unit(self) -> Self {
         let (clock_stop, upkeep) = Default::default();
-        Self { has_auto_track_on: false, resumption: None, clock_stop, upkeep, ..self }
+        Self {
+            has_auto_track_on: false,
+            resumption: None,
+            interrupted: None,
+            clock_stop,
+            upkeep,
+            ..self
+        }
+    }
+
+    /// The pass that the last run was taking, if automatic operation is on or waits to resume.
+    pub(super) fn interrupted(&self, operation: &Operation) -> Option<PassKey> {
+        self.interrupted.filter(|_| operation.is_on() || self.resumption.is_some())
     }
 }
 
@@ -114,6 +128,9 @@ impl Engine {
                 // The run before may have left it on.
                 self.end_auto_track(index);
             }
+        }
+        for antenna in &mut self.antennas {
+            antenna.at_work.interrupted = last.held_by(antenna.shown.id());
         }
         self.last_run = last.clone().next_run();
         self.prepare_resumption(&last);
@@ -295,6 +312,10 @@ impl Engine {
         let operation = &mut antenna.shown.operation;
         let was_proved = operation.is_proved();
         let act = operation.step(&duties, seen, wishes, now);
+        if operation.taking().is_some() {
+            // From now on the schedule keeps what is being taken.
+            antenna.at_work.interrupted = None;
+        }
         let newly_proved =
             operation.taking().filter(|taking| taking.proved_at.is_some() && !was_proved);
         let newly_proved = newly_proved.map(|taking| taking.pass);

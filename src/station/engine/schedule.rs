@@ -64,6 +64,8 @@ pub(super) struct Inputs {
     off: Vec<(AntennaId, Off)>,
     /// Satellites that antennas track without automatic operation.
     tracked: Vec<Tracked>,
+    /// Passes that antennas were taking before the start of this run and may resume.
+    interrupted: Vec<(AntennaId, PassKey)>,
     /// Antennas of which it is known where they stand, with the rates of their axes as learned.
     placed: Vec<(AntennaId, Option<[f64; 2]>)>,
 }
@@ -81,6 +83,7 @@ impl PartialEq for Inputs {
         self.revision == other.revision
             && self.off == other.off
             && self.tracked == other.tracked
+            && self.interrupted == other.interrupted
             && self.placed == other.placed
             && (Arc::ptr_eq(&self.station, &other.station) || self.station == other.station)
     }
@@ -171,6 +174,7 @@ impl Engine {
             revision: list.revision,
             off: off.collect(),
             tracked: tracked.collect(),
+            interrupted: self.interrupted_passes(),
             placed: placed.collect(),
         })
     }
@@ -253,6 +257,17 @@ impl Engine {
         self.antennas.iter().map(planned).collect()
     }
 
+    /// Passes that automatic operation was taking when the last run ended, of antennas that do not move.
+    fn interrupted_passes(&self) -> Vec<(AntennaId, PassKey)> {
+        let own = self.antennas.iter().filter_map(|antenna| {
+            let pass = antenna.at_work.interrupted(&antenna.shown.operation)?;
+            let is_tracked = antenna.shown.tracked_number() == Some(pass.0);
+            let is_listed = self.pass_lists.find(pass).is_some();
+            (is_listed && !is_tracked).then(|| (antenna.shown.id(), pass))
+        });
+        own.collect()
+    }
+
     /// The entries that a new schedule must keep: those that automatic operation is
     /// taking, from the moment it asks the unit.
     fn fixed(&self) -> Vec<Entry> {
@@ -317,7 +332,22 @@ fn make(
         let pass = ahead.min_by_key(|candidate| candidate.key.aos)?;
         pass.under_way(antenna, scheduling.choose_by, now)
     });
-    let fixed: Vec<Entry> = fixed.iter().cloned().chain(under_way).collect();
+    // In parts, the schedule takes what is left of a pass by its own rules.
+    let is_whole = scheduling.partly.is_none();
+    let interrupted = inputs.interrupted.iter().filter(|_| is_whole);
+    let resumed = interrupted.filter_map(|(id, pass)| {
+        let antenna = antennas.iter().find(|antenna| antenna.id == *id)?;
+        // The first motion after a start is announced.
+        let free_from = add_seconds(now, scheduling.warning_s);
+        let antenna = PlannedAntenna { free_from, ..antenna.clone() };
+        let key = |candidate: &&Candidate| {
+            is_same_pass((candidate.key.satellite, candidate.key.aos), *pass)
+        };
+        candidates.iter().find(key)?.resumed(&antenna, scheduling.choose_by)
+    });
+    let is_kept = |entry: &Entry| fixed.iter().any(|kept| kept.antenna == entry.antenna);
+    let resumed = resumed.filter(|entry| !is_kept(entry));
+    let fixed: Vec<Entry> = fixed.iter().cloned().chain(under_way).chain(resumed).collect();
     plan(&Request {
         antennas,
         candidates: &candidates,

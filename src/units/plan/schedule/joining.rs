@@ -44,13 +44,18 @@ impl PlannedAntenna {
     }
 
     /// When it is free and set up.
-    fn ready_ms(&self) -> i64 {
+    pub(super) fn ready_ms(&self) -> i64 {
         ms(self.free_from) + set_up_ms(self)
     }
 
     /// The first moment that counts at which the axes can be where `way` has them, if they set out
     /// at `ready_ms`, and how long they turn.
-    fn met_ms(&self, way: &Way, stands_deg: [f64; 2], ready_ms: i64) -> Option<(i64, i64)> {
+    pub(super) fn met_ms(
+        &self,
+        way: &Way,
+        stands_deg: [f64; 2],
+        ready_ms: i64,
+    ) -> Option<(i64, i64)> {
         let mut at_ms = way.next_counted_ms(ready_ms)?;
         loop {
             let to_deg = way.axes_deg(at_ms);

@@ -304,6 +304,40 @@ fn what_is_fixed_stays_and_what_the_operator_says_is_done() {
 }
 
 #[test]
+fn an_antenna_resumes_a_pass_from_where_it_stands() {
+    let station = three_antennas();
+    let antennas = planned(&station, noon());
+    let satellites = low_satellites(&mut Random::new(SEED), 40);
+    let list = candidates(&station, &antennas, &satellites, noon(), 6.0);
+    let choose_by = ChooseBy::default();
+    let first = plan(&request(&antennas, &list));
+    for entry in &first.entries {
+        let candidate = list.iter().find(|candidate| candidate.key == entry.pass).unwrap();
+        let antenna = antennas.iter().find(|antenna| antenna.id == entry.antenna).unwrap();
+        let now = add_seconds(entry.from, 30.0);
+        let stands_deg = Some(antenna.reach.park_deg());
+        let parked = PlannedAntenna { free_from: now, stands_deg, ..antenna.clone() };
+        let Some(rest) = candidate.resumed(&parked, choose_by) else { continue };
+        let needs_s = rest.slew_s + rest.set_up_s;
+        let waits_s = seconds_between(now, rest.from);
+        assert!(waits_s > needs_s - 1.0, "{rest:?}");
+        assert!(rest.from < rest.to && rest.to <= candidate.los, "{rest:?}");
+        assert!(rest.counted_s <= entry.counted_s - 30.0 + 1.0, "{rest:?}");
+        let lost = PlannedAntenna { stands_deg: None, ..parked.clone() };
+        assert_eq!(candidate.resumed(&lost, choose_by), None, "it may stand anywhere");
+        let over = PlannedAntenna { free_from: candidate.los, ..parked };
+        assert_eq!(candidate.resumed(&over, choose_by), None);
+    }
+    let entry = &first.entries[3];
+    let candidate = list.iter().find(|candidate| candidate.key == entry.pass).unwrap();
+    let antenna = antennas.iter().find(|antenna| antenna.id == entry.antenna).unwrap();
+    let stands_deg = Some(entry.axes_deg[0]);
+    let there = PlannedAntenna { free_from: entry.from, stands_deg, ..antenna.clone() };
+    let rest = candidate.resumed(&there, choose_by).unwrap();
+    assert!(rest.counted_s > entry.counted_s - 60.0, "{rest:?}");
+}
+
+#[test]
 fn a_pass_that_is_tracked_already_or_waited_for_stays_until_its_end() {
     let station = three_antennas();
     let antennas = planned(&station, noon());

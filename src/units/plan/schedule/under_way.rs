@@ -33,25 +33,47 @@ impl Candidate {
         if antenna.off.is_some() || rest.length_ms() <= 0 {
             return None;
         }
+        Some(self.fixed(antenna, choose_by, way, rest))
+    }
+
+    /// The rest of this pass for an antenna that was taking it and stands since. It sets out as soon as
+    /// it is free. `None` if it cannot be there before the end, or if its position is unknown.
+    pub fn resumed(&self, antenna: &PlannedAntenna, choose_by: ChooseBy) -> Option<Entry> {
+        let option = self.options.iter().find(|(id, _)| *id == antenna.id);
+        let (_, Choice::Judged(Verdict::Possible(ways))) = option? else { return None };
+        if antenna.off.is_some() || self.refusal.is_some() {
+            return None;
+        }
+        let (stands_deg, ready_ms) = (antenna.stands_deg?, antenna.ready_ms());
+        let met = |way| Some((way, antenna.met_ms(way, stands_deg, ready_ms)?));
+        let (way, (met_ms, leg_ms)) =
+            ways.iter().filter_map(met).min_by_key(|(_, (met_ms, _))| *met_ms)?;
+        let rest = Span { from_ms: met_ms, to_ms: way.span().to_ms };
+        let entry = self.fixed(antenna, choose_by, way, rest);
+        let slew_s = leg_ms as f64 / 1000.0;
+        Some(Entry { slew_s, set_up_s: antenna.set_up_s, ..entry })
+    }
+
+    fn fixed(&self, antenna: &PlannedAntenna, choose_by: ChooseBy, way: &Way, rest: Span) -> Entry {
         let counted_ms = way.counted_ms(rest);
-        Some(Entry {
+        Entry {
             pass: self.key,
             antenna: antenna.id,
             class: self.class(choose_by),
             from: at_ms(rest.from_ms),
-            to: at_ms(to_ms),
-            late_s: (rest.from_ms - from_ms) as f64 / 1000.0,
+            to: at_ms(rest.to_ms),
+            late_s: (rest.from_ms - way.span().from_ms) as f64 / 1000.0,
             early_s: 0.0,
             counted_s: counted_ms as f64 / 1000.0,
             worth: self.worth(choose_by, counted_ms, Part::Alone),
             lost: way.lost,
-            axes_deg: [way.axes_deg(rest.from_ms), way.axes_deg(to_ms)],
+            axes_deg: [way.axes_deg(rest.from_ms), way.axes_deg(rest.to_ms)],
             after: None,
             slew_s: 0.0,
             set_up_s: 0.0,
             spare_s: None,
             shared_with: None,
             is_fixed: true,
-        })
+        }
     }
 }
