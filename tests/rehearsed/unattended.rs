@@ -807,6 +807,38 @@ async fn after_an_outage_over_the_end_of_a_pass_the_next_ones_are_taken() {
     }
 }
 
+/// The unit tracks by its own clock, which stays right.
+#[tokio::test(start_paused = true)]
+async fn a_unit_tracks_on_while_the_clock_of_this_computer_is_wrong() {
+    for by_s in [-40, 40] {
+        let (begun, at) = (Instant::now(), before_a_pass());
+        let ahead_s: Arc<AtomicI64> = Arc::default();
+        let set = Arc::clone(&ahead_s);
+        let clock = Clock::new(move || {
+            let elapsed_s = (Instant::now() - begun).as_secs_f64();
+            add_seconds(at, elapsed_s + set.load(Ordering::Relaxed) as f64)
+        });
+        let mut scene = Scene::by(clock, &station("Dish", |_| {}));
+        scene.units.time_sync = || TimeSync::Synchronised;
+        let scene = scene.started_again(false).await;
+        let client = scene.client();
+        let id = measured(&client, "Dish").await;
+        until("the schedule", || client.snapshot().schedule.made_at).await;
+        proved(&client, id).await;
+        let taken = operation(&client, id).taking().copied().unwrap();
+        let high = add_seconds(taken.from, seconds_between(taken.from, taken.until) / 3.0);
+        until("the pass", || (client.now().utc > high).then_some(())).await;
+        ahead_s.store(by_s, Ordering::Relaxed);
+        tokio::time::sleep(Duration::from_secs(90)).await;
+        assert!(scene.units.dish.state().is_tracking, "{by_s}");
+        assert!(stands(&client, |kind| matches!(kind, AlarmKind::ClockOff(_))));
+        ahead_s.store(0, Ordering::Relaxed);
+        let (_, of) = until("LOS", || flown(&client).first().cloned()).await;
+        assert!(of.in_beam_s > of.of_s - 150.0, "{by_s}: {of:?}");
+        assert!(operation(&client, id).is_on());
+    }
+}
+
 /// A Genius in the middle of a pass: the clock is set and set back.
 #[tokio::test(start_paused = true)]
 async fn a_track_goes_on_after_a_clock_step_if_a_time_service_keeps_the_clock() {

@@ -3,10 +3,12 @@
 
 use std::{sync::Arc, time::Duration};
 
+use jiff::Timestamp;
+
 use super::{Event, Session, activity::Slew, off_target::OffTarget};
 use crate::{
     astro::{
-        Angle, AzEl,
+        Angle, AzEl, TrackOffsets,
         time::{add_seconds, seconds_between},
     },
     clock::{Instant, Moment},
@@ -34,6 +36,8 @@ pub(super) struct Watch {
     /// Latest expected arrival on the satellite.
     arrives: Option<Instant>,
     off_target: OffTarget,
+    /// Error by this computer's clock that a different clock of the unit does not explain.
+    unexplained: OffTarget,
     /// The position when the axes last turned, and where the satellite was then.
     turned: Option<(Measured, AzEl)>,
 }
@@ -49,6 +53,7 @@ impl Watch {
             was_on_target: false,
             arrives: None,
             off_target: OffTarget::default(),
+            unexplained: OffTarget::default(),
             turned: None,
         }
     }
@@ -61,16 +66,33 @@ impl Watch {
         OnBoardView { found: Arc::clone(&self.found), missing: self.off_target.missing() }
     }
 
+    /// How long the antenna has been off its target for another reason than the clocks. A unit that
+    /// follows its own clock obeys, and this computer's clock may be the wrong one.
     pub(super) fn off_target(&self) -> OffTarget {
-        self.off_target
+        self.unexplained
     }
 
-    /// Takes the pointing error; `None` within the tolerance.
-    fn take_off(&mut self, off: Option<Angle>, slew: Duration, at: Instant) {
+    /// Takes the pointing error, and the part of it that the clocks do not explain; `None` within the
+    /// tolerance.
+    fn take_off(
+        &mut self,
+        off: Option<Angle>,
+        unexplained: Option<Angle>,
+        slew: Duration,
+        at: Instant,
+    ) {
         self.was_on_target |= off.is_none();
         let slew = if self.was_on_target { Duration::ZERO } else { slew };
         let arrives = *self.arrives.get_or_insert(at + slew);
-        self.off_target.take(off.filter(|_| self.was_on_target || at >= arrives), at);
+        let counts = self.was_on_target || at >= arrives;
+        self.off_target.take(off.filter(|_| counts), at);
+        self.unexplained.take(unexplained.filter(|_| counts), at);
+    }
+
+    /// Direction of the satellite at the time of the unit's clock; `None` if that is not known.
+    fn by_unit_clock(&self, unit: &OnBoard, meant: TrackOffsets, at: Timestamp) -> Option<AzEl> {
+        let ahead_s = unit.clock.filter(|clock| clock.is_set)?.surely_ahead_s();
+        meant.demanded(add_seconds(at, ahead_s), |at| self.judge.direction(at))
     }
 
     /// Judges again if the unit reports something else.
@@ -264,6 +286,11 @@ impl Session {
         // Both axes may have to turn by more than the beam.
         let slew_s = 2.0 * off.degrees() / self.setup.ability.maximum_rate_deg_s;
         let slew = Duration::try_from_secs_f64(slew_s).unwrap_or_default();
-        watch.take_off(Some(off).filter(|off| *off > on_target), slew, now.steady);
+        let is_off = |off: &Angle| *off > on_target;
+        let by_clock = watch.by_unit_clock(&unit, meant, measured.at);
+        let by_clock = by_clock.and_then(|to| measured.pointing.separation(to.into()));
+        let is_explained = by_clock.is_some_and(|off| !is_off(&off));
+        let off = Some(off).filter(is_off);
+        watch.take_off(off, off.filter(|_| !is_explained), slew, now.steady);
     }
 }
