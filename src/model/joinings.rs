@@ -55,8 +55,9 @@ impl Model {
         let has_elevation = antenna.variant().capabilities.has_elevation();
         let measured = antenna.snapshot.state.measured.filter(|_| antenna.is_live())?;
         let reach = Reach::of(&self.station, &antenna.config, antenna.snapshot.rates_deg_s);
+        let travel_deg = antenna.config.mount.travel_deg();
         Some(PlannedAntenna {
-            stands_deg: Some(measured.axes_deg(has_elevation)?),
+            stands_deg: Some(measured.planned_axes_deg(travel_deg, has_elevation)?),
             reach,
             ..PlannedAntenna::of(&self.station, &antenna.config, self.now)
         })

@@ -245,10 +245,12 @@ impl Engine {
             let shown = &antenna.shown;
             let config = &shown.config;
             let off = inputs.off.iter().find(|(id, _)| *id == config.id);
-            let measured = shown.snapshot.state.measured;
-            let axes = measured.map(|measured| measured.axes.map(|axis| axis.angle_deg));
+            let has_elevation = shown.variant().capabilities.has_elevation();
+            let stands_deg = shown.snapshot.state.measured.and_then(|measured| {
+                measured.planned_axes_deg(config.mount.travel_deg(), has_elevation)
+            });
             PlannedAntenna {
-                stands_deg: axes.and_then(|[first, second]| Some([first?, second?])),
+                stands_deg,
                 off: off.map(|(_, off)| *off),
                 reach: Reach::of(&self.station, config, shown.snapshot.rates_deg_s),
                 ..PlannedAntenna::of(&self.station, config, self.now)

@@ -129,6 +129,25 @@ impl Measured {
         let [first, second] = self.axes.map(|axis| axis.angle_deg.filter(|deg| deg.is_finite()));
         Some([first?, if has_elevation { second? } else { 0.0 }])
     }
+
+    /// The same for a plan, where an axis without an angle at a limit stands at that end of its travel.
+    /// Motion needs [`Self::axes_deg`], because a limit need not be where the travel ends.
+    pub fn planned_axes_deg(
+        &self,
+        travel_deg: [(f64, f64); 2],
+        has_elevation: bool,
+    ) -> Option<[f64; 2]> {
+        let mut known = *self;
+        for (axis, (from_deg, to_deg)) in known.axes.iter_mut().zip(travel_deg) {
+            let end_deg = match (axis.minus_limit, axis.plus_limit) {
+                (true, false) => Some(from_deg),
+                (false, true) => Some(to_deg),
+                (true, true) | (false, false) => None,
+            };
+            axis.angle_deg = axis.angle_deg.or(end_deg);
+        }
+        known.axes_deg(has_elevation)
+    }
 }
 
 /// Direction of an antenna, as far as its unit reports it.
