@@ -51,7 +51,7 @@ impl Session {
             Activity::ProgramTrack(track) => track.off_target,
             // The operator knows that the unit may miss this pass.
             Activity::OnBoardTrack(track) if track.watch.judge().pass().is_agreed => return,
-            Activity::OnBoardTrack(track) => track.watch.off_target(),
+            Activity::OnBoardTrack(track) => track.watch.unexplained(),
             Activity::Standby | Activity::Manual | Activity::Hold(_) | Activity::GoTo(_) => return,
         };
         if let Some(off) = off_target.hopeless() {

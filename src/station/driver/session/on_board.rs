@@ -68,7 +68,7 @@ impl Watch {
 
     /// How long the antenna has been off its target for another reason than the clocks. A unit that
     /// follows its own clock obeys, and this computer's clock may be the wrong one.
-    pub(super) fn off_target(&self) -> OffTarget {
+    pub(super) fn unexplained(&self) -> OffTarget {
         self.unexplained
     }
 
