@@ -1,6 +1,9 @@
 //! The elements bundled with the program.
 
-use std::io::Read;
+use std::{
+    io::{BufRead as _, BufReader},
+    sync::Arc,
+};
 
 use jiff::Timestamp;
 
@@ -15,6 +18,11 @@ pub const BUNDLED_NEWEST: Timestamp = Timestamp::constant(1_786_596_111, 0);
 /// Compressed TLE text, see `assets/elements/README.md`.
 const COMPRESSED: &[u8] = include_bytes!("../../assets/elements/active_2026-08-11.tle.gz");
 
+/// Sets that are read at a time, which bounds the memory that reading takes beside the catalog.
+const SETS: usize = 512;
+/// Lines of a set with its name.
+const SET_LINES: usize = 3;
+
 /// The reason why the bundled elements cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub enum BundledError {
@@ -26,18 +34,31 @@ pub enum BundledError {
 
 /// The catalog of all satellites that were active on 2026-08-11.
 pub fn bundled() -> Result<Catalog, BundledError> {
-    let mut text = String::new();
-    flate2::read::GzDecoder::new(COMPRESSED).read_to_string(&mut text)?;
-    let report = read_elements(&text);
-    // Frees two and a half megabytes before the merge.
-    drop(text);
+    read_into(Catalog::default())
+}
+
+/// The same, which shares the memory of the sets that `previous` has too.
+pub fn bundled_sharing(previous: &Arc<Catalog>) -> Result<Catalog, BundledError> {
     let mut catalog = Catalog::default();
-    let summary = catalog.merge(report, BUNDLED_SOURCE);
-    if summary.refused.is_empty() {
-        Ok(catalog)
-    } else {
-        Err(BundledError::Refused(summary.refused))
+    catalog.share_with(previous);
+    read_into(catalog)
+}
+
+fn read_into(mut catalog: Catalog) -> Result<Catalog, BundledError> {
+    let mut lines = BufReader::new(flate2::read::GzDecoder::new(COMPRESSED)).lines();
+    let (mut refused, mut text) = (Vec::new(), String::new());
+    loop {
+        text.clear();
+        for line in lines.by_ref().take(SETS * SET_LINES) {
+            text.push_str(&line?);
+            text.push('\n');
+        }
+        if text.is_empty() {
+            break;
+        }
+        refused.extend(catalog.merge(read_elements(&text), BUNDLED_SOURCE).refused);
     }
+    if refused.is_empty() { Ok(catalog) } else { Err(BundledError::Refused(refused)) }
 }
 
 #[cfg(test)]
@@ -51,5 +72,13 @@ mod tests {
         assert_eq!(catalog.get(25_544).unwrap().name(), "ISS (ZARYA)");
         let newest = catalog.newest_epoch().unwrap();
         assert_eq!(newest.as_second(), BUNDLED_NEWEST.as_second());
+    }
+
+    #[test]
+    fn a_second_catalog_shares_every_set() {
+        let first = Arc::new(bundled().unwrap());
+        let second = bundled_sharing(&first).unwrap();
+        assert_eq!(first.len(), second.len());
+        assert!(first.iter().zip(second.iter()).all(|(a, b)| std::ptr::eq(a, b)));
     }
 }

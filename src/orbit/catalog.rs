@@ -5,6 +5,7 @@ use std::{
     cmp::Ordering,
     collections::{BTreeMap, BTreeSet},
     ops::Range,
+    sync::{Arc, Weak},
 };
 
 use jiff::{SignedDuration, Timestamp};
@@ -35,12 +36,14 @@ pub struct Catalog {
     candidates: BTreeMap<u32, Vec<Entry>>,
     /// Objects with an order of sources whose set the operator has chosen.
     chosen: BTreeSet<u32>,
+    /// A catalog in use, whose equal sets are shared.
+    previous: Weak<Self>,
 }
 
 /// The newest set of an object, while an older one is in use.
 #[derive(Debug, Clone)]
 struct SetAside {
-    newest: Elements,
+    newest: Arc<Elements>,
     /// The source of the set in use.
     source_in_use: String,
 }
@@ -48,7 +51,8 @@ struct SetAside {
 /// The newest elements of an object, and the group whose source gave them.
 #[derive(Debug, Clone)]
 struct Entry {
-    elements: Elements,
+    /// Shared by the catalogs before and after the sources were read again.
+    elements: Arc<Elements>,
     group: u32,
 }
 
@@ -125,7 +129,7 @@ impl Catalog {
         let source_in_use = self.groups.get(chosen.group as usize).map(|group| group.name.clone());
         let Ok(place) = self.entries.binary_search_by_key(&number, Entry::number) else { return };
         let Some(current) = self.entries.get_mut(place) else { return };
-        chosen.elements.take_name(&current.elements);
+        take_name(&mut chosen.elements, &current.elements);
         if current.elements.epoch() == chosen.elements.epoch() {
             *current = chosen;
             return;
@@ -142,7 +146,7 @@ impl Catalog {
 
     /// The newest set of an object whose preferred source has an older one.
     pub fn passed_over(&self, catalog_number: u32) -> Option<&Elements> {
-        self.passed_over.get(&catalog_number).map(|aside| &aside.newest)
+        self.passed_over.get(&catalog_number).map(|aside| &*aside.newest)
     }
 
     /// Adds the elements of `source`. The newest epoch of an object wins, whatever the order of
@@ -161,7 +165,7 @@ impl Catalog {
         self.entries.reserve(report.elements.len());
         for elements in report.elements {
             let number = elements.catalog_number();
-            let entry = Entry { elements, group };
+            let entry = Entry { elements: self.shared(elements), group };
             members.push(number);
             if let Some(sets) = self.candidates.get_mut(&number) {
                 sets.push(entry.clone());
@@ -192,6 +196,18 @@ impl Catalog {
         summary
     }
 
+    /// Shares the memory of the sets that `previous` has too. Call it before the merges.
+    pub fn share_with(&mut self, previous: &Arc<Self>) {
+        self.previous = Arc::downgrade(previous);
+    }
+
+    fn shared(&self, elements: Elements) -> Arc<Elements> {
+        let previous = self.previous.upgrade();
+        let known = previous.as_ref().and_then(|all| all.entry(elements.catalog_number()));
+        let same = known.filter(|known| *known.elements == elements);
+        same.map_or_else(|| Arc::new(elements), |same| Arc::clone(&same.elements))
+    }
+
     /// Index of the group called `name`, which is added if it is new.
     fn group(&mut self, name: &str) -> u32 {
         let place = self.groups.iter().position(|group| group.name == name).unwrap_or_else(|| {
@@ -202,7 +218,7 @@ impl Catalog {
     }
 
     pub fn get(&self, catalog_number: u32) -> Option<&Elements> {
-        self.entry(catalog_number).map(|entry| &entry.elements)
+        self.entry(catalog_number).map(|entry| &*entry.elements)
     }
 
     fn entry(&self, catalog_number: u32) -> Option<&Entry> {
@@ -235,20 +251,20 @@ impl Catalog {
             return;
         }
         older.take_name(&current.elements);
-        let newest = std::mem::replace(&mut current.elements, older);
+        let newest = std::mem::replace(&mut current.elements, Arc::new(older));
         let aside = SetAside { newest, source_in_use: source.to_owned() };
         self.set_aside.insert(number, aside);
     }
 
     /// The newest set of an object of which an older one is in use.
     pub fn set_aside(&self, catalog_number: u32) -> Option<&Elements> {
-        self.set_aside.get(&catalog_number).map(|aside| &aside.newest)
+        self.set_aside.get(&catalog_number).map(|aside| &*aside.newest)
     }
 
     /// All newest sets that are not in use, each with its source.
     pub fn all_set_aside(&self) -> impl Iterator<Item = (&Elements, &str)> {
         self.set_aside.iter().chain(&self.passed_over).map(|(number, aside)| {
-            (&aside.newest, self.source_of_newest(*number).unwrap_or_default())
+            (&*aside.newest, self.source_of_newest(*number).unwrap_or_default())
         })
     }
 
@@ -300,7 +316,7 @@ impl Catalog {
 
     /// All elements, in order of catalog number.
     pub fn iter(&self) -> impl Iterator<Item = &Elements> {
-        self.entries.iter().map(|entry| &entry.elements)
+        self.entries.iter().map(|entry| &*entry.elements)
     }
 
     /// The elements at `places` in the order of [`Self::iter`].
@@ -312,7 +328,9 @@ impl Catalog {
     pub fn take_superseded(&mut self) -> Vec<(Elements, String)> {
         let sets = std::mem::take(&mut self.superseded);
         let name = |group: u32| self.groups.get(group as usize).map(|group| group.name.clone());
-        sets.into_iter().map(|set| (set.elements, name(set.group).unwrap_or_default())).collect()
+        let owned =
+            |set: Entry| (Arc::unwrap_or_clone(set.elements), name(set.group).unwrap_or_default());
+        sets.into_iter().map(owned).collect()
     }
 
     pub fn len(&self) -> usize {
@@ -340,8 +358,15 @@ fn settle(current: &mut Entry, mut other: Entry, summary: &mut MergeSummary) -> 
         Ordering::Equal => summary.known += 1,
         Ordering::Less => summary.older += 1,
     }
-    current.elements.take_name(&other.elements);
+    take_name(&mut current.elements, &other.elements);
     (order != Ordering::Equal).then_some(other)
+}
+
+/// [`Elements::take_name`], which copies shared elements only if they lack a name.
+fn take_name(elements: &mut Arc<Elements>, other: &Elements) {
+    if elements.lacks_name() {
+        Arc::make_mut(elements).take_name(other);
+    }
 }
 
 fn search<'a>(
@@ -381,6 +406,36 @@ mod tests {
             })
             .collect();
         read_elements(&serde_json::json!(messages).to_string())
+    }
+
+    #[test]
+    fn a_catalog_that_is_read_again_takes_no_second_copy_of_the_same_sets() {
+        let objects = [(5, "FIVE", 1), (6, "SIX", 1)];
+        let mut before = Catalog::default();
+        before.merge(report(&objects), "bundled");
+        let before = Arc::new(before);
+        let mut after = Catalog::default();
+        after.share_with(&before);
+        after.merge(report(&objects), "bundled");
+        after.merge(report(&[(6, "SIX", 2)]), "web");
+        let is_shared =
+            |number| std::ptr::eq(before.get(number).unwrap(), after.get(number).unwrap());
+        assert!(is_shared(5) && !is_shared(6));
+        drop(before);
+        assert_eq!(Arc::strong_count(&after.entries[0].elements), 1);
+    }
+
+    #[test]
+    fn a_shared_set_without_a_name_takes_one_for_itself_alone() {
+        let mut before = Catalog::default();
+        before.merge(report(&[(5, "", 2)]), "bundled");
+        let before = Arc::new(before);
+        let mut after = Catalog::default();
+        after.share_with(&before);
+        after.merge(report(&[(5, "FIVE", 1)]), "web");
+        after.merge(report(&[(5, "", 2)]), "bundled");
+        let names = [&*before, &after].map(|catalog| catalog.get(5).unwrap().name());
+        assert_eq!(names, ["", "FIVE"]);
     }
 
     #[test]

@@ -289,6 +289,11 @@ impl Elements {
         (self.period_s() / SIDEREAL_DAY_S - 1.0).abs() < 0.02 && self.eccentricity() < 0.1
     }
 
+    /// Returns `true` if the source gave no name or no designator.
+    pub(super) fn lacks_name(&self) -> bool {
+        self.name.is_empty() || self.international_designator.is_empty()
+    }
+
     /// Takes the name and designator from `other` if this set has none.
     pub(super) fn take_name(&mut self, other: &Self) {
         for (own, other) in [

@@ -15,7 +15,7 @@ mod simd;
 mod sources;
 mod writer;
 
-pub use bundled::{BUNDLED_NEWEST, BUNDLED_SOURCE, BundledError, bundled};
+pub use bundled::{BUNDLED_NEWEST, BUNDLED_SOURCE, BundledError, bundled, bundled_sharing};
 pub use catalog::{Catalog, MergeSummary, SOURCE_LAG, SourceOrders};
 pub use elements::{EPOCH_YEARS, Elements, ElementsError, Heights};
 pub use ground::{SubPoint, TrackPoint};

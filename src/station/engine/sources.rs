@@ -20,7 +20,7 @@ use crate::{
         self, History, IndexError, LOG_IN_PAUSE, Library, Limits, OlderSet, SpaceTrackAccess,
         check_source, has_log_in, load_sources, read_element_file, save_sources,
     },
-    orbit::{Catalog, Source, SourceOrders, SourcePlace, SourceReport, bundled},
+    orbit::{Catalog, Source, SourceOrders, SourcePlace, SourceReport, bundled, bundled_sharing},
     whole_file,
 };
 
@@ -145,7 +145,7 @@ pub(super) fn start(
 ) -> std::io::Result<Job<Outcome>> {
     let places = places.clone();
     Job::start("azel-elements", wake, move |cancelled| {
-        let mut outcome = carry_out(&places, &task, now, cancelled);
+        let mut outcome = carry_out(&places, &task, in_use.as_ref(), now, cancelled);
         match places.library() {
             Some(folder) => {
                 let used = use_older_sets(folder, task.set, &mut outcome.catalog);
@@ -214,6 +214,7 @@ fn keep_superseded(places: &Places, catalog: &mut Catalog, before: Option<&Catal
 fn carry_out(
     places: &Places,
     task: &Task,
+    in_use: Option<&Arc<Catalog>>,
     now: Timestamp,
     cancelled: &dyn Fn() -> bool,
 ) -> Outcome {
@@ -248,7 +249,9 @@ fn carry_out(
             sources.is_locked = true;
         }
     }
-    let (mut catalog, bundled_problem) = match bundled() {
+    // The catalog in use stays while the new one is built. Two whole ones would raise the peak of memory.
+    let read_bundled = in_use.map_or_else(bundled, bundled_sharing);
+    let (mut catalog, bundled_problem) = match read_bundled {
         Ok(catalog) => (catalog, None),
         Err(error) => (Catalog::default(), Some(error.to_string())),
     };
@@ -358,7 +361,7 @@ mod tests {
 
         fn run(&self, task: &Task) -> Outcome {
             let now = "2026-08-12T12:00:00Z".parse().unwrap();
-            carry_out(&self.places, task, now, &|| false)
+            carry_out(&self.places, task, None, now, &|| false)
         }
 
         /// A file that holds the ISS a day after the bundled elements.
@@ -625,7 +628,7 @@ mod tests {
         let places = Places { list: None, library: None };
         let now = "2026-08-12T12:00:00Z".parse().unwrap();
         let task = Task { list: Some(Vec::new()), ..Task::default() };
-        let outcome = carry_out(&places, &task, now, &|| false);
+        let outcome = carry_out(&places, &task, None, now, &|| false);
         assert_eq!(outcome.catalog.len(), 16_089);
         assert!(!outcome.sources.problems.is_empty());
     }
