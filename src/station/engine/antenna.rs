@@ -187,7 +187,7 @@ impl AntennaModel {
         };
         if self.prediction.map(|prediction| prediction.catalog_number) != before {
             let errors = std::mem::take(&mut self.errors);
-            self.past_tracks.keep(self.errors_of.take().unwrap_or_default(), errors);
+            self.past_tracks.keep(self.errors_of.take().unwrap_or_default(), &errors);
         }
         if let Some(error) = self.error() {
             if self.errors_of.is_none() {

@@ -59,6 +59,19 @@ impl Errors {
         Self { chunks: whole.into_iter().chain(newest).collect() }
     }
 
+    /// The errors at intervals of at least `interval_s`, and those for which `is_kept` returns true.
+    pub(super) fn thinned(&self, interval_s: f64, is_kept: impl Fn(&ErrorSample) -> bool) -> Self {
+        let (mut thinned, mut last) = (Self::default(), None);
+        for sample in self.iter() {
+            let is_due = last.is_none_or(|last| seconds_between(last, sample.time) >= interval_s);
+            if is_due || is_kept(sample) {
+                thinned.push(*sample);
+                last = Some(sample.time);
+            }
+        }
+        thinned
+    }
+
     /// Adds an error and drops old ones, a chunk at a time.
     pub(super) fn push(&mut self, sample: ErrorSample) {
         match self.chunks.back_mut().filter(|chunk| chunk.len() < CHUNK) {

@@ -13,6 +13,10 @@ const KEPT: usize = 8;
 /// A track with fewer samples is not worth a look.
 const FEWEST: usize = 5;
 
+/// Interval of the samples that are kept, seconds: a profile shows no more, and the samples of ten polls
+/// a second would fill megabytes.
+const INTERVAL_S: f64 = 1.0;
+
 /// The errors of a track that is over.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct PastTrack {
@@ -24,11 +28,12 @@ pub struct PastTrack {
     /// Root of the mean square of the angle between beam axis and target.
     pub rms: Angle,
     pub worst: ErrorSample,
+    /// About one a second, the worst and the last included.
     pub errors: Errors,
 }
 
 impl PastTrack {
-    fn of(name: String, errors: Errors) -> Option<Self> {
+    fn of(name: String, errors: &Errors) -> Option<Self> {
         let (first, last) = (*errors.iter().next()?, *errors.back()?);
         let finite = || errors.iter().filter(|error| error.off_beam.is_finite());
         let count = finite().count();
@@ -41,6 +46,8 @@ impl PastTrack {
         };
         let rms = Angle::from_degrees((squares / count as f64).sqrt());
         let worst = *finite().max_by(by_size)?;
+        let is_kept = |error: &ErrorSample| [worst.time, last.time].contains(&error.time);
+        let errors = errors.thinned(INTERVAL_S, is_kept);
         Some(Self { name, from: first.time, until: last.time, rms, worst, errors })
     }
 }
@@ -67,7 +74,7 @@ impl PastTracks {
     }
 
     /// Keeps the errors of a track that is over.
-    pub(super) fn keep(&mut self, name: String, errors: Errors) {
+    pub(super) fn keep(&mut self, name: String, errors: &Errors) {
         if let Some(track) = PastTrack::of(name, errors) {
             self.0.push_front(Arc::new(track));
             self.0.truncate(KEPT);
@@ -94,17 +101,38 @@ mod tests {
     }
 
     #[test]
+    fn a_track_that_is_over_keeps_a_sample_a_second_and_the_worst() {
+        let mut many = Errors::default();
+        for tenth in 0..6000 {
+            let off_beam_deg = if tenth == 1234 { 0.7 } else { 0.1 };
+            many.push(ErrorSample {
+                time: add_seconds(Timestamp::UNIX_EPOCH, f64::from(tenth) / 10.0),
+                off_beam: Angle::from_degrees(off_beam_deg),
+                azimuth: Angle::ZERO,
+                elevation: Angle::ZERO,
+            });
+        }
+        let mut past = PastTracks::default();
+        past.keep("NOAA 20".to_owned(), &many);
+        let track = past.iter().next().unwrap();
+        let times: Vec<Timestamp> = track.errors.iter().map(|error| error.time).collect();
+        assert!((600..=602).contains(&times.len()), "{}", times.len());
+        assert!(times.contains(&track.worst.time) && times.last() == Some(&track.until));
+        assert!((track.worst.off_beam.degrees() - 0.7).abs() < 1e-9);
+    }
+
+    #[test]
     fn the_last_tracks_stay_with_their_mean_and_worst_error() {
         let mut past = PastTracks::default();
-        past.keep("SHORT".to_owned(), errors(&[0.1; 4]));
+        past.keep("SHORT".to_owned(), &errors(&[0.1; 4]));
         assert!(past.is_empty());
-        past.keep("NOAA 20".to_owned(), errors(&[0.3, 0.4, f64::NAN, 0.0, 0.0, 0.5]));
+        past.keep("NOAA 20".to_owned(), &errors(&[0.3, 0.4, f64::NAN, 0.0, 0.0, 0.5]));
         let track = Arc::clone(past.iter().next().unwrap());
         assert!((track.rms.degrees() - 0.1_f64.sqrt()).abs() < 1e-9, "{:?}", track.rms);
         assert!((track.worst.off_beam.degrees() - 0.5).abs() < 1e-9);
         assert_eq!((track.from.as_second(), track.until.as_second()), (0, 5));
         for number in 0..20 {
-            past.keep(format!("SAT {number}"), errors(&[0.1; 9]));
+            past.keep(format!("SAT {number}"), &errors(&[0.1; 9]));
         }
         let names: Vec<_> = past.iter().map(|track| track.name.as_str()).collect();
         assert_eq!((names.len(), names[0]), (KEPT, "SAT 19"));
