@@ -181,8 +181,11 @@ impl Session {
             // One that stops on its way is reported as such, and the unit decides when to creep.
             let may_rest = !is_driven && (other_turns || (is_slew && effect.has_turned));
             let ignored_deg = if is_driven { 0.0 } else { can.effect.ignores_deg };
-            // A unit that can turn through north treats 0 and 360 degrees as the same position.
-            let over_north = index == 0 && self.gate.state().may_turn_either_way;
+            // A unit that can turn through north treats 0 and 360 degrees as the same position. One that
+            // cannot may come to rest at one end and read the other.
+            let is_same_place =
+                self.gate.state().may_turn_either_way || (!is_driven && self.has_one_turn());
+            let over_north = index == 0 && is_same_place;
             let way_deg = if over_north {
                 Angle::from_degrees(to_deg - angle_deg).wrapped_180().degrees()
             } else {
@@ -192,6 +195,12 @@ impl Session {
             *expected = (is_far && !may_rest).then_some(Expected::Approach(rate_deg_s));
         }
         expected
+    }
+
+    /// Returns `true` if the azimuth axis reaches no direction twice but that of its ends.
+    fn has_one_turn(&self) -> bool {
+        let [(from_deg, to_deg), _] = self.gate.bounds().mount().travel_deg();
+        to_deg - from_deg <= 360.0
     }
 
     /// Returns `true` for each axis that stands at an end of the unit's own travel and is jogged
