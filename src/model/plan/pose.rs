@@ -128,6 +128,7 @@ impl Model {
         let parks = policy == BetweenPasses::Park
             && before.is_some()
             && antenna.can_park()
+            && reach.can_park(since)
             && left_s > parks_within_s(&antenna.config);
         let park = stands_deg.filter(|_| parks).map(|stands_deg| {
             let to_deg = reach.park_deg();

@@ -17,8 +17,9 @@ use crate::{
     driver::{Dial, Outside, Stream, UnitLock},
     makes::{self, Surroundings},
     orbit::{Catalog, Elements},
+    plan::schedule::Reach,
     sim::{InMemory, Mechanics},
-    station::{Antenna, AntennaId, Station},
+    station::{Antenna, AntennaId, Direction, Station},
 };
 
 /// Size of a link's buffer, bytes.
@@ -50,12 +51,24 @@ impl Units {
             numbers.iter().filter_map(|number| catalog.get(*number).cloned()).collect();
         let (mut units, mut left_out) = (Vec::new(), Vec::new());
         let site = station.site;
+        // An antenna that cannot stand at its park position begins elsewhere.
+        let begins_at = |antenna: &Antenna| {
+            let (reach, now) = (Reach::of(station, antenna, None), clock.utc());
+            let open = reach.open_sky(now).filter(|_| !reach.can_park(now))?;
+            let (azimuth_deg, elevation_deg) = (open.azimuth_deg(), open.elevation_deg());
+            Some(Direction { azimuth_deg, elevation_deg })
+        };
+        let begins_at: Vec<Option<Direction>> = station.antennas.iter().map(begins_at).collect();
+        let mut begins_at = begins_at.into_iter();
         station.antennas.retain_mut(|antenna| {
+            let park = antenna.park;
+            antenna.park = begins_at.next().flatten().unwrap_or(park);
             // Each has other numbers than its neighbour.
             let seed = seed.rotate_left(16) ^ u64::from(antenna.id.0);
             let clock = clock.clone();
             let around = Surroundings { site, clock, elements: &elements, mechanics, seed };
             let unit = makes::unit_in_memory(antenna, &around);
+            antenna.park = park;
             let (id, name) = (antenna.id, antenna.name.clone());
             let has_unit = unit.is_some();
             match unit {

@@ -33,6 +33,8 @@ const TURN_DEG: f64 = 360.0;
 const SLOW: f64 = 0.4;
 /// An axis of an X/Y mount at the zenith, degrees as the mount counts.
 const ZENITH_DEG: f64 = 90.0;
+/// Distance of the open sky from the ends of the travel, degrees.
+const OFF_ENDS_DEG: f64 = 5.0;
 /// Meanwhile the Sun moves less than [`FINEST_DEG`].
 const SUN_STAYS_MS: i64 = 10_000;
 /// Places that are looked at on the way from the park position to the zenith.
@@ -52,6 +54,7 @@ pub struct Reach {
     /// that follows a pass by itself.
     model: Option<PointingModel>,
     half_beam: Angle,
+    park: AzEl,
     park_deg: [f64; 2],
     /// Its unit follows a pass by itself, and refuses one that leads through a keep-out.
     on_board: bool,
@@ -77,22 +80,41 @@ impl Reach {
             arrives_within_deg: can.arrives_within_deg,
             has_elevation: can.has_elevation(),
         };
-        let park = Sample { time: Timestamp::UNIX_EPOCH, direction: antenna.park_direction() };
+        let park = antenna.park_direction();
+        let sample = Sample { time: Timestamp::UNIX_EPOCH, direction: park };
         let choice = Choice::Keep(Flip::None);
         let bounds = Bounds::of(station, antenna);
         let start = Start::default();
-        let parked = drives.along_within(&bounds, &[park], 1.0, start, choice).axes_deg;
+        let parked = drives.along_within(&bounds, &[sample], 1.0, start, choice).axes_deg;
         Self {
             drives,
             bounds,
             model: Some(antenna.track_model()).filter(|it| !it.is_none() && !can.has_program),
             half_beam: antenna.beam_width() * 0.5,
+            park,
             park_deg: parked.map(|axis| axis.first().copied().unwrap_or_default()),
             on_board: can.has_program,
         }
     }
 
-    /// Where the axes stand at the park position, degrees as the mount counts.
+    /// Returns `true` if the antenna can stand at its park position at `at`.
+    pub fn can_park(&self, at: Timestamp) -> bool {
+        let reached = self.bounds.direction(self.park_deg);
+        let off = if self.drives.has_elevation {
+            self.park.separation(reached)
+        } else {
+            (self.park.azimuth - reached.azimuth).wrapped_180().abs()
+        };
+        off.degrees() < SAME_DEG && self.bounds.at(at).forbids(reached).is_none()
+    }
+
+    /// A direction outside of all barriers at `at`; `None` where none is found.
+    pub fn open_sky(&self, at: Timestamp) -> Option<AzEl> {
+        self.open_sky_deg(at).map(|axes_deg| self.bounds.direction(axes_deg))
+    }
+
+    /// Where the axes stand at the park position, or as near to it as they travel, degrees as the
+    /// mount counts.
     pub fn park_deg(&self) -> [f64; 2] {
         self.park_deg
     }
@@ -305,10 +327,18 @@ impl Reach {
     }
 
     /// The first place outside of all barriers on the way from the park position, which may itself
-    /// be inside one, up to the zenith; `None` where there is none.
+    /// be inside one, up to the zenith; `None` where there is none. It is off the ends of the travel,
+    /// where some units report no angle.
     fn open_sky_deg(&self, at: Timestamp) -> Option<[f64; 2]> {
-        let [first_deg, second_deg] = self.park_deg;
+        let travel_deg = self.drives.axis_limits().travel_deg;
+        let ends = self.park_deg.into_iter().zip(travel_deg);
+        let mut off_ends = ends.map(|(at_deg, (least_deg, most_deg))| {
+            let off_deg = OFF_ENDS_DEG.min((most_deg - least_deg) / 2.0);
+            at_deg.max(least_deg + off_deg).min(most_deg - off_deg)
+        });
+        let (first_deg, second_deg) = (off_ends.next()?, off_ends.next()?);
         let zenith_deg = match self.drives.mount {
+            Mount::AzEl { .. } if !self.drives.has_elevation => [first_deg, second_deg],
             Mount::AzEl { .. } => [first_deg, ZENITH_DEG],
             Mount::Xy { .. } => [ZENITH_DEG; 2],
         };

@@ -7,6 +7,7 @@ use crate::{
     plan::schedule::testing::{
         Random, add_barriers, any_three_antennas, low_satellites, noon, planned, three_antennas,
     },
+    station::{Direction, Entered, KeepOut},
 };
 
 const SEED: u64 = 7;
@@ -256,4 +257,50 @@ fn assert_outside(reach: &Reach, way: &Way, what: &str) {
         assert!(inside_deg < 0.3, "{what}: {inside_deg} at {at}");
     }
     assert!(reach.is_within_reach(way), "{what}");
+}
+
+/// An antenna never has to go to its park position, so a keep-out over it costs no pass.
+#[test]
+fn a_park_position_out_of_reach_costs_no_pass() {
+    let mut random = Random::new(SEED + 5);
+    for entered in [Entered::Hard, Entered::GoRound] {
+        let mut station = three_antennas();
+        let corners = [(175.0, 0.0), (185.0, 0.0), (185.0, 9.0), (175.0, 9.0)];
+        station.keep_outs.push(KeepOut {
+            name: "Shed".to_owned(),
+            reason: String::new(),
+            entered,
+            antenna: None,
+            margin_deg: 1.0,
+            zone: KeepOut::zone_of(&corners).unwrap(),
+        });
+        let seed = random.next();
+        let judged = |station: &mut Station, elevation_deg: f64| {
+            for antenna in &mut station.antennas {
+                antenna.park = Direction { azimuth_deg: 180.0, elevation_deg };
+            }
+            let mut verdicts = Vec::new();
+            each_pass(station, &mut Random::new(seed), 6, |place, reach, sight| {
+                verdicts.push((place, matches!(reach.judge(sight), Verdict::Possible(_))));
+            });
+            verdicts
+        };
+        let free = judged(&mut station, 80.0);
+        assert!(free.iter().filter(|(_, is_possible)| *is_possible).count() > 30, "{free:?}");
+        assert_eq!(judged(&mut station, 3.0), free, "{entered:?}");
+        for antenna in &station.antennas {
+            let reach = Reach::of(&station, antenna, None);
+            let open = reach.open_sky(noon()).unwrap();
+            assert!(reach.bounds.at(noon()).forbids(open).is_none(), "{open:?}");
+        }
+    }
+    // 0 degrees is outside the travel of the third antenna.
+    let mut station = three_antennas();
+    let can_park = |station: &Station| {
+        let reach = station.antennas.iter().map(|antenna| Reach::of(station, antenna, None));
+        reach.map(|reach| reach.can_park(noon())).collect::<Vec<_>>()
+    };
+    assert_eq!(can_park(&station), [true; 3]);
+    station.antennas[2].park = Direction { azimuth_deg: 0.0, elevation_deg: 45.0 };
+    assert_eq!(can_park(&station), [true, true, false]);
 }

@@ -20,10 +20,10 @@ const CELL: usize = 0;
 
 #[derive(Clone)]
 struct Prices {
-    of_pass: Vec<i64>,
-    of_limit: Vec<i64>,
+    passes: Vec<i64>,
+    limits: Vec<i64>,
     /// Of as much as the most valuable take of each class before, where that is missing.
-    of_class: Vec<i64>,
+    classes: Vec<i64>,
 }
 
 /// The class to be bounded, and what it stands behind.
@@ -56,9 +56,9 @@ pub(super) fn bound(problem: &Problem<'_>, lines: &[Line], row: &Row, class: usi
     };
     let bounded = Bounded { problem, lines, class, row, most: (0..class).map(most).collect() };
     let mut prices = Prices {
-        of_pass: vec![0; problem.passes],
-        of_limit: vec![0; problem.limits.len()],
-        of_class: vec![0; class],
+        passes: vec![0; problem.passes],
+        limits: vec![0; problem.limits.len()],
+        classes: vec![0; class],
     };
     let reached = row.number(class);
     let mut now = bounded.round(&prices);
@@ -86,9 +86,9 @@ impl Bounded<'_> {
     /// What a take is worth once it has paid, in thousandths. It is rounded up, so that the bound
     /// stays one.
     fn paid(&self, prices: &Prices, take: &Take) -> i64 {
-        let of_pass = prices.of_pass.get(take.pass as usize).copied().unwrap_or_default();
-        let of_limit = take.limit.and_then(|limit| prices.of_limit.get(limit as usize));
-        let before = prices.of_class.iter().zip(&self.most).enumerate();
+        let of_pass = prices.passes.get(take.pass as usize).copied().unwrap_or_default();
+        let of_limit = take.limit.and_then(|limit| prices.limits.get(limit as usize));
+        let before = prices.classes.iter().zip(&self.most).enumerate();
         let before = before
             .map(|(class, (price, most))| -(-price * take.row.number(class)).div_euclid(*most));
         take.row.number(self.class) * ONE + before.sum::<i64>()
@@ -117,13 +117,13 @@ impl Bounded<'_> {
                 *missing -= take.row.number(class);
             }
         }
-        let of_limits = prices.of_limit.iter().zip(problem.limits);
+        let of_limits = prices.limits.iter().zip(problem.limits);
         let of_limits: i64 = of_limits.map(|(price, most)| price * i64::from(*most)).sum();
-        let of_classes = prices.of_class.iter().zip(most).enumerate();
+        let of_classes = prices.classes.iter().zip(most).enumerate();
         let of_classes =
             of_classes.map(|(class, (price, most))| (price * row.number(class)).div_euclid(*most));
         let bound = found.iter().map(|sequence| sequence.row.number(CELL)).sum::<i64>()
-            + prices.of_pass.iter().sum::<i64>()
+            + prices.passes.iter().sum::<i64>()
             + of_limits
             - of_classes.sum::<i64>();
         let missing = missing.into_iter().zip(most).map(|(missing, most)| missing * ONE / most);
@@ -136,7 +136,7 @@ impl Prices {
     /// Moves the prices by a step whose size follows from `gap`. Returns `false` if nothing is left
     /// to move.
     fn step(&mut self, round: &Round, gap: f64) -> bool {
-        let prices = || self.of_pass.iter().chain(&self.of_limit).chain(&self.of_class);
+        let prices = || self.passes.iter().chain(&self.limits).chain(&self.classes);
         let moving = round.over.iter().zip(prices());
         let moving = moving.filter(|(over, price)| **over > 0 || **price > 0);
         let length: f64 = moving.map(|(over, _)| (*over as f64 / ONE as f64).powi(2)).sum();
@@ -144,7 +144,7 @@ impl Prices {
             return false;
         }
         let step = gap / length;
-        let prices = self.of_pass.iter_mut().chain(&mut self.of_limit).chain(&mut self.of_class);
+        let prices = self.passes.iter_mut().chain(&mut self.limits).chain(&mut self.classes);
         for (over, price) in round.over.iter().zip(prices) {
             let moved = (step * *over as f64 / ONE as f64).round() as i64;
             *price = price.saturating_add(moved).max(0);
