@@ -138,9 +138,10 @@ impl Candidate {
             Some(Then::Take) => true,
             Some(Then::Leave | Then::Park) => false,
             None => {
-                let of_satellite = limits.antennas.as_ref();
-                let may_it = of_satellite.is_none_or(|some| some.contains(&antenna.id));
-                always || may_it && broken.is_none()
+                // Also where the pass is always taken: an antenna may be unable to receive it.
+                let antennas = limits.antennas.as_ref();
+                let is_chosen = antennas.is_none_or(|some| some.contains(&antenna.id));
+                is_chosen && broken.is_none()
             }
         };
         let judged = |antenna: &PlannedAntenna| {

@@ -253,6 +253,45 @@ fn every_reason_holds_when_the_pass_is_always_taken() {
 }
 
 #[test]
+fn a_pass_that_is_always_taken_keeps_to_the_antennas_of_its_satellite() {
+    let station = three_antennas();
+    let antennas = planned(&station, noon());
+    let mut satellites = low_satellites(&mut Random::new(SEED), 20);
+    for satellite in &mut satellites {
+        satellite.limits.antennas = Some(vec![antennas[0].id]);
+        satellite.limits.min_max_elevation_deg = Some(89.0);
+        satellite.take = Some(Take::Always);
+    }
+    let list = candidates(&station, &antennas, &satellites, noon(), 6.0);
+    let schedule = plan(&request(&antennas, &list));
+    assert!(schedule.entries.len() > 5, "{}", schedule.entries.len());
+    assert!(schedule.entries.iter().all(|entry| entry.antenna == antennas[0].id));
+}
+
+#[test]
+fn a_pass_that_its_only_antenna_cannot_take_is_impossible() {
+    let station = three_antennas();
+    let antennas = planned(&station, noon());
+    let mut satellites = low_satellites(&mut Random::new(SEED), 40);
+    // It reaches the south alone.
+    let narrow = antennas[2].id;
+    for satellite in &mut satellites {
+        satellite.limits.antennas = Some(vec![narrow]);
+    }
+    let list = candidates(&station, &antennas, &satellites, noon(), 6.0);
+    let schedule = plan(&request(&antennas, &list));
+    let mut count = 0;
+    for left in &schedule.left_out {
+        let own = left.by_antenna.iter().find(|(antenna, _)| *antenna == narrow);
+        if let Some((_, why @ Why::Impossible(_))) = own {
+            assert_eq!(left.why, *why);
+            count += 1;
+        }
+    }
+    assert!(count > 5, "{count}");
+}
+
+#[test]
 fn conflicts_name_entries_that_are_really_in_the_way() {
     let checked = Cell::new(0);
     each_day(2, |request| {

@@ -169,7 +169,8 @@ fn distance(why: &Why) -> (u8, i64) {
         Why::TooFar => (4, 0),
         Why::Refused(_) => (5, 0),
         Why::Off(_) => (6, 0),
-        Why::OtherAntennas => (7, 0),
-        Why::Impossible(_) => (8, 0),
+        // An antenna that is excluded may well be able to take it, but that is the operator's will.
+        Why::Impossible(_) => (7, 0),
+        Why::OtherAntennas => (8, 0),
     }
 }

@@ -10,7 +10,7 @@ use crate::{
     orbit::{Catalog, Elements, Pass, PassSearch, Propagator, bundled, passes},
     station::{
         Antenna, AntennaId, BetweenPasses, ChooseBy, Entered, KeepOut, Mount, PassLimits, Priority,
-        Station, SunAvoidance,
+        Station, SunAvoidance, Take,
     },
 };
 
@@ -126,6 +126,8 @@ pub(in crate::plan) struct Satellite {
     pub(in crate::plan) elements: Elements,
     pub(in crate::plan) priority: Priority,
     pub(in crate::plan) limits: PassLimits,
+    /// What the operator has said of all its passes.
+    pub(in crate::plan) take: Option<Take>,
 }
 
 /// So many satellites in low orbits, each with a priority.
@@ -143,6 +145,7 @@ pub(in crate::plan) fn low_satellites(random: &mut Random, count: usize) -> Vec<
                 elements: it.clone(),
                 priority,
                 limits: PassLimits::default(),
+                take: None,
             });
         }
     }
@@ -182,8 +185,8 @@ fn candidate(
 ) -> Candidate {
     let mask = station.horizon_mask.as_ref();
     let mut sight = Sight::new(propagator, station.site, mask, pass);
-    let (priority, limits) = (satellite.priority, &satellite.limits);
-    let wanted = Wanted { priority, take: None, limits, by_rule: &|_| None };
+    let Satellite { priority, limits, take, .. } = satellite;
+    let wanted = Wanted { priority: *priority, take: *take, limits, by_rule: &|_| None };
     let number = satellite.elements.catalog_number();
     let age_s = satellite.elements.age_s(pass.aos.time);
     Candidate::new(number, age_s, (pass, propagator), wanted, &mut sight, common)
