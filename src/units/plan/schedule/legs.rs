@@ -173,7 +173,8 @@ impl Slews for Legs<'_> {
             let [[_, end_deg], [start_deg, _]] = [before.ends_deg, after.ends_deg];
             return Some(antenna.reach.straight_ms(end_deg, start_deg));
         }
-        self.known_ms(from, to, gap_ms.min(longest_ms))
+        let parks = antenna.between == BetweenPasses::Park;
+        self.known_ms(from, to, if parks { gap_ms } else { gap_ms.min(longest_ms) })
     }
 
     fn longest_ms(&self, antenna: usize) -> i64 {

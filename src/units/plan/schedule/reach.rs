@@ -18,7 +18,7 @@ use crate::{
         Barrier, Bounds, Loss, Sample, Sweep,
         az_el::{Choice, Flip, Planned, Start},
         bounds::FINEST_DEG,
-        detour,
+        detour::{self, AxisLimits},
         on_board::ALONG_DEG,
         program_track::Drives,
     },
@@ -37,8 +37,8 @@ const ZENITH_DEG: f64 = 90.0;
 const OFF_ENDS_DEG: f64 = 5.0;
 /// Meanwhile the Sun moves less than [`FINEST_DEG`].
 const SUN_STAYS_MS: i64 = 10_000;
-/// Places that are looked at on the way from the park position to the zenith.
-const TO_ZENITH: u32 = 18;
+/// Places that are looked at on a way to the open sky.
+const STEPS: u32 = 18;
 /// Elevation from which a loss counts as overhead, degrees.
 const OVERHEAD_FROM_DEG: f64 = 60.0;
 /// Angle from the direction in which the first axis turns on the spot (the zenith, or an end of
@@ -49,6 +49,8 @@ const CLEAR_DEG: f64 = 5.0;
 #[derive(Debug, Clone)]
 pub struct Reach {
     drives: Drives,
+    /// All of the travel, which a slew may use where a track keeps away from its ends.
+    slews: AxisLimits,
     bounds: Bounds,
     /// What program track applies; `None` where the axes read what they point to, and for a unit
     /// that follows a pass by itself.
@@ -85,8 +87,10 @@ impl Reach {
         let choice = Choice::Keep(Flip::None);
         let bounds = Bounds::of(station, antenna);
         let start = Start::default();
-        let parked = drives.along_within(&bounds, &[sample], 1.0, start, choice).axes_deg;
+        let whole = Drives { mount: antenna.mount, ..drives };
+        let parked = whole.along_within(&bounds, &[sample], 1.0, start, choice).axes_deg;
         Self {
+            slews: whole.axis_limits(),
             drives,
             bounds,
             model: Some(antenna.track_model()).filter(|it| !it.is_none() && !can.has_program),
@@ -313,45 +317,38 @@ impl Reach {
         let Span { from_ms, to_ms } = way.span();
         let (start_deg, end_deg) = (way.axes_deg(from_ms), way.axes_deg(to_ms));
         let (from, to) = (at_ms(from_ms), at_ms(to_ms));
-        self.open_sky_deg(from).is_none_or(|open_deg| self.is_way(start_deg, open_deg, from))
-            && self.open_sky_deg(to).is_none_or(|open_deg| self.is_way(end_deg, open_deg, to))
+        self.open_sky_deg(from).is_some_and(|open_deg| self.is_way(start_deg, open_deg, from))
+            && self.open_sky_deg(to).is_some_and(|open_deg| self.is_way(end_deg, open_deg, to))
     }
 
     fn is_way(&self, place_deg: [f64; 2], open_deg: [f64; 2], at: Timestamp) -> bool {
         let sweep = Sweep::between(place_deg, open_deg);
         self.bounds.at(at).blocks(sweep, Sweep::at(place_deg)).is_none() || {
             // From the place that may be shut in, where a search ends soon if it is.
-            let limits = self.drives.axis_limits();
-            detour::leads(&self.bounds, &limits, place_deg, open_deg, at)
+            detour::leads(&self.bounds, &self.slews, place_deg, open_deg, at)
         }
     }
 
     /// The first place outside of all barriers on the way from the park position, which may itself
-    /// be inside one, up to the zenith; `None` where there is none. It is off the ends of the travel,
+    /// be inside one, up to the zenith, and round from there; `None` where there is none. It is off the ends of the travel,
     /// where some units report no angle.
     fn open_sky_deg(&self, at: Timestamp) -> Option<[f64; 2]> {
-        let travel_deg = self.drives.axis_limits().travel_deg;
-        let ends = self.park_deg.into_iter().zip(travel_deg);
+        let ends = self.park_deg.into_iter().zip(self.slews.travel_deg);
         let mut off_ends = ends.map(|(at_deg, (least_deg, most_deg))| {
             let off_deg = OFF_ENDS_DEG.min((most_deg - least_deg) / 2.0);
-            at_deg.max(least_deg + off_deg).min(most_deg - off_deg)
+            let (least_deg, most_deg) = (least_deg + off_deg, most_deg - off_deg);
+            (at_deg.max(least_deg).min(most_deg), least_deg, most_deg)
         });
-        let (first_deg, second_deg) = (off_ends.next()?, off_ends.next()?);
+        let (first, second) = (off_ends.next()?, off_ends.next()?);
         let zenith_deg = match self.drives.mount {
-            Mount::AzEl { .. } if !self.drives.has_elevation => [first_deg, second_deg],
-            Mount::AzEl { .. } => [first_deg, ZENITH_DEG],
+            Mount::AzEl { .. } if !self.drives.has_elevation => [first.0, second.0],
+            Mount::AzEl { .. } => [first.0, ZENITH_DEG],
             Mount::Xy { .. } => [ZENITH_DEG; 2],
         };
+        let up = along([first.0, second.0], zenith_deg);
+        let round = along([first.1, zenith_deg[1]], [first.2, zenith_deg[1]]);
         let now = self.bounds.at(at);
-        let room_deg = self.drives.axis_limits().room_deg;
-        let mut places = (0..=TO_ZENITH).map(|step| {
-            let share = f64::from(step) / f64::from(TO_ZENITH);
-            [
-                first_deg + (zenith_deg[0] - first_deg) * share,
-                second_deg + (zenith_deg[1] - second_deg) * share,
-            ]
-        });
-        places.find(|place| now.has_room(*place, room_deg))
+        up.chain(round).find(|place| now.has_room(*place, self.slews.room_deg))
     }
 
     /// Where an antenna whose azimuth axis slews at `slews` loses what is at `at`.
@@ -439,7 +436,11 @@ impl Reach {
     /// The longest leg between any two of these places, without keep-outs, milliseconds.
     pub(super) fn widest_ms(&self, places: impl Iterator<Item = [f64; 2]>) -> i64 {
         let none = (f64::INFINITY, f64::NEG_INFINITY);
-        let ends = places.chain([self.park_deg]).fold([none; 2], |ends, place| {
+        // Round a barrier it may go anywhere.
+        let [(a, b), (c, d)] = self.slews.travel_deg;
+        let corners = self.has_barriers().then_some([[a, c], [b, d]]);
+        let corners = corners.into_iter().flatten();
+        let ends = places.chain([self.park_deg]).chain(corners).fold([none; 2], |ends, place| {
             let [(a, b), (c, d)] = ends;
             let [first, second] = place;
             [(a.min(first), b.max(first)), (c.min(second), d.max(second))]
@@ -454,8 +455,7 @@ impl Reach {
     /// Time from one place of the axes to another along the straight way, milliseconds.
     pub(super) fn straight_ms(&self, from_deg: [f64; 2], to_deg: [f64; 2]) -> i64 {
         let second = |axes: [f64; 2]| if self.drives.has_elevation { axes } else { [axes[0], 0.0] };
-        let limits = self.drives.axis_limits();
-        (limits.seconds(second(from_deg), second(to_deg)) * 1000.0).ceil() as i64
+        (self.slews.seconds(second(from_deg), second(to_deg)) * 1000.0).ceil() as i64
     }
 
     /// Time from one place to another if one axis turns after the other, milliseconds.
@@ -520,13 +520,25 @@ impl Reach {
         if self.bounds.at(at).blocks(sweep, Sweep::at(from_deg)).is_none() {
             return Some(0);
         }
-        let limits = self.drives.axis_limits();
+        let limits = &self.slews;
         let most_s = most_ms as f64 / 1000.0;
-        let route = detour::between_within(&self.bounds, &limits, (from_deg, to_deg), at, most_s)?;
+        let route = detour::between_within(&self.bounds, limits, (from_deg, to_deg), at, most_s)?;
         let legs = route.iter().zip(route.iter().skip(1));
         let seconds: f64 = legs.map(|(from, to)| limits.seconds(*from, *to)).sum();
         Some((seconds * 1000.0).ceil() as i64)
     }
+}
+
+/// Places on a straight way of the axes.
+fn along(from_deg: [f64; 2], to_deg: [f64; 2]) -> impl Iterator<Item = [f64; 2]> {
+    (0..=STEPS).map(move |step| {
+        let share = f64::from(step) / f64::from(STEPS);
+        [0, 1].map(|axis: usize| {
+            let [from, to] = [from_deg, to_deg].map(|axes| axes.get(axis).copied());
+            let (from, to) = (from.unwrap_or_default(), to.unwrap_or_default());
+            from + (to - from) * share
+        })
+    })
 }
 
 #[cfg(test)]

@@ -16,7 +16,7 @@ mod vector;
 
 use super::row::Row;
 use line::Line;
-use vector::Role;
+use vector::Scope;
 
 /// How a take shares its pass with others.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -104,7 +104,12 @@ impl Problem<'_> {
             }
         }
         let mut effort = self.effort;
-        if let Some(takes) = vector::best(self, &|_, _| Role::Free, &mut effort) {
+        let all = Scope {
+            takes: (0..self.takes.len() as u32).map(|take| (take, false)).collect(),
+            left: self.limits.to_vec(),
+            before: vec![None; self.antennas],
+        };
+        if let Some(takes) = vector::best(self, all, &mut effort) {
             let takes = self.refined(takes, &mut self.effort.clone());
             let row = self.row(&takes);
             return Solution { takes, row, bound: row };

@@ -4,7 +4,7 @@
 
 use super::{
     Problem, Row, Take,
-    vector::{self, Role},
+    vector::{self, Scope},
 };
 
 /// Passes in a row that are chosen again at once. If that makes too many states, their halves are.
@@ -22,11 +22,17 @@ impl Problem<'_> {
         });
         let of_limits = (0..self.limits.len() as u32).map(|limit| self.around_limit(limit));
         let neighbourhoods: Vec<Vec<u32>> = rows.chain(of_limits).collect();
+        let mut by_pass = vec![Vec::new(); self.passes];
+        for (index, take) in (0..).zip(self.takes) {
+            if let Some(own) = by_pass.get_mut(take.pass as usize) {
+                own.push(index);
+            }
+        }
         let mut schedule = (self.row(&takes), takes);
         loop {
             let before = schedule.0;
             for passes in &neighbourhoods {
-                self.choose_again(passes, &mut schedule, effort);
+                self.choose_again(&by_pass, passes, &mut schedule, effort);
             }
             if schedule.0 == before || *effort == 0 {
                 return schedule.1;
@@ -34,30 +40,62 @@ impl Problem<'_> {
         }
     }
 
-    fn choose_again(&self, passes: &[u32], schedule: &mut (Row, Vec<Vec<u32>>), effort: &mut u64) {
+    fn choose_again(
+        &self,
+        by_pass: &[Vec<u32>],
+        passes: &[u32],
+        schedule: &mut (Row, Vec<Vec<u32>>),
+        effort: &mut u64,
+    ) {
+        let of_passes = passes.iter().filter_map(|pass| by_pass.get(*pass as usize)).flatten();
+        let free: Vec<u32> = of_passes.copied().collect();
+        let spans = || free.iter().filter_map(|take| self.take(*take));
+        let Some(from_ms) = spans().map(|take| take.from_ms).min() else { return };
+        let to_ms = spans().map(|take| take.to_ms).max().unwrap_or(from_ms);
         let mut is_free = vec![false; self.passes];
         for pass in passes {
             if let Some(free) = is_free.get_mut(*pass as usize) {
                 *free = true;
             }
         }
-        let mut is_taken = vec![false; self.takes.len()];
-        for take in schedule.1.iter().flatten() {
-            if let Some(taken) = is_taken.get_mut(*take as usize) {
-                *taken = true;
-            }
-        }
-        let role = |index: u32, take: &Take| {
-            if is_free.get(take.pass as usize) == Some(&true) {
-                Role::Free
-            } else if is_taken.get(index as usize) == Some(&true) {
-                Role::Stays
-            } else {
-                Role::Out
-            }
+        let stays = |take: &&u32| {
+            self.take(**take).is_some_and(|it| is_free.get(it.pass as usize) != Some(&true))
         };
-        match vector::best(self, &role, effort) {
-            Some(takes) => {
+        let kept = schedule.1.iter().map(|own| own.iter().filter(stays).copied().collect());
+        let kept: Vec<Vec<u32>> = kept.collect();
+        // Of the takes that stay, those within the neighbourhood and the first one after it count.
+        let within = kept.iter().map(|own| {
+            let begun = |at_ms: i64| {
+                own.partition_point(|take| self.take(*take).is_some_and(|it| it.from_ms < at_ms))
+            };
+            begun(from_ms)..own.len().min(begun(to_ms) + 1)
+        });
+        let within: Vec<_> = within.collect();
+        let beside = kept.iter().zip(&within);
+        let beside = beside.flat_map(|(own, within)| own.get(within.clone()).unwrap_or_default());
+        let before = kept.iter().zip(&within);
+        let before = before.map(|(own, within)| own.get(within.start.checked_sub(1)?).copied());
+        let used = self.used(kept.iter().flatten());
+        let left = self.limits.iter().zip(used).map(|(most, used)| most.saturating_sub(used));
+        let scope = Scope {
+            takes: free
+                .iter()
+                .map(|take| (*take, false))
+                .chain(beside.map(|take| (*take, true)))
+                .collect(),
+            left: left.collect(),
+            before: before.collect(),
+        };
+        match vector::best(self, scope, effort) {
+            Some(found) => {
+                let all = kept.iter().zip(&within).zip(found);
+                let takes: Vec<Vec<u32>> = all
+                    .map(|((own, within), found)| {
+                        let before = own.get(..within.start).unwrap_or_default();
+                        let after = own.get(within.end..).unwrap_or_default();
+                        [before, &found, after].concat()
+                    })
+                    .collect();
                 let row = self.row(&takes);
                 if row > schedule.0 {
                     *schedule = (row, takes);
@@ -65,8 +103,8 @@ impl Problem<'_> {
             }
             None if *effort > 0 && passes.len() > FEW => {
                 let (first, second) = passes.split_at(passes.len() / 2);
-                self.choose_again(first, schedule, effort);
-                self.choose_again(second, schedule, effort);
+                self.choose_again(by_pass, first, schedule, effort);
+                self.choose_again(by_pass, second, schedule, effort);
             }
             None => {}
         }

@@ -4,7 +4,7 @@
 //! The classes of the row that is found are the best; equal ones are told apart by their slews
 //! only as far as the states that are kept allow.
 
-use super::{Part, Problem, Row, Take};
+use super::{Part, Problem, Row};
 
 /// States beyond which the search is given up.
 const MAX_STATES: usize = 4_000;
@@ -40,57 +40,41 @@ struct Closes {
     limit: bool,
 }
 
-/// How the search treats a take.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Role {
-    /// No schedule has it.
-    Out,
-    /// Every schedule has it.
-    Stays,
-    Free,
+/// What a search chooses among.
+pub(super) struct Scope {
+    /// Takes that are free, or that stay: every schedule has those.
+    pub(super) takes: Vec<(u32, bool)>,
+    /// How many free takes may count towards each limit.
+    pub(super) left: Vec<u32>,
+    /// The take of each antenna before the search begins.
+    pub(super) before: Vec<Option<u32>>,
 }
 
 /// The best takes by antenna; `None` if there are too many states, or if what the search costs is
 /// more than is left of `effort`, from which it is taken.
-pub(super) fn best(
-    problem: &Problem<'_>,
-    role: &dyn Fn(u32, &Take) -> Role,
-    effort: &mut u64,
-) -> Option<Vec<Vec<u32>>> {
-    let mut order = Vec::new();
-    let mut left = problem.limits.to_vec();
-    for (index, take) in (0..).zip(problem.takes) {
-        let role = role(index, take);
-        if role == Role::Out {
-            continue;
-        }
-        let stays = role == Role::Stays;
-        order.push((index, stays));
-        let limit = take.limit.filter(|_| stays).and_then(|limit| left.get_mut(limit as usize));
-        if let Some(left) = limit {
-            *left = left.saturating_sub(1);
-        }
-    }
+pub(super) fn best(problem: &Problem<'_>, scope: Scope, effort: &mut u64) -> Option<Vec<Vec<u32>>> {
+    let Scope { takes: mut order, left, before } = scope;
     let key = |take: u32| problem.take(take).map(|it| (it.from_ms, it.to_ms, it.antenna));
     order.sort_by_key(|(take, _)| (key(*take), *take));
     let closes = closes(problem, &order);
 
+    let last = before.into_iter().map(|take| take.unwrap_or(NONE)).collect();
+    let start = State { row: Row::ZERO, last, open: Vec::new(), used: Vec::new(), step: NONE };
     let mut search = Search { problem, left, trail: Vec::new(), effort: 0 };
-    let found = search.through(&order, &closes, *effort);
+    let found = search.through(start, &order, &closes, *effort);
     *effort = effort.saturating_sub(search.effort);
     Some(search.traced(found?))
 }
 
 impl Search<'_> {
     /// The last step of the best trail.
-    fn through(&mut self, order: &[(u32, bool)], closes: &[Closes], effort: u64) -> Option<u32> {
-        let start = State {
-            row: Row::ZERO,
-            last: vec![NONE; self.problem.antennas],
-            open: Vec::new(),
-            used: Vec::new(),
-            step: NONE,
-        };
+    fn through(
+        &mut self,
+        start: State,
+        order: &[(u32, bool)],
+        closes: &[Closes],
+        effort: u64,
+    ) -> Option<u32> {
         let mut states = vec![start];
         let mut after_pruning = 1;
         for ((take, stays), closes) in order.iter().zip(closes) {
@@ -163,12 +147,13 @@ struct Search<'a> {
 
 impl Search<'_> {
     /// `state` with one more take; `None` where it does not fit. One that stays counts towards no
-    /// limit.
+    /// limit, and its pass is taken as it is.
     fn with(&mut self, state: &State, take: u32, stays: bool) -> Option<State> {
         let it = self.problem.take(take)?;
         let antenna = it.antenna as usize;
         let open = state.open.iter().position(|open| open.pass == it.pass);
         match (it.part, open.and_then(|open| state.open.get(open))) {
+            _ if stays => {}
             (Part::Alone | Part::First, None) => {}
             (Part::Second, Some(open)) => {
                 let first = self.problem.take(open.first?)?;
@@ -196,7 +181,7 @@ impl Search<'_> {
         *new.last.get_mut(antenna)? = take;
         if let Some(open) = open {
             new.open.get_mut(open)?.first = None;
-        } else {
+        } else if !stays {
             let first = (it.part == Part::First).then_some(take);
             new.open.push(Open { pass: it.pass, first });
             new.open.sort_by_key(|open| open.pass);
