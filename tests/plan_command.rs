@@ -1,6 +1,7 @@
 //! `azel plan` as called from a shell and read by another program.
 
 use std::{
+    collections::BTreeSet,
     fs,
     path::Path,
     process::{Command, Output},
@@ -25,14 +26,20 @@ fn plan(folder: &Path, arguments: &[&str]) -> Output {
 
 /// A folder with the demo station and elements of its favourites.
 pub(super) fn folder() -> tempfile::TempDir {
+    folder_with(|_| ())
+}
+
+/// Like [`folder`], with a change to the station but not to the elements.
+pub(super) fn folder_with(change: impl FnOnce(&mut Station)) -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     let address = |port: u16| format!("127.0.0.1:{port}");
     let addresses =
         DemoAddresses { satrak: address(4001), genius: address(9006), rc2000c: address(4002) };
-    let station = Station::demo(&addresses);
+    let mut station = Station::demo(&addresses);
+    let numbers = station.favourites.numbers();
+    change(&mut station);
     save(&station, &folder.path().join("station.toml"), azel::makes::SPECS).unwrap();
     let catalog = bundled().unwrap();
-    let numbers = station.favourites.numbers();
     let sets = numbers.iter().filter_map(|number| catalog.get(*number));
     let lines = sets.flat_map(|elements| {
         let [first, second] = tle_lines(elements).unwrap();
@@ -104,4 +111,46 @@ fn a_station_file_that_is_not_there_ends_with_a_sentence() {
         .unwrap();
     assert_eq!(output.status.code(), Some(1));
     assert!(text(&output.stderr).contains("/nowhere/station.toml"));
+}
+
+/// The element set of `line`, the first of two, with an epoch this much later.
+fn later_epoch(line: &str, seconds: f64) -> String {
+    let day: f64 = line[20..32].parse().unwrap();
+    let line = format!("{}{:012.8}{}", &line[..20], day + seconds / 86_400.0, &line[32..68]);
+    let digit = |sign: char| sign.to_digit(10).unwrap_or(u32::from(sign == '-'));
+    let sum = line.chars().map(digit).sum::<u32>() % 10;
+    format!("{line}{sum}")
+}
+
+#[test]
+fn events_of_a_plan_keep_their_identities_when_the_elements_are_renewed() {
+    // With several antennas another one may take a pass.
+    let folder = folder_with(|station| station.antennas.truncate(1));
+    let calendar = || {
+        let output = plan(folder.path(), &["--format", "ics"]);
+        assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+        text(&output.stdout).replace("\r\n ", "")
+    };
+    let without_stamps = |calendar: &str| -> Vec<String> {
+        calendar.lines().filter(|line| !line.starts_with("DTSTAMP")).map(str::to_owned).collect()
+    };
+    let ids = |calendar: &str| -> BTreeSet<String> {
+        calendar.lines().filter(|line| line.starts_with("UID:")).map(str::to_owned).collect()
+    };
+    let first = calendar();
+    assert_eq!(without_stamps(&first), without_stamps(&calendar()));
+    // Each event has an alarm.
+    assert_eq!(ids(&first).len(), 2 * first.matches("BEGIN:VEVENT").count());
+
+    let file = folder.path().join("active.tle");
+    let renew = |line: &str| match line.strip_prefix("1 ") {
+        Some(_) => later_epoch(line, 0.4),
+        None => line.to_owned(),
+    };
+    let elements: Vec<String> = fs::read_to_string(&file).unwrap().lines().map(renew).collect();
+    fs::write(&file, elements.join("\n")).unwrap();
+    let renewed = calendar();
+    assert_ne!(without_stamps(&first), without_stamps(&renewed));
+    let (first, renewed) = (ids(&first), ids(&renewed));
+    assert_eq!(first.symmetric_difference(&renewed).collect::<Vec<_>>(), [&""; 0]);
 }

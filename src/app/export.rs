@@ -4,7 +4,7 @@
 mod tests;
 
 use std::{
-    collections::{BTreeMap, btree_map::Entry},
+    collections::{BTreeMap, BTreeSet, btree_map::Entry},
     io::{self, Write as _},
     path::PathBuf,
     sync::Arc,
@@ -245,16 +245,19 @@ impl Order {
     ) -> Result<(), String> {
         let found: Vec<&PredictedPass> =
             keys.iter().filter_map(|key| self.lists.find(*key)).collect();
-        let mut satellites = BTreeMap::new();
-        for predicted in &found {
-            if let Entry::Vacant(place) = satellites.entry(predicted.number()) {
-                place.insert(satellite(predicted)?);
-            }
-        }
-        let rows = found.iter().filter_map(|predicted| {
-            let satellite = satellites.get(&predicted.number())?;
-            Some(ExportedPass { satellite, pass: predicted.pass })
-        });
+        let satellites = satellites(&found)?;
+        let list = PassList {
+            query: &self.query(),
+            place: Some(&self.station.name),
+            carrier_hz: None,
+            alarm_before_s: None,
+            now: self.now,
+        };
+        in_words(list.write(out, format, exported(&found, &satellites)))
+    }
+
+    /// The search that found the listed passes.
+    fn query(&self) -> PassQuery {
         let station = &self.station;
         let hours = jiff::SignedDuration::from_hours(i64::from(self.span_h));
         let to = self.now.saturating_add(hours).unwrap_or(Timestamp::MAX);
@@ -263,15 +266,8 @@ impl Order {
             floor: station.elevation_floor(),
             ..PassSearch::new(station.site, self.now, to)
         };
-        let list = PassList {
-            // The mask moves no AOS in a list.
-            query: &PassQuery { search, mask: None },
-            place: Some(&station.name),
-            carrier_hz: None,
-            alarm_before_s: None,
-            now: self.now,
-        };
-        in_words(list.write(out, format, rows))
+        // The mask moves no AOS in a list.
+        PassQuery { search, mask: None }
     }
 
     fn write_looks(
@@ -314,13 +310,21 @@ impl Order {
         let schedule = &self.schedule.schedule;
         let taken = schedule.entries.iter().map(|entry| entry.pass.satellite);
         let left_out = schedule.left_out.iter().map(|left| left.pass.satellite);
-        let satellites = taken.chain(left_out).map(|number| (number, name(number))).collect();
+        let names = taken.clone().chain(left_out).map(|number| (number, name(number))).collect();
+        let taken: BTreeSet<u32> = taken.collect();
+        let favourites = self.lists.favourites.passes.iter();
+        let planned: Vec<&PredictedPass> =
+            favourites.filter(|pass| taken.contains(&pass.number())).collect();
+        let satellites = satellites(&planned)?;
+        let passes: Vec<ExportedPass<'_>> = exported(&planned, &satellites).collect();
         let antennas = self.station.antennas.iter().map(|it| (it.id, it.name.clone())).collect();
         let list = ScheduleList {
             schedule,
-            satellites: &satellites,
+            satellites: &names,
             antennas: &antennas,
             reason: &|left: &LeftOut| words::schedule::why(&|(number, _)| name(number), &left.why),
+            passes: &passes,
+            query: &self.query(),
             now: self.now,
         };
         in_words(list.write(out, format))
@@ -339,6 +343,27 @@ impl Order {
         let sheet = HandOverSheet::new(&self.station, schedule, &satellites, span, self.now);
         in_words(out.write_all(sheet.svg().as_bytes()))
     }
+}
+
+/// The satellites of `passes` by catalog number.
+fn satellites(passes: &[&PredictedPass]) -> Result<BTreeMap<u32, Satellite>, String> {
+    let mut satellites = BTreeMap::new();
+    for predicted in passes {
+        if let Entry::Vacant(place) = satellites.entry(predicted.number()) {
+            place.insert(satellite(predicted)?);
+        }
+    }
+    Ok(satellites)
+}
+
+fn exported<'a>(
+    passes: &[&PredictedPass],
+    satellites: &'a BTreeMap<u32, Satellite>,
+) -> impl Iterator<Item = ExportedPass<'a>> {
+    passes.iter().filter_map(|predicted| {
+        let satellite = satellites.get(&predicted.number())?;
+        Some(ExportedPass { satellite, pass: predicted.pass })
+    })
 }
 
 fn write_days(passes: &[OpenedPass], format: DaysFormat, out: &mut Vec<u8>) -> Result<(), String> {

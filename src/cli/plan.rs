@@ -21,7 +21,7 @@ use crate::{
     makes,
     orbit::{Pass, PassSearch, passes_of_all},
     plan::{
-        pass_export::Satellite,
+        pass_export::{ExportedPass, PassQuery, Satellite},
         schedule::{
             Candidate, Common, LeftOut, Partial, PlannedAntenna, Request, Schedule, Steadiness,
             plan,
@@ -132,7 +132,9 @@ pub(super) fn run(station: Option<&Path>, options: &Options) -> anyhow::Result<E
         .iter()
         .map(|antenna| PlannedAntenna::of(&station, antenna, options.from))
         .collect();
-    let candidates = candidates(&station, &antennas, &satellites, (from, to));
+    let query = PassQuery { search: search(&station, from, to), mask: None };
+    let found = planned_passes(&satellites, &query.search);
+    let candidates = candidates(&station, &antennas, &found);
     let schedule = plan(&Request {
         antennas: &antennas,
         candidates: &candidates,
@@ -146,11 +148,12 @@ pub(super) fn run(station: Option<&Path>, options: &Options) -> anyhow::Result<E
         input::note(&unproved);
     }
     let now = Timestamp::now();
+    let list = |format| write_list(&station, &schedule, &satellites, (&found, &query), now, format);
     let written = match options.format {
-        Format::Table => write_list(&station, &schedule, &satellites, now, ScheduleFormat::Table),
-        Format::Csv => write_list(&station, &schedule, &satellites, now, ScheduleFormat::Csv),
-        Format::Json => write_list(&station, &schedule, &satellites, now, ScheduleFormat::Json),
-        Format::Ics => write_list(&station, &schedule, &satellites, now, ScheduleFormat::Ics),
+        Format::Table => list(ScheduleFormat::Table),
+        Format::Csv => list(ScheduleFormat::Csv),
+        Format::Json => list(ScheduleFormat::Json),
+        Format::Ics => list(ScheduleFormat::Ics),
         Format::Svg => write_sheet(&station, &schedule, &satellites, (from, to), now),
     };
     written.context("The schedule cannot be written")?;
@@ -161,6 +164,7 @@ fn write_list(
     station: &Station,
     schedule: &Schedule,
     satellites: &[Satellite],
+    (passes, query): (&[ExportedPass<'_>], &PassQuery),
     now: Timestamp,
     format: ScheduleFormat,
 ) -> io::Result<()> {
@@ -174,6 +178,8 @@ fn write_list(
         satellites: &names,
         antennas: &station.antennas.iter().map(|it| (it.id, it.name.clone())).collect(),
         reason: &|left: &LeftOut| words::schedule::why(&|(number, _)| name(number), &left.why),
+        passes,
+        query,
         now,
     };
     written(|out| list.write(out, format))
@@ -194,27 +200,38 @@ fn write_sheet(
     written(|out| out.write_all(sheet.svg().as_bytes()))
 }
 
+fn search(station: &Station, from: Timestamp, to: Timestamp) -> PassSearch {
+    PassSearch {
+        aos_elevation: station.aos_elevation(),
+        floor: station.elevation_floor(),
+        ..PassSearch::new(station.site, from, to)
+    }
+}
+
+/// The passes that can be planned, ordered by AOS.
+fn planned_passes<'a>(satellites: &'a [Satellite], search: &PassSearch) -> Vec<ExportedPass<'a>> {
+    // A satellite that neither rises nor sets would keep an antenna from everything else.
+    let rises_or_sets = |pass: &Pass| !(pass.starts_before && pass.ends_after);
+    let found = passes_of_all(satellites, search, &|_| (), &|| false);
+    let exported = found.filter(|(_, pass)| rises_or_sets(pass)).filter_map(|(index, pass)| {
+        let satellite = satellites.get(index)?;
+        Some(ExportedPass { satellite, pass })
+    });
+    let mut passes: Vec<ExportedPass<'a>> = exported.collect();
+    passes.sort_by_key(|row| (row.pass.aos.time, row.satellite.elements.catalog_number()));
+    passes
+}
+
 fn candidates(
     station: &Station,
     antennas: &[PlannedAntenna],
-    satellites: &[Satellite],
-    (from, to): (Timestamp, Timestamp),
+    passes: &[ExportedPass<'_>],
 ) -> Vec<Candidate> {
     let floor = station.elevation_floor();
     let max_age_s = station.scheduling.max_element_age_d.map(|days| days * time::DAY_S);
     let common = Common { site: station.site, floor, antennas, max_age_s };
-    let search = PassSearch {
-        aos_elevation: station.aos_elevation(),
-        floor,
-        ..PassSearch::new(station.site, from, to)
-    };
-    // What neither rises nor sets would keep an antenna from everything else.
-    let rises_or_sets = |(_, pass): &(usize, Pass)| !(pass.starts_before && pass.ends_after);
-    let found = passes_of_all(satellites, &search, &|_| (), &|| false);
-    let found: Vec<(usize, Pass)> = found.filter(rises_or_sets).collect();
-    let judged = found.par_iter().filter_map(|(index, pass)| {
-        let Satellite { elements, propagator, .. } = satellites.get(*index)?;
-        Some(Candidate::of(station, elements, propagator, pass, common))
+    let judged = passes.par_iter().map(|ExportedPass { satellite, pass }| {
+        Candidate::of(station, &satellite.elements, &satellite.propagator, pass, common)
     });
     judged.collect()
 }

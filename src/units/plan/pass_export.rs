@@ -19,6 +19,7 @@ use glam::DVec3;
 use jiff::{Timestamp, tz::TimeZone};
 
 pub use self::csv::{io_error, plain, quoted};
+pub use self::event_ids::event_ids;
 pub use self::looks::{LookFormat, LookList};
 use crate::{
     astro::{HorizonMask, Site, frames::SiteFrame, time},

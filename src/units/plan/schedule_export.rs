@@ -10,10 +10,13 @@ use icalendar::{Alarm, Calendar, Component as _, Event, EventLike as _, Trigger}
 use jiff::Timestamp;
 
 use super::{
-    pass_export::{civil, io_error, plain, rfc3339},
+    pass_export::{ExportedPass, PassQuery, civil, event_ids, io_error, plain, rfc3339},
     schedule::{Entry, LeftOut, Schedule},
 };
-use crate::station::AntennaId;
+use crate::{
+    astro::time::{add_seconds, seconds_between},
+    station::AntennaId,
+};
 
 /// How a schedule is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -34,6 +37,9 @@ pub struct ScheduleList<'a> {
     pub antennas: &'a BTreeMap<AntennaId, String>,
     /// Says why a pass is left out.
     pub reason: &'a dyn Fn(&LeftOut) -> String,
+    /// The planned passes, ordered by AOS, and the search that found them: they identify events.
+    pub passes: &'a [ExportedPass<'a>],
+    pub query: &'a PassQuery,
     /// Time stamp of the events.
     pub now: Timestamp,
 }
@@ -187,20 +193,41 @@ impl ScheduleList<'_> {
         calendar.append_property(("VERSION", "2.0"));
         calendar.append_property(("PRODID", "-//Azel//Schedule//EN"));
         calendar.append_property(("CALSCALE", "GREGORIAN"));
+        let pass_ids = event_ids(self.passes, self.query);
         for entry in &self.schedule.entries {
             let (number, antenna) = (entry.pass.satellite, entry.antenna);
+            let id = format!("{}-antenna{}@azel", self.pass_id(entry, &pass_ids), antenna.0);
+            let stamp = civil(self.now, BASIC);
             let mut event = Event::new();
-            event.uid(&format!("{number}-{}-{}@azel", entry.pass.aos.as_second(), antenna.0));
-            event.add_property("DTSTAMP", civil(self.now, BASIC));
+            event.uid(&id);
+            event.add_property("DTSTAMP", &stamp);
             event.add_property("DTSTART", civil(entry.from, BASIC));
             event.add_property("DTEND", civil(entry.to, BASIC));
             let name = self.satellite(number);
             let summary = format!("{name}, {}", self.antenna(antenna));
             event.add_property("SUMMARY", &summary);
-            event.alarm(Alarm::display(&summary, Trigger::before_start(ALARM_BEFORE)));
+            let mut alarm = Alarm::display(&summary, Trigger::before_start(ALARM_BEFORE));
+            // The library would add a random UID and the time of writing.
+            alarm.uid(&format!("alarm-{id}")).add_property("DTSTAMP", stamp);
+            event.alarm(alarm);
             calendar.push(event.done());
         }
         write!(out, "{calendar}")
+    }
+
+    /// Returns the identity of the pass of `entry` in `pass_ids`, which belong to [`Self::passes`].
+    fn pass_id(&self, entry: &Entry, pass_ids: &[String]) -> String {
+        let number = entry.pass.satellite;
+        let half_s = 0.5 * seconds_between(entry.from, entry.to);
+        // AOS may differ: the passes may have been predicted again since the schedule was made.
+        let middle = add_seconds(entry.from, half_s);
+        let is_planned = |row: &ExportedPass<'_>| {
+            row.satellite.elements.catalog_number() == number
+                && (row.pass.aos.time..=row.pass.los.time).contains(&middle)
+        };
+        let found = self.passes.iter().position(is_planned);
+        let id = found.and_then(|place| pass_ids.get(place)).cloned();
+        id.unwrap_or_else(|| format!("{number}-{}", entry.pass.aos.as_second()))
     }
 }
 

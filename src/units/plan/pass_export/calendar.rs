@@ -20,7 +20,7 @@ pub(super) fn write(
     calendar.append_property(("CALSCALE", "GREGORIAN"));
     let location = list.place.map_or_else(|| coordinates(list.site()), str::to_owned);
     for (row, id) in rows.iter().zip(event_ids(rows, list.query)) {
-        calendar.push(event(list, row, &id, &location));
+        calendar.push(event(list, row, &format!("{id}@azel"), &location));
     }
     write!(out, "{calendar}")
 }

@@ -25,8 +25,9 @@ const CELL_OFFSET_DEG: f64 = 0.317;
 /// Nearer to a pole than this, a metre is too large a part of a degree of longitude.
 const POLAR_LATITUDE_DEG: f64 = 89.0;
 
-/// The identity of each of `rows`, which are ordered by AOS. All identities are different.
-pub(super) fn event_ids(rows: &[ExportedPass<'_>], query: &PassQuery) -> Vec<String> {
+/// The identity of each of `rows`, which are ordered by AOS. All identities are different. A calendar
+/// appends its domain.
+pub fn event_ids(rows: &[ExportedPass<'_>], query: &PassQuery) -> Vec<String> {
     let cell = cell(query.search.site);
     // Number of earlier passes by satellite and slot.
     let mut before: BTreeMap<(u32, Option<i64>), usize> = BTreeMap::new();
@@ -40,7 +41,7 @@ pub(super) fn event_ids(rows: &[ExportedPass<'_>], query: &PassQuery) -> Vec<Str
         *before = order + 1;
         let slot = slot.map_or_else(|| "up".to_owned(), |slot| slot.to_string());
         let order = if order > 0 { format!("-{order}") } else { String::new() };
-        format!("{number}-{cell}-{}-{slot}{order}@azel", slots.exponent)
+        format!("{number}-{cell}-{}-{slot}{order}", slots.exponent)
     };
     rows.iter().map(id).collect()
 }
