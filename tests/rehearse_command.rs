@@ -7,9 +7,10 @@ use std::{
     process::{Command, Output},
 };
 
+use azel::station::Favourites;
 use serde_json::Value;
 
-use super::plan_command::{folder, text};
+use super::plan_command::{folder, folder_with, text};
 
 fn rehearse(folder: &Path, arguments: &[&str]) -> Output {
     let file = |name: &str| folder.join(name).display().to_string();
@@ -69,4 +70,21 @@ fn a_fault_is_told_with_what_it_cost_and_a_wrong_one_with_the_list_of_right_ones
     assert!(text(&nobody.stderr).contains("Nobody"), "{}", text(&nobody.stderr));
     let speed = rehearse(folder.path(), &["--speed", "201"]);
     assert_eq!(speed.status.code(), Some(2));
+}
+
+#[test]
+fn objects_that_are_asked_for_need_not_be_favourites() {
+    let folder = folder_with(|station| station.favourites = Favourites::default());
+    let passes = |arguments: &[&str]| {
+        let csv = rehearse(folder.path(), &[&["--format", "csv"], arguments].concat());
+        assert_eq!(csv.status.code(), Some(0), "{}", text(&csv.stderr));
+        text(&csv.stdout).lines().skip(1).map(str::to_owned).collect::<Vec<_>>()
+    };
+    let all = passes(&[]);
+    assert_eq!(all.len(), 3, "{all:#?}");
+    let number = all[0].split(',').nth(1).unwrap();
+    let of_one = passes(&["--catalog-number", number]);
+    assert!(!of_one.is_empty());
+    let is_asked = |row: &String| row.split(',').nth(1) == Some(number);
+    assert!(of_one.iter().all(is_asked), "{of_one:#?}");
 }

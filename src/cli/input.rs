@@ -20,7 +20,7 @@ pub(super) use self::{
     values::{duration_s, elevation, hours, instant, megahertz, minutes, share, step_s},
 };
 use super::Cli;
-use crate::plan::pass_export::Satellite;
+use crate::{plan::pass_export::Satellite, station::Favourites};
 
 /// Exit code when something was written, but part of the request could not be used.
 const NOT_ALL: u8 = 3;
@@ -59,9 +59,14 @@ pub(super) struct InputOptions {
 }
 
 impl InputOptions {
-    /// Whether only some of the objects are asked for, or files of them.
-    pub(super) fn asks_for_objects(&self) -> bool {
-        !(self.catalog_number.is_empty() && self.name.is_empty() && self.elements.is_empty())
+    /// Leaves the satellites that a plan of the station is for: those that the command line asks
+    /// for, by number, name or file, or else the favourites.
+    pub(super) fn keep_planned(&self, list: &mut Vec<Satellite>, favourites: &Favourites) {
+        let asks_for_none =
+            self.catalog_number.is_empty() && self.name.is_empty() && self.elements.is_empty();
+        if asks_for_none {
+            list.retain(|satellite| favourites.contains(satellite.elements.catalog_number()));
+        }
     }
 
     /// Refuses a command line that lacks the site or the elements.

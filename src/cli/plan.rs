@@ -118,12 +118,8 @@ pub(super) fn run(station: Option<&Path>, options: &Options) -> anyhow::Result<E
     let station = station::load(path, makes::SPECS).with_context(unusable)?.station;
     let scheduling = scheduling(&station, options);
     let station = Station { site: place.site, scheduling, ..station };
-    let Satellites { list, is_complete } = options.input.satellites(Some(path))?;
-    let asks = options.input.asks_for_objects();
-    let is_wanted = |satellite: &Satellite| {
-        asks || station.favourites.contains(satellite.elements.catalog_number())
-    };
-    let satellites: Vec<Satellite> = list.into_iter().filter(is_wanted).collect();
+    let Satellites { list: mut satellites, is_complete } = options.input.satellites(Some(path))?;
+    options.input.keep_planned(&mut satellites, &station.favourites);
     let (from, to) = (options.from, time::add_seconds(options.from, options.hours * 3600.0));
     input::caution(&satellites, from, to);
 

@@ -88,7 +88,11 @@ pub(super) fn run(station: Option<&Path>, options: &Options) -> anyhow::Result<E
     let unusable = || format!("The station file {} cannot be used", path.display());
     let place = options.input.place(Some(path))?;
     let station = station::load(path, makes::SPECS).with_context(unusable)?.station;
-    let Satellites { list, is_complete } = options.input.satellites(Some(path))?;
+    let Satellites { mut list, is_complete } = options.input.satellites(Some(path))?;
+    options.input.keep_planned(&mut list, &station.favourites);
+    // Automatic operation takes passes of favourites alone.
+    let numbers: Vec<u32> = list.iter().map(|it| it.elements.catalog_number()).collect();
+    let favourites = station.favourites.with_numbers(&numbers);
     let to = time::add_seconds(options.from, options.hours * 3600.0);
     input::caution(&list, options.from, to);
     let mut elements = Catalog::default();
@@ -98,7 +102,7 @@ pub(super) fn run(station: Option<&Path>, options: &Options) -> anyhow::Result<E
         station.antennas.iter().map(|antenna| (antenna.id, antenna.name.clone())).collect();
     let rehearsed = rehearsal::run(
         &Rehearsal {
-            station: Station { site: place.site, ..station },
+            station: Station { site: place.site, favourites, ..station },
             elements: Arc::new(elements),
             from: options.from,
             hours: options.hours,
