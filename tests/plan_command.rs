@@ -154,3 +154,33 @@ fn events_of_a_plan_keep_their_identities_when_the_elements_are_renewed() {
     let (first, renewed) = (ids(&first), ids(&renewed));
     assert_eq!(first.symmetric_difference(&renewed).collect::<Vec<_>>(), [&""; 0]);
 }
+
+#[test]
+fn a_unit_gets_no_passes_of_a_satellite_whose_name_it_cannot_take() {
+    let folder = folder();
+    let file = folder.path().join("active.tle");
+    let elements = fs::read_to_string(&file).unwrap();
+    assert!(elements.contains("ISS (ZARYA)"), "{elements}");
+    fs::write(&file, elements.replace("ISS (ZARYA)", "ISS (ZARYA*)")).unwrap();
+    let json = plan(folder.path(), &["--catalog-number", "25544", "--format", "json"]);
+    assert_eq!(json.status.code(), Some(0), "{}", text(&json.stderr));
+    let whole: Value = serde_json::from_slice(&json.stdout).unwrap();
+    let satrak = whole["antennas"].as_object().unwrap().iter().find(|(_, name)| *name == "Satrak");
+    let satrak: u64 = satrak.unwrap().0.parse().unwrap();
+    let entries = whole["schedule"]["entries"].as_array().unwrap();
+    // Program track of the other units needs no name.
+    assert!(!entries.is_empty());
+    assert!(entries.iter().all(|entry| entry["antenna"] != satrak), "{entries:#?}");
+
+    let folder = folder_with(|station| station.antennas.truncate(1));
+    fs::copy(&file, folder.path().join("active.tle")).unwrap();
+    let of_iss = |format| plan(folder.path(), &["--catalog-number", "25544", "--format", format]);
+    let csv = text(&of_iss("csv").stdout);
+    let reason = ",Not possible: this unit cannot take the satellite's name";
+    assert!(csv.lines().count() > 1, "{csv}");
+    assert!(csv.lines().skip(1).any(|line| line.ends_with(reason)), "{csv}");
+    assert!(!csv.contains("taken,"), "{csv}");
+    let whole: Value = serde_json::from_slice(&of_iss("json").stdout).unwrap();
+    let left_out = whole["schedule"]["left_out"].as_array().unwrap();
+    assert!(left_out.iter().any(|left| left["why"]["impossible"] == "name"), "{left_out:#?}");
+}

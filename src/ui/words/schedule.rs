@@ -100,6 +100,7 @@ fn refused(refusal: Refusal) -> String {
 
 fn not_possible(impossible: &Impossible) -> String {
     match impossible {
+        Impossible::Name => "Not possible: this unit cannot take the satellite's name".to_owned(),
         Impossible::TooLow => "Stays below the minimum elevation of the antenna".to_owned(),
         Impossible::Hidden => "The horizon mask hides all of it".to_owned(),
         Impossible::Lost(Lost { at: Loss::Keyhole(_), .. }) => {

@@ -112,6 +112,12 @@ impl ControllerSpec {
         }
     }
 
+    /// Returns `true` if a unit can track the satellite of this name. Units without element files
+    /// need no name.
+    pub fn takes_satellite(&self, name: &str) -> bool {
+        self.element_files.is_none_or(|files| (files.check_name)("satellite name", name).is_ok())
+    }
+
     /// Whether it can be reached at `address`; the reason when it cannot.
     pub fn check_address(&self, address: &str) -> Result<(), &'static str> {
         match self.link {

@@ -45,7 +45,7 @@ impl Candidate {
             by_rule: &|antenna| by_rule(station, number, pass.tca.time, antenna),
         };
         let mask = station.horizon_mask.as_ref();
-        let mut sight = Sight::new(propagator, station.site, mask, pass);
+        let mut sight = Sight::new(propagator, station.site, mask, pass).named(elements.name());
         let age_s = elements.age_s(pass.aos.time);
         Self::new(number, age_s, (pass, propagator), wanted, &mut sight, common)
     }

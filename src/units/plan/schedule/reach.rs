@@ -22,7 +22,7 @@ use crate::{
         on_board::ALONG_DEG,
         program_track::Drives,
     },
-    station::{Antenna, Mount, Station},
+    station::{Antenna, ControllerSpec, Mount, Station},
 };
 
 /// Ways that begin less than this apart are one, degrees.
@@ -60,6 +60,7 @@ pub struct Reach {
     park_deg: [f64; 2],
     /// Its unit follows a pass by itself, and refuses one that leads through a keep-out.
     on_board: bool,
+    spec: &'static ControllerSpec,
 }
 
 /// One way along a pass.
@@ -98,6 +99,7 @@ impl Reach {
             park,
             park_deg: parked.map(|axis| axis.first().copied().unwrap_or_default()),
             on_board: can.has_program,
+            spec: antenna.connection.spec(),
         }
     }
 
@@ -187,6 +189,9 @@ impl Reach {
 
     /// How the antenna can take what is in sight.
     pub fn judge(&self, sight: &mut Sight<'_>) -> Verdict {
+        if sight.name().is_some_and(|name| !self.spec.takes_satellite(name)) {
+            return Verdict::Impossible(Impossible::Name);
+        }
         let Some(span) = sight.above(self.min_elevation()) else {
             return Verdict::Impossible(Impossible::TooLow);
         };

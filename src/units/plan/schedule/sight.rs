@@ -57,6 +57,8 @@ pub struct Sight<'a> {
     frame: SiteFrame,
     mask: Option<&'a HorizonMask>,
     pass: &'a Pass,
+    /// `None` if no unit needs it.
+    name: Option<&'a str>,
     /// What was sampled last.
     coarse: Option<Nodes>,
     fine: Option<([Span; 2], Samples)>,
@@ -71,7 +73,27 @@ impl<'a> Sight<'a> {
         pass: &'a Pass,
     ) -> Self {
         let frame = site.into();
-        Self { propagator, site, frame, mask, pass, coarse: None, fine: None, clear: None }
+        Self {
+            propagator,
+            site,
+            frame,
+            mask,
+            pass,
+            name: None,
+            coarse: None,
+            fine: None,
+            clear: None,
+        }
+    }
+
+    /// Gives the name of the satellite, by which some units find its elements.
+    #[must_use]
+    pub fn named(self, name: &'a str) -> Self {
+        Self { name: Some(name), ..self }
+    }
+
+    pub(super) fn name(&self) -> Option<&'a str> {
+        self.name
     }
 
     /// From the first to the last moment at `elevation` or higher; `None` if the pass stays below.

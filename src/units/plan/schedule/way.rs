@@ -57,6 +57,8 @@ pub enum Verdict {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Impossible {
+    /// The unit cannot be told the name of the satellite, by which it finds its elements.
+    Name,
     /// The pass stays below the minimum elevation of the antenna.
     TooLow,
     /// The horizon mask hides all of it.
