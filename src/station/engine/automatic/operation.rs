@@ -1,6 +1,8 @@
 //! What automatic operation of one antenna does next: a state machine without clock, links or
 //! schedule.
 
+use std::mem;
+
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
@@ -104,6 +106,7 @@ pub struct Taking {
     /// When the unit was asked last, and how often since the pass was last proved.
     pub asked_at: Timestamp,
     requests: u8,
+    attempt: Attempt,
     /// When it was proved that the antenna is on its way; for a unit with a program of its own
     /// by reading back.
     pub proved_at: Option<Timestamp>,
@@ -114,8 +117,19 @@ pub struct Taking {
 impl Taking {
     /// Returns `true` if the rest of the pass is skipped.
     fn is_skipped(&self) -> bool {
-        self.given_up.is_some_and(GivenUp::is_final)
+        self.given_up.is_some_and(|reason| reason.is_final() || self.requests >= REQUESTS)
     }
+}
+
+/// Progress of the last request for a pass.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum Attempt {
+    /// Nothing has moved or been loaded for it.
+    NotBegun,
+    Begun,
+    /// After it had begun, the unit was found to miss the pass.
+    Objected,
 }
 
 /// Reason why a unit cannot begin its pass now. Azel judges this when the antenna should set out,
@@ -324,6 +338,13 @@ impl Operation {
             Outcome::OffTarget => taking.given_up = Some(GivenUp::OffTarget),
             // The unit may be able to take the rest, or the next pass.
             Outcome::WouldMiss => {
+                if taking.given_up.is_none() {
+                    // From now on only attempts that have begun count.
+                    taking.requests = 0;
+                }
+                if taking.attempt == Attempt::Begun {
+                    taking.attempt = Attempt::Objected;
+                }
                 (taking.given_up, taking.proved_at) = (Some(GivenUp::WouldMiss), None);
             }
         }
@@ -334,9 +355,8 @@ impl Operation {
     pub(super) fn ended_by_unit(&mut self, now: Timestamp) {
         let Self::On(on) = self else { return };
         match &on.doing {
-            Doing::Takes(Taking { given_up: Some(_), .. })
-            | Doing::Rests
-            | Doing::Announces { .. } => {}
+            Doing::Takes(taking) if taking.is_skipped() => {}
+            Doing::Rests | Doing::Announces { .. } => {}
             Doing::Takes(Taking { proved_at: None, .. }) => self.take_outcome(Outcome::Failed),
             Doing::Takes(_) | Doing::Parks => self.suspend(Interruption::EndedByUnit, now),
         }
@@ -394,6 +414,9 @@ impl On {
                 if seen.moves {
                     self.moved_at = Some(now);
                 }
+                if taking.attempt == Attempt::NotBegun {
+                    taking.attempt = Attempt::Begun;
+                }
                 if seen.is_proved && taking.proved_at.is_none() {
                     taking.proved_at = Some(now);
                     taking.requests = 0;
@@ -437,9 +460,14 @@ impl On {
         self.moves_since.is_some_and(|since| seconds_between(since, now) >= COASTS_S)
     }
 
+    /// Seconds since the last motion.
+    fn rest_s(&self, now: Timestamp) -> f64 {
+        self.moved_at.map_or(f64::INFINITY, |at| seconds_between(at, now))
+    }
+
     fn step(&mut self, duties: &[Duty], seen: Seen, wishes: Wishes, now: Timestamp) -> Option<Act> {
         if let Doing::Takes(taking) = &self.doing {
-            return self.again(*taking, duties, seen, now);
+            return self.again(*taking, duties, seen, wishes, now);
         }
         let left = |duty: &&Duty| seconds_between(now, duty.until) > WORTH_S;
         let next = duties.iter().find(left).copied();
@@ -455,8 +483,7 @@ impl On {
             return None;
         }
         self.keep_announcement(duty, seen, wishes, now);
-        let rest_s = self.moved_at.map_or(f64::INFINITY, |at| seconds_between(at, now));
-        let is_announced = rest_s >= wishes.longest_rest_s;
+        let is_announced = self.rest_s(now) >= wishes.longest_rest_s;
         let lead_s = if is_announced { wishes.announced_for_s } else { 0.0 };
         if seconds_between(now, duty.go_at) > lead_s {
             return self.park(Some(duty), seen, wishes, now);
@@ -503,6 +530,7 @@ impl On {
             until,
             asked_at: now,
             requests,
+            attempt: Attempt::NotBegun,
             proved_at: None,
             given_up: None,
         });
@@ -515,6 +543,7 @@ impl On {
         taking: Taking,
         duties: &[Duty],
         seen: Seen,
+        wishes: Wishes,
         now: Timestamp,
     ) -> Option<Act> {
         let is_asked = seconds_between(taking.asked_at, now) < LATE_S;
@@ -530,7 +559,7 @@ impl On {
         }
         let duty = duties.iter().find(|duty| is_same_pass(duty.pass, taking.pass))?;
         if taking.given_up.is_some() {
-            return self.judge_again(*duty, now);
+            return self.judge_again(*duty, wishes, now);
         }
         if taking.requests >= REQUESTS {
             if let Doing::Takes(taking) = &mut self.doing {
@@ -547,9 +576,26 @@ impl On {
     }
 
     /// Asks again for a pass that the unit would have missed. The session judges what is left of it.
-    fn judge_again(&mut self, duty: Duty, now: Timestamp) -> Option<Act> {
+    fn judge_again(&mut self, duty: Duty, wishes: Wishes, now: Timestamp) -> Option<Act> {
+        let is_announced = self.rest_s(now) >= wishes.longest_rest_s;
         let Doing::Takes(taking) = &mut self.doing else { return None };
         if seconds_between(now, duty.until) <= WORTH_S {
+            return None;
+        }
+        let attempt = mem::replace(&mut taking.attempt, Attempt::NotBegun);
+        if attempt != Attempt::NotBegun {
+            taking.requests += 1;
+        }
+        if taking.requests >= REQUESTS {
+            if attempt == Attempt::Begun {
+                taking.given_up = Some(GivenUp::Refused);
+                self.failures += 1;
+            }
+            return None;
+        }
+        // The unit may have been put right, so that it moves now.
+        if is_announced {
+            (self.doing, self.moved_at) = (Doing::Rests, None);
             return None;
         }
         // The reason stands until the unit is proved to take the pass, so that its alarm stands too.

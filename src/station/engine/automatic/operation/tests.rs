@@ -253,6 +253,55 @@ fn a_unit_that_refuses_what_it_would_have_missed_before_is_asked_no_more() {
 }
 
 #[test]
+fn a_late_motion_into_a_long_pass_that_a_unit_would_have_missed_is_announced() {
+    let long = Duty { until: at(20_000.0), counted_s: 19_800.0, ..duty(1, 200.0) };
+    let mut fixture = Fixture::new(&[long]);
+    fixture.until(141.0, |_| STANDS);
+    fixture.outcome(Outcome::WouldMiss);
+    let judged = fixture.until(3740.0, |_| STANDS);
+    assert_eq!(judged.last(), Some(&(3710.0, Act::Take(long))));
+    assert_eq!(fixture.until(3770.0, |_| STANDS), [], "nobody expects a motion after an hour");
+    let announces = |doing: &Operation| {
+        matches!(doing, Operation::On(On { doing: Doing::Announces { .. }, .. }))
+    };
+    assert!(announces(&fixture.operation));
+    assert_eq!(fixture.until(3775.0, |_| STANDS), [(3771.0, Act::Take(long))], "with a warning");
+}
+
+#[test]
+fn a_unit_that_begins_what_it_would_have_missed_and_ends_it_has_failed() {
+    let mut fixture = Fixture::new(&[duty(1, 200.0)]);
+    fixture.until(141.0, |_| STANDS);
+    fixture.outcome(Outcome::WouldMiss);
+    fixture.until(171.0, |_| STANDS);
+    fixture.until(180.0, |_| Seen { is_proved: false, ..taking(1) });
+    fixture.operation.ended_by_unit(at(180.0));
+    assert_eq!(fixture.until(790.0, |_| STANDS), []);
+    assert_eq!(fixture.operation.not_ready(), None, "another reason counts now");
+    assert!(matches!(&fixture.operation, Operation::On(On { failures: 1, .. })));
+}
+
+#[test]
+fn a_unit_that_would_miss_only_what_it_has_loaded_is_asked_twice() {
+    let duties = [duty(1, 200.0), duty(2, 1000.0)];
+    let mut fixture = Fixture::new(&duties);
+    let loading = |_: f64| Seen { is_proved: false, moves: false, ..taking(1) };
+    let take = Act::Take(duties[0]);
+    fixture.until(141.0, |_| STANDS);
+    fixture.outcome(Outcome::WouldMiss);
+    assert_eq!(fixture.until(171.0, |_| STANDS), [(170.0, take)], "no attempt so far");
+    for asked_s in [200.0, 230.0] {
+        fixture.until(asked_s - 20.0, loading);
+        fixture.outcome(Outcome::WouldMiss);
+        let asked = if asked_s < 230.0 { vec![(asked_s, take)] } else { Vec::new() };
+        assert_eq!(fixture.until(asked_s + 1.0, |_| STANDS), asked);
+    }
+    assert_eq!(fixture.until(930.0, |_| STANDS), []);
+    assert!(matches!(&fixture.operation, Operation::On(On { failures: 0, .. })));
+    assert_eq!(fixture.until(945.0, |_| STANDS), [(940.0, Act::Take(duties[1]))]);
+}
+
+#[test]
 fn it_parks_between_passes_where_the_time_is_enough() {
     let duties = [duty(1, 200.0), duty(2, 1000.0), duty(3, 2000.0)];
     let mut fixture = Fixture::new(&duties);
