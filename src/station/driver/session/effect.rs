@@ -45,6 +45,32 @@ enum Expected {
     Approach(f64),
 }
 
+/// Where an axis treats 0 and 360 degrees as the same position.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Wraps {
+    Never,
+    /// The unit can turn through north.
+    Always,
+    /// The axis cannot turn through north. It may come to rest so near one end that it reads the other.
+    AtRest {
+        within_deg: f64,
+    },
+}
+
+impl Wraps {
+    /// The way that is left to a position, degrees.
+    fn way_deg(self, angle_deg: f64, to_deg: f64) -> f64 {
+        let plain_deg = to_deg - angle_deg;
+        let wrapped_deg = Angle::from_degrees(plain_deg).wrapped_180().degrees();
+        let is_wrapped = match self {
+            Self::Never => false,
+            Self::Always => true,
+            Self::AtRest { within_deg } => wrapped_deg.abs() <= within_deg,
+        };
+        if is_wrapped { wrapped_deg } else { plain_deg }
+    }
+}
+
 impl Effect {
     fn take(&mut self, angle_deg: Option<f64>, at: Instant, figures: Figures) {
         let Some(angle_deg) = angle_deg else { return };
@@ -181,16 +207,16 @@ impl Session {
             // One that stops on its way is reported as such, and the unit decides when to creep.
             let may_rest = !is_driven && (other_turns || (is_slew && effect.has_turned));
             let ignored_deg = if is_driven { 0.0 } else { can.effect.ignores_deg };
-            // A unit that can turn through north treats 0 and 360 degrees as the same position. One that
-            // cannot may come to rest at one end and read the other.
-            let is_same_place =
-                self.gate.state().may_turn_either_way || (!is_driven && self.has_one_turn());
-            let over_north = index == 0 && is_same_place;
-            let way_deg = if over_north {
-                Angle::from_degrees(to_deg - angle_deg).wrapped_180().degrees()
+            let wraps = if index != 0 {
+                Wraps::Never
+            } else if self.gate.state().may_turn_either_way {
+                Wraps::Always
+            } else if can.azimuth_wraps && !is_driven && self.has_one_turn() {
+                Wraps::AtRest { within_deg: can.rests_within_deg() }
             } else {
-                to_deg - angle_deg
+                Wraps::Never
             };
+            let way_deg = wraps.way_deg(angle_deg, to_deg);
             let is_far = way_deg.abs() > finest_deg + ignored_deg;
             *expected = (is_far && !may_rest).then_some(Expected::Approach(rate_deg_s));
         }
@@ -219,5 +245,20 @@ impl Session {
             *is_at_end = left_deg <= near_deg;
         }
         is_at_end
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_axis_at_rest_has_a_whole_turn_left_unless_it_reads_the_other_end() {
+        let at_rest = Wraps::AtRest { within_deg: 3.0 };
+        let ways_deg = [(0.0, 350.0), (360.0, 0.0), (359.0, 1.0), (10.0, 20.0)]
+            .map(|(angle_deg, to_deg)| at_rest.way_deg(angle_deg, to_deg).round());
+        assert_eq!(ways_deg.map(f64::abs), [350.0, 0.0, 2.0, 10.0]);
+        assert_eq!(Wraps::Always.way_deg(0.0, 350.0).round(), -10.0);
+        assert_eq!(Wraps::Never.way_deg(360.0, 0.0).round(), -360.0);
     }
 }
