@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize};
 use super::{
     Engine,
     alarms::{AlarmKind, Work},
+    antenna::AntennaModel,
     automatic::is_same_pass,
     passes::{PassKey, PredictedPass},
 };
@@ -165,7 +166,7 @@ impl Engine {
             let from = target.map(|target| target.from);
             is_by_hand.then_some(Tracked { antenna: shown.id(), satellite, from })
         });
-        let is_placed = |antenna: &&super::Antenna| antenna.shown.snapshot.state.measured.is_some();
+        let is_placed = |antenna: &&super::Antenna| stands_deg(&antenna.shown).is_some();
         let placed = self.antennas.iter().filter(is_placed);
         let placed = placed.map(|antenna| (antenna.shown.id(), antenna.shown.snapshot.rates_deg_s));
         Some(Inputs {
@@ -245,12 +246,8 @@ impl Engine {
             let shown = &antenna.shown;
             let config = &shown.config;
             let off = inputs.off.iter().find(|(id, _)| *id == config.id);
-            let has_elevation = shown.variant().capabilities.has_elevation();
-            let stands_deg = shown.snapshot.state.measured.and_then(|measured| {
-                measured.planned_axes_deg(config.mount.travel_deg(), has_elevation)
-            });
             PlannedAntenna {
-                stands_deg,
+                stands_deg: stands_deg(shown),
                 off: off.map(|(_, off)| *off),
                 reach: Reach::of(&self.station, config, shown.snapshot.rates_deg_s),
                 ..PlannedAntenna::of(&self.station, config, self.now)
@@ -283,6 +280,13 @@ impl Engine {
         };
         entries.filter(|entry| entry.to > self.now).filter(is_taken).cloned().collect()
     }
+}
+
+/// Angles at which an antenna stands, as far as a schedule needs them; `None` before they are known.
+fn stands_deg(shown: &AntennaModel) -> Option<[f64; 2]> {
+    let has_elevation = shown.variant().capabilities.has_elevation();
+    let measured = shown.snapshot.state.measured?;
+    measured.planned_axes_deg(shown.config.mount.travel_deg(), has_elevation)
 }
 
 /// Returns `true` if `schedule` takes an entry from an antenna that has begun to take it since the
