@@ -255,10 +255,16 @@ mod tests {
     #[test]
     fn an_axis_at_rest_has_a_whole_turn_left_unless_it_reads_the_other_end() {
         let at_rest = Wraps::AtRest { within_deg: 3.0 };
-        let ways_deg = [(0.0, 350.0), (360.0, 0.0), (359.0, 1.0), (10.0, 20.0)]
-            .map(|(angle_deg, to_deg)| at_rest.way_deg(angle_deg, to_deg).round());
-        assert_eq!(ways_deg.map(f64::abs), [350.0, 0.0, 2.0, 10.0]);
-        assert_eq!(Wraps::Always.way_deg(0.0, 350.0).round(), -10.0);
-        assert_eq!(Wraps::Never.way_deg(360.0, 0.0).round(), -360.0);
+        for (wraps, angle_deg, to_deg, left_deg) in [
+            (at_rest, 0.0, 350.0, 350.0),
+            (at_rest, 360.0, 0.0, 0.0),
+            (at_rest, 359.0, 1.0, 2.0),
+            (at_rest, 10.0, 20.0, 10.0),
+            (Wraps::Always, 0.0, 350.0, -10.0),
+            (Wraps::Never, 360.0, 0.0, -360.0),
+        ] {
+            let way_deg = wraps.way_deg(angle_deg, to_deg);
+            assert!((way_deg - left_deg).abs() < 1e-9, "{wraps:?}: {angle_deg} to {to_deg}");
+        }
     }
 }
