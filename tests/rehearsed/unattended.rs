@@ -807,20 +807,26 @@ async fn after_an_outage_over_the_end_of_a_pass_the_next_ones_are_taken() {
     }
 }
 
+/// An antenna before a pass, and how far the clock of this computer is ahead, seconds. The time
+/// service calls the clock synchronised.
+async fn scene_by_a_clock_that_can_step(antenna: &str) -> (Scene, Arc<AtomicI64>) {
+    let (begun, at) = (Instant::now(), before_a_pass());
+    let ahead_s: Arc<AtomicI64> = Arc::default();
+    let set = Arc::clone(&ahead_s);
+    let clock = Clock::new(move || {
+        let elapsed_s = (Instant::now() - begun).as_secs_f64();
+        add_seconds(at, elapsed_s + set.load(Ordering::Relaxed) as f64)
+    });
+    let mut scene = Scene::by(clock, &station(antenna, |_| {}));
+    scene.units.time_sync = || TimeSync::Synchronised;
+    (scene.started_again(false).await, ahead_s)
+}
+
 /// The unit tracks by its own clock, which stays right.
 #[tokio::test(start_paused = true)]
 async fn a_unit_tracks_on_while_the_clock_of_this_computer_is_wrong() {
     for by_s in [-40, 40] {
-        let (begun, at) = (Instant::now(), before_a_pass());
-        let ahead_s: Arc<AtomicI64> = Arc::default();
-        let set = Arc::clone(&ahead_s);
-        let clock = Clock::new(move || {
-            let elapsed_s = (Instant::now() - begun).as_secs_f64();
-            add_seconds(at, elapsed_s + set.load(Ordering::Relaxed) as f64)
-        });
-        let mut scene = Scene::by(clock, &station("Dish", |_| {}));
-        scene.units.time_sync = || TimeSync::Synchronised;
-        let scene = scene.started_again(false).await;
+        let (scene, ahead_s) = scene_by_a_clock_that_can_step("Dish").await;
         let client = scene.client();
         let id = measured(&client, "Dish").await;
         until("the schedule", || client.snapshot().schedule.made_at).await;
@@ -843,16 +849,7 @@ async fn a_unit_tracks_on_while_the_clock_of_this_computer_is_wrong() {
 #[tokio::test(start_paused = true)]
 async fn a_track_goes_on_after_a_clock_step_if_a_time_service_keeps_the_clock() {
     for by_s in [-40, 40] {
-        let (begun, at) = (Instant::now(), before_a_pass());
-        let ahead_s: Arc<AtomicI64> = Arc::default();
-        let set = Arc::clone(&ahead_s);
-        let clock = Clock::new(move || {
-            let elapsed_s = (Instant::now() - begun).as_secs_f64();
-            add_seconds(at, elapsed_s + set.load(Ordering::Relaxed) as f64)
-        });
-        let mut scene = Scene::by(clock, &station("Mast", |_| {}));
-        scene.units.time_sync = || TimeSync::Synchronised;
-        let scene = scene.started_again(false).await;
+        let (scene, ahead_s) = scene_by_a_clock_that_can_step("Mast").await;
         let client = scene.client();
         let id = measured(&client, "Mast").await;
         until("the schedule", || client.snapshot().schedule.made_at).await;

@@ -236,7 +236,7 @@ fn class_name(class: Class) -> String {
     }
 }
 
-/// What a class comes to, as a sentence.
+/// The worth of a class and its proof, as a sentence.
 pub fn class_worth(class: &ClassWorth, choose_by: ChooseBy) -> String {
     let number = |worth: i64| match choose_by {
         ChooseBy::MostPasses => format::number(worth as f64, 0),

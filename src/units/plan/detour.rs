@@ -78,7 +78,7 @@ pub fn between_within(
     most_s: f64,
 ) -> Option<Vec<[f64; 2]>> {
     let search = Search::new(bounds, limits, (from_deg, to_deg), at);
-    // What straightens the route costs too.
+    // The cost counts the length of a route too.
     let most = (most_s * 1.1 + 1.0) * 1e6;
     let way = search.way(most as u64, 1)?;
     Some(search.pulled_straight(&way))
@@ -111,7 +111,7 @@ pub fn in_steps(turns_deg: &[[f64; 2]], step_deg: f64) -> Vec<[f64; 2]> {
     places
 }
 
-/// What a search knows of a position.
+/// The state of a position in a search.
 #[derive(Debug, Clone, Copy)]
 enum Place {
     Unknown,
@@ -152,7 +152,7 @@ impl Grid {
         Some(row * self.second.clone().count() + column)
     }
 
-    fn at(&self, cell: Cell) -> Place {
+    fn place(&self, cell: Cell) -> Place {
         let place = self.index(cell).and_then(|index| self.places.get(index));
         place.copied().unwrap_or(Place::Taken)
     }
@@ -218,7 +218,7 @@ impl<'a> Search<'a> {
         });
         let mut count = 1;
         while let Some((_, place, spent)) = open.pop() {
-            let is_reached_for_less = match grid.at(place) {
+            let is_reached_for_less = match grid.place(place) {
                 Place::Known { spent: least, .. } => least < spent,
                 Place::Unknown | Place::Taken => true,
             };
@@ -239,7 +239,7 @@ impl<'a> Search<'a> {
             for ((first, second), step) in NEIGHBOURS.into_iter().zip(steps) {
                 let next = (place.0 + first, place.1 + second);
                 let next_deg = self.axes_deg(next);
-                let reached = match grid.at(next) {
+                let reached = match grid.place(next) {
                     Place::Taken => continue,
                     Place::Known { spent, .. } => Some(spent),
                     Place::Unknown => {
@@ -268,7 +268,7 @@ impl<'a> Search<'a> {
     }
 
     fn traced(&self, grid: &Grid, end: Cell) -> Vec<[f64; 2]> {
-        let before = |place: &Cell| match grid.at(*place) {
+        let before = |place: &Cell| match grid.place(*place) {
             Place::Known { before, .. } => (*place != (0, 0)).then_some(before),
             Place::Unknown | Place::Taken => None,
         };

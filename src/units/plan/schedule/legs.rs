@@ -57,7 +57,8 @@ impl<'a> Legs<'a> {
             let widest_ms = antenna.reach.widest_ms(own.flat_map(|stop| stop.ends_deg));
             // By way of the park position, or round a barrier.
             let is_round = antenna.between == BetweenPasses::Park || antenna.reach.has_barriers();
-            widest_ms * if is_round { 2 } else { 1 } + set_up_ms(antenna)
+            let times = if is_round { 2 } else { 1 };
+            widest_ms * times + set_up_ms(antenna)
         });
         let longest_ms = longest_ms.collect();
         Self { antennas, takes: stops, longest_ms, found: RefCell::default() }
@@ -101,11 +102,12 @@ impl<'a> Legs<'a> {
     pub(super) fn is_in_reach(&self, to: usize) -> bool {
         let Some(take) = self.takes.get(to) else { return false };
         let antenna = self.antennas.get(take.antenna);
-        let way = antenna.and_then(|antenna| {
-            let Some(stands_deg) = antenna.stands_deg else { return Some(0) };
-            antenna.reach.leg_ms(stands_deg, take.ends_deg[0], ms(antenna.free_from))
-        });
-        way.is_some()
+        let [start_deg, _] = take.ends_deg;
+        antenna.is_some_and(|antenna| {
+            antenna.stands_deg.is_none_or(|stands_deg| {
+                antenna.reach.leg_ms(stands_deg, start_deg, ms(antenna.free_from)).is_some()
+            })
+        })
     }
 }
 
@@ -167,13 +169,12 @@ impl Slews for Legs<'_> {
         }
         let gap_ms = after.from_ms - before.to_ms - set_up_ms(antenna);
         let longest_ms = self.longest_ms(before.antenna) - set_up_ms(antenna);
-        let is_far = gap_ms >= longest_ms && antenna.reach.has_barriers();
-        if is_far && antenna.between != BetweenPasses::Park {
-            // A way leads there in time, and only tells apart what is worth the same.
+        let parks = antenna.between == BetweenPasses::Park;
+        if gap_ms >= longest_ms && antenna.reach.has_barriers() && !parks {
+            // A way leads there in time. Its length only breaks ties, which a search is not worth.
             let [[_, end_deg], [start_deg, _]] = [before.ends_deg, after.ends_deg];
             return Some(antenna.reach.straight_ms(end_deg, start_deg));
         }
-        let parks = antenna.between == BetweenPasses::Park;
         self.known_ms(from, to, if parks { gap_ms } else { gap_ms.min(longest_ms) })
     }
 

@@ -283,13 +283,13 @@ impl Reach {
         for (before, (sample, axes_deg)) in samples.list.iter().zip(later) {
             if self.has_barriers() {
                 let direction = self.bounds.direction(axes_deg);
-                let at = at_ms(ms(sample.time).div_euclid(SUN_STAYS_MS) * SUN_STAYS_MS);
+                let step_ms = ms(sample.time).div_euclid(SUN_STAYS_MS) * SUN_STAYS_MS;
                 let now = match bounds.take() {
-                    Some((since, now)) if since == at => now,
-                    Some(_) | None => self.bounds.at(at),
+                    Some((since_ms, now)) if since_ms == step_ms => now,
+                    Some(_) | None => self.bounds.at(at_ms(step_ms)),
                 };
                 let barrier = now.forbids(direction);
-                bounds = Some((at, now));
+                bounds = Some((step_ms, now));
                 if let Some(barrier) = barrier {
                     entered = entered.or(Some(barrier));
                     continue;
@@ -335,8 +335,8 @@ impl Reach {
     }
 
     /// The first place outside of all barriers on the way from the park position, which may itself
-    /// be inside one, up to the zenith, and round from there; `None` where there is none. It is off the ends of the travel,
-    /// where some units report no angle.
+    /// be inside one, up to the zenith, and round from there; `None` where there is none. It is off
+    /// the ends of the travel, where some units report no angle.
     fn open_sky_deg(&self, at: Timestamp) -> Option<[f64; 2]> {
         let ends = self.park_deg.into_iter().zip(self.slews.travel_deg);
         let mut off_ends = ends.map(|(at_deg, (least_deg, most_deg))| {

@@ -56,7 +56,7 @@ impl Row {
 
     /// A pass counts so long, which tells apart what is worth the same.
     pub(super) fn counting(self, counted_ms: i64) -> Self {
-        self.with(Self::COUNTED, counted_ms)
+        self.with_number(Self::COUNTED, counted_ms)
     }
 
     pub(super) fn slewed(mut self, slew_ms: i64) -> Self {
@@ -95,7 +95,7 @@ impl Row {
     }
 
     /// The row with another number in the cell of a class.
-    pub(super) fn with(mut self, cell: usize, number: i64) -> Self {
+    pub(super) fn with_number(mut self, cell: usize, number: i64) -> Self {
         if let Some(cell) = self.0.get_mut(cell) {
             *cell = number;
         }

@@ -122,8 +122,9 @@ impl Problem<'_> {
         let start = self.greedy().into_iter().max_by_key(|takes| self.row(takes));
         let takes = self.refined(start.unwrap_or_default(), &mut self.effort.clone());
         let row = self.row(&takes);
-        let bound = (0..Row::CLASSES)
-            .fold(row, |bound, class| bound.with(class, prices::bound(self, lines, &row, class)));
+        let bound = (0..Row::CLASSES).fold(row, |bound, class| {
+            bound.with_number(class, prices::bound(self, lines, &row, class))
+        });
         Solution { takes, row, bound }
     }
 

@@ -242,7 +242,8 @@ fn with_a_pointing_model_a_way_has_the_beam_on_the_satellite_and_both_directions
     assert!(looks.iter().filter(|count| **count > 100).count() >= 2, "{looks:?}");
 }
 
-/// What counts of a way lies in no barrier, and both ends can be reached from the open sky.
+/// The seconds of a way that count lie in no barrier, and both ends can be reached from the open
+/// sky.
 fn assert_outside(reach: &Reach, way: &Way, what: &str) {
     let Span { from_ms, to_ms } = way.span();
     for at in (from_ms + 2_000..to_ms).step_by(5_000) {

@@ -63,7 +63,8 @@ impl Problem<'_> {
         };
         let kept = schedule.1.iter().map(|own| own.iter().filter(stays).copied().collect());
         let kept: Vec<Vec<u32>> = kept.collect();
-        // Of the takes that stay, those within the neighbourhood and the first one after it count.
+        // Only the takes that stay within the neighbourhood, and the first one after it, affect the
+        // choice.
         let within = kept.iter().map(|own| {
             let begun = |at_ms: i64| {
                 own.partition_point(|take| self.take(*take).is_some_and(|it| it.from_ms < at_ms))

@@ -22,7 +22,7 @@ const CELL: usize = 0;
 struct Prices {
     passes: Vec<i64>,
     limits: Vec<i64>,
-    /// Of as much as the most valuable take of each class before, where that is missing.
+    /// For each class before: the price of missing as much as its most valuable take.
     classes: Vec<i64>,
 }
 
@@ -33,7 +33,7 @@ struct Bounded<'a> {
     class: usize,
     /// The schedule that was found.
     row: &'a Row,
-    /// Of each class before: what the most valuable take is worth.
+    /// The worth of the most valuable take of each class before.
     most: Vec<i64>,
 }
 
@@ -83,7 +83,7 @@ pub(super) fn bound(problem: &Problem<'_>, lines: &[Line], row: &Row, class: usi
 }
 
 impl Bounded<'_> {
-    /// What a take is worth once it has paid, in thousandths. It is rounded up, so that the bound
+    /// The worth of a take less its prices, in thousandths. It is rounded up, so that the bound
     /// stays one.
     fn paid(&self, prices: &Prices, take: &Take) -> i64 {
         let of_pass = prices.passes.get(take.pass as usize).copied().unwrap_or_default();

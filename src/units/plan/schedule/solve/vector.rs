@@ -40,7 +40,7 @@ struct Closes {
     limit: bool,
 }
 
-/// What a search chooses among.
+/// The takes of a search.
 pub(super) struct Scope {
     /// Takes that are free, or that stay: every schedule has those.
     pub(super) takes: Vec<(u32, bool)>,
@@ -79,12 +79,12 @@ impl Search<'_> {
         let mut after_pruning = 1;
         for ((take, stays), closes) in order.iter().zip(closes) {
             let it = self.problem.take(*take)?;
-            let with: Vec<State> =
-                states.iter().filter_map(|state| self.with(state, *take, *stays)).collect();
+            let extended: Vec<State> =
+                states.iter().filter_map(|state| self.extended(state, *take, *stays)).collect();
             if *stays {
-                states = with;
+                states = extended;
             } else {
-                states.extend(with);
+                states.extend(extended);
             }
             self.effort += 1 + states.len() as u64;
             if closes.pass {
@@ -148,7 +148,7 @@ struct Search<'a> {
 impl Search<'_> {
     /// `state` with one more take; `None` where it does not fit. One that stays counts towards no
     /// limit, and its pass is taken as it is.
-    fn with(&mut self, state: &State, take: u32, stays: bool) -> Option<State> {
+    fn extended(&mut self, state: &State, take: u32, stays: bool) -> Option<State> {
         let it = self.problem.take(take)?;
         let antenna = it.antenna as usize;
         let open = state.open.iter().position(|open| open.pass == it.pass);

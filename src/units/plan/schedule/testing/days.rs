@@ -126,7 +126,7 @@ pub(in crate::plan) struct Satellite {
     pub(in crate::plan) elements: Elements,
     pub(in crate::plan) priority: Priority,
     pub(in crate::plan) limits: PassLimits,
-    /// What the operator has said of all its passes.
+    /// The operator's choice for all its passes.
     pub(in crate::plan) take: Option<Take>,
 }
 
