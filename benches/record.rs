@@ -16,7 +16,9 @@ use azel::{
     device::Pointing,
     driver::TimeSync,
     orbit::{Elements, Pass, PassSearch, Propagator, bundled, passes},
-    plan::pass_report::{Evidence, FlownOffsets, MeasuredPosition, PassReport, PassVerdict},
+    plan::pass_report::{
+        Evidence, FlownOffsets, MeasuredPosition, PassReport, PassVerdict, PathSource,
+    },
     record::{
         self, AboutTrack, PassNote, PassQuery, RecordedReport, Recorder, TrackedBy, open_pass,
     },
@@ -74,8 +76,10 @@ fn note(
         Some((flown.time, azel::astro::AzEl { azimuth, elevation }))
     });
     let mount = Antenna::rc2000c("Horn", "/dev/ttyS0").mount;
-    let explanations =
-        Evidence::new(mount, true).with_pass(propagator, site, measured).explanations(&[]);
+    let source = PathSource::Unit { clock_ahead_s: None, place: None };
+    let causes = Evidence::new(mount, true, Angle::from_degrees(0.44))
+        .with_pass(propagator, site, source, measured)
+        .explanations(&[]);
     let counted_s = pass.duration_s();
     let report = RecordedReport {
         from,
@@ -92,6 +96,7 @@ fn note(
             offsets: FlownOffsets::default(),
             pointing_model: PointingModel::default(),
             unit_clock_ahead_s: Some(-0.3),
+            unit_place: None,
             sync: TimeSync::Synchronised,
         },
         report: PassReport {
@@ -103,7 +108,7 @@ fn note(
             worst: None,
             losses: Vec::new(),
         },
-        explanations,
+        causes,
     };
     PassNote { antenna, report, points }
 }

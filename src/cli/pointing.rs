@@ -178,11 +178,10 @@ fn table(Told { antenna, fit, causes }: &Told<'_>, out: &mut impl Write) -> io::
     writeln!(out, "{:<40}  {:>9}  {:>9}", "Cause", "Residual", "Explained")?;
     for of in &causes.explanations {
         let (left, share) = (of.left_deg, words::whole_share(of.share));
-        let mark = if of.is_alike { "" } else { "  (excluded)" };
-        writeln!(out, "{:<40}  {left:>8.3}°  {share:>9}{mark}", words::causes(of))?;
+        writeln!(out, "{:<40}  {left:>8.3}°  {share:>9}", words::causes(of))?;
     }
     if causes.explanations.is_empty() {
-        writeln!(out, "{}", words::not_explained(causes.passes > 0))?;
+        writeln!(out, "{}", words::none_explains(causes.passes > 0))?;
     }
     Ok(())
 }

@@ -313,11 +313,11 @@ async fn while_a_unit_tracks_by_itself_its_late_clock_is_told_by_the_error() {
     until("the track", || antenna(&client, "Dish")?.1.tracks).await;
     let explained = until("its explanation", || {
         let snapshot = client.snapshot();
-        snapshot.antennas.iter().find(|of| of.id() == dish)?.explained
+        snapshot.antennas.iter().find(|of| of.id() == dish)?.explained.clone()
     })
     .await;
-    let Cause::Late { late_s } = explained.by.cause else { panic!("{explained:?}") };
-    assert!((1.3..1.7).contains(&late_s) && explained.by.share > 0.8, "{explained:?}");
+    let Cause::Late { late_s } = explained.causes[0].cause else { panic!("{explained:?}") };
+    assert!((1.3..1.7).contains(&late_s) && explained.causes[0].share > 0.8, "{explained:?}");
     assert!(rows(&scene, RowKind::Pass).is_empty(), "the pass goes on");
 }
 

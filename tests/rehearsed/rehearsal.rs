@@ -138,7 +138,7 @@ async fn compare(rehearsed: &Rehearsed, client: &Client, folder: &Path, names: &
                 "{} {}: {before:.3} then {then:.3} deg",
                 pass.antenna_name, pass.satellite_name
             );
-            let (clock, by) = (&report["unit_clock_ahead_s"], &report["explanations"]);
+            let (clock, by) = (&report["unit_clock_ahead_s"], &report["causes"]);
             assert!(
                 (before - then).abs() <= f64::max(ALIKE_SHARE * then, ALIKE_DEG),
                 "{before} {then}, the clock of the unit ahead by {clock}, explained by {by}"

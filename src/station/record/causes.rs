@@ -7,9 +7,9 @@ use serde::{Deserialize, Serialize};
 
 use super::{RecordError, RecordedPass, RecordedReport, past::Passes};
 use crate::{
-    astro::{Site, time::apart},
+    astro::{Angle, Site, time::apart},
     orbit::Propagator,
-    plan::pass_report::{Evidence, Explanation, LossCause, MeasuredPosition},
+    plan::pass_report::{Evidence, Explanation, LossCause, MeasuredPosition, PathSource},
     station::{AntennaId, Mount},
 };
 
@@ -25,7 +25,7 @@ pub struct ExplainedPasses {
     pub passes: usize,
     /// LOS of the first of them; `None` where there is none.
     pub since: Option<Timestamp>,
-    /// Causes that these passes share, the best first.
+    /// The cause that these passes share, or up to three that they do not tell apart, the best first.
     pub explanations: Vec<Explanation>,
 }
 
@@ -42,8 +42,9 @@ pub fn explain_passes(
         return Ok(ExplainedPasses { passes: 0, since: None, explanations: Vec::new() });
     }
     let record = Passes::open(path, site)?;
-    let mut flown: Vec<(Propagator, Site, Vec<MeasuredPosition>)> = Vec::new();
+    let mut flown: Vec<(Propagator, Site, PathSource, Vec<MeasuredPosition>)> = Vec::new();
     let mut since = None;
+    let mut half_beam_deg = 0.0_f64;
     for RecordedPass { id, report, .. } in record.newest(antenna, within, PASSES)? {
         let Ok(propagator) = Propagator::new(&report.elements) else { continue };
         let site = record.site_of(&report);
@@ -52,18 +53,19 @@ pub fn explain_passes(
         let points: Vec<MeasuredPosition> = points.into_iter().map(compared).collect();
         if !points.is_empty() {
             since = Some(report.until);
-            flown.push((propagator, site, points));
+            half_beam_deg = half_beam_deg.max(report.half_beam_deg);
+            flown.push((propagator, site, report.about.path_source(site), points));
         }
     }
-    let positions = || flown.iter().flat_map(|(_, _, points)| points);
+    let positions = || flown.iter().flat_map(|(_, _, _, points)| points);
     let has_elevation = positions().any(|flown| flown.pointing.elevation.is_some());
     let evidence = flown.iter().fold(
-        Evidence::new(mount, has_elevation),
-        |evidence, (propagator, site, points)| {
+        Evidence::new(mount, has_elevation, Angle::from_degrees(half_beam_deg)),
+        |evidence, (propagator, site, source, points)| {
             let measured = points
                 .iter()
                 .filter_map(|flown| Some((flown.time, flown.direction(has_elevation)?)));
-            evidence.with_pass(propagator, *site, measured)
+            evidence.with_pass(propagator, *site, *source, measured)
         },
     );
     Ok(ExplainedPasses { passes: flown.len(), since, explanations: evidence.explanations(&[]) })

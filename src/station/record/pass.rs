@@ -5,10 +5,10 @@ use serde::{Deserialize, Serialize};
 
 use crate::{
     astro::{Angle, AzEl, PointingModel, Site},
-    device::Pointing,
+    device::{Place, Pointing},
     driver::TimeSync,
     orbit::{Elements, Propagator},
-    plan::pass_report::{Explanation, FlownOffsets, MeasuredPosition, PassReport},
+    plan::pass_report::{Explanation, FlownOffsets, MeasuredPosition, PassReport, PathSource},
     station::AntennaId,
 };
 
@@ -39,8 +39,10 @@ pub struct RecordedReport {
     pub about: AboutTrack,
     #[serde(flatten)]
     pub report: PassReport,
-    /// What would explain the error, the best first.
-    pub explanations: Vec<Explanation>,
+    /// The cause of the error, or up to three that the positions do not tell apart, the best first;
+    /// none for a good pass. Older reports name none: their causes were not tested.
+    #[serde(default)]
+    pub causes: Vec<Explanation>,
 }
 
 /// What is told of a track besides its positions.
@@ -59,11 +61,25 @@ pub struct AboutTrack {
     pub pointing_model: PointingModel,
     /// The unit's clock against that of this computer, seconds.
     pub unit_clock_ahead_s: Option<f64>,
+    /// The place for which a unit computes its track.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub unit_place: Option<Place>,
     /// Whether a time service keeps the clock of this computer.
     pub sync: TimeSync,
 }
 
 impl AboutTrack {
+    /// The origin of the path of a track from a station at `site`.
+    pub fn path_source(&self, site: Site) -> PathSource {
+        match self.tracked_by {
+            TrackedBy::ProgramTrack => PathSource::Azel,
+            TrackedBy::OnBoard | TrackedBy::Elsewhere => PathSource::Unit {
+                clock_ahead_s: self.unit_clock_ahead_s,
+                place: self.unit_place.and_then(|place| place.beside(site)),
+            },
+        }
+    }
+
     /// The position as it is compared with the satellite: pointing model and offsets taken off.
     #[must_use]
     pub fn compared(

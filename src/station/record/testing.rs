@@ -50,6 +50,7 @@ pub fn note(antenna: AntennaId, satellite: u32, from: Timestamp) -> PassNote {
             offsets: FlownOffsets::default(),
             pointing_model: PointingModel::default(),
             unit_clock_ahead_s: None,
+            unit_place: None,
             sync: TimeSync::NotKnown,
         },
         report: PassReport {
@@ -61,7 +62,7 @@ pub fn note(antenna: AntennaId, satellite: u32, from: Timestamp) -> PassNote {
             worst: None,
             losses: vec![lost],
         },
-        explanations: Vec::new(),
+        causes: Vec::new(),
     };
     PassNote { antenna, report, points }
 }

@@ -359,7 +359,7 @@ fn track<'a>(
 /// The reason why the unit would miss the selected satellite, and a further note on its
 /// on-board track.
 fn on_board(model: &Model, antenna: &AntennaModel) -> [Option<String>; 2] {
-    let explained = antenna.explained.as_ref().map(words::record::explained);
+    let explained = antenna.explained.as_ref().and_then(words::record::explained);
     let Some(found) = antenna.supervision() else { return [None, explained] };
     let name = model.selected_pass().map(|predicted| predicted.satellite.short_name());
     let is_missed = !found.is_within_beam;

@@ -8,7 +8,7 @@ use crate::{
         Model,
         correction::{Correction, correction},
     },
-    plan::pass_report::{Explanation, below_their_parts},
+    plan::pass_report::Explanation,
     record::OpenedPass,
     ui::{
         format, text, theme,
@@ -28,7 +28,7 @@ const SHARE_BAR: f32 = 108.0;
 const CORRECTION: f32 = 72.0;
 
 pub(super) fn height(opened: &OpenedPass) -> f32 {
-    let explanations = &opened.pass.report.explanations;
+    let explanations = &opened.pass.report.causes;
     let rows = explanations.iter().map(|of| of.causes().count()).sum::<usize>() + 2;
     BAR + HEAD + rows as f32 * ROW + FOOT
 }
@@ -43,14 +43,13 @@ pub(super) fn show(
     let t = theme::tokens(ui);
     ui.painter().rect_filled(rect, 0.0, t.field);
     let report = &opened.pass.report;
-    let explanations = &report.explanations;
+    let explanations = &report.causes;
     let (bar, rest) = rect.split_top_bottom_at_y(rect.top() + BAR);
     ui.painter().rect_filled(bar, 0.0, t.bg2);
     let inner = bar.shrink2(vec2(PADDING, 0.0));
     let left = Align2::LEFT_CENTER;
-    let drawn =
-        paint::text_in(ui, inner, left, "What would explain the error", text::small_strong(), t.t1);
-    let note = words::fitted_to(explanations, opened.track.len());
+    let drawn = paint::text_in(ui, inner, left, "Causes of the error", text::small_strong(), t.t1);
+    let note = words::fitted_to(opened.track.len());
     paint::text_in(ui, inner.with_min_x(drawn.right() + 12.0), left, &note, text::small(), t.t3);
     let (head, mut rest) = rest.split_top_bottom_at_y(rest.top() + HEAD);
     ui.painter().hline(head.x_range(), head.bottom() - 0.5, (1.0, t.line));
@@ -78,12 +77,12 @@ pub(super) fn show(
     paint::name_text(ui, "as recorded", row, &format!("As recorded, root mean square {rms}°"));
     if explanations.is_empty() {
         let row = next();
-        let words = words::not_explained(!opened.track.is_empty());
+        let words = words::not_explained(opened);
         let room = row.with_min_x(columns.cause.0).with_max_x(row.right() - PADDING);
         paint::text_in(ui, room, left, words, text::small(), t.t2);
         paint::name_text(ui, "not explained", row, words);
     }
-    for (place, explanation) in below_their_parts(explanations) {
+    for (place, explanation) in explanations.iter().enumerate() {
         let row = next();
         if place == 0 {
             ui.painter().rect_filled(row.shrink2(vec2(0.0, 1.0)), 0.0, t.bgsel);
@@ -180,8 +179,7 @@ fn explained(ui: &Ui, row: Rect, place: usize, columns: &Columns, of: &Explanati
     let words = words::whole_share(of.share);
     let cell = row.with_min_x(columns.share.0).with_max_x(columns.share.1);
     paint::text_in(ui, cell, Align2::RIGHT_CENTER, &words, text::small_strong(), t.t1);
-    let alike =
-        if of.is_alike && place > 0 { ", not distinguishable from the best one" } else { "" };
+    let alike = if place > 0 { ", not distinguishable from the best one" } else { "" };
     let with = of.with.as_ref();
     let with = with.map(|of| format!(" {} {}", words::second_cause(of), words::size(of)));
     let with = with.unwrap_or_default();

@@ -147,7 +147,7 @@ impl RecordState {
             return;
         }
         let opened = self.opened(model);
-        let best = opened.and_then(|opened| opened.pass.report.explanations.first());
+        let best = opened.and_then(|opened| opened.pass.report.causes.first());
         let found = opened.zip(best);
         let found = found.and_then(|(opened, best)| correction(model, &opened.pass, best));
         self.correction = Some(found.ok_or_else(|| no_correction(best)));

@@ -2,7 +2,6 @@
 
 use super::TEXT;
 use crate::{
-    plan::pass_report::below_their_parts,
     record::OpenedPass,
     ui::{
         format,
@@ -23,8 +22,8 @@ const SHARE_BAR: f64 = 100.0;
 
 /// Draws the table with as many rows as there are.
 pub(super) fn draw(svg: &mut Svg, y: f64, opened: &OpenedPass) {
-    let explanations = &opened.pass.report.explanations;
-    let said = words::fitted_to(explanations, opened.track.len());
+    let explanations = &opened.pass.report.causes;
+    let said = words::fitted_to(opened.track.len());
     let mut y = section(svg, y, "Causes of the error", &said);
     let right = CAPTION.anchored(Anchor::End);
     svg.text([LEFT, y + 5.0], CAUSE - LEFT, CAPTION, "Cause");
@@ -36,11 +35,11 @@ pub(super) fn draw(svg: &mut Svg, y: f64, opened: &OpenedPass) {
     let rms = rms.map_or_else(|| "–".to_owned(), |rms| format::number(rms.off_deg, 3));
     row(svg, &mut y, ["As recorded", "–", &rms, ""], None);
     if explanations.is_empty() {
-        let words = words::not_explained(!opened.track.is_empty());
+        let words = words::not_explained(opened);
         y += ROW;
         svg.text([LEFT, y], RIGHT - LEFT, TEXT, words);
     }
-    for (_, of) in below_their_parts(explanations) {
+    for of in explanations {
         let left = format::number(of.left_deg, 3);
         let share = words::whole_share(of.share);
         let size = words::size(&of.cause);

@@ -6,7 +6,9 @@ use crate::{
     orbit::{PassSearch, Propagator, bundled, passes},
     plan::{
         MountLimits, Sample, Trackability,
-        pass_report::{Breaks, Evidence, FlownOffsets, MeasuredPosition, TrackPoint, TrackedPass},
+        pass_report::{
+            Breaks, Evidence, FlownOffsets, MeasuredPosition, PathSource, TrackPoint, TrackedPass,
+        },
     },
     record::{AboutTrack, RecordedPass, RecordedReport, TrackedBy},
     station::{AntennaId, Mount},
@@ -91,11 +93,12 @@ fn opened(late_s: f64, is_measured: impl Fn(u32) -> bool) -> OpenedPass {
                     offsets: FlownOffsets::default(),
                     pointing_model: PointingModel::default(),
                     unit_clock_ahead_s: Some(-late_s),
+                    unit_place: None,
                     sync: TimeSync::Synchronised,
                 },
                 report: tracked.report(&positions),
-                explanations: Evidence::new(limits.mount, true)
-                    .with_pass(&propagator, site, measured)
+                causes: Evidence::new(limits.mount, true, limits.half_beam)
+                    .with_pass(&propagator, site, PathSource::Azel, measured)
                     .explanations(&[]),
                 elements,
             },

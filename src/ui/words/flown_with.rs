@@ -81,7 +81,7 @@ pub fn facts(report: &RecordedReport, now: Timestamp) -> Vec<Fact> {
 pub fn clock_first(report: &RecordedReport) -> Option<&'static str> {
     let is_time =
         |explanation: &Explanation| explanation.causes().any(|of| matches!(of, Cause::Late { .. }));
-    let is_late = report.explanations.first().is_some_and(is_time)
+    let is_late = report.causes.first().is_some_and(is_time)
         && report.about.unit_clock_ahead_s.is_some_and(is_off);
     is_late.then_some(
         "Set the unit's clock first: a time offset would hide the wrong clock, and be wrong \

@@ -5,9 +5,9 @@ use jiff::Timestamp;
 use crate::{
     model::correction::How,
     plan::pass_report::{
-        Cause, Explained, Explanation, LossCause, LostStretch, PassReport, PassVerdict,
+        Axis, Cause, Explained, Explanation, LossCause, LostStretch, PassReport, PassVerdict,
     },
-    record::{ExplainedPasses, ListedKind, RecordedPass, RecordedReport, TrackedBy},
+    record::{ExplainedPasses, ListedKind, OpenedPass, RecordedPass, RecordedReport, TrackedBy},
     ui::format,
 };
 
@@ -74,8 +74,8 @@ pub fn cause_in_short(pass: &RecordedPass) -> Option<String> {
     {
         return Some(format!("{} {}", loss(lost.cause), format::duration(lost.seconds())));
     }
-    match pass.report.explanations.first() {
-        Some(explanation) => Some(causes(explanation) + &or_alike(&pass.report.explanations)),
+    match pass.report.causes.first() {
+        Some(explanation) => Some(causes(explanation) + &or_alike(&pass.report.causes)),
         None if report.verdict == PassVerdict::Good => None,
         None => Some("Not explained".to_owned()),
     }
@@ -108,7 +108,17 @@ pub fn cause(cause: &Cause) -> &'static str {
         Cause::AzimuthScale { .. } => "Azimuth scale",
         Cause::ElevationScale { .. } => "Elevation scale",
         Cause::OtherElements { .. } => "Other elements",
-        Cause::SlowDrives { .. } => "Slow drives",
+        Cause::OtherSite { .. } => "Other site",
+        Cause::SlowDrives { axis: None, .. } => "Slow drives",
+        Cause::SlowDrives { axis: Some(Axis::Azimuth), .. } => "Slow azimuth",
+        Cause::SlowDrives { axis: Some(Axis::Elevation), .. } => "Slow elevation",
+        Cause::SlowDrives { axis: Some(Axis::X), .. } => "Slow X",
+        Cause::SlowDrives { axis: Some(Axis::Y), .. } => "Slow Y",
+        Cause::Stuck { axis: None, .. } => "Both axes stuck",
+        Cause::Stuck { axis: Some(Axis::Azimuth), .. } => "Azimuth stuck",
+        Cause::Stuck { axis: Some(Axis::Elevation), .. } => "Elevation stuck",
+        Cause::Stuck { axis: Some(Axis::X), .. } => "X stuck",
+        Cause::Stuck { axis: Some(Axis::Y), .. } => "Y stuck",
     }
 }
 
@@ -117,11 +127,9 @@ pub fn second_cause(second: &Cause) -> String {
     format!("with {}", cause(second).to_lowercase())
 }
 
-/// How the causes were fitted.
-pub fn fitted_to(explanations: &[Explanation], points: usize) -> String {
-    let pairs =
-        if explanations.iter().any(|of| of.with.is_some()) { ", or with one other," } else { "" };
-    format!("each fitted on its own{pairs} to {points} points")
+/// The positions that causes were fitted to.
+pub fn fitted_to(points: usize) -> String {
+    format!("fitted to {points} points")
 }
 
 /// The size of a cause that fits best.
@@ -139,7 +147,12 @@ pub fn size(cause: &Cause) -> String {
             format!("{} %", format::signed(per_mille / 10.0, 2))
         }
         Cause::OtherElements { epoch } => format!("of {}", format::copied(*epoch)),
-        Cause::SlowDrives { rate_deg_s } => format!("{}°/s", format::number(*rate_deg_s, 2)),
+        Cause::OtherSite { north_km, east_km } => {
+            let km = |value: f64| format!("{} km", format::signed(value, 1));
+            format!("{} north, {} east", km(*north_km), km(*east_km))
+        }
+        Cause::SlowDrives { rate_deg_s, .. } => format!("{}°/s", format::number(*rate_deg_s, 2)),
+        Cause::Stuck { since, .. } => format!("since {}", format::copied(*since)),
     }
 }
 
@@ -180,7 +193,28 @@ fn cause_as_subject(of: &Cause) -> String {
         Cause::OtherElements { epoch } => {
             format!("The antenna followed older elements, of {}", format::copied(*epoch))
         }
-        Cause::SlowDrives { .. } => format!("The drives turn no faster than {}", size(of)),
+        Cause::OtherSite { .. } => {
+            format!("The unit computes for another site, {}", size(of))
+        }
+        Cause::SlowDrives { axis: None, .. } => {
+            format!("The drives turn no faster than {}", size(of))
+        }
+        Cause::SlowDrives { axis: Some(axis), .. } => {
+            format!("{} turns no faster than {}", axis_as_subject(*axis), size(of))
+        }
+        Cause::Stuck { axis: None, .. } => format!("Both axes stand {}", size(of)),
+        Cause::Stuck { axis: Some(axis), .. } => {
+            format!("{} stands {}", axis_as_subject(*axis), size(of))
+        }
+    }
+}
+
+fn axis_as_subject(axis: Axis) -> &'static str {
+    match axis {
+        Axis::Azimuth => "The azimuth",
+        Axis::Elevation => "The elevation",
+        Axis::X => "X",
+        Axis::Y => "Y",
     }
 }
 
@@ -209,12 +243,24 @@ fn explains(by: &Explanation) -> String {
     }
 }
 
-/// What explains the error of a pass under way.
-pub fn explained(explained: &Explained) -> String {
-    let causes = together(explained.by.causes().map(cause_now));
-    let or = explained.or.map(|of| format!(", or {}", cause(&of).to_lowercase()));
-    let (or, explains) = (or.unwrap_or_default(), explains(&explained.by));
-    format!("{causes}{or}: {explains} of the error of {}.", format::degrees(explained.error_deg, 2))
+/// The cause of the error of a pass under way; `None` without one.
+pub fn explained(explained: &Explained) -> Option<String> {
+    let error = format::degrees(explained.error_deg, 2);
+    match &explained.causes[..] {
+        [] => None,
+        [only] => {
+            let causes = together(only.causes().map(cause_now));
+            Some(format!("{causes}: {} of the error of {error}.", explains(only)))
+        }
+        several => Some(format!("The error of {error} may come from {}.", one_of(several))),
+    }
+}
+
+/// Causes that the positions do not tell apart.
+fn one_of(alike: &[Explanation]) -> String {
+    let mut names: Vec<String> = alike.iter().map(|of| names(of).to_lowercase()).collect();
+    let last = names.pop().unwrap_or_default();
+    if names.is_empty() { last } else { format!("{} or {last}", names.join(", ")) }
 }
 
 /// A cause of a pass under way as the subject of a sentence.
@@ -248,12 +294,14 @@ pub fn verdict_sentence(pass: &RecordedReport, now: Timestamp) -> String {
         format::degrees(worst.error.off_deg, 2),
         format::moment(worst.at, now),
     );
-    let explained = pass.explanations.first().map(|best| {
-        let causes = together(best.causes().map(cause_as_subject));
-        let or = or_alike(&pass.explanations);
-        let or = if or.is_empty() { or } else { format!(",{or}") };
-        format!(" {causes}{or}; {} of the error.", explains(best))
-    });
+    let explained = match &pass.causes[..] {
+        [] => None,
+        [only] => {
+            let causes = together(only.causes().map(cause_as_subject));
+            Some(format!(" {causes}; {} of the error.", explains(only)))
+        }
+        several => Some(format!(" The error may come from {}.", one_of(several))),
+    };
     inside + &explained.unwrap_or_default() + &losses_sentence(&report.losses)
 }
 
@@ -333,11 +381,10 @@ pub fn explained_together(of: &ExplainedPasses, pass: &RecordedPass) -> Option<S
     let (passes, antenna) = (of.passes, &pass.antenna_name);
     let last = format!("The {passes} passes of {antenna}{since} up to this one, together");
     let Some(best) = of.explanations.first() else {
-        return (of.passes > 1).then(|| format!("{last}: no cause explains 30 % of their error."));
+        return (of.passes > 1).then(|| format!("{last}: no cause explains their error."));
     };
     let causes = causes(best);
-    let alike = of.explanations.iter().skip(1).filter(|of| of.is_alike);
-    let alike: Vec<String> = alike.map(names).collect();
+    let alike: Vec<String> = of.explanations.iter().skip(1).map(names).collect();
     let open = match &alike[..] {
         [] => String::new(),
         alike => format!(" They cannot tell this from {}.", format::list(alike)),
@@ -346,9 +393,21 @@ pub fn explained_together(of: &ExplainedPasses, pass: &RecordedPass) -> Option<S
     (of.passes > 1).then(|| format!("{last}: {causes}; {explains} of their error.{open}"))
 }
 
-/// Why the table of causes is empty.
-pub fn not_explained(is_measured: bool) -> &'static str {
-    if is_measured { "Not explained: no cause explains 30 % of it" } else { "Nothing was measured" }
+/// Why the table of causes of a pass is empty.
+pub fn not_explained(opened: &OpenedPass) -> &'static str {
+    if opened.pass.report.report.verdict == PassVerdict::Good {
+        return "A good pass: there is nothing to explain";
+    }
+    none_explains(!opened.track.is_empty())
+}
+
+/// No cause was found.
+pub fn none_explains(is_measured: bool) -> &'static str {
+    if is_measured {
+        "Not explained: no single cause or pair leaves only noise"
+    } else {
+        "Nothing was measured"
+    }
 }
 
 /// The names of causes that act together.
@@ -359,7 +418,7 @@ fn names(of: &Explanation) -> String {
 /// The names of the best explanation and of those that these data do not tell from it, each once.
 fn names_alike(explanations: &[Explanation]) -> Vec<String> {
     let mut told: Vec<String> = explanations.first().map(names).into_iter().collect();
-    for alike in explanations.iter().filter(|explanation| explanation.is_alike).map(names) {
+    for alike in explanations.iter().map(names) {
         if !told.contains(&alike) {
             told.push(alike);
         }
@@ -370,9 +429,9 @@ fn names_alike(explanations: &[Explanation]) -> Vec<String> {
 /// What the data cannot tell apart, as a sentence; `None` where the best cause stands alone.
 pub fn alike(explanations: &[Explanation]) -> Option<String> {
     let told = names_alike(explanations);
-    let alike = || explanations.iter().filter(|it| it.is_alike).flat_map(Explanation::causes);
+    let alike = || explanations.iter().flat_map(Explanation::causes);
     let has = |is_so: fn(&Cause) -> bool| alike().any(is_so);
-    let tells = if has(|it| matches!(it, Cause::SlowDrives { .. })) {
+    let tells = if has(|it| matches!(it, Cause::SlowDrives { .. } | Cause::Stuck { .. })) {
         "A slower pass"
     } else if has(|it| matches!(it, Cause::Late { .. }))
         && has(|it| matches!(it, Cause::OtherElements { .. }))
@@ -402,35 +461,41 @@ fn or_alike(explanations: &[Explanation]) -> String {
 mod tests {
     use super::*;
 
-    fn explanation(cause: Cause, is_alike: bool) -> Explanation {
-        Explanation { cause, with: None, left_deg: 0.03, share: 0.97, is_alike }
+    fn explanation(cause: Cause) -> Explanation {
+        Explanation { cause, with: None, left_deg: 0.03, share: 0.97 }
     }
 
     #[test]
     fn what_the_positions_leave_open_is_told_with_what_would_tell_it() {
-        let late = explanation(Cause::Late { late_s: 0.4 }, true);
-        let set = explanation(Cause::OtherElements { epoch: Timestamp::UNIX_EPOCH }, true);
-        let slow = explanation(Cause::SlowDrives { rate_deg_s: 1.5 }, true);
-        let azimuth = explanation(Cause::AzimuthOffset { offset_deg: 0.3 }, true);
-        let excluded = explanation(Cause::ElevationOffset { offset_deg: 0.3 }, false);
+        let late = explanation(Cause::Late { late_s: 0.4 });
+        let set = explanation(Cause::OtherElements { epoch: Timestamp::UNIX_EPOCH });
+        let slow = explanation(Cause::SlowDrives { rate_deg_s: 1.5, axis: None });
+        let azimuth = explanation(Cause::AzimuthOffset { offset_deg: 0.3 });
         let told = |of: &[Explanation]| alike(of).unwrap_or_default();
-        assert_eq!(told(&[late, excluded]), "");
-        assert_eq!(or_alike(&[late, excluded]), "");
+        assert_eq!(told(&[late]), "");
+        assert_eq!(or_alike(&[late]), "");
         assert_eq!(
-            told(&[late, set, excluded]),
+            told(&[late, set]),
             "This pass cannot tell these apart: Time offset and Other elements. The clock of the \
              unit, or a pass of another satellite, can."
         );
-        assert_eq!(or_alike(&[late, set, excluded]), " or other elements");
-        assert_eq!(or_alike(&[late, set, set]), " or other elements");
-        assert_eq!(or_alike(&[set, set]), "");
+        assert_eq!(or_alike(&[late, set]), " or other elements");
         assert!(told(&[late, slow]).ends_with("A slower pass can."));
         assert!(told(&[late, azimuth]).ends_with("A pass in another part of the sky can."));
         assert_eq!(or_alike(&[late, set, azimuth]), " or one of 2 others");
-        let now = Explained { by: late, or: Some(set.cause), error_deg: 0.5 };
+        let said = |causes: &[Explanation]| {
+            explained(&Explained { causes: causes.to_vec(), error_deg: 0.5 })
+        };
+        assert_eq!(said(&[]), None);
         assert_eq!(
-            explained(&now),
-            "The antenna is 0.40 s late, or other elements: that explains 97 % of the error of 0.50°."
+            said(&[late]).as_deref(),
+            Some("The antenna is 0.40 s late: that explains 97 % of the error of 0.50°.")
         );
+        assert_eq!(
+            said(&[late, set, azimuth]).as_deref(),
+            Some("The error of 0.50° may come from time offset, other elements or azimuth offset.")
+        );
+        let y = Cause::Stuck { since: Timestamp::UNIX_EPOCH, axis: Some(Axis::Y) };
+        assert_eq!(cause(&y), "Y stuck");
     }
 }

@@ -65,6 +65,16 @@ impl Place {
         let here = GroundPoint::new(site.latitude(), site.longitude());
         here.distance(there).radians() * MEAN_RADIUS_KM
     }
+
+    /// This place at the altitude of `site`, or `site` where its step hides the difference; `None`
+    /// if no such place exists.
+    pub fn beside(self, site: Site) -> Option<Site> {
+        let step_km = self.step_deg.to_radians() * MEAN_RADIUS_KM;
+        if self.km_from(site) <= step_km {
+            return Some(site);
+        }
+        Site::new(self.latitude_deg, self.longitude_deg, site.altitude_m()).ok()
+    }
 }
 
 /// Offsets that a unit adds to the path it computes.

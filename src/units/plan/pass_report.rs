@@ -8,7 +8,7 @@ mod losses;
 mod tests;
 
 pub use breaks::Breaks;
-pub use explain::{Cause, Evidence, Explained, Explanation, below_their_parts};
+pub use explain::{Axis, Cause, Evidence, Explained, Explanation, PathSource};
 pub use flown_offsets::FlownOffsets;
 pub use losses::{LossCause, LostStretch};
 

@@ -11,7 +11,10 @@ use crate::{
     job::{Job, Wake},
     library::History,
     orbit::Propagator,
-    plan::pass_report::{Evidence, Explained, MeasuredPosition, is_in_reach},
+    plan::{
+        MountLimits,
+        pass_report::{Evidence, Explained, MeasuredPosition, is_in_reach},
+    },
 };
 
 /// Time between two looks, seconds.
@@ -19,7 +22,7 @@ const EVERY_S: f64 = 10.0;
 /// Only positions as young as this count, seconds: what was wrong before them may be mended.
 const SINCE_S: f64 = 180.0;
 /// An error below this share of half the beamwidth needs no cause.
-const LEAST_SHARE: f64 = 0.2;
+const MIN_SHARE: f64 = 0.5;
 
 /// Other elements of the satellite, with their epochs.
 type Others = Vec<(Timestamp, Propagator)>;
@@ -50,7 +53,7 @@ impl Engine {
             let shown = &mut antenna.shown;
             let of = |pass: &&Followed| pass.antenna == shown.id() && now <= pass.until;
             let pass = self.recording.followed.iter().find(of).filter(|_| shown.tracks());
-            shown.explained = pass.and_then(|pass| pass.live.found);
+            shown.explained = pass.and_then(|pass| pass.live.found.clone());
         }
     }
 }
@@ -59,8 +62,8 @@ impl Followed {
     fn explain(&mut self, now: Timestamp, library: Option<&Path>, wake: &Wake) {
         if let Some(end) = Job::take(&mut self.live.job) {
             let end = end.ok();
-            self.live.found = end.as_ref().and_then(|(found, _)| *found);
-            self.live.others = end.map(|(_, others)| others);
+            let (found, others) = end.unzip();
+            (self.live.found, self.live.others) = (found.flatten(), others);
         }
         let is_due = self.live.begun.is_none_or(|at| seconds_between(at, now) >= EVERY_S);
         if !is_due || self.live.job.is_some() || now > self.until {
@@ -73,8 +76,8 @@ impl Followed {
         young.reverse();
         let (propagator, site) = (self.propagator.clone(), self.site);
         let about = self.about.clone();
-        let (has_elevation, mount) = (self.limits.has_elevation, self.limits.mount);
-        let least_deg = self.limits.half_beam.degrees() * LEAST_SHARE;
+        let MountLimits { has_elevation, mount, half_beam, .. } = self.limits;
+        let least_deg = self.limits.half_beam.degrees() * MIN_SHARE;
         let (elements, others) = (self.elements.clone(), self.live.others.take());
         let history = library.map(History::beside);
         let started = Job::start("azel-explain", Wake::clone(wake), move |_| {
@@ -84,8 +87,12 @@ impl Followed {
             }
             let measured = directions(&young, has_elevation);
             let others = others.unwrap_or_else(|| others_of(&elements, history.as_ref()));
-            let evidence =
-                Evidence::new(mount, has_elevation).with_pass(&propagator, site, measured);
+            let evidence = Evidence::new(mount, has_elevation, half_beam).with_pass(
+                &propagator,
+                site,
+                about.path_source(site),
+                measured,
+            );
             (evidence.explained(least_deg, &others), others)
         });
         self.live.job =

@@ -21,7 +21,7 @@ use crate::{
     orbit::{Elements, PassSearch, Propagator, passes},
     plan::{
         MountLimits, Sample, TrackPhase, Trackability,
-        pass_report::{Breaks, Evidence, FlownOffsets, MeasuredPosition, TrackedPass},
+        pass_report::{Breaks, Evidence, FlownOffsets, MeasuredPosition, PassVerdict, TrackedPass},
         trackability,
     },
     record::{AboutTrack, PassNote, RecordedReport, TrackedBy},
@@ -232,6 +232,7 @@ fn about(antenna: &AntennaModel, begun: Timestamp, sync: TimeSync) -> AboutTrack
         offsets: FlownOffsets::default(),
         pointing_model,
         unit_clock_ahead_s: None,
+        unit_place: None,
         sync,
     }
 }
@@ -263,6 +264,7 @@ impl Followed {
             if !shown.follows() && shown.tracks() && shown.tracked_number() == Some(number) {
                 self.about.offsets.note(now, snapshot.meant_offsets());
             }
+            self.about.unit_place = snapshot.state.on_board.place.or(self.about.unit_place);
             let clock = snapshot.state.on_board.clock.filter(|clock| clock.is_set);
             self.about.unit_clock_ahead_s =
                 clock.map(|clock| clock.ahead_s).or(self.about.unit_clock_ahead_s);
@@ -301,12 +303,19 @@ impl Followed {
         let is_reached = |flown: &&MeasuredPosition| tracked.is_in_reach(flown.time);
         let reached: Vec<MeasuredPosition> = flown.iter().filter(is_reached).copied().collect();
         let measured = directions(&reached, has_elevation);
-        let evidence = Evidence::new(self.limits.mount, has_elevation).with_pass(
+        let half_beam = self.limits.half_beam;
+        let evidence = Evidence::new(self.limits.mount, has_elevation, half_beam).with_pass(
             &self.propagator,
             self.site,
+            self.about.path_source(self.site),
             measured,
         );
-        let explanations = evidence.explanations(&others_of(&self.elements, history));
+        let causes = match report.verdict {
+            PassVerdict::Good => Vec::new(),
+            PassVerdict::Fair | PassVerdict::Poor => {
+                evidence.explanations(&others_of(&self.elements, history))
+            }
+        };
         let middle = add_seconds(self.from, seconds_between(self.from, self.until) / 2.0);
         let points = apart(self.flown.iter().copied(), POINT_S, |flown| flown.time).collect();
         let report = RecordedReport {
@@ -319,7 +328,7 @@ impl Followed {
             site: Some(self.site),
             about: self.about,
             report,
-            explanations,
+            causes,
         };
         PassNote { antenna: self.antenna, report, points }
     }

@@ -1,45 +1,52 @@
-//! What would explain the pointing error of one pass or of several: each cause is fitted alone,
-//! and where none suffices with a second one, by least squares on the sphere, to all positions
-//! near the satellite.
+//! Finds what explains the pointing error of one pass or of several. Each cause is fitted alone,
+//! and where none suffices with a second one, by least squares on the sphere. A cause is named
+//! only if the antenna would have kept the satellite in its beam without it.
 
+mod drives;
+mod evidence;
 mod fit;
 #[cfg(test)]
 mod tests;
 
 use std::mem::discriminant;
 
-use glam::DVec3;
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
-use self::fit::{Family, Found};
-use crate::{
-    astro::{AzEl, Site, time::seconds_between},
-    orbit::Propagator,
-    station::Mount,
-};
+pub use self::evidence::{Evidence, PathSource};
+use self::{evidence::Point, fit::Family};
+use crate::orbit::Propagator;
 
-/// Positions further from the satellite are a slew, or no track at all, degrees.
-const NEAR_DEG: f64 = 10.0;
-/// Least time between two positions that are used, seconds.
-const STEP_S: f64 = 0.95;
 /// Fewer positions explain nothing.
-const FEWEST: usize = 20;
-/// An antenna that comes closer to its satellite faster than this is on its way to it, degrees per
-/// second. No cause changes an error so fast but drives, and those let it grow first.
-const ARRIVES_DEG_S: f64 = 0.1;
-/// A cause that explains less is none.
-const LEAST_SHARE: f64 = 0.3;
-/// A cause is shown during a pass from this share on.
-const WELL: f64 = 0.8;
-/// Two causes whose sums of squares differ by less than this many times the square of the noise
+const MIN_POSITIONS: usize = 20;
+/// A cause explains at least this share of the mean square error that is not noise.
+const MIN_SHARE: f64 = 0.85;
+/// Without its cause, no more than this share of the positions would have been out of the beam.
+const MAX_OUTSIDE: f64 = 0.05;
+/// Two causes whose sums of squares differ by less than this many times the variance of the noise
 /// are not told apart: one in a hundred by chance (chi-squared, two degrees of freedom).
 const ALIKE: f64 = 9.2;
-/// An improvement of the sum of squares by less than this many times the variance of the noise may be
-/// chance, since the best of several causes is taken.
+/// An improvement of the sum of squares by less than this many times the variance of the noise may
+/// be chance, since the best of several causes is taken.
 const SURE: f64 = 30.0;
-/// A second cause is offered where it makes what is left smaller by this share of the error.
-const LEAST_MORE: f64 = 0.03;
+/// A second cause is named where it makes what is left smaller by this share of the error.
+const MIN_SECOND: f64 = 0.03;
+/// A known difference is named where it makes at least this share of the mean square error.
+const MIN_KNOWN: f64 = 0.01;
+/// More causes that the positions do not tell apart help nobody.
+const MAX_CANDIDATES: usize = 3;
+
+/// An axis of a mount.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Axis {
+    Azimuth,
+    Elevation,
+    /// The lower axis of an X/Y mount.
+    X,
+    /// Its upper axis.
+    Y,
+}
 
 /// A cause with its size.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -69,14 +76,50 @@ pub enum Cause {
     ElevationScale {
         per_mille: f64,
     },
+    /// The unit computes its track for a place this far from the site.
+    OtherSite {
+        north_km: f64,
+        east_km: f64,
+    },
     /// The antenna follows these elements.
     OtherElements {
         epoch: Timestamp,
     },
-    /// The drives turn neither axis faster.
+    /// An axis turns no faster; `None`: neither of the two does.
     SlowDrives {
         rate_deg_s: f64,
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        axis: Option<Axis>,
     },
+    /// An axis stands since then; `None`: both stand.
+    Stuck {
+        since: Timestamp,
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        axis: Option<Axis>,
+    },
+}
+
+impl Cause {
+    fn is_same_kind(&self, other: &Self) -> bool {
+        discriminant(self) == discriminant(other)
+    }
+
+    /// Returns `false` for a size that no antenna has.
+    fn is_possible(&self) -> bool {
+        match *self {
+            Self::Late { late_s } => late_s.abs() <= 60.0,
+            Self::AzimuthOffset { offset_deg } => offset_deg.abs() <= 180.0,
+            Self::ElevationOffset { offset_deg } => offset_deg.abs() <= 90.0,
+            // More can be seen from afar.
+            Self::Tilt { north_deg, east_deg } => north_deg.hypot(east_deg) <= 10.0,
+            Self::AzimuthScale { per_mille } | Self::ElevationScale { per_mille } => {
+                per_mille.abs() <= 100.0
+            }
+            // Further away the satellite rises at another time.
+            Self::OtherSite { north_km, east_km } => north_km.hypot(east_km) <= 500.0,
+            Self::OtherElements { .. } | Self::SlowDrives { .. } | Self::Stuck { .. } => true,
+        }
+    }
 }
 
 /// How well a cause explains the error.
@@ -84,15 +127,13 @@ pub enum Cause {
 pub struct Explanation {
     #[serde(flatten)]
     pub cause: Cause,
-    /// What acts together with it; `None` where it was fitted alone.
+    /// What acts together with it; `None` where it acts alone.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub with: Option<Cause>,
     /// Root mean square of what is left, degrees.
     pub left_deg: f64,
     /// Share of the mean square that it explains of what is not noise, 0 to 1.
     pub share: f64,
-    /// These positions do not tell it from the best one.
-    pub is_alike: bool,
 }
 
 impl Explanation {
@@ -102,224 +143,175 @@ impl Explanation {
     }
 }
 
-/// The explanations as a table has them, each with its place among all: two causes together stand below
-/// the better of the two, where that stands alone as well.
-pub fn below_their_parts(explanations: &[Explanation]) -> Vec<(usize, &Explanation)> {
-    let place_of_part = |of: &Explanation| {
-        let is_part = |it: &Explanation| {
-            let is_same = |cause: &Cause| discriminant(cause) == discriminant(&it.cause);
-            it.with.is_none() && of.causes().any(is_same)
-        };
-        of.with.and_then(|_| explanations.iter().position(is_part))
-    };
-    let mut rows: Vec<_> = explanations.iter().enumerate().collect();
-    rows.sort_by_key(|(place, of)| {
-        let part = place_of_part(of);
-        (part.unwrap_or(*place), part.is_some())
-    });
-    rows
-}
-
-/// What explains an error well, while a pass goes on.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+/// The causes of an error while a pass goes on.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Explained {
-    pub by: Explanation,
-    /// A cause that the positions so far do not tell from it.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub or: Option<Cause>,
+    /// One cause, or up to three that the positions so far do not tell apart; the best first.
+    pub causes: Vec<Explanation>,
     /// The error, root mean square, degrees.
     pub error_deg: f64,
 }
 
-/// A position with its satellite.
+/// One or two causes with the sizes that fit best.
 #[derive(Debug, Clone, Copy)]
-struct Point<'a> {
-    propagator: &'a Propagator,
-    site: Site,
-    time: Timestamp,
-    satellite: AzEl,
-    /// Azimuth of the satellite, continued over north, degrees.
-    azimuth_deg: f64,
-    /// Measured minus predicted direction, as vectors of the sphere.
-    error: DVec3,
-    measured: AzEl,
+struct Found {
+    cause: Cause,
+    with: Option<Cause>,
+    fit: Fit,
 }
 
-/// The positions of passes, and what their satellites did.
-pub struct Evidence<'a> {
-    /// Each in the order of time.
-    passes: Vec<Vec<Point<'a>>>,
-    mount: Mount,
-    has_elevation: bool,
+/// What a model of the antenna leaves of the error.
+#[derive(Debug, Clone, Copy)]
+struct Fit {
+    /// Sum of the squares that are left.
+    left: f64,
+    /// Variance of what is left of one of the two angles of a position, times the number of
+    /// positions that say the same because noise lasts.
+    variance: f64,
+    /// Share of the positions that it leaves out of the beam.
+    outside: f64,
 }
 
-impl<'a> Evidence<'a> {
-    /// No evidence yet. `has_elevation`: the antenna measures its elevation; else that of the
-    /// satellite stands in its place.
-    pub fn new(mount: Mount, has_elevation: bool) -> Self {
-        Self { passes: Vec::new(), mount, has_elevation }
+impl Found {
+    fn is_possible(&self) -> bool {
+        self.cause.is_possible() && self.with.is_none_or(|with| with.is_possible())
     }
+}
 
-    /// The same with the measured directions of one more pass, oldest first.
-    #[must_use]
-    pub fn with_pass(
-        mut self,
-        propagator: &'a Propagator,
-        site: Site,
-        measured: impl Iterator<Item = (Timestamp, AzEl)>,
-    ) -> Self {
-        let mut points: Vec<Point<'a>> = Vec::new();
-        for (time, mut measured) in measured {
-            if points.last().is_some_and(|last| seconds_between(last.time, time) < STEP_S) {
-                continue;
-            }
-            let Ok(look) = propagator.look_from(site, time) else { continue };
-            let satellite = look.direction;
-            if !self.has_elevation {
-                measured.elevation = satellite.elevation;
-            }
-            if measured.separation(satellite).degrees() > NEAR_DEG {
-                continue;
-            }
-            let azimuth_deg = match points.last() {
-                None => satellite.azimuth.degrees(),
-                Some(last) => {
-                    let turned = (satellite.azimuth - last.satellite.azimuth).wrapped_180();
-                    last.azimuth_deg + turned.degrees()
-                }
-            };
-            let error = measured.to_enu() - satellite.to_enu();
-            points.push(Point { propagator, site, time, satellite, azimuth_deg, error, measured });
-        }
-        let arrives = |pair: &&[Point<'_>]| {
-            let [before, after] = pair else { return false };
-            let closer = before.error.length() - after.error.length();
-            closer.to_degrees() > ARRIVES_DEG_S * seconds_between(before.time, after.time)
-        };
-        let on_its_way = points.windows(2).take_while(arrives).count();
-        self.passes.push(points.split_off(on_its_way));
-        self
-    }
-
-    fn points(&self) -> impl Iterator<Item = &Point<'a>> {
-        self.passes.iter().flatten()
-    }
-
-    /// All causes that explain a good part of the error, the best first; empty where none does.
-    /// Two causes together are among them only where they explain more than any single one.
-    /// `others`: other elements of the satellite with their epochs.
+impl Evidence<'_> {
+    /// The cause of the error, or up to three that these positions do not tell apart, the best
+    /// first; empty where none explains it. Two causes together are among them only where they
+    /// explain clearly more than any single one. `others`: other elements of the satellite with
+    /// their epochs.
     pub fn explanations(&self, others: &[(Timestamp, Propagator)]) -> Vec<Explanation> {
-        let count = self.points().count();
-        let whole = self.sum(|point| Some(point.satellite));
-        if count < FEWEST || whole <= 0.0 {
+        let whole = self.fit_of(|point| Some(point.satellite));
+        if self.points().count() < MIN_POSITIONS || whole.left <= 0.0 {
             return Vec::new();
         }
-        let count = count as f64;
-        let families = Family::ALL.into_iter();
-        let families = families.filter(|of| self.has_elevation || !of.needs_elevation());
-        let families = families.chain(others.iter().map(Family::Elements));
-        let mut alone: Vec<(Family<'_>, Found)> =
-            families.map(|family| (family, self.fitted(family, None))).collect();
-        alone.sort_by(|(_, a), (_, b)| a.left.total_cmp(&b.left));
-        let mut found: Vec<Found> = alone.iter().map(|(_, found)| *found).collect();
-        found.push(self.slow_drives());
-        let single = found.iter().fold(whole, |best, found| best.min(found.left));
-        let noise = self.noise();
-        let is_less = |left: f64| single.sqrt() - left.sqrt() > LEAST_MORE * whole.sqrt();
-        if is_less(noise.min(single)) {
-            let mixed = self.mixed(&alone);
-            let best = mixed.iter().fold(single, |best, found| best.min(found.left));
-            let square = best / (2.0 * count);
-            if is_less(best) && single - best > SURE * square {
-                found.extend(mixed.into_iter().filter(|it| it.left - best <= ALIKE * square));
+        let known = self.fit_of(|point| Some(point.followed));
+        if self.is_explained(known, whole.left)
+            && let Some(cause) = self.known_cause(known, whole.left)
+        {
+            let found = Found { cause, with: None, fit: known };
+            return self.shown(&[found], whole.left);
+        }
+        let mut singles = self.singles(others);
+        singles.sort_by(|(_, a), (_, b)| a.fit.left.total_cmp(&b.fit.left));
+        let mut found: Vec<Found> = singles.iter().map(|(_, found)| *found).collect();
+        found.extend(self.slow_drives());
+        found.extend(self.stuck());
+        found.retain(|found| found.is_possible() && self.is_explained(found.fit, whole.left));
+        let single = found.iter().fold(f64::INFINITY, |best, found| best.min(found.fit.left));
+        let is_less = |left: f64| {
+            single.is_infinite() || single.sqrt() - left.sqrt() > MIN_SECOND * whole.left.sqrt()
+        };
+        if is_less(self.noise().min(single)) {
+            let pairs = self.pairs(&singles, whole.left);
+            let best = pairs.iter().min_by(|a, b| a.fit.left.total_cmp(&b.fit.left));
+            if let Some(best) = best
+                && is_less(best.fit.left)
+                && single - best.fit.left > SURE * best.fit.variance
+            {
+                found = pairs;
             }
         }
-        found.sort_by(|a, b| a.left.total_cmp(&b.left));
-        let best = found.first().map_or(whole, |best| best.left);
-        let systematic = whole - noise.min(best);
-        // Of one of two measured angles of a position; what no cause explains blurs as noise does.
-        let square = best / (2.0 * count);
-        let sure = found.into_iter().filter(|it| whole - it.left > SURE * square);
-        let explained = sure.map(|it| Explanation {
-            cause: it.cause,
-            with: it.with,
-            left_deg: (it.left / count).sqrt().to_degrees(),
-            share: if systematic > 0.0 { (whole - it.left) / systematic } else { 0.0 },
-            is_alike: it.left - best <= ALIKE * square,
-        });
-        explained.filter(|it| it.share >= LEAST_SHARE).collect()
+        found.sort_by(|a, b| a.fit.left.total_cmp(&b.fit.left));
+        let Some(best) = found.first().copied() else { return Vec::new() };
+        found.retain(|found| found.fit.left - best.fit.left <= ALIKE * best.fit.variance);
+        let named = found.into_iter().map(|found| self.beside_known(found, whole.left));
+        self.shown(&named.collect::<Vec<_>>(), whole.left)
     }
 
-    /// Two causes together, each pair once. `alone`: what each explains, the best first.
-    fn mixed(&self, alone: &[(Family<'_>, Found)]) -> Vec<Found> {
-        let is_set = |family: &Family<'_>| matches!(family, Family::Elements(_));
-        // An antenna follows one set of elements: only the one that explains most alone is paired.
-        let set = alone.iter().map(|(family, _)| *family).find(is_set);
-        let families = alone.iter().map(|(family, _)| *family).filter(|of| !is_set(of));
-        let families: Vec<Family<'_>> = set.into_iter().chain(families).collect();
-        let pairs = families.iter().enumerate().flat_map(|(place, first)| {
-            families.iter().skip(place + 1).map(move |second| (*first, *second))
-        });
-        pairs.map(|(first, second)| self.fitted(first, Some(second))).collect()
-    }
-
-    /// What explains an error of at least `least_deg` well, if the positions tell it from all
-    /// else, or from all but one. Where they leave several pairs open, it is the cause that all of
-    /// these share. `others` as for [`Self::explanations`].
-    pub fn explained(
-        &self,
-        least_deg: f64,
-        others: &[(Timestamp, Propagator)],
-    ) -> Option<Explained> {
-        let square = self.sum(|point| Some(point.satellite)) / self.points().count().max(1) as f64;
-        let error_deg = square.sqrt().to_degrees();
-        if error_deg < least_deg {
+    /// The causes of an error of at least `min_deg`, root mean square. `others` as for
+    /// [`Self::explanations`].
+    pub fn explained(&self, min_deg: f64, others: &[(Timestamp, Propagator)]) -> Option<Explained> {
+        let whole = self.fit_of(|point| Some(point.satellite));
+        let error_deg = self.rms_deg(whole.left);
+        if error_deg < min_deg {
             return None;
         }
-        let found = self.explanations(others);
-        let mut alike: Vec<&Explanation> = Vec::new();
-        for it in found.iter().filter(|it| it.is_alike) {
-            // Of several other sets the best one counts.
-            let is_same = |of: &&Explanation| {
-                [of.with, it.with] == [None; 2]
-                    && discriminant(&of.cause) == discriminant(&it.cause)
+        let causes = self.explanations(others);
+        (!causes.is_empty()).then_some(Explained { causes, error_deg })
+    }
+
+    /// The antenna would have kept the satellite in its beam but for what `fit` takes away, which
+    /// is more than chance.
+    fn is_explained(&self, fit: Fit, whole: f64) -> bool {
+        whole - fit.left > SURE * fit.variance
+            && self.share(fit.left, whole) >= MIN_SHARE
+            && fit.outside <= MAX_OUTSIDE
+    }
+
+    /// Share of the error that is not noise.
+    fn share(&self, left: f64, whole: f64) -> f64 {
+        (whole - left) / (whole - self.noise().min(left))
+    }
+
+    /// The best sizes of each cause that may act alone.
+    fn singles<'b>(&self, others: &'b [(Timestamp, Propagator)]) -> Vec<(Family<'b>, Found)> {
+        let is_open = |family: &Family<'_>| {
+            let is_of_unit = matches!(family, Family::Site | Family::Elements(_));
+            let is_site_open = !matches!(family, Family::Site) || self.is_site_open();
+            (self.has_elevation || !family.needs_elevation())
+                && (self.is_of_unit() || !is_of_unit)
+                && is_site_open
+        };
+        let families = Family::ALL.into_iter().chain(others.iter().map(Family::Elements));
+        let open = families.filter(is_open);
+        open.map(|family| (family, self.fitted(family, None))).collect()
+    }
+
+    /// Pairs of causes each of which does its part. `singles`: what each explains, the best first.
+    fn pairs(&self, singles: &[(Family<'_>, Found)], whole: f64) -> Vec<Found> {
+        let is_set = |family: &Family<'_>| matches!(family, Family::Elements(_));
+        // An antenna follows one set of elements: only the one that explains most alone is paired.
+        let set = singles.iter().find(|(family, _)| is_set(family));
+        let rest = singles.iter().filter(|(family, _)| !is_set(family));
+        let singles: Vec<&(Family<'_>, Found)> = set.into_iter().chain(rest).collect();
+        let pairs = singles.iter().enumerate().flat_map(|(place, first)| {
+            singles.iter().skip(place + 1).map(move |second| (*first, *second))
+        });
+        let both =
+            |((first, alone), (second, other)): (&(Family<'_>, Found), &(Family<'_>, Found))| {
+                let found = self.fitted(*first, Some(*second));
+                let without = alone.fit.left.min(other.fit.left);
+                let is_needed = without - found.fit.left > SURE * found.fit.variance;
+                let is_named = is_needed && self.is_explained(found.fit, whole);
+                (is_named && found.is_possible()).then_some(found)
             };
-            if !alike.iter().any(is_same) {
-                alike.push(it);
+        pairs.filter_map(both).collect()
+    }
+
+    /// `found` with what is known of the unit, where that makes a part of the error.
+    fn beside_known(&self, found: Found, whole: f64) -> Found {
+        match (self.known_cause(found.fit, whole), found.cause) {
+            (None, _) => found,
+            (Some(Cause::Late { late_s: known_s }), Cause::Late { late_s }) => {
+                Found { cause: Cause::Late { late_s: known_s + late_s }, ..found }
+            }
+            (Some(known), cause) => Found { cause: known, with: Some(cause), ..found },
+        }
+    }
+
+    fn shown(&self, found: &[Found], whole: f64) -> Vec<Explanation> {
+        let mut shown: Vec<Explanation> = Vec::new();
+        for Found { cause, with, fit } in found.iter().copied() {
+            let explanation = Explanation {
+                cause,
+                with,
+                left_deg: self.rms_deg(fit.left),
+                share: self.share(fit.left, whole),
+            };
+            // Of several other sets the best one counts.
+            let is_same = |shown: &Explanation| {
+                shown.cause.is_same_kind(&cause)
+                    && matches!((shown.with, with), (None, None))
+                    && matches!(cause, Cause::OtherElements { .. })
+            };
+            if shown.len() < MAX_CANDIDATES && !shown.iter().any(is_same) {
+                shown.push(explanation);
             }
         }
-        let mut or = None;
-        let by = match alike[..] {
-            [one] => one,
-            [one, other] if one.with.is_none() && other.with.is_none() => {
-                or = Some(other.cause);
-                one
-            }
-            _ => found.iter().find(|it| {
-                let is_same = |other: &Cause| discriminant(other) == discriminant(&it.cause);
-                it.with.is_none() && alike.iter().all(|alike| alike.causes().any(is_same))
-            })?,
-        };
-        (by.share >= WELL).then_some(Explained { by: *by, or, error_deg })
-    }
-
-    /// Sum of the squares of what differs from one position to the next: an error that lasts
-    /// hardly does.
-    fn noise(&self) -> f64 {
-        let pairs = self.passes.iter().flat_map(|points| points.windows(2));
-        let between = pairs.filter_map(|pair| match pair {
-            [before, after] => Some((after.error - before.error).length_squared() / 2.0),
-            _ => None,
-        });
-        between.sum()
-    }
-
-    /// Sum of the squares that are left where the antenna is taken to point as `model` says.
-    fn sum(&self, model: impl Fn(&Point<'_>) -> Option<AzEl>) -> f64 {
-        let left = |point: &Point<'_>| {
-            let model = model(point).unwrap_or(point.satellite);
-            (point.error - (model.to_enu() - point.satellite.to_enu())).length_squared()
-        };
-        self.points().map(left).sum()
+        shown
     }
 }

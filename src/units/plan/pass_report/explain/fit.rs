@@ -1,24 +1,19 @@
 //! One fit: where an antenna with certain causes points, and the sizes that leave least of the
 //! error.
 
-use glam::{DMat3, DVec3};
+use glam::{DMat4, DVec3, DVec4};
 use jiff::Timestamp;
 
-use super::{Cause, Evidence, Point};
+use super::{Cause, Evidence, Found, Point, evidence::moved};
 use crate::{
-    astro::{
-        Angle, AzEl,
-        time::{add_seconds, seconds_between},
-        xy_mount,
-    },
+    astro::{Angle, AzEl, time::add_seconds},
     orbit::Propagator,
-    station::Mount,
 };
 
-/// Most rounds of a fit; most need three.
+/// Maximum number of rounds of a fit; most fits need three.
 const ROUNDS: usize = 8;
-/// Slowest and fastest drive that is looked for, degrees per second.
-const RATES_DEG_S: (f64, f64) = (0.05, 20.0);
+/// Delays from which the fit of a delay may begin, seconds: an error of many seconds is not linear.
+const STARTS_S: [f64; 9] = [-30.0, -12.0, -5.0, -2.0, 0.0, 2.0, 5.0, 12.0, 30.0];
 
 /// A family of causes with up to two sizes.
 #[derive(Debug, Clone, Copy)]
@@ -30,26 +25,19 @@ pub(super) enum Family<'a> {
     Tilt,
     AzimuthScale,
     ElevationScale,
-}
-
-/// One or two causes with the sizes that fit best.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Found {
-    pub cause: Cause,
-    pub with: Option<Cause>,
-    /// Sum of the squares of what is left.
-    pub left: f64,
+    Site,
 }
 
 impl Family<'_> {
     /// Those whose size is fitted.
-    pub(super) const ALL: [Self; 6] = [
+    pub(super) const ALL: [Self; 7] = [
         Self::Late,
         Self::Azimuth,
         Self::Elevation,
         Self::Tilt,
         Self::AzimuthScale,
         Self::ElevationScale,
+        Self::Site,
     ];
 
     /// Small steps of its sizes.
@@ -58,7 +46,8 @@ impl Family<'_> {
             Self::Elements(_) => &[],
             Self::Late => &[0.01],
             Self::Tilt => &[1e-3, 1e-3],
-            _ => &[1e-3],
+            Self::Site => &[0.1, 0.1],
+            Self::Azimuth | Self::Elevation | Self::AzimuthScale | Self::ElevationScale => &[1e-3],
         }
     }
 
@@ -77,6 +66,7 @@ impl Family<'_> {
             Self::Tilt => Cause::Tilt { north_deg: first, east_deg: second },
             Self::AzimuthScale => Cause::AzimuthScale { per_mille: first },
             Self::ElevationScale => Cause::ElevationScale { per_mille: first },
+            Self::Site => Cause::OtherSite { north_km: first, east_km: second },
         }
     }
 
@@ -104,7 +94,11 @@ impl Family<'_> {
                 elevation: elevation + deg(elevation.degrees() * per_mille / 1000.0),
             },
             // These move the satellite, not the antenna.
-            Cause::Late { .. } | Cause::OtherElements { .. } | Cause::SlowDrives { .. } => at,
+            Cause::Late { .. }
+            | Cause::OtherElements { .. }
+            | Cause::OtherSite { .. }
+            | Cause::SlowDrives { .. }
+            | Cause::Stuck { .. } => at,
         }
     }
 }
@@ -122,54 +116,93 @@ fn sized<'a>(
 }
 
 /// Direction in which an antenna with these causes points.
-fn modelled(families: &[Family<'_>], sizes: DVec3, point: &Point<'_>) -> Option<AzEl> {
+fn modelled(families: &[Family<'_>], sizes: DVec4, point: &Point<'_>) -> Option<AzEl> {
     let sizes = sizes.to_array();
-    let (mut followed, mut late_s) = (None, None);
+    let (mut propagator, mut late_s) = (point.propagator, point.clock_late_s);
+    let (mut place, mut is_moved) = (point.place, false);
     for (family, own) in sized(families, &sizes) {
         match family {
-            Family::Elements((_, other)) => followed = Some(other),
-            Family::Late => late_s = own.first(),
-            _ => (),
+            Family::Elements((_, other)) => propagator = other,
+            Family::Late => late_s += own.first()?,
+            Family::Site => place = moved(place, *own.first()?, *own.get(1)?)?,
+            Family::Azimuth
+            | Family::Elevation
+            | Family::Tilt
+            | Family::AzimuthScale
+            | Family::ElevationScale => continue,
         }
+        is_moved = true;
     }
-    let mut at = point.satellite;
-    if followed.is_some() || late_s.is_some() {
-        let time = add_seconds(point.time, -late_s.copied().unwrap_or_default());
-        at = followed.unwrap_or(point.propagator).look_from(point.site, time).ok()?.direction;
+    let mut at = point.followed;
+    if is_moved {
+        at = propagator.look_from(place, add_seconds(point.time, -late_s)).ok()?.direction;
     }
     let turned = sized(families, &sizes).fold(at, |at, (family, own)| family.turns(at, point, own));
     Some(turned)
 }
 
 impl Evidence<'_> {
-    /// Fits the sizes of one or two causes by least squares (Gauss-Newton). A tilt has two sizes,
+    /// Fits the sizes of one or two causes by least squares. A tilt and a site have two sizes,
     /// another set of elements none, every other cause one.
     pub(super) fn fitted(&self, first: Family<'_>, second: Option<Family<'_>>) -> Found {
         let families: Vec<Family<'_>> = std::iter::once(first).chain(second).collect();
-        let mut steps = DVec3::ZERO;
-        let each = families.iter().flat_map(|family| family.steps()).zip(DVec3::AXES);
+        let sizes = self.sizes(&families, self.start(&families));
+        let fit = self.fit_of(|point| modelled(&families, sizes, point));
+        let sizes = sizes.to_array();
+        let (own, others) = sizes.split_at(first.steps().len());
+        Found { cause: first.cause(own), with: second.map(|second| second.cause(others)), fit }
+    }
+
+    /// The sizes from which a fit begins.
+    fn start(&self, families: &[Family<'_>]) -> DVec4 {
+        let mut places = families
+            .iter()
+            .flat_map(|family| family.steps().iter().map(move |_| matches!(family, Family::Late)));
+        let late = places.position(|is_late| is_late).and_then(|place| DVec4::AXES.get(place));
+        let Some(late) = late else { return DVec4::ZERO };
+        let sum = |start_s: f64| {
+            self.points()
+                .filter_map(|point| {
+                    let at = modelled(families, *late * start_s, point)?;
+                    let model = at.to_enu() - point.satellite.to_enu();
+                    Some((point.error - model).length_squared())
+                })
+                .sum::<f64>()
+        };
+        let starts = STARTS_S.map(|start_s| (start_s, sum(start_s)));
+        let best = starts.into_iter().min_by(|(_, a), (_, b)| a.total_cmp(b));
+        *late * best.map_or(0.0, |(start_s, _)| start_s)
+    }
+
+    /// The sizes that leave least (Gauss-Newton).
+    fn sizes(&self, families: &[Family<'_>], start: DVec4) -> DVec4 {
+        let mut steps = DVec4::ZERO;
+        let each = families.iter().flat_map(|family| family.steps()).zip(DVec4::AXES);
         each.for_each(|(step, axis)| steps += axis * *step);
-        let unused =
-            DMat3::from_diagonal(DVec3::select(steps.cmpeq(DVec3::ZERO), DVec3::ONE, DVec3::ZERO));
-        let mut sizes = DVec3::ZERO;
+        let is_unused = steps.cmpeq(DVec4::ZERO);
+        let unused = DMat4::from_diagonal(DVec4::select(is_unused, DVec4::ONE, DVec4::ZERO));
+        let mut sizes = start;
         for _ in 0..ROUNDS {
-            if steps == DVec3::ZERO {
+            if is_unused.all() {
                 break;
             }
-            let (mut normal, mut right) = (unused, DVec3::ZERO);
+            let (mut normal, mut right) = (unused, DVec4::ZERO);
             for point in self.points() {
-                let model = |sizes: DVec3| {
-                    let direction = modelled(&families, sizes, point).unwrap_or(point.satellite);
+                let model = |sizes: DVec4| {
+                    let direction = modelled(families, sizes, point).unwrap_or(point.satellite);
                     direction.to_enu() - point.satellite.to_enu()
                 };
                 let here = model(sizes);
-                let [x, y, z] = DVec3::AXES.map(|axis| match steps.dot(axis) {
+                let columns = DVec4::AXES.map(|axis| match steps.dot(axis) {
                     0.0 => DVec3::ZERO,
                     step => (model(sizes + axis * step) - here) / step,
                 });
-                let rows = DMat3::from_cols(x, y, z).transpose();
-                normal += rows * rows.transpose();
-                right += rows * (point.error - here);
+                let left = point.error - here;
+                for row in [0, 1, 2] {
+                    let slopes = DVec4::from_array(columns.map(|column| column[row]));
+                    normal += outer(slopes);
+                    right += slopes * left[row];
+                }
             }
             let change = solved(normal, right);
             sizes += change;
@@ -177,80 +210,20 @@ impl Evidence<'_> {
                 break;
             }
         }
-        let left = self.sum(|point| modelled(&families, sizes, point));
-        let sizes = sizes.to_array();
-        let (own, others) = sizes.split_at(first.steps().len());
-        Found { cause: first.cause(own), with: second.map(|of| of.cause(others)), left }
-    }
-
-    /// The rate of drives that explains most.
-    pub(super) fn slow_drives(&self) -> Found {
-        let (mut low, mut high) = (RATES_DEG_S.0.ln(), RATES_DEG_S.1.ln());
-        // Coarse, because the sum has flat parts; then between the neighbours of the best.
-        let count = 40;
-        let at = |step: u32, low: f64, high: f64| {
-            low + (high - low) * f64::from(step) / f64::from(count)
-        };
-        for _ in 0..3 {
-            let sums = (0..=count).map(|step| (step, self.sum_of_slow(at(step, low, high).exp())));
-            let best = sums.min_by(|(_, a), (_, b)| a.total_cmp(b)).map_or(0, |(step, _)| step);
-            let around = (best.saturating_sub(1), (best + 1).min(count));
-            (low, high) = (at(around.0, low, high), at(around.1, low, high));
-        }
-        let rate_deg_s = f64::midpoint(low, high).exp();
-        let left = self.sum_of_slow(rate_deg_s);
-        Found { cause: Cause::SlowDrives { rate_deg_s }, with: None, left }
-    }
-
-    /// Sum of the squares that are left beside an antenna whose axes follow the satellite at this
-    /// rate at most.
-    fn sum_of_slow(&self, rate_deg_s: f64) -> f64 {
-        self.passes.iter().map(|points| sum_of_slow(points, self.mount, rate_deg_s)).sum()
+        sizes
     }
 }
 
-/// Angles of the axes that point at `direction`, degrees as the mount counts. `azimuth_deg`: its
-/// azimuth, continued over north.
-fn axes_deg(mount: Mount, direction: AzEl, azimuth_deg: f64) -> [f64; 2] {
-    match mount {
-        Mount::AzEl { .. } => [azimuth_deg, direction.elevation_deg()],
-        Mount::Xy { lower_axis_azimuth_deg, .. } => {
-            let lower_axis = Angle::from_degrees(lower_axis_azimuth_deg);
-            let axes = xy_mount::axes_from_azel(direction, lower_axis);
-            [axes.lower, axes.upper].map(|axis| axis.degrees() + 90.0)
-        }
-    }
-}
-
-fn sum_of_slow(points: &[Point<'_>], mount: Mount, rate_deg_s: f64) -> f64 {
-    let mut before: Option<(Timestamp, [f64; 2])> = None;
-    let mut sum = 0.0;
-    for point in points {
-        let Point { time, satellite, azimuth_deg, measured, .. } = *point;
-        let at_deg = match before {
-            None => {
-                let off = (measured.azimuth - satellite.azimuth).wrapped_180();
-                axes_deg(mount, measured, azimuth_deg + off.degrees())
-            }
-            Some((before, [first, second])) => {
-                let most = rate_deg_s * seconds_between(before, time);
-                let turned = |from: f64, to: f64| from + (to - from).clamp(-most, most);
-                let [to_first, to_second] = axes_deg(mount, satellite, azimuth_deg);
-                [turned(first, to_first), turned(second, to_second)]
-            }
-        };
-        before = Some((time, at_deg));
-        let model = mount.direction(at_deg).to_enu() - satellite.to_enu();
-        sum += (point.error - model).length_squared();
-    }
-    sum
+/// The matrix of the products of all components.
+fn outer(vector: DVec4) -> DMat4 {
+    DMat4::from_cols(vector * vector.x, vector * vector.y, vector * vector.z, vector * vector.w)
 }
 
 /// Solution of the equations; zero where these positions do not settle it.
-fn solved(normal: DMat3, right: DVec3) -> DVec3 {
-    let [x, y, z] = [normal.x_axis.x, normal.y_axis.y, normal.z_axis.z];
-    if normal.determinant().abs() <= 1e-12 * x * y * z {
-        return DVec3::ZERO;
+fn solved(normal: DMat4, right: DVec4) -> DVec4 {
+    let diagonal: f64 = (0..4).map(|place| normal.col(place)[place]).product();
+    if normal.determinant().abs() <= 1e-12 * diagonal {
+        return DVec4::ZERO;
     }
     normal.inverse() * right
 }

@@ -1,11 +1,14 @@
 //! Errors of known causes, put into passes of real satellites.
 
+mod antennas;
+mod draws;
+
 use std::collections::BTreeMap;
 
-use glam::{DQuat, DVec3};
 use jiff::Timestamp;
 
-use super::{Cause, Evidence, Explanation};
+use self::antennas::{drawn, measured, measured_of, normal, shaken, signed};
+use super::{Axis, Cause, Evidence, Explanation, PathSource};
 use crate::{
     astro::{
         Angle, AzEl, Site,
@@ -23,6 +26,9 @@ const CASES: u32 = 200;
 const CASES_OF_TWO: u32 = 50;
 /// Standard deviation of both angles, degrees.
 const NOISE_DEG: f64 = 0.02;
+const HALF_BEAM_DEG: f64 = 0.1;
+/// A unit that computes its track, and tells nothing of how.
+const UNIT: PathSource = PathSource::Unit { clock_ahead_s: None, place: None };
 const STEP_S: f64 = 0.5;
 const AZ_EL: Mount = Mount::AzEl {
     azimuth_from_deg: -180.0,
@@ -90,108 +96,24 @@ fn deg(deg: f64) -> Angle {
     Angle::from_degrees(deg)
 }
 
-/// A number from -1 to 1, but not close to zero.
-fn signed(random: &mut Random) -> f64 {
-    let size = 0.15 + 0.85 * f64::from(random.below(10_000)) / 10_000.0;
-    if random.below(2) == 0 { size } else { -size }
-}
-
-/// From the normal distribution, nearly.
-fn normal(random: &mut Random) -> f64 {
-    (0..12).map(|_| f64::from(random.below(1_000_000)) / 1e6).sum::<f64>() - 6.0
-}
-
-/// Draws one of eight causes.
-fn drawn(random: &mut Random, flight: &Flight) -> (&'static str, Cause) {
-    match random.below(8) {
-        0 => (
-            "late",
-            Cause::Late {
-                late_s: 2.0 * signed(random).powi(2).max(0.025).copysign(signed(random)),
-            },
-        ),
-        1 => ("azimuth", Cause::AzimuthOffset { offset_deg: signed(random) }),
-        2 => ("elevation", Cause::ElevationOffset { offset_deg: signed(random) }),
-        3 => ("tilt", Cause::Tilt { north_deg: signed(random), east_deg: signed(random) }),
-        4 => ("azimuth scale", Cause::AzimuthScale { per_mille: 5.0 * signed(random) }),
-        5 => ("elevation scale", Cause::ElevationScale { per_mille: 20.0 * signed(random) }),
-        6 => ("elements", Cause::OtherElements { epoch: flight.elements.epoch() }),
-        _ => ("slow drives", Cause::SlowDrives { rate_deg_s: 0.0 }),
-    }
-}
-
-/// What an antenna with this cause measures, without noise.
-fn measured(flight: &Flight, cause: &mut Cause, other: &Propagator) -> Vec<(Timestamp, AzEl)> {
-    let directions: Vec<(Timestamp, AzEl)> =
-        flight.times().map(|time| (time, flight.at(time))).collect();
-    measured_of(flight, &directions, cause, other)
-}
-
-/// What one measures with this cause as well that would measure `directions`.
-fn measured_of(
-    flight: &Flight,
-    directions: &[(Timestamp, AzEl)],
-    cause: &mut Cause,
-    other: &Propagator,
-) -> Vec<(Timestamp, AzEl)> {
-    let mut azimuth_deg = directions[0].1.azimuth.degrees();
-    let mut before = directions[0].1.azimuth;
-    if let Cause::SlowDrives { rate_deg_s } = cause {
-        let rates = directions.windows(2).map(|pair| {
-            let turned = (pair[1].1.azimuth - pair[0].1.azimuth).wrapped_180().degrees();
-            turned.abs() / STEP_S
-        });
-        // So that some of the pass is lost, and the antenna comes back.
-        *rate_deg_s = 0.85 * rates.fold(0.0, f64::max);
-    }
-    let mut slow: Option<(f64, f64)> = None;
-    let each = directions.iter().map(|(time, at)| {
-        azimuth_deg += (at.azimuth - before).wrapped_180().degrees();
-        before = at.azimuth;
-        let AzEl { azimuth, elevation } = *at;
-        let direction = match *cause {
-            Cause::Late { late_s } => flight.at(add_seconds(*time, -late_s)),
-            Cause::AzimuthOffset { offset_deg } => {
-                AzEl { azimuth: azimuth + deg(offset_deg), elevation }
-            }
-            Cause::ElevationOffset { offset_deg } => {
-                AzEl { azimuth, elevation: elevation + deg(offset_deg) }
-            }
-            Cause::Tilt { north_deg, east_deg } => {
-                let lean = DVec3::new(deg(north_deg).radians(), -deg(east_deg).radians(), 0.0);
-                AzEl::from_enu(DQuat::from_scaled_axis(lean) * at.to_enu())
-            }
-            Cause::AzimuthScale { per_mille } => {
-                AzEl { azimuth: azimuth + deg(azimuth_deg * per_mille / 1000.0), elevation }
-            }
-            Cause::ElevationScale { per_mille } => {
-                AzEl { azimuth, elevation: deg(elevation.degrees() * (1.0 + per_mille / 1000.0)) }
-            }
-            Cause::OtherElements { .. } => other.look_from(flight.site, *time).unwrap().direction,
-            Cause::SlowDrives { rate_deg_s } => {
-                let most = rate_deg_s * STEP_S;
-                let (az, el) = slow.map_or((azimuth_deg, elevation.degrees()), |(az, el)| {
-                    let turned = |from: f64, to: f64| from + (to - from).clamp(-most, most);
-                    (turned(az, azimuth_deg), turned(el, elevation.degrees()))
-                });
-                slow = Some((az, el));
-                AzEl { azimuth: deg(az).wrapped_360(), elevation: deg(el) }
-            }
-        };
-        (*time, direction)
-    });
-    each.collect()
-}
-
 /// With noise on both angles of the sky.
 fn noisy(exact: &[(Timestamp, AzEl)], random: &mut Random) -> Vec<(Timestamp, AzEl)> {
+    let shakes = |random: &mut Random| NOISE_DEG * normal(random);
     let each = exact.iter().map(|(time, at)| {
-        let across = normal(random) * NOISE_DEG / at.elevation.radians().cos().max(0.02);
-        let azimuth = (at.azimuth + deg(across)).wrapped_360();
-        let elevation = at.elevation + deg(normal(random) * NOISE_DEG);
-        (*time, AzEl { azimuth, elevation })
+        let (right_deg, up_deg) = (shakes(random), shakes(random));
+        (*time, shaken(*at, right_deg, up_deg))
     });
     each.collect()
+}
+
+/// Slow drives of a flight fail where the azimuth is quickest, and come back.
+fn sized_for(flight: &Flight, cause: Cause) -> Cause {
+    let Cause::SlowDrives { axis, .. } = cause else { return cause };
+    let rates = flight.times().map(|time| {
+        let (from, to) = (flight.at(time), flight.at(add_seconds(time, STEP_S)));
+        (to.azimuth - from.azimuth).wrapped_180().degrees().abs() / STEP_S
+    });
+    Cause::SlowDrives { rate_deg_s: 0.85 * rates.fold(0.0, f64::max), axis }
 }
 
 fn is_same_kind(a: &Cause, b: &Cause) -> bool {
@@ -207,8 +129,9 @@ fn sizes(cause: &Cause) -> Vec<f64> {
         }
         Cause::Tilt { north_deg, east_deg } => vec![north_deg, east_deg],
         Cause::AzimuthScale { per_mille } | Cause::ElevationScale { per_mille } => vec![per_mille],
-        Cause::SlowDrives { rate_deg_s } => vec![rate_deg_s],
-        Cause::OtherElements { .. } => Vec::new(),
+        Cause::SlowDrives { rate_deg_s, .. } => vec![rate_deg_s],
+        Cause::OtherSite { north_km, east_km } => vec![north_km, east_km],
+        Cause::OtherElements { .. } | Cause::Stuck { .. } => Vec::new(),
     }
 }
 
@@ -242,10 +165,10 @@ const EXCLUDED: f64 = 40.0;
 
 /// Whether these directions, which have no noise, exclude the cause.
 fn is_excluded(cause: &Cause, evidence: &Evidence<'_>, others: &[(Timestamp, Propagator)]) -> bool {
-    let found = evidence.explanations(others);
-    let of = found.iter().find(|it| it.with.is_none() && is_same_kind(&it.cause, cause));
-    let count = evidence.points().count() as f64;
-    of.is_none_or(|of| count * (of.left_deg / NOISE_DEG).powi(2) > EXCLUDED)
+    let singles = evidence.singles(others).into_iter().map(|(_, found)| found);
+    let all = singles.chain(evidence.slow_drives()).chain(evidence.stuck());
+    let mut same = all.filter(|found| is_same_kind(&found.cause, cause));
+    same.all(|found| found.fit.left > EXCLUDED * NOISE_DEG.to_radians().powi(2))
 }
 
 #[test]
@@ -257,16 +180,21 @@ fn the_true_cause_of_an_error_is_named_first_or_with_those_that_look_alike() {
     let mut table = BTreeMap::<&str, [u32; 4]>::new();
     for case in 0..cases {
         let flight = &flights[random.below(flights.len() as u32) as usize];
-        let (name, mut cause) = drawn(&mut random, flight);
+        let (name, cause) = drawn(&mut random, flight);
+        let cause = sized_for(flight, cause);
         let other = flight.shifted(0.3 * signed(&mut random));
         let other = Propagator::new(&other).unwrap();
-        let exact = measured(flight, &mut cause, &other);
+        let exact = measured(flight, AZ_EL, &cause, &other);
         let seen = noisy(&exact, &mut random);
-        let evidence =
-            Evidence::new(AZ_EL, true).with_pass(&flight.propagator, flight.site, seen.into_iter());
+        let evidence = Evidence::new(AZ_EL, true, deg(HALF_BEAM_DEG)).with_pass(
+            &flight.propagator,
+            flight.site,
+            UNIT,
+            seen.into_iter(),
+        );
         let others = [(flight.elements.epoch(), other)];
         let found = evidence.explanations(&others);
-        let line: Vec<&Explanation> = found.iter().filter(|it| it.is_alike).collect();
+        let line: Vec<&Explanation> = found.iter().collect();
         let named = line.iter().find(|it| is_same_kind(&it.cause, &cause));
         let noise = noise_of_size(flight, &cause, &exact);
         let is_right = |it: &&&Explanation| {
@@ -275,9 +203,10 @@ fn the_true_cause_of_an_error_is_named_first_or_with_those_that_look_alike() {
                 (got - true_size).abs() <= (0.1 * true_size.abs()).max(noise)
             })
         };
-        let exact = Evidence::new(AZ_EL, true).with_pass(
+        let exact = Evidence::new(AZ_EL, true, deg(HALF_BEAM_DEG)).with_pass(
             &flight.propagator,
             flight.site,
+            UNIT,
             exact.iter().copied(),
         );
         for wrong in line.iter().filter(|it| !is_same_kind(&it.cause, &cause)) {
@@ -311,26 +240,28 @@ fn a_line_of_several_holds_the_true_cause_and_none_that_the_positions_exclude() 
     let (mut explained, mut named, mut several, mut wrong) = (0, 0, 0, 0);
     for case in 0..CASES {
         let flight = &flights[random.below(flights.len() as u32) as usize];
-        let (_, mut cause) = drawn(&mut random, flight);
+        let (_, cause) = drawn(&mut random, flight);
+        let cause = sized_for(flight, cause);
         // An azimuth scale counts from where the azimuth began to be counted, before this minute.
         if matches!(cause, Cause::AzimuthScale { .. }) {
             continue;
         }
         let other = flight.shifted(0.3 * signed(&mut random));
         let others = [(flight.elements.epoch(), Propagator::new(&other).unwrap())];
-        let mut exact = measured(flight, &mut cause, &others[0].1);
+        let mut exact = measured(flight, AZ_EL, &cause, &others[0].1);
         let from = random.below(exact.len() as u32 - 120) as usize;
         exact = exact[from..from + 120].to_vec();
         let seen = noisy(&exact, &mut random);
         let of = |directions: Vec<(Timestamp, AzEl)>| {
-            Evidence::new(AZ_EL, true).with_pass(
+            Evidence::new(AZ_EL, true, deg(HALF_BEAM_DEG)).with_pass(
                 &flight.propagator,
                 flight.site,
+                UNIT,
                 directions.into_iter(),
             )
         };
         let found = of(seen).explanations(&others);
-        let line: Vec<&Explanation> = found.iter().filter(|it| it.is_alike).collect();
+        let line: Vec<&Explanation> = found.iter().collect();
         if line.is_empty() {
             continue;
         }
@@ -364,7 +295,7 @@ fn two_causes_that_act_together_are_named_together_with_their_sizes() {
     let moves = |it: &Cause| matches!(it, Cause::Late { .. } | Cause::OtherElements { .. });
     for case in 0..cases {
         let flight = &flights[random.below(flights.len() as u32) as usize];
-        let (mut first, mut second) = loop {
+        let (first, second) = loop {
             let ((_, first), (_, second)) =
                 (drawn(&mut random, flight), drawn(&mut random, flight));
             let is_drawn = is_same_kind(&first, &second) || is_of_drives(&first);
@@ -373,11 +304,15 @@ fn two_causes_that_act_together_are_named_together_with_their_sizes() {
             }
         };
         let other = Propagator::new(&flight.shifted(0.3 * signed(&mut random))).unwrap();
-        let once = measured(flight, &mut first, &other);
-        let exact = measured_of(flight, &once, &mut second, &other);
+        let once = measured(flight, AZ_EL, &first, &other);
+        let exact = measured_of(flight, AZ_EL, &once, &second, &other);
         let seen = noisy(&exact, &mut random);
-        let evidence =
-            Evidence::new(AZ_EL, true).with_pass(&flight.propagator, flight.site, seen.into_iter());
+        let evidence = Evidence::new(AZ_EL, true, deg(HALF_BEAM_DEG)).with_pass(
+            &flight.propagator,
+            flight.site,
+            UNIT,
+            seen.into_iter(),
+        );
         let found = evidence.explanations(&[(flight.elements.epoch(), other)]);
         row[0] += 1;
         let by_one = found.iter().find(|it| it.with.is_none());
@@ -390,7 +325,7 @@ fn two_causes_that_act_together_are_named_together_with_their_sizes() {
             continue;
         }
         row[1] += 1;
-        let line: Vec<&Explanation> = found.iter().filter(|it| it.is_alike).collect();
+        let line: Vec<&Explanation> = found.iter().collect();
         let is_named = |it: &&&Explanation| {
             [&first, &second].iter().all(|of| it.causes().any(|cause| is_same_kind(cause, of)))
         };
@@ -430,21 +365,22 @@ fn several_passes_tell_apart_what_one_does_not() {
             noisy(&exact.take(60).collect::<Vec<_>>(), &mut random)
         });
         let flown: Vec<_> = flown.collect();
-        let mut evidence = Evidence::new(AZ_EL, true);
+        let mut evidence = Evidence::new(AZ_EL, true, deg(HALF_BEAM_DEG));
         for (flight, flown) in flights.iter().zip(&flown) {
-            let of_one = Evidence::new(AZ_EL, true).with_pass(
+            let of_one = Evidence::new(AZ_EL, true, deg(HALF_BEAM_DEG)).with_pass(
                 &flight.propagator,
                 flight.site,
+                UNIT,
                 flown.iter().copied(),
             );
-            ambiguous +=
-                u32::from(of_one.explanations(&[]).iter().filter(|it| it.is_alike).count() > 1);
-            evidence = evidence.with_pass(&flight.propagator, flight.site, flown.iter().copied());
+            ambiguous += u32::from(of_one.explanations(&[]).iter().count() > 1);
+            evidence =
+                evidence.with_pass(&flight.propagator, flight.site, UNIT, flown.iter().copied());
         }
         let found = evidence.explanations(&[]);
         let Cause::Late { late_s: told_s } = found[0].cause else { panic!("{found:?}") };
         assert!(found[0].with.is_none() && (told_s - late_s).abs() < 0.1 * late_s, "{found:?}");
-        assert_eq!(found.iter().filter(|it| it.is_alike).count(), 1, "{found:?}");
+        assert_eq!(found.iter().count(), 1, "{found:?}");
         count += 1;
     }
     assert!(ambiguous > count, "{ambiguous} of {count} times four passes leave it open alone");
@@ -464,8 +400,12 @@ fn the_way_to_a_pass_under_way_is_not_taken_for_slow_drives() {
             (time, AzEl { azimuth: azimuth + away, elevation })
         });
         let seen = noisy(&exact.collect::<Vec<_>>(), &mut random);
-        let evidence =
-            Evidence::new(AZ_EL, true).with_pass(&flight.propagator, flight.site, seen.into_iter());
+        let evidence = Evidence::new(AZ_EL, true, deg(HALF_BEAM_DEG)).with_pass(
+            &flight.propagator,
+            flight.site,
+            UNIT,
+            seen.into_iter(),
+        );
         let found = evidence.explanations(&[]);
         let is_of_drives = |it: &Explanation| matches!(it.cause, Cause::SlowDrives { .. });
         assert!(!found.iter().any(is_of_drives), "{found:?}");
@@ -479,16 +419,20 @@ fn an_error_of_noise_alone_is_not_explained() {
     for flight in &flights {
         let exact: Vec<_> = flight.times().map(|time| (time, flight.at(time))).collect();
         let seen = noisy(&exact, &mut random);
-        let evidence =
-            Evidence::new(AZ_EL, true).with_pass(&flight.propagator, flight.site, seen.into_iter());
+        let evidence = Evidence::new(AZ_EL, true, deg(HALF_BEAM_DEG)).with_pass(
+            &flight.propagator,
+            flight.site,
+            UNIT,
+            seen.into_iter(),
+        );
         let found = evidence.explanations(&[]);
         assert!(found.iter().all(|it| it.left_deg > 0.9 * NOISE_DEG), "{found:?}");
     }
     let flight = &flights[0];
     let few = flight.times().take(10).map(|time| (time, flight.at(time)));
     assert_eq!(
-        Evidence::new(AZ_EL, true)
-            .with_pass(&flight.propagator, flight.site, few)
+        Evidence::new(AZ_EL, true, deg(HALF_BEAM_DEG))
+            .with_pass(&flight.propagator, flight.site, UNIT, few)
             .explanations(&[]),
         []
     );
@@ -501,16 +445,20 @@ fn a_late_antenna_is_explained_while_its_pass_goes_on_and_a_small_error_is_not()
     for late_s in [0.5, 0.0] {
         let exact = flight.times().map(|time| (time, flight.at(add_seconds(time, -late_s))));
         let seen = noisy(&exact.collect::<Vec<_>>(), &mut random);
-        let evidence =
-            Evidence::new(AZ_EL, true).with_pass(&flight.propagator, flight.site, seen.into_iter());
+        let evidence = Evidence::new(AZ_EL, true, deg(HALF_BEAM_DEG)).with_pass(
+            &flight.propagator,
+            flight.site,
+            UNIT,
+            seen.into_iter(),
+        );
         let found = evidence.explained(0.05, &[]);
         if late_s < 0.1 {
             assert_eq!(found, None);
             continue;
         }
         let found = found.unwrap();
-        let Cause::Late { late_s: told_s } = found.by.cause else { panic!("{found:?}") };
-        assert!((told_s - late_s).abs() < 0.1 && found.by.share > 0.8, "{found:?}");
+        let Cause::Late { late_s: told_s } = found.causes[0].cause else { panic!("{found:?}") };
+        assert!((told_s - late_s).abs() < 0.1 && found.causes[0].share > 0.8, "{found:?}");
         assert_eq!(evidence.explained(found.error_deg + 0.01, &[]), None, "too small to be told");
     }
 }
@@ -525,7 +473,12 @@ fn a_rotator_of_azimuth_alone_has_no_error_of_its_elevation() {
         at.elevation = Angle::ZERO;
         (time, at)
     });
-    let evidence = Evidence::new(AZ_EL, false).with_pass(&flight.propagator, flight.site, seen);
+    let evidence = Evidence::new(AZ_EL, false, deg(HALF_BEAM_DEG)).with_pass(
+        &flight.propagator,
+        flight.site,
+        UNIT,
+        seen,
+    );
     let found = evidence.explanations(&[]);
     let Cause::AzimuthOffset { offset_deg } = found[0].cause else { panic!("{found:?}") };
     assert!((offset_deg - 0.5).abs() < 1e-6);
@@ -568,11 +521,110 @@ fn slow_drives_of_crossed_axes_are_told_by_the_rate_of_those_axes() {
             continue;
         }
         named += 1;
-        let evidence =
-            Evidence::new(XY, true).with_pass(&flight.propagator, flight.site, seen.into_iter());
+        let evidence = Evidence::new(XY, true, deg(HALF_BEAM_DEG)).with_pass(
+            &flight.propagator,
+            flight.site,
+            UNIT,
+            seen.into_iter(),
+        );
         let found = evidence.explanations(&[]);
-        let Cause::SlowDrives { rate_deg_s: told } = found[0].cause else { panic!("{found:?}") };
+        let Cause::SlowDrives { rate_deg_s: told, .. } = found[0].cause else {
+            panic!("{found:?}")
+        };
         assert!((told - rate_deg_s).abs() < 0.02 * rate_deg_s, "{told} for {rate_deg_s}");
     }
     assert!(named > 10, "{named}");
+}
+
+/// What a unit tells of itself is taken off first, and named where it makes a part of the error.
+#[test]
+fn the_clock_that_a_unit_tells_is_named_beside_what_is_left() {
+    let mut random = Random::new(SEED);
+    for flight in flights().iter().take(8) {
+        let other = Propagator::new(&flight.elements).unwrap();
+        let once = measured(flight, AZ_EL, &Cause::Late { late_s: 0.7 }, &other);
+        let offset = Cause::AzimuthOffset { offset_deg: 1.3 };
+        let both = noisy(&measured_of(flight, AZ_EL, &once, &offset, &other), &mut random);
+        let late = noisy(&once, &mut random);
+        let told = PathSource::Unit { clock_ahead_s: Some(-0.69), place: None };
+        let found = |seen: &[(Timestamp, AzEl)]| {
+            Evidence::new(AZ_EL, true, deg(HALF_BEAM_DEG))
+                .with_pass(&flight.propagator, flight.site, told, seen.iter().copied())
+                .explanations(&[])
+        };
+        let [only] = found(&late)[..] else { panic!("{:?}", found(&late)) };
+        assert_eq!((only.cause, only.with), (Cause::Late { late_s: 0.69 }, None));
+        let [pair] = found(&both)[..] else { panic!("{:?}", found(&both)) };
+        assert_eq!(pair.cause, Cause::Late { late_s: 0.69 });
+        let Some(Cause::AzimuthOffset { offset_deg }) = pair.with else { panic!("{pair:?}") };
+        assert!((offset_deg - 1.3).abs() < 0.05, "{pair:?}");
+    }
+}
+
+#[test]
+fn the_place_that_a_unit_tells_is_the_cause_and_a_right_one_rules_the_site_out() {
+    let flights = flights();
+    let flight = &flights[0];
+    let other = Propagator::new(&flight.elements).unwrap();
+    let wrong = Cause::OtherSite { north_km: 5.0, east_km: -4.0 };
+    let exact = measured(flight, AZ_EL, &wrong, &other);
+    let seen = noisy(&exact, &mut Random::new(SEED));
+    let found = |place: Option<Site>| {
+        let source = PathSource::Unit { clock_ahead_s: Some(0.0), place };
+        Evidence::new(AZ_EL, true, deg(HALF_BEAM_DEG))
+            .with_pass(&flight.propagator, flight.site, source, seen.iter().copied())
+            .explanations(&[])
+    };
+    let is_of_site = |found: &[Explanation]| found.iter().any(|it| is_same_kind(&it.cause, &wrong));
+    let latitude_deg = flight.site.latitude().degrees() + 5.0 / 111.2;
+    let east_deg = -4.0 / (111.2 * flight.site.latitude().radians().cos());
+    let longitude_deg = flight.site.longitude().degrees() + east_deg;
+    let there = Site::new(latitude_deg, longitude_deg, flight.site.altitude_m()).unwrap();
+    let told = found(Some(there));
+    assert!(told.len() == 1 && is_of_site(&told), "{told:?}");
+    assert!(is_of_site(&found(None)), "{:?}", found(None));
+    assert!(!is_of_site(&found(Some(flight.site))), "{:?}", found(Some(flight.site)));
+}
+
+/// Positions that Azel sent have no clock of a unit, no place of a unit and no elements of a unit.
+#[test]
+fn what_azel_computes_itself_is_no_cause_of_a_track_by_positions() {
+    let flights = flights();
+    for flight in flights.iter().take(8) {
+        let other = Propagator::new(&flight.shifted(0.3)).unwrap();
+        let elements = Cause::OtherElements { epoch: flight.elements.epoch() };
+        let exact = measured(flight, AZ_EL, &elements, &other);
+        let seen = noisy(&exact, &mut Random::new(SEED));
+        let found = Evidence::new(AZ_EL, true, deg(HALF_BEAM_DEG))
+            .with_pass(&flight.propagator, flight.site, PathSource::Azel, seen.into_iter())
+            .explanations(&[(flight.elements.epoch(), other)]);
+        let is_of_unit =
+            |it: &Cause| matches!(it, Cause::OtherElements { .. } | Cause::OtherSite { .. });
+        assert!(!found.iter().any(|it| it.causes().any(is_of_unit)), "{found:?}");
+    }
+}
+
+/// A drive that stands half way, in one axis and in both.
+#[test]
+fn a_stuck_axis_is_named_with_the_time_since_when_it_stands() {
+    let flights = flights();
+    let mut random = Random::new(SEED);
+    for flight in flights.iter().take(8) {
+        let other = Propagator::new(&flight.elements).unwrap();
+        let since = add_seconds(flight.pass.aos.time, 0.3 * flight.pass.duration_s());
+        for axis in [Some(Axis::Azimuth), None] {
+            let exact = measured(flight, AZ_EL, &Cause::Stuck { since, axis }, &other);
+            let seen = noisy(&exact, &mut random);
+            let found = Evidence::new(AZ_EL, true, deg(HALF_BEAM_DEG))
+                .with_pass(&flight.propagator, flight.site, UNIT, seen.into_iter())
+                .explanations(&[]);
+            let Some(Cause::Stuck { since: told, axis: named }) =
+                found.first().map(|best| best.cause)
+            else {
+                panic!("{found:?}")
+            };
+            let off_s = crate::astro::time::seconds_between(since, told).abs();
+            assert!(off_s < 15.0 && named == axis, "{off_s} {named:?} for {axis:?}");
+        }
+    }
 }

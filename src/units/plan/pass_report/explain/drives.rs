@@ -1,0 +1,181 @@
+//! Axes that turn too slowly, or not at all.
+
+use glam::DVec3;
+
+use super::{ALIKE, Axis, Cause, Evidence, Fit, Found, Point};
+use crate::{
+    astro::{Angle, AzEl, time::seconds_between, xy_mount},
+    station::Mount,
+};
+
+/// Slowest and fastest drive that is looked for, degrees per second.
+const RATES_DEG_S: (f64, f64) = (0.02, 20.0);
+/// Steps of a search, each of which goes on between the neighbours of the best.
+const STEPS: usize = 40;
+const SEARCHES: usize = 3;
+
+/// The axes that a cause acts on.
+#[derive(Debug, Clone, Copy)]
+struct Axes([bool; 2]);
+
+const BOTH: Axes = Axes([true, true]);
+const SINGLE: [Axes; 2] = [Axes([true, false]), Axes([false, true])];
+
+impl Evidence<'_> {
+    /// The rate of slow drives that explains the error best: that of one axis, or of both where
+    /// the positions need both.
+    pub(super) fn slow_drives(&self) -> Option<Found> {
+        self.narrowest(|axes| self.slow(axes))
+    }
+
+    /// When an axis, or both, came to stand.
+    pub(super) fn stuck(&self) -> Option<Found> {
+        self.narrowest(|axes| self.stuck_axes(axes))
+    }
+
+    fn narrowest(&self, found: impl Fn(Axes) -> Option<Found>) -> Option<Found> {
+        let axes = if self.has_elevation { &SINGLE[..] } else { &SINGLE[..1] };
+        let single = axes.iter().filter_map(|axes| found(*axes));
+        let single = single.min_by(|a, b| a.fit.left.total_cmp(&b.fit.left));
+        let both = if self.has_elevation { found(BOTH) } else { None };
+        let (Some(single), Some(both)) = (single, both) else { return single.or(both) };
+        let needs_both = single.fit.left - both.fit.left > ALIKE * both.fit.variance;
+        Some(if needs_both { both } else { single })
+    }
+
+    fn slow(&self, axes: Axes) -> Option<Found> {
+        let (low, high) = (RATES_DEG_S.0.ln(), RATES_DEG_S.1.ln());
+        let rate = |at: f64| (low + (high - low) * at).exp();
+        let fit = |at: f64| self.fit_of_axes(|points| slow(points, self.mount, axes, rate(at)));
+        let (at, fit) = searched(fit)?;
+        let cause = Cause::SlowDrives { rate_deg_s: rate(at), axis: self.axis(axes) };
+        Some(Found { cause, with: None, fit })
+    }
+
+    fn stuck_axes(&self, axes: Axes) -> Option<Found> {
+        // Axes that stand in one pass need not stand in another.
+        let [points] = &self.passes[..] else { return None };
+        let place = |at: f64| (points.len() as f64 * at) as usize;
+        let fit = |at: f64| self.fit_of_axes(|points| stuck(points, self.mount, axes, place(at)));
+        let (at, fit) = searched(fit)?;
+        let since = points.get(place(at))?.time;
+        Some(Found { cause: Cause::Stuck { since, axis: self.axis(axes) }, with: None, fit })
+    }
+
+    fn fit_of_axes(&self, axes_deg: impl Fn(&[Point<'_>]) -> Vec<[f64; 2]>) -> Fit {
+        let left = self.passes.iter().map(|points| {
+            let pairs = points.iter().zip(axes_deg(points));
+            let left = pairs.map(|(point, axes_deg)| {
+                let mut at = self.mount.direction(axes_deg);
+                if !self.has_elevation {
+                    at.elevation = point.satellite.elevation;
+                }
+                point.error - (at.to_enu() - point.satellite.to_enu())
+            });
+            left.collect()
+        });
+        self.fit_of_residuals(&left.collect::<Vec<Vec<DVec3>>>())
+    }
+
+    fn axis(&self, Axes(axes): Axes) -> Option<Axis> {
+        let names = match self.mount {
+            Mount::AzEl { .. } => [Axis::Azimuth, Axis::Elevation],
+            Mount::Xy { .. } => [Axis::X, Axis::Y],
+        };
+        match (axes, names) {
+            ([true, false], [first, _]) => Some(first),
+            ([false, true], [_, second]) => Some(second),
+            _ => None,
+        }
+    }
+}
+
+/// The place from 0 to 1 that leaves least. Coarse at first, because the sum has flat parts.
+fn searched(fit: impl Fn(f64) -> Fit) -> Option<(f64, Fit)> {
+    let (mut from, mut to) = (0.0, 1.0);
+    let mut best: Option<(f64, Fit)> = None;
+    for _ in 0..SEARCHES {
+        let step = (to - from) / STEPS as f64;
+        let tried = (0..=STEPS).map(|count| from + step * count as f64).map(|at| (at, fit(at)));
+        best = tried.chain(best).min_by(|(_, a), (_, b)| a.left.total_cmp(&b.left));
+        let (at, _) = best?;
+        (from, to) = ((at - step).max(0.0), (at + step).min(1.0));
+    }
+    best
+}
+
+/// Angles of the axes that point at `direction`, degrees as the mount counts. `azimuth_deg`: its
+/// azimuth, continued over north.
+fn axes_deg(mount: Mount, direction: AzEl, azimuth_deg: f64) -> [f64; 2] {
+    match mount {
+        Mount::AzEl { .. } => [azimuth_deg, direction.elevation_deg()],
+        Mount::Xy { lower_axis_azimuth_deg, .. } => {
+            let lower_axis = Angle::from_degrees(lower_axis_azimuth_deg);
+            let axes = xy_mount::axes_from_azel(direction, lower_axis);
+            [axes.lower, axes.upper].map(|axis| axis.degrees() + 90.0)
+        }
+    }
+}
+
+fn followed_deg(point: &Point<'_>, mount: Mount) -> [f64; 2] {
+    axes_deg(mount, point.followed, point.azimuth_deg)
+}
+
+fn measured_deg(point: &Point<'_>, mount: Mount) -> [f64; 2] {
+    let off = (point.measured.azimuth - point.followed.azimuth).wrapped_180();
+    axes_deg(mount, point.measured, point.azimuth_deg + off.degrees())
+}
+
+/// Angles of axes that follow the satellite from where they were first, those of `axes` at no
+/// more than this rate.
+fn slow(points: &[Point<'_>], mount: Mount, axes: Axes, rate_deg_s: f64) -> Vec<[f64; 2]> {
+    let mut before: Option<&Point<'_>> = None;
+    let mut at_deg = [0.0; 2];
+    let each = points.iter().map(|point| {
+        let followed = followed_deg(point, mount);
+        let (start, turns_deg) = match before {
+            None => (measured_deg(point, mount), 0.0),
+            Some(before) => (at_deg, rate_deg_s * seconds_between(before.time, point.time)),
+        };
+        before = Some(point);
+        at_deg = each_axis(axes, followed, start, |followed, start| {
+            start + (followed - start).clamp(-turns_deg, turns_deg)
+        });
+        at_deg
+    });
+    each.collect()
+}
+
+/// Angles of axes that follow the satellite, those of `axes` until the point at `place`, and stand
+/// from then on.
+fn stuck(points: &[Point<'_>], mount: Mount, axes: Axes, place: usize) -> Vec<[f64; 2]> {
+    // Where it stands is measured: it may never have been on its satellite.
+    let standing = points.get(place..).unwrap_or_default();
+    let count = standing.len().max(1) as f64;
+    let sum = standing.iter().fold([0.0; 2], |[first, second], point| {
+        let [measured_first, measured_second] = measured_deg(point, mount);
+        [first + measured_first, second + measured_second]
+    });
+    let stands = sum.map(|sum| sum / count);
+    let each = points.iter().enumerate().map(|(at, point)| {
+        let followed = followed_deg(point, mount);
+        if at < place {
+            return followed;
+        }
+        each_axis(axes, followed, stands, |_, stands| stands)
+    });
+    each.collect()
+}
+
+/// The angle of each of `axes` by `turned`; the others follow.
+fn each_axis(
+    Axes([first, second]): Axes,
+    [followed_first, followed_second]: [f64; 2],
+    [at_first, at_second]: [f64; 2],
+    turned: impl Fn(f64, f64) -> f64,
+) -> [f64; 2] {
+    [
+        if first { turned(followed_first, at_first) } else { followed_first },
+        if second { turned(followed_second, at_second) } else { followed_second },
+    ]
+}

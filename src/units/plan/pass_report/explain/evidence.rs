@@ -1,0 +1,259 @@
+//! The positions of passes, and what their satellites did.
+
+use glam::DVec3;
+use jiff::Timestamp;
+
+use super::{Cause, Fit, MIN_KNOWN, SURE};
+use crate::{
+    astro::{
+        Angle, AzEl, Site,
+        time::{add_seconds, apart, seconds_between},
+    },
+    orbit::Propagator,
+    station::Mount,
+};
+
+/// Minimum time between two positions that are used, seconds.
+const STEP_S: f64 = 0.95;
+/// Maximum number of positions that are used of a pass.
+const MAX_POSITIONS: usize = 1500;
+/// An antenna that comes closer to its satellite faster than this is on its way to it, degrees per
+/// second. No cause changes an error so fast but drives, and those let it grow first.
+const ARRIVES_DEG_S: f64 = 0.1;
+/// A clock or a place that differs by less does not show, seconds and km.
+const MIN_CLOCK_S: f64 = 0.05;
+const MIN_PLACE_KM: f64 = 0.5;
+/// Kilometres in a degree of latitude.
+const KM_PER_DEG: f64 = 111.2;
+
+/// The origin of the path that an antenna followed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum PathSource {
+    /// Azel computed it and sent positions.
+    Azel,
+    /// The unit computed it.
+    Unit {
+        /// Its clock against UTC, seconds; `None` if it tells none.
+        clock_ahead_s: Option<f64>,
+        /// The place for which it computes; `None` if it tells none.
+        place: Option<Site>,
+    },
+}
+
+/// A position with its satellite.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Point<'a> {
+    pub(super) propagator: &'a Propagator,
+    pub(super) time: Timestamp,
+    pub(super) satellite: AzEl,
+    /// Where the satellite is at the time of the unit's clock, seen from the unit's place.
+    pub(super) followed: AzEl,
+    pub(super) clock_late_s: f64,
+    pub(super) place: Site,
+    /// Azimuth of `followed`, continued over north, degrees.
+    pub(super) azimuth_deg: f64,
+    /// Measured minus true direction, as vectors of the sphere.
+    pub(super) error: DVec3,
+    pub(super) measured: AzEl,
+}
+
+/// The positions of passes, and what their satellites did.
+pub struct Evidence<'a> {
+    /// Each in the order of time.
+    pub(super) passes: Vec<Vec<Point<'a>>>,
+    sources: Vec<PathSource>,
+    site: Option<Site>,
+    pub(super) mount: Mount,
+    pub(super) has_elevation: bool,
+    half_beam: Angle,
+    noise: f64,
+}
+
+impl<'a> Evidence<'a> {
+    /// No evidence yet. `has_elevation`: the antenna measures its elevation; else that of the
+    /// satellite stands in its place.
+    pub fn new(mount: Mount, has_elevation: bool, half_beam: Angle) -> Self {
+        Self {
+            passes: Vec::new(),
+            sources: Vec::new(),
+            site: None,
+            mount,
+            has_elevation,
+            half_beam,
+            noise: 0.0,
+        }
+    }
+
+    /// The same with the measured directions of one more pass, oldest first.
+    #[must_use]
+    pub fn with_pass(
+        mut self,
+        propagator: &'a Propagator,
+        site: Site,
+        source: PathSource,
+        measured: impl Iterator<Item = (Timestamp, AzEl)>,
+    ) -> Self {
+        let (clock_late_s, place) = match source {
+            PathSource::Azel => (0.0, site),
+            PathSource::Unit { clock_ahead_s, place } => {
+                let late_s = clock_ahead_s.map_or(0.0, |ahead_s| -ahead_s);
+                let late_s = if late_s.abs() < MIN_CLOCK_S { 0.0 } else { late_s };
+                let is_elsewhere = |place: &Site| distance_km(site, *place) >= MIN_PLACE_KM;
+                (late_s, place.filter(is_elsewhere).unwrap_or(site))
+            }
+        };
+        let measured: Vec<(Timestamp, AzEl)> = apart(measured, STEP_S, |(time, _)| *time).collect();
+        let each = measured.len() / MAX_POSITIONS + 1;
+        let mut points: Vec<Point<'a>> = Vec::new();
+        for (time, mut measured) in measured.into_iter().step_by(each) {
+            let Ok(look) = propagator.look_from(site, time) else { continue };
+            let followed = propagator.look_from(place, add_seconds(time, -clock_late_s));
+            let (satellite, Ok(followed)) = (look.direction, followed) else { continue };
+            let followed = followed.direction;
+            if !self.has_elevation {
+                measured.elevation = satellite.elevation;
+            }
+            let azimuth_deg = match points.last() {
+                None => followed.azimuth.degrees(),
+                Some(last) => {
+                    let turned = (followed.azimuth - last.followed.azimuth).wrapped_180();
+                    last.azimuth_deg + turned.degrees()
+                }
+            };
+            let error = measured.to_enu() - satellite.to_enu();
+            let point = Point {
+                propagator,
+                time,
+                satellite,
+                followed,
+                clock_late_s,
+                place,
+                azimuth_deg,
+                error,
+                measured,
+            };
+            points.push(point);
+        }
+        let arrives = |pair: &&[Point<'_>]| {
+            let [before, after] = pair else { return false };
+            let closer = before.error.length() - after.error.length();
+            closer.to_degrees() > ARRIVES_DEG_S * seconds_between(before.time, after.time)
+        };
+        let on_its_way = points.windows(2).take_while(arrives).count();
+        let points = points.split_off(on_its_way);
+        // An error that lasts hardly changes from one position to the next.
+        let changes = points.windows(2).filter_map(|pair| match pair {
+            [before, after] => Some((after.error - before.error).length_squared() / 2.0),
+            _ => None,
+        });
+        self.noise += changes.sum::<f64>();
+        self.passes.push(points);
+        self.sources.push(source);
+        self.site = Some(site);
+        self
+    }
+
+    pub(super) fn points(&self) -> impl Iterator<Item = &Point<'a>> {
+        self.passes.iter().flatten()
+    }
+
+    /// Sum of the squares of what differs from one position to the next.
+    pub(super) fn noise(&self) -> f64 {
+        self.noise
+    }
+
+    /// Root mean square of a sum of squares over all positions, degrees.
+    pub(super) fn rms_deg(&self, sum: f64) -> f64 {
+        (sum / self.points().count().max(1) as f64).sqrt().to_degrees()
+    }
+
+    /// The unit computed the paths by itself.
+    pub(super) fn is_of_unit(&self) -> bool {
+        self.sources.iter().all(|source| matches!(source, PathSource::Unit { .. }))
+    }
+
+    /// Nobody knows for which place the unit computes.
+    pub(super) fn is_site_open(&self) -> bool {
+        self.sources.iter().any(|source| matches!(source, PathSource::Unit { place: None, .. }))
+    }
+
+    /// What is left where the antenna is taken to point as `model` says.
+    pub(super) fn fit_of(&self, model: impl Fn(&Point<'_>) -> Option<AzEl>) -> Fit {
+        let left = self.passes.iter().map(|points| {
+            let left = points.iter().map(|point| {
+                let model = model(point).unwrap_or(point.satellite);
+                point.error - (model.to_enu() - point.satellite.to_enu())
+            });
+            left.collect()
+        });
+        self.fit_of_residuals(&left.collect::<Vec<Vec<DVec3>>>())
+    }
+
+    /// The same for what is left of each position.
+    pub(super) fn fit_of_residuals(&self, left: &[Vec<DVec3>]) -> Fit {
+        let all = || left.iter().flatten();
+        let count = all().count().max(1) as f64;
+        let sum: f64 = all().map(|left| left.length_squared()).sum();
+        let beam = self.half_beam.radians();
+        let outside = all().filter(|left| left.length() > beam).count() as f64 / count;
+        Fit { left: sum, variance: sum / (2.0 * count) * lasting(left), outside }
+    }
+
+    /// What is known to make a part of the error beside what `fit` takes away.
+    pub(super) fn known_cause(&self, fit: Fit, whole: f64) -> Option<Cause> {
+        let makes: f64 = self
+            .points()
+            .map(|point| (point.followed.to_enu() - point.satellite.to_enu()).length_squared())
+            .sum();
+        if makes <= SURE * fit.variance || makes <= MIN_KNOWN * whole {
+            return None;
+        }
+        // Several passes have a clock each.
+        let [points] = &self.passes[..] else { return None };
+        let point = points.first()?;
+        let site = self.site?;
+        if point.clock_late_s.abs() > 0.0 {
+            return Some(Cause::Late { late_s: point.clock_late_s });
+        }
+        let [north_km, east_km] = apart_km(site, point.place);
+        Some(Cause::OtherSite { north_km, east_km })
+    }
+}
+
+/// A place this far from another one; `None` beyond a pole.
+pub(super) fn moved(site: Site, north_km: f64, east_km: f64) -> Option<Site> {
+    let per_deg = KM_PER_DEG * site.latitude().radians().cos().max(1e-3);
+    let latitude_deg = site.latitude().degrees() + north_km / KM_PER_DEG;
+    let longitude = Angle::from_degrees(site.longitude().degrees() + east_km / per_deg);
+    Site::new(latitude_deg, longitude.wrapped_180().degrees(), site.altitude_m()).ok()
+}
+
+/// Kilometres from `site` to `other`, to the north and to the east.
+fn apart_km(site: Site, other: Site) -> [f64; 2] {
+    let per_deg = KM_PER_DEG * site.latitude().radians().cos();
+    let north_deg = (other.latitude() - site.latitude()).degrees();
+    let east_deg = (other.longitude() - site.longitude()).wrapped_180().degrees();
+    [north_deg * KM_PER_DEG, east_deg * per_deg]
+}
+
+fn distance_km(site: Site, other: Site) -> f64 {
+    let [north_km, east_km] = apart_km(site, other);
+    north_km.hypot(east_km)
+}
+
+/// Number of positions in a row that say the same because what is left lasts: one where it is
+/// white noise. The sum of the autocorrelation up to where it fades.
+fn lasting(left: &[Vec<DVec3>]) -> f64 {
+    let correlation = |lag: usize| -> f64 {
+        let pairs = left.iter().flat_map(|left| left.iter().zip(left.iter().skip(lag)));
+        pairs.map(|(before, after)| before.dot(*after)).sum()
+    };
+    let square = correlation(0);
+    if square <= 0.0 {
+        return 1.0;
+    }
+    let longest = left.iter().map(Vec::len).max().unwrap_or_default();
+    let lags = (1..longest / 4).map(|lag| correlation(lag) / square);
+    let fading = lags.take_while(|share| *share > 0.05);
+    1.0 + 2.0 * fading.sum::<f64>()
+}
