@@ -21,7 +21,7 @@ use jiff::Timestamp;
 use tokio::time;
 
 /// Elements of the favourites. To read them takes long by a clock at speed.
-static FAVOURITES: LazyLock<Vec<Elements>> = LazyLock::new(|| {
+pub(crate) static FAVOURITES: LazyLock<Vec<Elements>> = LazyLock::new(|| {
     let catalog = bundled().unwrap();
     let favourites = Station::default().favourites.numbers();
     favourites.iter().filter_map(|number| catalog.get(*number).cloned()).collect()

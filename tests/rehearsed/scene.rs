@@ -1,6 +1,6 @@
 //! A station in tokio's paused time, and what is asked of it.
 
-use std::{fs, num::NonZeroU32, path::Path, slice, sync::Arc};
+use std::{fs, num::NonZeroU32, path::Path, sync::Arc};
 
 use azel::{
     clock::Clock,
@@ -50,13 +50,17 @@ impl Scene {
         Self::keeping(start, station, Keeps { marks: true, ..Keeps::default() })
     }
 
-    /// One that is recorded, whose Satrak tracks with elements that the station had before.
-    pub(super) fn with_old_elements(start: Timestamp, station: &Station, old: &Elements) -> Self {
-        let clock = Clock::at_speed(start, NonZeroU32::MIN);
-        let units = Units::holding(&clock, slice::from_ref(old));
+    /// One that is recorded, with these units; it had other elements before.
+    pub(super) fn with_units(
+        units: Units,
+        clock: Clock,
+        station: &Station,
+        before: Option<&Elements>,
+    ) -> Self {
         let folder = folder_of(station);
-        let older = OlderSet { elements: old.clone(), source: "before".to_owned() };
-        History::beside(&folder.path().join("elements")).add(&[older]).unwrap();
+        let older =
+            before.map(|set| OlderSet { elements: set.clone(), source: "before".to_owned() });
+        History::beside(&folder.path().join("elements")).add(older.as_slice()).unwrap();
         Self::begun(units, clock, folder, Keeps { record: true, ..Keeps::default() })
     }
 

@@ -68,7 +68,7 @@ fn kind(word: &str) -> Result<FaultKind, WrongFault> {
             if number > 1.0 {
                 return Err(WrongFault::Number(share.to_owned()));
             }
-            Trouble::SlowDrives(number)
+            Trouble::SlowDrives([number; 2])
         }
         Some(("clock-late", ms)) => Trouble::ClockLate(span(ms, 0.001)?),
         Some(("clock-drift", gains_s_day)) => {
@@ -122,7 +122,7 @@ mod tests {
         assert_eq!(kind("late-replies=250"), Ok(FaultKind::OfUnit(late)));
         assert_eq!(kind("clock-drift=-4.5"), Ok(FaultKind::OfUnit(Trouble::ClockDrifts(-4.5))));
         assert_eq!(kind("power-cut"), Ok(FaultKind::PowerCut));
-        assert_eq!(kind("slow-drives=0.5"), Ok(FaultKind::OfUnit(Trouble::SlowDrives(0.5))));
+        assert_eq!(kind("slow-drives=0.5"), Ok(FaultKind::OfUnit(Trouble::SlowDrives([0.5; 2]))));
         for (text, trouble) in [
             ("silence", Trouble::Silence),
             ("noise", Trouble::Noise),

@@ -48,8 +48,8 @@ pub trait Unit: fmt::Debug + Send + Sized + 'static {
     /// Switches these quirks and faults on and all others off.
     fn set_switches(&mut self, switches: &Switches<Self::Quirk, Self::Fault>);
 
-    /// Leaves the drives this share of their full rate, 0 to 1.
-    fn set_strength(&mut self, share: f64);
+    /// Leaves the drives of the first and the second axis these shares of their full rate, 0 to 1.
+    fn set_strength(&mut self, shares: [f64; 2]);
 
     /// Sets the unit's own clock back by so much. Returns `false` if it has none that matters.
     fn set_clock_late(&mut self, _late: Duration) -> bool {

@@ -16,8 +16,8 @@ pub enum Trouble {
     Noise,
     /// What a track needs is refused.
     Refusal,
-    /// The drives have this share of their full rate, 0 to 1.
-    SlowDrives(f64),
+    /// The drives of the first and the second axis have these shares of their full rate, 0 to 1.
+    SlowDrives([f64; 2]),
     /// The unit's own clock is late.
     ClockLate(Duration),
     /// The unit has lost GPS, and its own clock gains so many seconds a day.
@@ -78,9 +78,9 @@ where
             Trouble::Silence => self.set_fault(U::SILENCE, is_on),
             Trouble::Noise => self.set_fault(U::NOISE, is_on),
             Trouble::Refusal => self.set_fault(U::REFUSAL, is_on),
-            Trouble::SlowDrives(share) => {
-                let share = if is_on { share.clamp(0.0, 1.0) } else { 1.0 };
-                self.with_unit(|unit| unit.set_strength(share));
+            Trouble::SlowDrives(shares) => {
+                let shares = shares.map(|share| if is_on { share.clamp(0.0, 1.0) } else { 1.0 });
+                self.with_unit(|unit| unit.set_strength(shares));
             }
             Trouble::ClockLate(late) => {
                 let late = if is_on { late } else { Duration::ZERO };

@@ -237,9 +237,9 @@ impl harness::Unit for Rc2000c {
         self.suffer();
     }
 
-    fn set_strength(&mut self, share: f64) {
-        self.azimuth.set_strength(share);
-        self.elevation.set_strength(share);
+    fn set_strength(&mut self, [azimuth, elevation]: [f64; 2]) {
+        self.azimuth.set_strength(azimuth);
+        self.elevation.set_strength(elevation);
     }
 
     fn cut_power(&mut self) {

@@ -165,8 +165,10 @@ impl harness::Unit for RotatorGenius {
         }
     }
 
-    fn set_strength(&mut self, share: f64) {
-        self.rotors.iter_mut().for_each(|rotor| rotor.set_strength(share));
+    fn set_strength(&mut self, shares: [f64; 2]) {
+        for (rotor, share) in self.rotors.iter_mut().zip(shares) {
+            rotor.set_strength(share);
+        }
     }
 
     fn cut_power(&mut self) {

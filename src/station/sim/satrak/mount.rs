@@ -77,9 +77,9 @@ impl Mount {
         self.y.set_drive_scale(y);
     }
 
-    pub(super) fn set_strength(&mut self, strength: f64) {
-        self.x.set_strength(strength);
-        self.y.set_strength(strength);
+    pub(super) fn set_strength(&mut self, [x, y]: [f64; 2]) {
+        self.x.set_strength(x);
+        self.y.set_strength(y);
     }
 
     pub(super) fn set_dead_motors(&mut self, x: bool, y: bool) {
@@ -195,7 +195,7 @@ mod tests {
     fn a_weak_drive_is_slower_and_the_travel_is_that_of_the_mount() {
         let mut mount = Mount::new([20.0, 160.0], 3.0, &Mechanics::default(), 1);
         assert!(!mount.go_to([170.0, 90.0]));
-        mount.set_strength(0.5);
+        mount.set_strength([0.5; 2]);
         mount.x.run(5.0);
         let angles = run(&mut mount, 10.0);
         let fastest = angles.windows(2).map(|pair| (pair[1] - pair[0]) / STEP_S);

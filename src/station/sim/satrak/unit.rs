@@ -329,8 +329,8 @@ impl harness::Unit for Satrak {
         self.mount.set_dead_motors(has(FaultKind::XMotor), has(FaultKind::YMotor));
     }
 
-    fn set_strength(&mut self, share: f64) {
-        self.mount.set_strength(share);
+    fn set_strength(&mut self, shares: [f64; 2]) {
+        self.mount.set_strength(shares);
     }
 
     fn set_clock_late(&mut self, late: Duration) -> bool {

@@ -9,6 +9,7 @@
 //! AZEL_SCHEDULE_DAYS=/tmp/days.json cargo test --release --lib days_are_as_good
 //! python3 -m venv /tmp/highs && /tmp/highs/bin/pip install highspy
 //! /tmp/highs/bin/python tests/schedule/milp.py /tmp/days.json tests/data/schedule_milp.csv
+//! python3 tests/schedule/greedy.py /tmp/days.json tests/data/schedule_milp.csv
 //! ```
 
 use super::*;
@@ -100,6 +101,7 @@ fn written(day: u64, request: &Request<'_>) -> serde_json::Value {
                 "limit": take.limit,
                 "class": fact.class.index(),
                 "worth": fact.worth,
+                "height": take.height_mdeg,
                 "possible": board.legs.first_ms(index).is_some(),
             })
         })

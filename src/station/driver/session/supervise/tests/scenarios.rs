@@ -129,7 +129,7 @@ pub(super) async fn watch_effect(checks: Checks) -> bool {
 /// The drives are far too slow for the target.
 pub(super) async fn watch_pointing(checks: Checks) -> bool {
     let mut scene = satrak(checks).read().await;
-    scene.unit.set_trouble(Trouble::SlowDrives(0.02), true);
+    scene.unit.set_trouble(Trouble::SlowDrives([0.02; 2]), true);
     scene.send(fixed(100.0, 40.0, 0.0));
     scene.tells(60.0, |event| matches!(event, Event::Safety(Safety::OffTarget { .. }))).await
 }
