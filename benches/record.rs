@@ -84,6 +84,7 @@ fn note(
     let report = RecordedReport {
         from,
         until,
+        planned: None,
         max_elevation_deg: pass.max_elevation().degrees(),
         age_days: 0.4,
         elements: elements.clone(),

@@ -88,6 +88,7 @@ fn fly(recorder: &Recorder, antenna: &Antenna, site: Site, number: u32, seed: &m
             report: RecordedReport {
                 from,
                 until,
+                planned: None,
                 max_elevation_deg: pass.max_elevation().degrees(),
                 age_days: 1.0,
                 site: Some(site),

@@ -126,7 +126,7 @@ fn a_fault_costs_what_it_covers_and_names_its_cause() {
     let (before, after) = (first(plain, SATRAK), first(&faulty, SATRAK));
     let lost_s = before.got_s() - after.got_s();
     assert!((50.0..90.0).contains(&lost_s), "{lost_s}");
-    assert_eq!(after.flown.as_ref().unwrap().cause, Some(MissCause::LinkLost));
+    assert_eq!(after.flown.as_ref().unwrap().cause, Some(MissCause::Lost(LossCause::LinkLost)));
     let losses = &after.report.as_ref().unwrap().report.losses;
     assert!(losses.iter().any(|lost| lost.cause == LossCause::LinkLost), "{losses:?}");
     // A Genius refuses to be sent anywhere.

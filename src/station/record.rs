@@ -32,7 +32,7 @@ pub use entry::{Entry, Kind};
 pub use export::{csv_of_several, json_of_several};
 pub use film::{Film, FilmError, Parts, Picture, Shown};
 pub use missed::{MissedEntry, missed};
-pub use pass::{AboutTrack, PassNote, RecordedReport, TrackedBy};
+pub use pass::{AboutTrack, PassNote, PlannedPart, RecordedReport, TrackedBy};
 pub use past::{
     ListedKind, OpenedPass, PassPage, PassQuery, RecordedPass, open_pass, passes, passes_within,
 };

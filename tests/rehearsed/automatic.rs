@@ -12,7 +12,7 @@ use azel::{
         automatic::{Flown, Interruption, MissCause, OffBecause, Operation},
         passes::PassKey,
     },
-    plan::schedule::Entry,
+    plan::{pass_report::LossCause, schedule::Entry},
     sim::satrak,
     station::{AntennaId, LockOut, Station},
 };
@@ -175,7 +175,8 @@ async fn a_station_takes_its_passes_by_itself_and_each_that_it_misses_has_its_ca
     let schedule = Arc::clone(&client.snapshot().schedule);
     assert!(schedule.schedule.entries.iter().all(|entry| entry.antenna != horn));
     for (antenna, of) in flown {
-        let is_disturbed = of.cause.is_some_and(|cause| cause != MissCause::OutsideBeam);
+        let is_disturbed =
+            of.cause.is_some_and(|cause| cause != MissCause::Lost(LossCause::OutsideBeam));
         assert!(is_disturbed || had(of), "{antenna:?} {of:?}");
     }
     assert!(flown.iter().filter(|(_, of)| had(of)).count() >= 2);

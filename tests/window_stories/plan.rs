@@ -12,6 +12,7 @@ use azel::{
     },
     model::{UiCommand, View, export::Export, rehearsal::RehearsalState},
     plan::{
+        pass_report::LossCause,
         schedule::{Class, Conflict, Entry, LeftOut, PassKey as Key, Schedule, Why},
         schedule_export::ScheduleFormat,
     },
@@ -457,7 +458,10 @@ fn what_was_missed_is_told_with_its_cause() {
     window.state_mut().model.day = Arc::new(vec![
         line(flown(None)),
         line(flown(Some(MissCause::Off(OffBecause::Stop)))),
-        DayLine { antenna: AntennaId(99), ..line(flown(Some(MissCause::LinkLost))) },
+        DayLine {
+            antenna: AntennaId(99),
+            ..line(flown(Some(MissCause::Lost(LossCause::LinkLost))))
+        },
     ]);
     settle(&mut window);
     let rows: Vec<String> = window
@@ -570,7 +574,7 @@ fn the_plan_is_rehearsed_and_what_came_of_it_stands_beside_the_pass_as_a_rehears
     window.get_by_role_and_label(Role::Button, "Rehearse this pass").click();
     assert_eq!(rig::asked(&mut window), [UiCommand::Rehearse(Some((satellite, aos)))]);
     let antenna = window.state().model.antennas[0].id();
-    let cause = Some(MissCause::LinkLost);
+    let cause = Some(MissCause::Lost(LossCause::LinkLost));
     let flown = Flown {
         pass: (satellite, aos),
         name: "NOAA 20".to_owned(),

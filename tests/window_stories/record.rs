@@ -122,6 +122,7 @@ fn opened(model: &Model, id: i64, pass: &Pass, verdict: PassVerdict) -> OpenedPa
     let report = RecordedReport {
         from,
         until,
+        planned: None,
         max_elevation_deg: pass.max_elevation().degrees(),
         age_days: 0.4,
         elements,
@@ -327,7 +328,7 @@ fn a_pass_that_was_not_tracked_stands_in_the_list_and_says_why() {
                 of_s: 600.0,
                 in_beam_s: 0.0,
                 proved_at: None,
-                cause: Some(MissCause::LinkLost),
+                cause: Some(MissCause::Lost(LossCause::LinkLost)),
             },
         };
         let mut recorded = recorded(&flown, 0);

@@ -6,6 +6,7 @@ use azel::{
     astro::time::add_seconds,
     engine::automatic::{DayEvent, DayLine, Flown, MissCause},
     model::{Model, UiCommand},
+    plan::pass_report::LossCause,
     station::AntennaId,
     ui::theme,
 };
@@ -92,7 +93,10 @@ fn after_two_passes(model: &mut Model) {
         DayLine { at: model.now, antenna: AntennaId(1), what: DayEvent::Flown(flown) }
     };
     let before = (37_849, add_seconds(model.now, -900.0));
-    model.day = Arc::new(vec![flown(before, None), flown(key, Some(MissCause::OutsideBeam))]);
+    model.day = Arc::new(vec![
+        flown(before, None),
+        flown(key, Some(MissCause::Lost(LossCause::OutsideBeam))),
+    ]);
 }
 
 #[test]

@@ -261,16 +261,17 @@ impl AntennaModel {
             .flatten()
     }
 
+    /// Catalog number of the satellite that the antenna has the command to track or to wait for.
+    pub fn commanded_number(&self) -> Option<u32> {
+        let program = self.snapshot.state.program;
+        let is_done =
+            !self.follows() && program.is_some_and(|it| it.enabled && it.phase == Phase::Completed);
+        self.tracked_number().filter(|_| !is_done)
+    }
+
     /// Returns `true` if the antenna tracks this satellite, or is on its way to a pass of it.
     pub fn takes(&self, catalog_number: u32) -> bool {
-        let is_done = !self.follows()
-            && self
-                .snapshot
-                .state
-                .program
-                .is_some_and(|program| program.enabled && program.phase == Phase::Completed);
-        let is_its = self.tracked_number() == Some(catalog_number);
-        self.snapshot.link.is_open() && is_its && !is_done
+        self.snapshot.link.is_open() && self.commanded_number() == Some(catalog_number)
     }
 
     /// Returns `true` if the unit should point at its target now: not before its tracking

@@ -13,10 +13,11 @@ use std::path::PathBuf;
 
 use jiff::Timestamp;
 
-pub(super) use self::{at_start::LastRun, operation::is_same_pass, upkeep::RuleUpload};
+pub(super) use self::{
+    at_start::LastRun, day::Flight, operation::is_same_pass, upkeep::RuleUpload,
+};
 use self::{
     clock_stop::ClockStop,
-    day::Flight,
     operation::{Act, LATE_S, Outcome, Seen, WINDOW_STEP_S, Wishes},
     resumption::Resumption,
     seen::seen,
@@ -72,6 +73,11 @@ impl AtWork {
             upkeep,
             ..self
         }
+    }
+
+    /// The pass of the schedule that comes next or is under way.
+    pub(super) fn duty(&self) -> Option<Duty> {
+        self.flight.as_ref().map(|flight| flight.duty)
     }
 
     /// The pass that the last run was taking, if automatic operation is on or waits to resume.
@@ -372,10 +378,7 @@ impl Engine {
         let (shown, flight) = (&antenna.shown, &mut antenna.at_work.flight);
         let why = shown.operation.not_ready().or(seen.not_ready);
         if let Some(flight) = flight {
-            let predicted = shown.prediction.and_then(|prediction| prediction.catalog_number);
-            let error = shown.error().filter(|_| predicted == Some(flight.duty.pass.0));
-            let half_beam = shown.config.beam_width() * 0.5;
-            flight.see(&shown.operation, seen, error.as_ref(), half_beam, now);
+            flight.see(&shown.operation, seen, now);
         }
         // Its antenna would set out later only by a clock that was set back. What the schedule
         // gives up before it begins is not missed.
@@ -408,9 +411,14 @@ impl Engine {
             self.alarms.raise(of, AlarmKind::NotOnItsWay { pass, name, why }, now);
         }
         if let (Some(flight), Some(id)) = (ended, of) {
-            self.note_day(id, DayEvent::Flown(flight.end()));
-            self.record_has_grown();
+            self.end_flight(id, flight);
         }
+    }
+
+    /// Tells what became of a pass of the schedule.
+    pub(super) fn note_flown(&mut self, antenna: AntennaId, flown: Flown) {
+        self.note_day(antenna, DayEvent::Flown(flown));
+        self.record_has_grown();
     }
 
     /// Tells what has become of automatic operation since the last turn.
@@ -534,6 +542,7 @@ fn duty(entry: &Entry, between: BetweenPasses) -> Duty {
         until: entry.to,
         go_at: sets_out(entry, between),
         counted_s: entry.counted_s,
+        lost_at: entry.lost.map(|lost| lost.at),
         begins_late: entry.late_s > 0.0,
         ends_early: entry.early_s > 0.0,
     }

@@ -181,6 +181,7 @@ mod tests {
     use crate::{
         clock::Clock,
         engine::automatic::{DayEvent, DayLine, MissCause},
+        plan::pass_report::LossCause,
         record::{Entry, Kind, Recorder},
         station::Retention,
     };
@@ -197,7 +198,7 @@ mod tests {
             of_s: 600.0,
             in_beam_s: 0.0,
             proved_at: None,
-            cause: Some(MissCause::LinkLost),
+            cause: Some(MissCause::Lost(LossCause::LinkLost)),
         };
         let in_part = Flown { pass: (8, now.utc), in_beam_s: 10.0, ..missed.clone() };
         let antenna = AntennaId(3);

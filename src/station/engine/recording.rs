@@ -18,7 +18,11 @@ use jiff::Timestamp;
 use serde_json::{Value, json};
 use tokio::sync::mpsc;
 
-use self::{differences::differences, reports::Followed, state::State};
+use self::{
+    differences::differences,
+    reports::{Finished, Followed},
+    state::State,
+};
 use super::{
     Antenna, Command, Engine, Snapshot,
     alarms::{Alarm, AlarmKind},
@@ -61,11 +65,15 @@ pub(super) struct Recording {
     clock: Option<(Moment, Duration, TimeSync)>,
     /// The antenna that a held key turns, and when that was last heard of.
     jog: Option<(AntennaId, Instant)>,
+    /// The satellite that each antenna has the command to track, and since when.
+    commanded: BTreeMap<AntennaId, (u32, Timestamp)>,
     /// Passes that are tracked, and the reports that are worked on.
     followed: Vec<Followed>,
+    /// Passes that are reported before their LOS, because they were over for their antenna.
+    told: Vec<(AntennaId, u32, Timestamp)>,
     /// Tracks of no pass, with the time of the last search for one.
     sought: Vec<((AntennaId, u32), Timestamp)>,
-    reports: Vec<Option<Job<PassNote>>>,
+    reports: Vec<Option<Job<Finished>>>,
     /// The second in which tracks were last looked at.
     looked_at: i64,
 }
@@ -93,8 +101,8 @@ impl Recording {
         Self { folder, taker, ..Self::default() }
     }
 
-    /// Somebody wants reports of passes.
-    fn reports(&self) -> bool {
+    /// Returns `true` if somebody wants reports of passes.
+    fn wants_reports(&self) -> bool {
         self.recorder.is_some() || self.taker.is_some()
     }
 

@@ -75,7 +75,7 @@ pub fn explain_passes(
 fn thinned(report: &RecordedReport, points: &[MeasuredPosition]) -> Vec<MeasuredPosition> {
     let is_on_it = |point: &&MeasuredPosition| {
         !report.report.losses.iter().any(|lost| {
-            lost.cause != LossCause::NotExplained && (lost.from..=lost.until).contains(&point.time)
+            lost.cause != LossCause::OutsideBeam && (lost.from..=lost.until).contains(&point.time)
         })
     };
     apart(points.iter().filter(is_on_it).copied(), APART_S, |point| point.time).collect()

@@ -27,6 +27,10 @@ pub struct RecordedReport {
     /// From AOS to LOS, above the antenna's minimum elevation.
     pub from: Timestamp,
     pub until: Timestamp,
+    /// The part of it that the plan gave to the antenna: that counts. `None` without a plan, where all
+    /// of it counts.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub planned: Option<PlannedPart>,
     pub max_elevation_deg: f64,
     /// Age of the elements in the middle of the pass, days.
     pub age_days: f64,
@@ -43,6 +47,13 @@ pub struct RecordedReport {
     /// none for a good pass. Older reports name none: their causes were not tested.
     #[serde(default)]
     pub causes: Vec<Explanation>,
+}
+
+/// The part of a pass that a plan gives to an antenna.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub struct PlannedPart {
+    pub from: Timestamp,
+    pub until: Timestamp,
 }
 
 /// What is told of a track besides its positions.

@@ -38,6 +38,7 @@ pub fn note(antenna: AntennaId, satellite: u32, from: Timestamp) -> PassNote {
     let report = RecordedReport {
         from,
         until: from + 10.minutes(),
+        planned: None,
         max_elevation_deg: 50.0,
         age_days: 0.5,
         elements,

@@ -118,7 +118,7 @@ pub(in crate::ui) fn pass_row<'a>(model: &'a Model, predicted: &'a PredictedPass
         Trackability::Whole | Trackability::Loses { .. } => {
             let in_part = match (trackability, predicted.clear_s()) {
                 _ if misses => Verdict::Misses,
-                (Trackability::Loses { seconds, at }, _) => Verdict::Loses { seconds, at },
+                (Trackability::Loses { seconds, at, .. }, _) => Verdict::Loses { seconds, at },
                 (_, Some(clear_s)) => Verdict::Blocked {
                     seconds: pass.duration_s() - clear_s,
                     is_whole: clear_s <= 0.0,

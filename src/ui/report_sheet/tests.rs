@@ -82,6 +82,7 @@ fn opened(late_s: f64, is_measured: impl Fn(u32) -> bool) -> OpenedPass {
             report: RecordedReport {
                 from,
                 until,
+                planned: None,
                 max_elevation_deg: pass.max_elevation().degrees(),
                 age_days: 0.4,
                 site: Some(site),

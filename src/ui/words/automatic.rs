@@ -7,6 +7,7 @@ use crate::{
         DayEvent, DayLine, Doing, Flown, Interruption, MissCause, NotReady, OffBecause, On,
         Operation,
     },
+    plan::pass_report::LossCause,
     ui::format,
 };
 
@@ -70,16 +71,33 @@ pub fn miss_cause(cause: MissCause) -> String {
     let sentence = match cause {
         MissCause::Off(because) => off(because),
         MissCause::Suspended(by) => interruption(by),
-        MissCause::LinkLost => "The unit did not answer.",
         MissCause::NotResumed => {
             "After an outage Azel asked whether to continue tracking, and nobody answered."
         }
         MissCause::Refused => "It was refused, or could not be verified.",
         MissCause::NotReady(why) => not_ready(why),
         MissCause::OffTarget => "Azel ended the track: the antenna stayed off its target.",
-        MissCause::OutsideBeam => "The antenna was outside its beam.",
+        MissCause::Lost(cause) => lost(cause),
     };
     sentence.to_owned()
+}
+
+/// Why a stretch of a pass was lost, as a sentence.
+fn lost(cause: LossCause) -> &'static str {
+    match cause {
+        LossCause::NotMeasured => "The unit reported no positions.",
+        LossCause::LinkLost => "The link to the unit was lost.",
+        LossCause::ProgramEnded => "Azel had ended.",
+        LossCause::OutOfReach => "The mount cannot point there.",
+        LossCause::Keyhole => "It led through a keyhole of the mount.",
+        LossCause::RateOfMount => "The mount is too slow for it.",
+        LossCause::Slew => "The azimuth axis had to unwrap.",
+        LossCause::LateStart => "The antenna did not arrive in time.",
+        LossCause::EarlyEnd => "The antenna left the satellite before its end.",
+        LossCause::Stopped => "The antenna was stopped.",
+        LossCause::NotCommanded => "The antenna was not commanded to track it.",
+        LossCause::OutsideBeam => "The satellite was outside the beam: a pointing error.",
+    }
 }
 
 /// What became of a pass, as a sentence.

@@ -70,7 +70,7 @@ pub fn cause_in_short(pass: &RecordedPass) -> Option<String> {
     let by_length = |a: &&LostStretch, b: &&LostStretch| a.seconds().total_cmp(&b.seconds());
     if report.verdict != PassVerdict::Good
         && let Some(lost) = report.losses.iter().max_by(by_length)
-        && lost.cause != LossCause::NotExplained
+        && lost.cause != LossCause::OutsideBeam
     {
         return Some(format!("{} {}", loss(lost.cause), format::duration(lost.seconds())));
     }
@@ -94,7 +94,8 @@ pub fn loss(cause: LossCause) -> &'static str {
         LossCause::LateStart => "Late start",
         LossCause::EarlyEnd => "Early end",
         LossCause::Stopped => "Stopped",
-        LossCause::NotExplained => "Pointing error",
+        LossCause::NotCommanded => "Not commanded",
+        LossCause::OutsideBeam => "Pointing error",
     }
 }
 
@@ -335,7 +336,8 @@ fn loss_in_sentence(cause: LossCause) -> &'static str {
         LossCause::LateStart => "before the antenna arrived",
         LossCause::EarlyEnd => "after the antenna left",
         LossCause::Stopped => "after the antenna was stopped",
-        LossCause::NotExplained => "to pointing errors",
+        LossCause::NotCommanded => "while the antenna was not commanded to track it",
+        LossCause::OutsideBeam => "to pointing errors",
     }
 }
 

@@ -3,7 +3,9 @@
 mod breaks;
 mod explain;
 mod flown_offsets;
+mod following;
 mod losses;
+mod stretches;
 #[cfg(test)]
 mod tests;
 
@@ -11,6 +13,7 @@ pub use breaks::Breaks;
 pub use explain::{Axis, Cause, Evidence, Explained, Explanation, PathSource};
 pub use flown_offsets::FlownOffsets;
 pub use losses::{LossCause, LostStretch};
+use stretches::{State, Stretch};
 
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
@@ -27,7 +30,7 @@ use crate::{
 };
 
 /// Positions that are further apart tell nothing of the time between, seconds.
-const APART_S: f64 = 2.0;
+pub const APART_S: f64 = 2.0;
 /// Time between the two directions that give the direction of motion, seconds.
 const MOTION_S: f64 = 0.5;
 /// Share of a pass within half the beamwidth from which it is good.
@@ -45,11 +48,12 @@ const NOT_KNOWN_S: f64 = 10.0;
 pub struct TrackedPass<'a> {
     pub propagator: &'a Propagator,
     pub site: Site,
-    /// What counts: from AOS to LOS, above the antenna's minimum elevation.
+    /// What counts: what the plan gives the antenna, or without a plan all from AOS to LOS above the
+    /// antenna's minimum elevation.
     pub from: Timestamp,
     pub until: Timestamp,
     pub limits: MountLimits,
-    /// What could be had of it.
+    /// What could be had of that.
     pub trackability: Trackability,
     /// When the program ended, if that was before the pass was over.
     pub ended: Option<Timestamp>,
@@ -78,7 +82,7 @@ pub struct PassReport {
     pub verdict: PassVerdict,
     /// Seconds that count.
     pub counted_s: f64,
-    /// Seconds of them with positions.
+    /// Seconds of them with positions while the pass was commanded.
     pub known_s: f64,
     /// Seconds of them within half the beamwidth.
     pub in_beam_s: f64,
@@ -183,38 +187,42 @@ impl TrackPoint {
 }
 
 impl TrackedPass<'_> {
-    /// The report by `flown`, oldest first. Those outside of the pass are left out.
+    /// The report by `flown`, oldest first: the positions in which this pass was commanded. Those just
+    /// before and after the pass tell when the satellite came into the beam and left it.
     pub fn report(&self, flown: &[MeasuredPosition]) -> PassReport {
         let counted_s = seconds_between(self.from, self.until).max(0.0);
-        let within =
-            |flown: &&MeasuredPosition| self.from <= flown.time && flown.time <= self.until;
-        let compared: Vec<TrackPoint> =
-            flown.iter().filter(within).filter_map(|flown| self.compare(*flown)).collect();
-        let (known_s, in_beam_s) = self.times(&compared);
-        let losses = self.losses(&compared);
-        let is_reached = |point: &&TrackPoint| self.limits.mount.reaches(point.satellite);
-        let reached: Vec<&TrackPoint> = compared.iter().filter(is_reached).collect();
+        let near = add_seconds(self.from, -APART_S)..=add_seconds(self.until, APART_S);
+        let near = flown.iter().filter(|flown| near.contains(&flown.time));
+        let points: Vec<TrackPoint> = near.filter_map(|flown| self.compare(*flown)).collect();
+        let stretches = self.stretches(&points);
+        let seconds = |is_meant: fn(State) -> bool| {
+            let meant = stretches.iter().filter(|stretch| is_meant(stretch.state));
+            // The sum of nothing is a negative zero.
+            meant.map(Stretch::seconds).sum::<f64>().abs()
+        };
+        let known_s = seconds(|state| matches!(state, State::InBeam | State::Outside));
+        let in_beam_s = seconds(|state| state == State::InBeam);
+        let losses = self.losses(&stretches, &points);
+        let counts = |point: &&TrackPoint| {
+            (self.from..=self.until).contains(&point.time)
+                && self.limits.mount.reaches(point.satellite)
+        };
+        let reached: Vec<&TrackPoint> = points.iter().filter(counts).collect();
         let worst = reached.iter().max_by(|a, b| a.error.off_deg.total_cmp(&b.error.off_deg));
         let worst = worst.map(|worst| WorstError { at: worst.time, error: worst.error });
-        let is_planned = |loss: &&LostStretch| {
-            use LossCause::{Keyhole, OutOfReach, RateOfMount, Slew};
-            matches!(loss.cause, OutOfReach | Keyhole | RateOfMount | Slew)
-        };
+        let is_planned = |loss: &&LostStretch| loss.cause.is_of_mount();
         let planned_s: f64 = losses.iter().filter(is_planned).map(LostStretch::seconds).sum();
         let excused_s = if planned_s <= self.allowed_s() { planned_s } else { 0.0 };
         let could_not_be_had =
             losses.iter().all(|loss| is_planned(&loss)) && excused_s >= planned_s;
-        let is_unknown = |loss: &&LostStretch| {
-            use LossCause::{LinkLost, NotMeasured, ProgramEnded};
-            matches!(loss.cause, NotMeasured | LinkLost | ProgramEnded)
-        };
+        let is_unknown = |loss: &&LostStretch| loss.cause.is_unknown();
         let not_known_s: f64 = losses.iter().filter(is_unknown).map(LostStretch::seconds).sum();
         let could_s = counted_s - excused_s;
         let share = if could_s > 0.0 { in_beam_s / could_s } else { 0.0 };
         let is_excused =
             |loss: &LostStretch| is_unknown(&loss) || is_planned(&loss) && excused_s >= planned_s;
         let stays_in_beam = losses.iter().all(is_excused);
-        let verdict = if not_known_s > NOT_KNOWN_S || compared.is_empty() {
+        let verdict = if not_known_s > NOT_KNOWN_S || points.is_empty() {
             PassVerdict::Poor
         } else if share >= GOOD && stays_in_beam || could_not_be_had {
             PassVerdict::Good
@@ -246,32 +254,6 @@ impl TrackedPass<'_> {
 
     fn is_in_beam(&self, point: &TrackPoint) -> bool {
         point.error.off_deg <= self.limits.half_beam.degrees()
-    }
-
-    /// Seconds with positions, and seconds of them within half the beamwidth.
-    fn times(&self, compared: &[TrackPoint]) -> (f64, f64) {
-        let (mut known_s, mut in_beam_s) = (0.0, 0.0);
-        // Before the first and after the last position the pass is as it was seen there.
-        if let (Some(first), Some(last)) = (compared.first(), compared.last()) {
-            let until = self.ended.unwrap_or(self.until);
-            for (end, edge) in [(self.from, first), (until, last)] {
-                let apart_s = seconds_between(end, edge.time).abs();
-                if apart_s <= APART_S {
-                    known_s += apart_s;
-                    in_beam_s += if self.is_in_beam(edge) { apart_s } else { 0.0 };
-                }
-            }
-        }
-        for pair in compared.windows(2) {
-            let [before, after] = pair else { continue };
-            let apart_s = seconds_between(before.time, after.time);
-            if apart_s <= APART_S {
-                known_s += apart_s;
-                let ends = u8::from(self.is_in_beam(before)) + u8::from(self.is_in_beam(after));
-                in_beam_s += apart_s * f64::from(ends) / 2.0;
-            }
-        }
-        (known_s, in_beam_s)
     }
 }
 

@@ -7,7 +7,7 @@ use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    astro::{Angle, AzEl},
+    astro::{Angle, AzEl, time::seconds_between},
     station::Mount,
 };
 
@@ -45,6 +45,9 @@ pub enum Trackability {
         seconds: f64,
         /// Where the loss begins.
         at: Loss,
+        /// First and last moment outside the beam; in between it may be inside.
+        from: Timestamp,
+        until: Timestamp,
     },
     Nothing,
     /// The pass stays below the minimum elevation of the antenna.
@@ -81,14 +84,31 @@ pub fn trackability(samples: &[Sample], limits: MountLimits) -> Trackability {
 }
 
 impl Trackability {
-    /// The trackability of a pass of `whole_s` seconds that loses `lost_s`.
-    fn of(lost_s: f64, whole_s: f64, at: Loss) -> Self {
-        if lost_s <= 0.0 {
-            Self::Whole
-        } else if lost_s >= whole_s {
-            Self::Nothing
-        } else {
-            Self::Loses { seconds: lost_s, at }
+    /// Returns the trackability of a pass of `whole_s` seconds that loses these stretches.
+    fn new(lost: Outside, whole_s: f64, at: Loss) -> Self {
+        match (lost.first, lost.last) {
+            (Some(from), Some(until)) if lost.seconds > 0.0 && lost.seconds < whole_s => {
+                Self::Loses { seconds: lost.seconds, at, from, until }
+            }
+            (Some(_), Some(_)) if lost.seconds > 0.0 => Self::Nothing,
+            _ => Self::Whole,
         }
+    }
+}
+
+/// Stretches of a pass outside the beam.
+#[derive(Debug, Clone, Copy, Default)]
+struct Outside {
+    seconds: f64,
+    first: Option<Timestamp>,
+    last: Option<Timestamp>,
+}
+
+impl Outside {
+    /// Adds the stretch between two times, which lies after those before.
+    fn add(&mut self, from: Timestamp, until: Timestamp) {
+        self.seconds += seconds_between(from, until);
+        self.first = self.first.or(Some(from));
+        self.last = Some(until);
     }
 }

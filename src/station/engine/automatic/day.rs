@@ -8,15 +8,14 @@ use super::operation::{
     Duty, GivenUp, Interruption, NotReady, OffBecause, Operation, Seen, is_same_pass,
 };
 use crate::{
-    astro::{Angle, time::seconds_between},
-    engine::{antenna::ErrorSample, passes::PassKey},
+    astro::time::seconds_between,
+    engine::passes::PassKey,
+    plan::pass_report::{LossCause, LostStretch, PassReport},
     station::AntennaId,
 };
 
 /// Most lines that are kept.
 const MAX: usize = 400;
-/// A direction that was measured longer ago tells nothing of now, seconds.
-const FRESH_S: f64 = 3.0;
 /// Share of a pass within half the beamwidth from which it counts as tracked.
 const TRACKED: f64 = 0.995;
 
@@ -63,7 +62,7 @@ pub struct Flown {
     pub name: String,
     /// Seconds that were to be had.
     pub of_s: f64,
-    /// Seconds of them within half the beamwidth.
+    /// Seconds of them within half the beamwidth, as the report of the pass has it.
     pub in_beam_s: f64,
     pub proved_at: Option<Timestamp>,
     /// Why most of the rest was lost; `None` where all of it was tracked.
@@ -82,7 +81,6 @@ impl Flown {
 pub enum MissCause {
     Off(OffBecause),
     Suspended(Interruption),
-    LinkLost,
     /// After an outage nobody answered the question of tracking on.
     NotResumed,
     /// The unit or the gate refused it, or it could not be proved.
@@ -90,90 +88,114 @@ pub enum MissCause {
     NotReady(NotReady),
     /// The track was ended, because the antenna stayed off its target.
     OffTarget,
-    /// It was tracked, but not all of it inside the beam.
-    OutsideBeam,
+    /// As the report of the pass tells it.
+    #[serde(untagged)]
+    Lost(LossCause),
 }
 
 /// A pass of the schedule while it is flown.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Flight {
-    pub(super) duty: Duty,
+pub(in crate::engine) struct Flight {
+    pub(in crate::engine) duty: Duty,
     name: String,
-    in_beam_s: f64,
     proved_at: Option<Timestamp>,
     /// Up to when it was looked at.
     seen_to: Timestamp,
-    /// Seconds lost by each cause.
-    lost: Vec<(MissCause, f64)>,
+    /// When automatic operation did not track it, and why.
+    hindered: Vec<Hindered>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Hindered {
+    from: Timestamp,
+    until: Timestamp,
+    by: MissCause,
 }
 
 impl Flight {
     pub(super) fn new(duty: Duty, name: String) -> Self {
         let seen_to = duty.from;
-        Self { duty, name, in_beam_s: 0.0, proved_at: None, seen_to, lost: Vec::new() }
+        Self { duty, name, proved_at: None, seen_to, hindered: Vec::new() }
     }
 
     pub(super) fn name(&self) -> &str {
         &self.name
     }
 
-    /// Looks at the antenna at `now`, with the last measured error of this pass.
-    pub(super) fn see(
-        &mut self,
-        operation: &Operation,
-        seen: Seen,
-        error: Option<&ErrorSample>,
-        half_beam: Angle,
-        now: Timestamp,
-    ) {
+    /// Looks at automatic operation of the antenna at `now`.
+    pub(super) fn see(&mut self, operation: &Operation, seen: Seen, now: Timestamp) {
         let taking = operation.taking();
         let taking = taking.filter(|taking| is_same_pass(taking.pass, self.duty.pass));
         self.proved_at = self.proved_at.or(taking.and_then(|taking| taking.proved_at));
-        let to = now.min(self.duty.until);
-        let passed_s = seconds_between(self.seen_to, to);
-        if passed_s <= 0.0 {
+        let (from, until) = (self.seen_to, now.min(self.duty.until));
+        if from >= until {
             return;
         }
-        self.seen_to = to;
-        let is_fresh = |error: &&ErrorSample| seconds_between(error.time, now) < FRESH_S;
-        if error.filter(is_fresh).is_some_and(|error| error.off_beam <= half_beam) {
-            self.in_beam_s += passed_s;
-            return;
-        }
-        let cause = match operation {
-            Operation::Off(because) => MissCause::Off(*because),
-            Operation::Suspended { by, .. } => MissCause::Suspended(*by),
-            Operation::On(_) if !seen.is_live => MissCause::LinkLost,
-            Operation::On(_) if seen.awaits_operator => MissCause::NotResumed,
+        self.seen_to = until;
+        let by = match operation {
+            Operation::Off(because) => Some(MissCause::Off(*because)),
+            Operation::Suspended { by, .. } => Some(MissCause::Suspended(*by)),
+            // Its link tells why.
+            Operation::On(_) if !seen.is_live => None,
+            Operation::On(_) if seen.awaits_operator => Some(MissCause::NotResumed),
             Operation::On(_) => match (seen.not_ready, taking.and_then(|taking| taking.given_up)) {
-                (Some(why), _) => MissCause::NotReady(why),
-                (None, Some(GivenUp::WouldMiss)) => MissCause::NotReady(NotReady::WouldMiss),
-                (None, Some(GivenUp::Refused)) => MissCause::Refused,
-                (None, Some(GivenUp::OffTarget)) => MissCause::OffTarget,
-                (None, None) => MissCause::OutsideBeam,
+                (Some(why), _) => Some(MissCause::NotReady(why)),
+                (None, Some(GivenUp::WouldMiss)) => Some(MissCause::NotReady(NotReady::WouldMiss)),
+                (None, Some(GivenUp::Refused)) => Some(MissCause::Refused),
+                (None, Some(GivenUp::OffTarget)) => Some(MissCause::OffTarget),
+                (None, None) => None,
             },
         };
-        match self.lost.iter_mut().find(|(known, _)| *known == cause) {
-            Some((_, lost_s)) => *lost_s += passed_s,
-            None => self.lost.push((cause, passed_s)),
+        let Some(by) = by else { return };
+        match self.hindered.last_mut() {
+            Some(last) if last.by == by && last.until == from => last.until = until,
+            _ => self.hindered.push(Hindered { from, until, by }),
         }
     }
 
-    /// What became of it.
-    pub(super) fn end(self) -> Flown {
+    /// Returns what became of it by its report; without one nothing was measured.
+    pub(in crate::engine) fn end(self, report: Option<&PassReport>) -> Flown {
         let of_s = self.duty.counted_s;
-        let in_beam_s = self.in_beam_s.min(of_s);
+        let in_beam_s = report.map_or(0.0, |report| report.in_beam_s.min(of_s));
         let is_whole = in_beam_s >= TRACKED * of_s;
-        let most = self.lost.iter().max_by(|(_, a), (_, b)| a.total_cmp(b));
-        let cause = most.map_or(MissCause::OutsideBeam, |(cause, _)| *cause);
-        Flown {
-            pass: self.duty.pass,
-            name: self.name,
-            of_s,
-            in_beam_s,
-            proved_at: self.proved_at,
-            cause: (!is_whole).then_some(cause),
+        let cause = if is_whole { None } else { Some(self.cause(report)) };
+        let Self { duty, name, proved_at, .. } = self;
+        Flown { pass: duty.pass, name, of_s, in_beam_s, proved_at, cause }
+    }
+
+    /// The cause of most of what was lost, apart from what the mount had to lose.
+    fn cause(&self, report: Option<&PassReport>) -> MissCause {
+        let Duty { from, until, .. } = self.duty;
+        let nothing = [LostStretch { from, until, cause: LossCause::NotMeasured }];
+        let losses = report.map_or(&nothing[..], |report| &report.losses);
+        let could_be_had = losses.iter().filter(|lost| !lost.cause.is_of_mount());
+        let by_far = self.longest(could_be_had).or_else(|| self.longest(losses.iter()));
+        by_far.unwrap_or(MissCause::Lost(LossCause::OutsideBeam))
+    }
+
+    fn longest<'a>(&self, losses: impl Iterator<Item = &'a LostStretch>) -> Option<MissCause> {
+        let mut seconds: Vec<(MissCause, f64)> = Vec::new();
+        let mut add = |cause: MissCause, lost_s: f64| match seconds
+            .iter_mut()
+            .find(|(known, _)| *known == cause)
+        {
+            Some((_, sum_s)) => *sum_s += lost_s,
+            None => seconds.push((cause, lost_s)),
+        };
+        for lost in losses {
+            let mut left_s = lost.seconds();
+            for hindered in &self.hindered {
+                let (from, until) = (hindered.from.max(lost.from), hindered.until.min(lost.until));
+                let common_s = seconds_between(from, until).max(0.0);
+                if common_s > 0.0 {
+                    add(hindered.by, common_s);
+                    left_s -= common_s;
+                }
+            }
+            add(MissCause::Lost(lost.cause), left_s);
         }
+        let longest = seconds.into_iter().max_by(|(_, a), (_, b)| a.total_cmp(b));
+        longest.map(|(cause, _)| cause)
     }
 }
 
@@ -191,7 +213,7 @@ pub(super) fn add(list: &mut Vec<DayLine>, line: DayLine) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::astro::time::add_seconds;
+    use crate::{astro::time::add_seconds, plan::pass_report::PassVerdict};
 
     fn at(second: f64) -> Timestamp {
         add_seconds(Timestamp::UNIX_EPOCH, second)
@@ -204,83 +226,92 @@ mod tests {
             until: at(200.0),
             go_at: at(50.0),
             counted_s: 100.0,
+            lost_at: None,
             begins_late: false,
             ends_early: false,
         };
         Flight::new(duty, "SAT".to_owned())
     }
 
-    /// Looks once a second at an antenna that is off its satellite by so much.
-    fn see(
-        flight: &mut Flight,
-        seconds: std::ops::Range<i32>,
-        operation: &Operation,
-        is_live: bool,
-        off_deg: Option<f64>,
-    ) {
+    /// A report of that pass with these losses.
+    fn report(losses: &[(f64, f64, LossCause)]) -> PassReport {
+        let losses: Vec<LostStretch> = losses
+            .iter()
+            .map(|(from, until, cause)| LostStretch {
+                from: at(*from),
+                until: at(*until),
+                cause: *cause,
+            })
+            .collect();
+        let lost_s: f64 = losses.iter().map(LostStretch::seconds).sum();
+        PassReport {
+            verdict: PassVerdict::Poor,
+            counted_s: 100.0,
+            known_s: 100.0,
+            in_beam_s: 100.0 - lost_s,
+            rms: None,
+            worst: None,
+            losses,
+        }
+    }
+
+    /// Looks once a second at automatic operation.
+    fn see(flight: &mut Flight, seconds: std::ops::Range<i32>, operation: &Operation) {
         for second in seconds {
-            let now = at(f64::from(second));
-            let error = off_deg.map(|off_deg| ErrorSample {
-                time: now,
-                off_beam: Angle::from_degrees(off_deg),
-                azimuth: Angle::ZERO,
-                elevation: Angle::ZERO,
-            });
-            let half_beam = Angle::from_degrees(0.5);
-            let seen = Seen { is_live, ..Seen::default() };
-            flight.see(operation, seen, error.as_ref(), half_beam, now);
+            let seen = Seen { is_live: true, ..Seen::default() };
+            flight.see(operation, seen, at(f64::from(second)));
         }
     }
 
     #[test]
-    fn a_pass_inside_the_beam_from_end_to_end_is_tracked() {
+    fn a_pass_has_the_seconds_of_its_report() {
         let mut flight = flight();
-        see(&mut flight, 50..230, &Operation::switched_on(), true, Some(0.1));
-        let flown = flight.end();
-        assert!((flown.in_beam_s - 100.0).abs() < 1e-6, "{flown:?}");
+        see(&mut flight, 50..230, &Operation::switched_on());
+        let flown = flight.end(Some(&report(&[(100.0, 100.4, LossCause::NotMeasured)])));
+        assert!((flown.in_beam_s - 99.6).abs() < 1e-6, "{flown:?}");
         assert_eq!(flown.cause, None);
     }
 
     #[test]
-    fn what_was_not_measured_inside_the_beam_is_lost_and_most_of_it_names_the_cause() {
+    fn the_cause_is_that_of_most_of_what_could_be_had() {
+        use LossCause::{LateStart, LinkLost, NotCommanded, OutsideBeam, Slew};
         let on = Operation::switched_on();
         let off = Operation::Off(OffBecause::Stop);
         let by = Interruption::ByHand;
         let suspended = Operation::Suspended { by, since: at(0.0) };
-        let lost = |parts: &[(std::ops::Range<i32>, &Operation, bool, Option<f64>)]| {
+        let lost = |seen: &[(std::ops::Range<i32>, &Operation)], losses| {
             let mut flight = flight();
-            for (seconds, operation, is_live, off_deg) in parts {
-                see(&mut flight, seconds.clone(), operation, *is_live, *off_deg);
+            for (seconds, operation) in seen {
+                see(&mut flight, seconds.clone(), operation);
             }
-            let flown = flight.end();
+            let flown = flight.end(Some(&report(losses)));
             (flown.lost_s(), flown.cause)
         };
-        let without_link = [(90..151, &on, false, None), (151..210, &on, true, Some(0.1))];
-        assert_eq!(lost(&without_link), (50.0, Some(MissCause::LinkLost)));
-        let beside = [(90..210, &on, true, Some(0.6))];
-        assert_eq!(lost(&beside), (100.0, Some(MissCause::OutsideBeam)));
-        let stopped = [(90..141, &on, true, Some(0.1)), (141..210, &off, true, None)];
-        assert_eq!(lost(&stopped), (60.0, Some(MissCause::Off(OffBecause::Stop))));
-        let by_hand = [(90..111, &on, false, None), (111..210, &suspended, true, Some(9.0))];
-        assert_eq!(lost(&by_hand), (100.0, Some(MissCause::Suspended(by))));
+        let all = [(90..210, &on)];
+        let without_link = [(100.0, 150.0, LinkLost), (150.0, 160.0, OutsideBeam)];
+        assert_eq!(lost(&all, &without_link), (60.0, Some(MissCause::Lost(LinkLost))));
+        let late = [(100.0, 110.0, LateStart), (120.0, 160.0, Slew)];
+        assert_eq!(lost(&all, &late), (50.0, Some(MissCause::Lost(LateStart))));
+        let stopped = [(90..141, &on), (141..210, &off)];
+        let losses = [(100.0, 110.0, LateStart), (140.0, 200.0, NotCommanded)];
+        assert_eq!(lost(&stopped, &losses), (70.0, Some(MissCause::Off(OffBecause::Stop))));
+        let by_hand = [(90..111, &on), (111..210, &suspended)];
+        let losses = [(100.0, 200.0, NotCommanded)];
+        assert_eq!(lost(&by_hand, &losses), (100.0, Some(MissCause::Suspended(by))));
     }
 
     #[test]
-    fn an_old_measurement_tells_nothing() {
-        let mut flight = flight();
-        let error = ErrorSample {
-            time: at(100.0),
-            off_beam: Angle::ZERO,
-            azimuth: Angle::ZERO,
-            elevation: Angle::ZERO,
-        };
-        for second in 100..=200 {
-            let now = at(f64::from(second));
-            let half_beam = Angle::from_degrees(0.5);
-            let seen = Seen { is_live: true, ..Seen::default() };
-            flight.see(&Operation::switched_on(), seen, Some(&error), half_beam, now);
+    fn causes_are_written_as_before() {
+        let text = |cause: MissCause| serde_json::to_string(&cause).unwrap();
+        let lost = MissCause::Lost(LossCause::LinkLost);
+        let refused = MissCause::Refused;
+        let off = MissCause::Off(OffBecause::Stop);
+        for (cause, written) in
+            [(lost, "\"link_lost\""), (refused, "\"refused\""), (off, "{\"off\":\"stop\"}")]
+        {
+            assert_eq!(serde_json::from_str::<MissCause>(written).unwrap(), cause);
+            assert_eq!(text(cause), written);
         }
-        assert!((flight.end().in_beam_s - 2.0).abs() < 1e-6);
     }
 
     #[test]

@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize};
 use crate::{
     astro::time::{add_seconds, seconds_between},
     engine::passes::PassKey,
+    plan::Loss,
 };
 
 /// Automatic operation switches itself off after this many failed passes in a row.
@@ -179,6 +180,8 @@ pub struct Duty {
     pub go_at: Timestamp,
     /// Seconds between them that count.
     pub counted_s: f64,
+    /// Where the mount loses some of the pass.
+    pub lost_at: Option<Loss>,
     /// A part of the pass is left out before `from`, or after `until`.
     pub begins_late: bool,
     pub ends_early: bool,

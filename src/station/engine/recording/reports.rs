@@ -13,7 +13,10 @@ use crate::{
     },
     driver::{PositionLog, TimeSync, TrackView},
     engine::{
-        Antenna, CatalogState, Engine, antenna::AntennaModel, passes::mount_limits,
+        Antenna, CatalogState, Engine,
+        antenna::AntennaModel,
+        automatic::{Duty, Flight, Flown, is_same_pass},
+        passes::mount_limits,
         status::LinkStatus,
     },
     job::{Job, Wake},
@@ -21,10 +24,12 @@ use crate::{
     orbit::{Elements, PassSearch, Propagator, passes},
     plan::{
         MountLimits, Sample, TrackPhase, Trackability,
-        pass_report::{Breaks, Evidence, FlownOffsets, MeasuredPosition, PassVerdict, TrackedPass},
+        pass_report::{
+            APART_S, Breaks, Evidence, FlownOffsets, MeasuredPosition, PassVerdict, TrackedPass,
+        },
         trackability,
     },
-    record::{AboutTrack, PassNote, RecordedReport, TrackedBy},
+    record::{AboutTrack, PassNote, PlannedPart, RecordedReport, TrackedBy},
     station::AntennaId,
 };
 
@@ -42,13 +47,19 @@ const STEP_S: f64 = 2.0;
 /// Least time between two points that are kept of the track, seconds.
 const POINT_S: f64 = 0.95;
 
-/// A pass that an antenna tracks, or has tracked, until it is over.
+/// A pass that an antenna tracks, or that automatic operation has to track with it, until it is over.
 pub(super) struct Followed {
     pub(super) antenna: AntennaId,
+    /// The part of it that the plan gives to the antenna.
+    planned: Option<Duty>,
+    /// The flight, once it is over.
+    flight: Option<Flight>,
+    /// It was tracked, so that somebody wants a report of it.
+    has_tracked: bool,
     pub(super) elements: Elements,
     pub(super) propagator: Propagator,
     pub(super) site: Site,
-    /// What counts, above the antenna's own minimum elevation.
+    /// AOS and LOS above the antenna's own minimum elevation.
     from: Timestamp,
     pub(super) until: Timestamp,
     max_elevation_deg: f64,
@@ -59,38 +70,69 @@ pub(super) struct Followed {
     pub(super) breaks: Breaks,
     positions: PositionLog,
     next_position: u64,
+    /// Positions in which the pass was commanded.
     pub(super) flown: Vec<MeasuredPosition>,
     /// What explains its error so far.
     pub(super) live: Live,
 }
 
+/// What is worked out when a pass is over.
+pub(super) struct Finished {
+    note: Option<PassNote>,
+    /// What the list of the day tells of a pass of the schedule.
+    flown: Option<(AntennaId, Flown)>,
+}
+
 impl Engine {
-    /// Takes up the passes that antennas track, and reports on those that are over.
+    /// Takes up the passes that antennas track or have to, and reports on those that are over.
     pub(super) fn report_passes(&mut self) {
-        if !self.recording.reports() {
-            return;
-        }
-        let finished: Vec<PassNote> =
+        let finished: Vec<Finished> =
             self.recording.reports.iter_mut().filter_map(Job::take).flatten().collect();
         self.recording.reports.retain(Option::is_some);
         if !finished.is_empty() {
             self.record_has_grown();
         }
-        for note in finished {
-            self.recording.tell_pass(note);
+        for finished in finished {
+            self.tell_finished(finished);
         }
+        self.note_commands();
         // A pass is long beside a second.
         if self.now.as_second() == self.recording.looked_at {
             return;
         }
         self.recording.looked_at = self.now.as_second();
-        for index in 0..self.antennas.len() {
-            self.take_up_pass(index);
-        }
         let now = self.now;
+        self.recording.told.retain(|(_, _, until)| now <= *until);
+        for index in 0..self.antennas.len() {
+            self.take_up_passes(index);
+        }
         self.look_at_passes();
         self.explain_passes();
-        self.begin_reports(|pass| seconds_between(pass.until, now) > AFTER_S);
+        self.begin_reports(|pass| pass.is_over_since(now) > AFTER_S);
+    }
+
+    fn tell_finished(&mut self, finished: Finished) {
+        if let Some(note) = finished.note {
+            self.recording.tell_pass(note);
+        }
+        if let Some((antenna, flown)) = finished.flown {
+            self.note_flown(antenna, flown);
+        }
+    }
+
+    /// A pass of the schedule is over for an antenna. What became of it is told with its report, which
+    /// waits for the last positions.
+    pub(in crate::engine) fn end_flight(&mut self, antenna: AntennaId, flight: Flight) {
+        let is_its = |pass: &&mut Followed| {
+            pass.antenna == antenna
+                && pass.flight.is_none()
+                && pass.planned.is_some_and(|duty| is_same_pass(duty.pass, flight.duty.pass))
+        };
+        match self.recording.followed.iter_mut().find(is_its) {
+            Some(pass) => pass.flight = Some(flight),
+            // Its satellite has no elements any more.
+            None => self.note_flown(antenna, flight.end(None)),
+        }
     }
 
     /// The record ends, with the program or because another one begins: what is known of the passes under
@@ -99,18 +141,38 @@ impl Engine {
         let now = self.now;
         self.look_at_passes();
         for pass in &mut self.recording.followed {
-            pass.ended = Some(now).filter(|now| *now < pass.until);
+            pass.ended = Some(now).filter(|now| *now < pass.counted().1);
         }
         self.begin_reports(|_| true);
         let end = Instant::now() + LAST_WITHIN;
-        for job in self.recording.reports.drain(..).flatten() {
-            match (
-                job.wait(end.saturating_duration_since(Instant::now())),
-                &self.recording.recorder,
-            ) {
-                (Some(note), Some((_, recorder))) => recorder.note_pass(note),
-                (None, _) => tracing::error!("a pass without a report: its record ended"),
-                (Some(_), None) => {}
+        let jobs: Vec<_> = self.recording.reports.drain(..).flatten().collect();
+        for job in jobs {
+            if let Some(finished) = job.wait(end.saturating_duration_since(Instant::now())) {
+                self.tell_finished(finished);
+            } else {
+                tracing::error!("a pass without a report: its record ended");
+            }
+        }
+    }
+
+    /// Notes which passes the antennas have the command to track.
+    fn note_commands(&mut self) {
+        let (now, recording) = (self.now, &mut self.recording);
+        for antenna in &self.antennas {
+            let (id, number) = (antenna.shown.id(), antenna.shown.commanded_number());
+            match number {
+                Some(number) => {
+                    let begun = recording.commanded.entry(id).or_insert((number, now));
+                    if begun.0 != number {
+                        *begun = (number, now);
+                    }
+                }
+                None => {
+                    recording.commanded.remove(&id);
+                }
+            }
+            for pass in recording.followed.iter_mut().filter(|pass| pass.antenna == id) {
+                pass.breaks.note_commanded(now, number == Some(pass.elements.catalog_number()));
             }
         }
     }
@@ -123,31 +185,66 @@ impl Engine {
     }
 
     fn begin_reports(&mut self, is_ready: impl Fn(&Followed) -> bool) {
-        let Recording { followed, reports, .. } = &mut self.recording;
+        let wants_reports = self.recording.wants_reports();
+        let Recording { followed, reports, told, .. } = &mut self.recording;
         for pass in followed.extract_if(.., |pass| is_ready(pass)) {
+            told.push((pass.antenna, pass.elements.catalog_number(), pass.until));
             let history = self.places.library().map(History::beside);
-            reports.extend(pass.report(history, &self.wake).map(Some));
+            reports.extend(pass.report(history, wants_reports, &self.wake).map(Some));
         }
     }
 
-    /// Takes up the pass that an antenna tracks now, if it is a new one.
-    fn take_up_pass(&mut self, index: usize) {
+    /// Takes up the pass that an antenna tracks now, and the one that automatic operation has to track
+    /// with it.
+    fn take_up_passes(&mut self, index: usize) {
         let Some(antenna) = self.antennas.get(index) else { return };
         let (shown, now) = (&antenna.shown, self.now);
-        let Some(number) = shown.tracked_number().filter(|_| shown.tracks()) else { return };
+        let id = shown.id();
+        let tracked = shown.tracked_number().filter(|_| shown.tracks());
+        let duty = antenna.at_work.duty();
+        let followed = &mut self.recording.followed;
+        let own = |pass: &&mut Followed| pass.antenna == id && pass.flight.is_none();
+        for pass in followed.iter_mut().filter(own) {
+            let number = pass.elements.catalog_number();
+            let is_its = |duty: &Duty| {
+                duty.pass.0 == number && duty.from <= pass.until && pass.from <= duty.until
+            };
+            pass.planned = duty.filter(is_its);
+        }
+        followed.retain(|pass| {
+            pass.antenna != id
+                || pass.has_tracked
+                || pass.planned.is_some()
+                || pass.flight.is_some()
+        });
+        if let Some(duty) = duty {
+            let middle_s = seconds_between(duty.from, duty.until) / 2.0;
+            self.take_up_pass(index, duty.pass.0, add_seconds(duty.from, middle_s), Some(duty));
+        }
+        if let Some(number) = tracked {
+            self.take_up_pass(index, number, now, None);
+        }
+    }
+
+    /// Takes up the pass of a satellite at a time, if it is a new one.
+    fn take_up_pass(&mut self, index: usize, number: u32, at: Timestamp, planned: Option<Duty>) {
+        let Some(antenna) = self.antennas.get(index) else { return };
+        let (shown, now) = (&antenna.shown, self.now);
+        let id = shown.id();
         let is_known = |pass: &Followed| {
-            pass.antenna == shown.id()
-                && pass.elements.catalog_number() == number
-                && now <= pass.until
+            pass.antenna == id && pass.elements.catalog_number() == number && at <= pass.until
         };
-        if self.recording.followed.iter().any(is_known) {
+        let is_told =
+            |told: &(AntennaId, u32, Timestamp)| told.0 == id && told.1 == number && at <= told.2;
+        let recording = &mut self.recording;
+        if recording.followed.iter().any(is_known) || recording.told.iter().any(is_told) {
             return;
         }
-        let sought = (shown.id(), number);
+        let sought = (id, number);
         let is_soon = |(of, at): &(_, Timestamp)| {
             *of == sought && seconds_between(*at, now).abs() < SOUGHT_AGAIN_S
         };
-        if self.recording.sought.iter().any(is_soon) {
+        if recording.sought.iter().any(is_soon) {
             return;
         }
         let CatalogState::Ready(catalog) = &self.catalog else { return };
@@ -159,38 +256,45 @@ impl Engine {
             aos_elevation: Angle::from_degrees(lowest),
             ..PassSearch::new(
                 self.station.site,
-                add_seconds(now, -REACH_S),
-                add_seconds(now, REACH_S),
+                add_seconds(at, -REACH_S),
+                add_seconds(at, REACH_S),
             )
         };
         let found = passes(&propagator, &search, &|| false);
-        let is_now = |pass: &&crate::orbit::Pass| pass.aos.time <= now && now <= pass.los.time;
-        let Some(pass) = found.iter().find(is_now) else {
-            self.recording.sought.retain(|((antenna, _), _)| *antenna != sought.0);
-            return self.recording.sought.push((sought, now));
+        let is_it = |pass: &&crate::orbit::Pass| pass.aos.time <= at && at <= pass.los.time;
+        let Some(pass) = found.iter().find(is_it) else {
+            recording.sought.retain(|((antenna, _), _)| *antenna != sought.0);
+            return recording.sought.push((sought, now));
         };
         // Of one that does not rise, what was before the track is nobody's loss.
         let from = if pass.starts_before { now } else { pass.aos.time };
-        let until = pass.los.time;
-        let max_elevation_deg = pass.max_elevation().degrees();
+        let mut breaks = Breaks::default();
+        let commanded = recording.commanded.get(&id).filter(|(commanded, _)| *commanded == number);
+        if let Some((_, since)) = commanded {
+            breaks.note_commanded(*since, true);
+        }
+        breaks.note_commanded(now, commanded.is_some());
         let followed = Followed {
-            antenna: shown.id(),
+            antenna: id,
+            planned,
+            flight: None,
+            has_tracked: false,
             elements: elements.clone(),
             propagator,
             site: self.station.site,
             from,
-            until,
-            max_elevation_deg,
+            until: pass.los.time,
+            max_elevation_deg: pass.max_elevation().degrees(),
             ended: None,
             limits,
             about: about(shown, now, self.time_sync),
-            breaks: Breaks::default(),
+            breaks,
             positions: antenna.handle.positions().clone(),
             next_position: 0,
             flown: Vec::new(),
             live: Live::default(),
         };
-        self.recording.followed.push(followed);
+        recording.followed.push(followed);
     }
 }
 
@@ -238,6 +342,18 @@ fn about(antenna: &AntennaModel, begun: Timestamp, sync: TimeSync) -> AboutTrack
 }
 
 impl Followed {
+    /// What counts of the pass: the part that the plan gives to the antenna, or all of it.
+    fn counted(&self) -> (Timestamp, Timestamp) {
+        self.planned.map_or((self.from, self.until), |duty| (duty.from, duty.until))
+    }
+
+    /// Seconds since the pass is over for its antenna; negative before.
+    fn is_over_since(&self, now: Timestamp) -> f64 {
+        let is_under_way = self.planned.is_some() && self.flight.is_none();
+        let until = if is_under_way { self.until } else { self.counted().1 };
+        seconds_between(until, now)
+    }
+
     /// Takes what is new of the pass.
     fn look(&mut self, antenna: Option<&Antenna>, sync: TimeSync, now: Timestamp) {
         if let Some(antenna) = antenna {
@@ -248,10 +364,14 @@ impl Followed {
             }
             let snapshot = &antenna.shown.snapshot;
             let link = LinkStatus::of(&antenna.shown);
-            let is_lost = matches!(link, LinkStatus::Lost | LinkStatus::Stale);
-            self.breaks.note_link(now, is_lost);
+            self.breaks.note_link(now, link == LinkStatus::Lost);
             let view = snapshot.program_track.as_ref();
             let number = self.elements.catalog_number();
+            let shown = &antenna.shown;
+            let tracks = shown.tracks() && shown.tracked_number() == Some(number);
+            if tracks && !self.has_tracked {
+                (self.has_tracked, self.about) = (true, about(shown, now, sync));
+            }
             // Before AOS and after LOS it counts for other passes.
             let is_of_this = |view: &&TrackView| {
                 view.catalog_number == Some(number) && view.phase == TrackPhase::Tracking
@@ -260,8 +380,7 @@ impl Followed {
                 self.about.sent = Some(view.stats.commands);
                 self.about.offsets.note(now, view.offsets);
             }
-            let shown = &antenna.shown;
-            if !shown.follows() && shown.tracks() && shown.tracked_number() == Some(number) {
+            if tracks && !shown.follows() {
                 self.about.offsets.note(now, snapshot.meant_offsets());
             }
             self.about.unit_place = snapshot.state.on_board.place.or(self.about.unit_place);
@@ -274,31 +393,45 @@ impl Followed {
         }
         let (first, positions) = self.positions.read_from(self.next_position);
         self.next_position = first + positions.len() as u64;
-        let within = positions.iter().filter(|it| self.from <= it.at && it.at <= self.until);
-        self.flown.extend(within.map(|it| MeasuredPosition { time: it.at, pointing: it.pointing }));
+        let near = add_seconds(self.from, -APART_S)..=add_seconds(self.until, APART_S);
+        let own = positions.iter().filter(|measured| {
+            near.contains(&measured.at) && self.breaks.was_commanded(measured.at)
+        });
+        self.flown.extend(own.map(|own| MeasuredPosition { time: own.at, pointing: own.pointing }));
     }
 
     /// Starts the work on the report; `None` where there is no thread for it.
-    fn report(self, history: Option<History>, wake: &Wake) -> Option<Job<PassNote>> {
-        let job =
-            Job::start("azel-report", Wake::clone(wake), move |_| self.note(history.as_ref()));
+    fn report(
+        self,
+        history: Option<History>,
+        wants_note: bool,
+        wake: &Wake,
+    ) -> Option<Job<Finished>> {
+        let job = Job::start("azel-report", Wake::clone(wake), move |_| {
+            self.finish(history.as_ref(), wants_note)
+        });
         job.inspect_err(|error| tracing::error!(%error, "a pass without a report")).ok()
     }
 
-    fn note(self, history: Option<&History>) -> PassNote {
+    fn finish(mut self, history: Option<&History>, wants_note: bool) -> Finished {
         let compared = |flown| self.about.compared(&self.propagator, self.site, flown);
         let flown: Vec<MeasuredPosition> = self.flown.iter().copied().map(compared).collect();
+        let (from, until) = self.counted();
         let tracked = TrackedPass {
             propagator: &self.propagator,
             site: self.site,
-            from: self.from,
-            until: self.until,
+            from,
+            until,
             limits: self.limits,
             trackability: self.trackability(),
             ended: self.ended,
             breaks: &self.breaks,
         };
         let report = tracked.report(&flown);
+        let told = self.flight.take().map(|flight| (self.antenna, flight.end(Some(&report))));
+        if !wants_note || !self.has_tracked {
+            return Finished { note: None, flown: told };
+        }
         let has_elevation = self.limits.has_elevation;
         let is_reached = |flown: &&MeasuredPosition| tracked.is_in_reach(flown.time);
         let reached: Vec<MeasuredPosition> = flown.iter().filter(is_reached).copied().collect();
@@ -317,10 +450,13 @@ impl Followed {
             }
         };
         let middle = add_seconds(self.from, seconds_between(self.from, self.until) / 2.0);
-        let points = apart(self.flown.iter().copied(), POINT_S, |flown| flown.time).collect();
+        let within = |flown: &&MeasuredPosition| (self.from..=self.until).contains(&flown.time);
+        let points = self.flown.iter().filter(within).copied();
+        let points = apart(points, POINT_S, |flown| flown.time).collect();
         let report = RecordedReport {
             from: self.from,
             until: self.until,
+            planned: self.planned.map(|duty| PlannedPart { from: duty.from, until: duty.until }),
             max_elevation_deg: self.max_elevation_deg,
             age_days: self.elements.age_s(middle) / 86_400.0,
             half_beam_deg: self.limits.half_beam.degrees(),
@@ -330,16 +466,27 @@ impl Followed {
             report,
             causes,
         };
-        PassNote { antenna: self.antenna, report, points }
+        let note = PassNote { antenna: self.antenna, report, points };
+        Finished { note: Some(note), flown: told }
     }
 
+    /// What could be had of what counts. Where the mount loses something, the plan says how much and why.
     fn trackability(&self) -> Trackability {
-        let count = (seconds_between(self.from, self.until) / STEP_S) as u32;
+        let (first, last) = self.counted();
+        let count = (seconds_between(first, last) / STEP_S) as u32;
         let samples = (0..=count).filter_map(|step| {
-            let time = add_seconds(self.from, f64::from(step) * STEP_S);
+            let time = add_seconds(first, f64::from(step) * STEP_S);
             let look = self.propagator.look_from(self.site, time).ok()?;
             Some(Sample { time, direction: look.direction })
         });
-        trackability(&samples.collect::<Vec<_>>(), self.limits)
+        let alone = trackability(&samples.collect::<Vec<_>>(), self.limits);
+        let Some(duty) = self.planned else { return alone };
+        let Some(at) = duty.lost_at else { return Trackability::Whole };
+        let (from, until) = match alone {
+            Trackability::Loses { from, until, .. } => (from, until),
+            Trackability::Whole | Trackability::Nothing | Trackability::TooLow => (first, last),
+        };
+        let seconds = (seconds_between(first, last) - duty.counted_s).max(0.0);
+        Trackability::Loses { seconds, at, from, until }
     }
 }

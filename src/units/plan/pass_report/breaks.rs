@@ -1,19 +1,24 @@
-//! What broke into a pass from outside: a lost link, a STOP.
+//! Interruptions of a pass from outside: a lost link, a STOP, a track that was not commanded.
 
 use jiff::Timestamp;
 
-use crate::astro::time::add_seconds;
+use super::APART_S;
+use crate::astro::time::{add_seconds, seconds_between};
 
 /// An antenna is off its satellite as late as this after its STOP, seconds.
 const MOVES_ON_S: f64 = 3.0;
 
-/// When the link to the unit of a pass was lost, and when STOP was pressed for its antenna.
+/// When the link to the unit of a pass was lost, when STOP was pressed for its antenna, and when its
+/// track was commanded.
 #[derive(Debug, Clone, Default)]
 pub struct Breaks {
     lost: Vec<(Timestamp, Timestamp)>,
     /// When it was looked at last.
     is_lost: bool,
     stops: Vec<Timestamp>,
+    /// `None` as long as nobody has noted it: then all of the pass counts as commanded.
+    commanded: Option<Vec<(Timestamp, Timestamp)>>,
+    is_commanded: bool,
 }
 
 impl Breaks {
@@ -32,8 +37,53 @@ impl Breaks {
         self.stops.push(now);
     }
 
+    /// Notes at `now`, again and again, if the antenna has the command to track this pass.
+    pub fn note_commanded(&mut self, now: Timestamp, is_commanded: bool) {
+        let spans = self.commanded.get_or_insert_default();
+        match spans.last_mut().filter(|_| is_commanded && self.is_commanded) {
+            Some((_, until)) => *until = now,
+            None if is_commanded => spans.push((now, now)),
+            None => {}
+        }
+        self.is_commanded = is_commanded;
+    }
+
+    /// Returns `true` if the antenna had the command to track this pass at `at`.
+    pub fn was_commanded(&self, at: Timestamp) -> bool {
+        let holds = |(from, until): &(Timestamp, Timestamp)| *from <= at && at <= *until;
+        self.commanded.as_ref().is_none_or(|spans| spans.iter().any(holds))
+    }
+
+    /// The stretches between two times in which the track was commanded. Interruptions as short as
+    /// the time between two positions do not count: a unit ends its window at a whole second.
+    pub(super) fn commanded(
+        &self,
+        from: Timestamp,
+        until: Timestamp,
+    ) -> Vec<(Timestamp, Timestamp)> {
+        let Some(spans) = &self.commanded else { return vec![(from, until)] };
+        let is_near = |a: Timestamp, b: Timestamp| seconds_between(a, b) <= APART_S;
+        let mut merged: Vec<(Timestamp, Timestamp)> = Vec::new();
+        for (since, to) in spans.iter().filter(|(since, to)| *since < until && from < *to) {
+            let since = if is_near(from, *since) { from } else { *since };
+            let to = if is_near(*to, until) { until } else { *to };
+            match merged.last_mut().filter(|(_, end)| is_near(*end, since)) {
+                Some((_, end)) => *end = to,
+                None => merged.push((since, to)),
+            }
+        }
+        merged
+    }
+
     pub(super) fn lost_link(&self, from: Timestamp, until: Timestamp) -> bool {
         self.lost.iter().any(|(since, to)| *since <= until && from <= *to)
+    }
+
+    /// When the link came back, if it was lost at `at`.
+    pub(super) fn link_lost_until(&self, at: Timestamp) -> Option<Timestamp> {
+        let holds =
+            |(since, to): &&(Timestamp, Timestamp)| *since <= add_seconds(at, APART_S) && at <= *to;
+        self.lost.iter().find(holds).map(|(_, to)| *to)
     }
 
     /// From when on a stretch is put down to a STOP, if there was one.

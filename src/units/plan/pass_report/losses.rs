@@ -3,7 +3,11 @@
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
-use super::{APART_S, COMES_BACK_S, TrackPoint, TrackedPass};
+use super::{
+    APART_S, COMES_BACK_S, TrackPoint, TrackedPass,
+    following::Following,
+    stretches::{State, Stretch},
+};
 use crate::{
     astro::time::{add_seconds, seconds_between},
     plan::trackability::{Loss, Trackability},
@@ -41,105 +45,138 @@ pub enum LossCause {
     RateOfMount,
     /// The axis had to slew a whole turn.
     Slew,
-    /// The antenna had not arrived at the satellite yet.
+    /// The antenna was still on its way to the satellite.
     LateStart,
-    /// The antenna had left the satellite before its end.
+    /// The antenna followed the satellite no more.
     EarlyEnd,
     /// STOP had been pressed.
     Stopped,
-    NotExplained,
+    /// The antenna had no command to track this pass.
+    NotCommanded,
+    /// The antenna followed the satellite beyond half the beamwidth: a pointing error.
+    #[serde(alias = "not_explained")]
+    OutsideBeam,
+}
+
+impl LossCause {
+    /// Returns `true` for what the mount had to lose, if it was no more than that.
+    pub fn is_of_mount(self) -> bool {
+        match self {
+            Self::OutOfReach | Self::Keyhole | Self::RateOfMount | Self::Slew => true,
+            Self::NotMeasured
+            | Self::LinkLost
+            | Self::ProgramEnded
+            | Self::LateStart
+            | Self::EarlyEnd
+            | Self::Stopped
+            | Self::NotCommanded
+            | Self::OutsideBeam => false,
+        }
+    }
+
+    /// Returns `true` where nothing is known of the antenna.
+    pub(super) fn is_unknown(self) -> bool {
+        matches!(self, Self::NotMeasured | Self::LinkLost | Self::ProgramEnded)
+    }
 }
 
 impl TrackedPass<'_> {
-    pub(super) fn losses(&self, compared: &[TrackPoint]) -> Vec<LostStretch> {
-        let mut losses: Vec<LostStretch> = Vec::new();
-        let mut seen_to = self.from;
-        let mut out_since: Option<Timestamp> = None;
-        let mut has_arrived = false;
-        let lost = |since: Timestamp, until: Timestamp, has_arrived: bool, is_over: bool| {
-            let stop = self.breaks.stopped(since, until);
-            let before = stop.unwrap_or(until);
-            let is_over = is_over && stop.is_none();
-            let mut lost = Vec::new();
-            if since < before {
-                let cause = self.cause(since, before, has_arrived, is_over);
-                lost = self.in_parts(since, before, cause);
+    /// The stretches that were lost, with the positions that tell why.
+    pub(super) fn losses(&self, stretches: &[Stretch], points: &[TrackPoint]) -> Vec<LostStretch> {
+        let end = self.ended.unwrap_or(self.until);
+        let commanded = self.breaks.commanded(self.from, end).into_iter();
+        let followed: Vec<(Timestamp, Following)> = commanded
+            .map(|(since, until)| {
+                let near = add_seconds(since, -APART_S)..=add_seconds(until, APART_S);
+                let own = points.iter().filter(|point| near.contains(&point.time));
+                (until, self.following(&own.collect::<Vec<_>>()))
+            })
+            .collect();
+        let lost = stretches.iter().flat_map(|stretch| match stretch.state {
+            State::InBeam => Vec::new(),
+            State::NotMeasured => self.not_measured(stretch),
+            State::NotCommanded => self.not_commanded(stretch),
+            State::Outside => {
+                let own = followed.iter().find(|(until, _)| stretch.from < *until);
+                self.outside(stretch, own.map(|(_, following)| *following).unwrap_or_default())
             }
-            lost.extend(
-                stop.into_iter().flat_map(|at| self.in_parts(at, until, LossCause::Stopped)),
-            );
-            lost
-        };
-        for position in compared {
-            if seconds_between(seen_to, position.time) > APART_S {
-                let off = out_since.take().into_iter();
-                losses.extend(off.flat_map(|since| lost(since, seen_to, has_arrived, false)));
-                losses.extend(self.not_measured(seen_to, position.time));
-                seen_to = position.time;
-            }
-            if self.is_in_beam(position) {
-                let off = out_since.take().into_iter();
-                losses.extend(off.flat_map(|since| lost(since, position.time, has_arrived, false)));
-                has_arrived = true;
-            } else if out_since.is_none() {
-                out_since = Some(seen_to);
-            }
-            seen_to = position.time;
-        }
-        let last = self.ended.unwrap_or(self.until);
-        let is_measured = seconds_between(seen_to, last) <= APART_S;
-        let until = if is_measured { last } else { seen_to };
-        let off = out_since.into_iter();
-        losses.extend(off.flat_map(|since| lost(since, until, has_arrived, self.ended.is_none())));
-        if !is_measured {
-            losses.extend(self.not_measured(seen_to, last));
-        }
+        });
         let ended = self.ended.into_iter();
-        losses.extend(
-            ended.flat_map(|from| self.in_parts(from, self.until, LossCause::ProgramEnded)),
-        );
+        let ended = ended.flat_map(|from| self.in_parts(from, self.until, LossCause::ProgramEnded));
+        let mut losses: Vec<LostStretch> = Vec::new();
+        for lost in lost.chain(ended) {
+            match losses.last_mut() {
+                Some(last) if last.cause == lost.cause && last.until == lost.from => {
+                    last.until = lost.until;
+                }
+                _ => losses.push(lost),
+            }
+        }
         losses
     }
 
-    fn not_measured(&self, from: Timestamp, until: Timestamp) -> Vec<LostStretch> {
+    fn not_measured(&self, stretch: &Stretch) -> Vec<LostStretch> {
+        let Stretch { from, until, .. } = *stretch;
         let is_lost = self.breaks.lost_link(from, until);
         let why = if is_lost { LossCause::LinkLost } else { LossCause::NotMeasured };
         self.in_parts(from, until, why)
     }
 
-    /// Why the beam was off a satellite within reach between two times.
-    fn cause(
-        &self,
-        from: Timestamp,
-        until: Timestamp,
-        has_arrived: bool,
-        is_over: bool,
-    ) -> LossCause {
-        if let Trackability::Loses { at, .. } = self.trackability
-            && has_arrived
-            && !is_over
-            && seconds_between(from, until) <= self.allowed_s()
-        {
-            return match at {
-                Loss::Keyhole(_) => LossCause::Keyhole,
-                Loss::Overhead => LossCause::RateOfMount,
-                Loss::Slew => LossCause::Slew,
-                Loss::OutOfReach if self.reached_s(from, until) <= COMES_BACK_S => {
-                    LossCause::OutOfReach
-                }
-                // An axis is too slow, or on its way back to what it reaches.
-                Loss::OutOfReach
-                    if self.is_reached() || !self.is_in_reach(add_seconds(from, 1.0)) =>
-                {
-                    LossCause::RateOfMount
-                }
-                Loss::OutOfReach => LossCause::NotExplained,
-            };
+    /// A stretch in which the antenna had no command to track this pass.
+    fn not_commanded(&self, stretch: &Stretch) -> Vec<LostStretch> {
+        let Stretch { from, until, .. } = *stretch;
+        if let Some(stop) = self.breaks.stopped(from, until) {
+            let mut lost = self.in_parts(from, stop, LossCause::NotCommanded);
+            lost.extend(self.in_parts(stop, until, LossCause::Stopped));
+            return lost;
         }
-        match (has_arrived, is_over) {
-            (false, _) => LossCause::LateStart,
-            (true, true) => LossCause::EarlyEnd,
-            (true, false) => LossCause::NotExplained,
+        let back = self.breaks.link_lost_until(from).map_or(from, |back| back.min(until));
+        let mut lost = self.in_parts(from, back, LossCause::LinkLost);
+        lost.extend(self.in_parts(back, until, LossCause::NotCommanded));
+        lost
+    }
+
+    /// A stretch beyond half the beamwidth.
+    fn outside(&self, stretch: &Stretch, following: Following) -> Vec<LostStretch> {
+        let Stretch { from, until, .. } = *stretch;
+        let stop = self.breaks.stopped(from, until);
+        let before = stop.unwrap_or(until);
+        let mut lost = if let Some(cause) = self.loss_of_mount(from, before) {
+            self.in_parts(from, before, cause)
+        } else {
+            let arrived = following.since.unwrap_or(before).clamp(from, before);
+            let left = following.until.unwrap_or(before).clamp(arrived, before);
+            let mut lost = self.in_parts(from, arrived, LossCause::LateStart);
+            lost.extend(self.in_parts(arrived, left, LossCause::OutsideBeam));
+            lost.extend(self.in_parts(left, before, LossCause::EarlyEnd));
+            lost
+        };
+        lost.extend(self.in_parts(before, until, LossCause::Stopped));
+        lost
+    }
+
+    /// What the mount had to lose between two times, if that is where it had to lose something, and no
+    /// more than it had to.
+    fn loss_of_mount(&self, from: Timestamp, until: Timestamp) -> Option<LossCause> {
+        let Trackability::Loses { at, from: first, until: last, .. } = self.trackability else {
+            return None;
+        };
+        let is_there = from <= add_seconds(last, COMES_BACK_S)
+            && add_seconds(first, -COMES_BACK_S) <= until
+            && seconds_between(from, until) <= self.allowed_s();
+        match at {
+            _ if !is_there => None,
+            Loss::Keyhole(_) => Some(LossCause::Keyhole),
+            Loss::Overhead => Some(LossCause::RateOfMount),
+            Loss::Slew => Some(LossCause::Slew),
+            Loss::OutOfReach if self.reached_s(from, until) <= COMES_BACK_S => {
+                Some(LossCause::OutOfReach)
+            }
+            // An axis is too slow, or on its way back to what it reaches.
+            Loss::OutOfReach if self.is_reached() || !self.is_in_reach(add_seconds(from, 1.0)) => {
+                Some(LossCause::RateOfMount)
+            }
+            Loss::OutOfReach => None,
         }
     }
 

@@ -1,7 +1,7 @@
 //! Trackability by elevation over azimuth: the mount reaches all of the sky, but the azimuth axis
 //! has to turn fast overhead and to slew a whole turn at its ends, unless the mount can flip.
 
-use super::{Loss, MountLimits, Sample, Trackability};
+use super::{Loss, MountLimits, Outside, Sample, Trackability};
 use crate::{
     astro::time::seconds_between,
     plan::az_el::{AzElAxes, Flip, Planned, Start},
@@ -26,30 +26,35 @@ pub(super) fn trackability(samples: &[Sample], limits: MountLimits) -> Trackabil
         lost(samples, limits, axes, &planned)
     };
     let plain = along(Flip::None);
-    if plain.0 <= 0.0 {
+    if plain.0.seconds <= 0.0 {
         return Trackability::Whole;
     }
     let all = std::iter::once(plain).chain(axes.others(samples).map(along));
-    let (lost_s, at) = all.min_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or(plain);
+    let (lost, at) = all.min_by(|a, b| a.0.seconds.total_cmp(&b.0.seconds)).unwrap_or(plain);
     let whole_s = samples.first().zip(samples.last());
     let whole_s = whole_s.map_or(0.0, |(first, last)| seconds_between(first.time, last.time));
-    Trackability::of(lost_s, whole_s, at)
+    Trackability::new(lost, whole_s, at)
 }
 
-/// Time outside the beam, seconds, and where it begins.
-fn lost(samples: &[Sample], limits: MountLimits, axes: AzElAxes, planned: &Planned) -> (f64, Loss) {
+/// Time outside the beam, and where it begins.
+fn lost(
+    samples: &[Sample],
+    limits: MountLimits,
+    axes: AzElAxes,
+    planned: &Planned,
+) -> (Outside, Loss) {
     let [azimuths, elevations] = &planned.axes_deg;
-    let (mut lost_s, mut first) = (0.0, None);
+    let (mut lost, mut first) = (Outside::default(), None);
     let each = samples.iter().zip(samples.iter().skip(1));
     for ((before, sample), axes_deg) in
         each.zip(azimuths.iter().zip(elevations).skip(1).map(|(azimuth, at)| [*azimuth, *at]))
     {
         if axes.off(sample.direction, axes_deg) > limits.half_beam {
-            lost_s += seconds_between(before.time, sample.time);
+            lost.add(before.time, sample.time);
             first = first.or(Some(sample));
         }
     }
-    let Some(first) = first else { return (0.0, Loss::OutOfReach) };
+    let Some(first) = first else { return (lost, Loss::OutOfReach) };
     let near_s = TURN_DEG / limits.maximum_rate_deg_s;
     let is_near = |slew: &Sample| seconds_between(slew.time, first.time).abs() <= near_s;
     let at = if planned.slews.iter().filter_map(|index| samples.get(*index)).any(is_near) {
@@ -59,7 +64,7 @@ fn lost(samples: &[Sample], limits: MountLimits, axes: AzElAxes, planned: &Plann
     } else {
         Loss::OutOfReach
     };
-    (lost_s, at)
+    (lost, at)
 }
 
 #[cfg(test)]
@@ -114,7 +119,9 @@ mod tests {
     #[test]
     fn a_pass_overhead_costs_a_slow_axis_some_seconds() {
         let lost = super::trackability(&pass(20.0, 90.0), limits(450.0, 3.0));
-        let Trackability::Loses { seconds, at: Loss::Overhead } = lost else { panic!("{lost:?}") };
+        let Trackability::Loses { seconds, at: Loss::Overhead, .. } = lost else {
+            panic!("{lost:?}")
+        };
         assert!((10.0..80.0).contains(&seconds), "{seconds}");
         assert_eq!(
             super::trackability(&pass(20.0, 90.0), limits(450.0, 30.0)),
@@ -128,7 +135,7 @@ mod tests {
         // From east-north-east through north.
         let through_north = pass(600.0, 275.0);
         let lost = super::trackability(&through_north, limits(360.0, 3.0));
-        let Trackability::Loses { seconds, at: Loss::Slew } = lost else { panic!("{lost:?}") };
+        let Trackability::Loses { seconds, at: Loss::Slew, .. } = lost else { panic!("{lost:?}") };
         assert!((50.0..150.0).contains(&seconds), "{seconds}");
         assert_eq!(super::trackability(&through_north, limits(450.0, 3.0)), Trackability::Whole);
     }

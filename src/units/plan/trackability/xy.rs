@@ -1,6 +1,6 @@
 //! Trackability by an X/Y mount: all of the sky except two keyholes at the ends of the lower axis.
 
-use super::{Loss, MountLimits, Sample, Trackability};
+use super::{Loss, MountLimits, Outside, Sample, Trackability};
 use crate::{
     astro::{Angle, time::seconds_between, xy_mount},
     station::Mount,
@@ -16,7 +16,7 @@ pub(super) fn trackability(samples: &[Sample], limits: MountLimits) -> Trackabil
         // The travel is in degrees as the controller counts: 90 at the zenith.
         [axes.lower.degrees() + 90.0, axes.upper.degrees() + 90.0]
     };
-    let mut lost_s = 0.0;
+    let mut lost = Outside::default();
     let mut whole_s = 0.0;
     let mut lost_towards = Angle::ZERO;
     for pair in samples.windows(2) {
@@ -33,14 +33,14 @@ pub(super) fn trackability(samples: &[Sample], limits: MountLimits) -> Trackabil
             .zip(axes(to))
             .all(|(before, after)| (after - before).abs() <= limits.maximum_rate_deg_s * span_s);
         if !reachable || !keeps_up {
-            lost_s += span_s;
+            lost.add(from.time, to.time);
             lost_towards = to.direction.azimuth;
         }
     }
     let off = (lost_towards - lower_axis).wrapped_180().abs();
     let far_end = off.degrees() > 90.0;
     let keyhole = if far_end { lower_axis + Angle::from_degrees(180.0) } else { lower_axis };
-    Trackability::of(lost_s, whole_s, Loss::Keyhole(keyhole.wrapped_360()))
+    Trackability::new(lost, whole_s, Loss::Keyhole(keyhole.wrapped_360()))
 }
 
 #[cfg(test)]
@@ -88,7 +88,7 @@ mod tests {
     #[test]
     fn a_slow_mount_loses_the_part_near_the_keyhole() {
         let low: Vec<Sample> = pass(600.0, 0.0);
-        let Trackability::Loses { seconds, at: Loss::Keyhole(keyhole_azimuth) } =
+        let Trackability::Loses { seconds, at: Loss::Keyhole(keyhole_azimuth), .. } =
             trackability(&low, limits(0.4))
         else {
             panic!("{:?}", trackability(&low, limits(0.4)));

@@ -14,6 +14,7 @@ fn duty(number: u32, from_s: f64) -> Duty {
         until: at(from_s + 600.0),
         go_at: at(from_s - 60.0),
         counted_s: 600.0,
+        lost_at: None,
         begins_late: false,
         ends_early: false,
     }
