@@ -130,7 +130,12 @@ fn group(sheet: &HandOverSheet<'_>, left: &LeftOut) -> Group {
     let max = sheet.pass(left.pass).map(|pass| pass.max_elevation().degrees());
     let against_others = matches!(
         left.why,
-        Why::Overlaps(_) | Why::SlewTooShort(_) | Why::TooFar | Why::NotFound | Why::MaxPerDay(_)
+        Why::Overlaps(_)
+            | Why::SlewTooShort(_)
+            | Why::TooFar
+            | Why::UnderWay
+            | Why::NotFound
+            | Why::MaxPerDay(_)
     );
     Group {
         name: sheet.name(number),

@@ -129,7 +129,9 @@ pub(in crate::ui) fn pass_row<'a>(model: &'a Model, predicted: &'a PredictedPass
             let way = || Some(Verdict::Way(way_there(model, antenna?, predicted)?));
             match antenna.and_then(|antenna| left_out(model, antenna, predicted)) {
                 // The way there says the same and what it leaves.
-                Some(why @ LeftOut::TooFar) => way().unwrap_or(Verdict::LeftOut(why)),
+                Some(why @ (LeftOut::TooFar | LeftOut::UnderWay)) => {
+                    way().unwrap_or(Verdict::LeftOut(why))
+                }
                 Some(why) => Verdict::LeftOut(why),
                 None => way().unwrap_or(in_part),
             }
@@ -178,6 +180,7 @@ fn left_out<'a>(
         Why::Overlaps(conflict) => LeftOut::Overlaps(name(conflict)),
         Why::SlewTooShort(conflict) => LeftOut::TooClose(name(conflict)),
         Why::TooFar => LeftOut::TooFar,
+        Why::UnderWay => LeftOut::UnderWay,
         Why::Refused(Refusal::Never) => LeftOut::Never,
         Why::Refused(_) | Why::Impossible(_) | Why::OtherAntennas | Why::MaxPerDay(_) => {
             LeftOut::Limit

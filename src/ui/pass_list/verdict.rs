@@ -53,6 +53,8 @@ pub enum LeftOut<'a> {
     /// This antenna takes it.
     TakenBy(&'a str),
     TooFar,
+    /// The pass has begun.
+    UnderWay,
     /// The operator chose so.
     Never,
     /// A limit of the satellite or of the station.
@@ -71,6 +73,7 @@ impl LeftOut<'_> {
             Self::TooClose(name) => format!("close to {name}").into(),
             Self::TakenBy(name) => format!("{name} takes it").into(),
             Self::TooFar => "not there at AOS".into(),
+            Self::UnderWay => "under way".into(),
             Self::Never => "as you chose".into(),
             Self::Limit => "a limit".into(),
             Self::Off(Off::LockedOut) => "in maintenance".into(),

@@ -10,6 +10,7 @@ use crate::{
         Model, UiCommand,
         plan::{ListedPass, Standing},
     },
+    plan::schedule::Why,
     station::Take,
     ui::{
         format,
@@ -272,19 +273,25 @@ fn state(
             (Icon::Clock, words::schedule::sets_out(antenna, at, model.now), t.t1)
         }
         Standing::Planned(_) => (Icon::Clock, "Planned".to_owned(), t.t1),
+        Standing::LeftOut(Why::UnderWay) => (Icon::Dash, "Not tracked".to_owned(), t.t2),
         Standing::TakenBy(_) | Standing::LeftOut(_) => (Icon::Dash, "Left out".to_owned(), t.t2),
         Standing::NotKnown => (Icon::Dash, "Not planned yet".to_owned(), t.t3),
     }
 }
 
 /// What is lost, why it is left out, or why it was taken.
-fn reason(model: &Model, listed: &ListedPass<'_>) -> (String, bool) {
+fn reason(model: &Model, antenna: &AntennaModel, listed: &ListedPass<'_>) -> (String, bool) {
     let always = listed.planned.as_ref().and_then(|planned| planned.choice);
     match listed.standing {
         Standing::Flown(flown) => match flown.cause {
             None => (String::new(), false),
             Some(cause) => (words::automatic::miss_cause(cause), true),
         },
+        Standing::LeftOut(why @ Why::UnderWay) => {
+            let cause = words::automatic::not_tracking(&antenna.operation);
+            let cause = cause.map_or_else(String::new, |cause| format!(" {cause}"));
+            (format!("{}.{cause}", words::schedule::why_left_out(model, why)), false)
+        }
         Standing::LeftOut(why) => {
             (format!("{}.", words::schedule::why_left_out(model, why)), false)
         }
@@ -330,7 +337,7 @@ fn show_row(
     let t = theme::tokens(ui);
     let is_selected = model.selected_pass().is_some_and(|selected| selected.key() == listed.key);
     let (icon, words, colour) = state(model, antenna, listed, t);
-    let (why, is_caution) = reason(model, listed);
+    let (why, is_caution) = reason(model, antenna, listed);
     let id = ui.make_persistent_id(("plan list row", listed.key));
     let response = ui.interact(row, id, Sense::CLICK);
     let max = listed.max_elevation_deg.map(|deg| format::degrees(deg, 0)).unwrap_or_default();

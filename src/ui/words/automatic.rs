@@ -4,8 +4,8 @@ use jiff::Timestamp;
 
 use crate::{
     engine::automatic::{
-        DayEvent, DayLine, Doing, Flown, Interruption, MissCause, NotReady, OffBecause, On,
-        Operation,
+        DayEvent, DayLine, Doing, Flown, GivenUp, Interruption, MissCause, NotReady, OffBecause,
+        On, Operation,
     },
     plan::pass_report::LossCause,
     ui::format,
@@ -98,6 +98,21 @@ fn lost(cause: LossCause) -> &'static str {
         LossCause::NotCommanded => "The antenna was not commanded to track it.",
         LossCause::OutsideBeam => "The satellite was outside the beam: a pointing error.",
     }
+}
+
+/// Why automatic operation does not track a pass under way, as a sentence; `None` where nothing keeps
+/// it from tracking.
+pub fn not_tracking(operation: &Operation) -> Option<String> {
+    let cause = match operation {
+        Operation::Off(because) => MissCause::Off(*because),
+        Operation::Suspended { by, .. } => MissCause::Suspended(*by),
+        Operation::On(_) => match operation.taking()?.given_up? {
+            GivenUp::Refused => MissCause::Refused,
+            GivenUp::OffTarget => MissCause::OffTarget,
+            GivenUp::WouldMiss => MissCause::NotReady(NotReady::WouldMiss),
+        },
+    };
+    Some(miss_cause(cause))
 }
 
 /// What became of a pass, as a sentence.

@@ -62,6 +62,7 @@ pub fn why(names: &dyn Fn(PassKey) -> String, why: &Why) -> String {
             format!("Too close to {against}: {by} short for slew and set-up")
         }
         Why::TooFar => "The antenna cannot be there in time".to_owned(),
+        Why::UnderWay => "The pass is under way".to_owned(),
         Why::MaxPerDay(most) => match most {
             1 => "One pass of the satellite is already taken that day".to_owned(),
             most => format!("{most} passes of the satellite are already taken that day"),

@@ -91,6 +91,8 @@ pub enum Why {
     SlewTooShort(Conflict),
     /// The antenna cannot be there in time from where it stands.
     TooFar,
+    /// The pass has begun, and the antenna does not track it.
+    UnderWay,
     /// As many passes of the satellite are taken on this day as may be.
     MaxPerDay(u32),
     /// Beside the schedule it would be possible; the better schedule was not found.

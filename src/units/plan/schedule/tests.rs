@@ -220,6 +220,28 @@ fn worth_in(request: &Request<'_>, schedule: &Schedule) -> Vec<i64> {
 }
 
 #[test]
+fn a_pass_that_has_begun_is_left_out_as_under_way_and_not_as_too_far() {
+    let station = three_antennas();
+    let antennas = planned(&station, noon());
+    let satellites = low_satellites(&mut Random::new(SEED), 1);
+    let list = candidates(&station, &antennas, &satellites, noon(), 24.0);
+    let first = plan(&request(&antennas, &list)).entries[0].clone();
+    for (after_s, expected) in [(-1.0, Why::TooFar), (60.0, Why::UnderWay)] {
+        let free_from = add_seconds(first.from, after_s);
+        let stands_deg = |antenna: &PlannedAntenna| Some(antenna.reach.park_deg());
+        let late = antennas.iter().map(|antenna| PlannedAntenna {
+            free_from,
+            stands_deg: stands_deg(antenna),
+            ..antenna.clone()
+        });
+        let late: Vec<PlannedAntenna> = late.collect();
+        let schedule = plan(&request(&late, &list));
+        let left = schedule.left_out.iter().find(|left| left.pass == first.pass).unwrap();
+        assert_eq!(left.why, expected, "{after_s}: {left:?}");
+    }
+}
+
+#[test]
 fn every_reason_holds_when_the_pass_is_always_taken() {
     each_day(1, |request| {
         let schedule = plan(request);
@@ -230,9 +252,13 @@ fn every_reason_holds_when_the_pass_is_always_taken() {
                 Why::Refused(_) | Why::Impossible(_) | Why::Off(_) | Why::OtherAntennas => {
                     assert_eq!(swapped, None, "{left:?}");
                 }
-                Why::Overlaps(_) | Why::SlewTooShort(_) | Why::MaxPerDay(_) | Why::TooFar => {
+                Why::Overlaps(_)
+                | Why::SlewTooShort(_)
+                | Why::MaxPerDay(_)
+                | Why::TooFar
+                | Why::UnderWay => {
                     let Some(swapped) = swapped else {
-                        assert_eq!(left.why, Why::TooFar);
+                        assert!(matches!(left.why, Why::TooFar | Why::UnderWay), "{left:?}");
                         continue;
                     };
                     // Beyond its limit a satellite may well add to the worth.

@@ -5,7 +5,7 @@ use super::{
     outcome::{Conflict, LeftOut, Why},
     request::{Candidate, Choice, PlannedAntenna},
     solve::{Part, Slews as _, Solution, Take},
-    way::{Impossible, Verdict},
+    way::{Impossible, Verdict, ms},
 };
 
 impl Board<'_> {
@@ -133,8 +133,12 @@ impl Board<'_> {
         if !is_first || self.legs.first_ms(take as usize).is_some() {
             return None;
         }
-        let is_in_reach = self.legs.is_in_reach(take as usize);
-        Some(if is_in_reach { Why::TooFar } else { Why::Impossible(Impossible::NoWay) })
+        if !self.legs.is_in_reach(take as usize) {
+            return Some(Why::Impossible(Impossible::NoWay));
+        }
+        let antenna = self.request.antennas.get(it.antenna as usize);
+        let has_begun = antenna.is_some_and(|antenna| it.from_ms < ms(antenna.free_from));
+        Some(if has_begun { Why::UnderWay } else { Why::TooFar })
     }
 
     /// `None` where no way leads from one to the other.
@@ -166,7 +170,7 @@ fn distance(why: &Why) -> (u8, i64) {
         Why::MaxPerDay(_) => (1, 0),
         Why::SlewTooShort(conflict) => (2, ms(conflict)),
         Why::Overlaps(conflict) => (3, ms(conflict)),
-        Why::TooFar => (4, 0),
+        Why::TooFar | Why::UnderWay => (4, 0),
         Why::Refused(_) => (5, 0),
         Why::Off(_) => (6, 0),
         // An antenna that is excluded may well be able to take it, but that is the operator's will.
