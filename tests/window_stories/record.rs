@@ -13,7 +13,8 @@ use azel::{
     driver::{self, TimeSync},
     engine::{
         Command,
-        automatic::{Flown, MissCause},
+        alarms::{Alarm, AlarmKind},
+        automatic::{Flown, Interruption, MissCause},
         recorded::{Found, MissedPass, RecordLook, Recorded},
     },
     model::{
@@ -618,6 +619,51 @@ fn a_gap_is_told_from_its_beginning_and_a_stop_with_who_pressed_it() {
     window.get_by_label_contains(": Stopped");
     let lasted = format::duration(lasted_s + 3600.0);
     window.get_by_label(&format!("{}: Not recorded for {lasted}", at(2)));
+}
+
+#[test]
+fn an_acknowledged_alarm_is_no_new_one() {
+    let (mut model, mut flown) = model();
+    let came = flown[0].pass.report.from + 1.minutes();
+    let alarm = Alarm {
+        id: 7,
+        row: 7,
+        antenna: Some(flown[0].pass.antenna),
+        kind: AlarmKind::AutomaticSuspended(Interruption::Elsewhere),
+        raised: came,
+        last: came,
+        count: 1,
+        seen: false,
+        over_since: None,
+        shelved_until: None,
+    };
+    let seen = Alarm { seen: true, ..alarm.clone() };
+    let over = Alarm { over_since: Some(came + 3.minutes()), ..seen.clone() };
+    // One that came before what is shown.
+    let older = Alarm { id: 3, last: came - 1.hour(), ..seen.clone() };
+    let row = |time, alarm: &Alarm| Row {
+        time,
+        run: 1,
+        steady_s: None,
+        antenna: None,
+        kind: "alarm".to_owned(),
+        data: serde_json::to_value(alarm).unwrap(),
+    };
+    flown[0].entries = vec![
+        row(came, &alarm),
+        row(came + 1.minutes(), &seen),
+        row(came + 2.minutes(), &older),
+        row(came + 3.minutes(), &over),
+    ];
+    model.recorded = Some(Arc::new(recorded(&flown, 0)));
+    let mut window = rig::window(LARGE, model);
+    settle(&mut window);
+    let told = |minutes: i64, what: &str| {
+        let at = (came + minutes.minutes()).strftime("%H:%M:%SZ").to_string();
+        window.query_by_label_contains(&format!("{at}: {what}")).is_some()
+    };
+    assert!(told(1, "Acknowledged: ") && told(2, "Acknowledged: ") && told(3, "Over: "));
+    assert!(told(0, "") && !told(0, "Acknowledged") && !told(0, "Over"));
 }
 
 #[test]

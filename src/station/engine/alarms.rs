@@ -15,11 +15,13 @@ pub use self::{
     kind::{AlarmKind, Priority, Work, alarm_of, is_over},
     order::Placed,
 };
-use crate::station::AntennaId;
+use crate::{astro::time::seconds_between, station::AntennaId};
 
 /// Maximum number of rows. Beyond it the oldest go: first those that are over and seen, then
 /// seen ones.
 const MAX: usize = 200;
+/// Within this time after it came, an alarm is recorded, seconds.
+const RECORDED_S: f64 = 5.0;
 
 /// State of an alarm in its life.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -110,6 +112,35 @@ impl Alarm {
         self.seen = true;
         if self.kind.is_momentary() {
             self.over_since.get_or_insert(now);
+        }
+    }
+}
+
+/// A recorded change of an alarm.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum AlarmChange {
+    Came,
+    Acknowledged,
+    Shelved,
+    Over,
+}
+
+impl AlarmChange {
+    /// The change that was recorded at `at`, after the one before of the same id. `None` for one that
+    /// nobody looks for, as the end of a shelf.
+    pub fn new(alarm: &Alarm, before: Option<&Alarm>, at: Timestamp) -> Option<Self> {
+        let is_new = before.is_none() && seconds_between(alarm.last, at) < RECORDED_S;
+        let is_set = |part: fn(&Alarm) -> bool| part(alarm) && !before.is_some_and(part);
+        if is_new {
+            Some(Self::Came)
+        } else if is_set(|it| it.shelved_until.is_some()) {
+            Some(Self::Shelved)
+        } else if is_set(|it| it.seen) {
+            Some(Self::Acknowledged)
+        } else if is_set(Alarm::is_over) {
+            Some(Self::Over)
+        } else {
+            None
         }
     }
 }

@@ -6,7 +6,10 @@ use jiff::Timestamp;
 use super::{PADDING, RecordState, curves};
 use crate::{
     astro::time::seconds_between,
-    engine::{By, alarms::Alarm},
+    engine::{
+        By,
+        alarms::{Alarm, AlarmChange},
+    },
     model::Model,
     plan::pass_report::LossCause,
     record::{OpenedPass, Row},
@@ -77,6 +80,7 @@ enum Colour {
     Sent,
     Caution,
     Fault,
+    Quiet,
 }
 
 impl Colour {
@@ -87,6 +91,7 @@ impl Colour {
             Self::Sent => t.cmd,
             Self::Caution => t.warn,
             Self::Fault => t.bad,
+            Self::Quiet => t.t2,
         }
     }
 }
@@ -106,6 +111,7 @@ fn events(model: &Model, axis: &TimeAxis, opened: &OpenedPass) -> [Vec<Moment>; 
     pass.extend(highest.map(|sample| of_pass(sample.time, "TCA")));
     pass.push(of_pass(report.until, "LOS"));
     let mut lanes = [pass, Vec::new(), Vec::new(), Vec::new()];
+    let mut told: Vec<(i64, Alarm)> = Vec::new();
     for row in &opened.entries {
         let (lane, words, colour) = match &*row.kind {
             "command" => (1, command(row), Colour::Sent),
@@ -114,8 +120,16 @@ fn events(model: &Model, axis: &TimeAxis, opened: &OpenedPass) -> [Vec<Moment>; 
             "link" => (2, variant(&row.data).unwrap_or_default(), Colour::Caution),
             "alarm" => match serde_json::from_value::<Alarm>(row.data.clone()) {
                 Ok(of) => {
-                    let name = &opened.pass.antenna_name;
-                    (3, alarm(&of.kind, name, model.now), Colour::Caution)
+                    let words = alarm(&of.kind, &opened.pass.antenna_name, model.now);
+                    let place = told.iter().position(|(run, it)| *run == row.run && it.id == of.id);
+                    let before = place.map(|place| told.swap_remove(place).1);
+                    let change = AlarmChange::new(&of, before.as_ref(), row.time);
+                    told.push((row.run, of));
+                    let Some(change) = change else { continue };
+                    match words::alarm_change(change) {
+                        Some(change) => (3, format!("{change}: {words}"), Colour::Quiet),
+                        None => (3, words, Colour::Caution),
+                    }
                 }
                 Err(_) => continue,
             },

@@ -3,6 +3,7 @@
 use jiff::Timestamp;
 
 use crate::{
+    engine::alarms::AlarmChange,
     model::correction::How,
     plan::pass_report::{
         Axis, Cause, Explained, Explanation, LossCause, LostStretch, PassReport, PassVerdict,
@@ -96,6 +97,16 @@ pub fn loss(cause: LossCause) -> &'static str {
         LossCause::Stopped => "Stopped",
         LossCause::NotCommanded => "Not commanded",
         LossCause::OutsideBeam => "Pointing error",
+    }
+}
+
+/// The word before an alarm that did not come, but changed.
+pub fn alarm_change(change: AlarmChange) -> Option<&'static str> {
+    match change {
+        AlarmChange::Came => None,
+        AlarmChange::Acknowledged => Some("Acknowledged"),
+        AlarmChange::Shelved => Some("Shelved"),
+        AlarmChange::Over => Some("Over"),
     }
 }
 
