@@ -86,7 +86,7 @@ pub fn miss_cause(cause: MissCause) -> String {
 fn lost(cause: LossCause) -> &'static str {
     match cause {
         LossCause::NotMeasured => "The unit reported no positions.",
-        LossCause::LinkLost => "The link to the unit was lost.",
+        LossCause::LinkLost => "The unit did not answer.",
         LossCause::ProgramEnded => "Azel had ended.",
         LossCause::OutOfReach => "The mount cannot point there.",
         LossCause::Keyhole => "It led through a keyhole of the mount.",
