@@ -229,7 +229,7 @@ impl Case {
         client.send(Command::Track { antenna: id, pass: key, is_agreed: true }).unwrap();
         let begun = until_looking(Duration::from_secs(1), "the track", || {
             let tracks = antenna(&client, self.name)?.1.tracks.is_some();
-            (tracks || client.now().utc > aos + 1.minute()).then_some(tracks)
+            (tracks || client.now().utc > aos + 5.minutes()).then_some(tracks)
         });
         if !begun.await {
             return None;

@@ -9,7 +9,7 @@ use super::{RecordError, RecordedPass, RecordedReport, past::Passes};
 use crate::{
     astro::{Angle, Site, time::apart},
     orbit::Propagator,
-    plan::pass_report::{Evidence, Explanation, LossCause, MeasuredPosition, PathSource},
+    plan::pass_report::{Evidence, Explanation, MeasuredPosition, PathSource},
     station::{AntennaId, Mount},
 };
 
@@ -73,10 +73,6 @@ pub fn explain_passes(
 
 /// Positions in which the antenna should have been on the satellite.
 fn thinned(report: &RecordedReport, points: &[MeasuredPosition]) -> Vec<MeasuredPosition> {
-    let is_on_it = |point: &&MeasuredPosition| {
-        !report.report.losses.iter().any(|lost| {
-            lost.cause != LossCause::OutsideBeam && (lost.from..=lost.until).contains(&point.time)
-        })
-    };
-    apart(points.iter().filter(is_on_it).copied(), APART_S, |point| point.time).collect()
+    let is_judged = |point: &&MeasuredPosition| report.report.judges(point.time, report.until);
+    apart(points.iter().filter(is_judged).copied(), APART_S, |point| point.time).collect()
 }

@@ -69,16 +69,27 @@ fn share(share: f64) -> String {
 pub fn cause_in_short(pass: &RecordedPass) -> Option<String> {
     let report = &pass.report.report;
     let by_length = |a: &&LostStretch, b: &&LostStretch| a.seconds().total_cmp(&b.seconds());
-    if report.verdict != PassVerdict::Good
-        && let Some(lost) = report.losses.iter().max_by(by_length)
-        && lost.cause != LossCause::OutsideBeam
-    {
-        return Some(format!("{} {}", loss(lost.cause), format::duration(lost.seconds())));
+    if report.verdict == PassVerdict::Good {
+        return None;
     }
-    match pass.report.causes.first() {
-        Some(explanation) => Some(causes(explanation) + &or_alike(&pass.report.causes)),
-        None if report.verdict == PassVerdict::Good => None,
-        None => Some("Not explained".to_owned()),
+    let lost = report.losses.iter().max_by(by_length);
+    let named = pass.report.causes.first();
+    match (lost, named) {
+        // These say when the antenna was off its satellite; the cause says why.
+        (None, Some(best))
+        | (
+            Some(LostStretch {
+                cause: LossCause::LateStart | LossCause::EarlyEnd | LossCause::OutsideBeam,
+                ..
+            }),
+            Some(best),
+        ) => Some(causes(best) + &or_alike(&pass.report.causes)),
+        (None | Some(LostStretch { cause: LossCause::OutsideBeam, .. }), None) => {
+            Some("Not explained".to_owned())
+        }
+        (Some(lost), _) => {
+            Some(format!("{} {}", loss(lost.cause), format::duration(lost.seconds())))
+        }
     }
 }
 

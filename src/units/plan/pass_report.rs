@@ -26,7 +26,6 @@ use crate::{
     },
     device::Pointing,
     orbit::Propagator,
-    station::Mount,
 };
 
 /// Positions that are further apart tell nothing of the time between, seconds.
@@ -86,8 +85,9 @@ pub struct PassReport {
     pub known_s: f64,
     /// Seconds of them within half the beamwidth.
     pub in_beam_s: f64,
-    /// Root of the mean square over the positions while the satellite was within reach of the
-    /// mount, and the largest of them; `None` without one.
+    /// Root of the mean square over the positions that are judged, and the largest of them; `None`
+    /// without one. A position is judged if the satellite was within reach of the mount and the
+    /// antenna had no other reason to be elsewhere.
     pub rms: Option<PointingError>,
     pub worst: Option<WorstError>,
     /// Stretches beyond half the beamwidth or without positions, in order.
@@ -98,6 +98,13 @@ impl PassReport {
     /// Share of the pass within half the beamwidth.
     pub fn share(&self) -> f64 {
         if self.counted_s > 0.0 { self.in_beam_s / self.counted_s } else { 0.0 }
+    }
+
+    /// Returns `true` if the error at a time is one of pointing or of the drives. `end`: of what
+    /// counts of the pass.
+    pub fn judges(&self, at: Timestamp, end: Timestamp) -> bool {
+        let is_there = |lost: &&LostStretch| (lost.from..=lost.until).contains(&at);
+        self.losses.iter().filter(is_there).all(|lost| lost.is_judged(end))
     }
 }
 
@@ -203,13 +210,6 @@ impl TrackedPass<'_> {
         let known_s = seconds(|state| matches!(state, State::InBeam | State::Outside));
         let in_beam_s = seconds(|state| state == State::InBeam);
         let losses = self.losses(&stretches, &points);
-        let counts = |point: &&TrackPoint| {
-            (self.from..=self.until).contains(&point.time)
-                && self.limits.mount.reaches(point.satellite)
-        };
-        let reached: Vec<&TrackPoint> = points.iter().filter(counts).collect();
-        let worst = reached.iter().max_by(|a, b| a.error.off_deg.total_cmp(&b.error.off_deg));
-        let worst = worst.map(|worst| WorstError { at: worst.time, error: worst.error });
         let is_planned = |loss: &&LostStretch| loss.cause.is_of_mount();
         let planned_s: f64 = losses.iter().filter(is_planned).map(LostStretch::seconds).sum();
         let excused_s = if planned_s <= self.allowed_s() { planned_s } else { 0.0 };
@@ -231,7 +231,31 @@ impl TrackedPass<'_> {
         } else {
             PassVerdict::Poor
         };
-        PassReport { verdict, counted_s, known_s, in_beam_s, rms: rms(&reached), worst, losses }
+        let (rms, worst) = (None, None);
+        let mut report = PassReport { verdict, counted_s, known_s, in_beam_s, rms, worst, losses };
+        let judged: Vec<&TrackPoint> =
+            points.iter().filter(|point| self.judges(&report, point)).collect();
+        let worst = judged.iter().max_by(|a, b| a.error.off_deg.total_cmp(&b.error.off_deg));
+        report.worst = worst.map(|worst| WorstError { at: worst.time, error: worst.error });
+        report.rms = root_mean_square(&judged);
+        report
+    }
+
+    /// The measured directions that rms and worst of `report`, the report by `flown`, come from.
+    pub fn judged(
+        &self,
+        report: &PassReport,
+        flown: &[MeasuredPosition],
+    ) -> impl Iterator<Item = (Timestamp, AzEl)> {
+        let points = flown.iter().filter_map(|flown| self.compare(*flown));
+        let judged = points.filter(|point| self.judges(report, point));
+        judged.map(|point| (point.time, point.antenna))
+    }
+
+    fn judges(&self, report: &PassReport, point: &TrackPoint) -> bool {
+        (self.from..=self.until).contains(&point.time)
+            && self.limits.mount.reaches(point.satellite)
+            && report.judges(point.time, self.until)
     }
 
     /// Seconds that this mount may lose: an antenna needs some to come back to its satellite.
@@ -244,8 +268,9 @@ impl TrackedPass<'_> {
     }
 
     /// Returns `true` if the mount can point at the satellite then.
-    pub fn is_in_reach(&self, at: Timestamp) -> bool {
-        is_in_reach(self.propagator, self.site, self.limits.mount, at)
+    fn is_in_reach(&self, at: Timestamp) -> bool {
+        let look = self.propagator.look_from(self.site, at);
+        look.is_ok_and(|look| self.limits.mount.reaches(look.direction))
     }
 
     fn compare(&self, flown: MeasuredPosition) -> Option<TrackPoint> {
@@ -257,12 +282,7 @@ impl TrackedPass<'_> {
     }
 }
 
-/// Returns `true` if a mount can point at a satellite then. An error says nothing where it cannot.
-pub fn is_in_reach(propagator: &Propagator, site: Site, mount: Mount, at: Timestamp) -> bool {
-    propagator.look_from(site, at).is_ok_and(|look| mount.reaches(look.direction))
-}
-
-fn rms(compared: &[&TrackPoint]) -> Option<PointingError> {
+fn root_mean_square(compared: &[&TrackPoint]) -> Option<PointingError> {
     let count = compared.len();
     if count == 0 {
         return None;

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use jiff::Timestamp;
 
-use super::reports::{Followed, directions, others_of};
+use super::reports::{Followed, others_of};
 use crate::{
     astro::time::{add_seconds, seconds_between},
     engine::Engine,
@@ -12,8 +12,8 @@ use crate::{
     library::History,
     orbit::Propagator,
     plan::{
-        MountLimits,
-        pass_report::{Evidence, Explained, MeasuredPosition, is_in_reach},
+        MountLimits, Trackability,
+        pass_report::{Evidence, Explained, MeasuredPosition, TrackedPass},
     },
 };
 
@@ -34,6 +34,8 @@ pub(super) struct Live {
     /// `None` before the first look, which reads them.
     others: Option<Others>,
     begun: Option<Timestamp>,
+    /// What could be had of the pass.
+    trackability: Option<Trackability>,
     found: Option<Explained>,
 }
 
@@ -76,24 +78,36 @@ impl Followed {
         young.reverse();
         let (propagator, site) = (self.propagator.clone(), self.site);
         let about = self.about.clone();
-        let MountLimits { has_elevation, mount, half_beam, .. } = self.limits;
-        let least_deg = self.limits.half_beam.degrees() * MIN_SHARE;
+        let (limits, breaks) = (self.limits, self.breaks.clone());
+        let trackability = self.live.trackability.unwrap_or_else(|| self.trackability());
+        self.live.trackability = Some(trackability);
+        let from = since.max(self.from);
         let (elements, others) = (self.elements.clone(), self.live.others.take());
         let history = library.map(History::beside);
         let started = Job::start("azel-explain", Wake::clone(wake), move |_| {
-            young.retain(|flown| is_in_reach(&propagator, site, mount, flown.time));
             for flown in &mut young {
                 *flown = about.compared(&propagator, site, *flown);
             }
-            let measured = directions(&young, has_elevation);
-            let others = others.unwrap_or_else(|| others_of(&elements, history.as_ref()));
+            let tracked = TrackedPass {
+                propagator: &propagator,
+                site,
+                from,
+                until: now,
+                limits,
+                trackability,
+                ended: None,
+                breaks: &breaks,
+            };
+            let report = tracked.report(&young);
+            let MountLimits { has_elevation, mount, half_beam, .. } = limits;
             let evidence = Evidence::new(mount, has_elevation, half_beam).with_pass(
                 &propagator,
                 site,
                 about.path_source(site),
-                measured,
+                tracked.judged(&report, &young),
             );
-            (evidence.explained(least_deg, &others), others)
+            let others = others.unwrap_or_else(|| others_of(&elements, history.as_ref()));
+            (evidence.explained(MIN_SHARE * half_beam.degrees(), &others), others)
         });
         self.live.job =
             started.inspect_err(|error| tracing::error!(%error, "an error is not explained")).ok();

@@ -8,7 +8,7 @@ use jiff::Timestamp;
 use super::{Recording, live::Live};
 use crate::{
     astro::{
-        Angle, AzEl, PointingModel, Site,
+        Angle, PointingModel, Site,
         time::{add_seconds, apart, seconds_between},
     },
     driver::{PositionLog, TimeSync, TrackView},
@@ -60,7 +60,7 @@ pub(super) struct Followed {
     pub(super) propagator: Propagator,
     pub(super) site: Site,
     /// AOS and LOS above the antenna's own minimum elevation.
-    from: Timestamp,
+    pub(super) from: Timestamp,
     pub(super) until: Timestamp,
     max_elevation_deg: f64,
     /// When the program ended, if that was before the pass was over.
@@ -310,14 +310,6 @@ pub(super) fn others_of(
     others.collect()
 }
 
-/// The measured directions.
-pub(super) fn directions(
-    flown: &[MeasuredPosition],
-    has_elevation: bool,
-) -> impl Iterator<Item = (Timestamp, AzEl)> {
-    flown.iter().filter_map(move |flown| Some((flown.time, flown.direction(has_elevation)?)))
-}
-
 /// What is told of a track that begins now.
 fn about(antenna: &AntennaModel, begun: Timestamp, sync: TimeSync) -> AboutTrack {
     let tracked_by = match () {
@@ -433,15 +425,12 @@ impl Followed {
             return Finished { note: None, flown: told };
         }
         let has_elevation = self.limits.has_elevation;
-        let is_reached = |flown: &&MeasuredPosition| tracked.is_in_reach(flown.time);
-        let reached: Vec<MeasuredPosition> = flown.iter().filter(is_reached).copied().collect();
-        let measured = directions(&reached, has_elevation);
         let half_beam = self.limits.half_beam;
         let evidence = Evidence::new(self.limits.mount, has_elevation, half_beam).with_pass(
             &self.propagator,
             self.site,
             self.about.path_source(self.site),
-            measured,
+            tracked.judged(&report, &flown),
         );
         let causes = match report.verdict {
             PassVerdict::Good => Vec::new(),
@@ -471,7 +460,7 @@ impl Followed {
     }
 
     /// What could be had of what counts. Where the mount loses something, the plan says how much and why.
-    fn trackability(&self) -> Trackability {
+    pub(super) fn trackability(&self) -> Trackability {
         let (first, last) = self.counted();
         let count = (seconds_between(first, last) / STEP_S) as u32;
         let samples = (0..=count).filter_map(|step| {

@@ -25,6 +25,24 @@ impl LostStretch {
     pub fn seconds(&self) -> f64 {
         seconds_between(self.from, self.until)
     }
+
+    /// Returns `true` if the error in it is one of pointing or of the drives. An antenna that is on
+    /// its way to the end of what counts may have drives that never bring it there.
+    pub(super) fn is_judged(&self, end: Timestamp) -> bool {
+        match self.cause {
+            LossCause::OutsideBeam | LossCause::EarlyEnd => true,
+            LossCause::LateStart => self.until >= end,
+            LossCause::NotMeasured
+            | LossCause::LinkLost
+            | LossCause::ProgramEnded
+            | LossCause::OutOfReach
+            | LossCause::Keyhole
+            | LossCause::RateOfMount
+            | LossCause::Slew
+            | LossCause::Stopped
+            | LossCause::NotCommanded => false,
+        }
+    }
 }
 
 /// Why a stretch was lost, as far as positions and mount tell.

@@ -373,14 +373,14 @@ fn several_passes_tell_apart_what_one_does_not() {
                 UNIT,
                 flown.iter().copied(),
             );
-            ambiguous += u32::from(of_one.explanations(&[]).iter().count() > 1);
+            ambiguous += u32::from(of_one.explanations(&[]).len() > 1);
             evidence =
                 evidence.with_pass(&flight.propagator, flight.site, UNIT, flown.iter().copied());
         }
         let found = evidence.explanations(&[]);
         let Cause::Late { late_s: told_s } = found[0].cause else { panic!("{found:?}") };
         assert!(found[0].with.is_none() && (told_s - late_s).abs() < 0.1 * late_s, "{found:?}");
-        assert_eq!(found.iter().count(), 1, "{found:?}");
+        assert_eq!(found.len(), 1, "{found:?}");
         count += 1;
     }
     assert!(ambiguous > count, "{ambiguous} of {count} times four passes leave it open alone");
