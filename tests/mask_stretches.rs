@@ -20,7 +20,7 @@ fn propagator(number: u32) -> Propagator {
 }
 
 fn clearance_deg(propagator: &Propagator, mask: &HorizonMask, at: Timestamp) -> f64 {
-    let direction = propagator.look_from(site(), at).unwrap().direction;
+    let direction = propagator.look_from(site().airless(), at).unwrap().direction;
     direction.elevation_deg() - mask.elevation_at(direction.azimuth).degrees()
 }
 
@@ -65,7 +65,7 @@ fn check(propagator: &Propagator, mask: &HorizonMask, pass: &Pass, grid_s: f64) 
         for share in 0..=200 {
             let at_s = stretch.duration_s() * f64::from(share) / 200.0;
             let at = time::add_seconds(stretch.aos.time, at_s);
-            let look = propagator.look_from(site(), at).unwrap();
+            let look = propagator.look_from(site().airless(), at).unwrap();
             assert!(look.direction.elevation_deg() <= top_deg + 1e-4, "{stretch:?} at {at}");
         }
     }

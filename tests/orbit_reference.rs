@@ -1,9 +1,10 @@
-//! Directions and passes against Skyfield, for every kind of orbit.
+//! Directions and passes against Skyfield, for every kind of orbit, and refraction against traced
+//! rays.
 
 use std::collections::BTreeMap;
 
 use azel::{
-    astro::{Angle, Site, time},
+    astro::{Air, Angle, AzEl, Refraction, Site, time},
     orbit::{Pass, PassPoint, PassSearch, Propagator, passes, read_elements},
 };
 use glam::DVec3;
@@ -74,7 +75,7 @@ struct Expected {
 impl Meta {
     fn site(&self) -> Site {
         let Station { lat_deg, lon_deg, alt_m } = self.stations[0];
-        Site::new(lat_deg, lon_deg, alt_m).unwrap()
+        Site::new(lat_deg, lon_deg, alt_m).unwrap().airless()
     }
 }
 
@@ -98,7 +99,7 @@ fn states_and_directions_agree_with_skyfield() {
         let propagator = &propagators[&sample.norad];
         let state = propagator.state_at(at).unwrap();
         let look = propagator.look_from(site, at).unwrap();
-        let expected = azel::astro::AzEl::from_degrees(sample.az, sample.el);
+        let expected = AzEl::from_degrees(sample.az, sample.el);
         let off = [
             state.position_km.distance(DVec3::from_array(sample.teme_r_km)),
             state.velocity_km_s.distance(DVec3::from_array(sample.teme_v_km_s)),
@@ -174,4 +175,58 @@ fn passes_agree_with_skyfield() {
     println!("AOS and LOS {worst_s} s, TCA {worst_tca_s} s, elevation {worst_deg} deg");
     assert!(worst_deg < 1e-4, "{worst_deg}");
     assert!(worst_tca_s < 0.01, "{worst_tca_s}");
+}
+
+#[derive(Deserialize)]
+struct Ray {
+    altitude_m: f64,
+    sea_level_n: f64,
+    apparent_deg: f64,
+    geometric_deg: f64,
+    geometric_at_400_km_deg: f64,
+}
+
+/// Dry air at sea level with this refractivity, by its pressure and temperature.
+fn dry_air(sea_level_n: f64) -> Refraction {
+    let temperature_c = if sea_level_n > 300.0 { -60.0 } else { 15.0 };
+    let pressure_hpa = sea_level_n * (temperature_c + 273.15) / 77.6;
+    let air = Air::Measured;
+    Refraction { air, pressure_hpa, temperature_c, humidity_percent: 0.0, ..Refraction::default() }
+}
+
+#[test]
+fn refraction_agrees_with_traced_rays() {
+    let mut table =
+        csv::Reader::from_reader(include_bytes!("data/reference_refraction.csv").as_slice());
+    let (mut rays, mut worst_deg, mut worst_near_deg, mut worst_near_5_deg) =
+        (0, 0.0_f64, 0.0_f64, 0.0_f64);
+    for ray in table.deserialize() {
+        let ray: Ray = ray.unwrap();
+        let is_standard = (ray.sea_level_n - 315.0).abs() < 1e-9;
+        let air = if is_standard { Refraction::default() } else { dry_air(ray.sea_level_n) };
+        let site = Site::new(41.0, 29.0, ray.altitude_m).unwrap().with_refraction(air).unwrap();
+        let apparent =
+            |geometric_deg| site.apparent(AzEl::from_degrees(120.0, geometric_deg)).elevation_deg();
+        let back = site.geometric_elevation(Angle::from_degrees(ray.apparent_deg));
+        let off_deg = (apparent(ray.geometric_deg) - ray.apparent_deg).abs();
+        let back_off_deg = (back.degrees() - ray.geometric_deg).abs();
+        worst_deg = worst_deg.max(off_deg).max(back_off_deg);
+        let near_deg = (apparent(ray.geometric_at_400_km_deg) - ray.apparent_deg).abs();
+        worst_near_deg = worst_near_deg.max(near_deg);
+        if ray.apparent_deg > 4.9 {
+            worst_near_5_deg = worst_near_5_deg.max(near_deg);
+        }
+        rays += 1;
+    }
+    println!(
+        "{rays} rays: {worst_deg} deg; to 400 km {worst_near_deg} deg, from 5 deg up \
+         {worst_near_5_deg} deg"
+    );
+    assert!(rays > 150, "{rays}");
+    assert!(worst_deg < 1e-5, "{worst_deg}");
+    // A satellite so near is seen before the ray is as straight as that of one far away.
+    assert!(
+        worst_near_deg < 0.1 && worst_near_5_deg < 0.015,
+        "{worst_near_deg} {worst_near_5_deg}"
+    );
 }

@@ -66,7 +66,8 @@ struct Sky {
 
 impl Sky {
     fn elevation_deg(&self, at_s: f64) -> Option<f64> {
-        let look = self.propagator.look_from(self.site, time::add_seconds(self.from, at_s));
+        let look =
+            self.propagator.look_from(self.site.airless(), time::add_seconds(self.from, at_s));
         look.ok().map(|look| look.direction.elevation_deg())
     }
 

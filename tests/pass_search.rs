@@ -22,7 +22,7 @@ fn differences(
     let mut differences = Vec::new();
     for index in 0..=(length_s / step_s) as usize {
         let at = time::add_seconds(search.from, index as f64 * step_s);
-        let Ok(look) = propagator.look_from(search.site, at) else {
+        let Ok(look) = propagator.look_from(search.site.airless(), at) else {
             // After its epoch, a decayed satellite stays down.
             if at > elements.epoch() {
                 break;

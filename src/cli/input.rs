@@ -1,6 +1,7 @@
 //! Input of `azel passes`, `azel look` and `azel plan`: the site and the satellites.
 
 mod age;
+mod elevations;
 mod place;
 mod satellites;
 mod values;
@@ -15,6 +16,7 @@ use clap::{Args, CommandFactory as _, builder::NonEmptyStringValueParser, error:
 use jiff::Timestamp;
 
 pub(super) use self::{
+    elevations::Elevations,
     place::Place,
     satellites::Satellites,
     values::{duration_s, elevation, hours, instant, megahertz, minutes, share, step_s},

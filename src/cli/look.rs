@@ -7,7 +7,7 @@ use clap::Args;
 use jiff::Timestamp;
 
 use super::{
-    input::{self, EXIT_CODES, InputOptions, Satellites},
+    input::{self, EXIT_CODES, Elevations, InputOptions, Satellites},
     passes::{LEFT_OUT, written},
 };
 use crate::{
@@ -18,8 +18,13 @@ use crate::{
 /// Maximum number of names listed if several satellites match.
 const MOST_NAMED: usize = 10;
 
+/// Refraction in look angles, for `--help`.
+const APPARENT: &str = "Directions are apparent, where an antenna has to point: with the refraction \
+    of radio waves by the air of the station, or else by standard air. With --elevations geometric \
+    refraction is left out.";
+
 #[derive(Debug, Args)]
-#[command(after_help = format!("{LEFT_OUT}\n\n{EXIT_CODES}"))]
+#[command(after_help = format!("{APPARENT} {LEFT_OUT}\n\n{EXIT_CODES}"))]
 pub(super) struct Options {
     #[command(flatten)]
     input: InputOptions,
@@ -32,6 +37,9 @@ pub(super) struct Options {
     /// Seconds from one row to the next
     #[arg(long, value_name = "S", default_value_t = 10.0, value_parser = input::step_s, allow_negative_numbers = true)]
     step: f64,
+    /// With refraction or without; apparent, or as the station sets it, when left out
+    #[arg(long, value_enum, value_name = "KIND")]
+    elevations: Option<Elevations>,
     /// Add the Doppler shift of this frequency, sent by the satellite
     #[arg(long, value_name = "MHZ", value_parser = input::megahertz, allow_negative_numbers = true)]
     doppler: Option<f64>,
@@ -43,6 +51,7 @@ pub(super) struct Options {
 pub(super) fn run(station: Option<&Path>, options: &Options) -> anyhow::Result<ExitCode> {
     options.input.check("look", station)?;
     let site = options.input.place(station)?.site;
+    let site = options.elevations.map_or(site, |kind| kind.in_looks(site));
     let Satellites { list, is_complete } = options.input.satellites(station)?;
     let [satellite] = &list[..] else { bail!("{}", too_many(&list)) };
     let (from, length_s) = (options.from, options.minutes * 60.0);

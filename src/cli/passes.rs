@@ -13,7 +13,7 @@ use clap::Args;
 use jiff::Timestamp;
 
 use self::progress::Progress;
-use super::input::{self, EXIT_CODES, InputOptions, Place, Satellites};
+use super::input::{self, EXIT_CODES, Elevations, InputOptions, Place, Satellites};
 use crate::{
     astro::{Angle, HorizonMask, time},
     orbit::{PassSearch, found_passes},
@@ -21,10 +21,13 @@ use crate::{
 };
 
 /// Limits of the predictions, for `--help`.
-pub(super) const LEFT_OUT: &str = "All times are UTC. Directions are geometric: refraction is left \
-    out, UT1 is taken as UTC, and there is no polar motion. Refraction lifts a satellite at the \
-    horizon by half a degree, so that a low one comes up some 10 s before its AOS and goes down \
-    as much after its LOS; the rest comes to less than 0.1 s.";
+pub(super) const LEFT_OUT: &str = "All times are UTC. UT1 is taken as UTC, and there is no polar \
+    motion; that comes to less than 0.1 s.";
+
+/// Refraction in the list of passes, for `--help`.
+const GEOMETRIC: &str = "Directions, AOS and LOS are geometric without --elevations apparent: refraction is \
+    left out. It lifts a satellite at the horizon by 0.6 degrees, so that a low one comes up some 10 \
+    s before its AOS and goes down as much after its LOS.";
 
 /// Fields of CSV and JSON, for `--help`.
 const FIELDS: &str = "CSV has a row and JSON an object for each pass; lines end with LF. Fields: \
@@ -35,12 +38,13 @@ const FIELDS: &str = "CSV has a row and JSON an object for each pass; lines end 
     dark_at_site; designator.";
 
 /// Places where a pass is not sharp, for `--help`.
-const NOT_SHARP: &str = "TCA of a geosynchronous satellite may be off by half an hour, in which its \
-    elevation changes by less than 0.0001 degrees. Far from its epoch, a propagated orbit may \
+const NOT_SHARP: &str = "TCA of a geosynchronous satellite may be off by a quarter of an hour or, \
+    where its elevation is the same every day, by days; it is then lower by less than 0.00002 \
+    degrees. Far from its epoch, a propagated orbit may \
     pass below the Earth's surface; LOS of such a pass is not reliable.";
 
 #[derive(Debug, Args)]
-#[command(after_help = format!("{FIELDS}\n\n{LEFT_OUT}\n\n{NOT_SHARP}\n\n{EXIT_CODES}"))]
+#[command(after_help = format!("{FIELDS}\n\n{GEOMETRIC} {LEFT_OUT}\n\n{NOT_SHARP}\n\n{EXIT_CODES}"))]
 pub(super) struct Options {
     #[command(flatten)]
     input: InputOptions,
@@ -63,6 +67,10 @@ pub(super) struct Options {
     /// Elevation of AOS and LOS; that of the station, or 0, when left out
     #[arg(long, value_name = "DEG", value_parser = input::elevation, allow_negative_numbers = true)]
     aos: Option<f64>,
+    /// AOS, TCA, LOS and all elevations, also those of --aos and --floor: `geometric`, or `apparent`
+    /// with the refraction of radio waves; that of the station, or geometric, when left out
+    #[arg(long, value_enum, value_name = "KIND")]
+    elevations: Option<Elevations>,
     /// Horizon mask: lines of azimuth and elevation in degrees. Each stretch of
     /// a pass that clears it is a row of its own
     #[arg(long, value_name = "FILE")]
@@ -89,8 +97,9 @@ pub(super) fn run(station: Option<&Path>, options: &Options) -> anyhow::Result<E
     let place = options.input.place(station)?;
     let angle = |own: Option<f64>, of_place| own.map_or(of_place, Angle::from_degrees);
     let (from, to) = (options.from, time::add_seconds(options.from, options.hours * 3600.0));
+    let site = options.elevations.map_or(Ok(place.site), |kind| kind.in_passes(place.site))?;
     let search = PassSearch {
-        site: place.site,
+        site,
         from,
         to,
         aos_elevation: angle(options.aos, place.aos_elevation),

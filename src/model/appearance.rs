@@ -5,8 +5,8 @@ use serde::{Deserialize, Serialize};
 use super::ThemeName;
 use crate::astro::AzEl;
 
-/// Elevation of the Sun's centre at sunrise and sunset, with refraction and half its width.
-const SUNRISE_DEG: f64 = -0.833;
+/// Apparent elevation of the Sun's centre at sunrise and sunset: half its width.
+const SUNRISE_DEG: f64 = -0.267;
 
 /// The unit in which the window shows distances.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
@@ -74,8 +74,8 @@ mod tests {
         let sun = |elevation_deg: f64| Some(AzEl::from_degrees(90.0, elevation_deg));
         let of = |theme, light_by_day| Appearance { theme, light_by_day, ..Appearance::default() };
         let night = of(ThemeName::Night, true);
-        assert_eq!(night.theme_under(sun(-0.5)), ThemeName::Light);
-        assert_eq!(night.theme_under(sun(-1.0)), ThemeName::Night);
+        assert_eq!(night.theme_under(sun(-0.2)), ThemeName::Light);
+        assert_eq!(night.theme_under(sun(-0.4)), ThemeName::Night);
         assert_eq!(night.theme_under(None), ThemeName::Night);
         assert_eq!(of(ThemeName::Light, true).theme_under(sun(-9.0)), ThemeName::Dark);
         assert_eq!(of(ThemeName::Dark, false).theme_under(sun(50.0)), ThemeName::Dark);

@@ -26,7 +26,8 @@ pub struct SunSpan {
 /// Day and night from an hour before `now` to `ahead_s` after it, to the minute. A day or a night
 /// of less than ten minutes may be missed.
 pub fn spans(site: Site, now: Timestamp, ahead_s: f64) -> Vec<SunSpan> {
-    let is_up = |at: Timestamp| sun_moon::sun(site, at).elevation_deg() > sun_moon::RISE_DEG;
+    let is_up =
+        |at: Timestamp| sun_moon::sun(site.airless(), at).elevation_deg() > sun_moon::RISE_DEG;
     let mut at = add_seconds(now, -PAST_S);
     let end = add_seconds(now, ahead_s);
     let mut last = SunSpan { from: at, to: at, up: is_up(at) };

@@ -225,14 +225,17 @@ impl Globe {
         let look = state.look_from(station.site, now);
         let mask = station.horizon_mask.as_ref();
         let skyline = mask.map_or(Angle::ZERO, |mask| mask.elevation_at(look.direction.azimuth));
+        // Up from AOS to LOS, which need not be apparent.
+        let of_pass = |direction| station.site.pass_direction(direction).elevation;
+        let elevation = of_pass(state.look_from(station.site.airless(), now).direction);
         let lowest = self.aos_elevation.radians().max(skyline.radians());
         Some(GlobeSatellite {
             is_selected: made_of.selected == Some(number),
             is_favourite: station.favourites.contains(number),
             is_tracked: made_of.tracked.contains(&number),
             speed_km_s: state.velocity_km_s.length(),
-            footprint: below.footprint(self.aos_elevation),
-            is_up: look.direction.elevation.radians() >= lowest,
+            footprint: below.footprint(station.site.geometric_of_pass(self.aos_elevation)),
+            is_up: elevation.radians() >= lowest,
             heading: heading(&satellite, &below, now),
             is_sunlit: is_sunlit(&state, now),
             track: self.tracks.get(&number).map(|kept| &kept.points).cloned().unwrap_or_default(),

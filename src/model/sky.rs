@@ -6,7 +6,7 @@ use jiff::Timestamp;
 
 use super::daylight::{self, SunSpan};
 use crate::{
-    astro::{AzEl, Site, frames::SiteFrame, sun_moon},
+    astro::{Angle, AzEl, Site, frames::SiteFrame, sun_moon},
     engine::passes::{ListedSatellite, ahead},
     orbit::{LookAngles, Propagator, is_sunlit},
 };
@@ -90,9 +90,12 @@ impl Sky {
         let places = Propagator::over_ground(&wanted).into_iter();
         let up = satellites.iter().zip(places).filter_map(|(satellite, place)| {
             let place_km = frame.enu_km(place?.position_km);
-            (place_km.z > 0.0).then(|| Seen {
+            // The direction of one well below the horizon is not worth computing.
+            let direction =
+                (place_km.z > -0.1 * place_km.length()).then(|| frame.direction(place_km))?;
+            (direction.elevation > Angle::ZERO).then(|| Seen {
                 satellite: Arc::clone(satellite),
-                direction: AzEl::from_enu(place_km),
+                direction,
                 ahead: Vec::new(),
             })
         });

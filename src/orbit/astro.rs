@@ -7,6 +7,7 @@ mod ground;
 mod horizon_mask;
 mod locator;
 mod pointing_model;
+mod refraction;
 mod site;
 pub mod sun_moon;
 pub mod time;
@@ -22,6 +23,7 @@ pub use horizon_mask::{
 };
 pub use locator::{LocatorError, LocatorSquare, read_locator};
 pub use pointing_model::{PointingModel, Term};
+pub use refraction::{Air, Refraction, RefractionError};
 pub use site::{Site, SiteError};
 pub use track_offsets::{MAX_ANGLE_OFFSET, MAX_TIME_OFFSET, Offset, TrackOffsets};
 pub use zone::{MAX_CORNERS, MIN_CORNERS, Zone, ZoneError};

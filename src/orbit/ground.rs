@@ -64,7 +64,7 @@ mod tests {
     }
 
     fn site(point: GroundPoint) -> Site {
-        Site::new(point.latitude.degrees(), point.longitude.degrees(), 0.0).unwrap()
+        Site::new(point.latitude.degrees(), point.longitude.degrees(), 0.0).unwrap().airless()
     }
 
     #[test]

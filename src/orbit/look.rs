@@ -1,11 +1,12 @@
 //! Look angles: direction, range and range rate of a satellite from a site.
 //!
-//! The direction is geometric, in the frame of [`frames`]. The table lists what is neglected, as an
-//! angle and as the median shift of AOS of low satellites:
+//! The direction is the apparent one of the site, in the frame of [`frames`]; refraction is applied
+//! in [`SiteFrame::direction`] and in no other place. AOS and LOS are geometric by default: at the
+//! horizon, refraction lifts a satellite by 0.6 degrees, a low one some 10 s before its AOS. The
+//! table lists what is neglected, as an angle and as the median shift of AOS of low satellites:
 //!
 //! | left out | direction | AOS |
 //! |---|---|---|
-//! | refraction | 0.5 degrees at the horizon, 0.1 at 10 degrees | 10.6 s |
 //! | UT1 - UTC, at most 0.9 s | 0.004 degrees of Earth rotation | 0.06 s |
 //! | light time | 0.002 degrees | 0.01 s |
 //! | polar motion | 0.000 2 degrees | 0.003 s |
@@ -27,6 +28,7 @@ const LIGHT_KM_S: f64 = 299_792.458;
 /// Direction, distance and speed of a satellite as seen from a site.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LookAngles {
+    /// Apparent: refraction is that of the site.
     pub direction: AzEl,
     pub range_km: f64,
     /// Negative when approaching.
@@ -76,6 +78,7 @@ pub struct OverGround {
 /// Where a satellite is from a site, and how it moves there: east, north, up.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Local {
+    /// Geometric; [`SiteFrame::direction`] makes a direction of it.
     pub position_km: DVec3,
     /// Over the ground.
     pub velocity_km_s: DVec3,
@@ -86,7 +89,7 @@ impl State {
     pub fn look_from(&self, site: Site, at: Timestamp) -> LookAngles {
         let site = SiteFrame::from(site);
         let place = self.over_ground(at);
-        let direction = AzEl::from_enu(site.enu_km(place.position_km));
+        let direction = site.direction(site.enu_km(place.position_km));
         let Distance { range_km, range_rate_km_s } = place.distance_from(site.ecef_km);
         LookAngles { direction, range_km, range_rate_km_s }
     }
@@ -118,7 +121,7 @@ impl OverGround {
 }
 
 impl Propagator {
-    /// Look angles of the satellite from `site` at `at`: geometric, with UT1 taken as UTC.
+    /// Look angles of the satellite from `site` at `at`, with UT1 taken as UTC.
     pub fn look_from(&self, site: Site, at: Timestamp) -> Result<LookAngles, PropagationError> {
         Ok(self.state_at(at)?.look_from(site, at))
     }

@@ -1,5 +1,9 @@
 //! Passes: the times in which a satellite is above the AOS elevation of a site.
 //!
+//! The search is geometric. With refraction in the passes of a site, it looks for the geometric
+//! elevations that belong to the apparent ones, because the latter rise with the former; each
+//! point gets its apparent direction when it is kept.
+//!
 //! AOS and LOS are found by [`near_circular`] (`search.rs`, `edges`) for near-circular orbits and
 //! by [`sampled`] (`reach`) for all others; both by `LocalSeries::crossing`
 //! (`local_series.rs`), or by halving in `Track::crossing` where that does not settle.
@@ -36,6 +40,7 @@ const BATCH: usize = 64;
 pub struct PassPoint {
     /// In UTC.
     pub time: Timestamp,
+    /// Geometric, or apparent where the site has refraction in its passes.
     pub direction: AzEl,
 }
 
@@ -80,7 +85,7 @@ pub struct PassSearch {
 }
 
 impl PassSearch {
-    /// All passes over the geometric horizon of `site` from `from` to `to`.
+    /// All passes over the horizon of `site` from `from` to `to`.
     pub fn new(site: Site, from: Timestamp, to: Timestamp) -> Self {
         Self { site, from, to, aos_elevation: Angle::ZERO, floor: Angle::ZERO }
     }

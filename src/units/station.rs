@@ -73,6 +73,7 @@ const CHOICE_KEPT_S: f64 = DAY_S;
 pub struct Station {
     /// Shown in the top bar.
     pub name: String,
+    #[serde(serialize_with = "Site::serialize_in_file")]
     pub site: Site,
     /// Horizon mask; `None` where nothing blocks the sky. In the file it is a text that
     /// [`HorizonMask::parse`] reads: one point a line.

@@ -491,7 +491,7 @@ async fn lost_answers_do_not_end_it() {
     rig.send(Command::ProgramTrack(Box::new(scene.follow())));
     let (rms, _) = figures("Satrak, every third answer lost", rig.until_over().await);
     // The session waits for each go-to.
-    assert!(rms < 1.0, "{rms}");
+    assert!(rms < 1.2, "{rms}");
 }
 
 #[tokio::test(start_paused = true)]

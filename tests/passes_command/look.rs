@@ -16,7 +16,7 @@ fn a_satellite_is_looked_at_in_steps() {
     let run = |arguments: &[&str]| look(&[&from[..], arguments].concat());
     let table = run(&[]);
     assert_eq!(table.status.code(), Some(0), "{}", text(&table.stderr));
-    assert_eq!(text(&table.stdout).lines().count(), 1 + 91);
+    assert_eq!(text(&table.stdout).lines().count(), 1 + 91 + 1);
     let json = run(&["--minutes", "1", "--step", "0.5", "--doppler", "437", "--format", "json"]);
     let list = rows(&json);
     assert_eq!(list.len(), 121);
@@ -45,9 +45,39 @@ fn a_look_agrees_with_the_maximum_of_a_pass() {
     let pass = rows(&passes(&elements, &["--format", "json"])).swap_remove(0);
     let at = pass["tca"]["time"].as_str().unwrap();
     let arguments = ["--catalog-number", "5", "--from", at, "--minutes", "0.01"];
-    let rows = rows(&look(&[&arguments[..], &["--format", "json"]].concat()));
+    let geometric = ["--elevations", "geometric", "--format", "json"];
+    let rows = rows(&look(&[&arguments[..], &geometric].concat()));
     let number =
         |key: &str| (rows[0][key].as_f64().unwrap() - pass["tca"][key].as_f64().unwrap()).abs();
     assert!(number("azimuth_deg") < 0.02 && number("elevation_deg") < 1e-4, "{rows:?} {pass}");
     assert!(number("range_km") < 0.01 && number("range_rate_km_s") < 1e-3, "{rows:?} {pass}");
+}
+
+#[test]
+fn a_look_is_lifted_by_refraction_and_an_apparent_pass_is_longer() {
+    let elements = Value::from(vec![object(&[])]).to_string();
+    let listed = |kind: &[&str]| rows(&passes(&elements, &[&["--format", "json"], kind].concat()));
+    let (plain, lifted) = (listed(&[]), listed(&["--elevations", "apparent"]));
+    assert_eq!(plain, listed(&["--elevations", "geometric"]));
+    assert_eq!(plain.len(), lifted.len());
+    for (plain, lifted) in plain.iter().zip(&lifted) {
+        let number = |row: &Value, key: &str| row[key].as_f64().unwrap();
+        assert!(number(lifted, "duration_s") > number(plain, "duration_s") + 5.0, "{lifted}");
+        assert!(number(lifted, "max_elevation_deg") > number(plain, "max_elevation_deg"));
+        let elevation = |row: &Value| row["aos"]["elevation_deg"].as_f64().unwrap();
+        assert!((elevation(plain) - elevation(lifted)).abs() < 1e-3, "{plain} {lifted}");
+    }
+    // At AOS of geometry, the antenna has to point above the horizon.
+    let at = plain[0]["aos"]["time"].as_str().unwrap();
+    let arguments = ["--catalog-number", "5", "--from", at, "--minutes", "0.01"];
+    let elevation = |kind: &[&str]| {
+        let rows = rows(&look(&[&arguments[..], &["--format", "json"], kind].concat()));
+        rows[0]["elevation_deg"].as_f64().unwrap()
+    };
+    let lifted_deg = elevation(&[]) - elevation(&["--elevations", "geometric"]);
+    assert!((0.4..0.7).contains(&lifted_deg), "{lifted_deg}");
+    let table = text(&look(&arguments).stdout);
+    assert!(table.ends_with("Elevations are apparent, with the refraction of radio waves.\n"));
+    let table = text(&passes(&elements, &[]).stdout);
+    assert!(table.ends_with("Elevations are geometric, without refraction.\n"), "{table}");
 }

@@ -204,6 +204,8 @@ impl Case {
         let number = flight.elements.catalog_number();
         let mut station = Station { favourites: [number].into(), ..units::station() };
         station.antennas.retain(|antenna| antenna.name == self.name);
+        // A unit that leaves refraction out has another cause, which is known.
+        station.site = station.site.airless();
         let antenna_of = &mut station.antennas[0];
         antenna_of.beam_width_deg = 2.0 * self.half_beam_deg;
         antenna_of.sway_deg = antenna_of.sway_deg.max(self.mechanics.sway_deg);

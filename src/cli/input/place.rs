@@ -6,7 +6,7 @@ use anyhow::{Context as _, anyhow, bail};
 
 use super::InputOptions;
 use crate::{
-    astro::{Angle, Site},
+    astro::{Angle, Refraction, Site},
     makes,
     station::{self, NoteReason, Station},
 };
@@ -41,7 +41,8 @@ impl InputOptions {
             or_station(lat, &|site| site.latitude().degrees())?,
             or_station(lon, &|site| site.longitude().degrees())?,
             or_station(alt, &Site::altitude_m)?,
-        )?;
+        )?
+        .with_refraction(of_station.map_or_else(Refraction::default, Site::refraction))?;
         Ok(Place {
             site,
             aos_elevation: station.as_ref().map_or(Angle::ZERO, Station::aos_elevation),

@@ -7,7 +7,7 @@
 use glam::{DMat3, DVec3};
 use jiff::Timestamp;
 
-use super::{Angle, GroundPoint, Site, time};
+use super::{Angle, AzEl, GroundPoint, Site, time};
 
 /// Equatorial radius of the WGS84 ellipsoid in km.
 pub const WGS84_RADIUS_KM: f64 = 6_378.137;
@@ -69,9 +69,16 @@ pub struct SiteFrame {
     pub ecef_km: DVec3,
     /// From Earth-fixed vectors to east, north, up.
     pub to_enu: DMat3,
+    site: Site,
 }
 
 impl SiteFrame {
+    /// The apparent direction of something far above the air at this geometric place, east, north,
+    /// up: the direction into which an antenna has to point.
+    pub fn direction(&self, enu_km: DVec3) -> AzEl {
+        self.site.apparent(AzEl::from_enu(enu_km))
+    }
+
     /// An Earth-fixed position as seen from the site: east, north, up.
     pub fn enu_km(&self, ecef_km: DVec3) -> DVec3 {
         self.to_enu * (ecef_km - self.ecef_km)
@@ -80,7 +87,7 @@ impl SiteFrame {
 
 impl From<Site> for SiteFrame {
     fn from(site: Site) -> Self {
-        Self { ecef_km: site_ecef_km(site), to_enu: ecef_to_enu(site) }
+        Self { ecef_km: site_ecef_km(site), to_enu: ecef_to_enu(site), site }
     }
 }
 

@@ -1,16 +1,21 @@
 //! A location on the ground.
 
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Serialize, Serializer};
 
-use super::{Angle, GroundPoint};
+use super::{Angle, AzEl, GroundPoint, Refraction, RefractionError};
 
-/// A location on or near the ground, geodetic on WGS84.
+/// A location on or near the ground, geodetic on WGS84, and the refraction of the air over it.
+///
+/// A look from a site is the apparent direction, into which an antenna there has to point; only
+/// [`Site::airless`] gives geometric ones. Passes are searched for by geometry. A site alone says
+/// which of the two elevations their AOS, TCA and LOS have.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "SiteFields", into = "SiteFields")]
 pub struct Site {
     latitude_deg: f64,
     longitude_deg: f64,
     altitude_m: f64,
+    refraction: Refraction,
 }
 
 /// The reason why coordinates do not make a site.
@@ -23,19 +28,26 @@ pub enum SiteError {
     /// The range covers the Dead Sea and every mountain.
     #[error("altitude {0} is not between -1000 and 10000 m")]
     Altitude(f64),
+    #[error(transparent)]
+    Refraction(#[from] RefractionError),
 }
 
 /// Istanbul.
 impl Default for Site {
     fn default() -> Self {
-        Self { latitude_deg: 41.02, longitude_deg: 29.17, altitude_m: 100.0 }
+        Self {
+            latitude_deg: 41.02,
+            longitude_deg: 29.17,
+            altitude_m: 100.0,
+            refraction: Refraction::default(),
+        }
     }
 }
 
 impl Site {
     /// A site at `latitude_deg` (-90 to 90, north positive), `longitude_deg`
     /// (-180 to 360, east positive) and `altitude_m` above the WGS84
-    /// ellipsoid (-1000 to 10000).
+    /// ellipsoid (-1000 to 10000), with the default refraction.
     pub fn new(latitude_deg: f64, longitude_deg: f64, altitude_m: f64) -> Result<Self, SiteError> {
         // Written so that NaN is refused too.
         if !(-90.0..=90.0).contains(&latitude_deg) {
@@ -49,7 +61,63 @@ impl Site {
         }
         let longitude_deg =
             if longitude_deg > 180.0 { longitude_deg - 360.0 } else { longitude_deg };
-        Ok(Self { latitude_deg, longitude_deg, altitude_m })
+        let refraction = Refraction::default();
+        Ok(Self { latitude_deg, longitude_deg, altitude_m, refraction })
+    }
+
+    /// The same place with these settings of refraction, which must describe air.
+    pub fn with_refraction(self, refraction: Refraction) -> Result<Self, SiteError> {
+        refraction.check()?;
+        Ok(Self { refraction, ..self })
+    }
+
+    /// The same place without refraction: directions from it are geometric.
+    #[must_use]
+    pub fn airless(self) -> Self {
+        Self { refraction: Refraction::none(), ..self }
+    }
+
+    pub fn refraction(self) -> Refraction {
+        self.refraction
+    }
+
+    /// The direction at which something far above the air appears that is in the direction
+    /// `geometric`.
+    #[must_use]
+    pub fn apparent(self, geometric: AzEl) -> AzEl {
+        let air = self.refraction.atmosphere(self.altitude_m);
+        air.map_or(geometric, |air| air.apparent_direction(geometric))
+    }
+
+    /// The geometric elevation of something far above the air that appears at `apparent`.
+    pub fn geometric_elevation(self, apparent: Angle) -> Angle {
+        let air = self.refraction.atmosphere(self.altitude_m);
+        air.map_or(apparent, |air| air.geometric(apparent))
+    }
+
+    /// The direction `geometric` as the passes of this site have it: apparent only if the settings
+    /// of refraction say so.
+    #[must_use]
+    pub fn pass_direction(self, geometric: AzEl) -> AzEl {
+        if self.refraction.in_passes { self.apparent(geometric) } else { geometric }
+    }
+
+    /// The geometric elevation for an elevation that a pass of this site has to reach.
+    pub fn geometric_of_pass(self, elevation: Angle) -> Angle {
+        if self.refraction.in_passes { self.geometric_elevation(elevation) } else { elevation }
+    }
+
+    /// The elevation that the passes of this site have where an antenna points at `pointed`: the
+    /// inverse of [`Self::pointing_of_pass`].
+    pub fn pass_elevation(self, pointed: Angle) -> Angle {
+        if self.refraction.in_passes { pointed } else { self.geometric_elevation(pointed) }
+    }
+
+    /// The direction into which an antenna points at a point of a pass: the inverse of
+    /// [`Self::pass_direction`], made apparent.
+    #[must_use]
+    pub fn pointing_of_pass(self, listed: AzEl) -> AzEl {
+        if self.refraction.in_passes { listed } else { self.apparent(listed) }
     }
 
     /// Geodetic latitude, north positive.
@@ -73,25 +141,47 @@ impl Site {
     }
 }
 
-/// The form of a site in files.
+impl Site {
+    /// Writes a site as a station file has it: without settings of refraction where they are the
+    /// default ones, as in files that are older than these settings.
+    pub fn serialize_in_file<S: Serializer>(&self, out: S) -> Result<S::Ok, S::Error> {
+        #[derive(Serialize)]
+        struct InFile {
+            latitude_deg: f64,
+            longitude_deg: f64,
+            altitude_m: f64,
+            #[serde(skip_serializing_if = "Option::is_none")]
+            refraction: Option<Refraction>,
+        }
+        let Self { latitude_deg, longitude_deg, altitude_m, refraction } = *self;
+        let refraction = Some(refraction).filter(|own| *own != Refraction::default());
+        InFile { latitude_deg, longitude_deg, altitude_m, refraction }.serialize(out)
+    }
+}
+
+/// The form of a site in snapshots and records.
 #[derive(Serialize, Deserialize)]
 struct SiteFields {
     latitude_deg: f64,
     longitude_deg: f64,
     altitude_m: f64,
+    /// What was written before there was refraction knew none.
+    #[serde(default = "Refraction::none")]
+    refraction: Refraction,
 }
 
 impl TryFrom<SiteFields> for Site {
     type Error = SiteError;
     fn try_from(fields: SiteFields) -> Result<Self, SiteError> {
-        Self::new(fields.latitude_deg, fields.longitude_deg, fields.altitude_m)
+        Self::new(fields.latitude_deg, fields.longitude_deg, fields.altitude_m)?
+            .with_refraction(fields.refraction)
     }
 }
 
 impl From<Site> for SiteFields {
     fn from(site: Site) -> Self {
-        let Site { latitude_deg, longitude_deg, altitude_m } = site;
-        Self { latitude_deg, longitude_deg, altitude_m }
+        let Site { latitude_deg, longitude_deg, altitude_m, refraction } = site;
+        Self { latitude_deg, longitude_deg, altitude_m, refraction }
     }
 }
 

@@ -2,8 +2,7 @@
 //!
 //! Sun: "Astronomical Almanac", section C, low precision formulas (0.01 degrees from 1950 to
 //! 2050). Moon: Montenbruck and Gill, "Satellite Orbits", section 3.3.2 (some arc minutes). The
-//! series refer to the mean equinox of date, which is within 0.005 degrees of TEME. Refraction
-//! is not included.
+//! series refer to the mean equinox of date, which is within 0.005 degrees of TEME.
 
 use glam::{DMat3, DVec3};
 use jiff::Timestamp;
@@ -21,19 +20,22 @@ const TT_MINUS_UTC_S: f64 = 69.184;
 pub const RISE_DEG: f64 = -0.833;
 const ASTRONOMICAL_UNIT_KM: f64 = 149_597_870.7;
 
-/// Geometric direction of the Sun, seen from `site`.
+/// Apparent direction of the Sun, seen from `site`, with the refraction of radio waves.
 pub fn sun(site: Site, at: Timestamp) -> AzEl {
-    AzEl::from_enu(sun_enu_km(&site.into(), at))
+    let frame = SiteFrame::from(site);
+    frame.direction(sun_enu_km(&frame, at))
 }
 
-/// From the site to the Sun: east, north, up.
+/// From the site to the Sun, geometric: east, north, up.
 pub fn sun_enu_km(site: &SiteFrame, at: Timestamp) -> DVec3 {
     seen_from(site, at, sun_teme_km(at))
 }
 
-/// Geometric direction of the Moon, seen from `site`, with parallax.
+/// Apparent direction of the Moon, seen from `site`, with parallax and the refraction of radio
+/// waves.
 pub fn moon(site: Site, at: Timestamp) -> AzEl {
-    AzEl::from_enu(seen_from(&site.into(), at, moon_teme_km(at)))
+    let frame = SiteFrame::from(site);
+    frame.direction(seen_from(&frame, at, moon_teme_km(at)))
 }
 
 /// The point of the ground at which the Sun is in the zenith.
@@ -159,7 +161,7 @@ mod tests {
     fn sun_and_moon_stand_where_astropy_sees_them() {
         let (mut sun_off, mut moon_off) = (0.0_f64, 0.0_f64);
         for ((latitude, longitude, altitude), at, sun_seen, moon_seen) in TABLE {
-            let site = Site::new(latitude, longitude, altitude).unwrap();
+            let site = Site::new(latitude, longitude, altitude).unwrap().airless();
             let at: Timestamp = at.parse().unwrap();
             let off = |found: AzEl, (az, el): (f64, f64)| {
                 found.separation(AzEl::from_degrees(az, el)).degrees()
@@ -173,13 +175,35 @@ mod tests {
     }
 
     #[test]
+    fn sun_and_moon_appear_higher_by_the_refraction_at_their_elevation() {
+        let mut compared = 0;
+        for ((latitude, longitude, altitude), at, ..) in TABLE {
+            let site = Site::new(latitude, longitude, altitude).unwrap();
+            let at: Timestamp = at.parse().unwrap();
+            for body in [sun, moon] {
+                let (seen, there) = (body(site, at), body(site.airless(), at));
+                let lifted_deg = (seen.elevation - there.elevation).degrees();
+                assert!(seen.azimuth == there.azimuth && lifted_deg >= 0.0, "{lifted_deg}");
+                if there.elevation_deg() > 10.0 {
+                    // Flat layers, which are enough that high, of refractivity 315 at sea level.
+                    let scale = (-altitude / 7350.0).exp() / there.elevation.radians().tan();
+                    let flat_deg = (315e-6 * scale).to_degrees();
+                    assert!((lifted_deg - flat_deg).abs() < 0.05 * flat_deg, "{lifted_deg}");
+                    compared += 1;
+                }
+            }
+        }
+        assert!(compared > 8, "{compared}");
+    }
+
+    #[test]
     fn the_sun_rises_and_sets_on_the_edge_of_the_night() {
         for at in ["2026-03-20T14:46:00Z", "2026-06-21T08:24:00Z", "2026-11-14T18:13:40Z"] {
             let at: Timestamp = at.parse().unwrap();
             let below = subsolar_point(at);
             let site = |point: GroundPoint| {
                 let (latitude, longitude) = (point.latitude, point.longitude);
-                Site::new(latitude.degrees(), longitude.degrees(), 0.0).unwrap()
+                Site::new(latitude.degrees(), longitude.degrees(), 0.0).unwrap().airless()
             };
             assert!(sun(site(below), at).elevation_deg() > 89.98);
             let night = night(at);

@@ -89,7 +89,8 @@ struct Follower<'a> {
 impl Follower<'_> {
     fn look(&self, at_s: f64) -> Option<Look> {
         let place = self.track.place(at_s)?;
-        let AzEl { azimuth, elevation } = Sighting::new(&place).direction();
+        let geometric = Sighting::new(&place).direction();
+        let AzEl { azimuth, elevation } = self.track.window.pass_direction(geometric);
         let clearance = (elevation - self.mask.elevation_at(azimuth)).radians();
         Some(Look { place, azimuth: azimuth.radians(), elevation: elevation.radians(), clearance })
     }

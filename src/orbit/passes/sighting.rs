@@ -33,6 +33,7 @@ impl<N: Number> Sighting<N> {
 }
 
 impl Sighting {
+    /// Geometric.
     pub(super) fn direction(&self) -> AzEl {
         let Self { azimuth, elevation, .. } = *self;
         let azimuth = if azimuth < 0.0 { azimuth + TAU } else { azimuth };
@@ -54,6 +55,7 @@ impl Sighting<Lanes> {
 impl Window {
     /// The sighting as a pass keeps it.
     pub(super) fn point(&self, sighting: &Sighting) -> CompactPoint {
-        CompactPoint { at_ns: self.at_ns(sighting.at_s), direction: sighting.direction() }
+        let direction = self.pass_direction(sighting.direction());
+        CompactPoint { at_ns: self.at_ns(sighting.at_s), direction }
     }
 }

@@ -10,7 +10,7 @@ use jiff::Timestamp;
 
 use super::PassSearch;
 use crate::{
-    astro::{frames, time},
+    astro::{Angle, AzEl, Site, frames, time},
     simd::{Number, Vector},
 };
 
@@ -29,16 +29,17 @@ pub(super) struct Window {
     pub(super) sin_latitude: f64,
     pub(super) cos_latitude: f64,
     pub(super) radius_km: f64,
+    site: Site,
     /// The site in Earth-fixed axes.
     pub(super) site_ecef_km: DVec3,
     /// The directions east, north and up, and the position of the site along them from the
     /// centre of the Earth.
     axes: [DVec3; 3],
     site_enu_km: DVec3,
-    /// Elevation of AOS and LOS, and its sine.
+    /// Geometric elevation of AOS and LOS, and its sine.
     pub(super) aos_elevation: f64,
     pub(super) sin_aos_elevation: f64,
-    /// Elevation that a pass has to reach; never below that of the horizon.
+    /// Geometric elevation that a pass has to reach; never below that of the horizon.
     pub(super) floor: f64,
     pub(super) sin_floor: f64,
 }
@@ -47,8 +48,9 @@ impl Window {
     /// `None` if the span is empty or no elevation can be reached.
     pub(super) fn new(search: &PassSearch) -> Option<Self> {
         let length_s = time::seconds_between(search.from, search.to);
-        let aos_elevation = search.aos_elevation.radians();
-        let floor = search.floor.radians().max(aos_elevation);
+        let geometric = |elevation: Angle| search.site.geometric_of_pass(elevation).radians();
+        let aos_elevation = geometric(search.aos_elevation);
+        let floor = geometric(search.floor).max(aos_elevation);
         // Written so that NaN is refused too.
         if !(length_s > 0.0 && aos_elevation >= -FRAC_PI_2 && floor <= FRAC_PI_2) {
             return None;
@@ -65,6 +67,7 @@ impl Window {
             sin_latitude: site_ecef_km.z / radius_km,
             cos_latitude: site_ecef_km.x.hypot(site_ecef_km.y) / radius_km,
             radius_km,
+            site: search.site,
             site_ecef_km,
             axes: [0, 1, 2].map(|axis| to_enu.row(axis)),
             site_enu_km: to_enu * site_ecef_km,
@@ -73,6 +76,11 @@ impl Window {
             floor,
             sin_floor: floor.sin(),
         })
+    }
+
+    /// A geometric direction as the passes of the site have it.
+    pub(super) fn pass_direction(&self, geometric: AzEl) -> AzEl {
+        self.site.pass_direction(geometric)
     }
 
     /// A time that is not before the start, since 1970.

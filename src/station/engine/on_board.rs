@@ -35,9 +35,9 @@ pub struct Judged {
     of: (PassKey, OnBoard),
 }
 
-/// Window in which `antenna` may point to the satellite of `predicted`: whole seconds
-/// within the first stay above its minimum elevation that is not over. An error where there
-/// is none.
+/// Window in which the unit of `antenna` may point to the satellite of `predicted`: whole seconds
+/// within the first stay above its minimum elevation that is not over. The stay is geometric, as
+/// the unit points. An error where there is none.
 pub fn window(
     predicted: &PredictedPass,
     antenna: &station::Antenna,
@@ -50,7 +50,7 @@ pub fn window(
     let search = PassSearch {
         aos_elevation: lowest,
         floor: lowest,
-        ..PassSearch::new(site, add_seconds(aos, -EDGE_S), add_seconds(los, EDGE_S))
+        ..PassSearch::new(site.airless(), add_seconds(aos, -EDGE_S), add_seconds(los, EDGE_S))
     };
     let stays = passes(&predicted.satellite.propagator, &search, &|| false);
     let within = stays.iter().map(|stay| (stay.aos.time.max(aos), stay.los.time.min(los)));

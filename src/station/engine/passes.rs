@@ -23,7 +23,7 @@ use self::{
     search::{SearchKey, SearchScope},
 };
 use crate::{
-    astro::{AzEl, frames::SiteFrame, time::add_seconds},
+    astro::{Angle, AzEl, frames::SiteFrame, time::add_seconds},
     job::Wake,
     orbit::{Catalog, Elements},
     station::Station,
@@ -169,9 +169,9 @@ pub fn ahead(
     let steps = (span_s / 30.0) as usize;
     let times: Vec<_> = (0..=steps).map(|step| add_seconds(now, step as f64 * 30.0)).collect();
     let states = satellite.propagator.states_at(&times);
-    let places_km = states.into_iter().zip(times).map_while(|(state, at)| {
-        let place_km = state?.local(site, at).position_km;
-        (place_km.z > 0.0).then_some(place_km)
+    let directions = states.into_iter().zip(times).map_while(|(state, at)| {
+        let direction = site.direction(state?.local(site, at).position_km);
+        (direction.elevation > Angle::ZERO).then_some(direction)
     });
-    places_km.map(AzEl::from_enu).collect()
+    directions.collect()
 }

@@ -102,6 +102,14 @@ impl AboutTrack {
         self.offsets.taken_off(propagator, site, self.on_the_sky(flown))
     }
 
+    /// The site with the refraction by which the antenna was led: units leave it out.
+    pub fn led_from(&self, site: Site) -> Site {
+        match self.tracked_by {
+            TrackedBy::ProgramTrack => site,
+            TrackedBy::OnBoard | TrackedBy::Elsewhere => site.airless(),
+        }
+    }
+
     /// Where the antenna pointed on the sky at a position of its axes.
     #[must_use]
     pub fn on_the_sky(&self, flown: MeasuredPosition) -> MeasuredPosition {

@@ -186,9 +186,9 @@ impl Passes {
         Ok(Self { db: file::open_to_read(path)?, site })
     }
 
-    /// Where the antenna of a report stands.
+    /// Where the antenna of a report stands. Reports without a site are older than refraction.
     pub(super) fn site_of(&self, report: &RecordedReport) -> Site {
-        report.site.unwrap_or(self.site)
+        report.site.unwrap_or(self.site.airless())
     }
 
     /// The newest passes of an antenna that end `within` a time and can be read, the newest first.
@@ -267,13 +267,14 @@ impl Passes {
         Ok(next.filter(|gap| gap.gap_since().is_some_and(|since| since < at)))
     }
 
-    /// The measured track of a pass beside the predicted one. Elements that cannot be propagated give
-    /// none.
-    pub(super) fn track(&self, pass: &RecordedPass) -> Result<Vec<TrackPoint>, RecordError> {
+    /// The measured track of a pass beside the one that led the antenna. Elements that cannot be
+    /// propagated give none.
+    pub(super) fn led_track(&self, pass: &RecordedPass) -> Result<Vec<TrackPoint>, RecordError> {
         let report = &pass.report;
         let Ok(propagator) = Propagator::new(&report.elements) else { return Ok(Vec::new()) };
         let points = self.points(pass.id)?;
-        Ok(track_of(&points, &propagator, self.site_of(report), &report.about))
+        let led_from = report.about.led_from(self.site_of(report));
+        Ok(track_of(&points, &propagator, led_from, &report.about))
     }
 
     pub(super) fn points(&self, id: i64) -> Result<Vec<MeasuredPosition>, RecordError> {

@@ -81,7 +81,7 @@ pub fn fit_pointing(
         let record = Passes::open(path, site)?;
         for pass in record.newest(antenna, within, u32::MAX)? {
             let before = points.len();
-            points.extend(thinned(&record.track(&pass)?, &pass.report.about.pointing_model));
+            points.extend(thinned(&record.led_track(&pass)?, &pass.report.about.pointing_model));
             count += usize::from(points.len() > before);
         }
     }

@@ -70,7 +70,7 @@ impl<'a> HandOverSheet<'a> {
         for step in 0..=steps {
             let at = add_seconds(self.from, f64::from(step) * SUN_STEP_S).min(self.until);
             let was_night = is_night;
-            is_night = sun_moon::sun(self.station.site, at).elevation_deg() < 0.0;
+            is_night = sun_moon::sun(self.station.site.airless(), at).elevation_deg() < 0.0;
             match nights.last_mut().filter(|_| was_night) {
                 Some([_, end]) => *end = at,
                 None if is_night => nights.push([at, at]),

@@ -167,7 +167,7 @@ fn fits(
 /// What has to be worked out.
 fn is_wanted(predicted: &PredictedPass, model: &Model, arrangement: &Arrangement) -> bool {
     let highest = predicted.pass.tca.time;
-    let is_day = || sun_moon::sun(model.station.site, highest).elevation_deg() > 0.0;
+    let is_day = || sun_moon::sun(model.station.site.airless(), highest).elevation_deg() > 0.0;
     let light = match arrangement.light {
         Light::Any => true,
         Light::Day => is_day(),

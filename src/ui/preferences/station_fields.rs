@@ -5,7 +5,7 @@ use super::{
     fields::{Description, Placed, placed},
 };
 use crate::{
-    astro::Site,
+    astro::{Air, Refraction, Site},
     device::settings::{Kind, Value},
     station::{Antenna, Favourites, Frequency, Notices, OnClose, Retention, Station, ranges},
 };
@@ -16,6 +16,7 @@ pub(in crate::ui) const LONGITUDE: &str = "Longitude, east";
 
 /// Sections of the fields, each of which is a card.
 pub(super) const SITE: &str = "Site";
+pub(super) const REFRACTION: &str = "Refraction";
 pub(super) const PASSES: &str = "Passes";
 pub(super) const CLOSING: &str = "Closing";
 pub(super) const RECORD: &str = "Record";
@@ -29,6 +30,7 @@ pub(in crate::ui) struct Ground {
     latitude_deg: f64,
     longitude_deg: f64,
     altitude_m: f64,
+    refraction: Refraction,
     aos_elevation_deg: f64,
     elevation_floor_deg: f64,
     favourites: Favourites,
@@ -47,6 +49,7 @@ impl Ground {
             latitude_deg: rounded(site.latitude().degrees()),
             longitude_deg: rounded(site.longitude().degrees()),
             altitude_m: site.altitude_m(),
+            refraction: site.refraction(),
             aos_elevation_deg: station.aos_elevation_deg,
             elevation_floor_deg: station.elevation_floor_deg,
             favourites: station.favourites.clone(),
@@ -63,8 +66,9 @@ impl Ground {
 
     /// The station with these antennas, without the contents of the other pages.
     pub(in crate::ui) fn with(self, antennas: Vec<Antenna>) -> Option<Station> {
+        let place = Site::new(self.latitude_deg, self.longitude_deg, self.altitude_m).ok()?;
         Some(Station {
-            site: Site::new(self.latitude_deg, self.longitude_deg, self.altitude_m).ok()?,
+            site: place.with_refraction(self.refraction).ok()?,
             name: self.name,
             horizon_mask: None,
             aos_elevation_deg: self.aos_elevation_deg,
@@ -92,6 +96,7 @@ type Of = Description<Ground>;
 /// All fields of a station besides its antennas.
 pub(super) fn all() -> Vec<Placed<Ground>> {
     let mut all = placed(SITE, site());
+    all.extend(placed(REFRACTION, refraction()));
     all.extend(placed(PASSES, passes()));
     all.extend(placed(SATELLITES, [satellites()]));
     all.extend(placed(FREQUENCIES, [frequencies()]));
@@ -107,6 +112,54 @@ fn site() -> [Of; 4] {
         Of::number(LONGITUDE, -180.0..=360.0, "°", |ground| Some(&mut ground.longitude_deg)),
         Of::number("Altitude", -1000.0..=10_000.0, "m", |ground| Some(&mut ground.altitude_m)),
     ]
+}
+
+fn refraction() -> [Of; 5] {
+    const AIR: [Air; 3] = [Air::Standard, Air::Measured, Air::None];
+    const IN_PASSES: [bool; 2] = [false, true];
+    let is_measured = |ground: &Ground| ground.refraction.air == Air::Measured;
+    [
+        Of::choice("Air", &[(0, "Standard"), (1, "Measured"), (2, "None")], &AIR, |ground| {
+            &mut ground.refraction.air
+        })
+        .noted(|ground| Some(about_air(ground.refraction.air).to_owned())),
+        Of::number("Pressure", Refraction::PRESSURE_HPA, "hPa", |ground| {
+            Some(&mut ground.refraction.pressure_hpa)
+        })
+        .when(is_measured)
+        .noted(|_| Some("At the height of the site, not reduced to sea level.".to_owned())),
+        Of::number("Temperature", Refraction::TEMPERATURE_C, "°C", |ground| {
+            Some(&mut ground.refraction.temperature_c)
+        })
+        .when(is_measured),
+        Of::number("Humidity", Refraction::HUMIDITY_PERCENT, "%", |ground| {
+            Some(&mut ground.refraction.humidity_percent)
+        })
+        .when(is_measured)
+        .checked(|ground| {
+            let air = ground.refraction.check();
+            air.map_err(|_| "with this temperature makes air that does not occur; lower one")
+        }),
+        Of::choice("AOS and LOS", &[(0, "Geometric"), (1, "Apparent")], &IN_PASSES, |ground| {
+            &mut ground.refraction.in_passes
+        })
+        .noted(|_| {
+            let words = "Geometric times are those of other lists. Apparent ones begin some \
+                         seconds earlier and end as much later.";
+            Some(words.to_owned())
+        }),
+    ]
+}
+
+fn about_air(air: Air) -> &'static str {
+    match air {
+        Air::Standard => {
+            "Antennas point where satellites, the Sun and the Moon appear, by the mean air at this \
+             altitude: 0.6° higher at the horizon, 0.15° at 5°."
+        }
+        Air::Measured => "Antennas point where satellites appear through the air entered below.",
+        Air::None => "Antennas point at geometric directions, below where satellites appear.",
+    }
 }
 
 fn passes() -> [Of; 2] {

@@ -16,6 +16,9 @@ use crate::{
 /// The reason why a unit misses, as a clause that begins with the unit.
 pub fn cause(ranked: &Ranked, unit: DistanceUnit) -> String {
     match &ranked.cause {
+        Cause::Refraction => {
+            "the unit leaves refraction out and points below where the satellite appears".to_owned()
+        }
         Cause::Place { place, away_km } => format!(
             "the unit's location is {} from this station: {}",
             format::distance(*away_km, usize::from(*away_km < 100.0), unit),

@@ -131,6 +131,7 @@ pub fn cause(cause: &Cause) -> &'static str {
         Cause::AzimuthScale { .. } => "Azimuth scale",
         Cause::ElevationScale { .. } => "Elevation scale",
         Cause::OtherElements { .. } => "Other elements",
+        Cause::Refraction => "Refraction left out",
         Cause::OtherSite { .. } => "Other site",
         Cause::SlowDrives { axis: None, .. } => "Slow drives",
         Cause::SlowDrives { axis: Some(Axis::Azimuth), .. } => "Slow azimuth",
@@ -170,6 +171,7 @@ pub fn size(cause: &Cause) -> String {
             format!("{} %", format::signed(per_mille / 10.0, 2))
         }
         Cause::OtherElements { epoch } => format!("of {}", format::copied(*epoch)),
+        Cause::Refraction => "by the unit".to_owned(),
         Cause::OtherSite { north_km, east_km } => {
             let km = |value: f64| format!("{} km", format::signed(value, 1));
             format!("{} north, {} east", km(*north_km), km(*east_km))
@@ -216,6 +218,7 @@ fn cause_as_subject(of: &Cause) -> String {
         Cause::OtherElements { epoch } => {
             format!("The antenna followed older elements, of {}", format::copied(*epoch))
         }
+        Cause::Refraction => "The unit left refraction out".to_owned(),
         Cause::OtherSite { .. } => {
             format!("The unit computes for another site, {}", size(of))
         }

@@ -73,7 +73,8 @@ impl Place {
         if self.km_from(site) <= step_km {
             return Some(site);
         }
-        Site::new(self.latitude_deg, self.longitude_deg, site.altitude_m()).ok()
+        let there = Site::new(self.latitude_deg, self.longitude_deg, site.altitude_m()).ok()?;
+        there.with_refraction(site.refraction()).ok()
     }
 }
 

@@ -90,7 +90,8 @@ impl Ability {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Supervision {
     pub worst: Error,
-    /// The largest error is within the beam.
+    /// The largest error is within the beam, refraction aside: no setting of a unit makes up for
+    /// that, and it costs the ends of a pass, not the pass.
     pub is_within_beam: bool,
     /// Causes, the most likely first.
     pub causes: Vec<Ranked>,
@@ -114,7 +115,7 @@ pub struct Judge {
     pass: OnBoardPass,
     propagator: Propagator,
     ability: Ability,
-    /// Directions of the satellite along the window.
+    /// Directions in which the satellite appears along the window.
     truth: Vec<Sample>,
 }
 
@@ -139,7 +140,7 @@ impl Judge {
         self.ability
     }
 
-    /// Direction of the satellite at `at`.
+    /// Direction in which the satellite appears at `at`: the one to point at.
     pub fn direction(&self, at: Timestamp) -> Option<AzEl> {
         Some(self.propagator.look_from(self.pass.site, at).ok()?.direction)
     }
@@ -148,15 +149,17 @@ impl Judge {
     /// unit: the satellite that it held before means nothing.
     pub fn supervise(&self, unit: &OnBoard, holds_target: bool) -> Supervision {
         let all = UnitPath::surely(unit, self);
-        let worst = all.either_way().map(|unit| self.worst(&unit)).reduce(worse);
-        let worst = worst.unwrap_or(Error { off: Angle::ZERO, at: self.pass.target.from });
+        let none = Error { off: Angle::ZERO, at: self.pass.target.from };
+        let worst = |unit: UnitPath<'_>| {
+            unit.either_way().map(|unit| self.worst(&unit)).reduce(worse).unwrap_or(none)
+        };
         let lowest_deg = self.ability.minimum_elevation.degrees();
         let lower = |offsets: &crate::device::Offsets| {
             (offsets.minimum_elevation_deg < lowest_deg).then_some(offsets.minimum_elevation_deg)
         };
         Supervision {
-            worst,
-            is_within_beam: worst.off <= self.ability.half_beam,
+            worst: worst(all),
+            is_within_beam: worst(UnitPath { refracts: true, ..all }).off <= self.ability.half_beam,
             causes: cause::ranked(self, unit, holds_target),
             unknown: cause::unknown(unit),
             lower_minimum_deg: unit.offsets.as_ref().and_then(lower),

@@ -22,7 +22,7 @@ pub use self::csv::{io_error, plain, quoted};
 pub use self::event_ids::event_ids;
 pub use self::looks::{LookFormat, LookList};
 use crate::{
-    astro::{HorizonMask, Site, frames::SiteFrame, time},
+    astro::{Air, HorizonMask, Site, frames::SiteFrame, time},
     orbit::{
         Distance, Elements, OverGround, Pass, PassSearch, PropagationError, Propagator,
         clear_stretches, passes,
@@ -184,7 +184,10 @@ impl PassList<'_> {
         rows: impl Iterator<Item = ExportedPass<'a>>,
     ) -> io::Result<()> {
         match format {
-            PassFormat::Table => table::write(out, &rows.collect::<Vec<_>>()),
+            PassFormat::Table => {
+                table::write(out, &rows.collect::<Vec<_>>())?;
+                writeln!(out, "{}", about_elevations(self.is_apparent()))
+            }
             PassFormat::Csv => csv::write(out, self, rows),
             PassFormat::Json => json::write(out, self, rows),
             PassFormat::Ics => calendar::write(out, self, &rows.collect::<Vec<_>>()),
@@ -195,8 +198,26 @@ impl PassList<'_> {
         self.query.search.site
     }
 
+    /// Returns `true` if the elevations of the passes are apparent.
+    fn is_apparent(&self) -> bool {
+        self.site().refraction().in_passes && is_refracted(self.site())
+    }
+
     fn view(&self) -> View {
         View { site: self.site().into(), carrier_hz: self.carrier_hz }
+    }
+}
+
+fn is_refracted(site: Site) -> bool {
+    site.refraction().air != Air::None
+}
+
+/// The last line of a table.
+fn about_elevations(are_apparent: bool) -> &'static str {
+    if are_apparent {
+        "Elevations are apparent, with the refraction of radio waves."
+    } else {
+        "Elevations are geometric, without refraction."
     }
 }
 

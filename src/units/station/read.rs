@@ -177,7 +177,10 @@ impl Fields<'_> {
     }
 
     fn site(&mut self) -> Site {
-        let Some(value) = self.table.remove("site") else { return Site::default() };
+        let Some(mut value) = self.table.remove("site") else { return Site::default() };
+        if let Value::Table(site) = &mut value {
+            site.entry("refraction").or_insert_with(|| Value::Table(Table::new()));
+        }
         value.try_into().unwrap_or_else(|error: toml::de::Error| {
             self.invalid("site", error.message());
             Site::default()
@@ -351,4 +354,66 @@ fn catalog_number(value: &Value) -> Option<u32> {
 fn given_id(antenna: &Value) -> Option<AntennaId> {
     let id = antenna.get("id")?.as_integer()?;
     u32::try_from(id).ok().map(AntennaId)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::astro::{Air, Refraction};
+
+    fn read_site(lines: &str) -> (Site, Vec<Note>) {
+        let text = format!(
+            "[site]\nlatitude_deg = 41.0\nlongitude_deg = 29.0\naltitude_m = 100.0\n{lines}"
+        );
+        let (station, notes) = from_toml(toml::from_str(&text).unwrap(), &[]);
+        (station.site, notes)
+    }
+
+    #[test]
+    fn a_site_without_settings_of_refraction_has_the_default_ones() {
+        let (site, notes) = read_site("");
+        assert_eq!((site.refraction(), &notes[..]), (Refraction::default(), &[][..]));
+        let (site, notes) = read_site("[site.refraction]\npressure_hpa = 950.0\n");
+        assert_eq!(notes, []);
+        assert_eq!(site.refraction().air, Air::Standard);
+        let written = toml::Table::try_from(Station::default()).unwrap();
+        assert!(!written["site"].as_table().unwrap().contains_key("refraction"), "{written}");
+    }
+
+    #[test]
+    fn settings_of_refraction_are_written_and_read_back() {
+        let refraction = Refraction {
+            air: Air::Measured,
+            pressure_hpa: 905.5,
+            temperature_c: -11.0,
+            humidity_percent: 80.0,
+            in_passes: true,
+        };
+        let site = Site::default().with_refraction(refraction).unwrap();
+        let station = Station { site, ..Station::default() };
+        let written = toml::Table::try_from(&station).unwrap();
+        let (read, notes) = from_toml(written, &[]);
+        assert_eq!((read.site, &notes[..]), (site, &[][..]));
+    }
+
+    #[test]
+    fn refraction_that_cannot_be_used_says_why_and_forbids_motion() {
+        for (lines, why) in [
+            ("pressure_hpa = 101.3", "refraction.pressure_hpa 101.3 is not between 300 and 1100"),
+            ("humidity_percent = 100\ntemperature_c = 60", "refractivity"),
+            ("presure_hpa = 1000", "unknown field `presure_hpa`"),
+            ("air = 'vacuum'", "unknown variant `vacuum`"),
+        ] {
+            let table = toml::from_str(&format!(
+                "[site]\nlatitude_deg = 41.0\nlongitude_deg = 29.0\naltitude_m = 100.0\n\
+                 [site.refraction]\n{lines}"
+            ));
+            let (station, notes) = from_toml(table.unwrap(), &[]);
+            let [Note { place, reason: NoteReason::Invalid(said), .. }] = &notes[..] else {
+                panic!("{notes:?}")
+            };
+            assert!(place == "site" && said.contains(why), "{said}");
+            assert_eq!(station.unread.len(), 1);
+        }
+    }
 }

@@ -122,7 +122,7 @@ fn flies(propagator: &Propagator, from: Timestamp) -> bool {
 fn seen_when_up(propagator: &Propagator, search: &PassSearch, found: &[Pass]) {
     for minute in (0..24 * 60).step_by(10) {
         let at = search.from + SignedDuration::from_mins(minute);
-        let Ok(look) = propagator.look_from(search.site, at) else {
+        let Ok(look) = propagator.look_from(search.site.airless(), at) else {
             // After its epoch, a decayed satellite stays down; before it, the search ends too.
             break;
         };
@@ -136,7 +136,7 @@ fn seen_when_up(propagator: &Propagator, search: &PassSearch, found: &[Pass]) {
 /// Checks that search and propagator agree on the culmination.
 fn matches_the_sky(propagator: &Propagator, site: Site, pass: &Pass) {
     let at = pass.tca.time;
-    let Ok(look) = propagator.look_from(site, at) else {
+    let Ok(look) = propagator.look_from(site.airless(), at) else {
         // A millisecond earlier or later the object may have decayed.
         let near = [-1.0, 1.0].map(|offset_s| time::add_seconds(at, offset_s));
         assert!(near.iter().any(|at| propagator.look_from(site, *at).is_ok()), "{pass:?}");

@@ -93,7 +93,8 @@ impl PredictedPass {
     /// its satellite that reach `floor`: each from AOS, or from where it rises above the
     /// antenna's own minimum elevation.
     pub fn follow(&self, antenna: &Antenna, floor: Angle) -> ProgramTrack {
-        let lowest_deg = antenna.limits.minimum_elevation_deg;
+        let lowest = Angle::from_degrees(antenna.limits.minimum_elevation_deg);
+        let lowest_deg = self.observer.site.pass_elevation(lowest).degrees();
         let aos_elevation =
             Angle::from_degrees(self.observer.aos_elevation.degrees().max(lowest_deg));
         let search = |from, floor| PassSearch {

@@ -251,7 +251,10 @@ impl Engine {
         let Some(elements) = catalog.get(number) else { return };
         let Ok(propagator) = Propagator::new(elements) else { return };
         let limits = mount_limits(&shown.config);
-        let lowest = self.station.aos_elevation_deg.max(limits.min_elevation.degrees());
+        let about = about(shown, now, self.time_sync);
+        let led_from = about.led_from(self.station.site);
+        let lowest_deg = led_from.pass_elevation(limits.min_elevation).degrees();
+        let lowest = self.station.aos_elevation_deg.max(lowest_deg);
         let search = PassSearch {
             aos_elevation: Angle::from_degrees(lowest),
             ..PassSearch::new(
@@ -287,7 +290,7 @@ impl Engine {
             max_elevation_deg: pass.max_elevation().degrees(),
             ended: None,
             limits,
-            about: about(shown, now, self.time_sync),
+            about,
             breaks,
             positions: antenna.handle.positions().clone(),
             next_position: 0,

@@ -29,8 +29,9 @@ impl Target {
         })
     }
 
+    /// Geometric: the document of the unit knows no refraction.
     pub(super) fn direction(&self, site: Site, at: Timestamp) -> Result<AzEl, PropagationError> {
-        Ok(self.propagator.look_from(site, at)?.direction)
+        Ok(self.propagator.look_from(site.airless(), at)?.direction)
     }
 }
 

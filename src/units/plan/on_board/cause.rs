@@ -19,6 +19,8 @@ const HIGHEST_ROUGH_DEG: f64 = 3.0;
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Cause {
+    /// The unit points at the geometric direction, below where the satellite appears.
+    Refraction,
     /// The unit uses another location.
     Place {
         place: Place,
@@ -100,6 +102,7 @@ pub(super) fn ranked(judge: &Judge, told: &OnBoard, holds_target: bool) -> Vec<R
             ranked.push(Ranked { cause, off: Some(off) });
         }
     };
+    add(Cause::Refraction, UnitPath { refracts: false, ..right });
     let ours = judge.pass.site;
     if let (Some(place), Some(site)) = (told.place, site(told, ours))
         && site != ours
@@ -147,7 +150,8 @@ fn satellite(judge: &Judge, told: &OnBoard) -> Option<Ranked> {
     let (start, stop) = told.window?;
     let is_this = start.as_second() == target.from.as_second()
         && stop.as_second() == target.until.as_second();
-    let unit = UnitPath { site: site(told, judge.pass.site)?, ..UnitPath::right(judge) };
+    let site = site(told, judge.pass.site)?;
+    let unit = UnitPath { site, refracts: false, ..UnitPath::right(judge) };
     let expected_deg = judge.highest(&unit).filter(|_| is_this && judge.span_s() > 0.0)?.degrees();
     let differs_deg = (told_deg - expected_deg).abs();
     (differs_deg > HIGHEST_ROUGH_DEG).then_some(Ranked {

@@ -41,6 +41,8 @@ pub(super) struct UnitPath<'a> {
     pub(super) offsets: Offsets,
     /// The azimuth that the unit reports minus the real one.
     pub(super) turned: Angle,
+    /// It points where a satellite appears, as no unit is documented to do.
+    pub(super) refracts: bool,
 }
 
 impl<'a> UnitPath<'a> {
@@ -54,6 +56,7 @@ impl<'a> UnitPath<'a> {
             ahead_s: 0.0,
             offsets: Offsets { minimum_elevation_deg: -90.0, ..Offsets::default() },
             turned: Angle::ZERO,
+            refracts: true,
         }
     }
 
@@ -66,6 +69,7 @@ impl<'a> UnitPath<'a> {
             ahead_s: told.clock.map_or(0.0, |clock| clock.ahead_s),
             offsets,
             turned: turned(offsets.north_deg, judge.ability.mount),
+            refracts: false,
             ..right
         }
     }
@@ -85,13 +89,14 @@ impl<'a> UnitPath<'a> {
         std::iter::once(self).chain(other)
     }
 
-    /// Direction of the satellite as the unit computes it at `at` by Azel's clock. Outside its
-    /// window, the direction at the nearer end of the window.
+    /// Direction of the satellite as the unit computes it at `at` by Azel's clock.
+    /// Outside its window, the direction at the nearer end of the window.
     pub(super) fn computed(&self, at: Timestamp) -> Option<AzEl> {
         let (start, stop) = self.window;
         let own = add_seconds(at, self.ahead_s).clamp(start, stop.max(start));
         let shifted = add_seconds(own, self.offsets.time_s);
-        Some(self.propagator.look_from(self.site, shifted).ok()?.direction)
+        let site = if self.refracts { self.site } else { self.site.airless() };
+        Some(self.propagator.look_from(site, shifted).ok()?.direction)
     }
 
     /// Real direction of the antenna at `at` by Azel's clock.

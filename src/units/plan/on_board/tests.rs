@@ -10,7 +10,7 @@ use crate::{
 const ISS: u32 = 25_544;
 
 fn site() -> Site {
-    Site::new(41.02, 29.17, 100.0).unwrap()
+    Site::new(41.02, 29.17, 100.0).unwrap().airless()
 }
 
 static ELEMENTS: LazyLock<Elements> =
@@ -35,6 +35,10 @@ fn find_pass() -> Pass {
 }
 
 fn judge_above(minimum_deg: f64) -> Judge {
+    judge_from(site(), minimum_deg)
+}
+
+fn judge_from(site: Site, minimum_deg: f64) -> Judge {
     let target = TrackTarget {
         catalog_number: ISS,
         name: "ISS".to_owned(),
@@ -42,7 +46,7 @@ fn judge_above(minimum_deg: f64) -> Judge {
         from: pass().aos.time,
         until: pass().los.time,
     };
-    let pass = OnBoardPass { target, elements: ELEMENTS.clone(), site: site(), is_agreed: false };
+    let pass = OnBoardPass { target, elements: ELEMENTS.clone(), site, is_agreed: false };
     let minimum_elevation = Angle::from_degrees(minimum_deg);
     Judge::new(pass, Ability { minimum_elevation, ..Ability::of(&Antenna::satrak("Dish", "")) })
         .unwrap()
@@ -121,7 +125,7 @@ fn a_unit_that_goes_by_the_same_follows() {
 #[test]
 fn a_place_elsewhere_is_told_with_its_distance() {
     let place = Place { latitude_deg: 30.0, longitude_deg: 40.1, step_deg: 0.01 };
-    let there = Site::new(30.0, 40.1, 100.0).unwrap();
+    let there = Site::new(30.0, 40.1, 100.0).unwrap().airless();
     let away = frames::site_ecef_km(there).distance(frames::site_ecef_km(site()));
     assert!((1500.0..1700.0).contains(&away));
     let found = judge().supervise(&OnBoard { place: Some(place), ..right() }, true);
@@ -307,4 +311,28 @@ fn a_path_below_the_limit_or_beyond_the_travel_says_where_first() {
     narrow.ability.mount =
         Mount::Xy { lower_axis_azimuth_deg: 0.0, travel_from_deg: 60.0, travel_to_deg: 120.0 };
     assert_eq!(leads(&narrow, &right()).limit, OffLimits::Travel);
+}
+
+#[test]
+fn a_unit_that_leaves_refraction_out_is_told_apart_and_still_takes_the_pass() {
+    let place = Site::new(41.02, 29.17, 100.0).unwrap();
+    let judge = judge_from(place, 5.0);
+    let aos = pass().aos;
+    let lifted = judge.direction(aos.time).unwrap();
+    let off_deg = lifted.separation(aos.direction).degrees();
+    // At 10 degrees.
+    assert!((0.08..0.1).contains(&off_deg) && lifted.elevation > aos.direction.elevation);
+    let found = judge.supervise(&right(), true);
+    assert_near(100.0 * found.worst.off.degrees(), 100.0 * off_deg);
+    let [Ranked { cause: Cause::Refraction, off: Some(off) }] = &found.causes[..] else {
+        panic!("{found:#?}")
+    };
+    assert_eq!(*off, found.worst.off);
+    // A beam narrower than that loses the ends of the pass, which no setting of the unit saves.
+    let narrow = Ability { half_beam: Angle::from_degrees(0.05), ..judge.ability() };
+    let narrow = Judge::new(judge.pass().clone(), narrow).unwrap();
+    assert!(narrow.supervise(&right(), true).is_within_beam);
+    assert!(!narrow.supervise(&with(|unit| unit.azimuth_deg = 1.0), true).is_within_beam);
+    // The path that the gate judges is the one that the unit takes.
+    assert!(judge.start(&right(), aos.time).unwrap().separation(aos.direction).degrees() < 1e-6);
 }

@@ -6,7 +6,7 @@ use chrono::TimeDelta;
 use icalendar::{Alarm, Calendar, Component as _, Event, EventLike as _, Trigger};
 use jiff::{SignedDuration, Timestamp, Unit};
 
-use super::{ExportedPass, PassList, civil, event_ids::event_ids};
+use super::{ExportedPass, PassList, about_elevations, civil, event_ids::event_ids};
 use crate::{astro::Site, orbit::PassPoint};
 
 pub(super) fn write(
@@ -44,10 +44,11 @@ fn event(list: &PassList<'_>, row: &ExportedPass<'_>, id: &str, location: &str) 
     event.add_property(
         "DESCRIPTION",
         format!(
-            "Catalogue number {number}\nAOS at azimuth {:.0}°\nHighest {maximum_deg:.1}° at azimuth {:.0}°\nLOS at azimuth {:.0}°\nElements of {}, age {:.1} days at AOS",
+            "Catalogue number {number}\nAOS at azimuth {:.0}°\nHighest {maximum_deg:.1}° at azimuth {:.0}°\nLOS at azimuth {:.0}°\n{}\nElements of {}, age {:.1} days at AOS",
             azimuth(pass.aos),
             azimuth(pass.tca),
             azimuth(pass.los),
+            about_elevations(list.is_apparent()),
             civil(elements.epoch(), "%Y-%m-%d %H:%M:%SZ"),
             satellite.age_days(pass.aos.time),
         ),

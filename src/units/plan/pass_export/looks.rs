@@ -6,9 +6,9 @@ use jiff::Timestamp;
 use serde::Serialize;
 
 use super::{
-    Satellite, Seen, civil,
+    Satellite, Seen, about_elevations, civil,
     csv::{io_error, text_of},
-    degrees,
+    degrees, is_refracted,
     json::write_lines,
     rfc3339, turn,
 };
@@ -106,7 +106,7 @@ impl LookList<'_> {
             let doppler = seen.doppler_hz.map(|hertz| format!("  {hertz:>12.1}"));
             writeln!(out, "{}", doppler.unwrap_or_default())?;
         }
-        Ok(())
+        writeln!(out, "{}", about_elevations(is_refracted(self.site)))
     }
 
     fn write_csv(&self, out: &mut impl Write) -> io::Result<()> {

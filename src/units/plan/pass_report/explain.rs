@@ -81,6 +81,8 @@ pub enum Cause {
         north_km: f64,
         east_km: f64,
     },
+    /// The unit leaves out the refraction by which the satellite appears higher.
+    Refraction,
     /// The antenna follows these elements.
     OtherElements {
         epoch: Timestamp,
@@ -117,7 +119,10 @@ impl Cause {
             }
             // Further away the satellite rises at another time.
             Self::OtherSite { north_km, east_km } => north_km.hypot(east_km) <= 500.0,
-            Self::OtherElements { .. } | Self::SlowDrives { .. } | Self::Stuck { .. } => true,
+            Self::Refraction
+            | Self::OtherElements { .. }
+            | Self::SlowDrives { .. }
+            | Self::Stuck { .. } => true,
         }
     }
 }

@@ -79,7 +79,7 @@ impl Course {
         Self { model, ..self }
     }
 
-    /// Geometric direction at `at`; `None` once the target has decayed.
+    /// Direction into which the antenna has to point at `at`; `None` once the target has decayed.
     pub fn direction(&self, at: Timestamp) -> Option<AzEl> {
         match &self.body {
             Body::Satellite(propagator) => {

@@ -90,7 +90,7 @@ pub fn deciding_rule(
 
 /// Whether the Sun is up at the site of a station.
 pub fn sun_is(station: &Station, at: Timestamp) -> SunIs {
-    let is_up = sun_moon::sun(station.site, at).elevation_deg() > 0.0;
+    let is_up = sun_moon::sun(station.site.airless(), at).elevation_deg() > 0.0;
     if is_up { SunIs::Up } else { SunIs::Down }
 }
 

@@ -192,7 +192,10 @@ impl Reach {
         if sight.name().is_some_and(|name| !self.spec.takes_satellite(name)) {
             return Verdict::Impossible(Impossible::Name);
         }
-        let Some(span) = sight.above(self.min_elevation()) else {
+        // A unit that tracks by itself holds its minimum without refraction.
+        let lowest = self.min_elevation();
+        let lowest = if self.on_board { sight.appearing_at(lowest) } else { lowest };
+        let Some(span) = sight.above(lowest) else {
             return Verdict::Impossible(Impossible::TooLow);
         };
         let clear = sight.clear(span);

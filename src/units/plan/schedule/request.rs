@@ -180,7 +180,7 @@ fn broken(limits: &PassLimits, pass: &Pass, propagator: &Propagator, site: Site)
         return Some(Rule::MinDuration { seconds });
     }
     let at = pass.tca.time;
-    let is_day = || sun_moon::sun(site, at).elevation > Angle::ZERO;
+    let is_day = || sun_moon::sun(site.airless(), at).elevation > Angle::ZERO;
     let is_right = |light: &Light| match light {
         Light::Day => is_day(),
         Light::Night => !is_day(),

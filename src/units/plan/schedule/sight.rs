@@ -9,7 +9,7 @@ use crate::{
         Angle, AzEl, HorizonMask, Site,
         frames::{EARTH_RATE_RAD_S, SiteFrame},
     },
-    orbit::{Local, Pass, Propagator, State, clear_stretches},
+    orbit::{Local, Pass, PassPoint, Propagator, State, clear_stretches},
     plan::Sample,
 };
 
@@ -96,19 +96,26 @@ impl<'a> Sight<'a> {
         self.name
     }
 
-    /// From the first to the last moment at `elevation` or higher; `None` if the pass stays below.
+    /// From the first to the last moment at which an antenna points at `elevation` or higher;
+    /// `None` if the pass stays below.
     pub(super) fn above(&self, elevation: Angle) -> Option<Span> {
         let [aos, tca, los] = [self.pass.aos, self.pass.tca, self.pass.los];
-        if tca.direction.elevation < elevation {
+        let pointed = |point: PassPoint| self.site.pointing_of_pass(point.direction).elevation;
+        if pointed(tca) < elevation {
             return None;
         }
         let top_ms = ms(tca.time);
         let end = |end_ms: i64, at: Angle| {
             if at >= elevation { end_ms } else { self.crossing(end_ms, top_ms, elevation) }
         };
-        let from_ms = end(ms(aos.time), aos.direction.elevation);
-        let to_ms = end(ms(los.time), los.direction.elevation);
+        let from_ms = end(ms(aos.time), pointed(aos));
+        let to_ms = end(ms(los.time), pointed(los));
         (from_ms < to_ms).then_some(Span { from_ms, to_ms })
+    }
+
+    /// The elevation at which something appears that stands at the elevation `geometric`.
+    pub(super) fn appearing_at(&self, geometric: Angle) -> Angle {
+        self.site.apparent(AzEl { azimuth: Angle::ZERO, elevation: geometric }).elevation
     }
 
     fn crossing(&self, mut below_ms: i64, mut above_ms: i64, elevation: Angle) -> i64 {
@@ -179,7 +186,7 @@ impl Nodes {
             Some((*at, state?.local(site, *time)))
         };
         let places: Vec<(i64, Local)> = states.filter_map(place).collect();
-        let list = places.iter().map(|(at, place)| sample(*at, place.position_km)).collect();
+        let list = places.iter().map(|(at, place)| sample(site, *at, place.position_km)).collect();
         Self { span, places, samples: Samples { list, step_s } }
     }
 
@@ -193,7 +200,7 @@ impl Nodes {
             while cubics.next_if(|cubic| cubic.to_ms < at).is_some() {}
             let between = cubics.peek().and_then(|cubic| cubic.position_km(at));
             let known = || place(propagator, site, at).map(|place| place.position_km);
-            Some(sample(at, between.or_else(known)?))
+            Some(sample(site, at, between.or_else(known)?))
         });
         Samples { list: list.collect(), step_s }
     }
@@ -204,8 +211,8 @@ fn place(propagator: &Propagator, site: &SiteFrame, at: i64) -> Option<Local> {
     Some(propagator.state_at(time).ok()?.local(site, time))
 }
 
-fn sample(at: i64, position_km: DVec3) -> Sample {
-    Sample { time: at_ms(at), direction: AzEl::from_enu(position_km) }
+fn sample(site: &SiteFrame, at: i64, position_km: DVec3) -> Sample {
+    Sample { time: at_ms(at), direction: site.direction(position_km) }
 }
 
 /// Times of samples and the seconds between them.

@@ -31,7 +31,7 @@ const KM_PER_DEG: f64 = 111.2;
 pub enum PathSource {
     /// Azel computed it and sent positions.
     Azel,
-    /// The unit computed it.
+    /// The unit computed it, without refraction.
     Unit {
         /// Its clock against UTC, seconds; `None` if it tells none.
         clock_ahead_s: Option<f64>,
@@ -49,7 +49,9 @@ pub(super) struct Point<'a> {
     /// Where the satellite is at the time of the unit's clock, seen from the unit's place.
     pub(super) followed: AzEl,
     pub(super) clock_late_s: f64,
+    /// The place of the unit, with the refraction by which it leads the antenna.
     pub(super) place: Site,
+    pub(super) is_airless: bool,
     /// Azimuth of `followed`, continued over north, degrees.
     pub(super) azimuth_deg: f64,
     /// Measured minus true direction, as vectors of the sphere.
@@ -93,13 +95,16 @@ impl<'a> Evidence<'a> {
         source: PathSource,
         measured: impl Iterator<Item = (Timestamp, AzEl)>,
     ) -> Self {
-        let (clock_late_s, place) = match source {
-            PathSource::Azel => (0.0, site),
+        let (clock_late_s, place, is_airless) = match source {
+            PathSource::Azel => (0.0, site, false),
             PathSource::Unit { clock_ahead_s, place } => {
                 let late_s = clock_ahead_s.map_or(0.0, |ahead_s| -ahead_s);
                 let late_s = if late_s.abs() < MIN_CLOCK_S { 0.0 } else { late_s };
                 let is_elsewhere = |place: &Site| distance_km(site, *place) >= MIN_PLACE_KM;
-                (late_s, place.filter(is_elsewhere).unwrap_or(site))
+                let place = place.filter(is_elsewhere).unwrap_or(site);
+                // An elevation that is not measured has no error.
+                let place = if self.has_elevation { place.airless() } else { place };
+                (late_s, place, self.has_elevation)
             }
         };
         let measured: Vec<(Timestamp, AzEl)> = apart(measured, STEP_S, |(time, _)| *time).collect();
@@ -128,6 +133,7 @@ impl<'a> Evidence<'a> {
                 followed,
                 clock_late_s,
                 place,
+                is_airless,
                 azimuth_deg,
                 error,
                 measured,
@@ -199,24 +205,29 @@ impl<'a> Evidence<'a> {
         Fit { left: sum, variance: sum / (2.0 * count) * lasting(left), outside }
     }
 
-    /// What is known to make a part of the error beside what `fit` takes away.
+    /// The greatest known part of the error beside what `fit` takes away.
     pub(super) fn known_cause(&self, fit: Fit, whole: f64) -> Option<Cause> {
-        let makes: f64 = self
-            .points()
-            .map(|point| (point.followed.to_enu() - point.satellite.to_enu()).length_squared())
-            .sum();
-        if makes <= SURE * fit.variance || makes <= MIN_KNOWN * whole {
-            return None;
-        }
         // Several passes have a clock each.
         let [points] = &self.passes[..] else { return None };
-        let point = points.first()?;
-        let site = self.site?;
-        if point.clock_late_s.abs() > 0.0 {
-            return Some(Cause::Late { late_s: point.clock_late_s });
-        }
-        let [north_km, east_km] = apart_km(site, point.place);
-        Some(Cause::OtherSite { north_km, east_km })
+        let (first, site) = (points.first()?, self.site?);
+        let late_s = first.clock_late_s;
+        let [north_km, east_km] = apart_km(site, first.place);
+        let place = moved(site, north_km, east_km)?;
+        let known = [
+            (Cause::Late { late_s }, site, late_s),
+            (Cause::OtherSite { north_km, east_km }, place, 0.0),
+            (Cause::Refraction, if first.is_airless { site.airless() } else { site }, 0.0),
+        ];
+        let parts = known.map(|(cause, from, late_s)| {
+            let moved = points.iter().filter_map(|point| {
+                let time = add_seconds(point.time, -late_s);
+                let at = point.propagator.look_from(from, time).ok()?.direction;
+                Some((at.to_enu() - point.satellite.to_enu()).length_squared())
+            });
+            (cause, moved.sum::<f64>())
+        });
+        let (cause, makes) = parts.into_iter().max_by(|(_, a), (_, b)| a.total_cmp(b))?;
+        (makes > SURE * fit.variance && makes > MIN_KNOWN * whole).then_some(cause)
     }
 }
 
@@ -225,7 +236,9 @@ pub(super) fn moved(site: Site, north_km: f64, east_km: f64) -> Option<Site> {
     let per_deg = KM_PER_DEG * site.latitude().radians().cos().max(1e-3);
     let latitude_deg = site.latitude().degrees() + north_km / KM_PER_DEG;
     let longitude = Angle::from_degrees(site.longitude().degrees() + east_km / per_deg);
-    Site::new(latitude_deg, longitude.wrapped_180().degrees(), site.altitude_m()).ok()
+    let moved =
+        Site::new(latitude_deg, longitude.wrapped_180().degrees(), site.altitude_m()).ok()?;
+    moved.with_refraction(site.refraction()).ok()
 }
 
 /// Kilometres from `site` to `other`, to the north and to the east.

@@ -97,6 +97,7 @@ impl Family<'_> {
             Cause::Late { .. }
             | Cause::OtherElements { .. }
             | Cause::OtherSite { .. }
+            | Cause::Refraction
             | Cause::SlowDrives { .. }
             | Cause::Stuck { .. } => at,
         }

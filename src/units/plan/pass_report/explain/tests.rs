@@ -49,7 +49,7 @@ struct Flight {
 /// Passes of low satellites that come up well, over three days.
 fn flights() -> Vec<Flight> {
     let catalog = bundled().unwrap();
-    let site = Station::default().site;
+    let site = Station::default().site.airless();
     let start: Timestamp = "2026-08-12T00:00:00Z".parse().unwrap();
     let mut flights = Vec::new();
     for number in [25_544, 43_013, 37_849, 25_338] {
@@ -131,7 +131,7 @@ fn sizes(cause: &Cause) -> Vec<f64> {
         Cause::AzimuthScale { per_mille } | Cause::ElevationScale { per_mille } => vec![per_mille],
         Cause::SlowDrives { rate_deg_s, .. } => vec![rate_deg_s],
         Cause::OtherSite { north_km, east_km } => vec![north_km, east_km],
-        Cause::OtherElements { .. } | Cause::Stuck { .. } => Vec::new(),
+        Cause::OtherElements { .. } | Cause::Refraction | Cause::Stuck { .. } => Vec::new(),
     }
 }
 
@@ -626,5 +626,40 @@ fn a_stuck_axis_is_named_with_the_time_since_when_it_stands() {
             let off_s = crate::astro::time::seconds_between(since, told).abs();
             assert!(off_s < 15.0 && named == axis, "{off_s} {named:?} for {axis:?}");
         }
+    }
+}
+
+/// A unit leaves refraction out: that is known, named where it matters, and no other cause stands
+/// in for it.
+#[test]
+fn the_refraction_that_a_unit_leaves_out_is_named_beside_any_other_cause() {
+    let mut random = Random::new(SEED);
+    let flights = flights();
+    let low = |flight: &&Flight| flight.pass.max_elevation().degrees() < 40.0;
+    for flight in flights.iter().filter(low) {
+        let site = Station::default().site;
+        let found = |exact: &[(Timestamp, AzEl)], source, random: &mut Random| {
+            let seen = noisy(exact, random);
+            Evidence::new(AZ_EL, true, deg(HALF_BEAM_DEG))
+                .with_pass(&flight.propagator, site, source, seen.into_iter())
+                .explanations(&[])
+        };
+        let alone = measured(flight, AZ_EL, &Cause::Refraction, &flight.propagator);
+        let named = found(&alone, UNIT, &mut random);
+        let [only] = named[..] else { panic!("{named:?}") };
+        assert_eq!((only.cause, only.with), (Cause::Refraction, None));
+        let offset = Cause::AzimuthOffset { offset_deg: 0.4 };
+        let both = measured_of(flight, AZ_EL, &alone, &offset, &flight.propagator);
+        let named = found(&both, UNIT, &mut random);
+        let best = named.first().unwrap();
+        let Some(Cause::AzimuthOffset { offset_deg }) =
+            best.causes().find(|it| is_same_kind(it, &offset))
+        else {
+            panic!("{named:?}")
+        };
+        assert!((offset_deg - 0.4).abs() < 0.02, "{named:?}");
+        // Azel leads by refraction, and has none to leave out.
+        let named = found(&both, PathSource::Azel, &mut random);
+        assert!(!named.iter().any(|it| it.causes().any(|it| *it == Cause::Refraction)));
     }
 }

@@ -61,7 +61,9 @@ pub(in crate::plan) fn three_antennas() -> Station {
         elevation_from_deg: 0.0,
         elevation_to_deg: 90.0,
     };
-    Station { antennas, ..Station::default() }
+    // So were these days: without refraction.
+    let site = Station::default().site.airless();
+    Station { site, antennas, ..Station::default() }
 }
 
 /// The same antennas with other travels, rates and beams.

@@ -127,6 +127,9 @@ pub(super) fn measured_of(
                 flight.propagator.look_from(there, *time).unwrap().direction
             }
             Cause::OtherElements { .. } => other.look_from(flight.site, *time).unwrap().direction,
+            Cause::Refraction => {
+                flight.propagator.look_from(flight.site.airless(), *time).unwrap().direction
+            }
             Cause::SlowDrives { rate_deg_s, axis } => {
                 let turns = rate_deg_s * STEP_S;
                 let from = axes.unwrap_or(to);
