@@ -177,16 +177,21 @@ impl<'a> Track<'a> {
         None
     }
 
-    /// The extreme within `max_s` of the guess, by halving, for a satellite that passes so close
-    /// that Newton's method does not converge; `None` if the height does not turn there.
+    /// The extreme within `max_s` of the guess, by halving, for a satellite that passes so close, or
+    /// whose height changes so little, that Newton's method does not converge; `None` if the height
+    /// does not turn there. The rate is that of exact places: SGP4's velocity lacks the pull of Sun
+    /// and Moon, which is all that moves some geosynchronous satellites.
     pub(super) fn extreme_by_halves(
         &self,
         guess_s: f64,
         max_s: f64,
         bend: Bend,
     ) -> Option<LocalState> {
-        let rises =
-            |at_s: f64| Some((self.place(at_s)?.height.rate > 0.0) == (bend == Bend::Crest));
+        let sine = |at_s: f64| Some(self.place(at_s)?.height.sine);
+        let rises = |at_s: f64| {
+            let beside_s = 0.5 * CREST_TIME_TOLERANCE_S;
+            Some((sine(at_s + beside_s)? > sine(at_s - beside_s)?) == (bend == Bend::Crest))
+        };
         let (mut before_s, mut after_s) = (guess_s - max_s, guess_s + max_s);
         if !rises(before_s)? || rises(after_s)? {
             return None;

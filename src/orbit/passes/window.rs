@@ -103,6 +103,11 @@ impl Window {
         Vector::new(ecef.dot(east.into()), ecef.dot(north.into()), ecef.dot(up.into()))
     }
 
+    /// Distance from the centre of the Earth of a place east, north, up from the site.
+    pub(super) fn radius_of_place_km(&self, enu_km: Vector<f64>) -> f64 {
+        (enu_km + self.site_enu_km.into()).length()
+    }
+
     /// The vector from the site to an Earth-fixed position, east, north, up.
     #[inline(always)]
     pub(super) fn seen_from_site<N: Number>(&self, ecef_km: Vector<N>) -> Vector<N> {
