@@ -26,7 +26,7 @@ TWIN
 pub(super) const FILE: &str = "stations.txt";
 
 pub(crate) fn site() -> Site {
-    Site::new(41.01, 29.17, 100.0).unwrap()
+    Site::new(41.01, 29.17, 100.0).unwrap().airless()
 }
 
 fn elements() -> Vec<Elements> {
