@@ -320,3 +320,13 @@ fn a_rotator_at_rest_that_reads_the_other_end_has_done_as_told() {
     let rehearsed = run(&draw(100_306).rehearsal, &|_| (), &|| false).unwrap();
     assert_eq!(rehearsed.interruptions, []);
 }
+
+/// These drawn antennas stand, or begin to move away, beside a keep-out while noise and gusts change what
+/// they read.
+#[test]
+fn readings_that_change_beside_a_keep_out_are_no_motion_into_it() {
+    for seed in [100_162, 100_201] {
+        let rehearsed = run(&draw(seed).rehearsal, &|_| (), &|| false).unwrap();
+        assert_eq!(rehearsed.interruptions, [], "seed {seed}");
+    }
+}

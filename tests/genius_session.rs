@@ -15,4 +15,5 @@ mod rescue;
 mod settings;
 mod socket;
 mod stop;
+mod sway;
 mod wire;

@@ -12,4 +12,5 @@ mod polarization;
 mod position;
 mod real;
 mod stop;
+mod sway;
 mod track;

@@ -9,7 +9,7 @@ use super::{
 use crate::{
     astro::Angle,
     clock::{Instant, Moment},
-    device::{Axis, AxisMotion, Measured},
+    device::{Axis, AxisMotion, Drive, Measured},
     driver::{
         Safety, StoppingWay,
         gate::{Interval, Intervals},
@@ -29,6 +29,8 @@ const APART: Duration = Duration::from_millis(150);
 const DIP_DEG: f64 = 0.5;
 /// Lower rates are those of a standing antenna, degrees a second.
 const SLOWEST_DEG_S: f64 = 0.02;
+/// Angles that differ by less are equal, degrees.
+const ROUNDING_DEG: f64 = 1e-6;
 /// A shorter way out is lost in the noise of the readings, degrees.
 const NOISE_DEG: f64 = 0.02;
 
@@ -41,10 +43,47 @@ pub(super) struct Watch {
     last: Option<Measured>,
     /// The last angle of each axis, degrees, and when it was asked for.
     angles: [Option<(f64, Instant)>; 2],
+    /// Where readings of each axis may be without a motion.
+    rests: [Rest; 2],
     /// Rates of the axes between the last two positions, degrees a second.
     rates_deg_s: [f64; 2],
     /// Barriers that were reported and have not been left since.
     told: Vec<Barrier>,
+}
+
+/// Readings of an axis that may stand.
+///
+/// A reading that swings within this range is rounding, noise or sway. A reading beyond an end drags the
+/// range along, so that an axis that goes on leaves it with each reading.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+struct Rest {
+    /// Distance from the last reading to the lower and to the upper end, degrees.
+    below_deg: f64,
+    above_deg: f64,
+}
+
+impl Rest {
+    /// Takes a reading that differs by `turned_deg` from the last one. Returns `true` if it is not within
+    /// a range of `width_deg` with those before.
+    fn leave(&mut self, turned_deg: f64, width_deg: f64) -> bool {
+        let below_deg = (self.below_deg + turned_deg).max(0.0);
+        let above_deg = (self.above_deg - turned_deg).max(0.0);
+        self.below_deg = below_deg.min(width_deg);
+        self.above_deg = above_deg.min(width_deg);
+        below_deg + above_deg > width_deg + ROUNDING_DEG
+    }
+}
+
+/// Returns `true` if the drive is on in the direction of this rate.
+fn is_driven(axis: Axis, rate_deg_s: f64) -> bool {
+    match axis.drive {
+        Drive::Off => false,
+        Drive::On | Drive::Jogged | Drive::Runaway => match axis.motion {
+            AxisMotion::Plus => rate_deg_s > 0.0,
+            AxisMotion::Minus => rate_deg_s < 0.0,
+            AxisMotion::Still | AxisMotion::Unknown(_) => true,
+        },
+    }
 }
 
 /// How certain it is that the antenna is inside a barrier.
@@ -110,7 +149,8 @@ impl Session {
     }
 
     /// Rates of the axes, degrees a second. One that reports no angle for a moment keeps its last
-    /// rate.
+    /// rate. One whose drive is off, or on in the other direction, turns only once it has left the range
+    /// in which a standing axis is read.
     fn rates(&mut self, look: &Measured, intervals: Intervals) -> [f64; 2] {
         let before = self.seen.watch.last;
         if before.is_some_and(|before| span(&before, look) < APART) {
@@ -118,9 +158,10 @@ impl Session {
         }
         self.seen.watch.last = Some(*look);
         let mut rates = before.map_or([0.0; 2], |before| rates_deg_s(&before, look));
-        let Watch { rates_deg_s: last_rates, angles, .. } = &mut self.seen.watch;
-        let last = last_rates.iter().zip(angles).zip(intervals.0);
-        for ((rate, axis), ((last_rate, last), interval)) in
+        let width_deg = self.alarm_figures().rest_width_deg();
+        let Watch { rates_deg_s: last_rates, angles, rests, .. } = &mut self.seen.watch;
+        let last = last_rates.iter().zip(angles).zip(rests).zip(intervals.0);
+        for ((rate, axis), (((last_rate, last), rest), interval)) in
             rates.iter_mut().zip(look.axes).zip(last)
         {
             let Some(angle_deg) = axis.angle_deg else {
@@ -129,12 +170,15 @@ impl Session {
                 }
                 continue;
             };
+            let Some((last_deg, asked)) = last.replace((angle_deg, look.asked)) else { continue };
             let bridged = before.is_some_and(|before| before.asked < look.asked);
-            if let Some((last_deg, asked)) = last.replace((angle_deg, look.asked))
-                && bridged
-                && *rate == 0.0
-            {
+            if bridged && *rate == 0.0 {
                 *rate = bridged_rate_deg_s(angle_deg - last_deg, look.asked, asked);
+            }
+            let turned_deg = Angle::from_degrees(angle_deg - last_deg).wrapped_180().degrees();
+            let has_left = rest.leave(turned_deg, width_deg);
+            if !has_left && !is_driven(axis, *rate) {
+                *rate = 0.0;
             }
         }
         // A second axis other than elevation does not belong to the antenna.

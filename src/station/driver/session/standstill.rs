@@ -16,6 +16,8 @@ const MAX_SWAY_DEG: f64 = 1.0;
 pub(super) struct Figures {
     /// Largest difference between two angles of a standing axis, degrees.
     tolerance_deg: f64,
+    /// Width of the range in which a standing axis is read, degrees.
+    rest_width_deg: f64,
     /// Time in which the unit's slowest motion shows.
     gap: Duration,
     /// Number of axes that belong to the antenna.
@@ -48,7 +50,9 @@ impl Figures {
         let shows_deg = can.standstill.resolution_deg * 1.5 + sway_deg;
         let gap_s = shows_deg / can.standstill.slowest_deg_s;
         let gap = Duration::try_from_secs_f64(gap_s).unwrap_or(Duration::from_secs(1));
-        Self { tolerance_deg, gap, axes: can.axis_count() }
+        // An angle between two steps is read as either.
+        let rest_width_deg = can.standstill.resolution_deg + sway_deg;
+        Self { tolerance_deg, rest_width_deg, gap, axes: can.axis_count() }
     }
 
     /// Time between two positions that prove standstill.
@@ -59,6 +63,11 @@ impl Figures {
     /// Largest difference between two angles of a standing axis, degrees.
     pub(super) fn tolerance_deg(self) -> f64 {
         self.tolerance_deg
+    }
+
+    /// Width of the range in which a standing axis is read, degrees.
+    pub(super) fn rest_width_deg(self) -> f64 {
+        self.rest_width_deg
     }
 
     /// Returns `true` if an axis may stand and read both angles, degrees.
