@@ -15,8 +15,7 @@ use crate::{
     station::AntennaId,
 };
 
-/// Time between two points of a pass that are used, seconds: what a drive is off by changes little
-/// in less, and points that are alike would make the model look surer than it is.
+/// Time between two points of a pass that are used, seconds: the error of a drive changes little in less.
 const APART_S: f64 = 10.0;
 /// Positions further from the satellite are a slew, or no track at all, degrees.
 const NEAR_DEG: f64 = 10.0;
@@ -50,7 +49,7 @@ pub struct FittedTerm {
     /// Degrees; for the scale, degrees a degree. `None` where the points cannot tell it, and where it
     /// was not to be fitted.
     pub value: Option<f64>,
-    /// Half of the width of the interval that holds it in 95 of 100 cases; `None` also where the
+    /// Half of the width of the interval that holds it in at least 95 of 100 cases; `None` also where the
     /// value holds a part of terms that the points cannot tell.
     pub half_of_95_percent: Option<f64>,
     /// Terms that the points cannot tell it from.
@@ -75,26 +74,29 @@ pub fn fit_pointing(
     peaks: &[Peak],
     without: Vec<Term>,
 ) -> Result<PointingFit, CannotFitPointing> {
-    let (mut count, mut points) =
-        (0, peaks.iter().map(|peak| peak.point(site)).collect::<Vec<_>>());
+    let peaks: Vec<Point> = peaks.iter().map(|peak| peak.point(site)).collect();
+    let mut runs: Vec<Vec<Point>> = Vec::new();
     if path.exists() {
         let record = Passes::open(path, site)?;
         for pass in record.newest(antenna, within, u32::MAX)? {
-            let before = points.len();
-            points.extend(thinned(&record.led_track(&pass)?, &pass.report.about.pointing_model));
-            count += usize::from(points.len() > before);
+            let run = thinned(&record.led_track(&pass)?, &pass.report.about.pointing_model);
+            if !run.is_empty() {
+                runs.push(run);
+            }
         }
     }
     let terms: Vec<Term> = Term::ALL.into_iter().filter(|term| !without.contains(term)).collect();
-    let fit = pointing::fit(&points, &terms)
-        .map_err(|why| CannotFitPointing::Points { passes: count, why })?;
-    Ok(PointingFit::new(count, &fit, without))
+    let all = runs.iter().map(Vec::as_slice).chain(peaks.chunks(1));
+    let fit = pointing::fit(all, &terms)
+        .map_err(|why| CannotFitPointing::Points { passes: runs.len(), why })?;
+    Ok(PointingFit::new(runs.len(), &fit, without))
 }
 
 fn thinned(track: &[TrackPoint], flown_with: &PointingModel) -> Vec<Point> {
     let near = track.iter().filter(|point| point.error.off_deg <= NEAR_DEG);
     let point = |point: &TrackPoint| Point {
         kind: Kind::Satellite,
+        at: point.time,
         wanted: point.satellite,
         // What the axes read.
         measured: flown_with.reading(point.antenna).unwrap_or(point.antenna),

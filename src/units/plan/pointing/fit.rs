@@ -1,9 +1,15 @@
 //! The fit of a pointing model to points, by least squares on the sphere.
+//!
+//! An interval allows for noise that successive points of a pass share and for a time error of each
+//! pass. Passes count as independent of each other.
 
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
-use super::least_squares::{LeftOut, Normal, Square};
+use super::{
+    least_squares::{LeftOut, Normal, Solution, Square},
+    run::{Noise, Run},
+};
 use crate::astro::{AzEl, PointingModel, Site, Term, sun_moon};
 
 /// Rounds of a fit: each leaves less than a tenth of what was there, and terms of some degrees are
@@ -21,6 +27,8 @@ const HIDDEN: f64 = 0.3;
 /// Fewer peaks count for no more exact than one that is found by hand, degrees.
 const FEW: usize = 5;
 const BY_HAND_DEG: f64 = 0.1;
+/// A noise is plausible if the logarithm of its likelihood is this near to that of the likeliest.
+const PLAUSIBLE: f64 = 1.0;
 /// Quantile of the normal distribution that holds 95 % on both sides.
 const NORMAL_95: f64 = 1.959_963_985;
 
@@ -40,6 +48,7 @@ pub enum Kind {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Point {
     pub kind: Kind,
+    pub at: Timestamp,
     pub wanted: AzEl,
     pub measured: AzEl,
     /// Among the points of its kind.
@@ -49,23 +58,23 @@ pub struct Point {
 impl Point {
     /// The peak of the Sun at this time.
     pub fn of_sun(site: Site, at: Timestamp, measured: AzEl, weight: f64) -> Self {
-        Self { kind: Kind::Sun, wanted: sun_moon::sun(site, at), measured, weight }
+        Self { kind: Kind::Sun, at, wanted: sun_moon::sun(site, at), measured, weight }
     }
 
     /// The peak of the Moon at this time.
     pub fn of_moon(site: Site, at: Timestamp, measured: AzEl, weight: f64) -> Self {
-        Self { kind: Kind::Moon, wanted: sun_moon::moon(site, at), measured, weight }
+        Self { kind: Kind::Moon, at, wanted: sun_moon::moon(site, at), measured, weight }
     }
 
     /// Measured minus modelled, of the azimuth on the sky and of the elevation, degrees.
-    fn rest_deg(&self, model: &PointingModel) -> Option<[f64; 2]> {
+    pub(super) fn rest_deg(&self, model: &PointingModel) -> Option<[f64; 2]> {
         let reading = model.reading(self.wanted)?;
         let azimuth = (self.measured.azimuth - reading.azimuth).wrapped_180().degrees();
         let elevation_deg = (self.measured.elevation - reading.elevation).degrees();
         Some([azimuth * self.wanted.elevation.radians().cos(), elevation_deg])
     }
 
-    fn is_usable(&self) -> bool {
+    pub(super) fn is_usable(&self) -> bool {
         let weighs = self.weight.is_finite() && self.weight > 0.0;
         let angles = [self.wanted, self.measured].map(|at| [at.azimuth, at.elevation]);
         let is_known = angles.as_flattened().iter().all(|angle| angle.is_finite());
@@ -79,7 +88,7 @@ pub enum CannotFit {
     TooFew(usize),
 }
 
-/// A term with the interval that holds it in 95 of 100 cases, in its unit.
+/// A term with the interval that holds it in at least 95 of 100 cases, in its unit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Interval {
     pub value: f64,
@@ -99,7 +108,7 @@ pub struct Alike {
 pub struct Found {
     pub kind: Kind,
     pub points: usize,
-    /// Standard deviation of one axis at the weight 1, degrees.
+    /// Standard deviation of one axis at the weight 1, degrees, without the time error of each pass.
     pub noise_deg: f64,
 }
 
@@ -123,6 +132,8 @@ pub struct Fit {
     pub shared: Vec<Term>,
     pub noise: Vec<Found>,
     covariance: Square<{ Term::COUNT }>,
+    /// The largest variance of each term by any plausible noise.
+    variances: [f64; Term::COUNT],
     /// Equations beyond the unknowns.
     freedom: usize,
 }
@@ -131,7 +142,7 @@ impl Fit {
     /// `None` for a term that was not fitted, or that holds a part of one that was not.
     pub fn interval(&self, term: Term) -> Option<Interval> {
         let is_kept = self.kept.contains(&term) && !self.shared.contains(&term);
-        let variance = is_kept.then(|| self.covariance(term, term))?;
+        let variance = is_kept.then(|| self.variances.get(term as usize).copied()).flatten()?;
         let half = student_95(self.freedom as f64) * variance.sqrt();
         Some(Interval { value: self.model.term(term), half })
     }
@@ -149,79 +160,126 @@ impl Fit {
     }
 }
 
-/// Fits those of `terms` that `points` can tell apart. The others are zero.
-pub fn fit(points: &[Point], terms: &[Term]) -> Result<Fit, CannotFit> {
+/// Fits those of `terms` that the points can tell apart. The others are zero. Each of `runs` holds the
+/// points of one pass in order of time, or one peak.
+pub fn fit<'a>(
+    runs: impl IntoIterator<Item = &'a [Point]>,
+    terms: &[Term],
+) -> Result<Fit, CannotFit> {
     let is_wanted = |term: &Term| terms.contains(term);
     let wanted: Vec<usize> =
         (0..).zip(&Term::ALL).filter(|(_, term)| is_wanted(term)).map(|(place, _)| place).collect();
-    let usable: Vec<Point> = points.iter().copied().filter(Point::is_usable).collect();
-    if usable.len() < FEWEST {
-        return Err(CannotFit::TooFew(usable.len()));
+    let runs: Vec<Run> = runs.into_iter().map(Run::new).collect();
+    let points = runs.iter().map(Run::len).sum();
+    if points < FEWEST {
+        return Err(CannotFit::TooFew(points));
     }
-    let mut model = PointingModel::default();
-    let mut noise: Vec<Found> = Vec::new();
-    let mut solved = Solved::default();
-    for _ in 0..ROUNDS {
-        let variance = |kind: Kind| {
-            let found = noise.iter().find(|found| found.kind == kind);
-            found.map_or(1.0, |found| found.noise_deg.max(found.least_deg()).powi(2))
-        };
-        let mut normal = Normal::new();
-        for point in &usable {
-            let Some(rest_deg) = point.rest_deg(&model) else { continue };
-            let effects = Term::ALL.map(|term| term.effect(point.wanted));
-            let weight = point.weight / variance(point.kind);
-            for (axis, rest_deg) in rest_deg.into_iter().enumerate() {
-                let row = effects.map(|of| of.get(axis).copied().unwrap_or_default());
-                normal.add(&row, rest_deg, weight);
-            }
-        }
-        let (kept, left_out) = normal.told_apart(&wanted);
-        let (steps, covariance) = normal.solve(&kept);
-        for (index, (term, step)) in Term::ALL.into_iter().zip(steps).enumerate() {
-            let place = model.place(term);
-            *place = if kept.contains(&index) { *place + step } else { 0.0 };
-        }
-        noise = noise_of(&usable, &model, kept.len());
-        solved = Solved { kept, left_out, covariance };
-    }
-    // The last round weighs by the noise that it finds, so that the variance of its sums is one.
+    let white = solve(&runs, Noise::WHITE, |normal| normal.told_apart(&wanted));
+    let tried: Vec<(Noise, Solution<{ Term::COUNT }>)> =
+        Noise::all().map(|noise| (noise, white.solution(&runs, noise))).collect();
+    // The weights already are those of the noise that independent points would have.
+    let unit = tried.first().map_or(1.0, |(_, independent)| independent.variance);
+    let is_less = |one: &Solution<_>, other: &Solution<_>| {
+        one.log_likelihood.total_cmp(&other.log_likelihood)
+    };
+    let likeliest = tried.iter().max_by(|(_, one), (_, other)| is_less(one, other));
+    let (noise, likeliest) = likeliest.ok_or(CannotFit::TooFew(points))?;
+    let plausible: Vec<Square<{ Term::COUNT }>> = tried
+        .iter()
+        .filter(|(_, other)| other.log_likelihood >= likeliest.log_likelihood - PLAUSIBLE)
+        .map(|(_, other)| other.scaled_covariance(unit))
+        .collect();
+    let variances = std::array::from_fn(|term| {
+        let own = plausible.iter().filter_map(|covariance| covariance.get(term)?.get(term));
+        own.copied().fold(0.0, f64::max)
+    });
+    let covariance = likeliest.scaled_covariance(unit);
+    let solved = solve(&runs, *noise, |_| (white.kept.clone(), white.left_out.clone()));
+    let solved = Solved { covariance, ..solved };
+    let Solved { model, kept, left_out, noise, freedom, .. } = &solved;
     let named = |places: &[usize]| -> Vec<Term> {
         places.iter().filter_map(|place| Term::ALL.get(*place).copied()).collect()
     };
-    let alike = solved.left_out.iter().filter_map(|out| {
+    let alike = left_out.iter().filter_map(|out| {
         Some(Alike { term: *Term::ALL.get(out.unknown)?, with: named(&out.named) })
     });
-    let shared: Vec<usize> = solved.kept.iter().copied().filter(|it| solved.shares(*it)).collect();
+    let shared: Vec<usize> = kept.iter().copied().filter(|it| solved.shares(*it)).collect();
     Ok(Fit {
-        model,
-        kept: named(&solved.kept),
+        model: *model,
+        kept: named(kept),
         alike: alike.collect(),
         shared: named(&shared),
-        noise,
-        covariance: solved.covariance,
-        freedom: (2 * usable.len()).saturating_sub(solved.kept.len()),
+        noise: noise.clone(),
+        covariance,
+        variances,
+        freedom: *freedom,
     })
+}
+
+/// Fits the terms that `select` keeps to points with this noise.
+fn solve(
+    runs: &[Run],
+    noise: Noise,
+    select: impl Fn(&Normal<{ Term::COUNT }>) -> (Vec<usize>, Vec<LeftOut>),
+) -> Solved {
+    let mut solved = Solved::default();
+    for _ in 0..ROUNDS {
+        let (normal, log_scale) = solved.normal(runs, noise);
+        let (kept, left_out) = select(&normal);
+        let solution = normal.solve(&kept, log_scale);
+        for (index, (term, step)) in Term::ALL.into_iter().zip(solution.values).enumerate() {
+            let place = solved.model.place(term);
+            *place = if kept.contains(&index) { *place + step } else { 0.0 };
+        }
+        solved.noise = noise_of(runs, &solved.model, kept.len());
+        solved.freedom = normal.freedom(kept.len());
+        let usual = |out: &LeftOut| Term::ALL.get(out.unknown).map_or(0.0, |term| usual(*term));
+        let moves = |out: &LeftOut| {
+            let moves = normal.moves(&kept, out).into_iter();
+            moves.map(|(unknown, share)| (unknown, share * usual(out))).collect::<Vec<_>>()
+        };
+        solved.moves = left_out.iter().flat_map(moves).collect();
+        (solved.kept, solved.left_out) = (kept, left_out);
+    }
+    solved
 }
 
 #[derive(Default)]
 struct Solved {
+    model: PointingModel,
     kept: Vec<usize>,
     left_out: Vec<LeftOut>,
+    /// Each unknown that is kept, and by how much a term that is left out may well change it.
+    moves: Vec<(usize, f64)>,
+    noise: Vec<Found>,
     covariance: Square<{ Term::COUNT }>,
+    freedom: usize,
 }
 
 impl Solved {
+    /// The equations at the present model, and the logarithm of the determinant of their scale.
+    fn normal(&self, runs: &[Run], noise: Noise) -> (Normal<{ Term::COUNT }>, f64) {
+        let deviation_deg = |kind: Kind| {
+            let found = self.noise.iter().find(|found| found.kind == kind);
+            found.map_or(1.0, |found| found.noise_deg.max(found.least_deg()))
+        };
+        let mut normal = Normal::new();
+        let add = |run: &Run| run.add_to(&mut normal, &self.model, noise, deviation_deg);
+        let log_scale = runs.iter().map(add).sum();
+        (normal, log_scale)
+    }
+
+    /// One more round with another noise.
+    fn solution(&self, runs: &[Run], noise: Noise) -> Solution<{ Term::COUNT }> {
+        let (normal, log_scale) = self.normal(runs, noise);
+        normal.solve(&self.kept, log_scale)
+    }
+
     /// Whether a term that is left out may well change the unknown `of` more than noise hides.
     fn shares(&self, of: usize) -> bool {
         let variance = self.covariance.get(of).and_then(|row| row.get(of)).copied();
         let hidden = HIDDEN * variance.unwrap_or_default().sqrt();
-        let moved = |out: &LeftOut| {
-            let usual = Term::ALL.get(out.unknown).map_or(0.0, |term| usual(*term));
-            let share = out.moves.iter().find(|(unknown, _)| *unknown == of);
-            share.is_some_and(|(_, share)| (share * usual).abs() > hidden)
-        };
-        self.left_out.iter().any(moved)
+        self.moves.iter().any(|(unknown, moved)| *unknown == of && moved.abs() > hidden)
     }
 }
 
@@ -231,16 +289,23 @@ fn usual(term: Term) -> f64 {
 }
 
 /// The noise of each kind, with its part of the unknowns.
-fn noise_of(points: &[Point], model: &PointingModel, unknowns: usize) -> Vec<Found> {
-    let free_share = 1.0 - unknowns as f64 / (2 * points.len()) as f64;
+fn noise_of(runs: &[Run], model: &PointingModel, unknowns: usize) -> Vec<Found> {
+    let points: usize = runs.iter().map(Run::len).sum();
+    let free_share = 1.0 - unknowns as f64 / (2 * points) as f64;
+    let residuals: Vec<_> = runs.iter().map(|run| run.residuals_deg(model)).collect();
     let of = |kind: Kind| {
-        let own = points.iter().filter(|point| point.kind == kind);
-        let rests = own.filter_map(|point| Some((point.weight, point.rest_deg(model)?)));
-        let squares = rests.map(|(weight, [a, b])| weight * (a * a + b * b));
-        let (count, sum) = squares.fold((0, 0.0), |(count, sum), it| (count + 1, sum + it));
-        let free = 2.0 * f64::from(count) * free_share;
+        let (mut count, mut times, mut sum) = (0, 0, 0.0);
+        for (points, is_timed) in &residuals {
+            let own = || points.iter().filter(|(other, ..)| *other == kind);
+            times += usize::from(*is_timed && own().next().is_some());
+            for (_, weight, [a, b]) in own() {
+                count += 1;
+                sum += weight * (a * a + b * b);
+            }
+        }
+        let free = 2.0 * count as f64 * free_share - times as f64;
         let noise_deg = (sum / free.max(1.0)).sqrt();
-        (count > 0).then_some(Found { kind, points: count as usize, noise_deg })
+        (count > 0).then_some(Found { kind, points: count, noise_deg })
     };
     [Kind::Satellite, Kind::Sun, Kind::Moon].into_iter().filter_map(of).collect()
 }

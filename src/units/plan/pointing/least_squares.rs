@@ -8,11 +8,28 @@ const NAMED_SHARE: f64 = 0.1;
 /// A matrix of so many rows and columns.
 pub(super) type Square<const N: usize> = [[f64; N]; N];
 
+/// One equation: coefficients of the unknowns, the coefficient of an unknown of its own group, and the
+/// value. Each has unit variance.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Equation<const N: usize> {
+    pub(super) row: [f64; N],
+    pub(super) own: f64,
+    pub(super) value: f64,
+}
+
 /// The sums of the equations.
 #[derive(Debug, Clone)]
 pub(super) struct Normal<const N: usize> {
     products: Square<N>,
     right: [f64; N],
+    /// Squares of the columns before the unknowns of the groups were eliminated.
+    squares: [f64; N],
+    /// Square of the values.
+    value: f64,
+    equations: usize,
+    /// Number of unknowns that were eliminated, and the logarithm of their determinant.
+    eliminated: usize,
+    log_eliminated: f64,
 }
 
 /// An unknown that is left out.
@@ -21,23 +38,75 @@ pub(super) struct LeftOut {
     pub(super) unknown: usize,
     /// Unknowns that largely make it up.
     pub(super) named: Vec<usize>,
-    /// Each unknown that is kept, and by how much one unit of what is left out changes it.
-    pub(super) moves: Vec<(usize, f64)>,
+}
+
+/// The values of the unknowns.
+#[derive(Debug, Clone)]
+pub(super) struct Solution<const N: usize> {
+    pub(super) values: [f64; N],
+    /// Their covariance for equations of unit variance.
+    pub(super) covariance: Square<N>,
+    /// Variance of an equation, as the residuals show it.
+    pub(super) variance: f64,
+    /// Logarithm of the likelihood of the residuals.
+    pub(super) log_likelihood: f64,
+}
+
+impl<const N: usize> Solution<N> {
+    /// The covariance by the variance of an equation, in units of `unit`.
+    pub(super) fn scaled_covariance(&self, unit: f64) -> Square<N> {
+        self.covariance.map(|row| row.map(|value| value * self.variance / unit))
+    }
 }
 
 impl<const N: usize> Normal<N> {
     pub(super) fn new() -> Self {
-        Self { products: [[0.0; N]; N], right: [0.0; N] }
+        Self {
+            products: [[0.0; N]; N],
+            right: [0.0; N],
+            squares: [0.0; N],
+            value: 0.0,
+            equations: 0,
+            eliminated: 0,
+            log_eliminated: 0.0,
+        }
     }
 
-    /// Adds one equation.
-    pub(super) fn add(&mut self, row: &[f64; N], value: f64, weight: f64) {
+    /// Adds the equations of a group, and eliminates the unknown that they have of their own.
+    pub(super) fn add(&mut self, group: &[Equation<N>]) {
+        let (mut own_row, mut own_value, mut own_square) = ([0.0; N], 0.0, 0.0);
+        for Equation { row, own, value } in group {
+            self.add_products(row, *value, 1.0);
+            for (square, a) in self.squares.iter_mut().zip(row) {
+                *square += a * a;
+            }
+            for (sum, a) in own_row.iter_mut().zip(row) {
+                *sum += a * own;
+            }
+            own_value += own * value;
+            own_square += own * own;
+        }
+        self.equations += group.len();
+        if own_square > 0.0 {
+            self.add_products(&own_row, own_value, -1.0 / own_square);
+            self.eliminated += 1;
+            self.log_eliminated += own_square.ln();
+        }
+    }
+
+    fn add_products(&mut self, row: &[f64; N], value: f64, weight: f64) {
         for ((products, right), a) in self.products.iter_mut().zip(&mut self.right).zip(row) {
             *right += weight * a * value;
             for (product, b) in products.iter_mut().zip(row) {
                 *product += weight * a * b;
             }
         }
+        self.value += weight * value * value;
+    }
+
+    /// Equations beyond the unknowns, `kept` of the common ones.
+    pub(super) fn freedom(&self, kept: usize) -> usize {
+        self.equations.saturating_sub(self.eliminated + kept).max(1)
     }
 
     fn product(&self, a: usize, b: usize) -> f64 {
@@ -49,10 +118,11 @@ impl<const N: usize> Normal<N> {
         let (mut kept, mut left_out): (Vec<usize>, Vec<LeftOut>) = (Vec::new(), Vec::new());
         for unknown in wanted.iter().copied() {
             let own = self.product(unknown, unknown);
-            let shares = self.solved(&kept, |other| self.product(other, unknown));
+            let square = self.squares.get(unknown).copied().unwrap_or_default();
+            let shares = self.factor(&kept).solve(|other| self.product(other, unknown));
             let made: f64 =
                 kept.iter().zip(&shares).map(|(k, s)| s * self.product(*k, unknown)).sum();
-            if own > 0.0 && own - made > own / MAX_INFLATION {
+            if own > 0.0 && own - made > square / MAX_INFLATION {
                 kept.push(unknown);
                 continue;
             }
@@ -61,25 +131,29 @@ impl<const N: usize> Normal<N> {
             };
             let named = kept.iter().zip(&shares).filter(is_large).map(|(other, _)| *other);
             let named = if own > 0.0 { named.collect() } else { Vec::new() };
-            left_out.push(LeftOut { unknown, named, moves: Vec::new() });
-        }
-        for out in &mut left_out {
-            let shares = self.solved(&kept, |other| self.product(other, out.unknown));
-            out.moves = kept.iter().copied().zip(shares).collect();
+            left_out.push(LeftOut { unknown, named });
         }
         (kept, left_out)
     }
 
-    /// The unknowns `kept`, and their covariance for a variance of one.
-    pub(super) fn solve(&self, kept: &[usize]) -> ([f64; N], Square<N>) {
-        let found =
-            self.solved(kept, |unknown| self.right.get(unknown).copied().unwrap_or_default());
+    /// By how much one unit of what is left out changes each of the unknowns `kept`.
+    pub(super) fn moves(&self, kept: &[usize], left_out: &LeftOut) -> Vec<(usize, f64)> {
+        let shares = self.factor(kept).solve(|other| self.product(other, left_out.unknown));
+        kept.iter().copied().zip(shares).collect()
+    }
+
+    /// The unknowns `kept`. `log_scale`: logarithm of the determinant by which the equations were scaled.
+    pub(super) fn solve(&self, kept: &[usize], log_scale: f64) -> Solution<N> {
+        let factor = self.factor(kept);
+        let right = |unknown: usize| self.right.get(unknown).copied().unwrap_or_default();
+        let found = factor.solve(right);
+        let explained: f64 = kept.iter().zip(&found).map(|(k, value)| right(*k) * value).sum();
         let (mut values, mut covariance) = ([0.0; N], [[0.0; N]; N]);
         for (unknown, value) in kept.iter().zip(found) {
             if let Some(place) = values.get_mut(*unknown) {
                 *place = value;
             }
-            let column = self.solved(kept, |other| f64::from(u8::from(other == *unknown)));
+            let column = factor.solve(|other| f64::from(u8::from(other == *unknown)));
             for (other, value) in kept.iter().zip(column) {
                 let place = covariance.get_mut(*other).and_then(|row| row.get_mut(*unknown));
                 if let Some(place) = place {
@@ -87,29 +161,55 @@ impl<const N: usize> Normal<N> {
                 }
             }
         }
-        (values, covariance)
+        let freedom = self.freedom(kept.len()) as f64;
+        let variance = ((self.value - explained) / freedom).max(f64::MIN_POSITIVE);
+        let log_determinant = log_scale + self.log_eliminated + factor.log_determinant();
+        let log_likelihood = -0.5 * (freedom * variance.ln() + log_determinant);
+        Solution { values, covariance, variance, log_likelihood }
     }
 
-    /// Solves the equations of `kept` for a right side, by Cholesky with columns of length one.
-    fn solved(&self, kept: &[usize], right: impl Fn(usize) -> f64) -> Vec<f64> {
-        let length = |unknown: usize| self.product(unknown, unknown).sqrt();
+    /// Factors the equations of `kept`, by Cholesky with columns of length one.
+    fn factor(&self, kept: &[usize]) -> Factor {
+        let lengths: Vec<f64> = kept.iter().map(|k| self.product(*k, *k).sqrt()).collect();
         let mut rows: Vec<Vec<f64>> = Vec::new();
-        let mut forward: Vec<f64> = Vec::new();
-        for a in kept {
+        for (a, length) in kept.iter().zip(&lengths) {
             let mut row: Vec<f64> = Vec::new();
-            for (b, other) in kept.iter().zip(&rows) {
-                let product = self.product(*a, *b) / (length(*a) * length(*b));
+            for ((b, other_length), other) in kept.iter().zip(&lengths).zip(&rows) {
+                let product = self.product(*a, *b) / (length * other_length);
                 let (before, own) = (dot(&row, other), other.last().copied().unwrap_or(1.0));
                 row.push((product - before) / own);
             }
-            let rest = right(*a) / length(*a) - dot(&row, &forward);
             let own = (1.0 - dot(&row, &row)).max(f64::MIN_POSITIVE).sqrt();
-            forward.push(rest / own);
             row.push(own);
             rows.push(row);
         }
-        let mut found = forward;
-        for (index, row) in rows.iter().enumerate().rev() {
+        Factor { kept: kept.to_vec(), lengths, rows }
+    }
+}
+
+/// Cholesky factor of the equations of some unknowns.
+struct Factor {
+    kept: Vec<usize>,
+    /// Lengths of the columns.
+    lengths: Vec<f64>,
+    /// Lower triangle, for columns of length one.
+    rows: Vec<Vec<f64>>,
+}
+
+impl Factor {
+    fn log_determinant(&self) -> f64 {
+        let own = self.rows.iter().filter_map(|row| row.last());
+        2.0 * own.zip(&self.lengths).map(|(own, length)| (own * length).ln()).sum::<f64>()
+    }
+
+    /// Solves the equations for a right side.
+    fn solve(&self, right: impl Fn(usize) -> f64) -> Vec<f64> {
+        let mut found: Vec<f64> = Vec::new();
+        for ((unknown, length), row) in self.kept.iter().zip(&self.lengths).zip(&self.rows) {
+            let rest = right(*unknown) / length - dot(row, &found);
+            found.push(rest / row.last().copied().unwrap_or(1.0));
+        }
+        for (index, row) in self.rows.iter().enumerate().rev() {
             let own = row.last().copied().unwrap_or(1.0);
             let value = found.get(index).copied().unwrap_or_default() / own;
             for (before, part) in found.iter_mut().zip(row).take(index) {
@@ -119,7 +219,7 @@ impl<const N: usize> Normal<N> {
                 *place = value;
             }
         }
-        found.iter().zip(kept).map(|(value, unknown)| value / length(*unknown)).collect()
+        found.iter().zip(&self.lengths).map(|(value, length)| value / length).collect()
     }
 }
 

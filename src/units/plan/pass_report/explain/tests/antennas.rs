@@ -159,7 +159,7 @@ fn elsewhere(site: Site, north_km: f64, east_km: f64) -> Site {
     let latitude_deg = site.latitude().degrees() + north_km * 1000.0 / metres_per_deg;
     let shrunk = site.latitude().radians().cos();
     let longitude_deg = site.longitude().degrees() + east_km * 1000.0 / (metres_per_deg * shrunk);
-    Site::new(latitude_deg, longitude_deg, site.altitude_m()).unwrap()
+    Site::new(latitude_deg, longitude_deg, site.altitude_m()).unwrap().airless()
 }
 
 /// Directions with this much turned on the sky, degrees: to the right and up.
