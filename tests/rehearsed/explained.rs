@@ -119,7 +119,7 @@ struct Case {
 
 impl Case {
     fn without_fault(name: &'static str, half_beam_deg: f64, mechanics: Mechanics) -> Self {
-        let site = Station::default().site;
+        let site = Station::default().site.airless();
         let (old, trouble, is_stopped) = (None, None, false);
         Self { name, half_beam_deg, mechanics, site, old, trouble, is_stopped }
     }
@@ -153,7 +153,8 @@ impl Case {
                 let here = case.site;
                 let latitude_deg = here.latitude().degrees() + 0.15 * off_deg;
                 let longitude_deg = here.longitude().degrees() + 0.2 * other_deg;
-                case.site = Site::new(latitude_deg, longitude_deg, here.altitude_m()).unwrap();
+                let there = Site::new(latitude_deg, longitude_deg, here.altitude_m()).unwrap();
+                case.site = there.airless();
             }
             "clock" => {
                 let late = Duration::from_millis((off_deg.abs() * 2500.0) as u64);
@@ -304,7 +305,7 @@ fn named(report: &RecordedReport) -> Vec<String> {
     let causes = report
         .causes
         .iter()
-        .flat_map(|found| found.causes())
+        .flat_map(azel::plan::pass_report::Explanation::causes)
         .map(|cause| kind(serde_json::to_value(cause).unwrap()["cause"].clone()));
     causes.chain(lost.filter(is_from_outside)).collect()
 }

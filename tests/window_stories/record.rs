@@ -744,10 +744,10 @@ fn two_causes_that_act_together_stand_together_and_the_passes_before_are_told() 
         );
         window.get_by_label(&said);
         // One correction types both in.
-        window.query_all_by_label("Apply…").nth(0).unwrap().scroll_to_me();
+        window.query_all_by_label("Apply…").next().unwrap().scroll_to_me();
         settle(&mut window);
         let _ = asked(&mut window);
-        window.query_all_by_label("Apply…").nth(0).unwrap().click();
+        window.query_all_by_label("Apply…").next().unwrap().click();
         let _ = asked(&mut window);
         window.state_mut().model.view = View::Antennas;
         settle(&mut window);

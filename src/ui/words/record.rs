@@ -73,24 +73,19 @@ pub fn cause_in_short(pass: &RecordedPass) -> Option<String> {
         return None;
     }
     let lost = report.losses.iter().max_by(by_length);
-    let named = pass.report.causes.first();
-    match (lost, named) {
-        // These say when the antenna was off its satellite; the cause says why.
-        (None, Some(best))
-        | (
-            Some(LostStretch {
-                cause: LossCause::LateStart | LossCause::EarlyEnd | LossCause::OutsideBeam,
-                ..
-            }),
-            Some(best),
-        ) => Some(causes(best) + &or_alike(&pass.report.causes)),
-        (None | Some(LostStretch { cause: LossCause::OutsideBeam, .. }), None) => {
-            Some("Not explained".to_owned())
-        }
-        (Some(lost), _) => {
-            Some(format!("{} {}", loss(lost.cause), format::duration(lost.seconds())))
-        }
+    // These say when the antenna was off its satellite; a cause of the error says why.
+    let is_off = |lost: &LostStretch| {
+        use LossCause::{EarlyEnd, LateStart, OutsideBeam};
+        matches!(lost.cause, LateStart | EarlyEnd | OutsideBeam)
+    };
+    if let Some(best) = pass.report.causes.first()
+        && lost.is_none_or(is_off)
+    {
+        return Some(causes(best) + &or_alike(&pass.report.causes));
     }
+    let lost = lost.filter(|lost| lost.cause != LossCause::OutsideBeam);
+    let words = lost.map(|lost| (loss(lost.cause), format::duration(lost.seconds())));
+    Some(words.map_or("Not explained".to_owned(), |(word, lasts)| format!("{word} {lasts}")))
 }
 
 /// Why a stretch was lost, in the words of a list.

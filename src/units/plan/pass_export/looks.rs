@@ -156,7 +156,8 @@ mod tests {
             serde_json::from_str(&written(LookFormat::Json, 30.0, Some(1e8))).unwrap();
         let csv = written(LookFormat::Csv, 30.0, Some(1e8));
         let table = written(LookFormat::Table, 30.0, Some(1e8));
-        assert_eq!((rows.len(), csv.lines().count(), table.lines().count()), (3, 4, 4));
+        // The last line of the table says which elevations these are.
+        assert_eq!((rows.len(), csv.lines().count(), table.lines().count()), (3, 4, 5));
         let head = "time,azimuth_deg,elevation_deg,range_km,range_rate_km_s,doppler_hz";
         assert_eq!(csv.lines().next(), Some(head));
         for ((row, csv), table) in rows.iter().zip(csv.lines().skip(1)).zip(table.lines().skip(1)) {

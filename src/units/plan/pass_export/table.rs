@@ -85,7 +85,8 @@ mod tests {
         assert_eq!(
             text,
             "AOS (UTC)               az   TCA         az    el   LOS         az      lasts     number  name                   age\n\
-             <2026-08-12 01:02:03 350.5   01:07:00  80.2  45.1   01:12:00> 170.0       9:57      25544  ISS, (ZARYA); \"1\"    1.0 d\n"
+             <2026-08-12 01:02:03 350.5   01:07:00  80.2  45.1   01:12:00> 170.0       9:57      25544  ISS, (ZARYA); \"1\"    1.0 d\n\
+             Elevations are geometric, without refraction.\n"
         );
     }
 
@@ -97,7 +98,8 @@ mod tests {
         assert_eq!(
             text,
             "AOS (UTC)               az   TCA         az    el   LOS                    az      lasts     number  name                   age\n \
-             2026-08-12 01:02:03 350.5   01:07:00  80.2  45.1   2026-08-14 00:12:00> 170.0   47:09:57      25544  ISS, (ZARYA); \"1\"    1.0 d\n"
+             2026-08-12 01:02:03 350.5   01:07:00  80.2  45.1   2026-08-14 00:12:00> 170.0   47:09:57      25544  ISS, (ZARYA); \"1\"    1.0 d\n\
+             Elevations are geometric, without refraction.\n"
         );
     }
 }
