@@ -326,7 +326,10 @@ fn a_rotator_at_rest_that_reads_the_other_end_has_done_as_told() {
 #[test]
 fn readings_that_change_beside_a_keep_out_are_no_motion_into_it() {
     for seed in [100_162, 100_201] {
-        let rehearsed = run(&draw(seed).rehearsal, &|_| (), &|| false).unwrap();
+        let mut rehearsal = draw(seed).rehearsal;
+        // These passes were drawn without refraction.
+        rehearsal.station.site = rehearsal.station.site.airless();
+        let rehearsed = run(&rehearsal, &|_| (), &|| false).unwrap();
         assert_eq!(rehearsed.interruptions, [], "seed {seed}");
     }
 }
