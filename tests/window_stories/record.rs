@@ -67,7 +67,7 @@ fn flown(model: &Model) -> Vec<OpenedPass> {
 fn opened(model: &Model, id: i64, pass: &Pass, verdict: PassVerdict) -> OpenedPass {
     let elements = bundled().unwrap().get(NOAA_20).unwrap().clone();
     let propagator = Propagator::new(&elements).unwrap();
-    let site = model.station.site;
+    let site = model.station.site.airless();
     let at = |time| propagator.look_from(site, time).unwrap().direction;
     let (from, until) = (pass.aos.time, pass.los.time);
     let late_s = if verdict == PassVerdict::Good { 0.02 } else { LATE_S };

@@ -113,7 +113,12 @@ impl<'a> InTheWay<'a> {
     /// Of another site than that of the pass the mask says nothing, and of an antenna that is gone
     /// nothing is known.
     fn of(model: &'a Model, opened: &OpenedPass) -> Self {
-        let is_here = opened.pass.report.site.is_none_or(|site| site == model.station.site);
+        // The same place, whatever its refraction is set to since.
+        let is_here = opened
+            .pass
+            .report
+            .site
+            .is_none_or(|site| site.airless() == model.station.site.airless());
         let antenna = model.antennas.iter().find(|of| of.id() == opened.pass.antenna);
         Self {
             mask: model.station.horizon_mask.as_ref().filter(|_| is_here),

@@ -81,7 +81,9 @@ pub fn cause_in_short(pass: &RecordedPass) -> Option<String> {
     if let Some(best) = pass.report.causes.first()
         && lost.is_none_or(is_off)
     {
-        return Some(causes(best) + &or_alike(&pass.report.causes));
+        // Two with their sizes are longer than a row.
+        let words = if best.with.is_some() { names(best) } else { causes(best) };
+        return Some(words + &or_alike(&pass.report.causes));
     }
     let lost = lost.filter(|lost| lost.cause != LossCause::OutsideBeam);
     let words = lost.map(|lost| (loss(lost.cause), format::duration(lost.seconds())));
@@ -126,7 +128,7 @@ pub fn cause(cause: &Cause) -> &'static str {
         Cause::AzimuthScale { .. } => "Azimuth scale",
         Cause::ElevationScale { .. } => "Elevation scale",
         Cause::OtherElements { .. } => "Other elements",
-        Cause::Refraction => "Refraction left out",
+        Cause::Refraction => "No refraction",
         Cause::OtherSite { .. } => "Other site",
         Cause::SlowDrives { axis: None, .. } => "Slow drives",
         Cause::SlowDrives { axis: Some(Axis::Azimuth), .. } => "Slow azimuth",
@@ -474,8 +476,9 @@ fn or_alike(explanations: &[Explanation]) -> String {
     let others: Vec<String> = others.map(|name| name.to_lowercase()).collect();
     match &others[..] {
         [] => String::new(),
-        [one] => format!(" or {one}"),
-        several => format!(" or one of {} others", several.len()),
+        [one] if explanations.iter().all(|it| it.with.is_none()) => format!(" or {one}"),
+        [_] => " or another".to_owned(),
+        several => format!(" or {} others", several.len()),
     }
 }
 
@@ -504,7 +507,7 @@ mod tests {
         assert_eq!(or_alike(&[late, set]), " or other elements");
         assert!(told(&[late, slow]).ends_with("A slower pass can."));
         assert!(told(&[late, azimuth]).ends_with("A pass in another part of the sky can."));
-        assert_eq!(or_alike(&[late, set, azimuth]), " or one of 2 others");
+        assert_eq!(or_alike(&[late, set, azimuth]), " or 2 others");
         let said = |causes: &[Explanation]| {
             explained(&Explained { causes: causes.to_vec(), error_deg: 0.5 })
         };

@@ -86,6 +86,8 @@ impl Point {
 pub enum CannotFit {
     #[error("{0} usable points are too few")]
     TooFew(usize),
+    #[error("no model fits the points; remove peaks of the Sun or the Moon that are far off")]
+    Diverges,
 }
 
 /// A term with the interval that holds it in at least 95 of 100 cases, in its unit.
@@ -174,7 +176,13 @@ pub fn fit<'a>(
     if points < FEWEST {
         return Err(CannotFit::TooFew(points));
     }
-    let white = solve(&runs, Noise::WHITE, |normal| normal.told_apart(&wanted));
+    // A peak that is far off counts little from the start, or it would lead the model away.
+    let noise = noise_of(&runs, &PointingModel::default(), 0);
+    let start = Solved { noise, ..Solved::default() };
+    let white = solve(&runs, Noise::WHITE, start, |normal| normal.told_apart(&wanted));
+    if !white.is_finite() {
+        return Err(CannotFit::Diverges);
+    }
     let tried: Vec<(Noise, Solution<{ Term::COUNT }>)> =
         Noise::all().map(|noise| (noise, white.solution(&runs, noise))).collect();
     // The weights already are those of the noise that independent points would have.
@@ -194,7 +202,9 @@ pub fn fit<'a>(
         own.copied().fold(0.0, f64::max)
     });
     let covariance = likeliest.scaled_covariance(unit);
-    let solved = solve(&runs, *noise, |_| (white.kept.clone(), white.left_out.clone()));
+    let solved =
+        solve(&runs, *noise, white.clone(), |_| (white.kept.clone(), white.left_out.clone()));
+    let solved = if solved.is_finite() { solved } else { white.clone() };
     let solved = Solved { covariance, ..solved };
     let Solved { model, kept, left_out, noise, freedom, .. } = &solved;
     let named = |places: &[usize]| -> Vec<Term> {
@@ -216,13 +226,13 @@ pub fn fit<'a>(
     })
 }
 
-/// Fits the terms that `select` keeps to points with this noise.
+/// Fits the terms that `select` keeps to points with this noise, from `solved` on.
 fn solve(
     runs: &[Run],
     noise: Noise,
+    mut solved: Solved,
     select: impl Fn(&Normal<{ Term::COUNT }>) -> (Vec<usize>, Vec<LeftOut>),
 ) -> Solved {
-    let mut solved = Solved::default();
     for _ in 0..ROUNDS {
         let (normal, log_scale) = solved.normal(runs, noise);
         let (kept, left_out) = select(&normal);
@@ -244,7 +254,7 @@ fn solve(
     solved
 }
 
-#[derive(Default)]
+#[derive(Debug, Clone, Default)]
 struct Solved {
     model: PointingModel,
     kept: Vec<usize>,
@@ -257,6 +267,11 @@ struct Solved {
 }
 
 impl Solved {
+    /// Returns `false` if the model has been led out of the sky.
+    fn is_finite(&self) -> bool {
+        Term::ALL.into_iter().all(|term| self.model.term(term).is_finite())
+    }
+
     /// The equations at the present model, and the logarithm of the determinant of their scale.
     fn normal(&self, runs: &[Run], noise: Noise) -> (Normal<{ Term::COUNT }>, f64) {
         let deviation_deg = |kind: Kind| {
