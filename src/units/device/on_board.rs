@@ -69,8 +69,11 @@ impl Place {
     /// This place at the altitude of `site`, or `site` where its step hides the difference; `None`
     /// if no such place exists.
     pub fn beside(self, site: Site) -> Option<Site> {
-        let step_km = self.step_deg.to_radians() * MEAN_RADIUS_KM;
-        if self.km_from(site) <= step_km {
+        let away_deg = [
+            self.latitude_deg - site.latitude().degrees(),
+            self.longitude_deg - site.longitude().degrees(),
+        ];
+        if away_deg.iter().all(|away_deg| away_deg.abs() <= self.step_deg + 1e-9) {
             return Some(site);
         }
         let there = Site::new(self.latitude_deg, self.longitude_deg, site.altitude_m()).ok()?;

@@ -116,15 +116,7 @@ impl<'a> UnitPath<'a> {
 /// The location that a unit reports, at the altitude of `ours`. A location that equals `ours` to
 /// its resolution is `ours`.
 pub(super) fn site(told: &OnBoard, ours: Site) -> Option<Site> {
-    let place = told.place?;
-    let away_deg = [
-        place.latitude_deg - ours.latitude().degrees(),
-        place.longitude_deg - ours.longitude().degrees(),
-    ];
-    if away_deg.iter().all(|away_deg| away_deg.abs() <= place.step_deg + 1e-9) {
-        return Some(ours);
-    }
-    Site::new(place.latitude_deg, place.longitude_deg, ours.altitude_m()).ok()
+    told.place?.beside(ours)
 }
 
 /// Error of the azimuth that a north offset makes. The zero of the offset is that of the mount,
