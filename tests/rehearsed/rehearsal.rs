@@ -34,16 +34,21 @@ const AT_MOST: SignedDuration = SignedDuration::from_mins(10);
 /// from there, the rates of its axes are learned.
 const PARKED: [u16; 2] = [1830, 930];
 
-/// Antennas of these names, for passes of METEOR-M2 4 and NOAA 20.
-fn station(names: &[&str]) -> Station {
-    let mut station = Station { favourites: [59_051, 43_013].into(), ..units::station() };
-    // Without a calibration, it can be sent nowhere.
+/// The same station with an RC2000C that is calibrated: without, it can be sent nowhere.
+pub(super) fn calibrated(mut station: Station) -> Station {
     let demo =
         Station::demo(&DemoAddresses { rc2000c: "horn:1".to_owned(), ..DemoAddresses::default() });
     let of_demo = demo.antennas.iter().find(|antenna| antenna.name == "RC2000C").unwrap();
     let horn = station.antennas.iter_mut().find(|antenna| antenna.name == "Horn").unwrap();
     horn.mount = of_demo.mount;
     horn.connection = of_demo.connection.clone();
+    station
+}
+
+/// Antennas of these names, for passes of METEOR-M2 4 and NOAA 20.
+fn station(names: &[&str]) -> Station {
+    let mut station =
+        calibrated(Station { favourites: [59_051, 43_013].into(), ..units::station() });
     station.antennas.retain(|antenna| names.contains(&&*antenna.name));
     station
 }

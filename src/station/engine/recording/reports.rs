@@ -11,13 +11,13 @@ use crate::{
         Angle, PointingModel, Site,
         time::{add_seconds, apart, seconds_between},
     },
-    driver::{PositionLog, TimeSync, TrackView},
+    clock::Instant as Steady,
+    driver::{LinkState, PositionLog, TimeSync, TrackView},
     engine::{
         Antenna, CatalogState, Engine,
         antenna::AntennaModel,
         automatic::{Duty, Flight, Flown, is_same_pass},
         passes::mount_limits,
-        status::LinkStatus,
     },
     job::{Job, Wake},
     library::History,
@@ -180,7 +180,7 @@ impl Engine {
     fn look_at_passes(&mut self) {
         for pass in &mut self.recording.followed {
             let antenna = self.antennas.iter().find(|of| of.shown.id() == pass.antenna);
-            pass.look(antenna, self.time_sync, self.now);
+            pass.look(antenna, self.time_sync, self.now, self.steady);
         }
     }
 
@@ -350,7 +350,7 @@ impl Followed {
     }
 
     /// Takes what is new of the pass.
-    fn look(&mut self, antenna: Option<&Antenna>, sync: TimeSync, now: Timestamp) {
+    fn look(&mut self, antenna: Option<&Antenna>, sync: TimeSync, now: Timestamp, steady: Steady) {
         if let Some(antenna) = antenna {
             let positions = antenna.handle.positions();
             if !positions.is_same(&self.positions) {
@@ -358,8 +358,16 @@ impl Followed {
                 (self.positions, self.next_position) = (positions.clone(), 0);
             }
             let snapshot = &antenna.shown.snapshot;
-            let link = LinkStatus::of(&antenna.shown);
-            self.breaks.note_link(now, link == LinkStatus::Lost);
+            let lost_since = match snapshot.link {
+                LinkState::Lost { since, .. } => {
+                    Some(add_seconds(now, -steady.saturating_duration_since(since).as_secs_f64()))
+                }
+                LinkState::Off
+                | LinkState::Connecting { .. }
+                | LinkState::Up { .. }
+                | LinkState::Stale { .. } => None,
+            };
+            self.breaks.note_link(now, lost_since);
             let view = snapshot.program_track.as_ref();
             let number = self.elements.catalog_number();
             let shown = &antenna.shown;

@@ -22,14 +22,15 @@ pub struct Breaks {
 }
 
 impl Breaks {
-    /// Takes the state of the link at `now`, again and again.
-    pub fn note_link(&mut self, now: Timestamp, is_lost: bool) {
-        match self.lost.last_mut().filter(|_| self.is_lost) {
-            Some((_, until)) => *until = now,
-            None if is_lost => self.lost.push((now, now)),
-            None => {}
+    /// Takes the state of the link at `now`, again and again: since when it is lost, which may be
+    /// some seconds before that was noticed.
+    pub fn note_link(&mut self, now: Timestamp, lost_since: Option<Timestamp>) {
+        match (self.lost.last_mut().filter(|_| self.is_lost), lost_since) {
+            (Some((_, until)), _) => *until = now,
+            (None, Some(since)) => self.lost.push((since, now)),
+            (None, None) => {}
         }
-        self.is_lost = is_lost;
+        self.is_lost = lost_since.is_some();
     }
 
     /// Takes a STOP that was pressed at `now`.

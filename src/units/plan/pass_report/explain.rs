@@ -21,6 +21,8 @@ use crate::orbit::Propagator;
 const MIN_POSITIONS: usize = 20;
 /// A cause explains at least this share of the mean square error that is not noise.
 const MIN_SHARE: f64 = 0.85;
+/// What no cause explains is at most this share of the mean square error, noise and all.
+const MAX_LEFT: f64 = 0.5;
 /// Without its cause, no more than this share of the positions would have been out of the beam.
 const MAX_OUTSIDE: f64 = 0.05;
 /// Two causes whose sums of squares differ by less than this many times the variance of the noise
@@ -244,6 +246,7 @@ impl Evidence<'_> {
     fn is_explained(&self, fit: Fit, whole: f64) -> bool {
         whole - fit.left > SURE * fit.variance
             && self.share(fit.left, whole) >= MIN_SHARE
+            && fit.left <= MAX_LEFT * whole
             && fit.outside <= MAX_OUTSIDE
     }
 

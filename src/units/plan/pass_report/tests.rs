@@ -437,7 +437,8 @@ fn a_lost_link_and_a_stop_are_told_as_what_they_are() {
     let unknown = flown(&scene);
     assert_eq!(causes(&unknown), [LossCause::NotMeasured, LossCause::EarlyEnd]);
     for second in 0..400 {
-        scene.breaks.note_link(at(&scene, second), (103..130).contains(&second));
+        let since = (103..130).contains(&second).then(|| at(&scene, 103));
+        scene.breaks.note_link(at(&scene, second), since);
     }
     let mut late = scene.breaks.clone();
     scene.breaks.note_stop(at(&scene, 200));
