@@ -48,8 +48,14 @@ impl App {
         });
         let until = predicted.map_or_else(|| model.plan_until(), |it| it.pass.los.time);
         let hours = (seconds_between(from, until) / 3600.0).max(SHORTEST_H);
+        let mut station = Station::clone(&model.station);
+        if let Some(key) = pass {
+            // Others might take it instead.
+            let own = model.antennas_of(key);
+            station.antennas.retain(|antenna| own.contains(&antenna.id));
+        }
         let what = Rehearsal {
-            station: Station::clone(&model.station),
+            station,
             elements: Arc::clone(catalog),
             from,
             hours,

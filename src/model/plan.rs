@@ -87,6 +87,18 @@ impl Model {
         add_seconds(self.now, self.station.scheduling.span_h * 3600.0)
     }
 
+    /// The antennas that take a pass in the plan; the selected one where none does.
+    pub fn antennas_of(&self, key: PassKey) -> Vec<AntennaId> {
+        let entries = self.schedule.schedule.entries.iter();
+        let own = entries.filter(|entry| is_same((entry.pass.satellite, entry.pass.aos), key));
+        let own: Vec<AntennaId> = own.map(|entry| entry.antenna).collect();
+        if own.is_empty() {
+            self.antenna().map(AntennaModel::id).into_iter().collect()
+        } else {
+            own
+        }
+    }
+
     /// What it costs in the schedule shown to take this pass, once that is known.
     pub fn swap_of(&self, pass: PassKey) -> Option<&Swap> {
         let fits = |swap: &&Swap| swap.pass == pass && swap.revision == self.schedule.revision;

@@ -573,6 +573,18 @@ fn the_plan_is_rehearsed_and_what_came_of_it_stands_beside_the_pass_as_a_rehears
     let (satellite, aos) = select(&mut window, 0);
     window.get_by_role_and_label(Role::Button, "Rehearse this pass").click();
     assert_eq!(rig::asked(&mut window), [UiCommand::Rehearse(Some((satellite, aos)))]);
+    // Only the antennas that take it are rehearsed; the selected one where none does.
+    let model = &window.state().model;
+    let entries = &model.schedule.schedule.entries;
+    for entry in entries {
+        let key = (entry.pass.satellite, entry.pass.aos);
+        let own: Vec<_> = entries.iter().filter(|of| of.pass == entry.pass).collect();
+        let own: Vec<_> = own.iter().map(|entry| entry.antenna).collect();
+        assert_eq!(model.antennas_of(key), own);
+    }
+    assert!(!entries.is_empty());
+    let selected = model.antenna().unwrap().id();
+    assert_eq!(model.antennas_of((1, aos)), [selected]);
     let antenna = window.state().model.antennas[0].id();
     let cause = Some(MissCause::Lost(LossCause::LinkLost));
     let flown = Flown {

@@ -372,7 +372,9 @@ impl Reach {
             Mount::AzEl { .. } => {
                 let near_s = TURN_DEG / self.drives.rates_deg_s[0];
                 let is_near = |slew: &Timestamp| seconds_between(*slew, at.time).abs() <= near_s;
-                if slews.iter().any(is_near) {
+                if !self.drives.mount.reaches(direction) {
+                    Loss::OutOfReach
+                } else if slews.iter().any(is_near) {
                     Loss::Slew
                 } else if direction.elevation_deg() >= OVERHEAD_FROM_DEG {
                     Loss::Overhead

@@ -57,7 +57,10 @@ fn lost(
     let Some(first) = first else { return (lost, Loss::OutOfReach) };
     let near_s = TURN_DEG / limits.maximum_rate_deg_s;
     let is_near = |slew: &Sample| seconds_between(slew.time, first.time).abs() <= near_s;
-    let at = if planned.slews.iter().filter_map(|index| samples.get(*index)).any(is_near) {
+    let at = if !limits.mount.reaches(first.direction) {
+        // Beyond the travel no rate of the axis would help.
+        Loss::OutOfReach
+    } else if planned.slews.iter().filter_map(|index| samples.get(*index)).any(is_near) {
         Loss::Slew
     } else if first.direction.elevation_deg() >= OVERHEAD_FROM_DEG {
         Loss::Overhead
@@ -148,6 +151,14 @@ mod tests {
         let lost = super::trackability(&west, limits(200.0, 3.0));
         assert!(matches!(lost, Trackability::Nothing | Trackability::Loses { .. }), "{lost:?}");
         assert_ne!(lost, Trackability::Whole);
+    }
+
+    /// A high pass that leaves the travel is lost there and not overhead.
+    #[test]
+    fn beyond_the_travel_a_high_satellite_is_out_of_reach() {
+        let lost = super::trackability(&pass(150.0, 75.0), limits(120.0, 30.0));
+        let Trackability::Loses { at, seconds, .. } = lost else { panic!("{lost:?}") };
+        assert!(at == Loss::OutOfReach && seconds > 60.0, "{at:?} {seconds}");
     }
 
     #[test]
