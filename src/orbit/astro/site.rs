@@ -165,7 +165,7 @@ struct SiteFields {
     latitude_deg: f64,
     longitude_deg: f64,
     altitude_m: f64,
-    /// What was written before there was refraction knew none.
+    /// A station file from before this setting has no refraction.
     #[serde(default = "Refraction::none")]
     refraction: Refraction,
 }

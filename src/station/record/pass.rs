@@ -86,7 +86,7 @@ impl AboutTrack {
             TrackedBy::ProgramTrack => PathSource::Azel,
             TrackedBy::OnBoard | TrackedBy::Elsewhere => PathSource::Unit {
                 clock_ahead_s: self.unit_clock_ahead_s,
-                place: self.unit_place.and_then(|place| place.beside(site)),
+                place: self.unit_place.and_then(|place| place.as_site(site)),
             },
         }
     }

@@ -68,7 +68,7 @@ impl Place {
 
     /// This place at the altitude of `site`, or `site` where its step hides the difference; `None`
     /// if no such place exists.
-    pub fn beside(self, site: Site) -> Option<Site> {
+    pub fn as_site(self, site: Site) -> Option<Site> {
         let away_deg = [
             self.latitude_deg - site.latitude().degrees(),
             self.longitude_deg - site.longitude().degrees(),

@@ -47,12 +47,12 @@ const NOT_KNOWN_S: f64 = 10.0;
 pub struct TrackedPass<'a> {
     pub propagator: &'a Propagator,
     pub site: Site,
-    /// What counts: what the plan gives the antenna, or without a plan all from AOS to LOS above the
-    /// antenna's minimum elevation.
+    /// The part that counts: the one that the plan gives the antenna, or without a plan all from AOS to
+    /// LOS above the antenna's minimum elevation.
     pub from: Timestamp,
     pub until: Timestamp,
     pub limits: MountLimits,
-    /// What could be had of that.
+    /// The share of that part that the mount can track.
     pub trackability: Trackability,
     /// When the program ended, if that was before the pass was over.
     pub ended: Option<Timestamp>,

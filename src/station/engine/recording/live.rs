@@ -34,7 +34,7 @@ pub(super) struct Live {
     /// `None` before the first look, which reads them.
     others: Option<Others>,
     begun: Option<Timestamp>,
-    /// What could be had of the pass.
+    /// The part of the pass that the mount can track.
     trackability: Option<Trackability>,
     found: Option<Explained>,
 }

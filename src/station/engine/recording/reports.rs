@@ -76,10 +76,10 @@ pub(super) struct Followed {
     pub(super) live: Live,
 }
 
-/// What is worked out when a pass is over.
+/// The results of a pass that is over.
 pub(super) struct Finished {
     note: Option<PassNote>,
-    /// What the list of the day tells of a pass of the schedule.
+    /// The line of a scheduled pass in the list of the day.
     flown: Option<(AntennaId, Flown)>,
 }
 
@@ -337,7 +337,7 @@ fn about(antenna: &AntennaModel, begun: Timestamp, sync: TimeSync) -> AboutTrack
 }
 
 impl Followed {
-    /// What counts of the pass: the part that the plan gives to the antenna, or all of it.
+    /// The part of the pass that counts: the one that the plan gives to the antenna, or all.
     fn counted(&self) -> (Timestamp, Timestamp) {
         self.planned.map_or((self.from, self.until), |duty| (duty.from, duty.until))
     }
@@ -470,7 +470,7 @@ impl Followed {
         Finished { note: Some(note), flown: told }
     }
 
-    /// What could be had of what counts. Where the mount loses something, the plan says how much and why.
+    /// The part that counts and that the mount can track. The plan says how much the mount loses, and why.
     pub(super) fn trackability(&self) -> Trackability {
         let (first, last) = self.counted();
         let count = (seconds_between(first, last) / STEP_S) as u32;

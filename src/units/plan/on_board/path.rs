@@ -116,7 +116,7 @@ impl<'a> UnitPath<'a> {
 /// The location that a unit reports, at the altitude of `ours`. A location that equals `ours` to
 /// its resolution is `ours`.
 pub(super) fn site(told: &OnBoard, ours: Site) -> Option<Site> {
-    told.place?.beside(ours)
+    told.place?.as_site(ours)
 }
 
 /// Error of the azimuth that a north offset makes. The zero of the offset is that of the mount,

@@ -21,7 +21,7 @@ use crate::orbit::Propagator;
 const MIN_POSITIONS: usize = 20;
 /// A cause explains at least this share of the mean square error that is not noise.
 const MIN_SHARE: f64 = 0.85;
-/// What no cause explains is at most this share of the mean square error, noise and all.
+/// Maximum share of the mean square error, noise included, that a cause leaves.
 const MAX_LEFT: f64 = 0.5;
 /// Without its cause, no more than this share of the positions would have been out of the beam.
 const MAX_OUTSIDE: f64 = 0.05;
@@ -134,7 +134,7 @@ impl Cause {
 pub struct Explanation {
     #[serde(flatten)]
     pub cause: Cause,
-    /// What acts together with it; `None` where it acts alone.
+    /// The cause that acts together with it; `None` if it acts alone.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub with: Option<Cause>,
     /// Root mean square of what is left, degrees.
@@ -167,7 +167,7 @@ struct Found {
     fit: Fit,
 }
 
-/// What a model of the antenna leaves of the error.
+/// The error that a model of the antenna leaves.
 #[derive(Debug, Clone, Copy)]
 struct Fit {
     /// Sum of the squares that are left.
