@@ -173,7 +173,7 @@ impl TrackedPass<'_> {
         lost
     }
 
-    /// What the mount had to lose between two times, if that is where it had to lose something, and no
+    /// The loss of the mount between two times, if that is where it had to lose something, and no
     /// more than it had to.
     fn loss_of_mount(&self, from: Timestamp, until: Timestamp) -> Option<LossCause> {
         let Trackability::Loses { at, from: first, until: last, .. } = self.trackability else {

@@ -1,4 +1,4 @@
-//! What is known of a pass, stretch by stretch.
+//! The state of a pass, stretch by stretch.
 
 use jiff::Timestamp;
 

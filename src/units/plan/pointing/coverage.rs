@@ -44,7 +44,7 @@ impl Draws {
         from + (to - from) * self.share()
     }
 
-    /// Of the normal distribution, by the polar method.
+    /// A number from the normal distribution, by the polar method.
     fn normal(&mut self) -> f64 {
         loop {
             let (a, b) = (self.between(-1.0, 1.0), self.between(-1.0, 1.0));
@@ -152,7 +152,7 @@ impl Errors {
         [beam[0].atan2(beam[1]), beam[2].asin()]
     }
 
-    /// What the axes read while the beam is there, radians.
+    /// The readings of the axes while the beam is there, radians.
     fn reading(&self, sky: [f64; 2]) -> [f64; 2] {
         let mut axes = sky;
         for _ in 0..40 {

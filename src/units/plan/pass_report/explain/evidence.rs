@@ -183,7 +183,7 @@ impl<'a> Evidence<'a> {
         self.sources.iter().any(|source| matches!(source, PathSource::Unit { place: None, .. }))
     }
 
-    /// What is left where the antenna is taken to point as `model` says.
+    /// The fit of a model: where it says that the antenna pointed.
     pub(super) fn fit_of(&self, model: impl Fn(&Point<'_>) -> Option<AzEl>) -> Fit {
         let left = self.passes.iter().map(|points| {
             let left = points.iter().map(|point| {

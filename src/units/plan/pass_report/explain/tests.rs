@@ -536,7 +536,7 @@ fn slow_drives_of_crossed_axes_are_told_by_the_rate_of_those_axes() {
     assert!(named > 10, "{named}");
 }
 
-/// What a unit tells of itself is taken off first, and named where it makes a part of the error.
+/// The fit takes off the clock that a unit reports, and names it where it makes a part of the error.
 #[test]
 fn the_clock_that_a_unit_tells_is_named_beside_what_is_left() {
     let mut random = Random::new(SEED);

@@ -71,7 +71,7 @@ pub(super) fn pointed(mount: Mount, [first, second]: [f64; 2]) -> AzEl {
     }
 }
 
-/// What an antenna with this cause measures, without noise.
+/// Directions that an antenna with this cause measures, without noise.
 pub(super) fn measured(
     flight: &Flight,
     mount: Mount,
@@ -83,7 +83,7 @@ pub(super) fn measured(
     measured_of(flight, mount, &directions, cause, other)
 }
 
-/// What one measures with this cause as well that would measure `directions`.
+/// Directions that an antenna measures with this cause as well, where it would measure `directions`.
 pub(super) fn measured_of(
     flight: &Flight,
     mount: Mount,

@@ -227,7 +227,7 @@ fn a_single_cause_is_named_or_among_three() {
     assert!(total(1) >= 0.95 * total(0), "{} of {}", total(1), total(0));
 }
 
-/// Of the axis that is at fault, or of both.
+/// Returns `true` if the axis at fault is named, or both.
 fn is_of_axis(found: &Explanation, cause: &Cause) -> bool {
     let axis = |cause: &Cause| match *cause {
         Cause::SlowDrives { axis, .. } | Cause::Stuck { axis, .. } => axis,
