@@ -233,6 +233,31 @@ fn without_a_calibration_it_is_turned_by_hand_and_sent_nowhere() {
     }
 }
 
+/// An RC2000C shows no angle of an axis at its limit.
+#[test]
+fn an_antenna_at_a_limit_is_shown_there_and_says_why_it_has_no_azimuth() {
+    for (plus, words, mark) in [
+        (false, "At the CCW limit: the unit shows no azimuth there.", "at CCW limit"),
+        (true, "At the CW limit: the unit shows no azimuth there.", "at CW limit"),
+    ] {
+        let mut snapshot = makes::rc2000c_uncalibrated(Intent::Manual);
+        let axes = &mut snapshot.state.measured.as_mut().unwrap().axes;
+        (axes[0].plus_limit, axes[0].minus_limit) = (plus, !plus);
+        for size in rig::sizes() {
+            let window = rig::window(size, makes::model(makes::rc2000c(), snapshot.clone()));
+            assert!(says(&window, words));
+            let name = format!("Antenna RC2000C {mark}");
+            assert!(window.query_by_label(&name).is_some(), "{name}");
+        }
+    }
+    let mut snapshot = makes::rc2000c_uncalibrated(Intent::Manual);
+    snapshot.state.measured.as_mut().unwrap().axes[1].plus_limit = true;
+    for size in rig::sizes() {
+        let window = rig::window(size, makes::model(makes::rc2000c(), snapshot.clone()));
+        assert!(says(&window, "At the upper limit: the unit shows no elevation there."));
+    }
+}
+
 #[test]
 fn a_set_limit_blocks_its_own_key_and_the_sentence_names_the_way_back() {
     let mut snapshot = makes::rc2000c_at(Intent::Manual);

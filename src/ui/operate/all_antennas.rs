@@ -8,7 +8,7 @@ use crate::{
     engine::antenna::AntennaModel,
     model::Model,
     station::Mount,
-    ui::sky_plot::{AzimuthStop, Bearing, Measured, OtherAntenna},
+    ui::sky_plot::{AzimuthStop, Measured, OtherAntenna},
 };
 
 /// Ends closer together than this are one mark, degrees.
@@ -29,21 +29,12 @@ pub(super) fn others<'a>(
     let shown = others.map(|(index, (antenna, lost))| {
         let measured = antenna.snapshot.state.measured?;
         let lost = lost.as_deref();
-        let name = antenna.config.name.as_str();
-        let pointing = measured.pointing;
-        let bearing = pointing.azimuth.filter(|_| pointing.elevation.is_none());
         Some(OtherAntenna {
             index,
-            name,
+            name: &antenna.config.name,
             commanded: sky::commanded(antenna),
             measured: measured.direction().map(|direction| Measured { direction, lost }),
-            bearing: bearing.map(|azimuth| Bearing {
-                name,
-                measured: Some(azimuth),
-                commanded: antenna.snapshot.aim.and_then(|aim| aim.azimuth),
-                ghost: None,
-                lost,
-            }),
+            bearing: sky::bearing(antenna, lost),
         })
     });
     shown.flatten().collect()
@@ -56,7 +47,7 @@ pub(super) fn stops(model: &Model, all: bool) -> Vec<AzimuthStop<'_>> {
     let antennas = model.antennas.iter().enumerate();
     for (_, antenna) in antennas.filter(|(index, _)| all || *index == model.selected_antenna) {
         let name = antenna.config.name.as_str();
-        for azimuth in ends(antenna) {
+        for azimuth in ends(antenna).into_iter().flatten() {
             let off_deg =
                 |stop: &AzimuthStop<'_>| (stop.azimuth - azimuth).wrapped_180().degrees().abs();
             match stops.iter_mut().find(|stop| off_deg(stop) < SAME_DEG) {
@@ -69,9 +60,9 @@ pub(super) fn stops(model: &Model, all: bool) -> Vec<AzimuthStop<'_>> {
     stops
 }
 
-/// Both ends of an azimuth axis that has any, as directions of the sky.
-fn ends(antenna: &AntennaModel) -> Vec<Angle> {
+/// Both ends of an azimuth axis that has any, as directions of the sky, the CCW end first.
+pub(super) fn ends(antenna: &AntennaModel) -> Option<[Angle; 2]> {
     let mount = antenna.config.mount.within(antenna.snapshot.state.travel_deg);
-    let Mount::AzEl { azimuth_from_deg, azimuth_to_deg, .. } = mount else { return Vec::new() };
-    [azimuth_from_deg, azimuth_to_deg].map(|deg| Angle::from_degrees(deg).wrapped_360()).into()
+    let Mount::AzEl { azimuth_from_deg, azimuth_to_deg, .. } = mount else { return None };
+    Some([azimuth_from_deg, azimuth_to_deg].map(|deg| Angle::from_degrees(deg).wrapped_360()))
 }

@@ -83,7 +83,11 @@ pub(super) fn show(
             .map(|direction| Measured { direction, lost: lost.as_deref() }),
         antennas: &antennas,
         stops: &all_antennas::stops(model, layer),
-        bearing: antenna.and_then(|antenna| bearing(antenna, state, lost.as_deref())),
+        bearing: antenna.and_then(|antenna| bearing(antenna, lost.as_deref())).map(|bearing| {
+            let target = state.ghost.target();
+            let ghost = target.map(|target| Angle::from_degrees(target.azimuth_deg));
+            Bearing { ghost, ..bearing }
+        }),
         predicted: antenna
             .and_then(|antenna| antenna.prediction)
             .map(|prediction| prediction.direction),
@@ -236,22 +240,32 @@ fn keep_outs<'a>(model: &'a Model, antenna: &AntennaModel) -> Vec<KeepOutMark<'a
     .collect()
 }
 
-/// The bearing of an antenna with known azimuth and unknown elevation.
-fn bearing<'a>(
-    antenna: &'a AntennaModel,
-    state: &OperateState,
-    lost: Option<&'a str>,
-) -> Option<Bearing<'a>> {
-    let pointing = antenna.snapshot.state.measured?.pointing;
-    if pointing.elevation.is_some() {
-        return None;
-    }
-    let target = state.ghost.target();
+/// The bearing of an antenna with known azimuth and unknown elevation, or at a limit of its azimuth.
+pub(super) fn bearing<'a>(antenna: &'a AntennaModel, lost: Option<&'a str>) -> Option<Bearing<'a>> {
+    let measured = antenna.snapshot.state.measured?;
+    let pointing = measured.pointing;
+    let (azimuth, limit) = match (pointing.azimuth, pointing.elevation) {
+        (Some(_), Some(_)) => return None,
+        (Some(azimuth), None) => (azimuth, None),
+        (None, _) => {
+            let [azimuth, elevation] = measured.axes;
+            let [from, to] = all_antennas::ends(antenna)?;
+            let (end, limit) = match (azimuth.minus_limit, azimuth.plus_limit) {
+                (true, false) => (from, "CCW limit"),
+                (false, true) => (to, "CW limit"),
+                (true, true) | (false, false) => return None,
+            };
+            let is_flipped = antenna.config.mount.can_flip() && elevation.angle_deg > Some(90.0);
+            let turn = Angle::from_degrees(if is_flipped { 180.0 } else { 0.0 });
+            ((end + turn).wrapped_360(), Some(limit))
+        }
+    };
     Some(Bearing {
         name: &antenna.config.name,
-        measured: Some(pointing.azimuth?),
+        measured: Some(azimuth),
+        limit,
         commanded: antenna.snapshot.aim.and_then(|aim| aim.azimuth),
-        ghost: target.map(|target| Angle::from_degrees(target.azimuth_deg)),
+        ghost: None,
         lost,
     })
 }

@@ -1,5 +1,5 @@
-//! The mark of an antenna with unknown elevation: a line from the zenith to the rim
-//! in place of a point.
+//! The mark of an antenna with unknown elevation, or at a limit of its azimuth: a line from the
+//! zenith to the rim in place of a point.
 
 use egui::{Align2, Painter, Pos2, Rect, Shape, Stroke, Vec2};
 
@@ -35,10 +35,16 @@ fn triangle(dome: Dome, azimuth: Angle) -> Option<(Pos2, Vec<Pos2>)> {
     Some((rim - towards * (SIDE / 2.0), vec![rim, base + aside, base - aside]))
 }
 
-/// Label, such as "Genius 043°".
-pub(super) fn words(bearing: &Bearing<'_>, azimuth: Angle) -> String {
+/// The measured azimuth or the limit, such as "043°" or "at CCW limit".
+pub(super) fn place(bearing: &Bearing<'_>) -> Option<String> {
+    let azimuth = || bearing.measured.map(|azimuth| format::azimuth(azimuth.degrees()));
+    bearing.limit.map(|limit| format!("at {limit}")).or_else(azimuth)
+}
+
+/// Label, such as "Genius 043°" or "RC2000C at CCW limit".
+pub(super) fn words(bearing: &Bearing<'_>) -> String {
     let lost = bearing.lost.map_or_else(String::new, |age| format!(" ? {age}"));
-    format!("{} {}{lost}", bearing.name, format::azimuth(azimuth.degrees()))
+    format!("{} {}{lost}", bearing.name, place(bearing).unwrap_or_default())
 }
 
 /// The centre of the mark of the measured azimuth.
@@ -55,7 +61,7 @@ pub(super) fn label(labels: &mut Labels<'_>, dome: Dome, scene: &SkyScene<'_>, t
         labels.reserve_path(&ends, 4.0);
     }
     let now = if scene.then.is_some() { " now" } else { "" };
-    let name = format!("{}{now}", words(bearing, azimuth));
+    let name = format!("{}{now}", words(bearing));
     let colour = if bearing.lost.is_some() { t.t3 } else { t.ant };
     labels.add(&Label {
         key: Key::Bearing,
@@ -121,10 +127,12 @@ mod tests {
 
     #[test]
     fn it_is_named_with_its_azimuth_and_its_silence() {
-        let bearing = Bearing { name: "Genius", ..Bearing::default() };
-        let azimuth = Angle::from_degrees(402.6);
-        assert_eq!(words(&bearing, azimuth), "Genius 043°");
+        let measured = Some(Angle::from_degrees(402.6));
+        let bearing = Bearing { name: "Genius", measured, ..Bearing::default() };
+        assert_eq!(words(&bearing), "Genius 043°");
         let lost = Bearing { lost: Some("14 s"), ..bearing };
-        assert_eq!(words(&lost, azimuth), "Genius 043° ? 14 s");
+        assert_eq!(words(&lost), "Genius 043° ? 14 s");
+        let at_limit = Bearing { limit: Some("CW limit"), ..bearing };
+        assert_eq!(words(&at_limit), "Genius at CW limit");
     }
 }

@@ -118,10 +118,11 @@ pub(super) fn events_and_antenna(
         note("antenna", measured.direction, &name);
     }
     if let Some(bearing) = &scene.bearing
-        && let (Some(azimuth), Some(at)) = (bearing.measured, bearing::mark(dome, bearing))
+        && let Some(at) = bearing::mark(dome, bearing)
     {
-        let words = bearing::words(bearing, azimuth);
-        name_mark(ui, canvas.with("bearing"), at, &format!("Antenna {words}, no elevation"));
+        let no_elevation = if bearing.limit.is_none() { ", no elevation" } else { "" };
+        let said = format!("Antenna {}{no_elevation}", bearing::words(bearing));
+        name_mark(ui, canvas.with("bearing"), at, &said);
     }
 }
 

@@ -51,10 +51,9 @@ pub(super) fn label(labels: &mut Labels<'_>, dome: Dome, scene: &SkyScene<'_>, t
     for antenna in scene.antennas {
         let Some(mark) = antenna.mark(dome) else { continue };
         let lost = antenna.lost().map_or_else(String::new, |age| format!(" ? {age}"));
-        let angle = antenna.bearing.and_then(|of| of.measured);
-        let angle = angle.map_or_else(String::new, |az| format::azimuth(az.degrees()));
+        let place = antenna.bearing.as_ref().and_then(bearing::place).unwrap_or_default();
         let now = if scene.then.is_some() { " now" } else { "" };
-        let name = format!("{}{now} {angle}{lost}", antenna.name);
+        let name = format!("{}{now} {place}{lost}", antenna.name);
         let colour = if lost.is_empty() { t.t1 } else { t.t3 };
         labels.add(&Label {
             key: Key::Antenna(antenna.index),
@@ -141,12 +140,14 @@ pub(super) fn nodes(
         let Some(at) = antenna.mark(dome).filter(|at| rect.contains(*at)) else { continue };
         let lost = antenna.lost().map(|age| format!(", no reply for {age}")).unwrap_or_default();
         let name = format!("Antenna {}{lost}", antenna.name);
-        let (said, tip) = match (antenna.measured, antenna.bearing.and_then(|of| of.measured)) {
+        let (said, tip) = match (antenna.measured, &antenna.bearing) {
             (Some(measured), _) => {
                 (spoken(&name, measured.direction), tip(&name, measured.direction))
             }
-            (None, Some(azimuth)) => {
-                let said = format!("{name}, azimuth {}", format::azimuth(azimuth.degrees()));
+            (None, Some(bearing)) => {
+                let Some(place) = bearing::place(bearing) else { continue };
+                let azimuth = if bearing.limit.is_none() { "azimuth " } else { "" };
+                let said = format!("{name}, {azimuth}{place}");
                 (said.clone(), said)
             }
             (None, None) => continue,

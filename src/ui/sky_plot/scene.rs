@@ -42,7 +42,7 @@ pub struct SkyScene<'a> {
     pub antennas: &'a [OtherAntenna<'a>],
     /// The ends of azimuth axes.
     pub stops: &'a [AzimuthStop<'a>],
-    /// The antenna, while only its azimuth is known.
+    /// The antenna, while only its azimuth or a limit of its azimuth is known.
     pub bearing: Option<Bearing<'a>>,
     /// The predicted direction of the satellite at the time of the measurement.
     pub predicted: Option<AzEl>,
@@ -147,7 +147,7 @@ pub struct OtherAntenna<'a> {
     pub name: &'a str,
     pub commanded: Option<AzEl>,
     pub measured: Option<Measured<'a>>,
-    /// While only its azimuth is known.
+    /// While only its azimuth or a limit of its azimuth is known.
     pub bearing: Option<Bearing<'a>>,
 }
 
@@ -178,12 +178,14 @@ pub struct AzimuthStop<'a> {
     pub azimuth: Angle,
 }
 
-/// An antenna with unknown elevation.
+/// An antenna with unknown elevation, or at a limit of its azimuth.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Bearing<'a> {
     pub name: &'a str,
-    /// Measured azimuth.
+    /// Measured azimuth, or the end of the travel at `limit`.
     pub measured: Option<Angle>,
+    /// Name of the limit at which the unit shows no azimuth, such as "CCW limit".
+    pub limit: Option<&'static str>,
     /// Commanded azimuth.
     pub commanded: Option<Angle>,
     /// Target azimuth of a previewed motion.

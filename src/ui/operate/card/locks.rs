@@ -88,10 +88,24 @@ fn no_direction(antenna: &AntennaModel) -> Option<&'static str> {
     if !can.takes_positions {
         return (!can.has_program).then_some("This controller cannot be sent to a direction.");
     }
-    let pointing = antenna.snapshot.state.measured?.pointing;
+    let measured = antenna.snapshot.state.measured?;
+    let pointing = measured.pointing;
     let elevation_known = pointing.elevation.is_some() || !can.has_elevation();
+    let [azimuth, elevation] = measured.axes;
     match (pointing.azimuth.is_some(), elevation_known) {
         (true, true) => None,
+        (false, _) if azimuth.minus_limit => {
+            Some("At the CCW limit: the unit shows no azimuth there.")
+        }
+        (false, _) if azimuth.plus_limit => {
+            Some("At the CW limit: the unit shows no azimuth there.")
+        }
+        (_, false) if elevation.minus_limit => {
+            Some("At the lower limit: the unit shows no elevation there.")
+        }
+        (_, false) if elevation.plus_limit => {
+            Some("At the upper limit: the unit shows no elevation there.")
+        }
         (false, false) => Some("No directions: azimuth and elevation are not calibrated."),
         (false, true) => Some("No directions: the azimuth is not known or not calibrated."),
         (true, false) => Some("No directions: the elevation is not known or not calibrated."),
