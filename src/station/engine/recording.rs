@@ -34,8 +34,9 @@ use super::{
 use crate::{
     astro::time::seconds_between,
     clock::{Clock, Instant, Moment},
-    driver::{self, AntennaHandle, Event, TimeSync},
+    driver::{self, AntennaHandle, Event, Response, Safety, TimeSync},
     job::Job,
+    plan::pass_report::LossCause,
     record::{Entry, Kind, PassNote, PeakChange, RecordedSession, Recorder, Status},
     station::{self, AntennaId, Station},
 };
@@ -139,8 +140,13 @@ impl Recording {
         self.note(at, Some(line.antenna), Kind::Day, line);
     }
 
-    pub(super) fn event(&self, antenna: AntennaId, event: &Event, at: Moment) {
+    pub(super) fn event(&mut self, antenna: AntennaId, event: &Event, at: Moment) {
         self.note(at, Some(antenna), kind_of(event), event);
+        if let Some(why) = ended_by(event) {
+            for pass in self.followed.iter_mut().filter(|pass| pass.antenna == antenna) {
+                pass.breaks.note_stop(at.utc, why);
+            }
+        }
     }
 
     /// Films what is published.
@@ -262,7 +268,7 @@ impl Engine {
         let now = self.now;
         for pass in &mut self.recording.followed {
             if stopped.antennas.contains(&pass.antenna) {
-                pass.breaks.note_stop(now);
+                pass.breaks.note_stop(now, LossCause::Stopped);
             }
         }
         let at = Moment { steady: stopped.at, utc: self.now };
@@ -352,6 +358,18 @@ fn note_antenna(recording: &mut Recording, antenna: &Antenna, at: Moment) {
             let data = json!({ "group": group, "written": written });
             recording.note(at, Some(id), Kind::Setting, &data);
         }
+    }
+}
+
+/// Why a pass ends with this event: what the driver found and stopped the antenna for.
+fn ended_by(event: &Event) -> Option<LossCause> {
+    let Event::Safety(found) = event else { return None };
+    match found {
+        Safety::NoEffect { .. } => Some(LossCause::NoEffect),
+        Safety::OffTarget { .. } => Some(LossCause::GivenUp),
+        Safety::ForeignHands { .. } => Some(LossCause::ForeignHands),
+        Safety::Forbidden { response: Response::Stopped, .. } => Some(LossCause::Forbidden),
+        _ => None,
     }
 }
 

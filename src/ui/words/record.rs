@@ -103,6 +103,10 @@ pub fn loss(cause: LossCause) -> &'static str {
         LossCause::LateStart => "Late start",
         LossCause::EarlyEnd => "Early end",
         LossCause::Stopped => "Stopped",
+        LossCause::NoEffect => "No effect",
+        LossCause::GivenUp => "Given up",
+        LossCause::ForeignHands => "Moved by others",
+        LossCause::Forbidden => "Stopped at a barrier",
         LossCause::NotCommanded => "Not commanded",
         LossCause::OutsideBeam => "Pointing error",
     }
@@ -358,6 +362,10 @@ fn loss_in_sentence(cause: LossCause) -> &'static str {
         LossCause::LateStart => "before the antenna arrived",
         LossCause::EarlyEnd => "after the antenna left",
         LossCause::Stopped => "after the antenna was stopped",
+        LossCause::NoEffect => "after an axis had not turned as commanded",
+        LossCause::GivenUp => "after Azel had given up the pass",
+        LossCause::ForeignHands => "after somebody else had moved the antenna",
+        LossCause::Forbidden => "after Azel had stopped the antenna at a barrier",
         LossCause::NotCommanded => "while the antenna was not commanded to track it",
         LossCause::OutsideBeam => "to pointing errors",
     }

@@ -25,7 +25,8 @@ use crate::{
     plan::{
         MountLimits, Sample, TrackPhase, Trackability,
         pass_report::{
-            APART_S, Breaks, Evidence, FlownOffsets, MeasuredPosition, PassVerdict, TrackedPass,
+            APART_S, Breaks, Evidence, FlownOffsets, LossCause, MeasuredPosition, PassVerdict,
+            TrackedPass,
         },
         trackability,
     },
@@ -443,6 +444,8 @@ impl Followed {
             self.about.path_source(self.site),
             tracked.judged(&report, &flown),
         );
+        let is_of_drives = report.losses.iter().any(|lost| lost.cause == LossCause::NoEffect);
+        let evidence = if is_of_drives { evidence.of_drives() } else { evidence };
         let causes = match report.verdict {
             PassVerdict::Good => Vec::new(),
             PassVerdict::Fair | PassVerdict::Poor => {

@@ -1,21 +1,22 @@
-//! Interruptions of a pass from outside: a lost link, a STOP, a track that was not commanded.
+//! Interruptions of a pass from outside: a lost link, a STOP of the operator or of Azel, a track that was
+//! not commanded.
 
 use jiff::Timestamp;
 
-use super::APART_S;
+use super::{APART_S, LossCause};
 use crate::astro::time::{add_seconds, seconds_between};
 
 /// An antenna is off its satellite as late as this after its STOP, seconds.
 const MOVES_ON_S: f64 = 3.0;
 
-/// When the link to the unit of a pass was lost, when STOP was pressed for its antenna, and when its
-/// track was commanded.
+/// When the link to the unit of a pass was lost, when and why its antenna was stopped, and when its track
+/// was commanded.
 #[derive(Debug, Clone, Default)]
 pub struct Breaks {
     lost: Vec<(Timestamp, Timestamp)>,
     /// When it was looked at last.
     is_lost: bool,
-    stops: Vec<Timestamp>,
+    stops: Vec<(Timestamp, LossCause)>,
     /// `None` as long as nobody has noted it: then all of the pass counts as commanded.
     commanded: Option<Vec<(Timestamp, Timestamp)>>,
     is_commanded: bool,
@@ -33,9 +34,10 @@ impl Breaks {
         self.is_lost = lost_since.is_some();
     }
 
-    /// Takes a STOP that was pressed at `now`.
-    pub fn note_stop(&mut self, now: Timestamp) {
-        self.stops.push(now);
+    /// Takes a STOP that was pressed at `now`, or that Azel sent. `why`: the cause of what is lost from
+    /// then on.
+    pub fn note_stop(&mut self, now: Timestamp, why: LossCause) {
+        self.stops.push((now, why));
     }
 
     /// Notes at `now`, again and again, if the antenna has the command to track this pass.
@@ -87,11 +89,15 @@ impl Breaks {
         self.lost.iter().find(holds).map(|(_, to)| *to)
     }
 
-    /// From when on a stretch is put down to a STOP, if there was one.
-    pub(super) fn stopped(&self, from: Timestamp, until: Timestamp) -> Option<Timestamp> {
+    /// From when on a stretch is put down to a STOP, and why there was one.
+    pub(super) fn stopped(
+        &self,
+        from: Timestamp,
+        until: Timestamp,
+    ) -> Option<(Timestamp, LossCause)> {
         let earliest = add_seconds(from, -MOVES_ON_S);
-        let stop = self.stops.iter().find(|at| (earliest..=until).contains(*at))?;
-        let is_at_its_begin = *stop <= add_seconds(from, MOVES_ON_S);
-        Some(if is_at_its_begin { from } else { *stop })
+        let (stop, why) = *self.stops.iter().find(|(at, _)| (earliest..=until).contains(at))?;
+        let is_at_its_begin = stop <= add_seconds(from, MOVES_ON_S);
+        Some((if is_at_its_begin { from } else { stop }, why))
     }
 }

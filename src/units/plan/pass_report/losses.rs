@@ -40,6 +40,10 @@ impl LostStretch {
             | LossCause::RateOfMount
             | LossCause::Slew
             | LossCause::Stopped
+            | LossCause::NoEffect
+            | LossCause::GivenUp
+            | LossCause::ForeignHands
+            | LossCause::Forbidden
             | LossCause::NotCommanded => false,
         }
     }
@@ -69,6 +73,14 @@ pub enum LossCause {
     EarlyEnd,
     /// STOP had been pressed.
     Stopped,
+    /// An axis had not turned as commanded, and Azel had stopped the antenna.
+    NoEffect,
+    /// The antenna had stayed off its target, and Azel had given up the pass.
+    GivenUp,
+    /// Somebody else had moved the antenna.
+    ForeignHands,
+    /// Azel had stopped the antenna at a barrier.
+    Forbidden,
     /// The antenna had no command to track this pass.
     NotCommanded,
     /// The antenna followed the satellite beyond half the beamwidth: a pointing error.
@@ -87,6 +99,10 @@ impl LossCause {
             | Self::LateStart
             | Self::EarlyEnd
             | Self::Stopped
+            | Self::NoEffect
+            | Self::GivenUp
+            | Self::ForeignHands
+            | Self::Forbidden
             | Self::NotCommanded
             | Self::OutsideBeam => false,
         }
@@ -143,9 +159,9 @@ impl TrackedPass<'_> {
     /// A stretch in which the antenna had no command to track this pass.
     fn not_commanded(&self, stretch: &Stretch) -> Vec<LostStretch> {
         let Stretch { from, until, .. } = *stretch;
-        if let Some(stop) = self.breaks.stopped(from, until) {
+        if let Some((stop, why)) = self.breaks.stopped(from, until) {
             let mut lost = self.in_parts(from, stop, LossCause::NotCommanded);
-            lost.extend(self.in_parts(stop, until, LossCause::Stopped));
+            lost.extend(self.in_parts(stop, until, why));
             return lost;
         }
         let back = self.breaks.link_lost_until(from).map_or(from, |back| back.min(until));
@@ -158,7 +174,7 @@ impl TrackedPass<'_> {
     fn outside(&self, stretch: &Stretch, following: Following) -> Vec<LostStretch> {
         let Stretch { from, until, .. } = *stretch;
         let stop = self.breaks.stopped(from, until);
-        let before = stop.unwrap_or(until);
+        let before = stop.map_or(until, |(stop, _)| stop);
         let mut lost = if let Some(cause) = self.loss_of_mount(from, before) {
             self.in_parts(from, before, cause)
         } else {
@@ -169,7 +185,9 @@ impl TrackedPass<'_> {
             lost.extend(self.in_parts(left, before, LossCause::EarlyEnd));
             lost
         };
-        lost.extend(self.in_parts(before, until, LossCause::Stopped));
+        if let Some((stop, why)) = stop {
+            lost.extend(self.in_parts(stop, until, why));
+        }
         lost
     }
 

@@ -441,18 +441,37 @@ fn a_lost_link_and_a_stop_are_told_as_what_they_are() {
         scene.breaks.note_link(at(&scene, second), since);
     }
     let mut late = scene.breaks.clone();
-    scene.breaks.note_stop(at(&scene, 200));
+    scene.breaks.note_stop(at(&scene, 200), LossCause::Stopped);
     let told = flown(&scene);
     assert_eq!(causes(&told), [LossCause::LinkLost, LossCause::Stopped]);
     assert!(is_close(told.losses[0].seconds(), 30.0, 2.0 * STEP_S), "{:?}", told.losses);
     assert_eq!(told.verdict, PassVerdict::Poor);
     // What was lost before a STOP is none of its.
-    late.note_stop(at(&scene, 260));
+    late.note_stop(at(&scene, 260), LossCause::Stopped);
     scene.breaks = late;
     let told = flown(&scene);
     let all = [LossCause::LinkLost, LossCause::EarlyEnd, LossCause::Stopped];
     assert_eq!(causes(&told), all);
     assert!(is_close(told.losses[1].seconds(), 58.0, 2.0), "{:?}", told.losses);
+}
+
+#[test]
+fn what_the_watch_stopped_an_antenna_for_is_the_cause_of_what_follows() {
+    use LossCause::{Forbidden, ForeignHands, GivenUp, NoEffect};
+    for why in [NoEffect, GivenUp, ForeignHands, Forbidden] {
+        let mut scene = Scene::new();
+        let stop = add_seconds(scene.pass.aos.time, 200.0);
+        let left = scene.direction(stop);
+        for second in 0..=200 {
+            let now = add_seconds(scene.pass.aos.time, f64::from(second));
+            scene.breaks.note_commanded(now, true);
+        }
+        scene.breaks.note_stop(stop, why);
+        scene.breaks.note_commanded(add_seconds(stop, 1.0), false);
+        let report = scene
+            .report(|second, at| Some(if second < 200.0 { scene.direction(at) } else { left }));
+        assert_eq!(causes(&report), [why]);
+    }
 }
 
 #[test]

@@ -629,6 +629,33 @@ fn a_stuck_axis_is_named_with_the_time_since_when_it_stands() {
     }
 }
 
+#[test]
+fn after_an_axis_did_not_turn_as_commanded_only_drives_explain_an_error() {
+    let flight = &flights()[0];
+    let mut random = Random::new(SEED);
+    let since = add_seconds(flight.pass.aos.time, 0.3 * flight.pass.duration_s());
+    let stuck = Cause::Stuck { since, axis: Some(Axis::Azimuth) };
+    let late = Cause::Late { late_s: 20.0 };
+    for (cause, is_named) in [(stuck, true), (late, false)] {
+        let exact = measured(flight, AZ_EL, &cause, &flight.propagator);
+        let seen = noisy(&exact, &mut random);
+        let evidence = || {
+            Evidence::new(AZ_EL, true, deg(HALF_BEAM_DEG)).with_pass(
+                &flight.propagator,
+                flight.site,
+                UNIT,
+                seen.iter().copied(),
+            )
+        };
+        let names = |found: &[Explanation]| {
+            found.first().is_some_and(|best| is_same_kind(&best.cause, &cause))
+        };
+        assert!(names(&evidence().explanations(&[])), "{cause:?}");
+        let found = evidence().of_drives().explanations(&[]);
+        assert_eq!(names(&found), is_named, "{found:?}");
+    }
+}
+
 /// A unit leaves refraction out: that is known, named where it matters, and no other cause stands
 /// in for it.
 #[test]
