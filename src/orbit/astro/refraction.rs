@@ -29,19 +29,17 @@ const TOP: f64 = 14.0;
 /// the ground, for all sites but those on mountains.
 const FADE_DEG: f64 = 5.0;
 /// Accuracy of an apparent elevation in radians, and the most steps to it.
-const TOLERANCE: f64 = 1e-11;
+const TOLERANCE: f64 = 1e-10;
 const ROUNDS: usize = 20;
 
-/// Nodes and weights of the Gauss-Legendre rule with 16 points, each for both signs.
-const RULE: [(f64, f64); 8] = [
-    (0.095_012_509_837_637_4, 0.189_450_610_455_068_5),
-    (0.281_603_550_779_258_9, 0.182_603_415_044_923_6),
-    (0.458_016_777_657_227_4, 0.169_156_519_395_002_5),
-    (0.617_876_244_402_643_8, 0.149_595_988_816_576_7),
-    (0.755_404_408_355_003, 0.124_628_971_255_533_9),
-    (0.865_631_202_387_831_8, 0.095_158_511_682_492_8),
-    (0.944_575_023_073_232_6, 0.062_253_523_938_647_9),
-    (0.989_400_934_991_649_9, 0.027_152_459_411_754_1),
+/// Nodes and weights of the Gauss-Legendre rule with 10 points, each for both signs. More of them change
+/// the bending by 6e-6 degrees at most.
+const RULE: [(f64, f64); 5] = [
+    (0.148_874_338_981_631_2, 0.295_524_224_714_752_9),
+    (0.433_395_394_129_247_2, 0.269_266_719_309_996_3),
+    (0.679_409_568_299_024_4, 0.219_086_362_515_982),
+    (0.865_063_366_688_984_5, 0.149_451_349_150_580_6),
+    (0.973_906_528_517_171_7, 0.066_671_344_308_688_1),
 ];
 
 /// The air that the refraction of a site is computed for.
