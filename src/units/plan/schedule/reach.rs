@@ -279,11 +279,12 @@ impl Reach {
         let (mut held, mut entered): (Vec<Span>, _) = (Vec::new(), None);
         let [is_late, is_early] = samples.leave_out(clear);
         let mut lost_at = is_late.then_some(Loss::OutOfReach);
-        // As trackability has it, what lies between two samples is judged by the later one.
-        let later = samples.list.iter().zip(places).skip(1);
         // The Sun stays where it is for so long.
         let mut bounds = None;
-        for (before, (sample, axes_deg)) in samples.list.iter().zip(later) {
+        // As trackability has it, what lies between two samples counts if both are in the beam.
+        let mut before: Option<Timestamp> = None;
+        for (sample, axes_deg) in samples.list.iter().zip(places) {
+            let since = before.take();
             if self.has_barriers() {
                 let direction = self.bounds.direction(axes_deg);
                 let step_ms = ms(sample.time).div_euclid(SUN_STAYS_MS) * SUN_STAYS_MS;
@@ -302,7 +303,9 @@ impl Reach {
                 lost_at = lost_at.or_else(|| Some(self.loss_at(sample, &slews)));
                 continue;
             }
-            let span = Span { from_ms: ms(before.time), to_ms: ms(sample.time) };
+            before = Some(sample.time);
+            let Some(since) = since else { continue };
+            let span = Span { from_ms: ms(since), to_ms: ms(sample.time) };
             match held.last_mut() {
                 Some(last) if last.to_ms == span.from_ms => last.to_ms = span.to_ms,
                 _ => held.push(span),

@@ -45,14 +45,17 @@ fn lost(
 ) -> (Outside, Loss) {
     let [azimuths, elevations] = &planned.axes_deg;
     let (mut lost, mut first) = (Outside::default(), None);
-    let each = samples.iter().zip(samples.iter().skip(1));
-    for ((before, sample), axes_deg) in
-        each.zip(azimuths.iter().zip(elevations).skip(1).map(|(azimuth, at)| [*azimuth, *at]))
-    {
-        if axes.off(sample.direction, axes_deg) > limits.half_beam {
+    let axes_deg = azimuths.iter().zip(elevations).map(|(azimuth, at)| [*azimuth, *at]);
+    let mut before: Option<(&Sample, bool)> = None;
+    for (sample, axes_deg) in samples.iter().zip(axes_deg) {
+        let is_off = axes.off(sample.direction, axes_deg) > limits.half_beam;
+        // What lies between two samples counts if both are in the beam.
+        if let Some((before, was_off)) = before.replace((sample, is_off))
+            && (is_off || was_off)
+        {
             lost.add(before.time, sample.time);
-            first = first.or(Some(sample));
         }
+        first = first.or(is_off.then_some(sample));
     }
     let Some(first) = first else { return (lost, Loss::OutOfReach) };
     let near_s = TURN_DEG / limits.maximum_rate_deg_s;

@@ -26,8 +26,10 @@ pub(super) fn trackability(samples: &[Sample], limits: MountLimits) -> Trackabil
             continue;
         }
         whole_s += span_s;
+        // What lies between two samples counts if both are within the travel.
+        let reachable = [from, to].into_iter().flat_map(axes);
         let reachable =
-            axes(to).iter().all(|angle| (travel_from_deg..=travel_to_deg).contains(angle));
+            reachable.into_iter().all(|angle| (travel_from_deg..=travel_to_deg).contains(&angle));
         let keeps_up = axes(from)
             .iter()
             .zip(axes(to))

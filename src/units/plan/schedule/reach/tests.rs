@@ -305,3 +305,31 @@ fn a_park_position_out_of_reach_costs_no_pass() {
     station.antennas[2].park = Direction { azimuth_deg: 0.0, elevation_deg: 45.0 };
     assert_eq!(can_park(&station), [true, true, false]);
 }
+
+/// Of what lies between two samples nothing counts unless both are in the beam.
+#[test]
+fn what_counts_of_a_pass_with_a_loss_begins_and_ends_in_the_beam() {
+    let (mut edges, mut random) = (0, Random::new(SEED + 6));
+    for case in 0..6 {
+        let station = any_three_antennas(&mut random);
+        each_pass(&station, &mut random, 6, |place, reach, sight| {
+            let Verdict::Possible(ways) = reach.judge(sight) else { return };
+            for way in ways.iter().filter(|way| way.lost.is_some()) {
+                let Span { from_ms, to_ms } = way.span();
+                for at in [from_ms, to_ms] {
+                    let sample = sight.exact(Span { from_ms: at, to_ms: at + 2_000 }).list[0];
+                    let beam = reach.bounds.direction(way.axes_deg(at));
+                    let off = if reach.drives.has_elevation {
+                        beam.separation(sample.direction)
+                    } else {
+                        (beam.azimuth - sample.direction.azimuth).wrapped_180().abs()
+                    };
+                    let what = format!("seed {}, case {case}, antenna {place}", SEED + 6);
+                    assert!(off.degrees() <= reach.half_beam.degrees() + 0.01, "{what}: {off:?}");
+                    edges += 1;
+                }
+            }
+        });
+    }
+    assert!(edges > 20, "{edges}");
+}
