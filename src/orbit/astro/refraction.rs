@@ -190,11 +190,14 @@ impl Atmosphere {
 
     /// The whole bending of a ray that arrives at `elevation`, all in radians.
     fn bending(self, elevation: f64) -> f64 {
-        let fade = FADE_DEG.to_radians();
-        if elevation < 0.0 {
-            return self.bending_above(0.0) * (1.0 + elevation / fade).max(0.0);
+        let share = 1.0 + elevation / FADE_DEG.to_radians();
+        if share <= 0.0 {
+            0.0
+        } else if elevation < 0.0 {
+            share * self.bending_above(0.0)
+        } else {
+            self.bending_above(elevation)
         }
-        self.bending_above(elevation)
     }
 
     /// The integral of P.834 over the height `h`. The square of the vertical part of the ray,
