@@ -160,7 +160,10 @@ impl Engine {
     fn note_commands(&mut self) {
         let (now, recording) = (self.now, &mut self.recording);
         for antenna in &self.antennas {
-            let (id, number) = (antenna.shown.id(), antenna.shown.commanded_number());
+            let track = antenna.shown.snapshot.program_track.as_ref();
+            let awaits_operator = track.is_some_and(|track| track.awaits_operator);
+            let number = antenna.shown.commanded_number().filter(|_| !awaits_operator);
+            let id = antenna.shown.id();
             match number {
                 Some(number) => {
                     let begun = recording.commanded.entry(id).or_insert((number, now));

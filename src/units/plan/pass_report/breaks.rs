@@ -82,11 +82,9 @@ impl Breaks {
         self.lost.iter().any(|(since, to)| *since <= until && from <= *to)
     }
 
-    /// When the link came back, if it was lost at `at`.
-    pub(super) fn link_lost_until(&self, at: Timestamp) -> Option<Timestamp> {
-        let holds =
-            |(since, to): &&(Timestamp, Timestamp)| *since <= add_seconds(at, APART_S) && at <= *to;
-        self.lost.iter().find(holds).map(|(_, to)| *to)
+    /// Returns `true` if the link was lost at `at`, or came back just before.
+    pub(super) fn is_link_lost_at(&self, at: Timestamp) -> bool {
+        self.lost_link(add_seconds(at, -APART_S), add_seconds(at, APART_S))
     }
 
     /// From when on a stretch is put down to a STOP, and why there was one.

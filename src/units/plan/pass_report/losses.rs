@@ -164,10 +164,13 @@ impl TrackedPass<'_> {
             lost.extend(self.in_parts(stop, until, why));
             return lost;
         }
-        let back = self.breaks.link_lost_until(from).map_or(from, |back| back.min(until));
-        let mut lost = self.in_parts(from, back, LossCause::LinkLost);
-        lost.extend(self.in_parts(back, until, LossCause::NotCommanded));
-        lost
+        // A track that ended with its link goes on only once the operator agrees.
+        let why = if self.breaks.is_link_lost_at(from) {
+            LossCause::LinkLost
+        } else {
+            LossCause::NotCommanded
+        };
+        self.in_parts(from, until, why)
     }
 
     /// A stretch beyond half the beamwidth.

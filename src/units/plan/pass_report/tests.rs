@@ -456,6 +456,29 @@ fn a_lost_link_and_a_stop_are_told_as_what_they_are() {
 }
 
 #[test]
+fn what_an_outage_ended_is_lost_to_the_link_until_the_end() {
+    let mut scene = Scene::new();
+    let left = scene.direction(add_seconds(scene.pass.aos.time, 100.0));
+    for second in 0..400 {
+        let now = add_seconds(scene.pass.aos.time, f64::from(second));
+        let since = (103..130).contains(&second);
+        let since = since.then(|| add_seconds(scene.pass.aos.time, 100.0));
+        scene.breaks.note_link(now, since);
+        // The operator is asked once the link is back.
+        scene.breaks.note_commanded(now, second <= 131);
+    }
+    let report = scene.report(|second, at| match second {
+        _ if (100.0..130.0).contains(&second) => None,
+        _ if second >= 130.0 => Some(left),
+        _ => Some(scene.direction(at)),
+    });
+    let lost_s: f64 = report.losses.iter().map(|lost| lost.seconds()).sum();
+    let to_link = report.losses.iter().filter(|lost| lost.cause == LossCause::LinkLost);
+    let link_s: f64 = to_link.map(|lost| lost.seconds()).sum();
+    assert!(lost_s - link_s < 3.0, "{:?}", report.losses);
+}
+
+#[test]
 fn what_the_watch_stopped_an_antenna_for_is_the_cause_of_what_follows() {
     use LossCause::{Forbidden, ForeignHands, GivenUp, NoEffect};
     for why in [NoEffect, GivenUp, ForeignHands, Forbidden] {
