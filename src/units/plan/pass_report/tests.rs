@@ -472,9 +472,9 @@ fn what_an_outage_ended_is_lost_to_the_link_until_the_end() {
         _ if second >= 130.0 => Some(left),
         _ => Some(scene.direction(at)),
     });
-    let lost_s: f64 = report.losses.iter().map(|lost| lost.seconds()).sum();
+    let lost_s: f64 = report.losses.iter().map(LostStretch::seconds).sum();
     let to_link = report.losses.iter().filter(|lost| lost.cause == LossCause::LinkLost);
-    let link_s: f64 = to_link.map(|lost| lost.seconds()).sum();
+    let link_s: f64 = to_link.map(LostStretch::seconds).sum();
     assert!(lost_s - link_s < 3.0, "{:?}", report.losses);
 }
 
