@@ -168,6 +168,29 @@ fn a_set_for_a_launch_to_come_does_not_make_later_answers_older() {
 }
 
 #[test]
+fn an_answer_is_not_judged_by_one_of_its_sets() {
+    let folder = tempfile::tempdir().unwrap();
+    let list = |sets: &[(u32, u32)]| {
+        let objects = sets
+            .iter()
+            .map(|(number, day)| object(*number, *day).trim_matches(['[', ']']).to_owned());
+        format!("[{}]", objects.collect::<Vec<_>>().join(","))
+    };
+    let server = Server::new(vec![
+        ok("", &list(&[(5, 10), (6, 10), (7, 12)])),
+        // Two newer sets; the object with the newest one has left the list.
+        ok("", &list(&[(5, 11), (6, 11)])),
+        // One newer set, two older ones.
+        ok("", &list(&[(5, 12), (6, 10)])),
+        ok("", &list(&[(5, 10), (6, 10)])),
+    ]);
+    let source = server.source("mixed");
+    let ask = |hours| refresh(folder.path(), &source, start() + HOUR * hours, false, LIMITS).1;
+    let problems = [0, 2, 4, 6].map(|hours| ask(hours).fetch_problem);
+    assert_eq!(problems, [None, None, None, Some(FetchProblem::Older)]);
+}
+
+#[test]
 fn elements_are_kept_and_only_asked_for_when_they_changed() {
     let folder = tempfile::tempdir().unwrap();
     let marks = "ETag: \"one\"\r\nLast-Modified: Wed, 12 Aug 2026 10:00:00 GMT\r\n";

@@ -52,7 +52,7 @@ pub(super) fn run(station: Option<&Path>, options: &Options) -> anyhow::Result<E
     options.input.check("look", station)?;
     let site = options.input.place(station)?.site;
     let site = options.elevations.map_or(site, |kind| kind.in_looks(site));
-    let Satellites { list, is_complete } = options.input.satellites(station)?;
+    let Satellites { list, is_complete } = options.input.satellites(station, options.from)?;
     let [satellite] = &list[..] else { bail!("{}", too_many(&list)) };
     let (from, length_s) = (options.from, options.minutes * 60.0);
     input::caution(&list, from, time::add_seconds(from, length_s));

@@ -16,7 +16,7 @@ use self::progress::Progress;
 use super::input::{self, EXIT_CODES, Elevations, InputOptions, Place, Satellites};
 use crate::{
     astro::{Angle, HorizonMask, time},
-    orbit::{PassSearch, found_passes},
+    orbit::{PassSearch, decoded, found_passes},
     plan::pass_export::{ExportedPass, PassFormat, PassList, PassQuery},
 };
 
@@ -120,7 +120,8 @@ fn write_passes(
     query: &PassQuery,
 ) -> anyhow::Result<ExitCode> {
     let PassQuery { search, mask } = query;
-    let Satellites { list: satellites, is_complete } = options.input.satellites(station)?;
+    let Satellites { list: satellites, is_complete } =
+        options.input.satellites(station, options.from)?;
     input::caution(&satellites, search.from, search.to);
     let progress = Progress::new(satellites.len());
     let mut found = found_passes(&satellites, search, &|done| progress.show(done), &|| false);
@@ -150,9 +151,10 @@ fn write_passes(
 }
 
 fn read_mask(path: &PathBuf) -> anyhow::Result<HorizonMask> {
-    let text = std::fs::read_to_string(path)
+    let bytes = std::fs::read(path)
         .with_context(|| format!("The horizon mask {} cannot be read", path.display()))?;
-    HorizonMask::parse(&text).with_context(|| format!("{} is not a horizon mask", path.display()))
+    HorizonMask::parse(&decoded(&bytes))
+        .with_context(|| format!("{} is not a horizon mask", path.display()))
 }
 
 /// Size of the buffer in front of standard output, bytes.

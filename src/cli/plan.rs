@@ -118,7 +118,8 @@ pub(super) fn run(station: Option<&Path>, options: &Options) -> anyhow::Result<E
     let station = station::load(path, makes::SPECS).with_context(unusable)?.station;
     let scheduling = scheduling(&station, options);
     let station = Station { site: place.site, scheduling, ..station };
-    let Satellites { list: mut satellites, is_complete } = options.input.satellites(Some(path))?;
+    let Satellites { list: mut satellites, is_complete } =
+        options.input.satellites(Some(path), options.from)?;
     options.input.keep_planned(&mut satellites, &station.favourites);
     let (from, to) = (options.from, time::add_seconds(options.from, options.hours * 3600.0));
     input::caution(&satellites, from, to);

@@ -88,7 +88,8 @@ pub(super) fn run(station: Option<&Path>, options: &Options) -> anyhow::Result<E
     let unusable = || format!("The station file {} cannot be used", path.display());
     let place = options.input.place(Some(path))?;
     let station = station::load(path, makes::SPECS).with_context(unusable)?.station;
-    let Satellites { mut list, is_complete } = options.input.satellites(Some(path))?;
+    let Satellites { mut list, is_complete } =
+        options.input.satellites(Some(path), options.from)?;
     options.input.keep_planned(&mut list, &station.favourites);
     // Automatic operation takes passes of favourites alone.
     let numbers: Vec<u32> = list.iter().map(|it| it.elements.catalog_number()).collect();

@@ -211,7 +211,7 @@ type Rank = Option<(f64, f64)>;
 /// Works out the rows for `inputs` at `now`.
 pub fn arrange(inputs: Inputs, now: Timestamp) -> Answer {
     let Inputs { question, catalog, station, .. } = &inputs;
-    let is_old = |elements: &&Elements| elements.age_s(now) > OLD_S;
+    let is_old = |elements: &&Elements| elements.epoch_distance_s(now) > OLD_S;
     let mut found: Vec<&Elements> = match &question.among {
         Among::All => catalog.iter().collect(),
         Among::Favourites => {

@@ -17,6 +17,11 @@ use super::{Elements, Note, Nothing, ReadReport, Refusal};
 /// The limit compares epochs, not ages: a set that nobody else renews is still the best one.
 pub const SOURCE_LAG: SignedDuration = SignedDuration::from_hours(72);
 
+/// A set whose epoch lies more than this ahead replaces no other set. Sources give the next node of
+/// an orbit as epoch, which is up to a day ahead; sets for launches to come, and sets with a
+/// damaged epoch, lie farther ahead.
+pub const MAX_EPOCH_AHEAD: SignedDuration = SignedDuration::from_hours(24);
+
 /// The names of the sources that an object prefers, the first one first, by catalog number.
 pub type SourceOrders = BTreeMap<u32, Vec<String>>;
 
@@ -38,6 +43,52 @@ pub struct Catalog {
     chosen: BTreeSet<u32>,
     /// A catalog in use, whose equal sets are shared.
     previous: Weak<Self>,
+    clock: EpochClock,
+}
+
+/// Judges which of two sets of one object is better at a time.
+#[derive(Debug, Clone, Copy, Default)]
+struct EpochClock {
+    /// `None` in a catalog without a time: the newest epoch is the best.
+    now: Option<Timestamp>,
+    /// The earliest epoch that was compared and lies too far ahead.
+    ahead: Option<Timestamp>,
+    /// The latest epoch that was compared and does not.
+    current: Option<Timestamp>,
+}
+
+impl EpochClock {
+    fn is_ahead(now: Timestamp, epoch: Timestamp) -> bool {
+        epoch.duration_since(now) > MAX_EPOCH_AHEAD
+    }
+
+    /// The rank of an epoch: the newest one that does not lie too far ahead has the highest. Of
+    /// those ahead the nearest one is the best.
+    fn rank(self, epoch: Timestamp) -> (bool, i64) {
+        let is_ahead = self.now.is_some_and(|now| Self::is_ahead(now, epoch));
+        let microseconds = epoch.as_microsecond();
+        (!is_ahead, if is_ahead { -microseconds } else { microseconds })
+    }
+
+    fn compare(&mut self, epochs: [Timestamp; 2]) -> Ordering {
+        for epoch in epochs {
+            if self.rank(epoch).0 {
+                self.current = self.current.max(Some(epoch));
+            } else {
+                self.ahead = Some(self.ahead.map_or(epoch, |ahead| ahead.min(epoch)));
+            }
+        }
+        let [first, second] = epochs.map(|epoch| self.rank(epoch));
+        first.cmp(&second)
+    }
+
+    /// Returns `true` if a comparison would give another result at `now`.
+    fn is_outdated(self, now: Timestamp) -> bool {
+        let is_current = |epoch| !Self::is_ahead(now, epoch);
+        self.now.is_some()
+            && (self.ahead.is_some_and(is_current)
+                || self.current.is_some_and(|epoch| Self::is_ahead(now, epoch)))
+    }
 }
 
 /// The newest set of an object, while an older one is in use.
@@ -75,11 +126,11 @@ struct Group {
 pub struct MergeSummary {
     /// Objects that are new to the catalog.
     pub added: usize,
-    /// Objects that got a newer epoch.
+    /// Objects that got a better epoch.
     pub updated: usize,
     /// Sets with the same epoch as the known set.
     pub known: usize,
-    /// Sets older than the known set, left out.
+    /// Sets older than the known set, or too far ahead, left out.
     pub older: usize,
     /// Objects that could not be read.
     pub refused: Vec<Refusal>,
@@ -97,6 +148,29 @@ impl Catalog {
     pub fn set_orders(&mut self, orders: SourceOrders) {
         self.candidates = orders.keys().map(|number| (*number, Vec::new())).collect();
         self.orders = orders;
+    }
+
+    /// Sets the time at which the sets are used. Call it before the merges.
+    pub fn set_time(&mut self, now: Timestamp) {
+        self.clock.now = Some(now);
+    }
+
+    /// Returns `true` if the merges would choose other sets at `now`: a set that lay ahead of the
+    /// time of the merges does so no more, or the clock was set back.
+    pub fn is_outdated(&self, now: Timestamp) -> bool {
+        self.clock.is_outdated(now)
+    }
+
+    /// Returns `true` if a set of `epoch` is used rather than one of `other`.
+    pub fn is_better(&self, epoch: Timestamp, other: Timestamp) -> bool {
+        self.clock.rank(epoch) > self.clock.rank(other)
+    }
+
+    /// The newest epoch of `sets` that does not lie more than [`MAX_EPOCH_AHEAD`] ahead; the nearest
+    /// one if all do.
+    pub fn newest_of<'a>(&self, sets: impl IntoIterator<Item = &'a Elements>) -> Option<Timestamp> {
+        let epochs = sets.into_iter().map(Elements::epoch);
+        epochs.max_by_key(|epoch| self.clock.rank(*epoch))
     }
 
     /// Uses the set of the first source in the order of each object that is at most
@@ -117,11 +191,15 @@ impl Catalog {
 
     fn preferred(&self, number: u32, sets: &[Entry]) -> Option<Entry> {
         let newest = self.get(number)?.epoch();
-        let is_current = |set: &&Entry| newest.duration_since(set.elements.epoch()) <= SOURCE_LAG;
+        let is_current = |set: &&Entry| {
+            let epoch = set.elements.epoch();
+            newest.duration_since(epoch).abs() <= SOURCE_LAG
+                && self.clock.rank(epoch).0 == self.clock.rank(newest).0
+        };
         self.orders.get(&number)?.iter().find_map(|name| {
             let place = self.groups.iter().position(|group| group.name == *name)?;
             let own = sets.iter().filter(|set| set.group as usize == place);
-            own.max_by_key(|set| set.elements.epoch()).filter(is_current).cloned()
+            own.max_by_key(|set| self.clock.rank(set.elements.epoch())).filter(is_current).cloned()
         })
     }
 
@@ -150,7 +228,7 @@ impl Catalog {
     }
 
     /// Adds the elements of `source`. The newest epoch of an object wins, whatever the order of
-    /// merging. A set without a name keeps the known name.
+    /// merging, unless it lies more than [`MAX_EPOCH_AHEAD`] ahead. A set without a name keeps the known name.
     pub fn merge(&mut self, report: ReadReport, source: &str) -> MergeSummary {
         let mut summary = MergeSummary {
             refused: report.refused,
@@ -161,6 +239,7 @@ impl Catalog {
         };
         let group = self.group(source);
         let known = self.entries.len();
+        let mut clock = self.clock;
         let mut members: Vec<u32> = Vec::with_capacity(report.elements.len());
         self.entries.reserve(report.elements.len());
         for elements in report.elements {
@@ -173,7 +252,10 @@ impl Catalog {
             let (sorted, _) = self.entries.split_at_mut(known);
             let place = sorted.binary_search_by_key(&number, Entry::number).ok();
             match place.and_then(|place| sorted.get_mut(place)) {
-                Some(current) => self.superseded.extend(settle(current, entry, &mut summary)),
+                Some(current) => {
+                    let other = settle(current, entry, &mut clock, &mut summary);
+                    self.superseded.extend(other);
+                }
                 None => self.entries.push(entry),
             }
         }
@@ -183,10 +265,11 @@ impl Catalog {
         self.entries.dedup_by(|later, current| {
             let is_same = later.number() == current.number();
             if is_same {
-                superseded.extend(settle(current, later.clone(), &mut summary));
+                superseded.extend(settle(current, later.clone(), &mut clock, &mut summary));
             }
             is_same
         });
+        self.clock = clock;
         summary.added = self.entries.len() - known;
         if let Some(group) = self.groups.get_mut(group as usize) {
             group.members.extend(members);
@@ -342,14 +425,19 @@ impl Catalog {
     }
 
     pub fn newest_epoch(&self) -> Option<Timestamp> {
-        self.iter().map(Elements::epoch).max()
+        self.newest_of(self.iter())
     }
 }
 
-/// Keeps the newer of two sets of one object in `current`; returns the other, unless it is of the
+/// Keeps the better of two sets of one object in `current`; returns the other, unless it is of the
 /// same epoch.
-fn settle(current: &mut Entry, mut other: Entry, summary: &mut MergeSummary) -> Option<Entry> {
-    let order = other.elements.epoch().cmp(&current.elements.epoch());
+fn settle(
+    current: &mut Entry,
+    mut other: Entry,
+    clock: &mut EpochClock,
+    summary: &mut MergeSummary,
+) -> Option<Entry> {
+    let order = clock.compare([other.elements.epoch(), current.elements.epoch()]);
     match order {
         Ordering::Greater => {
             std::mem::swap(current, &mut other);
@@ -491,6 +579,65 @@ mod tests {
             assert_eq!(passed_over, Some(newest).filter(|newest| *newest != wanted.1));
             assert_eq!(catalog.all_set_aside().count(), usize::from(passed_over.is_some()));
             assert_eq!((catalog.set_aside(5), catalog.passed_over(6)), (None, None));
+        }
+    }
+
+    #[test]
+    fn a_set_with_an_epoch_ahead_does_not_win_over_a_current_one() {
+        let at = |text: &str| -> Timestamp { text.parse().unwrap() };
+        let now = at("2026-08-12T12:00:00Z");
+        for (days, wanted) in [
+            (&[12, 26][..], 12),
+            (&[26, 12], 12),
+            // Half a day ahead is normal, a day and a half is not.
+            (&[12, 13], 13),
+            (&[12, 14], 12),
+            (&[1, 30], 1),
+            (&[30, 26, 28], 26),
+            (&[14], 14),
+        ] {
+            let own: Vec<_> = days.iter().map(|day| (5, "FIVE", *day)).collect();
+            let mut together = Catalog::default();
+            together.set_time(now);
+            together.merge(report(&own), "one");
+            let mut apart = Catalog::default();
+            apart.set_time(now);
+            for set in own {
+                apart.merge(report(&[set]), &set.2.to_string());
+            }
+            for catalog in [together, apart] {
+                let epoch = catalog.get(5).unwrap().epoch();
+                assert_eq!(epoch, at(&format!("2026-08-{wanted:02}T00:00:00Z")), "{days:?}");
+                assert!(!catalog.is_outdated(now));
+            }
+        }
+    }
+
+    #[test]
+    fn a_preferred_source_with_an_epoch_ahead_is_not_used() {
+        let mut catalog = Catalog::default();
+        catalog.set_time("2026-08-12T12:00:00Z".parse().unwrap());
+        catalog.set_orders(SourceOrders::from([(5, vec!["own".to_owned()])]));
+        catalog.merge(report(&[(5, "FIVE", 12)]), "web");
+        catalog.merge(report(&[(5, "FIVE", 20)]), "own");
+        catalog.apply_orders(|_| false);
+        assert_eq!(catalog.source_of(5), Some("web"));
+    }
+
+    #[test]
+    fn another_time_outdates_a_choice_between_sets() {
+        let at = |text: &str| -> Timestamp { text.parse().unwrap() };
+        let mut catalog = Catalog::default();
+        catalog.set_time(at("2026-08-12T12:00:00Z"));
+        catalog.merge(report(&[(5, "FIVE", 12), (5, "FIVE", 20), (6, "ALONE", 30)]), "own");
+        for (now, expected) in [
+            ("2026-08-12T12:00:00Z", false),
+            ("2026-08-18T23:00:00Z", false),
+            ("2026-08-19T00:00:01Z", true),
+            ("2026-08-11T00:00:01Z", false),
+            ("1970-01-01T00:00:00Z", true),
+        ] {
+            assert_eq!(catalog.is_outdated(at(now)), expected, "{now}");
         }
     }
 

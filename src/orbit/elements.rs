@@ -283,6 +283,12 @@ impl Elements {
         time::seconds_between(self.epoch, now)
     }
 
+    /// Time between the epoch and `time` in seconds, whichever comes first: elements are as wrong
+    /// before their epoch as after it.
+    pub fn epoch_distance_s(&self, time: Timestamp) -> f64 {
+        self.age_s(time).abs()
+    }
+
     /// Returns `true` if the satellite keeps its place in the sky: its period is within 2 % of a
     /// sidereal day and its orbit is near-circular, whatever its inclination.
     pub fn is_geosynchronous(&self) -> bool {

@@ -16,7 +16,7 @@ mod sources;
 mod writer;
 
 pub use bundled::{BUNDLED_NEWEST, BUNDLED_SOURCE, BundledError, bundled, bundled_sharing};
-pub use catalog::{Catalog, MergeSummary, SOURCE_LAG, SourceOrders};
+pub use catalog::{Catalog, MAX_EPOCH_AHEAD, MergeSummary, SOURCE_LAG, SourceOrders};
 pub use elements::{EPOCH_YEARS, Elements, ElementsError, Heights};
 pub use ground::{SubPoint, TrackPoint};
 pub use look::{Distance, Local, LookAngles, OverGround};
@@ -26,7 +26,7 @@ pub use passes::{
 };
 pub use propagator::{PropagationError, Propagator, State};
 pub use reader::{
-    MAX_ELEMENT_BYTES, Note, NoteKind, Nothing, ReadReport, Refusal, RefusalReason,
+    MAX_ELEMENT_BYTES, Note, NoteKind, Nothing, ReadReport, Refusal, RefusalReason, decoded,
     read_element_bytes, read_elements,
 };
 pub use shadow::{is_lit, is_sunlit};

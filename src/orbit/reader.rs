@@ -23,7 +23,13 @@ pub const MAX_ELEMENT_BYTES: u64 = 1 << 28;
 /// or OMM in JSON, XML, KVN or CSV, as written by `CelesTrak` and Space-Track. Never fails as a
 /// whole and never panics.
 pub fn read_elements(text: &str) -> ReadReport {
-    let text = text.trim_start_matches('\u{feff}');
+    // Programs that join files leave the mark of each.
+    let joined;
+    let mut text = text.trim_start_matches('\u{feff}');
+    if text.contains('\u{feff}') {
+        joined = text.replace('\u{feff}', " ");
+        text = &joined;
+    }
     let form = form(text);
     if form.is_of_lines() && !text.contains('\n') && text.trim().contains('\r') {
         return of_nothing(Nothing::CarriageReturns);
@@ -89,7 +95,9 @@ fn unpack(bytes: &[u8]) -> Option<Vec<u8>> {
     (unpacked.len() as u64 <= MAX_ELEMENT_BYTES).then_some(unpacked)
 }
 
-fn decoded(bytes: &[u8]) -> Cow<'_, str> {
+/// The text of a file: UTF-8, or UTF-16 with a byte order mark. Bytes of other encodings become
+/// U+FFFD.
+pub fn decoded(bytes: &[u8]) -> Cow<'_, str> {
     let (code, is_big) = match bytes {
         [0xff, 0xfe, code @ ..] => (code, false),
         [0xfe, 0xff, code @ ..] => (code, true),
@@ -132,7 +140,10 @@ impl Form {
     }
 }
 
-/// The form of `text`, from its first line that is not a remark.
+/// Lines before the first record that may be about a list.
+const MAX_HEAD_LINES: usize = 20;
+
+/// The form of `text`, from the first line that tells it.
 fn form(text: &str) -> Form {
     // Two characters, because a name may start with any one of them.
     let mut signs = text.chars().filter(|sign| !sign.is_whitespace());
@@ -142,21 +153,27 @@ fn form(text: &str) -> Form {
     ) {
         return Form::Json;
     }
-    let first = text
+    let head = text
         .lines()
         .map(str::trim)
-        .find(|line| !line.is_empty() && !line.starts_with('#') && !kvn::is_comment(line))
-        .unwrap_or_default();
-    // A web page around a list of TLE also starts with a tag, but with a different one.
-    if first.starts_with("<?xml") || xml::is_first(first) {
-        Form::Xml
-    } else if kvn::is_first(first) {
-        Form::Kvn
-    } else if csv::is_header(first) {
-        Form::Csv
-    } else {
-        Form::Tle
+        .filter(|line| !line.is_empty() && !line.starts_with('#') && !kvn::is_comment(line))
+        .take(MAX_HEAD_LINES);
+    for line in head {
+        // A web page around a list of TLE also starts with a tag, but with a different one.
+        if line.starts_with("<?xml") || xml::is_first(line) {
+            return Form::Xml;
+        }
+        if kvn::is_first(line) {
+            return Form::Kvn;
+        }
+        if csv::is_header(line) {
+            return Form::Csv;
+        }
+        if tle::is_numbered(line) {
+            return Form::Tle;
+        }
     }
+    Form::Tle
 }
 
 /// A text of a source on one line: trimmed, and with blanks in place of the characters that no
@@ -247,6 +264,27 @@ mod tests {
                     "{text}"
                 );
             }
+        }
+    }
+
+    #[test]
+    fn files_that_were_joined_with_their_marks_are_read() {
+        for form in FORMS {
+            let alone = read_elements(form);
+            let joined = read_elements(&format!("\u{feff}{form}\n\u{feff}{form}"));
+            let expected = [&alone.elements[0], &alone.elements[0]];
+            assert_eq!(joined.elements.iter().collect::<Vec<_>>(), expected, "{form}");
+            assert_eq!((joined.refused, joined.notes), (vec![], vec![]), "{form}");
+        }
+    }
+
+    #[test]
+    fn text_before_the_records_does_no_harm() {
+        for form in [FORMS[0], FORMS[2], FORMS[3], FORMS[4]] {
+            let text = format!("Elements of the week\nfetched at noon, by us\n\n{form}");
+            let report = read_elements(&text);
+            assert_eq!(report.elements, read_elements(form).elements, "{text}");
+            assert_eq!(report.refused, [], "{text}");
         }
     }
 

@@ -42,7 +42,7 @@ use self::{
 };
 use crate::{
     orbit::{
-        Catalog, Elements, FETCH_PAUSE, FetchProblem, FileReport, MergeSummary, Source,
+        Catalog, Elements, FETCH_PAUSE, FetchProblem, FileReport, MergeSummary, ReadReport, Source,
         SourcePlace, SourceReport, may_fetch, not_before, read_element_bytes,
     },
     whole_file,
@@ -167,7 +167,7 @@ impl Library {
                 Ok(file) => {
                     let read = read_element_bytes(&file.bytes);
                     drop(file.bytes);
-                    let newest = read.elements.iter().map(Elements::epoch).max();
+                    let newest = catalog.newest_of(&read.elements);
                     report.newest_epoch = report.newest_epoch.max(newest);
                     if !source.place.is_server() {
                         report.as_of = report.as_of.max(file.modified);
@@ -306,7 +306,7 @@ impl Library {
         self.index.entry(&key, &source.name, now).attempted_at = now;
         let visit = Visit { access: &access, agent, limits };
         let body = visit.run(user, |step| self.record_step(source, &key, now, step))?;
-        newest_epoch(&body, now)?;
+        elements_in(&body)?;
         let record = self.index.entry(&key, &source.name, now);
         let path = self.folder.join(&record.file);
         whole_file::replace_and_keep_old(&path, &body)
@@ -356,10 +356,9 @@ impl Library {
                 Ok(false)
             }
             ServerAnswer::New { body, etag, last_modified } => {
-                let newest = newest_epoch(&body, now)?;
-                if stored.is_some_and(|stored| {
-                    newest_epoch(&stored.bytes, now).is_ok_and(|stored| stored > newest)
-                }) {
+                let sent = elements_in(&body)?;
+                let stored = stored.and_then(|stored| elements_in(&stored.bytes).ok());
+                if stored.is_some_and(|stored| is_older(sent, stored, now)) {
                     return Err(FetchProblem::Older);
                 }
                 whole_file::replace_and_keep_old(&path, &body)
@@ -372,15 +371,32 @@ impl Library {
     }
 }
 
-/// The newest epoch in an answer. One that lies ahead counts only if there is no other: lists such
-/// as that of `SatNOGS` hold sets for launches to come, whose dates change in both directions.
-fn newest_epoch(bytes: &[u8], now: Timestamp) -> Result<Timestamp, FetchProblem> {
+/// The elements of an answer, at least one.
+fn elements_in(bytes: &[u8]) -> Result<Vec<Elements>, FetchProblem> {
     let report = read_element_bytes(bytes);
-    let newest = report.elements.iter().map(Elements::epoch).max_by_key(|epoch| {
-        let is_past = *epoch <= now;
-        (is_past, *epoch)
+    if report.elements.is_empty() {
+        return Err(report.nothing.map_or(FetchProblem::NoElements, FetchProblem::Nothing));
+    }
+    Ok(report.elements)
+}
+
+/// Returns `true` if the answer `sent` has older sets than `stored` of more objects than it has newer
+/// ones of. A single set decides nothing: lists such as that of `SatNOGS` hold sets for launches
+/// to come, whose dates change in both directions.
+fn is_older(sent: Vec<Elements>, stored: Vec<Elements>, now: Timestamp) -> bool {
+    let catalog = |elements: Vec<Elements>| {
+        let mut catalog = Catalog::default();
+        catalog.set_time(now);
+        catalog.merge(ReadReport { elements, ..ReadReport::default() }, "");
+        catalog
+    };
+    let (sent, stored) = (catalog(sent), catalog(stored));
+    let orders = sent.iter().filter_map(|sent| {
+        let stored = stored.get(sent.catalog_number())?;
+        Some(sent.epoch().cmp(&stored.epoch()))
     });
-    newest.ok_or(report.nothing.map_or(FetchProblem::NoElements, FetchProblem::Nothing))
+    let balance: i64 = orders.map(|order| order as i64).sum();
+    balance < 0
 }
 
 fn no_report(source: &Source) -> SourceReport {

@@ -17,7 +17,7 @@ pub(super) fn caution<'a>(
     to: Timestamp,
 ) -> Option<String> {
     let farthest_days = |elements: &Elements| {
-        elements.age_s(from).abs().max(elements.age_s(to).abs()) / time::DAY_S
+        elements.epoch_distance_s(from).max(elements.epoch_distance_s(to)) / time::DAY_S
     };
     let (mut all, mut old) = (0, 0);
     let mut worst: Option<(f64, &Elements)> = None;

@@ -9,6 +9,7 @@ use std::{
 };
 
 use anyhow::{Context as _, bail};
+use jiff::Timestamp;
 use rayon::prelude::*;
 
 use super::InputOptions;
@@ -41,8 +42,12 @@ struct Merged {
 }
 
 impl InputOptions {
-    /// Reads the requested satellites; an error if there are none.
-    pub(in crate::cli) fn satellites(&self, station: Option<&Path>) -> anyhow::Result<Satellites> {
+    /// Reads the requested satellites for use from `from` on; an error if there are none.
+    pub(in crate::cli) fn satellites(
+        &self,
+        station: Option<&Path>,
+        from: Timestamp,
+    ) -> anyhow::Result<Satellites> {
         let mut said = Said { errors: io::stderr().lock(), is_complete: true };
         let mut files = self.own_files(&mut said);
         let mut older_sets = None;
@@ -61,6 +66,8 @@ impl InputOptions {
         files.sort();
         files.dedup();
         let mut catalog = Catalog::default();
+        // For a time in the past, sets that are newer than that time are less exact.
+        catalog.set_time(from.min(Timestamp::now()));
         catalog.set_orders(orders);
         let mut merged = Vec::new();
         for path in &files {

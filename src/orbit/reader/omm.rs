@@ -65,6 +65,22 @@ impl Field {
         FIELDS.get(self.0).is_some_and(|name| name.starts_with("OBJECT_"))
     }
 
+    /// Returns `true` if the field holds a number that may have a fraction.
+    fn is_number(self) -> bool {
+        FIELDS.get(self.0).is_some_and(|name| {
+            name.starts_with("MEAN_MOTION")
+                || matches!(
+                    *name,
+                    "ECCENTRICITY"
+                        | "INCLINATION"
+                        | "RA_OF_ASC_NODE"
+                        | "ARG_OF_PERICENTER"
+                        | "MEAN_ANOMALY"
+                        | "BSTAR"
+                )
+        })
+    }
+
     /// Returns `true` if the field holds a line of a TLE.
     fn is_tle(self) -> bool {
         FIELDS.get(self.0).is_some_and(|name| name.starts_with("TLE"))

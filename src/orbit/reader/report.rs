@@ -52,6 +52,9 @@ pub struct Note {
 /// Oddities of objects that are still accepted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error, Serialize, Deserialize)]
 pub enum NoteKind {
+    /// The text before a TLE is a heading or a remark, so that the set has no name.
+    #[error("the text before it is not taken for its name")]
+    TextBefore,
     /// Nothing protects the line of a TLE against wrong characters.
     #[error("line {line} has no checksum")]
     BlankChecksum {

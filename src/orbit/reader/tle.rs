@@ -2,6 +2,8 @@
 
 mod columns;
 
+use std::borrow::Cow;
+
 use rayon::prelude::*;
 
 pub(crate) use self::columns::checksum;
@@ -9,33 +11,83 @@ use self::columns::{Columns, elements};
 use super::{ReadReport, RefusalReason, report::NoteKind};
 use crate::Elements;
 
-/// A line with its number in the text, from 1.
-#[derive(Clone, Copy)]
+/// Maximum length of a name without a line number before it, characters.
+const MAX_NAME_CHARS: usize = 24;
+
+/// A line that is not empty.
 struct TleLine<'a> {
+    /// Its number in the text, from 1.
     place: usize,
-    text: &'a str,
+    text: Cow<'a, str>,
+    /// The line before it is empty.
+    follows_gap: bool,
 }
 
-impl TleLine<'_> {
+impl<'a> TleLine<'a> {
+    /// `None` for an empty line and for a remark.
+    fn new(text: &'a str, place: usize, follows_gap: bool) -> Option<Self> {
+        let is_around = |letter: char| letter.is_whitespace() || is_invisible(letter);
+        // Mail programs quote with `>`.
+        let text = text.trim_start_matches(|letter| is_around(letter) || letter == '>');
+        let text = text.trim_end_matches(is_around);
+        if text.is_empty() || text.starts_with('#') {
+            return None;
+        }
+        let text = if text.is_ascii() || !text.starts_with(['1', '2']) {
+            Cow::Borrowed(text)
+        } else {
+            Cow::Owned(text.chars().filter_map(plain).collect())
+        };
+        Some(Self { place, text, follows_gap })
+    }
+
     /// Returns `true` if the line looks like line `number` of a set.
-    fn is_numbered(self, number: char) -> bool {
+    fn is_numbered(&self, number: char) -> bool {
         // A name may also start with a digit, but it has at most 24 columns.
         let mut letters = self.text.chars();
         letters.next() == Some(number)
             && matches!(letters.next(), Some(' ' | '\t'))
-            && self.text.len() > 24
+            && self.text.len() > MAX_NAME_CHARS
     }
 }
 
+fn is_invisible(letter: char) -> bool {
+    matches!(letter, '\u{ad}' | '\u{200b}'..='\u{200f}' | '\u{2060}' | '\u{feff}')
+}
+
+/// The ASCII character in place of which web pages and word processors put `letter`; `None` for a
+/// letter that takes no column.
+fn plain(letter: char) -> Option<char> {
+    match letter {
+        '\t' => Some('\t'),
+        // The blank of Latin-1 is no UTF-8.
+        '\u{fffd}' => Some(' '),
+        '\u{2010}'..='\u{2015}' | '\u{2212}' | '\u{fe63}' | '\u{ff0d}' => Some('-'),
+        _ if letter.is_whitespace() => Some(' '),
+        _ => Some(letter).filter(|letter| !is_invisible(*letter)),
+    }
+}
+
+/// Returns `true` if `line` looks like a line of a set.
+pub(super) fn is_numbered(line: &str) -> bool {
+    TleLine::new(line, 1, false).is_some_and(|line| line.is_numbered('1') || line.is_numbered('2'))
+}
+
 pub(super) fn read(text: &str) -> ReadReport {
-    let sets: Vec<TleSet<'_>> = sets(text).collect();
+    let sets = sets(text);
     let mut read: Vec<Result<Read, RefusalReason>> = Vec::new();
     sets.par_iter().with_min_len(LEAST_FOR_A_THREAD).map(TleSet::read).collect_into_vec(&mut read);
     let mut report = ReadReport::default();
     report.elements.reserve_exact(read.len());
     for (set, read) in sets.iter().zip(read) {
         match read {
-            Ok(read) => read.finish(set.place, set.object(), &mut report),
+            Ok(read) => {
+                if !set.text.is_empty() && set.name().is_empty() {
+                    report.note(set.place, set.number(), NoteKind::TextBefore);
+                }
+                let object = Some(set.name()).filter(|name| !name.is_empty());
+                read.finish(set.place, object.or_else(|| set.number()), &mut report);
+            }
             Err(reason) => report.refuse(set.place, set.object(), reason),
         }
     }
@@ -47,11 +99,23 @@ const LEAST_FOR_A_THREAD: usize = 64;
 
 /// The lines of a set, at least one of the two.
 struct TleSet<'a> {
-    name: &'a str,
+    /// The text before it; empty if there is none.
+    text: Cow<'a, str>,
+    heading: Heading,
     /// The number of its first line in the text, from 1.
     place: usize,
-    first: Option<&'a str>,
-    second: Option<&'a str>,
+    first: Option<Cow<'a, str>>,
+    second: Option<Cow<'a, str>>,
+}
+
+/// The part that the text before a set plays.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Heading {
+    /// A line with the number 0.
+    Numbered,
+    /// It may be a name.
+    Likely,
+    Remark,
 }
 
 /// What a set holds, and those of its lines that have no checksum.
@@ -82,53 +146,104 @@ pub(super) fn read_lines(
     first: Option<&str>,
     second: Option<&str>,
 ) -> Result<Read, RefusalReason> {
-    TleSet { name, place: 1, first, second }.read()
+    let [first, second] = [first, second].map(|line| line.map(Cow::Borrowed));
+    TleSet { text: name.into(), heading: Heading::Numbered, place: 1, first, second }.read()
 }
 
 /// All sets of a text, in its order.
-fn sets(text: &str) -> impl Iterator<Item = TleSet<'_>> {
-    let mut lines = text
-        .lines()
-        .zip(1..)
-        .map(|(text, place)| TleLine { place, text: text.trim() })
-        .filter(|line| !line.text.is_empty() && !line.text.starts_with('#'))
-        .peekable();
+fn sets(text: &str) -> Vec<TleSet<'_>> {
+    let mut is_gap = false;
+    let lines = text.lines().zip(1..).filter_map(|(text, place)| {
+        let follows_gap = std::mem::replace(&mut is_gap, text.trim().is_empty());
+        TleLine::new(text, place, follows_gap)
+    });
+    let mut lines = lines.peekable();
     // Only the last line before a set can be its name; all other lines are remarks.
-    let mut name = "";
-    std::iter::from_fn(move || {
-        loop {
-            let TleLine { place, text } = lines.next()?;
-            let line = TleLine { place, text };
-            let (first, second) = if line.is_numbered('1') {
-                let second = lines.next_if(|next| next.is_numbered('2'));
-                (Some(text), second.map(|line| line.text))
-            } else if line.is_numbered('2') {
-                (None, Some(text))
-            } else {
-                name = name_in(text);
-                continue;
-            };
-            return Some(TleSet { name: std::mem::take(&mut name), place, first, second });
+    let mut before: Option<Cow<'_, str>> = None;
+    let mut sets: Vec<TleSet<'_>> = Vec::new();
+    while let Some(line) = lines.next() {
+        let (place, is_apart) = (line.place, line.follows_gap);
+        let mut is_spaced = false;
+        let (first, second) = if line.is_numbered('1') {
+            let second = lines.next_if(|next| next.is_numbered('2'));
+            is_spaced = second.as_ref().is_some_and(|second| second.follows_gap);
+            (Some(line.text), second.map(|second| second.text))
+        } else if line.is_numbered('2') {
+            (None, Some(line.text))
+        } else {
+            before = Some(line.text);
+            continue;
+        };
+        let text = before.take().unwrap_or_default();
+        // An empty line parts a set from the text before it, unless all lines are apart.
+        let heading = if text.starts_with("0 ") {
+            Heading::Numbered
+        } else if is_remark(&text) || (is_apart && !is_spaced) {
+            Heading::Remark
+        } else {
+            Heading::Likely
+        };
+        sets.push(TleSet { text, heading, place, first, second });
+    }
+    // Sets without names have names nowhere: text before one of them is a heading of the list.
+    let likely = sets.iter().filter(|set| set.heading == Heading::Likely).count();
+    let numbered = sets.iter().filter(|set| set.heading == Heading::Numbered).count();
+    if (likely + numbered) * 2 <= sets.len() {
+        for set in sets.iter_mut().filter(|set| set.heading == Heading::Likely) {
+            set.heading = Heading::Remark;
         }
-    })
+    }
+    sets
 }
 
-impl<'a> TleSet<'a> {
-    /// The name by which a refusal calls a set: its name, or else its number as written.
-    fn object(&self) -> Option<&'a str> {
-        let line = self.first.or(self.second);
-        let number = || line?.get(2..7).map(str::trim);
-        Some(self.name).filter(|name| !name.is_empty()).or_else(number).filter(|it| !it.is_empty())
+/// Returns `true` if `text` is no name of a satellite, such as a heading with a date, an address or a
+/// tag of a web page.
+fn is_remark(text: &str) -> bool {
+    let is_digit = |byte: Option<&u8>| byte.is_some_and(u8::is_ascii_digit);
+    let bytes = text.as_bytes();
+    let between_digits =
+        |at: usize| at > 0 && is_digit(bytes.get(at - 1)) && is_digit(bytes.get(at + 1));
+    let has_time = text.match_indices(':').any(|(at, _)| between_digits(at));
+    let dates = ['-', '.', '/']
+        .map(|sign| text.match_indices(sign).filter(|(at, _)| between_digits(*at)).count());
+    text.chars().count() > MAX_NAME_CHARS
+        || !text.contains(char::is_alphanumeric)
+        || text.ends_with(':')
+        || text.contains("://")
+        || (text.contains('<') && text.contains('>'))
+        || has_time
+        || dates.iter().any(|count| *count > 1)
+}
+
+impl TleSet<'_> {
+    /// Empty if the text before the set is not its name.
+    fn name(&self) -> &str {
+        match self.heading {
+            Heading::Numbered | Heading::Likely => name_in(&self.text),
+            Heading::Remark => "",
+        }
+    }
+
+    /// Its number as written.
+    fn number(&self) -> Option<&str> {
+        let line = self.first.as_ref().or(self.second.as_ref())?;
+        line.get(2..7).map(str::trim).filter(|number| !number.is_empty())
+    }
+
+    /// The words by which a refusal calls a set: the text before it, or else its number.
+    fn object(&self) -> Option<&str> {
+        Some(name_in(&self.text)).filter(|name| !name.is_empty()).or_else(|| self.number())
     }
 
     fn read(&self) -> Result<Read, RefusalReason> {
         let missing = |missing| RefusalReason::MissingLine { missing };
-        let (first, second) = (self.first.ok_or(missing(1))?, self.second.ok_or(missing(2))?);
+        let first = self.first.as_deref().ok_or(missing(1))?;
+        let second = self.second.as_deref().ok_or(missing(2))?;
         let lines = [Columns::new(1, first)?, Columns::new(2, second)?];
         let [first, second] = &lines;
         let unprotected = [(1, first), (2, second)]
             .map(|(line, columns)| (!columns.has_checksum).then_some(line));
-        Ok(Read { elements: elements(self.name, &lines)?, unprotected })
+        Ok(Read { elements: elements(self.name(), &lines)?, unprotected })
     }
 }
 
@@ -176,6 +291,71 @@ mod tests {
         assert_eq!(iss.international_designator(), Some("1998-067A"));
         assert_eq!(iss.epoch(), "2008-09-20T12:25:40.104192Z".parse().unwrap());
         assert!((iss.inclination().degrees() - 51.6416).abs() < 1e-12);
+    }
+
+    /// `text` before the line of each set of `sets`, which are without names, and their names then.
+    fn names(text: &str, sets: usize) -> Vec<String> {
+        let set = format!("{LINE_1}\n{LINE_2}\n");
+        let report = read(&format!("{text}\n{}", set.repeat(sets)));
+        assert_eq!((report.elements.len(), &report.refused), (sets, &vec![]), "{text}");
+        report.elements.iter().map(|elements| elements.name().to_owned()).collect()
+    }
+
+    #[test]
+    fn text_around_sets_is_no_name() {
+        for text in [
+            "Last fetched 2026-11-27 06:00 UTC",
+            "Updated 2026-11-27",
+            "27.11.2026",
+            "11/27/26 list",
+            "Fetched 06:00 UTC",
+            "https://example.org/a",
+            "<pre>",
+            "-----",
+            "Weather satellites:",
+            "Elements of the satellites that we use",
+            "Weather\n",
+            "Weather\n\n",
+        ] {
+            assert_eq!(names(text, 1), [""], "{text}");
+            assert_eq!(names(text, 2), ["", ""], "{text}");
+        }
+        assert_eq!(names("Weather", 2), ["", ""]);
+        assert_eq!(names("Weather", 1), ["Weather"]);
+        for name in ["0 ISS", "ISS", "COSMOS 2251 DEB", "AO-07", "1KUNS-PF", "NOAA 19 [+]", "A-1.5"]
+        {
+            assert_eq!(names(name, 1), [name.trim_start_matches("0 ")], "{name}");
+        }
+        let long = "0 A NAME OF MORE THAN TWENTY-FOUR LETTERS";
+        assert_eq!(names(long, 3), [&long[2..], "", ""]);
+        let report = read(&format!("Weather\n{LINE_1}\n{LINE_2}\n{LINE_1}\n{LINE_2}\n"));
+        let noted: Vec<_> = report.notes.iter().map(|note| (note.line, note.kind)).collect();
+        assert_eq!(noted, [(2, NoteKind::TextBefore)]);
+    }
+
+    #[test]
+    fn names_in_a_text_with_empty_lines_everywhere_are_read() {
+        let text = format!("ISS\n\n{LINE_1}\n\n{LINE_2}\n\nISS B\n\n{LINE_1}\n\n{LINE_2}\n");
+        let names: Vec<_> =
+            read(&text).elements.iter().map(|elements| elements.name().to_owned()).collect();
+        assert_eq!(names, ["ISS", "ISS B"]);
+    }
+
+    #[test]
+    fn signs_of_web_pages_and_mails_in_the_lines_are_read() {
+        let plain = format!("ISS\n{LINE_1}\n{LINE_2}\n");
+        for text in [
+            plain.replace(' ', "\u{a0}"),
+            plain.replace("1 ", "1\u{2007}"),
+            plain.replace('-', "\u{2212}"),
+            plain.replace("\n", "\u{200b}\n").replace("1 2", "1\u{200b} 2"),
+            plain.replace("ISS", "\u{feff}ISS").replace("\n1", "\n\u{feff}1"),
+            plain.lines().map(|line| format!("> > {line}\n")).collect(),
+        ] {
+            let report = read(&text);
+            assert_eq!(report.refused, [], "{text:?}");
+            assert_eq!(report.elements, read(&plain).elements, "{text:?}");
+        }
     }
 
     #[test]

@@ -395,6 +395,15 @@ impl Engine {
         }
     }
 
+    /// Reads the elements again if other sets of them count by now, such as after a clock step.
+    pub(super) fn judge_epochs_again(&mut self) {
+        if let CatalogState::Ready(catalog) = &self.catalog
+            && catalog.is_outdated(self.now)
+        {
+            self.begin_elements(Task::default());
+        }
+    }
+
     /// Starts reading the elements while nothing else does.
     pub(super) fn start_elements(&mut self, task: Task) -> io::Result<()> {
         let task = Task {

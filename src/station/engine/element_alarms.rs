@@ -92,7 +92,7 @@ fn elements_old_alarm(
 ) -> Option<AlarmKind> {
     let is_old = |(satellite, from): &(u32, Timestamp)| {
         let elements = catalog.get(*satellite);
-        elements.is_some_and(|elements| elements.age_s(*from) > max_days * DAY_S)
+        elements.is_some_and(|elements| elements.epoch_distance_s(*from) > max_days * DAY_S)
     };
     let old: BTreeSet<u32> = passes.filter(is_old).map(|(satellite, _)| satellite).collect();
     let name = catalog.get(*old.first()?)?.short_name().to_owned();

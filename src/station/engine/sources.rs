@@ -255,6 +255,7 @@ fn carry_out(
         Ok(catalog) => (catalog, None),
         Err(error) => (Catalog::default(), Some(error.to_string())),
     };
+    catalog.set_time(now);
     catalog.set_orders(task.orders.clone());
     if !sources.list.is_empty() {
         match read(places, &mut sources, task, now, &mut catalog, cancelled) {

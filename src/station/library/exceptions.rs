@@ -27,9 +27,10 @@ impl Exception {
         self.set.elements.catalog_number()
     }
 
-    /// Returns `true` if a set has come to `catalog` that is newer than there was.
+    /// Returns `true` if a set has come to `catalog` that is newer than there was. A newest set whose
+    /// epoch lay too far ahead counts as older than any current one.
     fn is_over(&self, catalog: &Catalog) -> bool {
-        catalog.get(self.number()).is_some_and(|held| held.epoch() > self.newest)
+        catalog.get(self.number()).is_some_and(|held| catalog.is_better(held.epoch(), self.newest))
     }
 }
 
@@ -155,6 +156,20 @@ mod tests {
         assert_eq!(in_use(folder, 7), epoch(4));
         Exceptions::load(folder).end(ISS).unwrap();
         assert_eq!(in_use(folder, 7), epoch(7));
+    }
+
+    #[test]
+    fn a_newest_epoch_far_ahead_keeps_no_older_set_in_use() {
+        let folder = tempfile::tempdir().unwrap();
+        let epoch = |day| set(day).elements.epoch();
+        Exceptions::load(folder.path()).begin(set(3), epoch(30)).unwrap();
+        let mut catalog = Catalog::default();
+        catalog.set_time(epoch(8));
+        let mut text = Vec::new();
+        write_omm_json([&set(7).elements], &mut text).unwrap();
+        catalog.merge(crate::orbit::read_element_bytes(&text), "newest");
+        Exceptions::load(folder.path()).apply(&mut catalog);
+        assert_eq!(catalog.get(ISS).unwrap().epoch(), epoch(7));
     }
 
     #[test]

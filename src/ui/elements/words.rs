@@ -92,7 +92,7 @@ pub(super) fn age(seconds: f64) -> String {
 
 /// Returns the tone of the age of elements: a caution comes sooner in low orbits, which drag changes.
 pub(in crate::ui) fn age_tone(elements: &Elements, now: Timestamp) -> Tone {
-    let age_s = elements.age_s(now);
+    let age_s = elements.epoch_distance_s(now);
     let times = if elements.is_geosynchronous() { (30.0, 90.0) } else { (7.0, 30.0) };
     if age_s >= times.1 * DAY_S {
         Tone::Bad
@@ -259,8 +259,10 @@ fn holdings(source: &Source, report: &SourceReport, now: Timestamp) -> (Tone, St
         return (Tone::Caution, words.to_owned());
     }
     let newest = report.newest_epoch.map_or_else(String::new, |epoch| {
-        let age = format::age(seconds_between(epoch, now));
-        format!(", newest epoch {}, {age} old", format::iso_date(epoch))
+        let age_s = seconds_between(epoch, now);
+        let word = if age_s < 0.0 { "ahead" } else { "old" };
+        let age = format::age(age_s.abs());
+        format!(", newest epoch {}, {age} {word}", format::iso_date(epoch))
     });
     let word = match source.place {
         SourcePlace::Web(_) | SourcePlace::SpaceTrack(_) => "Sent or confirmed",
@@ -374,7 +376,7 @@ pub(super) fn copied<'a>(elements: impl Iterator<Item = &'a Elements>, form: For
 
 /// Returns `true` if elements are old enough to be mentioned.
 pub(super) fn is_old(elements: &Elements, now: Timestamp) -> bool {
-    elements.age_s(now) > OLD_ELEMENTS_S
+    elements.epoch_distance_s(now) > OLD_ELEMENTS_S
 }
 
 #[cfg(test)]

@@ -42,7 +42,7 @@ impl List {
         let mut ages: Vec<Age> = known
             .map(|(elements, _)| {
                 let seconds = elements.age_s(sheet.from);
-                Age { name: elements.label(), seconds, is_old: seconds > most_s }
+                Age { name: elements.label(), seconds, is_old: seconds.abs() > most_s }
             })
             .collect();
         ages.sort_by(|a, b| b.seconds.total_cmp(&a.seconds).then_with(|| a.name.cmp(&b.name)));

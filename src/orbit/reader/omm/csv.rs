@@ -1,8 +1,7 @@
-//! OMM as rows of comma-separated values under a header with the field names.
+//! OMM as rows of separated values under a header with the field names. Spreadsheets write semicolons,
+//! or tabs, in place of commas where numbers have decimal commas.
 
-use std::borrow::Cow;
-
-use csv_core::{ReadRecordResult, Reader};
+use csv_core::{ReadRecordResult, Reader, ReaderBuilder};
 
 use super::{Field, Message, Value};
 use crate::reader::{ReadReport, RefusalReason};
@@ -14,11 +13,21 @@ const MAX_FIELDS: usize = 1000;
 /// than a row has text fields.
 const MIN_NAMES: usize = 4;
 
+/// Characters that separate the fields, in the order of trial.
+const SEPARATORS: [u8; 3] = [b',', b';', b'\t'];
+
 /// Returns `true` if `line` is a header.
 pub(in crate::reader) fn is_header(line: &str) -> bool {
-    let mut row = Row::new();
-    row.split(line);
-    row.is_header()
+    header(line).is_some()
+}
+
+/// The fields of a header; `None` for another line.
+fn header(line: &str) -> Option<Row> {
+    SEPARATORS.into_iter().find_map(|separator| {
+        let mut row = Row::new(separator);
+        row.split(line);
+        row.is_header().then_some(row)
+    })
 }
 
 /// Reads all rows of `text`. A header may occur again, since files are concatenated.
@@ -27,7 +36,7 @@ pub(in crate::reader) fn is_header(line: &str) -> bool {
 /// costs one row and not the rest of the text.
 pub(in crate::reader) fn read(text: &str) -> ReadReport {
     let mut report = ReadReport::default();
-    let mut row = Row::new();
+    let mut row = Row::new(b',');
     let mut header: Vec<Option<Field>> = Vec::new();
     for (index, line) in text.lines().enumerate() {
         let (place, line) = (index + 1, line.trim());
@@ -36,14 +45,25 @@ pub(in crate::reader) fn read(text: &str) -> ReadReport {
         if line.is_empty() || (line.starts_with('#') && row.len() != header.len()) {
             continue;
         }
+        // A header with other separators is one field, or several.
+        let is_other = row.len() != header.len();
+        if let Some(new) = is_other.then(|| self::header(line)).flatten() {
+            row = new;
+        }
         if row.is_header() {
             header = row.fields().map(|name| Field::named(name.trim())).collect();
+            continue;
+        }
+        // Text before the table.
+        if header.is_empty() {
             continue;
         }
         let mut message = Message::default();
         for (field, text) in header.iter().zip(row.fields()) {
             if let Some(field) = *field {
-                message.set(field, Value::Text(Cow::Borrowed(text)));
+                let has_comma = row.separator != b',' && field.is_number() && text.contains(',');
+                let text = if has_comma { text.replace(',', ".").into() } else { text.into() };
+                message.set(field, Value::Text(text));
             }
         }
         if row.len() == header.len() {
@@ -59,6 +79,7 @@ pub(in crate::reader) fn read(text: &str) -> ReadReport {
 /// The fields of one row, without their quotation marks.
 struct Row {
     reader: Reader,
+    separator: u8,
     text: Vec<u8>,
     /// End of each field in `text`.
     ends: Vec<usize>,
@@ -66,9 +87,10 @@ struct Row {
 }
 
 impl Row {
-    fn new() -> Self {
+    fn new(separator: u8) -> Self {
         // Not `Reader::default()`, which has no tables and reads nothing.
-        Self { reader: Reader::new(), text: Vec::new(), ends: vec![0; MAX_FIELDS], len: 0 }
+        let reader = ReaderBuilder::new().delimiter(separator).build();
+        Self { reader, separator, text: Vec::new(), ends: vec![0; MAX_FIELDS], len: 0 }
     }
 
     fn split(&mut self, line: &str) {
@@ -140,6 +162,21 @@ mod tests {
             quoted(&ROW.replace("0,U,", ",,"))
         );
         assert_eq!(read(&text).elements, plain.elements);
+    }
+
+    #[test]
+    fn spreadsheets_with_decimal_commas_are_read() {
+        let plain = read(&format!("{HEADER}\n{ROW}\n"));
+        let comma = ROW.replace(',', ";").replace('.', ",").replace("00,123456", "00.123456");
+        for (separator, first) in [(";", ""), ("\t", ""), (";", "sep=;\n")] {
+            let [header, row] =
+                [&HEADER.replace(',', ";"), &comma].map(|line| line.replace(';', separator));
+            let text = format!("{first}{header}\n{row}\n{HEADER}\n{ROW}\n{header}\n{row}\n");
+            let report = read(&text);
+            assert_eq!(report.refused, [], "{text}");
+            let expected = vec![plain.elements[0].clone(); 3];
+            assert_eq!(report.elements, expected, "{text}");
+        }
     }
 
     #[test]

@@ -46,7 +46,7 @@ impl Candidate {
         };
         let mask = station.horizon_mask.as_ref();
         let mut sight = Sight::new(propagator, station.site, mask, pass).named(elements.name());
-        let age_s = elements.age_s(pass.aos.time);
+        let age_s = elements.epoch_distance_s(pass.aos.time);
         Self::new(number, age_s, (pass, propagator), wanted, &mut sight, common)
     }
 }

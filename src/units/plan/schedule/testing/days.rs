@@ -190,7 +190,7 @@ fn candidate(
     let Satellite { priority, limits, take, .. } = satellite;
     let wanted = Wanted { priority: *priority, take: *take, limits, by_rule: &|_| None };
     let number = satellite.elements.catalog_number();
-    let age_s = satellite.elements.age_s(pass.aos.time);
+    let age_s = satellite.elements.epoch_distance_s(pass.aos.time);
     Candidate::new(number, age_s, (pass, propagator), wanted, &mut sight, common)
 }
 
