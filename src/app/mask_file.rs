@@ -7,6 +7,7 @@ use crate::{
     astro::{HorizonMask, MaskForm},
     job::Job,
     model::MaskNews,
+    orbit::decoded,
     whole_file,
 };
 
@@ -75,6 +76,5 @@ fn read(path: &std::path::Path) -> Result<(HorizonMask, MaskForm), String> {
         return Err(format!("the file has {size} bytes, a mask has {MAX} at most"));
     }
     let bytes = fs::read(path).map_err(|error| error.to_string())?;
-    let text = String::from_utf8(bytes).map_err(|_| "the file is not text".to_owned())?;
-    HorizonMask::import(&text).map_err(|error| error.to_string())
+    HorizonMask::import(&decoded(&bytes)).map_err(|error| error.to_string())
 }

@@ -18,9 +18,7 @@ mod zone;
 pub use angle::Angle;
 pub use azel::AzEl;
 pub use ground::{Cap, CapRow, GroundPoint};
-pub use horizon_mask::{
-    HorizonMask, MAX_MASK_POINTS, MaskError, MaskForm, MaskImportError, MaskTextError,
-};
+pub use horizon_mask::{HorizonMask, MAX_MASK_POINTS, MaskError, MaskForm, MaskImportError};
 pub use locator::{LocatorError, LocatorSquare, read_locator};
 pub use pointing_model::{PointingModel, Term};
 pub use refraction::{Air, Refraction, RefractionError};

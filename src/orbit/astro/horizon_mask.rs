@@ -15,6 +15,8 @@ use super::Angle;
 pub const MAX_MASK_POINTS: usize = 7200;
 
 const TURN_DEG: f64 = 360.0;
+/// Width of a wall, degrees: nobody measures a skyline as exactly, and the mask stays a line.
+const WALL_DEG: f64 = 1e-3;
 
 /// Elevation by azimuth, with straight lines between the points and, across north, from the last
 /// point to the first. A single point makes a level horizon.
@@ -32,38 +34,20 @@ pub enum MaskError {
     Empty,
     #[error("the mask has more than {MAX_MASK_POINTS} points")]
     TooManyPoints,
-    #[error("azimuth {0} is not between 0 and 360 degrees")]
+    #[error("azimuth {0} is not between -180 and 360 degrees")]
     Azimuth(f64),
     #[error("elevation {0} is not between -90 and 90 degrees")]
     Elevation(f64),
+    /// Not on neighbouring lines, or more than twice.
     #[error("azimuth {0} is given twice")]
     Duplicate(f64),
 }
 
-/// The reason why a text does not hold a mask.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum MaskTextError {
-    #[error("line {line} does not hold an azimuth and an elevation")]
-    Format {
-        /// Counted from 1.
-        line: usize,
-    },
-    /// A line holds a point that is refused.
-    #[error("line {line}: {reason}")]
-    Point {
-        /// Counted from 1.
-        line: usize,
-        reason: MaskError,
-    },
-    /// Each line is valid, but together they do not make a mask.
-    #[error(transparent)]
-    Mask(#[from] MaskError),
-}
-
 impl HorizonMask {
-    /// Builds a mask from points of azimuth (0 to 360) and elevation (-90 to 90) in degrees, in any
-    /// order. No azimuth may occur twice; 0 and 360 are the same azimuth, but both may be given if
-    /// their elevations are equal.
+    /// Builds a mask from points of azimuth (-180 to 360) and elevation (-90 to 90) in degrees, in
+    /// any order. An azimuth that occurs twice, one point after the other, makes a wall: the mask
+    /// changes from the first to the second elevation within [`WALL_DEG`]. So do 360 and 0, and 180
+    /// and -180.
     pub fn from_degrees(points: impl IntoIterator<Item = (f64, f64)>) -> Result<Self, MaskError> {
         let mut builder = Builder::default();
         for (azimuth_deg, elevation_deg) in points {
@@ -72,25 +56,9 @@ impl HorizonMask {
         builder.finish().map_err(|(_, reason)| reason)
     }
 
-    /// Reads a text with one point per line: azimuth and elevation in degrees, separated by
-    /// spaces, tabs, a comma or a semicolon. A `#` starts a comment, empty lines are ignored, and
-    /// the order is free.
-    pub fn parse(text: &str) -> Result<Self, MaskTextError> {
-        let at_line = |(line, reason)| match reason {
-            MaskError::Empty => MaskTextError::Mask(reason),
-            _ => MaskTextError::Point { line, reason },
-        };
-        let mut builder = Builder::default();
-        for (index, content) in text.trim_start_matches('\u{feff}').lines().enumerate() {
-            let line = index + 1;
-            let content = content.split('#').next().unwrap_or_default().trim();
-            if !content.is_empty() {
-                let (azimuth_deg, elevation_deg) =
-                    numbers(content).ok_or(MaskTextError::Format { line })?;
-                builder.add(line, azimuth_deg, elevation_deg).map_err(at_line)?;
-            }
-        }
-        builder.finish().map_err(at_line)
+    /// Reads a text as [`HorizonMask::import`] does.
+    pub fn parse(text: &str) -> Result<Self, MaskImportError> {
+        Self::import(text).map(|(mask, _)| mask)
     }
 
     /// The elevation in the direction of `azimuth`, which may be any angle.
@@ -139,7 +107,31 @@ fn numbers(content: &str) -> Option<(f64, f64)> {
 /// Collects points one by one, each with its line number.
 #[derive(Default)]
 struct Builder {
-    points: Vec<(usize, f64, f64)>,
+    points: Vec<Given>,
+}
+
+/// A point as it was given.
+#[derive(Clone, Copy)]
+struct Given {
+    line: usize,
+    /// Its place among the points, from 0.
+    place: usize,
+    /// From -180 to 360.
+    azimuth_deg: f64,
+    elevation_deg: f64,
+}
+
+impl Given {
+    /// From 0 to below 360.
+    fn around_deg(self) -> f64 {
+        // The sum makes 0 of -0.
+        self.azimuth_deg.rem_euclid(TURN_DEG) + 0.0
+    }
+
+    fn is_beside(self, other: Self) -> bool {
+        self.azimuth_deg.total_cmp(&other.azimuth_deg).is_ne()
+            || self.place.abs_diff(other.place) == 1
+    }
 }
 
 impl Builder {
@@ -150,7 +142,7 @@ impl Builder {
         elevation_deg: f64,
     ) -> Result<(), (usize, MaskError)> {
         // Written so that NaN is refused too.
-        if !(0.0..=TURN_DEG).contains(&azimuth_deg) {
+        if !(-TURN_DEG / 2.0..=TURN_DEG).contains(&azimuth_deg) {
             return Err((line, MaskError::Azimuth(azimuth_deg)));
         }
         if !(-90.0..=90.0).contains(&elevation_deg) {
@@ -159,31 +151,54 @@ impl Builder {
         if self.points.len() == MAX_MASK_POINTS {
             return Err((line, MaskError::TooManyPoints));
         }
-        self.points.push((line, azimuth_deg, elevation_deg));
+        let (place, azimuth_deg) = (self.points.len(), azimuth_deg + 0.0);
+        self.points.push(Given { line, place, azimuth_deg, elevation_deg });
         Ok(())
     }
 
-    fn finish(mut self) -> Result<HorizonMask, (usize, MaskError)> {
-        // The sort is stable: of two equal azimuths, the one from the later line comes second.
-        self.points.sort_by(|a, b| a.1.total_cmp(&b.1));
-        for (a, b) in self.points.iter().zip(self.points.iter().skip(1)) {
-            // Compared by value: the sort puts -0 before 0, but they are the same azimuth.
-            if a.1 - b.1 == 0.0 {
-                return Err((b.0, MaskError::Duplicate(b.1)));
+    fn finish(self) -> Result<HorizonMask, (usize, MaskError)> {
+        let sorted = self.sorted();
+        let mut points: Vec<(f64, f64)> = Vec::with_capacity(sorted.len());
+        let mut last: Option<(Given, bool)> = None;
+        for point in sorted {
+            let (mut azimuth_deg, mut is_wall) = (point.around_deg(), false);
+            if let Some((other, other_is_wall)) = last
+                && other.around_deg() >= azimuth_deg
+            {
+                if other.elevation_deg.total_cmp(&point.elevation_deg).is_eq() {
+                    continue;
+                }
+                if other_is_wall || !point.is_beside(other) {
+                    return Err((point.line, MaskError::Duplicate(point.azimuth_deg)));
+                }
+                is_wall = true;
+                // Rounded, so that the file shows the width.
+                azimuth_deg = ((azimuth_deg + WALL_DEG) * 1e6).round() / 1e6;
             }
-        }
-        let last = self.points.last().copied().ok_or((0, MaskError::Empty))?;
-        if last.1 >= TURN_DEG {
-            self.points.pop();
-            match self.points.first().copied() {
-                Some(first) if first.1 > 0.0 => self.points.insert(0, (last.0, 0.0, last.2)),
-                None => self.points.push((last.0, 0.0, last.2)),
-                Some(first) if first.2.total_cmp(&last.2).is_eq() => {}
-                Some(_) => return Err((last.0, MaskError::Duplicate(last.1))),
+            let is_ascending = points.last().is_none_or(|(before, _)| *before < azimuth_deg);
+            if !is_ascending || azimuth_deg >= TURN_DEG {
+                return Err((point.line, MaskError::Duplicate(point.azimuth_deg)));
             }
+            points.push((azimuth_deg, point.elevation_deg));
+            last = Some((point, is_wall));
         }
-        let points = self.points.into_iter().map(|(_, azimuth, elevation)| (azimuth, elevation));
-        Ok(HorizonMask { points: points.collect() })
+        if points.is_empty() { Err((0, MaskError::Empty)) } else { Ok(HorizonMask { points }) }
+    }
+
+    /// The points from north to the right. Of two at one azimuth, the first ends the line before it.
+    fn sorted(mut self) -> Vec<Given> {
+        let steps = self.points.iter().zip(self.points.iter().skip(1));
+        let turn: i64 = steps.map(|(a, b)| b.azimuth_deg.total_cmp(&a.azimuth_deg) as i64).sum();
+        if turn < 0 {
+            self.points.reverse();
+        }
+        let by_azimuth = |a: &Given, b: &Given| {
+            let around = a.around_deg().total_cmp(&b.around_deg());
+            around.then(b.azimuth_deg.total_cmp(&a.azimuth_deg))
+        };
+        // The sort is stable.
+        self.points.sort_by(by_azimuth);
+        self.points
     }
 }
 

@@ -154,9 +154,7 @@ fn table(lines: &[(usize, &str)]) -> Result<Vec<Point>, MaskImportError> {
         let (Some(azimuth_deg), Some(elevation_deg)) = (cell(azimuth), cell(elevation)) else {
             return Err(MaskImportError::Format { line });
         };
-        // Some programs count azimuths west of north as negative.
-        let is_west = (-180.0..0.0).contains(&azimuth_deg);
-        Ok((line, if is_west { azimuth_deg + 360.0 } else { azimuth_deg }, elevation_deg))
+        Ok((line, azimuth_deg, elevation_deg))
     };
     rows.iter().map(point).collect()
 }
@@ -264,7 +262,7 @@ mod tests {
             ("[GROUND STATION]\nLAT=41.2", E::NoSection),
             ("[HORIZON]\n0=1\nLAT=41.2", E::Format { line: 3 }),
             ("LAT=41.2\nLON=29", E::Format { line: 1 }),
-            ("az,el\n0,1\n0,2", E::Point { line: 3, reason: MaskError::Duplicate(0.0) }),
+            ("az,el\n0,1\n9,1\n0,2", E::Point { line: 4, reason: MaskError::Duplicate(0.0) }),
             ("az,el\n-181,1", E::Point { line: 2, reason: MaskError::Azimuth(-181.0) }),
             ("az,altitude\n10,118", E::Point { line: 2, reason: MaskError::Elevation(118.0) }),
             ("W1AW\n41.7\n72.7\n25", E::Column { line: 1, column: "azimuth" }),

@@ -49,30 +49,66 @@ fn texts_of_every_dialect_are_read() {
     }
 }
 
+/// Points left and right of azimuths where a mask has walls.
+fn sides(text: &str, azimuth_deg: f64) -> (f64, f64) {
+    let mask = HorizonMask::parse(text).unwrap();
+    (elevation_deg(&mask, azimuth_deg - 0.002), elevation_deg(&mask, azimuth_deg + 0.002))
+}
+
+#[test]
+fn an_azimuth_on_two_lines_is_a_wall() {
+    let wall = "0 10\n90 5\n180 5\n180 20\n200 20\n200 5";
+    let turned: String = wall.lines().rev().map(|line| format!("{line}\n")).collect();
+    let west = wall.replace("200", "-160");
+    for text in [wall, &turned, &west] {
+        for (azimuth_deg, expected) in [(180.0, (5.0, 20.0)), (200.0, (20.0, 5.0))] {
+            let (left, right) = sides(text, azimuth_deg);
+            assert!((left - expected.0).abs() < 0.01, "{text}: {left}");
+            assert!((right - expected.1).abs() < 0.01, "{text}: {right}");
+        }
+    }
+    for (text, azimuth_deg, expected) in [
+        ("0 10\n90 5\n270 5\n360 10.2", 0.0, (10.2, 10.0)),
+        ("360 10.2\n270 5\n90 5\n0 10", 0.0, (10.2, 10.0)),
+        ("-180 3\n-90 5\n0 10\n90 5\n180 8", 180.0, (8.0, 3.0)),
+    ] {
+        let (left, right) = sides(text, azimuth_deg);
+        assert!((left - expected.0).abs() < 0.01, "{text}: {left}");
+        assert!((right - expected.1).abs() < 0.01, "{text}: {right}");
+    }
+}
+
+#[test]
+fn a_point_that_is_given_again_counts_once() {
+    let expected = HorizonMask::parse("0 1\n90 2").unwrap();
+    for text in ["0 1\n-0 1\n90 2", "0 1\n90 2\n360 1", "0 1\n90 2\n0 1"] {
+        assert_eq!(HorizonMask::parse(text), Ok(expected.clone()), "{text}");
+    }
+}
+
 #[test]
 fn what_is_no_mask_is_refused_with_its_line() {
-    let point = |line, reason| MaskTextError::Point { line, reason };
+    let point = |line, reason| MaskImportError::Point { line, reason };
     for (text, expected) in [
-        ("", MaskTextError::Mask(MaskError::Empty)),
-        ("# nothing\n", MaskTextError::Mask(MaskError::Empty)),
-        ("azimuth elevation", MaskTextError::Format { line: 1 }),
-        ("0 1\n\n5", MaskTextError::Format { line: 3 }),
-        ("0 1 2", MaskTextError::Format { line: 1 }),
-        ("0,5 1,5", MaskTextError::Format { line: 1 }),
-        ("0,,5", MaskTextError::Format { line: 1 }),
+        ("", MaskImportError::Empty),
+        ("# nothing\n", MaskImportError::Empty),
+        ("azimuth elevation", MaskImportError::Column { line: 1, column: "azimuth" }),
+        ("0 1\n\n5", MaskImportError::Format { line: 3 }),
+        ("0 1 2", MaskImportError::Format { line: 1 }),
+        ("0,,5", MaskImportError::Format { line: 1 }),
         ("0 1\n361 2", point(2, MaskError::Azimuth(361.0))),
-        ("-1 2", point(1, MaskError::Azimuth(-1.0))),
+        ("-181 2", point(1, MaskError::Azimuth(-181.0))),
         ("0 91", point(1, MaskError::Elevation(91.0))),
-        ("0 inf", point(1, MaskError::Elevation(f64::INFINITY))),
+        ("az,el\n0,inf", point(2, MaskError::Elevation(f64::INFINITY))),
         ("5 1\n7 1\n5 2", point(3, MaskError::Duplicate(5.0))),
-        ("0 1\n-0 1", point(1, MaskError::Duplicate(0.0))),
-        ("360 1\n0 2", point(1, MaskError::Duplicate(360.0))),
+        ("0 1\n0 2\n0 3", point(3, MaskError::Duplicate(0.0))),
+        ("0 1\n0 2\n360 3", point(2, MaskError::Duplicate(0.0))),
     ] {
         assert_eq!(HorizonMask::parse(text), Err(expected), "{text:?}");
     }
     assert!(matches!(
-        HorizonMask::parse("nan 1"),
-        Err(MaskTextError::Point { line: 1, reason: MaskError::Azimuth(_) })
+        HorizonMask::parse("az,el\nnan,1"),
+        Err(MaskImportError::Point { line: 2, reason: MaskError::Azimuth(_) })
     ));
     let long = (0..=MAX_MASK_POINTS).map(|index| (index as f64 * 0.01, 0.0));
     assert_eq!(HorizonMask::from_degrees(long), Err(MaskError::TooManyPoints));
