@@ -5,6 +5,19 @@ use std::process::ExitCode;
 use azel::cli::{Cli, log::Log};
 use clap::Parser as _;
 
+/// The error with its causes. Some errors already hold the words of their cause.
+fn in_words(error: &anyhow::Error) -> String {
+    error.chain().map(ToString::to_string).fold(String::new(), |said, cause| {
+        if said.is_empty() {
+            cause
+        } else if said.contains(&cause) {
+            said
+        } else {
+            format!("{said}: {cause}")
+        }
+    })
+}
+
 fn main() -> ExitCode {
     let cli = Cli::parse();
     let log = match Log::start(cli.log_filter()) {
@@ -19,7 +32,7 @@ fn main() -> ExitCode {
         }
     };
     let code = cli.run().unwrap_or_else(|error| {
-        log.say(&format!("{error:#}"));
+        log.say(&in_words(&error));
         ExitCode::FAILURE
     });
     log.finish();

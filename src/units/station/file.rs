@@ -45,6 +45,9 @@ pub enum LoadError {
     /// The operating system refused.
     #[error("the settings cannot be read: {source}: {}", path.display())]
     Read { source: io::Error, path: PathBuf },
+    /// Such as UTF-16, which some editors write.
+    #[error("the settings are not UTF-8 text; save the file as UTF-8: {}", path.display())]
+    Encoding { path: PathBuf },
     #[error("the settings are not valid TOML: {source}: {}", path.display())]
     Syntax {
         /// Error with its place in the text.
@@ -94,6 +97,7 @@ pub fn free_path(folder: &Path) -> PathBuf {
 pub fn load(path: &Path, specs: &[&'static ControllerSpec]) -> Result<Loaded, LoadError> {
     let text = fs::read_to_string(path).map_err(|source| match source.kind() {
         io::ErrorKind::NotFound => LoadError::Missing,
+        io::ErrorKind::InvalidData => LoadError::Encoding { path: path.to_owned() },
         _ => LoadError::Read { source, path: path.to_owned() },
     })?;
     let table: toml::Table = toml::from_str(&text)
@@ -151,7 +155,8 @@ pub fn save(
     let text = written(station)?;
     let text = match fs::read_to_string(path) {
         Ok(old) => merged(&old, &text, path, specs)?,
-        Err(_) => text,
+        Err(error) if error.kind() == io::ErrorKind::NotFound => text,
+        Err(source) => return Err(SaveError::Write { source, path: path.to_owned() }),
     };
     whole_file::replace_and_keep_old(path, text.as_bytes())
         .map_err(|source| SaveError::Write { source, path: path.to_owned() })?;

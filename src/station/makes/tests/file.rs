@@ -140,6 +140,13 @@ fn what_cannot_be_read_is_left_alone() {
     let (_folder, path) = written("version = 99");
     assert!(matches!(load(&path), Err(LoadError::Newer { found: 99, .. })));
     assert!(matches!(load(Path::new("/nowhere/at/all.toml")), Err(LoadError::Missing)));
+    let (_folder, path) = written("");
+    let utf_16: Vec<u8> = "\u{feff}name = 1".encode_utf16().flat_map(u16::to_le_bytes).collect();
+    fs::write(&path, &utf_16).unwrap();
+    let error = load(&path).unwrap_err();
+    assert!(error.to_string().contains("save the file as UTF-8"), "{error}");
+    assert!(save(&Station::default(), &path, crate::makes::SPECS).is_err());
+    assert_eq!(fs::read(&path).unwrap(), utf_16);
 }
 
 #[test]
