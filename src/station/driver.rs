@@ -49,8 +49,8 @@ pub use position_log::PositionLog;
 pub use safety::{Mover, Response, Safety, Unlike};
 pub use session::{Command, JOG_LEASE, OffsetChange, Session, Wires, is_ticket_of_session};
 pub use snapshot::{
-    Event, Found, Inside, LeftOffsets, LinkLoss, LinkState, OnBoardView, Snapshot, StopState,
-    StoppingWay, TrackProblem, TrackView, UnitOffsetsView,
+    Event, Found, Inside, LeftMoving, LeftOffsets, LinkLoss, LinkState, OnBoardView, Snapshot,
+    StopState, StoppingWay, TrackProblem, TrackView, UnitOffsetsView,
 };
 pub use time_sync::{TimeSync, time_sync};
 pub use wire_log::{IsAwaited, MAX_LINES, Recorded, WireLog};

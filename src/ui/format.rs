@@ -16,6 +16,9 @@ pub use times::{
     weekday,
 };
 
+/// Seconds.
+const YEAR: u64 = 31_556_952;
+const MANY_YEARS: u64 = 2 * YEAR;
 /// Typographic minus sign.
 const MINUS: char = '\u{2212}';
 /// Separator of thousands.
@@ -172,7 +175,8 @@ pub fn age(seconds: f64) -> String {
         120..7200 => format!("{} min", whole / 60),
         7200..86_400 => format!("{} h {} min", whole / 3600, whole / 60 % 60),
         86_400..604_800 => format!("{} d {} h", whole / 86_400, whole / 3600 % 24),
-        _ => format!("{} d", whole / 86_400),
+        604_800..MANY_YEARS => format!("{} d", whole / 86_400),
+        _ => format!("{} years", group_thousands(&(whole / YEAR).to_string())),
     }
 }
 
@@ -287,6 +291,7 @@ mod tests {
         assert_eq!(age(99_600.0), "1 d 3 h");
         assert_eq!(age(7.0 * 86_400.0), "7 d");
         assert_eq!(age(102.0 * 86_400.0), "102 d");
+        assert_eq!(age(63_221.0 * 86_400.0), "173 years");
         assert_eq!(age(-1.0), "0.0 s");
     }
 }

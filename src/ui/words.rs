@@ -3,6 +3,7 @@
 
 mod alarms;
 pub mod automatic;
+mod clock;
 pub mod flown_with;
 mod link_tests;
 mod notices;

@@ -6,7 +6,8 @@ use azel::{
     astro::AzEl,
     device::{panel::Act, settings::Values},
     driver::{
-        Command, Event, Inside, Intent, Mover, Refusal, Response, Safety, Snapshot, StopState,
+        Command, Event, Inside, Intent, LeftMoving, Mover, Refusal, Response, Safety, Snapshot,
+        StopState,
     },
     engine::{self, alarms::AlarmKind},
     model::{Model, UiCommand},
@@ -57,7 +58,10 @@ fn who_sees_an_antenna_stand_says_so_by_holding() {
         let since = states::moving().state.measured.unwrap().received;
         let not_confirmed =
             Snapshot { stop: StopState::NotConfirmed { since }, ..states::moving() };
-        let left = Snapshot { left_moving: Some(rig::now()), ..states::holding() };
+        let left = Snapshot {
+            left_moving: Some(LeftMoving { since: Some(rig::now()) }),
+            ..states::holding()
+        };
         for (snapshot, why) in [
             (not_confirmed, "STOP is repeated until the antenna is known to be at rest."),
             (left, "Azel ended at 11:15:30Z while the antenna was moved."),

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use azel::{
     astro::AzEl,
-    driver::{Command, Event, Inside, Intent, Refusal, Snapshot, StopState},
+    driver::{Command, Event, Inside, Intent, LeftMoving, Refusal, Snapshot, StopState},
     engine::{self, track_again::TrackAgain},
     model::{Model, ThemeName},
     plan::Barrier,
@@ -221,7 +221,13 @@ fn around_the_jog_keys() -> Vec<(&'static str, Model)> {
         ("would miss", rig::model(on_board::told(on_board::found(23.0)))),
         ("a little off", rig::model(on_board::told(on_board::found(0.2)))),
         ("stop", rig::model(Snapshot { stop, ..states::manual() })),
-        ("left moving", rig::model(Snapshot { left_moving: Some(rig::now()), ..states::manual() })),
+        (
+            "left moving",
+            rig::model(Snapshot {
+                left_moving: Some(LeftMoving { since: Some(rig::now()) }),
+                ..states::manual()
+            }),
+        ),
         ("inside", rig::model(Snapshot { inside, ..states::manual() })),
         ("unguarded", unguarded()),
         ("track again", offered_again()),

@@ -62,8 +62,9 @@ impl Unit {
 /// A unit that may be moving.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub(in crate::driver) struct Mark {
-    /// When the motion by hand began, or the STOP was pressed.
-    pub(in crate::driver) since: Timestamp,
+    /// When the motion by hand began, or the STOP was pressed; `None` if the file cannot be read.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(in crate::driver) since: Option<Timestamp>,
     /// When a session last recorded that it still tried to stop the unit. Earlier versions did not
     /// record that.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -72,8 +73,8 @@ pub(in crate::driver) struct Mark {
 
 impl Mark {
     /// The last time at which the unit was known to be attended to.
-    pub(in crate::driver) fn last_tried(self) -> Timestamp {
-        self.tried.map_or(self.since, |tried| tried.max(self.since))
+    pub(in crate::driver) fn last_tried(self) -> Option<Timestamp> {
+        self.tried.max(self.since)
     }
 }
 
@@ -326,9 +327,9 @@ impl Debts {
         self.marked(unit).is_some()
     }
 
-    /// The mark of `unit` on disk. An unreadable one counts from the beginning of time. Blocks.
+    /// The mark of `unit` on disk. An unreadable one holds no time. Blocks.
     pub(super) fn marked(&self, unit: &Unit) -> Option<Mark> {
-        let unreadable = Mark { since: Timestamp::UNIX_EPOCH, tried: None };
+        let unreadable = Mark { since: None, tried: None };
         match self.promises.read(&self.path(unit, STOP)?) {
             Ok(text) => Some(toml::from_str(&text?).unwrap_or(unreadable)),
             Err(_) => Some(unreadable),

@@ -17,7 +17,8 @@ pub enum Safety {
     DeadManFired,
     /// Azel ended in the middle of a motion by hand, or while a STOP was owed.
     LeftMoving {
-        since: Timestamp,
+        /// `None` if the record of it cannot be read.
+        since: Option<Timestamp>,
         /// STOP was not sent automatically: the operator must decide.
         asks: bool,
     },
@@ -61,6 +62,9 @@ pub enum Safety {
     ClockStepped {
         /// By this much, seconds; positive ahead.
         by_s: f64,
+        /// The new time. Older records do not hold it.
+        #[serde(default)]
+        time: Option<Timestamp>,
     },
     /// A jog was ended because this computer goes to sleep.
     EndedForSleep,

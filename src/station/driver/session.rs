@@ -41,7 +41,6 @@ use std::{
     time::Duration,
 };
 
-use jiff::Timestamp;
 use tokio::sync::{Mutex as AsyncMutex, Notify, mpsc, watch};
 
 pub use command::Command;
@@ -50,8 +49,8 @@ pub use jog::LEASE as JOG_LEASE;
 pub use offsets::OffsetChange;
 
 use super::{
-    AntennaHandle, AxisLessons, COMMANDS, Clock, Dial, EVENTS, Event, Intent, LinkState, Numbered,
-    Orbits, Orders, PositionLog, Preview, Snapshot, Stopper, Wake, WireLog,
+    AntennaHandle, AxisLessons, COMMANDS, Clock, Dial, EVENTS, Event, Intent, LeftMoving,
+    LinkState, Numbered, Orbits, Orders, PositionLog, Preview, Snapshot, Stopper, Wake, WireLog,
     before_sleep::Awake,
     debts::{Debts, Unit},
     gate::Gate,
@@ -268,7 +267,7 @@ struct Owed {
     kept_unproved: Option<Instant>,
     marking: Marking,
     /// An earlier run may have left the unit moving, since then; the operator is being asked.
-    left_moving: Option<Timestamp>,
+    left_moving: Option<LeftMoving>,
 }
 
 /// What each look is compared with.

@@ -19,6 +19,14 @@ use crate::{
     station::LockOut,
 };
 
+/// An antenna that an earlier run may have left moving.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub struct LeftMoving {
+    /// When the motion by hand began, or the STOP was pressed; `None` if the record of it cannot be
+    /// read.
+    pub since: Option<Timestamp>,
+}
+
 /// One antenna at one instant. Replaced as a whole, never changed in place.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Snapshot {
@@ -61,8 +69,10 @@ pub struct Snapshot {
     pub inside: Option<Inside>,
     /// By the operator's permission, program track may lead to the Sun.
     pub sun_lifted: bool,
-    /// An earlier run may have left it moving, since then: the operator is asked.
-    pub left_moving: Option<Timestamp>,
+    /// An earlier run may have left it moving: the operator is asked. Older films hold a time under
+    /// the field's own name, which is ignored.
+    #[serde(default, rename = "left_in_motion")]
+    pub left_moving: Option<LeftMoving>,
     /// Why the next start would not send the STOP that is owed.
     #[serde(default)]
     pub not_on_disk: Option<String>,

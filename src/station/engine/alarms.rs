@@ -263,7 +263,12 @@ impl Alarms {
     /// Takes alarms back whose time on the shelf is up, as new where they stand, and forgets
     /// those that were over before this day (UTC).
     pub fn pass_time(&mut self, now: Timestamp) {
-        let is_up = |alarm: &Alarm| alarm.shelved_until.is_some_and(|until| until <= now);
+        // An end that far ahead comes from a clock that was ahead.
+        let latest = now.checked_add(ShelveTime::EightHours.duration()).ok();
+        let is_up = |alarm: &Alarm| {
+            let until = alarm.shelved_until;
+            until.is_some_and(|until| until <= now || latest.is_some_and(|latest| until > latest))
+        };
         let stands = |alarm: &Alarm| is_up(alarm) && !alarm.is_over() && !alarm.kind.is_momentary();
         self.unopened |= self.list.iter().any(stands);
         self.change(stands, |alarm| alarm.seen = false);

@@ -297,6 +297,10 @@ impl Engine {
                 self.alarms.clear(None, self.now, |kind| matches!(kind, AlarmKind::NoRecord(_)));
             }
         }
+        let previous = self.recording.status.as_ref().and_then(|status| status.removed);
+        if status.removed.is_some() && status.removed != previous {
+            self.alarms.raise(None, AlarmKind::RecordRemoved, self.now);
+        }
         if self.recording.status.as_deref() != Some(&status) {
             self.recording.status = Some(Arc::new(status));
         }

@@ -13,7 +13,7 @@ use super::{
 use crate::{
     clock::Moment,
     device::panel::CheckState,
-    driver::{Event, LinkState, Refusal, Safety, StopState, TimeSync},
+    driver::{Event, LeftMoving, LinkState, Refusal, Safety, StopState, TimeSync},
     job::Job,
     station::Station,
 };
@@ -33,6 +33,7 @@ impl Engine {
         self.ask_with_typed_passwords();
         self.follow_source_orders();
         self.refresh_by_itself();
+        self.judge_epochs_again();
         self.take_older_sets();
         self.take_recorded();
         self.take_pointing_fit();
@@ -231,7 +232,7 @@ impl Engine {
             alarms.clear(of, now, |kind| *kind == AlarmKind::StopNotConfirmed);
         }
         match snapshot.left_moving {
-            Some(since) => {
+            Some(LeftMoving { since }) => {
                 let matter = Safety::LeftMoving { since, asks: true };
                 alarms.raise(of, AlarmKind::Safety(matter), now);
             }

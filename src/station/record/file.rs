@@ -2,6 +2,7 @@
 
 use std::{fs, path::Path, time::Duration};
 
+use jiff::Timestamp;
 use rusqlite::{Connection, OpenFlags};
 
 use super::RecordError;
@@ -16,6 +17,12 @@ const BUSY: Duration = Duration::from_secs(2);
 const LOG_BYTES: i64 = 16 << 20;
 /// Angles are kept as whole numbers of this part of a degree.
 pub(super) const PER_DEGREE: f64 = 10_000.0;
+
+/// The time in `column` of a row. A damaged record may hold one that no calendar has.
+pub(in crate::record) fn time_of(column: usize, utc_us: i64) -> rusqlite::Result<Timestamp> {
+    Timestamp::from_microsecond(utc_us)
+        .map_err(|_| rusqlite::Error::IntegralValueOutOfRange(column, utc_us))
+}
 
 /// Positions and frames lie in order of antenna and time, and have no further index: a day of
 /// three antennas holds millions of them.

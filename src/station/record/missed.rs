@@ -69,7 +69,7 @@ pub fn missed(
         let Ok(flown) = serde_json::from_str(&flown) else { continue };
         found.push(MissedEntry {
             id: row.get(0)?,
-            at: Timestamp::from_microsecond(row.get(1)?).unwrap_or_default(),
+            at: file::time_of(1, row.get(1)?)?,
             antenna: AntennaId(row.get(2)?),
             antenna_name: row.get::<_, Option<String>>(3)?.unwrap_or_default(),
             flown,

@@ -287,7 +287,7 @@ impl Passes {
                 Ok(parts.map(|parts| Angle::from_degrees(parts as f64 / PER_DEGREE)))
             };
             Ok(MeasuredPosition {
-                time: Timestamp::from_microsecond(row.get(0)?).unwrap_or_default(),
+                time: file::time_of(0, row.get(0)?)?,
                 pointing: Pointing { azimuth: angle(1)?, elevation: angle(2)? },
             })
         })?;

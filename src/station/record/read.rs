@@ -287,7 +287,7 @@ fn read_row(row: &SqlRow<'_>) -> Result<Row, RecordError> {
         _ => serde_json::from_str(&row.get::<_, String>(5)?).unwrap_or_default(),
     };
     Ok(Row {
-        time: Timestamp::from_microsecond(utc_us).unwrap_or_default(),
+        time: file::time_of(0, utc_us)?,
         run: row.get(1)?,
         steady_s: row.get::<_, Option<i64>>(2)?.map(|us| us as f64 / 1e6),
         antenna: row.get("antenna_name")?,

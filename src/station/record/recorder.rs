@@ -37,6 +37,10 @@ pub struct Status {
     pub bytes: u64,
     /// Nothing is written at present.
     pub failing: Option<Failing>,
+    /// When somebody was last found to have removed the file while it was open, or put another one in
+    /// its place.
+    #[serde(default)]
+    pub removed: Option<Timestamp>,
 }
 
 /// Why nothing is written.

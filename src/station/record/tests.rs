@@ -314,10 +314,30 @@ fn a_record_that_is_removed_while_it_is_written_is_begun_anew() {
     recorder.note(entry(2));
     recorder.flush();
     recorder.flush();
+    assert_eq!(recorder.status().removed, Some(start()));
+    let removed = json!({ "previous_record": "removed" });
+    let runs = rows(&path, RowKind::Entry(Kind::Run));
+    assert_eq!(runs.iter().filter(|row| row.data == removed).count(), 1);
     assert_eq!(events(&path), [2]);
     let positions = rows(&path, RowKind::Position);
     assert_eq!(positions.len(), 1);
     assert_eq!(positions[0].antenna.as_deref(), Some("Dish"), "it is named again");
+}
+
+#[test]
+fn a_record_in_whose_place_another_file_is_put_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let (path, other) = (folder.path().join("a.sqlite"), folder.path().join("b.sqlite"));
+    drop(recorder(&other));
+    let recorder = recorder(&path);
+    recorder.note(entry(1));
+    recorder.flush();
+    assert_eq!(recorder.status().removed, None);
+    fs::rename(&other, &path).unwrap();
+    recorder.note(entry(2));
+    recorder.flush();
+    assert_eq!(recorder.status().removed, Some(start()));
+    assert_eq!(events(&path), [2]);
 }
 
 #[test]

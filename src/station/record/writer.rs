@@ -37,6 +37,25 @@ const WAITING: usize = 20_000;
 /// Beyond this the clock of the computer has been set, seconds.
 const CLOCK_SET_S: f64 = 60.0;
 
+/// Device and number of a file.
+#[cfg(unix)]
+type FileId = (u64, u64);
+#[cfg(not(unix))]
+type FileId = ();
+
+/// `None` if there is no file.
+#[cfg(unix)]
+fn file_id(path: &Path) -> Option<FileId> {
+    use std::os::unix::fs::MetadataExt as _;
+    fs::metadata(path).ok().map(|file| (file.dev(), file.ino()))
+}
+
+/// `None` if there is no file.
+#[cfg(not(unix))]
+fn file_id(path: &Path) -> Option<FileId> {
+    path.exists().then_some(())
+}
+
 /// A session, and how far it is recorded.
 struct Source {
     of: RecordedSession,
@@ -69,6 +88,8 @@ pub(super) struct Writer {
     begun: Moment,
     /// The open file and the number of this run in it.
     open: Option<(Connection, i64)>,
+    /// Identity of the file that was written last.
+    written: Option<FileId>,
     run: Option<i64>,
     sources: Vec<Source>,
     waiting: Vec<Entry>,
@@ -95,6 +116,7 @@ impl Writer {
             clock,
             begun,
             open: None,
+            written: None,
             run: None,
             sources: Vec::new(),
             waiting: Vec::new(),
@@ -191,6 +213,7 @@ impl Writer {
                     tracing::error!(%error, path = %self.path.display(), "nothing is recorded");
                 }
                 if matches!(error, RecordError::NoRecord) {
+                    self.written = None;
                     self.set_aside();
                 }
                 false
@@ -199,14 +222,12 @@ impl Writer {
     }
 
     fn try_write(&mut self) -> Result<(), RecordError> {
-        if !self.path.exists() {
-            // Somebody has removed it while it was open.
-            self.open = None;
-        }
+        self.watch_file();
         let open = match self.open.take() {
             Some(open) => open,
             None => self.open_file()?,
         };
+        self.written = file_id(&self.path);
         let (db, run) = self.open.insert(open);
         let news: Vec<News> = self.sources.iter().map(Source::news).collect();
         let turned_away = self.shared.turned_away.load(Ordering::Relaxed);
@@ -256,6 +277,19 @@ impl Writer {
         let mut news = news.iter();
         self.sources.retain(|_| news.next().is_none_or(|news| !news.is_last));
         Ok(())
+    }
+
+    /// Leaves a file that somebody has removed or replaced, and says so in the next one.
+    fn watch_file(&mut self) {
+        if self.written.is_none() || file_id(&self.path) == self.written {
+            return;
+        }
+        (self.open, self.written) = (None, None);
+        let at = self.clock.now();
+        locked(&self.shared.status).removed = Some(at.utc);
+        tracing::error!(path = %self.path.display(), "somebody has removed the record");
+        let data = json!({ "previous_record": "removed" });
+        self.queue(Entry { at, antenna: None, kind: Kind::Run, data });
     }
 
     fn open_file(&mut self) -> Result<(Connection, i64), RecordError> {

@@ -2,7 +2,7 @@
 
 use jiff::Timestamp;
 
-use super::automatic::not_ready;
+use super::{automatic::not_ready, clock};
 use crate::{
     driver::LinkLoss,
     engine::{
@@ -178,6 +178,10 @@ pub fn alarm(kind: &AlarmKind, antenna: &str, now: Timestamp) -> String {
              Use their local panels.",
             format::age(stood.as_secs_f64())
         ),
+        AlarmKind::RecordRemoved => "Somebody removed or replaced the file of the record. Azel goes on in \
+             a new one. What was recorded before is not in it: bring the old file back from where it \
+             went, under another name."
+            .to_owned(),
         AlarmKind::NoRecord(why) => format!(
             "Nothing is being recorded: {why}. What was recorded is kept, and Azel tries again \
              every 2 s."
@@ -234,8 +238,7 @@ pub fn alarm(kind: &AlarmKind, antenna: &str, now: Timestamp) -> String {
         }
         AlarmKind::Check(check) => format!("{antenna}: {}. {}", check.name, check.advice),
         AlarmKind::ClockOff(ahead_s) => {
-            let word = if *ahead_s > 0.0 { "ahead" } else { "behind" };
-            format!("The clock of {antenna} is {} {word}.", format::age(ahead_s.abs()))
+            format!("The clock of {antenna} is {}.", clock::difference(*ahead_s, now))
         }
         AlarmKind::Unreadable(why) => {
             format!("{antenna}: its position cannot be read. {why}")

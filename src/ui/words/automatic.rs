@@ -2,6 +2,7 @@
 
 use jiff::Timestamp;
 
+use super::clock;
 use crate::{
     engine::automatic::{
         DayEvent, DayLine, Doing, Flown, GivenUp, Interruption, MissCause, NotReady, OffBecause,
@@ -150,11 +151,7 @@ pub fn day_line(line: &DayLine, now: Timestamp) -> String {
         DayEvent::ClockSet { was_ahead_s } => {
             let was = was_ahead_s.map_or_else(
                 || "was not set".to_owned(),
-                |ahead_s| {
-                    let error_s = format::number(ahead_s.abs(), 1);
-                    let direction = if ahead_s < 0.0 { "behind" } else { "ahead" };
-                    format!("was {error_s} s {direction}")
-                },
+                |ahead_s| format!("was {}", clock::side(ahead_s)),
             );
             format!("Azel set the unit's clock, which {was}.")
         }

@@ -1,5 +1,6 @@
 //! Tests of links: what came of them, and what to check.
 
+use super::clock;
 use crate::{
     device::{AntennaState, panel::CheckState},
     driver::{LinkFault, LinkFinding},
@@ -144,13 +145,11 @@ fn reached(after_ms: u128, state: &AntennaState, spec: &ControllerSpec) -> Vec<(
         let there = place(own.latitude_deg, own.longitude_deg);
         facts.push(format!("Its own location: {there}."));
     }
-    if let Some(clock) = state.on_board.clock.filter(|clock| clock.is_set) {
-        let off_s = clock.ahead_s.abs();
-        let side = if clock.ahead_s < 0.0 { "behind" } else { "ahead" };
-        facts.push(if off_s < AGREES_S {
+    if let Some(own) = state.on_board.clock.filter(|own| own.is_set) {
+        facts.push(if own.ahead_s.abs() < AGREES_S {
             "Its clock agrees with this computer's.".to_owned()
         } else {
-            format!("Its clock is {} s {side}.", format::number(off_s, 1))
+            format!("Its clock is {}.", clock::side(own.ahead_s))
         });
     }
     if !facts.is_empty() {

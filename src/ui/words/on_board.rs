@@ -2,6 +2,7 @@
 
 use jiff::Timestamp;
 
+use super::clock;
 use crate::{
     astro::AzEl,
     device::Place,
@@ -25,8 +26,7 @@ pub fn cause(ranked: &Ranked, unit: DistanceUnit) -> String {
             place_words(*place)
         ),
         Cause::Clock { ahead_s } => {
-            let word = if *ahead_s > 0.0 { "ahead" } else { "behind" };
-            format!("the unit's clock is {} {word}", format::age(ahead_s.abs()))
+            format!("the unit's clock is {}", clock::side(*ahead_s))
         }
         Cause::TimeOffset { offset_s } => {
             format!("the unit's tracking time offset is {} s", format::signed(*offset_s, 1))

@@ -2,6 +2,7 @@
 
 use jiff::Timestamp;
 
+use super::clock;
 use crate::{
     driver::{
         AxisLessons, Evidence, Inside, Mover, Response, Safety, Snapshot, StopState, StoppingWay,
@@ -179,10 +180,16 @@ pub fn asks_standing(snapshot: &Snapshot, now: Timestamp) -> Option<String> {
                    you confirm.";
         return Some(why.to_owned());
     }
-    let since = format::moment(snapshot.left_moving?, now);
-    Some(format!(
-        "Azel ended at {since} while the antenna was moved. Look at it before you confirm."
-    ))
+    let ended = ended_at(snapshot.left_moving?.since, now);
+    Some(format!("{ended} while the antenna was moved. Look at it before you confirm."))
+}
+
+/// The end of an earlier run. Its record may be damaged.
+fn ended_at(since: Option<Timestamp>, now: Timestamp) -> String {
+    since.map_or_else(
+        || "Azel ended at an unknown time".to_owned(),
+        |since| format!("Azel ended at {}", format::moment(since, now)),
+    )
 }
 
 /// The sentence about a STOP owed to a unit that belongs to no antenna any more.
@@ -256,13 +263,13 @@ pub fn safety(matter: &Safety, antenna: &str, now: Timestamp) -> String {
              move it."
         ),
         Safety::LeftMoving { since, asks: false } => format!(
-            "Azel ended at {} while {antenna} was moved by hand. STOP was sent first.",
-            format::moment(*since, now)
+            "{} while {antenna} was moved by hand. STOP was sent first.",
+            ended_at(*since, now)
         ),
         Safety::LeftMoving { since, asks: true } => format!(
-            "Azel ended at {} while {antenna} was moved by hand, and nobody has seen it at rest \
-             since. Press STOP, or confirm that you have seen it at rest.",
-            format::moment(*since, now)
+            "{} while {antenna} was moved by hand, and nobody has seen it at rest since. Press STOP, \
+             or confirm that you have seen it at rest.",
+            ended_at(*since, now)
         ),
         Safety::NoMark => format!(
             "Azel could not record on disk that {antenna} is moving by hand or still needs a STOP. If \
@@ -310,10 +317,10 @@ pub fn safety(matter: &Safety, antenna: &str, now: Timestamp) -> String {
                 Response::Reported => format!("{antenna} is {}; {driver}.", inside(barrier)),
             }
         }
-        Safety::ClockStepped { by_s } => format!(
-            "The clock of this computer was changed by {} s. {antenna} does not continue by \
-             itself with anything that depends on it.",
-            format::signed(*by_s, 1)
+        Safety::ClockStepped { by_s, time } => format!(
+            "The clock of this computer was changed {}. {antenna} does not continue by itself with \
+             anything that depends on it.",
+            clock::step(*by_s, *time)
         ),
         Safety::EndedForSleep => format!(
             "This computer is going to sleep: the jog of {antenna} was ended. Press the key again \

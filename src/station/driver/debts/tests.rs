@@ -15,7 +15,7 @@ fn since() -> Timestamp {
 }
 
 fn mark(debts: &Debts, unit: &Unit, session: u64) {
-    debts.mark(unit, session, Mark { since: since(), tried: None });
+    debts.mark(unit, session, Mark { since: Some(since()), tried: None });
 }
 
 fn names(folder: &Path) -> Vec<String> {
@@ -33,7 +33,7 @@ fn a_mark_outlives_the_program_until_it_is_taken_away() {
     let debts = || Debts::marked_in(Some(folder.path().join("marks")));
     mark(&debts(), &one, 1);
     let next = debts();
-    assert_eq!(next.marked(&one), Some(Mark { since: since(), tried: None }));
+    assert_eq!(next.marked(&one), Some(Mark { since: Some(since()), tried: None }));
     assert_eq!(next.left_moving(), std::slice::from_ref(&one));
     assert_eq!(next.marked(&other), None, "another address");
     next.unmark(&one, 1);
@@ -100,7 +100,7 @@ fn files_of_an_earlier_version_mean_the_same() {
         let dish = Unit::of(&Antenna::satrak("Dish", "DISH.local:4001"));
         assert_eq!(dish, unit("dish.local:4001"));
         assert_eq!(debts.left_moving(), std::slice::from_ref(&dish));
-        assert_eq!(debts.marked(&dish), Some(Mark { since: since(), tried: None }));
+        assert_eq!(debts.marked(&dish), Some(Mark { since: Some(since()), tried: None }));
         assert_eq!(debts.with_auto_track(), [unit("mast.local:4001")]);
         let shifted = debts.shifted(&unit("horn.local:4001")).unwrap();
         assert_eq!((shifted.since, shifted.track, shifted.is_found), (since(), None, true));
@@ -122,7 +122,7 @@ fn a_mark_has_the_form_of_earlier_versions() {
     let folder = tempfile::tempdir().unwrap();
     let (one, tried) = (unit("a:1"), at("2026-08-12T02:02:03Z"));
     let debts = Debts::marked_in(Some(folder.path().to_owned()));
-    debts.mark(&one, 1, Mark { since: since(), tried: Some(tried) });
+    debts.mark(&one, 1, Mark { since: Some(since()), tried: Some(tried) });
     let text = fs::read_to_string(folder.path().join("satrak-a-1-f938eb55.toml"));
     assert_eq!(
         text.unwrap(),
@@ -136,10 +136,10 @@ fn the_age_of_a_mark_counts_from_the_last_try() {
     let folder = tempfile::tempdir().unwrap();
     let (one, tried) = (unit("a:1"), at("2026-08-12T02:02:03Z"));
     let debts = Debts::marked_in(Some(folder.path().to_owned()));
-    debts.mark(&one, 1, Mark { since: since(), tried: Some(tried) });
+    debts.mark(&one, 1, Mark { since: Some(since()), tried: Some(tried) });
     let marked = Debts::marked_in(Some(folder.path().to_owned())).marked(&one).unwrap();
-    assert_eq!((marked.since, marked.last_tried()), (since(), tried));
-    assert_eq!(Mark { since: since(), tried: None }.last_tried(), since());
+    assert_eq!((marked.since, marked.last_tried()), (Some(since()), Some(tried)));
+    assert_eq!(Mark { since: Some(since()), tried: None }.last_tried(), Some(since()));
 }
 
 #[test]
@@ -147,7 +147,7 @@ fn a_mark_that_cannot_be_read_still_warns() {
     let folder = tempfile::tempdir().unwrap();
     let debts = Debts::marked_in(Some(folder.path().to_owned()));
     fs::write(folder.path().join(unit("a:1").file_name(STOP)), "since = ").unwrap();
-    assert_eq!(debts.marked(&unit("a:1")).unwrap().since, Timestamp::UNIX_EPOCH);
+    assert_eq!(debts.marked(&unit("a:1")).unwrap().since, None);
 }
 
 #[test]

@@ -50,7 +50,7 @@ impl Session {
         let expected_s = (steady + lasted).as_secs_f64();
         let by_s = seconds_between(before.at.utc, now.utc) - expected_s;
         if by_s.abs() > STEP_S {
-            self.tell(Event::Safety(Safety::ClockStepped { by_s }));
+            self.tell(Event::Safety(Safety::ClockStepped { by_s, time: Some(now.utc) }));
             self.suspend_following(steady, now);
         }
         if lasted < NAP {

@@ -10,7 +10,7 @@ use super::{Event, Session};
 use crate::{
     astro::time::seconds_between,
     clock::{Instant, Moment},
-    driver::{Safety, debts::Mark},
+    driver::{LeftMoving, Safety, debts::Mark},
     promises::Kept,
 };
 
@@ -32,11 +32,11 @@ pub(super) enum Marking {
     None,
     /// An earlier run left it.
     Found {
-        since: Timestamp,
+        since: Option<Timestamp>,
     },
     /// Requested by this session.
     Put {
-        since: Timestamp,
+        since: Option<Timestamp>,
         first: Instant,
         /// The last request.
         last: Instant,
@@ -93,7 +93,7 @@ impl Session {
     /// Requests the mark, as of now.
     fn put_mark(&mut self, now: Moment) {
         let (since, first, is_told) = match self.owed.marking {
-            Marking::None => (now.utc, now.steady, false),
+            Marking::None => (Some(now.utc), now.steady, false),
             Marking::Found { since } => (since, now.steady, false),
             Marking::Put { since, first, is_told, .. } => (since, first, is_told),
         };
@@ -180,10 +180,10 @@ impl Session {
         let Ok(Some(mark)) = found else { return };
         let since = mark.since;
         let asks = self.variant.capabilities.waits_for_word
-            || seconds_between(mark.last_tried(), now.utc).abs() > OLD_S;
+            || mark.last_tried().is_none_or(|at| seconds_between(at, now.utc).abs() > OLD_S);
         self.owed.marking = Marking::Found { since };
         if asks {
-            self.owed.left_moving = Some(since);
+            self.owed.left_moving = Some(LeftMoving { since });
             self.publish(now);
         } else {
             self.halt(now);

@@ -184,6 +184,8 @@ pub enum AlarmKind {
     Elements(String),
     /// Nothing can be recorded, for this reason.
     NoRecord(String),
+    /// Somebody has removed or replaced the file of the record.
+    RecordRemoved,
 }
 
 /// Background work that can break off.

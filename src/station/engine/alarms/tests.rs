@@ -140,6 +140,16 @@ fn an_alarm_on_the_shelf_is_quiet_and_comes_back_when_its_time_is_up() {
 }
 
 #[test]
+fn an_alarm_that_was_shelved_by_a_clock_ahead_is_not_quiet_for_years() {
+    let mut alarms = Alarms::default();
+    let ahead = time() + 24.hours() * 400;
+    alarms.raise(LOST_OF, LOST, ahead);
+    alarms.shelve(0, ShelveTime::OneHour, ahead);
+    alarms.pass_time(time());
+    assert_eq!(states(&alarms), [AlarmState::New]);
+}
+
+#[test]
 fn a_top_priority_alarm_is_never_shelved() {
     for kind in [
         AlarmKind::StopNotConfirmed,

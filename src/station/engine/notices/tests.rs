@@ -312,6 +312,7 @@ fn every_kind() -> Vec<AlarmKind> {
         K::Settings(text()),
         K::Elements(text()),
         K::NoRecord(text()),
+        K::RecordRemoved,
     ];
     all.extend(every_matter_of_safety().into_iter().map(K::Safety));
     all.iter().for_each(is_listed);
@@ -373,14 +374,15 @@ fn is_listed(kind: &AlarmKind) {
         | K::SafetySetting { .. }
         | K::Settings(_)
         | K::Elements(_)
-        | K::NoRecord(_) => {}
+        | K::NoRecord(_)
+        | K::RecordRemoved => {}
     }
 }
 
 fn every_matter_of_safety() -> Vec<Safety> {
     let all = vec![
         Safety::DeadManFired,
-        Safety::LeftMoving { since: time(), asks: true },
+        Safety::LeftMoving { since: Some(time()), asks: true },
         Safety::NoMark,
         Safety::SessionBroke,
         Safety::StoppedByFlags { axis: "X" },
@@ -389,7 +391,7 @@ fn every_matter_of_safety() -> Vec<Safety> {
         Safety::NoEffect { axis: Some("X") },
         Safety::ForeignHands { axis: "X", evidence: Evidence::Outside { off_deg: 8.0 } },
         Safety::OffTarget { off_deg: 5.0 },
-        Safety::ClockStepped { by_s: 2.0 },
+        Safety::ClockStepped { by_s: 2.0, time: Some(time()) },
         Safety::EndedForSleep,
         Safety::Slept { lasted: Duration::from_mins(1) },
         Safety::AsksToResume { name: "ISS".to_owned(), lost: Duration::from_mins(1), unlike: None },

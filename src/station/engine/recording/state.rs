@@ -1,13 +1,12 @@
 //! State of an antenna as the record tells it: all that changes now and then, and nothing that
 //! changes with each measurement.
 
-use jiff::Timestamp;
 use serde::Serialize;
 
 use crate::{
     astro::TrackOffsets,
     device::{Phase, panel::CheckState},
-    driver::{Inside, Intent, StopState},
+    driver::{Inside, Intent, LeftMoving, StopState},
     engine::{antenna::AntennaModel, automatic::Operation, status::LinkStatus},
     plan::TrackPhase,
     station::LockOut,
@@ -32,7 +31,7 @@ pub(super) struct State {
     /// It was moved from here, and standstill has not been proved since.
     is_unproved: bool,
     is_silent: bool,
-    left_moving: Option<Timestamp>,
+    left_moving: Option<LeftMoving>,
     inside: Option<Inside>,
     lock_out: Option<LockOut>,
     operation: Operation,

@@ -266,7 +266,7 @@ impl Film {
         let mut rows = statement.query(span)?;
         let mut lines = Vec::new();
         while let Some(row) = rows.next()? {
-            let at = Timestamp::from_microsecond(row.get(0)?).unwrap_or_default();
+            let at = file::time_of(0, row.get(0)?)?;
             let bytes: Vec<u8> = row.get(2)?;
             let length: Option<i64> = row.get(3)?;
             let fault: Option<String> = row.get(4)?;

@@ -43,14 +43,14 @@ fn leave_tried_mark(folder: &Path, age_s: i64, tried: Option<i64>) -> Timestamp 
     let ago = |age_s| START - SignedDuration::from_secs(age_s);
     let (debts, mark) = (
         Debts::marked_in(Some(folder.to_owned())),
-        Mark { since: ago(age_s), tried: tried.map(ago) },
+        Mark { since: Some(ago(age_s)), tried: tried.map(ago) },
     );
     debts.mark(&Unit::of(&antenna()), 0, mark);
     // The worker writes it.
     while debts.mark_kept(&Unit::of(&antenna())) == Kept::Pending {
         std::thread::yield_now();
     }
-    mark.since
+    ago(age_s)
 }
 
 fn leave_mark(folder: &Path, age_s: i64) -> Timestamp {
@@ -83,7 +83,7 @@ async fn after_a_restart_stop_is_the_first_word_to_what_was_moved_by_hand() {
     let (control, mut handle, debts) = start(folder.path());
     seconds(5).await;
     assert_eq!(control.received()[0].1, "STOP=");
-    assert_eq!(told(&mut handle), [Safety::LeftMoving { since, asks: false }]);
+    assert_eq!(told(&mut handle), [Safety::LeftMoving { since: Some(since), asks: false }]);
     assert_eq!(debts.marked(&Unit::of(&antenna())), None, "standstill is proved");
 }
 
@@ -94,9 +94,9 @@ async fn an_old_mark_asks_and_stays_until_the_operator_has_seen_it_stand() {
     let (control, mut handle, debts) = start(folder.path());
     seconds(20).await;
     assert_eq!(stops(&control), 0);
-    assert_eq!(told(&mut handle), [Safety::LeftMoving { since, asks: true }]);
-    assert_eq!(handle.snapshot().left_moving, Some(since));
-    let mark = Mark { since, tried: None };
+    assert_eq!(told(&mut handle), [Safety::LeftMoving { since: Some(since), asks: true }]);
+    assert_eq!(handle.snapshot().left_moving, Some(LeftMoving { since: Some(since) }));
+    let mark = Mark { since: Some(since), tried: None };
     assert_eq!(debts.marked(&Unit::of(&antenna())), Some(mark), "nothing is tried");
     handle.send(Command::SeenStanding).unwrap();
     seconds(1).await;
@@ -105,13 +105,26 @@ async fn an_old_mark_asks_and_stays_until_the_operator_has_seen_it_stand() {
     assert_eq!(stops(&control), 0);
 }
 
+#[tokio::test(start_paused = true)]
+async fn a_mark_that_cannot_be_read_asks_and_names_no_time() {
+    let folder = tempfile::tempdir().unwrap();
+    leave_mark(folder.path(), 10);
+    let files = std::fs::read_dir(folder.path()).unwrap();
+    files.for_each(|file| std::fs::write(file.unwrap().path(), "since = ").unwrap());
+    let (control, mut handle, _) = start(folder.path());
+    seconds(5).await;
+    assert_eq!(stops(&control), 0);
+    assert_eq!(told(&mut handle), [Safety::LeftMoving { since: None, asks: true }]);
+    assert_eq!(handle.snapshot().left_moving, Some(LeftMoving { since: None }));
+}
+
 /// STOP would take the panel from the person who works there.
 #[tokio::test(start_paused = true)]
 async fn where_another_may_have_the_panel_a_mark_asks_however_young_it_is() {
     let (horn, folder) = (Antenna::rc2000c("Horn", "in memory"), tempfile::tempdir().unwrap());
     let debts = Debts::marked_in(Some(folder.path().to_owned()));
     let since = START - SignedDuration::from_secs(20);
-    debts.mark(&Unit::of(&horn), 0, Mark { since, tried: None });
+    debts.mark(&Unit::of(&horn), 0, Mark { since: Some(since), tried: None });
     while debts.mark_kept(&Unit::of(&horn)) == Kept::Pending {
         std::thread::yield_now();
     }
@@ -127,7 +140,7 @@ async fn where_another_may_have_the_panel_a_mark_asks_however_young_it_is() {
     let session = Session::over(horn.controller(), &horn, dial, clock, wires, debts);
     tokio::spawn(session.run());
     seconds(5).await;
-    assert_eq!(told(&mut handle), [Safety::LeftMoving { since, asks: true }]);
+    assert_eq!(told(&mut handle), [Safety::LeftMoving { since: Some(since), asks: true }]);
     assert!(!dials.load(Ordering::Relaxed));
 }
 
@@ -138,7 +151,7 @@ async fn the_age_of_a_mark_counts_from_the_last_try() {
     let (control, mut handle, _) = start(folder.path());
     seconds(5).await;
     assert_eq!(control.received()[0].1, "STOP=");
-    assert_eq!(told(&mut handle), [Safety::LeftMoving { since, asks: false }]);
+    assert_eq!(told(&mut handle), [Safety::LeftMoving { since: Some(since), asks: false }]);
 }
 
 #[tokio::test(start_paused = true)]
@@ -156,7 +169,7 @@ async fn a_unit_out_of_reach_for_an_hour_gets_its_stop_first_after_a_kill() {
         // As if the program were killed here: its file is all that is left.
         let mark = debts.marked(&Unit::of(&antenna())).unwrap();
         let now = START + SignedDuration::from_secs(3605);
-        assert!(seconds_between(mark.last_tried(), now).abs() <= 90.0, "{mark:?}");
+        assert!(seconds_between(mark.last_tried().unwrap(), now).abs() <= 90.0, "{mark:?}");
         let killed = tempfile::tempdir().unwrap();
         Debts::marked_in(Some(killed.path().to_owned())).mark(&Unit::of(&antenna()), 0, mark);
         let debts = Debts::marked_in(Some(killed.path().to_owned()));
