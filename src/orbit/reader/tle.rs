@@ -204,15 +204,26 @@ fn is_remark(text: &str) -> bool {
     let between_digits =
         |at: usize| at > 0 && is_digit(bytes.get(at - 1)) && is_digit(bytes.get(at + 1));
     let has_time = text.match_indices(':').any(|(at, _)| between_digits(at));
-    let dates = ['-', '.', '/']
-        .map(|sign| text.match_indices(sign).filter(|(at, _)| between_digits(*at)).count());
     text.chars().count() > MAX_NAME_CHARS
         || !text.contains(char::is_alphanumeric)
         || text.ends_with(':')
         || text.contains("://")
         || (text.contains('<') && text.contains('>'))
         || has_time
-        || dates.iter().any(|count| *count > 1)
+        || text.split(|letter: char| letter.is_whitespace() || "(),;".contains(letter)).any(is_date)
+}
+
+/// Returns `true` for three numbers of a date, such as 2026-11-27 or 27.11.26; names such as CX-1-02
+/// have shorter ones.
+fn is_date(word: &str) -> bool {
+    ['-', '.', '/'].into_iter().any(|sign| {
+        let parts: Vec<&str> = word.split(sign).collect();
+        let are_digits = parts.iter().all(|part| part.bytes().all(|byte| byte.is_ascii_digit()));
+        let has_length = |length| move |part: &&str| part.len() == length;
+        are_digits
+            && parts.len() == 3
+            && (parts.iter().any(has_length(4)) || parts.iter().all(has_length(2)))
+    })
 }
 
 impl TleSet<'_> {
@@ -322,7 +333,8 @@ mod tests {
         }
         assert_eq!(names("Weather", 2), ["", ""]);
         assert_eq!(names("Weather", 1), ["Weather"]);
-        for name in ["0 ISS", "ISS", "COSMOS 2251 DEB", "AO-07", "1KUNS-PF", "NOAA 19 [+]", "A-1.5"]
+        for name in
+            ["0 ISS", "ISS", "COSMOS 2251 DEB", "AO-07", "1KUNS-PF", "CX 1-02 (CX-1-02)", "A-1.5-2"]
         {
             assert_eq!(names(name, 1), [name.trim_start_matches("0 ")], "{name}");
         }

@@ -88,8 +88,9 @@ pub(super) struct Writer {
     begun: Moment,
     /// The open file and the number of this run in it.
     open: Option<(Connection, i64)>,
-    /// Identity of the file that was written last.
+    /// Identity of the file that was written last, and of its log.
     written: Option<FileId>,
+    log: Option<FileId>,
     run: Option<i64>,
     sources: Vec<Source>,
     waiting: Vec<Entry>,
@@ -117,6 +118,7 @@ impl Writer {
             begun,
             open: None,
             written: None,
+            log: None,
             run: None,
             sources: Vec::new(),
             waiting: Vec::new(),
@@ -262,6 +264,7 @@ impl Writer {
         }
         self.camera.write(&tx, *run)?;
         tx.commit()?;
+        self.log = file_id(&with_ending(&self.path, "-wal"));
         // Only now: what could not be written is tried again.
         self.shared.turned_away.fetch_sub(turned_away, Ordering::Relaxed);
         self.shared.not_filmed.fetch_sub(not_filmed, Ordering::Relaxed);
@@ -285,6 +288,15 @@ impl Writer {
             return;
         }
         (self.open, self.written) = (None, None);
+        // SQLite would write what the log of the old file holds into another one in its place.
+        let log = with_ending(&self.path, "-wal");
+        if self.log.is_some() && file_id(&log) == self.log {
+            for path in [log, with_ending(&self.path, "-shm")] {
+                if let Err(error) = fs::remove_file(&path) {
+                    tracing::warn!(%error, path = %path.display(), "a log of the record stays");
+                }
+            }
+        }
         let at = self.clock.now();
         locked(&self.shared.status).removed = Some(at.utc);
         tracing::error!(path = %self.path.display(), "somebody has removed the record");

@@ -93,7 +93,7 @@ fn a_bad_field_costs_only_itself() {
         ]
     );
     let NoteReason::Invalid(why) = &notes[1].reason else { panic!("{:?}", notes[1]) };
-    assert_eq!(why, "line 2 does not hold an azimuth and an elevation");
+    assert_eq!(why, "line 2 does not hold an azimuth and an elevation in degrees");
     assert_eq!(notes[5].reason, NoteReason::Unknown);
 }
 
