@@ -148,6 +148,9 @@ pub enum FetchProblem {
     /// The answer is larger than this limit in bytes.
     #[error("the answer is larger than {0} bytes")]
     TooLarge(u64),
+    /// The proxy of this environment variable cannot be used. No server was asked.
+    #[error("the proxy in {0} cannot be used; correct the variable, or remove it")]
+    Proxy(String),
     /// Nothing in the answer could be read.
     #[error("the answer holds no elements")]
     NoElements,
@@ -191,6 +194,7 @@ impl FetchProblem {
     pub fn is_before_request(&self) -> bool {
         match self {
             Self::Address
+            | Self::Proxy(_)
             | Self::NoPassword
             | Self::Keyring(_)
             | Self::Unrecorded(_)

@@ -5,6 +5,7 @@
 //! offline is a normal state: the stored elements stay and their age is shown. All calls
 //! wait for disks and servers: make them on a worker thread.
 
+mod authorities;
 pub mod disk;
 mod exceptions;
 mod fetch;
@@ -26,6 +27,7 @@ use rustls::pki_types::CertificateDer;
 use ureq::tls::{Certificate, RootCerts};
 
 pub use self::{
+    authorities::system_authorities,
     exceptions::Exceptions,
     fetch::Limits,
     history::{History, OlderSet},
@@ -101,12 +103,17 @@ impl Library {
     /// Opens the library in `folder`, which need not exist yet.
     pub fn open(folder: &Path, limits: Limits) -> Result<Self, IndexError> {
         let (folder, index) = (folder.to_owned(), Index::load(folder)?);
-        Ok(Self { folder, index, limits, authorities: RootCerts::WebPki, space_track: None })
+        Ok(Self { folder, index, limits, authorities: RootCerts::WebPki, space_track: None }
+            .trusting(system_authorities()))
     }
 
-    /// Trusts these certificate authorities, in DER, in place of the public ones.
+    /// Trusts these certificate authorities, in DER, in place of those of the system; the public ones
+    /// if there are none.
     #[must_use]
-    pub fn trusting_only(self, authorities: &[CertificateDer<'static>]) -> Self {
+    pub fn trusting(self, authorities: &[CertificateDer<'static>]) -> Self {
+        if authorities.is_empty() {
+            return Self { authorities: RootCerts::WebPki, ..self };
+        }
         let own = authorities.iter().map(|own| Certificate::from_der(own).to_owned());
         Self { authorities: own.into(), ..self }
     }

@@ -1,9 +1,9 @@
 //! A polite request to a server.
 
-use std::{io, net::IpAddr, time::Duration};
+use std::{env, io, net::IpAddr, time::Duration};
 
 use ureq::{
-    Agent, Body,
+    Agent, Body, Proxy,
     http::{Response, Uri, header},
     tls::{RootCerts, TlsConfig},
 };
@@ -90,8 +90,21 @@ pub(super) fn agent(
         .user_agent(concat!("azel/", env!("CARGO_PKG_VERSION")));
     if is_local {
         config = config.proxy(None);
+    } else if let Some(name) = unusable_proxy(|name| env::var(name).ok()) {
+        return Err(FetchProblem::Proxy(name.to_owned()));
     }
     Ok(Agent::from(config.build()))
+}
+
+/// Variables that name a proxy. The library takes the first one that it understands, and no proxy if
+/// there is none.
+const PROXY_VARIABLES: [&str; 6] =
+    ["ALL_PROXY", "all_proxy", "HTTPS_PROXY", "https_proxy", "HTTP_PROXY", "http_proxy"];
+
+/// Returns the variable of a proxy that cannot be used: to go past it in silence could be forbidden.
+fn unusable_proxy(value: impl Fn(&str) -> Option<String>) -> Option<&'static str> {
+    let is_unusable = |value: String| !value.is_empty() && Proxy::new(&value).is_err();
+    PROXY_VARIABLES.into_iter().find(|name| value(name).is_some_and(is_unusable))
 }
 
 /// The unpacked body of an answer. Unpacked bytes count: a small answer may unpack to anything.
@@ -134,6 +147,17 @@ pub(super) fn check(url: &str) -> Result<bool, FetchProblem> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_proxy_that_cannot_be_used_is_named() {
+        let unusable = |name: &'static str, value: &'static str| {
+            unusable_proxy(|asked| (asked == name).then(|| value.to_owned()))
+        };
+        assert_eq!(unusable("ALL_PROXY", "socks5://127.0.0.1:1080"), None);
+        assert_eq!(unusable("https_proxy", "http://proxy.example:3128"), None);
+        assert_eq!(unusable("HTTPS_PROXY", ""), None);
+        assert_eq!(unusable("ALL_PROXY", "gopher://127.0.0.1:70"), Some("ALL_PROXY"));
+    }
 
     #[test]
     fn only_safe_addresses_are_asked() {

@@ -13,6 +13,8 @@ use tokio_util::sync::CancellationToken;
 
 pub use seen::{Seen, UnitView, what_a_unit_sees};
 
+use crate::library::system_authorities;
+
 use super::{
     ConnectError, FolderError, Interruption, KnownHosts, Limits, Login, Peer, Proof,
     folder::Folder as _, limits::within, open_sftp,
@@ -61,8 +63,8 @@ impl FileProtocol {
 pub struct Trust {
     /// Keys of SSH hosts.
     pub known_hosts: KnownHosts,
-    /// Certificate authorities of the station's own FTP servers, in DER, beside the public
-    /// ones. For the web only the public ones count.
+    /// Certificate authorities of the station's own FTP servers, in DER, beside the public ones
+    /// and those of the system. For the web only the public ones count.
     pub own_authorities: Vec<CertificateDer<'static>>,
 }
 
@@ -70,11 +72,12 @@ impl Trust {
     /// Collects all authorities; an unreadable one is left out, with a line in the log.
     fn authorities(&self) -> RootCertStore {
         let mut roots = RootCertStore { roots: webpki_roots::TLS_SERVER_ROOTS.to_vec() };
-        let (_, unread) = roots.add_parsable_certificates(self.own_authorities.iter().cloned());
+        let own = self.own_authorities.iter().chain(system_authorities()).cloned();
+        let (_, unread) = roots.add_parsable_certificates(own);
         if unread > 0 {
             tracing::warn!(
                 unread,
-                "some of the station's own certificate authorities cannot be read"
+                "some certificate authorities of the station or the system cannot be read"
             );
         }
         roots
@@ -115,6 +118,9 @@ pub enum FetchError {
     /// No agreement on TLS.
     #[error("no secure connection ({0}); check the server's certificate")]
     Tls(String),
+    /// The server's answer, which belongs to no form of the protocol that is known here.
+    #[error("the server's answer was not understood ({0}); try SFTP, or another server")]
+    NotUnderstood(String),
     /// The server refused, in its own words.
     #[error("the server refused ({0}); check the file and the user's permissions")]
     Refused(String),

@@ -237,6 +237,7 @@ fn advice(problem: &FetchProblem) -> Option<&'static str> {
         ),
         FetchProblem::NoFavourites => Some("Mark the satellites that you want as favourites."),
         FetchProblem::Address
+        | FetchProblem::Proxy(_)
         | FetchProblem::Answer(_)
         | FetchProblem::Unreachable(_)
         | FetchProblem::Certificate(_)
