@@ -60,6 +60,12 @@ pub enum ConnectError {
         reason: String,
         peer: Peer,
     },
+    /// The host and Azel know no common algorithm.
+    #[error(
+        "the host offers only {kind} that are not known or not safe: {offered}; update its SSH server \
+         or the firmware of the unit: {peer}"
+    )]
+    NoAgreement { kind: &'static str, offered: String, peer: Peer },
     /// A key never seen before: the operator must compare the fingerprint.
     #[error(
         "the host key is not known yet: {} {}; compare it with the one on the unit, then accept it: {}",

@@ -1,11 +1,16 @@
 //! SSH connections to a folder on a unit.
 
-use std::{io, path::Path, sync::Arc};
+use std::{borrow::Cow, io, path::Path, sync::Arc};
 
 use russh::{
-    Disconnect, Preferred,
-    client::{self, AuthResult, Handle},
+    AlgorithmKind, Disconnect, MethodKind, Names, Preferred, cipher,
+    client::{
+        self, AuthResult, GexParams, Handle, KeyboardInteractiveAuthResponse as Interactive,
+        Session,
+    },
+    kex,
     keys::{Algorithm, PrivateKey, PrivateKeyWithHashAlg, PublicKeyOrCertificate, load_secret_key},
+    mac,
 };
 use secrecy::{ExposeSecret as _, SecretString};
 use tokio::net::TcpStream;
@@ -68,6 +73,17 @@ async fn shake_hands(
         .map_err(|by| interrupted(ConnectStep::Handshake, by, peer))?
         .map_err(|error| match error {
             Refused::Key(error) => error,
+            Refused::Ssh(russh::Error::NoCommonAlgo { kind, theirs, .. }) => {
+                let kind = match kind {
+                    AlgorithmKind::Kex => "key exchanges",
+                    AlgorithmKind::Key => "kinds of host keys",
+                    AlgorithmKind::Cipher => "ciphers",
+                    AlgorithmKind::Mac => "message authentication codes",
+                    AlgorithmKind::Compression => "compressions",
+                };
+                let offered = theirs.join(", ");
+                ConnectError::NoAgreement { kind, offered, peer: peer.clone() }
+            }
             Refused::Ssh(error) => failed(ConnectStep::Handshake, &error, peer),
         })
 }
@@ -140,10 +156,37 @@ fn config(pinned: &[Algorithm]) -> client::Config {
     let (mut kinds, others): (Vec<_>, Vec<_>) =
         Preferred::DEFAULT.key.iter().cloned().partition(is_pinned);
     kinds.extend(others);
-    client::Config {
-        preferred: Preferred { key: kinds.into(), ..Preferred::DEFAULT },
-        ..client::Config::default()
-    }
+    let preferred = Preferred {
+        key: kinds.into(),
+        kex: [&*Preferred::DEFAULT.kex, &MODERN_KEX, &OLD_KEX].concat().into(),
+        cipher: [&*Preferred::DEFAULT.cipher, &OLD_CIPHERS].concat().into(),
+        mac: [&*Preferred::DEFAULT.mac, &OLD_MACS].concat().into(),
+        ..Preferred::DEFAULT
+    };
+    let default = client::Config::default();
+    // Old servers have groups of 2048 bits.
+    let gex = GexParams::new(2048, 4096, 8192).unwrap_or_else(|_| default.gex.clone());
+    client::Config { preferred, gex, ..default }
+}
+
+/// Key exchanges that are as good as the default ones.
+const MODERN_KEX: [kex::Name; 3] =
+    [kex::ECDH_SHA2_NISTP256, kex::ECDH_SHA2_NISTP384, kex::ECDH_SHA2_NISTP521];
+/// Algorithms of old servers and units, in use only if a server offers nothing better: the client's
+/// order decides (RFC 4253, section 7.1).
+const OLD_KEX: [kex::Name; 3] = [kex::DH_G14_SHA1, kex::DH_GEX_SHA1, kex::DH_G1_SHA1];
+const OLD_CIPHERS: [cipher::Name; 3] =
+    [cipher::AES_256_CBC, cipher::AES_192_CBC, cipher::AES_128_CBC];
+const OLD_MACS: [mac::Name; 2] = [mac::HMAC_SHA1_ETM, mac::HMAC_SHA1];
+
+/// The old algorithms among those that were agreed on.
+fn old_algorithms(names: &Names) -> Vec<Cow<'static, str>> {
+    let kex = OLD_KEX.contains(&names.kex).then(|| names.kex.as_ref().to_owned());
+    let cipher = OLD_CIPHERS.contains(&names.cipher).then(|| names.cipher.as_ref().to_owned());
+    let macs = [names.client_mac, names.server_mac];
+    let mac = macs.into_iter().find(|mac| OLD_MACS.contains(mac));
+    let mac = mac.map(|mac| mac.as_ref().to_owned());
+    [kex, cipher, mac].into_iter().flatten().map(Cow::Owned).collect()
 }
 
 async fn log_in(
@@ -153,7 +196,13 @@ async fn log_in(
 ) -> Result<AuthResult, russh::Error> {
     match (&login.proof, key) {
         (Proof::Password(password), _) => {
-            handle.authenticate_password(&login.user, password.expose_secret()).await
+            let result =
+                handle.authenticate_password(&login.user, password.expose_secret()).await?;
+            let AuthResult::Failure { remaining_methods, .. } = &result else { return Ok(result) };
+            // A host that knows passwords has refused this one: a second try could lock the user.
+            let asks = remaining_methods.contains(&MethodKind::KeyboardInteractive)
+                && !remaining_methods.contains(&MethodKind::Password);
+            if asks { answer_prompts(handle, &login.user, password).await } else { Ok(result) }
         }
         (Proof::KeyFile { .. }, Some(key)) => {
             let hash = handle.best_supported_rsa_hash().await?.flatten();
@@ -163,6 +212,40 @@ async fn log_in(
         (Proof::KeyFile { .. }, None) => Err(russh::Error::NoAuthMethod),
     }
 }
+
+/// Logs in by keyboard-interactive (RFC 4256): answers the one hidden question of a host, which is
+/// that for the password. Others cannot be answered without the operator.
+async fn answer_prompts(
+    handle: &mut Handle<Judge>,
+    user: &str,
+    password: &SecretString,
+) -> Result<AuthResult, russh::Error> {
+    let mut reply = handle.authenticate_keyboard_interactive_start(user, None).await?;
+    let mut is_sent = false;
+    for _ in 0..MAX_ROUNDS {
+        let prompts = match reply {
+            Interactive::Success => return Ok(AuthResult::Success),
+            Interactive::Failure { remaining_methods, partial_success } => {
+                return Ok(AuthResult::Failure { remaining_methods, partial_success });
+            }
+            Interactive::InfoRequest { prompts, .. } => prompts,
+        };
+        let answers = match &prompts[..] {
+            [] => Vec::new(),
+            [prompt] if !prompt.echo && !is_sent => {
+                is_sent = true;
+                vec![password.expose_secret().to_owned()]
+            }
+            _ => break,
+        };
+        reply = handle.authenticate_keyboard_interactive_respond(answers).await?;
+    }
+    let remaining_methods = [MethodKind::KeyboardInteractive].as_slice().into();
+    Ok(AuthResult::Failure { remaining_methods, partial_success: false })
+}
+
+/// Maximum number of questions of a host.
+const MAX_ROUNDS: usize = 5;
 
 fn private_key(path: &Path, passphrase: Option<&SecretString>) -> Result<PrivateKey, ConnectError> {
     use russh::keys::Error;
@@ -196,6 +279,20 @@ pub(super) enum Refused {
 impl client::Handler for Judge {
     type Error = Refused;
 
+    async fn kex_done(
+        &mut self,
+        _secret: Option<&[u8]>,
+        names: &Names,
+        _session: &mut Session,
+    ) -> Result<(), Self::Error> {
+        let old = old_algorithms(names).join(", ");
+        if !old.is_empty() {
+            let peer = &self.peer;
+            tracing::warn!(%peer, old, "the host offers nothing better than old algorithms: update it");
+        }
+        Ok(())
+    }
+
     async fn check_server_key(
         &mut self,
         offered: &PublicKeyOrCertificate,
@@ -211,3 +308,6 @@ impl client::Handler for Judge {
         }))
     }
 }
+
+#[cfg(test)]
+mod tests;
