@@ -360,9 +360,9 @@ mod tests {
             plain.replace(' ', "\u{a0}"),
             plain.replace("1 ", "1\u{2007}"),
             plain.replace('-', "\u{2212}"),
-            plain.replace("\n", "\u{200b}\n").replace("1 2", "1\u{200b} 2"),
+            plain.replace('\n', "\u{200b}\n").replace("1 2", "1\u{200b} 2"),
             plain.replace("ISS", "\u{feff}ISS").replace("\n1", "\n\u{feff}1"),
-            plain.lines().map(|line| format!("> > {line}\n")).collect(),
+            plain.lines().flat_map(|line| ["> > ", line, "\n"]).collect(),
         ] {
             let report = read(&text);
             assert_eq!(report.refused, [], "{text:?}");

@@ -58,7 +58,7 @@ fn sides(text: &str, azimuth_deg: f64) -> (f64, f64) {
 #[test]
 fn an_azimuth_on_two_lines_is_a_wall() {
     let wall = "0 10\n90 5\n180 5\n180 20\n200 20\n200 5";
-    let turned: String = wall.lines().rev().map(|line| format!("{line}\n")).collect();
+    let turned: String = wall.lines().rev().flat_map(|line| [line, "\n"]).collect();
     let west = wall.replace("200", "-160");
     for text in [wall, &turned, &west] {
         for (azimuth_deg, expected) in [(180.0, (5.0, 20.0)), (200.0, (20.0, 5.0))] {

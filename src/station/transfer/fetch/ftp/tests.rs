@@ -20,7 +20,7 @@ async fn fetched(answers: Answers, end: &'static str) -> Result<Vec<u8>, FetchEr
     let [control, data] = [(); 2].map(|()| TcpListener::bind("127.0.0.1:0").unwrap());
     let port = data.local_addr().unwrap().port();
     let peer = Peer { host: "127.0.0.1".to_owned(), port: control.local_addr().unwrap().port() };
-    thread::spawn(move || {
+    let server = move || {
         let (mut stream, _) = control.accept().unwrap();
         let filled = |text: &str| {
             let [high, low] = port.to_be_bytes();
@@ -49,7 +49,8 @@ async fn fetched(answers: Answers, end: &'static str) -> Result<Vec<u8>, FetchEr
                 _ => "200 well".to_owned(),
             };
         }
-    });
+    };
+    thread::Builder::new().name("ftp-server".to_owned()).spawn(server).unwrap();
     let password = "word".into();
     let request =
         Request { peer: &peer, roots: None, user: "op", password: &password, file: "a.tle" };
