@@ -150,6 +150,29 @@ fn a_track_that_somebody_ends_suspends_it() {
     assert_eq!(fixture.operation, suspended);
 }
 
+/// The end of a track, and a motion that nobody asked for, follow from a stop of the driver.
+#[test]
+fn a_stop_for_safety_stays_the_cause_whatever_follows_or_came_before() {
+    let consequences: [fn(&mut Operation); 3] = [
+        |operation| operation.ended_by_unit(at(250.0)),
+        |operation| operation.suspend(Interruption::Elsewhere, at(250.0)),
+        |operation| operation.suspend(Interruption::EndedByUnit, at(250.0)),
+    ];
+    for consequence in consequences {
+        for is_first in [true, false] {
+            let mut fixture = Fixture::new(&[duty(1, 200.0)]);
+            fixture.until(150.0, |_| STANDS);
+            fixture.until(250.0, |_| taking(1));
+            if is_first {
+                consequence(&mut fixture.operation);
+            }
+            fixture.operation.switch_off(OffBecause::Safety);
+            consequence(&mut fixture.operation);
+            assert_eq!(fixture.operation, Operation::Off(OffBecause::Safety));
+        }
+    }
+}
+
 #[test]
 fn two_failures_in_a_row_switch_it_off_and_a_pass_between_them_does_not() {
     let duties = [duty(1, 200.0), duty(2, 1000.0), duty(3, 1800.0), duty(4, 2600.0)];
