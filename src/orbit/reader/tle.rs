@@ -14,6 +14,9 @@ use crate::Elements;
 /// Maximum length of a name without a line number before it, characters.
 const MAX_NAME_CHARS: usize = 24;
 
+/// Length of a line without its checksum, characters.
+const MIN_LINE_CHARS: usize = 68;
+
 /// A line that is not empty.
 struct TleLine<'a> {
     /// Its number in the text, from 1.
@@ -185,10 +188,11 @@ fn sets(text: &str) -> Vec<TleSet<'_>> {
         };
         sets.push(TleSet { text, heading, place, first, second });
     }
-    // Sets without names have names nowhere: text before one of them is a heading of the list.
-    let likely = sets.iter().filter(|set| set.heading == Heading::Likely).count();
-    let numbered = sets.iter().filter(|set| set.heading == Heading::Numbered).count();
-    if (likely + numbered) * 2 <= sets.len() {
+    // Sets without names have names nowhere: text before one of them is a heading of the list. Sets
+    // with a torn line do not count.
+    let whole = sets.iter().filter(|set| set.is_whole());
+    let named = whole.clone().filter(|set| set.heading != Heading::Remark && !set.text.is_empty());
+    if named.count() * 2 <= whole.count() {
         for set in sets.iter_mut().filter(|set| set.heading == Heading::Likely) {
             set.heading = Heading::Remark;
         }
@@ -233,6 +237,13 @@ impl TleSet<'_> {
             Heading::Numbered | Heading::Likely => name_in(&self.text),
             Heading::Remark => "",
         }
+    }
+
+    fn is_whole(&self) -> bool {
+        let is_long = |line: &Option<Cow<'_, str>>| {
+            line.as_ref().is_some_and(|line| line.len() >= MIN_LINE_CHARS)
+        };
+        is_long(&self.first) && is_long(&self.second)
     }
 
     /// Its number as written.

@@ -135,6 +135,11 @@ fn files_are_chosen_by_a_key_and_in_the_form() {
     assert_eq!(asked(&mut window), [UiCommand::ChooseElementFiles]);
 }
 
+/// A time at which the sets that are newer than the bundled ones do not lie ahead.
+pub(super) fn week_later() -> jiff::Timestamp {
+    rig::now() + jiff::SignedDuration::from_hours(7 * 24)
+}
+
 /// Elements of one object as a file in `folder`, a day newer than the bundled ones.
 pub(super) fn newer_elements(folder: &tempfile::TempDir) -> PathBuf {
     let path = folder.path().join("own.json");
@@ -157,10 +162,10 @@ pub(super) fn epoch_of_noaa_20(model: &Model) -> Option<jiff::Timestamp> {
 fn an_added_file_is_used_and_kept_for_the_next_start() {
     let folder = tempfile::tempdir().unwrap();
     let settings = folder.path().join("station.toml");
-    let unit = Unit::start(rig::now());
+    let unit = Unit::start(week_later());
     station::save(&unit.station(), &settings, azel::makes::SPECS).unwrap();
     let path = newer_elements(&folder);
-    let mut window = open(&settings, clock_from(rig::now()));
+    let mut window = open(&settings, clock_from(week_later()));
     step_until(&mut window, "the elements", |model| epoch_of_noaa_20(model).is_some());
     window.key_press_modifiers(Modifiers::COMMAND, Key::Num3);
     step_until(&mut window, "the view", |model| model.view == View::Elements);
@@ -179,7 +184,7 @@ fn an_added_file_is_used_and_kept_for_the_next_start() {
     let is_used = |model: &Model| epoch_of_noaa_20(model) == "2026-08-14T00:00:00Z".parse().ok();
     step_until(&mut window, "the newer elements", is_used);
     drop(window);
-    let mut window = open(&settings, clock_from(rig::now()));
+    let mut window = open(&settings, clock_from(week_later()));
     step_until(&mut window, "the newer elements again", is_used);
     let kept = std::fs::read_dir(folder.path().join("elements")).unwrap();
     let kept: Vec<_> = kept.map(|file| file.unwrap().file_name()).collect();
@@ -190,14 +195,14 @@ fn an_added_file_is_used_and_kept_for_the_next_start() {
 fn a_server_that_is_set_to_be_asked_is_asked_without_the_operator_and_once() {
     let folder = tempfile::tempdir().unwrap();
     let settings = folder.path().join("station.toml");
-    let unit = Unit::start(rig::now());
+    let unit = Unit::start(week_later());
     station::save(&unit.station(), &settings, azel::makes::SPECS).unwrap();
     let text = fs::read_to_string(newer_elements(&folder)).unwrap();
     let server = Server::new(vec![ok("", &text), ok("", &text)]);
     let left_alone = server.source("alone");
     let asked = Source { refresh: Some(RefreshHours::from(6)), ..server.source("asked") };
     save_sources(&[left_alone, asked], &folder.path().join("sources.toml")).unwrap();
-    let mut window = open(&settings, clock_from(rig::now()));
+    let mut window = open(&settings, clock_from(week_later()));
     step_until(&mut window, "the newer elements", |model| {
         epoch_of_noaa_20(model) == "2026-08-14T00:00:00Z".parse().ok()
     });
@@ -213,9 +218,9 @@ fn a_server_that_is_set_to_be_asked_is_asked_without_the_operator_and_once() {
 fn a_followed_satellite_is_kept_in_the_station_file_and_listed() {
     let folder = tempfile::tempdir().unwrap();
     let settings = folder.path().join("station.toml");
-    let unit = Unit::start(rig::now());
+    let unit = Unit::start(week_later());
     station::save(&unit.station(), &settings, azel::makes::SPECS).unwrap();
-    let mut window = open(&settings, clock_from(rig::now()));
+    let mut window = open(&settings, clock_from(week_later()));
     step_until(&mut window, "the elements", |model| epoch_of_noaa_20(model).is_some());
     window.key_press_modifiers(Modifiers::COMMAND, Key::Num3);
     step_until(&mut window, "the view", |model| model.view == View::Elements);

@@ -22,7 +22,7 @@ use egui_kittest::{
 use jiff::Timestamp;
 
 use super::{
-    adding::{epoch_of_noaa_20, newer_elements},
+    adding::{epoch_of_noaa_20, newer_elements, week_later},
     click,
     detail::detail,
     view, write,
@@ -208,9 +208,9 @@ fn send(window: &RealWindow, command: engine::Command) {
 fn a_preferred_source_is_used_until_its_elements_lag_and_over_the_next_start() {
     let folder = tempfile::tempdir().unwrap();
     let settings = folder.path().join("station.toml");
-    let unit = Unit::start(rig::now());
+    let unit = Unit::start(week_later());
     station::save(&unit.station(), &settings, azel::makes::SPECS).unwrap();
-    let mut window = open(&settings, clock_from(rig::now()));
+    let mut window = open(&settings, clock_from(week_later()));
     step_until(&mut window, "the elements", |model| epoch_of_noaa_20(model).is_some());
     let own = newer_elements(&folder);
     let web = folder.path().join("web.json");
@@ -233,7 +233,7 @@ fn a_preferred_source_is_used_until_its_elements_lag_and_over_the_next_start() {
 
     let file = std::fs::read_to_string(&settings).unwrap();
     assert!(file.contains("sources = [\"own\"]"), "{file}");
-    let mut window = open(&settings, clock_from(rig::now()));
+    let mut window = open(&settings, clock_from(week_later()));
     step_until(&mut window, "the elements again", |model| epoch_of_noaa_20(model).is_some());
     assert_eq!(epoch_of_noaa_20(window.state().model()), at(14), "from the first reading");
     std::fs::write(&web, text.replace("08-14T", "08-18T")).unwrap();
@@ -246,9 +246,9 @@ fn a_preferred_source_is_used_until_its_elements_lag_and_over_the_next_start() {
 fn an_older_set_is_used_over_the_next_start_until_a_newer_one_comes() {
     let folder = tempfile::tempdir().unwrap();
     let settings = folder.path().join("station.toml");
-    let unit = Unit::start(rig::now());
+    let unit = Unit::start(week_later());
     station::save(&unit.station(), &settings, azel::makes::SPECS).unwrap();
-    let mut window = open(&settings, clock_from(rig::now()));
+    let mut window = open(&settings, clock_from(week_later()));
     step_until(&mut window, "the elements", |model| epoch_of_noaa_20(model).is_some());
     let bundled = epoch_of_noaa_20(window.state().model());
     let own = newer_elements(&folder);
@@ -273,7 +273,7 @@ fn an_older_set_is_used_over_the_next_start_until_a_newer_one_comes() {
     step_until(&mut window, "the newest among the others", has_newest);
     drop(window);
 
-    let mut window = open(&settings, clock_from(rig::now()));
+    let mut window = open(&settings, clock_from(week_later()));
     step_until(&mut window, "the older set again", |model| epoch_of_noaa_20(model) == bundled);
     let text = std::fs::read_to_string(&own).unwrap();
     std::fs::write(&own, text.replace("08-14T", "08-15T")).unwrap();
