@@ -190,7 +190,9 @@ mod tests {
         let mut skies = Skies::of(&Station::default());
         assert!(skies.set_skyline(vec![(370.0, 4.0), (90.0, 2.5)]));
         assert_eq!(skies.skyline(), [(10.0, 4.0), (90.0, 2.5)]);
-        assert!(!skies.set_skyline(vec![(10.0, 4.0), (370.0, 2.5)]), "one direction twice");
+        assert!(skies.set_skyline(vec![(10.0, 4.0), (370.0, 2.5)]), "a wall");
+        let thrice = vec![(10.0, 4.0), (370.0, 2.5), (10.0, 3.0)];
+        assert!(!skies.set_skyline(thrice), "one direction three times");
         assert!(skies.set_skyline(Vec::new()) && skies.mask.is_empty());
     }
 }
