@@ -321,15 +321,12 @@ fn a_rotator_at_rest_that_reads_the_other_end_has_done_as_told() {
     assert_eq!(rehearsed.interruptions, []);
 }
 
-/// These drawn antennas stand, or begin to move away, beside a keep-out while noise and gusts change what
-/// they read.
+/// This drawn antenna stands beside a keep-out while noise and gusts change what it reads.
 #[test]
 fn readings_that_change_beside_a_keep_out_are_no_motion_into_it() {
-    for seed in [100_162, 100_201] {
-        let mut rehearsal = draw(seed).rehearsal;
-        // These passes were drawn without refraction.
-        rehearsal.station.site = rehearsal.station.site.airless();
-        let rehearsed = run(&rehearsal, &|_| (), &|| false).unwrap();
-        assert_eq!(rehearsed.interruptions, [], "seed {seed}");
-    }
+    let mut rehearsal = draw(100_162).rehearsal;
+    // Its passes were drawn without refraction.
+    rehearsal.station.site = rehearsal.station.site.airless();
+    let rehearsed = run(&rehearsal, &|_| (), &|| false).unwrap();
+    assert_eq!(rehearsed.interruptions, []);
 }

@@ -48,11 +48,7 @@ impl<'a> NearCircular<'a> {
     pub(super) fn new(track: &'a Track<'a>) -> Option<Self> {
         let window = track.window;
         let secular = track.propagator.secular()?;
-        let start_s = track.start_since_epoch_s;
-        if [start_s, start_s + window.length_s]
-            .iter()
-            .any(|since_epoch_s| track.propagator.may_lack_state_at(*since_epoch_s))
-        {
+        if track.propagator.may_be_down_at(track.start_since_epoch_s + window.length_s) {
             return None;
         }
         let minutes = |at_s: f64| (track.start_since_epoch_s + at_s) / 60.0;

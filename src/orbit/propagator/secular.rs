@@ -7,7 +7,7 @@
 //! Source: Hoots and Roehrich, "Spacetrack Report No. 3", section 6, from which the symbols of the
 //! coefficients are taken; WGS72. Times are in minutes and lengths in Earth radii, as there.
 
-use std::{f64::consts::TAU, ops::RangeInclusive};
+use std::f64::consts::TAU;
 
 use sgp4::WGS72;
 
@@ -24,8 +24,6 @@ const LOWEST_PERIGEE: f64 = 1.012;
 const MAX_WAVE: f64 = 0.005;
 /// The waves of perigee and anomaly need an eccentricity above this.
 const MIN_ECCENTRICITY: f64 = 1e-4;
-/// Maximum growth of the apogee distance since the epoch.
-const MAX_GROWTH: f64 = 1.25;
 /// An hour: the accuracy with which the time when an orbit gets low is known.
 const FIRST_LOOK_MIN: f64 = 60.0;
 const CENTURY_MIN: f64 = 36_525.0 * 1440.0;
@@ -73,43 +71,33 @@ impl Secular {
     /// Minutes after the epoch from which the orbit may come as low as one that is about to decay;
     /// infinity if it does not for a century.
     pub(super) fn low_after_min(&self) -> f64 {
-        first_min(|minutes| self.is_low(minutes))
-    }
-
-    /// Minutes before and after the epoch between which the orbit is one that the object can have had.
-    /// Far from the epoch, the polynomials lead through the centre of the Earth and to any size.
-    pub(super) fn known_min(&self) -> RangeInclusive<f64> {
-        let lost_after = |direction: f64| first_min(|minutes| self.is_lost(minutes, direction));
-        -lost_after(-1.0)..=lost_after(1.0)
-    }
-
-    /// Returns `true` if drag makes the orbit smaller at the epoch.
-    pub(super) fn sinks(&self) -> bool {
-        self.root_axis[1] < 0.0
-    }
-
-    fn is_low(&self, minutes: f64) -> bool {
-        let root_axis = series(&self.root_axis, minutes);
-        // The largest eccentricity that the orbit has had until then.
-        let eccentricity =
-            series(&self.plane.eccentricity, minutes).max(self.plane.eccentricity[0]);
-        let lowest = root_axis * root_axis * (1.0 - eccentricity - self.eccentricity_wave());
-        // Below zero, the polynomial has passed the centre of the Earth.
-        root_axis <= 0.0 || lowest < LOWEST_PERIGEE
-    }
-
-    /// Returns `true` if the orbit has a size that no drag explains, or has become smaller than the
-    /// Earth, `minutes` from the epoch in `direction`, 1 or -1. Before the epoch, an orbit that comes
-    /// low is lost too: nothing lifts an object from there.
-    fn is_lost(&self, minutes: f64, direction: f64) -> bool {
-        let apogee = |at: f64| {
-            let (axis, eccentricity) = self.size(at);
-            axis * (1.0 + eccentricity)
+        let is_low = |minutes: f64| {
+            let root_axis = series(&self.root_axis, minutes);
+            // The largest eccentricity that the orbit has had until then.
+            let eccentricity =
+                series(&self.plane.eccentricity, minutes).max(self.plane.eccentricity[0]);
+            let lowest = root_axis * root_axis * (1.0 - eccentricity - self.eccentricity_wave());
+            // Below zero, the polynomial has passed the centre of the Earth.
+            root_axis <= 0.0 || lowest < LOWEST_PERIGEE
         };
-        let at = direction * minutes;
-        let [root_axis, slope, _] = expand(&self.root_axis, at);
-        let is_down = if direction < 0.0 { self.is_low(at) } else { root_axis < 1.0 };
-        (slope * direction < 0.0 && is_down) || apogee(at) > MAX_GROWTH * apogee(0.0)
+        let mut high = 0.0;
+        let mut low = FIRST_LOOK_MIN;
+        while !is_low(low) {
+            high = low;
+            low *= 2.0;
+            if low > CENTURY_MIN {
+                return f64::INFINITY;
+            }
+        }
+        while low - high > FIRST_LOOK_MIN {
+            let middle = f64::midpoint(high, low);
+            if is_low(middle) {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        high
     }
 
     /// How far the eccentricity swings around its polynomial, once a revolution.
@@ -308,28 +296,6 @@ impl Precession {
                     + 0.0625 * second * (13.0 - 78.0 * theta2 + 137.0 * theta4)),
         }
     }
-}
-
-/// The minutes from which `is_reached` holds, up to an hour less; infinity if it does not for a
-/// century.
-fn first_min(is_reached: impl Fn(f64) -> bool) -> f64 {
-    let (mut before, mut after) = (0.0, FIRST_LOOK_MIN);
-    while !is_reached(after) {
-        before = after;
-        after *= 2.0;
-        if after > CENTURY_MIN {
-            return f64::INFINITY;
-        }
-    }
-    while after - before > FIRST_LOOK_MIN {
-        let middle = f64::midpoint(before, after);
-        if is_reached(middle) {
-            after = middle;
-        } else {
-            before = middle;
-        }
-    }
-    before
 }
 
 /// The value of a polynomial at `t`, its first derivative and half its second derivative.
