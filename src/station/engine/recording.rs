@@ -373,7 +373,19 @@ fn ended_by(event: &Event) -> Option<LossCause> {
         Safety::OffTarget { .. } => Some(LossCause::GivenUp),
         Safety::ForeignHands { .. } => Some(LossCause::ForeignHands),
         Safety::Forbidden { response: Response::Stopped, .. } => Some(LossCause::Forbidden),
-        _ => None,
+        Safety::Forbidden { response: Response::Reported, .. }
+        | Safety::DeadManFired
+        | Safety::LeftMoving { .. }
+        | Safety::NoMark
+        | Safety::SessionBroke
+        | Safety::StoppedByFlags { .. }
+        | Safety::FlagsContradict { .. }
+        | Safety::SilentInMotion
+        | Safety::ClockStepped { .. }
+        | Safety::EndedForSleep
+        | Safety::Slept { .. }
+        | Safety::AsksToResume { .. }
+        | Safety::UnitDiffers { .. } => None,
     }
 }
 

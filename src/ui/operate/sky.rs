@@ -255,7 +255,7 @@ pub(super) fn bearing<'a>(antenna: &'a AntennaModel, lost: Option<&'a str>) -> O
                 (false, true) => (to, "CW limit"),
                 (true, true) | (false, false) => return None,
             };
-            let is_flipped = antenna.config.mount.can_flip() && elevation.angle_deg > Some(90.0);
+            let is_flipped = antenna.config.mount.is_flipped(elevation.angle_deg);
             let turn = Angle::from_degrees(if is_flipped { 180.0 } else { 0.0 });
             ((end + turn).wrapped_360(), Some(limit))
         }

@@ -447,8 +447,8 @@ impl Followed {
             self.about.path_source(self.site),
             tracked.judged(&report, &flown),
         );
-        let is_of_drives = report.losses.iter().any(|lost| lost.cause == LossCause::NoEffect);
-        let evidence = if is_of_drives { evidence.of_drives() } else { evidence };
+        let had_no_effect = report.losses.iter().any(|lost| lost.cause == LossCause::NoEffect);
+        let evidence = if had_no_effect { evidence.only_drives() } else { evidence };
         let causes = match report.verdict {
             PassVerdict::Good => Vec::new(),
             PassVerdict::Fair | PassVerdict::Poor => {

@@ -196,14 +196,14 @@ impl Evidence<'_> {
             return Vec::new();
         }
         let known = self.fit_of(|point| Some(point.followed));
-        if !self.is_of_drives()
+        if !self.only_drives
             && self.is_explained(known, whole.left)
             && let Some(cause) = self.known_cause(known, whole.left)
         {
             let found = Found { cause, with: None, fit: known };
             return self.shown(&[found], whole.left);
         }
-        let mut singles = if self.is_of_drives() { Vec::new() } else { self.singles(others) };
+        let mut singles = if self.only_drives { Vec::new() } else { self.singles(others) };
         singles.sort_by(|(_, a), (_, b)| a.fit.left.total_cmp(&b.fit.left));
         let mut found: Vec<Found> = singles.iter().map(|(_, found)| *found).collect();
         found.extend(self.slow_drives());

@@ -281,7 +281,7 @@ impl Reach {
         let mut lost_at = is_late.then_some(Loss::OutOfReach);
         // The Sun stays where it is for so long.
         let mut bounds = None;
-        // As trackability has it, what lies between two samples counts if both are in the beam.
+        // As in trackability, the time between two samples counts only if both are in the beam.
         let mut before: Option<Timestamp> = None;
         for (sample, axes_deg) in samples.list.iter().zip(places) {
             let since = before.take();

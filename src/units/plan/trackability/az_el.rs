@@ -49,7 +49,7 @@ fn lost(
     let mut before: Option<(&Sample, bool)> = None;
     for (sample, axes_deg) in samples.iter().zip(axes_deg) {
         let is_off = axes.off(sample.direction, axes_deg) > limits.half_beam;
-        // What lies between two samples counts if both are in the beam.
+        // The time between two samples counts only if both are in the beam.
         if let Some((before, was_off)) = before.replace((sample, is_off))
             && (is_off || was_off)
         {

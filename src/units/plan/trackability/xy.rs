@@ -26,7 +26,7 @@ pub(super) fn trackability(samples: &[Sample], limits: MountLimits) -> Trackabil
             continue;
         }
         whole_s += span_s;
-        // What lies between two samples counts if both are within the travel.
+        // The time between two samples counts only if both are within the travel.
         let reachable = [from, to].into_iter().flat_map(axes);
         let reachable =
             reachable.into_iter().all(|angle| (travel_from_deg..=travel_to_deg).contains(&angle));

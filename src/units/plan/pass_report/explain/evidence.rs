@@ -69,7 +69,7 @@ pub struct Evidence<'a> {
     pub(super) has_elevation: bool,
     half_beam: Angle,
     noise: f64,
-    is_of_drives: bool,
+    pub(super) only_drives: bool,
 }
 
 impl<'a> Evidence<'a> {
@@ -84,19 +84,15 @@ impl<'a> Evidence<'a> {
             has_elevation,
             half_beam,
             noise: 0.0,
-            is_of_drives: false,
+            only_drives: false,
         }
     }
 
-    /// The same for an antenna an axis of which was found not to turn as commanded: nothing but its
-    /// drives explains the error.
+    /// The same for an antenna with an axis that did not turn as commanded: only its drives explain
+    /// the error.
     #[must_use]
-    pub fn of_drives(self) -> Self {
-        Self { is_of_drives: true, ..self }
-    }
-
-    pub(super) fn is_of_drives(&self) -> bool {
-        self.is_of_drives
+    pub fn only_drives(self) -> Self {
+        Self { only_drives: true, ..self }
     }
 
     /// The same with the measured directions of one more pass, oldest first.

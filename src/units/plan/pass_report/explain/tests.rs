@@ -651,7 +651,7 @@ fn after_an_axis_did_not_turn_as_commanded_only_drives_explain_an_error() {
             found.first().is_some_and(|best| is_same_kind(&best.cause, &cause))
         };
         assert!(names(&evidence().explanations(&[])), "{cause:?}");
-        let found = evidence().of_drives().explanations(&[]);
+        let found = evidence().only_drives().explanations(&[]);
         assert_eq!(names(&found), is_named, "{found:?}");
     }
 }

@@ -306,7 +306,7 @@ fn a_park_position_out_of_reach_costs_no_pass() {
     assert_eq!(can_park(&station), [true, true, false]);
 }
 
-/// Of what lies between two samples nothing counts unless both are in the beam.
+/// The time between two samples counts only if both are in the beam.
 #[test]
 fn what_counts_of_a_pass_with_a_loss_begins_and_ends_in_the_beam() {
     let (mut edges, mut random) = (0, Random::new(SEED + 6));
