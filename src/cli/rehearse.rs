@@ -51,8 +51,8 @@ pub(super) struct Options {
     #[arg(long, value_name = "SPEED", default_value = "max", value_parser = speed)]
     speed: Speed,
     /// Fault to add; may be repeated. Its kind first: link-lost, power-cut, silence, noise, refusal,
-    /// slow-drives=SHARE, clock-late=MS, clock-drift=S (a day) or late-replies=MS; then, each after a comma,
-    /// antenna=NAME (or all), after=MIN from the start and for=S (or to the end)
+    /// slow-drives=SHARE, clock-late=MS, track-late=MS, clock-drift=S (a day) or late-replies=MS;
+    /// then, each after a comma, antenna=NAME (or all), after=MIN from the start and for=S (or to the end)
     #[arg(long = "fault", value_name = "FAULT")]
     faults: Vec<Fault>,
     #[command(flatten, next_help_heading = "Drives and sensors of all antennas")]

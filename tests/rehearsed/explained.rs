@@ -167,8 +167,8 @@ impl Case {
                 case.trouble = Some((Trouble::ClockLate(late), -1.0));
             }
             "lag" => {
-                let dead_time = Duration::from_millis((off_deg.abs() * 2500.0) as u64);
-                case.mechanics = Mechanics { dead_time, ..case.mechanics };
+                let late = Duration::from_millis((off_deg.abs() * 2500.0) as u64);
+                case.trouble = Some((Trouble::TrackLate(late), -1.0));
             }
             "azimuth offset" => {
                 case.trouble = misreads(PointingModel { azimuth_offset_deg: off_deg, ..none });

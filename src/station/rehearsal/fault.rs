@@ -30,7 +30,7 @@ pub enum FaultKind {
 pub enum WrongFault {
     #[error(
         "{0} is no fault; there are link-lost, power-cut, silence, noise, refusal, slow-drives=SHARE, \
-         clock-late=MS, clock-drift=S and late-replies=MS"
+         clock-late=MS, track-late=MS, clock-drift=S and late-replies=MS"
     )]
     Kind(String),
     #[error("{0} says nothing of a fault; there are antenna=NAME, after=MIN and for=S")]
@@ -71,6 +71,7 @@ fn kind(word: &str) -> Result<FaultKind, WrongFault> {
             Trouble::SlowDrives([number; 2])
         }
         Some(("clock-late", ms)) => Trouble::ClockLate(span(ms, 0.001)?),
+        Some(("track-late", ms)) => Trouble::TrackLate(span(ms, 0.001)?),
         Some(("clock-drift", gains_s_day)) => {
             let number = gains_s_day.parse().ok().filter(|number: &f64| number.is_finite());
             let wrong = || WrongFault::Number(gains_s_day.to_owned());
@@ -118,6 +119,8 @@ mod tests {
         let kind = |text: &str| text.parse::<Fault>().map(|fault| fault.kind);
         let late = Trouble::ClockLate(Duration::from_millis(250));
         assert_eq!(kind("clock-late=250"), Ok(FaultKind::OfUnit(late)));
+        let late = Trouble::TrackLate(Duration::from_millis(250));
+        assert_eq!(kind("track-late=250"), Ok(FaultKind::OfUnit(late)));
         let late = Trouble::LateReplies(Duration::from_millis(250));
         assert_eq!(kind("late-replies=250"), Ok(FaultKind::OfUnit(late)));
         assert_eq!(kind("clock-drift=-4.5"), Ok(FaultKind::OfUnit(Trouble::ClockDrifts(-4.5))));

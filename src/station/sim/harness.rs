@@ -56,6 +56,11 @@ pub trait Unit: fmt::Debug + Send + Sized + 'static {
         false
     }
 
+    /// Makes the unit follow its track late by so much. Returns `false` if it tracks nothing by itself.
+    fn set_track_late(&mut self, _late: Duration) -> bool {
+        false
+    }
+
     /// Takes GPS from the unit, whose own clock then gains so many seconds a day; `None` brings it
     /// back. Returns `false` if the unit has no clock that matters.
     fn set_clock_drift(&mut self, _gains_s_day: Option<f64>) -> bool {

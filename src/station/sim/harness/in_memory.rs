@@ -20,6 +20,8 @@ pub enum Trouble {
     SlowDrives([f64; 2]),
     /// The unit's own clock is late.
     ClockLate(Duration),
+    /// The unit follows its track late, although its clock is right.
+    TrackLate(Duration),
     /// The unit has lost GPS, and its own clock gains so many seconds a day.
     ClockDrifts(f64),
     /// Max extra reply delay.
@@ -85,6 +87,10 @@ where
             Trouble::ClockLate(late) => {
                 let late = if is_on { late } else { Duration::ZERO };
                 return self.with_unit(|unit| unit.set_clock_late(late));
+            }
+            Trouble::TrackLate(late) => {
+                let late = if is_on { late } else { Duration::ZERO };
+                return self.with_unit(|unit| unit.set_track_late(late));
             }
             Trouble::ClockDrifts(gains_s_day) => {
                 let gains_s_day = is_on.then_some(gains_s_day);

@@ -17,7 +17,7 @@ use super::tracking::Tracking;
 use super::{Fault, Options, Quirk};
 use crate::astro::{Angle, AzEl, Site};
 use crate::orbit::Elements;
-use crate::protocol::satrak::{Decoder, FaultKind, SettingsChange};
+use crate::protocol::satrak::{Decoder, FaultKind, Settings, SettingsChange};
 use crate::sim::harness::{self, Misreading, Switches};
 use crate::sim::prng::Prng;
 
@@ -67,6 +67,8 @@ pub struct Satrak {
     drift: Option<(f64, Duration)>,
     /// How far what GPS tells is behind UTC.
     late: Duration,
+    /// How late the drives follow a track.
+    track_late: Duration,
     misreading: Misreading,
     noise: Prng,
     is_clock_from_gps: bool,
@@ -118,6 +120,7 @@ impl Satrak {
             memory: Memory::default(),
             drift: None,
             late: Duration::ZERO,
+            track_late: Duration::ZERO,
             misreading: Misreading::default(),
             noise: Prng::new(1),
             injected: BTreeSet::new(),
@@ -154,7 +157,10 @@ impl Satrak {
         if self.tracking.update(rtc, settings.lead_ms) {
             self.mount.stop();
         }
-        match self.tracking.aim(self.own_site(), rtc, &settings, self.elapsed) {
+        let track_late_ms = i64::try_from(self.track_late.as_millis()).unwrap_or(i64::MAX);
+        let time_offset_ms = settings.time_offset_ms.saturating_sub(track_late_ms);
+        let followed = Settings { time_offset_ms, ..settings };
+        match self.tracking.aim(self.own_site(), rtc, &followed, self.elapsed) {
             Some(Ok(direction)) => {
                 let target = self.mechanical(xy_from_azel(direction, self.north()));
                 self.mount.follow(target, step_s);
@@ -335,6 +341,11 @@ impl harness::Unit for Satrak {
 
     fn set_clock_late(&mut self, late: Duration) -> bool {
         self.late = late;
+        true
+    }
+
+    fn set_track_late(&mut self, late: Duration) -> bool {
+        self.track_late = late;
         true
     }
 
