@@ -11,7 +11,7 @@ mod seen;
 use super::{
     Sample,
     azimuth_wrap::{AzimuthRange, AzimuthWrap},
-    rate_limited::rate_limited,
+    rate_limited::{Departure, rate_limited},
 };
 use crate::astro::{Angle, AzEl};
 pub(super) use flip::{Choice, Flip};
@@ -20,6 +20,8 @@ use seen::{Ends, Seen, SinCos, sin_cos};
 /// Smallest improvement in pointing, degrees, for which a flip other than the preferred one is
 /// taken: it is not worth moving the elevation over the zenith for less.
 const WORTH_DEG: f64 = 0.1;
+/// An axis that needs no longer than this to its course is taken to begin on it, seconds.
+const ON_COURSE_S: f64 = 5.0;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct AzElAxes {
@@ -38,6 +40,24 @@ pub(super) struct Start {
     /// Degrees as the mount counts; `None` if unknown.
     pub(super) axes_deg: [Option<f64>; 2],
     pub(super) lead_s: f64,
+    /// A path begins where the axes can be by then. Otherwise it is a course that they catch up with.
+    pub(super) sets_out: bool,
+}
+
+impl Start {
+    /// The departure of an axis, 0 or 1, that needs long to its course `wanted`.
+    pub(super) fn departure(
+        self,
+        index: usize,
+        wanted: &[f64],
+        rates_deg_s: [f64; 2],
+    ) -> Option<Departure> {
+        let at_deg = self.axes_deg.get(index).copied().flatten().filter(|_| self.sets_out)?;
+        let (first_deg, rate_deg_s) = (wanted.first()?, rates_deg_s.get(index)?);
+        let reach_deg = rate_deg_s * self.lead_s;
+        let near_deg = reach_deg + rate_deg_s * ON_COURSE_S;
+        ((first_deg - at_deg).abs() > near_deg).then_some(Departure { at_deg, reach_deg })
+    }
 }
 
 /// Where both axes have to stand along a pass.
@@ -113,7 +133,7 @@ impl AzElAxes {
         // First computed as if the axis had no ends, so that a turn of the sky that the axis does
         // not make in time does not take it to an end.
         let azimuths_deg = flip::azimuths_deg(samples, &flipped);
-        let free = rate_limited(&azimuths_deg, azimuth_max_deg, sin_cos, cost);
+        let free = rate_limited(&azimuths_deg, azimuth_max_deg, None, sin_cos, cost);
         let [azimuth_now_deg, _] = start.axes_deg;
         let wrap = AzimuthRange::new(self.azimuth_deg).map_or_else(
             || AzimuthWrap {
@@ -123,10 +143,14 @@ impl AzElAxes {
             |range| AzimuthWrap::along(&free, range, azimuth_now_deg),
         );
         let (from_deg, to_deg) = self.azimuth_deg;
-        let azimuths: Vec<f64> = rate_limited(&wrap.positions_deg, azimuth_max_deg, sin_cos, cost)
-            .into_iter()
-            .map(|axis_deg| axis_deg.min(to_deg).max(from_deg))
-            .collect();
+        let departures =
+            |index: usize, wanted: &[f64]| start.departure(index, wanted, self.rates_deg_s);
+        let wanted = &wrap.positions_deg;
+        let azimuths: Vec<f64> =
+            rate_limited(wanted, azimuth_max_deg, departures(0, wanted), sin_cos, cost)
+                .into_iter()
+                .map(|axis_deg| axis_deg.min(to_deg).max(from_deg))
+                .collect();
         let elevations: Vec<f64> = samples
             .iter()
             .zip(&flipped)
@@ -141,7 +165,8 @@ impl AzElAxes {
                 pair.map_or(0.0, |(seen, azimuth)| seen.cost(azimuth, *elevation))
             }
         };
-        let elevations = rate_limited(&elevations, elevation_max_deg, sin_cos, cost);
+        let departure = departures(1, &elevations);
+        let elevations = rate_limited(&elevations, elevation_max_deg, departure, sin_cos, cost);
         Planned { flip, axes_deg: [azimuths, elevations], slews: wrap.slews }
     }
 

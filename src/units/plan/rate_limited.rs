@@ -10,21 +10,33 @@ use std::ops::Range;
 /// interval does not turn at all. Degrees.
 const SAME_DEG: f64 = 1e-6;
 
+/// Position of an axis that is too far from its course to be on it at the first interval.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Departure {
+    pub(super) at_deg: f64,
+    /// How far the axis turns until the first interval, degrees.
+    pub(super) reach_deg: f64,
+}
+
 /// Positions along `wanted` (degrees at equal intervals) that never differ by more than `max_deg`
-/// from one interval to the next. Where the course is slow enough, they are the course itself;
-/// elsewhere they minimise the sum of `cost(interval)(position)`, with each position as `prepare`
-/// makes it once for all intervals.
+/// from one interval to the next, and are within the reach of an axis that sets out from `departure`.
+/// Where the course is slow enough, they are the course itself; elsewhere they minimise the sum of
+/// `cost(interval)(position)`, with each position as `prepare` makes it once for all intervals.
 pub(super) fn rate_limited<P, C: Fn(&P) -> f64>(
     wanted: &[f64],
     max_deg: f64,
+    departure: Option<Departure>,
     prepare: impl Fn(f64) -> P,
     cost: impl Fn(usize) -> C,
 ) -> Vec<f64> {
-    let steps = wanted.iter().zip(wanted.iter().skip(1));
-    if steps.map(|(from, to)| (to - from).abs()).all(|step_deg| step_deg <= max_deg) {
+    let mut steps = wanted.iter().zip(wanted.iter().skip(1));
+    if departure.is_none() && steps.all(|(from, to)| (to - from).abs() <= max_deg) {
         return wanted.to_vec();
     }
-    let bounds = Envelope::around(wanted, max_deg);
+    let mut bounds = Envelope::around(wanted, max_deg);
+    if let Some(departure) = departure {
+        bounds.keep_within_reach(departure, max_deg);
+    }
     let mut way = bounds.low.clone();
     if max_deg <= SAME_DEG {
         return way;
@@ -61,6 +73,16 @@ impl Envelope {
             *place = -*place;
         }
         Self { low: lowest(wanted.to_vec(), max_deg), high }
+    }
+
+    fn keep_within_reach(&mut self, departure: Departure, max_deg: f64) {
+        let Departure { at_deg, reach_deg } = departure;
+        for (index, (low, high)) in self.low.iter_mut().zip(&mut self.high).enumerate() {
+            let turns_deg = reach_deg + max_deg * index as f64;
+            for place in [low, high] {
+                *place = place.max(at_deg - turns_deg).min(at_deg + turns_deg);
+            }
+        }
     }
 
     /// The stretches in which the axis does not keep up.
@@ -111,7 +133,7 @@ mod tests {
         let cost = |at: usize| {
             move |place: &f64| weight[at] * (1.0 - (place - wanted[at]).to_radians().cos())
         };
-        rate_limited(wanted, max_deg, |place| place, cost)
+        rate_limited(wanted, max_deg, None, |place| place, cost)
     }
 
     fn cost(way: &[f64], wanted: &[f64], weight: &[f64]) -> f64 {
@@ -166,7 +188,7 @@ mod tests {
         let wanted_at = wanted.as_slice();
         let cost =
             |at: usize| move |place: &f64| (place - wanted_at[at]).to_radians().sin().powi(2);
-        let way = rate_limited(&wanted, 4.0, |place| place, cost);
+        let way = rate_limited(&wanted, 4.0, None, |place| place, cost);
         assert!(fastest(&way) <= 4.0 + 1e-9);
         assert!(way.iter().all(|place| place.abs() < 60.0), "{way:?}");
         assert!((way[20] - wanted[20]).abs() < 0.1 && (way[80] - wanted[80]).abs() < 0.1);

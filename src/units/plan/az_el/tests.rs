@@ -23,7 +23,7 @@ fn axes(azimuth_to_deg: f64, elevation_to_deg: f64, rate_deg_s: f64) -> AzElAxes
 }
 
 fn waiting() -> Start {
-    Start { axes_deg: [Some(100.0), Some(0.0)], lead_s: 3600.0 }
+    Start { axes_deg: [Some(100.0), Some(0.0)], lead_s: 3600.0, sets_out: true }
 }
 
 /// The flip that is taken, and its root mean square error in degrees.
@@ -89,7 +89,8 @@ fn in_the_middle_of_a_pass_the_axes_stay_on_their_side() {
     let azimuth_deg = late[0].direction.azimuth_deg();
     let elevation_deg = late[0].direction.elevation_deg();
     let over_there = (azimuth_deg + 180.0).rem_euclid(360.0);
-    let start = |axes_deg: [f64; 2]| Start { axes_deg: axes_deg.map(Some), lead_s: 0.0 };
+    let start =
+        |axes_deg: [f64; 2]| Start { axes_deg: axes_deg.map(Some), lead_s: 0.0, sets_out: false };
     let usual = pass(600.0, 120.0);
     let (flip, _) = best(late, axes(360.0, 180.0, 4.0), start([over_there, 180.0 - elevation_deg]));
     assert_eq!(flip, Flip::Whole);
@@ -99,6 +100,37 @@ fn in_the_middle_of_a_pass_the_axes_stay_on_their_side() {
     let flipped = [(first.azimuth_deg() + 180.0).rem_euclid(360.0), 180.0 - first.elevation_deg()];
     assert_eq!(best(late, axes(360.0, 180.0, 2.0), start(flipped)).0, Flip::Whole);
     assert_eq!(best(late, axes(360.0, 180.0, 2.0), waiting()).0, Flip::None);
+}
+
+/// An axis too slow for the turn through north goes on from where it stands, not from its course.
+#[test]
+fn a_slow_axis_in_the_middle_of_an_unwrap_goes_on_from_where_it_stands() {
+    let samples = pass(600.0, 275.0);
+    let before_north =
+        |two: &[Sample]| two[1].direction.azimuth_deg() - two[0].direction.azimuth_deg() < -180.0;
+    let after_north =
+        |two: &[Sample]| two[1].direction.azimuth_deg() - two[0].direction.azimuth_deg() > 180.0;
+    let crossing = samples.windows(2).position(|two| before_north(two) || after_north(two));
+    let crossing = crossing.unwrap();
+    let left = &samples[crossing - 20..];
+    let last_deg = left.last().unwrap().direction.azimuth_deg();
+    for at_deg in [100.0, 180.0, 260.0] {
+        let axes = axes(360.0, 90.0, 1.1);
+        let start = Start { axes_deg: [Some(at_deg), Some(40.0)], lead_s: 0.0, sets_out: true };
+        let planned = axes.along(left, 1.0, start, Flip::None);
+        let [azimuths, elevations] = &planned.axes_deg;
+        assert!((azimuths[0] - at_deg).abs() < 1e-9, "{at_deg}: {}", azimuths[0]);
+        for axis in [azimuths, elevations] {
+            let turned = axis.windows(2).map(|two| (two[1] - two[0]).abs());
+            assert!(turned.fold(0.0, f64::max) < 1.1 + 1e-6, "{at_deg}");
+        }
+        let end_deg = azimuths.last().unwrap();
+        assert!((end_deg - last_deg).abs() < 1e-6, "{at_deg}: {end_deg} for {last_deg}");
+        // An axis that has time to reach its course begins on it.
+        let early = Start { lead_s: 600.0, ..start };
+        let course = axes.along(left, 1.0, Start::default(), Flip::None);
+        assert_eq!(axes.along(left, 1.0, early, Flip::None).axes_deg, course.axes_deg);
+    }
 }
 
 #[test]

@@ -58,7 +58,8 @@ impl Drives {
     ) -> Planned {
         match (self.mount, choice) {
             (Mount::Xy { lower_axis_azimuth_deg, .. }, _) => {
-                self.along_crossed(samples, step_s, Angle::from_degrees(lower_axis_azimuth_deg))
+                let lower_axis = Angle::from_degrees(lower_axis_azimuth_deg);
+                self.along_crossed(samples, step_s, start, lower_axis)
             }
             (Mount::AzEl { .. }, Choice::Keep(flip)) => {
                 self.az_el().along(samples, step_s, start, flip)
@@ -69,7 +70,13 @@ impl Drives {
         }
     }
 
-    fn along_crossed(&self, samples: &[Sample], step_s: f64, lower_axis: Angle) -> Planned {
+    fn along_crossed(
+        &self,
+        samples: &[Sample],
+        step_s: f64,
+        start: Start,
+        lower_axis: Angle,
+    ) -> Planned {
         let (lowest_deg, highest_deg) = self.elevations_deg();
         let axes = samples.iter().map(|Sample { direction, .. }| {
             let elevation_deg = direction.elevation_deg().min(highest_deg).max(lowest_deg);
@@ -94,9 +101,11 @@ impl Drives {
             let to = wanted(&upper, index);
             move |at: &(f64, f64)| off(to, *at)
         };
+        let departure =
+            |index: usize, wanted: &[f64]| start.departure(index, wanted, self.rates_deg_s);
         let axes_deg = [
-            rate_limited(&lower, lower_max_deg, turned, lower_cost),
-            rate_limited(&upper, upper_max_deg, turned, upper_cost),
+            rate_limited(&lower, lower_max_deg, departure(0, &lower), turned, lower_cost),
+            rate_limited(&upper, upper_max_deg, departure(1, &upper), turned, upper_cost),
         ];
         Planned { flip: Flip::None, axes_deg, slews: Vec::new() }
     }

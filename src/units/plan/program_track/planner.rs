@@ -422,7 +422,7 @@ impl Planner {
             from,
             to: los.min(add_seconds(from, PATH_S)),
             ends: los,
-            start: Start { axes_deg, lead_s: seconds_between(now, from) },
+            start: Start { axes_deg, lead_s: seconds_between(now, from), sets_out: true },
             choice: self.choice(now),
         })
     }

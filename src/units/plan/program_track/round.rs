@@ -84,7 +84,7 @@ pub(super) fn round(
         let target = samples.get(index).map(|sample| sample.direction);
         move |at_s: &f64| target.map_or(0.0, |target| line.off(target, *at_s, bounds))
     };
-    let way_s = rate_limited(&wanted_s, step_s * SHARE_OF_RATE, |at_s| at_s, cost);
+    let way_s = rate_limited(&wanted_s, step_s * SHARE_OF_RATE, None, |at_s| at_s, cost);
     let places = way_s.into_iter().map(|at_s| line.at(at_s));
     let (first, second) = places.map(|[first, second]| (first, second)).unzip();
     [first, second]

@@ -165,7 +165,7 @@ impl Reach {
         let step_s = seconds_between(from.time, second.time);
         let span = Span { from_ms: ms(from.time), to_ms: ms(list.last()?.time) };
         let lead_s = ((span.from_ms - ready_ms) as f64 / 1000.0).max(0.0);
-        let start = Start { axes_deg: stands_deg.map(Some), lead_s };
+        let start = Start { axes_deg: stands_deg.map(Some), lead_s, ..Start::default() };
         let choice = Choice::Prefer(Flip::None);
         let planned = self.drives.along_within(&self.bounds, &list, step_s, start, choice);
         let samples = Samples { list, step_s };
@@ -423,7 +423,11 @@ impl Reach {
         let turns = (0..).map(|turn: u32| lowest_deg + TURN_DEG * f64::from(turn));
         turns
             .take_while(|axis_deg| *axis_deg <= to_deg)
-            .map(|axis_deg| Start { axes_deg: [Some(axis_deg), None], lead_s: f64::MAX })
+            .map(|axis_deg| Start {
+                axes_deg: [Some(axis_deg), None],
+                lead_s: f64::MAX,
+                sets_out: false,
+            })
             .collect()
     }
 

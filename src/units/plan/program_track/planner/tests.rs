@@ -386,11 +386,13 @@ fn a_planner_keeps_the_side_for_the_pass() {
     let follow = ProgramTrack::new(target, site(), vec![(pass.aos.time, pass.los.time)]);
     let drives = over(azel((0.0, 360.0), 4.0, 0.0));
     let mut planner = Planner::new(follow, drives, settings(1.0, 0.2), free()).unwrap();
-    let axes = [20.0, 10.0].map(|at| AxisNow { position_deg: Some(at), stands: true });
+    let mut axes_deg = [20.0, 10.0];
     let mut elevation_deg = |at: Timestamp| {
-        let next = planner.update(at, axes).unwrap().unwrap();
+        let axes = axes_deg.map(|at| AxisNow { position_deg: Some(at), stands: true });
+        let SetPoint { azimuth, elevation } = planner.update(at, axes).unwrap().unwrap().set_point;
         planner.drives.rates_deg_s[0] *= 2.0;
-        next.set_point.elevation.unwrap().degrees()
+        axes_deg = [azimuth, elevation].map(|angle| angle.unwrap().degrees());
+        axes_deg[1]
     };
     assert!(elevation_deg(add_seconds(pass.aos.time, 1.0)) > 90.0);
     // For the rest of the pass, plain would be as good, and another path is due.
