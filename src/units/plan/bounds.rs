@@ -28,6 +28,7 @@ use aim::{Aim, Towards};
 pub use blocks::Budget;
 use blocks::Reached;
 use near::{Clear, Named, Near};
+use sun::SunAhead;
 pub use sweep::Sweep;
 
 /// How far a motion may go beyond an edge, degrees; the margins of keep-outs and of the Sun are
@@ -126,12 +127,11 @@ impl Bounds {
     }
 
     pub fn at(&self, utc: Timestamp) -> BoundsAt<'_> {
-        let suns = self.suns(utc).into_iter().map(AzEl::to_enu).collect();
         let minimum_elevation = self.minimum_elevation;
         BoundsAt {
             bounds: self,
             minimum_elevation,
-            suns,
+            sun: self.sun.map(|sun| SunAhead::new(self.site, sun, utc)),
             model: self.model,
             to_sky: None,
             budget: None,
@@ -162,13 +162,12 @@ impl Bounds {
     }
 }
 
-/// [`Bounds`] at one time, with the Sun computed once for many checks.
+/// [`Bounds`] at one time, for many checks.
 #[derive(Debug, Clone)]
 pub struct BoundsAt<'a> {
     bounds: &'a Bounds,
     minimum_elevation: Option<Angle>,
-    /// Unit vectors to the Sun, from this time to the end of the time ahead.
-    suns: Vec<DVec3>,
+    sun: Option<SunAhead>,
     model: Option<PointingModel>,
     /// From where the beam is by the model to where it is on the sky, while offsets of the axes make
     /// up for errors of the mount.
@@ -417,7 +416,7 @@ impl<'a> BoundsAt<'a> {
     fn number(&self) -> usize {
         usize::from(self.minimum_elevation.is_some())
             + self.bounds.keep_outs.len()
-            + usize::from(self.avoids_sun())
+            + usize::from(self.sun.is_some())
     }
 
     /// The barrier at `index`: first the minimum elevation, then the keep-outs, then the Sun.
@@ -437,24 +436,8 @@ impl<'a> BoundsAt<'a> {
                 angle: Clear::OfZone { zone: &zone.zone, margin: *margin, at },
             });
         }
-        let angle = self.sun_clearance(at).filter(|_| index < self.number())?;
-        Some(Near { name: Named::Sun, warns_only: false, angle: Clear::Known(angle) })
-    }
-
-    fn avoids_sun(&self) -> bool {
-        self.bounds.sun.is_some() && !self.suns.is_empty()
-    }
-
-    fn sun_clearance(&self, at: Towards) -> Option<Angle> {
-        let sun = self.bounds.sun.filter(|_| !self.suns.is_empty())?;
-        let separation = at.least(|at| {
-            let chord_squared =
-                self.suns.iter().map(|sun| sun.distance_squared(at)).fold(4.0, f64::min);
-            // The chord stays precise near zero, where the cosine does not.
-            Angle::from_radians(2.0 * (chord_squared.sqrt() / 2.0).asin())
-        });
-        let radius = Angle::from_degrees(sun::around_each_deg(sun));
-        Some(separation - radius)
+        let sun = self.sun.as_ref().filter(|_| index < self.number())?;
+        Some(Near { name: Named::Sun, warns_only: false, angle: Clear::OfSun { sun, at } })
     }
 }
 

@@ -2,9 +2,7 @@
 
 use std::{cmp::Reverse, collections::BinaryHeap, ops::RangeInclusive};
 
-use jiff::Timestamp;
-
-use super::bounds::{Bounds, BoundsAt};
+use super::bounds::BoundsAt;
 
 /// Grid spacing of the search, degrees.
 const CELL_DEG: f64 = 1.0;
@@ -57,27 +55,25 @@ type Cell = (i32, i32);
 const NEIGHBOURS: [Cell; 8] =
     [(1, 0), (-1, 0), (0, 1), (0, -1), (1, 1), (1, -1), (-1, 1), (-1, -1)];
 
-/// The quickest route of the axes between two positions that stays outside all barriers at `at`,
+/// The quickest route of the axes between two positions that stays outside all barriers of `now`,
 /// ends included. `None` if there is no such route, or if an end is not outside.
 pub fn between(
-    bounds: &Bounds,
+    now: &BoundsAt<'_>,
     limits: &AxisLimits,
     from_deg: [f64; 2],
     to_deg: [f64; 2],
-    at: Timestamp,
 ) -> Option<Vec<[f64; 2]>> {
-    between_within(bounds, limits, (from_deg, to_deg), at, f64::INFINITY)
+    between_within(now, limits, (from_deg, to_deg), f64::INFINITY)
 }
 
 /// As [`between`]; a route that takes much more than `most_s` seconds is not looked for.
 pub fn between_within(
-    bounds: &Bounds,
+    now: &BoundsAt<'_>,
     limits: &AxisLimits,
     (from_deg, to_deg): ([f64; 2], [f64; 2]),
-    at: Timestamp,
     most_s: f64,
 ) -> Option<Vec<[f64; 2]>> {
-    let search = Search::new(bounds, limits, (from_deg, to_deg), at);
+    let search = Search::new(now, limits, (from_deg, to_deg));
     // The cost counts the length of a route too.
     let most = (most_s * 1.1 + 1.0) * 1e6;
     let way = search.way(most as u64, 1)?;
@@ -86,13 +82,12 @@ pub fn between_within(
 
 /// Returns `true` where a route as [`between`] finds leads from one position to the other.
 pub fn leads(
-    bounds: &Bounds,
+    now: &BoundsAt<'_>,
     limits: &AxisLimits,
     from_deg: [f64; 2],
     to_deg: [f64; 2],
-    at: Timestamp,
 ) -> bool {
-    Search::new(bounds, limits, (from_deg, to_deg), at).way(u64::MAX, GREED).is_some()
+    Search::new(now, limits, (from_deg, to_deg)).way(u64::MAX, GREED).is_some()
 }
 
 /// The positions of the route through `turns_deg` in steps of at most `step_deg` on either axis,
@@ -166,7 +161,7 @@ impl Grid {
 }
 
 struct Search<'a> {
-    now: BoundsAt<'a>,
+    now: &'a BoundsAt<'a>,
     limits: &'a AxisLimits,
     /// Distance from all margins, degrees, also of a beam that turns by more than the axes.
     room_deg: f64,
@@ -176,12 +171,10 @@ struct Search<'a> {
 
 impl<'a> Search<'a> {
     fn new(
-        bounds: &'a Bounds,
+        now: &'a BoundsAt<'a>,
         limits: &'a AxisLimits,
         (from_deg, to_deg): ([f64; 2], [f64; 2]),
-        at: Timestamp,
     ) -> Self {
-        let now = bounds.at(at);
         let room_deg = limits.room_deg * now.max_beam_turn();
         Self { now, limits, room_deg, from_deg, to_deg }
     }
@@ -304,9 +297,12 @@ impl<'a> Search<'a> {
 
 #[cfg(test)]
 mod tests {
+    use jiff::Timestamp;
+
     use super::*;
     use crate::{
         astro::Angle,
+        plan::Bounds,
         station::{Antenna, Entered, KeepOut, Station, SunAvoidance},
     };
 
@@ -359,7 +355,7 @@ mod tests {
     #[test]
     fn it_leads_over_a_mast_and_stays_outside_of_its_margin() {
         let bounds = bounds(vec![mast(40.0)], None);
-        let way = between(&bounds, &limits(), [80.0, 20.0], [140.0, 20.0], noon()).unwrap();
+        let way = between(&bounds.at(noon()), &limits(), [80.0, 20.0], [140.0, 20.0]).unwrap();
         assert_eq!((way.first(), way.last()), (Some(&[80.0, 20.0]), Some(&[140.0, 20.0])));
         assert_outside(&bounds, &way);
         let highest_deg = way.iter().map(|axes| axes[1]).fold(0.0, f64::max);
@@ -372,26 +368,26 @@ mod tests {
     #[test]
     fn where_nothing_is_in_the_way_it_is_straight() {
         let bounds = bounds(vec![mast(40.0)], None);
-        let way = between(&bounds, &limits(), [200.0, 20.0], [240.2, 61.7], noon());
+        let way = between(&bounds.at(noon()), &limits(), [200.0, 20.0], [240.2, 61.7]);
         assert_eq!(way, Some(vec![[200.0, 20.0], [240.2, 61.7]]));
     }
 
     #[test]
     fn a_wall_up_to_the_zenith_is_gone_round_the_other_way_or_not_at_all() {
         let wall = bounds(vec![mast(89.0)], None);
-        let way = between(&wall, &limits(), [80.0, 20.0], [140.0, 20.0], noon());
+        let way = between(&wall.at(noon()), &limits(), [80.0, 20.0], [140.0, 20.0]);
         // The azimuth axis ends in the north.
         assert_eq!(way, None);
         let over = AxisLimits::new([(-300.0, 360.0), (0.0, 90.0)], [4.0, 4.0], 0.0);
-        let way = between(&wall, &over, [80.0, 20.0], [140.0 - 360.0, 20.0], noon()).unwrap();
+        let way = between(&wall.at(noon()), &over, [80.0, 20.0], [140.0 - 360.0, 20.0]).unwrap();
         assert_outside(&wall, &way);
     }
 
     #[test]
     fn no_way_begins_or_ends_inside() {
         let bounds = bounds(vec![mast(40.0)], None);
-        assert_eq!(between(&bounds, &limits(), [110.0, 20.0], [140.0, 20.0], noon()), None);
-        assert_eq!(between(&bounds, &limits(), [80.0, 20.0], [110.0, 20.0], noon()), None);
+        assert_eq!(between(&bounds.at(noon()), &limits(), [110.0, 20.0], [140.0, 20.0]), None);
+        assert_eq!(between(&bounds.at(noon()), &limits(), [80.0, 20.0], [110.0, 20.0]), None);
     }
 
     #[test]
@@ -402,7 +398,7 @@ mod tests {
         let [azimuth, elevation] = [sun.azimuth_deg(), sun.elevation_deg()];
         assert!(elevation > 20.0 && (30.0..330.0).contains(&azimuth), "{sun:?}");
         let ends = [azimuth - 25.0, azimuth + 25.0].map(|azimuth| [azimuth, elevation]);
-        let way = between(&bounds, &limits(), ends[0], ends[1], noon()).unwrap();
+        let way = between(&bounds.at(noon()), &limits(), ends[0], ends[1]).unwrap();
         assert_outside(&bounds, &way);
         assert!(way.len() > 2, "{way:?}");
         assert!(bounds.direction(ends[0]).separation(sun) > Angle::from_degrees(8.0));

@@ -61,7 +61,8 @@ impl DetourQuestion {
     /// Looks for the detour; takes up to a tenth of a second.
     pub(in crate::driver) fn search(self) -> Detour {
         let Self { from_deg, to_deg, asked, .. } = self;
-        let turns = detour::between(&self.bounds, &self.limits, from_deg, to_deg, asked.utc);
+        let now = self.bounds.at(asked.utc);
+        let turns = detour::between(&now, &self.limits, from_deg, to_deg);
         let places_deg = detour::in_steps(&turns.unwrap_or_default(), STEP_DEG);
         Detour { question: self, places_deg }
     }

@@ -1,6 +1,6 @@
 //! Clearances from barriers, computed no further than a check needs them.
 
-use super::{Angle, Barrier, aim::Towards};
+use super::{Angle, Barrier, aim::Towards, sun::SunAhead};
 use crate::astro::Zone;
 
 /// A barrier, and how near it is to where the antenna points.
@@ -10,10 +10,12 @@ pub(super) struct Near<'a> {
     pub(super) angle: Clear<'a>,
 }
 
-/// The clearance from a barrier. That from a zone costs time, so it is computed on demand.
+/// The clearance from a barrier. Those from a zone and the Sun cost time, so they are computed on
+/// demand.
 pub(super) enum Clear<'a> {
     Known(Angle),
     OfZone { zone: &'a Zone, margin: Angle, at: Towards },
+    OfSun { sun: &'a SunAhead, at: Towards },
 }
 
 impl Near<'_> {
@@ -21,6 +23,7 @@ impl Near<'_> {
         match self.angle {
             Clear::Known(angle) => angle,
             Clear::OfZone { zone, margin, at } => at.least(|at| zone.clearance_of(at)) - margin,
+            Clear::OfSun { sun, at } => at.least(|at| sun.clearance_of(at)),
         }
     }
 
@@ -32,6 +35,10 @@ impl Near<'_> {
                 let at_least = zone.clearance_is_at_least(at) - margin;
                 if at_least >= limit { at_least } else { zone.clearance_of(at) - margin }
             }),
+            Clear::OfSun { sun, at } => at.least(|at| {
+                let at_least = sun.clearance_is_at_least(at);
+                if at_least >= limit { at_least } else { sun.clearance_of(at) }
+            }),
         }
     }
 
@@ -42,7 +49,7 @@ impl Near<'_> {
         elevations: (Angle, Angle),
     ) -> Option<Angle> {
         match self.angle {
-            Clear::Known(_) => None,
+            Clear::Known(_) | Clear::OfSun { .. } => None,
             Clear::OfZone { zone, margin, .. } => {
                 Some(zone.clearance_of_box_is_at_least(azimuths, elevations) - margin)
             }
@@ -52,7 +59,7 @@ impl Near<'_> {
     /// Number of edges that a look at the clearance goes through.
     pub(super) fn cost(&self) -> usize {
         match self.angle {
-            Clear::Known(_) => 1,
+            Clear::Known(_) | Clear::OfSun { .. } => 1,
             Clear::OfZone { zone, .. } => zone.corners().len(),
         }
     }

@@ -1,8 +1,11 @@
 //! The surroundings of the Sun, now and during the time ahead.
 
+use std::cell::OnceCell;
+
+use glam::DVec3;
 use jiff::{SignedDuration, Timestamp};
 
-use super::{AzEl, Bounds, BoundsAt, FINEST_DEG, SunAvoidance};
+use super::{Angle, AzEl, Bounds, BoundsAt, FINEST_DEG, Site, SunAvoidance};
 use crate::astro::sun_moon;
 
 /// Shortest interval between two positions of the Sun, seconds: the Sun moves a tenth of
@@ -12,6 +15,8 @@ const SUN_STEP_S: f64 = 24.0;
 const MAX_SUNS: f64 = 40.0;
 /// Fastest motion of the Sun, degrees per second.
 const SUN_DEG_S: f64 = 360.0 / 86_164.0;
+/// Refraction makes at most so many degrees of a degree of the Sun's motion.
+const MAX_STRETCH: f64 = 2.0;
 /// Distance between the rings that are searched for a refuge from the Sun, degrees.
 const RING_DEG: f64 = 0.5;
 /// Number of directions on each ring.
@@ -31,15 +36,12 @@ impl Bounds {
     /// the axes and on the sky, the one nearer to the Sun counts.
     pub fn away_from_the_sun(&self, start_deg: [f64; 2], at: Timestamp) -> Option<Self> {
         let sun = self.sun?;
-        let suns = self.suns(at);
-        let separations = self
-            .aim(start_deg)
-            .each()
-            .flat_map(|start| suns.iter().map(move |sun| start.separation(*sun).degrees()));
-        let nearest_deg = separations.min_by(f64::total_cmp)?;
-        let is_inside = nearest_deg < around_each_deg(sun);
-        let radius_deg = nearest_deg - (around_each_deg(sun) - sun.radius_deg);
-        is_inside.then(|| Self { sun: Some(SunAvoidance { radius_deg, ..sun }), ..self.clone() })
+        let ahead = SunAhead::new(self.site, sun, at);
+        let clearances = self.aim(start_deg).each().map(|start| ahead.clearance_of(start.to_enu()));
+        let clearance_deg = clearances.map(Angle::degrees).min_by(f64::total_cmp)?;
+        let radius_deg = sun.radius_deg + clearance_deg;
+        let closer = SunAvoidance { radius_deg, ..sun };
+        (clearance_deg < 0.0).then(|| Self { sun: Some(closer), ..self.clone() })
     }
 
     /// Returns `true` if an antenna with axes that count `direction` is clear of all barriers, and of
@@ -65,17 +67,56 @@ impl Bounds {
         let all = self.now_and_later(at);
         around.filter(move |direction| are_clear(&all, *direction))
     }
+}
 
-    /// Directions of the Sun from `at` to the end of the time ahead.
-    pub(super) fn suns(&self, at: Timestamp) -> Vec<AzEl> {
-        let Some(sun) = self.sun else { return Vec::new() };
-        let step_s = sun_step_s(sun);
-        let steps = (sun.ahead_min * 60.0 / step_s).ceil() as u32;
-        (0..=steps)
-            .filter_map(|step| at.checked_add(seconds(f64::from(step) * step_s)).ok())
-            .map(|at| sun_moon::sun(self.site, at))
-            .collect()
+/// The Sun from one time to the end of the time ahead.
+#[derive(Debug, Clone)]
+pub(super) struct SunAhead {
+    site: Site,
+    sun: SunAvoidance,
+    at: Timestamp,
+    /// Unit vector to the Sun at first.
+    first: DVec3,
+    /// Unit vectors to the Sun, the first one included.
+    all: OnceCell<Vec<DVec3>>,
+}
+
+impl SunAhead {
+    pub(super) fn new(site: Site, sun: SunAvoidance, at: Timestamp) -> Self {
+        let first = sun_moon::sun(site, at).to_enu();
+        Self { site, sun, at, first, all: OnceCell::new() }
     }
+
+    /// The least clearance of a direction from the surroundings of the Sun.
+    pub(super) fn clearance_of(&self, direction: DVec3) -> Angle {
+        let chords = self.all().iter().map(|sun| sun.distance_squared(direction));
+        let radius = Angle::from_degrees(around_each_deg(self.sun));
+        across(chords.fold(4.0, f64::min)) - radius
+    }
+
+    /// A clearance that the direction does not fall below, from the first position alone.
+    pub(super) fn clearance_is_at_least(&self, direction: DVec3) -> Angle {
+        let moved_deg = SUN_DEG_S * self.sun.ahead_min * 60.0 * MAX_STRETCH;
+        let around = Angle::from_degrees(around_each_deg(self.sun) + moved_deg);
+        across(self.first.distance_squared(direction)) - around
+    }
+
+    fn all(&self) -> &[DVec3] {
+        self.all.get_or_init(|| {
+            let step_s = sun_step_s(self.sun);
+            let steps = (self.sun.ahead_min * 60.0 / step_s).ceil() as u32;
+            let later = (1..=steps)
+                .filter_map(|step| self.at.checked_add(seconds(f64::from(step) * step_s)).ok())
+                .map(|at| sun_moon::sun(self.site, at).to_enu());
+            std::iter::once(self.first).chain(later).collect()
+        })
+    }
+}
+
+/// The angle across a chord of the unit sphere.
+fn across(chord_squared: f64) -> Angle {
+    // The chord stays precise near zero, where the cosine does not.
+    Angle::from_radians(2.0 * (chord_squared.sqrt() / 2.0).min(1.0).asin())
 }
 
 fn are_clear(all: &[BoundsAt<'_>], direction: AzEl) -> bool {
@@ -92,7 +133,7 @@ fn sun_step_s(sun: SunAvoidance) -> f64 {
 
 /// Radius around each position of the Sun, degrees: wide enough to leave no gap
 /// between two of them.
-pub(super) fn around_each_deg(sun: SunAvoidance) -> f64 {
+fn around_each_deg(sun: SunAvoidance) -> f64 {
     let half_deg = sun_step_s(sun) * SUN_DEG_S / 2.0;
     sun.radius_deg.hypot(half_deg) + FINEST_DEG
 }
@@ -101,6 +142,7 @@ pub(super) fn around_each_deg(sun: SunAvoidance) -> f64 {
 mod tests {
     use super::*;
     use crate::{
+        astro::{Air, Refraction},
         plan::{Barrier, Sweep},
         station::{Antenna, Station},
     };
@@ -132,13 +174,43 @@ mod tests {
     }
 
     #[test]
+    fn no_direction_is_nearer_to_the_sun_than_its_first_position_tells() {
+        let humid = Refraction {
+            air: Air::Measured,
+            pressure_hpa: 1080.0,
+            temperature_c: 40.0,
+            humidity_percent: 82.0,
+            ..Refraction::default()
+        };
+        for (latitude_deg, refraction) in
+            [(0.0, humid), (50.0, humid), (89.0, humid), (50.0, Refraction::default())]
+        {
+            let site =
+                Site::new(latitude_deg, 30.0, 0.0).unwrap().with_refraction(refraction).unwrap();
+            for (minutes, ahead_min) in
+                (0..1440).step_by(7).zip([0.0, 10.0, 30.0, 120.0].into_iter().cycle())
+            {
+                let at = noon() + SignedDuration::from_mins(minutes);
+                let sun = SunAhead::new(site, SunAvoidance { radius_deg: 5.0, ahead_min }, at);
+                for later in sun.all() {
+                    assert!(
+                        sun.clearance_is_at_least(*later) <= sun.clearance_of(*later),
+                        "{latitude_deg} {at} {ahead_min}"
+                    );
+                }
+            }
+        }
+    }
+
+    #[test]
     fn wherever_the_sun_comes_in_its_time_ahead_is_refused() {
         for (radius_deg, ahead_min) in [(0.1, 120.0), (5.0, 120.0), (1.0, 7.0), (30.0, 0.0)] {
             let sun_avoidance = Some(SunAvoidance { radius_deg, ahead_min });
             let station = Station { sun_avoidance, ..Station::default() };
             let bounds = Bounds::of(&station, &Antenna::genius("Yagi", "memory:1"));
             let bounds = bounds.at(noon());
-            assert!(bounds.suns.len() <= 42, "{}", bounds.suns.len());
+            let positions = bounds.sun.as_ref().unwrap().all().len();
+            assert!(positions <= 42, "{positions}");
             for second in (0..=(ahead_min * 60.0) as i64).step_by(10) {
                 let later = noon() + SignedDuration::from_secs(second);
                 let sun = sun_moon::sun(station.site, later);

@@ -63,7 +63,7 @@ pub(super) fn round(
         let detour = match (line.end_deg(), comes_out) {
             (Some(from), Some(to)) => {
                 let at = targets.get(behind / 2).map(|sample| sample.time);
-                at.and_then(|at| detour::between(bounds, &limits, from, to, at))
+                at.and_then(|at| detour::between(&bounds.at(at), &limits, from, to))
             }
             // The target rises or sets behind the keep-out.
             (Some(one), None) | (None, Some(one)) => Some(vec![one]),

@@ -15,7 +15,7 @@ use crate::{
     astro::{Angle, AzEl, PointingModel, time::seconds_between},
     device::Pointing,
     plan::{
-        Barrier, Bounds, Loss, Sample, Sweep,
+        Barrier, Bounds, BoundsAt, Loss, Sample, Sweep,
         az_el::{Choice, Flip, Planned, Start},
         bounds::FINEST_DEG,
         detour::{self, AxisLimits},
@@ -116,7 +116,7 @@ impl Reach {
 
     /// A direction outside of all barriers at `at`; `None` where none is found.
     pub fn open_sky(&self, at: Timestamp) -> Option<AzEl> {
-        self.open_sky_deg(at).map(|axes_deg| self.bounds.direction(axes_deg))
+        self.open_sky_deg(&self.bounds.at(at)).map(|axes_deg| self.bounds.direction(axes_deg))
     }
 
     /// Where the axes stand at the park position, or as near to it as they travel, degrees as the
@@ -327,23 +327,24 @@ impl Reach {
         }
         let Span { from_ms, to_ms } = way.span();
         let (start_deg, end_deg) = (way.axes_deg(from_ms), way.axes_deg(to_ms));
-        let (from, to) = (at_ms(from_ms), at_ms(to_ms));
-        self.open_sky_deg(from).is_some_and(|open_deg| self.is_way(start_deg, open_deg, from))
-            && self.open_sky_deg(to).is_some_and(|open_deg| self.is_way(end_deg, open_deg, to))
+        [(start_deg, from_ms), (end_deg, to_ms)].into_iter().all(|(place_deg, ms)| {
+            let now = self.bounds.at(at_ms(ms));
+            self.open_sky_deg(&now).is_some_and(|open_deg| self.is_way(place_deg, open_deg, &now))
+        })
     }
 
-    fn is_way(&self, place_deg: [f64; 2], open_deg: [f64; 2], at: Timestamp) -> bool {
+    fn is_way(&self, place_deg: [f64; 2], open_deg: [f64; 2], now: &BoundsAt<'_>) -> bool {
         let sweep = Sweep::between(place_deg, open_deg);
-        self.bounds.at(at).blocks(sweep, Sweep::at(place_deg)).is_none() || {
+        now.blocks(sweep, Sweep::at(place_deg)).is_none() || {
             // From the place that may be shut in, where a search ends soon if it is.
-            detour::leads(&self.bounds, &self.slews, place_deg, open_deg, at)
+            detour::leads(now, &self.slews, place_deg, open_deg)
         }
     }
 
     /// The first place outside of all barriers on the way from the park position, which may itself
     /// be inside one, up to the zenith, and round from there; `None` where there is none. It is off
     /// the ends of the travel, where some units report no angle.
-    fn open_sky_deg(&self, at: Timestamp) -> Option<[f64; 2]> {
+    fn open_sky_deg(&self, now: &BoundsAt<'_>) -> Option<[f64; 2]> {
         let ends = self.park_deg.into_iter().zip(self.slews.travel_deg);
         let mut off_ends = ends.map(|(at_deg, (least_deg, most_deg))| {
             let off_deg = OFF_ENDS_DEG.min((most_deg - least_deg) / 2.0);
@@ -358,7 +359,6 @@ impl Reach {
         };
         let up = along([first.0, second.0], zenith_deg);
         let round = along([first.1, zenith_deg[1]], [first.2, zenith_deg[1]]);
-        let now = self.bounds.at(at);
         up.chain(round).find(|place| now.has_room(*place, self.slews.room_deg))
     }
 
@@ -533,13 +533,13 @@ impl Reach {
     }
 
     fn round_ms(&self, from_deg: [f64; 2], to_deg: [f64; 2], at: i64, most_ms: i64) -> Option<i64> {
-        let (at, sweep) = (at_ms(at), Sweep::between(from_deg, to_deg));
-        if self.bounds.at(at).blocks(sweep, Sweep::at(from_deg)).is_none() {
+        let (now, sweep) = (self.bounds.at(at_ms(at)), Sweep::between(from_deg, to_deg));
+        if now.blocks(sweep, Sweep::at(from_deg)).is_none() {
             return Some(0);
         }
         let limits = &self.slews;
         let most_s = most_ms as f64 / 1000.0;
-        let route = detour::between_within(&self.bounds, limits, (from_deg, to_deg), at, most_s)?;
+        let route = detour::between_within(&now, limits, (from_deg, to_deg), most_s)?;
         let legs = route.iter().zip(route.iter().skip(1));
         let seconds: f64 = legs.map(|(from, to)| limits.seconds(*from, *to)).sum();
         Some((seconds * 1000.0).ceil() as i64)
