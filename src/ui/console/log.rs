@@ -3,7 +3,7 @@
 use std::{collections::VecDeque, sync::Arc};
 
 use crate::device::{Direction, WireLine};
-use crate::driver::{IsAwaited, MAX_LINES, WireLog};
+use crate::driver::{IsAwaited, MAX_LINES, Recorded, WireLog};
 use crate::model::ConsoleLine;
 
 /// The filter of the log.
@@ -94,19 +94,13 @@ impl Log {
     /// may be more.
     pub(super) fn pull<'a>(&mut self, logs: impl Iterator<Item = (&'a str, &'a WireLog)>) -> bool {
         self.take_up(logs);
-        let mut batch = Vec::new();
         let needle = self.filter.needle.to_lowercase();
-        for source in &mut self.sources {
+        let read = self.sources.iter().map(|source| {
             let is_awaited = is_shown(&self.filter, &needle, &source.antenna);
-            for recorded in source.log.read_from(source.next, is_awaited) {
-                source.next = recorded.number + 1;
-                batch.push((Arc::clone(&source.antenna), recorded));
-            }
-        }
-        // The sort is stable and keeps each antenna's lines in order, also after the clock was
-        // set back.
-        batch.sort_by_key(|(_, recorded)| recorded.line.at);
-        for (antenna, recorded) in batch {
+            source.log.read_from(source.next, is_awaited).into()
+        });
+        let mut read: Vec<VecDeque<Arc<Recorded>>> = read.collect();
+        while let Some((antenna, recorded)) = self.next_line(&mut read) {
             let position = self.first + self.lines.len() as u64;
             let line = ConsoleLine::new(position, antenna, recorded);
             self.list(&line, &needle);
@@ -114,6 +108,33 @@ impl Log {
         }
         self.drop_oldest(MAX_LINES * self.sources.len().max(1));
         self.waiting() > 0
+    }
+
+    /// The earliest of the first lines that were read of each antenna. `None` once an antenna has
+    /// lines that were not read: they may be earlier than what was read of the others, which then
+    /// waits for them.
+    fn next_line(
+        &mut self,
+        read: &mut [VecDeque<Arc<Recorded>>],
+    ) -> Option<(Arc<str>, Arc<Recorded>)> {
+        let both = self.sources.iter_mut().zip(read);
+        let mut first: Option<(&mut Source, &mut VecDeque<Arc<Recorded>>)> = None;
+        for (source, lines) in both {
+            let Some(line) = lines.front() else {
+                if source.next < source.log.next_number() {
+                    return None;
+                }
+                continue;
+            };
+            let is_earlier = first.as_ref().and_then(|(_, lines)| lines.front());
+            if is_earlier.is_none_or(|earliest| line.line.at < earliest.line.at) {
+                first = Some((source, lines));
+            }
+        }
+        let (source, lines) = first?;
+        let recorded = lines.pop_front()?;
+        source.next = recorded.number + 1;
+        Some((Arc::clone(&source.antenna), recorded))
     }
 
     /// Follows the present antennas; lines of former ones stay.
@@ -245,6 +266,22 @@ mod tests {
         let only = Filter { antenna: Some("Mast".to_owned()), ..Filter::default() };
         log.set_filter(&only);
         assert_eq!(texts(&log), ["$B?*41<CR><LF>"]);
+    }
+
+    #[test]
+    fn many_waiting_lines_of_antennas_with_different_traffic_stand_in_the_order_of_time() {
+        let (busy, quiet) = (WireLog::default(), WireLog::default());
+        for second in 0..3500 {
+            busy.push(sent(second, "$A?*41"));
+            if second % 10 == 5 {
+                quiet.push(sent(second, "$B?*41"));
+            }
+        }
+        let mut log = Log::default();
+        while log.pull([("Dish", &busy), ("Mast", &quiet)].into_iter()) {}
+        let times: Vec<_> = log.all_shown().map(|line| line.wire().at).collect();
+        assert_eq!(times.len(), 3850);
+        assert!(times.is_sorted());
     }
 
     #[test]
