@@ -271,10 +271,8 @@ fn jogging(antenna: &AntennaModel, axis: &str, rate_deg_s: f64) -> String {
 fn standing(model: &Model, antenna: &AntennaModel) -> Spoken {
     let state = &antenna.snapshot.state;
     if antenna.snapshot.runs_out {
-        return Spoken::new(SentenceKind::Holding).plain(format!(
-            "Coming to rest{}: this console has ended the motion.",
-            place(antenna)
-        ));
+        return Spoken::new(SentenceKind::Holding)
+            .plain(format!("Stopping{}: Azel has ended the motion.", place(antenna)));
     }
     if state.measured.is_some_and(|measured| measured.moving()) {
         return Spoken::new(SentenceKind::Caution).plain(

@@ -67,7 +67,11 @@ async fn an_armed_rescue_lets_it_be_jogged_back_for_a_minute() {
     rig.send(arm());
     rig.send(Command::Manual);
     rig.seconds(0.5).await;
-    assert!(rig.reading("Rescue").starts_with("armed, "), "{}", rig.reading("Rescue"));
+    assert!(
+        rig.reading("Jogs outside limits").starts_with("allowed, "),
+        "{}",
+        rig.reading("Jogs outside limits")
+    );
     let before = rig.times("|h").len();
     rig.seconds(5.0).await;
     let asked = rig.times("|h").len() - before;
@@ -79,7 +83,7 @@ async fn an_armed_rescue_lets_it_be_jogged_back_for_a_minute() {
     assert_eq!(rig.events(), []);
     assert!(rig.rotator(1).angle_deg < 285.0);
     rig.seconds(60.0).await;
-    assert_eq!(rig.reading("Rescue"), "");
+    assert_eq!(rig.reading("Jogs outside limits"), "");
     rig.hold([-4.0, 0.0], 0.5).await;
     let events = rig.events();
     assert!(matches!(events[..], [Event::NotSent(Refusal::Controller(_))]), "{events:?}");
@@ -114,12 +118,16 @@ async fn only_the_stop_of_the_operator_disarms_a_rescue() {
     rig.send(Command::Standby);
     rig.send(Command::Manual);
     rig.seconds(1.5).await;
-    assert!(rig.reading("Rescue").starts_with("armed, "), "{}", rig.reading("Rescue"));
+    assert!(
+        rig.reading("Jogs outside limits").starts_with("allowed, "),
+        "{}",
+        rig.reading("Jogs outside limits")
+    );
     rig.events();
     rig.hold([-4.0, 0.0], 0.5).await;
     rig.stop();
     rig.seconds(3.0).await;
-    assert_eq!(rig.reading("Rescue"), "");
+    assert_eq!(rig.reading("Jogs outside limits"), "");
     assert_eq!(rig.events(), [Event::Stopped]);
     assert_eq!(rig.orders(), ["|M1", "|S", "|M1", "|S"]);
     rig.send(Command::Manual);

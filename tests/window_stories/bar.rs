@@ -100,7 +100,7 @@ fn alarms_are_told_in_words_with_their_antenna() {
         ),
         (
             AlarmKind::DriverStands(std::time::Duration::from_millis(600)),
-            "The driver has not responded for 0.6 s: nothing reaches the antennas, not even STOP.",
+            "For 0.6 s no command could be sent, not even STOP.",
         ),
         (
             AlarmKind::BrokeOff(Work::Elements),

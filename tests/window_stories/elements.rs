@@ -233,7 +233,7 @@ fn a_typed_source_is_added_once_it_is_right_and_stays_typed_until_it_is_there() 
         settle(&mut window);
         write(&mut window, "Name", "own");
         write(&mut window, "Path", "own.tle");
-        assert!(says(&window, "Cannot be added: the path is not absolute."));
+        assert!(says(&window, "Type the whole path, from the root or the drive on."));
         write(&mut window, "Path", "/var/elements/own.tle");
         window.get_by_role_and_label(Role::Button, "Add source").scroll_to_me();
         settle(&mut window);
@@ -260,7 +260,7 @@ fn a_known_server_is_filled_in_and_a_plain_address_is_refused() {
         assert!(is_disabled(&window, "CelesTrak weather"), "it is there");
         write(&mut window, "Name", "x");
         write(&mut window, "Address", "http://celestrak.org/x");
-        assert!(says(&window, "Cannot be added: the address is not a plain https address."));
+        assert!(says(&window, "Type an address that begins with https:// and holds no password."));
         click(&mut window, "CelesTrak stations");
         window.get_by_role_and_label(Role::Button, "Add source").scroll_to_me();
         settle(&mut window);
@@ -301,7 +301,7 @@ fn space_track_is_added_with_its_log_in_name() {
         window.get_by_role_and_label(Role::RadioButton, "Space-Track").click();
         settle(&mut window);
         write(&mut window, "Name", "Space-Track");
-        assert!(says(&window, "Cannot be added: it has no log-in name."));
+        assert!(says(&window, "Type the log-in name."));
         write(&mut window, "Log-in", " op@example.org");
         window.get_by_role_and_label(Role::Button, "Add source").scroll_to_me();
         settle(&mut window);

@@ -106,7 +106,7 @@ fn a_limit_in_the_way_is_named_and_nothing_is_sent() {
         let told = note(&window).unwrap();
         assert!(
             told.ends_with(
-                "Not possible: Y would have to go to 171.0°; it travels from 10.0° to 170.0°."
+                "Not possible: Y would have to go to 171.0°, beyond its travel of 10.0° to 170.0°."
             ),
             "{told}"
         );

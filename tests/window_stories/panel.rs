@@ -224,7 +224,10 @@ fn without_a_calibration_it_is_turned_by_hand_and_sent_nowhere() {
     for size in rig::sizes() {
         let snapshot = makes::rc2000c_uncalibrated(Intent::Manual);
         let mut window = rig::window(size, makes::model(makes::rc2000c(), snapshot));
-        assert!(says(&window, "No directions: azimuth and elevation are not calibrated."));
+        assert!(says(
+            &window,
+            "The unit reports no angles: they are not calibrated, or a sensor is missing."
+        ));
         assert_eq!(hold(&mut window, "Jog up"), jog(0.0, 0.5));
         window.get_by_role_and_label(Role::Button, "Go to").click();
         window.get_by_role_and_label(Role::Button, "Track NOAA 20").click();

@@ -287,11 +287,11 @@ fn the_price_of_a_pass_is_asked_once_and_a_swap_asks_with_it() {
     let swap = Swap { pass: key, revision: 4, changes: Some(Vec::new()) };
     window.state_mut().model.swap = Some(Arc::new(swap));
     settle(&mut window);
-    assert!(says(&window, "It costs nothing."));
+    assert!(says(&window, "No other pass is lost."));
     window.state_mut().commands.clear();
     window.key_press(Press::S);
     settle(&mut window);
-    let price = "It costs nothing.";
+    let price = "No other pass is lost.";
     assert_eq!(window.query_all_by_label_contains(price).count(), 2, "the note and the question");
     window.get_by_role_and_label(Role::Button, "Take it (Enter)").click();
     let commands = commands(&mut window);

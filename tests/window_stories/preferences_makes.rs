@@ -128,11 +128,11 @@ fn one_rotator_asks_for_no_elevation() {
         assert!(!has_field(&window, "Maximum step"), "it takes no steps");
         write(&mut window, "Elevation to", "steep");
         assert!(says(&window, "Elevation to must be a number from 0 to 180°."));
-        press(&mut window, Role::RadioButton, "Second one");
+        press(&mut window, Role::RadioButton, "Only rotator 2");
         assert!(!has_field(&window, "Elevation to") && !has_field(&window, "Park elevation"));
         let station = save(&mut window);
         assert_eq!(Rotators::of(&the_antenna(&station).connection), Rotators::Second);
-        press(&mut window, Role::RadioButton, "Azimuth, elevation");
+        press(&mut window, Role::RadioButton, "Azimuth + elevation");
         assert_eq!(typed(&window, "Elevation to"), "steep", "what was typed is still there");
     }
 }

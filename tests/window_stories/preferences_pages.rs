@@ -212,7 +212,7 @@ fn what_an_edit_changes_of_the_passes_is_asked_for_and_shown_beside_what_was() {
         let row = format!("Tracked in full: was {}, new {}", was.whole, new.whole);
         assert!(says(&window, &row), "{row}");
         window.get_by_label_contains("fewer than as saved.");
-        window.get_by_label_contains("are not reached.");
+        window.get_by_label_contains("of the circle cannot be reached.");
         assert_eq!(rig::asked(&mut window), [], "asked once");
     }
 }

@@ -62,7 +62,10 @@ fn the_way_after_stop_is_the_makes_until_it_was_seen_often_enough() {
         window
     };
     let window = shown(StoppingWay { overrun_s: 0.4, stops: 1, is_learned: false });
-    assert!(says(&window, "Coasts for 0.4 s, assumed for its make: 1 of 3 STOPs seen."));
+    assert!(says(
+        &window,
+        "Coasts for 0.4 s: the default of its make, until 3 STOPs are measured (1 so far)."
+    ));
     let window = shown(StoppingWay { overrun_s: 0.62, stops: 7, is_learned: true });
     assert!(says(&window, "Coasts for 0.6 s: the longest of the last 3 of 7 STOPs."));
 }

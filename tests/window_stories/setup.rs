@@ -207,7 +207,7 @@ fn a_locator_fills_the_place_and_the_sun_tells_a_wrong_sign() {
         assert_eq!(altitude(&window), before, "nothing moves under the pointer");
         assert_eq!(field(&window, "Latitude"), "41.0625");
         assert!(says(&window, "The centre of a square of 7.0 by 4.6 km."));
-        assert!(says(&window, "there now. Does that match?"));
+        assert!(says(&window, "Is that right?"));
         write(&mut window, "Longitude, east", "-150.6");
         assert!(says(&window, "below the horizon there now"));
         write(&mut window, "Locator", "KN41oz");

@@ -72,10 +72,7 @@ fn a_motion_that_this_console_has_ended_is_nobody_elses() {
     let said = |snapshot: &Snapshot| states::sentence(&rig::model(snapshot.clone()));
     assert!(said(&snapshot).starts_with("Moving, not by this console"));
     snapshot.runs_out = true;
-    assert_eq!(
-        said(&snapshot),
-        "Coming to rest at 205.0°, 5.0°: this console has ended the motion."
-    );
+    assert_eq!(said(&snapshot), "Stopping at 205.0°, 5.0°: Azel has ended the motion.");
 }
 
 #[test]

@@ -19,21 +19,21 @@ const VERSION: u32 = 1;
 /// Reason why a source cannot be added.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum SourceProblem {
-    #[error("it has no name")]
+    #[error("type a name")]
     NoName,
     /// Another source has this name, which is also the name of its group.
-    #[error("another source has this name")]
+    #[error("another source has this name: type another one")]
     NameTaken,
     /// A relative path, which would depend on the folder in which the program was started.
-    #[error("the path is not absolute")]
+    #[error("type the whole path, from the root or the drive on")]
     RelativePath,
     /// Not an `https` address, or one with a user name in it.
-    #[error("the address is not a plain https address")]
+    #[error("type an address that begins with https:// and holds no password")]
     Address,
-    #[error("it has no log-in name")]
+    #[error("type the log-in name")]
     NoLogIn,
     /// Two sources would share one account and its limits.
-    #[error("another source has this log-in")]
+    #[error("another source has this log-in: use that one")]
     LogInTaken,
 }
 

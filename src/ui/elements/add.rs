@@ -115,7 +115,7 @@ pub(in crate::ui) fn show(
             }
             let typed = !state.name.is_empty() || !state.place.is_empty();
             if let (true, Err(problem)) = (typed, checked) {
-                let words = format!("Cannot be added: {problem}.");
+                let words = format!("{}.", crate::ui::words::capitalised(&problem.to_string()));
                 ui.label(RichText::new(words).font(text::body()).color(t.warn));
             }
         });

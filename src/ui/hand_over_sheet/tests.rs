@@ -167,7 +167,7 @@ fn passes_of_one_satellite_that_are_left_out_for_one_reason_are_one_row() {
     }
     let svg = printed(&station, &schedule, &satellites);
     check(&svg);
-    assert_eq!(svg.matches("A limit or a rule excludes this antenna").count(), 1, "{svg}");
+    assert_eq!(svg.matches("Your limits or rules allow other antennas only").count(), 1, "{svg}");
     assert!(svg.contains(" +2<"), "{svg}");
 }
 

@@ -275,7 +275,7 @@ fn price(
     let key = planned.predicted.key();
     let words = if let Some(swap) = model.swap_of(key) {
         match swap.changes {
-            Some(_) => format!("If it is always taken: {}", words::schedule::price(model, swap)),
+            Some(_) => format!("Always: {}", words::schedule::price(model, swap)),
             None => "Always is not available: no antenna can track enough of this pass.".to_owned(),
         }
     } else if model.replay.is_some() {

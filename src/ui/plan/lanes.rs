@@ -121,7 +121,7 @@ fn title(ui: &Ui, bar: Rect, model: &Model, satellites: &[PlannedSatellite<'_>],
     } else if model.schedule.schedule.is_proved() {
         ": no better plan exists"
     } else {
-        ": a better choice may exist"
+        ": not proved to be the best"
     };
     let count = format!("{taken} of {all} passes are taken{proof}");
     let room = inner.with_min_x(drawn.right() + 24.0);

@@ -411,10 +411,10 @@ mod tests {
         let mut draft = Draft::of(&station());
         let genius = &mut draft.antennas[1];
         "steep".clone_into(write(genius, "Elevation to"));
-        "Second one".clone_into(write(genius, "Rotators of this antenna"));
+        "Only rotator 2".clone_into(write(genius, "Rotators of this antenna"));
         let station = draft.read().unwrap();
         assert!(!station.antennas[1].connection.variant().capabilities.has_elevation());
-        "Azimuth, elevation".clone_into(write(&mut draft.antennas[1], "Rotators of this antenna"));
+        "Azimuth + elevation".clone_into(write(&mut draft.antennas[1], "Rotators of this antenna"));
         assert_eq!(draft.read(), None);
         assert_eq!(write(&mut draft.antennas[1], "Elevation to"), "steep");
     }

@@ -73,7 +73,11 @@ fn kind(antenna: &Antenna) -> String {
         Mount::AzEl { .. } => "azimuth only",
     };
     let can = antenna.connection.variant().capabilities;
-    let tracks = if can.takes_positions { "; follows positions sent by Azel" } else { "" };
+    let tracks = match (can.has_program, can.takes_positions) {
+        (true, _) => "; tracks by itself",
+        (false, true) => "; follows positions sent by Azel",
+        (false, false) => "",
+    };
     format!("{}, {mount}{tracks}", antenna.connection.spec().name)
 }
 

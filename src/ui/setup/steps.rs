@@ -53,8 +53,8 @@ impl Step {
             }
             Self::Satellites => "Which satellites should the list of passes show?",
             Self::Elements => {
-                "Orbits change: predictions are only as good as the elements are fresh. Sources \
-                 can be added later; those added here are kept at once, as in Elements."
+                "Orbits change: predictions are only as good as the elements are fresh. A source \
+                 is saved as soon as you add it."
             }
             Self::End => "Nothing has been saved yet. This is what Finish does.",
         };

@@ -174,7 +174,7 @@ pub fn alarm(kind: &AlarmKind, antenna: &str, now: Timestamp) -> String {
         AlarmKind::Safety(matter) => super::safety(matter, antenna, now),
         AlarmKind::Owed(unit) => super::owed(unit),
         AlarmKind::DriverStands(stood) => format!(
-            "The driver has not responded for {}: nothing reaches the antennas, not even STOP. \
+            "For {} no command could be sent, not even STOP. \
              Use their local panels.",
             format::age(stood.as_secs_f64())
         ),

@@ -30,7 +30,7 @@ pub fn off(because: OffBecause) -> &'static str {
 pub fn interruption(by: Interruption) -> &'static str {
     match by {
         Interruption::ByHand => "The antenna was commanded by hand.",
-        Interruption::Elsewhere => "The antenna was moved by its panel or by another program.",
+        Interruption::Elsewhere => "The antenna turned without a command from Azel.",
         Interruption::EndedByUnit => {
             "The unit ended a motion that Azel had not ended: by its panel, by another program or by \
              itself."

@@ -360,7 +360,7 @@ fn loss_in_sentence(cause: LossCause) -> &'static str {
         LossCause::RateOfMount => "where the mount is too slow",
         LossCause::Slew => "at the azimuth unwrap",
         LossCause::LateStart => "before the antenna arrived",
-        LossCause::EarlyEnd => "after the antenna left",
+        LossCause::EarlyEnd => "after the antenna had left the satellite",
         LossCause::Stopped => "after the antenna was stopped",
         LossCause::NoEffect => "after an axis had not turned as commanded",
         LossCause::GivenUp => "after Azel had given up the pass",

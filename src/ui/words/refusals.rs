@@ -65,7 +65,7 @@ pub fn refusal(refusal: &Refusal, now: Timestamp) -> String {
             format::degrees(*lowest_deg, 1)
         ),
         Refusal::Travel { axis, asked_deg, from_deg, to_deg } => format!(
-            "Not sent: {axis} would have to go to {}; it travels from {} to {}.",
+            "Not sent: {axis} would have to go to {}, beyond its travel of {} to {}.",
             format::degrees(*asked_deg, 1),
             format::degrees(*from_deg, 1),
             format::degrees(*to_deg, 1)

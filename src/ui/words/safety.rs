@@ -124,7 +124,9 @@ pub fn stopping_way(StoppingWay { overrun_s, stops, is_learned }: StoppingWay) -
     if is_learned {
         return format!("{overrun}: the longest of the last {enough} of {stops} STOPs.");
     }
-    format!("{overrun}, assumed for its make: {stops} of {enough} STOPs seen.")
+    format!(
+        "{overrun}: the default of its make, until {enough} STOPs are measured ({stops} so far)."
+    )
 }
 
 /// The properties of a drive that Azel has learned from its motions, and those still to be learned.

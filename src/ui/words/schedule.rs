@@ -50,7 +50,7 @@ pub fn why(names: &dyn Fn(PassKey) -> String, why: &Why) -> String {
         Why::Impossible(impossible) => not_possible(impossible),
         Why::Off(Off::LockedOut) => "The unit is locked out".to_owned(),
         Why::Off(Off::SwitchedOff) => "The antenna is not connected".to_owned(),
-        Why::OtherAntennas => "A limit or a rule excludes this antenna".to_owned(),
+        Why::OtherAntennas => "Your limits or rules allow other antennas only".to_owned(),
         Why::Overlaps(conflict) => {
             let by = format::duration(conflict.missing_s);
             let verb = if conflict.others.is_empty() { "overlaps" } else { "overlap" };
@@ -180,7 +180,11 @@ pub fn price(model: &Model, swap: &Swap) -> String {
     let (satellite, aos) = swap.pass;
     let own = |change: &&Change| change.pass.satellite != satellite || change.pass.aos != aos;
     let costs: Vec<String> = changes.iter().filter(own).map(|of| change(model, of)).collect();
-    if costs.is_empty() { "It costs nothing.".to_owned() } else { format!("{}.", costs.join("; ")) }
+    if costs.is_empty() {
+        "No other pass is lost.".to_owned()
+    } else {
+        format!("{}.", costs.join("; "))
+    }
 }
 
 /// A change of the schedule, as a sentence without a full stop.

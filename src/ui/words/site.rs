@@ -11,16 +11,23 @@ const AGREES_KM: f64 = 1.0;
 
 /// The place of the Sun, by which a wrong sign is seen at once.
 pub fn sun_there(sun: AzEl) -> String {
-    let azimuth = format::azimuth(sun.azimuth_deg());
-    let elevation_deg = sun.elevation_deg();
-    if elevation_deg < 0.0 {
-        let below = format::degrees(-elevation_deg, 0);
-        return format!(
-            "The Sun is {below} below the horizon there now, at {azimuth}. Does that match?"
-        );
-    }
-    let elevation = format::degrees(elevation_deg, 0);
-    format!("The Sun is at {azimuth}, {elevation} there now. Does that match?")
+    let (azimuth_deg, elevation_deg) = (sun.azimuth_deg(), sun.elevation_deg());
+    let elevation = format::degrees(elevation_deg.abs(), 0);
+    let height = if elevation_deg < 0.0 { "below the horizon" } else { "high" };
+    format!(
+        "There the Sun is now {} ({}), {elevation} {height}. Is that right?",
+        compass_point(azimuth_deg),
+        format::azimuth(azimuth_deg)
+    )
+}
+
+fn compass_point(azimuth_deg: f64) -> &'static str {
+    const POINTS: [&str; 16] = [
+        "N", "NNE", "NE", "ENE", "E", "ESE", "SE", "SSE", "S", "SSW", "SW", "WSW", "W", "WNW",
+        "NW", "NNW",
+    ];
+    let nearest = (azimuth_deg / 22.5).round() as usize % POINTS.len();
+    POINTS.get(nearest).copied().unwrap_or_default()
 }
 
 /// How far a typed place is from the one that a unit told.

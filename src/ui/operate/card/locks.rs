@@ -106,8 +106,14 @@ fn no_direction(antenna: &AntennaModel) -> Option<&'static str> {
         (_, false) if elevation.plus_limit => {
             Some("At the upper limit: the unit shows no elevation there.")
         }
-        (false, false) => Some("No directions: azimuth and elevation are not calibrated."),
-        (false, true) => Some("No directions: the azimuth is not known or not calibrated."),
-        (true, false) => Some("No directions: the elevation is not known or not calibrated."),
+        (false, false) => {
+            Some("The unit reports no angles: they are not calibrated, or a sensor is missing.")
+        }
+        (false, true) => {
+            Some("The unit reports no azimuth: it is not calibrated, or a sensor is missing.")
+        }
+        (true, false) => {
+            Some("The unit reports no elevation: it is not calibrated, or a sensor is missing.")
+        }
     }
 }

@@ -125,9 +125,12 @@ fn sentence(antenna: &Antenna) -> String {
     let [from, to] = [from, to].map(|deg| format::degrees(deg, 0));
     let span_deg = travel.span_deg();
     let reach = if span_deg > 360.0 {
-        format!(" {} are reached on two turns.", format::degrees(span_deg - 360.0, 0))
+        format!(
+            " {} of the circle can be reached on two turns.",
+            format::degrees(span_deg - 360.0, 0)
+        )
     } else if span_deg < 360.0 {
-        format!(" {} are not reached.", format::degrees(360.0 - span_deg, 0))
+        format!(" {} of the circle cannot be reached.", format::degrees(360.0 - span_deg, 0))
     } else {
         String::new()
     };

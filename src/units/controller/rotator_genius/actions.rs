@@ -30,7 +30,7 @@ pub(super) const SEND_OTHER: Action = Action {
 
 pub(super) const ARM_RESCUE: Action = Action {
     key: RESCUE,
-    label: "Arm the rescue",
+    label: "Allow jogs outside limits",
     about: "For a minute or until STOP, a rotator outside its limits may be jogged back. The \
             device does not end such a motion by itself: Azel stops it when the key is let go \
             and when a reply is missing.",

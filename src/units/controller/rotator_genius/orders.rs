@@ -28,9 +28,9 @@ const OTHER_TURNS: &str = "the other rotator turns, and STOP would end both";
 const NO_SENSOR: &str = "the rotator has no sensor, so the device refuses to turn it";
 const NO_POSITION: &str = "the device gives no position of the rotator";
 const OUTSIDE: &str = "the rotator is outside its limits, where nothing ends a jog: send it to a \
-                       direction, or arm the rescue";
+                       direction, or allow jogs outside limits";
 const OUTSIDE_UNKNOWN: &str = "whether the rotator is outside its limits is not known, and there \
-                               nothing ends a jog: send it to a direction, or arm the rescue";
+                               nothing ends a jog: send it to a direction, or allow jogs outside limits";
 const BEYOND: &str = "the device takes azimuths from 0 to 360 degrees";
 const NO_MOTION: &str = "the device has no such motion";
 

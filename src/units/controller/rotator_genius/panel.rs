@@ -24,11 +24,11 @@ pub(super) fn checks(status: &Status, roles: Roles) -> Vec<Check> {
         "Kinds of the rotators",
         if roles.is_clear { CheckState::Good } else { CheckState::Fault },
         if roles.is_pair {
-            "The unit must report one azimuth and one elevation rotator. Change the kind of one \
-             of them in its settings."
+            "This antenna needs an azimuth and an elevation rotator, and the unit reports others. \
+             Choose \"Only rotator 1\" or 2 in Preferences, or change a kind in the unit."
         } else {
-            "The unit must report the rotator of this antenna as an azimuth rotator. Change its \
-             kind in its settings, or name the other rotator in Preferences."
+            "This antenna needs an azimuth rotator, and the unit reports another kind. Choose the \
+             other rotator in Preferences, or change the kind in the unit."
         },
     );
     let panic = Check::new(
@@ -57,7 +57,7 @@ pub(super) fn checks(status: &Status, roles: Roles) -> Vec<Check> {
                 None => CheckState::Unknown,
             },
             "Outside its limits nothing but STOP ends a motion of the rotator. Send it \
-                     to a direction, or arm the rescue and jog it back.",
+                     to a direction, or choose \"Allow jogs outside limits\" and jog it back.",
         );
         [sensor, limits]
     });
@@ -71,8 +71,8 @@ pub(super) fn readings(
     rescue_left: Option<Duration>,
 ) -> Vec<Reading> {
     let rescue = rescue_left.filter(|left| !left.is_zero()).map(|left| {
-        let text = format!("armed, {} s left", left.as_secs_f64().ceil());
-        Reading::new("Rescue", text).in_tone(Tone::Caution)
+        let text = format!("allowed, {} s left", left.as_secs_f64().ceil());
+        Reading::new("Jogs outside limits", text).in_tone(Tone::Caution)
     });
     let of_rotators =
         RotatorNumber::ALL.into_iter().flat_map(|number| of_rotator(status, roles, number));

@@ -103,9 +103,9 @@ pub static ROTATORS: Setting = Setting::new(
         Key::word(
             "rotators",
             &[
-                (PAIR_WORD, "Azimuth, elevation"),
-                (FIRST_WORD, "First one"),
-                (SECOND_WORD, "Second one"),
+                (PAIR_WORD, "Azimuth + elevation"),
+                (FIRST_WORD, "Only rotator 1"),
+                (SECOND_WORD, "Only rotator 2"),
             ],
         ),
         "Rotators of this antenna",

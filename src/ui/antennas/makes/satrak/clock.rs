@@ -42,7 +42,7 @@ fn effect(ui: &mut Ui, unit: &ShownUnit<'_>) {
     let rate_deg_s = predicted.and_then(|predicted| rate_at_tca(unit.model, predicted));
     let (Some(ahead_s), Some(predicted), Some(rate_deg_s)) = (ahead_s, predicted, rate_deg_s)
     else {
-        return row::plain(ui, LABEL, "unknown without a clock reading and a pass", None);
+        return row::plain(ui, LABEL, "select a pass", None);
     };
     let off_deg = (ahead_s * rate_deg_s).abs();
     let off = format::degrees(off_deg, 1);
