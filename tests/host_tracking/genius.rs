@@ -5,7 +5,7 @@ use azel::{
     controller::rotator_genius::{ROTATORS, Rotators},
     driver::{Command, Event, Intent, Safety},
     plan::{ProgramTrack, Target, TrackPhase, TrackStats},
-    protocol::rotator_genius::{RotatorNumber, WholeDegrees},
+    protocol::rotator_genius::{Moving, RotatorNumber, WholeDegrees},
     sim::rotator_genius::{Control, Fault, Options, RotatorOptions},
     station::{Antenna, Mount},
 };
@@ -93,6 +93,44 @@ async fn a_usual_pass_is_followed_to_the_degree() {
         let what = format!("Genius, usual, stop offset {stop_offset_deg}");
         let (rms, worst) = figures(&what, followed(stop_offset_deg, &sky::usual()).await);
         assert!(rms < 1.0 && worst < 3.5, "{rms} {worst}");
+    }
+}
+
+/// Tracks the scene. Returns how often each motor reversed, and the number of positions sent.
+async fn reversals(stop_offset_deg: u8, scene: &Scene) -> ([u32; 2], u32) {
+    let antenna = antenna(Rotators::Pair);
+    let (mut rig, control) = connected(&options(stop_offset_deg), &antenna, scene).await;
+    rig.send(Command::ProgramTrack(Box::new(scene.follow())));
+    rig.until_utc(scene.pass.aos.time).await;
+    let mut reversals = [0; 2];
+    let mut before = [Moving::Stopped; 2];
+    while rig.clock.utc() < scene.pass.los.time {
+        rig.seconds(0.1).await;
+        let now = RotatorNumber::ALL.map(|number| control.state().rotator(number).moving);
+        for ((count, before), now) in reversals.iter_mut().zip(&mut before).zip(now) {
+            *count += u32::from(*before != Moving::Stopped && now == opposite(*before));
+            *before = if now == Moving::Stopped { *before } else { now };
+        }
+    }
+    (reversals, rig.until_over().await.commands)
+}
+
+fn opposite(moving: Moving) -> Moving {
+    match moving {
+        Moving::Stopped => Moving::Stopped,
+        Moving::Clockwise => Moving::CounterClockwise,
+        Moving::CounterClockwise => Moving::Clockwise,
+    }
+}
+
+/// Motors wear by reversals, and the relays of their drives by commands.
+#[tokio::test(start_paused = true)]
+async fn a_motor_reverses_only_where_the_path_turns() {
+    for stop_offset_deg in [1, 2] {
+        let (count, commands) = reversals(stop_offset_deg, &sky::usual()).await;
+        // The elevation turns once, at TCA.
+        assert_eq!(count, [0, 1], "{stop_offset_deg}");
+        assert!(commands < 180, "{commands}");
     }
 }
 

@@ -68,6 +68,8 @@ pub(super) struct Planned {
     pub(super) axes_deg: [Vec<f64>; 2],
     /// The samples at which the azimuth axis slews a whole turn, because it is at an end.
     pub(super) slews: Vec<usize>,
+    /// A detour leads round a keep-out.
+    pub(super) goes_round: bool,
 }
 
 impl AzElAxes {
@@ -167,7 +169,7 @@ impl AzElAxes {
         };
         let departure = departures(1, &elevations);
         let elevations = rate_limited(&elevations, elevation_max_deg, departure, sin_cos, cost);
-        Planned { flip, axes_deg: [azimuths, elevations], slews: wrap.slews }
+        Planned { flip, axes_deg: [azimuths, elevations], slews: wrap.slews, goes_round: false }
     }
 
     /// The root mean square error along `samples` of axes that set out from `start`, degrees.

@@ -7,6 +7,8 @@ use crate::{clock::Instant, station::TrackSettings};
 const ROUNDS: usize = 4;
 /// Tolerance for angles that are given in decimal degrees.
 const ROUNDING_DEG: f64 = 1e-9;
+/// Longest time for which an axis that is ahead waits for the path, seconds.
+const MAX_WAIT_S: f64 = 15.0;
 /// Farthest that any drive stops short of its goal, degrees.
 const MAX_IGNORED_DEG: f64 = 10.0;
 
@@ -89,7 +91,7 @@ impl Axis {
         let run_deg = (at_deg - from_deg).abs();
         if run_deg >= self.half_step_deg() {
             if way_deg <= self.min_way_deg() {
-                self.min_run_deg = Some(run_deg);
+                self.min_run_deg = Some(run_deg.min(way_deg));
             }
         } else if way_deg <= MAX_IGNORED_DEG {
             self.ignored_deg = self.ignored_deg.max(way_deg);
@@ -130,9 +132,12 @@ impl Axis {
                 (at_deg - commanded_deg).abs() > rounding_deg + ROUNDING_DEG
             })
         };
-        let stays_deg = rest_deg.filter(elsewhere).or(commanded_deg);
-        let is_off =
-            stays_deg.is_none_or(|at_deg| self.is_off(at_deg, least) || self.is_off(at_deg, most));
+        let stays_deg = rest_deg.filter(elsewhere).or_else(|| self.comes_to_rest_deg(now));
+        // A drive that sets out for any distance turns back by no more than it has to, and on a detour
+        // the distance from the keep-out leaves no room.
+        let waits = self.ignored_deg > 0.0 && !path.goes_round();
+        let later = waits.then(|| path.span_deg(self.index, from_s, from_s + MAX_WAIT_S));
+        let is_off = stays_deg.is_none_or(|at_deg| self.is_left(at_deg, (least, most), later));
         // The same command is not repeated to an axis that rests elsewhere.
         let is_new = commanded_deg.is_none_or(|commanded_deg| {
             let change_deg = (position_deg - commanded_deg).abs();
@@ -141,8 +146,31 @@ impl Axis {
         Demand { position_deg, is_due: is_off && is_new }
     }
 
-    fn is_off(&self, a_deg: f64, b_deg: f64) -> bool {
-        (a_deg - b_deg).abs() > self.band_deg() + ROUNDING_DEG
+    /// Where the last command leads an axis that is on its way, degrees. A drive that does not set out
+    /// for short ways stops that much early, and coasts.
+    fn comes_to_rest_deg(&self, now: AxisNow) -> Option<f64> {
+        let commanded_deg = self.last_command.to_deg?;
+        let (Some(at_deg), Some(run_deg), false) = (now.position_deg, self.min_run_deg, now.stands)
+        else {
+            return Some(commanded_deg);
+        };
+        let left_deg = commanded_deg - at_deg;
+        let short_deg = (self.min_way_deg() - run_deg).max(0.0).min(left_deg.abs());
+        Some(commanded_deg - short_deg.copysign(left_deg))
+    }
+
+    /// Returns `true` for an axis at `at_deg` that the path, in `span_deg` now, has left. An axis that
+    /// is ahead waits where the path, in `later_deg` until then, comes back into its band: turning
+    /// back would reverse the motor twice for less.
+    fn is_left(&self, at_deg: f64, span_deg: (f64, f64), later_deg: Option<(f64, f64)>) -> bool {
+        let band_deg = self.band_deg() + ROUNDING_DEG;
+        let ahead_deg = self.min_way_deg().max(2.0 * band_deg);
+        let is_left = |off_deg: f64, later_off_deg: Option<f64>| {
+            let comes_back = later_off_deg.is_some_and(|off_deg| off_deg <= band_deg);
+            off_deg > band_deg && !(comes_back && off_deg <= ahead_deg)
+        };
+        is_left(span_deg.1 - at_deg, later_deg.map(|(lowest_deg, _)| lowest_deg - at_deg))
+            || is_left(at_deg - span_deg.0, later_deg.map(|(_, highest_deg)| at_deg - highest_deg))
     }
 
     /// The command for this axis when at least one axis needs one; `None` leaves the axis

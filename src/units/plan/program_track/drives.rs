@@ -107,7 +107,7 @@ impl Drives {
             rate_limited(&lower, lower_max_deg, departure(0, &lower), turned, lower_cost),
             rate_limited(&upper, upper_max_deg, departure(1, &upper), turned, upper_cost),
         ];
-        Planned { flip: Flip::None, axes_deg, slews: Vec::new() }
+        Planned { flip: Flip::None, axes_deg, slews: Vec::new(), goes_round: false }
     }
 
     fn az_el(&self) -> AzElAxes {

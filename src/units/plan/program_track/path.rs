@@ -34,6 +34,7 @@ pub(super) struct Path {
     max_deg: [f64; 2],
     axes: [Vec<f64>; 2],
     flip: Flip,
+    goes_round: bool,
 }
 
 impl Path {
@@ -58,10 +59,10 @@ impl Path {
             })
             .collect();
         let max_deg = drives.rates_deg_s.map(|rate_deg_s| rate_deg_s * step_s);
-        let Planned { flip, axes_deg: axes, .. } =
+        let Planned { flip, axes_deg: axes, goes_round, .. } =
             drives.along_within(bounds, &samples, step_s, start, choice);
         let to = samples.last()?.time;
-        Some(Self { from, to, step_s, max_deg, axes, flip })
+        Some(Self { from, to, step_s, max_deg, axes, flip, goes_round })
     }
 
     pub(super) fn to(&self) -> Timestamp {
@@ -74,6 +75,11 @@ impl Path {
         both.all(|(max_deg, rate_deg_s)| {
             (rate_deg_s * self.step_s / max_deg - 1.0).abs() < SAME_RATE
         })
+    }
+
+    /// Returns `true` for a path with a detour round a keep-out.
+    pub(super) fn goes_round(&self) -> bool {
+        self.goes_round
     }
 
     pub(super) fn flip(&self) -> Flip {
@@ -172,8 +178,11 @@ impl Drives {
     ) -> Planned {
         let mut planned = self.along(samples, step_s, start, choice);
         if bounds.has_way_round() && self.has_elevation {
-            let (axes_deg, limits) = (planned.axes_deg, self.axis_limits());
-            planned.axes_deg = round(axes_deg, samples, step_s, start, limits, bounds);
+            let limits = self.axis_limits();
+            let detoured = round(&planned.axes_deg, samples, step_s, start, limits, bounds);
+            if let Some(axes_deg) = detoured {
+                planned = Planned { axes_deg, goes_round: true, ..planned };
+            }
         }
         planned
     }
@@ -201,6 +210,7 @@ mod tests {
             max_deg: [2.5; 2],
             axes: [axis.clone(), axis],
             flip: Flip::None,
+            goes_round: false,
         }
     }
 

@@ -398,10 +398,16 @@ impl Planner {
     /// back and forth.
     fn choice(&self, now: Timestamp) -> Choice {
         match self.path.as_ref().filter(|_| self.reaches_on(now)) {
-            Some((path, _)) if path.seconds(now) >= 0.0 => Choice::Keep(path.flip()),
+            Some((path, _)) if self.is_under_way(now) => Choice::Keep(path.flip()),
             Some((path, _)) => Choice::Prefer(path.flip()),
             None => Choice::Prefer(Flip::None),
         }
+    }
+
+    /// Returns `true` once a path is followed: the axes go on from where they are by then. Before, one
+    /// command leads them to where it begins.
+    fn is_under_way(&self, now: Timestamp) -> bool {
+        self.path.as_ref().is_some_and(|(path, _)| path.seconds(now) >= 0.0)
     }
 
     /// The path that has to be planned before the next command; `None` while there is one.
@@ -422,7 +428,11 @@ impl Planner {
             from,
             to: los.min(add_seconds(from, PATH_S)),
             ends: los,
-            start: Start { axes_deg, lead_s: seconds_between(now, from), sets_out: true },
+            start: Start {
+                axes_deg,
+                lead_s: seconds_between(now, from),
+                sets_out: self.is_under_way(now),
+            },
             choice: self.choice(now),
         })
     }

@@ -21,21 +21,21 @@ const SHARE_OF_RATE: f64 = 0.95;
 const STEP_DEG: f64 = 0.5;
 
 /// The positions of both axes along `samples`, `step_s` seconds apart, with detours round the
-/// keep-outs. `axes_deg` are the positions without detours; a stretch that has no detour
-/// stays as it is.
+/// keep-outs; `None` where none is in the way. `axes_deg` are the positions without detours; a
+/// stretch that has no detour stays as it is.
 pub(super) fn round(
-    axes_deg: [Vec<f64>; 2],
+    axes_deg: &[Vec<f64>; 2],
     samples: &[Sample],
     step_s: f64,
     start: Start,
     limits: AxisLimits,
     bounds: &Bounds,
-) -> [Vec<f64>; 2] {
+) -> Option<[Vec<f64>; 2]> {
     let places_deg = || axes_deg[0].iter().zip(&axes_deg[1]).map(|(a, b)| [*a, *b]);
     let is_behind: Vec<bool> =
         places_deg().map(|axes_deg| bounds.is_gone_round(axes_deg, limits.room_deg)).collect();
     if !is_behind.contains(&true) {
-        return axes_deg;
+        return None;
     }
     let mut line = Polyline { points: Vec::new(), limits, max_s: step_s * SHARE_OF_RATE };
     let mut wanted_s = Vec::with_capacity(samples.len());
@@ -87,7 +87,7 @@ pub(super) fn round(
     let way_s = rate_limited(&wanted_s, step_s * SHARE_OF_RATE, None, |at_s| at_s, cost);
     let places = way_s.into_iter().map(|at_s| line.at(at_s));
     let (first, second) = places.map(|[first, second]| (first, second)).unzip();
-    [first, second]
+    Some([first, second])
 }
 
 /// The path as a line, measured in seconds at full rate.

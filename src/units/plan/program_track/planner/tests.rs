@@ -452,7 +452,8 @@ fn with_an_offset_the_antenna_is_sent_beside_its_target_and_without_it_back() {
     let follow = ProgramTrack::new(target, site(), vec![(pass.aos.time, pass.los.time)]);
     let drives = azel((0.0, 360.0), 4.0, 0.0);
     let mut planner = Planner::new(follow, drives, settings(1.0, 0.2), free()).unwrap();
-    let axes = [20.0, 10.0].map(|at| AxisNow { position_deg: Some(at), stands: true });
+    let on_course = [pass.tca.direction.azimuth_deg(), pass.tca.direction.elevation_deg()];
+    let axes = on_course.map(|at| AxisNow { position_deg: Some(at), stands: true });
     let now = pass.tca.time;
     let sent = |planner: &mut Planner| {
         planner.forget_sent();
