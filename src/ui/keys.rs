@@ -1,6 +1,7 @@
 //! The table of keyboard shortcuts, from which the list of keys is drawn as well.
 
 mod act;
+pub mod digits;
 pub mod list;
 pub mod own;
 

@@ -2,7 +2,10 @@
 
 use egui::{Context, CornerRadius, Id, Stroke, TextStyle};
 
-use super::{lean_shapes::LeanShapes, reading_order::ReadingOrder, text, tokens::Tokens};
+use super::{
+    keys::digits::DigitKeys, lean_shapes::LeanShapes, reading_order::ReadingOrder, text,
+    tokens::Tokens,
+};
 use crate::model::ThemeName;
 
 /// The colours in use, for everything that paints.
@@ -15,12 +18,14 @@ pub fn name(ctx: &Context) -> ThemeName {
     ctx.data(|data| data.get_temp(Id::unique("azel theme"))).unwrap_or_default()
 }
 
-/// Installs fonts, text styles, the theme, the shape rewriting and the order for screen readers.
+/// Installs fonts, text styles, the theme, the shape rewriting, the order for screen readers and the
+/// digits of the keyboard.
 /// Call once, when the window opens.
 pub fn install(ctx: &Context, theme: ThemeName) {
     ctx.set_fonts(text::definitions());
     ctx.add_plugin(LeanShapes);
     ctx.add_plugin(ReadingOrder);
+    ctx.add_plugin(DigitKeys);
     // The scale is a setting, which keys of the toolkit would change unseen.
     ctx.options_mut(|options| options.zoom_with_keyboard = false);
     set(ctx, theme);
