@@ -289,7 +289,10 @@ impl App {
         if ui::theme::name(ctx) != theme {
             ui::theme::set(ctx, theme);
         }
-        ctx.set_zoom_factor(appearance.scale_percent as f32 / 100.0);
+        // In whole pixels, so that the zoom does not change by what it is computed from.
+        let pixels = (ctx.content_rect().size() * ctx.pixels_per_point()).round();
+        let view = pixels / ctx.native_pixels_per_point().unwrap_or(1.0);
+        ctx.set_zoom_factor(appearance.zoom(view.into()));
     }
 
     fn change_appearance(&mut self, appearance: Appearance, ctx: &egui::Context) {

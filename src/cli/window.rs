@@ -23,13 +23,17 @@ use crate::{
         claim::{HolderKind, LockFolders},
         records_folder,
     },
+    model::Appearance,
     station,
 };
 
 /// Usual size of the window, in points.
 const USUAL: Vec2 = vec2(1440.0, 900.0);
-/// Minimum size of the window, in points.
-const SMALLEST: Vec2 = vec2(1024.0, 640.0);
+/// Minimum size of the window, in points: everything is drawn smaller there.
+const SMALLEST: Vec2 = vec2(
+    Appearance::MIN_VIEW[0] * Appearance::MIN_ZOOM,
+    Appearance::MIN_VIEW[1] * Appearance::MIN_ZOOM,
+);
 /// Height left for the title bar, in points; X11 tells it only once the window is there.
 const TITLE_BAR: f32 = 40.0;
 /// Size of the block that tells the allocator to keep free memory, in bytes.
@@ -183,6 +187,7 @@ mod tests {
         assert_eq!(fitting(vec2(2560.0, 1400.0)), USUAL);
         assert_eq!(fitting(vec2(1440.0, 860.0)), vec2(1440.0, 820.0));
         assert_eq!(fitting(vec2(1366.0, 728.0)), vec2(1366.0, 688.0));
-        assert_eq!(fitting(vec2(800.0, 480.0)), SMALLEST);
+        assert_eq!(fitting(vec2(800.0, 480.0)), vec2(800.0, 440.0));
+        assert_eq!(fitting(vec2(320.0, 200.0)), SMALLEST);
     }
 }

@@ -51,6 +51,18 @@ impl Default for Appearance {
 impl Appearance {
     pub const SCALES_PERCENT: [u32; 5] = [100, 125, 150, 175, 200];
     pub const ANGLE_DECIMALS: [u32; 3] = [1, 2, 3];
+    /// Smallest view in which nothing is cut, points at 100 %.
+    pub const MIN_VIEW: [f32; 2] = [960.0, 540.0];
+    /// Below this, letters are no longer legible.
+    pub const MIN_ZOOM: f32 = 0.5;
+
+    /// The factor by which everything is drawn larger in a view of this size, points at 100 %: the
+    /// operator's scale, or less where it would cut something off.
+    pub fn zoom(self, [width, height]: [f32; 2]) -> f32 {
+        let [min_width, min_height] = Self::MIN_VIEW;
+        let fitting = (width / min_width).min(height / min_height);
+        (self.scale_percent as f32 / 100.0).min(fitting).max(Self::MIN_ZOOM)
+    }
 
     /// The theme to use while the Sun is there.
     pub fn theme_under(self, sun: Option<AzEl>) -> ThemeName {
@@ -68,6 +80,18 @@ impl Appearance {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_view_is_drawn_as_large_as_chosen_and_smaller_where_it_would_be_cut() {
+        let zoom =
+            |scale_percent, view| Appearance { scale_percent, ..Appearance::default() }.zoom(view);
+        let close = |left: f32, right: f32| assert!((left - right).abs() < 1e-3, "{left} {right}");
+        close(zoom(100, [1024.0, 640.0]), 1.0);
+        close(zoom(175, [1920.0, 1080.0]), 1.75);
+        close(zoom(200, [1440.0, 900.0]), 1.5);
+        close(zoom(100, [800.0, 440.0]), 0.815);
+        close(zoom(100, [100.0, 100.0]), 0.5);
+    }
 
     #[test]
     fn by_day_it_is_light_and_by_night_never() {

@@ -28,9 +28,7 @@ pub const SMALL_BELOW: f32 = 800.0;
 const DATE_FROM: f32 = 1360.0;
 /// Minimum width for chips with two lines.
 const TWO_LINES_FROM: f32 = 1200.0;
-/// Side of the mark of an antenna that STOP leaves alone.
-const MARK: f32 = 12.0;
-/// Width of this mark with its words.
+/// Width of the words about antennas that STOP does not reach.
 const LEFT_OUT: f32 = 56.0;
 
 /// Content of the bar.
@@ -159,12 +157,10 @@ fn fill(ui: &mut Ui, rect: Rect, model: &TopBarModel<'_>, commands: &mut Vec<UiC
     alarm_list::show(ui, (alarms, rect.bottom()), &model.alarms, !wide, commands);
 }
 
-/// Shows a mark between the alarms and STOP: STOP does not stop every antenna.
+/// Tells between the alarms and STOP that it does not stop every antenna.
 fn mark_left_out(ui: &Ui, rect: Rect, left_out: StopLeftOut<'_>) {
     let t = theme::tokens(ui);
-    let mark = paint::square(rect.center() - vec2(0.0, 15.0), MARK);
-    icons::paint(ui.painter(), mark, icons::Icon::OpenRing, t.warn);
-    for (words, down) in [("reaches", 0.0), (left_out.count, 13.0)] {
+    for (words, down) in [("STOP", -13.0), ("reaches", 0.0), (left_out.count, 13.0)] {
         let line =
             Rect::from_center_size(rect.center() + vec2(0.0, down), vec2(rect.width(), 13.0));
         paint::text_in(ui, line, Align2::CENTER_CENTER, words, text::caption(), t.warn);

@@ -1,13 +1,11 @@
 //! The page of how the window looks. It is used at once and belongs to this window, not to the
 //! station file.
 
-use egui::Ui;
+use egui::{Ui, Vec2};
 
 use super::form::{self, choice, note};
 use crate::model::{Appearance, DistanceUnit, Model, ThemeName, UiCommand};
 
-/// The least size of the window at which all views work, points.
-const LEAST: [f32; 2] = [960.0, 540.0];
 /// Cards of the page with the numbers of their rows.
 pub(super) const CARDS: [usize; 3] = [6, 3, 6];
 /// Labels of the choices.
@@ -42,7 +40,7 @@ fn theme_and_size(ui: &mut Ui, wanted: &mut Appearance) {
         choice(ui, SUN, &by_day, &mut wanted.light_by_day);
         note(ui, "While the Sun is up over the station the theme is light.");
         let words = Appearance::SCALES_PERCENT.map(|percent| (format!("{percent} %"), percent));
-        let fits = |percent: u32| percent <= now.scale_percent || has_room(ui, now, percent);
+        let fits = |percent: u32| percent <= now.scale_percent || has_room(ui, percent);
         let scales: Vec<(&str, u32)> = words
             .iter()
             .filter(|(_, percent)| fits(*percent))
@@ -87,8 +85,9 @@ fn units(ui: &mut Ui, wanted: &mut Appearance) {
     });
 }
 
-/// Whether the window is large enough for this scale.
-fn has_room(ui: &Ui, now: Appearance, percent: u32) -> bool {
-    let size = ui.ctx().content_rect().size() * (now.scale_percent as f32 / percent as f32);
-    size.x >= LEAST[0] && size.y >= LEAST[1]
+/// Returns `true` if the window is large enough for this scale.
+fn has_room(ui: &Ui, percent: u32) -> bool {
+    let view = ui.ctx().content_rect().size() * ui.ctx().zoom_factor();
+    let wanted = Vec2::from(Appearance::MIN_VIEW) * (percent as f32 / 100.0);
+    view.x >= wanted.x && view.y >= wanted.y
 }
