@@ -248,6 +248,7 @@ impl App {
                 engine::Event::MayEnd => self.closes = !self.change_now(),
             }
         }
+        self.model.follow_antenna();
         self.look();
         self.take_export();
         self.take_folder();

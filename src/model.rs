@@ -16,6 +16,7 @@ pub mod object_detail;
 pub mod plan;
 pub mod rehearsal;
 pub mod replay;
+mod selection;
 mod sky;
 mod stations;
 mod theme_name;
@@ -151,6 +152,8 @@ pub struct Model {
     pub list: ListChoice,
     /// The selected pass.
     pub selected: Option<PassKey>,
+    /// The pass that the operator chose; it stays selected until it is over.
+    pub chosen: Option<PassKey>,
     /// The sky at `now`.
     pub sky: Sky,
     /// The globe at `now`, as long as the map shows it.
@@ -223,6 +226,7 @@ impl Model {
             appearance: Appearance::default(),
             list: ListChoice::default(),
             selected: None,
+            chosen: None,
             sky: Sky::default(),
             globe: Globe::default(),
             uploads: Arc::default(),
@@ -275,8 +279,7 @@ impl Model {
 
     /// The selected pass, until it is over.
     pub fn selected_pass(&self) -> Option<&PredictedPass> {
-        let selected = self.pass_lists.find(self.selected?);
-        selected.filter(|predicted| predicted.pass.los.time > self.now)
+        self.pass_ahead(self.selected?)
     }
 
     /// The pass of a favourite that is under way, otherwise its next one.
@@ -300,7 +303,6 @@ impl Model {
 
     /// Takes the state published by the station, and the logs of its links.
     pub fn take(&mut self, shown: &Snapshot, wire: impl Fn(AntennaId) -> Option<WireLog>) {
-        let renewed = self.pass_lists.favourites.revision != shown.pass_lists.favourites.revision;
         self.time_sync = shown.time_sync;
         self.station = Arc::clone(&shown.station);
         self.station_saved_at = shown.station_saved_at;
@@ -331,15 +333,12 @@ impl Model {
         self.antennas = antennas;
         let wire = |antenna: &AntennaModel| wire(antenna.id()).unwrap_or_default();
         self.wires = self.antennas.iter().map(wire).collect();
-        if renewed && self.selected_pass().is_none() {
-            self.selected = self.next_pass().map(PredictedPass::key);
-        }
     }
 
     /// The set-up closes with the demonstration; then the next pass over the new site is selected.
     fn take_demo(&mut self, is_demo: bool) {
         if self.demo && !is_demo {
-            self.selected = None;
+            self.drop_choice();
             if self.view == View::Setup {
                 self.view = View::Operate;
             }

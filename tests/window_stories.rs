@@ -1,6 +1,7 @@
 //! Stories of the operator in front of the whole window, without a display.
 
 mod appearance;
+mod automatic;
 mod bar;
 mod clock;
 mod closing;
@@ -45,6 +46,7 @@ mod rig;
 mod running;
 mod saving;
 mod second_step;
+mod selection;
 mod sentences;
 mod settings;
 mod settings_cards;

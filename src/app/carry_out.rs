@@ -42,16 +42,18 @@ impl App {
                 self.may_close.store(true, Ordering::Relaxed);
                 ctx.send_viewport_cmd(egui::ViewportCommand::Close);
             }
-            UiCommand::SelectPass(key) => model.selected = Some(key),
+            UiCommand::SelectPass(key) => model.choose_pass(key),
             UiCommand::BeginReplay(stretch, at) => self.begin_replay(stretch, at),
             UiCommand::CloseReplayEnd => model.replay_end = None,
             // The views have asked, or there is nothing to track it with; there is no replay.
             UiCommand::AskToTrack(_) | UiCommand::Replay(_) | UiCommand::LeaveReplay => {}
             UiCommand::SelectSatellite(number) => {
-                model.selected = model.pass_of(number).map(PredictedPass::key).or(model.selected);
+                if let Some(pass) = model.pass_of(number).map(PredictedPass::key) {
+                    model.choose_pass(pass);
+                }
             }
             UiCommand::SelectAntenna(index) => {
-                model.selected_antenna = index;
+                model.select_antenna(index);
                 let antenna = model.antenna();
                 self.keeper.memory.antenna = antenna.map(|antenna| antenna.config.name.clone());
             }

@@ -28,7 +28,9 @@ use crate::{
     job::{Job, Wake},
     model::{
         Appearance, Model, UiCommand, View,
-        replay::{JumpNews, ReplayCommand, ReplayEnd, ReplayProblem, Replayed, Stretch},
+        replay::{
+            JumpNews, ReplayCommand, ReplayEnd, ReplayProblem, Replayed, Stretch, StretchPass,
+        },
     },
     record::Beside,
     station::AntennaId,
@@ -104,6 +106,8 @@ pub(super) struct Replay {
     job: Option<Job<(Box<Room>, Answer)>>,
     /// The moment to show next.
     wanted: Option<Wanted>,
+    /// The pass whose antenna is still to be selected, once the station of its time is known.
+    unselected: Option<StretchPass>,
     /// The stretch whose passes are marked.
     marked: Option<Stretch>,
     /// When the moment that is shown moved on last, by the clock of the window.
@@ -131,6 +135,7 @@ impl Replay {
         // The film has the elements of the favourites.
         model.list.scope = Scope::Favourites;
         model.selected_antenna = live.selected_antenna;
+        let unselected = stretch.pass;
         model.replay = Some(Replayed::begin(stretch, at));
         Self {
             model,
@@ -139,6 +144,7 @@ impl Replay {
             room: Some(Box::new(Room::new(path))),
             job: None,
             wanted: Some(Wanted::At(at)),
+            unselected,
             marked: None,
             moved_at: live.steady,
             look: None,
@@ -200,11 +206,13 @@ impl Replay {
                 return Some(Beyond::Appear(appearance));
             }
             UiCommand::SetAppearance(appearance) => return Some(Beyond::Appear(appearance)),
-            UiCommand::SelectPass(pass) => model.selected = Some(pass),
+            UiCommand::SelectPass(pass) => model.choose_pass(pass),
             UiCommand::SelectSatellite(number) => {
-                model.selected = model.pass_of(number).map(PredictedPass::key).or(model.selected);
+                if let Some(pass) = model.pass_of(number).map(PredictedPass::key) {
+                    model.choose_pass(pass);
+                }
             }
-            UiCommand::SelectAntenna(index) => model.selected_antenna = index,
+            UiCommand::SelectAntenna(index) => model.select_antenna(index),
             UiCommand::SetSpan(span_h) => model.list.set_span_h(span_h),
             UiCommand::ShowEffects(asked) => model.obstacle_effects.ask(*asked, model.steady),
             UiCommand::ShowTracked(asked) => model.mount_effects.ask(*asked, model.steady),
@@ -291,8 +299,9 @@ impl Replay {
     }
 
     fn take_moment(&mut self, Found { at, stretch, hole, skipped, scene }: Found) {
-        if stretch.is_some() {
-            self.model.selected = None;
+        if let Some(stretch) = &stretch {
+            self.model.drop_choice();
+            self.unselected = stretch.pass;
         }
         if let Some(replay) = &mut self.model.replay {
             replay.at = at;
@@ -335,11 +344,15 @@ impl Replay {
         // Ages are those of that moment.
         let passed = at.duration_since(shown.at.utc).try_into().unwrap_or_default();
         (model.now, model.steady) = (at, shown.at.steady + passed);
-        if model.selected_pass().is_none() {
-            let of = model.replay.as_ref().and_then(|replay| replay.stretch.pass);
-            let pass = of.and_then(|of| model.pass_of(of.satellite));
-            model.selected = pass.or_else(|| model.next_pass()).map(PredictedPass::key);
+        if !model.antennas.is_empty()
+            && let Some(pass) = self.unselected.take()
+        {
+            model.selected_antenna = model.place(pass.antenna).unwrap_or(model.selected_antenna);
+            if let Some(pass) = model.pass_of(pass.satellite).map(PredictedPass::key) {
+                model.choose_pass(pass);
+            }
         }
+        model.follow_antenna();
     }
 
     fn tell(&mut self, problem: ReplayProblem) {

@@ -87,6 +87,13 @@ impl Model {
         add_seconds(self.now, self.station.scheduling.span_h * 3600.0)
     }
 
+    /// The entry of the plan that an antenna carries out now or next.
+    pub fn next_entry(&self, antenna: AntennaId) -> Option<&Entry> {
+        let entries = self.schedule.schedule.entries.iter();
+        let own = entries.filter(|entry| entry.antenna == antenna && entry.to > self.now);
+        own.min_by_key(|entry| entry.from)
+    }
+
     /// The antennas that take a pass in the plan; the selected one where none does.
     pub fn antennas_of(&self, key: PassKey) -> Vec<AntennaId> {
         let entries = self.schedule.schedule.entries.iter();

@@ -5,6 +5,7 @@ use jiff::Timestamp;
 use crate::{
     astro::time::{add_seconds, seconds_between},
     record::{PassTimes, RecordedPass},
+    station::AntennaId,
 };
 
 /// A replay of a pass shows so much before and after it, seconds.
@@ -32,6 +33,8 @@ pub struct StretchPass {
     pub id: i64,
     /// Catalog number of the satellite.
     pub satellite: u32,
+    /// The antenna that tracked it.
+    pub antenna: AntennaId,
 }
 
 impl Stretch {
@@ -40,7 +43,11 @@ impl Stretch {
         let report = &pass.report;
         Self {
             name: report.elements.short_name().to_owned(),
-            pass: Some(StretchPass { id: pass.id, satellite: report.elements.catalog_number() }),
+            pass: Some(StretchPass {
+                id: pass.id,
+                satellite: report.elements.catalog_number(),
+                antenna: pass.antenna,
+            }),
             from: add_seconds(report.from.min(report.about.begun), -BEFORE_S),
             until: add_seconds(report.until, AFTER_S),
         }

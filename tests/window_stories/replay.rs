@@ -15,7 +15,7 @@ use azel::{
         },
     },
     record::PassTimes,
-    station,
+    station::{self, AntennaId},
 };
 use egui::{Key, Modifiers, Role};
 use egui_kittest::{
@@ -37,7 +37,7 @@ pub(crate) fn model() -> Model {
     let at = model.now;
     let stretch = Stretch {
         name: "NOAA 20".to_owned(),
-        pass: Some(StretchPass { id: 7, satellite: NOAA_20 }),
+        pass: Some(StretchPass { id: 7, satellite: NOAA_20, antenna: AntennaId(1) }),
         from: add_seconds(at, -300.0),
         until: add_seconds(at, 600.0),
     };

@@ -1,7 +1,13 @@
 //! A replay whose thread cannot be started or breaks off, and commands given in one.
 
 use super::*;
-use crate::{driver, engine::closing::CloseHow, job::InPlace};
+use crate::{
+    driver::{self, LinkState},
+    engine::{antenna::AntennaModel, closing::CloseHow},
+    job::InPlace,
+    model::replay::StretchPass,
+    station::Antenna,
+};
 
 fn replay() -> Replay {
     let at: Timestamp = "2026-11-14T19:00:00Z".parse().unwrap();
@@ -63,4 +69,59 @@ fn a_command_given_in_a_replay_ends_there() {
         assert!(!command.row().in_replay, "{command:?}");
         assert!(replay.carry_out(UiCommand::Station(command.clone())).is_none(), "{command:?}");
     }
+}
+
+/// The station of a film, with two antennas.
+fn scene(at: Timestamp) -> Scene {
+    let mut shown = Snapshot::before_anything(Moment { utc: at, steady: Instant::now() });
+    shown.antennas = ["North", "South"]
+        .into_iter()
+        .enumerate()
+        .map(|(index, name)| {
+            let id = AntennaId(10 + index as u32);
+            let config = Antenna { id, ..Antenna::satrak(name, "192.0.2.1:4001") };
+            let session = driver::Snapshot::before_anything(LinkState::Off);
+            AntennaModel::new(config, Arc::new(session))
+        })
+        .collect();
+    Scene { shown, wires: Vec::new() }
+}
+
+#[test]
+fn the_replay_of_another_report_selects_its_antenna() {
+    let mut replay = replay();
+    let at = replay.begun_at;
+    let mut turn_to = |antenna: Option<u32>| {
+        let stretch = antenna.map(|number| {
+            let antenna = AntennaId(number);
+            let pass = Some(StretchPass { id: 1, satellite: 25_544, antenna });
+            let (from, until) = (add_seconds(at, -60.0), add_seconds(at, 60.0));
+            Stretch { name: "ISS".to_owned(), pass, from, until }
+        });
+        let scene = Ok(Some(scene(at)));
+        replay.take_moment(Found { at, stretch, hole: None, skipped: None, scene });
+        replay.model.antenna().map(|antenna| antenna.config.name.clone())
+    };
+    let [north, south] = ["North", "South"].map(|name| Some(name.to_owned()));
+    assert_eq!(turn_to(Some(11)), south);
+    assert_eq!(turn_to(None), south, "another moment of the same report");
+    assert_eq!(turn_to(Some(10)), north);
+    assert_eq!(turn_to(Some(12)), north, "its antenna is no longer there");
+    assert!(replay.carry_out(UiCommand::SelectAntenna(1)).is_none());
+    let again = Found { at, stretch: None, hole: None, skipped: None, scene: Ok(Some(scene(at))) };
+    replay.take_moment(again);
+    assert_eq!(replay.model.selected_antenna, 1, "the operator chose it");
+}
+
+#[test]
+fn the_replay_of_a_report_begins_with_its_antenna() {
+    let at: Timestamp = "2026-11-14T19:00:00Z".parse().unwrap();
+    let live = Model::before_anything(Moment { utc: at, steady: Instant::now() });
+    let pass = Some(StretchPass { id: 1, satellite: 25_544, antenna: AntennaId(11) });
+    let stretch = Stretch { name: "ISS".to_owned(), pass, from: at, until: add_seconds(at, 60.0) };
+    let path = PathBuf::from("no record");
+    let mut replay = Replay::begin(path, stretch, at, &live, ui::Views::default(), Arc::new(|| {}));
+    let found = Found { at, stretch: None, hole: None, skipped: None, scene: Ok(Some(scene(at))) };
+    replay.take_moment(found);
+    assert_eq!(replay.model.selected_antenna, 1);
 }

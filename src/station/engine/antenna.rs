@@ -269,6 +269,18 @@ impl AntennaModel {
         self.tracked_number().filter(|_| !is_done)
     }
 
+    /// Begin of the track that the antenna is commanded to, at most `now` for one that runs; `None`
+    /// where that is not known.
+    pub fn track_begins(&self, now: Timestamp) -> Option<Timestamp> {
+        let snapshot = &self.snapshot;
+        if let Some(view) = &snapshot.program_track {
+            return Some(view.phase.begins(now));
+        }
+        let window = snapshot.state.on_board.window.filter(|_| self.is_program_on());
+        let target = || snapshot.target.as_ref().map(|target| target.from);
+        window.map(|(from, _)| from).or_else(target)
+    }
+
     /// Returns `true` if the antenna tracks this satellite, or is on its way to a pass of it.
     pub fn takes(&self, catalog_number: u32) -> bool {
         self.snapshot.link.is_open() && self.commanded_number() == Some(catalog_number)

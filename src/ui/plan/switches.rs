@@ -31,9 +31,7 @@ pub(in crate::ui) fn go_on(model: &Model, antenna: &AntennaModel) -> Option<Stri
     if !matches!(antenna.operation, Operation::Suspended { .. }) {
         return None;
     }
-    let entries = model.schedule.schedule.entries.iter();
-    let mut own = entries.filter(|entry| entry.antenna == antenna.id() && entry.to > model.now);
-    Some(own.next().map_or_else(
+    Some(model.next_entry(antenna.id()).map_or_else(
         || "Resume".to_owned(),
         |entry| {
             let name = words::schedule::pass_name(model, (entry.pass.satellite, entry.pass.aos));
@@ -72,9 +70,7 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> String {
 }
 
 fn next(model: &Model, antenna: &AntennaModel) -> String {
-    let entries = model.schedule.schedule.entries.iter();
-    let mut own = entries.filter(|entry| entry.antenna == antenna.id() && entry.to > model.now);
-    own.next().map_or_else(
+    model.next_entry(antenna.id()).map_or_else(
         || "On. No pass is planned.".to_owned(),
         |entry| {
             let key = (entry.pass.satellite, entry.pass.aos);
