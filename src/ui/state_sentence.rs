@@ -13,6 +13,7 @@ use super::{
     words,
 };
 use crate::{
+    astro::time::add_seconds,
     device::{JogSpeeds, Phase, Pointing},
     driver::{Intent, StopState},
     engine::{antenna::AntennaModel, passes::ListedSatellite},
@@ -153,20 +154,24 @@ fn program(model: &Model, antenna: &AntennaModel) -> Option<Spoken> {
         Phase::Tracking => Some(tracking(model, antenna, name)),
         Phase::AtStart | Phase::OutOfWindow => {
             let starts = window.map(|(start, _)| start).filter(|start| *start > model.now);
-            let spoken = Spoken::new(SentenceKind::Commanded);
             let moving = state.measured.is_some_and(|measured| measured.moving());
-            let spoken = if moving {
-                spoken.plain("Moving to the start of the pass of ").bold(name)
-            } else {
-                spoken.plain(format!("Waiting{} for ", place(antenna))).bold(name)
-            };
-            Some(match starts {
-                Some(start) => spoken.plain(format!(
-                    ". Its tracking starts at {}, in {}.",
-                    format::moment(start, model.now),
-                    format::time_left(model.now, start)
+            let spoken = Spoken::new(SentenceKind::Commanded);
+            if moving {
+                let spoken = spoken.plain("Moving to the start of the pass of ").bold(name);
+                return Some(spoken.plain(tracking_starts(model, starts)));
+            }
+            let spoken = spoken.plain(format!("Waiting{} for ", place(antenna))).bold(name);
+            let lead_s = state.on_board.offsets.map_or(0.0, |offsets| offsets.lead_s);
+            let moves = starts.filter(|_| program.phase == Phase::OutOfWindow);
+            let moves = moves.map(|start| (start, add_seconds(start, -lead_s)));
+            Some(match moves.filter(|(_, at)| lead_s > 0.0 && *at > model.now) {
+                Some((start, at)) => spoken.plain(format!(
+                    ". The antenna moves to the start at {}, in {}, and tracks from {}.",
+                    format::moment(at, model.now),
+                    format::time_left(model.now, at),
+                    format::moment(start, model.now)
                 )),
-                None => spoken.plain(". Its tracking window is not open."),
+                None => spoken.plain(tracking_starts(model, starts)),
             })
         }
         Phase::Completed => Some(
@@ -182,6 +187,17 @@ fn program(model: &Model, antenna: &AntennaModel) -> Option<Spoken> {
                 .plain("."),
         ),
     }
+}
+
+/// The rest of a sentence about an antenna that a unit sends to a pass.
+fn tracking_starts(model: &Model, starts: Option<Timestamp>) -> String {
+    starts.map_or_else(
+        || ". Its tracking window is not open.".to_owned(),
+        |start| {
+            let left = format::time_left(model.now, start);
+            format!(". Its tracking starts at {}, in {left}.", format::moment(start, model.now))
+        },
+    )
 }
 
 fn tracking(model: &Model, antenna: &AntennaModel, name: &str) -> Spoken {

@@ -4,7 +4,7 @@ use std::{sync::Arc, time::Duration};
 
 use azel::{
     astro::{AzEl, time::add_seconds},
-    device::{Asked, AxisMotion, Motion, Phase, PrepareError},
+    device::{Asked, AxisMotion, Motion, Offsets, Phase, PrepareError},
     driver::{Event, Found, Intent, LinkLoss, LinkState, Refusal, Snapshot, StopState},
     engine::{
         claim::{HeldBy, Holder, HolderKind},
@@ -100,6 +100,26 @@ fn before_and_after_the_pass_it_says_where_it_waits_and_holds() {
         ),
     ] {
         assert_eq!(told(states::program(phase, motion), unchanged), wanted);
+    }
+}
+
+#[test]
+fn before_the_lead_of_the_unit_it_says_when_the_antenna_will_move() {
+    let waiting = |phase, lead_s| {
+        let mut snapshot = states::program(phase, AxisMotion::Still);
+        snapshot.state.on_board.offsets = Some(Offsets { lead_s, ..Offsets::default() });
+        told(snapshot, unchanged)
+    };
+    let tracks = "Waiting at 205.0°, 5.0° for NOAA 20. Its tracking starts at 11:18:42Z, in 3:12.";
+    assert_eq!(
+        waiting(Phase::OutOfWindow, 60.0),
+        "Waiting at 205.0°, 5.0° for NOAA 20. The antenna moves to the start at 11:17:42Z, in 2:12, \
+         and tracks from 11:18:42Z."
+    );
+    for (phase, lead_s) in
+        [(Phase::AtStart, 60.0), (Phase::OutOfWindow, 0.0), (Phase::OutOfWindow, 600.0)]
+    {
+        assert_eq!(waiting(phase, lead_s), tracks, "{phase:?}, {lead_s} s");
     }
 }
 
