@@ -1,5 +1,6 @@
 //! The card of the selected antenna: its activity, its position and its controls.
 
+mod automatic;
 mod drive;
 mod faults;
 mod follow;
@@ -31,6 +32,7 @@ use super::{
         fold::Fold,
         go_to::Target,
         hold_button::HoldState,
+        link_chip::AutomaticModel,
         mode_selector::{self, ModeModel},
         paint,
         sentence::{self, Sentence},
@@ -76,6 +78,10 @@ pub struct CardModel<'a> {
     pub sentence: Sentence<'a>,
     /// The target tracked until STOP, offered to be tracked again.
     pub offer: Option<Offer<'a>>,
+    /// Automatic operation; none while it is off.
+    pub automatic: Option<AutomaticModel<'a>>,
+    /// The button that lets suspended automatic operation go on.
+    pub go_on: Option<&'a str>,
     pub axes: AxesTable<'a>,
     /// Pointing error and beam; none if the antenna has no demanded direction.
     pub beam: Option<BeamModel>,
@@ -290,6 +296,7 @@ fn fill(
         offer::show(ui, block, offer, actions);
     }
     at.y = block.bottom() + if short { 6.0 } else { 10.0 };
+    automatic::show(ui, &mut at, model, actions);
     if let Some(lock_out) = &model.lock_out {
         lock_out::band(ui, at.take(button::HEIGHT), lock_out, actions);
         at.skip(6.0);

@@ -7,7 +7,7 @@ use super::{
     top_bar::{ClockHealth, ClockModel, ClockMood, StopLeftOut, TopBarModel},
     widgets::{
         alarm_list::{AlarmModel, AlarmRow, Section},
-        link_chip::{AutomaticTag, ChipModel, LinkGlyph},
+        link_chip::{AutomaticModel, ChipModel, LinkGlyph},
         stop_button::StopLook,
     },
     words,
@@ -32,23 +32,21 @@ pub fn show(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand
     let coordinates = coordinates(site.latitude().degrees(), site.longitude().degrees());
 
     let ages: Vec<String> = model.antennas.iter().map(|antenna| age(model, antenna)).collect();
+    let automatic: Vec<Option<String>> =
+        model.antennas.iter().map(|antenna| words::automatic::in_full(model, antenna)).collect();
     let chips: Vec<ChipModel<'_>> = model
         .antennas
         .iter()
-        .zip(&ages)
+        .zip(ages.iter().zip(&automatic))
         .enumerate()
-        .map(|(index, (antenna, age))| ChipModel {
+        .map(|(index, (antenna, (age, words)))| ChipModel {
             name: &antenna.config.name,
             link: glyph(antenna),
             activity: activity(antenna),
             age,
             selected: index == model.selected_antenna,
             maintenance: antenna.snapshot.lock_out.is_some(),
-            automatic: match antenna.operation {
-                Operation::Off(_) => None,
-                Operation::On(_) => Some(AutomaticTag::On),
-                Operation::Suspended { .. } => Some(AutomaticTag::Suspended),
-            },
+            automatic: words.as_deref().map(|words| automatic_model(antenna, words)),
         })
         .collect();
 
@@ -224,6 +222,12 @@ pub fn age(model: &Model, antenna: &AntennaModel) -> String {
     last.map_or_else(String::new, |last| {
         format::age(model.steady.saturating_duration_since(last).as_secs_f64())
     })
+}
+
+/// Automatic operation of an antenna, in these words.
+pub fn automatic_model<'a>(antenna: &AntennaModel, words: &'a str) -> AutomaticModel<'a> {
+    let is_suspended = matches!(antenna.operation, Operation::Suspended { .. });
+    AutomaticModel { is_suspended, words }
 }
 
 /// Activity of an antenna in one or two words.

@@ -8,7 +8,7 @@ mod lanes;
 mod legend;
 mod list;
 mod state;
-pub(super) mod switches;
+mod switches;
 
 use egui::{EventFilter, Rect, Response, Ui};
 use jiff::Timestamp;

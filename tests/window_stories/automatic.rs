@@ -1,6 +1,29 @@
 //! Automatic operation in Operate and in the lanes of the plan.
 
-use azel::engine::automatic::{Doing, Operation};
+use std::sync::Arc;
+
+use azel::{
+    astro::time::add_seconds,
+    driver::{LinkLoss, LinkState},
+    engine::{
+        Command,
+        automatic::{Doing, Interruption, OffBecause, Operation, Taking},
+    },
+    model::{Model, UiCommand, View},
+};
+use egui::Role;
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
+
+use crate::window_stories::{
+    every_view::painted,
+    extremes::{nothing_is_cut, nothing_overlaps},
+    plan,
+    rig::{self, LARGE, SIZES, SMALL, Window, settle},
+    wide::three,
+};
+
+const INTERRUPTIONS: [Interruption; 4] =
+    [Interruption::ByHand, Interruption::Elsewhere, Interruption::EndedByUnit, Interruption::Clock];
 
 /// Automatic operation that is on.
 pub(crate) fn on(doing: &Doing) -> Operation {
@@ -8,4 +31,173 @@ pub(crate) fn on(doing: &Doing) -> Operation {
         "on": { "doing": doing, "failures": 0, "moved_at": null, "moves_since": null }
     });
     serde_json::from_value(on).unwrap()
+}
+
+fn suspended(by: Interruption) -> Operation {
+    Operation::Suspended { by, since: rig::now() }
+}
+
+/// Three antennas, of which the first has this operation and a plan.
+pub(crate) fn scene(operation: Operation) -> Model {
+    let mut model = three();
+    model.schedule = Arc::new(plan::planned(&model));
+    // The pass that is up is not its own.
+    let schedule = &mut Arc::make_mut(&mut model.schedule).schedule;
+    schedule.entries.retain(|entry| entry.from > rig::now());
+    model.antennas[0].operation = operation;
+    model
+}
+
+pub(crate) fn suspended_scene() -> Model {
+    scene(suspended(Interruption::Clock))
+}
+
+/// The pass under way, taken until 11:21:27Z.
+fn taking(proved: bool) -> Doing {
+    let model = rig::model(rig::quiet());
+    let noaa_20 = model.pass_of(rig::NOAA_20).unwrap();
+    let taking: Taking = serde_json::from_value(serde_json::json!({
+        "pass": noaa_20.key(),
+        "from": noaa_20.pass.aos.time,
+        "until": noaa_20.pass.los.time,
+        "asked_at": add_seconds(model.now, -70.0),
+        "requests": 1,
+        "attempt": "begun",
+        "proved_at": proved.then(|| add_seconds(model.now, -60.0)),
+        "given_up": null,
+    }))
+    .unwrap();
+    Doing::Takes(taking)
+}
+
+fn announces() -> Doing {
+    let model = scene(on(&Doing::Rests));
+    let next = model.next_entry(model.antennas[0].id()).unwrap();
+    let pass = (next.pass.satellite, next.pass.aos);
+    Doing::Announces { moves_at: add_seconds(model.now, 7.0), pass }
+}
+
+/// The words of automatic operation on the card, as they are painted.
+fn on_card(window: &Window) -> String {
+    let node = window.get_by_label_contains("Automatic operation: ");
+    let label = node.accesskit_node().value().unwrap();
+    let words = label.strip_prefix("Automatic operation: ").unwrap().to_owned();
+    assert!(painted::texts(window).contains(&words), "{words}");
+    let cut = painted::cut(window);
+    assert!(!cut.contains(&words), "{words}");
+    words
+}
+
+fn tags(window: &Window) -> usize {
+    painted::texts(window).iter().filter(|text| *text == "AUTO").count()
+}
+
+#[test]
+fn chip_and_card_say_at_every_size_what_comes_next_and_when() {
+    for size in [SMALL, LARGE, [1920.0, 1080.0]] {
+        for (doing, told) in [
+            (Doing::Rests, "Next at 12:31:57Z: SUOMI NPP. Loads 12:30:04Z, in 1:14:34."),
+            (Doing::Parks, "Parks. Next at 12:31:57Z: SUOMI NPP. Loads 12:30:04Z, in 1:14:34."),
+            (announces(), "Moves at 11:15:37Z, in 0:07 unless you press STOP: SUOMI NPP."),
+            (taking(false), "Sent 11:14:20Z, not verified yet: NOAA 20."),
+            (taking(true), "Takes NOAA 20 until 11:21:26Z, then SUOMI NPP at 12:31:57Z."),
+        ] {
+            let window = rig::window(size, scene(on(&doing)));
+            assert_eq!(on_card(&window), told, "{size:?}");
+            assert_eq!(tags(&window), 2, "{size:?}: on the chip and on the card");
+            nothing_is_cut(&window, size);
+            nothing_overlaps(&window);
+        }
+        let window = rig::window(size, scene(Operation::Off(OffBecause::NotSwitchedOn)));
+        assert_eq!(tags(&window), 0);
+    }
+}
+
+#[test]
+fn a_suspension_is_told_with_its_reason_and_its_button_at_every_size() {
+    for size in [SMALL, LARGE, [1920.0, 1080.0]] {
+        for by in INTERRUPTIONS {
+            let mut window = rig::window(size, scene(suspended(by)));
+            assert!(on_card(&window).starts_with("Suspended. The "), "{size:?}");
+            assert_eq!(tags(&window), 2);
+            nothing_is_cut(&window, size);
+            nothing_overlaps(&window);
+            window.state_mut().commands.clear();
+            let label = "Go on with SUOMI NPP, 12:31:57Z: automatic operation is suspended";
+            let button = window.get_by_role_and_label(Role::Button, label);
+            assert!(button.rect().bottom() <= size[1]);
+            button.click();
+            let id = window.state().model.antennas[0].id();
+            assert_eq!(rig::asked(&mut window), [UiCommand::Station(Command::GoOn(id))]);
+        }
+    }
+}
+
+#[test]
+fn nothing_below_moves_while_the_words_change() {
+    for size in SIZES {
+        let places = [Doing::Rests, announces(), taking(false), taking(true)].map(|doing| {
+            let window = rig::window(size, scene(on(&doing)));
+            window.get_all_by_role_and_label(Role::RadioButton, "Standby").next().unwrap().rect()
+        });
+        assert!(places.iter().all(|place| *place == places[0]), "{size:?}: {places:?}");
+    }
+}
+
+#[test]
+fn a_chip_keeps_its_tag_while_the_unit_does_not_answer() {
+    let mut model = scene(on(&Doing::Rests));
+    let since = rig::ago(&model, 14);
+    Arc::make_mut(&mut model.antennas[0].snapshot).link =
+        LinkState::Lost { since, reason: LinkLoss::Closed, retry_at: since };
+    let window = rig::window(SMALL, model);
+    assert_eq!(tags(&window), 2);
+    assert!(painted::texts(&window).iter().any(|text| text == "14 s ago"));
+}
+
+#[test]
+fn the_label_of_a_lane_cuts_no_time_and_its_button_lies_beside_the_bars() {
+    for size in SIZES {
+        let doings = [Doing::Rests, Doing::Parks, announces(), taking(false), taking(true)];
+        let operations = doings.iter().map(on).chain(INTERRUPTIONS.map(suspended));
+        for operation in operations {
+            let is_suspended = !operation.is_on();
+            let mut model = scene(operation);
+            model.view = View::Plan;
+            let mut window = rig::window(size, model);
+            let cut = painted::cut(&window);
+            let is_of_lane =
+                |words: &&String| words.starts_with("On. ") || words.starts_with("Suspended");
+            assert!(!cut.iter().any(|words| is_of_lane(&words)), "{size:?}: {cut:?}");
+            nothing_overlaps(&window);
+            if !is_suspended {
+                continue;
+            }
+            let label = "Go on with SUOMI NPP, 12:31:57Z";
+            let button = window.get_by_role_and_label(Role::Button, label).rect();
+            for bar in window.query_all_by_role(Role::ListBoxOption) {
+                let name = bar.accesskit_node().label().unwrap_or_default();
+                let is_apart = bar.rect().left() > button.right();
+                assert!(is_apart || !name.contains(" with Satrak, "), "{size:?}: {name}");
+            }
+            window.state_mut().commands.clear();
+            window.get_by_role_and_label(Role::Button, label).click();
+            settle(&mut window);
+            let id = window.state().model.antennas[0].id();
+            let go_on = UiCommand::Station(Command::GoOn(id));
+            assert!(window.state().commands.contains(&go_on), "{size:?}");
+        }
+    }
+}
+
+#[test]
+fn a_long_name_in_a_lane_is_cut_after_its_time() {
+    let mut model = scene(on(&Doing::Rests));
+    model.view = View::Plan;
+    // The name of a satellite that no list knows is its number.
+    let entry = &mut Arc::make_mut(&mut model.schedule).schedule.entries[0];
+    entry.pass.satellite = 799_999_999;
+    let window = rig::window(LARGE, model);
+    let texts = painted::texts(&window);
+    assert!(texts.iter().any(|text| text == "On. Next 12:31:57Z: 799999999."), "{texts:?}");
 }

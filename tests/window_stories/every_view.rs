@@ -18,7 +18,7 @@ use std::{collections::BTreeMap, sync::Arc};
 use azel::{
     astro::time::add_seconds,
     driver::{Intent, LinkLoss, LinkState, Snapshot},
-    engine::{self, alarms::AlarmKind},
+    engine::{self, alarms::AlarmKind, automatic::Doing},
     model::{DistanceUnit, Model, UiCommand, View},
     station::AntennaId,
 };
@@ -27,7 +27,7 @@ use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use jiff::Timestamp;
 
 use crate::window_stories::{
-    closing, console, elements, horizon, maintenance, makes, plan,
+    automatic, closing, console, elements, horizon, maintenance, makes, plan,
     preferences::{self, write},
     preferences_rules, record,
     rig::{self, LARGE, SMALL, Window, asked, settle},
@@ -55,9 +55,15 @@ const fn named(name: &'static str, open: fn([f32; 2]) -> Window) -> Scene {
     Scene { name, open }
 }
 
-pub(crate) const SCENES: [Scene; 49] = [
+pub(crate) const SCENES: [Scene; 51] = [
     named("Operate, tracking", |size| rig::window(size, rig::model(states::tracking(0.04)))),
     named("Operate, three antennas of the demo", |size| rig::window(size, demo())),
+    named("Operate, automatic operation", |size| {
+        rig::window(size, automatic::scene(automatic::on(&Doing::Rests)))
+    }),
+    named("Operate, suspended automatic operation", |size| {
+        rig::window(size, automatic::suspended_scene())
+    }),
     named("Operate, jog", |size| rig::window(size, rig::model(states::manual()))),
     named("Operate, a pair of rotators", |size| {
         rig::window(size, makes::model(makes::pair(), makes::pair_at(Intent::Position)))

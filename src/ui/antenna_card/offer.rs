@@ -22,8 +22,6 @@ pub enum Offer<'a> {
     TrackAgain(&'a str),
     /// The unit tracks it by itself.
     TakeOver(&'a str),
-    /// Automatic operation is suspended; it would go on with this pass.
-    GoOn(&'a str),
     /// The unit still adds these offsets of an earlier pass.
     TakeBack(&'a str),
 }
@@ -43,12 +41,6 @@ pub(super) fn show(ui: &Ui, block: Rect, offer: Offer<'_>, actions: &mut Vec<Car
             "Track again",
             format!("Track {name} again"),
             CardAction::TrackAgain,
-        ),
-        Offer::GoOn(pass) => (
-            "Suspended.".to_owned(),
-            pass,
-            format!("{pass}: automatic operation is suspended"),
-            CardAction::GoOn,
         ),
         Offer::TakeBack(added) => (
             format!("Left on the unit: {added}."),

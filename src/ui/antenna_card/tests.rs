@@ -125,6 +125,8 @@ fn model() -> CardModel<'static> {
         asks_unseen: None,
         way_out: None,
         offer: None,
+        automatic: None,
+        go_on: None,
         live: None,
         others: &[],
     }

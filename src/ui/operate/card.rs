@@ -29,9 +29,7 @@ use crate::{
         bar,
         confirm::Question,
         dialogs::MaintenanceDialog,
-        format,
-        plan::switches,
-        replay,
+        format, replay,
         state_sentence::{short, state_sentence},
         text, theme,
         widgets::{
@@ -86,10 +84,10 @@ pub(super) fn show(
     let asks_unseen = antenna.asks_unseen.as_ref().and_then(|act| make.action(act.action));
     let note = snapshot.sun_lifted.then(|| words::SUN_IS_LIFTED.to_owned()).or(note);
     let asks_standing = words::asks_standing(snapshot, model.now);
-    let way_out = way_out(antenna);
     let sun_avoidance = sun_avoidance(model, antenna);
-    let parks_at = words::parks_at(antenna);
-    let go_on = switches::go_on(model, antenna);
+    let (parks_at, way_out) = (words::parks_at(antenna), way_out(antenna));
+    let go_on = words::automatic::go_on(model, antenna);
+    let automatic = words::automatic::in_full(model, antenna);
     let offsets = CardOffsets::of(model, antenna);
     state_sentence(model, antenna).with(|sentence| {
         let card = CardModel {
@@ -103,7 +101,9 @@ pub(super) fn show(
                 recorded: recorded.as_deref(),
             },
             sentence: *sentence,
-            offer: offer(antenna, go_on.as_deref(), offsets.left()),
+            offer: offer(antenna, offsets.left()),
+            automatic: automatic.as_deref().map(|words| bar::automatic_model(antenna, words)),
+            go_on: go_on.as_deref(),
 
             axes: AxesTable {
                 wanted,
@@ -183,13 +183,8 @@ pub(super) fn none(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<Ui
     }
 }
 
-/// The line below the sentence: offsets to take back, a track to take up again or to take over, or
-/// automatic operation that is suspended.
-fn offer<'a>(
-    antenna: &'a AntennaModel,
-    go_on: Option<&'a str>,
-    left: Option<&'a str>,
-) -> Option<Offer<'a>> {
+/// The line below the sentence: offsets to take back, or a track to take up again or to take over.
+fn offer<'a>(antenna: &'a AntennaModel, left: Option<&'a str>) -> Option<Offer<'a>> {
     if let Some(added) = left {
         return Some(Offer::TakeBack(added));
     }
@@ -197,7 +192,7 @@ fn offer<'a>(
     let name = antenna.tracked_name().filter(|_| antenna.tracks_unasked());
     // Where the elements are not known here, there is nothing to watch it by.
     let taken = name.filter(|_| antenna.snapshot.on_board.is_some());
-    again.or(taken.map(|name| Offer::TakeOver(short(name)))).or(go_on.map(Offer::GoOn))
+    again.or(taken.map(|name| Offer::TakeOver(short(name))))
 }
 
 fn lock_out(snapshot: &Snapshot) -> Option<LockOutModel<'_>> {

@@ -176,9 +176,11 @@ fn label(
     let choose = rect.with_max_x(switch.left() - 8.0);
     let id = ui.make_persistent_id(("plan lane", antenna.id().0));
     let response = ui.interact(choose, id, Sense::click());
-    let standing = switches::sentence(model, antenna);
-    let spoken = format!("{name}. {standing}");
-    response.widget_info(|| WidgetInfo::selected(Role::RadioButton, true, is_chosen, &spoken));
+    let standing = words::automatic::in_short(model, antenna);
+    let whole = words::automatic::in_full(model, antenna);
+    let spoken = format!("{name}. {standing} {}", whole.unwrap_or_default());
+    let spoken = spoken.trim_end();
+    response.widget_info(|| WidgetInfo::selected(Role::RadioButton, true, is_chosen, spoken));
     if is_chosen {
         ui.painter().rect_filled(rect, 0.0, t.bgsel);
         ui.painter().rect_filled(rect.with_max_x(rect.left() + 3.0), 0.0, t.sat);
@@ -196,7 +198,11 @@ fn label(
         Operation::Suspended { .. } => t.warn,
         _ => t.t2,
     };
-    paint::text_in(ui, second, Align2::LEFT_CENTER, &standing, text::small(), colour);
+    let resume = words::automatic::go_on(model, antenna);
+    let key = Button::primary(words::automatic::RESUME).locked(model.replay.is_some());
+    let taken = if resume.is_some() { key.width(ui) + 8.0 } else { 0.0 };
+    let room = second.with_max_x(second.right() - taken);
+    paint::text_in(ui, room, Align2::LEFT_CENTER, &standing, text::small(), colour);
     let word = first.with_max_x(switch.left() - 6.0);
     paint::text_in(ui, word, Align2::RIGHT_CENTER, "automatic", text::small(), t.t3);
     if response.clicked() {
@@ -204,6 +210,16 @@ fn label(
     }
     paint::focus_ring(ui, &response, 2);
     response.on_hover_text(spoken);
+    if let Some(words) = resume {
+        let place = second.with_min_x(room.right() + 8.0);
+        let shown = key.show(ui, ("go on", antenna.id().0), place);
+        let is_enabled = model.replay.is_none();
+        shown.widget_info(|| WidgetInfo::labeled(Role::Button, is_enabled, &words));
+        if shown.clicked() {
+            commands.push(UiCommand::Station(engine::Command::GoOn(antenna.id())));
+        }
+        shown.on_hover_text(words);
+    }
     switches::show(ui, switch, model, antenna, state, commands);
 }
 
@@ -248,15 +264,6 @@ fn lane(
         before = entry.to;
     }
     names(ui, place, &bars);
-    if let Some(words) = switches::go_on(model, antenna) {
-        let button = Button::primary(&words).locked(model.replay.is_some());
-        let width = button.width(ui).min(place.width() - 16.0);
-        let min = pos2(place.right() - width - 8.0, place.center().y - 12.0);
-        let rect = Rect::from_min_size(min, vec2(width, 24.0));
-        if button.show(ui, ("go on", id.0), rect).clicked() {
-            commands.push(UiCommand::Station(engine::Command::GoOn(id)));
-        }
-    }
     if entries.is_empty() {
         let words = if antenna.snapshot.lock_out.is_some() {
             "Locked out: nothing is planned."

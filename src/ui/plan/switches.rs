@@ -4,16 +4,11 @@ use egui::{Rect, Role, Stroke, StrokeKind, Ui, WidgetInfo, pos2, vec2};
 
 use super::PlanState;
 use crate::{
-    engine::{
-        self,
-        antenna::AntennaModel,
-        automatic::{Doing, OffBecause, On, Operation},
-    },
+    engine::{self, antenna::AntennaModel, automatic::Operation},
     model::{Model, UiCommand},
     ui::{
-        format, replay, theme,
+        replay, theme,
         widgets::{hold_button, paint},
-        words,
     },
 };
 
@@ -24,60 +19,6 @@ const HEIGHT: f32 = 20.0;
 pub(super) fn place(label: Rect) -> Rect {
     let min = pos2(label.right() - 12.0 - WIDTH, label.top() + 7.0);
     Rect::from_min_size(min, vec2(WIDTH, HEIGHT))
-}
-
-/// The words of the button that lets a suspended antenna go on, with its next pass.
-pub(in crate::ui) fn go_on(model: &Model, antenna: &AntennaModel) -> Option<String> {
-    if !matches!(antenna.operation, Operation::Suspended { .. }) {
-        return None;
-    }
-    Some(model.next_entry(antenna.id()).map_or_else(
-        || "Resume".to_owned(),
-        |entry| {
-            let name = words::schedule::pass_name(model, (entry.pass.satellite, entry.pass.aos));
-            format!("Go on with {name}, {}", format::moment(entry.from, model.now))
-        },
-    ))
-}
-
-/// How automatic operation of an antenna stands, and what comes next.
-pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> String {
-    match &antenna.operation {
-        Operation::Off(OffBecause::NotSwitchedOn | OffBecause::Operator) => "Off.".to_owned(),
-        Operation::Off(because) => format!("Off. {}", words::automatic::off(*because)),
-        Operation::Suspended { by, .. } => {
-            format!("Suspended. {}", words::automatic::interruption(*by))
-        }
-        Operation::On(On { doing, .. }) => match doing {
-            Doing::Announces { moves_at, .. } => {
-                format!(
-                    "On. Moves at {} unless you press STOP.",
-                    format::moment(*moves_at, model.now)
-                )
-            }
-            Doing::Parks => "On. Parks until the next pass.".to_owned(),
-            Doing::Takes(taking) => {
-                let name = words::schedule::pass_name(model, taking.pass);
-                let proved = taking.proved_at.map_or_else(
-                    || format!("sent {}", format::moment(taking.asked_at, model.now)),
-                    |at| format!("verified {}", format::moment(at, model.now)),
-                );
-                format!("On. {name}, {proved}.")
-            }
-            Doing::Rests => next(model, antenna),
-        },
-    }
-}
-
-fn next(model: &Model, antenna: &AntennaModel) -> String {
-    model.next_entry(antenna.id()).map_or_else(
-        || "On. No pass is planned.".to_owned(),
-        |entry| {
-            let key = (entry.pass.satellite, entry.pass.aos);
-            let name = words::schedule::pass_name(model, key);
-            format!("On. Next {name}, {}.", format::moment(entry.from, model.now))
-        },
-    )
 }
 
 /// Draws the switch. Off takes a click; on has to be held for a second.

@@ -1,6 +1,8 @@
 //! An antenna in the top bar: its link and its activity.
 
-use egui::{Align2, Color32, Rect, Response, Role, Sense, Stroke, StrokeKind, Ui, pos2, vec2};
+use egui::{
+    Align2, Color32, Rect, Response, Role, Sense, Stroke, StrokeKind, Ui, Vec2, pos2, vec2,
+};
 
 use super::paint;
 use crate::ui::{
@@ -11,8 +13,8 @@ use crate::ui::{
 };
 
 const RADIUS: u8 = 6;
-/// Width of the tag of automatic operation.
-const TAG_WIDTH: f32 = 38.0;
+/// Size of the tag of automatic operation.
+pub const TAG: Vec2 = vec2(38.0, 16.0);
 pub const TWO_LINES_WIDTH: f32 = 144.0;
 
 /// State of the link to a unit. Each has its own shape.
@@ -75,14 +77,15 @@ pub struct ChipModel<'a> {
     /// The antenna is locked out for maintenance.
     pub maintenance: bool,
     /// `None` while automatic operation is off.
-    pub automatic: Option<AutomaticTag>,
+    pub automatic: Option<AutomaticModel<'a>>,
 }
 
-/// How automatic operation stands, while it is not off.
+/// Automatic operation while it is not off.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum AutomaticTag {
-    On,
-    Suspended,
+pub struct AutomaticModel<'a> {
+    pub is_suspended: bool,
+    /// What it does next and when, or why it is suspended.
+    pub words: &'a str,
 }
 
 /// An activity with the age of the last good reply, or how long there has been none.
@@ -112,12 +115,28 @@ impl ChipModel<'_> {
         match form {
             ChipForm::TwoLines => TWO_LINES_WIDTH,
             ChipForm::OneLine => {
-                let age = paint::text_width(ui, &ago(self.age), text::small());
+                let age = paint::text_width(ui, &self.short_age(), text::small());
                 let age = if self.maintenance { age.max(12.0) } else { age };
-                (26.0 + name + 6.0 + age + 10.0).ceil()
+                (26.0 + name + self.tag_width() + 6.0 + age + 10.0).ceil()
             }
             ChipForm::Name => {
-                (26.0 + name + 10.0 + if self.maintenance { 18.0 } else { 0.0 }).ceil()
+                let lock = if self.maintenance { 18.0 } else { 0.0 };
+                (26.0 + name + self.tag_width() + 10.0 + lock).ceil()
+            }
+        }
+    }
+
+    /// Width of the tag beside the name, with the gap before it.
+    fn tag_width(&self) -> f32 {
+        if self.automatic.is_some() { 6.0 + TAG.x } else { 0.0 }
+    }
+
+    /// The age in one line; the tag has its place while the unit answers.
+    fn short_age(&self) -> String {
+        match (self.automatic, self.link) {
+            (Some(_), LinkGlyph::Live) => String::new(),
+            (None, LinkGlyph::Live) | (_, LinkGlyph::Late | LinkGlyph::Lost | LinkGlyph::Off) => {
+                ago(self.age)
             }
         }
     }
@@ -130,8 +149,8 @@ pub fn show(ui: &Ui, rect: Rect, model: &ChipModel<'_>, form: ChipForm) -> Respo
     response.widget_info(|| {
         let automatic = match model.automatic {
             None => "",
-            Some(AutomaticTag::On) => ", automatic operation",
-            Some(AutomaticTag::Suspended) => ", automatic operation suspended",
+            Some(AutomaticModel { is_suspended: false, .. }) => ", automatic operation",
+            Some(AutomaticModel { is_suspended: true, .. }) => ", automatic operation suspended",
         };
         let name = format!("{}: {second}, link {}{automatic}", model.name, model.link.word());
         egui::WidgetInfo::selected(Role::Button, true, model.selected, name)
@@ -160,10 +179,9 @@ pub fn show(ui: &Ui, rect: Rect, model: &ChipModel<'_>, form: ChipForm) -> Respo
         let room = rect.with_min_x(rect.left() + 34.0).with_max_x(rect.right() - 6.0);
         let lock = if model.maintenance { 14.0 } else { 0.0 };
         let mut first = room.translate(vec2(0.0, -7.0)).with_max_x(room.right() - lock);
-        if let Some(tag) = model.automatic {
-            let size = vec2(TAG_WIDTH, 16.0);
-            let min = pos2(first.right() - TAG_WIDTH, first.center().y - 8.0);
-            automatic_tag(ui, Rect::from_min_size(min, size), tag);
+        if let Some(automatic) = model.automatic {
+            let min = pos2(first.right() - TAG.x, first.center().y - TAG.y / 2.0);
+            automatic_tag(ui, Rect::from_min_size(min, TAG), automatic.is_suspended);
             first = first.with_max_x(min.x - 4.0);
         }
         paint::text_in(ui, first, Align2::LEFT_CENTER, model.name, strong, t.t1);
@@ -174,27 +192,33 @@ pub fn show(ui: &Ui, rect: Rect, model: &ChipModel<'_>, form: ChipForm) -> Respo
         icons::paint(ui.painter(), glyph, icon, colour);
         let room = rect.with_min_x(rect.left() + 26.0).with_max_x(rect.right() - 6.0);
         let name = paint::text_in(ui, room, Align2::LEFT_CENTER, model.name, strong, t.t1);
+        let mut end = name.right();
+        if let Some(automatic) = model.automatic {
+            let min = pos2(end + 6.0, centre - TAG.y / 2.0);
+            automatic_tag(ui, Rect::from_min_size(min, TAG), automatic.is_suspended);
+            end = min.x + TAG.x;
+        }
         if form == ChipForm::OneLine && !model.maintenance {
-            let room = room.with_min_x(name.right() + 6.0);
-            paint::text_in(ui, room, Align2::LEFT_CENTER, &ago(model.age), text::small(), t.t3);
+            let (room, age) = (room.with_min_x(end + 6.0), model.short_age());
+            paint::text_in(ui, room, Align2::LEFT_CENTER, &age, text::small(), t.t3);
         }
     }
     paint::focus_ring(ui, &response, RADIUS);
-    response
+    match model.automatic {
+        Some(automatic) => response.on_hover_text(automatic.words),
+        None => response,
+    }
 }
 
-fn automatic_tag(ui: &Ui, rect: Rect, tag: AutomaticTag) {
+/// Paints the tag of automatic operation, dashed while that is suspended.
+pub fn automatic_tag(ui: &Ui, rect: Rect, is_suspended: bool) {
     let t = theme::tokens(ui);
-    let colour = match tag {
-        AutomaticTag::On => {
-            ui.painter().rect_stroke(rect, 3.0, Stroke::new(1.0, t.t2), StrokeKind::Inside);
-            t.t2
-        }
-        AutomaticTag::Suspended => {
-            paint::dashed_border(ui, rect, 3.0, Stroke::new(1.0, t.warn));
-            t.warn
-        }
-    };
+    let colour = if is_suspended { t.warn } else { t.t2 };
+    if is_suspended {
+        paint::dashed_border(ui, rect, 3.0, Stroke::new(1.0, colour));
+    } else {
+        ui.painter().rect_stroke(rect, 3.0, Stroke::new(1.0, colour), StrokeKind::Inside);
+    }
     let font = text::sized(11.0, Weight::Medium);
     paint::text(ui, rect.center(), Align2::CENTER_CENTER, "AUTO", font, colour);
 }

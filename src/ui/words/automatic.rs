@@ -2,15 +2,22 @@
 
 use jiff::Timestamp;
 
-use super::clock;
+use super::{clock, schedule};
 use crate::{
-    engine::automatic::{
-        DayEvent, DayLine, Doing, Flown, GivenUp, Interruption, MissCause, NotReady, OffBecause,
-        On, Operation,
+    engine::{
+        antenna::AntennaModel,
+        automatic::{
+            DayEvent, DayLine, Doing, Flown, GivenUp, Interruption, MissCause, NotReady,
+            OffBecause, On, Operation, Taking, between, sets_out,
+        },
     },
-    plan::pass_report::LossCause,
+    model::Model,
+    plan::{pass_report::LossCause, schedule::Entry},
     ui::format,
 };
+
+/// Lets a suspended antenna go on, where its next pass has no room or is not known.
+pub const RESUME: &str = "Resume";
 
 /// Why automatic operation of an antenna is off, as a sentence.
 pub fn off(because: OffBecause) -> &'static str {
@@ -51,6 +58,125 @@ pub fn not_ready(why: NotReady) -> &'static str {
         }
         NotReady::NoPosition => "The unit reports no position. Check the sensors.",
     }
+}
+
+/// Who interrupted it, in two or three words.
+fn suspended(by: Interruption) -> &'static str {
+    match by {
+        Interruption::ByHand => "Suspended by hand.",
+        Interruption::Elsewhere => "Suspended by others.",
+        Interruption::EndedByUnit => "Suspended by the unit.",
+        Interruption::Clock => "Suspended: clock.",
+    }
+}
+
+fn name_of(model: &Model, entry: &Entry) -> String {
+    schedule::satellite_name(model, entry.pass.satellite)
+}
+
+/// How automatic operation of an antenna stands, in one line. A time stands before a name, which may
+/// be cut.
+pub fn in_short(model: &Model, antenna: &AntennaModel) -> String {
+    let moment = |at| format::moment(at, model.now);
+    match &antenna.operation {
+        Operation::Off(OffBecause::NotSwitchedOn | OffBecause::Operator) => "Off.".to_owned(),
+        Operation::Off(because) => format!("Off. {}", off(*because)),
+        Operation::Suspended { by, .. } => suspended(*by).to_owned(),
+        Operation::On(On { doing, .. }) => match doing {
+            Doing::Announces { moves_at, .. } => {
+                format!("On. Moves {} unless STOP.", moment(*moves_at))
+            }
+            Doing::Parks => "On. Parks until the next pass.".to_owned(),
+            Doing::Takes(Taking { pass, asked_at, proved_at, .. }) => {
+                let name = schedule::pass_name(model, *pass);
+                match proved_at {
+                    None => format!("On. Sent {}: {name}.", moment(*asked_at)),
+                    Some(at) => format!("On. Verified {}: {name}.", moment(*at)),
+                }
+            }
+            Doing::Rests => model.next_entry(antenna.id()).map_or_else(
+                || "On. No pass is planned.".to_owned(),
+                |next| format!("On. Next {}: {}.", moment(next.from), name_of(model, next)),
+            ),
+        },
+    }
+}
+
+/// How automatic operation of an antenna stands and what it does next and when, as one or two
+/// sentences; `None` while it is off.
+pub fn in_full(model: &Model, antenna: &AntennaModel) -> Option<String> {
+    let moment = |at| format::moment(at, model.now);
+    let in_time = |at| format!("{}, in {}", moment(at), format::time_left(model.now, at));
+    let on = match &antenna.operation {
+        Operation::Off(_) => return None,
+        Operation::Suspended { by, .. } => {
+            return Some(format!("Suspended. {}", interruption(*by)));
+        }
+        Operation::On(on) => on,
+    };
+    Some(match &on.doing {
+        Doing::Announces { moves_at, pass } => {
+            let name = schedule::pass_name(model, *pass);
+            format!("Moves at {} unless you press STOP: {name}.", in_time(*moves_at))
+        }
+        Doing::Parks => format!("Parks. {}", next(model, antenna)),
+        Doing::Takes(taking) => {
+            let name = schedule::pass_name(model, taking.pass);
+            match (not_tracking(&antenna.operation), taking.proved_at) {
+                (Some(why), _) => format!("{name} is not tracked. {why}"),
+                (None, None) => {
+                    format!("Sent {}, not verified yet: {name}.", moment(taking.asked_at))
+                }
+                (None, Some(_)) if taking.from > model.now => {
+                    format!("Takes {} at {}.", name, in_time(taking.from))
+                }
+                (None, Some(_)) => {
+                    let then = following(model, antenna, taking);
+                    format!("Takes {name} until {}{then}.", moment(taking.until))
+                }
+            }
+        }
+        Doing::Rests => next(model, antenna),
+    })
+}
+
+/// The next pass of an antenna that takes none, as a sentence.
+fn next(model: &Model, antenna: &AntennaModel) -> String {
+    let Some(entry) = model.next_entry(antenna.id()) else {
+        return "No pass is planned.".to_owned();
+    };
+    let policy = between(&model.station, &antenna.config, model.now);
+    let at = Some(sets_out(entry, policy)).filter(|at| *at > model.now);
+    let leaves = at.map_or_else(String::new, |at| {
+        let left = format::time_left(model.now, at);
+        format!(" {}, in {left}.", schedule::sets_out(antenna, at, model.now))
+    });
+    format!("Next at {}: {}.{leaves}", format::moment(entry.from, model.now), name_of(model, entry))
+}
+
+/// The pass after the one that an antenna takes, as the end of a sentence.
+fn following(model: &Model, antenna: &AntennaModel, taking: &Taking) -> String {
+    let entries = model.schedule.schedule.entries.iter();
+    let own = entries.filter(|of| of.antenna == antenna.id() && of.from >= taking.until);
+    let next = own.min_by_key(|entry| entry.from);
+    next.map_or_else(String::new, |entry| {
+        let at = format::moment(entry.from, model.now);
+        format!(", then {} at {at}", name_of(model, entry))
+    })
+}
+
+/// The words of the button that lets a suspended antenna go on, with its next pass.
+pub fn go_on(model: &Model, antenna: &AntennaModel) -> Option<String> {
+    if !matches!(antenna.operation, Operation::Suspended { .. }) {
+        return None;
+    }
+    Some(model.next_entry(antenna.id()).map_or_else(
+        || RESUME.to_owned(),
+        |entry| {
+            let at = format::moment(entry.from, model.now);
+            format!("Go on with {}, {at}", name_of(model, entry))
+        },
+    ))
 }
 
 /// How automatic operation stands, in a word or two.

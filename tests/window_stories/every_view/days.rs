@@ -52,7 +52,9 @@ fn has_day(before: &str) -> bool {
 
 /// Not a time of day but how long something takes, as in `T−12:15:30`.
 fn is_span(before: &str) -> bool {
-    before.ends_with(['\u{2212}', '+']) || before.ends_with("rises in ")
+    before.ends_with(['\u{2212}', '+'])
+        || before.ends_with("rises in ")
+        || before.ends_with("Z, in ")
 }
 
 /// Finds times of another day without their day, in a window whose present is

@@ -1,0 +1,60 @@
+//! Automatic operation on the card: its tag, what it does next and when, and the button that lets it
+//! go on while it is suspended.
+
+use egui::{Rect, Role, Ui, WidgetInfo, pos2, text::LayoutJob, vec2};
+
+use super::{CardAction, CardModel, Cursor};
+use crate::ui::{
+    text, theme,
+    widgets::{
+        button::{Button, SMALL_HEIGHT},
+        link_chip::{self, TAG},
+        paint,
+    },
+    words,
+};
+
+/// Space between the tag and the words.
+const GAP: f32 = 8.0;
+/// Rows that the words of a countdown have, so that nothing below moves when they change.
+const ROWS: usize = 2;
+
+pub(super) fn show(ui: &Ui, at: &mut Cursor, model: &CardModel<'_>, actions: &mut Vec<CardAction>) {
+    let Some(automatic) = model.automatic else { return };
+    let t = theme::tokens(ui);
+    let is_suspended = automatic.is_suspended;
+    let colour = if is_suspended { t.warn } else { t.t1 };
+    let width = at.width() - TAG.x - GAP;
+    let font = text::small();
+    let layout = |words: &str, rows| {
+        let mut job = LayoutJob::simple(words.to_owned(), font.clone(), colour, width);
+        job.wrap.max_rows = rows;
+        ui.painter().layout_job(job)
+    };
+    // The reason of a suspension is shown whole.
+    let words = layout(automatic.words, if is_suspended { usize::MAX } else { ROWS });
+    let room = if is_suspended { words.size().y } else { layout("\n", ROWS).size().y };
+    let row = at.take(room.max(TAG.y));
+    link_chip::automatic_tag(ui, Rect::from_min_size(row.left_top(), TAG), is_suspended);
+    ui.painter().galley(pos2(row.left() + TAG.x + GAP, row.top()), words, colour);
+    let spoken = format!("Automatic operation: {}", automatic.words);
+    paint::name_text(ui, "automatic", row, &spoken).on_hover_text(&spoken);
+    if let Some(go_on) = model.go_on {
+        at.skip(4.0);
+        let row = at.take(SMALL_HEIGHT);
+        let is_locked = model.header.is_replayed();
+        let whole = Button::normal(go_on).locked(is_locked);
+        let has_room = whole.width(ui) <= row.width();
+        let button = if has_room { whole } else { Button::normal(words::automatic::RESUME) };
+        let button = button.locked(is_locked);
+        let place = Rect::from_min_size(row.left_top(), vec2(button.width(ui), SMALL_HEIGHT));
+        let response = button.show(ui, "go on", place);
+        let said = format!("{go_on}: automatic operation is suspended");
+        response.widget_info(|| WidgetInfo::labeled(Role::Button, !is_locked, &said));
+        if response.clicked() {
+            actions.push(CardAction::GoOn);
+        }
+        response.on_hover_text(said);
+    }
+    at.skip(6.0);
+}
