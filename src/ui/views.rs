@@ -292,7 +292,7 @@ impl Views {
     /// Asks before the window closes or changes to another station if something would be lost with
     /// it, or ends the station in the way set for it. Returns `true` if that has to wait.
     pub fn ask_before_closing(&mut self, model: &Model, commands: &mut Vec<UiCommand>) -> bool {
-        let mut lost = Vec::new();
+        let mut lost: Vec<String> = words::automatic::lost_by_closing(model).into_iter().collect();
         match self.antennas.edited(model) {
             0 => {}
             1 => lost.push("1 change to a unit's settings is not applied.".to_owned()),

@@ -10,15 +10,18 @@ use azel::{
         automatic::{Doing, Interruption, OffBecause, Operation, Taking},
     },
     model::{Model, UiCommand, View},
+    station::OnClose,
 };
 use egui::Role;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 use crate::window_stories::{
+    closing,
     every_view::painted,
     extremes::{nothing_is_cut, nothing_overlaps},
     plan,
     rig::{self, LARGE, SIZES, SMALL, Window, settle},
+    states,
     wide::three,
 };
 
@@ -200,4 +203,61 @@ fn a_long_name_in_a_lane_is_cut_after_its_time() {
     let window = rig::window(LARGE, model);
     let texts = painted::texts(&window);
     assert!(texts.iter().any(|text| text == "On. Next 12:31:57Z: 799999999."), "{texts:?}");
+}
+
+/// The plan goes on with SUOMI NPP.
+const NEXT: &str = "The next would be SUOMI NPP at 12:31:57Z.";
+
+#[test]
+fn closing_between_passes_asks_while_automatic_operation_is_not_off() {
+    for size in SIZES {
+        for operation in [on(&Doing::Rests), on(&Doing::Parks), suspended(Interruption::ByHand)] {
+            let mut window = closing::asked_about(size, scene(operation));
+            assert!(rig::says(
+                &window,
+                &format!(
+                    "Automatic operation of Satrak ends: it takes no pass until you switch it on \
+                     again. {NEXT} Close anyway?"
+                )
+            ));
+            window.state_mut().commands.clear();
+            window.get_by_role_and_label(Role::Button, "Close (Enter)").click();
+            assert_eq!(rig::asked(&mut window), [UiCommand::Close]);
+        }
+        let mut window = rig::window(size, scene(Operation::Off(OffBecause::Operator)));
+        let story = window.state_mut();
+        assert!(!story.views.ask_before_closing(&story.model, &mut story.commands));
+    }
+}
+
+#[test]
+fn the_question_before_closing_names_all_antennas_that_work_by_themselves() {
+    let mut model = scene(on(&Doing::Rests));
+    model.antennas[2].operation = suspended(Interruption::Elsewhere);
+    for index in [0, 2] {
+        model.antennas[index].config.automatic.is_on_at_start = true;
+    }
+    let mut window = closing::asked_about(LARGE, model);
+    assert!(rig::says(
+        &window,
+        "Automatic operation of Satrak and RC2000C ends: it takes no pass until this station runs \
+         again."
+    ));
+    window.state_mut().commands.clear();
+    window.get_by_role_and_label(Role::Button, "Cancel").click();
+    assert_eq!(rig::asked(&mut window), []);
+}
+
+#[test]
+fn closing_during_a_pass_names_automatic_operation_whatever_the_station_file_says() {
+    for on_close in [None, Some(OnClose::Hold)] {
+        let mut model = rig::model(states::tracking(0.1));
+        Arc::make_mut(&mut model.station).on_close = on_close;
+        model.antennas[0].operation = on(&taking(true));
+        let window = closing::asked_about(LARGE, model);
+        for told in ["Satrak tracks NOAA 20 by itself.", "Automatic operation of Satrak ends: "] {
+            assert!(rig::says(&window, told), "{told}");
+        }
+        window.get_by_role_and_label(Role::Button, "Close and hold");
+    }
 }

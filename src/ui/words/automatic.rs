@@ -179,6 +179,25 @@ pub fn go_on(model: &Model, antenna: &AntennaModel) -> Option<String> {
     ))
 }
 
+/// What closing the station costs automatic operation, as sentences; `None` while it is off for all
+/// antennas.
+pub fn lost_by_closing(model: &Model) -> Option<String> {
+    let antennas = || model.antennas.iter().filter(|of| !matches!(of.operation, Operation::Off(_)));
+    let names: Vec<&str> = antennas().map(|antenna| &*antenna.config.name).collect();
+    if names.is_empty() {
+        return None;
+    }
+    let comes_back = antennas().all(|antenna| antenna.config.automatic.is_on_at_start);
+    let until = if comes_back { "this station runs again" } else { "you switch it on again" };
+    let next = antennas().filter_map(|antenna| model.next_entry(antenna.id()));
+    let next = next.min_by_key(|entry| entry.from).map_or_else(String::new, |entry| {
+        let at = format::moment(entry.from, model.now);
+        format!(" The next would be {} at {at}.", name_of(model, entry))
+    });
+    let names = format::list(&names);
+    Some(format!("Automatic operation of {names} ends: it takes no pass until {until}.{next}"))
+}
+
 /// How automatic operation stands, in a word or two.
 pub fn standing(operation: &Operation) -> &'static str {
     match operation {
