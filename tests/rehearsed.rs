@@ -12,6 +12,7 @@ mod prices;
 mod recorded;
 mod rehearsal;
 mod replay;
+mod saving;
 pub(crate) mod scene;
 mod size;
 mod trouble;

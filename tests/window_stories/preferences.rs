@@ -426,6 +426,23 @@ fn what_does_not_touch_the_antenna_is_saved_while_it_moves() {
     let mut model = rig::model(states::moving());
     model.view = View::Preferences;
     let mut window = rig::window(SIZES[0], model);
-    write(&mut window, "Latitude", "40");
+    write(&mut window, "Name", "Hill");
     assert!(!is_disabled(&window, "Save and use"));
+}
+
+#[test]
+fn the_site_is_not_changed_while_an_antenna_moves_or_tracks() {
+    for (field, value) in [("Latitude", "40"), ("Altitude", "9")] {
+        for (snapshot, is_busy) in
+            [(states::moving(), true), (states::tracking(0.1), true), (states::holding(), false)]
+        {
+            let mut model = rig::model(snapshot);
+            model.view = View::Preferences;
+            let mut window = rig::window(SIZES[0], model);
+            write(&mut window, field, value);
+            assert_eq!(is_disabled(&window, "Save and use"), is_busy, "{field}");
+            let why = "Satrak moves or tracks. To change the site or its air, stop it, then save.";
+            assert_eq!(says(&window, why), is_busy, "{field}");
+        }
+    }
 }

@@ -460,7 +460,14 @@ impl Engine {
             return self.tell(Event::Saved(Err(text.to_owned())));
         }
         self.claim_station();
+        let busy = self.antennas.iter().find(|antenna| antenna.shown.is_busy());
+        // A track would go on from the old site. The simulators of the demonstration end with it.
+        let moves_site = self.demo.is_none() && self.station.site != station.site;
         let saved = match &self.settings_path {
+            _ if moves_site && let Some(antenna) = busy => {
+                let name = &antenna.shown.config.name;
+                Err(format!("{name} moves or tracks: stop it before the site is changed"))
+            }
             _ if let StationClaim::Theirs(by) = &self.station_claim => {
                 Err(format!("it is open in {by}: save it there, or close it there first"))
             }

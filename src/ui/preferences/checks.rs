@@ -120,8 +120,8 @@ fn changed(model: &Model, after: &Station) -> impl Iterator<Item = String> {
 }
 
 /// Reason why `after` has to wait: it would interrupt a motion by changing or removing an
-/// antenna, or take away a keep-out while an antenna moves. A change that only tightens
-/// never waits.
+/// antenna, move the site under a track, or take away a keep-out while an antenna moves. A change
+/// of bounds that only tightens never waits.
 fn busy(model: &Model, before: &Station, after: &Station) -> Option<String> {
     // The simulators of the demonstration end with it.
     let mut antennas = model.antennas.iter().filter(|of| !model.demo && of.is_busy());
@@ -130,6 +130,11 @@ fn busy(model: &Model, before: &Station, after: &Station) -> Option<String> {
         let name = &antenna.config.name;
         if !after.antennas.contains(&antenna.config) {
             return Some(format!("{name} moves or tracks. Stop it, then save."));
+        }
+        if before.site != after.site {
+            return Some(format!(
+                "{name} moves or tracks. To change the site or its air, stop it, then save."
+            ));
         }
         let loosened = loosened?;
         Some(format!("{name} moves or tracks. To loosen {loosened}, stop it, then save."))
