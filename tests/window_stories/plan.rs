@@ -5,12 +5,13 @@ use std::sync::Arc;
 use azel::{
     astro::time::add_seconds,
     engine::{
-        Command,
+        CatalogState, Command,
         automatic::{DayEvent, DayLine, Flown, Interruption, MissCause, OffBecause, Operation},
-        passes::PassKey,
+        passes::{ListedSatellite, PassKey},
         schedule::{Planned, Swap},
     },
     model::{UiCommand, View, export::Export, rehearsal::RehearsalState},
+    orbit::Propagator,
     plan::{
         pass_report::LossCause,
         schedule::{Class, Conflict, Entry, LeftOut, PassKey as Key, Schedule, Why},
@@ -26,7 +27,7 @@ use crate::window_stories::{
     every_view::painted,
     preferences,
     rig::{self, LARGE, SIZES, Window, settle, window},
-    states,
+    states, wide,
 };
 
 fn key((satellite, aos): PassKey) -> Key {
@@ -180,6 +181,36 @@ fn rows_say_what_is_taken_and_why_others_are_left_out() {
         assert!(rows.iter().any(|row| row.contains("Planned")), "{size:?} {rows:?}");
         assert!(rows.iter().any(|row| row.contains(overlaps) && row.contains("priority 3")));
         assert!(window.query_by_label_contains("STOP").is_some());
+    }
+}
+
+#[test]
+fn many_favourites_leave_ten_rows_to_what_an_antenna_carries_out() {
+    for size in [LARGE, [1920.0, 1080.0], [2560.0, 1440.0]] {
+        for is_demo in [false, true] {
+            let mut model = wide::three();
+            model.view = View::Plan;
+            model.demo = is_demo;
+            model.schedule = Arc::new(planned(&model));
+            let CatalogState::Ready(catalog) = &model.catalog else { unreachable!() };
+            let moving = catalog.iter().filter(|elements| !elements.is_geosynchronous());
+            let listed = moving.filter_map(|elements| {
+                let propagator = Propagator::new(elements).ok()?;
+                Some(Arc::new(ListedSatellite { elements: elements.clone(), propagator }))
+            });
+            let satellites: Vec<_> = listed.take(60).collect();
+            assert_eq!(satellites.len(), 60);
+            model.pass_lists.favourites.satellites = satellites.into();
+            let window = window(size, model);
+            let list = window.get_by_role_and_label(Role::ListBox, "Satrak, as planned").rect();
+            let rows = window.query_all_by_role(Role::ListBoxOption);
+            let rows: Vec<_> =
+                rows.map(|row| row.rect()).filter(|row| list.contains_rect(*row)).collect();
+            let room = list.height() / rows[0].height();
+            assert!(room >= 10.0 && rows.len() >= 5, "{size:?}: {room} rows");
+            // The favourites keep a part that is worth scrolling in.
+            assert!(list.top() > 0.5 * size[1], "{size:?}: {list:?}");
+        }
     }
 }
 

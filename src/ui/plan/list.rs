@@ -44,9 +44,10 @@ const MORE_SLEW: f32 = 120.0;
 /// Width of the notes, with *Swap*, from which any reason has room in their column.
 const WIDE_NOTES: f32 = 460.0;
 
-/// The least height: some rows below the heads.
-pub(super) fn least_height() -> f32 {
-    BAR + HEAD + 3.0 * ROW
+/// The min height: ten rows below the heads, three in a low window.
+pub(super) fn min_height(is_low: bool) -> f32 {
+    let rows = if is_low { 3.0 } else { 10.0 };
+    BAR + HEAD + rows * ROW
 }
 
 /// The columns, each with its left end, or its right end for times and numbers.
