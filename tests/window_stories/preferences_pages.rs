@@ -228,7 +228,7 @@ fn the_site_shows_the_sun_and_how_far_the_place_of_each_unit_is() {
         model.view = View::Preferences;
         let mut window = rig::window(size, model);
         unfold(&mut window);
-        window.get_by_label_contains("The Sun is at");
+        window.get_by_label_contains("There the Sun is now");
         window.get_by_label_contains("km from the position that Satrak reports.");
         write(&mut window, "Longitude, east", "29.5");
         window.get_by_label_contains("Agrees with the position that Satrak reports: 0.0 km apart.");

@@ -209,7 +209,7 @@ fn a_locator_fills_the_place_and_the_sun_tells_a_wrong_sign() {
         assert!(says(&window, "The centre of a square of 7.0 by 4.6 km."));
         assert!(says(&window, "Is that right?"));
         write(&mut window, "Longitude, east", "-150.6");
-        assert!(says(&window, "below the horizon there now"));
+        assert!(says(&window, "below the horizon. Is that right?"));
         write(&mut window, "Locator", "KN41oz");
         assert!(says(&window, "Locator has a wrong character at place 6: it must be A to X."));
         assert_eq!(field(&window, "Longitude, east"), "-150.6", "what is wrong fills nothing");

@@ -59,7 +59,7 @@ pub static CLOCK: Group = Group {
     is_service: false,
     fields: &[
         Field::read(TIME, "Unit clock"),
-        Field::read(AHEAD_S, "Ahead of this computer").in_unit("s"),
+        Field::read(AHEAD_S, "Ahead of this PC").in_unit("s"),
         Field::read(IS_FROM_GPS, "Updated from GPS"),
         Field::write(SET_FROM, "Set from").moving().about("The unit tracks by its clock."),
     ],
