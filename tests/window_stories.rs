@@ -1,5 +1,6 @@
 //! Stories of the operator in front of the whole window, without a display.
 
+mod all_states;
 mod appearance;
 mod automatic;
 mod bar;

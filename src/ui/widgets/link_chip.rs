@@ -15,7 +15,7 @@ use crate::ui::{
 const RADIUS: u8 = 6;
 /// Size of the tag of automatic operation.
 pub const TAG: Vec2 = vec2(38.0, 16.0);
-pub const TWO_LINES_WIDTH: f32 = 144.0;
+pub const TWO_LINES_WIDTH: f32 = 162.0;
 
 /// State of the link to a unit. Each has its own shape.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -92,7 +92,7 @@ pub struct AutomaticModel<'a> {
 pub fn with_age(activity: &str, age: &str, link: LinkGlyph) -> String {
     match link {
         _ if age.is_empty() => activity.to_owned(),
-        LinkGlyph::Lost => format!("{activity} for {age}"),
+        LinkGlyph::Lost => format!("{activity} {age}"),
         LinkGlyph::Live | LinkGlyph::Late | LinkGlyph::Off => format!("{activity}, {}", ago(age)),
     }
 }
@@ -244,7 +244,7 @@ mod tests {
                 *clicks += 1;
             }
         });
-        window.get_by_label("RC2000C: No reply for 14 s, link lost").click();
+        window.get_by_label("RC2000C: No reply 14 s, link lost").click();
         window.run();
         assert_eq!(*window.state(), 1);
     }

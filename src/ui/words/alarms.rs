@@ -158,7 +158,7 @@ pub fn alarm(kind: &AlarmKind, antenna: &str, now: Timestamp) -> String {
             format::moment(*at, now)
         ),
         AlarmKind::AutomaticSuspended(by) => format!(
-            "Automatic operation of {antenna} is suspended. {} Resume it in Plan.",
+            "Automatic operation of {antenna} is suspended. {} Resume it on its card or in Plan.",
             super::automatic::interruption(*by)
         ),
         AlarmKind::AutomaticOff(because) => format!(

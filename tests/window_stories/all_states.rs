@@ -1,0 +1,179 @@
+//! Every state of an antenna is whole on its chip and its card, with the longest names and numbers.
+//!
+//! Each list goes from one state to the next by a `match` that names all of them: a new state cannot
+//! be forgotten.
+
+use std::{iter::successors, time::Duration};
+
+use azel::{
+    device::{AxisMotion, Phase},
+    driver::{Intent, LinkLoss, LinkState, Snapshot, StopState},
+    engine::automatic::{Doing, Interruption, OffBecause, Operation},
+    model::Model,
+};
+
+use crate::window_stories::{
+    automatic,
+    every_view::painted,
+    extremes::nothing_is_cut,
+    maintenance,
+    rig::{self, LARGE, SMALL},
+    states,
+    wide::three,
+};
+
+const SIZES: [[f32; 2]; 3] = [SMALL, LARGE, [1920.0, 1080.0]];
+const LONG: &str = "Northern 3.7 m dish of Şile, X/Y";
+/// For how long there is no link; no time up to a week is written with more letters.
+const LOST: Duration = Duration::from_secs(24 * 3600 - 1);
+/// The age of the last reply of a unit that replies.
+const AGE: Duration = Duration::from_millis(9900);
+
+fn losses() -> impl Iterator<Item = LinkLoss> {
+    let system = || "Network is unreachable (os error 101)".to_owned();
+    successors(Some(LinkLoss::Refused(system())), move |loss| match loss {
+        LinkLoss::Refused(_) => Some(LinkLoss::ConnectTimeout),
+        LinkLoss::ConnectTimeout => Some(LinkLoss::Closed),
+        LinkLoss::Closed => Some(LinkLoss::Broken(system())),
+        LinkLoss::Broken(_) => Some(LinkLoss::Silent),
+        LinkLoss::Silent => Some(LinkLoss::Slept),
+        LinkLoss::Slept => Some(LinkLoss::Unreadable),
+        LinkLoss::Unreadable => Some(LinkLoss::OtherDevice),
+        LinkLoss::OtherDevice => None,
+    })
+}
+
+fn links(model: &Model) -> Vec<LinkState> {
+    let at = rig::ago(model, LOST.as_secs());
+    let usual = successors(Some(LinkState::Off), |link| match link {
+        LinkState::Off => Some(LinkState::Connecting { since: at }),
+        LinkState::Connecting { .. } => Some(LinkState::Up { since: at }),
+        LinkState::Up { .. } => Some(LinkState::Stale { last_reply: model.steady - AGE }),
+        LinkState::Stale { .. } | LinkState::Lost { .. } => None,
+    });
+    let retry_at = rig::soon(model);
+    let lost = losses().map(|reason| LinkState::Lost { since: at, reason, retry_at });
+    usual.chain(lost).collect()
+}
+
+fn stops(model: &Model) -> impl Iterator<Item = StopState> {
+    let since = rig::ago(model, AGE.as_secs());
+    successors(Some(StopState::Ready), move |stop| match stop {
+        StopState::Ready => Some(StopState::Stopping { since }),
+        StopState::Stopping { .. } => Some(StopState::Stopped { at: since }),
+        StopState::Stopped { .. } => Some(StopState::NotConfirmed { since }),
+        StopState::NotConfirmed { .. } => None,
+    })
+}
+
+fn intents() -> impl Iterator<Item = Intent> {
+    successors(Some(Intent::Standby), |intent| match intent {
+        Intent::Standby => Some(Intent::Manual),
+        Intent::Manual => Some(Intent::Position),
+        Intent::Position => Some(Intent::Track),
+        Intent::Track => Some(Intent::Park),
+        Intent::Park => None,
+    })
+}
+
+fn phases() -> impl Iterator<Item = Phase> {
+    successors(Some(Phase::OutOfWindow), |phase| match phase {
+        Phase::OutOfWindow => Some(Phase::Tracking),
+        Phase::Tracking => Some(Phase::Completed),
+        Phase::Completed => Some(Phase::AtStart),
+        Phase::AtStart => Some(Phase::Unknown(i64::MIN)),
+        Phase::Unknown(_) => None,
+    })
+}
+
+fn interruptions() -> impl Iterator<Item = Interruption> {
+    successors(Some(Interruption::ByHand), |by| match by {
+        Interruption::ByHand => Some(Interruption::Elsewhere),
+        Interruption::Elsewhere => Some(Interruption::EndedByUnit),
+        Interruption::EndedByUnit => Some(Interruption::Clock),
+        Interruption::Clock => None,
+    })
+}
+
+fn reasons() -> impl Iterator<Item = OffBecause> {
+    successors(Some(OffBecause::NotSwitchedOn), |because| match because {
+        OffBecause::NotSwitchedOn => Some(OffBecause::Operator),
+        OffBecause::Operator => Some(OffBecause::Stop),
+        OffBecause::Stop => Some(OffBecause::Safety),
+        OffBecause::Safety => Some(OffBecause::LockedOut),
+        OffBecause::LockedOut => Some(OffBecause::Changed),
+        OffBecause::Changed => Some(OffBecause::NotAsLeft),
+        OffBecause::NotAsLeft => Some(OffBecause::Failures),
+        OffBecause::Failures => None,
+    })
+}
+
+fn operations() -> Vec<Operation> {
+    let off = reasons().map(Operation::Off);
+    let suspended = interruptions().map(|by| Operation::Suspended { by, since: rig::now() });
+    off.chain(suspended)
+        .chain([automatic::on(&Doing::Rests), automatic::on(&Doing::Parks)])
+        .collect()
+}
+
+/// Checks the window in which the first of three antennas has this snapshot and operation.
+fn check(what: &str, snapshot: &Snapshot, operation: Option<&Operation>) {
+    for size in SIZES {
+        let mut model = three();
+        let first = &mut model.antennas[0];
+        let mut config = first.config.clone();
+        config.name = LONG.to_owned();
+        let id = config.id;
+        let mut snapshot = snapshot.clone();
+        snapshot.state.traffic.last_reply = Some(model.steady - AGE);
+        *first = rig::antenna(config, snapshot);
+        first.config.id = id;
+        if let Some(operation) = operation {
+            first.operation = operation.clone();
+        }
+        first.refresh(model.station.site, |number| model.pass_lists.satellite(number));
+        let window = rig::window(size, model);
+        nothing_is_cut(&window, size);
+        let cut: Vec<String> =
+            painted::cut(&window).into_iter().filter(|words| !may_be_cut(words)).collect();
+        assert!(cut.is_empty(), "{what} at {size:?}: {cut:?}");
+    }
+}
+
+/// Names are cut where they have no room, and so are the lines of the other antennas below the card.
+fn may_be_cut(words: &str) -> bool {
+    words.starts_with("Northern") || words.starts_with("Holding at ")
+}
+
+#[test]
+fn every_link_is_told_whole() {
+    for link in links(&three()) {
+        let what = format!("{link:?}");
+        check(&what, &Snapshot { link, ..states::holding() }, None);
+    }
+}
+
+#[test]
+fn every_motion_is_told_whole() {
+    let model = three();
+    for stop in stops(&model) {
+        check(&format!("{stop:?}"), &Snapshot { stop, ..states::moving() }, None);
+        check(&format!("{stop:?}, at rest"), &Snapshot { stop, ..states::holding() }, None);
+    }
+    for intent in intents() {
+        check(&format!("{intent:?}"), &Snapshot { intent, ..states::moving() }, None);
+    }
+    for phase in phases() {
+        for motion in [AxisMotion::Still, AxisMotion::Plus] {
+            check(&format!("{phase:?}"), &states::program(phase, motion), None);
+        }
+    }
+    check("locked out", &maintenance::locked(states::holding()), None);
+}
+
+#[test]
+fn every_state_of_automatic_operation_is_told_whole() {
+    for operation in operations() {
+        check(&format!("{operation:?}"), &states::holding(), Some(&operation));
+    }
+}
