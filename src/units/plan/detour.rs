@@ -272,19 +272,19 @@ impl<'a> Search<'a> {
         way
     }
 
-    /// Keeps only the positions at which the route turns.
+    /// Keeps only the positions at which the route turns: from each, the way goes straight as far as
+    /// halving the rest of the route shows.
     fn pulled_straight(&self, way: &[[f64; 2]]) -> Vec<[f64; 2]> {
-        let (Some(first), Some(last)) = (way.first(), way.last()) else { return Vec::new() };
-        let mut turns = vec![*first];
-        let mut from_deg = *first;
-        for pair in way.windows(2) {
-            let [before, here] = pair else { continue };
-            if !self.is_straight(from_deg, *here) {
-                turns.push(*before);
-                from_deg = *before;
-            }
+        let mut turns = Vec::from_iter(way.first().copied());
+        let mut rest = way;
+        while let [from_deg, ahead @ ..] = rest
+            && !ahead.is_empty()
+        {
+            let straight = ahead.partition_point(|to_deg| self.is_straight(*from_deg, *to_deg));
+            // The next position of the search is straight ahead.
+            rest = ahead.get(straight.saturating_sub(1)..).unwrap_or_default();
+            turns.extend(rest.first());
         }
-        turns.push(*last);
         turns
     }
 
