@@ -122,7 +122,7 @@ fn check(what: &str, snapshot: &Snapshot, operation: Option<&Operation>) {
         let mut model = three();
         let first = &mut model.antennas[0];
         let mut config = first.config.clone();
-        config.name = LONG.to_owned();
+        LONG.clone_into(&mut config.name);
         let id = config.id;
         let mut snapshot = snapshot.clone();
         snapshot.state.traffic.last_reply = Some(model.steady - AGE);
