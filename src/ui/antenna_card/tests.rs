@@ -27,6 +27,7 @@ const fn travel(name: &str, position_deg: f64) -> TravelModel<'_> {
         scale_deg: (0.0, 180.0),
         travel_deg: (6.0, 174.0),
         position_deg: Some(position_deg),
+        is_old: false,
         decimals: 1,
         lower_limit: false,
         upper_limit: false,

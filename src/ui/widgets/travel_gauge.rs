@@ -25,6 +25,8 @@ pub struct TravelModel<'a> {
     /// Travel that the unit may use.
     pub travel_deg: (f64, f64),
     pub position_deg: Option<f64>,
+    /// The unit does not answer in time: position and limits are those of its last answer.
+    pub is_old: bool,
     /// Decimals of the shown position.
     pub decimals: usize,
     /// The limit switch at the lower end is set.
@@ -108,21 +110,28 @@ pub fn show(ui: &Ui, rect: Rect, model: &TravelModel<'_>) {
             hatch(ui, zone, t.warn);
         }
         let over = model.lower_limit || model.upper_limit;
-        marker(ui, x(deg), y, if over { t.bad } else { t.ant });
+        let colour = match (model.is_old, over) {
+            (true, _) => t.t3,
+            (false, true) => t.bad,
+            (false, false) => t.ant,
+        };
+        marker(ui, x(deg), y, colour);
     }
+    let ink = if model.is_old { t.t3 } else { t.t1 };
     let medium = text::body_medium();
-    paint::text(ui, rect.right_center(), Align2::RIGHT_CENTER, &number, medium, t.t1);
+    paint::text(ui, rect.right_center(), Align2::RIGHT_CENTER, &number, medium, ink);
     let limits = match (model.lower_limit, model.upper_limit) {
         (true, true) => ", both limit switches set",
         (true, false) => ", lower limit switch set",
         (false, true) => ", upper limit switch set",
         (false, false) => "",
     };
+    let old = if model.is_old { ", of the last answer" } else { "" };
     paint::name_text(
         ui,
         ("travel", model.name),
         rect,
-        &format!("Travel {} {number}{limits}", model.name),
+        &format!("Travel {} {number}{limits}{old}", model.name),
     );
 }
 
@@ -160,6 +169,7 @@ mod tests {
         scale_deg: (0.0, 180.0),
         travel_deg: (6.0, 174.0),
         position_deg: Some(175.0),
+        is_old: false,
         decimals: 1,
         lower_limit: false,
         upper_limit: true,
@@ -195,5 +205,14 @@ mod tests {
             show(ui, Rect::from_min_size(pos2(10.0, 10.0), vec2(312.0, HEIGHT)), &AXIS);
         });
         window.get_by_label("Travel X 175.0°, upper limit switch set");
+    }
+
+    #[test]
+    fn an_old_position_is_said() {
+        let window = testing::window([400.0, 80.0], (), |ui, ()| {
+            let old = TravelModel { is_old: true, upper_limit: false, ..AXIS };
+            show(ui, Rect::from_min_size(pos2(10.0, 10.0), vec2(312.0, HEIGHT)), &old);
+        });
+        window.get_by_label("Travel X 175.0°, of the last answer");
     }
 }

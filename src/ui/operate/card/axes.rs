@@ -68,6 +68,7 @@ pub(super) fn travel(antenna: &AntennaModel) -> Vec<TravelModel<'static>> {
             scale_deg,
             travel_deg: *within_deg.get(index)?,
             position_deg: axis.and_then(|axis| axis.angle_deg),
+            is_old: !antenna.is_live(),
             decimals: format::decimals(can, 1),
             lower_limit: axis.is_some_and(|axis| axis.minus_limit),
             upper_limit: axis.is_some_and(|axis| axis.plus_limit),
