@@ -35,6 +35,11 @@ const FARTHEST_DAYS: f64 = 36_525.0;
 const DRIFT_KM_S: f64 = 3e-5;
 const ECCENTRIC_DRIFT_KM_S: f64 = 0.01;
 
+/// A state this many times as far from the Earth as the apogee at the epoch is none of the object:
+/// far from the epoch, the polynomials of the drag lead to any distance. No state of SGP4's
+/// verification is as far.
+const MAX_GROWTH: f64 = 10.0;
+
 /// A deep-space orbit decays within weeks only from a perigee below this height, in km.
 const LOW_PERIGEE_KM: f64 = 120.0;
 /// The first missing state is searched for in these steps, a sixteenth of a low revolution, and
@@ -70,7 +75,8 @@ pub enum PropagationError {
     /// The orbit has met the ground, or SGP4 has no solution any more.
     #[error("the object has decayed")]
     Decayed,
-    #[error("the time is more than a century from the epoch")]
+    /// More than a century, or so far that SGP4 leads away from the Earth.
+    #[error("the time is too far from the epoch of the elements")]
     TooFarFromEpoch,
 }
 
@@ -83,6 +89,8 @@ pub struct Propagator {
     drift_km_s: f64,
     /// The orbit may have met the ground from this time on, minutes after the epoch.
     low_after_min: f64,
+    /// Maximum distance from the centre of the Earth, km.
+    farthest_km: f64,
     descent: Descent,
     resonance: Resonance,
 }
@@ -160,7 +168,16 @@ impl Propagator {
         };
         let (epoch, descent) = (elements.epoch(), Descent::default());
         let resonance = Resonance::default();
-        Ok(Self { constants, epoch, secular, drift_km_s, low_after_min, descent, resonance })
+        Ok(Self {
+            constants,
+            epoch,
+            secular,
+            drift_km_s,
+            low_after_min,
+            farthest_km: MAX_GROWTH * axis_km(&numbers) * (1.0 + numbers.eccentricity),
+            descent,
+            resonance,
+        })
     }
 
     /// Whether SGP4 finds the object above the ground at the epoch of `elements`.
@@ -271,7 +288,13 @@ impl Propagator {
         if self.may_be_down_at(since_epoch_s) && self.is_down_at(since_epoch_min) {
             return Err(PropagationError::Decayed);
         }
-        sgp4_state(&self.constants, since_epoch_min, resumable)
+        let state = sgp4_state(&self.constants, since_epoch_min, resumable)?;
+        // Written so that NaN is refused too.
+        if state.position_km.length() <= self.farthest_km {
+            Ok(state)
+        } else {
+            Err(PropagationError::TooFarFromEpoch)
+        }
     }
 
     /// Returns `true` if the orbit may have met the ground by this time.
@@ -354,11 +377,15 @@ fn is_surely_up_at_epoch(elements: &sgp4::Elements) -> bool {
         && lowest_km(elements) > HIGH_PERIGEE_KM
 }
 
+/// Semi-major axis at the epoch.
+fn axis_km(elements: &sgp4::Elements) -> f64 {
+    let rate_rad_min = elements.mean_motion * (TAU / 1440.0);
+    (sgp4::WGS72.ke / rate_rad_min).powf(2.0 / 3.0) * WGS72_RADIUS_KM
+}
+
 /// Height of the perigee at the epoch.
 fn lowest_km(elements: &sgp4::Elements) -> f64 {
-    let rate_rad_min = elements.mean_motion * (TAU / 1440.0);
-    let axis = (sgp4::WGS72.ke / rate_rad_min).powf(2.0 / 3.0);
-    (axis * (1.0 - elements.eccentricity) - 1.0) * WGS72_RADIUS_KM
+    axis_km(elements) * (1.0 - elements.eccentricity) - WGS72_RADIUS_KM
 }
 
 #[cfg(test)]
@@ -390,6 +417,27 @@ mod tests {
         for propagator in &propagators {
             assert_eq!(propagator.state_at(Timestamp::MAX), Err(PropagationError::TooFarFromEpoch));
         }
+    }
+
+    #[test]
+    fn far_from_its_epoch_no_object_is_away_from_the_earth() {
+        let catalog = bundled().unwrap();
+        let (mut known, mut refused) = (0, 0);
+        for elements in catalog.iter().step_by(29) {
+            let Ok(propagator) = Propagator::new(elements) else { continue };
+            let apogee_km = elements.heights().apogee_km + 6378.0;
+            for years in [-90.0, -40.0, -20.0, -10.0, -3.0, -0.1, 0.1, 3.0, 10.0, 40.0, 90.0] {
+                let at = time::add_seconds(elements.epoch(), years * 365.25 * time::DAY_S);
+                let one = propagator.state_at(at);
+                refused += u32::from(one == Err(PropagationError::TooFarFromEpoch));
+                for state in [one.ok(), propagator.states_at(&[at])[0]].into_iter().flatten() {
+                    known += 1;
+                    let times = state.position_km.length() / apogee_km;
+                    assert!(times < 10.5, "{} at {years} years: {times}", elements.name());
+                }
+            }
+        }
+        assert!(known > 5_000 && refused > 100, "{known} {refused}");
     }
 
     #[test]

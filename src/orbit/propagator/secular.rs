@@ -11,7 +11,10 @@ use std::f64::consts::TAU;
 
 use sgp4::WGS72;
 
-use super::waves::{DragWave, Waves};
+use super::{
+    MAX_GROWTH,
+    waves::{DragWave, Waves},
+};
 use crate::simd::{Lanes, series, set_all};
 
 /// Orbits with this period in minutes or a longer one follow other equations.
@@ -114,6 +117,7 @@ impl Secular {
             && eccentricity - wave > 0.0
             && wave < MAX_WAVE
             && axis * (1.0 - eccentricity - wave) > LOWEST_PERIGEE
+            && axis < 0.9 * MAX_GROWTH * self.size(0.0).0
     }
 
     /// How fast, in km/s, the drag carries the satellite away from where SGP4's velocities
