@@ -180,6 +180,12 @@ pub fn age(seconds: f64) -> String {
     }
 }
 
+/// A count with its noun, such as "1 source" and "3 sources".
+pub fn counted(count: usize, noun: &str) -> String {
+    let plural = if count == 1 { "" } else { "s" };
+    format!("{} {noun}{plural}", number(count as f64, 0))
+}
+
 /// Names joined into a list, such as "Satrak, Genius and RC2000C".
 pub fn list(names: &[impl AsRef<str>]) -> String {
     let mut text = String::new();

@@ -128,6 +128,14 @@ fn content(
         progress::show(ui, model, commands);
         outcome::show(ui, model, &mut state.question, commands);
     }
+    if is_open && !is_ours {
+        let words =
+            format!("An upload to {} is under way. Only one can run at a time.", uploads.antenna);
+        line(ui, Tone::Plain, &words);
+    }
+    form::show(ui, form);
+    // The satellites come last: they may be hundreds.
+    kept::show(ui, model, name, form, &mut state.question, commands);
     let file = match &model.catalog {
         CatalogState::Ready(catalog) => {
             let held = antenna.snapshot.state.on_board.satellite.as_ref();
@@ -138,18 +146,10 @@ fn content(
             Err("there are no elements to upload".to_owned())
         }
     };
-    form::show(ui, form);
-    let order = form.order(name, file.map(Cargo::New));
-    if is_open && !is_ours {
-        let words =
-            format!("An upload to {} is under way. Only one can run at a time.", uploads.antenna);
-        line(ui, Tone::Plain, &words);
-    }
-    kept::show(ui, model, name, form, &mut state.question, commands);
     if is_ours {
         questions::show(ui, model, &mut state.questions, commands);
     }
-    order
+    form.order(name, file.map(Cargo::New))
 }
 
 /// Shows the send button, and below it the reason why nothing can be sent.

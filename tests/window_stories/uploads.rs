@@ -6,8 +6,9 @@ use azel::{
     controller::satrak::ELEMENT_FILES,
     device::HeldSatellite,
     engine,
+    engine::CatalogState,
     engine::uploads::{Ask, Cargo, Failure, Kept, KeptEntry, Proved, Stage, Uploads, Warning},
-    model::{UiCommand, View},
+    model::{Model, UiCommand, View},
     transfer::{FileObject, Origin, Peer, UploadStep},
 };
 use egui::{Key, Role};
@@ -221,6 +222,8 @@ fn what_was_there_before_is_listed_and_put_back_when_asked_twice() {
         let of = (peer().to_string(), FILE.to_owned());
         let kept = Kept { of, list: Some(Ok(list.clone())) };
         let mut window = typed(width, Uploads { kept, ..Uploads::default() });
+        assert!(!says(&window, "sent from here"));
+        click(&mut window, "Kept on this computer: 2 files");
         assert!(says(&window, "Wed 2026-08-12 09:15:30Z") && says(&window, "sent from here"));
         let back = put_back("Mon 2026-08-10 09:15:30Z, was on the unit", &list[1]);
         click(&mut window, &back);
@@ -272,6 +275,7 @@ fn without_elements_an_old_file_can_still_be_put_back() {
     let list = Some(Ok(vec![entry]));
     Arc::make_mut(&mut window.state_mut().model.uploads).kept = Kept { of, list };
     settle(&mut window);
+    click(&mut window, "Kept on this computer: 1 file");
     assert!(is_disabled(&window, "Upload and verify"));
     assert!(!is_disabled(&window, &back));
 }
@@ -291,7 +295,8 @@ fn nothing_is_wider_than_its_place() {
         let of = (peer().to_string(), FILE.to_owned());
         let kept = Kept { of, list: Some(Ok(vec![kept_entry(Origin::Found, 2.0)])) };
         let stage = Stage::Proved(Box::new(proved.clone()));
-        let window = typed(width, Uploads { kept, ..at(stage) });
+        let mut window = typed(width, Uploads { kept, ..at(stage) });
+        click(&mut window, "Kept on this computer: 1 file");
         for role in [Role::Button, Role::TextInput, Role::RadioButton, Role::Label] {
             for node in window.query_all_by_role(role) {
                 let rect = node.rect();
@@ -323,13 +328,67 @@ fn the_elements_view_opens_the_part_in_place_of_the_inspector() {
 /// The Elements view with the upload open, in the smallest window.
 fn opened_small(uploads: Uploads) -> rig::Window {
     let mut model = rig::model(states::holding());
-    (model.view, model.uploads) = (View::Elements, uploads.into());
-    let mut window = rig::window(rig::SMALL, model);
-    for button in ["Details", "Upload to Satrak"] {
-        window.get_by_role_and_label(Role::Button, button).click();
+    model.uploads = uploads.into();
+    opened(rig::SMALL, model)
+}
+
+/// The Elements view with the upload open.
+fn opened(size: [f32; 2], mut model: Model) -> rig::Window {
+    model.view = View::Elements;
+    let mut window = rig::window(size, model);
+    if size == rig::SMALL {
+        window.get_by_role_and_label(Role::Button, "Details").click();
         rig::settle(&mut window);
     }
+    window.get_by_role_and_label(Role::Button, "Upload to Satrak").click();
+    rig::settle(&mut window);
     window
+}
+
+#[test]
+fn the_form_is_in_sight_above_a_list_of_a_hundred_satellites() {
+    const SATELLITES: usize = 101;
+    for size in rig::SIZES {
+        let mut model = rig::model(states::holding());
+        let CatalogState::Ready(catalog) = &model.catalog else { panic!("there are elements") };
+        let others = catalog.iter().map(|elements| elements.catalog_number());
+        let others = others.filter(|number| *number != NOAA_20);
+        // The one that is inspected is always in the file.
+        let numbers: Vec<u32> = [NOAA_20].into_iter().chain(others).take(SATELLITES).collect();
+        let favourites = &mut Arc::make_mut(&mut model.station).favourites;
+        *favourites = favourites.with_numbers(&numbers);
+        let mut window = opened(size, model);
+        let whole = egui::Rect::from_min_size(egui::Pos2::ZERO, size.into());
+        let button = window.get_by_role_and_label(Role::Button, "Upload and verify").rect();
+        let above_button = whole.with_max_y(button.top());
+        for field in ["File", "Folder", "Host", "Port", "User"] {
+            let place = window.get_by_role_and_label(Role::TextInput, field).rect();
+            assert!(above_button.contains_rect(place), "{size:?} {field} {place:?}");
+        }
+        let head = window.get_by_label_contains(" satellites to send");
+        assert_eq!(
+            head.accesskit_node().value().as_deref(),
+            Some("101 satellites to send"),
+            "{size:?}"
+        );
+        // An earlier file is not behind the list either.
+        let of = (peer().to_string(), FILE.to_owned());
+        let kept = Kept { of, list: Some(Ok(vec![kept_entry(Origin::Found, 2.0)])) };
+        Arc::make_mut(&mut window.state_mut().model.uploads).kept = kept;
+        window.get_by_role_and_label(Role::TextInput, "File").focus();
+        rig::settle(&mut window);
+        window.event(egui::Event::Text(FILE.to_owned()));
+        rig::settle(&mut window);
+        let top = |label: &str| window.get_by_label_contains(label).rect().top();
+        let last = numbers.last().and_then(|number| {
+            let CatalogState::Ready(catalog) = &window.state().model.catalog else { return None };
+            Some(catalog.get(*number)?.name().to_owned())
+        });
+        let last = format!("Leave out {}", last.expect("it has elements"));
+        assert!(top("Kept on this computer") < top(&last), "{size:?}");
+        let search = window.get_by_role_and_label(Role::TextInput, "Add a satellite").rect();
+        assert!(search.bottom() < top(&last) - 50.0 * 24.0, "{size:?} {search:?}");
+    }
 }
 
 #[test]

@@ -128,7 +128,7 @@ fn summary(model: &Model) -> String {
         CatalogState::Loading => "The elements are being read.".to_owned(),
         CatalogState::Failed => "There are no elements.".to_owned(),
         CatalogState::Ready(catalog) => {
-            let from = words::counted(catalog.groups().count(), "source");
+            let from = format::counted(catalog.groups().count(), "source");
             let all = words::objects(catalog.len());
             let mut favourites = model.station.favourites.iter();
             let rule = if favourites.any(|favourite| !favourite.sources.is_empty()) {

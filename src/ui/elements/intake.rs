@@ -88,7 +88,7 @@ pub(super) fn show(
     let is_useless = judged.is_some_and(|all| !all.iter().any(Judged::is_usable));
     let border = if is_useless { t.bad } else { t.sat };
     dashes(ui, field, Stroke::new(2.0, border));
-    let count = words::counted(intake.offers.len(), "file");
+    let count = format::counted(intake.offers.len(), "file");
     let title = match (is_useless, intake.is_dropped) {
         (true, _) => "None of these files holds elements".to_owned(),
         (false, false) => format!("Release to read {count}"),

@@ -2,7 +2,7 @@
 
 use egui::{Align2, Rect, Role, ScrollArea, Ui, UiBuilder, pos2, vec2};
 
-use super::{ElementsState, PADDING, words};
+use super::{ElementsState, PADDING};
 use crate::{
     engine::sources::Sources,
     model::Model,
@@ -51,7 +51,7 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, model: &Model, state: &mut ElementsS
     let (bar, body) = rect.split_top_bottom_at_y(rect.top() + BAR);
     ui.painter().rect_filled(rect, 0.0, t.bg0);
     ui.painter().hline(rect.x_range(), rect.top() + 0.5, (1.0, t.line));
-    let title = words::counted(count, "refused record");
+    let title = format::counted(count, "refused record");
     let more = "The previous elements stay in use.";
     let name = format!("{title}. {more}");
     let response = paint::control(ui, "refused records", bar, Role::Button, true, &name);

@@ -102,7 +102,7 @@ pub(super) fn show(
 /// Draws the bar; returns `true` when the sources are to be folded or unfolded.
 fn show_bar(ui: &Ui, rect: Rect, model: &Model, is_open: bool) -> bool {
     let t = theme::tokens(ui);
-    let count = words::counted(model.sources.list.len() + 1, "source");
+    let count = format::counted(model.sources.list.len() + 1, "source");
     let (tone, words) = worst(model);
     let name = format!("{count}: {words}");
     let response = paint::control(ui, "sources bar", rect, Role::Button, true, &name);

@@ -28,13 +28,7 @@ use crate::{
 
 /// "1 object", "16 089 objects".
 pub(in crate::ui) fn objects(count: usize) -> String {
-    counted(count, "object")
-}
-
-/// "1 source", "7 sources".
-pub(super) fn counted(count: usize, what: &str) -> String {
-    let plural = if count == 1 { "" } else { "s" };
-    format!("{} {what}{plural}", format::number(count as f64, 0))
+    format::counted(count, "object")
 }
 
 /// "Priority 1, first".

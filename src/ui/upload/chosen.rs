@@ -57,12 +57,9 @@ pub(super) fn show(
         let held = held.filter(|held| held.catalog_number > 0);
         let held_number = held.map(|held| held.catalog_number);
         let known = [marked, held_number, model.catalog_table.inspected].into_iter().flatten();
-        let followed = known.clone().find(|number| is_chosen(chosen, *number));
-        let followed = followed.or_else(|| first(chosen));
-        head(ui, chosen, is_own, &mut change);
-        for object in &chosen.objects {
-            row(ui, model, catalog, object, followed == Some(object.catalog_number), &mut change);
-        }
+        let followed = known.clone().find(|number| is_chosen(&chosen, *number));
+        let followed = followed.or_else(|| first(&chosen));
+        head(ui, &chosen, is_own, &mut change);
         if let Some(held) = held.filter(|held| followed != Some(held.catalog_number)) {
             let name = &held.name;
             let words = format!("The unit holds {name} now, and will follow the one marked here.");
@@ -73,6 +70,9 @@ pub(super) fn show(
         }
         search(ui, catalog, form, &mut change);
         form.satellite = followed;
+        for object in &chosen.objects {
+            row(ui, model, catalog, object, followed == Some(object.catalog_number), &mut change);
+        }
     });
     let mut numbers = form.numbers.clone().unwrap_or_else(|| favourites.clone());
     match change {

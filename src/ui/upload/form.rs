@@ -40,6 +40,7 @@ pub(super) struct Form {
     /// The satellite that the unit shall follow.
     pub(super) satellite: Option<u32>,
     pub(super) search: String,
+    pub(super) kept_is_open: bool,
     checked: Option<Checked>,
 }
 
@@ -47,7 +48,7 @@ pub(super) struct Form {
 struct Checked {
     catalog: Arc<Catalog>,
     numbers: Vec<u32>,
-    chosen: Chosen,
+    chosen: Arc<Chosen>,
 }
 
 impl Form {
@@ -67,6 +68,7 @@ impl Form {
             marked: None,
             satellite: None,
             search: String::new(),
+            kept_is_open: false,
             checked: None,
         }
     }
@@ -84,7 +86,7 @@ impl Form {
     }
 
     /// The chosen satellites as they are in `catalog`.
-    pub(super) fn chosen(&mut self, catalog: &Arc<Catalog>, favourites: &[u32]) -> &Chosen {
+    pub(super) fn chosen(&mut self, catalog: &Arc<Catalog>, favourites: &[u32]) -> Arc<Chosen> {
         let numbers = self.numbers.as_deref().unwrap_or(favourites);
         let is_known = |checked: &Checked| {
             Arc::ptr_eq(&checked.catalog, catalog) && checked.numbers == numbers
@@ -92,9 +94,9 @@ impl Form {
         let checked = self.checked.take().filter(is_known).unwrap_or_else(|| Checked {
             catalog: Arc::clone(catalog),
             numbers: numbers.to_vec(),
-            chosen: Chosen::of(catalog, numbers, self.takes),
+            chosen: Arc::new(Chosen::of(catalog, numbers, self.takes)),
         });
-        &self.checked.insert(checked).chosen
+        Arc::clone(&self.checked.insert(checked).chosen)
     }
 
     /// Catalog numbers of the satellites checked last.

@@ -1,6 +1,6 @@
 //! Earlier files of the unit, which can be restored.
 
-use egui::{RichText, Ui};
+use egui::{RichText, Sense, Ui, vec2};
 
 use super::{chosen::named, form::Form, outcome};
 use crate::{
@@ -13,6 +13,7 @@ use crate::{
         format, text, theme,
         widgets::{
             card,
+            fold::{self, FoldModel},
             told::{Tone, line},
         },
         words::sentence,
@@ -21,12 +22,13 @@ use crate::{
 
 /// Number of hash digits shown to tell files apart.
 const HASH_DIGITS: usize = 12;
+const TITLE: &str = "Kept on this computer";
 
 pub(super) fn show(
     ui: &mut Ui,
     model: &Model,
     antenna: &str,
-    form: &Form,
+    form: &mut Form,
     question: &mut Option<Question>,
     commands: &mut Vec<UiCommand>,
 ) {
@@ -40,20 +42,29 @@ pub(super) fn show(
     }
     let t = theme::tokens(ui);
     card::show(ui, f32::INFINITY, |ui| {
-        ui.label(RichText::new("Kept on this computer").font(text::value()));
+        // Closed, the list leaves the room below to the satellites.
+        if let Some(Ok(list)) = &kept.list
+            && !list.is_empty()
+        {
+            let size = vec2(ui.available_width(), fold::HEIGHT);
+            let (place, _) = ui.allocate_exact_size(size, Sense::hover());
+            let value = format::counted(list.len(), "file");
+            let head = FoldModel { title: TITLE, value: &value, mark: None };
+            fold::show(ui, place, &head, &mut form.kept_is_open);
+            let shown = list.iter().enumerate().filter(|_| form.kept_is_open);
+            for (index, entry) in shown {
+                let order = form.order(antenna, Ok(Cargo::Kept(entry.file.clone())));
+                one(ui, model, index, entry, order, question);
+            }
+            return;
+        }
+        ui.label(RichText::new(TITLE).font(text::value()));
         match &kept.list {
             None => line(ui, Tone::Plain, "The list is being read."),
             Some(Err(problem)) => line(ui, Tone::Bad, &sentence(problem)),
-            Some(Ok(list)) if list.is_empty() => {
+            Some(Ok(_)) => {
                 let words = format!("No earlier copy of {} from {}.", kept.of.1, kept.of.0);
                 ui.label(RichText::new(words).font(text::small()).color(t.t3));
-            }
-            Some(Ok(list)) => {
-                for (index, entry) in list.iter().enumerate() {
-                    let cargo = Ok(Cargo::Kept(entry.file.clone()));
-                    let order = form.order(antenna, cargo);
-                    one(ui, model, index, entry, order, question);
-                }
             }
         }
     });
