@@ -161,7 +161,7 @@ fn a_station_of_somebody_else_is_not_overwritten_by_the_set_up() {
     fs::write(&path, theirs).unwrap();
     window.get_by_role_and_label(Role::Tab, "Preferences").click();
     window.run_steps(3);
-    window.get_by_role_and_label(Role::Button, "Save and use").click();
+    window.get_by_role_and_label(Role::Button, "Save and end the demo").click();
     wait_until("it is told", || {
         window.step();
         says(&window, "Not saved: a station has been set up elsewhere meanwhile")
@@ -226,7 +226,7 @@ fn the_simulators_end_with_the_demonstration() {
         addresses.map(|antenna| antenna.config.connection.address.clone()).collect();
     window.get_by_role_and_label(Role::Tab, "Preferences").click();
     window.run_steps(3);
-    window.get_by_role_and_label(Role::Button, "Save and use").click();
+    window.get_by_role_and_label(Role::Button, "Save and end the demo").click();
     step_until(&mut window, "the demonstration is over", |model| !model.demo);
     let saved = station::load(&folder.path().join("station.toml"), makes::SPECS).unwrap();
     assert_eq!(saved.notes, []);

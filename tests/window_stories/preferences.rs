@@ -295,14 +295,15 @@ fn it_says_what_came_of_saving() {
 
 #[test]
 fn the_demo_station_is_taken_over_without_its_antennas() {
-    for size in rig::sizes() {
+    for size in SIZES {
         let mut model: Model = rig::model(states::holding());
         (model.demo, model.view) = (true, View::Preferences);
         let before = Station::clone(&model.station);
         assert_eq!(before.antennas.len(), 1);
         let mut window = rig::window(size, model);
         assert!(says(&window, "Saving ends the demo and uses this station."));
-        window.get_by_role_and_label(Role::Button, "Save and use").click();
+        assert!(window.query_by_label("Save and use").is_none(), "the button says what ends");
+        window.get_by_role_and_label(Role::Button, "Save and end the demo").click();
         let name = "Station".to_owned();
         let wanted = Station { name, antennas: Vec::new(), ..before };
         assert_eq!(saved(asked(&mut window)), wanted);
@@ -333,15 +334,16 @@ fn a_page_that_is_used_at_once_has_nothing_to_save() {
         let mut model = rig::model(states::holding());
         (model.demo, model.view) = (is_demo, View::Preferences);
         let mut window = rig::window(rig::LARGE, model);
+        let save = if is_demo { "Save and end the demo" } else { "Save and use" };
         for page in ["Appearance", "Keys"] {
             open(&mut window, page);
-            assert!(is_disabled(&window, "Save and use"), "{page}");
+            assert!(is_disabled(&window, save), "{page}");
             assert!(says(&window, "Changes on this page are applied at once."), "{page}");
         }
         open(&mut window, "Site");
         write(&mut window, "Name", "Şile 2");
         open(&mut window, "Appearance");
-        assert!(!is_disabled(&window, "Save and use"), "of another page");
+        assert!(!is_disabled(&window, save), "of another page");
         assert!(says(&window, "1 change"));
     }
 }

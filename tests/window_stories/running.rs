@@ -256,7 +256,7 @@ fn saving_writes_the_file_and_ends_the_demonstration() {
     window.key_press_modifiers(Modifiers::COMMAND, Key::A);
     window.event(Event::Text("-33.5".to_owned()));
     window.run_steps(3);
-    window.get_by_role_and_label(Role::Button, "Save and use").click();
+    window.get_by_role_and_label(Role::Button, "Save and end the demo").click();
     step_until(&mut window, "the demonstration is over", |model| !model.demo);
     let saved = station::load(&path, makes::SPECS).unwrap();
     assert_eq!(saved.notes, []);

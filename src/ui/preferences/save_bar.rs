@@ -22,6 +22,7 @@ use crate::{
 };
 
 const ENDS_THE_DEMO: &str = "Saving ends the demo and uses this station.";
+const SAVE_IN_DEMO: &str = "Save and end the demo";
 /// Height of a line.
 const LINE: f32 = 20.0;
 /// Number of lines of checks that are shown.
@@ -58,13 +59,16 @@ pub(super) fn show(
     let can_save = read.is_some() && (is_edited || replaces_demo) && is_free;
     let holds = can_save && checks.inside.is_some();
     let save = if is_edited { Button::primary } else { Button::normal };
-    let save = save("Save and use").locked(!can_save).locked_by(lock);
+    let save = save(if model.demo { SAVE_IN_DEMO } else { "Save and use" })
+        .locked(!can_save)
+        .locked_by(lock);
     let revert = Button::normal("Revert").locked(!is_edited);
     let place = |right: f32, width: f32| {
         let min = pos2(right - width, rect.center().y - HEIGHT / 2.0);
         Rect::from_min_size(min, vec2(width, HEIGHT))
     };
-    let width = if holds { HOLD } else { save.width(ui) };
+    // The button keeps its place when the demo ends.
+    let width = if holds { HOLD } else { Button::primary(SAVE_IN_DEMO).width(ui) };
     let saving = place(rect.right() - PADDING, width);
     let reverting = place(saving.left() - 8.0, revert.width(ui));
     let room = rect.with_min_x(rect.left() + PADDING).with_max_x(reverting.left() - PADDING);
