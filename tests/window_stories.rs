@@ -58,6 +58,7 @@ mod settings_service;
 mod settings_unit;
 mod setup;
 mod setup_real;
+mod setup_sources;
 mod shown_as_it_is;
 mod sky;
 mod sky_time;

@@ -61,10 +61,28 @@ impl SetupState {
         self.wants_focus = true;
     }
 
-    /// Leaves the step as done, unless something hinders it.
+    /// Why the operator cannot go on from the step that is shown.
+    fn hindrance(&self, draft: &SetupDraft, model: &Model) -> Option<String> {
+        match self.step {
+            Step::Site | Step::Antennas | Step::Satellites | Step::End => {
+                draft.hindrance(self.step, model)
+            }
+            Step::Elements => {
+                let why = self.add.typed(&model.sources)?.err()?;
+                Some(format!("This source is not added yet: {why}."))
+            }
+        }
+    }
+
+    /// Leaves the step as done, unless something hinders it. Adds a source that is typed.
     fn go_on(&mut self, draft: &SetupDraft, model: &Model, commands: &mut Vec<UiCommand>) {
-        if draft.hindrance(self.step, model).is_some() {
+        if self.hindrance(draft, model).is_some() {
             return;
+        }
+        if self.step == Step::Elements
+            && let Some(Ok(source)) = self.add.typed(&model.sources)
+        {
+            self.add.add(source, commands);
         }
         if let Some(next) = self.step.next() {
             self.progress.done(self.step);
@@ -179,13 +197,15 @@ fn take_keys(
         state.go_back();
         return;
     }
-    // On a button, Enter presses the button; a search takes it for what it finds.
+    // On a button, Enter presses the button; a search takes it for what it finds, and the form of a
+    // source for the source.
     let focused = ui.memory(egui::Memory::focused);
     let is_free = focused.is_none_or(|id| id == head);
     let is_for_step = match state.step {
         Step::Site | Step::Antennas => true,
         Step::Satellites => state.satellites.typed.trim().is_empty(),
-        Step::Elements | Step::End => false,
+        Step::Elements => state.add.is_empty(),
+        Step::End => false,
     };
     let ends_typing = ui.text_edit_focused() && is_for_step;
     let enter = |ui: &Ui| ui.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Enter));

@@ -3,7 +3,10 @@
 use std::{sync::Arc, time::Duration};
 
 use azel::{
-    device::{AntennaState, OnBoard, Place, UnitClock},
+    device::{
+        AntennaState, OnBoard, Place, UnitClock,
+        panel::{Check, CheckState},
+    },
     driver::{LinkFault, LinkFinding},
     engine::{
         self,
@@ -261,6 +264,60 @@ fn each_outcome_of_a_test_says_what_to_check() {
         write(&mut window, "Address of the Satrak", "other.local:4001");
         assert!(!says(&window, "Nobody answers"));
         window.get_by_role_and_label(Role::Button, "Test link of Satrak");
+    }
+}
+
+#[test]
+fn a_unit_that_is_reached_with_a_fault_says_so_in_every_place() {
+    let names = ["Sensor of rotator 2", "Limits of rotator 2", "Panic code"];
+    let [sensor, limits, panic] =
+        names.map(|name| Check::new(name, CheckState::Good, "Look there."));
+    let reached_with = |checks: &[Check]| {
+        let LinkFinding::Reached { after, mut state } = reached() else { panic!("it is reached") };
+        state.checks = checks.into();
+        LinkFinding::Reached { after, state }
+    };
+    let fault = Check { state: CheckState::Fault, ..sensor };
+    let caution = Check { state: CheckState::Caution, ..limits };
+    for size in SIZES {
+        let mut window = window(size);
+        write_site(&mut window);
+        press(&mut window, NEXT[0]);
+        let antenna = add_and_test(&mut window, "unit.local:4001");
+        tell(&mut window, &antenna, reached_with(&[panic.clone()]));
+        assert!(says(&window, "reached, 12 ms"), "{size:?}");
+        window.get_by_label_contains("1 of 1 reached");
+        assert!(!says(&window, "you can continue"), "{size:?}");
+        tell(&mut window, &antenna, reached_with(&[caution.clone(), panic.clone()]));
+        assert!(says(&window, "reached, 1 warning"), "{size:?}");
+        tell(&mut window, &antenna, reached_with(&[fault.clone(), caution.clone()]));
+        assert!(says(&window, "reached, 1 fault"), "{size:?}");
+        assert!(says(&window, "Sensor of rotator 2: Look there."), "{size:?}");
+        window.get_by_label_contains("1 of 1 reached, 1 with a fault");
+        let words = "Satrak: you can continue. Follow the advice above before you use it.";
+        assert!(says(&window, words), "{size:?}");
+        assert!(!says(&window, "Azel tries again"), "it was reached");
+    }
+}
+
+#[test]
+fn the_outcome_of_a_test_says_when_and_goes_on_counting() {
+    for size in rig::sizes() {
+        let mut window = window(size);
+        write_site(&mut window);
+        press(&mut window, NEXT[0]);
+        let antenna = add_and_test(&mut window, "unit.local:4001");
+        for finding in [reached(), LinkFinding::Silent] {
+            window.state_mut().model.now = rig::now();
+            tell(&mut window, &antenna, finding);
+            assert!(says(&window, "Tested just now."));
+            for (minutes, words) in [(14, "Tested 14 min ago."), (15, "Tested 15 min ago.")] {
+                window.state_mut().model.now =
+                    rig::now() + jiff::SignedDuration::from_mins(minutes);
+                settle(&mut window);
+                assert!(says(&window, words), "{words}");
+            }
+        }
     }
 }
 

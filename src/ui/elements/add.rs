@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use egui::{Align, Button, Layout, RichText, Role, TextEdit, Ui, WidgetInfo, vec2};
+use egui::{Align, Button, Key, Layout, Response, RichText, Role, TextEdit, Ui, WidgetInfo, vec2};
 
 use crate::{
     engine::{self, sources::Sources},
@@ -12,6 +12,7 @@ use crate::{
     ui::{
         text, theme,
         widgets::{input::select_when_tabbed, radio},
+        words::sentence,
     },
 };
 
@@ -27,8 +28,8 @@ pub(in crate::ui) struct AddState {
     kind: Kind,
     name: String,
     place: String,
-    /// The name of the source requested last.
-    asked: Option<String>,
+    /// The source requested last.
+    requested: Option<Source>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -52,15 +53,44 @@ impl AddState {
         Source { name: self.name.trim().to_owned(), place, refresh: None }
     }
 
+    /// Returns `true` if nothing is typed.
+    pub(in crate::ui) fn is_empty(&self) -> bool {
+        self.name.trim().is_empty() && self.place.trim().is_empty()
+    }
+
+    /// The typed source that is not requested yet, or why it cannot be added. `None` for an empty
+    /// form.
+    pub(in crate::ui) fn typed(&self, sources: &Sources) -> Option<Result<Source, String>> {
+        let source = self.source();
+        // It stays in the form until it is in the list.
+        let is_requested = self.requested.as_ref() == Some(&source) && sources.problems.is_empty();
+        if self.is_empty() || is_requested {
+            return None;
+        }
+        let why = match check_source(&source, &sources.list) {
+            Err(problem) => problem.to_string(),
+            Ok(()) if sources.is_locked => "the list of sources cannot be read".to_owned(),
+            Ok(()) if !sources.is_free() => "wait until the other sources are read".to_owned(),
+            Ok(()) => return Some(Ok(source)),
+        };
+        Some(Err(why))
+    }
+
+    /// Requests `source`, which was typed.
+    pub(in crate::ui) fn add(&mut self, source: Source, commands: &mut Vec<UiCommand>) {
+        self.requested = Some(source.clone());
+        commands.push(UiCommand::Station(engine::Command::AddSource(source)));
+    }
+
     /// Clears the form once the source is in the list.
     fn forget_the_added(&mut self, sources: &Sources) {
-        let is_there = |name: &String| sources.list.iter().any(|source| source.name == *name);
-        if self.asked.as_ref().is_some_and(is_there) {
+        if self.requested.as_ref().is_some_and(|requested| sources.list.contains(requested)) {
             *self = Self { kind: self.kind, ..Self::default() };
         }
     }
 }
 
+/// Shows the form. Enter in one of its fields adds the source, like its button.
 pub(in crate::ui) fn show(
     ui: &mut Ui,
     sources: &Sources,
@@ -98,25 +128,30 @@ pub(in crate::ui) fn show(
             Kind::Folder => ("Path", "/… or C:\\…, all element files in it"),
             Kind::SpaceTrack => ("Log-in", "the name of your account at space-track.org"),
         };
-        field(ui, ("Name", "also the name of the group"), NAME, &mut state.name);
-        field(ui, place, f32::INFINITY, &mut state.place);
+        let fields = [
+            field(ui, ("Name", "also the name of the group"), NAME, &mut state.name),
+            field(ui, place, f32::INFINITY, &mut state.place),
+        ];
         if state.kind == Kind::SpaceTrack {
             let words =
                 "Azel asks for your favourites. After Add, enter the password with Password.";
             ui.label(RichText::new(words).font(text::small()).color(t.t2));
         }
-        let source = state.source();
-        let checked = check_source(&source, &sources.list);
-        let can = checked.is_ok() && sources.is_free();
+        let typed = state.typed(sources);
+        let entered = fields.into_iter().find(|field| field.lost_focus());
+        let entered = entered.filter(|_| ui.input(|input| input.key_pressed(Key::Enter)));
         ui.horizontal(|ui| {
-            if named_button(ui, can, "Add", "Add source") {
-                state.asked = Some(source.name.clone());
-                commands.push(UiCommand::Station(engine::Command::AddSource(source)));
-            }
-            let typed = !state.name.is_empty() || !state.place.is_empty();
-            if let (true, Err(problem)) = (typed, checked) {
-                let words = format!("{}.", crate::ui::words::capitalised(&problem.to_string()));
-                ui.label(RichText::new(words).font(text::body()).color(t.warn));
+            let is_pressed = named_button(ui, matches!(typed, Some(Ok(_))), "Add", "Add source");
+            match typed {
+                Some(Ok(source)) if is_pressed || entered.is_some() => state.add(source, commands),
+                Some(Err(why)) => {
+                    let words = sentence(&why);
+                    ui.label(RichText::new(words).font(text::body()).color(t.warn));
+                    if let Some(field) = entered {
+                        field.request_focus();
+                    }
+                }
+                Some(Ok(_)) | None => {}
             }
         });
     });
@@ -154,7 +189,7 @@ fn suggestion(
     }
 }
 
-fn field(ui: &mut Ui, (label, hint): (&str, &str), width: f32, typed: &mut String) {
+fn field(ui: &mut Ui, (label, hint): (&str, &str), width: f32, typed: &mut String) -> Response {
     let t = theme::tokens(ui);
     ui.horizontal(|ui| {
         let words = RichText::new(label).font(text::body()).color(t.t2);
@@ -170,7 +205,9 @@ fn field(ui: &mut Ui, (label, hint): (&str, &str), width: f32, typed: &mut Strin
         let edit = TextEdit::singleline(typed).id_salt(label).hint_text(hint).desired_width(width);
         let response = ui.add(edit).labelled_by(label_id);
         select_when_tabbed(ui, &response, typed);
-    });
+        response
+    })
+    .inner
 }
 
 /// Shows a button with a longer accessible name; returns `true` when it was clicked.

@@ -106,7 +106,7 @@ pub(super) fn show(
             findings::show(ui, Page::Antenna(id), draft);
             if let Some(test) = test {
                 form::card(ui, "Test of the link", |ui| {
-                    for (tone, words) in words::link_test(test, model.demo) {
+                    for (tone, words) in words::link_test(test, model.demo, model.now) {
                         told::line(ui, tone, &words);
                     }
                 });

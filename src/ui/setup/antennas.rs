@@ -59,16 +59,25 @@ pub(super) fn show(
         let words = "or none: Azel then predicts passes only.";
         ui.label(RichText::new(words).font(text::small()).color(t.t3));
     });
-    let silent = (0..draft.form.antennas.len()).filter(|index| {
-        let test = draft.form.test(*index, model);
-        matches!(words::link_test_state(test).0, Tone::Bad | Tone::Caution)
-    });
-    let silent: Vec<String> = silent.map(|index| draft.antenna_name(index)).collect();
-    if !silent.is_empty() {
-        ui.add_space(4.0);
-        let names = crate::ui::format::list(&silent);
-        let words = format!("{names}: you can continue. Azel tries again once you finish.");
-        line(ui, Tone::Caution, &words);
+    let (mut silent, mut faulty) = (Vec::new(), Vec::new());
+    for index in 0..draft.form.antennas.len() {
+        let Some(test) = draft.form.test(index, model) else { continue };
+        let name = draft.antenna_name(index);
+        match words::link_test_state(Some(test)).0 {
+            Tone::Good | Tone::Plain | Tone::Now => {}
+            Tone::Caution | Tone::Bad if words::link_test_reached(test) => faulty.push(name),
+            Tone::Caution | Tone::Bad => silent.push(name),
+        }
+    }
+    for (names, then) in [
+        (silent, "Azel tries again once you finish."),
+        (faulty, "Follow the advice above before you use it."),
+    ] {
+        if !names.is_empty() {
+            ui.add_space(4.0);
+            let names = crate::ui::format::list(&names);
+            line(ui, Tone::Caution, &format!("{names}: you can continue. {then}"));
+        }
     }
 }
 
@@ -133,7 +142,7 @@ fn one(
             named(ui, Button::quiet("Remove"), ("remove", id.0), true, &format!("Remove {name}"))
         })
         .inner;
-    let outcome = test.map(|test| words::link_test(test, model.demo));
+    let outcome = test.map(|test| words::link_test(test, model.demo, model.now));
     for (tone, words) in outcome.unwrap_or_default() {
         line(ui, tone, &words);
     }

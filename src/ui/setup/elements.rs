@@ -46,5 +46,11 @@ pub(super) fn show(
             ui.label(RichText::new(sentence(problem)).font(text::body()).color(t.bad));
         }
     });
-    card::show(ui, CARD, |ui| add_source(ui, &model.sources, state, commands));
+    card::show(ui, CARD, |ui| {
+        add_source(ui, &model.sources, state, commands);
+        if let Some(Ok(_)) = state.typed(&model.sources) {
+            let words = "Enter adds the source. Press Enter again to continue.";
+            ui.label(RichText::new(words).font(text::small()).color(t.t2));
+        }
+    });
 }

@@ -4,6 +4,7 @@ use egui::{Align2, Rect, Role, Stroke, Ui, WidgetInfo, pos2, vec2};
 
 use super::{NARROW_BELOW, PADDING, SetupState, Step, draft::SetupDraft, so_far, steps::Passed};
 use crate::{
+    engine::link_tests::LinkTest,
     model::{Model, UiCommand},
     ui::{
         icons::{self, Icon},
@@ -13,6 +14,7 @@ use crate::{
             button::{Button, HEIGHT},
             paint,
         },
+        words,
     },
 };
 
@@ -185,14 +187,16 @@ fn detail(step: Step, model: &Model, draft: &SetupDraft, state: &SetupState) -> 
         },
         Step::Antennas => {
             let count = draft.form.antennas.len();
-            let reached = (0..count).filter(|index| {
-                let (tone, _) = crate::ui::words::link_test_state(draft.form.test(*index, model));
-                tone == crate::ui::widgets::told::Tone::Good
-            });
-            if count == 0 {
-                "None yet".to_owned()
-            } else {
-                format!("{} of {count} reached", reached.count())
+            let tests = (0..count).filter_map(|index| draft.form.test(index, model));
+            let reached: Vec<&LinkTest> =
+                tests.filter(|test| words::link_test_reached(test)).collect();
+            let faulty = reached.iter().filter(|test| words::link_test_faults(test) > 0).count();
+            match (count, faulty) {
+                (0, _) => "None yet".to_owned(),
+                (_, 0) => format!("{} of {count} reached", reached.len()),
+                (_, faulty) => {
+                    format!("{} of {count} reached, {faulty} with a fault", reached.len())
+                }
             }
         }
         Step::Satellites => crate::ui::words::capitalised(&so_far::satellites(draft).1),
@@ -213,7 +217,7 @@ pub(super) fn show_foot(
     let t = theme::tokens(ui);
     ui.painter().rect_filled(rect, 0.0, t.bg1);
     ui.painter().hline(rect.x_range(), rect.top() + 0.5, (1.0, t.line));
-    let (step, hindrance) = (state.step, draft.hindrance(state.step, model));
+    let (step, hindrance) = (state.step, state.hindrance(draft, model));
     let words = match step.next() {
         Some(next) => format!("Next: {} (Enter)", next.name()),
         None => "Finish (Enter)".to_owned(),

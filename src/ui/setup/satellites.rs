@@ -92,6 +92,10 @@ fn search(
     if std::mem::take(wants_focus) {
         edit.request_focus();
     }
+    if !state.typed.trim().is_empty() {
+        let words = "Enter adds the first. Press Enter again to continue.";
+        ui.label(RichText::new(words).font(text::small()).color(t.t2));
+    }
     let is_entered = edit.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
     if is_entered && !state.typed.trim().is_empty() {
         let first = state.objects(catalog).first().map(|(number, _)| *number);

@@ -1,7 +1,12 @@
 //! Tests of links: what came of them, and what to check.
 
+use std::time::Duration;
+
+use jiff::Timestamp;
+
 use super::clock;
 use crate::{
+    astro::time::seconds_between,
     device::{AntennaState, panel::CheckState},
     driver::{LinkFault, LinkFinding},
     engine::link_tests::{LinkTest, LinkTestStage},
@@ -9,12 +14,41 @@ use crate::{
     ui::{format, widgets::told::Tone, words::sentence},
 };
 
+/// A test that is younger has no age.
+const JUST_NOW_S: f64 = 10.0;
+
 /// Difference of a clock that can come from the link.
 const AGREES_S: f64 = 0.05;
 
 /// A place on the ground, by its coordinates.
 pub fn place(latitude_deg: f64, longitude_deg: f64) -> String {
     format!("{}, {}", format::latitude(latitude_deg, 3), format::longitude(longitude_deg, 3))
+}
+
+/// Returns `true` if the expected unit answered.
+pub fn link_test_reached(test: &LinkTest) -> bool {
+    reached_state(test).is_some()
+}
+
+/// The number of faults that a reached unit reports.
+pub fn link_test_faults(test: &LinkTest) -> usize {
+    reached_state(test).map_or(0, |state| count(state, CheckState::Fault))
+}
+
+fn reached_state(test: &LinkTest) -> Option<&AntennaState> {
+    match &test.stage {
+        LinkTestStage::Done { finding: LinkFinding::Reached { state, .. }, .. } => {
+            Some(&**state).filter(|state| !state.is_other_device)
+        }
+        LinkTestStage::Done { .. }
+        | LinkTestStage::Working
+        | LinkTestStage::InUse
+        | LinkTestStage::Elsewhere(_) => None,
+    }
+}
+
+fn count(state: &AntennaState, wanted: CheckState) -> usize {
+    state.checks.iter().filter(|check| check.state == wanted).count()
 }
 
 /// The state of a test in a few words.
@@ -28,9 +62,7 @@ pub fn link_test_state(test: Option<&LinkTest>) -> (Tone, String) {
             LinkFinding::Reached { state, .. } if state.is_other_device => {
                 (Tone::Caution, "another unit")
             }
-            LinkFinding::Reached { after, .. } => {
-                return (Tone::Good, format!("reached, {} ms", after.as_millis()));
-            }
+            LinkFinding::Reached { after, state } => return reached_in_short(*after, state),
             LinkFinding::Silent | LinkFinding::Closed => (Tone::Bad, "no answer"),
             LinkFinding::SomethingElse { .. } => (Tone::Bad, "something else"),
             LinkFinding::NotOpened(_) => (Tone::Bad, "not reached"),
@@ -39,8 +71,21 @@ pub fn link_test_state(test: Option<&LinkTest>) -> (Tone, String) {
     (tone, words.to_owned())
 }
 
-/// The outcome of a test, and what to check.
-pub fn link_test(test: &LinkTest, is_demo: bool) -> Vec<(Tone, String)> {
+fn reached_in_short(after: Duration, state: &AntennaState) -> (Tone, String) {
+    let faults = count(state, CheckState::Fault);
+    let warnings = count(state, CheckState::Caution);
+    match (faults, warnings, state.unreadable) {
+        (0, 0, None) => (Tone::Good, format!("reached, {} ms", after.as_millis())),
+        (0, 0, Some(_)) => (Tone::Caution, "reached, not readable".to_owned()),
+        (0, warnings, _) => {
+            (Tone::Caution, format!("reached, {}", format::counted(warnings, "warning")))
+        }
+        (faults, _, _) => (Tone::Caution, format!("reached, {}", format::counted(faults, "fault"))),
+    }
+}
+
+/// The outcome of a test, what to check, and how long ago it was at `now`.
+pub fn link_test(test: &LinkTest, is_demo: bool, now: Timestamp) -> Vec<(Tone, String)> {
     let connection = &test.antenna.connection;
     let (spec, address) = (connection.spec(), connection.address.as_str());
     match &test.stage {
@@ -57,8 +102,17 @@ pub fn link_test(test: &LinkTest, is_demo: bool) -> Vec<(Tone, String)> {
             (Tone::Caution, format!("Not asked: {by} holds this unit.")),
             (Tone::Plain, "Close it there first: a unit obeys one Azel at a time.".to_owned()),
         ],
-        LinkTestStage::Done { finding, .. } => finding_words(finding, spec, address),
+        LinkTestStage::Done { finding, at } => {
+            let mut lines = finding_words(finding, spec, address);
+            lines.push((Tone::Plain, format!("Tested {}.", ago(*at, now))));
+            lines
+        }
     }
+}
+
+fn ago(at: Timestamp, now: Timestamp) -> String {
+    let age_s = seconds_between(at, now);
+    if age_s < JUST_NOW_S { "just now".to_owned() } else { format!("{} ago", format::age(age_s)) }
 }
 
 fn finding_words(
@@ -139,7 +193,7 @@ fn reached(after_ms: u128, state: &AntennaState, spec: &ControllerSpec) -> Vec<(
     let mut lines = vec![(Tone::Good, format!("Reached{said}, {after_ms} ms."))];
     let mut facts = Vec::new();
     if let Some(direction) = state.measured.and_then(|measured| measured.direction()) {
-        facts.push(format!("Points at {}.", format::pointing_at(direction)));
+        facts.push(format!("It pointed at {}.", format::pointing_at(direction)));
     }
     if let Some(own) = state.on_board.place {
         let there = place(own.latitude_deg, own.longitude_deg);
@@ -159,10 +213,7 @@ fn reached(after_ms: u128, state: &AntennaState, spec: &ControllerSpec) -> Vec<(
         .checks
         .iter()
         .filter(|check| matches!(check.state, CheckState::Caution | CheckState::Fault));
-    let wrong: Vec<&str> = wrong.map(|check| check.name).collect();
-    if !wrong.is_empty() {
-        lines.push((Tone::Caution, format!("It reports: {}.", format::list(&wrong))));
-    }
+    lines.extend(wrong.map(|check| (Tone::Caution, format!("{}: {}", check.name, check.advice))));
     if let Some(why) = state.unreadable {
         lines.push((Tone::Caution, why.to_string()));
     }

@@ -135,6 +135,24 @@ fn files_are_chosen_by_a_key_and_in_the_form() {
     assert_eq!(asked(&mut window), [UiCommand::ChooseElementFiles]);
 }
 
+#[test]
+fn enter_in_the_form_adds_the_source() {
+    for size in rig::sizes() {
+        let mut window = view(size, Vec::new());
+        click(&mut window, "Add a source");
+        for (field, words) in [("Name", "own"), ("Address", "https://example.org/own.json")] {
+            window.get_by_role_and_label(Role::TextInput, field).focus();
+            settle(&mut window);
+            window.event(Event::Text(words.to_owned()));
+            settle(&mut window);
+        }
+        window.key_press(Key::Enter);
+        let place = SourcePlace::Web("https://example.org/own.json".to_owned());
+        let source = Source { name: "own".to_owned(), place, refresh: None };
+        assert_eq!(asked(&mut window), [UiCommand::Station(engine::Command::AddSource(source))]);
+    }
+}
+
 /// A time at which the sets that are newer than the bundled ones do not lie ahead.
 pub(super) fn week_later() -> jiff::Timestamp {
     rig::now() + jiff::SignedDuration::from_hours(7 * 24)
