@@ -217,6 +217,17 @@ fn tracking(model: &Model, antenna: &AntennaModel, name: &str) -> Spoken {
             .plain("Azel has no elements of it to compare with.");
     };
     let off_deg = error.off_beam.degrees();
+    let arrives = antenna.snapshot.on_board.as_ref().and_then(|view| view.arrives);
+    if let Some(arrives) = arrives.filter(|at| *at > model.steady && off_deg > half_beam_deg) {
+        let left = arrives.saturating_duration_since(model.steady).as_secs_f64();
+        return Spoken::new(SentenceKind::Commanded).plain("Tracking ").bold(name).plain(own).plain(
+            format!(
+                "The antenna is still turning, {} off the predicted path, expected there within {}.",
+                format::degrees(off_deg, 2),
+                format::age(left)
+            ),
+        );
+    }
     let after = match antenna.snapshot.state.on_board.window {
         Some((_, stop)) if stop > model.now => {
             let what = if sets(model, antenna) { "At LOS" } else { "It does not set; at" };

@@ -181,7 +181,8 @@ fn on_board(added: TrackOffsets, left: Option<LeftOffsets>) -> Snapshot {
     let mut snapshot = states::tracking(0.04);
     let held = azel::device::Offsets { azimuth_deg: -0.5, ..azel::device::Offsets::default() };
     snapshot.state.on_board.offsets = Some(held);
-    snapshot.on_board = Some(OnBoardView { found: Arc::new(found(0.0)), missing: None });
+    snapshot.on_board =
+        Some(OnBoardView { found: Arc::new(found(0.0)), missing: None, arrives: None });
     snapshot.unit_offsets = (!added.is_none() || left.is_some()).then_some(UnitOffsetsView {
         offsets: added,
         is_changing: false,

@@ -52,7 +52,7 @@ pub(crate) fn found(off_deg: f64) -> Supervision {
 
 pub(crate) fn told(found: Supervision) -> Snapshot {
     let mut snapshot = states::holding();
-    snapshot.on_board = Some(OnBoardView { found: Arc::new(found), missing: None });
+    snapshot.on_board = Some(OnBoardView { found: Arc::new(found), missing: None, arrives: None });
     snapshot
 }
 

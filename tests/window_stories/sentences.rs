@@ -5,7 +5,9 @@ use std::{sync::Arc, time::Duration};
 use azel::{
     astro::{AzEl, time::add_seconds},
     device::{Asked, AxisMotion, Motion, Offsets, Phase, PrepareError},
-    driver::{Event, Found, Intent, LinkLoss, LinkState, Refusal, Snapshot, StopState},
+    driver::{
+        Event, Found, Intent, LinkLoss, LinkState, OnBoardView, Refusal, Snapshot, StopState,
+    },
     engine::{
         claim::{HeldBy, Holder, HolderKind},
         passes::PredictedPass,
@@ -13,7 +15,7 @@ use azel::{
     model::Model,
 };
 
-use crate::window_stories::{makes, rig, states};
+use crate::window_stories::{makes, on_board, rig, states};
 
 /// Sentence for the station with this snapshot after `change`.
 fn told(snapshot: Snapshot, change: impl FnOnce(&mut Model, &mut Snapshot)) -> String {
@@ -49,6 +51,23 @@ fn a_path_that_is_being_judged_is_told_before_anything_begins() {
         "Being judged: Azel checks the whole way against keep-outs, the Sun and the limits before \
          the antenna goes on."
     );
+}
+
+#[test]
+fn an_antenna_on_its_way_to_a_pass_under_way_says_when_it_will_be_there() {
+    let arrives_in = |seconds: u64| {
+        told(states::tracking(30.2), |model, snapshot| {
+            let arrives = Some(model.steady + Duration::from_secs(seconds));
+            let found = Arc::new(on_board::found(0.0));
+            snapshot.on_board = Some(OnBoardView { found, missing: None, arrives });
+        })
+    };
+    assert_eq!(
+        arrives_in(21),
+        "Tracking NOAA 20 with the elements stored on the unit. The antenna is still turning, 30.20° \
+         off the predicted path, expected there within 21 s."
+    );
+    assert!(arrives_in(0).contains("outside its 0.88° beam"), "{}", arrives_in(0));
 }
 
 #[test]

@@ -56,7 +56,7 @@ fn the_mode_is_that_of_the_antenna_also_when_the_unit_tracks_by_itself() {
         let take_over = "Take over the track of NOAA 20";
         assert!(window.query_by_label(take_over).is_none(), "nothing to watch it by");
 
-        let view = OnBoardView { found: Arc::new(found(0.0)), missing: None };
+        let view = OnBoardView { found: Arc::new(found(0.0)), missing: None, arrives: None };
         snapshot.on_board = Some(view);
         let mut window = rig::window(size, rig::model(snapshot));
         window.get_by_label(take_over).click();

@@ -232,6 +232,9 @@ pub struct OnBoardView {
     pub found: Arc<Supervision>,
     /// Angle off the satellite, where it has lasted longer than a slew explains.
     pub missing: Option<Angle>,
+    /// Latest expected arrival on the satellite of an antenna that has not been on it yet.
+    #[serde(default)]
+    pub arrives: Option<Instant>,
 }
 
 /// What was added from here to the offsets of the unit's own track.

@@ -63,7 +63,11 @@ impl Watch {
     }
 
     pub(super) fn view(&self) -> OnBoardView {
-        OnBoardView { found: Arc::clone(&self.found), missing: self.off_target.missing() }
+        OnBoardView {
+            found: Arc::clone(&self.found),
+            missing: self.off_target.missing(),
+            arrives: self.arrives.filter(|_| !self.was_on_target),
+        }
     }
 
     /// How long the antenna has been off its target for another reason than the clocks. A unit that
