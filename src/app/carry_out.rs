@@ -95,7 +95,8 @@ impl App {
                 model.catalog_table.inspected = Some(number);
                 self.send(Command::ListOlderSets(number));
             }
-            UiCommand::Save(export) => self.save_export(export),
+            UiCommand::Save(export) => self.save_export(export, None),
+            UiCommand::SaveAs(export, path) => self.save_export(export, Some(path)),
             UiCommand::Rehearse(pass) => self.rehearse(pass),
             UiCommand::EndRehearsal => self.end_rehearsal(),
             UiCommand::OpenFolder(folder) => self.open_folder(folder),

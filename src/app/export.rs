@@ -6,7 +6,7 @@ mod tests;
 use std::{
     collections::{BTreeMap, BTreeSet, btree_map::Entry},
     io::{self, Write as _},
-    path::PathBuf,
+    path::{Path, PathBuf},
     sync::Arc,
 };
 
@@ -15,7 +15,10 @@ use jiff::{Timestamp, civil::Date, tz::TimeZone};
 use super::App;
 use crate::{
     astro::time::seconds_between,
-    desktop::file_dialog,
+    desktop::{
+        file_dialog::{self, NoDialog},
+        folder,
+    },
     engine::{
         CatalogState,
         passes::{PassKey, PassLists, PredictedPass},
@@ -23,7 +26,9 @@ use crate::{
         schedule::Planned,
     },
     job::Job,
-    model::export::{DaysFormat, ElementForm, Export, ReportFormat, SavedFile},
+    model::export::{
+        DaysFormat, ElementForm, Export, PathRequest, ReportFormat, SavedFile, TypedPath,
+    },
     orbit::{PassSearch, write_omm_csv, write_omm_json, write_tle},
     plan::{
         pass_export::{
@@ -43,13 +48,28 @@ const STEPS_S: [f64; 3] = [1.0, 10.0, 60.0];
 /// Most rows of a table of look angles, unless the largest step takes more.
 const MOST_ROWS: f64 = 3600.0;
 
-/// The file that was written; `None` after Cancel.
-type Saved = Result<Option<SavedFile>, String>;
+/// What came of the wish to save a file.
+#[derive(Debug, PartialEq, Eq)]
+enum Outcome {
+    Saved(SavedFile),
+    Cancelled,
+    /// The operator has to type the path.
+    AsksForPath(PathRequest),
+}
+
+/// Asks for a file to save, with a title and a name; `None` after Cancel.
+type SaveDialog = fn(&str, &str) -> Result<Option<PathBuf>, NoDialog>;
 
 /// Saves one file at a time.
-#[derive(Default)]
 pub(super) struct ExportWork {
-    job: Option<Job<Saved>>,
+    job: Option<Job<Result<Outcome, String>>>,
+    dialog: SaveDialog,
+}
+
+impl Default for ExportWork {
+    fn default() -> Self {
+        Self { job: None, dialog: file_dialog::file_to_save }
+    }
 }
 
 /// What is written, with all that it takes.
@@ -67,8 +87,16 @@ struct Order {
 }
 
 impl App {
-    /// Shows the dialog and writes the file, unless another one is being written.
-    pub(super) fn save_export(&mut self, export: Export) {
+    /// Saves as on a desktop that shows no dialogs.
+    #[must_use]
+    pub fn without_save_dialog(mut self) -> Self {
+        self.export_work.dialog = |_, _| Err(NoDialog);
+        self
+    }
+
+    /// Writes the file to the typed path, or to that of the dialog, unless another one is being
+    /// written.
+    pub(super) fn save_export(&mut self, export: Export, typed: Option<TypedPath>) {
         if self.export_work.job.is_some() {
             let why = "another file is being saved; its dialog may be behind this window";
             return self.views.file_saved(Err(why.to_owned()));
@@ -85,7 +113,11 @@ impl App {
             span_h: model.list.span_h(),
             now: model.now,
         };
-        let work = move |_: &(dyn Fn() -> bool + Sync)| order.save();
+        let dialog = self.export_work.dialog;
+        let work = move |_: &(dyn Fn() -> bool + Sync)| match typed {
+            Some(typed) => order.save_as(typed),
+            None => order.save(dialog, folder::documents),
+        };
         match Job::start("azel-export", Arc::clone(&self.wake), work) {
             Ok(job) => self.export_work.job = Some(job),
             Err(error) => self.views.file_saved(Err(format!("no thread for the file: {error}"))),
@@ -96,15 +128,22 @@ impl App {
     pub(super) fn take_export(&mut self) {
         let Some(end) = Job::take(&mut self.export_work.job) else { return };
         match end.unwrap_or_else(|broke_off| Err(broke_off.to_string())) {
-            Ok(None) => {}
-            Ok(Some(file)) => self.views.file_saved(Ok(file)),
+            Ok(Outcome::Cancelled) => {}
+            Ok(Outcome::Saved(file)) => self.views.file_saved(Ok(file)),
+            Ok(Outcome::AsksForPath(request)) => self.views.ask_for_path(request),
             Err(why) => self.views.file_saved(Err(why)),
         }
     }
 }
 
 impl Order {
-    fn save(&self) -> Saved {
+    /// Saves to the file of the dialog. Without a dialog, a name in the folder of `documents` is
+    /// proposed.
+    fn save(
+        &self,
+        dialog: impl FnOnce(&str, &str) -> Result<Option<PathBuf>, NoDialog>,
+        documents: impl FnOnce() -> Option<PathBuf>,
+    ) -> Result<Outcome, String> {
         let title = match self.export {
             Export::Elements { .. } => "Save elements",
             Export::Passes { .. } => "Save passes",
@@ -114,13 +153,51 @@ impl Order {
             Export::Report { .. } => "Save the report",
             Export::Days { .. } => "Save the reports",
         };
-        let asked = file_dialog::file_to_save(title, &self.name());
-        let Some(path) = asked.map_err(|error| error.to_string())? else { return Ok(None) };
-        let (text, left_out) = self.text().map_err(|why| format!("{why}: {}", path.display()))?;
-        match whole_file::replace_for_others(&path, &text) {
-            Ok(()) => Ok(Some(SavedFile { path, left_out })),
-            Err(error) => Err(format!("{error}: {}", path.display())),
+        let name = self.name();
+        match dialog(title, &name) {
+            Ok(None) => Ok(Outcome::Cancelled),
+            Ok(Some(path)) => {
+                let (text, left_out) =
+                    self.text().map_err(|why| format!("{why}: {}", path.display()))?;
+                match whole_file::replace_for_others(&path, &text) {
+                    Ok(()) => Ok(Outcome::Saved(SavedFile { path, left_out })),
+                    Err(error) => Err(format!("{error}: {}", path.display())),
+                }
+            }
+            Err(no_dialog) => {
+                let path = documents().unwrap_or_default().join(name);
+                Ok(self.ask_for_path(path, false, no_dialog.to_string()))
+            }
         }
+    }
+
+    /// Saves to a path that was typed, or asks for it again.
+    fn save_as(&self, typed: TypedPath) -> Result<Outcome, String> {
+        let TypedPath { path, replaces } = typed;
+        let why = if !path.is_absolute() {
+            "type the whole path, from the root or the drive on"
+        } else if path.is_dir() {
+            "this is a folder: add the name of the file"
+        } else if !path.parent().is_some_and(Path::is_dir) {
+            // A mistyped folder would be made.
+            "there is no such folder"
+        } else if !replaces && path.exists() {
+            return Ok(self.ask_for_path(path, true, "this file exists already".to_owned()));
+        } else {
+            let (text, left_out) = self.text()?;
+            return Ok(match whole_file::replace_for_others(&path, &text) {
+                Ok(()) => Outcome::Saved(SavedFile { path, left_out }),
+                Err(error) => {
+                    self.ask_for_path(path, false, format!("the file cannot be written: {error}"))
+                }
+            });
+        };
+        Ok(self.ask_for_path(path, false, why.to_owned()))
+    }
+
+    fn ask_for_path(&self, path: PathBuf, replaces: bool, why: String) -> Outcome {
+        let proposed = TypedPath { path, replaces };
+        Outcome::AsksForPath(PathRequest { export: self.export.clone(), proposed, why })
     }
 
     /// The name that the dialog offers.

@@ -1,8 +1,8 @@
-//! The file manager of the desktop.
+//! The folders of the desktop: its file manager, and where documents are.
 
 use std::{
     io,
-    path::Path,
+    path::{Path, PathBuf},
     process::{Command, ExitStatus, Stdio},
 };
 
@@ -26,6 +26,13 @@ const PROGRAM: &str = "xdg-open";
 /// nobody waits for.
 pub fn open(folder: &Path) -> Result<(), NotOpened> {
     open_with(PROGRAM, folder)
+}
+
+/// The folder for the operator's documents, or the home folder.
+pub fn documents() -> Option<PathBuf> {
+    let user = directories::UserDirs::new()?;
+    let documents = user.document_dir().filter(|folder| folder.is_dir());
+    Some(documents.unwrap_or_else(|| user.home_dir()).to_owned())
 }
 
 fn open_with(program: &str, folder: &Path) -> Result<(), NotOpened> {

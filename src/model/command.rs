@@ -7,7 +7,7 @@ use jiff::Timestamp;
 use super::{
     Appearance, ConsoleLine, Model, NextStation, ThemeName, View, catalog_table,
     effects::{mounts, obstacles, sites},
-    export::Export,
+    export::{Export, TypedPath},
     intake::Offer,
     replay::{ReplayCommand, Stretch},
 };
@@ -75,6 +75,8 @@ pub enum UiCommand {
     InspectObject(u32),
     /// Save this to a file that the operator names in the dialog of the desktop.
     Save(Export),
+    /// Save this to a file whose path the operator has typed.
+    SaveAs(Export, TypedPath),
     /// Work out the effects of keep-outs on the passes to come.
     ShowEffects(Box<obstacles::Question>),
     /// Work out how much of the passes to come an antenna tracks.
@@ -154,6 +156,7 @@ impl UiCommand {
             | Self::ChooseStationFile
             | Self::ChooseElementFiles
             | Self::Save(_)
+            | Self::SaveAs(..)
             | Self::SaveLog(_)
             | Self::OpenFolder(_)
             | Self::ImportMask(_)

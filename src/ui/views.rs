@@ -13,7 +13,7 @@ use super::{
     confirm::Question,
     console,
     dialogs::{
-        changing,
+        SavePathDialog, changing,
         closing::{self, ClosingDialog},
     },
     elements::{self, ChosenColumns},
@@ -36,7 +36,10 @@ use crate::{
     desktop::file_dialog::NoDialog,
     driver::Command,
     engine::{self, closing::CloseHow},
-    model::{MaskNews, Model, UiCommand, View, export::SavedFile},
+    model::{
+        MaskNews, Model, UiCommand, View,
+        export::{PathRequest, SavedFile},
+    },
 };
 
 /// Input, open parts and folds of all views.
@@ -54,6 +57,7 @@ pub struct Views {
     upload: UploadState,
     question: Option<Question>,
     closing: Option<ClosingDialog>,
+    save_path: Option<SavePathDialog>,
     notes: Notes,
     banner: BannerRoom,
     keys_open: bool,
@@ -217,7 +221,8 @@ impl Views {
                 preferences::show(ui, rest, model, &mut self.preferences, commands);
             }
             View::Setup => {
-                let takes_keys = self.question.is_none() && !self.keys_open;
+                let is_asked = self.question.is_some() || self.save_path.is_some();
+                let takes_keys = !is_asked && !self.keys_open;
                 setup::show(ui, rest, model, takes_keys, &mut self.setup, commands);
             }
         }
@@ -231,8 +236,21 @@ impl Views {
             // Enter answers the question, rather than ending the typing behind it.
             ui.memory_mut(egui::Memory::stop_text_input);
         }
+        self.show_questions(ui, live, model, commands);
+        keys::list::show(ui, &mut self.keys_open, self.preferences.own_keys());
+    }
+
+    /// Shows the questions that lie over all views.
+    fn show_questions(
+        &mut self,
+        ui: &Ui,
+        live: &Model,
+        model: &Model,
+        commands: &mut Vec<UiCommand>,
+    ) {
         let answered = commands.len();
         Question::show(&mut self.question, ui, commands);
+        SavePathDialog::show(&mut self.save_path, ui, commands);
         ClosingDialog::show(&mut self.closing, ui, model, commands);
         closing::waiting(ui, live, commands);
         changing::show(ui, live, commands);
@@ -242,7 +260,6 @@ impl Views {
         if commands.iter().skip(answered).any(is_manual) {
             self.operate.card.drive.focus_pad();
         }
-        keys::list::show(ui, &mut self.keys_open, self.preferences.own_keys());
     }
 
     /// Takes a correction over that the operator has chosen in the record.
@@ -355,6 +372,11 @@ impl Views {
     /// Takes the outcome of saving a file: the file or the error.
     pub fn file_saved(&mut self, result: Result<SavedFile, String>) {
         self.notes.news = Some(result.map_err(|why| format!("Nothing was saved: {why}.")));
+    }
+
+    /// The operator is to type the path of a file.
+    pub fn ask_for_path(&mut self, request: PathRequest) {
+        self.save_path = Some(SavePathDialog::new(request));
     }
 
     /// The folder that the operator wanted to see was not opened.

@@ -1,20 +1,26 @@
 //! Passes and look angles are saved to files for other programs.
 
+use std::fs;
+
 use azel::{
+    app::App,
     desktop::file_dialog::NoDialog,
     engine::passes::PredictedPass,
+    makes,
     model::{
         UiCommand,
-        export::{Export, SavedFile},
+        export::{Export, PathRequest, SavedFile, TypedPath},
     },
     plan::pass_export::{LookFormat, PassFormat},
+    station,
 };
-use egui::Role;
+use egui::{Event, Key, Modifiers, Role};
 use egui_kittest::kittest::Queryable as _;
 
 use crate::window_stories::{
     rig::{self, NOAA_20, SIZES, Window, asked, says, settle},
     states,
+    unit::{Unit, clock_from, open_as, step_until, wait_until},
 };
 
 fn choose(window: &mut Window, form: &str) -> Vec<UiCommand> {
@@ -58,6 +64,72 @@ fn only_the_found_passes_are_saved_while_the_list_is_filtered() {
 }
 
 #[test]
+fn without_a_dialog_of_the_desktop_the_path_is_typed() {
+    let export = Export::HandOverSheet;
+    let ask = |window: &mut Window, path: &str, replaces| {
+        let proposed = TypedPath { path: path.into(), replaces };
+        let why = NoDialog.to_string();
+        let request = PathRequest { export: export.clone(), proposed, why };
+        window.state_mut().views.ask_for_path(request);
+        settle(window);
+    };
+    let typed = |path: &str, replaces| {
+        [UiCommand::SaveAs(export.clone(), TypedPath { path: path.into(), replaces })]
+    };
+    for size in SIZES {
+        let mut window = rig::window(size, rig::model(states::holding()));
+        ask(&mut window, "/home/op/sheet.svg", false);
+        assert!(says(&window, "This desktop shows no file dialogs"), "{size:?}");
+        window.key_press(Key::Enter);
+        assert_eq!(asked(&mut window), typed("/home/op/sheet.svg", false));
+        assert!(!says(&window, "This desktop shows no file dialogs"));
+        // Another path replaces no file.
+        ask(&mut window, "/home/op/sheet.svg", true);
+        window.get_by_role_and_label(Role::Button, "Replace it (Enter)");
+        window.event(Event::Text("2".to_owned()));
+        settle(&mut window);
+        window.get_by_role_and_label(Role::Button, "Save (Enter)").click();
+        assert_eq!(asked(&mut window), typed("/home/op/sheet.svg2", false));
+        ask(&mut window, "/home/op/sheet.svg", true);
+        window.get_by_role_and_label(Role::Button, "Replace it (Enter)").click();
+        assert_eq!(asked(&mut window), typed("/home/op/sheet.svg", true));
+        ask(&mut window, "/home/op/sheet.svg", false);
+        window.get_by_role_and_label(Role::Button, "Cancel").click();
+        assert_eq!(asked(&mut window), []);
+        assert!(!says(&window, "This desktop shows no file dialogs"));
+    }
+}
+
+#[test]
+fn a_desktop_without_dialogs_saves_to_the_typed_path() {
+    let folder = tempfile::tempdir().unwrap();
+    let settings = folder.path().join("station.toml");
+    let unit = Unit::start(rig::now());
+    station::save(&unit.station(), &settings, makes::SPECS).unwrap();
+    let mut window = open_as(&settings, clock_from(rig::now()), App::without_save_dialog);
+    step_until(&mut window, "the passes", |model| !model.upcoming().is_empty());
+    window.run_steps(3);
+    window.get_by_role_and_label(Role::Button, "Save passes to a file").click();
+    window.run_steps(3);
+    window.get_by_label("Listed passes as CSV…").click();
+    wait_until("the path is asked for", || {
+        window.step();
+        window.query_by_role_and_label(Role::TextInput, "Path of the file").is_some()
+    });
+    let path = folder.path().join("own.csv");
+    window.run_steps(3);
+    window.key_press_modifiers(Modifiers::COMMAND, Key::A);
+    window.event(Event::Text(path.display().to_string()));
+    window.run_steps(3);
+    window.key_press(Key::Enter);
+    wait_until("the file", || {
+        window.step();
+        path.exists()
+    });
+    assert!(fs::read_to_string(&path).unwrap().lines().count() > 1);
+}
+
+#[test]
 fn what_came_of_it_is_told_over_the_views_until_it_is_closed() {
     let mut window = rig::window(rig::LARGE, rig::model(states::holding()));
     let tell = |window: &mut Window, result| {
@@ -72,8 +144,8 @@ fn what_came_of_it_is_told_over_the_views_until_it_is_closed() {
     assert!(!says(&window, "Saved: "));
     tell(&mut window, saved("/home/operator/own.tle", 3));
     assert!(says(&window, "Saved without 3 objects that a TLE cannot hold: /home/"));
-    tell(&mut window, Err(NoDialog.to_string()));
-    assert!(says(&window, "Nothing was saved: this desktop shows no file dialogs"));
+    tell(&mut window, Err("the disk is full".to_owned()));
+    assert!(says(&window, "Nothing was saved: the disk is full."));
     window.state_mut().views.no_dialog(NoDialog);
     settle(&mut window);
     assert!(says(&window, "This desktop shows no file dialogs") && says(&window, "dropped"));

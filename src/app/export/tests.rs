@@ -151,6 +151,47 @@ fn the_window_and_the_command_line_write_one_hand_over_sheet() {
 }
 
 #[test]
+fn without_a_dialog_a_path_among_the_documents_is_proposed() {
+    let folder = tempfile::tempdir().unwrap();
+    let order = order(|_| Export::HandOverSheet);
+    let documents = || Some(folder.path().to_owned());
+    let outcome = order.save(|_, _| Err(NoDialog), documents).unwrap();
+    let Outcome::AsksForPath(request) = outcome else { panic!("{outcome:?}") };
+    assert_eq!(request.proposed.path, folder.path().join(order.name()));
+    assert!(!request.proposed.replaces && request.why.contains("no file dialogs"), "{request:?}");
+    assert_eq!(order.save(|_, _| Ok(None), documents), Ok(Outcome::Cancelled));
+}
+
+#[test]
+fn a_typed_path_is_written_and_a_file_there_is_replaced_only_if_the_operator_agrees() {
+    let folder = tempfile::tempdir().unwrap();
+    let order = order(|_| Export::HandOverSheet);
+    let save = |path: PathBuf, replaces| order.save_as(TypedPath { path, replaces }).unwrap();
+    let why = |outcome: Outcome, replaces| {
+        let Outcome::AsksForPath(request) = outcome else { panic!("{outcome:?}") };
+        assert_eq!((&request.export, request.proposed.replaces), (&order.export, replaces));
+        request.why
+    };
+    let path = folder.path().join("sheet.svg");
+    let sheet = || std::fs::read(&path).unwrap();
+    let saved = SavedFile { path: path.clone(), left_out: 0 };
+    assert_eq!(save(path.clone(), false), Outcome::Saved(saved.clone()));
+    assert_eq!(sheet(), order.text().unwrap().0);
+    std::fs::write(&path, "theirs").unwrap();
+    assert_eq!(why(save(path.clone(), false), true), "this file exists already");
+    assert_eq!(sheet(), b"theirs");
+    assert_eq!(save(path.clone(), true), Outcome::Saved(saved));
+    assert_ne!(sheet(), b"theirs");
+    assert!(why(save("sheet.svg".into(), false), false).contains("whole path"));
+    assert!(why(save(folder.path().to_owned(), false), false).contains("folder"));
+    let nowhere = folder.path().join("missing").join("sheet.svg");
+    assert_eq!(why(save(nowhere.clone(), false), false), "there is no such folder");
+    assert!(!nowhere.parent().unwrap().exists());
+    let too_long = folder.path().join("s".repeat(1000));
+    assert!(why(save(too_long, false), false).contains("cannot be written"));
+}
+
+#[test]
 fn a_pass_that_has_left_the_list_is_told() {
     let gone =
         order(|_| Export::Looks { pass: (ISS, Timestamp::UNIX_EPOCH), format: LookFormat::Json });
