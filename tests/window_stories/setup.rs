@@ -284,7 +284,7 @@ fn a_unit_that_is_reached_with_a_fault_says_so_in_every_place() {
         write_site(&mut window);
         press(&mut window, NEXT[0]);
         let antenna = add_and_test(&mut window, "unit.local:4001");
-        tell(&mut window, &antenna, reached_with(&[panic.clone()]));
+        tell(&mut window, &antenna, reached_with(std::slice::from_ref(&panic)));
         assert!(says(&window, "reached, 12 ms"), "{size:?}");
         window.get_by_label_contains("1 of 1 reached");
         assert!(!says(&window, "you can continue"), "{size:?}");

@@ -351,7 +351,7 @@ fn the_form_is_in_sight_above_a_list_of_a_hundred_satellites() {
     for size in rig::SIZES {
         let mut model = rig::model(states::holding());
         let CatalogState::Ready(catalog) = &model.catalog else { panic!("there are elements") };
-        let others = catalog.iter().map(|elements| elements.catalog_number());
+        let others = catalog.iter().map(azel::orbit::Elements::catalog_number);
         let others = others.filter(|number| *number != NOAA_20);
         // The one that is inspected is always in the file.
         let numbers: Vec<u32> = [NOAA_20].into_iter().chain(others).take(SATELLITES).collect();

@@ -138,7 +138,7 @@ pub(in crate::ui) fn show(
             ui.label(RichText::new(words).font(text::small()).color(t.t2));
         }
         let typed = state.typed(sources);
-        let entered = fields.into_iter().find(|field| field.lost_focus());
+        let entered = fields.into_iter().find(Response::lost_focus);
         let entered = entered.filter(|_| ui.input(|input| input.key_pressed(Key::Enter)));
         ui.horizontal(|ui| {
             let is_pressed = named_button(ui, matches!(typed, Some(Ok(_))), "Add", "Add source");
