@@ -48,7 +48,7 @@ const STEPS_S: [f64; 3] = [1.0, 10.0, 60.0];
 /// Most rows of a table of look angles, unless the largest step takes more.
 const MOST_ROWS: f64 = 3600.0;
 
-/// What came of the wish to save a file.
+/// Result of the wish to save a file.
 #[derive(Debug, PartialEq, Eq)]
 enum Outcome {
     Saved(SavedFile),

@@ -275,6 +275,8 @@ fn from_the_first_click_to_the_unit_s_own_word_and_back() {
     fixture.click("Upload and verify");
     fixture.assert_proved();
     assert_ne!(fixture.files.files(), first);
+    fixture.window.get_by_label_contains("Kept on this computer: ").click();
+    fixture.window.run_steps(3);
     let put_back = fixture
         .window
         .get_all_by_role(Role::Button)

@@ -84,7 +84,7 @@ pub struct ChipModel<'a> {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct AutomaticModel<'a> {
     pub is_suspended: bool,
-    /// What it does next and when, or why it is suspended.
+    /// The next step with its time, or the reason of a suspension.
     pub words: &'a str,
 }
 

@@ -60,7 +60,7 @@ pub fn not_ready(why: NotReady) -> &'static str {
     }
 }
 
-/// Who interrupted it, in two or three words.
+/// The interruption in two or three words.
 fn suspended(by: Interruption) -> &'static str {
     match by {
         Interruption::ByHand => "Suspended by hand.",
@@ -179,7 +179,7 @@ pub fn go_on(model: &Model, antenna: &AntennaModel) -> Option<String> {
     ))
 }
 
-/// What closing the station costs automatic operation, as sentences; `None` while it is off for all
+/// The price of closing the station for automatic operation, as sentences; `None` while it is off for all
 /// antennas.
 pub fn lost_by_closing(model: &Model) -> Option<String> {
     let antennas = || model.antennas.iter().filter(|of| !matches!(of.operation, Operation::Off(_)));

@@ -54,12 +54,13 @@ impl Engine {
         if !is_due {
             return;
         }
-        let order = self.order_for(shown);
+        // Until unit and elements are read, nothing is checked.
+        let Some(needed) = self.needed_upload(shown) else { return };
         self.check_elements_after(id, CHECK_PERIOD);
-        match order {
-            None => self.clear_upload_alarm(id),
-            Some(Err(why)) => self.note_upload_failure(id, why),
-            Some(Ok(order)) => {
+        match needed {
+            Ok(None) => self.clear_upload_alarm(id),
+            Err(why) => self.note_upload_failure(id, why),
+            Ok(Some(order)) => {
                 if !self.is_blocked(index) && self.prepare_for_settings(index) {
                     self.rule_upload = Some(RuleUpload { antenna: id, since: steady });
                     self.check_elements_after(id, RETRY);
@@ -88,14 +89,15 @@ impl Engine {
         true
     }
 
-    /// The upload that an antenna's unit needs now, or why there can be none; `None` if it needs none.
-    fn order_for(&self, antenna: &AntennaModel) -> Option<Result<Order, String>> {
+    /// The upload that an antenna's unit needs now, if any, or why there can be none; `None` while
+    /// that is not known.
+    fn needed_upload(&self, antenna: &AntennaModel) -> Option<Result<Option<Order>, String>> {
         let takes = antenna.spec().element_files?;
         let CatalogState::Ready(catalog) = &self.catalog else { return None };
         let group = antenna.snapshot.state.held.get(takes.source_group);
         let reading = group.and_then(|group| group.held.as_ref())?;
         if (takes.are_fetched_by_unit)(&reading.values) {
-            return None;
+            return Some(Ok(None));
         }
         let address = &antenna.config.connection.address;
         let last = self.last_run.unit_elements(antenna.id(), address);
@@ -108,16 +110,12 @@ impl Engine {
         numbers.extend(others);
         let chosen = chosen(catalog, &numbers, takes);
         let limit_s = antenna.config.upkeep.element_limit_d * DAY_S;
-        match is_upload_due(&chosen, &on_unit, limit_s, self.now) {
-            Ok(false) => None,
-            Ok(true) => Some(match last {
-                Some(last) => order(antenna, &last.target, takes, &chosen),
-                None => {
-                    Err("the host and the folder are not known. Upload once by hand".to_owned())
-                }
-            }),
-            Err(why) => Some(Err(why)),
-        }
+        let is_due = is_upload_due(&chosen, &on_unit, limit_s, self.now);
+        Some(is_due.and_then(|is_due| match last {
+            _ if !is_due => Ok(None),
+            Some(last) => order(antenna, &last.target, takes, &chosen).map(Some),
+            None => Err("the host and the folder are not known. Upload once by hand".to_owned()),
+        }))
     }
 
     /// Records a verified upload to the unit of an antenna.
