@@ -48,7 +48,7 @@ const STEPS_S: [f64; 3] = [1.0, 10.0, 60.0];
 /// Most rows of a table of look angles, unless the largest step takes more.
 const MOST_ROWS: f64 = 3600.0;
 
-/// Result of the wish to save a file.
+/// Result of a request to save a file.
 #[derive(Debug, PartialEq, Eq)]
 enum Outcome {
     Saved(SavedFile),
@@ -179,7 +179,7 @@ impl Order {
         } else if path.is_dir() {
             "this is a folder: add the name of the file"
         } else if !path.parent().is_some_and(Path::is_dir) {
-            // A mistyped folder would be made.
+            // Otherwise a mistyped folder would be created.
             "there is no such folder"
         } else if !replaces && path.exists() {
             return Ok(self.ask_for_path(path, true, "this file exists already".to_owned()));

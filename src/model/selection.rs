@@ -67,7 +67,7 @@ impl Model {
             let listed = self.pass_lists.all.upcoming(self.now);
             let find = || listed.iter().find(|predicted| predicted.number() == number);
             let predicted = self.pass_of(number).or_else(find)?;
-            // After LOS the last snapshot still tells of the track, which is not of the next pass.
+            // Right after LOS the snapshot still holds the past track; the next pass is another one.
             let begins = antenna.track_begins(self.now);
             let aos = predicted.pass.aos.time;
             begins.is_none_or(|at| seconds_between(at, aos) < EARLY_S).then_some(predicted)

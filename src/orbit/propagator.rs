@@ -35,9 +35,8 @@ const FARTHEST_DAYS: f64 = 36_525.0;
 const DRIFT_KM_S: f64 = 3e-5;
 const ECCENTRIC_DRIFT_KM_S: f64 = 0.01;
 
-/// A state this many times as far from the Earth as the apogee at the epoch is none of the object:
-/// far from the epoch, the polynomials of the drag lead to any distance. No state of SGP4's
-/// verification is as far.
+/// Max distance from the Earth in multiples of the apogee at the epoch. Far from the epoch, the
+/// polynomials of the drag lead to any distance. All states of SGP4's verification are nearer.
 const MAX_GROWTH: f64 = 10.0;
 
 /// A deep-space orbit decays within weeks only from a perigee below this height, in km.

@@ -87,7 +87,7 @@ fn phases() -> impl Iterator<Item = Phase> {
 }
 
 fn interruptions() -> impl Iterator<Item = Interruption> {
-    successors(Some(Interruption::ByHand), |by| match by {
+    successors(Some(Interruption::ByHand), |interruption| match interruption {
         Interruption::ByHand => Some(Interruption::Elsewhere),
         Interruption::Elsewhere => Some(Interruption::EndedByUnit),
         Interruption::EndedByUnit => Some(Interruption::Clock),
@@ -96,7 +96,7 @@ fn interruptions() -> impl Iterator<Item = Interruption> {
 }
 
 fn reasons() -> impl Iterator<Item = OffBecause> {
-    successors(Some(OffBecause::NotSwitchedOn), |because| match because {
+    successors(Some(OffBecause::NotSwitchedOn), |reason| match reason {
         OffBecause::NotSwitchedOn => Some(OffBecause::Operator),
         OffBecause::Operator => Some(OffBecause::Stop),
         OffBecause::Stop => Some(OffBecause::Safety),

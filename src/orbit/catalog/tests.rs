@@ -222,9 +222,12 @@ fn the_source_of_the_newest_set_is_known_and_the_counts_sum_to_the_catalog() {
     let mut catalog = Catalog::default();
     catalog.merge(report(&[(5, "A", 2), (6, "B", 2), (9, "C", 2)]), "weather");
     catalog.merge(report(&[(6, "B", 3), (7, "D", 1), (5, "A", 1), (9, "C", 2)]), "own");
-    let of = |number| catalog.source_of(number);
-    assert_eq!([5, 6, 7, 9].map(of), [Some("weather"), Some("own"), Some("own"), Some("weather")]);
-    assert_eq!(of(8), None);
+    let source_of = |number| catalog.source_of(number);
+    assert_eq!(
+        [5, 6, 7, 9].map(source_of),
+        [Some("weather"), Some("own"), Some("own"), Some("weather")]
+    );
+    assert_eq!(source_of(8), None);
     assert_eq!(catalog.in_use(), [("weather", 2), ("own", 2)]);
     let superseded = catalog.take_superseded();
     let superseded: Vec<_> = superseded

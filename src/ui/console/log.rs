@@ -110,9 +110,8 @@ impl Log {
         self.waiting() > 0
     }
 
-    /// The earliest of the first lines that were read of each antenna. `None` once an antenna has
-    /// lines that were not read: they may be earlier than what was read of the others, which then
-    /// waits for them.
+    /// Takes the earliest of the lines that were read. `None` if nothing is left to take, or if an
+    /// antenna has only unread lines left: these may be earlier, so the others wait for them.
     fn next_line(
         &mut self,
         read: &mut [VecDeque<Arc<Recorded>>],

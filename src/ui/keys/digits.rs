@@ -5,7 +5,7 @@
 
 use egui::{Context, Event, Key, Plugin, RawInput};
 
-/// Makes a key of the digit row its digit, whatever sign the layout has there.
+/// Turns each key of the digit row into its digit, whatever sign the layout has there.
 pub struct DigitKeys;
 
 impl Plugin for DigitKeys {

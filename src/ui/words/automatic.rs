@@ -157,7 +157,7 @@ fn next(model: &Model, antenna: &AntennaModel) -> String {
 /// The pass after the one that an antenna takes, as the end of a sentence.
 fn following(model: &Model, antenna: &AntennaModel, taking: &Taking) -> String {
     let entries = model.schedule.schedule.entries.iter();
-    let own = entries.filter(|of| of.antenna == antenna.id() && of.from >= taking.until);
+    let own = entries.filter(|entry| entry.antenna == antenna.id() && entry.from >= taking.until);
     let next = own.min_by_key(|entry| entry.from);
     next.map_or_else(String::new, |entry| {
         let at = format::moment(entry.from, model.now);
@@ -182,7 +182,8 @@ pub fn go_on(model: &Model, antenna: &AntennaModel) -> Option<String> {
 /// The price of closing the station for automatic operation, as sentences; `None` while it is off for all
 /// antennas.
 pub fn lost_by_closing(model: &Model) -> Option<String> {
-    let antennas = || model.antennas.iter().filter(|of| !matches!(of.operation, Operation::Off(_)));
+    let is_on = |antenna: &&AntennaModel| !matches!(antenna.operation, Operation::Off(_));
+    let antennas = || model.antennas.iter().filter(is_on);
     let names: Vec<&str> = antennas().map(|antenna| &*antenna.config.name).collect();
     if names.is_empty() {
         return None;

@@ -20,7 +20,7 @@ use seen::{Ends, Seen, SinCos, sin_cos};
 /// Smallest improvement in pointing, degrees, for which a flip other than the preferred one is
 /// taken: it is not worth moving the elevation over the zenith for less.
 const WORTH_DEG: f64 = 0.1;
-/// An axis that needs no longer than this to its course is taken to begin on it, seconds.
+/// An axis that reaches its course within this time, seconds, counts as on it from the beginning.
 const ON_COURSE_S: f64 = 5.0;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -40,12 +40,13 @@ pub(super) struct Start {
     /// Degrees as the mount counts; `None` if unknown.
     pub(super) axes_deg: [Option<f64>; 2],
     pub(super) lead_s: f64,
-    /// A path begins where the axes can be by then. Otherwise it is a course that they catch up with.
+    /// The path begins where the axes can be at its first sample. If `false`, it begins on the target,
+    /// and the axes catch up with it.
     pub(super) sets_out: bool,
 }
 
 impl Start {
-    /// The departure of an axis, 0 or 1, that needs long to its course `wanted`.
+    /// The departure of axis 0 or 1; `None` if the axis is on its course `wanted` from the beginning.
     pub(super) fn departure(
         self,
         index: usize,

@@ -272,8 +272,8 @@ impl<'a> Search<'a> {
         way
     }
 
-    /// Keeps only the positions at which the route turns: from each, the way goes straight as far as
-    /// halving the rest of the route shows.
+    /// Keeps only the positions at which the route turns. From each of them, a binary search finds how
+    /// far the route can go straight.
     fn pulled_straight(&self, way: &[[f64; 2]]) -> Vec<[f64; 2]> {
         let mut turns = Vec::from_iter(way.first().copied());
         let mut rest = way;

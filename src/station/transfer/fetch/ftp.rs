@@ -153,7 +153,10 @@ fn extended_port(text: &str) -> Option<u16> {
     let letters: Vec<char> = text.chars().collect();
     letters.windows(3).enumerate().find_map(|(place, window)| {
         let mark = *window.first()?;
-        if mark.is_alphanumeric() || mark.is_whitespace() || window.iter().any(|it| *it != mark) {
+        if mark.is_alphanumeric()
+            || mark.is_whitespace()
+            || window.iter().any(|other| *other != mark)
+        {
             return None;
         }
         let rest: String = letters.get(place + 3..)?.iter().collect();

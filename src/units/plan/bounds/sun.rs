@@ -15,7 +15,8 @@ const SUN_STEP_S: f64 = 24.0;
 const MAX_SUNS: f64 = 40.0;
 /// Fastest motion of the Sun, degrees per second.
 const SUN_DEG_S: f64 = 360.0 / 86_164.0;
-/// Refraction makes at most so many degrees of a degree of the Sun's motion.
+/// Max apparent motion of the Sun per degree of its true motion: refraction stretches it close below
+/// the horizon.
 const MAX_STRETCH: f64 = 2.0;
 /// Distance between the rings that are searched for a refuge from the Sun, degrees.
 const RING_DEG: f64 = 0.5;
@@ -94,7 +95,7 @@ impl SunAhead {
         across(chords.fold(4.0, f64::min)) - radius
     }
 
-    /// A clearance that the direction does not fall below, from the first position alone.
+    /// A lower bound of [`Self::clearance_of`], from the first position alone.
     pub(super) fn clearance_is_at_least(&self, direction: DVec3) -> Angle {
         let moved_deg = SUN_DEG_S * self.sun.ahead_min * 60.0 * MAX_STRETCH;
         let around = Angle::from_degrees(around_each_deg(self.sun) + moved_deg);

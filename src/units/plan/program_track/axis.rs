@@ -133,8 +133,8 @@ impl Axis {
             })
         };
         let stays_deg = rest_deg.filter(elsewhere).or_else(|| self.comes_to_rest_deg(now));
-        // A drive that sets out for any distance turns back by no more than it has to, and on a detour
-        // the distance from the keep-out leaves no room.
+        // Only a drive with a shortest run overshoots. On a detour, an axis that waits could come too
+        // close to the keep-out.
         let waits = self.ignored_deg > 0.0 && !path.goes_round();
         let later = waits.then(|| path.span_deg(self.index, from_s, from_s + MAX_WAIT_S));
         let is_off = stays_deg.is_none_or(|at_deg| self.is_left(at_deg, (least, most), later));
@@ -146,8 +146,8 @@ impl Axis {
         Demand { position_deg, is_due: is_off && is_new }
     }
 
-    /// Where the last command leads an axis that is on its way, degrees. A drive that does not set out
-    /// for short ways stops that much early, and coasts.
+    /// The rest position that the last command leads to, degrees. A drive that ignores short ways
+    /// switches off early by as much, and then coasts.
     fn comes_to_rest_deg(&self, now: AxisNow) -> Option<f64> {
         let commanded_deg = self.last_command.to_deg?;
         let (Some(at_deg), Some(run_deg), false) = (now.position_deg, self.min_run_deg, now.stands)
@@ -159,9 +159,9 @@ impl Axis {
         Some(commanded_deg - short_deg.copysign(left_deg))
     }
 
-    /// Returns `true` for an axis at `at_deg` that the path, in `span_deg` now, has left. An axis that
-    /// is ahead waits where the path, in `later_deg` until then, comes back into its band: turning
-    /// back would reverse the motor twice for less.
+    /// Returns `true` if an axis that stays at `at_deg` is too far from its path. `span_deg`: the path
+    /// during the next period. `later_deg`: the path while an axis that is ahead may wait for it, since
+    /// turning back would reverse the motor twice; `None` if it may not wait.
     fn is_left(&self, at_deg: f64, span_deg: (f64, f64), later_deg: Option<(f64, f64)>) -> bool {
         let band_deg = self.band_deg() + ROUNDING_DEG;
         let ahead_deg = self.min_way_deg().max(2.0 * band_deg);

@@ -404,8 +404,8 @@ impl Planner {
         }
     }
 
-    /// Returns `true` once a path is followed: the axes go on from where they are by then. Before, one
-    /// command leads them to where it begins.
+    /// Returns `true` once the axes follow a path. A new path then begins where they are; before, one
+    /// command takes them to the beginning of the path.
     fn is_under_way(&self, now: Timestamp) -> bool {
         self.path.as_ref().is_some_and(|(path, _)| path.seconds(now) >= 0.0)
     }
