@@ -122,6 +122,20 @@ proptest! {
     }
 
     #[test]
+    fn a_tle_keeps_any_name_of_24_ascii_letters(name in "[ -~]{0,24}") {
+        let set = serde_json::json!({
+            "OBJECT_NAME": name, "OBJECT_ID": "1998-067A", "NORAD_CAT_ID": 25_544,
+            "EPOCH": "2026-11-27T00:00:00", "MEAN_MOTION": 15.5, "ECCENTRICITY": 0.001,
+            "INCLINATION": 51.6, "RA_OF_ASC_NODE": 10, "ARG_OF_PERICENTER": 20,
+            "MEAN_ANOMALY": 30, "BSTAR": 1e-4, "MEAN_MOTION_DOT": 1e-5, "MEAN_MOTION_DDOT": 0,
+            "ELEMENT_SET_NO": 999, "REV_AT_EPOCH": 1, "CLASSIFICATION_TYPE": "U"
+        });
+        let elements = read_elements(&set.to_string()).elements;
+        let read = read_elements(&tle(&elements)).elements;
+        prop_assert_eq!(read[0].name(), elements[0].name());
+    }
+
+    #[test]
     fn a_tle_keeps_what_its_columns_hold(set in any_set()) {
         for elements in read_elements(&set).elements {
             let text = tle(std::slice::from_ref(&elements));

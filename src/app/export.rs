@@ -38,7 +38,7 @@ use crate::{
         schedule_export::{ScheduleFormat, ScheduleList},
     },
     record::{self, OpenedPass},
-    station::Station,
+    station::{AntennaId, Station},
     ui::{hand_over_sheet::HandOverSheet, report_sheet, words},
     whole_file,
 };
@@ -394,12 +394,17 @@ impl Order {
             favourites.filter(|pass| taken.contains(&pass.number())).collect();
         let satellites = satellites(&planned)?;
         let passes: Vec<ExportedPass<'_>> = exported(&planned, &satellites).collect();
-        let antennas = self.station.antennas.iter().map(|it| (it.id, it.name.clone())).collect();
+        let antennas: BTreeMap<AntennaId, String> =
+            self.station.antennas.iter().map(|it| (it.id, it.name.clone())).collect();
+        let names_in_reasons = words::schedule::Names {
+            pass: &|(number, _)| name(number),
+            antenna: &|id| antennas.get(&id).cloned().unwrap_or_default(),
+        };
         let list = ScheduleList {
             schedule,
             satellites: &names,
             antennas: &antennas,
-            reason: &|left: &LeftOut| words::schedule::why(&|(number, _)| name(number), &left.why),
+            reason: &|left: &LeftOut| words::schedule::why(names_in_reasons, &left.why),
             passes: &passes,
             query: &self.query(),
             now: self.now,

@@ -28,7 +28,7 @@ use crate::{
         },
         schedule_export::{ScheduleFormat, ScheduleList},
     },
-    station::{self, ChooseBy, Partly, Scheduling, Station},
+    station::{self, AntennaId, ChooseBy, Partly, Scheduling, Station},
     ui::{hand_over_sheet::HandOverSheet, words},
 };
 
@@ -170,11 +170,17 @@ fn write_list(
         .map(|it| (it.elements.catalog_number(), it.elements.name().to_owned()))
         .collect();
     let name = |number: u32| names.get(&number).cloned().unwrap_or_else(|| number.to_string());
+    let antennas: BTreeMap<AntennaId, String> =
+        station.antennas.iter().map(|it| (it.id, it.name.clone())).collect();
+    let names_in_reasons = words::schedule::Names {
+        pass: &|(number, _)| name(number),
+        antenna: &|id| antennas.get(&id).cloned().unwrap_or_default(),
+    };
     let list = ScheduleList {
         schedule,
         satellites: &names,
-        antennas: &station.antennas.iter().map(|it| (it.id, it.name.clone())).collect(),
-        reason: &|left: &LeftOut| words::schedule::why(&|(number, _)| name(number), &left.why),
+        antennas: &antennas,
+        reason: &|left: &LeftOut| words::schedule::why(names_in_reasons, &left.why),
         passes,
         query,
         now,

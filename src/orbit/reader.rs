@@ -14,7 +14,10 @@ use smol_str::SmolStr;
 
 use self::omm::{csv, json, kvn, xml};
 pub use self::report::{Note, NoteKind, Nothing, ReadReport, Refusal, RefusalReason};
-pub(super) use self::{numbers::ALPHA_5, tle::checksum};
+pub(super) use self::{
+    numbers::ALPHA_5,
+    tle::{checksum, is_remark},
+};
 
 /// Maximum size of a text of elements, unpacked, in bytes; the whole catalog as XML has 30 MB.
 pub const MAX_ELEMENT_BYTES: u64 = 1 << 28;

@@ -186,7 +186,11 @@ pub const ALL: [Binding; 42] = [
         ],
         "1 s back, 1 s on, beginning, end",
     ),
-    row(KeyScope::Focus, &[(Key::Enter, Act::There)], "press the focused button"),
+    row(
+        KeyScope::Focus,
+        &[(Key::Enter, Act::There)],
+        "press the focused button; Left closes an open menu",
+    ),
     row(KeyScope::Operate, &[(Key::N, Act::NextPass)], "the pass in progress or the next one"),
     row(KeyScope::Operate, &[(Key::P, Act::Drawer)], "pass list, in small windows"),
     row(

@@ -65,6 +65,8 @@ pub struct PassListModel<'a> {
     pub now: Timestamp,
     /// Number of passes.
     pub rows: usize,
+    /// Number of rows at the top whose passes have begun.
+    pub begun: usize,
     /// Number of passes without filters.
     pub of: usize,
     /// Names of the groups of the catalogue.
@@ -108,6 +110,8 @@ pub struct PassListState {
     offset: f32,
     /// The row at the upper edge and its pass.
     top: Option<(usize, PassKey)>,
+    /// The list of the last frame with rows.
+    listed: Option<Scope>,
 }
 
 impl PassListState {
@@ -124,6 +128,16 @@ impl PassListState {
         }
     }
 
+    /// The row at which a list opens that was not there in the last frame. In the list of all satellites
+    /// hundreds of passes have begun, the first of them hours ago.
+    fn opens_at(&mut self, model: &PassListModel<'_>) -> Option<usize> {
+        let is_new = self.listed.replace(model.scope) != Some(model.scope);
+        is_new.then_some(match model.scope {
+            Scope::Favourites => 0,
+            Scope::All => model.begun.saturating_sub(BEGUN_SHOWN),
+        })
+    }
+
     /// Number of rows above the upper edge that have gone since the last frame; negative if rows
     /// were added. Keeps the visible rows in place when passes end; at the very top the list
     /// moves up.
@@ -138,6 +152,9 @@ impl PassListState {
         self.top = (model.row)(row).map(|pass| (row, pass.key));
     }
 }
+
+/// Rows with passes that have begun, above the first that has not, where a long list opens.
+const BEGUN_SHOWN: usize = 2;
 
 /// Shows the column in `rect`: its head and the scrolling rows.
 /// Scrolls to a pass that was selected elsewhere.

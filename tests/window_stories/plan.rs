@@ -577,6 +577,22 @@ fn the_arrows_lead_through_a_menu_and_not_through_the_list_behind_it() {
     assert_eq!(rig::asked(&mut window), [UiCommand::Save(wanted)], "and no other pass is selected");
 }
 
+/// Esc is STOP, so it must not be the only key that closes a menu.
+#[test]
+fn left_closes_a_menu_and_leaves_the_focus_on_its_opener() {
+    let mut window = view(LARGE);
+    window.get_by_role_and_label(Role::ComboBox, "Export the plan").click();
+    settle(&mut window);
+    window.key_press(Press::ArrowDown);
+    settle(&mut window);
+    window.state_mut().commands.clear();
+    window.key_press(Press::ArrowLeft);
+    settle(&mut window);
+    assert!(window.query_by_label("Plan as CSV…").is_none());
+    assert!(window.get_by_role_and_label(Role::ComboBox, "Export the plan").is_focused());
+    assert_eq!(rig::asked(&mut window), [], "neither STOP nor another pass");
+}
+
 #[test]
 fn the_hand_over_sheet_is_saved_to_a_file() {
     for size in rig::sizes() {

@@ -288,6 +288,24 @@ fn without_a_reply_it_says_since_when_and_what_was_going_on() {
 }
 
 #[test]
+fn a_silent_unit_is_not_said_to_do_what_it_did_last() {
+    let silent = |snapshot: Snapshot, silent_s| {
+        told(snapshot, move |model, snapshot| {
+            snapshot.link = LinkState::Stale { last_reply: rig::ago(model, silent_s) };
+        })
+    };
+    assert_eq!(
+        silent(states::tracking(0.0), 9),
+        "No reply from Satrak for 9.0 s. It was tracking NOAA 20 and is probably still moving. \
+         Azel connects again if it stays silent."
+    );
+    assert!(silent(states::tracking(0.0), 2).starts_with("Tracking NOAA 20"));
+    let mut stopping = states::moving();
+    stopping.stop = StopState::NotConfirmed { since: rig::model(rig::quiet()).steady };
+    assert!(silent(stopping, 9).contains("is not known to have stopped"));
+}
+
+#[test]
 fn a_make_that_serves_one_program_says_that_another_may_have_it() {
     let (other, refused) = (
         "Perhaps another program holds the connection. ",

@@ -202,7 +202,7 @@ fn sets(text: &str) -> Vec<TleSet<'_>> {
 
 /// Returns `true` if `text` is no name of a satellite, such as a heading with a date, an address or a
 /// tag of a web page.
-fn is_remark(text: &str) -> bool {
+pub(crate) fn is_remark(text: &str) -> bool {
     let is_digit = |byte: Option<&u8>| byte.is_some_and(u8::is_ascii_digit);
     let bytes = text.as_bytes();
     let between_digits =

@@ -8,7 +8,7 @@ use jiff::{Timestamp, civil, tz::TimeZone};
 
 use crate::{
     Elements,
-    reader::{ALPHA_5, checksum},
+    reader::{ALPHA_5, checksum, is_remark},
 };
 
 /// Number of columns of a name line.
@@ -72,9 +72,11 @@ fn name_line(name: &str) -> String {
     let name: String = letters.take(NAME_COLUMNS).collect();
     let name = name.trim_end();
     // Such names would be read as a remark or as another form, or would lose their start.
-    let is_odd =
-        !name.starts_with(|letter: char| letter.is_ascii_alphanumeric()) || name.contains('=');
-    if is_odd || name.starts_with("0 ") { format!("0 {name}") } else { name.into() }
+    let is_odd = !name.starts_with(|letter: char| letter.is_ascii_alphanumeric())
+        || name.contains('=')
+        || name.starts_with("0 ")
+        || is_remark(name);
+    if is_odd { format!("0 {name}") } else { name.into() }
 }
 
 /// The two lines of a set, 69 columns each.
@@ -255,5 +257,6 @@ mod tests {
         assert_eq!(name_line(&"x".repeat(30)).len(), 24);
         assert_eq!((name_line("#1"), name_line("0 G")), ("0 #1".into(), "0 0 G".into()));
         assert_eq!(name_line("EPOCH = 3"), "0 EPOCH = 3");
+        assert_eq!(name_line("A <B>"), "0 A <B>");
     }
 }

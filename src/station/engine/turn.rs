@@ -18,9 +18,6 @@ use crate::{
     station::Station,
 };
 
-/// Clock error from which a unit misses a low satellite, seconds.
-const CLOCK_OFF_S: f64 = 1.0;
-
 impl Engine {
     /// Takes all reports that have come in since the last turn. `turn` is the number of what the
     /// station asks for by itself, drawn before the last look for a STOP.
@@ -273,11 +270,9 @@ impl Engine {
             alarms.clear(of, now, |kind| matches!(kind, AlarmKind::Unreadable(_)));
         }
         if let Some(clock) = snapshot.state.on_board.clock {
-            let is_surely_off = clock.surely_ahead_s().abs() > CLOCK_OFF_S;
-            let may_be_off = clock.ahead_s.abs() + clock.error_s > CLOCK_OFF_S;
-            if clock.is_set && is_surely_off {
+            if clock.is_set && clock.is_surely_off() {
                 alarms.raise(of, AlarmKind::ClockOff(clock.ahead_s), now);
-            } else if !clock.is_set || !may_be_off {
+            } else if !clock.is_set || !clock.may_be_off() {
                 alarms.clear(of, now, |kind| matches!(kind, AlarmKind::ClockOff(_)));
             }
             if clock.is_set {

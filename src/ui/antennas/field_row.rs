@@ -84,7 +84,9 @@ fn show(
     }
     let (icon, colour) = look(&state, t);
     let word = state.word(unit.model.now);
-    row::state(ui, at.state, icon, &word, colour, &format!("{}: {word}", field.label));
+    // Painted beside each field, it would hide the few that differ.
+    let painted = if state == FieldState::Unchanged { "" } else { &word };
+    row::state(ui, at.state, icon, painted, colour, &format!("{}: {word}", field.label));
     below(ui, field, draft, &state);
     if *is_revealed && matches!(field.kind, Kind::Password(_)) {
         typed_password(ui, &draft.text(field, unit.values(group.key)));

@@ -116,7 +116,13 @@ impl List {
 fn group(sheet: &HandOverSheet<'_>, left: &LeftOut) -> Group {
     let [.., why, price, right] = COLUMNS;
     let number = left.pass.satellite;
-    let reason = words::schedule::why(&|(number, _)| sheet.name(number), &left.why);
+    let reason = words::schedule::why(
+        words::schedule::Names {
+            pass: &|(number, _)| sheet.name(number),
+            antenna: &|id| sheet.antenna(id).to_owned(),
+        },
+        &left.why,
+    );
     let costs = sheet.price(left).map_or_else(String::new, |price| {
         let given_up = match &price.entries[..] {
             [] => "Nothing".to_owned(),

@@ -162,12 +162,12 @@ fn passes_of_one_satellite_that_are_left_out_for_one_reason_are_one_row() {
     let satellites = [(elements, propagator)];
     let mut schedule = schedule(&station, &satellites, (0, 5));
     for left in &mut schedule.left_out {
-        left.why = Why::OtherAntennas;
+        left.why = Why::OtherAntennas(vec![AntennaId::FIRST]);
         left.by_antenna.clear();
     }
     let svg = printed(&station, &schedule, &satellites);
     check(&svg);
-    assert_eq!(svg.matches("Your limits or rules allow other antennas only").count(), 1, "{svg}");
+    assert_eq!(svg.matches("Your limits or rules allow only Satrak").count(), 1, "{svg}");
     assert!(svg.contains(" +2<"), "{svg}");
 }
 

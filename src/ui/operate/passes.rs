@@ -84,6 +84,7 @@ pub(super) fn list(
     let list = PassListModel {
         now: model.now,
         rows: found.map_or(passes.len(), FoundPasses::len),
+        begun: found.map_or_else(|| passes.begun(model.now), |_| 0),
         of: passes.len(),
         groups: &groups,
         row: &row,
@@ -182,7 +183,7 @@ fn left_out<'a>(
         Why::TooFar => LeftOut::TooFar,
         Why::UnderWay => LeftOut::UnderWay,
         Why::Refused(Refusal::Never) => LeftOut::Never,
-        Why::Refused(_) | Why::Impossible(_) | Why::OtherAntennas | Why::MaxPerDay(_) => {
+        Why::Refused(_) | Why::Impossible(_) | Why::OtherAntennas(_) | Why::MaxPerDay(_) => {
             LeftOut::Limit
         }
         Why::Off(off) => LeftOut::Off(*off),

@@ -24,6 +24,7 @@ pub(super) fn show(
 ) {
     let is_news = state.is_news(model.selected);
     let selected = model.selected.filter(|_| is_news).and_then(model.place);
+    let opens_at = state.opens_at(model);
     let gone = state.rows_gone_above(model);
     // An id of this column and not of the scroll area, so that a row keeps its id at any
     // scroll position.
@@ -34,12 +35,15 @@ pub(super) fn show(
         ui.spacing_mut().item_spacing = vec2(0.0, 0.0);
         let mut area = ScrollArea::vertical().id_salt("passes").auto_shrink(false);
         let mut offset = (state.offset - gone * row::HEIGHT).max(0.0);
+        if let Some(first) = opens_at {
+            offset = first as f32 * row::HEIGHT;
+        }
         if let Some(index) = selected {
             // Before the rows are placed: afterwards it would take one more frame.
             let top = index as f32 * row::HEIGHT;
             offset = offset.min(top).max(top + row::HEIGHT - rect.height());
         }
-        if gone != 0.0 || selected.is_some() {
+        if gone != 0.0 || opens_at.is_some() || selected.is_some() {
             area = area.vertical_scroll_offset(offset);
         }
         let shown = area.show_rows(ui, row::HEIGHT, model.rows, |ui, range| {

@@ -24,6 +24,7 @@ fn now() -> Timestamp {
 /// State of the test window, kept from frame to frame.
 struct Fixture {
     rows: usize,
+    begun: usize,
     /// Number of passes that are over and gone.
     gone: usize,
     scope: Scope,
@@ -43,6 +44,7 @@ impl Fixture {
     fn with(rows: usize) -> Self {
         Self {
             rows,
+            begun: 1,
             gone: 0,
             scope: Scope::Favourites,
             span_h: 48,
@@ -102,6 +104,7 @@ fn window(fixture: Fixture) -> Harness<'static, Fixture> {
         let model = PassListModel {
             now: now(),
             rows: fixture.rows,
+            begun: fixture.begun,
             of: fixture.rows,
             groups: &[],
             row: &row,
@@ -255,6 +258,22 @@ fn of_a_list_that_is_made_it_says_of_what_and_when() {
     window.state_mut().scope = Scope::Favourites;
     window.run();
     assert!(window.query_by_label_contains("satellites at").is_none());
+}
+
+#[test]
+fn the_list_of_all_satellites_opens_where_the_next_pass_begins() {
+    let mut window = window(Fixture { begun: 400, ..Fixture::with(1000) });
+    let first_row = |window: &Harness<'_, Fixture>| window.state().state.top.map(|(row, _)| row);
+    assert_eq!(first_row(&window), Some(0));
+    window.state_mut().scope = Scope::All;
+    window.run();
+    assert_eq!(first_row(&window), Some(398));
+    window.state_mut().begun = 500;
+    window.run();
+    assert_eq!(first_row(&window), Some(398), "it moves only when it opens");
+    window.state_mut().scope = Scope::Favourites;
+    window.run();
+    assert_eq!(first_row(&window), Some(0));
 }
 
 #[test]

@@ -117,6 +117,9 @@ impl Verdict<'_> {
                     }
                     Loss::Overhead => format!("Loses {lost} overhead"),
                     Loss::Slew => format!("Loses {lost} at the azimuth unwrap"),
+                    Loss::BeyondAzimuth(end) => {
+                        format!("Loses {lost} beyond azimuth {}", format::azimuth(end.degrees()))
+                    }
                     Loss::OutOfReach => format!("Loses {lost} out of reach"),
                 }
                 .into()
@@ -143,6 +146,9 @@ impl Verdict<'_> {
                     }
                     Loss::Overhead => format!("{lost} overhead"),
                     Loss::Slew => format!("{lost} unwrapping"),
+                    Loss::BeyondAzimuth(end) => {
+                        format!("{lost} beyond {}", format::azimuth(end.degrees()))
+                    }
                     Loss::OutOfReach => format!("{lost} out of reach"),
                 }
                 .into()

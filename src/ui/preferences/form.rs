@@ -254,7 +254,8 @@ fn state<T>(ui: &Ui, salt: (&str, &str), room: Rect, field: &Field<T>, standing:
             let short = format!("Edited, was {was}").replace('-', "−");
             (Some(Icon::Pencil), short.clone(), short, t.sat)
         }
-        (None, None) => (None, "Unchanged".to_owned(), "Unchanged".to_owned(), t.t3),
+        // Sixty times the same word would hide the few fields that differ.
+        (None, None) => return,
     };
     paint_state(ui, salt, room, mark, [&short, &whole], colour);
 }
@@ -298,7 +299,7 @@ pub(super) fn row_of<R>(
     let (mark, words, colour) = match wrong {
         Some(why) => (Some(Icon::Warning), why, t.bad),
         None if is_edited => (Some(Icon::Pencil), "Edited", t.sat),
-        None => (None, "Unchanged", t.t3),
+        None => return result,
     };
     paint_state(ui, (group, label), room, mark, [words, &format!("{label}: {words}")], colour);
     result

@@ -2,11 +2,15 @@
 
 use super::{Spoken, short};
 use crate::{
+    clock::Instant,
     driver::{LinkLoss, LinkState, StopState},
     engine::{antenna::AntennaModel, claim::HeldBy},
     model::Model,
     ui::{format, widgets::sentence::SentenceKind, words},
 };
+
+/// A reply that is later than this is missing and not only slow, seconds.
+const SILENT_FROM_S: f64 = 3.0;
 
 pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> {
     let name = &antenna.config.name;
@@ -21,7 +25,8 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
             Spoken::new(SentenceKind::Holding)
                 .plain(format!("{name} is connected and is being read.")),
         ),
-        LinkState::Up { .. } | LinkState::Stale { .. } => None,
+        LinkState::Up { .. } => None,
+        LinkState::Stale { last_reply } => silent(model, antenna, *last_reply),
         LinkState::Off => Some(Spoken::new(SentenceKind::Holding).plain(off(antenna))),
         LinkState::Connecting { .. } => Some(
             Spoken::new(SentenceKind::Holding).plain(format!("Connecting to {name} at {address}.")),
@@ -47,6 +52,24 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
             )
         }
     }
+}
+
+/// The sentence for a unit that does not answer over a link that is still open. What it does now is
+/// not known, so nothing is said as if it were.
+fn silent(model: &Model, antenna: &AntennaModel, last_reply: Instant) -> Option<Spoken> {
+    let silent_s = model.steady.saturating_duration_since(last_reply).as_secs_f64();
+    if silent_s < SILENT_FROM_S || is_stopping(antenna) {
+        return None;
+    }
+    let silence = format!("No reply from {} for {}. ", antenna.config.name, format::age(silent_s));
+    let spoken = Spoken::new(SentenceKind::Caution).plain(silence);
+    let next = "Azel connects again if it stays silent.";
+    Some(what_it_did(spoken, antenna).plain(next))
+}
+
+/// An unproved stop is the graver matter.
+fn is_stopping(antenna: &AntennaModel) -> bool {
+    matches!(antenna.snapshot.stop, StopState::Stopping { .. } | StopState::NotConfirmed { .. })
 }
 
 /// The sentence for a link that is off: the reason, and how to connect.
@@ -81,14 +104,8 @@ fn unreadable(model: &Model, antenna: &AntennaModel, why: &str) -> Option<Spoken
             let retry_s = retry_at.saturating_duration_since(model.steady).as_secs_f64();
             format!(" Next try in {}.", format::age(retry_s.ceil()))
         }
-        // An unproved stop is the graver matter.
-        LinkState::Up { .. } | LinkState::Stale { .. } => {
-            let stopping = antenna.snapshot.stop;
-            if matches!(stopping, StopState::Stopping { .. } | StopState::NotConfirmed { .. }) {
-                return None;
-            }
-            String::new()
-        }
+        LinkState::Up { .. } | LinkState::Stale { .. } if is_stopping(antenna) => return None,
+        LinkState::Up { .. } | LinkState::Stale { .. } => String::new(),
     };
     let spoken = Spoken::new(SentenceKind::Fault)
         .plain(format!("The position of {} cannot be read. ", antenna.config.name));

@@ -3,7 +3,7 @@
 use egui::{FocusDirection, Id, Key, Popup, Response, Ui};
 
 /// Shows `popup` with the menu of `opener`. An entry that is chosen closes it, by keys as by the
-/// pointer, and by keys the focus goes back to `opener`.
+/// pointer, and by keys the focus goes back to `opener`. So does Left: Esc would also be STOP.
 pub fn show(opener: &Response, popup: Popup<'_>, contents: impl FnOnce(&mut Ui)) {
     let shown = popup.show(|ui| {
         contents(ui);
@@ -11,13 +11,15 @@ pub fn show(opener: &Response, popup: Popup<'_>, contents: impl FnOnce(&mut Ui))
         take_arrows(ui, &entries);
         let pass = ui.cumulative_pass_nr();
         ui.data_mut(|data| data.insert_temp(shown_in(), pass));
-        let is_chosen = chosen_by_key(ui, &entries);
-        if is_chosen {
+        let is_over =
+            chosen_by_key(ui, &entries) || ui.input(|input| input.key_pressed(Key::ArrowLeft));
+        if is_over {
             ui.close();
         }
-        is_chosen
+        is_over
     });
     if shown.is_some_and(|shown| shown.inner) {
+        opener.ctx.memory_mut(|memory| memory.move_focus(FocusDirection::None));
         opener.request_focus();
     }
 }

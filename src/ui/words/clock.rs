@@ -7,10 +7,22 @@ use crate::{
     ui::format,
 };
 
+/// Difference of a clock that can come from the link, seconds.
+const AGREES_S: f64 = 0.05;
+
 /// A clock that is `ahead_s` seconds ahead, such as "4.0 s behind".
 pub(super) fn side(ahead_s: f64) -> String {
     let side = if ahead_s < 0.0 { "behind" } else { "ahead" };
     format!("{} {side}", format::age(ahead_s.abs()))
+}
+
+/// A unit's clock compared with this computer's.
+pub fn compared_clock(ahead_s: f64) -> String {
+    if agrees(ahead_s) { "agrees".to_owned() } else { side(ahead_s) }
+}
+
+pub(super) fn agrees(ahead_s: f64) -> bool {
+    ahead_s.abs() < AGREES_S
 }
 
 /// The same with the date that the clock shows, if it is another day.

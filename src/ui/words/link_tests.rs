@@ -17,9 +17,6 @@ use crate::{
 /// A test that is younger has no age.
 const JUST_NOW_S: f64 = 10.0;
 
-/// Difference of a clock that can come from the link.
-const AGREES_S: f64 = 0.05;
-
 /// A place on the ground, by its coordinates.
 pub fn place(latitude_deg: f64, longitude_deg: f64) -> String {
     format!("{}, {}", format::latitude(latitude_deg, 3), format::longitude(longitude_deg, 3))
@@ -200,7 +197,7 @@ fn reached(after_ms: u128, state: &AntennaState, spec: &ControllerSpec) -> Vec<(
         facts.push(format!("Its own location: {there}."));
     }
     if let Some(own) = state.on_board.clock.filter(|own| own.is_set) {
-        facts.push(if own.ahead_s.abs() < AGREES_S {
+        facts.push(if clock::agrees(own.ahead_s) {
             "Its clock agrees with this computer's.".to_owned()
         } else {
             format!("Its clock is {}.", clock::side(own.ahead_s))

@@ -43,8 +43,28 @@ pub fn verdict(verdict: PassVerdict) -> &'static str {
     }
 }
 
-/// Share within half the beamwidth and the worst error, for a row.
+/// Share within half the beamwidth and the worst error, for a row. Of a good pass only what the mount
+/// could reach counts: beside its tick, the share of the whole would look like a failure.
 pub fn in_short(report: &PassReport) -> String {
+    let lost_s = |is_meant: &dyn Fn(LossCause) -> bool| -> f64 {
+        let meant = report.losses.iter().filter(|lost| is_meant(lost.cause));
+        meant.map(LostStretch::seconds).sum()
+    };
+    let of_mount_s = lost_s(&LossCause::is_of_mount);
+    if let (PassVerdict::Good, Some(worst)) = (report.verdict, &report.worst)
+        && of_mount_s > 0.0
+    {
+        let reached_s = report.counted_s - of_mount_s;
+        let lost_s = lost_s(&|cause| !cause.is_of_mount());
+        let [reached, inside] = [reached_s, reached_s - lost_s].map(format::duration);
+        let inside = if inside == reached {
+            format!("all {reached}")
+        } else {
+            format!("{inside} of {reached}")
+        };
+        let worst = format::degrees(worst.error.off_deg, 2);
+        return format!("{inside} within reach, worst {worst}");
+    }
     let share = share(report.share());
     let not_known_s = report.counted_s - report.known_s;
     match &report.worst {
@@ -493,9 +513,49 @@ fn or_alike(explanations: &[Explanation]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::{
+        astro::time::add_seconds,
+        plan::pass_report::{PointingError, WorstError},
+    };
 
     fn explanation(cause: Cause) -> Explanation {
         Explanation { cause, with: None, left_deg: 0.03, share: 0.97 }
+    }
+
+    #[test]
+    fn of_a_good_pass_only_what_the_mount_could_reach_counts() {
+        let error = |off_deg| PointingError {
+            off_deg,
+            azimuth_deg: 0.0,
+            elevation_deg: 0.0,
+            along_deg: 0.0,
+            across_deg: 0.0,
+        };
+        let at = |seconds: f64| add_seconds(Timestamp::UNIX_EPOCH, seconds);
+        let lost =
+            |from_s, until_s, cause| LostStretch { from: at(from_s), until: at(until_s), cause };
+        let report = |verdict, in_beam_s, losses| PassReport {
+            verdict,
+            counted_s: 600.0,
+            known_s: 600.0,
+            in_beam_s,
+            rms: Some(error(0.1)),
+            worst: Some(WorstError { at: at(10.0), error: error(0.124) }),
+            losses,
+        };
+        let beyond = lost(298.0, 600.0, LossCause::OutOfReach);
+        let good = report(PassVerdict::Good, 298.0, vec![beyond]);
+        assert_eq!(in_short(&good), "all 4:58 within reach, worst 0.12°");
+        let late = lost(0.0, 1.2, LossCause::LateStart);
+        let good = report(PassVerdict::Good, 296.8, vec![late, beyond]);
+        assert_eq!(in_short(&good), "4:57 of 4:58 within reach, worst 0.12°");
+        let poor =
+            report(PassVerdict::Poor, 100.0, vec![lost(0.0, 198.0, LossCause::LateStart), beyond]);
+        assert_eq!(in_short(&poor), "16.6 % in beam, worst 0.12°");
+        assert_eq!(
+            in_short(&report(PassVerdict::Good, 600.0, vec![])),
+            "100 % in beam, worst 0.12°"
+        );
     }
 
     #[test]

@@ -38,19 +38,35 @@ pub fn lost(lost: Lost) -> String {
         }
         Loss::Overhead => format!("Loses {seconds} near the zenith"),
         Loss::Slew => format!("Loses {seconds} at the azimuth unwrap"),
+        Loss::BeyondAzimuth(end) => {
+            format!("Loses {seconds} beyond azimuth {}", format::azimuth(end.degrees()))
+        }
         Loss::OutOfReach => format!("Loses {seconds} out of reach"),
     }
 }
 
-/// Why a pass is left out, as a sentence without a full stop. `names` gives the name of the
-/// satellite of a pass.
-pub fn why(names: &dyn Fn(PassKey) -> String, why: &Why) -> String {
+/// Names in the reasons why passes are left out.
+#[derive(Clone, Copy)]
+pub struct Names<'a> {
+    /// The satellite of a pass.
+    pub pass: &'a dyn Fn(PassKey) -> String,
+    pub antenna: &'a dyn Fn(AntennaId) -> String,
+}
+
+/// Why a pass is left out, as a sentence without a full stop.
+pub fn why(names: Names<'_>, why: &Why) -> String {
     match why {
         Why::Refused(refusal) => refused(*refusal),
         Why::Impossible(impossible) => not_possible(impossible),
         Why::Off(Off::LockedOut) => "The unit is locked out".to_owned(),
         Why::Off(Off::SwitchedOff) => "The antenna is not connected".to_owned(),
-        Why::OtherAntennas => "Your limits or rules allow other antennas only".to_owned(),
+        Why::OtherAntennas(allowed) if allowed.is_empty() => {
+            "Your limits or rules allow no antenna".to_owned()
+        }
+        Why::OtherAntennas(allowed) => {
+            let allowed: Vec<String> = allowed.iter().map(|id| (names.antenna)(*id)).collect();
+            format!("Your limits or rules allow only {}", format::list(&allowed))
+        }
         Why::Overlaps(conflict) => {
             let by = format::duration(conflict.missing_s);
             let verb = if conflict.others.is_empty() { "overlaps" } else { "overlap" };
@@ -115,8 +131,8 @@ fn not_possible(impossible: &Impossible) -> String {
     }
 }
 
-fn against(names: &dyn Fn(PassKey) -> String, conflict: &Conflict) -> String {
-    let name = names((conflict.with.satellite, conflict.with.aos));
+fn against(names: Names<'_>, conflict: &Conflict) -> String {
+    let name = (names.pass)((conflict.with.satellite, conflict.with.aos));
     let class = match conflict.class {
         Class::Always => " (always)".to_owned(),
         Class::Priority(priority) => format!(" (priority {})", priority.number()),
@@ -132,7 +148,8 @@ fn against(names: &dyn Fn(PassKey) -> String, conflict: &Conflict) -> String {
 
 /// Why a pass is left out, with the names that the window shows.
 pub fn why_left_out(model: &Model, of: &Why) -> String {
-    why(&|pass| pass_name(model, pass), of)
+    let antenna = |id| antenna_name(model, id).to_owned();
+    why(Names { pass: &|pass| pass_name(model, pass), antenna: &antenna }, of)
 }
 
 /// How a pass stands on an antenna of this name: the end of a sentence.
@@ -272,12 +289,25 @@ mod tests {
     use super::*;
     use crate::{plan::schedule::PassKey as Key, station::Priority};
 
+    const NAMES: Names<'_> =
+        Names { pass: &|_| "TERRA".to_owned(), antenna: &|id| format!("Antenna {}", id.0) };
+
+    #[test]
+    fn a_limit_names_the_antennas_that_it_allows() {
+        let said = |allowed: &[u32]| {
+            why(NAMES, &Why::OtherAntennas(allowed.iter().map(|id| AntennaId(*id)).collect()))
+        };
+        assert_eq!(said(&[2]), "Your limits or rules allow only Antenna 2");
+        assert_eq!(said(&[2, 3]), "Your limits or rules allow only Antenna 2 and Antenna 3");
+        assert_eq!(said(&[]), "Your limits or rules allow no antenna");
+    }
+
     #[test]
     fn a_pass_that_is_too_close_names_the_other_with_its_priority() {
         let said = |class| {
             let with = Key { satellite: 1, aos: Timestamp::UNIX_EPOCH };
             let conflict = Conflict { with, class, missing_s: 80.0, others: vec![] };
-            why(&|_| "TERRA".to_owned(), &Why::SlewTooShort(conflict))
+            why(NAMES, &Why::SlewTooShort(conflict))
         };
         let end = ": 1:20 short for slew and set-up";
         let priority = Class::Priority(Priority::default());

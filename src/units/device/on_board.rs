@@ -39,11 +39,24 @@ pub struct UnitClock {
     pub read_at: Timestamp,
 }
 
+/// A satellite in a low orbit moves through a beam of one degree in about this time, seconds.
+const OFF_S: f64 = 1.0;
+
 impl UnitClock {
     /// The least by which the unit is ahead of us, seconds: negative if it is surely behind, zero
     /// if it may be right.
     pub fn surely_ahead_s(self) -> f64 {
         (self.ahead_s.abs() - self.error_s).max(0.0).copysign(self.ahead_s)
+    }
+
+    /// Returns `true` for a clock that is further off than an operator should accept.
+    pub fn is_surely_off(self) -> bool {
+        self.surely_ahead_s().abs() > OFF_S
+    }
+
+    /// Returns `true` if the clock may be that far off.
+    pub fn may_be_off(self) -> bool {
+        self.ahead_s.abs() + self.error_s > OFF_S
     }
 }
 

@@ -20,6 +20,8 @@ pub struct Sample {
 
 /// Tolerance in degrees: a pass that begins exactly at the minimum elevation counts as above it.
 const SAME_DEG: f64 = 0.01;
+/// A loss at least this high is called [`Loss::Overhead`].
+const OVERHEAD_FROM_DEG: f64 = 60.0;
 
 /// Travel and rate of a mount, and the beam that it has to keep on a satellite.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -63,8 +65,46 @@ pub enum Loss {
     Overhead,
     /// At an end of the azimuth axis, which has to slew a whole turn.
     Slew,
-    /// Out of travel.
+    /// Beyond the end of the azimuth travel at this azimuth.
+    BeyondAzimuth(Angle),
+    /// Out of the travel of the elevation axis, or an axis is still on its way.
     OutOfReach,
+}
+
+impl Loss {
+    /// Where a mount with an azimuth axis loses the satellite at `samples[index]`, the first that is
+    /// lost. `is_slewing` if the axis slews a whole turn about that time.
+    pub(super) fn at(mount: Mount, samples: &[Sample], index: usize, is_slewing: bool) -> Self {
+        let Some(sample) = samples.get(index) else { return Self::OutOfReach };
+        // Beyond the travel no rate of the axis would help.
+        if !mount.reaches(sample.direction) {
+            Self::beyond(mount, samples, index)
+        } else if is_slewing {
+            Self::Slew
+        } else if sample.direction.elevation_deg() >= OVERHEAD_FROM_DEG {
+            Self::Overhead
+        } else {
+            Self::OutOfReach
+        }
+    }
+
+    /// Beyond the end of the azimuth travel through which the satellite leaves it before
+    /// `samples[index]` or comes into it afterwards. In the middle of what an axis cannot reach, the
+    /// nearer end says nothing.
+    pub(super) fn beyond(mount: Mount, samples: &[Sample], index: usize) -> Self {
+        let end = |sample: &Sample| mount.azimuth_end_before(sample.direction);
+        let Some((before, from_here)) = samples.split_at_checked(index) else {
+            return Self::OutOfReach;
+        };
+        let outside = from_here.iter().map_while(end);
+        let crossed = if before.is_empty() {
+            let count = outside.clone().count();
+            outside.last().filter(|_| count < from_here.len())
+        } else {
+            outside.into_iter().next()
+        };
+        crossed.map_or(Self::OutOfReach, Self::BeyondAzimuth)
+    }
 }
 
 /// Trackability of the pass along `samples`, which are a few seconds apart, oldest first.

@@ -76,6 +76,24 @@ impl Mount {
         })
     }
 
+    /// The end of the azimuth travel beyond which `direction` lies, as an azimuth: the nearer one.
+    /// `None` if the azimuth axis turns to it, flipped or not, and for an X/Y mount.
+    pub fn azimuth_end_before(&self, direction: AzEl) -> Option<Angle> {
+        let Self::AzEl { azimuth_from_deg: from, azimuth_to_deg: to, .. } = *self else {
+            return None;
+        };
+        let is_within = |axes: AzEl| {
+            let azimuth_deg = self.axis_azimuth(axes.azimuth, None).degrees();
+            (from..=to).contains(&azimuth_deg)
+        };
+        if is_within(direction) || (self.can_flip() && is_within(direction.flipped())) {
+            return None;
+        }
+        let [from, to] = [from, to].map(|end| Angle::from_degrees(end).wrapped_360());
+        let way = |end: Angle| (direction.azimuth - end).wrapped_180().abs();
+        Some(if way(from) < way(to) { from } else { to })
+    }
+
     /// Returns `true` if the elevation axis travels over the zenith to the other side.
     pub fn can_flip(&self) -> bool {
         matches!(self, Self::AzEl { elevation_to_deg, .. } if *elevation_to_deg > 90.0)

@@ -303,6 +303,13 @@ impl<'a> UpcomingPasses<'a> {
         self.len() == 0
     }
 
+    /// Number of rows whose passes have begun at `now`, without those that are always up.
+    pub fn begun(&self, now: Timestamp) -> usize {
+        let begun = self.list.parts().0.partition_point(|dated| dated.pass.aos.time <= now);
+        let over = self.left_out.iter().filter(|range| range.start < begun);
+        begun - over.map(|range| range.end.min(begun) - range.start).sum::<usize>()
+    }
+
     /// The pass in this row.
     pub fn get(&self, row: usize) -> Option<&'a PredictedPass> {
         let mut place = row;

@@ -272,6 +272,9 @@ fn the_rows_are_the_passes_that_are_neither_over_nor_too_late() {
             assert_eq!(listed.row(key), expected.iter().position(|of| *of == key), "{after_h} h");
         }
         let dated = favourites.passes.iter().filter(|of| !of.is_always_up() && is_listed(of));
+        let is_begun = |of: &&PredictedPass| is_listed(of) && of.pass.aos.time <= from;
+        let dated_passes = favourites.passes.iter().filter(|of| !of.is_always_up());
+        assert_eq!(listed.begun(from), dated_passes.filter(is_begun).count(), "{after_h} h");
         let until = favourites.upcoming(from);
         assert!(until.until(end).map(PredictedPass::key).eq(dated.map(PredictedPass::key)));
     }

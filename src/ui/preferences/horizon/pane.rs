@@ -256,7 +256,7 @@ enum Standing {
 
 fn standing(ui: &Ui, rect: Rect, salt: impl egui::AsIdSalt, standing: &Standing, t: &Tokens) {
     let (icon, words, colour) = match standing {
-        Standing::Unchanged => (None, "Unchanged".to_owned(), t.t3),
+        Standing::Unchanged => return,
         Standing::New => (Some(Icon::Pencil), "New".to_owned(), t.sat),
         Standing::Edited(was) => (Some(Icon::Pencil), format!("Edited, was {was}"), t.sat),
         Standing::Wrong(why) => (Some(Icon::Warning), why.clone(), t.bad),

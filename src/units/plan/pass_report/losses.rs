@@ -208,14 +208,18 @@ impl TrackedPass<'_> {
             Loss::Keyhole(_) => Some(LossCause::Keyhole),
             Loss::Overhead => Some(LossCause::RateOfMount),
             Loss::Slew => Some(LossCause::Slew),
-            Loss::OutOfReach if self.reached_s(from, until) <= COMES_BACK_S => {
+            Loss::BeyondAzimuth(_) | Loss::OutOfReach
+                if self.reached_s(from, until) <= COMES_BACK_S =>
+            {
                 Some(LossCause::OutOfReach)
             }
             // An axis is too slow, or on its way back to what it reaches.
-            Loss::OutOfReach if self.is_reached() || !self.is_in_reach(add_seconds(from, 1.0)) => {
+            Loss::BeyondAzimuth(_) | Loss::OutOfReach
+                if self.is_reached() || !self.is_in_reach(add_seconds(from, 1.0)) =>
+            {
                 Some(LossCause::RateOfMount)
             }
-            Loss::OutOfReach => None,
+            Loss::BeyondAzimuth(_) | Loss::OutOfReach => None,
         }
     }
 

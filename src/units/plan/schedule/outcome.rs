@@ -83,8 +83,8 @@ pub enum Why {
     Refused(Refusal),
     Impossible(Impossible),
     Off(Off),
-    /// The rules of the satellite leave out this antenna.
-    OtherAntennas,
+    /// The rules of the satellite leave out this antenna and allow only these.
+    OtherAntennas(Vec<AntennaId>),
     /// The antenna takes other passes at this time.
     Overlaps(Conflict),
     /// The antenna cannot be there in time after a pass, or in time for the next one.

@@ -39,8 +39,6 @@ const OFF_ENDS_DEG: f64 = 5.0;
 const SUN_STAYS_MS: i64 = 10_000;
 /// Places that are looked at on a way to the open sky.
 const STEPS: u32 = 18;
-/// Elevation from which a loss counts as overhead, degrees.
-const OVERHEAD_FROM_DEG: f64 = 60.0;
 /// Angle from the direction in which the first axis turns on the spot (the zenith, or an end of
 /// the lower axis of an X/Y mount) from which a pass may be judged by few samples, degrees.
 const CLEAR_DEG: f64 = 5.0;
@@ -278,12 +276,13 @@ impl Reach {
         let slews: Vec<Timestamp> = slews.map(|sample| sample.time).collect();
         let (mut held, mut entered): (Vec<Span>, _) = (Vec::new(), None);
         let [is_late, is_early] = samples.leave_out(clear);
-        let mut lost_at = is_late.then_some(Loss::OutOfReach);
+        let beyond = |index| Loss::beyond(self.drives.mount, &samples.list, index);
+        let mut lost_at = is_late.then(|| beyond(0));
         // The Sun stays where it is for so long.
         let mut bounds = None;
         // As in trackability, the time between two samples counts only if both are in the beam.
         let mut before: Option<Timestamp> = None;
-        for (sample, axes_deg) in samples.list.iter().zip(places) {
+        for (index, (sample, axes_deg)) in samples.list.iter().zip(places).enumerate() {
             let since = before.take();
             if self.has_barriers() {
                 let direction = self.bounds.direction(axes_deg);
@@ -300,7 +299,7 @@ impl Reach {
                 }
             }
             if !self.is_in_beam(sample.direction, axes_deg) {
-                lost_at = lost_at.or_else(|| Some(self.loss_at(sample, &slews)));
+                lost_at = lost_at.or_else(|| Some(self.loss_at(&samples.list, index, &slews)));
                 continue;
             }
             before = Some(sample.time);
@@ -311,7 +310,8 @@ impl Reach {
                 _ => held.push(span),
             }
         }
-        let lost_at = lost_at.or(is_early.then_some(Loss::OutOfReach));
+        let lost_at =
+            lost_at.or_else(|| is_early.then(|| beyond(samples.list.len().saturating_sub(1))));
         let counted = Span::both(&held, clear);
         let lost_ms = Span::total_ms(clear) - Span::total_ms(&counted);
         let lost = lost_at.filter(|_| lost_ms > 0);
@@ -362,28 +362,22 @@ impl Reach {
         up.chain(round).find(|place| now.has_room(*place, self.slews.room_deg))
     }
 
-    /// Where an antenna whose azimuth axis slews at `slews` loses what is at `at`.
-    fn loss_at(&self, at: &Sample, slews: &[Timestamp]) -> Loss {
-        let direction = at.direction;
+    /// Where an antenna whose azimuth axis slews at `slews` loses the satellite at `samples[index]`,
+    /// the first that is lost.
+    fn loss_at(&self, samples: &[Sample], index: usize, slews: &[Timestamp]) -> Loss {
+        let Some(sample) = samples.get(index) else { return Loss::OutOfReach };
         match self.drives.mount {
             Mount::Xy { lower_axis_azimuth_deg, .. } => {
                 let end = Angle::from_degrees(lower_axis_azimuth_deg);
-                let is_far = (direction.azimuth - end).wrapped_180().abs().degrees() > 90.0;
+                let is_far = (sample.direction.azimuth - end).wrapped_180().abs().degrees() > 90.0;
                 let turn = Angle::from_degrees(if is_far { 180.0 } else { 0.0 });
                 Loss::Keyhole((end + turn).wrapped_360())
             }
             Mount::AzEl { .. } => {
                 let near_s = TURN_DEG / self.drives.rates_deg_s[0];
-                let is_near = |slew: &Timestamp| seconds_between(*slew, at.time).abs() <= near_s;
-                if !self.drives.mount.reaches(direction) {
-                    Loss::OutOfReach
-                } else if slews.iter().any(is_near) {
-                    Loss::Slew
-                } else if direction.elevation_deg() >= OVERHEAD_FROM_DEG {
-                    Loss::Overhead
-                } else {
-                    Loss::OutOfReach
-                }
+                let is_near =
+                    |slew: &Timestamp| seconds_between(*slew, sample.time).abs() <= near_s;
+                Loss::at(self.drives.mount, samples, index, slews.iter().any(is_near))
             }
         }
     }

@@ -249,7 +249,7 @@ fn every_reason_holds_when_the_pass_is_always_taken() {
         for left in schedule.left_out.iter().step_by(3) {
             let swapped = with_always(request, left.pass);
             match &left.why {
-                Why::Refused(_) | Why::Impossible(_) | Why::Off(_) | Why::OtherAntennas => {
+                Why::Refused(_) | Why::Impossible(_) | Why::Off(_) | Why::OtherAntennas(_) => {
                     assert_eq!(swapped, None, "{left:?}");
                 }
                 Why::Overlaps(_)

@@ -74,7 +74,13 @@ impl Board<'_> {
             Some((_, Choice::Judged(Verdict::Impossible(why)))) => {
                 return Why::Impossible(why.clone());
             }
-            Some((_, Choice::AgainstRule)) | None => return Why::OtherAntennas,
+            Some((_, Choice::AgainstRule)) | None => {
+                let allowed = candidate.options.iter().filter(|(_, choice)| match choice {
+                    Choice::Judged(_) => true,
+                    Choice::AgainstRule => false,
+                });
+                return Why::OtherAntennas(allowed.map(|(id, _)| *id).collect());
+            }
             Some((_, Choice::Judged(Verdict::Possible(_)))) => {}
         }
         if let Some(off) = antenna.off {
@@ -175,6 +181,6 @@ fn distance(why: &Why) -> (u8, i64) {
         Why::Off(_) => (6, 0),
         // An antenna that is excluded may well be able to take it, but that is the operator's will.
         Why::Impossible(_) => (7, 0),
-        Why::OtherAntennas => (8, 0),
+        Why::OtherAntennas(_) => (8, 0),
     }
 }

@@ -7,8 +7,6 @@ use crate::{
     plan::az_el::{AzElAxes, Flip, Planned, Start},
 };
 
-/// Elevation from which a loss counts as overhead, degrees.
-const OVERHEAD_FROM_DEG: f64 = 60.0;
 /// The longest slew of an axis, degrees.
 const TURN_DEG: f64 = 360.0;
 
@@ -47,7 +45,7 @@ fn lost(
     let (mut lost, mut first) = (Outside::default(), None);
     let axes_deg = azimuths.iter().zip(elevations).map(|(azimuth, at)| [*azimuth, *at]);
     let mut before: Option<(&Sample, bool)> = None;
-    for (sample, axes_deg) in samples.iter().zip(axes_deg) {
+    for (index, (sample, axes_deg)) in samples.iter().zip(axes_deg).enumerate() {
         let is_off = axes.off(sample.direction, axes_deg) > limits.half_beam;
         // The time between two samples counts only if both are in the beam.
         if let Some((before, was_off)) = before.replace((sample, is_off))
@@ -55,21 +53,13 @@ fn lost(
         {
             lost.add(before.time, sample.time);
         }
-        first = first.or(is_off.then_some(sample));
+        first = first.or(is_off.then_some((index, sample.time)));
     }
-    let Some(first) = first else { return (lost, Loss::OutOfReach) };
+    let Some((index, from)) = first else { return (lost, Loss::OutOfReach) };
     let near_s = TURN_DEG / limits.maximum_rate_deg_s;
-    let is_near = |slew: &Sample| seconds_between(slew.time, first.time).abs() <= near_s;
-    let at = if !limits.mount.reaches(first.direction) {
-        // Beyond the travel no rate of the axis would help.
-        Loss::OutOfReach
-    } else if planned.slews.iter().filter_map(|index| samples.get(*index)).any(is_near) {
-        Loss::Slew
-    } else if first.direction.elevation_deg() >= OVERHEAD_FROM_DEG {
-        Loss::Overhead
-    } else {
-        Loss::OutOfReach
-    };
+    let is_near = |slew: &Sample| seconds_between(slew.time, from).abs() <= near_s;
+    let is_slewing = planned.slews.iter().filter_map(|index| samples.get(*index)).any(is_near);
+    let at = Loss::at(limits.mount, samples, index, is_slewing);
     (lost, at)
 }
 
@@ -161,7 +151,8 @@ mod tests {
     fn beyond_the_travel_a_high_satellite_is_out_of_reach() {
         let lost = super::trackability(&pass(150.0, 75.0), limits(120.0, 30.0));
         let Trackability::Loses { at, seconds, .. } = lost else { panic!("{lost:?}") };
-        assert!(at == Loss::OutOfReach && seconds > 60.0, "{at:?} {seconds}");
+        assert_eq!(at, Loss::BeyondAzimuth(Angle::from_degrees(120.0)));
+        assert!(seconds > 60.0, "{seconds}");
     }
 
     #[test]

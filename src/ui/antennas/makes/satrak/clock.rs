@@ -17,9 +17,11 @@ use crate::{
         icons::Icon,
         text, theme,
         widgets::button::{Button, SMALL_HEIGHT},
+        words,
     },
 };
 
+const DIFFERENCE: &str = "Against this computer";
 const LABEL: &str = "Effect on the track";
 
 pub(super) fn show(
@@ -28,10 +30,21 @@ pub(super) fn show(
     form: &mut Form,
     commands: &mut Vec<UiCommand>,
 ) {
-    fields(ui, unit, form, CLOCK.key, is_reported);
+    fields(ui, unit, form, CLOCK.key, |field| is_reported(field) && field.key != AHEAD_S.name);
+    difference(ui, unit);
     effect(ui, unit);
     ui.add_space(6.0);
     set(ui, unit, form, commands);
+}
+
+/// Words instead of a sign, which the operator would have to work out.
+fn difference(ui: &mut Ui, unit: &ShownUnit<'_>) {
+    let t = theme::tokens(ui);
+    let clock = unit.antenna.snapshot.state.on_board.clock.filter(|clock| clock.is_set);
+    let Some(clock) = clock else { return row::plain(ui, DIFFERENCE, "not known", None) };
+    let off = (Some(Icon::Warning), "Off", t.warn);
+    let words = words::compared_clock(clock.ahead_s);
+    row::plain(ui, DIFFERENCE, &words, clock.is_surely_off().then_some(off));
 }
 
 /// Error of the beam due to the clock.
