@@ -20,6 +20,7 @@ mod frames;
 mod ghost;
 mod holds;
 mod horizon;
+mod images;
 mod in_memory;
 mod keys;
 mod maintenance;

@@ -180,6 +180,7 @@ pub(crate) fn window(size: [f32; 2], model: Model) -> Window {
     let mut window = Harness::builder()
         .with_size(size)
         .with_context_setup(|ctx| theme::install(ctx, ThemeName::Dark))
+        .renderer(azel_painter::Painter::default())
         .build_ui_state(
             |ui, story: &mut Story| {
                 // The program has no margin around its views.
