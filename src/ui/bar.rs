@@ -13,7 +13,7 @@ use super::{
     words,
 };
 use crate::{
-    device::Phase,
+    device::{Phase, panel::Check},
     driver::{LinkState, StopState, TimeSync},
     engine::{
         alarms::{Alarm, AlarmKind, Placed},
@@ -251,6 +251,7 @@ pub fn activity(antenna: &AntennaModel) -> &'static str {
     let program = state.program.filter(|program| program.enabled);
     match (antenna.snapshot.stop, program.map(|program| program.phase)) {
         (StopState::Stopping { .. } | StopState::NotConfirmed { .. }, _) => "Stopping",
+        _ if state.checks.iter().any(Check::forbids_motion) => "Fault",
         (_, Some(Phase::Tracking)) => "Tracking",
         _ if antenna.snapshot.jog.is_some() => "Jogging",
         _ if antenna.is_out_of_reach() => "Waiting",

@@ -103,7 +103,10 @@ fn fault_or_limit(antenna: &AntennaModel) -> Option<Spoken> {
     let state = &antenna.snapshot.state;
     if let Some(check) = state.checks.iter().find(|check| check.forbids_motion()) {
         let words = format!("Motion is locked by a fault: {}. {}", check.name, check.advice);
-        return Some(Spoken::new(SentenceKind::Fault).plain(words));
+        // A unit may go on by itself.
+        let moves = state.measured.is_some_and(|measured| measured.moving());
+        let warning = if moves { " It is still moving: STOP ends that." } else { "" };
+        return Some(Spoken::new(SentenceKind::Fault).plain(words + warning));
     }
     let measured = state.measured.filter(|measured| !measured.moving())?;
     for (axis, name) in measured.axes.iter().zip(antenna.variant().capabilities.axes) {
@@ -324,11 +327,48 @@ fn standing(model: &Model, antenna: &AntennaModel) -> Spoken {
         (_, Intent::Park) => "Parked, holding",
         _ => "Holding",
     };
+    if let Some(missing) = missing_angle(antenna) {
+        return Spoken::new(SentenceKind::Caution)
+            .plain(format!("{lead}{}. {missing}", place(antenna)));
+    }
     let spoken = Spoken::new(SentenceKind::Holding).plain(format!("{lead}{}. ", place(antenna)));
     if auto {
         spoken.plain("Auto-track is on: the unit may start by itself.")
     } else {
         spoken.plain(next)
+    }
+}
+
+/// The angle that the unit does not report, and why.
+pub(super) fn missing_angle(antenna: &AntennaModel) -> Option<&'static str> {
+    let can = antenna.variant().capabilities;
+    let measured = antenna.snapshot.state.measured?;
+    let pointing = measured.pointing;
+    let elevation_known = pointing.elevation.is_some() || !can.has_elevation();
+    let [azimuth, elevation] = measured.axes;
+    match (pointing.azimuth.is_some(), elevation_known) {
+        (true, true) => None,
+        (false, _) if azimuth.minus_limit => {
+            Some("At the CCW limit: the unit shows no azimuth there.")
+        }
+        (false, _) if azimuth.plus_limit => {
+            Some("At the CW limit: the unit shows no azimuth there.")
+        }
+        (_, false) if elevation.minus_limit => {
+            Some("At the lower limit: the unit shows no elevation there.")
+        }
+        (_, false) if elevation.plus_limit => {
+            Some("At the upper limit: the unit shows no elevation there.")
+        }
+        (false, false) => {
+            Some("The unit reports no angles: they are not calibrated, or a sensor is missing.")
+        }
+        (false, true) => {
+            Some("The unit reports no azimuth: it is not calibrated, or a sensor is missing.")
+        }
+        (true, false) => {
+            Some("The unit reports no elevation: it is not calibrated, or a sensor is missing.")
+        }
     }
 }
 

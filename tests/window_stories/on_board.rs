@@ -106,7 +106,7 @@ fn a_missed_satellite_is_told_with_the_likeliest_cause() {
     assert!(said.starts_with("Satrak is 23.0° off its satellite: the unit's location is 1596 km"));
     let unexplained = AlarmKind::OffTarget { off, cause: None };
     let said = words::alarm(&unexplained, "Satrak", rig::now());
-    assert!(said.contains("the age of its elements is not known"), "{said}");
+    assert!(said.contains("check its drives, and the age of its elements"), "{said}");
 }
 
 /// Sends these payloads to the unit as another client, one after the other.

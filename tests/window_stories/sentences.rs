@@ -241,8 +241,13 @@ fn a_fault_that_locks_motion_comes_before_all_else_and_a_warning_does_not() {
     };
     assert_eq!(
         with(&[2, 8]),
-        "Motion is locked by a fault: X motor. Do not move X: check motor, brake and drive."
+        "Motion is locked by a fault: X motor. Do not move X: check motor, brake and drive. It is \
+         still moving: STOP ends that."
     );
+    let standing = told(states::holding(), |model, snapshot| {
+        states::report(snapshot, &[2], model.now);
+    });
+    assert!(standing.ends_with("check motor, brake and drive."), "{standing}");
     assert!(with(&[2, 12]).starts_with("Tracking NOAA 20"));
 }
 
@@ -292,6 +297,7 @@ fn a_silent_unit_is_not_said_to_do_what_it_did_last() {
     let silent = |snapshot: Snapshot, silent_s| {
         told(snapshot, move |model, snapshot| {
             snapshot.link = LinkState::Stale { last_reply: rig::ago(model, silent_s) };
+            snapshot.state.traffic.last_reply = Some(rig::ago(model, silent_s));
         })
     };
     assert_eq!(
@@ -300,6 +306,11 @@ fn a_silent_unit_is_not_said_to_do_what_it_did_last() {
          Azel connects again if it stays silent."
     );
     assert!(silent(states::tracking(0.0), 2).starts_with("Tracking NOAA 20"));
+    let on_a_new_link = told(states::tracking(0.0), |model, snapshot| {
+        snapshot.link = LinkState::Up { since: rig::ago(model, 1) };
+        snapshot.state.traffic.last_reply = Some(rig::ago(model, 30));
+    });
+    assert!(on_a_new_link.starts_with("No reply from Satrak for 30 s."), "{on_a_new_link}");
     let mut stopping = states::moving();
     stopping.stop = StopState::NotConfirmed { since: rig::model(rig::quiet()).steady };
     assert!(silent(stopping, 9).contains("is not known to have stopped"));

@@ -173,8 +173,10 @@ impl Engine {
         let Some(Antenna { shown: antenna, .. }) = self.antennas.get(index) else { return };
         let (alarms, now, of) = (&mut self.alarms, self.now, Some(antenna.id()));
         let on_board = antenna.snapshot.on_board.as_ref().and_then(|view| {
-            let cause = view.found.causes.first().cloned();
-            Some(AlarmKind::OffTarget { off: view.missing?, cause })
+            let off = view.missing?;
+            // A small known error is no cause of a large one: a stuck axis is reported by nothing.
+            let cause = view.found.causes.iter().find(|cause| cause.can_make(off)).cloned();
+            Some(AlarmKind::OffTarget { off, cause })
         });
         let from_here = antenna.snapshot.program_track.as_ref().and_then(|view| view.missing);
         let missed = on_board.or(from_here.map(|off| AlarmKind::OffTarget { off, cause: None }));

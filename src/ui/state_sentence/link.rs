@@ -2,7 +2,6 @@
 
 use super::{Spoken, short};
 use crate::{
-    clock::Instant,
     driver::{LinkLoss, LinkState, StopState},
     engine::{antenna::AntennaModel, claim::HeldBy},
     model::Model,
@@ -25,8 +24,11 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
             Spoken::new(SentenceKind::Holding)
                 .plain(format!("{name} is connected and is being read.")),
         ),
-        LinkState::Up { .. } => None,
-        LinkState::Stale { last_reply } => silent(model, antenna, *last_reply),
+        LinkState::Up { since } if state.traffic.last_reply.is_some_and(|last| last >= *since) => {
+            None
+        }
+        // A new link on which the unit has not answered yet tells nothing new of it.
+        LinkState::Up { .. } | LinkState::Stale { .. } => silent(model, antenna),
         LinkState::Off => Some(Spoken::new(SentenceKind::Holding).plain(off(antenna))),
         LinkState::Connecting { .. } => Some(
             Spoken::new(SentenceKind::Holding).plain(format!("Connecting to {name} at {address}.")),
@@ -56,7 +58,8 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
 
 /// The sentence for a unit that does not answer over a link that is still open. What it does now is
 /// not known, so nothing is said as if it were.
-fn silent(model: &Model, antenna: &AntennaModel, last_reply: Instant) -> Option<Spoken> {
+fn silent(model: &Model, antenna: &AntennaModel) -> Option<Spoken> {
+    let last_reply = antenna.snapshot.state.traffic.last_reply?;
     let silent_s = model.steady.saturating_duration_since(last_reply).as_secs_f64();
     if silent_s < SILENT_FROM_S || is_stopping(antenna) {
         return None;
@@ -117,10 +120,12 @@ fn what_it_did(spoken: Spoken, antenna: &AntennaModel) -> Spoken {
     let state = &antenna.snapshot.state;
     let moving = state.measured.is_some_and(|measured| measured.moving());
     if state.program.is_some_and(|program| program.enabled) {
-        let held = state.on_board.satellite.as_ref();
+        // A new link forgets the satellite until the unit reports it again.
+        let held = state.on_board.satellite.as_ref().map(|held| held.name.as_str());
+        let name = held.or(antenna.errors_of.as_deref());
         return spoken
             .plain("It was tracking ")
-            .bold(held.map_or("a satellite", |held| short(&held.name)))
+            .bold(name.map_or("a satellite", short))
             .plain(" and is probably still moving. ");
     }
     if moving {

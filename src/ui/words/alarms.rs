@@ -120,8 +120,8 @@ pub fn alarm(kind: &AlarmKind, antenna: &str, now: Timestamp) -> String {
                     format!("{antenna} is {off} off its satellite: {}.", cause_of(cause))
                 }
                 None => format!(
-                    "{antenna} is {off} off its satellite. What the unit reports does not \
-                     explain it; the age of its elements is not known."
+                    "{antenna} is {off} off its satellite. Nothing that the unit reports explains \
+                     it: check its drives, and the age of its elements."
                 ),
             }
         }

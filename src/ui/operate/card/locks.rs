@@ -4,6 +4,7 @@ use crate::{
     driver::{Intent, LinkState},
     engine::antenna::AntennaModel,
     model::Model,
+    ui::state_sentence::missing_angle,
 };
 
 /// The lock of all controls for moving by hand while a target is tracked.
@@ -88,32 +89,5 @@ fn no_direction(antenna: &AntennaModel) -> Option<&'static str> {
     if !can.takes_positions {
         return (!can.has_program).then_some("This controller cannot be sent to a direction.");
     }
-    let measured = antenna.snapshot.state.measured?;
-    let pointing = measured.pointing;
-    let elevation_known = pointing.elevation.is_some() || !can.has_elevation();
-    let [azimuth, elevation] = measured.axes;
-    match (pointing.azimuth.is_some(), elevation_known) {
-        (true, true) => None,
-        (false, _) if azimuth.minus_limit => {
-            Some("At the CCW limit: the unit shows no azimuth there.")
-        }
-        (false, _) if azimuth.plus_limit => {
-            Some("At the CW limit: the unit shows no azimuth there.")
-        }
-        (_, false) if elevation.minus_limit => {
-            Some("At the lower limit: the unit shows no elevation there.")
-        }
-        (_, false) if elevation.plus_limit => {
-            Some("At the upper limit: the unit shows no elevation there.")
-        }
-        (false, false) => {
-            Some("The unit reports no angles: they are not calibrated, or a sensor is missing.")
-        }
-        (false, true) => {
-            Some("The unit reports no azimuth: it is not calibrated, or a sensor is missing.")
-        }
-        (true, false) => {
-            Some("The unit reports no elevation: it is not calibrated, or a sensor is missing.")
-        }
-    }
+    missing_angle(antenna)
 }

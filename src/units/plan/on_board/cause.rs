@@ -68,6 +68,18 @@ pub struct Ranked {
     pub off: Option<Angle>,
 }
 
+/// Share of an error that a cause has to make to be named for it. The known part of a cause is its
+/// largest error in a pass, so it may well make less at the moment.
+const MADE_SHARE: f64 = 0.7;
+
+impl Ranked {
+    /// Returns `true` if this cause can make an error of `off`, by far the most of it. A cause whose
+    /// error is unknown can.
+    pub fn can_make(&self, off: Angle) -> bool {
+        self.off.is_none_or(|own| own.degrees() >= MADE_SHARE * off.degrees())
+    }
+}
+
 /// A value that a unit does not report.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Unknown {

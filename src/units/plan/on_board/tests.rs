@@ -336,3 +336,15 @@ fn a_unit_that_leaves_refraction_out_is_told_apart_and_still_takes_the_pass() {
     // The path that the gate judges is the one that the unit takes.
     assert!(judge.start(&right(), aos.time).unwrap().separation(aos.direction).degrees() < 1e-6);
 }
+
+#[test]
+fn a_small_known_error_is_no_cause_of_a_large_one() {
+    let ranked = |off_deg: Option<f64>| Ranked {
+        cause: Cause::Refraction,
+        off: off_deg.map(Angle::from_degrees),
+    };
+    let can_make = |own_deg, off_deg| ranked(own_deg).can_make(Angle::from_degrees(off_deg));
+    assert!(can_make(Some(2.5), 2.6) && can_make(Some(9.0), 2.6));
+    assert!(!can_make(Some(0.1), 2.6));
+    assert!(can_make(None, 2.6), "such as another satellite on the unit");
+}
