@@ -11,7 +11,10 @@ use azel::{
 };
 use jiff::SignedDuration;
 
-use super::rig::{Rig, antenna, iss, options, track};
+use super::{
+    rig::{Rig, antenna, iss, options, track},
+    script::Scripted,
+};
 
 const AIM_DEG: (f64, f64) = (100.0, 50.0);
 
@@ -167,6 +170,16 @@ async fn a_unit_that_is_set_to_points_is_read_and_the_cause_forgotten() {
     rig.control.set_quirk(Quirk::DecimalComma, false);
     rig.until("a position", 30, |shown| shown.state.measured.is_some()).await;
     assert!(rig.shown().state.unreadable.is_none());
+}
+
+#[tokio::test(start_paused = true)]
+async fn noise_is_told_as_unreadable_whether_it_ends_a_line_or_not() {
+    for noise in [&b"\x80\xffABC?"[..], b"$STATUS?,0*00\r\n"] {
+        let mut unit = Scripted::raw(noise.to_vec());
+        unit.seconds(8.0).await;
+        let lost: Vec<Event> = unit.events();
+        assert_eq!(lost.first(), Some(&Event::LinkLost(LinkLoss::Unreadable)), "{noise:?}");
+    }
 }
 
 #[tokio::test(start_paused = true)]

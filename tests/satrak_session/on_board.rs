@@ -384,6 +384,27 @@ async fn a_window_that_is_over_leads_nowhere() {
     assert_eq!(rig.events(), []);
 }
 
+/// The tolerance of an arrival does not hide that a satellite is outside the beam.
+#[tokio::test(start_paused = true)]
+async fn an_antenna_just_outside_its_beam_is_told_and_tracks_on() {
+    let mut rig = read().await;
+    chosen_by_another(&mut rig, &iss()).await;
+    by_another(&rig, "TRACK=,1").await;
+    let tracks =
+        |shown: &azel::driver::Snapshot| shown.state.program.unwrap().phase == Phase::Tracking;
+    rig.until("in the pass", 120, tracks).await;
+    rig.seconds(20.0).await;
+    by_another(&rig, "SETTINGS=,?,?,?,0.9,?,?,?,?,?,?,?").await;
+    rig.until("outside its beam", 20, |shown| {
+        shown.on_board.as_ref().is_some_and(|view| view.missing.is_some())
+    })
+    .await;
+    let off = rig.shown().on_board.as_ref().unwrap().missing.unwrap();
+    assert!((0.8..1.0).contains(&off.degrees()), "{off:?}");
+    rig.seconds(60.0).await;
+    assert!(rig.control.state().is_tracking, "a small error stops nothing");
+}
+
 #[tokio::test(start_paused = true)]
 async fn what_the_unit_tracks_unasked_is_watched_like_what_it_was_asked_to() {
     let mut rig = read().await;

@@ -45,6 +45,7 @@ impl Scripted {
         tokio::spawn(async move {
             let mut buffer = [0; 1024];
             if far.read(&mut buffer).await.is_ok() {
+                sleep(Duration::from_millis(10)).await;
                 far.write_all(&bytes).await.unwrap();
             }
             // Holds the link open until the session leaves it.

@@ -302,6 +302,6 @@ pub struct Traffic {
     pub odd: u64,
     /// When the last good reply came in.
     pub last_reply: Option<Instant>,
-    /// When the last good frame came in whose content made no sense.
+    /// When the last line came in that was no good frame, or whose content made no sense.
     pub last_unreadable: Option<Instant>,
 }

@@ -60,13 +60,17 @@ impl Session {
         }
     }
 
-    /// Largest angle off target of a working antenna: half the beam, and the tolerances of arrival and
-    /// reading.
-    pub(super) fn on_target(&self) -> Angle {
-        let can = self.variant.capabilities;
-        let reported_deg = can.arrives_within_deg + 2.0 * can.standstill.resolution_deg;
-        let tolerance_deg = reported_deg + self.figures().tolerance_deg();
+    /// Largest angle off target of an antenna whose beam holds it: half the beam, and the tolerance of
+    /// the reading.
+    pub(super) fn in_beam(&self) -> Angle {
+        let reading_deg = 2.0 * self.variant.capabilities.standstill.resolution_deg;
+        let tolerance_deg = reading_deg + self.figures().tolerance_deg();
         self.setup.ability.half_beam + Angle::from_degrees(tolerance_deg)
+    }
+
+    /// Largest angle off target of a working antenna: that, and the tolerance of an arrival.
+    pub(super) fn on_target(&self) -> Angle {
+        self.in_beam() + Angle::from_degrees(self.variant.capabilities.arrives_within_deg)
     }
 }
 

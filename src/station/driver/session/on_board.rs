@@ -76,16 +76,17 @@ impl Watch {
         self.unexplained
     }
 
-    /// Takes the pointing error, and the part of it that the clocks do not explain; `None` within the
-    /// tolerance.
+    /// Takes the pointing error outside the beam, and the one for which a pass is given up; `None` where
+    /// it is less.
     fn take_off(
         &mut self,
         off: Option<Angle>,
+        is_on_target: bool,
         unexplained: Option<Angle>,
         slew: Duration,
         at: Instant,
     ) {
-        self.was_on_target |= off.is_none();
+        self.was_on_target |= is_on_target;
         let slew = if self.was_on_target { Duration::ZERO } else { slew };
         let arrives = *self.arrives.get_or_insert(at + slew);
         let counts = self.was_on_target || at >= arrives;
@@ -266,7 +267,8 @@ impl Session {
             return;
         }
         let (unit, meant, measured) = (self.plain_unit(), self.meant_offsets(), state.measured);
-        let on_target = self.on_target();
+        // Outside the beam is an alarm; to stop the antenna, the tolerance of an arrival counts too.
+        let (in_beam, on_target) = (self.in_beam(), self.on_target());
         let asked = self.activity.on_board_mut().map(|track| &mut track.watch);
         let Some(watch) = asked.or(self.unasked.as_mut()) else { return };
         watch.judge_again(&unit, true);
@@ -294,7 +296,8 @@ impl Session {
         let by_clock = watch.by_unit_clock(&unit, meant, measured.at);
         let by_clock = by_clock.and_then(|to| measured.pointing.separation(to.into()));
         let is_explained = by_clock.is_some_and(|off| !is_off(&off));
-        let off = Some(off).filter(is_off);
-        watch.take_off(off, off.filter(|_| !is_explained), slew, now.steady);
+        let unexplained = Some(off).filter(|off| is_off(off) && !is_explained);
+        let outside = Some(off).filter(|off| *off > in_beam);
+        watch.take_off(outside, !is_off(&off), unexplained, slew, now.steady);
     }
 }

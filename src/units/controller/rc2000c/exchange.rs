@@ -78,6 +78,7 @@ impl Rc2000c {
             Ok(frame) => frame,
             Err(error) => {
                 self.state.traffic.damaged += 1;
+                self.state.traffic.last_unreadable = Some(now.steady);
                 self.record_broken(error, now);
                 return tracing::debug!(%error, "damaged frame");
             }

@@ -116,6 +116,7 @@ impl Satrak {
             Ok(frame) => frame,
             Err(error) => {
                 self.state.traffic.damaged += 1;
+                self.state.traffic.last_unreadable = Some(now.steady);
                 return tracing::debug!(%error, "damaged line");
             }
         };
@@ -346,6 +347,10 @@ impl Satrak {
 
     fn missed(&mut self, late: &Outstanding, is_repeated: bool, now: Moment) {
         self.state.traffic.unanswered += 1;
+        // Noise may never end a line.
+        if self.decoder.is_within_line() {
+            self.state.traffic.last_unreadable = Some(now.steady);
+        }
         self.wire.no_reply(late.clock.waited(now), is_repeated, now);
         if late.is_status() && !is_repeated {
             self.missing_since.get_or_insert(late.clock.first_sent);

@@ -127,6 +127,11 @@ impl Decoder {
         }
     }
 
+    /// Returns `true` if bytes came in that are no whole line yet.
+    pub fn is_within_line(&self) -> bool {
+        self.skipping || !self.pending.is_empty()
+    }
+
     /// Takes the beginning of a line whose end will not come any more.
     pub fn take_unfinished(&mut self) -> Option<Line> {
         let bytes: Vec<u8> = self.pending.drain(..).collect();
