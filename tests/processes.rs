@@ -16,6 +16,7 @@ mod dead_man;
 #[cfg(unix)]
 mod link_sockets;
 mod live_stations;
+mod network_environment;
 mod owed_stop;
 mod passes_command;
 mod plan_command;

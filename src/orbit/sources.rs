@@ -145,6 +145,9 @@ pub enum FetchProblem {
     /// The server could not prove its identity; no request was sent.
     #[error("the server's certificate is not trusted: {0}")]
     Certificate(String),
+    /// No trusted authority signed the server's certificate; no request was sent.
+    #[error("this computer trusts no authority that signed the server's certificate")]
+    UnknownAuthority,
     /// The answer is larger than this limit in bytes.
     #[error("the answer is larger than {0} bytes")]
     TooLarge(u64),
@@ -202,6 +205,7 @@ impl FetchProblem {
             Self::Answer(_)
             | Self::Unreachable(_)
             | Self::Certificate(_)
+            | Self::UnknownAuthority
             | Self::TooLarge(_)
             | Self::NoElements
             | Self::Nothing(_)

@@ -258,6 +258,7 @@ impl Library {
                     FetchProblem::Answer(_)
                         | FetchProblem::Unreachable(_)
                         | FetchProblem::Certificate(_)
+                        | FetchProblem::UnknownAuthority
                         | FetchProblem::Refused(_)
                         | FetchProblem::NoSession
                 )

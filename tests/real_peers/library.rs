@@ -42,18 +42,20 @@ fn elements_come_from_a_server_that_proves_who_it_is_and_from_no_other() {
     let authority = Authority::new("Own");
     let (own, other) = (authority.certificate(), Authority::new("Other").certificate());
     let content = elements(5);
+    let certificate = |word| Some((false, word));
     for (name, end, trusted, expected) in [
         ("localhost", 2049, Some(&own), None),
-        ("localhost", 2021, Some(&own), Some("expired")),
-        ("elsewhere.example", 2049, Some(&own), Some("not valid for name \"localhost\"")),
-        ("localhost", 2049, Some(&other), Some("UnknownIssuer")),
-        ("localhost", 2049, None, Some("UnknownIssuer")),
+        ("localhost", 2021, Some(&own), certificate("expired")),
+        ("elsewhere.example", 2049, Some(&own), certificate("not valid for name \"localhost\"")),
+        ("localhost", 2049, Some(&other), Some((true, "no authority"))),
+        ("localhost", 2049, None, Some((true, "no authority"))),
     ] {
         let server = HttpsServer::new(&authority, name, end, content.bytes());
         match (objects(&server, trusted.cloned()), expected) {
             (Ok(count), None) => assert_eq!(count, 5),
-            (Err(FetchProblem::Certificate(why)), Some(word)) => {
-                assert!(why.contains(word), "{why}");
+            (Err(problem), Some((is_unknown, word))) => {
+                assert_eq!(problem == FetchProblem::UnknownAuthority, is_unknown, "{problem}");
+                assert!(problem.to_string().contains(word), "{problem}");
             }
             (result, _) => panic!("{name} until {end}: {result:?}"),
         }

@@ -2,6 +2,7 @@
 
 use std::{env, io, net::IpAddr, time::Duration};
 
+use rustls::CertificateError;
 use ureq::{
     Agent, Body, Proxy,
     http::{Response, Uri, header},
@@ -49,7 +50,8 @@ pub(super) fn fetch(
     limits: Limits,
     authorities: &RootCerts,
 ) -> Result<ServerAnswer, FetchProblem> {
-    let mut request = agent(url, limits, authorities)?.get(url);
+    let agent = agent(url, limits, authorities)?;
+    let mut request = agent.get(url);
     for (name, value) in [
         (header::IF_NONE_MATCH, known.and_then(|known| known.etag.as_deref())),
         (header::IF_MODIFIED_SINCE, known.and_then(|known| known.last_modified.as_deref())),
@@ -58,7 +60,7 @@ pub(super) fn fetch(
             request = request.header(name, value);
         }
     }
-    let response = request.call().map_err(|error| unanswered(&error))?;
+    let response = request.call().map_err(|error| unanswered(&error, &agent, url))?;
     match response.status().as_u16() {
         200 => {}
         304 if known.is_some() => return Ok(ServerAnswer::NotModified),
@@ -88,23 +90,38 @@ pub(super) fn agent(
         .timeout_global(Some(limits.timeout))
         .tls_config(TlsConfig::builder().root_certs(authorities.clone()).build())
         .user_agent(concat!("azel/", env!("CARGO_PKG_VERSION")));
-    if is_local {
-        config = config.proxy(None);
-    } else if let Some(name) = unusable_proxy(|name| env::var(name).ok()) {
-        return Err(FetchProblem::Proxy(name.to_owned()));
-    }
+    config = config.proxy(if is_local { None } else { proxy(|name| env::var(name).ok())? });
     Ok(Agent::from(config.build()))
 }
 
-/// Variables that name a proxy. The library takes the first one that it understands, and no proxy if
-/// there is none.
+/// Variables that name a proxy. The first one that is set counts.
 const PROXY_VARIABLES: [&str; 6] =
     ["ALL_PROXY", "all_proxy", "HTTPS_PROXY", "https_proxy", "HTTP_PROXY", "http_proxy"];
+/// Variables that list the hosts to reach without a proxy.
+const NO_PROXY_VARIABLES: [&str; 2] = ["NO_PROXY", "no_proxy"];
 
-/// Returns the variable of a proxy that cannot be used: to go past it in silence could be forbidden.
-fn unusable_proxy(value: impl Fn(&str) -> Option<String>) -> Option<&'static str> {
-    let is_unusable = |value: String| !value.is_empty() && Proxy::new(&value).is_err();
-    PROXY_VARIABLES.into_iter().find(|name| value(name).is_some_and(is_unusable))
+/// Returns the proxy of the environment, with the hosts that are reached without it. Every proxy must
+/// be usable: to go past one in silence could be forbidden.
+fn proxy(value: impl Fn(&str) -> Option<String>) -> Result<Option<Proxy>, FetchProblem> {
+    let mut first = None;
+    for name in PROXY_VARIABLES {
+        let Some(text) = value(name).filter(|text| !text.is_empty()) else { continue };
+        let proxy = Proxy::new(&text).map_err(|_| FetchProblem::Proxy(name.to_owned()))?;
+        first = first.or(Some((name, proxy)));
+    }
+    let Some((name, proxy)) = first else { return Ok(None) };
+    let hosts = NO_PROXY_VARIABLES.into_iter().find_map(value).unwrap_or_default();
+    // The library reads the list itself, but keeps the blanks that many put after the commas.
+    let hosts = hosts.split([',', ' ', '\t']).filter(|host| !host.is_empty());
+    let mut own = Proxy::builder(proxy.protocol()).host(proxy.host()).port(proxy.port());
+    if let Some(user) = proxy.username() {
+        own = own.username(user);
+    }
+    if let Some(password) = proxy.password() {
+        own = own.password(password);
+    }
+    let own = hosts.fold(own, ureq::ProxyBuilder::no_proxy);
+    own.build().map(Some).map_err(|_| FetchProblem::Proxy(name.to_owned()))
 }
 
 /// The unpacked body of an answer. Unpacked bytes count: a small answer may unpack to anything.
@@ -117,16 +134,30 @@ pub(super) fn body_of(response: Response<Body>, limits: Limits) -> Result<Vec<u8
     })
 }
 
-/// Reason why there is no answer.
-pub(super) fn unanswered(error: &ureq::Error) -> FetchProblem {
+/// Reason why `agent` got no answer from `url`.
+pub(super) fn unanswered(error: &ureq::Error, agent: &Agent, url: &str) -> FetchProblem {
     let cause = match error {
         ureq::Error::Rustls(error) => Some(error),
         ureq::Error::Io(error) => error.get_ref().and_then(|inner| inner.downcast_ref()),
         _ => None,
     };
     match cause {
+        Some(rustls::Error::InvalidCertificate(CertificateError::UnknownIssuer)) => {
+            FetchProblem::UnknownAuthority
+        }
         Some(rustls::Error::InvalidCertificate(why)) => FetchProblem::Certificate(why.to_string()),
-        _ => FetchProblem::Unreachable(error.to_string()),
+        _ => FetchProblem::Unreachable(format!("{error}{}", way(agent, url))),
+    }
+}
+
+/// Names the proxy on the way to `url`, without its log-in: it may be what does not answer.
+fn way(agent: &Agent, url: &str) -> String {
+    let uri: Option<Uri> = url.parse().ok();
+    match (agent.config().proxy(), uri) {
+        (Some(proxy), Some(uri)) if !proxy.is_no_proxy(&uri) => {
+            format!(", through the proxy {}:{}", proxy.host(), proxy.port())
+        }
+        _ => String::new(),
     }
 }
 
@@ -151,12 +182,36 @@ mod tests {
     #[test]
     fn a_proxy_that_cannot_be_used_is_named() {
         let unusable = |name: &'static str, value: &'static str| {
-            unusable_proxy(|asked| (asked == name).then(|| value.to_owned()))
+            proxy(|asked| (asked == name).then(|| value.to_owned())).err()
         };
+        let named = |name: &str| Some(FetchProblem::Proxy(name.to_owned()));
         assert_eq!(unusable("ALL_PROXY", "socks5://127.0.0.1:1080"), None);
         assert_eq!(unusable("https_proxy", "http://proxy.example:3128"), None);
         assert_eq!(unusable("HTTPS_PROXY", ""), None);
-        assert_eq!(unusable("ALL_PROXY", "gopher://127.0.0.1:70"), Some("ALL_PROXY"));
+        assert_eq!(unusable("ALL_PROXY", "gopher://127.0.0.1:70"), named("ALL_PROXY"));
+        assert_eq!(unusable("http_proxy", "gopher://127.0.0.1:70"), named("http_proxy"));
+    }
+
+    #[test]
+    fn a_proxy_keeps_its_log_in_and_passes_the_listed_hosts() {
+        let value = |name: &str| match name {
+            "HTTPS_PROXY" => Some("http://op%40home:p%3Aw@[::1]:3128".to_owned()),
+            "http_proxy" => Some("http://other.example".to_owned()),
+            "no_proxy" => Some("localhost, .home.example,192.0.2.7\tlast.example".to_owned()),
+            _ => None,
+        };
+        let proxy = proxy(value).unwrap().unwrap();
+        assert_eq!((proxy.host(), proxy.port()), ("[::1]", 3128));
+        assert_eq!((proxy.username(), proxy.password()), (Some("op@home"), Some("p:w")));
+        for (url, is_direct) in [
+            ("https://a.home.example/x", true),
+            ("https://192.0.2.7:8443/x", true),
+            ("https://last.example/x", true),
+            ("https://celestrak.org/x", false),
+            ("https://home.example/x", false),
+        ] {
+            assert_eq!(proxy.is_no_proxy(&url.parse().unwrap()), is_direct, "{url}");
+        }
     }
 
     #[test]

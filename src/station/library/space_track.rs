@@ -154,7 +154,7 @@ impl Visit<'_> {
         let url = format!("{}/ajaxauth/login", self.access.server);
         let form = [("identity", user), ("password", password.reveal())];
         let response = self.agent.post(&url).send_form(form);
-        let response = response.map_err(|error| unanswered(&error))?;
+        let response = response.map_err(|error| unanswered(&error, &self.agent, &url))?;
         let cookie = cookie(&response);
         let status = response.status().as_u16();
         let problem = match status {
@@ -188,7 +188,7 @@ impl Visit<'_> {
     fn get(&self, path: &str, cookie: &HeaderValue) -> Result<Response<Body>, FetchProblem> {
         let url = format!("{}{path}", self.access.server);
         let request = self.agent.get(&url).header(header::COOKIE, cookie);
-        request.call().map_err(|error| unanswered(&error))
+        request.call().map_err(|error| unanswered(&error, &self.agent, &url))
     }
 }
 

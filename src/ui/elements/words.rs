@@ -214,7 +214,7 @@ pub(in crate::ui) fn sentences(
     lines
 }
 
-/// Returns the operator's next step after a problem of a log-in.
+/// Returns the operator's next step after a problem.
 fn advice(problem: &FetchProblem) -> Option<&'static str> {
     match problem {
         FetchProblem::NoPassword => Some("Choose Password in Elements to enter it."),
@@ -229,12 +229,19 @@ fn advice(problem: &FetchProblem) -> Option<&'static str> {
             "Make room on the disk, or give Azel access to its data folder. Azel asks a server with \
              limits only if it can record the time.",
         ),
+        FetchProblem::UnknownAuthority => Some(
+            "Add the authority of the server to those of this computer, or name its file in \
+             SSL_CERT_FILE and start Azel again. If you know of no such authority, somebody may \
+             answer in place of the server.",
+        ),
+        FetchProblem::Certificate(_) => {
+            Some("Check the address and the clock of this computer, then ask who runs the server.")
+        }
         FetchProblem::NoFavourites => Some("Mark the satellites that you want as favourites."),
         FetchProblem::Address
         | FetchProblem::Proxy(_)
         | FetchProblem::Answer(_)
         | FetchProblem::Unreachable(_)
-        | FetchProblem::Certificate(_)
         | FetchProblem::TooLarge(_)
         | FetchProblem::NoElements
         | FetchProblem::Nothing(_)
@@ -428,6 +435,30 @@ mod tests {
             let read = crate::orbit::read_elements(&copied([iss].into_iter(), form)).elements;
             assert_eq!((read.len(), read[0].name()), (1, "ISS (ZARYA)"), "{form:?}");
             assert_eq!(read[0].epoch(), iss.epoch());
+        }
+    }
+
+    #[test]
+    fn a_certificate_that_is_not_trusted_comes_with_what_to_do() {
+        let source = Source::celestrak("active");
+        for (problem, words) in [
+            (FetchProblem::UnknownAuthority, "SSL_CERT_FILE"),
+            (FetchProblem::Certificate("expired".to_owned()), "clock of this computer"),
+        ] {
+            let report = SourceReport {
+                source: source.name.clone(),
+                files: Vec::new(),
+                as_of: None,
+                newest_epoch: None,
+                fetch_problem: Some(problem),
+                failures: 1,
+                next_fetch: None,
+                limits: Vec::new(),
+                is_set_aside: false,
+            };
+            let lines = sentences(&source, Some(&report), now());
+            assert!(lines.iter().any(|(_, line)| line.contains("certificate")), "{lines:?}");
+            assert!(lines.iter().any(|(_, line)| line.contains(words)), "{lines:?}");
         }
     }
 }
