@@ -14,6 +14,7 @@ mod kept;
 mod keyring;
 mod limits;
 mod login;
+mod old_algorithms;
 mod sftp;
 mod ssh;
 mod tle_file;
@@ -23,7 +24,8 @@ mod upload;
 pub use background::{BrokenOff, Transfer};
 pub use connect_error::{ConnectError, ConnectStep, KeyFileProblem, Peer};
 pub use fetch::{
-    ElementSource, FetchError, FileProtocol, Seen, Trust, UnitView, fetch, what_a_unit_sees,
+    ElementSource, FetchError, Fetched, FileProtocol, Seen, Trust, UnitView, fetch,
+    what_a_unit_sees,
 };
 pub use folder::FolderError;
 pub use hash::{FileHash, NoHash};
@@ -32,6 +34,7 @@ pub use kept::{KeptError, KeptFile, KeptFiles, Origin};
 pub use keyring::{Account, Keyring, KeyringError, MemoryKeyring, SystemKeyring, TimedKeyring};
 pub use limits::{Interruption, Limits};
 pub use login::{Login, Proof, is_factory_password};
+pub use old_algorithms::{AlgorithmPart, OldAlgorithm};
 pub use secrecy::SecretString;
 pub use sftp::SftpFolder;
 pub use ssh::{check_host_key, open_sftp};

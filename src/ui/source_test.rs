@@ -13,7 +13,7 @@ use super::{
         drop_down::DropDown,
         told::{Tone, line},
     },
-    words::sentence,
+    words::{self, sentence},
 };
 use crate::{
     engine::{
@@ -201,7 +201,12 @@ fn outcome(
             Some(Answer::No) => push(commands, TestAsk::Cancel),
             None => {}
         },
-        TestStage::Seen { view, at } => seen::show(ui, view, &tested.satellite, *at, model.now),
+        TestStage::Seen { view, at, old_algorithms } => {
+            seen::show(ui, view, &tested.satellite, *at, model.now);
+            if let Some(words) = words::old_algorithms(old_algorithms) {
+                line(ui, Tone::Caution, &words);
+            }
+        }
         TestStage::Failed { changed_key: Some(key), .. } => forget(ui, key, &mut state.question),
         TestStage::Failed { text, changed_key: None } => {
             line(ui, Tone::Bad, &sentence(text));

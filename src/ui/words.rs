@@ -8,6 +8,7 @@ pub mod flown_with;
 mod link_tests;
 mod notices;
 mod offsets;
+mod old_algorithms;
 mod on_board;
 pub mod pointing;
 pub mod record;
@@ -26,6 +27,7 @@ pub use offsets::{
     OFFSETS_NEED_ELEMENTS, offset, offset_name, offset_not_taken, offset_value, offsets,
     offsets_left, offsets_on_unit, offsets_on_unit_about,
 };
+pub use old_algorithms::old_algorithms;
 pub use on_board::{cause, lower_minimum, not_known, trespass, within_beam, would_miss};
 pub use refusals::{
     HOLD_UNCHECKED, HOLD_UNGUARDED, HOLD_UNSEEN, HOLD_WAY_OUT, hindrance, link_loss, not_possible,

@@ -35,7 +35,7 @@ fn trust(own: &[CertificateDer<'static>]) -> Trust {
 }
 
 fn get(source: &ElementSource, trust: &Trust, limits: Limits) -> Result<Vec<u8>, FetchError> {
-    block_on(fetch(source, trust, limits, &CancellationToken::new()))
+    block_on(fetch(source, trust, limits, &CancellationToken::new())).map(|fetched| fetched.bytes)
 }
 
 #[test]

@@ -9,7 +9,7 @@ use azel::{
     model::{Model, ThemeName, UiCommand},
     orbit::write_tle,
     secret::Secret,
-    transfer::{FileProtocol, Peer, what_a_unit_sees},
+    transfer::{AlgorithmPart, FileProtocol, OldAlgorithm, Peer, UnitView, what_a_unit_sees},
     ui::{
         source_test::{self, SourceTestState, TypedSource},
         theme,
@@ -161,6 +161,22 @@ fn a_server_is_spoken_to_as_its_port_says_or_as_the_operator_wants() {
     assert!(says(&window, "the port is not a number"));
 }
 
+fn seen(view: Box<UnitView>, old_algorithms: Vec<OldAlgorithm>) -> TestStage {
+    TestStage::Seen { view, at: rig::now(), old_algorithms }
+}
+
+#[test]
+fn a_test_names_old_algorithms_of_the_server() {
+    let view = Box::new(what_a_unit_sees(b"<html>gone</html>", NAME));
+    let name = "diffie-hellman-group14-sha1".to_owned();
+    let old = OldAlgorithm { part: AlgorithmPart::KeyExchange, name };
+    for (list, is_named) in [(vec![old], true), (Vec::new(), false)] {
+        let window = form(300.0, false, tested(seen(view.clone(), list)));
+        let words = "Connected with the old key exchange diffie-hellman-group14-sha1";
+        assert_eq!(says(&window, words), is_named);
+    }
+}
+
 #[test]
 fn what_the_unit_will_see_is_told() {
     let azel::engine::CatalogState::Ready(catalog) = rig::model(rig::quiet()).catalog else {
@@ -170,7 +186,7 @@ fn what_the_unit_will_see_is_told() {
     write_tle(catalog.get(NOAA_20), &mut bytes).unwrap();
     for width in [300.0, 560.0] {
         let view = Box::new(what_a_unit_sees(&bytes, NAME));
-        let mut window = form(width, true, tested(TestStage::Seen { view, at: rig::now() }));
+        let mut window = form(width, true, tested(seen(view, Vec::new())));
         assert!(says(&window, "The unit will find NOAA 20 (JPSS-1) (43013), elements of"));
         assert!(says(&window, "1 objects, SHA-256"));
         window.state_mut().url.push('x');
@@ -178,7 +194,7 @@ fn what_the_unit_will_see_is_told() {
         assert!(says(&window, "Tested before the fields above were changed."));
     }
     let view = Box::new(what_a_unit_sees(b"<html>gone</html>", NAME));
-    let window = form(300.0, true, tested(TestStage::Seen { view, at: rig::now() }));
+    let window = form(300.0, true, tested(seen(view, Vec::new())));
     assert!(says(&window, "The unit will not find NOAA 20 (JPSS-1)"));
     assert!(says(&window, "The file is not in TLE format"));
 }

@@ -9,7 +9,7 @@ use azel::{
     engine::CatalogState,
     engine::uploads::{Ask, Cargo, Failure, Kept, KeptEntry, Proved, Stage, Uploads, Warning},
     model::{Model, UiCommand, View},
-    transfer::{FileObject, Origin, Peer, UploadStep},
+    transfer::{AlgorithmPart, FileObject, OldAlgorithm, Origin, Peer, UploadStep},
 };
 use egui::{Key, Role};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
@@ -157,9 +157,10 @@ fn proof_is_told_with_file_hash_time_and_ages() {
     let uploaded = uploaded();
     let satellite: FileObject = uploaded.objects[1].clone();
     let proved = Proved { uploaded, satellite, at: rig::now() };
+    let old = OldAlgorithm { part: AlgorithmPart::HostKey, name: "ssh-rsa".to_owned() };
     for width in WIDTHS {
         let uploads = Uploads {
-            warnings: vec![Warning::FactoryPassword],
+            warnings: vec![Warning::FactoryPassword, Warning::OldAlgorithms(vec![old.clone()])],
             ..at(Stage::Proved(Box::new(proved.clone())))
         };
         let mut window = part(width, uploads);
@@ -171,6 +172,7 @@ fn proof_is_told_with_file_hash_time_and_ages() {
             "192.168.10.21:22",
             "ISS (ZARYA) 1 d 7 h old",
             "factory password of every unit",
+            "Connected with the old host key type ssh-rsa",
         ] {
             assert!(says(&window, words), "{words}");
         }

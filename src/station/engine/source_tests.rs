@@ -10,7 +10,7 @@ pub(super) use runner::Runner;
 
 use super::host_keys::DoubtfulKey;
 use crate::secret::Secret;
-use crate::transfer::{ElementSource, FileProtocol, Peer, UnitView};
+use crate::transfer::{ElementSource, FileProtocol, OldAlgorithm, Peer, UnitView};
 
 /// The last test.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
@@ -35,6 +35,9 @@ pub enum TestStage {
         view: Box<UnitView>,
         /// Time of the fetch.
         at: Timestamp,
+        /// Old algorithms of the SSH connection.
+        #[serde(default)]
+        old_algorithms: Vec<OldAlgorithm>,
     },
     /// The fetch failed.
     Failed {

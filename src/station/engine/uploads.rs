@@ -27,7 +27,7 @@ pub(super) use select::UnitNow;
 
 use super::host_keys::DoubtfulKey;
 use crate::secret::Secret;
-use crate::transfer::{FileObject, KeptFile, Progress, Uploaded};
+use crate::transfer::{FileObject, KeptFile, OldAlgorithm, Progress, Uploaded};
 
 /// Displayed state of uploads.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
@@ -68,6 +68,17 @@ pub enum Stage {
     Proved(Box<Proved>),
     /// The order failed or was cancelled.
     Failed(Failure),
+}
+
+impl Uploads {
+    /// Returns the old algorithms that the last order used.
+    pub(super) fn old_algorithms(&self) -> &[OldAlgorithm] {
+        let old = self.warnings.iter().find_map(|warning| match warning {
+            Warning::OldAlgorithms(list) => Some(list.as_slice()),
+            Warning::FactoryPassword | Warning::NotKept(_) => None,
+        });
+        old.unwrap_or_default()
+    }
 }
 
 impl Stage {
@@ -133,6 +144,8 @@ pub enum Warning {
     FactoryPassword,
     /// The secret was not kept, for this reason.
     NotKept(String),
+    /// The connection used these algorithms, because the host offers nothing better.
+    OldAlgorithms(Vec<OldAlgorithm>),
 }
 
 /// The files that can be put back on a unit.

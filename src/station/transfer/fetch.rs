@@ -16,7 +16,7 @@ pub use seen::{Seen, UnitView, what_a_unit_sees};
 use crate::library::system_authorities;
 
 use super::{
-    ConnectError, FolderError, Interruption, KnownHosts, Limits, Login, Peer, Proof,
+    ConnectError, FolderError, Interruption, KnownHosts, Limits, Login, OldAlgorithm, Peer, Proof,
     folder::Folder as _, limits::within, open_sftp,
 };
 
@@ -129,15 +129,30 @@ pub enum FetchError {
     TooLarge(u64),
 }
 
-/// Fetches the file of `source` unchanged. Call it within a runtime that runs no session.
+/// The file of a source.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Fetched {
+    /// Its content, unchanged.
+    pub bytes: Vec<u8>,
+    /// Old algorithms of the SSH connection; none for other protocols.
+    pub old_algorithms: Vec<OldAlgorithm>,
+}
+
+impl From<Vec<u8>> for Fetched {
+    fn from(bytes: Vec<u8>) -> Self {
+        Self { bytes, old_algorithms: Vec::new() }
+    }
+}
+
+/// Fetches the file of `source`. Call it within a runtime that runs no session.
 pub async fn fetch(
     source: &ElementSource,
     trust: &Trust,
     limits: Limits,
     cancel: &CancellationToken,
-) -> Result<Vec<u8>, FetchError> {
+) -> Result<Fetched, FetchError> {
     match source {
-        ElementSource::Web { url } => web::fetch(url, limits, cancel).await,
+        ElementSource::Web { url } => Ok(web::fetch(url, limits, cancel).await?.into()),
         ElementSource::Server { peer, protocol: FileProtocol::Sftp, user, password, file } => {
             let proof = Proof::Password(password.clone());
             let login = Login { user: user.clone(), proof };
@@ -146,11 +161,13 @@ pub async fn fetch(
             let known = &trust.known_hosts;
             let mut folder = open_sftp(peer, folder, &login, known, limits, cancel).await?;
             let found = within(limits.file, cancel, folder.read(name, &mut |_| {})).await??;
-            Ok(found.ok_or(FetchError::NoFile)?.bytes)
+            let bytes = found.ok_or(FetchError::NoFile)?.bytes;
+            Ok(Fetched { bytes, old_algorithms: folder.old_algorithms().to_vec() })
         }
         ElementSource::Server { peer, protocol, user, password, file } => {
             let roots = (*protocol == FileProtocol::FtpTls).then(|| trust.authorities());
-            ftp::fetch(ftp::Request { peer, roots, user, password, file }, limits, cancel).await
+            let request = ftp::Request { peer, roots, user, password, file };
+            Ok(ftp::fetch(request, limits, cancel).await?.into())
         }
     }
 }

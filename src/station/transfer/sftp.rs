@@ -8,7 +8,7 @@ use russh_sftp::{
 };
 
 use super::{
-    FolderError, Limits,
+    FolderError, Limits, OldAlgorithm,
     folder::{Folder, FolderFile, Tell},
     ssh::Ssh,
 };
@@ -28,7 +28,7 @@ const STATVFS: &str = "statvfs@openssh.com";
 pub struct SftpFolder {
     sftp: RawSftpSession,
     /// Keeps the connection of the session open.
-    _ssh: Ssh,
+    ssh: Ssh,
     path: String,
     limits: Limits,
     can_replace: bool,
@@ -39,7 +39,7 @@ pub struct SftpFolder {
 impl SftpFolder {
     pub(super) async fn open(ssh: Ssh, path: &str, limits: Limits) -> Result<Self, String> {
         let told = |error: russh::Error| format!("no file transfer there ({error})");
-        let channel = ssh.channel_open_session().await.map_err(told)?;
+        let channel = ssh.handle.channel_open_session().await.map_err(told)?;
         channel.request_subsystem(true, "sftp").await.map_err(told)?;
         // In whole seconds; Azel's own limit ends before it.
         let request_timeout_secs = limits.request.as_secs() + 2;
@@ -54,9 +54,14 @@ impl SftpFolder {
             can_tell_space: has(STATVFS),
             path: path.trim_end_matches('/').to_owned(),
             sftp,
-            _ssh: ssh,
+            ssh,
             limits,
         })
+    }
+
+    /// Old algorithms that the connection uses.
+    pub fn old_algorithms(&self) -> &[OldAlgorithm] {
+        &self.ssh.old_algorithms
     }
 
     /// Path of a file in this folder.

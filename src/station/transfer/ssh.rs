@@ -1,6 +1,10 @@
 //! SSH connections to a folder on a unit.
 
-use std::{borrow::Cow, io, path::Path, sync::Arc};
+use std::{
+    io,
+    path::Path,
+    sync::{Arc, OnceLock},
+};
 
 use russh::{
     AlgorithmKind, Disconnect, MethodKind, Names, Preferred, cipher,
@@ -17,12 +21,16 @@ use tokio::net::TcpStream;
 use tokio_util::sync::CancellationToken;
 
 use super::{
-    ConnectError, ConnectStep, Interruption, KeyFileProblem, KeyVerdict, KnownHosts, Limits, Login,
-    OfferedKey, Peer, Proof, SftpFolder, limits::within,
+    AlgorithmPart, ConnectError, ConnectStep, Interruption, KeyFileProblem, KeyVerdict, KnownHosts,
+    Limits, Login, OfferedKey, OldAlgorithm, Peer, Proof, SftpFolder, limits::within,
 };
 
-/// An SSH connection after log-in. Dropping it ends it.
-pub(super) type Ssh = Handle<Judge>;
+/// An SSH connection. Dropping it ends it.
+pub(super) struct Ssh {
+    pub(super) handle: Handle<Judge>,
+    /// Old algorithms that it uses.
+    pub(super) old_algorithms: Vec<OldAlgorithm>,
+}
 
 /// Opens `folder` on `peer` as `login`. `known` decides about the host's key before any
 /// secret is sent; an unknown key is returned as an error, to be shown, pinned and tried
@@ -44,17 +52,18 @@ pub async fn open_sftp(
 }
 
 /// Checks the key of `peer` and hangs up, so that nobody is asked for a password that
-/// could not be sent. Errors are those of [`open_sftp`].
+/// could not be sent. Returns the old algorithms of the connection. Errors are those of
+/// [`open_sftp`].
 pub async fn check_host_key(
     peer: &Peer,
     known: &KnownHosts,
     limits: Limits,
     cancel: &CancellationToken,
-) -> Result<(), ConnectError> {
-    let handle = shake_hands(peer, known, limits, cancel).await?;
+) -> Result<Vec<OldAlgorithm>, ConnectError> {
+    let ssh = shake_hands(peer, known, limits, cancel).await?;
     // The connection may be gone already; then an error says nothing new.
-    let _ = handle.disconnect(Disconnect::ByApplication, "", "").await;
-    Ok(())
+    let _ = ssh.handle.disconnect(Disconnect::ByApplication, "", "").await;
+    Ok(ssh.old_algorithms)
 }
 
 /// Connects to a host with the right key, without logging in.
@@ -66,9 +75,10 @@ async fn shake_hands(
 ) -> Result<Ssh, ConnectError> {
     let config = config(&known.algorithms(&peer.host, peer.port)?);
     let stream = dial(peer, limits, cancel).await?;
-    let judge = Judge { known: known.clone(), peer: peer.clone() };
+    let old = Arc::new(OnceLock::new());
+    let judge = Judge { known: known.clone(), peer: peer.clone(), old: Arc::clone(&old) };
     let shaking = client::connect_stream(Arc::new(config), stream, judge);
-    within(limits.log_in, cancel, shaking)
+    let handle = within(limits.log_in, cancel, shaking)
         .await
         .map_err(|by| interrupted(ConnectStep::Handshake, by, peer))?
         .map_err(|error| match error {
@@ -85,7 +95,9 @@ async fn shake_hands(
                 ConnectError::NoAgreement { kind, offered, peer: peer.clone() }
             }
             Refused::Ssh(error) => failed(ConnectStep::Handshake, &error, peer),
-        })
+        })?;
+    // The key exchange is over, so they are known.
+    Ok(Ssh { handle, old_algorithms: old.get().cloned().unwrap_or_default() })
 }
 
 async fn connect(
@@ -100,16 +112,16 @@ async fn connect(
         Proof::Password(_) => None,
         Proof::KeyFile { path, passphrase } => Some(private_key(path, passphrase.as_ref())?),
     };
-    let mut handle = shake_hands(peer, known, limits, cancel).await?;
-    let result = within(limits.log_in, cancel, log_in(&mut handle, login, key))
+    let mut ssh = shake_hands(peer, known, limits, cancel).await?;
+    let result = within(limits.log_in, cancel, log_in(&mut ssh.handle, login, key))
         .await
         .map_err(|by| interrupted(ConnectStep::LogIn, by, peer))?
         .map_err(|error| failed(ConnectStep::LogIn, &error, peer))?;
     match result {
-        AuthResult::Success => Ok(handle),
+        AuthResult::Success => Ok(ssh),
         AuthResult::Failure { remaining_methods, .. } => {
             // The connection may be gone already; then an error says nothing new.
-            let _ = handle.disconnect(Disconnect::ByApplication, "", "").await;
+            let _ = ssh.handle.disconnect(Disconnect::ByApplication, "", "").await;
             let methods: Vec<&str> = remaining_methods.iter().map(Into::into).collect();
             Err(ConnectError::LoginRefused {
                 user: login.user.clone(),
@@ -178,15 +190,31 @@ const OLD_KEX: [kex::Name; 3] = [kex::DH_G14_SHA1, kex::DH_GEX_SHA1, kex::DH_G1_
 const OLD_CIPHERS: [cipher::Name; 3] =
     [cipher::AES_256_CBC, cipher::AES_192_CBC, cipher::AES_128_CBC];
 const OLD_MACS: [mac::Name; 2] = [mac::HMAC_SHA1_ETM, mac::HMAC_SHA1];
+const AUTHENTICATING_CIPHERS: [cipher::Name; 3] =
+    [cipher::CHACHA20_POLY1305, cipher::AES_256_GCM, cipher::AES_128_GCM];
+/// `ssh-rsa`, which signs with SHA-1. The library itself puts it last.
+const OLD_HOST_KEY: Algorithm = Algorithm::Rsa { hash: None };
 
 /// The old algorithms among those that were agreed on.
-fn old_algorithms(names: &Names) -> Vec<Cow<'static, str>> {
-    let kex = OLD_KEX.contains(&names.kex).then(|| names.kex.as_ref().to_owned());
-    let cipher = OLD_CIPHERS.contains(&names.cipher).then(|| names.cipher.as_ref().to_owned());
+fn old_algorithms(names: &Names) -> Vec<OldAlgorithm> {
+    let old = |part, is_old: bool, name: &str| {
+        is_old.then(|| OldAlgorithm { part, name: name.to_owned() })
+    };
+    let kex = &names.kex;
+    let cipher = &names.cipher;
     let macs = [names.client_mac, names.server_mac];
-    let mac = macs.into_iter().find(|mac| OLD_MACS.contains(mac));
-    let mac = mac.map(|mac| mac.as_ref().to_owned());
-    [kex, cipher, mac].into_iter().flatten().map(Cow::Owned).collect()
+    // A cipher that authenticates by itself uses no code, whatever was agreed on.
+    let authenticates = AUTHENTICATING_CIPHERS.contains(cipher);
+    let mac = macs.iter().find(|mac| OLD_MACS.contains(mac) && !authenticates);
+    [
+        old(AlgorithmPart::KeyExchange, OLD_KEX.contains(kex), kex.as_ref()),
+        old(AlgorithmPart::HostKey, names.key == OLD_HOST_KEY, names.key.as_str()),
+        old(AlgorithmPart::Cipher, OLD_CIPHERS.contains(cipher), cipher.as_ref()),
+        mac.and_then(|mac| old(AlgorithmPart::Mac, true, mac.as_ref())),
+    ]
+    .into_iter()
+    .flatten()
+    .collect()
 }
 
 async fn log_in(
@@ -266,6 +294,8 @@ fn private_key(path: &Path, passphrase: Option<&SecretString>) -> Result<Private
 pub(super) struct Judge {
     known: KnownHosts,
     peer: Peer,
+    /// Set by the first key exchange. Later ones agree on the same algorithms.
+    old: Arc<OnceLock<Vec<OldAlgorithm>>>,
 }
 
 #[derive(Debug, thiserror::Error)]
@@ -285,10 +315,11 @@ impl client::Handler for Judge {
         names: &Names,
         _session: &mut Session,
     ) -> Result<(), Self::Error> {
-        let old = old_algorithms(names).join(", ");
+        let old = self.old.get_or_init(|| old_algorithms(names));
         if !old.is_empty() {
+            let names = old.iter().map(|old| old.name.as_str()).collect::<Vec<_>>().join(", ");
             let peer = &self.peer;
-            tracing::warn!(%peer, old, "the host offers nothing better than old algorithms: update it");
+            tracing::warn!(%peer, old = names, "the host offers nothing better than old algorithms: update it");
         }
         Ok(())
     }

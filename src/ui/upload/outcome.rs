@@ -13,7 +13,7 @@ use crate::{
         confirm::Question,
         dialogs, format, text, theme,
         widgets::told::{Tone, fact, line},
-        words::{OLD_ELEMENTS_S, sentence},
+        words::{OLD_ELEMENTS_S, old_algorithms, sentence},
     },
 };
 
@@ -125,6 +125,10 @@ fn warnings(ui: &mut Ui, model: &Model) {
                     .to_owned()
             }
             Warning::NotKept(problem) => format!("The password was not kept: {problem}."),
+            Warning::OldAlgorithms(list) => match old_algorithms(list) {
+                Some(words) => words,
+                None => continue,
+            },
         };
         line(ui, Tone::Caution, &words);
     }

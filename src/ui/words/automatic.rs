@@ -301,9 +301,15 @@ pub fn day_line(line: &DayLine, now: Timestamp) -> String {
             );
             format!("Azel set the unit's clock, which {was}.")
         }
-        DayEvent::ElementsUploaded { file, satellites } => {
+        DayEvent::ElementsUploaded { file, satellites, old_algorithms } => {
             let noun = if *satellites == 1 { "satellite" } else { "satellites" };
-            format!("Azel uploaded the elements of {satellites} {noun} to the unit, as {file}.")
+            let what = format!(
+                "Azel uploaded the elements of {satellites} {noun} to the unit, as {file}."
+            );
+            match super::old_algorithms(old_algorithms) {
+                Some(caution) => format!("{what} {caution}"),
+                None => what,
+            }
         }
         DayEvent::ElementsNotUploaded { why } => {
             format!("Azel could not upload elements to the unit: {why}.")

@@ -12,6 +12,7 @@ use crate::{
     engine::passes::PassKey,
     plan::pass_report::{LossCause, LostStretch, PassReport},
     station::AntennaId,
+    transfer::OldAlgorithm,
 };
 
 /// Most lines that are kept.
@@ -48,6 +49,9 @@ pub enum DayEvent {
     ElementsUploaded {
         file: String,
         satellites: usize,
+        /// Old algorithms of the SSH connection.
+        #[serde(default, skip_serializing_if = "Vec::is_empty")]
+        old_algorithms: Vec<OldAlgorithm>,
     },
     ElementsNotUploaded {
         why: String,

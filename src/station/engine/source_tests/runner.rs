@@ -10,8 +10,13 @@ use crate::{
         uploads::Places,
     },
     job::{Job, Wake},
-    transfer::{FetchError, OfferedKey, Transfer, Trust, UnitView, fetch, what_a_unit_sees},
+    transfer::{
+        FetchError, OfferedKey, OldAlgorithm, Transfer, Trust, UnitView, fetch, what_a_unit_sees,
+    },
 };
+
+/// The file as the unit will see it, and the old algorithms of the connection.
+type View = (UnitView, Vec<OldAlgorithm>);
 
 /// Runs tests, one at a time.
 pub(in crate::engine) struct Runner {
@@ -19,7 +24,7 @@ pub(in crate::engine) struct Runner {
     clock: Clock,
     wake: Wake,
     offered: Option<Box<OfferedKey>>,
-    transfer: Option<Transfer<Result<UnitView, FetchError>>>,
+    transfer: Option<Transfer<Result<View, FetchError>>>,
     deciding: Option<Job<Result<(), String>>>,
 }
 
@@ -69,7 +74,9 @@ impl Runner {
         let Some(result) = self.transfer.as_ref().and_then(Transfer::poll) else { return };
         self.transfer = None;
         shown.stage = match result {
-            Ok(Ok(view)) => TestStage::Seen { view: Box::new(view), at: self.clock.utc() },
+            Ok(Ok((view, old_algorithms))) => {
+                TestStage::Seen { view: Box::new(view), at: self.clock.utc(), old_algorithms }
+            }
             Ok(Err(FetchError::Connect(error))) => {
                 let text = error.to_string();
                 match doubtful(error) {
@@ -119,11 +126,11 @@ fn start(
     order: SourceOrder,
     places: Places,
     wake: Wake,
-) -> io::Result<Transfer<Result<UnitView, FetchError>>> {
+) -> io::Result<Transfer<Result<View, FetchError>>> {
     Transfer::start("azel-source-test", wake, move |_, cancel| async move {
         let trust = Trust { known_hosts: places.known_hosts, own_authorities: Vec::new() };
-        let bytes = fetch(&order.source.source(), &trust, places.limits, &cancel).await?;
-        Ok(what_a_unit_sees(&bytes, &order.satellite))
+        let fetched = fetch(&order.source.source(), &trust, places.limits, &cancel).await?;
+        Ok((what_a_unit_sees(&fetched.bytes, &order.satellite), fetched.old_algorithms))
     })
 }
 

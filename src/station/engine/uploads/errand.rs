@@ -11,8 +11,8 @@ use crate::{
     job::{Job, Wake},
     secret::Secret,
     transfer::{
-        Account, ConnectError, Interruption, KeyFileProblem, Keyring as _, Login, Progress, Proof,
-        SecretString, Transfer, Upload, UploadReason, Uploaded, check_host_key,
+        Account, ConnectError, Interruption, KeyFileProblem, Keyring as _, Login, OldAlgorithm,
+        Progress, Proof, SecretString, Transfer, Upload, UploadReason, Uploaded, check_host_key,
         is_factory_password, open_sftp, upload,
     },
 };
@@ -50,6 +50,8 @@ pub(super) struct Report {
     pub(super) is_factory: bool,
     /// Why the keyring could not be read.
     pub(super) keyring_problem: Option<String>,
+    /// Old algorithms of the connection.
+    pub(super) old_algorithms: Vec<OldAlgorithm>,
 }
 
 impl Report {
@@ -60,6 +62,7 @@ impl Report {
             is_logged_in: false,
             is_factory: false,
             keyring_problem: None,
+            old_algorithms: Vec::new(),
         }
     }
 }
@@ -75,14 +78,16 @@ pub(super) fn start(
         // Outside the runtime, as keyrings need it.
         let (secret, keyring_problem) = find_secret(&errand, &places);
         async move {
-            let mut attempt =
-                Attempt { order: &errand.order, places: &places, is_logged_in: false };
+            let (order, places) = (&errand.order, &places);
+            let (is_logged_in, old_algorithms) = (false, Vec::new());
+            let mut attempt = Attempt { order, places, is_logged_in, old_algorithms };
             let takes = errand.order.takes;
             let factory = |secret: &SecretString| is_factory_password(secret, takes);
             let is_factory =
                 errand.order.key_file.is_none() && secret.as_ref().is_some_and(factory);
             let outcome = attempt.run(secret, &clock, &mut *tell, &cancel).await;
-            Report { outcome, is_logged_in: attempt.is_logged_in, is_factory, keyring_problem }
+            let Attempt { is_logged_in, old_algorithms, .. } = attempt;
+            Report { outcome, is_logged_in, is_factory, keyring_problem, old_algorithms }
         }
     })
 }
@@ -106,6 +111,7 @@ struct Attempt<'a> {
     order: &'a Order,
     places: &'a Places,
     is_logged_in: bool,
+    old_algorithms: Vec<OldAlgorithm>,
 }
 
 impl Attempt<'_> {
@@ -134,7 +140,10 @@ impl Attempt<'_> {
                 // for it.
                 let known = &places.known_hosts;
                 return match check_host_key(&order.unit, known, places.limits, cancel).await {
-                    Ok(()) => Outcome::Secret { refused: None },
+                    Ok(old_algorithms) => {
+                        self.old_algorithms = old_algorithms;
+                        Outcome::Secret { refused: None }
+                    }
                     Err(error) => self.refused(error),
                 };
             }
@@ -147,6 +156,7 @@ impl Attempt<'_> {
             Err(error) => return self.refused(error),
         };
         self.is_logged_in = true;
+        self.old_algorithms = folder.old_algorithms().to_vec();
         if let Some(secret) = &secret {
             // The keyring in memory never fails.
             let _ = places.session.set(&order.account(), secret);

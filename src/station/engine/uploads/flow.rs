@@ -205,6 +205,11 @@ impl Flow {
         if report.is_factory && !shown.warnings.contains(&Warning::FactoryPassword) {
             shown.warnings.push(Warning::FactoryPassword);
         }
+        if !report.old_algorithms.is_empty() {
+            // The host check before a password and the upload itself are two connections.
+            shown.warnings.retain(|warning| !matches!(warning, Warning::OldAlgorithms(_)));
+            shown.warnings.push(Warning::OldAlgorithms(report.old_algorithms));
+        }
         match report.outcome {
             Outcome::Uploaded(uploaded) => return self.use_file(uploaded, unit, shown),
             Outcome::HostKey(error) => {

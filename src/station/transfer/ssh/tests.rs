@@ -1,5 +1,8 @@
 use russh::{
-    keys::ssh_key::private::{Ed25519Keypair, KeypairData},
+    keys::{
+        HashAlg, decode_secret_key,
+        ssh_key::private::{Ed25519Keypair, KeypairData},
+    },
     server::{self, Auth, Response},
 };
 
@@ -39,13 +42,27 @@ impl server::Handler for Host {
     }
 }
 
-/// Logs in at a host with these algorithms.
-async fn logged_in(preferred: Preferred, is_interactive: bool) -> Result<(), ConnectError> {
+fn ed25519() -> PrivateKey {
+    let pair = KeypairData::from(Ed25519Keypair::from_seed(&[7; 32]));
+    PrivateKey::new(pair, "").unwrap()
+}
+
+/// Logs in at a host with these algorithms. Returns the old ones that are in use.
+async fn logged_in(
+    preferred: Preferred,
+    is_interactive: bool,
+) -> Result<Vec<OldAlgorithm>, ConnectError> {
+    logged_in_with(ed25519(), preferred, is_interactive).await
+}
+
+async fn logged_in_with(
+    key: PrivateKey,
+    preferred: Preferred,
+    is_interactive: bool,
+) -> Result<Vec<OldAlgorithm>, ConnectError> {
     let folder = tempfile::tempdir().unwrap();
     let listener = tokio::net::TcpListener::bind("127.0.0.1:0").await.unwrap();
     let peer = Peer { host: "127.0.0.1".to_owned(), port: listener.local_addr().unwrap().port() };
-    let pair = KeypairData::from(Ed25519Keypair::from_seed(&[7; 32]));
-    let key = PrivateKey::new(pair, "").unwrap();
     let method =
         if is_interactive { MethodKind::KeyboardInteractive } else { MethodKind::Password };
     let config = server::Config {
@@ -66,29 +83,60 @@ async fn logged_in(preferred: Preferred, is_interactive: bool) -> Result<(), Con
     known.pin(&OfferedKey::new(&peer.host, peer.port, key.public_key().clone())).unwrap();
     let login = Login { user: "op".to_owned(), proof: Proof::Password("word".into()) };
     let cancel = CancellationToken::new();
-    connect(&peer, &login, &known, Limits::default(), &cancel).await.map(drop)
+    let ssh = connect(&peer, &login, &known, Limits::default(), &cancel).await?;
+    Ok(ssh.old_algorithms)
 }
 
 #[tokio::test]
-async fn old_algorithms_are_taken_where_a_host_offers_nothing_else() {
+async fn old_algorithms_are_taken_and_named_where_a_host_offers_nothing_else() {
+    use AlgorithmPart::{Cipher, KeyExchange, Mac};
     let default = Preferred::DEFAULT;
-    for preferred in [
-        default.clone(),
-        Preferred { kex: vec![kex::ECDH_SHA2_NISTP256].into(), ..default.clone() },
-        Preferred { kex: vec![kex::DH_G14_SHA1].into(), ..default.clone() },
-        Preferred {
-            cipher: vec![cipher::AES_128_CTR].into(),
-            mac: vec![mac::HMAC_SHA1].into(),
-            ..default.clone()
-        },
-        Preferred {
-            cipher: vec![cipher::AES_128_CBC].into(),
-            mac: vec![mac::HMAC_SHA1].into(),
-            kex: vec![kex::DH_G1_SHA1].into(),
-            ..default.clone()
-        },
+    for (preferred, expected) in [
+        (default.clone(), vec![]),
+        (Preferred { kex: vec![kex::ECDH_SHA2_NISTP256].into(), ..default.clone() }, vec![]),
+        (
+            Preferred { kex: vec![kex::DH_G14_SHA1].into(), ..default.clone() },
+            vec![(KeyExchange, "diffie-hellman-group14-sha1")],
+        ),
+        (
+            Preferred {
+                cipher: vec![cipher::AES_128_CTR].into(),
+                mac: vec![mac::HMAC_SHA1].into(),
+                ..default.clone()
+            },
+            vec![(Mac, "hmac-sha1")],
+        ),
+        // The cipher needs no code.
+        (Preferred { mac: vec![mac::HMAC_SHA1].into(), ..default.clone() }, vec![]),
+        (
+            Preferred {
+                cipher: vec![cipher::AES_128_CBC].into(),
+                mac: vec![mac::HMAC_SHA1].into(),
+                kex: vec![kex::DH_G1_SHA1].into(),
+                ..default.clone()
+            },
+            vec![
+                (KeyExchange, "diffie-hellman-group1-sha1"),
+                (Cipher, "aes128-cbc"),
+                (Mac, "hmac-sha1"),
+            ],
+        ),
     ] {
-        logged_in(preferred, false).await.unwrap();
+        let old = logged_in(preferred, false).await.unwrap();
+        let old: Vec<_> = old.iter().map(|old| (old.part, old.name.as_str())).collect();
+        assert_eq!(old, expected);
+    }
+}
+
+#[tokio::test]
+async fn a_host_key_that_signs_with_sha1_alone_is_named() {
+    let key = decode_secret_key(include_str!("tests/host_key"), None).unwrap();
+    for (hash, expected) in [(None, vec!["ssh-rsa"]), (Some(HashAlg::Sha256), vec![])] {
+        let preferred =
+            Preferred { key: vec![Algorithm::Rsa { hash }].into(), ..Preferred::DEFAULT };
+        let old = logged_in_with(key.clone(), preferred, false).await.unwrap();
+        assert!(old.iter().all(|old| old.part == AlgorithmPart::HostKey));
+        assert_eq!(old.iter().map(|old| old.name.as_str()).collect::<Vec<_>>(), expected);
     }
 }
 

@@ -169,7 +169,9 @@ impl Engine {
             Stage::Proved(proved) => {
                 let file = proved.uploaded.file.as_str().to_owned();
                 let satellites = proved.uploaded.objects.len();
-                self.note_day(id, DayEvent::ElementsUploaded { file, satellites });
+                let old_algorithms = self.uploads.old_algorithms().to_vec();
+                let what = DayEvent::ElementsUploaded { file, satellites, old_algorithms };
+                self.note_day(id, what);
             }
             Stage::Failed(failure) => {
                 let (why, is_cancel) = (failure.text.clone(), failure.is_cancel);

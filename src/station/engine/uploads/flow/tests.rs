@@ -6,7 +6,8 @@ use crate::{
     device::settings::Hindrance,
     engine::uploads::Busy,
     transfer::{
-        ConnectError, FileName, FileObject, KeptFile, Origin, Peer, Progress, TleFile, UploadStep,
+        AlgorithmPart, ConnectError, FileName, FileObject, KeptFile, OldAlgorithm, Origin, Peer,
+        Progress, TleFile, UploadStep,
     },
 };
 
@@ -53,7 +54,8 @@ fn uploaded() -> Box<Uploaded> {
 }
 
 fn report(outcome: Outcome) -> Report {
-    Report { outcome, is_logged_in: true, is_factory: false, keyring_problem: None }
+    let (keyring_problem, old_algorithms) = (None, Vec::new());
+    Report { outcome, is_logged_in: true, is_factory: false, keyring_problem, old_algorithms }
 }
 
 /// An order, and its displayed state.
@@ -280,6 +282,27 @@ fn a_cancel_is_told_until_the_file_takes_its_place() {
     assert!(!fixture.flow.cancel(&mut fixture.shown), "once is enough");
     fixture.reported(Outcome::Cancelled("the unit has its old file".to_owned()));
     assert!(fixture.failure().is_cancel && fixture.failure().text.contains("old file"));
+}
+
+#[test]
+fn old_algorithms_of_the_host_stay_beside_the_outcome() {
+    let mut fixture = Fixture::default();
+    fixture.begin();
+    let old =
+        |name: &str| vec![OldAlgorithm { part: AlgorithmPart::KeyExchange, name: name.to_owned() }];
+    for (outcome, name) in [
+        (Outcome::Secret { refused: None }, "diffie-hellman-group1-sha1"),
+        (Outcome::Uploaded(uploaded()), "diffie-hellman-group14-sha1"),
+    ] {
+        let report = Report { old_algorithms: old(name), ..report(outcome) };
+        fixture.flow.reported(report, &fixture.unit, &mut fixture.shown);
+        assert_eq!(fixture.shown.warnings, [Warning::OldAlgorithms(old(name))]);
+    }
+    fixture.flow.selected(Ok(()), now(), &mut fixture.shown);
+    assert!(matches!(fixture.shown.stage, Stage::Proved(_)));
+    assert_eq!(fixture.shown.old_algorithms(), old("diffie-hellman-group14-sha1"));
+    fixture.begin();
+    assert!(fixture.shown.old_algorithms().is_empty());
 }
 
 #[test]
