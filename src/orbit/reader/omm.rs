@@ -275,10 +275,27 @@ impl<'a> Message<'a> {
         }
         let text = text.trim_end_matches(['Z', 'z']);
         let civil: Option<civil::DateTime> = text.parse().ok().or_else(|| by_day_of_year(text));
-        let civil = civil.ok_or(RefusalReason::Field("EPOCH"))?;
+        let civil = civil.ok_or_else(|| {
+            if has_date_order(text) {
+                RefusalReason::DateOrder
+            } else {
+                RefusalReason::Field("EPOCH")
+            }
+        })?;
         let zoned = civil.to_zoned(TimeZone::UTC).map_err(|_| ElementsError::Epoch(civil))?;
         Ok(zoned.timestamp())
     }
+}
+
+/// Returns `true` if `text` begins with a date of three numbers, of which the first is no year, such as
+/// `27/11/2026`.
+fn has_date_order(text: &str) -> bool {
+    let date = text.split([' ', 'T']).next().unwrap_or_default();
+    let parts: Vec<&str> = date.split(['/', '.', '-']).collect();
+    let is_number = |part: &&str| {
+        (1..=4).contains(&part.len()) && part.bytes().all(|letter| letter.is_ascii_digit())
+    };
+    matches!(parts[..], [first, _, _] if first.len() <= 2) && parts.iter().all(is_number)
 }
 
 /// The other date format of CCSDS: `2026-223T01:21:00`.

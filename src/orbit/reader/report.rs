@@ -121,6 +121,13 @@ pub enum RefusalReason {
     /// A field does not hold what belongs there; the name is that in an OMM.
     #[error("{0} cannot be read")]
     Field(#[serde(deserialize_with = "name::one")] Name),
+    /// The date of the epoch begins with day or month, as spreadsheets write dates of a file that is
+    /// opened and saved in them. Its order depends on the country, and seconds are often gone.
+    #[error(
+        "EPOCH does not tell day and month apart; export the file again and do not save it from a \
+         spreadsheet, or write the epoch as 2026-11-27T06:00:00"
+    )]
+    DateOrder,
     /// The text between the braces is not JSON.
     #[error("no JSON")]
     Json,

@@ -180,6 +180,26 @@ mod tests {
     }
 
     #[test]
+    fn a_date_of_a_spreadsheet_is_refused_with_what_to_do() {
+        let refused = |date: &str| {
+            let row = ROW.replace("2026-08-11T01:21:00.123456", date);
+            let report = read(&format!("{HEADER}\n{row}\n"));
+            assert_eq!((report.elements.len(), report.refused.len()), (0, 1), "{date}");
+            report.refused[0].reason.clone()
+        };
+        for date in ["27/11/2026 06:00", "11/27/26", "27.11.2026 06:00:00", "27-11-2026 06:00"] {
+            assert_eq!(refused(date), RefusalReason::DateOrder, "{date}");
+        }
+        for date in ["06:00", "27/11", "1.2.3.4", "a/b/2026", "2026/11/27 06:00", "46353.25"] {
+            assert_eq!(refused(date), RefusalReason::Field("EPOCH"), "{date}");
+        }
+        let words = RefusalReason::DateOrder.to_string();
+        for part in ["day and month", "spreadsheet", "2026-11-27T06:00:00"] {
+            assert!(words.contains(part), "{words}");
+        }
+    }
+
+    #[test]
     fn a_bad_row_costs_no_other() {
         let open = ROW.replace("ISS", "\"ISS");
         let torn = &ROW[..ROW.len() - 20];
