@@ -44,7 +44,7 @@ pub struct SetupState {
 impl SetupState {
     /// Whether something was typed that would be lost.
     pub fn is_edited(&self) -> bool {
-        self.draft.as_ref().is_some_and(SetupDraft::is_edited)
+        self.draft.as_ref().is_some_and(SetupDraft::is_edited) || self.add.is_edited()
     }
 
     /// Takes the outcome of saving a station: after a success nothing is left to set up.
@@ -67,11 +67,39 @@ impl SetupState {
             Step::Site | Step::Antennas | Step::Satellites | Step::End => {
                 draft.hindrance(self.step, model)
             }
-            Step::Elements => {
-                let why = self.add.typed(&model.sources)?.err()?;
-                Some(format!("This source is not added yet: {why}."))
-            }
+            Step::Elements => self.unadded(model),
         }
+    }
+
+    /// Why the source that is typed in the step that is shown cannot be added.
+    fn unadded(&self, model: &Model) -> Option<String> {
+        if self.step != Step::Elements {
+            return None;
+        }
+        let why = self.add.typed(&model.sources)?.err()?;
+        Some(format!("This source is not added yet: {why}."))
+    }
+
+    /// Adds the source that is typed in the step that is shown. Returns `true` if there is one.
+    fn add_typed(&mut self, model: &Model, commands: &mut Vec<UiCommand>) -> bool {
+        if self.step == Step::Elements
+            && let Some(Ok(source)) = self.add.typed(&model.sources)
+        {
+            self.add.add(source, commands);
+            return true;
+        }
+        false
+    }
+
+    /// Shows a step of the list. Adds a source that is typed; one that cannot be added keeps the step.
+    fn choose(&mut self, step: Step, model: &Model, commands: &mut Vec<UiCommand>) {
+        if step == self.step || self.unadded(model).is_some() {
+            return;
+        }
+        if self.add_typed(model, commands) {
+            self.progress.done(self.step);
+        }
+        self.show_step(step);
     }
 
     /// Leaves the step as done, unless something hinders it. Adds a source that is typed.
@@ -79,11 +107,7 @@ impl SetupState {
         if self.hindrance(draft, model).is_some() {
             return;
         }
-        if self.step == Step::Elements
-            && let Some(Ok(source)) = self.add.typed(&model.sources)
-        {
-            self.add.add(source, commands);
-        }
+        self.add_typed(model, commands);
         if let Some(next) = self.step.next() {
             self.progress.done(self.step);
             self.show_step(next);
@@ -132,7 +156,9 @@ pub fn show(
     }
     let shown = state.step;
     let panels = frame::split(rect);
-    frame::show_steps(ui, &panels, model, &draft, state);
+    if let Some(step) = frame::show_steps(ui, &panels, model, &draft, state) {
+        state.choose(step, model, commands);
+    }
     if let Some(right) = panels.right {
         so_far::show(ui, right, model, &draft, state.progress);
     }

@@ -94,6 +94,68 @@ fn next_adds_the_typed_source() {
     }
 }
 
+fn tab(window: &Window, step: &str) -> String {
+    let tabs = window.get_all_by_role(Role::Tab);
+    let names = tabs.filter_map(|tab| tab.accesskit_node().label());
+    names.into_iter().find(|name| name.contains(&format!(": {step},"))).unwrap()
+}
+
+fn choose(window: &mut Window, step: &str) {
+    let name = tab(window, step);
+    window.get_by_role_and_label(Role::Tab, &name).click();
+    settle(window);
+}
+
+#[test]
+fn a_click_on_another_step_adds_the_typed_source() {
+    for size in rig::sizes() {
+        let mut window = at_elements(size);
+        choose(&mut window, "Satellites");
+        assert_eq!(asked(&mut window), [], "nothing is typed");
+        choose(&mut window, "Elements");
+        fill(&mut window, "own", PATH);
+        choose(&mut window, "Site");
+        assert_eq!(asked(&mut window), [addition(file("own", PATH))], "{size:?}");
+        assert!(is_at(&window, "Site") && tab(&window, "Elements").contains(", done,"));
+    }
+}
+
+#[test]
+fn a_click_on_another_step_keeps_a_source_that_cannot_be_added() {
+    for size in SIZES {
+        let mut window = at_elements(size);
+        write(&mut window, "Path", PATH);
+        let name = tab(&window, "Site");
+        let site = window.get_by_role_and_label(Role::Tab, &name);
+        assert!(site.accesskit_node().is_disabled(), "{size:?}");
+        choose(&mut window, "Site");
+        assert!(is_at(&window, "Elements"), "{size:?}");
+        assert!(says(&window, "This source is not added yet: type a name."), "{size:?}");
+        assert_eq!(asked(&mut window), [], "{size:?}");
+        // The way back is open, and keeps what is typed.
+        press(&mut window, "Back");
+        press(&mut window, NEXT[2]);
+        assert_eq!(text(&window, "Path"), PATH, "{size:?}");
+    }
+}
+
+#[test]
+fn a_skipped_source_stays_typed_and_the_end_says_so() {
+    let words = "A source is typed but not added, and Finish drops it.";
+    for size in SIZES {
+        let mut window = at_elements(size);
+        fill(&mut window, "own", PATH);
+        press(&mut window, "Skip this step");
+        assert!(is_at(&window, "Check and finish") && says(&window, words), "{size:?}");
+        assert_eq!(asked(&mut window), [], "{size:?}");
+        press(&mut window, "Back");
+        assert_eq!((text(&window, "Name"), text(&window, "Path")), ("own".into(), PATH.into()));
+        press(&mut window, NEXT[3]);
+        assert_eq!(asked(&mut window), [addition(file("own", PATH))], "{size:?}");
+        assert!(!says(&window, words), "{size:?}");
+    }
+}
+
 #[test]
 fn a_source_that_cannot_be_added_keeps_the_step_and_says_why() {
     for size in SIZES {

@@ -58,6 +58,11 @@ impl AddState {
         self.name.trim().is_empty() && self.place.trim().is_empty()
     }
 
+    /// Returns `true` if something is typed that was not requested.
+    pub(in crate::ui) fn is_edited(&self) -> bool {
+        !self.is_empty() && self.requested.as_ref() != Some(&self.source())
+    }
+
     /// The typed source that is not requested yet, or why it cannot be added. `None` for an empty
     /// form.
     pub(in crate::ui) fn typed(&self, sources: &Sources) -> Option<Result<Source, String>> {

@@ -35,6 +35,11 @@ pub(super) fn show(ui: &mut Ui, model: &Model, draft: &SetupDraft, state: &Setup
         }
         line(ui, Tone::Good, "Operate opens with the next pass selected.");
     });
+    if state.add.typed(&model.sources).is_some() {
+        let words = "A source is typed but not added, and Finish drops it. Go back to Elements to add \
+                     it.";
+        line(ui, Tone::Caution, words);
+    }
     if let Some(problem) = &state.problem {
         line(ui, Tone::Bad, &format!("Not saved: {}", sentence(problem)));
     }

@@ -50,26 +50,34 @@ pub(super) fn split(rect: Rect) -> Panels {
     Panels { steps, is_strip: false, middle: over_foot(middle), right: Some(right) }
 }
 
+/// Shows the list of steps. Returns the one that was clicked.
 pub(super) fn show_steps(
     ui: &Ui,
     panels: &Panels,
     model: &Model,
     draft: &SetupDraft,
-    state: &mut SetupState,
-) {
+    state: &SetupState,
+) -> Option<Step> {
     let t = theme::tokens(ui);
     let rect = panels.steps;
     ui.painter().rect_filled(rect, 0.0, t.bg1);
     if panels.is_strip {
-        strip(ui, rect, model, draft, state);
+        strip(ui, rect, model, draft, state)
     } else {
-        column(ui, rect, model, draft, state);
+        column(ui, rect, model, draft, state)
     }
 }
 
 /// The steps below each other, each with what it came to.
-fn column(ui: &Ui, rect: Rect, model: &Model, draft: &SetupDraft, state: &mut SetupState) {
+fn column(
+    ui: &Ui,
+    rect: Rect,
+    model: &Model,
+    draft: &SetupDraft,
+    state: &SetupState,
+) -> Option<Step> {
     let t = theme::tokens(ui);
+    let (mut clicked, unadded) = (None, state.unadded(model));
     ui.painter().vline(rect.right() - 0.5, rect.y_range(), (1.0, t.line));
     let inner = rect.shrink2(vec2(16.0, 16.0));
     let title = "Set up your station";
@@ -82,8 +90,8 @@ fn column(ui: &Ui, rect: Rect, model: &Model, draft: &SetupDraft, state: &mut Se
         let min = pos2(rect.left(), top + STEP * index as f32);
         let row = Rect::from_min_size(min, vec2(rect.width(), STEP));
         let detail = detail(step, model, draft, state);
-        if entry(ui, row, step, &detail, state) {
-            state.show_step(step);
+        if entry(ui, row, step, &detail, unadded.as_deref(), state) {
+            clicked = Some(step);
         }
         let (ring, words) =
             (pos2(row.left() + 32.0, row.center().y), row.with_min_x(row.left() + 60.0));
@@ -97,11 +105,19 @@ fn column(ui: &Ui, rect: Rect, model: &Model, draft: &SetupDraft, state: &mut Se
     let foot = rect.with_min_y(rect.bottom() - 40.0).shrink2(vec2(16.0, 0.0));
     let words = "Esc stops the antennas here as well.";
     paint::text_in(ui, foot, Align2::LEFT_CENTER, words, text::small(), t.t2);
+    clicked
 }
 
 /// The steps as numbers in one line, and how much is ready.
-fn strip(ui: &Ui, rect: Rect, model: &Model, draft: &SetupDraft, state: &mut SetupState) {
+fn strip(
+    ui: &Ui,
+    rect: Rect,
+    model: &Model,
+    draft: &SetupDraft,
+    state: &SetupState,
+) -> Option<Step> {
     let t = theme::tokens(ui);
+    let (mut clicked, unadded) = (None, state.unadded(model));
     ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, (1.0, t.line));
     let parts = so_far::parts(model, draft, state.progress);
     let ready = format!("Ready {}", so_far::ready(&parts));
@@ -115,31 +131,45 @@ fn strip(ui: &Ui, rect: Rect, model: &Model, draft: &SetupDraft, state: &mut Set
         let min = pos2(rect.left() + width * index as f32, rect.top());
         let cell = Rect::from_min_size(min, vec2(width, rect.height()));
         let detail = detail(step, model, draft, state);
-        if entry(ui, cell, step, &detail, state) {
-            state.show_step(step);
+        if entry(ui, cell, step, &detail, unadded.as_deref(), state) {
+            clicked = Some(step);
         }
         show_ring(ui, pos2(cell.left() + 28.0, cell.center().y), step, state);
         let words = cell.with_min_x(cell.left() + 50.0);
         paint::text_in(ui, words, Align2::LEFT_CENTER, step.name(), text::body_medium(), t.t1);
     }
+    clicked
 }
 
-/// Draws the background of a step; returns `true` when it was clicked.
-fn entry(ui: &Ui, row: Rect, step: Step, detail: &str, state: &SetupState) -> bool {
+/// Draws the background of a step; returns `true` when it was clicked. A source that is `unadded`
+/// locks the other steps, as it does Next.
+fn entry(
+    ui: &Ui,
+    row: Rect,
+    step: Step,
+    detail: &str,
+    unadded: Option<&str>,
+    state: &SetupState,
+) -> bool {
     let t = theme::tokens(ui);
     let is_shown = state.step == step;
+    let why = unadded.filter(|_| !is_shown);
+    let is_enabled = why.is_none();
     let passed = match state.progress.of(step) {
         Passed::NotYet => "",
         Passed::Done => ", done",
         Passed::Skipped => ", skipped",
     };
     let name = format!("Step {}: {}{passed}, {detail}", step.number(), step.name());
-    let response = paint::control(ui, ("step", step), row, Role::Tab, true, &name);
-    response.widget_info(|| WidgetInfo::selected(Role::Tab, true, is_shown, &name));
+    let mut response = paint::control(ui, ("step", step), row, Role::Tab, is_enabled, &name);
+    response.widget_info(|| WidgetInfo::selected(Role::Tab, is_enabled, is_shown, &name));
+    if let Some(why) = why {
+        response = response.on_hover_text(why);
+    }
     if is_shown {
         ui.painter().rect_filled(row, 0.0, t.bgsel);
         ui.painter().rect_filled(row.with_max_x(row.left() + 3.0), 0.0, t.sat);
-    } else if response.hovered() {
+    } else if is_enabled && response.hovered() {
         ui.painter().rect_filled(row, 0.0, t.bg3);
     }
     paint::focus_ring(ui, &response, 0);
