@@ -17,6 +17,7 @@ mod log_file;
 mod mask_file;
 mod memory;
 pub mod notifier;
+mod open_file;
 mod place;
 mod rehearsal;
 mod replay;
@@ -34,20 +35,10 @@ use std::{
 
 pub use self::running_station::RunningStation;
 use self::{
-    catalog_table::CatalogWork,
-    change::{Change, FileDialog},
-    effects::EffectsJobs,
-    export::ExportWork,
-    folder::FolderWork,
-    intake::IntakeWork,
-    known::KnownWork,
-    log_file::LogWork,
-    mask_file::MaskWork,
-    memory::Keeper,
-    notifier::Notifier,
-    place::PlaceWatch,
-    rehearsal::RehearsalWork,
-    replay::Replay,
+    catalog_table::CatalogWork, change::Change, effects::EffectsJobs, export::ExportWork,
+    folder::FolderWork, intake::IntakeWork, known::KnownWork, log_file::LogWork,
+    mask_file::MaskWork, memory::Keeper, notifier::Notifier, open_file::OpenWork,
+    place::PlaceWatch, rehearsal::RehearsalWork, replay::Replay,
 };
 use crate::{
     clock::Clock,
@@ -86,11 +77,11 @@ pub struct App {
     intake_work: IntakeWork,
     log_work: LogWork,
     mask_work: MaskWork,
+    open_work: OpenWork,
     known_work: KnownWork,
     rehearsal_work: RehearsalWork,
     /// The record shown again; `None` while the live station is shown.
     replay: Option<Replay>,
-    station_dialog: Option<FileDialog>,
     /// The change to another station.
     change: Option<Change>,
     keeper: Keeper,
@@ -170,10 +161,10 @@ impl App {
             intake_work: IntakeWork::default(),
             log_work,
             mask_work,
+            open_work: OpenWork::default(),
             known_work,
             rehearsal_work: RehearsalWork::default(),
             replay: None,
-            station_dialog: None,
             change: None,
             keeper,
             place_watch: PlaceWatch::default(),
@@ -219,6 +210,7 @@ impl App {
 
     /// Takes all news since the last frame.
     fn think(&mut self) {
+        self.take_opened_file();
         self.work_on_change();
         let now = self.clock.now();
         (self.model.now, self.model.steady) = (now.utc, now.steady);

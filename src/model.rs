@@ -20,6 +20,7 @@ mod selection;
 mod sky;
 mod stations;
 mod theme_name;
+pub mod typed_path;
 
 use std::{path::PathBuf, sync::Arc, time::Duration};
 

@@ -31,6 +31,7 @@ mod menus;
 mod notices;
 mod offsets;
 mod on_board;
+mod opening;
 mod panel;
 mod panel_layout;
 mod panel_more;

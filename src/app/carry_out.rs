@@ -90,7 +90,6 @@ impl App {
                 self.offer_elements(offers, is_dropped);
             }
             UiCommand::LeaveElements => self.leave_elements(),
-            UiCommand::ChooseElementFiles => self.choose_element_files(),
             UiCommand::InspectObject(number) => {
                 model.catalog_table.inspected = Some(number);
                 self.send(Command::ListOlderSets(number));
@@ -101,7 +100,8 @@ impl App {
             UiCommand::EndRehearsal => self.end_rehearsal(),
             UiCommand::OpenFolder(folder) => self.open_folder(folder),
             UiCommand::ChooseStation(next) => self.choose_station(next),
-            UiCommand::ChooseStationFile => self.choose_station_file(),
+            UiCommand::ChooseFile(file) => self.choose_file(file),
+            UiCommand::OpenFile(file, path) => self.open_file(file, path),
             UiCommand::ChangeNow => drop(self.change_now()),
             UiCommand::KeepStation => self.stay(),
             UiCommand::ImportMask(path) => self.import_mask(path),

@@ -10,10 +10,7 @@ use std::{
 
 use super::{App, Keeper, KnownWork, LogWork, MaskWork, Notifier, PlaceWatch};
 use crate::{
-    desktop::{
-        Desktop,
-        file_dialog::{self, NoDialog},
-    },
+    desktop::Desktop,
     engine::{self, CannotOpen, Handle, Settings, look_at},
     job::{Job, Wake},
     model::{KnownStation, Model, NextStation, UiCommand},
@@ -49,9 +46,6 @@ pub(super) enum Change {
     },
 }
 
-/// The dialog of the desktop that asks for a station file.
-pub(super) type FileDialog = Job<Result<Option<PathBuf>, NoDialog>>;
-
 impl App {
     /// Keeps the list of stations, and files of new ones, in `folder` instead of the folder of the
     /// present one.
@@ -75,26 +69,8 @@ impl App {
         }
     }
 
-    /// Shows the dialog of the desktop, one at a time.
-    pub(super) fn choose_station_file(&mut self) {
-        if self.station_dialog.is_some() {
-            return;
-        }
-        let folder = self.stations_folder.clone();
-        let job = Job::start("azel-file-dialog", Arc::clone(&self.wake), move |_| {
-            file_dialog::file_to_open("Station file", folder.as_deref())
-        });
-        let job = job.inspect_err(|error| tracing::error!(%error, "no thread for the dialog"));
-        self.station_dialog = job.ok();
-    }
-
     /// Takes the change as far as it goes by itself.
     pub(super) fn work_on_change(&mut self) {
-        match Job::take(&mut self.station_dialog) {
-            Some(Ok(Ok(Some(path)))) => self.choose_station(NextStation::File(path)),
-            Some(Ok(Err(error))) => self.model.stations.refused = Some(error.to_string()),
-            _ => {}
-        }
         self.change = match self.change.take() {
             Some(Change::Looking(job)) => self.take_look(job),
             Some(Change::Ending(target)) if self.station.has_ended() => self.start(target),

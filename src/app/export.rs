@@ -12,7 +12,7 @@ use std::{
 
 use jiff::{Timestamp, civil::Date, tz::TimeZone};
 
-use super::App;
+use super::{App, open_file::unusable};
 use crate::{
     astro::time::seconds_between,
     desktop::{
@@ -26,8 +26,9 @@ use crate::{
         schedule::Planned,
     },
     job::Job,
-    model::export::{
-        DaysFormat, ElementForm, Export, PathRequest, ReportFormat, SavedFile, TypedPath,
+    model::{
+        export::{DaysFormat, ElementForm, Export, ReportFormat, SavedFile},
+        typed_path::{PathPurpose, PathRequest, TypedPath},
     },
     orbit::{PassSearch, write_omm_csv, write_omm_json, write_tle},
     plan::{
@@ -87,10 +88,11 @@ struct Order {
 }
 
 impl App {
-    /// Saves as on a desktop that shows no dialogs.
+    /// Saves and opens files as on a desktop that shows no dialogs.
     #[must_use]
-    pub fn without_save_dialog(mut self) -> Self {
+    pub fn without_file_dialogs(mut self) -> Self {
         self.export_work.dialog = |_, _| Err(NoDialog);
+        self.open_work.dialog = |_, _| Err(NoDialog);
         self
     }
 
@@ -174,10 +176,8 @@ impl Order {
     /// Saves to a path that was typed, or asks for it again.
     fn save_as(&self, typed: TypedPath) -> Result<Outcome, String> {
         let TypedPath { path, replaces } = typed;
-        let why = if !path.is_absolute() {
-            "type the whole path, from the root or the drive on"
-        } else if path.is_dir() {
-            "this is a folder: add the name of the file"
+        let why = if let Some(why) = unusable(&path) {
+            why
         } else if !path.parent().is_some_and(Path::is_dir) {
             // Otherwise a mistyped folder would be created.
             "there is no such folder"
@@ -196,8 +196,8 @@ impl Order {
     }
 
     fn ask_for_path(&self, path: PathBuf, replaces: bool, why: String) -> Outcome {
-        let proposed = TypedPath { path, replaces };
-        Outcome::AsksForPath(PathRequest { export: self.export.clone(), proposed, why })
+        let purpose = PathPurpose::Save { export: self.export.clone(), replaces };
+        Outcome::AsksForPath(PathRequest { purpose, path, why })
     }
 
     /// The name that the dialog offers.

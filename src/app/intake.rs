@@ -1,11 +1,9 @@
-//! Reads what the operator offers as elements, and asks for files with the dialog of the desktop,
-//! on threads.
+//! Reads what the operator offers as elements, on a thread.
 
-use std::{path::PathBuf, sync::Arc};
+use std::sync::Arc;
 
 use super::App;
 use crate::{
-    desktop::file_dialog::{self, NoDialog},
     engine::CatalogState,
     job::Job,
     library::read_element_file,
@@ -16,7 +14,6 @@ use crate::{
 #[derive(Default)]
 pub(super) struct IntakeWork {
     judging: Option<Job<Vec<Judged>>>,
-    dialog: Option<Job<Result<Vec<PathBuf>, NoDialog>>>,
 }
 
 impl App {
@@ -55,30 +52,11 @@ impl App {
         self.model.intake = None;
     }
 
-    /// Shows the dialog of the desktop, one at a time.
-    pub(super) fn choose_element_files(&mut self) {
-        if self.intake_work.dialog.is_some() {
-            return;
-        }
-        let job = Job::start("azel-file-dialog", Arc::clone(&self.wake), |_| {
-            file_dialog::files_to_open("Files of elements")
-        });
-        let job = job.inspect_err(|error| tracing::error!(%error, "no thread for the dialog"));
-        self.intake_work.dialog = job.ok();
-    }
-
     pub(super) fn take_intake(&mut self) {
         if let Some(Ok(judged)) = Job::take(&mut self.intake_work.judging)
             && let Some(intake) = &mut self.model.intake
         {
             intake.judged = Some(judged);
-        }
-        match Job::take(&mut self.intake_work.dialog) {
-            Some(Ok(Ok(files))) if !files.is_empty() => {
-                self.offer_elements(files.into_iter().map(Offer::File).collect(), true);
-            }
-            Some(Ok(Err(error))) => self.views.no_dialog(error),
-            _ => {}
         }
     }
 }

@@ -7,9 +7,10 @@ use jiff::Timestamp;
 use super::{
     Appearance, ConsoleLine, Model, NextStation, ThemeName, View, catalog_table,
     effects::{mounts, obstacles, sites},
-    export::{Export, TypedPath},
+    export::Export,
     intake::Offer,
     replay::{ReplayCommand, Stretch},
+    typed_path::{OpenedFile, TypedPath},
 };
 use crate::{
     astro::HorizonMask,
@@ -34,8 +35,11 @@ pub enum UiCommand {
     Close,
     /// Change the station of the window.
     ChooseStation(NextStation),
-    /// Change to the station whose file the operator chooses in the dialog of the desktop.
-    ChooseStationFile,
+    /// Open a file that the operator chooses in the dialog of the desktop: change to its station, or
+    /// offer its elements.
+    ChooseFile(OpenedFile),
+    /// Open the file whose path the operator has typed.
+    OpenFile(OpenedFile, PathBuf),
     /// Change to the station that the operator was asked about.
     ChangeNow,
     /// Stay with the station in the window.
@@ -69,8 +73,6 @@ pub enum UiCommand {
     },
     /// Drop what is offered as elements.
     LeaveElements,
-    /// Offer files that the operator chooses in the dialog of the desktop.
-    ChooseElementFiles,
     /// Show this object in detail in the Elements view.
     InspectObject(u32),
     /// Save this to a file that the operator names in the dialog of the desktop.
@@ -153,8 +155,8 @@ impl UiCommand {
             Self::AskToTrack(_)
             | Self::Rehearse(_)
             | Self::ChooseStation(_)
-            | Self::ChooseStationFile
-            | Self::ChooseElementFiles
+            | Self::ChooseFile(_)
+            | Self::OpenFile(..)
             | Self::Save(_)
             | Self::SaveAs(..)
             | Self::SaveLog(_)

@@ -21,23 +21,6 @@ pub struct SavedFile {
     pub left_out: usize,
 }
 
-/// A path that the operator types, because the desktop shows no dialog.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct TypedPath {
-    pub path: PathBuf,
-    /// The operator agrees that the file at this path is replaced.
-    pub replaces: bool,
-}
-
-/// Asks the operator to type the path of a file.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct PathRequest {
-    pub export: Export,
-    pub proposed: TypedPath,
-    /// Why the path is to be typed, or typed again.
-    pub why: String,
-}
-
 /// The form of a file of elements.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ElementForm {

@@ -4,13 +4,13 @@ pub mod changing;
 pub mod closing;
 mod maintenance;
 mod password;
-mod save_path;
+mod path;
 
 use egui::{Key, Label, RichText, Ui};
 
 pub use maintenance::MaintenanceDialog;
 pub use password::{PasswordDialog, SecretAnswer};
-pub use save_path::SavePathDialog;
+pub use path::PathDialog;
 
 use super::{
     confirm::Question,

@@ -13,7 +13,7 @@ use super::{
     confirm::Question,
     console,
     dialogs::{
-        SavePathDialog, changing,
+        PathDialog, changing,
         closing::{self, ClosingDialog},
     },
     elements::{self, ChosenColumns},
@@ -33,13 +33,9 @@ use super::{
     words,
 };
 use crate::{
-    desktop::file_dialog::NoDialog,
     driver::Command,
     engine::{self, closing::CloseHow},
-    model::{
-        MaskNews, Model, UiCommand, View,
-        export::{PathRequest, SavedFile},
-    },
+    model::{MaskNews, Model, UiCommand, View, export::SavedFile, typed_path::PathRequest},
 };
 
 /// Input, open parts and folds of all views.
@@ -57,7 +53,7 @@ pub struct Views {
     upload: UploadState,
     question: Option<Question>,
     closing: Option<ClosingDialog>,
-    save_path: Option<SavePathDialog>,
+    path_dialog: Option<PathDialog>,
     notes: Notes,
     banner: BannerRoom,
     keys_open: bool,
@@ -221,7 +217,7 @@ impl Views {
                 preferences::show(ui, rest, model, &mut self.preferences, commands);
             }
             View::Setup => {
-                let is_asked = self.question.is_some() || self.save_path.is_some();
+                let is_asked = self.question.is_some() || self.path_dialog.is_some();
                 let takes_keys = !is_asked && !self.keys_open;
                 setup::show(ui, rest, model, takes_keys, &mut self.setup, commands);
             }
@@ -250,7 +246,7 @@ impl Views {
     ) {
         let answered = commands.len();
         Question::show(&mut self.question, ui, commands);
-        SavePathDialog::show(&mut self.save_path, ui, commands);
+        PathDialog::show(&mut self.path_dialog, ui, commands);
         ClosingDialog::show(&mut self.closing, ui, model, commands);
         closing::waiting(ui, live, commands);
         changing::show(ui, live, commands);
@@ -376,7 +372,7 @@ impl Views {
 
     /// The operator is to type the path of a file.
     pub fn ask_for_path(&mut self, request: PathRequest) {
-        self.save_path = Some(SavePathDialog::new(request));
+        self.path_dialog = Some(PathDialog::new(request));
     }
 
     /// The folder that the operator wanted to see was not opened.
@@ -385,11 +381,9 @@ impl Views {
         self.notes.news = Some(Err(format!("The folder was not opened: {why}. {cure}.")));
     }
 
-    /// The dialog of the desktop that the operator wanted cannot be shown.
-    pub fn no_dialog(&mut self, error: NoDialog) {
-        let paste = "Files can be dropped on this window, and elements pasted into it";
-        self.notes.news =
-            Some(Err(format!("{}. {paste}.", words::capitalised(&error.to_string()))));
+    /// A file that the operator wanted to open was not opened, for this reason.
+    pub fn not_opened(&mut self, why: &str) {
+        self.notes.news = Some(Err(why.to_owned()));
     }
 
     /// Takes the outcome of reading or writing a horizon mask.

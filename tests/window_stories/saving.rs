@@ -9,7 +9,8 @@ use azel::{
     makes,
     model::{
         UiCommand,
-        export::{Export, PathRequest, SavedFile, TypedPath},
+        export::{Export, SavedFile},
+        typed_path::{PathPurpose, PathRequest, TypedPath},
     },
     plan::pass_export::{LookFormat, PassFormat},
     station,
@@ -67,9 +68,8 @@ fn only_the_found_passes_are_saved_while_the_list_is_filtered() {
 fn without_a_dialog_of_the_desktop_the_path_is_typed() {
     let export = Export::HandOverSheet;
     let ask = |window: &mut Window, path: &str, replaces| {
-        let proposed = TypedPath { path: path.into(), replaces };
-        let why = NoDialog.to_string();
-        let request = PathRequest { export: export.clone(), proposed, why };
+        let purpose = PathPurpose::Save { export: export.clone(), replaces };
+        let request = PathRequest { purpose, path: path.into(), why: NoDialog.to_string() };
         window.state_mut().views.ask_for_path(request);
         settle(window);
     };
@@ -106,7 +106,7 @@ fn a_desktop_without_dialogs_saves_to_the_typed_path() {
     let settings = folder.path().join("station.toml");
     let unit = Unit::start(rig::now());
     station::save(&unit.station(), &settings, makes::SPECS).unwrap();
-    let mut window = open_as(&settings, clock_from(rig::now()), App::without_save_dialog);
+    let mut window = open_as(&settings, clock_from(rig::now()), App::without_file_dialogs);
     step_until(&mut window, "the passes", |model| !model.upcoming().is_empty());
     window.run_steps(3);
     window.get_by_role_and_label(Role::Button, "Save passes to a file").click();
@@ -146,7 +146,4 @@ fn what_came_of_it_is_told_over_the_views_until_it_is_closed() {
     assert!(says(&window, "Saved without 3 objects that a TLE cannot hold: /home/"));
     tell(&mut window, Err("the disk is full".to_owned()));
     assert!(says(&window, "Nothing was saved: the disk is full."));
-    window.state_mut().views.no_dialog(NoDialog);
-    settle(&mut window);
-    assert!(says(&window, "This desktop shows no file dialogs") && says(&window, "dropped"));
 }

@@ -7,7 +7,7 @@ use azel::{
     clock::Clock,
     driver::LinkState,
     engine::{Handle, Settings, claim::HolderKind},
-    model::{KnownStation, Model, NextStation, ThemeName, UiCommand, View},
+    model::{KnownStation, Model, NextStation, ThemeName, UiCommand, View, typed_path::OpenedFile},
     orbit::bundled,
     station::{self, Station},
     ui::theme,
@@ -40,7 +40,7 @@ fn the_menu_of_every_station_leads_to_the_others_and_to_the_demo() {
         let mut entries = vec![
             ("Hill (b)", Some(UiCommand::ChooseStation(file("/b.toml")))),
             ("Hill (c)", Some(UiCommand::ChooseStation(file("/c.toml")))),
-            ("Open…", Some(UiCommand::ChooseStationFile)),
+            ("Open…", Some(UiCommand::ChooseFile(OpenedFile::Station))),
         ];
         if demo {
             entries.push(("Şile 1", Some(UiCommand::ChooseStation(file("/a.toml")))));

@@ -157,8 +157,10 @@ fn without_a_dialog_a_path_among_the_documents_is_proposed() {
     let documents = || Some(folder.path().to_owned());
     let outcome = order.save(|_, _| Err(NoDialog), documents).unwrap();
     let Outcome::AsksForPath(request) = outcome else { panic!("{outcome:?}") };
-    assert_eq!(request.proposed.path, folder.path().join(order.name()));
-    assert!(!request.proposed.replaces && request.why.contains("no file dialogs"), "{request:?}");
+    assert_eq!(request.path, folder.path().join(order.name()));
+    let purpose = PathPurpose::Save { export: order.export.clone(), replaces: false };
+    assert_eq!(request.purpose, purpose);
+    assert!(request.why.contains("no file dialogs"), "{request:?}");
     assert_eq!(order.save(|_, _| Ok(None), documents), Ok(Outcome::Cancelled));
 }
 
@@ -169,7 +171,8 @@ fn a_typed_path_is_written_and_a_file_there_is_replaced_only_if_the_operator_agr
     let save = |path: PathBuf, replaces| order.save_as(TypedPath { path, replaces }).unwrap();
     let why = |outcome: Outcome, replaces| {
         let Outcome::AsksForPath(request) = outcome else { panic!("{outcome:?}") };
-        assert_eq!((&request.export, request.proposed.replaces), (&order.export, replaces));
+        let export = order.export.clone();
+        assert_eq!(request.purpose, PathPurpose::Save { export, replaces });
         request.why
     };
     let path = folder.path().join("sheet.svg");

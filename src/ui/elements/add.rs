@@ -7,7 +7,7 @@ use egui::{Align, Button, Key, Layout, Response, RichText, Role, TextEdit, Ui, W
 use crate::{
     engine::{self, sources::Sources},
     library::check_source,
-    model::UiCommand,
+    model::{UiCommand, typed_path::OpenedFile},
     orbit::{Source, SourcePlace},
     ui::{
         text, theme,
@@ -108,7 +108,7 @@ pub(in crate::ui) fn show(
         ui.label(RichText::new("Add a source").font(text::value()));
         ui.horizontal(|ui| {
             if ui.button("Choose files…").clicked() {
-                commands.push(UiCommand::ChooseElementFiles);
+                commands.push(UiCommand::ChooseFile(OpenedFile::Elements));
                 ui.close();
             }
             let words = "or drop files on this view, or paste elements with Ctrl V";

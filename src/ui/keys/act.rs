@@ -11,6 +11,7 @@ use crate::{
         Model, UiCommand, View,
         globe::Towards,
         replay::{ReplayCommand, Replayed},
+        typed_path::OpenedFile,
     },
     station::Take,
     ui::{antenna_card::OffsetStep, elements, operate::LONG_STEP_S, replay, second_step, theme},
@@ -209,7 +210,7 @@ impl Act {
                 _ => targets.operate.filter_list(),
             },
             Self::NextPage => targets.preferences.next_page(),
-            Self::ChooseElements => commands.push(UiCommand::ChooseElementFiles),
+            Self::ChooseElements => commands.push(UiCommand::ChooseFile(OpenedFile::Elements)),
             Self::RefreshElements => commands.push(elements::refresh_due(model)),
             Self::Acknowledge => {
                 let seen = model.alarms.newest_unseen().map(engine::Command::AcknowledgeAlarm);

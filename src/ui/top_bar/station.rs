@@ -4,7 +4,7 @@ use egui::{Align2, Button, Popup, Rect, Role, Ui, pos2, vec2};
 
 use super::TopBarModel;
 use crate::{
-    model::{NextStation, ThemeName, UiCommand, View},
+    model::{NextStation, ThemeName, UiCommand, View, typed_path::OpenedFile},
     ui::{
         icons::{self, Icon},
         text::{self, Weight},
@@ -94,6 +94,6 @@ fn stations(ui: &mut Ui, model: &TopBarModel<'_>, commands: &mut Vec<UiCommand>)
         commands.push(UiCommand::ChooseStation(NextStation::New));
     }
     if ui.button("Open…").clicked() {
-        commands.push(UiCommand::ChooseStationFile);
+        commands.push(UiCommand::ChooseFile(OpenedFile::Station));
     }
 }

@@ -13,7 +13,7 @@ use azel::{
     },
     library::save_sources,
     makes,
-    model::{Model, UiCommand, View},
+    model::{Model, UiCommand, View, typed_path::OpenedFile},
     orbit::{RefreshHours, Source, SourcePlace},
     station,
 };
@@ -127,12 +127,12 @@ fn esc_closes_what_is_to_be_imported_after_what_is_open_above_it() {
 fn files_are_chosen_by_a_key_and_in_the_form() {
     let mut window = view(rig::LARGE, vec![server(3.0)]);
     window.key_press_modifiers(Modifiers::COMMAND, Key::O);
-    assert_eq!(asked(&mut window), [UiCommand::ChooseElementFiles]);
+    assert_eq!(asked(&mut window), [UiCommand::ChooseFile(OpenedFile::Elements)]);
     window.key_press_modifiers(Modifiers::COMMAND, Key::R);
     assert_eq!(asked(&mut window), [refresh(&["weather"], false)]);
     click(&mut window, "Add a source");
     click(&mut window, "Choose files…");
-    assert_eq!(asked(&mut window), [UiCommand::ChooseElementFiles]);
+    assert_eq!(asked(&mut window), [UiCommand::ChooseFile(OpenedFile::Elements)]);
 }
 
 #[test]

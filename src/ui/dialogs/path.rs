@@ -8,7 +8,7 @@ use super::WIDTH;
 use crate::{
     model::{
         UiCommand,
-        export::{PathRequest, TypedPath},
+        typed_path::{OpenedFile, PathPurpose, PathRequest, TypedPath},
     },
     ui::{
         text, theme,
@@ -23,7 +23,7 @@ use crate::{
 
 /// Input of the dialog.
 #[derive(Debug, Clone)]
-pub struct SavePathDialog {
+pub struct PathDialog {
     request: PathRequest,
     typed: String,
     is_shown: bool,
@@ -32,16 +32,16 @@ pub struct SavePathDialog {
 enum PathAnswer {
     Open,
     Cancelled,
-    Typed(TypedPath),
+    Typed(UiCommand),
 }
 
-impl SavePathDialog {
+impl PathDialog {
     pub fn new(request: PathRequest) -> Self {
-        let typed = request.proposed.path.display().to_string();
+        let typed = request.path.display().to_string();
         Self { request, typed, is_shown: false }
     }
 
-    /// Shows the dialog, if it is open, until it is answered. Enter saves unless Cancel has the
+    /// Shows the dialog, if it is open, until it is answered. Enter saves or opens unless Cancel has the
     /// focus, Esc cancels.
     pub fn show(dialog: &mut Option<Self>, ui: &Ui, commands: &mut Vec<UiCommand>) {
         let Some(open) = dialog else { return };
@@ -54,17 +54,24 @@ impl SavePathDialog {
         match shown.inner {
             PathAnswer::Open if !is_left => return,
             PathAnswer::Open | PathAnswer::Cancelled => {}
-            PathAnswer::Typed(path) => {
-                commands.push(UiCommand::SaveAs(open.request.export.clone(), path));
-            }
+            PathAnswer::Typed(command) => commands.push(command),
         }
         *dialog = None;
     }
 
     fn content(&mut self, ui: &mut Ui) -> PathAnswer {
         let t = theme::tokens(ui);
-        ui.label(RichText::new("Save to a file").font(text::value()));
+        let title = match &self.request.purpose {
+            PathPurpose::Save { .. } => "Save to a file",
+            PathPurpose::Open(OpenedFile::Station) => "Open a station file",
+            PathPurpose::Open(OpenedFile::Elements) => "Open a file of elements",
+        };
+        ui.label(RichText::new(title).font(text::value()));
         line(ui, Tone::Caution, &sentence(&self.request.why));
+        if self.request.purpose == PathPurpose::Open(OpenedFile::Elements) {
+            let words = "Files can also be dropped on this window, and elements pasted into it.";
+            line(ui, Tone::Plain, words);
+        }
         let label = RichText::new("Path of the file").font(text::small()).color(t.t2);
         let label = ui.label(label).id;
         let edit =
@@ -75,15 +82,21 @@ impl SavePathDialog {
         }
         ui.add_space(8.0);
         let path = PathBuf::from(self.typed.trim());
-        // Another path replaces nothing before it was looked at.
-        let replaces = self.request.proposed.replaces && path == self.request.proposed.path;
-        let yes = if replaces { "Replace it (Enter)" } else { "Save (Enter)" };
+        let (yes, command) = match &self.request.purpose {
+            PathPurpose::Save { export, replaces } => {
+                // Another path replaces nothing before it was looked at.
+                let replaces = *replaces && path == self.request.path;
+                let yes = if replaces { "Replace it (Enter)" } else { "Save (Enter)" };
+                (yes, UiCommand::SaveAs(export.clone(), TypedPath { path, replaces }))
+            }
+            PathPurpose::Open(file) => ("Open (Enter)", UiCommand::OpenFile(*file, path)),
+        };
         let [yes, cancel] = button::pair(ui, Button::primary(yes), Button::normal("Cancel"));
         let enter = ui.input(|input| input.key_pressed(Key::Enter)) && !cancel.has_focus();
         if cancel.clicked() {
             PathAnswer::Cancelled
         } else if yes.clicked() || enter {
-            PathAnswer::Typed(TypedPath { path, replaces })
+            PathAnswer::Typed(command)
         } else {
             PathAnswer::Open
         }
