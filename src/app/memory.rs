@@ -14,11 +14,8 @@ use super::place::Place;
 use crate::{
     engine::passes::{ListChoice, SPANS_H, Scope},
     job::{Job, Wake},
-    model::{Appearance, DistanceUnit, ThemeName, View, catalog_table::Column},
-    ui::{
-        Kept, elements::ChosenColumns, keys::own::OwnKeys, map::MapLayers, pass_list::Arrangement,
-        sky_plot::Layers,
-    },
+    model::{Appearance, DistanceUnit, ThemeName, View},
+    ui::{Kept, map::MapLayers, pass_list::Arrangement, sky_plot::Layers},
     whole_file,
 };
 
@@ -95,8 +92,6 @@ impl Memory {
                 passes: arrangement(table.get("passes").and_then(toml::Value::as_table)),
                 layers: layers(table.get("layers").and_then(toml::Value::as_table)),
                 map_layers: map_layers(table.get("map_layers").and_then(toml::Value::as_table)),
-                columns: columns(table.get("columns").and_then(toml::Value::as_array)),
-                keys: own_keys(table.get("keys").and_then(toml::Value::as_array)),
             },
         }
     }
@@ -131,8 +126,6 @@ impl Memory {
             strip_hours: Option<u32>,
             #[serde(skip_serializing_if = "Option::is_none")]
             list_width: Option<u32>,
-            columns: &'a ChosenColumns,
-            keys: Vec<[&'static str; 3]>,
             passes: &'a Arrangement,
             layers: Layers,
             map_layers: MapLayers,
@@ -155,8 +148,6 @@ impl Memory {
             faults_open: self.views.faults_open,
             strip_hours: self.views.strip_hours,
             list_width: self.views.list_width,
-            columns: &self.views.columns,
-            keys: self.views.keys.kept().collect(),
             passes: &self.views.passes,
             layers: self.views.layers,
             map_layers: self.views.map_layers,
@@ -200,18 +191,6 @@ fn layers(table: Option<&toml::Table>) -> Layers {
         keep_outs: shown("keep_outs", usual.keep_outs),
         antennas: shown("antennas", usual.antennas),
     }
-}
-
-/// Keys as lists of place, usual key and own key.
-fn own_keys(list: Option<&toml::value::Array>) -> OwnKeys {
-    let words = list.into_iter().flatten().filter_map(|own| own.clone().try_into().ok());
-    let kept: Vec<[String; 3]> = words.collect();
-    OwnKeys::from_kept(kept.iter().map(|words| words.each_ref().map(String::as_str)))
-}
-
-fn columns(list: Option<&toml::value::Array>) -> ChosenColumns {
-    let Some(list) = list else { return ChosenColumns::default() };
-    list.iter().filter_map(|word| word.clone().try_into::<Column>().ok()).collect()
 }
 
 fn map_layers(table: Option<&toml::Table>) -> MapLayers {
@@ -347,8 +326,6 @@ mod tests {
                 },
                 layers: Layers { names: false, mask: false, ..Layers::default() },
                 map_layers: MapLayers { other_tracks: true, ..MapLayers::default() },
-                columns: [Column::Age, Column::Number].into_iter().collect(),
-                keys: OwnKeys::from_kept([["operate", "N", "J"]]),
             },
         }
     }
@@ -435,14 +412,8 @@ mod tests {
                 let list = ListChoice { all_h: 24, ..ListChoice::default() };
                 Memory { list, ..Memory::default() }
             }),
-            ("keys = [['operate', 'N', 'J'], ['operate', 'T', 'K'], 'N', ['map', 'L']]", {
-                let keys = OwnKeys::from_kept([["operate", "N", "J"]]);
-                Memory { views: Kept { keys, ..Kept::default() }, ..Memory::default() }
-            }),
-            ("columns = ['age', 'colour', 7, 'name', 'number']", {
-                let columns = [Column::Age, Column::Number].into_iter().collect();
-                Memory { views: Kept { columns, ..Kept::default() }, ..Memory::default() }
-            }),
+            // Entries of earlier versions.
+            ("keys = [['operate', 'N', 'J']]\ncolumns = ['age', 'number']", Memory::default()),
             ("view = 'setup'\nwindow = { size = [4, 5], is_maximized = 3 }", Memory::default()),
             ("theme = 7\nantenna = 'Mast'", {
                 Memory { antenna: Some("Mast".to_owned()), ..Memory::default() }

@@ -22,7 +22,7 @@ mod sources;
 mod table;
 pub(super) mod words;
 
-pub use self::{bar::refresh_due, columns::ChosenColumns};
+pub use self::bar::refresh_due;
 
 use egui::{Rect, Ui};
 
@@ -58,8 +58,6 @@ pub struct ElementsState {
     sources_are_open: Option<bool>,
     refused_are_open: bool,
     source_password: source_password::SourcePassword,
-    /// The columns of the table that the operator has chosen.
-    pub columns: ChosenColumns,
     inspector_is_open: bool,
     upload_is_open: bool,
     frequencies: Option<frequencies::Edit>,

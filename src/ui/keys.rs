@@ -3,7 +3,6 @@
 mod act;
 pub mod digits;
 pub mod list;
-pub mod own;
 
 use egui::{Key, Modifiers, Ui};
 
@@ -439,7 +438,6 @@ pub fn take(ui: &Ui, model: &Model, targets: &mut KeyTargets<'_>, commands: &mut
         || menu::is_open(ui)
         || targets.question.is_some()
         || *targets.list_open
-        || targets.preferences.waits_for_key()
         || targets.record.is_asking();
     let works = |place| match place {
         KeyScope::Everywhere => true,
@@ -453,11 +451,10 @@ pub fn take(ui: &Ui, model: &Model, targets: &mut KeyTargets<'_>, commands: &mut
         KeyScope::Preferences => model.view == View::Preferences,
         KeyScope::Focus => false,
     };
-    let own = targets.preferences.own_keys().clone();
     for binding in ALL.iter().filter(|binding| works(binding.place)) {
-        for ((_, act), key) in binding.keys.iter().zip(own.keys(binding)) {
+        for (key, act) in binding.keys {
             if act.is_possible(ui, model)
-                && ui.input_mut(|input| input.consume_key(binding.modifiers, key))
+                && ui.input_mut(|input| input.consume_key(binding.modifiers, *key))
             {
                 act.carry_out(ui, model, targets, commands);
             }

@@ -13,7 +13,6 @@ mod findings;
 pub(super) mod form;
 mod head;
 mod horizon;
-mod keys;
 mod list;
 mod notices;
 mod page;
@@ -29,7 +28,7 @@ pub(super) mod station_fields;
 use egui::{Rect, Ui};
 use jiff::Timestamp;
 
-use super::{keys::own::OwnKeys, theme, widgets::hold_button::HoldState, words};
+use super::{theme, widgets::hold_button::HoldState, words};
 use crate::{
     astro::MaskForm,
     model::{MaskNews, Model, UiCommand},
@@ -39,7 +38,6 @@ use columns::Part;
 use draft::Draft;
 use form::Sought;
 use horizon::HorizonState;
-use keys::KeysState;
 use page::Page;
 use rules::RulesState;
 use satellites::SatellitesState;
@@ -60,7 +58,6 @@ pub struct PreferencesState {
     search: Search,
     form: FormState,
     horizon: HorizonState,
-    keys: KeysState,
     confirming: HoldState,
 }
 
@@ -146,25 +143,6 @@ impl PreferencesState {
         self.search.wants_focus = true;
     }
 
-    /// The keys that the operator has chosen.
-    pub fn own_keys(&self) -> &OwnKeys {
-        &self.keys.own
-    }
-
-    pub(super) fn use_keys(&mut self, own: OwnKeys) {
-        self.keys.own = own;
-    }
-
-    /// Whether the next key is one to be chosen.
-    pub(super) fn waits_for_key(&self) -> bool {
-        self.keys.waits()
-    }
-
-    /// To be called in each frame that does not show the preferences.
-    pub(super) fn leave(&mut self) {
-        self.keys.stop_waiting();
-    }
-
     /// Shows the page of this antenna.
     pub fn show_antenna(&mut self, antenna: AntennaId) {
         self.page = Page::Antenna(antenna);
@@ -219,9 +197,6 @@ fn show_page(
     state: &mut PreferencesState,
     commands: &mut Vec<UiCommand>,
 ) {
-    if state.page != Page::Keys {
-        state.keys.stop_waiting();
-    }
     if state.page == Page::Horizon {
         let antennas = draft.antenna_names();
         let (skies, horizon) = (&mut draft.skies, &mut state.horizon);
@@ -244,11 +219,6 @@ fn show_page(
         Page::Appearance => cards(ui, rect, "appearance", &appearance::CARDS, |ui, card| {
             appearance::card_of(ui, card, model, commands);
         }),
-        Page::Keys => {
-            let keys = &mut state.keys;
-            keys.listen(ui);
-            cards(ui, rect, "keys", &keys::rows(), |ui, card| keys::card_of(ui, card, keys));
-        }
         Page::Horizon => {}
     }
 }

@@ -16,9 +16,9 @@ use super::{
         PathDialog, changing,
         closing::{self, ClosingDialog},
     },
-    elements::{self, ChosenColumns},
+    elements,
     icons::Icon,
-    keys::{self, KeyTargets, own::OwnKeys},
+    keys::{self, KeyTargets},
     map::{self, MapLayers},
     notes::Notes,
     operate,
@@ -76,10 +76,6 @@ pub struct Kept {
     pub layers: Layers,
     /// Layers of the map.
     pub map_layers: MapLayers,
-    /// Columns of the catalogue.
-    pub columns: ChosenColumns,
-    /// Keys that the operator has chosen.
-    pub keys: OwnKeys,
 }
 
 impl Views {
@@ -94,8 +90,6 @@ impl Views {
         operate.passes.filter.arrangement = kept.passes;
         operate.sky.layers = kept.layers;
         views.map.layers = kept.map_layers;
-        views.elements.columns = kept.columns;
-        views.preferences.use_keys(kept.keys);
         views
     }
 
@@ -109,8 +103,6 @@ impl Views {
             passes: self.operate.passes.filter.arrangement.clone(),
             layers: self.operate.sky.layers,
             map_layers: self.map.layers,
-            columns: self.elements.columns.clone(),
-            keys: self.preferences.own_keys().clone(),
         }
     }
 
@@ -143,9 +135,6 @@ impl Views {
         let (window, before) = (ui.max_rect(), commands.len());
         let top = window.with_max_y(window.top() + top_bar::height(window.height()));
         bar::show(ui, top, live, commands);
-        if model.view != View::Preferences {
-            self.preferences.leave();
-        }
         let mut targets = KeyTargets {
             question: &mut self.question,
             operate: &mut self.operate,
@@ -233,7 +222,7 @@ impl Views {
             ui.memory_mut(egui::Memory::stop_text_input);
         }
         self.show_questions(ui, live, model, commands);
-        keys::list::show(ui, &mut self.keys_open, self.preferences.own_keys());
+        keys::list::show(ui, &mut self.keys_open);
     }
 
     /// Shows the questions that lie over all views.

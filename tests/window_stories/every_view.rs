@@ -55,7 +55,7 @@ const fn named(name: &'static str, open: fn([f32; 2]) -> Window) -> Scene {
     Scene { name, open }
 }
 
-pub(crate) const SCENES: [Scene; 51] = [
+pub(crate) const SCENES: [Scene; 50] = [
     named("Operate, tracking", |size| rig::window(size, rig::model(states::tracking(0.04)))),
     named("Operate, three antennas of the demo", |size| rig::window(size, demo())),
     named("Operate, automatic operation", |size| {
@@ -186,11 +186,6 @@ pub(crate) const SCENES: [Scene; 51] = [
     named("Automation rules", preferences_rules::view),
     named("Alarms and sounds", |size| opened_by(preferences::form(size), "Alarms and sounds")),
     named("Appearance", |size| opened_by(preferences::form(size), "Appearance")),
-    named("Keys", |size| {
-        let mut window = preferences::form(size);
-        preferences::open(&mut window, "Keys");
-        window
-    }),
     named("Set-up, site", setup::window),
     named("Set-up, antennas", |size| {
         let mut window = at_step(size, 1);

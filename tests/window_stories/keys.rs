@@ -17,7 +17,7 @@ use azel::{
     station::{AntennaId, Mount, Take},
     ui::{
         format,
-        keys::{ALL, Binding, KeyScope, list::in_words, own::OwnKeys},
+        keys::{ALL, Binding, KeyScope, list::in_words},
     },
 };
 use egui::{Key, Modifiers, Role};
@@ -58,7 +58,7 @@ fn all_words(window: &Window) -> Vec<String> {
 }
 
 fn line(binding: &Binding) -> String {
-    format!("{}: {}", in_words(binding, &OwnKeys::default()), binding.does_where())
+    format!("{}: {}", in_words(binding), binding.does_where())
 }
 
 #[test]

@@ -17,10 +17,7 @@ use azel::{
     plan::pointing::Kind,
     record::{FittedTerm, NoiseOf, Peak, PeakChange, PeakOf, Peaks, PointingFit},
     station::{Antenna, AntennaId, Station},
-    ui::{
-        keys::{ALL, list::in_words, own::OwnKeys},
-        theme,
-    },
+    ui::theme,
 };
 use egui::{Event, Key, Modifiers, Role};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
@@ -110,7 +107,7 @@ fn ctrl_tab_goes_through_all_pages_and_round() {
     for size in rig::sizes() {
         let mut window = form(size);
         let mut pages = Vec::new();
-        for _ in 0..9 {
+        for _ in 0..8 {
             pages.push(shown(&window));
             window.key_press_modifiers(Modifiers::COMMAND, Key::Tab);
             settle(&mut window);
@@ -123,7 +120,6 @@ fn ctrl_tab_goes_through_all_pages_and_round() {
             "Automation rules",
             "Alarms and sounds",
             "Appearance",
-            "Keys",
             "Site",
         ];
         assert_eq!(pages, wanted);
@@ -285,111 +281,6 @@ fn a_station_without_an_antenna_says_how_to_add_one() {
     let window = rig::window(SMALL, model);
     assert!(says(&window, "No antenna yet. Add one."));
     window.get_by_role_and_label(Role::ComboBox, "Add an antenna");
-}
-
-#[test]
-fn all_keys_are_listed_with_what_they_do() {
-    for size in rig::sizes() {
-        let mut window = form(size);
-        open(&mut window, "Keys");
-        for binding in &ALL {
-            let words = format!("{}: {}", in_words(binding, &OwnKeys::default()), binding.does);
-            assert!(says(&window, &words), "{words}");
-        }
-    }
-}
-
-#[test]
-fn a_key_is_changed_by_a_press_and_one_that_is_taken_is_refused_by_name() {
-    let mut window = form(LARGE);
-    open(&mut window, "Keys");
-    let next = "the pass in progress or the next one";
-    press(&mut window, Role::Button, &format!("Change N: {next}"));
-    window.key_press(Key::A);
-    settle(&mut window);
-    assert!(says(&window, "A is taken: acknowledge the newest alarm."));
-    assert_eq!(rig::asked(&mut window), [], "the pressed key did nothing else");
-    press(&mut window, Role::Button, &format!("Change N: {next}"));
-    window.key_press(Key::J);
-    settle(&mut window);
-    assert!(says(&window, &format!("J: {next}")));
-    window.get_by_role_and_label(Role::Button, &format!("Change J: {next}"));
-    let kept: Vec<_> = window.state().views.kept().keys.kept().collect();
-    assert_eq!(kept, [["operate", "N", "J"]]);
-
-    window.state_mut().model.view = View::Operate;
-    window.state_mut().model.selected = None;
-    settle(&mut window);
-    rig::asked(&mut window);
-    window.key_press(Key::N);
-    assert_eq!(rig::asked(&mut window), []);
-    window.key_press(Key::J);
-    assert!(matches!(rig::asked(&mut window)[..], [UiCommand::SelectPass(_)]));
-
-    window.state_mut().model.view = View::Preferences;
-    settle(&mut window);
-    press(&mut window, Role::Button, "Restore default keys");
-    assert!(says(&window, &format!("N: {next}")));
-}
-
-#[test]
-fn stop_stays_on_esc_while_a_key_is_waited_for() {
-    let mut window = form(LARGE);
-    open(&mut window, "Keys");
-    let named = |node: &egui_kittest::Node<'_>| {
-        node.accesskit_node().label().is_some_and(|name| name.starts_with("Change "))
-    };
-    let names = window.query_all_by_role(Role::Button).filter(named).count();
-    assert!(names > 10);
-    for fixed in ["Change Esc: ", "Change T: ", "Change G: ", "Change M: "] {
-        assert_eq!(window.query_all_by_label_contains(fixed).count(), 0, "{fixed}");
-    }
-    press(&mut window, Role::Button, "Change N: the pass in progress or the next one");
-    window.key_press(Key::Escape);
-    settle(&mut window);
-    assert!(says(&window, "N: the pass in progress or the next one"));
-    assert_eq!(window.state().views.kept().keys, OwnKeys::default());
-}
-
-#[test]
-fn a_key_with_shift_or_esc_changes_no_key_and_says_what_is_wanted() {
-    let mut window = form(LARGE);
-    open(&mut window, "Keys");
-    let next = "the pass in progress or the next one";
-    let unchanged = format!("N: {next}");
-    let is_modified = "Press one key alone, without Ctrl, Shift or Alt.";
-    let is_odd = "Space cannot be used here: choose a letter, a digit or F5 to F12.";
-    for (modifiers, key, words) in [
-        (Modifiers::SHIFT, Key::J, is_modified),
-        (Modifiers::SHIFT, Key::Escape, &unchanged),
-        (Modifiers::NONE, Key::Space, is_odd),
-    ] {
-        press(&mut window, Role::Button, &format!("Change N: {next}"));
-        window.key_press_modifiers(modifiers, key);
-        settle(&mut window);
-        assert_eq!(window.state().views.kept().keys, OwnKeys::default(), "{key:?}");
-        assert!(says(&window, words), "{words}");
-    }
-}
-
-#[test]
-fn a_key_is_no_longer_waited_for_once_its_page_is_left() {
-    let mut window = form(LARGE);
-    let next = "the pass in progress or the next one";
-    let waiting = "Press a key in place of N";
-    open(&mut window, "Keys");
-    press(&mut window, Role::Button, &format!("Change N: {next}"));
-    window.get_by_role_and_label(Role::Button, waiting);
-    open(&mut window, "Site");
-    open(&mut window, "Keys");
-    assert!(window.query_by_role_and_label(Role::Button, waiting).is_none(), "another page");
-
-    press(&mut window, Role::Button, &format!("Change N: {next}"));
-    window.state_mut().model.view = View::Operate;
-    window.state_mut().model.selected = None;
-    rig::asked(&mut window);
-    window.key_press(Key::N);
-    assert!(matches!(rig::asked(&mut window)[..], [UiCommand::SelectPass(_)]), "another view");
 }
 
 #[test]

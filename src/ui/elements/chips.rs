@@ -1,13 +1,10 @@
-//! The groups of the catalog, of which one is shown, with the choice of columns and the export.
+//! The groups of the catalog, of which one is shown, with the export.
 
 use std::collections::BTreeSet;
 
-use egui::{
-    Align2, Color32, Popup, PopupCloseBehavior, Rect, Response, Role, Stroke, StrokeKind, Ui,
-    WidgetInfo, pos2, vec2,
-};
+use egui::{Align2, Color32, Rect, Role, Stroke, StrokeKind, Ui, WidgetInfo, pos2, vec2};
 
-use super::{ElementsState, PADDING, columns, table, words};
+use super::{ElementsState, PADDING, table, words};
 use crate::{
     engine::CatalogState,
     model::{
@@ -19,7 +16,6 @@ use crate::{
         format, replay, text, theme,
         widgets::{
             button::{self, Button},
-            close_key,
             drop_down::DropDown,
             paint,
         },
@@ -29,8 +25,6 @@ use crate::{
 pub(super) const HEIGHT: f32 = 40.0;
 const CHIP: f32 = 24.0;
 const GAP: f32 = 8.0;
-/// Width of the list of columns.
-const COLUMNS: f32 = 300.0;
 
 /// Draws the groups, and what is done with the whole table.
 pub(super) fn show(
@@ -50,13 +44,10 @@ pub(super) fn show(
     }
     let inner = rect.shrink2(vec2(PADDING, 0.0));
     let exported = Exported::of(model, state);
-    let columns = Button::quiet("Columns").chevron();
-    let widths = [exported.list().width(ui), columns.width(ui)];
     let mut right = inner.right_center();
-    let [export_at, columns_at] = button::row_before(&mut right, CHIP, widths);
+    let [export_at] = button::row_before(&mut right, CHIP, [exported.list().width(ui)]);
     groups(ui, inner.with_max_x(right.x), &chips, state);
     exported.show(ui, export_at, commands);
-    choose_columns(&columns.show(ui, "columns", columns_at), state);
 }
 
 /// Draws the chips, and the button behind which those without room stand.
@@ -140,19 +131,6 @@ impl Exported {
             }
         });
     }
-}
-
-/// The choice of columns, in a list below its button.
-fn choose_columns(button: &Response, state: &mut ElementsState) {
-    Popup::from_toggle_button_response(button)
-        .accessible_name("Columns of the catalogue")
-        .width(COLUMNS)
-        .close_behavior(PopupCloseBehavior::CloseOnClickOutside)
-        .show(|ui| {
-            ui.set_width(COLUMNS);
-            columns::choose(ui, &mut state.columns, &mut state.question);
-            close_key::show(ui);
-        });
 }
 
 /// The groups with the numbers of their objects.

@@ -2,19 +2,14 @@
 
 use std::borrow::Cow;
 
-use egui::{Align, Button, Layout, Rect, Role, Ui, WidgetInfo};
+use egui::Rect;
 use jiff::Timestamp;
-use serde::Serialize;
 
 use super::{PADDING, words};
 use crate::{
-    model::{
-        DistanceUnit, Model,
-        catalog_table::{Column, Question},
-        globe::NextPass,
-    },
+    model::{DistanceUnit, Model, catalog_table::Column, globe::NextPass},
     orbit::{Catalog, Elements},
-    ui::{format, widgets::check_box::CheckBox, words::capitalised},
+    ui::format,
 };
 
 /// Width of the bar of a maximum elevation, for 90 degrees.
@@ -30,13 +25,8 @@ const STAR: f32 = 20.0;
 /// Minimum width of the names.
 const MIN_NAME: f32 = 154.0;
 
-/// The columns behind the names, which the operator chooses and orders.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-#[serde(transparent)]
-pub struct ChosenColumns(Vec<Column>);
-
-/// All columns that can be chosen, in their usual order.
-const USUAL: [Column; 8] = [
+/// The columns behind the names.
+const ALL: [Column; 8] = [
     Column::Number,
     Column::Period,
     Column::Inclination,
@@ -59,95 +49,16 @@ const FOLDS: [Column; 8] = [
     Column::NextPass,
 ];
 
-impl Default for ChosenColumns {
-    fn default() -> Self {
-        Self(USUAL.to_vec())
-    }
-}
-
-impl FromIterator<Column> for ChosenColumns {
-    /// Each column once; those that cannot be chosen are left out.
-    fn from_iter<T: IntoIterator<Item = Column>>(columns: T) -> Self {
-        let mut chosen = Vec::new();
-        for column in columns {
-            if USUAL.contains(&column) && !chosen.contains(&column) {
-                chosen.push(column);
-            }
+/// The columns for which a table of this width has room.
+fn that_fit(width: f32) -> Vec<Column> {
+    let mut fit = ALL.to_vec();
+    for folded in FOLDS {
+        if min_width(&fit) <= width {
+            break;
         }
-        Self(chosen)
+        fit.retain(|column| *column != folded);
     }
-}
-
-impl ChosenColumns {
-    /// The chosen columns in their order, then the others.
-    fn listed(&self) -> Vec<Column> {
-        let others = USUAL.into_iter().filter(|column| !self.0.contains(column));
-        self.0.iter().copied().chain(others).collect()
-    }
-
-    fn shift(&mut self, column: Column, by: isize) {
-        let Some(place) = self.0.iter().position(|known| *known == column) else { return };
-        if let Some(other) = place.checked_add_signed(by).filter(|other| *other < self.0.len()) {
-            self.0.swap(place, other);
-        }
-    }
-
-    fn set(&mut self, column: Column, is_shown: bool) {
-        self.0.retain(|known| *known != column);
-        if is_shown {
-            self.0.push(column);
-        }
-    }
-
-    /// Those for which a table of this width has room.
-    fn that_fit(&self, width: f32) -> Vec<Column> {
-        let mut fit = self.0.clone();
-        for folded in FOLDS {
-            if min_width(&fit) <= width {
-                break;
-            }
-            fit.retain(|column| *column != folded);
-        }
-        fit
-    }
-}
-
-/// Shows the list in which the columns are chosen and ordered.
-pub(super) fn choose(ui: &mut Ui, chosen: &mut ChosenColumns, question: &mut Question) {
-    for column in chosen.listed() {
-        let place = chosen.0.iter().position(|known| *known == column);
-        ui.horizontal(|ui| {
-            let mut is_shown = place.is_some();
-            let name = capitalised(spoken(column));
-            if ui.add(CheckBox::new(&mut is_shown, &name)).changed() {
-                chosen.set(column, is_shown);
-                if !is_shown && question.sort == column {
-                    *question = Question {
-                        search: question.search.clone(),
-                        among: question.among.clone(),
-                        ..Question::default()
-                    };
-                }
-            }
-            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                let last = chosen.0.len().saturating_sub(1);
-                for (word, by, can) in [
-                    ("Move right", 1, place.is_some_and(|place| place < last)),
-                    ("Move left", -1, place.is_some_and(|place| place > 0)),
-                ] {
-                    let button = ui.add_enabled(can, Button::new(word).small());
-                    let name = format!("{word}: {}", spoken(column));
-                    button.widget_info(|| WidgetInfo::labeled(Role::Button, can, &name));
-                    if button.clicked() {
-                        chosen.shift(column, by);
-                    }
-                }
-            });
-        });
-    }
-    if ui.button("Restore default columns").clicked() {
-        *chosen = ChosenColumns::default();
-    }
+    fit
 }
 
 /// Minimum width of a column behind the names, with the gap before it.
@@ -187,8 +98,8 @@ pub(super) fn is_left(column: Column) -> bool {
 }
 
 /// The shown columns with their places in `row`, which share the room that is left.
-pub(super) fn places(row: Rect, chosen: &ChosenColumns) -> Vec<(Column, Rect)> {
-    let others = chosen.that_fit(row.width());
+pub(super) fn places(row: Rect) -> Vec<(Column, Rect)> {
+    let others = that_fit(row.width());
     let free = (row.width() - min_width(&others)).max(0.0);
     let weights: f32 = others.iter().map(|column| weight(*column)).sum();
     let unit = free / (weight(Column::Name) + weights);
@@ -346,14 +257,14 @@ mod tests {
         Rect::from_min_size(pos2(48.0, 0.0), vec2(width, 25.0))
     }
 
-    fn shown(width: f32, chosen: &ChosenColumns) -> Vec<Column> {
-        places(row(width), chosen).into_iter().map(|(column, _)| column).collect()
+    fn shown(width: f32) -> Vec<Column> {
+        places(row(width)).into_iter().map(|(column, _)| column).collect()
     }
 
     #[test]
     fn columns_stand_beside_each_other_within_the_row_at_every_width() {
         for width in (680..2600_u16).step_by(20).map(f32::from) {
-            let places = places(row(width), &ChosenColumns::default());
+            let places = places(row(width));
             for pair in places.windows(2) {
                 let [(_, left), (column, right)] = pair else { unreachable!() };
                 assert!(left.right() < right.left(), "{width} {column:?}: {left:?} {right:?}");
@@ -365,33 +276,11 @@ mod tests {
 
     #[test]
     fn a_narrow_table_leaves_the_least_important_columns_out() {
-        let usual = ChosenColumns::default();
-        assert_eq!(shown(1024.0, &usual).len(), 10);
-        let narrow = shown(684.0, &usual);
+        assert_eq!(shown(1024.0).len(), 10);
+        let narrow = shown(684.0);
         for column in [Column::Number, Column::Age, Column::NextPass, Column::MaxElevation] {
             assert!(narrow.contains(&column), "{narrow:?}");
         }
         assert!(!narrow.contains(&Column::Period) && !narrow.contains(&Column::From));
-        let few: ChosenColumns = [Column::Period, Column::Age].into_iter().collect();
-        assert_eq!(
-            shown(684.0, &few),
-            [Column::Star, Column::Name, Column::Period, Column::Age],
-            "what is chosen has room where little is"
-        );
-    }
-
-    #[test]
-    fn columns_are_chosen_and_ordered() {
-        let mut chosen: ChosenColumns =
-            [Column::Age, Column::Name, Column::Number, Column::Age].into_iter().collect();
-        assert_eq!(chosen.0, [Column::Age, Column::Number], "each once, without the name");
-        chosen.set(Column::Period, true);
-        chosen.shift(Column::Period, -1);
-        assert_eq!(chosen.0, [Column::Age, Column::Period, Column::Number]);
-        chosen.shift(Column::Age, -1);
-        chosen.shift(Column::Number, 1);
-        chosen.set(Column::Age, false);
-        assert_eq!(chosen.0, [Column::Period, Column::Number]);
-        assert_eq!(chosen.listed().len(), USUAL.len());
     }
 }

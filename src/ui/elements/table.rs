@@ -114,7 +114,7 @@ fn show_head(ui: &Ui, rect: Rect, rows: &[u32], unit: DistanceUnit, state: &mut 
     if response.on_hover_text(name).clicked() {
         if some { state.selection.unmark_all() } else { state.selection.mark_all(rows) }
     }
-    for (column, place) in columns::places(rect, &state.columns) {
+    for (column, place) in columns::places(rect) {
         let is_sorted = state.question.sort == column;
         let what = columns::spoken(column);
         let words = columns::head(column, unit);
@@ -209,7 +209,7 @@ impl Draws<'_> {
         if is_selected {
             ui.painter().rect_filled(rect.with_max_x(rect.left() + 3.0), 0.0, t.sat);
         }
-        for (column, place) in columns::places(rect, &state.columns) {
+        for (column, place) in columns::places(rect) {
             if column == Column::Star {
                 self.star(ui, place, &row, priority, commands);
             } else {

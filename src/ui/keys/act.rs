@@ -80,21 +80,6 @@ pub(super) enum Act {
 }
 
 impl Act {
-    /// Returns `true` if the key must stay: its effect leads to a motion, or others handle it.
-    pub(super) fn is_fixed(self) -> bool {
-        matches!(
-            self,
-            Self::There
-                | Self::Track
-                | Self::Park
-                | Self::GoTo
-                | Self::Manual
-                | Self::Offset(_)
-                | Self::Rate(_)
-                | Self::List
-        )
-    }
-
     /// Returns `true` if the effect is possible now; otherwise the key is left to others.
     pub(super) fn is_possible(self, ui: &Ui, model: &Model) -> bool {
         match self {

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use egui::{Align2, Galley, Id, Key, Modal, Modifiers, Rect, Sense, Ui, pos2, vec2};
 
-use super::{ALL, Binding, CTRL_SHIFT, own::OwnKeys};
+use super::{ALL, Binding, CTRL_SHIFT};
 use crate::ui::{
     antenna_card, operate, text, theme,
     widgets::{button::Button, modal::modal, paint},
@@ -34,7 +34,7 @@ fn aside(window: f32, width: f32) -> f32 {
 }
 
 /// Shows the list until Esc, `?`, a click outside or its button closes it.
-pub fn show(ui: &Ui, open: &mut bool, own: &OwnKeys) {
+pub fn show(ui: &Ui, open: &mut bool) {
     if !*open {
         return;
     }
@@ -67,7 +67,7 @@ pub fn show(ui: &Ui, open: &mut bool, own: &OwnKeys) {
             let row = Rect::from_min_size(at, vec2(COLUMN, height_of(&does)));
             ui.painter().hline(row.x_range(), row.top(), (1.0, t.line));
             let (keys, rest) = row.split_left_right_at_x(row.left() + KEYS);
-            let words = in_words(binding, own);
+            let words = in_words(binding);
             let font = text::body_medium();
             paint::text_in(ui, keys, Align2::LEFT_CENTER, &words, font, t.t1);
             let place = Align2::LEFT_CENTER.align_size_within_rect(does.size(), rest);
@@ -96,7 +96,7 @@ fn does(ui: &Ui, binding: &Binding) -> Arc<Galley> {
 }
 
 /// The keys of a line as labelled on the keyboard, such as "Ctrl 1 to 8".
-pub fn in_words(binding: &Binding, own: &OwnKeys) -> String {
+pub fn in_words(binding: &Binding) -> String {
     let before = match binding.modifiers {
         Modifiers::COMMAND => "Ctrl ",
         Modifiers::SHIFT => "Shift ",
@@ -104,9 +104,9 @@ pub fn in_words(binding: &Binding, own: &OwnKeys) -> String {
         CTRL_SHIFT => "Ctrl Shift ",
         _ => "",
     };
-    let words: Vec<&str> = own.keys(binding).map(word).collect();
+    let words: Vec<&str> = binding.keys().map(word).collect();
     // The four arrow keys have a common name.
-    if words.len() == 4 && own.keys(binding).all(is_arrow) {
+    if words.len() == 4 && binding.keys().all(is_arrow) {
         return if before.is_empty() { "Arrows".to_owned() } else { format!("{before}arrows") };
     }
     // A comma is a key too.
@@ -156,7 +156,7 @@ mod tests {
 
     #[test]
     fn keys_in_a_row_are_named_by_the_first_and_the_last() {
-        let all: Vec<String> = ALL.iter().map(|of| in_words(of, &OwnKeys::default())).collect();
+        let all: Vec<String> = ALL.iter().map(in_words).collect();
         for words in ["Ctrl 1 to 8", "F1 to F4", "Space, F, 1 to 5, U", "Up, Down", "T, K"] {
             assert!(all.iter().any(|of| of == words), "{words}: {all:?}");
         }

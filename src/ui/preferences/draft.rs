@@ -136,7 +136,7 @@ impl Draft {
                     .collect()
             }
             Page::Notices => self.notices.findings(),
-            Page::Appearance | Page::Keys => Vec::new(),
+            Page::Appearance => Vec::new(),
         }
     }
 
@@ -151,7 +151,7 @@ impl Draft {
                 }
             }
             Page::Notices => self.notices.write(label, text),
-            Page::Rules | Page::Horizon | Page::Appearance | Page::Keys => {}
+            Page::Rules | Page::Horizon | Page::Appearance => {}
         }
     }
 

@@ -60,7 +60,6 @@ fn about(page: Page, model: &Model, draft: &Draft) -> String {
         Page::Rules => "The first matching rule applies, in the plan and in automatic operation",
         Page::Notices => "What is announced on the desktop, and when",
         Page::Appearance => "For this window, applied at once",
-        Page::Keys => "Click a boxed key, then press the new one. Applied at once, in this window",
     };
     about.to_owned()
 }

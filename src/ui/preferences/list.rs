@@ -131,7 +131,7 @@ fn search_field(ui: &mut Ui, rect: Rect, search: &mut Search) -> bool {
 
 fn results(ui: &mut Ui, draft: &Draft, takes_keys: bool, state: &mut PreferencesState) {
     let t = theme::tokens(ui);
-    let found = find(&state.search.text, draft, state.own_keys());
+    let found = find(&state.search.text, draft);
     if found.is_empty() {
         let (row, _) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::hover());
         let room = row.shrink2(vec2(PADDING, 0.0));

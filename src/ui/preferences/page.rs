@@ -20,8 +20,6 @@ pub(super) enum Page {
     Notices,
     /// Theme and scale.
     Appearance,
-    /// The list of keys.
-    Keys,
 }
 
 impl Page {
@@ -30,13 +28,13 @@ impl Page {
         let antennas = draft.antennas.iter().map(|antenna| Self::Antenna(antenna.before().id));
         let mut all = vec![Self::Site, Self::Horizon];
         all.extend(antennas);
-        all.extend([Self::Satellites, Self::Rules, Self::Notices, Self::Appearance, Self::Keys]);
+        all.extend([Self::Satellites, Self::Rules, Self::Notices, Self::Appearance]);
         all
     }
 
     /// What is chosen on the page is used at once, without saving.
     pub(super) fn is_used_at_once(self) -> bool {
-        matches!(self, Self::Appearance | Self::Keys)
+        self == Self::Appearance
     }
 
     /// The page after this one, and the first after the last.
@@ -64,7 +62,6 @@ impl Page {
             Self::Rules => "Automation rules",
             Self::Notices => "Alarms and sounds",
             Self::Appearance => "Appearance",
-            Self::Keys => "Keys",
         };
         title.to_owned()
     }
@@ -85,7 +82,7 @@ impl Page {
             },
             Self::Antenna(id) => draft.antenna_counts(id),
             Self::Notices => draft.notices.counts(&before.notices),
-            Self::Appearance | Self::Keys => Counts::default(),
+            Self::Appearance => Counts::default(),
         }
     }
 }

@@ -5,7 +5,6 @@ use std::borrow::Cow;
 use super::{
     appearance, draft::Draft, fields::Typed, horizon::Chosen, page::Page, rules, satellites,
 };
-use crate::ui::keys::{ALL, Binding, list::in_words, own::OwnKeys};
 
 /// Most results that are listed.
 const MOST: usize = 12;
@@ -39,7 +38,7 @@ pub(super) struct Found {
 }
 
 /// The settings whose label, or page, has every word of `text`; those by their label first.
-pub(super) fn find(text: &str, draft: &Draft, own: &OwnKeys) -> Vec<Found> {
+pub(super) fn find(text: &str, draft: &Draft) -> Vec<Found> {
     let words: Vec<String> = text.split_whitespace().map(str::to_lowercase).collect();
     if words.is_empty() {
         return Vec::new();
@@ -48,7 +47,7 @@ pub(super) fn find(text: &str, draft: &Draft, own: &OwnKeys) -> Vec<Found> {
         let place = place.to_lowercase();
         words.iter().all(|word| place.contains(word))
     };
-    let (mut by_label, by_page): (Vec<Found>, Vec<Found>) = all(draft, own)
+    let (mut by_label, by_page): (Vec<Found>, Vec<Found>) = all(draft)
         .into_iter()
         .filter(|found| has_all(&format!("{} {}", found.label, found.page.title(draft))))
         .partition(|found| has_all(&found.label));
@@ -58,7 +57,7 @@ pub(super) fn find(text: &str, draft: &Draft, own: &OwnKeys) -> Vec<Found> {
 }
 
 /// All settings, in the order of the pages.
-fn all(draft: &Draft, own: &OwnKeys) -> Vec<Found> {
+fn all(draft: &Draft) -> Vec<Found> {
     let mut all = Vec::new();
     for page in Page::all(draft) {
         let field = |label| Found { page, label, spot: Spot::Field };
@@ -91,11 +90,6 @@ fn all(draft: &Draft, own: &OwnKeys) -> Vec<Found> {
             Page::Notices => all.extend(draft.notices.labels().into_iter().map(field)),
             Page::Appearance => {
                 all.extend(appearance::LABELS.map(|label| on_page(label.into())));
-            }
-            Page::Keys => {
-                let keys = ALL.iter();
-                let words = |of: &Binding| format!("{}: {}", in_words(of, own), of.does);
-                all.extend(keys.map(|of| on_page(words(of).into())));
             }
         }
     }

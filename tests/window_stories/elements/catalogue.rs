@@ -243,39 +243,6 @@ fn groups_of_the_operator_stand_behind_those_of_the_sources() {
     assert!(rows(&window).len() > 2, "the group is gone");
 }
 
-/// Names of the heads, from left to right.
-fn heads(window: &Window) -> Vec<String> {
-    let heads = window.query_all_by_role(Role::Button);
-    let name = |node: Node<'_>| node.accesskit_node().label().unwrap_or_default();
-    let names = heads.map(|node| (node.rect().left(), name(node)));
-    let mut names: Vec<_> = names.filter(|(_, name)| name.starts_with("Sort by ")).collect();
-    names.sort_by(|(a, _), (b, _)| a.total_cmp(b));
-    names.into_iter().map(|(_, name)| name.replace("Sort by ", "")).collect()
-}
-
-#[test]
-fn columns_are_chosen_and_ordered_and_a_hidden_one_sorts_no_more() {
-    let mut window = view(rig::LARGE, Vec::new());
-    click(&mut window, "Sort by period");
-    assert!(heads(&window).contains(&"period, ascending".to_owned()));
-    click(&mut window, "Columns");
-    window.get_by_role_and_label(Role::CheckBox, "Period").click();
-    settle(&mut window);
-    click(&mut window, "Move right: number");
-    click(&mut window, "Move right: number");
-    let shown = heads(&window);
-    assert_eq!(
-        shown[..5],
-        ["priority, ascending", "name", "inclination", "apogee and perigee", "number"],
-        "{shown:?}"
-    );
-    window.get_by_role_and_label(Role::CheckBox, "Period").click();
-    settle(&mut window);
-    assert_eq!(heads(&window).last().map(String::as_str), Some("period"));
-    click(&mut window, "Restore default columns");
-    assert_eq!(heads(&window)[2..4], ["number", "period"]);
-}
-
 #[test]
 fn what_is_listed_or_marked_is_exported() {
     for size in rig::sizes() {
