@@ -122,6 +122,8 @@ pub struct Model {
     pub station_saved_at: Option<Timestamp>,
     /// The station is the demo station with simulated antennas.
     pub demo: bool,
+    /// The station file could not be read: nothing of this station is the operator's.
+    pub station_unread: bool,
     /// The stations of the station menu.
     pub stations: Stations,
     pub catalog: CatalogState,
@@ -211,6 +213,7 @@ impl Model {
             station: Arc::default(),
             station_saved_at: None,
             demo: false,
+            station_unread: false,
             stations: Stations::default(),
             catalog: CatalogState::Loading,
             sources: Arc::default(),
@@ -308,6 +311,7 @@ impl Model {
         self.station = Arc::clone(&shown.station);
         self.station_saved_at = shown.station_saved_at;
         self.take_demo(shown.demo);
+        self.station_unread = shown.station_unread;
         self.catalog = shown.catalog.clone();
         self.sources = Arc::clone(&shown.sources);
         self.older_sets.clone_from(&shown.older_sets);

@@ -492,6 +492,7 @@ impl Engine {
             station: Arc::clone(&self.station),
             station_saved_at: self.station_saved_at,
             demo: self.demo.is_some(),
+            station_unread: self.settings_unread,
             catalog: self.catalog.clone(),
             catalog_revision: self.catalog_revision,
             sources: shared(&self.sources, &last.sources),

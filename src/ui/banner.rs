@@ -1,4 +1,5 @@
-//! The strip that marks the demo station or a replay, and says why a replay has ended.
+//! The strip that marks the demo station, a replay or a station file that could not be read, and says
+//! why a replay has ended.
 
 use egui::{Align2, Rect, Ui, pos2, vec2};
 
@@ -46,7 +47,7 @@ impl BannerRoom {
         } else if self.kept_for != Some(model.view) {
             self.kept_for = None;
         }
-        self.kept_for.is_some() || has_replay(model)
+        self.kept_for.is_some() || model.station_unread || has_replay(model)
     }
 }
 
@@ -60,6 +61,19 @@ pub fn show(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand
     }
     let t = theme::tokens(ui);
     let whole = rect.shrink2(vec2(PADDING, 0.0));
+    if model.station_unread {
+        ui.painter().rect_filled(rect, 0.0, t.warnbg);
+        let is_low = rect.height() < HEIGHT;
+        let words = if is_low {
+            "The station file could not be read: no antenna, and not your site."
+        } else {
+            "The station file could not be read: no antenna is connected, and site and satellites \
+             are not yours. Mend the file and start Azel again."
+        };
+        paint::text_in(ui, whole, Align2::LEFT_CENTER, words, text::body(), t.warn);
+        paint::name_text(ui, "station file", whole, words);
+        return;
+    }
     if !model.demo {
         ui.painter().rect_filled(rect, 0.0, t.bg1);
         let words = format!("The demo has ended. {} is now in use.", model.station.name);

@@ -7,7 +7,7 @@ use azel::{
     driver::{Intent, LinkLoss, LinkState, Snapshot, StopState},
     engine,
     engine::alarms::{AlarmKind, ShelveTime, Work},
-    model::{ThemeName, UiCommand},
+    model::{ThemeName, UiCommand, View},
     station::{AntennaId, Note, NoteReason},
     ui::{format, theme, words},
 };
@@ -218,7 +218,7 @@ fn a_seen_alarm_is_shelved_and_taken_back_but_no_top_priority_one() {
 #[test]
 fn a_acknowledges_the_newest_alarm_in_every_view() {
     for size in rig::sizes() {
-        for view in [azel::model::View::Operate, azel::model::View::Preferences] {
+        for view in [View::Operate, View::Preferences] {
             let mut model = rig::model(states::holding());
             model.view = view;
             for kind in [AlarmKind::ClockNotSet, AlarmKind::AutoStaysOn] {
@@ -234,6 +234,18 @@ fn a_acknowledges_the_newest_alarm_in_every_view() {
             }
             window.key_press(Key::A);
             assert_eq!(carry_out(&mut window), []);
+        }
+    }
+}
+
+#[test]
+fn a_station_file_that_could_not_be_read_is_told_above_every_view() {
+    for size in rig::sizes() {
+        for view in [View::Operate, View::Plan, View::Elements, View::Preferences] {
+            let mut model = rig::model(states::holding());
+            (model.station_unread, model.view) = (true, view);
+            let window = rig::window(size, model);
+            assert!(rig::says(&window, "The station file could not be read: no antenna"));
         }
     }
 }

@@ -109,6 +109,10 @@ fn further_states_and_the_night() {
 
 #[test]
 fn a_panel_that_is_moved_by_a_pixel_is_another_image() {
+    if accepts() {
+        // Then the library accepts this one too.
+        return;
+    }
     let name = file_name(VIEWS[0], SMALL, ThemeName::Dark);
     let folder = tempfile::tempdir().unwrap();
     let file = format!("{name}.png");

@@ -245,7 +245,7 @@ fn a_fault_that_locks_motion_comes_before_all_else_and_a_warning_does_not() {
          still moving: STOP ends that."
     );
     let standing = told(states::holding(), |model, snapshot| {
-        states::report(snapshot, &[2], model.now);
+        states::report(snapshot, &[2, 8], model.now);
     });
     assert!(standing.ends_with("check motor, brake and drive."), "{standing}");
     assert!(with(&[2, 12]).starts_with("Tracking NOAA 20"));

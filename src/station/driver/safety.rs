@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use crate::{
     driver::Evidence,
     name::{self, Name},
-    plan::Barrier,
+    plan::{Barrier, on_board::Ranked},
 };
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -57,6 +57,9 @@ pub enum Safety {
     /// The antenna stayed off its target for too long. Azel has sent STOP.
     OffTarget {
         off_deg: f64,
+        /// What the unit reports that makes an error as large. Older records do not hold it.
+        #[serde(default)]
+        cause: Option<Box<Ranked>>,
     },
     /// The clock of this computer was set.
     ClockStepped {

@@ -57,6 +57,9 @@ pub struct Snapshot {
     pub station_saved_at: Option<Timestamp>,
     /// This is the demo station with simulated antennas.
     pub demo: bool,
+    /// The station file could not be read: nothing of this station is the operator's.
+    #[serde(default)]
+    pub station_unread: bool,
     pub catalog: CatalogState,
     /// Changes whenever the elements change.
     pub catalog_revision: u64,
@@ -104,6 +107,7 @@ impl Snapshot {
             station: Arc::default(),
             station_saved_at: None,
             demo: false,
+            station_unread: false,
             catalog: CatalogState::Loading,
             catalog_revision: 0,
             sources: Arc::default(),

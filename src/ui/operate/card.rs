@@ -364,7 +364,11 @@ fn on_board(model: &Model, antenna: &AntennaModel) -> [Option<String>; 2] {
     });
     let lowest_deg = antenna.config.limits.minimum_elevation_deg;
     let lower = found.lower_minimum_deg.map(|deg| words::lower_minimum(deg, lowest_deg));
-    let off = words::within_beam(found, model.appearance.distances).filter(|_| !is_missed);
+    // Beside a larger error, the small one that is known would look like its cause.
+    let half_beam_deg = antenna.config.beam_width_deg / 2.0;
+    let is_off = antenna.error().is_some_and(|error| error.off_beam.degrees() > half_beam_deg);
+    let off = words::within_beam(found, model.appearance.distances);
+    let off = off.filter(|_| !is_missed && !is_off);
     let said = explained.into_iter().chain(off).chain(lower).chain(words::not_known(found));
     let said: Vec<String> = said.collect();
     [misses, (!said.is_empty()).then(|| said.join(" "))]

@@ -135,7 +135,7 @@ pub fn show(
         .accessible_name("Alarms")
         .show(|ui| {
             ui.set_min_width(width);
-            list(ui, model, commands);
+            list(ui, model, !was_open, commands);
             close_key::show(ui);
         });
 }
@@ -191,7 +191,7 @@ fn bell_is_lit(ui: &Ui, blinking: bool) -> bool {
     phase < HALF_BLINK_S
 }
 
-fn list(ui: &mut Ui, model: &AlarmModel<'_>, commands: &mut Vec<UiCommand>) {
+fn list(ui: &mut Ui, model: &AlarmModel<'_>, opens: bool, commands: &mut Vec<UiCommand>) {
     ui.spacing_mut().item_spacing.y = 0.0;
     if model.rows.is_empty() {
         ui.label("No alarms today.");
@@ -208,7 +208,12 @@ fn list(ui: &mut Ui, model: &AlarmModel<'_>, commands: &mut Vec<UiCommand>) {
             commands.push(UiCommand::Station(engine::Command::AcknowledgeAlarms { newest }));
         }
     }
-    egui::ScrollArea::vertical().max_height(8.0 * row::HEIGHT).show(ui, |ui| {
+    let mut area = egui::ScrollArea::vertical().max_height(8.0 * row::HEIGHT);
+    if opens {
+        // The gravest alarm is the first, wherever the list was left.
+        area = area.vertical_scroll_offset(0.0);
+    }
+    area.show(ui, |ui| {
         let mut section = Section::Open;
         for (index, alarm) in model.rows.iter().enumerate() {
             let now = Section::of(alarm.state);

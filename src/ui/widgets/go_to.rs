@@ -8,7 +8,7 @@ use super::{
     angle_field::{AngleField, RADIUS},
     axes_table::angle,
     button::Button,
-    paint,
+    input, paint,
 };
 use crate::ui::{text, theme};
 
@@ -208,7 +208,7 @@ fn field_row(
     let response = AngleField { refused, hint: &commanded, name: &name }.show(ui, id, rect, buffer);
     if state.wants_focus && field == Field::Azimuth {
         state.wants_focus = false;
-        response.request_focus();
+        input::focus_to_replace(ui, &response, buffer);
     }
     if response.changed() {
         state.previewed = None;

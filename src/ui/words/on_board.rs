@@ -68,13 +68,19 @@ fn place_words(place: Place) -> String {
 /// The amount by which a unit would miss `name`, and the reason.
 pub fn would_miss(name: &str, found: &Supervision, now: Timestamp, unit: DistanceUnit) -> String {
     let off = format::degrees(found.worst.off.degrees(), 1);
-    let at = format::moment(found.worst.at, now);
+    // In a pass under way the worst may be over.
+    let is_ahead = found.worst.at > now;
+    let at = if is_ahead {
+        format!(" at {}", format::moment(found.worst.at, now))
+    } else {
+        String::new()
+    };
     match found.causes.first() {
         Some(first) => {
             let why = super::capitalised(&cause(first, unit));
-            format!("{why}. It would miss {name} by up to {off} at {at}.")
+            format!("{why}. It would miss {name} by up to {off}{at}.")
         }
-        None => format!("By its own settings the unit would miss {name} by up to {off} at {at}."),
+        None => format!("By its own settings the unit would miss {name} by up to {off}{at}."),
     }
 }
 

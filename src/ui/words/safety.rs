@@ -9,6 +9,7 @@ use crate::{
         Unit, Unlike,
     },
     makes,
+    model::DistanceUnit,
     plan::Barrier,
     station::Station,
     ui::format,
@@ -300,11 +301,19 @@ pub fn safety(matter: &Safety, antenna: &str, now: Timestamp) -> String {
             )
         }
         Safety::ForeignHands { axis, evidence } => foreign_hands(antenna, axis, *evidence),
-        Safety::OffTarget { off_deg } => format!(
-            "{antenna} stayed {} off its target for too long. Azel stopped it and gave up the pass. \
-             Check its drives, clock and offsets.",
-            format::degrees(*off_deg, 1)
-        ),
+        Safety::OffTarget { off_deg, cause } => {
+            let off = format::degrees(*off_deg, 1);
+            let why = match cause {
+                Some(cause) => {
+                    super::capitalised(&super::cause(cause, DistanceUnit::Kilometres)) + "."
+                }
+                None => "Check its drives, clock and offsets.".to_owned(),
+            };
+            format!(
+                "{antenna} stayed {off} off its target for too long. Azel stopped it and gave up \
+                 the pass. {why}"
+            )
+        }
         Safety::Forbidden { barrier, driver, response } => {
             let driver = match driver {
                 Mover::Azel => "Azel was moving it",

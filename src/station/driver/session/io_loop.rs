@@ -88,9 +88,20 @@ impl Session {
             Ok(None) => return None,
             Err(loss) => return Some(loss),
         };
-        let replies_before = self.gate.state().traffic.replies;
+        let before = self.gate.state().traffic;
         let end = self.talk(stream).await;
-        if self.gate.state().traffic.replies > replies_before {
+        let after = self.gate.state().traffic;
+        let has_replied = after.replies > before.replies;
+        let end = match end {
+            // Such as a web server: it says something else and hangs up.
+            Some(LinkLoss::Closed | LinkLoss::Broken(_))
+                if !has_replied && after.last_unreadable != before.last_unreadable =>
+            {
+                Some(LinkLoss::OtherDevice)
+            }
+            end => end,
+        };
+        if has_replied {
             *attempt = 0;
             // A link that never carried a reply does not count as a new one.
             self.contact.loss_is_told = false;

@@ -55,8 +55,9 @@ impl Session {
             Activity::Standby | Activity::Manual | Activity::Hold(_) | Activity::GoTo(_) => return,
         };
         if let Some(off) = off_target.hopeless() {
+            let cause = self.activity.on_board().and_then(|track| track.watch.cause(off));
             let off_deg = off.degrees();
-            self.give_up(Event::Safety(Safety::OffTarget { off_deg }), now);
+            self.give_up(Event::Safety(Safety::OffTarget { off_deg, cause }), now);
         }
     }
 

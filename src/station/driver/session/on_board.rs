@@ -17,7 +17,10 @@ use crate::{
         Intent, OnBoardView, TrackProblem,
         gate::{Held, NoRoute},
     },
-    plan::{OnBoardPass, Supervision, on_board::Judge},
+    plan::{
+        OnBoardPass, Supervision,
+        on_board::{Judge, Ranked},
+    },
 };
 
 /// The unit's clock is reported with the delay of the link: smaller differences are ignored,
@@ -68,6 +71,11 @@ impl Watch {
             missing: self.off_target.missing(),
             arrives: self.arrives.filter(|_| !self.was_on_target),
         }
+    }
+
+    /// What the unit reports that makes an error of `off`.
+    pub(super) fn cause(&self, off: Angle) -> Option<Box<Ranked>> {
+        self.found.causes.iter().find(|cause| cause.can_make(off)).cloned().map(Box::new)
     }
 
     /// How long the antenna has been off its target for another reason than the clocks. A unit that

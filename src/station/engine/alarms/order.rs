@@ -15,7 +15,7 @@ pub struct Placed<'a> {
 
 impl Alarms {
     /// The alarms as an operator reads them. Those that stand or are new come before those that
-    /// are over and seen. Higher ranks come first, then newer ones; but an alarm that follows
+    /// are over and seen. Higher ranks come first, then those that stand, then newer ones; but an alarm that follows
     /// from another comes directly behind it, in the order in which they came, and lifts it to
     /// its own rank. One follows from another that stood when it came, and whose kind explains
     /// its kind; from the first, if there are several or they follow from each other.
@@ -39,7 +39,8 @@ impl Alarms {
         groups.sort_by_key(|group| {
             let open = || group.iter().filter(|placed| !placed.alarm.is_done());
             let rank = open().map(|placed| placed.alarm.priority()).max();
-            Reverse((rank, group.first().map(|placed| placed.alarm.id)))
+            let stands = open().any(|placed| !placed.alarm.is_over());
+            Reverse((rank, stands, group.first().map(|placed| placed.alarm.id)))
         });
         groups.concat()
     }

@@ -390,7 +390,7 @@ fn every_matter_of_safety() -> Vec<Safety> {
         Safety::SilentInMotion,
         Safety::NoEffect { axis: Some("X") },
         Safety::ForeignHands { axis: "X", evidence: Evidence::Outside { off_deg: 8.0 } },
-        Safety::OffTarget { off_deg: 5.0 },
+        Safety::OffTarget { off_deg: 5.0, cause: None },
         Safety::ClockStepped { by_s: 2.0, time: Some(time()) },
         Safety::EndedForSleep,
         Safety::Slept { lasted: Duration::from_mins(1) },
