@@ -71,7 +71,7 @@ pub fn show(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand
              are not yours. Mend the file and start Azel again."
         };
         paint::text_in(ui, whole, Align2::LEFT_CENTER, words, text::body(), t.warn);
-        paint::name_text(ui, "station file", whole, words);
+        paint::name_text(ui, "unread station", whole, words);
         return;
     }
     if !model.demo {

@@ -206,8 +206,8 @@ fn coordinates(latitude_deg: f64, longitude_deg: f64) -> String {
 pub fn glyph(antenna: &AntennaModel) -> LinkGlyph {
     match antenna.snapshot.link {
         LinkState::Off | LinkState::Connecting { .. } => LinkGlyph::Off,
-        LinkState::Up { .. } => LinkGlyph::Live,
-        LinkState::Stale { .. } => LinkGlyph::Late,
+        LinkState::Up { .. } if antenna.is_live() => LinkGlyph::Live,
+        LinkState::Up { .. } | LinkState::Stale { .. } => LinkGlyph::Late,
         LinkState::Lost { .. } => LinkGlyph::Lost,
     }
 }
@@ -244,8 +244,8 @@ pub fn activity(antenna: &AntennaModel) -> &'static str {
         LinkState::Off => return "Not connected",
         LinkState::Connecting { .. } => return "Connecting",
         LinkState::Lost { .. } => return "No reply",
-        LinkState::Stale { .. } => return "Slow",
-        LinkState::Up { .. } => {}
+        LinkState::Up { .. } if antenna.is_live() => {}
+        LinkState::Up { .. } | LinkState::Stale { .. } => return "Slow",
     }
     let moving = state.measured.is_some_and(|measured| measured.moving());
     let program = state.program.filter(|program| program.enabled);

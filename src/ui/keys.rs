@@ -403,8 +403,8 @@ pub const ALL: [Binding; 42] = [
         Modifiers::ALT,
         row(
             KeyScope::Focus,
-            &[(Key::ArrowLeft, Act::There)],
-            "in Set up: previous step; Enter for the next",
+            &[(Key::ArrowLeft, Act::There), (Key::ArrowRight, Act::There)],
+            "in Set up: previous, next step; Enter for the next one too",
         ),
     ),
     row(KeyScope::Views, &[(Key::A, Act::Acknowledge)], "acknowledge the newest alarm"),

@@ -223,6 +223,13 @@ fn take_keys(
         state.go_back();
         return;
     }
+    // The last step saves; that is left to its button.
+    if state.step != Step::End
+        && ui.input_mut(|input| input.consume_key(Modifiers::ALT, Key::ArrowRight))
+    {
+        state.go_on(draft, model, commands);
+        return;
+    }
     // On a button, Enter presses the button; a search takes it for what it finds, and the form of a
     // source for the source.
     let focused = ui.memory(egui::Memory::focused);

@@ -245,7 +245,10 @@ fn a_station_file_that_could_not_be_read_is_told_above_every_view() {
             let mut model = rig::model(states::holding());
             (model.station_unread, model.view) = (true, view);
             let window = rig::window(size, model);
-            assert!(rig::says(&window, "The station file could not be read: no antenna"));
+            assert!(
+                rig::says(&window, "The station file could not be read: no antenna"),
+                "{size:?} {view:?}"
+            );
         }
     }
 }

@@ -4,7 +4,6 @@ use std::sync::Arc;
 
 use azel::{
     astro::Angle,
-    clock::Instant,
     controller::rotator_genius::{ROTATORS, Rotators},
     device::{
         AxisMotion, Measured, Pointing,
@@ -67,7 +66,7 @@ fn standing(intent: Intent, measured: Measured) -> Snapshot {
     let mut snapshot = Snapshot { intent, ..quiet() };
     snapshot.state.measured = Some(measured);
     snapshot.state.motion_lock = Some(false);
-    snapshot.state.link_since = Some(Instant::now());
+    snapshot.state.link_since = Some(measured.received);
     snapshot
 }
 

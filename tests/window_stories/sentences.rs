@@ -307,7 +307,12 @@ fn a_silent_unit_is_not_said_to_do_what_it_did_last() {
     );
     assert!(silent(states::tracking(0.0), 2).starts_with("Tracking NOAA 20"));
     let on_a_new_link = told(states::tracking(0.0), |model, snapshot| {
-        snapshot.link = LinkState::Up { since: rig::ago(model, 1) };
+        let since = rig::ago(model, 1);
+        snapshot.link = LinkState::Up { since };
+        snapshot.state.link_since = Some(since);
+        if let Some(measured) = &mut snapshot.state.measured {
+            measured.received = rig::ago(model, 30);
+        }
         snapshot.state.traffic.last_reply = Some(rig::ago(model, 30));
     });
     assert!(on_a_new_link.starts_with("No reply from Satrak for 30 s."), "{on_a_new_link}");

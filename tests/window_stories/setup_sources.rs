@@ -1,7 +1,10 @@
 //! The step of the set-up about the elements: a source that is typed there is added, or the step says
 //! why it is not.
 
-use std::{path::PathBuf, sync::Arc};
+use std::{
+    path::{Path, PathBuf},
+    sync::Arc,
+};
 
 use azel::{
     engine::{self, sources::SourceWork},
@@ -124,18 +127,18 @@ fn a_click_on_another_step_adds_the_typed_source() {
 fn a_click_on_another_step_keeps_a_source_that_cannot_be_added() {
     for size in SIZES {
         let mut window = at_elements(size);
-        write(&mut window, "Path", PATH);
+        write(&mut window, "Path", "own.json");
         let name = tab(&window, "Site");
         let site = window.get_by_role_and_label(Role::Tab, &name);
         assert!(site.accesskit_node().is_disabled(), "{size:?}");
         choose(&mut window, "Site");
         assert!(is_at(&window, "Elements"), "{size:?}");
-        assert!(says(&window, "This source is not added yet: type a name."), "{size:?}");
+        assert!(says(&window, "This source is not added yet: type the whole path"), "{size:?}");
         assert_eq!(asked(&mut window), [], "{size:?}");
         // The way back is open, and keeps what is typed.
         press(&mut window, "Back");
         press(&mut window, NEXT[2]);
-        assert_eq!(text(&window, "Path"), PATH, "{size:?}");
+        assert_eq!(text(&window, "Path"), "own.json", "{size:?}");
     }
 }
 
@@ -157,6 +160,17 @@ fn a_skipped_source_stays_typed_and_the_end_says_so() {
 }
 
 #[test]
+fn a_source_without_a_typed_name_has_that_of_its_file() {
+    for size in SIZES {
+        let mut window = at_elements(size);
+        write(&mut window, "Path", PATH);
+        press_enter(&mut window);
+        let name = Path::new(PATH).file_stem().unwrap().to_str().unwrap();
+        assert_eq!(asked(&mut window), [addition(file(name, PATH))], "{size:?}");
+    }
+}
+
+#[test]
 fn a_source_that_cannot_be_added_keeps_the_step_and_says_why() {
     for size in SIZES {
         let mut window = at_elements(size);
@@ -168,8 +182,6 @@ fn a_source_that_cannot_be_added_keeps_the_step_and_says_why() {
             assert!(says(window, why), "{size:?} {why}");
             assert_eq!(asked(window), [], "{size:?} {why}");
         };
-        write(&mut window, "Path", PATH);
-        is_kept(&mut window, "This source is not added yet: type a name.");
         fill(&mut window, "own", "own.json");
         is_kept(
             &mut window,

@@ -171,7 +171,7 @@ fn a_test_names_old_algorithms_of_the_server() {
     let name = "diffie-hellman-group14-sha1".to_owned();
     let old = OldAlgorithm { part: AlgorithmPart::KeyExchange, name };
     for (list, is_named) in [(vec![old], true), (Vec::new(), false)] {
-        let window = form(300.0, false, tested(seen(view.clone(), list)));
+        let window = form(300.0, true, tested(seen(view.clone(), list)));
         let words = "Connected with the old key exchange diffie-hellman-group14-sha1";
         assert_eq!(says(&window, words), is_named);
     }

@@ -353,9 +353,13 @@ impl AntennaModel {
         })
     }
 
-    /// Returns `true` while the unit answers in time. Else what was measured is old.
+    /// Returns `true` while the unit answers in time. Else what was measured is old, such as that of
+    /// the link before, while a new one is silent.
     pub fn is_live(&self) -> bool {
-        matches!(self.snapshot.link, LinkState::Up { .. })
+        let Snapshot { link, state, .. } = &*self.snapshot;
+        let is_of_another_link = (state.link_since.zip(state.measured))
+            .is_some_and(|(since, measured)| measured.received < since);
+        matches!(link, LinkState::Up { .. }) && !is_of_another_link
     }
 
     /// Error of the last measurement against the prediction for its time; `None` while that

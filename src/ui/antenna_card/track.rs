@@ -236,7 +236,7 @@ fn two_lines(ui: &Ui, salt: &str, room: Rect, anchor: Align2, head: &str, name: 
     let up = room.translate(vec2(0.0, -8.0));
     paint::text_in(ui, up, anchor, head, text::caption(), t.t3);
     let down = room.translate(vec2(0.0, 8.0));
-    paint::text_in(ui, down, anchor, name, text::body_medium(), t.t1);
+    paint::name_in(ui, down, anchor, name, text::body_medium(), t.t1);
     paint::name_text(ui, salt, room, &format!("{head}: {name}")).on_hover_text(name);
 }
 

@@ -1,6 +1,9 @@
 //! The form for a new source.
 
-use std::path::PathBuf;
+use std::{
+    ffi::OsStr,
+    path::{Path, PathBuf},
+};
 
 use egui::{Align, Button, Key, Layout, Response, RichText, Role, TextEdit, Ui, WidgetInfo, vec2};
 
@@ -50,7 +53,25 @@ impl AddState {
             Kind::Folder => SourcePlace::Folder(PathBuf::from(place)),
             Kind::SpaceTrack => SourcePlace::SpaceTrack(place.to_owned()),
         };
-        Source { name: self.name.trim().to_owned(), place, refresh: None }
+        let name = match self.name.trim() {
+            "" => self.suggested_name(),
+            typed => typed.to_owned(),
+        };
+        Source { name, place, refresh: None }
+    }
+
+    /// The name of a source without a typed one: that of its file, folder or server.
+    fn suggested_name(&self) -> String {
+        let place = self.place.trim();
+        let path = Path::new(place);
+        let name = match self.kind {
+            Kind::Web => place.split_once("://").and_then(|(_, rest)| rest.split('/').next()),
+            Kind::File => path.file_stem().and_then(OsStr::to_str),
+            Kind::Folder => path.file_name().and_then(OsStr::to_str),
+            Kind::SpaceTrack if place.is_empty() => None,
+            Kind::SpaceTrack => Some("Space-Track"),
+        };
+        name.unwrap_or_default().to_owned()
     }
 
     /// Returns `true` if nothing is typed.
@@ -133,8 +154,11 @@ pub(in crate::ui) fn show(
             Kind::Folder => ("Path", "/… or C:\\…, all element files in it"),
             Kind::SpaceTrack => ("Log-in", "the name of your account at space-track.org"),
         };
+        let suggested = state.suggested_name();
+        let name_hint =
+            if suggested.is_empty() { "also the name of the group" } else { suggested.as_str() };
         let fields = [
-            field(ui, ("Name", "also the name of the group"), NAME, &mut state.name),
+            field(ui, ("Name", name_hint), NAME, &mut state.name),
             field(ui, place, f32::INFINITY, &mut state.place),
         ];
         if state.kind == Kind::SpaceTrack {

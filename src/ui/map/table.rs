@@ -309,7 +309,11 @@ fn show_row(
     for (column, place) in columns(rect) {
         let anchor = if column.is_left() { Align2::LEFT_CENTER } else { Align2::RIGHT_CENTER };
         let (font, colour) = column.look(of, model, t);
-        paint::text_in(ui, place, anchor, &column.cell(of, model), font, colour);
+        let paint = match column {
+            Column::Satellite => paint::name_in,
+            _ => paint::text_in,
+        };
+        paint(ui, place, anchor, &column.cell(of, model), font, colour);
     }
     paint::focus_ring(ui, &response, 0);
     nodes::chosen(ui, &response, of, commands);

@@ -246,9 +246,11 @@ fn link_status(antenna: &AntennaModel) -> LinkStatus {
         _ if antenna.held_by.is_some() => LinkStatus::Elsewhere,
         LinkState::Off => LinkStatus::NotConnected,
         _ if snapshot.lock_out.is_some() => LinkStatus::InMaintenance,
-        LinkState::Up { .. } => LinkStatus::Connected,
+        LinkState::Up { .. } if antenna.is_live() => LinkStatus::Connected,
         LinkState::Connecting { .. } => LinkStatus::Connecting,
-        LinkState::Stale { .. } | LinkState::Lost { .. } => LinkStatus::NoAnswer,
+        LinkState::Up { .. } | LinkState::Stale { .. } | LinkState::Lost { .. } => {
+            LinkStatus::NoAnswer
+        }
     }
 }
 

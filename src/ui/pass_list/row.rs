@@ -109,7 +109,9 @@ fn name_line(
         right = paint::text(ui, at, Align2::RIGHT_CENTER, word, text::caption(), t.t3).left();
     }
     let room = rect.with_max_x(right - COLUMN_GAP);
-    elided(ui, room, row.name, text::sized(13.0, Weight::SemiBold), t.t1)
+    let font = text::sized(13.0, Weight::SemiBold);
+    paint::name_in(ui, room, Align2::LEFT_CENTER, row.name, font.clone(), t.t1);
+    paint::text_width(ui, row.name, font) > room.width()
 }
 
 /// Paints maximum elevation, azimuths and duration.

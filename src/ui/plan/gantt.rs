@@ -189,7 +189,7 @@ fn show_row(
     let drawn = paint::text_in(ui, inner, Align2::RIGHT_CENTER, &count, text::small(), t.t2);
     let room = inner.with_min_x(inner.left() + 36.0).with_max_x(drawn.left() - 6.0);
     let font = text::sized(12.0, Weight::Medium);
-    paint::text_in(ui, room, Align2::LEFT_CENTER, satellite.name, font, t.t1);
+    paint::name_in(ui, room, Align2::LEFT_CENTER, satellite.name, font, t.t1);
     let spoken = format!(
         "{}, priority {}, {taken} of {} passes taken",
         satellite.name,

@@ -381,7 +381,7 @@ fn show_row(
     let room = row.with_min_x(at(columns.name)).with_max_x(at(columns.name_end()));
     let (font, name_colour) =
         if is_out { (text::small(), t.t2) } else { (text::sized(13.0, Weight::SemiBold), t.t1) };
-    paint::text_in(ui, room, left, listed.name, font, name_colour);
+    paint::name_in(ui, room, left, listed.name, font, name_colour);
     let mut text_from = at(columns.text);
     match (columns.slew, listed.entry) {
         (Some((slew, spare)), Some(entry)) => {

@@ -1,11 +1,14 @@
 //! The step about the antennas: a card for each.
 
-use egui::{Align, Layout, RichText, Role, Sense, Ui, WidgetInfo, vec2};
+use egui::{Align, Layout, RichText, Role, Sense, Ui, WidgetInfo, style::ScrollAnimation, vec2};
+use jiff::Timestamp;
 
 use super::draft::SetupDraft;
 use crate::{
-    engine, makes,
+    engine::{self, link_tests::LinkTestStage},
+    makes,
     model::{Model, UiCommand},
+    station::AntennaId,
     ui::{
         icons::Icon,
         preferences::{
@@ -142,11 +145,29 @@ fn one(
             named(ui, Button::quiet("Remove"), ("remove", id.0), true, &format!("Remove {name}"))
         })
         .inner;
+    let top = ui.min_rect().bottom();
     let outcome = test.map(|test| words::link_test(test, model.demo, model.now));
     for (tone, words) in outcome.unwrap_or_default() {
         line(ui, tone, &words);
     }
+    if let Some(LinkTestStage::Done { at, .. }) = test.map(|test| &test.stage)
+        && is_news(ui, id, *at)
+    {
+        // It may lie below what is in sight, with a warning that nobody should miss.
+        let told = ui.min_rect().with_min_y(top);
+        ui.scroll_to_rect_animation(told, None, ScrollAnimation::none());
+    }
     is_removed
+}
+
+/// Returns `true` once for each outcome of a test.
+fn is_news(ui: &Ui, antenna: AntennaId, at: Timestamp) -> bool {
+    let id = ui.make_persistent_id(("outcome in sight", antenna.0));
+    ui.data_mut(|data| {
+        let before = data.get_temp::<Timestamp>(id);
+        data.insert_temp(id, at);
+        before != Some(at)
+    })
 }
 
 /// A button with a longer accessible name. It keeps the focus when others come and go before

@@ -24,9 +24,7 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
             Spoken::new(SentenceKind::Holding)
                 .plain(format!("{name} is connected and is being read.")),
         ),
-        LinkState::Up { since } if state.traffic.last_reply.is_some_and(|last| last >= *since) => {
-            None
-        }
+        LinkState::Up { .. } if antenna.is_live() => None,
         // A new link on which the unit has not answered yet tells nothing new of it.
         LinkState::Up { .. } | LinkState::Stale { .. } => silent(model, antenna),
         LinkState::Off => Some(Spoken::new(SentenceKind::Holding).plain(off(antenna))),

@@ -8,6 +8,10 @@ use egui::{
 
 use crate::ui::theme;
 
+/// Longest number of a satellite within its constellation, such as M072.
+const MAX_NUMBER_CHARS: usize = 6;
+/// Fewer letters before the number tell nothing.
+const MIN_HEAD_CHARS: usize = 3;
 /// Dash and gap of the border of a locked or blocked control.
 const DASH: (f32, f32) = (3.0, 2.0);
 /// Distance and width of the focus ring.
@@ -40,6 +44,33 @@ pub fn text_in(
     let place = anchor.align_size_within_rect(galley.size(), rect);
     ui.painter().galley(place.min, galley, colour);
     place
+}
+
+/// Paints the name of a satellite on one line, anchored in `rect`. Where it has no room it is cut before
+/// its number: cut at their ends, the satellites of a constellation would all read the same.
+pub fn name_in(
+    ui: &Ui,
+    rect: Rect,
+    anchor: Align2,
+    name: &str,
+    font: FontId,
+    colour: Color32,
+) -> Rect {
+    let fits = |words: &str| text_width(ui, words, font.clone()) <= rect.width();
+    let number = name.rsplit([' ', '-']).next().unwrap_or_default();
+    let is_number = number.len() < name.len()
+        && number.chars().count() <= MAX_NUMBER_CHARS
+        && number.chars().any(|letter| letter.is_ascii_digit());
+    if !is_number || fits(name) {
+        return text_in(ui, rect, anchor, name, font, colour);
+    }
+    let head = name.strip_suffix(number).unwrap_or(name);
+    let cuts = head.char_indices().map(|(at, _)| at).skip(MIN_HEAD_CHARS).collect::<Vec<_>>();
+    let cut = cuts.into_iter().rev().find_map(|at| {
+        let words = format!("{}… {number}", head.get(..at)?.trim_end());
+        fits(&words).then_some(words)
+    });
+    text_in(ui, rect, anchor, cut.as_deref().unwrap_or(name), font, colour)
 }
 
 /// Paints text from `at` on, wrapped at `width`. Returns the painted rectangle.
@@ -168,4 +199,36 @@ pub fn name_text(ui: &Ui, salt: impl egui::AsIdSalt, rect: Rect, name: &str) -> 
     let response = ui.interact(rect, ui.make_persistent_id(salt), Sense::hover());
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, name));
     response
+}
+
+#[cfg(test)]
+mod tests {
+    use egui_kittest::Harness;
+
+    use super::{super::testing, *};
+    use crate::ui::text;
+
+    /// What is painted of `name` in a width in points.
+    fn painted(name: &'static str, width: f32) -> String {
+        let window: Harness<'_, ()> = testing::window([400.0, 60.0], (), move |ui, ()| {
+            let rect = Rect::from_min_size(Pos2::ZERO, Vec2::new(width, 20.0));
+            name_in(ui, rect, Align2::LEFT_CENTER, name, text::body(), Color32::WHITE);
+        });
+        let texts = window.output().shapes.iter().filter_map(|clipped| match &clipped.shape {
+            Shape::Text(text) => Some(text.galley.rows.first()?.text()),
+            _ => None,
+        });
+        texts.collect()
+    }
+
+    #[test]
+    fn a_name_without_room_keeps_its_number() {
+        assert_eq!(painted("GLOBALSTAR M072", 300.0), "GLOBALSTAR M072");
+        let cut = painted("GLOBALSTAR M072", 90.0);
+        assert!(cut.starts_with("GLO") && cut.ends_with("… M072"), "{cut}");
+        let cut = painted("COSMOS-2251", 60.0);
+        assert!(cut.ends_with("… 2251"), "{cut}");
+        let cut = painted("AN ASTRONOMICAL NAME", 60.0);
+        assert!(cut.starts_with("AN") && !cut.contains("NAME"), "{cut}");
+    }
 }

@@ -1,8 +1,9 @@
-//! A choice among a few segments side by side.
+//! A choice among a few segments side by side. Tab stops at one of them, and the arrows lead to the
+//! others, as in any group of radio buttons; Enter or Space chooses.
 
 use egui::{
-    Align2, CornerRadius, Rect, Response, Role, Stroke, StrokeKind, Ui, UiBuilder, WidgetInfo,
-    pos2, vec2,
+    Align2, CornerRadius, FocusDirection, Id, Key, Modifiers, Rect, Response, Role, Sense, Stroke,
+    StrokeKind, Ui, UiBuilder, WidgetInfo, accesskit::Action, pos2, vec2,
 };
 
 use super::{button::RADIUS, paint};
@@ -47,16 +48,22 @@ pub fn show(
     let wanted: Vec<f32> =
         segments.iter().map(|(word, _)| paint::text_width(ui, word, text::body_medium())).collect();
     let spare = (rect.width() - wanted.iter().sum::<f32>()) / segments.len().max(1) as f32;
+    let ids: Vec<Id> =
+        segments.iter().map(|(word, _)| ui.make_persistent_id((salt, *word))).collect();
+    let stop = tab_stop(ui, &ids, segments);
     let mut x = rect.left();
-    let mut clicked = None;
+    let (mut clicked, mut focused) = (None, None);
     let mut over_border = Vec::new();
-    for (index, ((word, state), width)) in segments.iter().zip(wanted).enumerate() {
+    for (index, (((word, state), width), id)) in segments.iter().zip(wanted).zip(&ids).enumerate() {
         let right = (x + width + spare).min(rect.right());
         let cell = Rect::from_min_max(pos2(x, rect.top()), pos2(right, rect.bottom()));
-        let id = ui.make_persistent_id((salt, *word));
         let is_free = !state.is_locked();
-        let sense = if is_free { egui::Sense::click() } else { egui::Sense::hover() };
-        let response = cells.interact(cell, id, sense);
+        let sense = match is_free {
+            true if stop == Some(index) => Sense::click(),
+            true => Sense::CLICK,
+            false => Sense::hover(),
+        };
+        let response = cells.interact(cell, *id, sense);
         let chosen = matches!(state, Segment::Chosen | Segment::Foreign);
         let is_foreign = *state == Segment::Foreign;
         let said =
@@ -83,8 +90,15 @@ pub fn show(
         if response.clicked() {
             clicked = Some(index);
         }
+        if response.has_focus() {
+            focused = Some(index);
+        }
         over_border.push((*state, radius, response));
         x = right;
+    }
+    if let Some(index) = focused {
+        // Only now: a segment that is no stop of Tab yet would lose the focus at once.
+        take_arrows(ui, index, &ids, segments);
     }
     if segments.iter().all(|(_, state)| state.is_locked()) {
         paint::dashed_border(ui, rect, f32::from(RADIUS), Stroke::new(1.0, t.edge));
@@ -109,6 +123,47 @@ pub fn show(
     clicked
 }
 
+/// The segment at which Tab stops: the one that a screen reader asks for or that has the focus, the
+/// chosen one, or else the first.
+fn tab_stop(ui: &Ui, ids: &[Id], segments: &[(&str, Segment)]) -> Option<usize> {
+    let focused = ui.memory(egui::Memory::focused);
+    let is_free = |index: &usize| segments.get(*index).is_some_and(|(_, state)| !state.is_locked());
+    let asked = ui.input(|input| {
+        let is_asked = |id: &Id| input.has_accesskit_action_request(*id, Action::Focus);
+        ids.iter().position(is_asked).filter(is_free)
+    });
+    // The toolkit gives it only to what Tab reached before.
+    if let Some(id) = asked.and_then(|asked| ids.get(asked)) {
+        ui.memory_mut(|memory| memory.request_focus(*id));
+    }
+    let focused = ids.iter().position(|id| Some(*id) == focused);
+    let is_chosen = |(_, state): &(&str, Segment)| *state == Segment::Chosen;
+    asked
+        .or(focused)
+        .filter(is_free)
+        .or_else(|| segments.iter().position(is_chosen))
+        .or_else(|| (0..segments.len()).find(is_free))
+}
+
+/// Leads the focus from the segment at `index` to the next free one in the direction of an arrow.
+fn take_arrows(ui: &Ui, index: usize, ids: &[Id], segments: &[(&str, Segment)]) {
+    let [back, on] = ui.input_mut(|input| {
+        [Key::ArrowLeft, Key::ArrowRight].map(|key| input.consume_key(Modifiers::NONE, key))
+    });
+    if back == on {
+        return;
+    }
+    let is_free = |place: &usize| segments.get(*place).is_some_and(|(_, state)| !state.is_locked());
+    let next =
+        if on { (index + 1..segments.len()).find(is_free) } else { (0..index).rev().find(is_free) };
+    ui.memory_mut(|memory| {
+        memory.move_focus(FocusDirection::None);
+        if let Some(next) = next.and_then(|next| ids.get(next)) {
+            memory.request_focus(*next);
+        }
+    });
+}
+
 /// A place for the segments, whose nodes are children of the node of the group.
 fn inside(ui: &Ui, group: &Response) -> Ui {
     let builder = UiBuilder::new().layer_id(ui.layer_id()).max_rect(group.rect);
@@ -125,4 +180,61 @@ fn corners(index: usize, count: usize) -> CornerRadius {
     let left = if index == 0 { RADIUS } else { 0 };
     let right = if index + 1 == count { RADIUS } else { 0 };
     CornerRadius { nw: left, sw: left, ne: right, se: right }
+}
+
+#[cfg(test)]
+mod tests {
+    use egui::{Pos2, Role};
+    use egui_kittest::{Harness, kittest::Queryable as _};
+
+    use super::{super::testing, *};
+
+    const WORDS: [&str; 4] = ["Azimuth", "Pair", "Locked", "Elevation"];
+
+    /// A group of which `state` is chosen, between two buttons.
+    fn window(chosen: usize) -> Harness<'static, usize> {
+        testing::window([400.0, 100.0], chosen, |ui, chosen| {
+            let _ = ui.button("before");
+            let segments = WORDS.map(|word| match word {
+                "Locked" => (word, Segment::Locked(None)),
+                _ if word == WORDS[*chosen] => (word, Segment::Chosen),
+                _ => (word, Segment::Free),
+            });
+            let rect = Rect::from_min_size(Pos2::new(0.0, 40.0), vec2(400.0, 24.0));
+            if let Some(clicked) = show(ui, "rotators", rect, "Rotators", &segments) {
+                *chosen = clicked;
+            }
+            ui.add_space(40.0);
+            let _ = ui.button("after");
+        })
+    }
+
+    fn focused(window: &Harness<'_, usize>) -> Option<&'static str> {
+        let names = WORDS.into_iter().chain(["before", "after"]);
+        names.into_iter().find(|name| window.get_by_label(name).is_focused())
+    }
+
+    #[test]
+    fn tab_stops_at_the_chosen_segment_and_the_arrows_lead_to_the_others() {
+        let mut window = window(1);
+        window.get_by_label("before").focus();
+        window.run();
+        let press = |window: &mut Harness<'_, usize>, key| {
+            window.key_press(key);
+            window.run();
+            focused(window)
+        };
+        assert_eq!(press(&mut window, Key::Tab), Some("Pair"));
+        assert_eq!(press(&mut window, Key::ArrowRight), Some("Elevation"), "not the locked one");
+        assert_eq!(press(&mut window, Key::ArrowRight), Some("Elevation"), "the last one");
+        assert_eq!(*window.state(), 1, "nothing is chosen yet");
+        press(&mut window, Key::Space);
+        assert_eq!(*window.state(), 3);
+        assert_eq!(press(&mut window, Key::ArrowLeft), Some("Pair"));
+        assert_eq!(press(&mut window, Key::Tab), Some("after"));
+        let button = window.get_by_role_and_label(Role::RadioButton, "Azimuth");
+        button.click();
+        window.run();
+        assert_eq!(*window.state(), 0);
+    }
 }
