@@ -244,7 +244,7 @@ fn lost(cause: LossCause) -> &'static str {
         LossCause::Stopped => "The antenna was stopped.",
         LossCause::NoEffect => "An axis did not turn as commanded, so Azel stopped the antenna.",
         LossCause::GivenUp => "The antenna stayed off its target, so Azel gave up the pass.",
-        LossCause::ForeignHands => "Somebody else moved the antenna.",
+        LossCause::ForeignHands => "The antenna turned without a command from Azel.",
         LossCause::Forbidden => "Azel stopped the antenna at a barrier.",
         LossCause::NotCommanded => "The antenna was not commanded to track it.",
         LossCause::OutsideBeam => "The satellite was outside the beam: a pointing error.",

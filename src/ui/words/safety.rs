@@ -242,19 +242,27 @@ fn unlike(unlike: Unlike) -> &'static str {
     }
 }
 
+/// A motion that Azel did not command. Only a jog proves that somebody made it; an angle does not tell
+/// a hand from wind or a drive.
 fn foreign_hands(antenna: &str, axis: &str, evidence: Evidence) -> String {
-    let evidence = match evidence {
-        Evidence::Outside { off_deg } => {
-            let off = format::degrees(off_deg.abs(), 1);
-            format!("{axis} reads {off} away from where Azel's commands lead")
-        }
-        Evidence::Jogged => format!("its unit reports a jog of {axis} that Azel did not send"),
-        Evidence::Runaway => format!("its unit reports that {axis} turns without a command"),
+    let moved = match evidence {
+        Evidence::Outside { off_deg } => format!(
+            "{antenna} turned without a command from Azel: {axis} reads {} away from where its commands \
+             lead. Somebody at its panel, another program, wind or its drive may have moved it.",
+            format::degrees(off_deg.abs(), 1)
+        ),
+        Evidence::Jogged => format!(
+            "Somebody else moved {antenna}, at its panel or by another program: its unit reports a jog \
+             of {axis} that Azel did not send."
+        ),
+        Evidence::Runaway => format!(
+            "{antenna} turned without a command: its unit reports that {axis} runs away. Look at its \
+             drive and its relays."
+        ),
     };
     format!(
-        "Somebody else moved {antenna}, by its panel, by another program or by hand: {evidence}. Azel \
-         does not move it on. Find out who moves it before you move it again. After work on its drives, \
-         reset their learned figures in Preferences."
+        "{moved} Azel does not move it on. Find out what moved it before you move it again. After work \
+         on its drives, reset their learned figures in Preferences."
     )
 }
 
