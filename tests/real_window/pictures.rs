@@ -95,7 +95,7 @@ const fn sight(
     Sight { name, view, open, leave }
 }
 
-const SIGHTS: [Sight; 26] = [
+const SIGHTS: [Sight; 25] = [
     sight("operate", View::Operate, &[OPERATE, FIRST_ANTENNA], &[]),
     sight("operate-genius", View::Operate, &[SECOND_ANTENNA], &[]),
     sight("operate-rc2000c", View::Operate, &[THIRD_ANTENNA], &[FIRST_ANTENNA]),
@@ -130,7 +130,6 @@ const SIGHTS: [Sight; 26] = [
     sight("preferences-horizon", View::Preferences, &[Page("Horizon and keep-outs")], &[]),
     sight("preferences-alarms", View::Preferences, &[Page("Alarms and sounds")], &[]),
     sight("preferences-appearance", View::Preferences, &[Page("Appearance")], &[]),
-    sight("preferences-keys", View::Preferences, &[Page("Keys")], &[]),
     sight("setup", View::Setup, &[Click("Set up your station")], &[OPERATE]),
 ];
 
