@@ -20,7 +20,7 @@ use crate::{
     },
 };
 
-/// What came of the wish to open a file.
+/// The outcome of the wish to open a file.
 #[derive(Debug, PartialEq, Eq)]
 enum Outcome {
     /// Files to open; none after Cancel.

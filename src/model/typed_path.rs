@@ -22,7 +22,7 @@ pub struct PathRequest {
     pub why: String,
 }
 
-/// What a typed path is for.
+/// The purpose of a typed path.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum PathPurpose {
     Save {
