@@ -148,8 +148,14 @@ proptest! {
         let expected = read_element_bytes(&form.around(&[good])).elements.remove(0);
         let report = read_element_bytes(&bytes);
         prop_assert!(report.elements.len() >= 2, "{}", String::from_utf8_lossy(&bytes));
-        prop_assert_eq!(&report.elements[0], &expected);
-        prop_assert_eq!(report.elements.last().unwrap(), &expected);
+        // A change may repeat both lines of a TLE: a list in which half of the sets have no name has
+        // headings in place of names.
+        let unnamed = report.elements.iter().filter(|elements| elements.name().is_empty()).count();
+        let has_headings = unnamed * 2 >= report.elements.len();
+        let nameless = read_elements(&LINES[1..].join("\n")).elements.remove(0);
+        for good in [&report.elements[0], report.elements.last().unwrap()] {
+            prop_assert!(*good == expected || (has_headings && *good == nameless), "{good:?}");
+        }
     }
 }
 
