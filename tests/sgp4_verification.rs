@@ -60,6 +60,14 @@ fn every_case_agrees_with_the_authors_code() {
     let (mut worst_km, mut worst_km_s, mut states) = (0.0_f64, 0.0_f64, 0);
     for ((first, second), (number, rows)) in sets().iter().zip(expected()) {
         let report = read_elements(&format!("{first}\n{second}\n"));
+        if number == "33333" {
+            // Its perigee is 84 km from the centre of the Earth, and its rows reach 45,000 km where its
+            // apogee is 33,400 km from the centre.
+            let reason = &report.refused[0].reason;
+            let is_through = |error: &_| matches!(error, ElementsError::Perigee(-6400.0..=-6200.0));
+            assert!(matches!(reason, RefusalReason::Orbit(error) if is_through(error)), "{reason}");
+            continue;
+        }
         if number == "33334" {
             // Its only row repeats the last state of the case before: the mean motion of 0.00001
             // is an error from the start.

@@ -28,7 +28,7 @@ const SIDEREAL_DAY_S: f64 = 86_164.090_5;
 /// Values of this type can be handed to the propagator: all numbers are finite, the eccentricity
 /// lies in `0.0..1.0`, the mean motion is positive, the inclination lies from 0 to 180 degrees,
 /// other angles within one turn either way, B* within 10 either way, the epoch within
-/// [`EPOCH_YEARS`], and SGP4 finds the object above the ground at its epoch. A value takes 152
+/// [`EPOCH_YEARS`], the orbit does not lead through the Earth, and SGP4 finds the object above the ground at its epoch. A value takes 152
 /// bytes, and nothing on the heap if each of its texts has at most 23 bytes.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(remote = "Self")]
@@ -73,6 +73,10 @@ pub(super) enum Classification {
 /// digits can express.
 pub const EPOCH_YEARS: std::ops::RangeInclusive<i16> = 1957..=2056;
 
+/// The mean perigee of a real orbit may lie just below the ground, 50 km for an object that comes
+/// down and 11 km for one that the Moon lifts at each perigee.
+const LEAST_PERIGEE_KM: f64 = -500.0;
+
 const MAX_CATALOG_NUMBER: u32 = 999_999_999;
 
 /// The reason why numbers do not make an orbit.
@@ -103,6 +107,10 @@ pub enum ElementsError {
     },
     #[error("epoch {0} is not from {first} to {last}", first = EPOCH_YEARS.start(), last = EPOCH_YEARS.end())]
     Epoch(civil::DateTime),
+    /// The orbit leads through the Earth: SGP4 gives no physical state for it, even above the
+    /// ground. The number is the height of its perigee, km.
+    #[error("the perigee at a height of {0:.0} km is inside the Earth")]
+    Perigee(f64),
     /// Below the ground at the epoch, or SGP4 cannot start at all.
     #[error("the object is not above the ground at its epoch")]
     Decayed,
@@ -199,6 +207,10 @@ impl Elements {
             // end the program.
             .filter(|epoch| EPOCH_YEARS.contains(&utc(*epoch).year()))
             .ok_or(ElementsError::Epoch(as_written))?;
+        let Heights { perigee_km, .. } = self.heights();
+        if perigee_km < LEAST_PERIGEE_KM {
+            return Err(ElementsError::Perigee(perigee_km));
+        }
         if Propagator::is_up_at_epoch(&self) { Ok(self) } else { Err(ElementsError::Decayed) }
     }
 

@@ -18,7 +18,8 @@ use crate::window_stories::{
 const FOLDER: &str = "tests/window_stories/images";
 
 /// One scene of each view.
-const VIEWS: [&str; 8] = [
+const VIEWS: [&str; 9] = [
+    "Operate, tracking",
     "Plan",
     "Elements",
     "Antennas",
@@ -101,8 +102,9 @@ fn small_and_light() {
 }
 
 #[test]
-fn further_states() {
+fn further_states_and_the_night() {
     assert_as_accepted(&STATES, LARGE, ThemeName::Dark);
+    assert_as_accepted(&VIEWS[..1], LARGE, ThemeName::Night);
 }
 
 #[test]
