@@ -1,5 +1,14 @@
 //! A unit that does not answer while it moves.
 
+use std::{
+    collections::BTreeSet,
+    sync::{
+        Arc,
+        atomic::{AtomicBool, Ordering::Relaxed},
+    },
+    time::Duration,
+};
+
 use azel::{
     astro::Angle,
     clock::Instant,
@@ -7,7 +16,10 @@ use azel::{
     sim::satrak::Fault,
 };
 
-use super::rig::Rig;
+use super::{
+    rig::Rig,
+    script::{Scripted, plain},
+};
 
 fn is_it(event: &Event) -> bool {
     matches!(event, Event::Safety(Safety::SilentInMotion))
@@ -68,4 +80,31 @@ async fn while_it_moves_one_reply_that_is_lost_is_asked_for_again_at_once() {
     rig.control.set_fault(Fault::DropReply, true);
     rig.seconds(10.0).await;
     assert!(!rig.events().iter().any(is_it));
+}
+
+/// A reply does not tell which question it answers, so only their order does.
+#[tokio::test(start_paused = true)]
+async fn replies_that_are_four_seconds_late_are_never_taken_for_newer_ones() {
+    let are_late = Arc::new(AtomicBool::new(false));
+    let switch = Arc::clone(&are_late);
+    let mut unit = Scripted::start(Box::new(move |payload| {
+        let late_ms = if switch.load(Relaxed) { 4_000 } else { 0 };
+        let replies = plain(payload).into_iter();
+        replies.map(|(delay_ms, reply)| (delay_ms + late_ms, reply)).collect()
+    }));
+    unit.seconds(2.0).await;
+    are_late.store(true, Relaxed);
+    let late_from = Instant::now() + Duration::from_secs(4);
+    let mut readings = BTreeSet::new();
+    for _ in 0..600 {
+        unit.seconds(0.1).await;
+        let shown = unit.handle.snapshot();
+        let Some(measured) = shown.state.measured.filter(|measured| measured.received > late_from)
+        else {
+            continue;
+        };
+        readings.insert(measured.received);
+        assert!(measured.received - measured.asked >= Duration::from_secs(4), "{measured:?}");
+    }
+    assert!(readings.len() > 8, "{}", readings.len());
 }

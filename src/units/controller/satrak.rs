@@ -45,6 +45,12 @@ const SLOW_REPLY: Duration = Duration::from_secs(15);
 /// After a repeated question both answers may come. Nothing is asked until the surplus one
 /// must have come, or every later answer would be taken for the one after it.
 const DRAIN: Duration = Duration::from_secs(1);
+/// Nothing is asked for longer than this because of surplus answers.
+const LONGEST_DRAIN: Duration = Duration::from_secs(5);
+/// For how long one surplus answer tells that answers are late.
+const LATE_FOR: Duration = Duration::from_secs(30);
+/// Number of missing statuses that are kept count of.
+const MAX_MISSING: usize = 100;
 
 #[derive(Debug)]
 pub struct Satrak {
@@ -58,8 +64,11 @@ pub struct Satrak {
     drain_until: Option<Instant>,
     /// Asks for the position while another request waits for its reply.
     probe: Option<Outstanding>,
-    /// When the first of the missing statuses was asked for.
-    missing_since: Option<Moment>,
+    /// When the statuses went out whose replies are missing, the oldest first. Replies come in the
+    /// order of their questions.
+    missing: VecDeque<Moment>,
+    /// A surplus status has come: replies are late, and not lost, as far as is known until then.
+    late_until: Option<Instant>,
     /// Azel has the antenna moving.
     is_watched: bool,
     /// When Azel last switched tracking or auto-track on.
@@ -98,7 +107,8 @@ impl Satrak {
             outstanding: None,
             drain_until: None,
             probe: None,
-            missing_since: None,
+            missing: VecDeque::new(),
+            late_until: None,
             is_watched: false,
             program_switched_on: None,
             halts: VecDeque::new(),

@@ -42,7 +42,8 @@ impl Device for Satrak {
         self.outstanding = None;
         self.drain_until = None;
         self.probe = None;
-        self.missing_since = None;
+        self.missing.clear();
+        self.late_until = None;
         self.halts.clear();
         self.motion = None;
         self.calm.clear();
@@ -82,7 +83,9 @@ impl Device for Satrak {
         if self.is_waiting() || self.drain_until.is_some_and(|until| now.steady < until) {
             return None;
         }
-        self.drain_until = None;
+        if self.drain_until.take().is_some() {
+            self.missing.clear();
+        }
         let (request, purpose) = self.next_request(now)?;
         let bytes = request.to_bytes();
         self.outstanding = Some(self.outstanding_of(request, purpose, now));

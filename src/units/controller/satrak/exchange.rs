@@ -1,6 +1,9 @@
 //! One request and its reply: matching, time-outs, effects.
 
-use super::{DRAIN, REPLY, SLOW_REPLY, Satrak, prepare::Outcome, state::DECIMAL_COMMAS};
+use super::{
+    DRAIN, LATE_FOR, LONGEST_DRAIN, MAX_MISSING, REPLY, SLOW_REPLY, Satrak, prepare::Outcome,
+    state::DECIMAL_COMMAS,
+};
 use crate::{
     astro::Angle,
     clock::{Instant, Moment},
@@ -128,17 +131,22 @@ impl Satrak {
             self.outstanding.as_ref().is_some_and(|sent| sent.answers(command))
         });
         if expected {
-            if let Some(outstanding) = self.outstanding.take() {
+            if let Some(mut outstanding) = self.outstanding.take() {
+                self.date(&mut outstanding);
                 self.take_reply(&outstanding, Reply::parse(&frame), now);
             }
         } else if let Some(slow) =
             self.slow.take_if(|slow| command.is_some_and(|it| slow.answers(it)))
         {
             self.take_reply(&slow, Reply::parse(&frame), now);
-        } else if let Some(probe) =
+        } else if let Some(mut probe) =
             self.probe.take_if(|probe| command.is_some_and(|it| probe.answers(it)))
         {
+            self.date(&mut probe);
             self.take_reply(&probe, Reply::parse(&frame), now);
+        } else if let Some(late) = self.late_status(command) {
+            self.late_until = Some(now.steady + LATE_FOR);
+            self.take_reply(&late, Reply::parse(&frame), now);
         } else if let Some(halt) = self.answered_halt(command) {
             self.take_halt_reply(halt, &frame, now);
         } else {
@@ -197,12 +205,7 @@ impl Satrak {
             }
         };
         self.count_reply(now);
-        if outstanding.clock.is_repeated() {
-            self.drain_until = Some(now.steady + DRAIN);
-        }
-        if outstanding.is_status() {
-            self.missing_since = None;
-        }
+        self.await_surplus(outstanding, now);
         if !parsed.notes.is_empty() {
             self.state.traffic.odd += 1;
         }
@@ -352,8 +355,8 @@ impl Satrak {
             self.state.traffic.last_unreadable = Some(now.steady);
         }
         self.wire.no_reply(late.clock.waited(now), is_repeated, now);
-        if late.is_status() && !is_repeated {
-            self.missing_since.get_or_insert(late.clock.first_sent);
+        if late.is_status() && self.missing.len() < MAX_MISSING {
+            self.missing.push_back(late.clock.sent);
         }
     }
 
@@ -365,10 +368,43 @@ impl Satrak {
         now: Moment,
     ) -> Outstanding {
         let mut outstanding = Outstanding::new(request, purpose, now);
-        if let Some(missing) = self.missing_since.filter(|_| outstanding.is_status()) {
-            outstanding.clock = outstanding.clock.standing_for(missing);
+        if let Some(missing) = self.missing.front().filter(|_| outstanding.is_status()) {
+            outstanding.clock = outstanding.clock.standing_for(*missing);
         }
         outstanding
+    }
+
+    /// A status answers the first question that is open, so that the reply to `answered` is still to
+    /// come.
+    fn date(&mut self, answered: &mut Outstanding) {
+        if answered.is_status() {
+            self.missing.push_back(answered.clock.sent);
+            answered.clock.first_sent = self.missing.pop_front().unwrap_or(answered.clock.sent);
+        }
+    }
+
+    /// The question that a status answers for which nobody waits any more.
+    fn late_status(&mut self, command: Option<(Word, Verb)>) -> Option<Outstanding> {
+        let query = Query::Status;
+        let sent = *self.missing.front()?;
+        let late = Outstanding::new(Request::Query(query), Purpose::Poll(query), sent);
+        command.filter(|command| late.answers(*command))?;
+        self.missing.pop_front();
+        Some(late)
+    }
+
+    /// Asks nothing while surplus answers may come: for as long as this one took. While the antenna
+    /// moves and answers are known to be late, Azel asks on, and each status counts as asked earlier.
+    fn await_surplus(&mut self, answered: &Outstanding, now: Moment) {
+        let is_expected = match answered.is_status() {
+            true => !self.missing.is_empty(),
+            false => answered.clock.is_repeated(),
+        };
+        let are_late = self.late_until.is_some_and(|until| now.steady < until);
+        let took = now.steady.saturating_duration_since(answered.first_sent());
+        let pause = if self.is_watched { DRAIN } else { took.clamp(DRAIN, LONGEST_DRAIN) };
+        let asks_on = self.is_watched && are_late;
+        self.drain_until = (is_expected && !asks_on).then(|| now.steady + pause);
     }
 
     /// During a motion a slow reply must not delay the next position question.
