@@ -206,7 +206,7 @@ fn coordinates(latitude_deg: f64, longitude_deg: f64) -> String {
 pub fn glyph(antenna: &AntennaModel) -> LinkGlyph {
     match antenna.snapshot.link {
         LinkState::Off | LinkState::Connecting { .. } => LinkGlyph::Off,
-        LinkState::Up { .. } if antenna.is_live() => LinkGlyph::Live,
+        LinkState::Up { .. } if antenna.is_live() && !antenna.loses_positions => LinkGlyph::Live,
         LinkState::Up { .. } | LinkState::Stale { .. } => LinkGlyph::Late,
         LinkState::Lost { .. } => LinkGlyph::Lost,
     }

@@ -3,7 +3,7 @@
 use azel::{
     astro::time::seconds_between,
     driver,
-    engine::{Client, Command, Snapshot, status::LinkStatus},
+    engine::{Client, Command, Snapshot, alarms::AlarmKind, status::LinkStatus},
     plan::{ProgramTrack, Target},
     sim::{rc2000c, rotator_genius, satrak},
 };
@@ -63,6 +63,32 @@ async fn a_station_lives_with_trouble_on_the_lines_and_each_snapshot_can_be_writ
     scene.ended().await;
     let written = written.await.unwrap();
     assert!(written > 600, "{written} snapshots were written down");
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_unit_of_which_positions_are_missing_again_and_again_is_shown_as_one_until_it_answers() {
+    let scene = Scene::new(start(), &station());
+    let (client, units) = (scene.client(), scene.units.clone());
+    measured(&client, "Mast").await;
+    measured(&client, "Dish").await;
+    let is_told = || {
+        let snapshot = client.snapshot();
+        let stands = |kind: &AlarmKind| *kind == AlarmKind::LosesPositions;
+        let told = snapshot.alarms.list().iter().find(|alarm| stands(&alarm.kind))?;
+        told.over_since.is_none().then_some(())
+    };
+    units.mast.set_fault(rotator_genius::Fault::DropReply, true);
+    until("the alarm", is_told).await;
+    for _ in 0..30 {
+        passes(&client, 1).await;
+        assert_eq!(is_told(), Some(()), "it stands");
+        let lost = client.snapshot();
+        assert!(lost.antennas.iter().filter(|antenna| antenna.loses_positions).count() == 1);
+    }
+    units.mast.set_fault(rotator_genius::Fault::DropReply, false);
+    until("its end", || is_told().is_none().then_some(())).await;
+    drop(client);
+    scene.ended().await;
 }
 
 async fn with_trouble(client: &Client, units: &Units) {

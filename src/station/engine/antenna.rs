@@ -58,6 +58,9 @@ pub struct AntennaModel {
     // Older films hold another form under the field's own name, which is ignored.
     #[serde(default, rename = "explained_by")]
     pub explained: Option<Explained>,
+    /// The unit answers, but positions that it was asked for are missing again and again.
+    #[serde(default)]
+    pub loses_positions: bool,
     /// Target of the present track.
     pub errors_of: Option<String>,
     /// Errors of the last tracks.
@@ -100,6 +103,7 @@ impl AntennaModel {
             prediction: None,
             errors: Errors::default(),
             explained: None,
+            loses_positions: false,
             errors_of: None,
             past_tracks: PastTracks::default(),
             rates_deg_s: None,

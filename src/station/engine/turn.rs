@@ -220,8 +220,12 @@ impl Engine {
 
     /// Raises and clears alarms that depend on the state rather than on an event.
     fn watch_state(&mut self, index: usize) {
-        let Some(antenna) = self.antennas.get(index) else { return };
+        let Some(antenna) = self.antennas.get_mut(index) else { return };
         let snapshot = Arc::clone(&antenna.shown.snapshot);
+        let loses_positions = snapshot.link.is_open()
+            && !snapshot.silent
+            && snapshot.state.traffic.loses_positions(self.steady);
+        antenna.shown.loses_positions = loses_positions;
         let (alarms, now, of) = (&mut self.alarms, self.now, Some(antenna.shown.id()));
         if snapshot.stop == StopState::Ready
             && snapshot.state.measured.is_some_and(|measured| !measured.moving())
@@ -242,6 +246,11 @@ impl Engine {
             alarms.raise(of, silent, now);
         } else {
             alarms.clear(of, now, |kind| *kind == silent);
+        }
+        if loses_positions {
+            alarms.raise(of, AlarmKind::LosesPositions, now);
+        } else {
+            alarms.clear(of, now, |kind| *kind == AlarmKind::LosesPositions);
         }
         if !snapshot.locking {
             alarms.clear(of, now, |kind| *kind == AlarmKind::LockOutUnproved);

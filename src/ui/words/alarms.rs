@@ -87,6 +87,10 @@ pub fn alarm(kind: &AlarmKind, antenna: &str, now: Timestamp) -> String {
         AlarmKind::JogPositionOld => {
             format!("{antenna}: the jog was stopped because its position came too late.")
         }
+        AlarmKind::LosesPositions => format!(
+            "{antenna} answers late or not at all: three of its positions are missing within 10 s. \
+             What it shows may be seconds old. Check its cable and the network."
+        ),
         AlarmKind::AutoTrackStillOn => {
             format!("{antenna} is stopped, but auto-track is on: it may start by itself.")
         }

@@ -1,6 +1,6 @@
 //! The state that all antennas have in common, as last read from the unit.
 
-use std::sync::Arc;
+use std::{sync::Arc, time::Duration};
 
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
@@ -304,4 +304,26 @@ pub struct Traffic {
     pub last_reply: Option<Instant>,
     /// When the last line came in that was no good frame, or whose content made no sense.
     pub last_unreadable: Option<Instant>,
+    /// When the last positions were given up, the oldest first.
+    #[serde(default)]
+    pub missed: [Option<Instant>; MISSED],
+}
+
+/// So many positions that are missing within [`MISSED_WITHIN`] are more than a hiccup.
+const MISSED: usize = 3;
+const MISSED_WITHIN: Duration = Duration::from_secs(10);
+
+impl Traffic {
+    pub(crate) fn miss_position(&mut self, now: Instant) {
+        self.missed.rotate_left(1);
+        if let Some(last) = self.missed.last_mut() {
+            *last = Some(now);
+        }
+    }
+
+    /// Returns `true` while three positions of the last ten seconds are missing.
+    pub fn loses_positions(&self, now: Instant) -> bool {
+        let oldest = self.missed.first().copied().flatten();
+        oldest.is_some_and(|at| now.saturating_duration_since(at) < MISSED_WITHIN)
+    }
 }

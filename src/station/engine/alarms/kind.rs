@@ -47,6 +47,8 @@ pub enum AlarmKind {
     JogLeaseOver,
     /// A jog was stopped because the position grew too old.
     JogPositionOld,
+    /// Positions that the unit was asked for are missing again and again.
+    LosesPositions,
     /// The antenna has stopped, but the unit may start by itself.
     AutoTrackStillOn,
     /// The unit did not switch auto-track off.
@@ -224,6 +226,7 @@ impl AlarmKind {
             | Self::StartedByItself
             | Self::Unreadable(_)
             | Self::JogPositionOld
+            | Self::LosesPositions
             | Self::AutoTrackOwed(_)
             | Self::OffsetsOwed(_)
             | Self::OffTarget { .. }
@@ -267,6 +270,7 @@ impl AlarmKind {
                 | Self::OffsetsLeft { .. }
                 | Self::UnitDiffers(_)
                 | Self::NotCompared { .. }
+                | Self::LosesPositions
                 | Self::NoAntennaFor { .. }
                 | Self::NotOnItsWay { .. }
                 | Self::AutomaticMoves { .. }

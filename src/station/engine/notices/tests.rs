@@ -262,6 +262,7 @@ fn every_kind() -> Vec<AlarmKind> {
         K::StopRefused(text()),
         K::JogLeaseOver,
         K::JogPositionOld,
+        K::LosesPositions,
         K::AutoTrackStillOn,
         K::AutoStaysOn,
         K::AutoTrackNotKnown,
@@ -328,6 +329,7 @@ fn is_listed(kind: &AlarmKind) {
         | K::StopRefused(_)
         | K::JogLeaseOver
         | K::JogPositionOld
+        | K::LosesPositions
         | K::AutoTrackStillOn
         | K::AutoStaysOn
         | K::AutoTrackNotKnown

@@ -343,6 +343,9 @@ impl Rc2000c {
 
     fn miss(&mut self, late: &Outstanding, is_repeated: bool, now: Moment) {
         self.state.traffic.unanswered += 1;
+        if late.purpose == Purpose::Poll {
+            self.state.traffic.miss_position(now.steady);
+        }
         self.wire.no_reply(late.clock.waited(now), is_repeated, now);
         self.end_jog(late, ControllerEvent::Unanswered);
     }

@@ -223,8 +223,11 @@ impl Genius {
         let late = self.outstanding.take_if(|_| is_late)?;
         self.state.traffic.unanswered += 1;
         self.wire.no_reply(late.clock.waited(now), late.is_read(), now);
-        if late.is_read() && self.missing.len() < MAX_MISSING {
-            self.missing.push_back(late.sent());
+        if late.is_read() {
+            self.state.traffic.miss_position(now.steady);
+            if self.missing.len() < MAX_MISSING {
+                self.missing.push_back(late.sent());
+            }
         }
         match late.purpose {
             Purpose::Motion(asked) => {

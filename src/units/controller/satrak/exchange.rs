@@ -355,8 +355,11 @@ impl Satrak {
             self.state.traffic.last_unreadable = Some(now.steady);
         }
         self.wire.no_reply(late.clock.waited(now), is_repeated, now);
-        if late.is_status() && self.missing.len() < MAX_MISSING {
-            self.missing.push_back(late.clock.sent);
+        if late.is_status() {
+            self.state.traffic.miss_position(now.steady);
+            if self.missing.len() < MAX_MISSING {
+                self.missing.push_back(late.clock.sent);
+            }
         }
     }
 
@@ -396,9 +399,10 @@ impl Satrak {
     /// Asks nothing while surplus answers may come: for as long as this one took. While the antenna
     /// moves and answers are known to be late, Azel asks on, and each status counts as asked earlier.
     fn await_surplus(&mut self, answered: &Outstanding, now: Moment) {
-        let is_expected = match answered.is_status() {
-            true => !self.missing.is_empty(),
-            false => answered.clock.is_repeated(),
+        let is_expected = if answered.is_status() {
+            !self.missing.is_empty()
+        } else {
+            answered.clock.is_repeated()
         };
         let are_late = self.late_until.is_some_and(|until| now.steady < until);
         let took = now.steady.saturating_duration_since(answered.first_sent());
