@@ -248,7 +248,10 @@ fn a_typed_source_is_added_once_it_is_right_and_stays_typed_until_it_is_there() 
         assert_eq!(path(&window), "/var/elements/own.tle", "it may not have been kept");
         Arc::make_mut(&mut window.state_mut().model.sources).list.push(file_source());
         settle(&mut window);
-        assert_eq!(path(&window), "");
+        let form = window.query_by_role_and_label(Role::TextInput, "Path");
+        assert!(form.is_none(), "the form closes");
+        click(&mut window, "Add a source");
+        assert_eq!(path(&window), "", "and opens empty");
     }
 }
 

@@ -108,11 +108,14 @@ impl AddState {
         commands.push(UiCommand::Station(engine::Command::AddSource(source)));
     }
 
-    /// Clears the form once the source is in the list.
-    fn forget_the_added(&mut self, sources: &Sources) {
-        if self.requested.as_ref().is_some_and(|requested| sources.list.contains(requested)) {
+    /// Clears the form once the source is in the list; returns `true` then.
+    pub(super) fn forget_the_added(&mut self, sources: &Sources) -> bool {
+        let is_added =
+            self.requested.as_ref().is_some_and(|requested| sources.list.contains(requested));
+        if is_added {
             *self = Self { kind: self.kind, ..Self::default() };
         }
+        is_added
     }
 }
 

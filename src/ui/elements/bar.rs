@@ -171,6 +171,9 @@ fn add_source(
         .close_behavior(PopupCloseBehavior::CloseOnClickOutside)
         .show(|ui| {
             ui.set_width(FORM);
+            if state.add.forget_the_added(&model.sources) {
+                ui.close();
+            }
             add::show(ui, &model.sources, &mut state.add, commands);
             close_key::show(ui);
         });

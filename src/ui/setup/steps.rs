@@ -56,7 +56,7 @@ impl Step {
                 "Orbits change: predictions are only as good as the elements are fresh. A source \
                  is saved as soon as you add it."
             }
-            Self::End => "Nothing has been saved yet. This is what Finish does.",
+            Self::End => "This is what Finish saves. Sources that you added are saved already.",
         };
         (self.name(), about)
     }
