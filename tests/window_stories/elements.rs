@@ -256,6 +256,29 @@ fn a_typed_source_is_added_once_it_is_right_and_stays_typed_until_it_is_there() 
 }
 
 #[test]
+fn while_the_only_source_is_unreachable_the_age_of_the_bundled_elements_comes_first() {
+    let source = server(3.0).0;
+    let unreachable = SourceReport {
+        fetch_problem: Some(FetchProblem::Answer(503)),
+        files: Vec::new(),
+        newest_epoch: None,
+        as_of: None,
+        ..report(&source, 0)
+    };
+    let mut window = view(rig::LARGE, vec![(source, unreachable)]);
+    let label = |window: &Window| sources_bar(window).accesskit_node().label().unwrap();
+    let in_use = "The elements that come with Azel are in use";
+    let young = label(&window);
+    assert!(young.ends_with(&format!("weather needs attention. {in_use}.")), "{young}");
+    let model = &mut window.state_mut().model;
+    model.now = add_seconds(model.now, 200.0 * 24.0 * HOUR_S);
+    settle(&mut window);
+    let old = label(&window);
+    assert!(old.contains(&format!("{in_use}: too old for ")), "{old}");
+    assert!(old.ends_with("favourites. weather needs attention."), "{old}");
+}
+
+#[test]
 fn a_known_server_is_filled_in_and_a_plain_address_is_refused() {
     for size in rig::sizes() {
         let mut window = view(size, vec![server(3.0)]);

@@ -125,9 +125,12 @@ fn show_bar(ui: &Ui, rect: Rect, model: &Model, is_open: bool) -> bool {
     response.clicked()
 }
 
-/// The gravest state of the sources.
+/// The gravest state of the elements in use. While no source holds any, the bundled ones are.
 fn worst(model: &Model) -> (Tone, String) {
     let sources = &model.sources;
+    let bundled = (sources.reports.iter())
+        .all(|report| report.newest_epoch.is_none())
+        .then(|| state_of_bundled(model));
     let states: Vec<(Tone, &str)> = (sources.list.iter().enumerate())
         .map(|(index, source)| {
             let (tone, _) = words::state(source, sources.reports.get(index), model.now);
@@ -139,13 +142,16 @@ fn worst(model: &Model) -> (Tone, String) {
             states.iter().filter(|(of, _)| *of == tone).map(|(_, name)| *name).collect();
         if !names.is_empty() {
             let words = if names.len() == 1 { "needs attention" } else { "need attention" };
-            return (tone, format!("{} {words}", format::list(&names)));
+            let attention = format!("{} {words}", format::list(&names));
+            return match bundled {
+                Some((Tone::Bad, state)) => (Tone::Bad, format!("{state} {attention}.")),
+                Some((_, state)) => (tone, format!("{attention}. {state}")),
+                None => (tone, attention),
+            };
         }
     }
-    if sources.list.is_empty() {
-        return state_of_bundled(model);
-    }
-    (Tone::Plain, "A server is asked at most once every 2 h.".to_owned())
+    let asked = || (Tone::Plain, "A server is asked at most once every 2 h.".to_owned());
+    bundled.unwrap_or_else(asked)
 }
 
 /// The state of the elements that come with the program, by what they are used for.
