@@ -304,7 +304,7 @@ impl Engine {
         let Some(antenna) = self.antennas.get(index) else { return };
         let duties = self.duties(&antenna.shown);
         let wishes = self.wishes(&antenna.shown);
-        let mut seen = seen(&antenna.shown);
+        let mut seen = seen(&antenna.shown, self.steady);
         seen.may_be_planned = seen.offers.is_some() && self.scheduler.is_at_work();
         self.fly(index, &duties, seen);
         let now = self.now;

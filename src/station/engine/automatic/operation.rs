@@ -192,6 +192,8 @@ pub struct Duty {
 pub(super) struct Seen {
     /// The unit answers in time.
     pub(super) is_live: bool,
+    /// No reply has come for longer than a hiccup of the link lasts.
+    pub(super) is_silent: bool,
     pub(super) is_locked_out: bool,
     /// Commands can be sent: no STOP is owed and nothing else forbids them.
     pub(super) can_be_sent: bool,
@@ -514,12 +516,13 @@ impl On {
         })
     }
 
-    /// What is announced stays so only while it can be done and is still the next.
+    /// An announcement stands only while its motion can be made and is still the next. One late reply
+    /// does not end it: with frequent ones, the warning would begin again for ever.
     fn keep_announcement(&mut self, next: Duty, seen: Seen, wishes: Wishes, now: Timestamp) {
         let Doing::Announces { pass, .. } = &self.doing else { return };
         let is_near = seconds_between(now, next.go_at) <= wishes.announced_for_s;
         let is_it = is_same_pass(*pass, next.pass) && is_near;
-        if !is_it || !seen.is_live || !seen.can_be_sent || seen.not_ready.is_some() {
+        if !is_it || seen.is_silent || !seen.can_be_sent || seen.not_ready.is_some() {
             self.doing = Doing::Rests;
         }
     }

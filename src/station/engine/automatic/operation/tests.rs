@@ -22,6 +22,7 @@ fn duty(number: u32, from_s: f64) -> Duty {
 
 const STANDS: Seen = Seen {
     is_live: true,
+    is_silent: false,
     is_locked_out: false,
     can_be_sent: true,
     not_ready: None,
@@ -407,13 +408,26 @@ fn nothing_is_sent_while_somebody_else_moves_the_antenna() {
 }
 
 #[test]
+fn a_late_reply_now_and_then_does_not_begin_the_warning_again() {
+    let duties = [duty(1, 200.0)];
+    let first = |is_live: &dyn Fn(f64) -> bool| {
+        let mut fixture = Fixture::new(&duties);
+        let acts = fixture.until(400.0, |now_s| Seen { is_live: is_live(now_s), ..STANDS });
+        acts.first().copied()
+    };
+    let at_once = first(&|_| true);
+    assert!(matches!(at_once, Some((_, Act::Take(_)))), "{at_once:?}");
+    assert_eq!(first(&|now_s| now_s as i64 % 4 != 1), at_once);
+}
+
+#[test]
 fn what_was_announced_is_announced_anew_when_it_could_not_be_done() {
     let duties = [duty(1, 200.0)];
     let mut fixture = Fixture::new(&duties);
     // The warning runs out while the unit does not answer.
     let acts = fixture.until(400.0, |now_s| {
         let is_live = !(120.0..300.0).contains(&now_s);
-        Seen { is_live, ..STANDS }
+        Seen { is_live, is_silent: !is_live, ..STANDS }
     });
     assert_eq!(acts.first(), Some(&(330.0, Act::Take(duties[0]))), "after another warning");
 
