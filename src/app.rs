@@ -61,7 +61,7 @@ pub struct App {
     model: Model,
     views: ui::Views,
     station: Handle,
-    /// Of the station in the window.
+    /// Settings of the station in the window.
     settings: Settings,
     /// Folder of the list of stations, and of new ones.
     stations_folder: Option<PathBuf>,

@@ -179,15 +179,15 @@ pub struct Model {
     pub reminders: Arc<Vec<Reminder>>,
     /// The schedule of all antennas.
     pub schedule: Arc<Planned>,
-    /// What a pass costs that the operator has asked about.
+    /// Cost of the pass that the operator has asked about.
     pub swap: Option<Arc<Swap>>,
     /// When antennas would join passes that are under way.
     pub joinings: Joinings,
     /// The last rehearsal of the plan.
     pub rehearsal: RehearsalState,
-    /// What became of the passes of this day.
+    /// Outcomes of the passes of this day.
     pub day: Arc<Vec<DayLine>>,
-    /// What the desktop cannot do with alarms and reminders.
+    /// Means for alarms and reminders that the desktop lacks.
     pub outlets: Outlets,
     /// Copies of the settings of units.
     pub copies: Arc<Copies>,
@@ -195,7 +195,8 @@ pub struct Model {
     pub record: Option<Arc<record::Status>>,
     /// The view that fills the window.
     pub view: View,
-    /// What a closing window waits for; `None` while it is not closing.
+    /// Closing under way, with the antennas that it waits for; `None` while the window is not
+    /// closing.
     pub closing: Option<Closing>,
     /// The replay that this model is of; `None` for the live station.
     pub replay: Option<Replayed>,

@@ -73,7 +73,7 @@ impl Default for ExportWork {
     }
 }
 
-/// What is written, with all that it takes.
+/// Export to write, with all that it takes.
 struct Order {
     export: Export,
     catalog: CatalogState,

@@ -14,9 +14,9 @@ const SETTLED: Duration = Duration::from_secs(1);
 /// Where the window is, in points; where it would be, while it fills the screen.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) struct Place {
-    /// Of the frame; `None` where the desktop does not tell it.
+    /// Position of the frame; `None` where the desktop does not report it.
     at: Option<[i32; 2]>,
-    /// Of the content.
+    /// Size of the content.
     size: [u32; 2],
     is_maximized: bool,
 }

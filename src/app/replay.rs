@@ -83,7 +83,7 @@ impl App {
     }
 }
 
-/// What leads out of a replay.
+/// Action that leads out of a replay.
 pub(super) enum Beyond {
     /// STOP of the live station.
     Stop,
@@ -100,7 +100,7 @@ pub(super) struct Replay {
     views: ui::Views,
     /// UTC of the live station when it began.
     begun_at: Timestamp,
-    /// What reads the film, while it is at rest.
+    /// Reader of the film, while it is at rest.
     room: Option<Box<Room>>,
     /// Its work, which gives it back unless it breaks off.
     job: Option<Job<(Box<Room>, Answer)>>,
@@ -112,7 +112,7 @@ pub(super) struct Replay {
     marked: Option<Stretch>,
     /// When the moment that is shown moved on last, by the clock of the window.
     moved_at: Instant,
-    /// What is looked at of the record.
+    /// Part of the record that is shown.
     look: Option<RecordLook>,
     catalog_work: CatalogWork,
     effects_jobs: EffectsJobs,

@@ -62,7 +62,7 @@ pub enum Column {
     MaxElevation,
 }
 
-/// What the table is to show.
+/// Search, filter and order of the rows that the table is to show.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Question {
     pub search: String,
@@ -99,7 +99,7 @@ pub struct NextPasses {
     of: HashMap<u32, Vec<NextPass>>,
 }
 
-/// What next passes depend on, except the time.
+/// Inputs of the next passes, except the time.
 #[derive(Debug, Clone)]
 pub struct NextKey {
     pub catalog: Arc<Catalog>,
@@ -122,7 +122,7 @@ pub struct CatalogTable {
 }
 
 impl CatalogTable {
-    /// What the rows have to be worked out from.
+    /// Returns the inputs from which the rows have to be computed.
     pub fn inputs(&self, catalog: &Arc<Catalog>, station: &Arc<Station>) -> Inputs {
         Inputs {
             question: self.asked.clone(),

@@ -1,4 +1,4 @@
-//! What would correct the error of a recorded pass. Nothing is changed here.
+//! Corrections for the error of a recorded pass. This module only proposes them.
 
 use std::sync::Arc;
 
@@ -33,8 +33,9 @@ pub enum How {
     Remembered(TrackOffsets),
 }
 
-/// What would correct the causes of `explanation` in the passes to come, as far as anything here
-/// does; `None` where nothing does, or where they seem to be corrected already.
+/// Returns a correction for the causes of `explanation` in the passes to come, as far as anything
+/// here corrects them; `None` where nothing does, where they seem to be corrected already, and in a
+/// replay.
 pub fn correction(
     model: &Model,
     pass: &RecordedPass,
@@ -74,7 +75,8 @@ fn remembered(
 /// An offset below this changes no setting, degrees.
 const LEAST_DEG: f64 = 0.005;
 
-/// What the unit holds, less the error. What was written after the pass may correct it already.
+/// Returns the values that the unit holds, less the error. `None` after a write since the pass,
+/// which may correct it already.
 fn settings(antenna: &AntennaModel, pass: &RecordedPass, explanation: &Explanation) -> Option<How> {
     let fields = antenna.variant().track_offsets?;
     let state = antenna.snapshot.state.held.get(fields.group)?;

@@ -18,7 +18,7 @@ pub trait Compare: Clone + PartialEq + Send + 'static {
     /// Every how many samples of a track one is looked at.
     const EVERY: usize;
 
-    /// What comes of the passes by the settings as saved, and as edited.
+    /// Returns the tallies of the passes by the settings as saved, and as edited.
     fn tallies(&self, ways: &[PassTrack]) -> [Self::Tally; 2];
 }
 

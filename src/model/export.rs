@@ -1,4 +1,4 @@
-//! What the operator saves to a file for other programs.
+//! Files that the operator saves for other programs.
 
 use std::{path::PathBuf, sync::Arc};
 

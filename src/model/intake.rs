@@ -1,5 +1,5 @@
-//! Files and texts that the operator holds over the window, drops, pastes or chooses: what they
-//! hold is told before anything is taken.
+//! Files and texts that the operator holds over the window, drops, pastes or chooses. Azel says
+//! what they hold before it takes anything.
 
 use std::{path::PathBuf, sync::Arc};
 
@@ -15,7 +15,7 @@ pub enum Offer {
     Text(Arc<str>),
 }
 
-/// What is offered, and what it was found to hold.
+/// Offers, and the elements that they were found to hold.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Intake {
     pub offers: Vec<Offer>,
@@ -25,7 +25,7 @@ pub struct Intake {
     pub judged: Option<Vec<Judged>>,
 }
 
-/// What an offer holds against the elements in use.
+/// Contents of an offer, compared with the elements in use.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Judged {
     /// The operating system refused.
@@ -93,7 +93,7 @@ impl Judged {
         Self::Elements(counts)
     }
 
-    /// Whether there is anything to take.
+    /// Returns `true` if there is anything to take.
     pub fn is_usable(&self) -> bool {
         matches!(self, Self::Elements(counts) if counts.objects() > 0)
     }

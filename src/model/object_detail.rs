@@ -29,7 +29,7 @@ const LOOK_BACK_S: f64 = 3600.0;
 /// Time before and after a pass in which the same pass is looked for by an older set.
 const AROUND_S: f64 = 1800.0;
 
-/// What the detail depends on, except the time.
+/// Inputs of the detail, except the time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DetailKey {
     pub elements: Elements,

@@ -106,7 +106,7 @@ impl Model {
         }
     }
 
-    /// What it costs in the schedule shown to take this pass, once that is known.
+    /// Returns the cost of this pass in the schedule shown, once that is known.
     pub fn swap_of(&self, pass: PassKey) -> Option<&Swap> {
         let fits = |swap: &&Swap| swap.pass == pass && swap.revision == self.schedule.revision;
         self.swap.as_deref().filter(fits)
@@ -162,7 +162,7 @@ impl Model {
         }
     }
 
-    /// What the schedule says of a pass that it leaves out.
+    /// Returns the entry of the schedule for a pass that it leaves out.
     fn left_out(&self, key: PassKey) -> Option<&LeftOut> {
         let all = &self.schedule.schedule.left_out;
         let (from, to) = (add_seconds(key.1, -SAME_AOS_S), add_seconds(key.1, SAME_AOS_S));
@@ -217,8 +217,7 @@ impl Model {
         }
     }
 
-    /// What the list of an antenna shows: the passes of this day that are over, then those to
-    /// come.
+    /// Returns the list of an antenna: the passes of this day that are over, then those to come.
     pub fn listed_passes(&self, antenna: &AntennaModel) -> Vec<ListedPass<'_>> {
         let id = antenna.id();
         let over = self.flown_by(id).map(|flown| ListedPass {
@@ -253,7 +252,7 @@ impl Model {
 /// How passes stand on an antenna.
 pub struct Standings<'a> {
     antenna: AntennaId,
-    /// What is over for it, by satellite.
+    /// Passes that are over for it, by satellite.
     flown: Vec<&'a Flown>,
     taking: Option<Taking>,
     now: Timestamp,
@@ -261,7 +260,7 @@ pub struct Standings<'a> {
 
 impl<'a> Standings<'a> {
     pub fn of(&self, planned: &PlannedPass<'a>) -> Standing<'a> {
-        // What is over for the antenna may not have set yet.
+        // A pass that is over for the antenna may not have set yet.
         let flown = self.flown(planned.predicted.key());
         flown.map_or_else(|| self.ahead(planned), Standing::Flown)
     }

@@ -29,7 +29,7 @@ pub enum RehearsalState {
 }
 
 impl Model {
-    /// What became of a pass in the rehearsal; two where it is handed over.
+    /// Returns the outcome of a pass in the rehearsal; two where it is handed over.
     pub fn rehearsed(&self, key: PassKey) -> impl Iterator<Item = &RehearsedPass> {
         let passes = match &self.rehearsal {
             RehearsalState::Done { rehearsed, .. } => &rehearsed.passes[..],

@@ -18,9 +18,9 @@ pub const ENDS_BEFORE_PASS_S: f64 = 120.0;
 /// A stretch of the record that is shown again.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Stretch {
-    /// What it is of, such as the name of a satellite.
+    /// Subject, such as the name of a satellite.
     pub name: String,
-    /// The pass that it is of, if it is of one.
+    /// Pass that the stretch is of, if any.
     pub pass: Option<StretchPass>,
     pub from: Timestamp,
     pub until: Timestamp,
@@ -69,7 +69,7 @@ impl Stretch {
     }
 }
 
-/// What the operator wants of a running replay.
+/// Operator's command to a running replay.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ReplayCommand {
     PlayOrPause,
@@ -101,13 +101,13 @@ pub struct Replayed {
     pub plays: bool,
     /// The passes in the stretch.
     pub passes: Vec<PassTimes>,
-    /// What came of the last jump besides the moment that is shown.
+    /// Outcome of the last jump besides the moment that is shown.
     pub news: Option<JumpNews>,
     /// Why this moment is not shown.
     pub problem: Option<ReplayProblem>,
 }
 
-/// What came of a jump to an event or to a pass besides the moment that is shown.
+/// Outcome of a jump to an event or to a pass besides the moment that is shown.
 #[derive(Debug, Clone, PartialEq)]
 pub enum JumpNews {
     /// There is no film of this stretch, which was passed over.
@@ -156,7 +156,7 @@ impl Replayed {
         Self { stretch, at, speed: 1, plays: true, passes: Vec::new(), news: None, problem: None }
     }
 
-    /// Whether it would not move on if it played.
+    /// Returns `true` if playing would not move it on.
     pub fn is_at_end(&self) -> bool {
         self.at == if self.speed < 0 { self.stretch.from } else { self.stretch.until }
     }

@@ -179,7 +179,7 @@ impl Propagator {
         })
     }
 
-    /// Whether SGP4 finds the object above the ground at the epoch of `elements`.
+    /// Returns `true` if SGP4 finds the object above the ground at the epoch of `elements`.
     pub(super) fn is_up_at_epoch(elements: &Elements) -> bool {
         let numbers = elements.sgp4();
         if is_surely_up_at_epoch(&numbers) {
@@ -301,8 +301,8 @@ impl Propagator {
         since_epoch_s > self.low_after_min * 60.0
     }
 
-    /// Whether SGP4 has brought the object down by then. Later, its equations continue below the
-    /// ground and may bring the object up again.
+    /// Returns `true` if SGP4 has brought the object down by then. Later, its equations continue
+    /// below the ground and may bring the object up again.
     fn is_down_at(&self, since_epoch_min: f64) -> bool {
         let at_min = |look: u32| self.low_after_min + f64::from(look) * DOWN_STEP_MIN;
         let Descent(looked) = &self.descent;
@@ -319,7 +319,7 @@ impl Propagator {
     }
 }
 
-/// What SGP4 works out once for an orbit.
+/// Returns the orbit and the constants that SGP4 computes once for a set of elements.
 fn start(numbers: &sgp4::Elements) -> Result<(sgp4::Orbit, sgp4::Constants), PropagationError> {
     let orbit = sgp4::Orbit::from_kozai_elements(
         &sgp4::WGS72,
@@ -368,8 +368,8 @@ fn sgp4_state(
     }
 }
 
-/// Whether no more than the perigee is needed to know that the object is above the ground at its
-/// epoch, as for nearly all of a catalogue. The drag has no effect there yet.
+/// Returns `true` if the perigee alone shows that the object is above the ground at its epoch, as
+/// for nearly all of a catalogue. The drag has no effect there yet.
 fn is_surely_up_at_epoch(elements: &sgp4::Elements) -> bool {
     elements.mean_motion > CLOSE_REV_DAY
         && elements.eccentricity < SMALL_ECCENTRICITY

@@ -1,4 +1,4 @@
-//! Whether the Sun shines on a satellite.
+//! Sunlight on a satellite.
 
 use glam::DVec3;
 use jiff::Timestamp;

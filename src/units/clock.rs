@@ -156,13 +156,13 @@ impl Clock {
         tokio::time::sleep(self.real(span)).await;
     }
 
-    /// What `work` comes to, unless it takes longer than `span` of this clock.
+    /// Returns the output of `work`, unless it takes longer than `span` of this clock.
     pub async fn timeout<F: Future>(&self, span: Duration, work: F) -> Result<F::Output, Elapsed> {
         tokio::time::timeout(self.real(span), work).await
     }
 
-    /// The real time in which `span` passes, rounded up: a sleep that ends too early would
-    /// be begun again and again.
+    /// Returns the real time in which `span` passes, rounded up: after a sleep that ends too early,
+    /// another one would begin again and again.
     fn real(&self, span: Duration) -> Duration {
         let nanos = span.as_nanos().div_ceil(self.speed.get().into());
         u64::try_from(nanos).map_or(Duration::MAX, Duration::from_nanos)

@@ -1,5 +1,6 @@
-//! What a mount can follow and how it follows it, how its axes read otherwise than it points, and
-//! lists of passes for other programs and people to read. Pure functions over passes.
+//! Paths along which a mount can follow a pass, differences between its axis readings and its
+//! direction, and lists of passes for other programs and people to read. Pure functions over
+//! passes.
 
 mod az_el;
 mod azimuth_wrap;

@@ -177,7 +177,7 @@ impl Station {
         self.groups_of(satellite).fold(own, |limits, group| limits.or(&group.limits))
     }
 
-    /// What the operator has said of the pass of a satellite that goes on from `aos` to `los`.
+    /// Returns the operator's choice for the pass of a satellite that goes on from `aos` to `los`.
     pub fn pass_choice(
         &self,
         satellite: u32,

@@ -43,7 +43,7 @@ pub(super) struct Room {
 /// A stretch of which there is no film.
 type Hole = (Timestamp, Timestamp);
 
-/// What is asked for.
+/// Requests to a [`Room`].
 #[derive(Default)]
 pub(super) struct Asked {
     pub(super) wanted: Option<Wanted>,
@@ -52,7 +52,7 @@ pub(super) struct Asked {
     pub(super) unmarked: Option<Stretch>,
 }
 
-/// What was found.
+/// Results of a [`Room`].
 #[derive(Default)]
 pub(super) struct Answer {
     /// The moment that was found, or why there is none.
@@ -68,12 +68,12 @@ pub(super) struct Found {
     pub(super) stretch: Option<Stretch>,
     /// The stretch around it of which there is no film.
     pub(super) hole: Option<Hole>,
-    /// What was passed over, because there is no film of it.
+    /// Stretch that was passed over, because there is no film of it.
     pub(super) skipped: Option<Hole>,
     pub(super) scene: Result<Option<Scene>, FilmError>,
 }
 
-/// What the station showed, and the lines on its links.
+/// State that the station showed, and the lines on its links.
 pub(super) struct Scene {
     pub(super) shown: Snapshot,
     pub(super) wires: Vec<(AntennaId, WireLog)>,

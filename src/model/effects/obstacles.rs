@@ -1,4 +1,4 @@
-//! What the horizon mask, the keep-outs and the Sun take from the passes to come.
+//! Parts of the passes to come that the horizon mask, the keep-outs and the Sun take.
 
 use std::ops::Range;
 

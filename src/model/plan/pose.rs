@@ -15,14 +15,14 @@ use crate::{
     station::BetweenPasses,
 };
 
-/// What an antenna does by the schedule, and where it points.
+/// Activity of an antenna by the schedule, and where it points.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pose {
     pub doing: PlannedActivity,
     pub pointing: Pointing,
 }
 
-/// What an antenna does by the schedule at one moment.
+/// Activity of an antenna by the schedule at one moment.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PlannedActivity {
     Tracks(PassKey),
@@ -72,8 +72,8 @@ impl Model {
         self.schedule.until.filter(|until| *until > self.now)
     }
 
-    /// What the schedule has an antenna do at `at`, and where it points then. `None` for an
-    /// antenna without passes, and where it is not known where the antenna will stand.
+    /// Returns the scheduled activity of an antenna at `at`, and where it points then. `None` for
+    /// an antenna without passes, and where its position is unknown.
     pub fn pose_at(&self, antenna: &AntennaModel, at: Timestamp) -> Option<Pose> {
         let id = antenna.id();
         let entries = || self.schedule.schedule.entries.iter().filter(|of| of.antenna == id);
@@ -110,8 +110,8 @@ impl Model {
         Some(Pose { doing: PlannedActivity::Tracks(key(entry)), pointing })
     }
 
-    /// What the antenna does between two entries, and where its axes stand as far as that is known;
-    /// they stand at `stands_deg` at first.
+    /// Returns the activity of the antenna between two entries, and where its axes stand as far as
+    /// that is known; they stand at `stands_deg` at first.
     fn between_passes(
         &self,
         antenna: &AntennaModel,

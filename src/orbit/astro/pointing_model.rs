@@ -31,7 +31,7 @@ pub enum Term {
 
 impl Term {
     pub const COUNT: usize = 8;
-    /// Of terms that cannot be told apart, those that come first are kept.
+    /// Terms in order of precedence: if points cannot tell some of them apart, the first are kept.
     pub const ALL: [Self; Self::COUNT] = [
         Self::AzimuthOffset,
         Self::ElevationOffset,
@@ -98,7 +98,7 @@ impl PointingModel {
         }
     }
 
-    /// What the axes have to read for the beam to point in `direction`; `None` so near to the
+    /// Returns the axis readings with which the beam points in `direction`; `None` so near to the
     /// zenith that no position of the axes does.
     pub fn reading(&self, direction: AzEl) -> Option<AzEl> {
         let sky = direction.to_enu();

@@ -136,14 +136,14 @@ impl TrackOffsets {
         other.each().into_iter().try_fold(self, Self::plus)
     }
 
-    /// What is left without `other`; `None` if one of them would be too large.
+    /// Returns the offsets without `other`; `None` if one of them would be too large.
     #[must_use]
     pub fn less(self, other: Self) -> Option<Self> {
         other.each().into_iter().try_fold(self, |rest, offset| rest.plus(-offset))
     }
 
-    /// Direction to point in at `at` for a target that is in the directions `target`; `None` where
-    /// it has none.
+    /// Returns the direction to point in at `at` for a target that is in the directions `target`;
+    /// `None` where it has none.
     pub fn demanded(
         self,
         at: Timestamp,

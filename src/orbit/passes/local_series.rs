@@ -99,14 +99,14 @@ impl<N: Number> LocalState<N> {
         self.enu_km.cross(self.velocity).length() / self.enu_km.length_squared()
     }
 
-    /// Whether the height turns here in the sense of `bend`.
+    /// Tests whether the height turns here in the sense of `bend`.
     #[inline(always)]
     pub(super) fn turns(&self, bend: Bend) -> N::Answer {
         let Height { rate, curve, .. } = self.height;
         bend.fits(curve) & rate.abs().is_less(curve.abs() * LAST_STEP_S)
     }
 
-    /// Whether the height is `sine` here, within a millisecond.
+    /// Tests whether the height is `sine` here, within a millisecond.
     #[inline(always)]
     pub(super) fn crosses(&self, sine: f64) -> N::Answer {
         (self.height.sine - sine).abs().is_less(self.height.rate.abs() * 1e-3)

@@ -36,7 +36,8 @@ pub(super) struct Exactness<N = f64> {
 }
 
 impl<N: Number> Exactness<N> {
-    /// Whether an extreme `tau` seconds from the state it follows from is as exact as required.
+    /// Tests whether an extreme `tau` seconds from the state it follows from is as exact as
+    /// required.
     #[inline(always)]
     pub(super) fn is_crest(&self, tau: N, place: &LocalState<N>) -> N::Answer {
         let (tau, range_km) = (tau.abs(), place.range_km);
@@ -45,8 +46,8 @@ impl<N: Number> Exactness<N> {
             & self.drift_km_s.is_less(place.height.curve.abs() * range_km * CREST_TIME_TOLERANCE_S)
     }
 
-    /// Whether a place `tau` seconds from the state it follows from is where the height passes
-    /// `sine`, as exactly as required.
+    /// Tests whether a place `tau` seconds from the state it follows from is where the height
+    /// passes `sine`, as exactly as required.
     #[inline(always)]
     pub(super) fn is_crossing(&self, sine: f64, tau: N, place: &LocalState<N>) -> N::Answer {
         let tau = tau.abs();

@@ -1,7 +1,7 @@
-//! What all satellites of one search share: the site, the span of time and the elevations.
+//! Values that all satellites of one search share: the site, the span of time and the elevations.
 //!
-//! Inside the search, a time is a number of seconds from the start of the span; calendar arithmetic
-//! is done only at the start and when a pass is told.
+//! Inside the search, a time is a number of seconds from the start of the span. The search does
+//! calendar arithmetic only at the start and when it reports a pass.
 
 use std::f64::consts::FRAC_PI_2;
 

@@ -121,7 +121,7 @@ enum Heading {
     Remark,
 }
 
-/// What a set holds, and those of its lines that have no checksum.
+/// Elements of a set, and the numbers of its lines that have no checksum.
 pub(super) struct Read {
     pub(super) elements: Elements,
     unprotected: [Option<u8>; 2],

@@ -18,7 +18,7 @@ pub(crate) struct Lanes([f64; LANES]);
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Answers([u64; LANES]);
 
-/// What `op` makes of each lane of two.
+/// Applies `op` to each lane of two.
 #[inline]
 fn by_lane<A: Copy, B: Copy, C>(
     a: [A; LANES],

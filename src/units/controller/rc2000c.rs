@@ -172,7 +172,7 @@ impl Rc2000c {
             || self.state.program.is_some()
     }
 
-    /// What is to be sent next, the most urgent first.
+    /// Returns the next request to send, the most urgent first.
     fn next_request(&mut self, now: Moment) -> Option<(Request, Purpose)> {
         if let Some(Order { request, asked }) = self.orders.pop_front() {
             return Some((request, Purpose::Order(asked)));

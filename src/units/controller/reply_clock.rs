@@ -1,5 +1,5 @@
-//! The clock of a request that waits for its reply. Which reply it is, each make tells by
-//! the words of its protocol.
+//! The clock of a request that waits for its reply. Each make recognises the reply by the words of
+//! its protocol.
 
 use std::time::Duration;
 
@@ -23,8 +23,8 @@ impl ReplyClock {
         Self { sent, first_sent: sent, tries: 1, patience }
     }
 
-    /// Of a question that stands for one that was asked at `missing` and given up: their
-    /// answers cannot be told apart, so it is not repeated.
+    /// Returns the clock of a question that stands for one asked at `missing` and given up. Azel
+    /// cannot tell their answers apart, so it does not repeat the question.
     pub(super) fn standing_for(self, missing: Moment) -> Self {
         Self { first_sent: missing, tries: u8::MAX, ..self }
     }

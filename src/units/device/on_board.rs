@@ -110,7 +110,7 @@ pub struct Offsets {
 }
 
 impl Offsets {
-    /// What it adds to azimuth and elevation; `None` where that is more than an offset can be.
+    /// Returns the part in azimuth and elevation; `None` where that is more than an offset can be.
     pub fn of_the_axes(&self) -> Option<TrackOffsets> {
         let azimuth = Offset::Azimuth(Angle::from_degrees(self.azimuth_deg));
         let elevation = Offset::Elevation(Angle::from_degrees(self.elevation_deg));
@@ -142,11 +142,11 @@ impl OnBoard {
 #[derive(Debug)]
 pub struct TrackOffsetFields {
     pub group: &'static str,
-    /// Of an integer, milliseconds.
+    /// Key of an integer, milliseconds.
     pub time_ms: &'static str,
-    /// Of a decimal, degrees, added to the azimuth.
+    /// Key of a decimal, degrees, added to the azimuth.
     pub azimuth_deg: &'static str,
-    /// Of a decimal, degrees, added to the elevation.
+    /// Key of a decimal, degrees, added to the elevation.
     pub elevation_deg: &'static str,
 }
 

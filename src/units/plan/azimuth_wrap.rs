@@ -194,7 +194,7 @@ mod tests {
         };
         assert_eq!(waits(&wrap(&there, SECTOR, None)), (176, 0));
         assert_eq!(waits(&wrap(&back, SECTOR, None)), (176, 0));
-        // What lies wholly beyond has no such end.
+        // A sweep that lies wholly beyond has no such end.
         let beyond = wrap(&sweep(280, 440), SECTOR, None);
         assert_eq!((start(&beyond), beyond.positions_deg.last()), (Some(270.0), Some(&90.0)));
     }

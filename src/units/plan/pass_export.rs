@@ -56,7 +56,7 @@ impl Satellite {
 const NEAR_KM: f64 = 1e-6;
 const NEAR_KM_S: f64 = 1e-8;
 
-/// What a satellite is seen from.
+/// Site from which a satellite is seen, and the carrier for its Doppler shift.
 #[derive(Debug, Clone, Copy)]
 struct View {
     site: SiteFrame,
@@ -147,7 +147,7 @@ pub struct ExportedPass<'a> {
     pub pass: Pass,
 }
 
-/// What belongs to a list of passes besides the passes.
+/// Context of a list of passes: everything but the passes.
 #[derive(Debug, Clone, Copy)]
 pub struct PassList<'a> {
     pub query: &'a PassQuery,

@@ -36,7 +36,7 @@ const MOTION_S: f64 = 0.5;
 const GOOD: f64 = 0.995;
 /// Share from which it is fair.
 const FAIR: f64 = 0.95;
-/// What a mount loses may take so many times as long as was worked out, and these seconds more.
+/// Factor on the computed loss of a mount that a report allows, and seconds that it adds to that.
 const MORE: f64 = 1.25;
 const COMES_BACK_S: f64 = 3.0;
 /// More seconds of a pass without a position make it poor.
@@ -135,7 +135,7 @@ impl PassVerdict {
 pub struct PointingError {
     /// Angle between the beam axis and the satellite.
     pub off_deg: f64,
-    /// Of the azimuth, the short way round: large near the zenith.
+    /// Azimuth error, the short way round: large near the zenith.
     pub azimuth_deg: f64,
     pub elevation_deg: f64,
     /// Along the satellite's way; positive where the antenna is ahead.

@@ -68,7 +68,7 @@ pub struct Antenna {
     /// Largest sway between two positions of a standing antenna, degrees, 0 to 2.
     #[serde(skip_serializing_if = "is_usual_sway")]
     pub sway_deg: f64,
-    /// What happens to an intent when the link is back after an outage.
+    /// Action on an intent when the link is back after an outage.
     #[serde(skip_serializing_if = "is_default")]
     pub resume: Resume,
     /// Outage after which the operator is asked in any case, seconds, 0 to 600.

@@ -43,7 +43,7 @@ pub enum SunIs {
     Down,
 }
 
-/// What a rule does.
+/// Action of a rule.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Then {
@@ -66,14 +66,14 @@ fn is_usual(is_on: &bool) -> bool {
 }
 
 impl AutomationRule {
-    /// Whether it holds at a moment, where the Sun stands as given.
+    /// Returns `true` if it holds at a moment, where the Sun stands as given.
     pub fn holds_at(&self, at: Timestamp, sun: SunIs) -> bool {
         self.is_on
             && self.sun.is_none_or(|wanted| wanted == sun)
             && self.hours.is_none_or(|hours| hours.contain(at, &TimeZone::UTC))
     }
 
-    /// Whether it is about this antenna.
+    /// Returns `true` if it is about this antenna.
     pub fn is_for(&self, antenna: AntennaId) -> bool {
         self.antenna.is_none_or(|of| of == antenna)
     }

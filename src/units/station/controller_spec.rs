@@ -28,7 +28,7 @@ pub struct ControllerSpec {
     pub default_address: &'static str,
     /// Figures of an antenna of which nothing else is known.
     pub usual: Usual,
-    /// What its connection holds besides the address, in the order of the file.
+    /// Settings of its connection besides the address, in the order of the file.
     pub settings: &'static [&'static Setting],
     /// Why it may have refused or closed the connection, in a sentence.
     pub closed_note: Option<&'static str>,
@@ -71,7 +71,7 @@ pub struct Usual {
     pub beam_width_deg: f64,
     /// Where Park sends the antenna.
     pub park: Direction,
-    /// What the mount can do.
+    /// Limits of the mount.
     pub limits: MotionLimits,
     /// How often the controller is asked.
     pub poll: PollRates,
@@ -118,7 +118,7 @@ impl ControllerSpec {
         self.element_files.is_none_or(|files| (files.check_name)("satellite name", name).is_ok())
     }
 
-    /// Whether it can be reached at `address`; the reason when it cannot.
+    /// Checks that `address` fits its link; fails with the reason.
     pub fn check_address(&self, address: &str) -> Result<(), &'static str> {
         match self.link {
             Link::Tcp => check_address(address),

@@ -25,7 +25,7 @@ pub struct KeepOut {
     pub zone: Zone,
 }
 
-/// What happens when an antenna enters a keep-out.
+/// Consequence when an antenna enters a keep-out.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Entered {

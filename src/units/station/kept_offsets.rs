@@ -14,7 +14,7 @@ pub struct KeptOffsets {
     pub offsets: TrackOffsets,
 }
 
-/// What the offsets make up for.
+/// Source of the error that the offsets make up for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum OffsetsOf {

@@ -18,7 +18,7 @@ const VERSION: i64 = 1;
 /// Lock-out of a unit while somebody works on it: only questions and STOP may go to it.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct LockOut {
-    /// Who locked it out.
+    /// Person who locked it out.
     #[serde(deserialize_with = "one_line")]
     pub by: String,
     #[serde(deserialize_with = "one_line")]

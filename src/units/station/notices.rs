@@ -1,4 +1,4 @@
-//! What the station tells through the desktop, and of which passes it reminds.
+//! Notices of the station through the desktop, and the passes of which it reminds.
 
 use std::collections::BTreeSet;
 

@@ -3,7 +3,7 @@
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
-/// What the operator has said of one pass.
+/// Operator's choice for one pass.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct PassChoice {
     /// Catalog number.
@@ -15,7 +15,7 @@ pub struct PassChoice {
     pub chosen_at: Timestamp,
 }
 
-/// Whether a pass is taken, whatever its priority.
+/// Decision to take a pass or not, whatever its priority.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Take {

@@ -244,7 +244,7 @@ fn merge_tables(
         }
     }
     let mut known: Vec<Option<OldTable<'_>>> = new.iter().map(|_| None).collect();
-    // What is sure takes its table before what only stands in its place.
+    // Sure matches take their tables before tables that only stand in the same place.
     for is_known in [is_of_same_id, is_unchanged, is_of_same_name] {
         for (known, new) in known.iter_mut().zip(new.iter()).filter(|(known, _)| known.is_none()) {
             let found = rest
@@ -306,7 +306,7 @@ fn is_same_item(old: &Item, new: &Item) -> bool {
     old.as_value().zip(new.as_value()).is_some_and(|(old, new)| is_same(old, new))
 }
 
-/// Whether both mean the same, however they are spelled.
+/// Returns `true` if both mean the same, however they are spelled.
 fn is_same(old: &Value, new: &Value) -> bool {
     match (old, new) {
         (Value::String(old), Value::String(new)) => old.value() == new.value(),

@@ -22,7 +22,7 @@ pub struct Scheduling {
     pub warning_s: f64,
 }
 
-/// What the schedule makes the most of.
+/// Quantity that the schedule maximizes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ChooseBy {
@@ -35,10 +35,10 @@ pub enum ChooseBy {
     MostMinutes,
 }
 
-/// Which part of a pass is worth taking at least.
+/// Minimum part of a pass that is worth taking.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Partly {
-    /// Of the seconds that count, per cent, 1 to 100.
+    /// Share of the seconds that count, per cent, 1 to 100.
     pub least_percent: f64,
     pub least_s: f64,
 }

@@ -14,7 +14,7 @@ pub enum Monitor {
     Alarm,
 }
 
-/// What happens to an intent when the link is back after an outage.
+/// Action on an intent when the link is back after an outage.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Resume {
     /// The operator is asked.

@@ -130,7 +130,7 @@ pub struct Calibration {
 }
 
 impl Calibration {
-    /// That of an RC2000C with this connection.
+    /// Returns the calibration of an RC2000C with this connection.
     pub fn of(connection: &Connection) -> Self {
         Self {
             azimuth: connection.points(&AZIMUTH_POINTS).to_vec(),

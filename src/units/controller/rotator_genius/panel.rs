@@ -1,4 +1,4 @@
-//! What a Rotator Genius reports besides the direction of the antenna.
+//! Readings and checks of a Rotator Genius besides the direction of the antenna.
 
 use std::time::Duration;
 

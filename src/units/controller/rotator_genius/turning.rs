@@ -1,4 +1,4 @@
-//! Whether a rotator turns: what the device drives, and what its readings show.
+//! Motion of a rotator: what the device drives, and what its readings show.
 
 use std::time::Duration;
 
@@ -14,7 +14,7 @@ const SETTLED: Duration = Duration::from_millis(500);
 /// A reading may change by less without a turn: it is in whole degrees.
 const TURN_DEG: i32 = 2;
 
-/// What is known of the motion of one rotator.
+/// Known motion of one rotator.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Turning {
     /// Where it stood when it was last found standing.
@@ -101,7 +101,7 @@ mod tests {
         }
     }
 
-    /// What is said of readings that come every 250 ms.
+    /// Returns the motions for readings that come every 250 ms.
     fn seen(turning: &mut Turning, start: Instant, readings: &[(u16, Moving)]) -> Vec<AxisMotion> {
         let at = (0_u32..).map(|tick| start + tick * Duration::from_millis(250));
         let look = |((angle_deg, moving), at)| turning.look(&rotator(angle_deg, moving), at);

@@ -23,7 +23,7 @@ impl Device for Satrak {
         self.state.link_since = Some(now.steady);
         self.state.motion_lock = None;
         self.state.identity = None;
-        // What was wrong then may be mended.
+        // A fault of the last link may be mended by now.
         (self.state.checks, self.state.checked_at) = (checks(None).into(), None);
         // The unit may use other data than on the last link.
         let unit = &mut self.reported;

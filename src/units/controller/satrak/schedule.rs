@@ -60,7 +60,7 @@ impl Schedule {
     pub(super) fn hurry(&mut self, query: Query, now: Instant) {
         let first = self.due().map_or(now, |due| due.min(now));
         if let Some(place) = self.due.iter().position(|(known, _)| *known == query) {
-            // Of those due at the same time, the foremost comes first.
+            // The first of several questions that are due at the same time comes first.
             self.due.remove(place);
             self.due.insert(0, (query, first));
         }

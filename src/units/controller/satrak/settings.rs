@@ -94,7 +94,7 @@ pub(super) struct Plan {
     pub(super) also: &'static [Query],
     /// The fields that the read-back proves wrong.
     pub(super) differing: Differing,
-    /// What the faults say about it.
+    /// Reason in the faults why the unit cannot work with its values.
     pub(super) judge: Judge,
     /// The clock is set in whole seconds, and not while the unit tracks by it.
     pub(super) is_clock: bool,

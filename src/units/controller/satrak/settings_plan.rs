@@ -19,7 +19,7 @@ pub(super) enum Next {
     Over(Result<(), WriteError>),
 }
 
-/// What the unit is doing while a change waits.
+/// Activity of the unit while a change waits.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Doing {
     /// An axis turns, or the program that turns it is on.
@@ -105,7 +105,7 @@ impl Plan {
         Ok(())
     }
 
-    /// What the faults say about the values that the unit holds.
+    /// Fails if the faults object to the values that the unit holds.
     fn judged(&self, faults: Faults) -> Result<(), WriteError> {
         let objection = (self.judge)(faults);
         objection.map_or(Ok(()), |why| Err(WriteError::Useless(why.to_owned())))

@@ -25,22 +25,22 @@ pub struct Field {
     pub label: &'static str,
     /// Behind its value; empty for none.
     pub unit: &'static str,
-    /// What it can hold.
+    /// Values that it can hold.
     pub kind: Kind,
-    /// Who writes it.
+    /// Access of the device and of the operator.
     pub access: Access,
     /// How much care a new value takes.
     pub guard: fn(&Value) -> Guard,
     /// It decides where the antenna points or when it starts: it passes the gate.
     pub moves: bool,
-    /// What it is a part of. Parts of one whole in a group mean nothing alone: a new value goes
-    /// out with those of the other parts, or waits for them.
+    /// Whole that it is a part of. Parts of one whole in a group mean nothing alone: a new value
+    /// goes out with the values of the other parts, or waits for them.
     pub part_of: Option<&'static str>,
-    /// What it does, in a sentence or two.
+    /// Explanation in a sentence or two.
     pub about: &'static str,
 }
 
-/// What a field can hold.
+/// Values that a field can hold.
 #[derive(Debug, Clone, Copy)]
 pub enum Kind {
     /// On or off.
@@ -73,7 +73,7 @@ pub enum Kind {
     Time,
 }
 
-/// Who writes a field.
+/// Access to a field: who reports it and who sets it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Access {
     /// Reported by the device and set by the operator.

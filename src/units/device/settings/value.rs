@@ -17,21 +17,21 @@ pub type Values = BTreeMap<Name, Value>;
 /// The value of a field.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Value {
-    /// Of a [`Kind::Flag`].
+    /// Value of a [`Kind::Flag`].
     Flag(bool),
-    /// Of a [`Kind::Choice`]: its code, which may be one without a name.
+    /// Code of a [`Kind::Choice`], which may be one without a name.
     Choice(i64),
-    /// Of a [`Kind::Integer`].
+    /// Value of a [`Kind::Integer`].
     Integer(i64),
-    /// Of a [`Kind::Decimal`] or [`Kind::Number`], or of a [`Kind::Place`] in degrees.
+    /// Value of a [`Kind::Decimal`] or [`Kind::Number`], or of a [`Kind::Place`] in degrees.
     Decimal(f64),
-    /// Of a [`Kind::Text`], or the word of a [`Kind::Word`].
+    /// Text of a [`Kind::Text`], or the word of a [`Kind::Word`].
     Text(String),
-    /// Of a [`Kind::Password`].
+    /// Value of a [`Kind::Password`].
     Secret(Secret),
-    /// Of a [`Kind::Time`].
+    /// Value of a [`Kind::Time`].
     Time(Timestamp),
-    /// Of [`Kind::Points`].
+    /// Value of [`Kind::Points`].
     Points(Vec<CountPoint>),
 }
 
@@ -182,7 +182,7 @@ impl Kind {
         }
     }
 
-    /// Whether two values say the same at the fineness of this kind.
+    /// Returns `true` if two values are the same at the resolution of this kind.
     pub fn same(&self, a: &Value, b: &Value) -> bool {
         match (self, a, b) {
             (Self::Password(_), Value::Secret(a), Value::Secret(b)) => a == b,

@@ -39,7 +39,7 @@ pub(super) struct Seen {
     elevation: Elevation,
 }
 
-/// What the elevation axis does while the azimuth does not keep up.
+/// Behaviour of the elevation axis while the azimuth does not keep up.
 #[derive(Debug, Clone, Copy)]
 enum Elevation {
     /// It makes up for the azimuth between its ends.

@@ -11,9 +11,9 @@ use crate::astro::PointingModel;
 /// The directions of one position of the axes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Aim {
-    /// By the axes.
+    /// Direction by the axes.
     pub(super) axes: AzEl,
-    /// Of the beam; `None` without a pointing model and without offsets of the axes.
+    /// Direction of the beam; `None` without a pointing model and without offsets of the axes.
     pub(super) sky: Option<AzEl>,
 }
 

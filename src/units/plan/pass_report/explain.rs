@@ -59,7 +59,7 @@ pub enum Cause {
     Late {
         late_s: f64,
     },
-    /// Of the azimuth: measured minus true.
+    /// Azimuth error: measured minus true.
     AzimuthOffset {
         offset_deg: f64,
     },
@@ -311,7 +311,7 @@ impl Evidence<'_> {
                 left_deg: self.rms_deg(fit.left),
                 share: self.share(fit.left, whole),
             };
-            // Of several other sets the best one counts.
+            // Only the best of several other sets counts.
             let is_same = |shown: &Explanation| {
                 shown.cause.is_same_kind(&cause)
                     && matches!((shown.with, with), (None, None))

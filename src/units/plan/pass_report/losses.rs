@@ -1,4 +1,4 @@
-//! What was lost of a pass, and why.
+//! Losses of a pass, and their causes.
 
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
@@ -223,7 +223,7 @@ impl TrackedPass<'_> {
         }
     }
 
-    /// Whether all of the pass is within reach of the mount.
+    /// Returns `true` if all of the pass is within reach of the mount.
     fn is_reached(&self) -> bool {
         self.reached_s(self.from, self.until) >= seconds_between(self.from, self.until)
     }

@@ -241,7 +241,7 @@ fn what_is_out_of_reach_is_no_fault_whatever_was_measured_there() {
     }));
     assert_eq!(wanders.verdict, PassVerdict::Poor);
     assert_eq!(causes(&wanders), [LossCause::OutsideBeam, LossCause::OutOfReach]);
-    // What could be had and was not is a loss as ever.
+    // A position that is missing within the reach is a loss as ever.
     let idle = tracked
         .report(&scene.flown(|second, at| (second < middle_s / 2.0).then(|| scene.direction(at))));
     assert_eq!(idle.verdict, PassVerdict::Poor);
@@ -446,7 +446,7 @@ fn a_lost_link_and_a_stop_are_told_as_what_they_are() {
     assert_eq!(causes(&told), [LossCause::LinkLost, LossCause::Stopped]);
     assert!(is_close(told.losses[0].seconds(), 30.0, 2.0 * STEP_S), "{:?}", told.losses);
     assert_eq!(told.verdict, PassVerdict::Poor);
-    // What was lost before a STOP is none of its.
+    // STOP does not explain a loss before it.
     late.note_stop(at(&scene, 260), LossCause::Stopped);
     scene.breaks = late;
     let told = flown(&scene);

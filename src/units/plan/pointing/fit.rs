@@ -32,7 +32,7 @@ const PLAUSIBLE: f64 = 1.0;
 /// Quantile of the normal distribution that holds 95 % on both sides.
 const NORMAL_95: f64 = 1.959_963_985;
 
-/// What a point was measured at. Each kind has a noise of its own.
+/// Object at which a point was measured. Each kind has its own noise.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Kind {
@@ -290,7 +290,8 @@ impl Solved {
         normal.solve(&self.kept, log_scale)
     }
 
-    /// Whether a term that is left out may well change the unknown `of` more than noise hides.
+    /// Returns `true` if a term that is left out may well change the unknown `of` by more than
+    /// noise hides.
     fn shares(&self, of: usize) -> bool {
         let variance = self.covariance.get(of).and_then(|row| row.get(of)).copied();
         let hidden = HIDDEN * variance.unwrap_or_default().sqrt();

@@ -16,7 +16,7 @@ fn between(random: &mut Random, from: f64, to: f64) -> f64 {
     from + (to - from) * f64::from(random.below(1_000_000)) / 1e6
 }
 
-/// Of the normal distribution, by Box and Muller.
+/// Returns a value of the normal distribution, by Box and Muller.
 fn normal(random: &mut Random) -> f64 {
     let (a, b) = (between(random, 1e-9, 1.0), between(random, 0.0, std::f64::consts::TAU));
     (-2.0 * a.ln()).sqrt() * b.cos()
@@ -257,7 +257,7 @@ fn terms_that_the_points_do_not_tell_apart_are_named_and_left_out() {
     assert_eq!(alike(Term::Sag), Some(&[Term::ElevationOffset][..]));
     assert_eq!((fit.model.sag_deg, fit.interval(Term::Sag)), (0.0, None));
     assert_eq!(fit.correlation(Term::Sag, Term::ElevationOffset), None);
-    // What is left describes these points all the same.
+    // The remaining terms describe these points all the same.
     assert!((0.8..1.2).contains(&(fit.noise[0].noise_deg / 0.02)), "{:?}", fit.noise);
     assert!(fit.correlation(Term::TiltNorth, Term::TiltEast).unwrap().abs() < 0.5);
 }

@@ -205,12 +205,14 @@ impl Planner {
         &self.follow
     }
 
-    /// What the axes have to read at `at` with these offsets; `None` once the target has decayed.
+    /// Returns the readings that the axes need at `at` with these offsets; `None` once the target
+    /// has decayed.
     pub fn demanded(&self, at: Timestamp, offsets: TrackOffsets) -> Option<AzEl> {
         self.course.demanded(at, offsets)
     }
 
-    /// Direction on the sky at `at` with these offsets; `None` once the target has decayed.
+    /// Returns the direction on the sky at `at` with these offsets; `None` once the target has
+    /// decayed.
     pub fn on_the_sky(&self, at: Timestamp, offsets: TrackOffsets) -> Option<AzEl> {
         self.course.on_the_sky(at, offsets)
     }
@@ -227,14 +229,15 @@ impl Planner {
         Some(DQuat::from_rotation_arc(beam.to_enu(), sky.to_enu()))
     }
 
-    /// What the axes have to read at `at`, offsets included, unless it is below the minimum elevation
-    /// or the target has decayed.
+    /// Returns the readings that the axes need at `at`, offsets included, unless the elevation is
+    /// below the minimum or the target has decayed.
     pub fn reachable(&self, at: Timestamp) -> Option<AzEl> {
         self.demanded(at, self.offsets).filter(|direction| self.drives.may_reach(*direction))
     }
 
-    /// The command at `now` that has the antenna on the target by the next look; `None` while the
-    /// last command or the present position is good enough. Fails once the target has decayed.
+    /// Returns the command at `now` that has the antenna on the target by the next look; `None`
+    /// while the last command or the present position is good enough. Fails once the target has
+    /// decayed.
     pub fn update(
         &mut self,
         now: Timestamp,

@@ -91,7 +91,8 @@ impl Course {
         }
     }
 
-    /// What the axes have to read at `at` with these offsets; `None` once the target has decayed.
+    /// Returns the readings that the axes need at `at` with these offsets; `None` once the target
+    /// has decayed.
     pub fn demanded(&self, at: Timestamp, offsets: TrackOffsets) -> Option<AzEl> {
         let direction = offsets.demanded(at, |at| self.direction(at))?;
         if self.model.is_none() {

@@ -46,8 +46,8 @@ pub(super) fn between<P, C: Fn(&P) -> f64>(
     let lowest_deg = place_deg(0);
     let prepared: Vec<P> = (0..places).map(|place| prepare(place_deg(place))).collect();
 
-    // What the cheapest path to each place costs, one row per time. Beyond either end, nothing is
-    // ever cheap.
+    // Cost of the cheapest path to each place, one row per time. Beyond either end, the cost stays
+    // infinite.
     let looks = slew.len().div_ceil(stride);
     let width = places + 2 * FULL;
     let mut sums = vec![f64::INFINITY; (looks + 1) * width];

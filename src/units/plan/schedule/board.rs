@@ -250,7 +250,7 @@ impl Candidate {
         }
     }
 
-    /// What milliseconds that count are worth in its class.
+    /// Returns the worth of counted milliseconds in its class.
     pub(super) fn worth(&self, choose_by: ChooseBy, counted_ms: i64, part: Part) -> i64 {
         match choose_by {
             ChooseBy::Elevation => {
@@ -383,11 +383,11 @@ impl Limits {
     }
 }
 
-/// What the previous schedule took.
+/// Passes that the previous schedule took.
 struct Kept {
     /// Index of the pass, and the antenna.
     taken: Vec<(usize, AntennaId)>,
-    /// From which the times of AOS are counted.
+    /// Start from which the times of AOS are counted.
     epoch_ms: i64,
 }
 

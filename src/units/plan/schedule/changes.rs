@@ -1,4 +1,4 @@
-//! What changed from one schedule to the next, and why.
+//! Changes from one schedule to the next, and their reasons.
 
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
@@ -54,9 +54,8 @@ pub enum Cause {
     Better,
 }
 
-/// What changed from `before` to `after`, from `from` on, in the order of `after`, then of
-/// `before`. A pass is the same if it is of the same satellite and its span has something in
-/// common.
+/// Returns the changes from `before` to `after`, from `from` on, in the order of `after`, then of
+/// `before`. Two passes are the same if they are of the same satellite and their spans overlap.
 pub fn changes(before: &Schedule, after: &Schedule, from: Timestamp) -> Vec<Change> {
     let ahead = |entry: &&Entry| entry.to > from;
     let old: Vec<&Entry> = before.entries.iter().filter(ahead).collect();

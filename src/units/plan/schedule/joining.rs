@@ -12,12 +12,12 @@ use crate::plan::Sample;
 /// How exactly the moment is found at which an antenna is there, milliseconds.
 const EXACT_MS: i64 = 500;
 
-/// What is left of a pass once the antenna has slewed there.
+/// Rest of a pass once the antenna has slewed there.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Joining {
     /// When it is there.
     pub met: Timestamp,
-    /// What it needs to get there: its set-up and the slew, seconds.
+    /// Time that it needs to get there: its set-up and the slew, seconds.
     pub needs_s: f64,
     /// From when it could have been there, or from now where that has passed, until it is there,
     /// seconds.
@@ -190,7 +190,7 @@ mod tests {
         assert!(late_s > 50 && late_s + left_s == 200, "{late_s} {left_s}");
         let warned = planned(&dish((0.0, 360.0), 90.0), vec![mast(Entered::Warn)], 0.0);
         assert_eq!(join(&warned, [50.0, 45.0], &in_the_east()), Some((40, 160)));
-        // What lies in it does not count.
+        // Time within it does not count.
         let through = pass((50.0, 30.0), (100.0, 30.0));
         let hard = planned(&dish((0.0, 360.0), 90.0), vec![mast(Entered::Hard)], 0.0);
         let (late_s, left_s) = join(&hard, [50.0, 30.0], &through).unwrap();

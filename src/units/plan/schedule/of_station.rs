@@ -1,4 +1,4 @@
-//! What a schedule is made from, as a station has it: its antennas, limits, choices and rules.
+//! Inputs of a schedule, as a station has them: its antennas, limits, choices and rules.
 
 use jiff::Timestamp;
 
@@ -64,7 +64,7 @@ impl Partial {
     }
 }
 
-/// What the first automation rule says that fits a satellite and an antenna at a time.
+/// Returns the action of the first automation rule that fits a satellite and an antenna at a time.
 fn by_rule(station: &Station, satellite: u32, at: Timestamp, antenna: AntennaId) -> Option<Then> {
     station.rules.iter().find(|rule| rule.is_for(antenna))?;
     let place = deciding_rule(station, satellite, (at, sun_is(station, at)), antenna)?;
@@ -88,7 +88,7 @@ pub fn deciding_rule(
     })
 }
 
-/// Whether the Sun is up at the site of a station.
+/// Returns whether the Sun is up or down at the site of a station.
 pub fn sun_is(station: &Station, at: Timestamp) -> SunIs {
     let is_up = sun_moon::sun(station.site.airless(), at).elevation_deg() > 0.0;
     if is_up { SunIs::Up } else { SunIs::Down }

@@ -1,4 +1,4 @@
-//! What a schedule says.
+//! Contents of a schedule.
 
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
@@ -17,7 +17,7 @@ pub struct Schedule {
     pub entries: Vec<Entry>,
     /// By AOS.
     pub left_out: Vec<LeftOut>,
-    /// What the entries are worth, class by class, and what is proved about it.
+    /// Worth of the entries, class by class, and the proof about it.
     pub worth: Vec<ClassWorth>,
     /// Seconds that the antennas slew.
     pub slew_s: f64,
@@ -37,9 +37,9 @@ pub struct Entry {
     pub early_s: f64,
     /// Seconds that count.
     pub counted_s: f64,
-    /// What it adds to its class.
+    /// Worth that it adds to its class.
     pub worth: i64,
-    /// What the mount loses of the pass.
+    /// Part of the pass that the mount loses.
     pub lost: Option<Lost>,
     /// Where the axes stand at the start and at the end, degrees as the mount counts: they tell
     /// the turn of the azimuth and the side of the zenith.
@@ -58,8 +58,8 @@ pub struct Entry {
 }
 
 impl Entry {
-    /// What is left of the spare time at `now`: the schedule was made some time ago. `None` from the
-    /// start of the entry on.
+    /// Returns the spare time that is left at `now`, some time after the schedule was made. `None`
+    /// from the start of the entry on, and for an entry without a spare time.
     pub fn spare_at(&self, now: Timestamp) -> Option<f64> {
         let until_s = seconds_between(now, self.from);
         let left_s = until_s - self.slew_s - self.set_up_s;
@@ -72,7 +72,7 @@ impl Entry {
 pub struct LeftOut {
     pub pass: PassKey,
     pub why: Why,
-    /// What stands against it on each antenna.
+    /// Reason against it on each antenna.
     pub by_antenna: Vec<(AntennaId, Why)>,
 }
 
@@ -99,7 +99,7 @@ pub enum Why {
     NotFound,
 }
 
-/// What a pass lost against.
+/// Entry that took the time of a pass instead.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Conflict {
     pub with: PassKey,
@@ -110,7 +110,7 @@ pub struct Conflict {
     pub others: Vec<PassKey>,
 }
 
-/// What the entries of a class are worth.
+/// Worth of the entries of a class.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ClassWorth {
     pub class: Class,

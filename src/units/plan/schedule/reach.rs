@@ -1,5 +1,5 @@
-//! What one antenna can take: where its axes have to stand along a pass, and how long they take
-//! from one place to another.
+//! Passes that one antenna can take: the positions of its axes along a pass, and the time that they
+//! take from one place to another.
 
 mod travel;
 
@@ -50,8 +50,8 @@ pub struct Reach {
     /// All of the travel, which a slew may use where a track keeps away from its ends.
     slews: AxisLimits,
     bounds: Bounds,
-    /// What program track applies; `None` where the axes read what they point to, and for a unit
-    /// that follows a pass by itself.
+    /// Model that program track applies; `None` where the axes read the direction that they point
+    /// to, and for a unit that follows a pass by itself.
     model: Option<PointingModel>,
     half_beam: Angle,
     park: AzEl,
@@ -236,7 +236,7 @@ impl Reach {
         })
     }
 
-    /// Whether the first axis need not turn on the spot with the second one here.
+    /// Returns `true` if the first axis need not turn on the spot with the second one here.
     fn is_clear(&self, second_deg: f64) -> bool {
         let to_pole_deg = match self.drives.mount {
             Mount::AzEl { .. } => (second_deg - 90.0).abs(),
@@ -267,7 +267,8 @@ impl Reach {
         Verdict::Possible(ways)
     }
 
-    /// What counts along one way, and where the satellite is lost first.
+    /// Returns the time that counts along one way, the first barrier on it, and the first loss of
+    /// the satellite.
     fn judged(&self, samples: &Samples, planned: Planned, clear: &[Span]) -> Judged {
         let Planned { axes_deg, slews, .. } = planned;
         let [first, second] = &axes_deg;

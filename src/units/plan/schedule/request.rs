@@ -1,4 +1,4 @@
-//! What a schedule is made from.
+//! Inputs of a schedule.
 
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
@@ -74,14 +74,14 @@ pub struct Candidate {
     pub tca: Timestamp,
     pub max_elevation: Angle,
     pub priority: Priority,
-    /// What the operator has said of this pass.
+    /// Operator's choice for this pass.
     pub take: Option<Take>,
     pub max_per_day: Option<u32>,
     pub refusal: Option<Refusal>,
     pub options: Vec<(AntennaId, Choice)>,
 }
 
-/// What speaks for and against a pass on one antenna.
+/// Reasons for and against a pass on one antenna.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Choice {
     Judged(Verdict),
@@ -89,7 +89,7 @@ pub enum Choice {
     AgainstRule,
 }
 
-/// What all candidates of a station have in common.
+/// Values that all candidates of a station have in common.
 #[derive(Debug, Clone, Copy)]
 pub struct Common<'a> {
     pub site: Site,
@@ -99,13 +99,13 @@ pub struct Common<'a> {
     pub max_age_s: Option<f64>,
 }
 
-/// What the operator wants of a pass and its satellite.
+/// Policy of the operator for a pass and its satellite.
 #[derive(Clone, Copy)]
 pub struct Wanted<'a> {
     pub priority: Priority,
     pub take: Option<Take>,
     pub limits: &'a PassLimits,
-    /// What the automation rules say of the pass on an antenna.
+    /// Returns the action of the automation rules for the pass on an antenna.
     pub by_rule: &'a dyn Fn(AntennaId) -> Option<Then>,
 }
 
@@ -192,7 +192,7 @@ fn broken(limits: &PassLimits, pass: &Pass, propagator: &Propagator, site: Site)
 /// How much of a pass has to remain where it is taken in part.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Partial {
-    /// Of the seconds that count, 0 to 1.
+    /// Share of the seconds that count, 0 to 1.
     pub min_share: f64,
     pub min_s: f64,
     /// A start is late, and an end early, by a multiple of this.

@@ -1,4 +1,4 @@
-//! What a schedule is worth: one number a class, compared from the first class on.
+//! Worth of a schedule: one number a class, compared from the first class on.
 
 use std::{
     iter::Sum,

@@ -33,7 +33,7 @@ pub(super) struct Samples {
 }
 
 impl Samples {
-    /// Whether they begin after the first of `spans`, and whether they end before the last.
+    /// Returns whether they begin after the first of `spans`, and whether they end before the last.
     pub(super) fn leave_out(&self, spans: &[Span]) -> [bool; 2] {
         let [first, last] =
             [self.list.first(), self.list.last()].map(|it| it.map(|it| ms(it.time)));
@@ -59,7 +59,7 @@ pub struct Sight<'a> {
     pass: &'a Pass,
     /// `None` if no unit needs it.
     name: Option<&'a str>,
-    /// What was sampled last.
+    /// Nodes of the last coarse sampling.
     coarse: Option<Nodes>,
     fine: Option<([Span; 2], Samples)>,
     clear: Option<Vec<Span>>,

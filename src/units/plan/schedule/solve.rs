@@ -83,7 +83,7 @@ pub(super) struct Problem<'a> {
 pub(super) struct Solution {
     /// By antenna, each in the order of time.
     pub(super) takes: Vec<Vec<u32>>,
-    /// What they are worth, with their slews.
+    /// Worth of the takes, with their slews.
     pub(super) row: Row,
     /// No solution is worth more.
     pub(super) bound: Row,
@@ -128,7 +128,7 @@ impl Problem<'_> {
         Solution { takes, row, bound }
     }
 
-    /// What takes are worth, with their slews.
+    /// Returns the worth of takes, with their slews.
     pub(super) fn row(&self, takes: &[Vec<u32>]) -> Row {
         takes.iter().map(|takes| self.row_of_one(takes)).sum()
     }

@@ -206,7 +206,7 @@ fn with_always(request: &Request<'_>, pass: PassKey) -> Option<Schedule> {
     is_taken.then_some(schedule)
 }
 
-/// What a schedule is worth by what the operator has said of its passes in `request`.
+/// Returns the worth of a schedule by the operator's choices for its passes in `request`.
 fn worth_in(request: &Request<'_>, schedule: &Schedule) -> Vec<i64> {
     let class = |entry: &Entry| {
         let found = request.candidates.iter().find(|candidate| candidate.key == entry.pass);

@@ -10,8 +10,9 @@ use super::{
 use crate::station::ChooseBy;
 
 impl Candidate {
-    /// What is left of this pass at `now` for an antenna that tracks it, or waits for it to begin;
-    /// `None` where it is over, or where the antenna takes no passes or cannot take this one.
+    /// Returns the rest of this pass at `now` for an antenna that tracks it, or waits for it to
+    /// begin; `None` where it is over, or where the antenna takes no passes or cannot take this
+    /// one.
     pub fn under_way(
         &self,
         antenna: &PlannedAntenna,

@@ -32,20 +32,20 @@ impl Span {
         spans.iter().map(|span| span.length_ms()).sum()
     }
 
-    /// What both have in common, if anything.
+    /// Returns the time that both have in common, if any.
     pub(super) fn and(self, other: Self) -> Option<Self> {
         let both =
             Self { from_ms: self.from_ms.max(other.from_ms), to_ms: self.to_ms.min(other.to_ms) };
         (both.from_ms < both.to_ms).then_some(both)
     }
 
-    /// What two lists have in common, each in the order of time.
+    /// Returns the times that two lists have in common, each in the order of time.
     pub(super) fn both(a: &[Self], b: &[Self]) -> Vec<Self> {
         a.iter().flat_map(|a| b.iter().filter_map(|b| a.and(*b))).collect()
     }
 }
 
-/// Whether and how an antenna can take a pass.
+/// Ways in which an antenna can take a pass, or the reason why it cannot.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Verdict {
     /// One way for each turn on which the azimuth axis can begin.
@@ -71,7 +71,7 @@ pub enum Impossible {
     NoWay,
 }
 
-/// What a mount loses of a pass, or all of it.
+/// Part of a pass that a mount loses, or all of it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Lost {
     pub seconds: f64,
@@ -82,7 +82,7 @@ pub struct Lost {
 /// One way of taking a pass: from the first second that counts to the last.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Way {
-    /// What counts: within half the beamwidth, above the mask and the minimum elevation.
+    /// Time that counts: within half the beamwidth, above the mask and the minimum elevation.
     counted: Vec<Span>,
     /// Where the axes stand at equal intervals, degrees as the mount counts.
     axes_deg: [Vec<f64>; 2],

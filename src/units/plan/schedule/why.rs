@@ -52,7 +52,7 @@ impl Board<'_> {
         let all_impossible = by_antenna.iter().all(|(_, why)| matches!(why, Why::Impossible(_)));
         let nearest = by_antenna.iter().map(|(_, why)| why).min_by_key(|why| distance(why));
         let why = match (candidate.refusal, nearest) {
-            // What no mount can do is said before the age of the elements and the rules.
+            // The limits of the mounts come before the age of the elements and the rules.
             (Some(_), Some(nearest)) if all_impossible => nearest.clone(),
             (Some(refusal), _) => Why::Refused(refusal),
             (None, Some(nearest)) => nearest.clone(),
@@ -105,7 +105,7 @@ impl Board<'_> {
         self.takes.get(take as usize).is_some_and(|take| take.antenna as usize == antenna)
     }
 
-    /// What hinders one more take among `entries`.
+    /// Returns the reason that hinders one more take among `entries`.
     fn in_the_way(&self, take: u32, entries: &[u32]) -> Option<Why> {
         let (it, _) = self.at(take)?;
         let mut overlaps: Vec<(i64, Fact)> = Vec::new();

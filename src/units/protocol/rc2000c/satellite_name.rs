@@ -60,7 +60,7 @@ impl SatelliteName {
         *self == Self::BLANK
     }
 
-    /// Whether the name is ten digits, which a unit reads as a position.
+    /// Returns `true` if the name is ten digits, which a unit reads as a position.
     pub(super) fn is_all_digits(&self) -> bool {
         self.0.iter().all(u8::is_ascii_digit)
     }

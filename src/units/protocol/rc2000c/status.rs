@@ -143,8 +143,8 @@ impl Status {
         data
     }
 
-    /// Whether an axis or the polarization turns or is about to, according to the unit. An
-    /// axis whose drive is still may yet coast: compare its positions.
+    /// Returns `true` if an axis or the polarization turns or is about to, according to the unit.
+    /// An axis whose drive is still may yet coast: compare its positions.
     pub const fn is_moving(&self) -> bool {
         self.azimuth_drive.is_moving()
             || self.elevation_drive.is_moving()

@@ -88,8 +88,8 @@ impl Shape {
     }
 }
 
-/// Whether kind and motion of a rotator are in their places if its fields begin at `at`;
-/// `None` if too few bytes have come to tell.
+/// Returns `true` if the kind and the motion of a rotator are in their places with its fields at
+/// `at`; `None` if too few bytes have come to tell.
 fn has_rotator(bytes: &[u8], at: usize) -> Option<bool> {
     let kind = bytes.get(at + KIND_AT)?;
     let moving = bytes.get(at + KIND_AT + 1)?;

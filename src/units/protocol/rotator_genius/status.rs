@@ -28,7 +28,7 @@ pub struct Rotator {
     /// End of the travel counter-clockwise.
     pub limit_ccw: Option<WholeDegrees>,
     pub kind: RotatorKind,
-    /// Whether and which way the rotator is driven.
+    /// Direction in which the rotator is driven, if it is.
     pub moving: Moving,
     /// Magnetic declination and the like, degrees, as received; `None` if blank or unreadable.
     /// Not the stop offset of a configuration.
@@ -37,7 +37,7 @@ pub struct Rotator {
     pub target: Option<WholeDegrees>,
     /// Angle at which the rotator set out for the target.
     pub start: Option<WholeDegrees>,
-    /// Whether the rotator is outside its limits; `None` if the byte is unknown.
+    /// `true` if the rotator is outside its limits; `None` if the byte is unknown.
     pub is_outside_limits: Option<bool>,
     pub name: String,
 }

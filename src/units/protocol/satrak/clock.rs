@@ -25,7 +25,7 @@ impl Clock {
         Ok(Self { time, has_milliseconds })
     }
 
-    /// Whether the clock was ever set: the year is 2010 or later.
+    /// Returns `true` if the clock was ever set: the year is 2010 or later.
     pub fn is_set(self) -> bool {
         TimeZone::UTC.to_datetime(self.time).year() >= FIRST_PLAUSIBLE_YEAR
     }

@@ -50,13 +50,13 @@ impl FaultKind {
         self as usize + 1
     }
 
-    /// Whether the fault is only a warning: the antenna can do its work. Azel's own
+    /// Returns `true` if the fault is only a warning: the antenna can do its work. Azel's own
     /// classification.
     pub const fn is_warning(self) -> bool {
         matches!(self, Self::TleOutdated | Self::WebTle | Self::GpsLink)
     }
 
-    /// Whether the fault forbids motion. Azel's own classification.
+    /// Returns `true` if the fault forbids motion. Azel's own classification.
     pub const fn locks_motion(self) -> bool {
         matches!(
             self,
@@ -85,7 +85,7 @@ coded! {
 }
 
 impl FaultState {
-    /// Whether the state is anything but [`Self::Clear`].
+    /// Returns `true` if the state is anything but [`Self::Clear`].
     pub fn is_set(self) -> bool {
         self != Self::Clear
     }

@@ -27,7 +27,7 @@ coded! {
 }
 
 impl AxisMotion {
-    /// Whether the axis moves; an unexplained number counts as moving.
+    /// Returns `true` if the axis moves; an unexplained number counts as moving.
     pub fn is_moving(self) -> bool {
         self != Self::Still
     }
@@ -47,7 +47,7 @@ pub struct Limits {
 }
 
 impl Limits {
-    /// Whether any axis is at an end.
+    /// Returns `true` if any axis is at an end.
     pub fn any(self) -> bool {
         self.x_plus || self.x_minus || self.y_plus || self.y_minus
     }

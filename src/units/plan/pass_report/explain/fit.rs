@@ -82,7 +82,8 @@ impl Family<'_> {
                 AzEl { azimuth, elevation: elevation + deg(offset_deg) }
             }
             Cause::Tilt { north_deg, east_deg } => {
-                // What the axis leans towards is nearer to the axis, and so is read higher.
+                // A point towards which the axis leans is nearer to the axis, and so the elevation
+                // reads higher.
                 let lean = DVec3::new(deg(north_deg).radians(), -deg(east_deg).radians(), 0.0);
                 AzEl::from_enu(at.to_enu() + lean.cross(at.to_enu()))
             }

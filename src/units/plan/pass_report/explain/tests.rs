@@ -163,7 +163,7 @@ fn noise_of_one_of_two(cause: &Cause) -> f64 {
 /// hide it: one in a thousand, beside what [`super::ALIKE`] lets pass.
 const EXCLUDED: f64 = 40.0;
 
-/// Whether these directions, which have no noise, exclude the cause.
+/// Returns `true` if these directions, which have no noise, exclude the cause.
 fn is_excluded(cause: &Cause, evidence: &Evidence<'_>, others: &[(Timestamp, Propagator)]) -> bool {
     let singles = evidence.singles(others).into_iter().map(|(_, found)| found);
     let all = singles.chain(evidence.slow_drives()).chain(evidence.stuck());

@@ -33,8 +33,8 @@ impl Reach {
             .reduce(|first, last| Span { to_ms: last.to_ms, ..first })
     }
 
-    /// Whether the beam may hold the satellite between two samples; `None` if the axes reach all of
-    /// the sky.
+    /// Returns a test whether the beam may hold the satellite between two samples; `None` if the
+    /// axes reach all of the sky.
     fn touches(&self) -> Option<impl Fn(&Sample, &Sample) -> bool> {
         let Mount::AzEl { azimuth_from_deg, azimuth_to_deg, elevation_to_deg, .. } =
             self.drives.mount

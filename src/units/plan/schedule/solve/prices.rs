@@ -37,7 +37,7 @@ struct Bounded<'a> {
     most: Vec<i64>,
 }
 
-/// What all antennas take at some prices.
+/// Result for the takes of all antennas at some prices.
 struct Round {
     /// In thousandths.
     bound: i64,

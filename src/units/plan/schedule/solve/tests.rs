@@ -135,7 +135,7 @@ impl Case {
         }
     }
 
-    /// What the takes are worth; `None` if they exclude each other.
+    /// Returns the worth of the takes; `None` if they exclude each other.
     fn worth(&self, chosen: &[Vec<u32>]) -> Option<Row> {
         let problem = self.problem(0);
         for takes in chosen {

@@ -33,7 +33,7 @@ struct State {
     step: u32,
 }
 
-/// What comes after a take: nothing more of its pass, or of its limit.
+/// Endings at a take: nothing more of its pass, or of its limit, comes after it.
 #[derive(Debug, Clone, Copy, Default)]
 struct Closes {
     pass: bool,

@@ -81,7 +81,7 @@ pub(in crate::plan) fn any_three_antennas(random: &mut Random) -> Station {
             Mount::AzEl { azimuth_from_deg, azimuth_to_deg, .. } => {
                 let travel_deg = *azimuth_to_deg - *azimuth_from_deg;
                 *azimuth_from_deg = between(-180.0, 180.0);
-                // Of the one that turns all round, some directions are there twice.
+                // An axis that turns all round reaches some directions twice.
                 let more_deg = if travel_deg < 360.0 { 0.0 } else { between(0.0, 300.0) };
                 *azimuth_to_deg = *azimuth_from_deg + travel_deg + more_deg;
             }

@@ -187,7 +187,7 @@ impl Iterator for Decoder {
     }
 }
 
-/// Whether a frame may hold `data`. A command may have any length, for a unit answers
+/// Returns `true` if a frame may hold `data`. A command may have any length, for a unit answers
 /// wrong ones too.
 fn is_known_form(header: Header, code: u8, data: &[u8]) -> bool {
     match header {
@@ -200,7 +200,7 @@ fn is_known_form(header: Header, code: u8, data: &[u8]) -> bool {
     }
 }
 
-/// Whether `data` is a device type. Firmware of the RC2000A before 2.6 repeats a wrong
+/// Returns `true` if `data` is a device type. Firmware of the RC2000A before 2.6 repeats a wrong
 /// code in this one reply, and the RC2000C shares its code base.
 pub(in super::super) fn is_device_type(data: &[u8]) -> bool {
     data.len() + ENVELOPE_BYTES == Command::DeviceType.reply_bytes()

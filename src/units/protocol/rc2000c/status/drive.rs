@@ -58,7 +58,7 @@ impl AxisDrive {
         known.map_or(BASE, |(_, code)| BASE + code)
     }
 
-    /// Whether the axis turns or is about to. An unknown state counts as moving.
+    /// Returns `true` if the axis turns or is about to. An unknown state counts as moving.
     pub const fn is_moving(self) -> bool {
         matches!(
             self,

@@ -72,13 +72,13 @@ impl Submode {
         known.map_or(0, |(_, code)| code)
     }
 
-    /// Whether the track mode is on, with or without an error. An unknown submode counts as
-    /// on.
+    /// Returns `true` if the track mode is on, with or without an error. An unknown submode counts
+    /// as on.
     pub fn is_active(self) -> bool {
         self != Self::Off
     }
 
-    /// Whether the track mode waits in an error.
+    /// Returns `true` if the track mode waits in an error.
     pub fn is_error(self) -> bool {
         self.code() >= 8
     }

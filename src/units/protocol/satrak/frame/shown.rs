@@ -146,18 +146,18 @@ fn split_word(bytes: &[u8]) -> (&[u8], &[u8]) {
     bytes.split_at(end)
 }
 
-/// Whether the frame has no values, or only the outcome of a request.
+/// Returns `true` if the frame has no values, or only the outcome of a request.
 fn is_bare(frame: &Frame) -> bool {
     let fields: Vec<&str> = frame.fields().iter().map(String::as_str).collect();
     matches!(fields.as_slice(), [] | ["OK" | "ERR"] | ["ERR", _])
 }
 
-/// Whether this is a word of the document whose values are not secret.
+/// Returns `true` if this is a word of the document whose values are not secret.
 fn is_plain_word(word: &str) -> bool {
     Word::from_name(word).is_some_and(|word| word != Word::SatelliteFtp)
 }
 
-/// Whether the letters FTP occur anywhere, in upper or lower case.
+/// Returns `true` if the letters FTP occur anywhere, in upper or lower case.
 fn names_ftp(bytes: &[u8]) -> bool {
     bytes.windows(3).any(|three| three.eq_ignore_ascii_case(b"FTP"))
 }
@@ -172,7 +172,8 @@ fn split_sum(values: &[u8]) -> (&[u8], &[u8]) {
     values.split_at(at.unwrap_or(values.len()))
 }
 
-/// Whether the value is a number, a coordinate with its letter, or one of the fixed words.
+/// Returns `true` if the value is a number, a coordinate with its letter, or one of the fixed
+/// words.
 fn is_number(value: &[u8]) -> bool {
     let value = value.trim_ascii();
     if [b"OK".as_slice(), b"ERR", b"NONE", b"?"].contains(&value) {
@@ -262,7 +263,7 @@ mod tests {
         assert_eq!(shown(b"er2,22\r\n", true), ["(hidden)\r\n"]);
     }
 
-    /// Whether any four letters of the password, or its digits, are in `lines`.
+    /// Returns `true` if any four letters of the password, or its digits, are in `lines`.
     fn leaks(lines: &[String], password: &str) -> bool {
         let pieces: Vec<_> = (0..password.len() - 3).map(|at| &password[at..at + 4]).collect();
         lines.iter().any(|line| pieces.iter().any(|piece| line.contains(piece)))
