@@ -86,9 +86,9 @@ pub struct App {
     change: Option<Change>,
     keeper: Keeper,
     place_watch: PlaceWatch,
-    /// The set-up opens by itself where there is no station.
+    /// The set-up opens automatically where there is no station.
     opens_set_up: bool,
-    /// `None` where nothing is told to the desktop.
+    /// `None` where Azel reports nothing to the desktop.
     notifier: Option<Notifier>,
     /// The attention last reported to the station.
     told: engine::Attention,
@@ -264,7 +264,7 @@ impl App {
         self.model.selected_antenna = place.unwrap_or(self.model.selected_antenna).min(most);
     }
 
-    /// Reports to the station what is looked at.
+    /// Reports to the station the list and the pass that the operator looks at.
     fn look(&mut self) {
         let (list, selected) = (self.model.list, self.model.selected);
         let attention = engine::Attention { list, selected };

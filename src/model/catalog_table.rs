@@ -21,24 +21,24 @@ use crate::{
 pub const OLD_S: f64 = 7.0 * DAY_S;
 /// Hours ahead in which a next pass is searched for.
 pub const NEXT_PASSES_H: u32 = 24;
-/// Time after which the next passes are searched for anew.
+/// Time after which the search for next passes runs again.
 pub const NEXT_PASSES_STALE_S: f64 = 60.0;
-/// Passes kept of each satellite: the first may be over before they are searched for anew.
+/// Passes kept of each satellite: the first may be over before the search runs again.
 const PASSES_AHEAD: usize = 2;
 /// A pass under way began at most so long ago, except of satellites that hardly move.
 const LOOK_BACK_S: f64 = 3600.0;
 
-/// The objects of which the table shows those that the search finds.
+/// Objects among which the table searches.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub enum Among {
     #[default]
     All,
     Favourites,
-    /// Those of one source.
+    /// Objects of one source.
     Group(String),
-    /// Those of a group that the operator has made, by its name.
+    /// Objects of a group that the operator has made, by its name.
     Own(String),
-    /// Those whose elements are older than [`OLD_S`].
+    /// Objects whose elements are older than [`OLD_S`].
     Old,
 }
 
@@ -264,7 +264,7 @@ fn rank(column: Column, of: &Elements, inputs: &Inputs, now: Timestamp) -> Rank 
         Column::Age => one(of.age_s(now)),
         Column::NextPass => {
             let next = next()?;
-            // Those that are up all the time come after all others.
+            // Satellites that are up all the time come after all others.
             let late = f64::from(u8::from(next.is_always_up));
             Some((late, next.aos.as_microsecond() as f64))
         }

@@ -15,7 +15,7 @@ pub const DEBOUNCE: Duration = Duration::from_millis(300);
 /// A question: settings as saved and as edited, which are compared over passes.
 pub trait Compare: Clone + PartialEq + Send + 'static {
     type Tally: Send + 'static;
-    /// Every how many samples of a track one is looked at.
+    /// Interval between the samples of a track that are evaluated, in samples.
     const EVERY: usize;
 
     /// Returns the tallies of the passes by the settings as saved, and as edited.

@@ -112,12 +112,12 @@ impl Model {
         self.swap.as_deref().filter(fits)
     }
 
-    /// All passes to come with what the schedule says of them, by AOS.
+    /// Returns all passes to come and their place in the schedule, by AOS.
     pub fn planned_passes(&self) -> Vec<PlannedPass<'_>> {
         self.planned_passes_until(self.plan_until())
     }
 
-    /// The passes to come with AOS before `end`, with what the schedule says of them, by AOS.
+    /// Returns the passes to come with AOS before `end` and their place in the schedule, by AOS.
     pub fn planned_passes_until(&self, end: Timestamp) -> Vec<PlannedPass<'_>> {
         let schedule = &self.schedule.schedule;
         let last = add_seconds(end, SAME_AOS_S);

@@ -38,7 +38,7 @@ pub struct Stations {
 }
 
 impl Stations {
-    /// Text of the menu for a known station: two of the same name are told apart by their files.
+    /// Returns the text of the menu for a known station. The files tell two of the same name apart.
     pub fn label(&self, station: &KnownStation) -> String {
         let is_alone = self.known.iter().filter(|known| known.name == station.name).count() < 2;
         match station.path.file_stem().filter(|_| !is_alone) {

@@ -46,7 +46,7 @@ const LOW_PERIGEE_KM: f64 = 120.0;
 const DOWN_STEP_MIN: f64 = 5.0;
 const MAX_DOWN_LOOKS: u32 = 20_000;
 /// The place from which an integration is resumed stays where it is for a state up to this much
-/// later, so that whoever asks for an earlier one need not begin at the epoch: twenty steps.
+/// later, so that a request for an earlier one need not begin at the epoch: twenty steps.
 const RESUMED_MIN: f64 = 14_400.0;
 
 /// From this mean motion on, Sun and Moon are left out of the orbit: periods below 225 minutes.

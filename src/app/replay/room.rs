@@ -17,7 +17,7 @@ use crate::{
     station::AntennaId,
 };
 
-/// Which moment is wanted.
+/// Moment to find.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Wanted {
     At(Timestamp),

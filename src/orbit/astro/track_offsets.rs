@@ -186,7 +186,7 @@ impl TrackOffsets {
         self.with_axes_of(Self::NONE)
     }
 
-    /// Those of azimuth and elevation alone.
+    /// Returns the offsets of azimuth and elevation alone.
     #[must_use]
     pub fn of_the_axes(self) -> Self {
         Self::NONE.with_axes_of(self)

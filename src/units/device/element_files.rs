@@ -2,8 +2,8 @@
 
 use super::settings::{Key, Values};
 
-/// How all units of a make take element files over SFTP, and how they are told which
-/// satellite of which file to use.
+/// How all units of a make take element files over SFTP, and how Azel has them use a satellite of a
+/// file.
 #[derive(Debug)]
 pub struct ElementFiles {
     /// Folder in which the unit looks for the files.

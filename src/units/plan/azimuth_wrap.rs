@@ -50,11 +50,11 @@ pub(super) struct AzimuthWrap {
 }
 
 impl AzimuthWrap {
-    /// The positions along `azimuths_deg`, which are unwrapped and a few degrees apart, with the
-    /// fewest slews of a whole turn. `axis_now_deg` is where the axis stands: of two wraps with the
-    /// same number of slews, the one that begins nearer is taken. Where no position of the axis
-    /// points to an azimuth, the axis waits at an end: before the first azimuth that it reaches and
-    /// after the last at the one next to that, else at the nearer one.
+    /// Returns the positions along `azimuths_deg`, which are unwrapped and a few degrees apart,
+    /// with the fewest slews of a whole turn. `axis_now_deg` is where the axis stands: among wraps
+    /// with the same number of slews, this takes the one that begins nearer. Where no position of
+    /// the axis points to an azimuth, the axis waits at an end: before the first azimuth that it
+    /// reaches and after the last at the one next to that, else at the nearer one.
     pub(super) fn along(
         azimuths_deg: &[f64],
         range: AzimuthRange,

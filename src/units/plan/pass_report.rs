@@ -47,8 +47,8 @@ const NOT_KNOWN_S: f64 = 10.0;
 pub struct TrackedPass<'a> {
     pub propagator: &'a Propagator,
     pub site: Site,
-    /// The part that counts: the one that the plan gives the antenna, or without a plan all from AOS to
-    /// LOS above the antenna's minimum elevation.
+    /// Part of the pass that counts: the planned part for the antenna, or without a plan all from
+    /// AOS to LOS above the antenna's minimum elevation.
     pub from: Timestamp,
     pub until: Timestamp,
     pub limits: MountLimits,

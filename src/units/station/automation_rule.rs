@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{AntennaId, HoursOfDay};
 
-/// A rule. Of the rules that are on, the first whose conditions all hold decides.
+/// A rule. The first rule that is on and whose conditions all hold decides.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct AutomationRule {
     #[serde(rename = "on", default = "usually_on", skip_serializing_if = "is_usual")]

@@ -16,15 +16,15 @@ use crate::{
 /// A make of controller. Everything that an antenna of it needs follows from
 /// here, but for its simulator, which is no part of a station.
 pub struct ControllerSpec {
-    /// Names it in the station file.
+    /// Key in the station file.
     pub key: &'static str,
-    /// As on the box.
+    /// Name on the box.
     pub name: &'static str,
-    /// How an antenna is called that has no other name.
+    /// Name of an antenna that has no other name.
     pub short_name: &'static str,
-    /// Over what it is reached.
+    /// Link over which Azel reaches it.
     pub link: Link,
-    /// Where it answers as it leaves the factory, or else an example.
+    /// Address at which it answers as it leaves the factory, or else an example.
     pub default_address: &'static str,
     /// Figures of an antenna of which nothing else is known.
     pub usual: Usual,
@@ -42,14 +42,14 @@ pub struct ControllerSpec {
     pub why_no_question: Option<fn(&str) -> String>,
     /// All that its units can be.
     pub variants: &'static [&'static Variant],
-    /// Which of these a unit is, by the settings of its connection.
+    /// Returns the variant of a unit by the settings of its connection.
     pub variant: fn(&Connection) -> &'static Variant,
     /// The controller of an antenna whose connection is of this make. Silent until
     /// its link is up.
     pub open: fn(&Antenna) -> Box<dyn Controller>,
 }
 
-/// Over what a controller is reached.
+/// Link over which Azel reaches a controller.
 #[derive(Debug, Clone, Copy)]
 pub enum Link {
     /// TCP: its address is a host and a port.

@@ -25,7 +25,7 @@ pub enum OffsetsOf {
 }
 
 impl OffsetsOf {
-    /// Those of its kinds.
+    /// Returns the offsets of its kinds.
     #[must_use]
     pub fn part(self, offsets: TrackOffsets) -> TrackOffsets {
         match self {

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::AntennaId;
 
-/// Which passes of a satellite or group are taken; `None` sets no limit.
+/// Limits on the passes of a satellite or group that are taken; `None` sets no limit.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct PassLimits {

@@ -1,4 +1,4 @@
-//! Which of the two rotators is which axis of the antenna.
+//! Assignment of the two rotators to the axes of the antenna.
 
 use super::Rotators;
 use crate::protocol::rotator_genius::{Rotator, RotatorKind, RotatorNumber, Status, WholeDegrees};

@@ -32,7 +32,7 @@ struct Coast {
 }
 
 impl Turning {
-    /// Takes what is told at `now`, and says whether the rotator turns.
+    /// Takes the report of `now`, and returns whether the rotator turns.
     pub(super) fn look(&mut self, rotator: &Rotator, now: Instant) -> AxisMotion {
         let angle_deg = rotator.position.ok().map(|angle| i32::from(angle.degrees()));
         let driven = match rotator.moving {

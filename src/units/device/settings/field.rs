@@ -19,11 +19,11 @@ pub struct Group {
 /// One setting.
 #[derive(Debug)]
 pub struct Field {
-    /// Names it within its group.
+    /// Key within its group.
     pub key: &'static str,
-    /// Before its value in the form.
+    /// Label before its value in the form.
     pub label: &'static str,
-    /// Behind its value; empty for none.
+    /// Unit behind its value; empty for none.
     pub unit: &'static str,
     /// Values that it can hold.
     pub kind: Kind,

@@ -5,12 +5,12 @@ use jiff::Timestamp;
 use super::{Kind, Secret, Unfit, Value, Values};
 use crate::device::CountPoint;
 
-/// The key of a field whose value is a `T`, and what that value can be.
+/// The key of a field whose value is a `T`, and the values that it can hold.
 #[derive(Debug)]
 pub struct Key<T: 'static> {
     /// Names the field within its group.
     pub name: &'static str,
-    /// What it can hold.
+    /// Values that it can hold.
     pub kind: Kind,
     wrap: fn(T) -> Value,
     unwrap: fn(&Value) -> Option<T>,

@@ -333,7 +333,7 @@ fn a_unit_that_leaves_refraction_out_is_told_apart_and_still_takes_the_pass() {
     let narrow = Judge::new(judge.pass().clone(), narrow).unwrap();
     assert!(narrow.supervise(&right(), true).is_within_beam);
     assert!(!narrow.supervise(&with(|unit| unit.azimuth_deg = 1.0), true).is_within_beam);
-    // The path that the gate judges is the one that the unit takes.
+    // The gate judges the path that the unit takes.
     assert!(judge.start(&right(), aos.time).unwrap().separation(aos.direction).degrees() < 1e-6);
 }
 

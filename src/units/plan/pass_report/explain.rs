@@ -273,7 +273,8 @@ impl Evidence<'_> {
     /// Pairs of causes each of which does its part. `singles`: what each explains, the best first.
     fn pairs(&self, singles: &[(Family<'_>, Found)], whole: f64) -> Vec<Found> {
         let is_set = |family: &Family<'_>| matches!(family, Family::Elements(_));
-        // An antenna follows one set of elements: only the one that explains most alone is paired.
+        // An antenna follows one set of elements, so only the set that explains most alone is
+        // paired.
         let set = singles.iter().find(|(family, _)| is_set(family));
         let rest = singles.iter().filter(|(family, _)| !is_set(family));
         let singles: Vec<&(Family<'_>, Found)> = set.into_iter().chain(rest).collect();

@@ -229,7 +229,7 @@ fn what_is_out_of_reach_is_no_fault_whatever_was_measured_there() {
         let worst = report.worst.unwrap().error.off_deg;
         assert!(worst < 0.1, "{worst}: what is out of reach says nothing of the pointing");
     }
-    // A pointing error that goes on to the end of the reach is none of the mount's.
+    // The mount does not explain a pointing error that goes on to the end of the reach.
     let wanders = tracked.report(&scene.flown(|second, at| match second {
         second if second < middle_s - 60.0 => Some(scene.direction(at)),
         second if second < middle_s => {

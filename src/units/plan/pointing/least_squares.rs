@@ -1,4 +1,4 @@
-//! Weighted least squares of a few unknowns, and which of them the equations cannot tell apart.
+//! Weighted least squares of a few unknowns, and the unknowns that the equations cannot tell apart.
 
 /// An unknown whose variance the others inflate by more than this is not told apart from them.
 const MAX_INFLATION: f64 = 1_000.0;

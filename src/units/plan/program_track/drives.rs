@@ -17,7 +17,7 @@ use crate::{
 
 const ZENITH_DEG: f64 = 90.0;
 /// An X/Y mount is sent no closer to an end of its travel, or to its minimum elevation, than this,
-/// degrees: it is told a rounded direction, and refuses one that lies beyond.
+/// degrees: it receives a rounded direction, and refuses one that lies beyond.
 const BESIDE_END_DEG: f64 = 0.01;
 
 /// The abilities of the drives for position commands.

@@ -190,7 +190,7 @@ mod tests {
         assert!(late_s > 50 && late_s + left_s == 200, "{late_s} {left_s}");
         let warned = planned(&dish((0.0, 360.0), 90.0), vec![mast(Entered::Warn)], 0.0);
         assert_eq!(join(&warned, [50.0, 45.0], &in_the_east()), Some((40, 160)));
-        // Time within it does not count.
+        // Time within the keep-out does not count.
         let through = pass((50.0, 30.0), (100.0, 30.0));
         let hard = planned(&dish((0.0, 360.0), 90.0), vec![mast(Entered::Hard)], 0.0);
         let (late_s, left_s) = join(&hard, [50.0, 30.0], &through).unwrap();

@@ -17,7 +17,7 @@ pub struct Schedule {
     pub entries: Vec<Entry>,
     /// By AOS.
     pub left_out: Vec<LeftOut>,
-    /// Worth of the entries, class by class, and the proof about it.
+    /// Worth of the entries, class by class, and how far it is proved.
     pub worth: Vec<ClassWorth>,
     /// Seconds that the antennas slew.
     pub slew_s: f64,

@@ -26,8 +26,7 @@ pub enum Class {
 }
 
 /// One number a class, then the milliseconds that count, then the slews and the times of AOS with a
-/// minus: of two rows the one that is greater in the first number in which they differ is the
-/// greater.
+/// minus. The first number in which two rows differ decides which row is greater.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
 pub(super) struct Row([i64; Self::LEN]);
 

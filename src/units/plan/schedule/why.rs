@@ -155,7 +155,7 @@ impl Board<'_> {
     }
 }
 
-/// The conflict with the entry of the highest class, and of those the one by most seconds.
+/// Returns the conflict with the entry of the highest class that is in the way by the most seconds.
 fn conflict(mut found: Vec<(i64, Fact)>, besides: &[(i64, Fact)]) -> Option<Conflict> {
     found.sort_by_key(|(missing_ms, fact)| (fact.class, -missing_ms));
     let (missing_ms, with) = found.first()?;

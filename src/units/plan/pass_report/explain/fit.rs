@@ -29,7 +29,7 @@ pub(super) enum Family<'a> {
 }
 
 impl Family<'_> {
-    /// Those whose size is fitted.
+    /// All kinds of cause whose size is fitted.
     pub(super) const ALL: [Self; 7] = [
         Self::Late,
         Self::Azimuth,

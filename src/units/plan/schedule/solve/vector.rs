@@ -1,8 +1,8 @@
 //! Several antennas, or limits of takes a day: dynamic programming over the last take of every
 //! antenna, the passes that may still be taken twice, and what is used of each limit.
 //!
-//! The classes of the row that is found are the best; equal ones are told apart by their slews
-//! only as far as the states that are kept allow.
+//! The classes of the row that is found are the best; the slews decide between equal ones only as
+//! far as the states that are kept allow.
 
 use super::{Part, Problem, Row};
 

@@ -20,10 +20,9 @@ pub struct Shown {
 impl Line {
     /// The line without any bytes that may be the FTP password or a piece of it.
     ///
-    /// A good frame with a word of the document other than `SATELLITE_FTP` stays whole. Of any
-    /// other line only the words of the document and the numbers right after them are shown.
-    /// `is_greeting` says that no `$` has come over the link yet, so that plain text is no
-    /// piece of a frame.
+    /// A good frame with a word of the document other than `SATELLITE_FTP` stays whole. Any other
+    /// line shows only the words of the document and the numbers right after them. `is_greeting`
+    /// says that no `$` has come over the link yet, so that plain text is no piece of a frame.
     pub fn without_secrets(&self, is_greeting: bool) -> Shown {
         let bytes = self.bytes.get(..MAX_LINE_BYTES).unwrap_or(&self.bytes);
         let mut filter = Filter { shown: Vec::with_capacity(bytes.len()), is_whole: true };
