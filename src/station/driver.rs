@@ -218,7 +218,7 @@ pub async fn told_to_end() -> io::Result<()> {
     tokio::signal::ctrl_c().await
 }
 
-/// What sessions take from outside: clock and links.
+/// Clock and links that sessions use, and the check of the clock's synchronisation.
 #[derive(Clone)]
 pub struct Outside {
     /// Used by the sessions and the code that runs them.

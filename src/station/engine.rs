@@ -137,7 +137,7 @@ struct Engine {
     reminders: Vec<Reminder>,
     scheduler: Scheduler,
     schedule: Arc<Planned>,
-    /// What became of the passes of this day, and of automatic operation.
+    /// Outcomes of the passes of this day, and events of automatic operation.
     day: Vec<DayLine>,
     last_run: LastRun,
     learned_drives: LearnedDrives,

@@ -76,7 +76,7 @@ impl<T: Send + 'static> Job<T> {
             let _ = send.send(outcome);
         };
         if is_in_place() {
-            // Whoever asks for the result learns that it broke off.
+            // The caller that asks for the result learns that the work broke off.
             panic::catch_unwind(AssertUnwindSafe(whole)).ok();
         } else {
             thread::Builder::new().name(name.to_owned()).spawn(whole)?;

@@ -45,7 +45,7 @@ const LONGEST_PASS_S: f64 = 6.0 * 3600.0;
 /// Most reports that wait.
 const REPORTS: usize = 64;
 
-/// What is rehearsed.
+/// Station, time and faults of a rehearsal.
 #[derive(Debug, Clone)]
 pub struct Rehearsal {
     /// Its antennas are copied; nothing of its file is touched.
@@ -86,7 +86,7 @@ pub fn run(
     is_cancelled: &dyn Fn() -> bool,
 ) -> Result<Rehearsed, RehearsalError> {
     let _jobs = job::InPlace::begin();
-    // What is logged here is of no real unit.
+    // Mark the log lines below: they concern no real unit.
     let _said = tracing::error_span!("rehearsal").entered();
     let runtime =
         tokio::runtime::Builder::new_current_thread().enable_time().start_paused(true).build()?;

@@ -19,7 +19,7 @@ pub struct Row {
     pub void_after_stop: bool,
 }
 
-/// What a command does to the antenna.
+/// Effect of a command on the antenna.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Effect {
     /// It may move the antenna, now or later.
@@ -34,7 +34,7 @@ pub enum Effect {
     Looks,
 }
 
-/// What becomes of a command to an antenna without a link.
+/// Handling of a command to an antenna without a link.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Offline {
     /// Carried out, without a word to the unit.
@@ -47,7 +47,7 @@ pub enum Offline {
     Dropped,
 }
 
-/// What becomes of a command to an antenna that is locked out.
+/// Handling of a command to an antenna that is locked out.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LockedOut {
     Taken,

@@ -51,7 +51,7 @@ use word::Word;
 
 const HALF_TURN: Angle = Angle::from_degrees(180.0);
 
-/// What the rules see besides the motion.
+/// State that the rules see besides the motion.
 struct Situation<'a> {
     gate: &'a Gate,
     state: &'a AntennaState,
@@ -104,7 +104,7 @@ pub(super) struct Gate {
     unproved_since: Option<Instant>,
     /// The pass on which the unit's own program is started.
     program: Option<Arc<Judge>>,
-    /// What the unit would track by itself.
+    /// Pass that the unit would track on its own.
     held: Held,
     judged: Judged,
     /// The last detour that was looked for.

@@ -1,7 +1,6 @@
 use serde::{Deserialize, Serialize};
 
-/// What the operator wants of an antenna. A state of the driver: it holds with or without a
-/// window.
+/// The operator's intent for an antenna. A state of the driver: it holds with or without a window.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum Intent {
     /// Nothing is to move.

@@ -1,4 +1,4 @@
-//! What the driver noticed or did for safety without being asked.
+//! Events that the driver noticed, and actions that it took, for safety without a request.
 
 use std::time::Duration;
 
@@ -57,7 +57,8 @@ pub enum Safety {
     /// The antenna stayed off its target for too long. Azel has sent STOP.
     OffTarget {
         off_deg: f64,
-        /// What the unit reports that makes an error as large. Older records do not hold it.
+        /// Cause, found in the unit's reports, that makes an error as large. Older records do not
+        /// hold it.
         #[serde(default)]
         cause: Option<Box<Ranked>>,
     },

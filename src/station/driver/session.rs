@@ -207,7 +207,7 @@ impl Wires {
     }
 }
 
-/// Whether a new session wants a link, and the link state to show first.
+/// Returns the link that a new session wants, and the link state to show first.
 fn first_link(antenna: &Antenna, since: Instant) -> (Wanted, LinkState) {
     let waits = antenna.connection.variant().capabilities.waits_for_word;
     if waits && !antenna.connects_at_start {
@@ -253,7 +253,7 @@ struct Contact {
     program_was_on: bool,
 }
 
-/// What is owed to the unit, also by other sessions and earlier runs.
+/// Debts to the unit, also from other sessions and earlier runs.
 struct Owed {
     unit: Unit,
     debts: Debts,
@@ -270,7 +270,7 @@ struct Owed {
     left_moving: Option<LeftMoving>,
 }
 
-/// What each look is compared with.
+/// State at the last look, for comparison with the next one.
 #[derive(Default)]
 struct LastSeen {
     watch: Watch,
@@ -297,7 +297,7 @@ pub struct Session {
     /// Watch over a track that nobody asked for from here.
     unasked: Option<on_board::Watch>,
     judging: Judging,
-    /// Of [`Session::supervise`].
+    /// Checks that [`Session::supervise`] carries out.
     checks: &'static [Check],
     key: JogKey,
     guard: Guard,

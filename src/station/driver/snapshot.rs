@@ -50,7 +50,7 @@ pub struct Snapshot {
     /// The on-board track, as it is supervised.
     pub on_board: Option<OnBoardView>,
     pub program_track: Option<TrackView>,
-    /// What was added from here to the offsets of the unit's own track.
+    /// Offsets that were added from here to those of the unit's own track.
     pub unit_offsets: Option<UnitOffsetsView>,
     /// Rates of the axes as learned from long slews, degrees per second; `None` before the
     /// session runs. Until a slew they are those of the settings.
@@ -84,7 +84,7 @@ pub struct Snapshot {
     pub learned: [AxisLessons; 2],
     /// Signed amounts of a step that may not be over, degrees.
     pub step: Option<[f64; 2]>,
-    /// What would come of going to the direction that the operator looks at.
+    /// Outcome of going to the direction that the operator looks at.
     pub preview: Option<Arc<Preview>>,
     pub state: AntennaState,
     /// Present time between two questions.
@@ -137,7 +137,7 @@ impl Snapshot {
         self.link != LinkState::Off || self.unproved || owed
     }
 
-    /// What is meant to be added to the track that the unit computes.
+    /// Returns the offsets that are meant to be added to the track that the unit computes.
     pub fn meant_offsets(&self) -> TrackOffsets {
         let meant = self.unit_offsets.as_ref().filter(|unit| unit.left.is_none());
         meant.map(|unit| unit.offsets).unwrap_or_default()
@@ -237,7 +237,7 @@ pub struct OnBoardView {
     pub arrives: Option<Instant>,
 }
 
-/// What was added from here to the offsets of the unit's own track.
+/// Offsets that were added from here to those of the unit's own track.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct UnitOffsetsView {
     /// In force: read back.
@@ -361,8 +361,8 @@ pub enum Event {
         /// How long it was silent.
         after: Duration,
         found: Found,
-        /// What was asked from here explains what it does and where it points; a track from
-        /// here is compared by itself.
+        /// Commands from here explain what the unit does and where it points. `true` for a program
+        /// track from here as well, which Azel compares separately.
         #[serde(alias = "is_as_left")]
         is_explained: bool,
     },
@@ -451,7 +451,7 @@ impl TrackProblem {
     }
 }
 
-/// What a unit was doing when its link came back.
+/// State of a unit when its link came back.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Found {
     Tracking,

@@ -1,4 +1,4 @@
-//! Whether a time service keeps the computer's clock right.
+//! Finds out if a time service keeps the computer's clock right.
 
 use serde::{Deserialize, Serialize};
 

@@ -54,7 +54,7 @@ pub struct AntennaModel {
     pub prediction: Option<Prediction>,
     /// Errors of the present track, oldest first.
     pub errors: Errors,
-    /// What explains the error of the pass under way, if that is known.
+    /// Causes of the error of the pass under way, if they are known.
     // Older films hold another form under the field's own name, which is ignored.
     #[serde(default, rename = "explained_by")]
     pub explained: Option<Explained>,

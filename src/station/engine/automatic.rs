@@ -43,13 +43,13 @@ use crate::{
 /// An antenna is sent to a pass so long before it has to be, seconds.
 const LEAD_S: f64 = 60.0;
 
-/// What automatic operation of an antenna has at hand, besides its state in the snapshot.
+/// Working state of automatic operation of an antenna, besides its state in the snapshot.
 #[derive(Default)]
 pub(super) struct AtWork {
     /// The pass of the schedule that comes next or is under way, from when the antenna should set
     /// out.
     flight: Option<Flight>,
-    /// As it was told last.
+    /// State that was last reported.
     told: Option<Operation>,
     /// Auto-track was switched on for a pass that the unit holds, and nobody has touched it since.
     has_auto_track_on: bool,
@@ -62,7 +62,7 @@ pub(super) struct AtWork {
 }
 
 impl AtWork {
-    /// What remains of it when the antenna is given another unit.
+    /// Returns the part that stays valid when the antenna is given another unit.
     pub(super) fn without_unit(self) -> Self {
         let (clock_stop, upkeep) = Default::default();
         Self {
@@ -474,7 +474,7 @@ impl Engine {
             _ => {}
         }
         self.note_day(id, event);
-        // What the unit holds is not started by itself once nobody minds it.
+        // Nobody watches the unit from now on: it must not start its pass on its own.
         if before.is_on() && !operation.is_on() {
             self.end_auto_track(index);
         }

@@ -64,7 +64,7 @@ pub(super) struct Urgent {
     pub(super) is_stop_lost: bool,
 }
 
-/// Who gives a command.
+/// Origin of a command.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum By {
@@ -94,7 +94,7 @@ impl From<HolderKind> for By {
 #[derive(Debug, Clone)]
 pub struct Stopped {
     pub at: Instant,
-    /// Who pressed it.
+    /// Origin of the STOP.
     pub by: By,
     /// Antennas that it was sent to.
     pub antennas: Vec<AntennaId>,

@@ -28,7 +28,7 @@ impl InPlace {
         let runtime = tokio::runtime::Handle::try_current().map_err(io::Error::other)?;
         let (requests, inbox) = mpsc::channel(REQUESTS);
         let (tell, mut events) = mpsc::channel::<Event>(EVENTS);
-        // What they tell stands in the snapshots too.
+        // The snapshots hold the content of the events too.
         runtime.spawn(async move { while events.recv().await.is_some() {} });
         let woken = Arc::new(Notify::new());
         let driver = Driver::within(runtime, outside.clone(), wake_of(&woken))

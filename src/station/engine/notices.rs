@@ -1,5 +1,5 @@
-//! What of the alarms and reminders is told through the desktop, and how. Everything is told
-//! once, and nothing keeps a top-priority alarm quiet.
+//! Notices of alarms and reminders through the desktop. Each is given once, and nothing keeps a
+//! top-priority alarm quiet.
 
 #[cfg(test)]
 mod tests;
@@ -42,7 +42,7 @@ impl About {
 /// News since the last look.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct News {
-    /// What is to be told, top-priority alarms first.
+    /// Notices to give, top-priority alarms first.
     pub told: Vec<Notice>,
     /// Rows of alarms that stood at the last look and are over.
     pub over: Vec<u64>,

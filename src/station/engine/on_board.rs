@@ -126,7 +126,7 @@ impl Engine {
 
     /// The judgement of the unit of `antenna`, kept where nothing has changed.
     fn judged(&self, antenna: &AntennaModel) -> Option<Judged> {
-        // What was added for the track that runs is taken back after it.
+        // Azel takes back the offsets of the current track after it.
         let unit = &antenna.snapshot.state.on_board.without(antenna.snapshot.meant_offsets());
         let is_told = unit.place.is_some() || unit.clock.is_some() || unit.offsets.is_some();
         let can = antenna.variant().capabilities.has_program && antenna.snapshot.link.is_open();

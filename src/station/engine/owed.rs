@@ -37,7 +37,7 @@ impl Engine {
                     let learned = self.learned_drives(&antenna);
                     drop(self.driver.open(&antenna, bounds, learned, None, Box::new(claim)));
                 }
-                // Whoever drives it looks after it.
+                // The Azel instance that controls the unit handles its debts.
                 Err(_) => debts.leave(&unit),
             }
         }

@@ -88,7 +88,7 @@ impl PointingWork {
         let why = match job.end() {
             None => return,
             Some(Ok(Ok(mut read))) => {
-                // What was entered while it was read.
+                // Peaks that were entered during the read.
                 read.extend(&self.peaks);
                 self.peaks = Arc::new(read);
                 self.peaks_state = PeaksState::Known;

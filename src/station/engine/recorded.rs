@@ -1,4 +1,4 @@
-//! What a client looks back at: passes of the record, read from its file.
+//! Passes that a client looks back at, read from the file of the record.
 
 use std::{path::Path, sync::Arc, time::Duration};
 
@@ -18,7 +18,7 @@ use crate::{
 /// Time from the end of the work on a report until it can be read from the file.
 const UNTIL_WRITTEN: Duration = Duration::from_secs(1);
 
-/// What is looked at of the record.
+/// Passes of the record that a client looks at.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct RecordLook {
     pub query: PassQuery,
@@ -26,13 +26,14 @@ pub struct RecordLook {
     pub opened: Option<i64>,
 }
 
-/// What the record holds of it.
+/// Content of the record for a look.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Recorded {
     pub look: RecordLook,
     /// Or why the record cannot be read.
     pub found: Result<Found, String>,
-    /// What explains the opened pass and those before it together. It takes longer than the rest.
+    /// Causes that explain the opened pass and those before it together. Finding them takes longer
+    /// than the rest.
     pub together: Option<ExplainedPasses>,
 }
 

@@ -1,5 +1,5 @@
-//! What the station hands to its record: what was asked of it, and what has changed since the last
-//! turn. Lines and positions go there from the sessions' own logs.
+//! Entries that the station hands to its record: the commands that it received, and its changes
+//! since the last turn. Lines and positions go there from the sessions' own logs.
 
 mod differences;
 mod live;
@@ -51,7 +51,7 @@ const DEMO: &str = "demo.sqlite";
 pub(super) struct Recording {
     /// Folder of all records; `None` to keep none.
     folder: Option<PathBuf>,
-    /// Who takes the reports of passes besides the record.
+    /// Channel for reports of passes, besides the record.
     taker: Option<mpsc::Sender<PassNote>>,
     recorder: Option<(PathBuf, Recorder)>,
     status: Option<Arc<Status>>,
@@ -193,7 +193,7 @@ impl Engine {
 
     /// Records into the file of the station that comes into use, and what is new in it.
     pub(super) fn record_station(&mut self, station: &Station) {
-        // What another Azel drives, it records.
+        // Another Azel that drives the station records it itself.
         let path = self
             .record_file()
             .filter(|_| !matches!(self.station_claim, super::StationClaim::Theirs(_)));

@@ -24,7 +24,7 @@ use crate::{
     station::{AntennaId, Station, Take},
 };
 
-/// What a change of the schedule has to gain: a moved minute does not turn it over.
+/// Gain that a change of the schedule must bring: a moved minute does not turn it over.
 const STEADINESS: Steadiness = Steadiness { percent: 3, seconds: 10 };
 
 /// An entry whose end moves by less is the same, seconds.
@@ -40,21 +40,21 @@ pub struct Planned {
     pub made_at: Option<Timestamp>,
     /// End of what was planned.
     pub until: Option<Timestamp>,
-    /// What the last new schedule changed.
+    /// Changes that the last new schedule made.
     pub changes: Vec<Change>,
 }
 
-/// What it costs to take a pass that the schedule leaves out.
+/// Cost of taking a pass that the schedule leaves out.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Swap {
     pub pass: PassKey,
     /// Revision of the schedule that it was worked out against.
     pub revision: u64,
-    /// What changes then; `None` where the pass cannot be taken at all.
+    /// Changes of the schedule that follow; `None` where the pass cannot be taken at all.
     pub changes: Option<Vec<Change>>,
 }
 
-/// What a schedule follows from, besides the time.
+/// Inputs from which a schedule follows, besides the time.
 #[derive(Clone)]
 pub(super) struct Inputs {
     station: Arc<Station>,
@@ -143,7 +143,7 @@ impl Engine {
         self.scheduler.begun = Some(Begun { inputs, at: now, fixed });
     }
 
-    /// What a schedule follows from now; `None` before the passes are known.
+    /// Returns the inputs from which a schedule follows now; `None` before the passes are known.
     fn schedule_inputs(&self) -> Option<Inputs> {
         let list = &self.pass_lists.favourites;
         list.made_at?;
@@ -159,7 +159,8 @@ impl Engine {
         let tracked = self.antennas.iter().filter_map(|antenna| {
             let shown = &antenna.shown;
             let satellite = shown.tracked_number().filter(|number| shown.takes(*number))?;
-            // What automatic operation takes is fixed from the start, and what it has ended is not.
+            // A pass that automatic operation takes is fixed from the start, and one that it has
+            // ended is not.
             let is_by_hand = !shown.operation.is_on() || shown.tracks_unasked();
             let target = shown.snapshot.target.as_ref();
             let target = target.filter(|target| target.catalog_number == satellite);
@@ -320,7 +321,7 @@ fn make(
         max_age_s: scheduling.max_element_age_d.map(|days| days * DAY_S),
     };
     let ahead = inputs.passes.iter().filter(|of| of.pass.los.time > now && of.pass.aos.time < end);
-    // What never sets is no pass to be planned.
+    // Skip satellites that never set.
     let ahead: Vec<&PredictedPass> = ahead.filter(|it| !it.is_always_up()).collect();
     let candidates: Vec<Candidate> = ahead
         .par_iter()

@@ -1,4 +1,4 @@
-//! What a station is started with.
+//! Settings with which a station is started.
 
 use std::{
     path::{Path, PathBuf},
@@ -31,7 +31,7 @@ pub struct Settings {
     pub records: Option<PathBuf>,
     /// Elements in place of those of the sources, of which none is then read.
     pub elements: Option<Arc<Catalog>>,
-    /// Who takes the reports of passes besides the record.
+    /// Channel for reports of passes, besides the record.
     pub reports: Option<mpsc::Sender<PassNote>>,
     /// Folders for claims of the station and its units, and the role of this process; `None`
     /// to ignore other Azels.

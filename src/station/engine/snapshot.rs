@@ -79,9 +79,9 @@ pub struct Snapshot {
     /// Reminders of passes that are not over.
     pub reminders: Arc<Vec<Reminder>>,
     pub schedule: Arc<Planned>,
-    /// What a pass costs that a client has asked about.
+    /// Cost of the pass that a client has asked about.
     pub swap: Option<Arc<Swap>>,
-    /// What became of the passes of this day (UTC), and of automatic operation; the newest is
+    /// Outcomes of the passes of this day (UTC), and events of automatic operation; the newest is
     /// the last.
     pub day: Arc<Vec<DayLine>>,
     pub uploads: Arc<Uploads>,

@@ -17,7 +17,7 @@ use crate::{
     station::{self, AntennaId, LoadError, Note, Station},
 };
 
-/// What outlasts the session of an antenna whose settings change.
+/// State that outlasts the session of an antenna whose settings change.
 struct Changed {
     id: AntennaId,
     unit: Unit,

@@ -111,7 +111,7 @@ impl History {
 /// Why a file could not be read to its end.
 struct Damage {
     error: io::Error,
-    /// What was read before.
+    /// Text that was read before the error.
     start: String,
 }
 

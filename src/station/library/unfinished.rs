@@ -39,7 +39,7 @@ impl Unfinished {
         Self { path, held }
     }
 
-    /// Whether `source`, as it is now, is set aside.
+    /// Returns `true` if `source` is set aside with its present settings.
     pub(super) fn holds(&self, source: &Source) -> bool {
         self.held.source.contains(source)
     }

@@ -24,11 +24,11 @@ use crate::{
     station::{Antenna, Mount},
 };
 
-/// What the units of a station have in common.
+/// Properties that the units of a station have in common.
 pub struct Surroundings<'a> {
     pub site: Site,
     pub clock: Clock,
-    /// What a unit that tracks by itself holds.
+    /// Elements of a unit that tracks on its own.
     pub elements: &'a [Elements],
     /// Imperfections of all axes.
     pub mechanics: Mechanics,

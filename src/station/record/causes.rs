@@ -1,4 +1,4 @@
-//! What explains the errors of several passes together.
+//! Causes of the errors of several passes together.
 
 use std::{ops::RangeInclusive, path::Path};
 
@@ -18,7 +18,7 @@ const PASSES: u32 = 30;
 /// Time between two positions that are used, seconds.
 const APART_S: f64 = 5.0;
 
-/// What explains the errors of passes of an antenna together.
+/// Causes of the errors of several passes of an antenna together.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ExplainedPasses {
     /// Number of passes.
@@ -29,8 +29,9 @@ pub struct ExplainedPasses {
     pub explanations: Vec<Explanation>,
 }
 
-/// What explains the newest passes of `antenna`, on this mount, in the record at `path` that end
-/// `within` a time. Other elements, which are each satellite's own, are left to the single passes. Reports without a site are of an antenna at `site`.
+/// Finds the causes of the errors of the newest passes of `antenna`, on this mount, in the record
+/// at `path` that end `within` a time. Other elements, which are each satellite's own, are left to
+/// the single passes. Reports without a site are of an antenna at `site`.
 pub fn explain_passes(
     path: &Path,
     antenna: AntennaId,

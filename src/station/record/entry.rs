@@ -26,7 +26,7 @@ impl Entry {
     }
 }
 
-/// What an entry is about.
+/// Subject of an entry.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Kind {
     /// The program has started or ended.
@@ -39,7 +39,7 @@ pub enum Kind {
     Command,
     /// STOP, and who gave it.
     Stop,
-    /// What the gate or the unit has refused, or has not answered.
+    /// A request that the gate or the unit has refused, or the unit has not answered.
     Refusal,
     /// The link of an antenna came or went.
     Link,
@@ -53,7 +53,7 @@ pub enum Kind {
     Alarm,
     /// The schedule has changed.
     Schedule,
-    /// What became of a pass of the schedule, and of automatic operation.
+    /// The outcome of a pass of the schedule, or an event of automatic operation.
     Day,
     /// The operator has entered a peak of the noise of the Sun or the Moon, or removed one.
     Peak,

@@ -17,7 +17,7 @@ pub use reels::{Film, FilmError, Shown};
 
 use crate::clock::Moment;
 
-/// What a station shows at one moment.
+/// Picture of a station at one moment.
 pub trait Picture: Send + Sync {
     fn at(&self) -> Moment;
 
@@ -33,7 +33,7 @@ pub struct Parts {
     last: i64,
     /// Parts that are not written yet.
     new: Vec<(i64, Vec<u8>)>,
-    /// What stood at these places of the last picture.
+    /// Values at these places of the last picture.
     placed: HashMap<String, Placed>,
     /// Places of the present picture at which the same stands.
     same: Vec<String>,
@@ -45,7 +45,7 @@ struct Known {
     _held: Arc<dyn Any + Send + Sync>,
 }
 
-/// What stands at a place of the last picture.
+/// Value at a place of the last picture.
 struct Placed {
     address: usize,
     is_shown: bool,
@@ -81,8 +81,8 @@ impl Parts {
         Ok(self.last)
     }
 
-    /// Whether the last picture of the reel had the same at this place (a JSON pointer): then it need
-    /// not be drawn, and anything may stand there.
+    /// Returns `true` if the last picture of the reel had the same at this place (a JSON pointer):
+    /// then it need not be drawn, and anything may stand there.
     pub fn is_same<T>(&mut self, place: String, what: &Arc<T>) -> bool
     where
         T: ?Sized + Send + Sync + 'static,

@@ -22,11 +22,12 @@ pub struct MissedEntry {
     pub antenna: AntennaId,
     /// Name of the antenna at the time.
     pub antenna_name: String,
-    /// What became of the pass; `docs/record.md` tells its fields.
+    /// Outcome of the pass; `docs/record.md` describes its fields.
     pub flown: Value,
 }
 
-/// What the record at `path` has for `query` of such passes in the time of `page`, the newest first.
+/// Returns the missed passes in the record at `path` that match `query` in the time of `page`, the
+/// newest first.
 pub fn missed(
     path: &Path,
     query: &PassQuery,

@@ -56,7 +56,7 @@ pub struct PlannedPart {
     pub until: Timestamp,
 }
 
-/// What is told of a track besides its positions.
+/// Description of a track besides its positions.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct AboutTrack {
     /// When it was first seen to be tracked.
@@ -75,7 +75,7 @@ pub struct AboutTrack {
     /// The place for which a unit computes its track.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub unit_place: Option<Place>,
-    /// Whether a time service keeps the clock of this computer.
+    /// State of the time service that keeps the clock of this computer.
     pub sync: TimeSync,
 }
 

@@ -175,7 +175,7 @@ pub(super) struct Passes {
 pub(super) const COLUMNS: &str = "id, antenna, (SELECT name FROM antenna AS a WHERE a.id = pass.antenna \
     ORDER BY since_us > pass.until_us, abs(since_us - pass.until_us) LIMIT 1), report";
 
-/// What a query wants of a pass.
+/// Condition of a query on a pass.
 const WANTED: &str = "(:antenna IS NULL OR antenna = :antenna) \
     AND (:kind IS NULL OR verdict = :kind) \
     AND (instr(lower(name), lower(:text)) > 0 OR CAST(satellite AS TEXT) = :text \

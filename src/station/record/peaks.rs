@@ -29,7 +29,7 @@ pub enum PeakOf {
     Moon,
 }
 
-/// What an entry of the record says of a peak.
+/// Change of a peak in an entry of the record.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum PeakChange {

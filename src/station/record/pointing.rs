@@ -98,7 +98,7 @@ fn thinned(track: &[TrackPoint], flown_with: &PointingModel) -> Vec<Point> {
         kind: Kind::Satellite,
         at: point.time,
         wanted: point.satellite,
-        // What the axes read.
+        // Readings of the axes.
         measured: flown_with.reading(point.antenna).unwrap_or(point.antenna),
         weight: 1.0,
     };

@@ -16,7 +16,7 @@ use super::{
 const EARLIEST_US: i64 = i64::MIN / 2;
 const LATEST_US: i64 = i64::MAX / 2;
 
-/// What a row of the record is.
+/// Kind of a row of the record.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum RowKind {
     /// An entry of the station.
@@ -83,7 +83,7 @@ pub struct Row {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub antenna: Option<String>,
     pub kind: String,
-    /// What the kind tells; see `docs/record.md`.
+    /// Content, according to the kind; see `docs/record.md`.
     pub data: Value,
 }
 

@@ -78,7 +78,7 @@ pub struct RecordedSession {
     pub positions: PositionLog,
 }
 
-/// What both ends share.
+/// State that both ends share.
 pub(super) struct Shared {
     pub(super) status: Mutex<Status>,
     /// Sessions that the writer does not know of yet.

@@ -179,7 +179,7 @@ fn motion(motion: AxisMotion) -> Option<i64> {
     }
 }
 
-/// What is wrong with a line, if anything is.
+/// Returns the fault of a line, if it has one.
 fn fault(finding: Finding) -> Option<String> {
     if finding.is_good() {
         return None;
@@ -187,8 +187,8 @@ fn fault(finding: Finding) -> Option<String> {
     serde_json::to_string(&finding).ok()
 }
 
-/// What a line says. That of a good line which is asked for again and again is left out: most
-/// lines are such, and their bytes say the same.
+/// Returns the meaning of a line. Omits that of a good line that Azel polls for: most lines are
+/// such, and their bytes say the same.
 fn meaning(line: &WireLine) -> Option<&str> {
     let is_told = !line.is_poll || !line.finding.is_good();
     line.meaning.as_ref().filter(|_| is_told).map(|meaning| &*meaning.text)

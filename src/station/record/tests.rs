@@ -391,7 +391,7 @@ fn a_clock_that_is_years_ahead_at_the_start_removes_nothing() {
         let kinds = [RowKind::Position, RowKind::Pass, RowKind::Entry(Kind::Event)];
         kinds.map(|kind| rows(&path, kind).len())
     };
-    // What the first start wrote by the wrong clock does not vouch for it.
+    // Entries that the first start wrote by the wrong clock do not vouch for it.
     for _ in 0..2 {
         let recorder =
             Recorder::start(path.clone(), Clock::new(wrong), Retention::default()).unwrap();

@@ -64,7 +64,7 @@ struct Source {
     next_position: u64,
 }
 
-/// What of a session is new, for one write.
+/// New content of a session, for one write.
 struct News {
     lines: Vec<Arc<Recorded>>,
     first_position: u64,
@@ -73,7 +73,7 @@ struct News {
     is_last: bool,
 }
 
-/// What could not be recorded since the last write.
+/// Counts of items that could not be recorded since the last write.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) struct Missed {
     pub(super) entries: u64,

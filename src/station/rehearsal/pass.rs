@@ -1,4 +1,4 @@
-//! What became of each pass of the plan.
+//! Outcome of each pass of the plan.
 
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
@@ -50,7 +50,7 @@ pub struct RehearsedPass {
     pub promised_s: f64,
     /// A newer plan left it out before it began.
     pub is_given_up: bool,
-    /// What automatic operation tells of it; `None` where it never set out.
+    /// Outcome that automatic operation reports; `None` where it never set out.
     pub flown: Option<Flown>,
     /// Why automatic operation of its antenna was off by then; `None` where it set out.
     pub off: Option<OffBecause>,

@@ -85,7 +85,7 @@ impl Units {
         Ok((Self(units), left_out))
     }
 
-    /// What the sessions of the rehearsed station take from outside: these units alone.
+    /// Returns the outside of the sessions of the rehearsed station: these units alone.
     pub(super) fn outside(self: &Arc<Self>, clock: &Clock) -> Outside {
         let units = Arc::clone(self);
         let dial = Arc::new(move |antenna: &Antenna, _: Arc<dyn UnitLock>| {

@@ -35,7 +35,7 @@ pub(super) trait Folder {
     /// Renames the file `from` to `to`, which must be free.
     async fn rename(&mut self, from: &str, to: &str) -> Result<(), FolderError>;
 
-    /// Whether [`Self::replace`] works in this folder.
+    /// Returns `true` if [`Self::replace`] works in this folder.
     fn can_replace(&self) -> bool;
 
     /// Replaces the file `to` by `from` in one step.
@@ -75,7 +75,7 @@ pub enum FolderError {
 }
 
 impl FolderError {
-    /// Whether the connection is of no further use.
+    /// Returns `true` if the connection is of no further use.
     pub(super) fn ends_connection(&self) -> bool {
         matches!(self, Self::TimedOut(_) | Self::Lost)
     }

@@ -27,7 +27,7 @@ pub enum Proof {
     },
 }
 
-/// Whether `password` is the factory setting of every unit of a make. Tell its user to
+/// Returns `true` if `password` is the factory setting of every unit of a make. Tell its user to
 /// change it.
 pub fn is_factory_password(password: &SecretString, of: &ElementFiles) -> bool {
     let salted = SecretString::from(format!("{}:{}", of.factory_user, password.expose_secret()));

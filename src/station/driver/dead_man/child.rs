@@ -100,7 +100,7 @@ fn insist(stop: &[u8]) {
     let mut rest: &[u8] = stop;
     while start.elapsed() <= INSIST {
         next += AGAIN;
-        // What was written in part is finished before it is written again.
+        // Finish a STOP that was written in part before writing it again.
         while !rest.is_empty() && Instant::now() < next {
             match writer.write(rest) {
                 Ok(0) => break,

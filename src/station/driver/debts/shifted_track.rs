@@ -18,9 +18,9 @@ const MAX_PUT: usize = 64;
 pub(in crate::driver) struct ShiftedTrack {
     /// When the first offset was about to be written.
     pub(in crate::driver) since: Timestamp,
-    /// What the unit held before, in azimuth and elevation.
+    /// Offsets that the unit held before, in azimuth and elevation.
     pub(in crate::driver) before: TrackOffsets,
-    /// What it may hold by now: the last that was read back, and what was written after it.
+    /// Offsets that the unit may hold by now: the last that were read back, and all written since.
     pub(in crate::driver) put: Vec<TrackOffsets>,
     /// The track to which they were added. Earlier versions did not record it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -44,8 +44,8 @@ impl ShiftedTrack {
         (unit, Self { is_found: true, ..shifted })
     }
 
-    /// What is added to what the unit held before, where it reports `held`; `None` if any of that
-    /// is not from here.
+    /// Returns the part of `held`, the reported offsets, that was added to those before; `None` if
+    /// any component is not from here.
     pub(in crate::driver) fn added(&self, held: TrackOffsets) -> Option<TrackOffsets> {
         let is_ours = [TrackOffsets::azimuth, TrackOffsets::elevation]
             .into_iter()

@@ -8,7 +8,7 @@ use crate::{astro::AzEl, device::Pointing, driver::intent::Intent};
 /// Distance between two points of a way, degrees of the axis that turns further.
 const STEP_DEG: f64 = 2.0;
 
-/// What would come of going to a direction now.
+/// Outcome of going to a direction now.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Preview {
     /// The direction, as it was asked for.

@@ -1,4 +1,4 @@
-//! Checks what a unit that tracks by itself may be started on.
+//! Checks a pass before a unit that tracks on its own starts on it.
 
 use std::sync::Arc;
 
@@ -11,7 +11,7 @@ use crate::{
     plan::on_board::Judge,
 };
 
-/// What a unit would track by itself.
+/// Pass that a unit would track on its own.
 #[derive(Debug, Clone)]
 pub(in crate::driver) enum Held {
     /// Not read yet.

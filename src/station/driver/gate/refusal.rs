@@ -140,10 +140,10 @@ pub enum Refusal {
     /// An offset needs a track.
     #[error("nothing is tracked")]
     NoTrack,
-    /// What the unit adds to its own track was not read.
+    /// The offsets that the unit adds to its own track were not read.
     #[error("the offsets of the unit are not known")]
     OffsetsUnknown,
-    /// What the unit held before could not be recorded on disk.
+    /// The offsets that the unit held before could not be recorded on disk.
     #[error("what the unit held before could not be recorded on disk")]
     NoOffsetsRecord,
     /// Along and across the way of a target that stands.

@@ -13,12 +13,12 @@ use crate::{
     plan::on_board::Judge,
 };
 
-/// What a unit that tracks by itself would do with other offsets.
+/// Motion of a unit that tracks on its own, with other offsets.
 #[derive(Debug, Clone)]
 pub(in crate::driver) struct Shift {
     /// The pass, from now on.
     pub(in crate::driver) judge: Arc<Judge>,
-    /// What it would report.
+    /// State that the unit would report.
     pub(in crate::driver) axes: OnBoard,
     /// The same without the offsets that were added from here: where the beam points, if they make
     /// up for errors of the mount.

@@ -110,7 +110,7 @@ static PROGRAM: LazyLock<Arc<Judge>> = LazyLock::new(|| {
     Arc::new(Judge::new(pass, Ability::of(&Antenna::satrak("Dish", ""))).unwrap())
 });
 
-/// What the gate knows when it is asked.
+/// Situation in which a test asks the gate.
 struct Case {
     state: AntennaState,
     intent: Intent,
@@ -121,10 +121,10 @@ struct Case {
     unread: Vec<Unread>,
     /// The unit's program is started on [`PROGRAM`].
     pass_is_known: bool,
-    /// What the unit would follow by itself.
+    /// Pass that the unit would track on its own.
     held: Held,
     lock_out: Option<LockOut>,
-    /// What the controller has against any motion.
+    /// Objection of the controller to any motion.
     objection: Option<&'static str>,
     /// Where any action leads.
     leads_to: Lead,
@@ -172,7 +172,7 @@ impl Case {
         &mut self.state.measured.as_mut().unwrap().axes
     }
 
-    /// What the gate says; it is checked that only an allowed motion starts.
+    /// Returns the gate's answer; checks that only an allowed motion starts.
     fn ask(&self, motion: Motion) -> Result<(), Refusal> {
         let started = Arc::default();
         let mut gate = self.gate(&started);
@@ -181,7 +181,7 @@ impl Case {
         answer
     }
 
-    /// What the gate says to an action for whose end the operator answers.
+    /// Returns the gate's answer to an action for whose end the operator takes responsibility.
     fn act(&self, action: &'static str) -> Result<(), Refusal> {
         let act = Act { action, values: Values::new() };
         let mut gate = self.gate(&Arc::default());

@@ -17,12 +17,12 @@ use crate::protocol::Parity;
 
 /// Longer writes are split into pieces of this size.
 const PIECE: usize = 64;
-/// What was learned, in rising order; 0 means nothing.
+/// Findings, in rising order; 0 means nothing.
 const SILENT: u8 = 1;
 const FITS: u8 = 2;
 const IS_WRONG: u8 = 3;
 
-/// Whether the bytes of a link fit the way in which they were read.
+/// Finding about the link: do its bytes fit the way in which they were read?
 #[derive(Debug, Default)]
 pub(super) struct Heard(AtomicU8);
 

@@ -1,4 +1,4 @@
-//! What an antenna is doing for the operator, and how far it has got.
+//! Activity of an antenna for the operator, and its progress.
 
 use std::time::Duration;
 
@@ -249,7 +249,7 @@ impl Activity {
     }
 }
 
-/// What has come of a slew.
+/// Outcome of a slew.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Arrival {
     /// This motion is the next one.

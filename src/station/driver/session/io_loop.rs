@@ -32,7 +32,7 @@ const BACK_OFF: [Duration; 5] = [
 pub(super) const STOP_RETRY: Duration = Duration::from_millis(250);
 pub(in crate::driver) const MIN_WAIT: Duration = Duration::from_millis(2);
 
-/// What ended a wait.
+/// Input that ended a wait.
 pub(super) enum Input {
     Bytes(usize),
     Lost(LinkLoss),

@@ -183,7 +183,8 @@ impl Session {
         } else if self.position_age(now).is_none_or(|age| age >= FRESH) {
             Some(Event::JogPositionOld)
         } else {
-            // What was allowed when it began may have become a limit or a fault.
+            // The motion was allowed at the start, but may have reached a limit or met a fault
+            // since.
             let intent = self.activity.intent();
             self.gate.check(jog.motion(), intent, now).err().map(Event::NotSent)
         };

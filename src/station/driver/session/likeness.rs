@@ -16,7 +16,7 @@ const READ_AGAIN: Duration = Duration::from_secs(15);
 /// Both ends of an axis, degrees; `None` where the unit does not report them.
 type Ends = Option<(f64, f64)>;
 
-/// What a unit reports of itself, as far as it does.
+/// Description of a unit, as far as the unit reports it.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct Likeness {
     identity: Option<String>,

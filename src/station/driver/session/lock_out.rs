@@ -21,7 +21,7 @@ pub(super) struct Locking {
     is_asked: bool,
     /// The unit was read as one that does not start by itself.
     is_proved: bool,
-    /// That was so once: since then the person who works on it may have switched it on.
+    /// The unit was once read so: since then the person who works on it may have switched it on.
     was_proved: bool,
     /// The operator was told that it cannot be read back.
     is_told: bool,

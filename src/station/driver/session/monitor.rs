@@ -34,7 +34,7 @@ const ROUNDING_DEG: f64 = 1e-6;
 /// A shorter way out is lost in the noise of the readings, degrees.
 const NOISE_DEG: f64 = 0.02;
 
-/// What was measured and reported last.
+/// Values that were measured and reported last.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct Watch {
     /// When the position that was judged last came in.

@@ -73,7 +73,7 @@ impl Watch {
         }
     }
 
-    /// What the unit reports that makes an error of `off`.
+    /// Returns the cause, found in the unit's reports, that makes an error of `off`.
     pub(super) fn cause(&self, off: Angle) -> Option<Box<Ranked>> {
         self.found.causes.iter().find(|cause| cause.can_make(off)).cloned().map(Box::new)
     }
@@ -153,7 +153,7 @@ impl Session {
         let name = pass.target.name.clone();
         let judge = Judge::new(pass, self.setup.ability)
             .map_err(|error| Event::CannotProgramTrack(name, TrackProblem::Orbit(error)))?;
-        // What was added for another track is taken back before this one begins.
+        // Azel takes back the offsets of another track before this one begins.
         let watch = Watch::new(Arc::new(judge), &self.plain_unit());
         if let Some(event) = watch.objection() {
             return Err(event);
@@ -181,7 +181,7 @@ impl Session {
         watch.objection()
     }
 
-    /// What the unit would do by itself from now on.
+    /// Returns the pass that the unit would track on its own from now on.
     pub(super) fn held(&self, now: Moment) -> Held {
         let unit = &self.gate.state().on_board;
         let Some(satellite) = &unit.satellite else { return Held::Unread };

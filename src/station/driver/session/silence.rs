@@ -14,7 +14,7 @@ use crate::{
 /// The operator is told at the latest this long after the first missing reply.
 const TOLD_WITHIN: Duration = Duration::from_secs(1);
 
-/// What was written since the unit last answered.
+/// Times of the writes since the unit last answered.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) struct Silence {
     replies: u64,

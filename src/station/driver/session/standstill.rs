@@ -129,7 +129,7 @@ impl Looks {
         self.first.map(|first| (first.asked + figures.gap).max(received(&first)))
     }
 
-    /// Whether another STOP could tell the unit something: not while all positions agree.
+    /// Returns `true` if another STOP could help: not while all positions agree.
     pub(super) fn want_stop(&self) -> bool {
         self.first.is_none() || self.turned
     }

@@ -68,7 +68,7 @@ impl Stop {
         self.halting().is_some_and(|halting| halting.pressed)
     }
 
-    /// What a halt that is sent again ends.
+    /// Extent with which to send the current halt again.
     pub(super) fn extent(&self) -> Option<Extent> {
         self.halting().map(Halting::extent_again)
     }

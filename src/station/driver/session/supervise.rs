@@ -39,8 +39,9 @@ macro_rules! checks {
     };
 }
 
-/// All checks, in their order: first what the unit has said, then what has to end, then what begins.
-/// A check may rely on those above it; none may be left out (`supervise/tests.rs`).
+/// All checks, in their order: first reports of the unit, then motions that have to end, then
+/// debts, then motions that begin. A check may rely on those above it; none may be left out
+/// (`supervise/tests.rs`).
 pub(super) const CHECKS: &[Check] = checks![
     watch_judging,
     take_events,
@@ -62,12 +63,12 @@ pub(super) const CHECKS: &[Check] = checks![
     watch_offsets,
     watch_bounds,
     watch_standstill,
-    // What is owed to the unit.
+    // Debts to the unit.
     watch_lock_out,
     watch_auto_track,
     watch_unit_offsets,
     forget_old_stop,
-    // What begins, after everything that may forbid it.
+    // Motions that begin, after everything that may forbid them.
     start_queued,
     watch_slew,
     watch_tracking,

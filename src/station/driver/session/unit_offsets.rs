@@ -38,11 +38,11 @@ const APPLIED: Duration = Duration::from_mins(1);
 const AGAIN: Duration = Duration::from_secs(10);
 const MAX_AGAIN: Duration = Duration::from_mins(10);
 
-/// What is under way.
+/// Offsets of the unit's own track, and the change of them that is under way.
 #[derive(Default)]
 pub(super) struct UnitOffsets {
     step: Step,
-    /// What the operator wants to be added, until it is.
+    /// Offsets that the operator wants, until they are in force.
     wanted: Option<TrackOffsets>,
     /// Earlier values of `wanted`, for undo, the oldest first.
     earlier: Vec<TrackOffsets>,
@@ -62,7 +62,7 @@ pub(super) struct UnitOffsets {
 enum Step {
     #[default]
     None,
-    /// What the unit held before, and what it will hold with `wanted`, is being recorded on disk.
+    /// Azel is recording on disk the offsets that the unit held before and those of `wanted`.
     Marking { wanted: TrackOffsets },
     /// On its way to the unit.
     Writing { ticket: u64 },
@@ -116,7 +116,7 @@ impl Session {
         Ok(())
     }
 
-    /// What the unit would do with `wanted` added; `None` where taking back moves nothing.
+    /// Returns the effect of adding `wanted`; `None` where taking back moves nothing.
     fn shift(&self, wanted: TrackOffsets, now: Moment) -> Result<Option<Shift>, Refusal> {
         if wanted.is_none() && !self.may_track() {
             return Ok(None);
@@ -319,7 +319,7 @@ impl Session {
         let is_taking_back = self.is_taking_back();
         self.unit_offsets.unread_since = self.read_at();
         self.forget_wanted();
-        // What is to be taken back is owed as before.
+        // Taking back stays owed, so it is no failure to report.
         if !is_taking_back {
             self.tell(Event::OffsetNotTaken(WriteError::LinkLost));
         }
@@ -388,7 +388,7 @@ impl Session {
         false
     }
 
-    /// What the unit has made of what was written is from here too.
+    /// Records offsets that read back differently from those written: they are from here too.
     fn own_read_back(&self) {
         let (debts, unit) = (&self.owed.debts, &self.owed.unit);
         let held = self.held_offsets();
@@ -412,7 +412,7 @@ impl Session {
         self.unit_offsets.wanted.is_some_and(TrackOffsets::is_none)
     }
 
-    /// What was wanted does not come about.
+    /// Drops the wanted offsets, and the undo steps that would change nothing.
     fn forget_wanted(&mut self) {
         self.unit_offsets.wanted = None;
         let in_force = self.added_offsets();

@@ -1,4 +1,4 @@
-//! Whether an antenna that was moved from here is known to stand.
+//! Keeps track of an antenna that was moved from here until its standstill is proved.
 
 use std::time::Duration;
 

@@ -60,7 +60,7 @@ impl Session {
             self.tell(Event::NotSent(Refusal::Stopping));
             return false;
         }
-        // What waits to be sent is known to be wanted, and not to be over.
+        // A motion that waits to be sent is wanted and not over, so end it.
         if self.activity.is_queued() {
             let now = self.now();
             self.halt_quietly(now);

@@ -51,7 +51,8 @@ fn is_cause(cause: &Alarm, effect: &Alarm) -> bool {
     let is_before = (cause.last, cause.id) < (effect.last, effect.id);
     let stood = cause.over_since.is_none_or(|since| since >= effect.last);
     let is_there = cause.antenna.is_none() || cause.antenna == effect.antenna;
-    // What is done does not hold down what is still to be seen.
+    // A cause that the operator is done with must not hold down an effect that still needs
+    // attention.
     let is_open = !cause.is_done() || effect.is_done();
     is_before
         && stood

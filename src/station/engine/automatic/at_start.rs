@@ -1,5 +1,5 @@
-//! Whether automatic operation may be on from the start: what the run before has left, in a file
-//! beside the station file.
+//! State that the previous run has left, in a file beside the station file. It decides if automatic
+//! operation may be on from the start.
 
 use std::{collections::BTreeMap, fs, io, path::Path};
 
@@ -79,7 +79,8 @@ impl LastRun {
         toml::to_string(self)
     }
 
-    /// What the next start has to know of the run that begins now, unless it ends in order.
+    /// Returns the state that the next start needs of the run that begins now, unless that ends in
+    /// order.
     pub(super) fn next_run(self) -> Self {
         let mut next = Self { is_orderly: false, ..self };
         next.forget_switched_on();

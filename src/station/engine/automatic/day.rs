@@ -58,7 +58,7 @@ pub enum DayEvent {
     },
 }
 
-/// What became of a pass.
+/// Outcome of a pass.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Flown {
     pub pass: PassKey,

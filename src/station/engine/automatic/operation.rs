@@ -1,4 +1,4 @@
-//! What automatic operation of one antenna does next: a state machine without clock, links or
+//! Next step of automatic operation of one antenna: a state machine without clock, links or
 //! schedule.
 
 use std::mem;
@@ -187,7 +187,7 @@ pub struct Duty {
     pub ends_early: bool,
 }
 
-/// What is known of the antenna at one moment.
+/// State of the antenna at one moment, as far as it is known.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct Seen {
     /// The unit answers in time.
@@ -201,7 +201,7 @@ pub(super) struct Seen {
     pub(super) not_ready: Option<NotReady>,
     /// The satellite that it tracks from here or is on its way to.
     pub(super) takes: Option<u32>,
-    /// That has been proved.
+    /// The satellite in `takes` is proved: the antenna tracks it or is on its way to it.
     pub(super) is_proved: bool,
     /// After an outage it waits for the operator's word to track on.
     pub(super) awaits_operator: bool,
@@ -230,7 +230,7 @@ pub(super) struct Wishes {
     pub(super) held: Option<PassKey>,
 }
 
-/// What the station does for automatic operation.
+/// Action of the station for automatic operation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Act {
     Take(Duty),
@@ -239,7 +239,7 @@ pub(super) enum Act {
     Park,
 }
 
-/// What became of a request for a pass, as the session tells it.
+/// Outcome of a request for a pass, as the session reports it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Outcome {
     /// The pass cannot be loaded or proved, or the unit refused it.
@@ -253,7 +253,7 @@ pub(super) enum Outcome {
 }
 
 impl OffBecause {
-    /// Whether the operator has to be told, because it was not he who ended it.
+    /// Returns `true` if the operator must be alerted, because somebody or something else ended it.
     pub(super) fn is_alarming(self) -> bool {
         matches!(self, Self::Safety | Self::Changed | Self::NotAsLeft | Self::Failures)
     }
@@ -295,7 +295,7 @@ impl Operation {
         (given_up == GivenUp::WouldMiss).then_some(NotReady::WouldMiss)
     }
 
-    /// Whether the antenna is proved to be on its way to the pass that it takes.
+    /// Returns `true` if the antenna is proved to be on its way to the pass that it takes.
     pub(super) fn is_proved(&self) -> bool {
         self.taking().is_some_and(|taking| taking.proved_at.is_some())
     }
@@ -337,7 +337,7 @@ impl Operation {
                 on.failures += 1;
                 self.end_after_failures();
             }
-            // That says nothing of the next pass.
+            // A blocked path says nothing about the next pass.
             Outcome::Blocked => taking.given_up = Some(GivenUp::Refused),
             // The antenna must be proved still before the next pass.
             Outcome::OffTarget => taking.given_up = Some(GivenUp::OffTarget),
@@ -373,7 +373,8 @@ impl Operation {
         }
     }
 
-    /// What to do at `now`. `duties` are in the order of time; those that are over are ignored.
+    /// Returns the action for `now`. `duties` are in the order of time; those that are over are
+    /// ignored.
     pub(super) fn step(
         &mut self,
         duties: &[Duty],
@@ -632,7 +633,7 @@ impl On {
     }
 }
 
-/// Whether both are one pass: newer elements move its AOS a little.
+/// Returns `true` if both are one pass: newer elements move its AOS a little.
 pub(in crate::engine) fn is_same_pass(one: PassKey, other: PassKey) -> bool {
     one.0 == other.0 && seconds_between(one.1, other.1).abs() < SAME_AOS_S
 }

@@ -39,7 +39,7 @@ fn istanbul() -> TimeZone {
     TimeZone::fixed(tz::offset(3))
 }
 
-/// What is told of these alarms by a station with these settings.
+/// Returns the notices of a station with these alarms and these settings.
 fn look(teller: &mut Teller, alarms: &Alarms, notices: &Notices) -> Vec<Notice> {
     let at = Moment { utc: time(), steady: Instant::now() };
     let station = Station { notices: notices.clone(), ..Station::default() };

@@ -217,7 +217,7 @@ impl PredictedPass {
     }
 }
 
-/// What the trackability of a pass depends on.
+/// Limits of the mount on which the trackability of a pass depends.
 pub fn mount_limits(antenna: &Antenna) -> MountLimits {
     MountLimits {
         mount: antenna.track_mount(),

@@ -1,4 +1,4 @@
-//! What differs between two values of JSON.
+//! Differences between two values of JSON.
 
 use serde::Serialize;
 use serde_json::Value;

@@ -1,4 +1,4 @@
-//! What explains the error of a pass while an antenna tracks it.
+//! Causes of the error of a pass while an antenna tracks it.
 
 use std::path::Path;
 

@@ -73,7 +73,7 @@ pub(super) struct Followed {
     next_position: u64,
     /// Positions in which the pass was commanded.
     pub(super) flown: Vec<MeasuredPosition>,
-    /// What explains its error so far.
+    /// Search for the causes of its error so far.
     pub(super) live: Live,
 }
 
@@ -273,7 +273,7 @@ impl Engine {
             recording.sought.retain(|((antenna, _), _)| *antenna != sought.0);
             return recording.sought.push((sought, now));
         };
-        // Of one that does not rise, what was before the track is nobody's loss.
+        // A satellite that never rises was up before the track: nobody lost that time.
         let from = if pass.starts_before { now } else { pass.aos.time };
         let mut breaks = Breaks::default();
         let commanded = recording.commanded.get(&id).filter(|(commanded, _)| *commanded == number);
@@ -317,7 +317,7 @@ pub(super) fn others_of(
     others.collect()
 }
 
-/// What is told of a track that begins now.
+/// Returns the description of a track that begins now.
 fn about(antenna: &AntennaModel, begun: Timestamp, sync: TimeSync) -> AboutTrack {
     let tracked_by = match () {
         () if antenna.follows() => TrackedBy::ProgramTrack,

@@ -57,7 +57,8 @@ impl Camera {
             }
         };
         self.parts.next_picture();
-        // What stands there is the same, so that neither the one nor the other is looked at.
+        // Values at these places are unchanged: take them out of both pictures to skip the
+        // comparison.
         let same: Vec<(String, Value)> = (self.parts.same.drain(..))
             .filter_map(|place| {
                 drawn.pointer_mut(&place)?.take();
@@ -155,7 +156,7 @@ impl Camera {
         Ok(())
     }
 
-    /// What was to be written is on the disk.
+    /// Marks the pending content as written to disk.
     pub(in crate::record) fn is_written(&mut self) {
         self.parts.new.clear();
         self.over.clear();

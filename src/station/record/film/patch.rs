@@ -1,4 +1,4 @@
-//! What has changed from one JSON value to the next.
+//! Changes from one JSON value to the next.
 
 use std::collections::BTreeMap;
 
@@ -34,7 +34,7 @@ pub(super) enum Patch {
 pub(super) struct Misfit;
 
 impl Patch {
-    /// What makes `new` of `old`; `None` where they are the same.
+    /// Returns the patch that turns `old` into `new`; `None` where they are the same.
     pub(super) fn between(old: &Value, new: &Value) -> Option<Self> {
         match (old, new) {
             (Value::Object(old), Value::Object(new)) => {

@@ -96,7 +96,7 @@ impl Film {
         Ok(time(ends.0).zip(time(ends.1)))
     }
 
-    /// What was shown at `at`: the last picture that is not later.
+    /// Returns the picture that was shown at `at`: the last one that is not later.
     pub fn at(&mut self, at: Timestamp) -> Result<Option<Shown<'_>>, FilmError> {
         let at_ns = i64::try_from(at.as_nanosecond()).unwrap_or(i64::MAX);
         let holds = |reel: &Reel| {

@@ -73,7 +73,7 @@ fn a_stretch_has_the_times_of_the_passes_in_it() {
     assert_eq!(times_of_pass(&path, 9, site).unwrap(), None);
 }
 
-/// What became of a pass that began at `minute`, told eleven minutes later.
+/// Entry of the outcome of a pass that began at `minute`, written eleven minutes later.
 fn day_line(satellite: u32, name: &str, minute: i64) -> Entry {
     let over = Moment { utc: at(minute + 11), steady: Instant::now() };
     let flown = json!({ "pass": [satellite, at(minute)], "name": name });

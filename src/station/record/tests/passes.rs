@@ -1,4 +1,4 @@
-//! What several passes of a record say together.
+//! Conclusions from several passes of a record together.
 
 use jiff::{Timestamp, ToSpan as _};
 

@@ -1,4 +1,4 @@
-//! What happened in a pass.
+//! Events during a pass.
 
 use jiff::{Timestamp, ToSpan as _};
 use serde_json::{Value, json};

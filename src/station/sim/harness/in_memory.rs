@@ -14,7 +14,7 @@ pub enum Trouble {
     Silence,
     /// Noise precedes each reply.
     Noise,
-    /// What a track needs is refused.
+    /// The unit refuses the commands that a track needs.
     Refusal,
     /// The drives of the first and the second axis have these shares of their full rate, 0 to 1.
     SlowDrives([f64; 2]),
@@ -30,7 +30,7 @@ pub enum Trouble {
     Misreads(Misreading),
 }
 
-/// What the sensors of an antenna's axes do wrong. The drives are led by the true angles.
+/// Errors of the sensors of an antenna's axes. The drives are led by the true angles.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Misreading {
     pub model: PointingModel,

@@ -60,7 +60,7 @@ pub(super) struct Axis {
     coasting_s: f64,
     travel: RangeInclusive<f64>,
     full_rate_counts_s: f64,
-    /// What is left of the full rate, 0 to 1.
+    /// Remaining share of the full rate, 0 to 1.
     strength: f64,
     /// Only the elevation reports its limits as an alarm.
     has_limit_alarm: bool,
@@ -156,7 +156,7 @@ impl Axis {
         }
     }
 
-    /// Whether the metal turns.
+    /// Returns `true` if the metal turns.
     pub(super) fn is_turning(&self) -> bool {
         self.rate_counts_s != 0.0
     }

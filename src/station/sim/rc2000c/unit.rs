@@ -26,7 +26,7 @@ const LONGEST_CATCH_UP: Duration = Duration::from_mins(10);
 const START_COUNTS: [u16; 2] = [1525, 750];
 const START_POLARIZATION: u16 = 263;
 
-/// Who commands the unit.
+/// Source of the commands that the unit obeys.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Mode {
     /// The local operator at the panel.

@@ -45,7 +45,7 @@ pub(super) struct Rotor {
     rests_falsely: bool,
     travel: Travel,
     full_rate_deg_s: f64,
-    /// What is left of the full rate, 0 to 1.
+    /// Remaining share of the full rate, 0 to 1.
     strength: f64,
     /// Position on the travel; beyond its ends when outside the limits.
     place_deg: f64,
@@ -123,7 +123,7 @@ impl Rotor {
         }
     }
 
-    /// Whether the status says that the rotator stands although it may turn.
+    /// Returns `true` if the status says that the rotator stands although it may turn.
     pub(super) fn rests_falsely(&self) -> bool {
         self.rests_falsely
     }
@@ -255,7 +255,7 @@ impl Rotor {
         self.sensor.advance(step_s);
     }
 
-    /// Whether the target is within the stop offset, or passed.
+    /// Returns `true` if the target is within the stop offset, or passed.
     fn has_arrived(&self) -> bool {
         let Drive::To { target, direction, .. } = self.drive else { return false };
         let away = self.travel.place(degrees(target)) - self.place_deg;

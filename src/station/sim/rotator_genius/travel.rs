@@ -40,7 +40,7 @@ impl Travel {
         if (0.0..=360.0).contains(&angle) { angle } else { angle.rem_euclid(360.0) }
     }
 
-    /// Whether a place is on the travel, to the whole degree that a status can express.
+    /// Returns `true` if a place is on the travel, to the whole degree that a status can express.
     pub(super) fn contains(&self, place: f64) -> bool {
         (0.0..=self.span_deg).contains(&self.nearest(place).round())
     }

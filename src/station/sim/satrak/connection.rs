@@ -58,7 +58,7 @@ fn answer(frame: &Frame, control: &Control, switches: &Switches) -> String {
     })
 }
 
-/// Whether the payload answers a command. Answers to queries have a question mark behind
+/// Returns `true` if the payload answers a command. Answers to queries have a question mark behind
 /// the word.
 fn answers_a_command(payload: &str) -> bool {
     payload.trim_start_matches(|sign| !matches!(sign, '?' | '=')).starts_with('=')

@@ -7,7 +7,7 @@ use crate::{
     protocol::satrak::Frame,
 };
 
-/// Whether `frame` tells the unit to use a file.
+/// Returns `true` if `frame` tells the unit to use a file.
 pub(super) fn is_about_a_file(frame: &Frame) -> bool {
     frame.line().trim_start_matches('$').starts_with("SATELLITE=")
 }

@@ -60,7 +60,7 @@ impl Tracking {
         self.is_declined = false;
     }
 
-    /// Whether there is something to track, now or later.
+    /// Returns `true` if there is something to track, now or later.
     pub(super) fn is_ready(&self, rtc: Timestamp) -> bool {
         self.target.is_some() && self.window.is_some_and(|window| rtc < window.stop())
     }

@@ -259,7 +259,7 @@ impl Satrak {
         [self.mount.x.angle_deg() + x_shift, self.mount.y.angle_deg() + y_shift]
     }
 
-    /// What the sensors make of angles.
+    /// Returns the angles that the sensors read at these true angles.
     fn misread_xy_deg(&mut self, xy_deg: [f64; 2]) -> [f64; 2] {
         let Misreading { model, noise_deg } = self.misreading;
         if self.misreading == Misreading::default() {
@@ -281,7 +281,7 @@ impl Satrak {
         azel_from_xy(self.last_xy_deg, self.north())
     }
 
-    /// Whether this fault is reported.
+    /// Returns `true` if the unit reports this fault.
     fn has_fault(&self, kind: FaultKind) -> bool {
         let is_outdated = || {
             let age = self.tracking.target.as_ref().map(|of| self.rtc().duration_since(of.epoch));

@@ -99,7 +99,7 @@ fn similar(elements: &[Elements], wanted: &str) -> Vec<String> {
     names.take(MAX_SIMILAR).map(str::to_owned).collect()
 }
 
-/// Whether two consecutive lines are those of a TLE.
+/// Returns `true` if two consecutive lines are those of a TLE.
 fn is_tle(bytes: &[u8]) -> bool {
     let is_line = |line: &[u8], start: &[u8]| line.starts_with(start) && line.len() >= TLE_COLUMNS;
     let mut first = false;

@@ -1,6 +1,5 @@
-//! What the gate lets through leads nowhere forbidden: random antennas, keep-outs,
-//! positions and motions. `AZEL_CASES` and `AZEL_SEED` as in
-//! `tests/safety_properties.rs`.
+//! Checks that no motion that the gate allows leads anywhere forbidden: random antennas, keep-outs,
+//! positions and motions. `AZEL_CASES` and `AZEL_SEED` work as in `tests/safety_properties.rs`.
 
 use super::*;
 use crate::{
@@ -10,7 +9,7 @@ use crate::{
     station::{Entered, KeepOut, Station},
 };
 
-/// What a way may touch of the edge of a margin, degrees.
+/// Depth to which a way may touch the edge of a margin, degrees.
 const EDGE_DEG: f64 = 0.05 + 1e-6;
 
 /// A narrower gap is no way out, degrees.
@@ -108,7 +107,7 @@ fn motion(dice: &mut Dice, antenna: &Antenna) -> (Intent, Motion) {
     }
 }
 
-/// What a place on a way out is.
+/// Kind of a place on a way out.
 enum OnTheWay {
     Free,
     Inside,
@@ -212,7 +211,7 @@ fn way_out_deg(both: &BothWays, from_deg: [f64; 2], utc: jiff::Timestamp) -> Opt
     lengths.min_by(f64::total_cmp)
 }
 
-/// What one case came to.
+/// Outcome of one case.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Outcome {
     Refused,

@@ -12,7 +12,7 @@ use crate::device::{
     settings::{Hindrance, Value, Values},
 };
 
-/// What is asked of the gate.
+/// Request to the gate.
 #[derive(Debug, Clone, Copy)]
 enum Asked {
     Motion(Motion),

@@ -1,4 +1,4 @@
-//! What differs from make to make.
+//! Differences between the makes.
 
 use super::*;
 use crate::{

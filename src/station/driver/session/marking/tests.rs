@@ -1,4 +1,4 @@
-//! What an earlier run has left behind.
+//! Marks that an earlier run has left behind.
 
 use std::{
     num::NonZeroU32,
@@ -202,7 +202,7 @@ async fn a_mark_that_cannot_be_written_is_told_and_the_jog_goes_out() {
     std::fs::write(&no_folder, "").unwrap();
     let (control, mut handle, _) = start(&no_folder);
     seconds(5).await;
-    // What cannot be read is taken for a mark of unknown age.
+    // An unreadable mark counts as a mark of unknown age.
     handle.send(Command::SeenStanding).unwrap();
     told(&mut handle);
     handle.send(Command::Manual).unwrap();

@@ -1,4 +1,4 @@
-//! What is added to the offsets of the unit, by what it reports.
+//! Offsets added to those of the unit, according to its reports.
 
 use glam::DQuat;
 use jiff::Timestamp;
@@ -15,8 +15,8 @@ use crate::{
 const APART_S: f64 = 30.0;
 
 impl Session {
-    /// What is added to what the unit held before, as it was read last; `None` while that is not
-    /// known.
+    /// Offsets added to those that the unit held before, at the last read; `None` while they are
+    /// not known.
     pub(super) fn added_offsets(&self) -> Option<TrackOffsets> {
         let held = self.held_offsets()?;
         match self.owed.debts.shifted(&self.owed.unit) {
@@ -25,7 +25,8 @@ impl Session {
         }
     }
 
-    /// What the unit adds in azimuth and elevation, as it was read last.
+    /// Offsets of the unit in azimuth and elevation, at the last read; `None` while they are not
+    /// known.
     pub(super) fn held_offsets(&self) -> Option<TrackOffsets> {
         let read = self.unit_offsets.unread_since.is_none_or(|last| self.read_at() != Some(last));
         self.gate.state().on_board.offsets.filter(|_| read)?.of_the_axes()
@@ -44,7 +45,7 @@ impl Session {
         self.added_offsets().filter(|_| is_meant).unwrap_or_default()
     }
 
-    /// What the unit reports, without the offsets that are meant to be on.
+    /// State that the unit reports, without the offsets that are meant to be on.
     pub(in crate::driver::session) fn plain_unit(&self) -> OnBoard {
         self.gate.state().on_board.without(self.meant_offsets())
     }

@@ -1,4 +1,4 @@
-//! Whether the unit runs a program of its own, and on what.
+//! The unit's own program: its state and its target.
 
 use jiff::Timestamp;
 

@@ -1,4 +1,4 @@
-//! What is on disk, and what an earlier run has left on the unit.
+//! Records on disk, and offsets that an earlier run has left on the unit.
 
 use std::{collections::BTreeMap, path::Path, sync::Arc};
 
@@ -243,7 +243,7 @@ async fn a_unit_that_applies_settings_late_is_watched_until_both_are_restored() 
     let shown = handle.snapshot();
     let left = shown.unit_offsets.clone().expect("the elevation is told");
     assert_eq!(left.offsets.elevation(), Angle::from_degrees(0.1));
-    // What was late is lost.
+    // The unit drops the settings that were late.
     control.set_fault(Fault::LateSettings, false);
     let restored = |shown: &Snapshot| {
         let held = shown.state.on_board.offsets;

@@ -42,7 +42,7 @@ impl Client {
         }
     }
 
-    /// Whether the unit accepts a request, by the reply that belongs to it.
+    /// Returns `true` if the unit accepts a request, by the reply that belongs to it.
     async fn accepts(&mut self, request: Request) -> bool {
         let expected = match &request {
             Request::Stop => Acknowledgement::Stop,

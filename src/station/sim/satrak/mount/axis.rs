@@ -41,7 +41,7 @@ pub(in crate::sim::satrak) struct Axis {
     /// Both ends of the travel.
     ends_deg: [f64; 2],
     full_rate_deg_s: f64,
-    /// What is left of the full rate, 0 to 1.
+    /// Remaining share of the full rate, 0 to 1.
     strength: f64,
     /// Ratio of the drive's rate to the commanded one.
     drive_scale: f64,
