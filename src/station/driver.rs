@@ -190,7 +190,7 @@ impl AntennaHandle {
         self.bounds.send_replace(bounds);
     }
 
-    /// The orbit by which to judge what the unit does by itself.
+    /// Sets the orbit by which to judge a track that the unit runs on its own.
     pub fn know_orbit(&self, orbit: Option<Arc<KnownOrbit>>) {
         self.orbit.send_replace(orbit);
     }
@@ -299,9 +299,9 @@ impl Driver {
         self
     }
 
-    /// How long the thread has not responded, from half a second on; meanwhile nothing is
-    /// carried out, STOP included. `wake` is called when the thread hangs, each second while
-    /// it does, and when it runs again.
+    /// Returns how long the thread has not responded, from half a second on. Until it runs again,
+    /// Azel carries out nothing, STOP included. `wake` is called when the thread hangs, each second
+    /// while it does, and when it runs again.
     pub fn stood_for(&self) -> Option<Duration> {
         self.thread.as_ref()?.pulse.stood_for()
     }

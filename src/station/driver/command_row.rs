@@ -78,7 +78,7 @@ impl Row {
         while_closing: true,
         ..Self::MOVES
     };
-    /// A command that moves nothing by itself.
+    /// A command that does not itself move anything.
     const CHANGES: Self = Self { effect: Effect::Changes, ends_automatic: false, ..Self::STOPS };
     const LOOKS: Self = Self {
         effect: Effect::Looks,

@@ -220,7 +220,7 @@ fn first_link(antenna: &Antenna, since: Instant) -> (Wanted, LinkState) {
 struct Setup {
     park: Pointing,
     track_config: TrackConfig,
-    /// Limits by which a pass that the unit tracks by itself is judged.
+    /// Limits for judging a pass that the unit tracks on its own.
     ability: Ability,
     /// When program track resumes without a question.
     rule: ResumeRule,

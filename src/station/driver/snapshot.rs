@@ -189,8 +189,8 @@ impl Snapshot {
     }
 }
 
-/// Returns `true` if the known settings and the present writes are the same. What the unit
-/// reports anew by itself shows with the window's next second.
+/// Returns `true` if the known settings and the present writes are the same. New reports of the
+/// unit alone show with the window's next second.
 fn same_settings(old: &Held, new: &Held) -> bool {
     let shown = |state: &GroupState| {
         (state.held.is_some(), state.failure.clone(), state.step, state.written.clone())
@@ -328,7 +328,7 @@ pub enum LinkLoss {
     Broken(String),
     /// Open, but no reply.
     Silent,
-    /// The computer slept: the link is opened anew.
+    /// The computer slept: Azel opens the link again.
     Slept,
     /// Open, but no readable reply.
     Unreadable,
@@ -417,11 +417,11 @@ pub enum Event {
     StopNotConfirmed,
     /// The unit refused a STOP, with this code as received.
     StopRefused(String),
-    /// The antenna is stopped, but the unit may start to track by itself.
+    /// The antenna is stopped, but the unit may start to track on its own.
     AutoTrackStillOn,
     /// The unit did not switch auto-track off.
     AutoStaysOn,
-    /// The unit was told to switch auto-track off, and cannot tell whether it has.
+    /// Azel has told the unit to switch auto-track off, and cannot find out if it has.
     AutoTrackNotKnown,
     /// The unit is locked out, but auto-track off cannot be read back.
     LockOutUnproved,

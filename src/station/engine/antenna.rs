@@ -90,7 +90,7 @@ pub struct AntennaModel {
     pub operation: Operation,
     /// Orbit by which its session judges on-board track.
     pub orbit: Option<Arc<KnownOrbit>>,
-    /// Measurements of which the rates are made.
+    /// Measurements from which Azel computes the rates.
     pub(super) recent: VecDeque<Measured>,
 }
 
@@ -249,8 +249,8 @@ impl AntennaModel {
         view.is_some_and(|view| view.phase != TrackPhase::Over)
     }
 
-    /// Catalog number of the satellite that is tracked, or about to be. With on-board track
-    /// it is the one that the unit holds, whatever we asked for.
+    /// Catalog number of the satellite that is tracked, or about to be. With on-board track it is
+    /// the satellite that the unit holds, whatever we asked for.
     pub fn tracked_number(&self) -> Option<u32> {
         let state = &self.snapshot.state;
         if self.follows() {

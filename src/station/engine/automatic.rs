@@ -1,4 +1,5 @@
-//! Automatic operation: the station takes the passes of its schedule by itself, antenna by antenna.
+//! Automatic operation: the station takes the passes of its schedule without the operator, antenna
+//! by antenna.
 
 mod at_start;
 mod auto_track;
@@ -40,7 +41,7 @@ use crate::{
     station::{self, AntennaId, AutomationRule, BetweenPasses, Station, Then},
 };
 
-/// An antenna is sent to a pass so long before it has to be, seconds.
+/// Longest time by which Azel sends an antenna to a pass earlier than necessary, seconds.
 const LEAD_S: f64 = 60.0;
 
 /// Working state of automatic operation of an antenna, besides its state in the snapshot.
@@ -274,7 +275,7 @@ impl Engine {
                 | Safety::NoEffect { .. }
                 | Safety::Forbidden { response: Response::Stopped, .. },
             ) => operation.switch_off(OffBecause::Safety),
-            // Auto-track starts what the unit holds by itself.
+            // Auto-track starts the pass that the unit holds.
             Event::Back { found: Found::Tracking, .. } if uses_auto_track => {}
             Event::Safety(
                 Safety::AsksToResume { unlike: Some(_), .. } | Safety::UnitDiffers { .. },
@@ -332,7 +333,7 @@ impl Engine {
             Some(Act::Park) => self.send(index, driver::Command::Park),
             None => {}
         }
-        // Only now does the unit hold the pass that it may start by itself.
+        // Only now does the unit hold the pass that it may start on its own.
         if let Some(pass) = newly_proved {
             self.last_run.holds(id, pass);
             self.keep_last_run();
@@ -380,8 +381,8 @@ impl Engine {
         if let Some(flight) = flight {
             flight.see(&shown.operation, seen, now);
         }
-        // Its antenna would set out later only by a clock that was set back. What the schedule
-        // gives up before it begins is not missed.
+        // Its antenna would set out later only by a clock that was set back. A pass that the
+        // schedule gives up before it begins is not missed.
         let is_planned =
             |flight: &Flight| duties.iter().any(|duty| is_same_pass(duty.pass, flight.duty.pass));
         flight.take_if(|flight| {
@@ -415,7 +416,7 @@ impl Engine {
         }
     }
 
-    /// Tells what became of a pass of the schedule.
+    /// Notes the outcome of a pass of the schedule.
     pub(super) fn note_flown(&mut self, antenna: AntennaId, flown: Flown) {
         self.note_day(antenna, DayEvent::Flown(flown));
         self.record_has_grown();

@@ -77,7 +77,7 @@ pub enum By {
     Program,
     /// A signal of the operating system.
     Signal,
-    /// The station by itself, such as automatic operation.
+    /// The station, without a request, such as automatic operation.
     Station,
 }
 

@@ -48,7 +48,7 @@ pub struct News {
     pub over: Vec<u64>,
 }
 
-/// Knows what was told.
+/// Keeps track of the notices already given.
 #[derive(Debug, Default)]
 pub struct Teller {
     /// Ids of the alarms that were new when it last looked.
@@ -105,7 +105,7 @@ impl Teller {
     }
 }
 
-/// The sound of a notice. That of a top-priority alarm is not to be chosen.
+/// Returns the sound of a notice. The operator cannot choose that of a top-priority alarm.
 fn tones(about: &About, notices: &Notices) -> Tones {
     match about {
         About::Alarm(alarm) => match alarm.priority() {

@@ -1,5 +1,5 @@
 //! STOPs, ends of auto-track and offsets that are owed to units that no antenna of the station has:
-//! the antenna was deleted, or given another address, while it moved or tracked by itself.
+//! the antenna was deleted, or given another address, while it moved or tracked on its own.
 
 use std::{collections::BTreeSet, sync::Arc};
 

@@ -244,8 +244,8 @@ impl Engine {
         self.recording.note(at, command.antenna(), Kind::Command, &data);
     }
 
-    /// Records a command that goes to a session. That of a client was recorded when it came, unless
-    /// the client named a pass alone.
+    /// Records a command that goes to a session. A client's command was recorded when it came,
+    /// unless the client named only a pass.
     pub(super) fn note_sent(&self, index: usize, command: &driver::Command) {
         use driver::Command::{ProgramTrack, ProgramTrackIntoSun, Track};
         let by = self.asked.map_or(By::Station, |asked| asked.by);

@@ -67,7 +67,7 @@ pub(super) struct Inputs {
     tracked: Vec<Tracked>,
     /// Passes that antennas were taking before the start of this run and may resume.
     interrupted: Vec<(AntennaId, PassKey)>,
-    /// Antennas of which it is known where they stand, with the rates of their axes as learned.
+    /// Antennas with known positions, with the rates of their axes as learned.
     placed: Vec<(AntennaId, Option<[f64; 2]>)>,
 }
 
@@ -222,7 +222,7 @@ impl Engine {
         let begun =
             self.scheduler.begun.take_if(|begun| gives_away(&schedule, &begun.fixed, &fixed));
         if begun.is_some() {
-            // It is made once more, with what was begun meanwhile.
+            // Plan again, with the passes that have begun since.
             return;
         }
         let before = &self.schedule;

@@ -29,7 +29,7 @@ pub struct Settings {
     pub marks: Option<PathBuf>,
     /// Folder for the records of stations; `None` to record nothing.
     pub records: Option<PathBuf>,
-    /// Elements in place of those of the sources, of which none is then read.
+    /// Elements in place of those of the sources; Azel then reads no source.
     pub elements: Option<Arc<Catalog>>,
     /// Channel for reports of passes, besides the record.
     pub reports: Option<mpsc::Sender<PassNote>>,

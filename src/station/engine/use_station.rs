@@ -80,7 +80,7 @@ impl Engine {
     /// Takes a station into use. Unchanged antennas keep their session.
     pub(super) fn use_station(&mut self, station: Station) {
         self.record_station(&station);
-        // A session that is opened anew goes on with what the one before has learned.
+        // A new session goes on with the lessons of the previous one.
         self.note_learned_drives();
         self.keep_locked_out(&station.antennas);
         let mut before = std::mem::take(&mut self.antennas);

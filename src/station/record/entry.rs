@@ -45,7 +45,7 @@ pub enum Kind {
     Link,
     /// The intent of an antenna, its track, its checks, its automatic operation.
     State,
-    /// A change of the settings of a unit, and what came of it.
+    /// A change of the settings of a unit, and its outcome.
     Setting,
     /// Another event of an antenna.
     Event,

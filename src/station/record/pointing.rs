@@ -26,7 +26,7 @@ pub struct PointingFit {
     /// Number of passes with a point that counts.
     pub passes: usize,
     pub noise: Vec<NoiseOf>,
-    /// Terms that were not to be fitted. They are zero.
+    /// Terms that were left out of the fit. They are zero.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub without: Vec<Term>,
     /// One a term, in the order of [`Term::ALL`].
@@ -46,8 +46,8 @@ pub struct NoiseOf {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct FittedTerm {
     pub term: Term,
-    /// Degrees; for the scale, degrees a degree. `None` where the points cannot tell it, and where it
-    /// was not to be fitted.
+    /// Degrees; for the scale, degrees a degree. `None` where the points cannot tell it, and where
+    /// it was left out of the fit.
     pub value: Option<f64>,
     /// Half of the width of the interval that holds it in at least 95 of 100 cases; `None` also where the
     /// value holds a part of terms that the points cannot tell.

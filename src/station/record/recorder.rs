@@ -169,7 +169,7 @@ impl Recorder {
         locked(&self.shared.begun).push(session);
     }
 
-    /// Keeps the parts of the record for so long from now on.
+    /// Sets how long the record keeps its parts from now on.
     pub fn keep(&self, keeping: Retention) {
         *locked(&self.shared.keeping) = keeping;
     }

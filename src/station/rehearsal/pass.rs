@@ -34,7 +34,7 @@ pub struct Rehearsed {
     pub left_out: Vec<String>,
 }
 
-/// A pass of the plan, and what became of it.
+/// A pass of the plan, and its outcome.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct RehearsedPass {
     pub antenna: AntennaId,

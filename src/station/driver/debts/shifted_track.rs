@@ -60,8 +60,8 @@ impl ShiftedTrack {
         known.any(|known| component(*known) == component(held))
     }
 
-    /// The same where somebody else has set a component that `held` reports: that one is not to be
-    /// taken back.
+    /// The same where somebody else has set a component that `held` reports: Azel leaves that one
+    /// alone.
     pub(in crate::driver) fn without_foreign(self, held: TrackOffsets) -> Option<Self> {
         let restored = |component: fn(TrackOffsets) -> Angle| {
             component(if self.may_hold(component, held) { self.before } else { held })
@@ -117,8 +117,8 @@ impl Debts {
         self.path(unit, OFFSETS).map_or(Kept::OnDisk, |path| self.promises.kept(&path))
     }
 
-    /// Looks again for what an earlier run left, since another Azel may have driven the unit
-    /// meanwhile; what was written from here is known better. Blocks.
+    /// Looks again for offsets that an earlier run left, since another Azel may have driven the
+    /// unit in the meantime. Does not replace the record of offsets that this run wrote. Blocks.
     pub(in crate::driver) fn find_shifted(&self, unit: &Unit) {
         let Some(path) = self.path(unit, OFFSETS) else { return };
         let found =

@@ -32,7 +32,7 @@ impl Gate {
         self.held = held;
     }
 
-    /// Checks whether the unit may track by itself what it holds.
+    /// Checks whether the unit may track the pass that it holds.
     pub(super) fn held_is_clear(&self, now: Moment) -> Result<(), Refusal> {
         match &self.held {
             Held::Nothing => Ok(()),
@@ -43,8 +43,8 @@ impl Gate {
         }
     }
 
-    /// Checks whether the unit may track this pass by itself. If so, [`Motion::StartProgram`]
-    /// is checked against it from now on.
+    /// Checks whether the unit may track this pass on its own. If so, [`Motion::StartProgram`] is
+    /// checked against it from now on.
     pub(in crate::driver) fn check_pass(
         &mut self,
         judge: &Arc<Judge>,
@@ -58,8 +58,8 @@ impl Gate {
         checked
     }
 
-    /// As [`Self::check_pass`], but where only the way to the start of the pass is not clear that
-    /// the unit would take by itself, returns the motion to take the antenna there first.
+    /// As [`Self::check_pass`], but if only the unit's own way to the start of the pass is not
+    /// clear, returns a motion that takes the antenna there first.
     pub(in crate::driver) fn way_to_pass(
         &mut self,
         judge: &Arc<Judge>,

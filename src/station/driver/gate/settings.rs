@@ -69,9 +69,9 @@ impl Gate {
     }
 
     /// Writes a change of settings to the unit, or returns the reason not to: a setting that
-    /// decides where the antenna points waits until it stands and would not start by itself. A
-    /// refusal also appears among the outcomes of the settings. `may_move`: a motion was
-    /// requested, whatever the antenna does.
+    /// decides where the antenna points waits until it stands and would not start on its own. A
+    /// refusal also appears among the outcomes of the settings. `may_move`: a motion was requested,
+    /// whatever the antenna does.
     pub(in crate::driver) fn write_settings(
         &mut self,
         change: Change,

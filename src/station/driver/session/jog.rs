@@ -31,7 +31,7 @@ pub(super) struct Jog {
     pub(super) until: Instant,
     /// The motion went through the gate.
     pub(super) started: bool,
-    /// The gate refused it, and the operator was told.
+    /// The gate refused it, and the operator knows.
     pub(super) refused: bool,
 }
 

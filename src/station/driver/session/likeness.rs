@@ -1,5 +1,5 @@
-//! Compares a unit that was out of reach with what it was before: meanwhile it may have been
-//! replaced, set anew or have lost its memory.
+//! Compares a unit after an outage with its earlier reports: somebody may have replaced it or
+//! changed its settings, or it may have lost its memory.
 
 use std::time::Duration;
 
@@ -43,7 +43,7 @@ impl Likeness {
         }
     }
 
-    /// How `now` differs. What was not known before cannot differ.
+    /// Returns how `now` differs. A value that was not known before cannot differ.
     fn differs(&self, now: &Self) -> Option<Unlike> {
         let moved = |(before, now): (Place, Place)| {
             let step_deg = before.step_deg + 1e-9;

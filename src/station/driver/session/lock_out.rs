@@ -1,5 +1,5 @@
-//! A locked-out unit: it gets only questions and STOP, whoever asks. Before that it is stopped
-//! and kept from starting by itself.
+//! A locked-out unit: it gets only questions and STOP, whoever asks. Before that, Azel stops it and
+//! keeps it from starting on its own.
 
 use std::{sync::Arc, time::Duration};
 
@@ -19,11 +19,11 @@ pub(super) struct Locking {
     since: Instant,
     /// Auto-track was switched off on this link.
     is_asked: bool,
-    /// The unit was read as one that does not start by itself.
+    /// The unit reported that it does not start on its own.
     is_proved: bool,
-    /// The unit was once read so: since then the person who works on it may have switched it on.
+    /// It was proved once: since then the person who works on it may have switched it on.
     was_proved: bool,
-    /// The operator was told that it cannot be read back.
+    /// The operator knows that it cannot be read back.
     is_told: bool,
 }
 
@@ -126,7 +126,7 @@ impl Session {
         true
     }
 
-    /// Keeps the unit from starting by itself and checks it: once on each link, and not again
+    /// Keeps the unit from starting on its own and checks it: once on each link, and not again
     /// after it was proved.
     pub(super) fn watch_lock_out(&mut self, now: Moment) {
         let Some(locking) = &mut self.locking else { return };

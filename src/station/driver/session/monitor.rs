@@ -133,7 +133,7 @@ impl Session {
         let way_deg = |place| is_known.then(|| bounds.way_out_deg(place)).flatten();
         let ways_deg = [here, there].map(way_deg);
         for (index, (from, to)) in from.into_iter().zip(to).enumerate() {
-            // Where no axis leads out by itself, the depth inside each barrier counts.
+            // Where no single axis leads out, the depth inside each barrier counts.
             let deeper_deg = match ways_deg {
                 [Some(here_deg), Some(there_deg)] => there_deg - here_deg,
                 _ => from.angle.degrees() - to.angle.degrees(),
@@ -325,8 +325,8 @@ pub(super) struct Overrun {
 
 /// Number of STOPs that replace the default.
 const ENOUGH: usize = StoppingWay::ENOUGH as usize;
-/// Overrun is learned from jogs at this share of the fastest rate or more. That of slower ones
-/// is lost in the noise of the readings.
+/// Azel learns the overrun from jogs at this share of the fastest rate or more. The overrun of
+/// slower ones is lost in the noise of the readings.
 const TELLING_SHARE: f64 = 0.5;
 
 impl Overrun {

@@ -11,7 +11,7 @@ use crate::{
     driver::{LinkState, Safety},
 };
 
-/// The operator is told at the latest this long after the first missing reply.
+/// Maximum time from the first overdue reply to the report.
 const TOLD_WITHIN: Duration = Duration::from_secs(1);
 
 /// Times of the writes since the unit last answered.

@@ -30,7 +30,7 @@ pub(super) struct Halting {
     again_at: Instant,
     /// The operator pressed STOP; otherwise it ends a motion.
     pressed: bool,
-    /// The operator was told that standstill is not proved.
+    /// Azel has reported that standstill is not proved.
     told: bool,
 }
 
@@ -39,8 +39,8 @@ impl Halting {
         if self.pressed { Extent::Everything } else { Extent::Track }
     }
 
-    /// Time from STOP until the operator is told that standstill is not proved. While all positions
-    /// agree, only late replies delay the proof.
+    /// Time from STOP until Azel reports that standstill is not proved. While all positions agree,
+    /// only late replies delay the proof.
     fn told_after(&self, figures: Figures) -> Duration {
         let usual = PROOF.max(figures.gap() + BEYOND_PROOF);
         if self.looks.want_stop() { usual } else { usual + BEYOND_PROOF }

@@ -292,7 +292,7 @@ impl Session {
         let is_under_way =
             slew.is_some_and(|slew| matches!(slew.stage, SlewStage::UnderWay { .. }));
         match (found, &self.activity) {
-            // Compared by itself.
+            // Azel compares a program track separately.
             (_, Activity::ProgramTrack(_)) => true,
             // Azel starts the unit's program only after the slew.
             (Found::Tracking, activity) => {
@@ -309,7 +309,8 @@ impl Session {
         }
     }
 
-    /// A unit that starts to track by itself surprises anyone standing beside it.
+    /// Reports that the unit has started to track on its own, which surprises anyone standing
+    /// beside it.
     fn watch_program(&mut self, _: Moment) {
         let Some(program) = self.gate.state().program.filter(|_| !self.contact.unread) else {
             return;

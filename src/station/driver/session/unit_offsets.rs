@@ -24,8 +24,8 @@ use crate::{
 /// Tickets from here on are those of sessions.
 const TICKETS: u64 = 1 << 62;
 
-/// Returns `true` for the ticket of a change that a session makes by itself, as it does to add offsets
-/// for a pass and to take them back.
+/// Returns `true` for the ticket of a change that a session makes without a request, such as adding
+/// offsets for a pass and taking them back.
 pub fn is_ticket_of_session(ticket: u64) -> bool {
     ticket >= TICKETS
 }
@@ -62,7 +62,7 @@ pub(super) struct UnitOffsets {
 enum Step {
     #[default]
     None,
-    /// Azel is recording on disk the offsets that the unit held before and those of `wanted`.
+    /// Azel is recording on disk what the unit held before, and what it will hold with `wanted`.
     Marking { wanted: TrackOffsets },
     /// On its way to the unit.
     Writing { ticket: u64 },
@@ -116,7 +116,7 @@ impl Session {
         Ok(())
     }
 
-    /// Returns the effect of adding `wanted`; `None` where taking back moves nothing.
+    /// Returns what the unit would do with `wanted` added; `None` where taking back moves nothing.
     fn shift(&self, wanted: TrackOffsets, now: Moment) -> Result<Option<Shift>, Refusal> {
         if wanted.is_none() && !self.may_track() {
             return Ok(None);
@@ -235,7 +235,7 @@ impl Session {
                     if self.unit_offsets.wanted == Some(wanted) {
                         self.write_shift(fields, now);
                     } else {
-                        // Another step has come meanwhile.
+                        // Another change has been requested since.
                         self.begin_shift(fields, now);
                     }
                 }
@@ -260,7 +260,7 @@ impl Session {
             Ok(()) if self.unit_offsets.wanted == self.added_offsets() => {
                 self.unit_offsets.wanted = None;
             }
-            // Another step has come meanwhile.
+            // Another change has been requested since.
             Ok(()) => self.begin_shift(fields, now),
             Err(error) => {
                 if let WriteError::Differs(_) = error {
@@ -307,7 +307,7 @@ impl Session {
         }
     }
 
-    /// The link is lost: what became of a change shows when the unit is read again.
+    /// The link is lost: the next read of the unit shows the outcome of a change.
     pub(super) fn lose_shift(&mut self, now: Moment) {
         match std::mem::take(&mut self.unit_offsets.step) {
             Step::None => return,
@@ -352,7 +352,7 @@ impl Session {
         }
         let waits = self.stop.is_under_way() || self.gate.lock_out().is_some();
         if is_over && !waits && self.may_take_back(now) {
-            // With auto-track on, the unit may begin its next track meanwhile.
+            // With auto-track on, the unit may begin its next track before that.
             if let Ok(Some(shift)) = self.shift(TrackOffsets::NONE, now)
                 && !self.is_judged(&shift.judge, &[shift.axes, shift.sky])
             {

@@ -25,7 +25,7 @@ impl Session {
         }
     }
 
-    /// A halt is over and nothing moves. A unit that may start by itself is not done.
+    /// A halt is over and nothing moves. A unit that may start on its own stays unproved.
     pub(super) fn prove_still(&mut self) {
         self.acts = false;
         if !self.may_start_by_itself() {

@@ -48,7 +48,7 @@ struct Held {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub(in crate::engine) struct UnitElements {
     antenna: AntennaId,
-    /// Address of the unit. At another address another unit answers, of which nothing is known.
+    /// Address of the unit. Nothing is known about the unit at another address.
     address: String,
     pub(in crate::engine) target: UploadTarget,
     /// Catalog numbers, and the epochs of their elements.

@@ -1,4 +1,4 @@
-//! The list of the day: what became of the passes of the schedule, and when automatic operation
+//! The list of the day: outcomes of the passes of the schedule, and times when automatic operation
 //! was switched on, off or suspended.
 
 use jiff::{Timestamp, tz::TimeZone};
@@ -157,7 +157,7 @@ impl Flight {
         }
     }
 
-    /// Returns what became of it by its report; without one nothing was measured.
+    /// Returns the outcome by its report; without one nothing was measured.
     pub(in crate::engine) fn end(self, report: Option<&PassReport>) -> Flown {
         let of_s = self.duty.counted_s;
         let in_beam_s = report.map_or(0.0, |report| report.in_beam_s.min(of_s));

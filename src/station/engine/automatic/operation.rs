@@ -16,7 +16,7 @@ use crate::{
 const FAILURES: u8 = 2;
 /// A pass is given up after this many requests without effect.
 const REQUESTS: u8 = 2;
-/// A pass of which less than this is left is not begun any more, seconds.
+/// Automatic operation does not begin a pass with less than this left, seconds.
 const WORTH_S: f64 = 10.0;
 /// Largest difference in AOS of one pass between two schedules, seconds.
 const SAME_AOS_S: f64 = 60.0;
@@ -25,7 +25,7 @@ const COASTS_S: f64 = 5.0;
 /// An antenna that is not on its way this many seconds before its pass raises an alarm. Also the
 /// least time between two requests for one pass.
 pub(super) const LATE_S: f64 = 30.0;
-/// A unit that tracks by itself may end so long before LOS: its window has whole seconds.
+/// Time before LOS at which a unit that tracks on its own may end: its window has whole seconds.
 pub(super) const WINDOW_STEP_S: f64 = 1.0;
 
 /// Automatic operation of one antenna. Only the operator switches it on, and lets it go on.
@@ -205,7 +205,7 @@ pub(super) struct Seen {
     pub(super) is_proved: bool,
     /// After an outage it waits for the operator's word to track on.
     pub(super) awaits_operator: bool,
-    /// The satellite that its unit tracks by itself, and that can be taken over without a motion.
+    /// Satellite that the unit tracks on its own, and that can be taken over without a motion.
     pub(super) offers: Option<u32>,
     /// The schedule that is being made may give the antenna what its unit tracks.
     pub(super) may_be_planned: bool,
@@ -213,7 +213,7 @@ pub(super) struct Seen {
     /// It turns, and nothing is asked of it: it may end an earlier motion. Until it stands, nothing is
     /// sent.
     pub(super) turns_unasked: bool,
-    /// Its unit tracks by itself, or another satellite than it was asked to.
+    /// Its unit tracks on its own, or another satellite than it was asked to.
     pub(super) is_moved_elsewhere: bool,
 }
 
@@ -225,8 +225,8 @@ pub(super) struct Wishes {
     pub(super) parks_within_s: Option<f64>,
     pub(super) longest_rest_s: f64,
     pub(super) announced_for_s: f64,
-    /// The pass that automatic operation proved last, in this run or the one before: what the
-    /// unit may go on with by itself.
+    /// The pass that automatic operation proved last, in this run or the one before: the unit may
+    /// go on with it on its own.
     pub(super) held: Option<PassKey>,
 }
 
@@ -324,7 +324,7 @@ impl Operation {
         }
     }
 
-    /// Takes what became of the request for the present pass.
+    /// Takes the outcome of the request for the present pass.
     pub(super) fn take_outcome(&mut self, outcome: Outcome) {
         let Self::On(on) = self else { return };
         let Doing::Takes(taking) = &mut on.doing else { return };
@@ -448,7 +448,7 @@ impl On {
         }
     }
 
-    /// The pass of the schedule that the unit tracks by itself, as automatic operation left it.
+    /// The pass of the schedule that the unit tracks on its own, as automatic operation left it.
     fn found_at_work(
         &self,
         duties: &[Duty],
@@ -555,7 +555,7 @@ impl On {
     ) -> Option<Act> {
         let is_asked = seconds_between(taking.asked_at, now) < LATE_S;
         let is_idle = seen.takes != Some(taking.pass.0) && !seen.moves;
-        // Somebody may stand beside the unit that he repairs: its next motion is announced.
+        // Somebody may stand beside the unit to repair it: announce its next motion.
         if seen.not_ready.is_some() && is_idle && !taking.is_skipped() {
             (self.doing, self.moved_at) = (Doing::Rests, None);
             return None;

@@ -97,7 +97,7 @@ impl Engine {
             self.tell_finished(finished);
         }
         self.note_commands();
-        // A pass is long beside a second.
+        // One look a second is enough, since a pass is long.
         if self.now.as_second() == self.recording.looked_at {
             return;
         }
@@ -121,8 +121,8 @@ impl Engine {
         }
     }
 
-    /// A pass of the schedule is over for an antenna. What became of it is told with its report, which
-    /// waits for the last positions.
+    /// Ends a pass of the schedule for an antenna. Azel notes its outcome together with its report,
+    /// which waits for the last positions.
     pub(in crate::engine) fn end_flight(&mut self, antenna: AntennaId, flight: Flight) {
         let is_its = |pass: &&mut Followed| {
             pass.antenna == antenna
@@ -341,7 +341,7 @@ fn about(antenna: &AntennaModel, begun: Timestamp, sync: TimeSync) -> AboutTrack
 }
 
 impl Followed {
-    /// The part of the pass that counts: the one that the plan gives to the antenna, or all.
+    /// The part of the pass that counts: the part that the plan gives to the antenna, or all.
     fn counted(&self) -> (Timestamp, Timestamp) {
         self.planned.map_or((self.from, self.until), |duty| (duty.from, duty.until))
     }

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-/// Most items that may leave the front of a list between two pictures; a list of which more go is
+/// Max items that may leave the front of a list between two pictures; a list that loses more is
 /// written whole.
 const MAX_DROPPED: usize = 8;
 

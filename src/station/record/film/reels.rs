@@ -196,8 +196,8 @@ impl Film {
         Ok(next.and_then(|us| Timestamp::from_microsecond(us + 1).ok()).unwrap_or(at))
     }
 
-    /// The last stretch between two moments of which there is no film: the program did not run, pictures
-    /// were lost, or the film is not kept any more.
+    /// Returns the last gap of the film between two moments: the program did not run, pictures were
+    /// lost, or the film is not kept any more.
     pub fn hole(
         &self,
         from: Timestamp,
@@ -223,7 +223,7 @@ impl Film {
         Ok(time(end).zip(time(begin)))
     }
 
-    /// The stretch around `at` of which there is no film.
+    /// Returns the gap of the film around `at`.
     pub fn hole_at(&self, at: Timestamp) -> Result<Option<(Timestamp, Timestamp)>, FilmError> {
         let at_us = at.as_microsecond();
         let before = "SELECT max(of.until_us) FROM reel AS of JOIN (SELECT run, number FROM reel \

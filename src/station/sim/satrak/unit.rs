@@ -44,7 +44,7 @@ pub struct Snapshot {
     /// Elevation, degrees.
     pub el_deg: f64,
     pub is_tracking: bool,
-    /// It starts to track by itself.
+    /// It starts to track on its own.
     pub is_auto: bool,
     pub is_moving: bool,
 }

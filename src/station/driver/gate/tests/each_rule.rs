@@ -23,11 +23,11 @@ enum Asked {
     AgreedAct,
     /// A setting that decides where the antenna points.
     Setting,
-    /// The same, of an antenna that was told to move.
+    /// The same, while a motion is requested.
     SettingInMotion,
 }
 
-/// A Satrak that stands and would not start by itself.
+/// A Satrak that stands and would not start on its own.
 fn idle_satrak() -> Case {
     changed(Case::new(Intent::Standby), |case| {
         let phase = Phase::OutOfWindow;

@@ -289,7 +289,7 @@ async fn a_stop_that_the_disk_does_not_take_says_why_until_it_does() {
     assert!(next.is_marked(&Unit::of(&antenna())));
 }
 
-/// Lets time go on, which it does not by itself while the disk hangs.
+/// Lets time go on, since the paused clock stands while the disk hangs.
 async fn advance(milliseconds: u64) {
     for _ in 0..milliseconds / 10 {
         tokio::time::advance(Duration::from_millis(10)).await;

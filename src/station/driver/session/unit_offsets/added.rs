@@ -38,7 +38,7 @@ impl Session {
         Some(group.held.as_ref()?.read_at)
     }
 
-    /// Offsets that are meant to be on: the antenna should point so far beside its target.
+    /// Offsets that are meant to be on: the antenna should point this far off its target.
     pub(in crate::driver::session) fn meant_offsets(&self) -> TrackOffsets {
         let is_meant = self.unit_offsets.left.is_none()
             && self.owed.debts.shifted(&self.owed.unit).is_some_and(|shifted| !shifted.is_found);
@@ -91,8 +91,8 @@ impl Session {
         !self.may_track() || is_another && self.program_is_on() && !self.activity.is_pending()
     }
 
-    /// Returns `true` if taking back has not failed just before. What the gate refused on the next
-    /// track is tried again at its end.
+    /// Returns `true` unless taking back has failed just before. An attempt that the gate refused
+    /// on the next track is repeated at the end of that track.
     pub(super) fn may_take_back(&self, now: Moment) -> bool {
         match &self.unit_offsets.left {
             None => true,

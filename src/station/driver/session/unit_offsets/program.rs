@@ -13,7 +13,7 @@ use crate::{
 };
 
 impl Session {
-    /// Returns `true` while the unit tracks by itself, or is about to, and it is known what.
+    /// Returns `true` while the unit tracks on its own, or is about to, and Azel knows its pass.
     pub(super) fn on_board_is_running(&self) -> bool {
         self.program_is_on() && !self.activity.is_pending() && self.on_board_watch().is_some()
     }
