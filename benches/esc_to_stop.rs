@@ -68,7 +68,7 @@ enum Doing {
 struct Bench {
     name: String,
     keys: ChildStdin,
-    /// Of the first antenna.
+    /// Bytes that reached the unit of the first antenna, with their times.
     arrivals: mpsc::Receiver<(Instant, &'static str)>,
     unit: SocketAddr,
     times: Vec<Duration>,
@@ -312,7 +312,7 @@ impl Bench {
         self.times.sort();
         let count = self.times.len();
         let below = |percent: usize| self.times[count * percent / 100];
-        // Of fewer, it would be the slowest.
+        // With fewer measurements it would equal the slowest.
         let p99 = if count > 100 { format!("p99 {:.1?}, ", below(99)) } else { String::new() };
         println!(
             "{what}, {}: p50 {:.1?}, p90 {:.1?}, {p99}slowest {:.1?} of {count}",

@@ -54,7 +54,7 @@ fn antennas(station: &Station, from: Timestamp) -> Vec<PlannedAntenna> {
     planned.collect()
 }
 
-/// What all passes of so many hours have in common.
+/// Site, antennas and search that all passes within `hours` share.
 fn asked<'a>(
     station: &Station,
     antennas: &'a [PlannedAntenna],

@@ -40,7 +40,7 @@ pub struct BannerRoom {
 }
 
 impl BannerRoom {
-    /// Whether the strip, or its room, is in the view of `model`.
+    /// Returns `true` if the view of `model` shows the strip or keeps its room.
     pub fn is_taken(&mut self, model: &Model) -> bool {
         if model.demo {
             self.kept_for = Some(model.view);

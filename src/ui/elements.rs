@@ -65,14 +65,14 @@ pub struct ElementsState {
     hovered: Vec<std::path::PathBuf>,
     /// Places of the offers that were taken.
     taken: Vec<usize>,
-    /// What is to be chosen for the upload.
+    /// Choice for the upload, until the upload takes it.
     uploads: Option<Choice>,
 }
 
 /// Where the upload to the selected unit is drawn, in place of the inspector.
 pub struct UploadPlace {
     pub rect: Rect,
-    /// What to choose for it, when it was just opened.
+    /// Satellites to choose for the upload, if it was just opened.
     pub choice: Option<Choice>,
 }
 

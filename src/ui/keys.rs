@@ -34,7 +34,7 @@ pub struct Binding {
     keys: &'static [(Key, Act)],
     /// Scope of the keys.
     pub place: KeyScope,
-    /// What they do, below a heading that names their scope.
+    /// Effect of the keys, below a heading that names their scope.
     pub does: &'static str,
 }
 
@@ -64,7 +64,7 @@ pub enum KeyScope {
 }
 
 impl Binding {
-    /// What its keys do, with the view that they work in.
+    /// Returns the effect of its keys, with the view that they work in.
     pub fn does_where(&self) -> String {
         let place = match self.place {
             KeyScope::Plan => "in Plan: ",

@@ -18,7 +18,7 @@ const GAP: f32 = 16.0;
 /// Thickness of the bar at the left.
 const BAR: f32 = 3.0;
 
-/// What the notes tell, beside the reminders of the model.
+/// Contents of the notes, besides the reminders of the model.
 #[derive(Debug, Default)]
 pub struct Notes {
     /// The file that was saved last, or what was not done and why; until it is closed.

@@ -7,7 +7,7 @@ use crate::orbit::{Catalog, Elements};
 /// Number of objects that a search shows.
 const FOUND: usize = 40;
 
-/// What is looked for, and what was found.
+/// Text to search for, and the objects found.
 #[derive(Default)]
 pub(super) struct ObjectSearch {
     pub(super) typed: String,

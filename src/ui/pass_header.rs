@@ -42,7 +42,7 @@ pub struct PassHeaderModel<'a> {
     pub name: &'a str,
     /// Second name and catalog number.
     pub detail: &'a str,
-    /// What of the second line is a warning; it stands first.
+    /// Warnings of the second line; they stand first.
     pub warning: &'a str,
     /// The rest of the second line: the elements and their location.
     pub second_line: &'a str,

@@ -97,7 +97,7 @@ impl Places {
 }
 
 impl PreferencesState {
-    /// Whether something typed is not saved.
+    /// Returns `true` if an edit is not saved.
     pub fn is_edited(&self) -> bool {
         self.draft.as_ref().is_some_and(|(station, draft)| *draft != Draft::of(station))
     }

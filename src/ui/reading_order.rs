@@ -44,7 +44,8 @@ struct Spot {
 }
 
 impl Spot {
-    /// Whether it is read before `other`: it is above it in its column or left of it in its row.
+    /// Returns `true` if it is read before `other`: it is above it in its column or left of it in
+    /// its row.
     fn is_before(self, other: Self) -> bool {
         let (a, b) = (self.place, other.place);
         let columns = a.x_range().intersection(b.x_range()).span();
@@ -55,7 +56,7 @@ impl Spot {
     }
 }
 
-/// What can be seen of all nodes.
+/// Visible parts of all nodes.
 struct Spots(HashMap<NodeId, Spot>);
 
 impl Spots {

@@ -69,7 +69,7 @@ pub fn show(
     state.ask(model, commands);
 }
 
-/// What stands in place of a report.
+/// Words in place of a report.
 fn nothing(ui: &mut Ui, rect: Rect, model: &Model) {
     let t = theme::tokens(ui);
     let place = rect.shrink2(vec2(PADDING, PADDING));
@@ -102,7 +102,7 @@ fn show_report(
             let rows = explain::height(opened);
             let tables =
                 if is_wide { rows.max(facts::HEIGHT).max(TABLES) } else { rows + facts::HEIGHT };
-            // What is left in a large window makes the drawings larger.
+            // Space left in a large window makes the drawings larger.
             let drawings = (rest.height() - verdict - tables).max(DRAWINGS);
             let (_, place) = ui.allocate_space(vec2(width, drawings));
             let side = (0.344 * width).clamp(PATH.0, PATH.1.max(drawings));

@@ -24,7 +24,7 @@ pub(super) fn enlarged(track: &[TrackPoint]) -> u16 {
     ENLARGED.into_iter().find(fits).unwrap_or(1)
 }
 
-/// What the path over the sky shows, after its title.
+/// Content of the path over the sky, after its title.
 pub(super) fn enlargement(factor: u16) -> String {
     match factor {
         1 => "predicted and actual".to_owned(),

@@ -59,7 +59,7 @@ const FRAME: f32 = 3.0;
 /// The reason why controls are locked that would change something or save a file.
 pub const LOCKED: &str = "Replay. Leave it first.";
 
-/// That reason, in a replay.
+/// Returns [`LOCKED`] in a replay.
 pub fn lock(model: &Model) -> Option<&'static str> {
     model.replay.as_ref().map(|_| LOCKED)
 }
@@ -69,7 +69,8 @@ pub fn locked(antenna: &str) -> String {
     format!("Replay. Leave it to command {antenna}.")
 }
 
-/// Whether the keys of a replay work: no control has the focus that takes some of them itself.
+/// Returns `true` if the keys of a replay work: no control has the focus that takes some of them
+/// itself.
 pub fn takes_keys(ui: &Ui) -> bool {
     ui.memory(egui::Memory::focused).is_none_or(|focused| focused == scrubber::id())
 }
@@ -191,7 +192,7 @@ fn in_words(speed: i32) -> String {
     format!("{speed}×")
 }
 
-/// What came of the last jump, or why the moment is not shown.
+/// Outcome of the last jump, or the reason why the moment is not shown.
 fn news(replay: &Replayed) -> Option<String> {
     let side = |is_next: bool| if is_next { "later" } else { "earlier" };
     let age = |from, until| format::age(seconds_between(from, until));

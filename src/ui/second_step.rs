@@ -103,7 +103,7 @@ fn way_there(model: &Model, antenna: &AntennaModel, predicted: &PredictedPass) -
     ))
 }
 
-/// What a command that would end a track leads to, and the words of its button.
+/// Outcome of a command that would end a track, and the words of its button.
 fn what(
     model: &Model,
     antenna: &AntennaModel,

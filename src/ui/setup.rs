@@ -27,7 +27,7 @@ use crate::{
 const NARROW_BELOW: f32 = 1200.0;
 const PADDING: f32 = 24.0;
 
-/// What was typed, and the step that is shown.
+/// Typed values, and the step that is shown.
 #[derive(Default)]
 pub struct SetupState {
     step: Step,
@@ -42,7 +42,7 @@ pub struct SetupState {
 }
 
 impl SetupState {
-    /// Whether something was typed that would be lost.
+    /// Returns `true` if closing would lose typed values.
     pub fn is_edited(&self) -> bool {
         self.draft.as_ref().is_some_and(SetupDraft::is_edited) || self.add.is_edited()
     }

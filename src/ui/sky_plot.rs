@@ -70,7 +70,7 @@ pub struct SkyPlotState {
     menu_at: Option<AzEl>,
 }
 
-/// What the operator did in the plot.
+/// Actions of the operator in the plot.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct SkyAnswer {
     /// Catalog number of a satellite chosen with a click or with Enter.
@@ -121,7 +121,7 @@ impl Default for Layers {
     }
 }
 
-/// What a menu in the plot is about.
+/// Subject of a menu in the plot.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum MenuOf {
     /// A satellite, by its catalog number, in this direction.

@@ -125,7 +125,7 @@ fn fault_or_limit(antenna: &AntennaModel) -> Option<Spoken> {
     None
 }
 
-/// What was asked for waits until its path is judged.
+/// Says that a request waits until its path is judged.
 fn being_judged(antenna: &AntennaModel) -> Option<Spoken> {
     antenna.snapshot.being_judged.then(|| {
         Spoken::new(SentenceKind::Commanded).plain(

@@ -56,7 +56,7 @@ fn apply(style: &mut egui::Style, t: &Tokens) {
     style.spacing.button_padding = egui::vec2(12.0, 4.0);
     style.spacing.interact_size = egui::vec2(32.0, 24.0);
 
-    // What is cut at the edge of a scroll area shows that it goes on.
+    // Content cut at the edge of a scroll area fades, so that the operator sees that it continues.
     let scroll = &mut style.spacing.scroll;
     scroll.dormant_handle_opacity = 0.5;
     scroll.floating_width = 4.0;

@@ -45,7 +45,7 @@ pub enum BarName<'a> {
     Known(&'a str),
 }
 
-/// What is known of a pass on the antenna of its lane.
+/// State of a pass on the antenna of its lane, as far as it is known.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum State<'a> {
     /// As long as there is no schedule.

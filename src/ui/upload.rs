@@ -43,7 +43,7 @@ const FOOT: f32 = 80.0;
 #[derive(Default)]
 pub struct UploadState {
     forms: BTreeMap<String, Form>,
-    /// What to choose in the form that is shown next.
+    /// Satellites to choose in the form that is shown next.
     choice: Option<Choice>,
     /// The stage that was shown last; a new one is scrolled into sight.
     stage: Option<Discriminant<Stage>>,

@@ -33,7 +33,7 @@ pub struct LiveNow {
 pub struct LiveAntenna {
     pub name: String,
     pub link: LinkGlyph,
-    /// What it does, where it points, and the age of both.
+    /// Its activity, its position, and the age of both.
     pub does: String,
 }
 

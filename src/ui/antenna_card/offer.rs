@@ -15,7 +15,7 @@ use crate::{
     },
 };
 
-/// What one click does; a track by the name of its target.
+/// Action that one click takes; a track is given by the name of its target.
 #[derive(Debug, Clone, Copy)]
 pub enum Offer<'a> {
     /// It was tracked until STOP.

@@ -37,7 +37,7 @@ pub struct OffsetsModel<'a> {
     pub of: OffsetsIn<'a>,
 }
 
-/// What holds the offsets.
+/// Place that holds the offsets.
 #[derive(Debug, Clone, Copy)]
 pub enum OffsetsIn<'a> {
     /// Azel, which sends position after position.
@@ -45,11 +45,11 @@ pub enum OffsetsIn<'a> {
         /// The target has a way over the sky, so that something is along and across it.
         target_moves: bool,
         has_elevation: bool,
-        /// What they can be remembered of: its name, and whether what is on differs from what is
-        /// remembered.
+        /// Subjects that Azel can remember the offsets for: the name, and whether the offsets in
+        /// force differ from the remembered ones.
         keep: &'a [(OffsetsOf, &'a str, bool)],
     },
-    /// The unit, which tracks by itself; with what it adds in all, in words.
+    /// The unit, which tracks by itself; with the sum of the offsets that it adds, in words.
     Unit { held: &'a str, is_changing: bool },
 }
 

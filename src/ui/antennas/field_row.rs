@@ -132,7 +132,7 @@ fn on_unit(ui: &Ui, unit: &ShownUnit<'_>, group: &Group, field: &Field, at: &Col
     row::said(ui, room, &short, text::small(), colour, &name);
 }
 
-/// What stands in place of a value that is not there: one that the unit never tells, or did not.
+/// Placeholder for a value that the unit never reports or has not reported.
 fn missing(unit: &ShownUnit<'_>, group: &Group, field: &Field) -> &'static str {
     let is_read = unit.read_at(group.key).is_some();
     if is_read || field.access == Access::Write { outcome::NOT_REPORTED } else { "not read" }

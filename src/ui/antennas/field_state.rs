@@ -57,7 +57,7 @@ impl FieldState {
         }
     }
 
-    /// Whether the operator may type into the field.
+    /// Returns `true` if the operator may type into the field.
     pub(super) fn is_editable(&self) -> bool {
         !matches!(
             self,
@@ -65,7 +65,7 @@ impl FieldState {
         )
     }
 
-    /// Whether the field holds a value that is not on the unit.
+    /// Returns `true` if the field holds a value that is not on the unit.
     pub(super) fn is_edit(&self) -> bool {
         matches!(
             self,
@@ -109,7 +109,7 @@ fn alone(
     // A value that is never reported is known as far as its group is.
     let is_known = is_told || (field.access == Access::Write && held.is_some());
     if field.access == Access::Read {
-        // What is missing of a group that was read is not there to be told.
+        // A value missing from a group that was read is one that the unit does not report.
         let state = match (unit.read_at(group.key), &field.kind) {
             (None, _) => FieldState::Unknown,
             (Some(at), Kind::Time) => FieldState::Read(at),

@@ -57,7 +57,8 @@ impl<'a> ShownUnit<'a> {
         self.antenna.snapshot.link.is_open()
     }
 
-    /// Whether the group was read on the present link. Older values are from another time.
+    /// Returns `true` if the group was read on the present link. Older values are from another
+    /// time.
     pub(super) fn is_fresh(&self, key: &str) -> bool {
         let Some(since) = self.antenna.snapshot.state.link_since.filter(|_| self.is_open()) else {
             return false;
@@ -66,8 +67,8 @@ impl<'a> ShownUnit<'a> {
         self.read_at(key).is_some_and(|at| at >= add_seconds(self.model.now, -up_s))
     }
 
-    /// Whether the unit's own program is on, or not known to be off. For a unit without one:
-    /// whether Azel tracks with it.
+    /// Returns `true` if the unit's own program is on, or not known to be off. For a unit without
+    /// one: if Azel tracks with it.
     pub(super) fn tracks(&self) -> bool {
         let program = self.antenna.snapshot.state.program;
         if self.antenna.variant().capabilities.has_program {
@@ -83,7 +84,7 @@ impl<'a> ShownUnit<'a> {
         self.antenna.snapshot.hindrance(can, self.model.steady)
     }
 
-    /// Whether it is known that nothing turns or is about to.
+    /// Returns `true` if Azel knows that nothing turns or is about to turn.
     pub(super) fn stands(&self) -> bool {
         let moving = |measured: crate::device::Measured| measured.moving();
         let measured = self.antenna.snapshot.state.measured;

@@ -23,8 +23,8 @@ impl Unlock {
         Self { at: unit.model.steady, link_since }
     }
 
-    /// Whether they stay open: within the time, on the same link, while nothing moves and the
-    /// operator looks at this antenna.
+    /// Returns `true` if they stay open: within the time, on the same link, while nothing moves and
+    /// the operator looks at this antenna.
     pub(super) fn holds(&self, unit: &ShownUnit<'_>) -> bool {
         self.left(unit) > Duration::ZERO
             && unit.stands()

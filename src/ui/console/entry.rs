@@ -1,4 +1,4 @@
-//! What is typed in the line for questions, and the questions sent before.
+//! Text in the line for questions, and the questions sent before.
 
 use std::collections::VecDeque;
 

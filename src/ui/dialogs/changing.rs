@@ -1,4 +1,4 @@
-//! What is told of a change to another station.
+//! Dialogs of a change to another station.
 
 use egui::{Key, RichText, Ui};
 

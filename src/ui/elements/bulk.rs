@@ -1,4 +1,4 @@
-//! What can be done with the marked objects.
+//! Actions for the marked objects.
 
 use egui::{Align2, Rect, Ui, vec2};
 

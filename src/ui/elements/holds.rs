@@ -1,4 +1,4 @@
-//! What each antenna holds of the selected object, as far as it tells.
+//! Elements of the selected object on each antenna, as far as the unit reports them.
 
 use egui::{Align2, Rect, Ui, pos2, vec2};
 use jiff::Timestamp;
@@ -78,7 +78,7 @@ fn one(ui: &Ui, line: Rect, model: &Model, antenna: &AntennaModel, elements: &El
     paint::name_text(ui, ("holds", name), line, spoken.trim()).on_hover_text(spoken.trim());
 }
 
-/// What an antenna holds. `uploaded`: the epoch of the set that was proved on it.
+/// Words for the elements on an antenna. `uploaded`: the epoch of the set that was proved on it.
 fn holds(
     antenna: &AntennaModel,
     elements: &Elements,

@@ -278,7 +278,7 @@ fn free_name(offer: &Offer, model: &Model) -> String {
     if is_free(&stem) { stem } else { names.find(|name| is_free(name)).unwrap_or(stem) }
 }
 
-/// What an offer holds against what is in use.
+/// Contents of an offer, compared with the elements in use.
 fn holds(counts: &Counts) -> String {
     let parts = [
         (counts.new, "new"),

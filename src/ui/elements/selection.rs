@@ -11,7 +11,7 @@ pub(super) struct Selection {
     anchor: Option<u32>,
 }
 
-/// What a click or key does with a row.
+/// Effect of a click or key on a row.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Way {
     /// Selects it.

@@ -110,7 +110,7 @@ impl Menu<'_> {
         self.newest.is_some_and(|newest| newest.epoch() == epoch)
     }
 
-    /// What changes at the next pass with the set of this epoch.
+    /// Change that the set of this epoch makes to the next pass.
     fn effect(&self, epoch: Timestamp) -> String {
         let unknown = || "Its effect on the next pass is not known yet.".to_owned();
         let Some(detail) = self.detail else { return unknown() };

@@ -169,7 +169,7 @@ fn paint_box(ui: &Ui, rect: Rect, mark: Option<Icon>) {
     }
 }
 
-/// What all rows are drawn from.
+/// Data from which all rows are drawn.
 struct Draws<'a> {
     id: Id,
     model: &'a Model,

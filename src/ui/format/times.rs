@@ -40,7 +40,7 @@ pub fn on_axis(at: Timestamp) -> String {
     at.strftime(if at.hour() == 0 && at.minute() == 0 { "%-d %b" } else { "%H:%M" }).to_string()
 }
 
-/// Whether both are on the same day of UTC.
+/// Returns `true` if both are on the same day of UTC.
 pub fn is_today(at: Timestamp, now: Timestamp) -> bool {
     utc(at).date() == utc(now).date()
 }

@@ -76,7 +76,7 @@ impl Density {
     }
 }
 
-/// Whether the day of a row stands above it: at the top of a column and where it is another one.
+/// Returns `true` if a row has its day above it: at the top of a column, and where the day changes.
 fn begins_day(rows: &[Row], index: usize) -> bool {
     let before = index.checked_sub(1).and_then(|before| rows.get(before));
     before.map(|before| &before.day) != rows.get(index).map(|row| &row.day)

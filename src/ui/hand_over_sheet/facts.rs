@@ -1,5 +1,5 @@
-//! What the sheet shows beyond the schedule: the passes themselves, the nights, what a pass that
-//! is left out would cost.
+//! Facts that the sheet shows beyond the schedule: the passes themselves, the nights, the price of
+//! a pass that is left out.
 
 use jiff::Timestamp;
 
@@ -21,7 +21,7 @@ const SAME_S: f64 = 60.0;
 /// Distance between two looks at the Sun, seconds.
 const SUN_STEP_S: f64 = 120.0;
 
-/// What an antenna gives up where it takes a pass that is left out.
+/// Entries that an antenna gives up where it takes a pass that is left out.
 pub(super) struct Price<'a> {
     pub(super) antenna: AntennaId,
     pub(super) entries: Vec<&'a Entry>,
@@ -80,8 +80,8 @@ impl<'a> HandOverSheet<'a> {
         nights
     }
 
-    /// What an antenna gives up where it takes a pass and nothing else is planned anew: on the
-    /// antenna where that is least. `None` where no antenna can take it.
+    /// Returns the entries that an antenna gives up if it takes a pass and nothing else is
+    /// replanned, on the antenna where that is least. `None` if no antenna can take it.
     pub(super) fn price(&self, left: &LeftOut) -> Option<Price<'a>> {
         let schedule: &'a _ = self.schedule;
         let on = |(antenna, why): &(AntennaId, Why)| {

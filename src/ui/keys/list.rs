@@ -89,7 +89,7 @@ pub fn show(ui: &Ui, open: &mut bool) {
     }
 }
 
-/// What a line does, wrapped in its column.
+/// Effect of the keys of a line, wrapped in its column.
 fn does(ui: &Ui, binding: &Binding) -> Arc<Galley> {
     let colour = theme::tokens(ui).t2;
     ui.painter().layout(binding.does_where(), text::small(), colour, COLUMN - KEYS)
@@ -118,7 +118,7 @@ pub fn in_words(binding: &Binding) -> String {
     format!("{before}{}", runs.collect::<Vec<_>>().join(between))
 }
 
-/// Whether two keys with numbers are next to each other, such as F1 and F2.
+/// Returns `true` if two keys with numbers are next to each other, such as F1 and F2.
 fn follows(one: &str, next: &str) -> bool {
     let numbered = |word: &str| -> Option<(bool, u32)> {
         let number = word.strip_prefix('F');

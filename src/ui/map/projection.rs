@@ -114,7 +114,7 @@ impl Projection {
 
     /// The turns, in degrees, on which something between two longitudes lies on the map.
     pub(super) fn turns(&self, from_deg: f32, to_deg: f32) -> impl Iterator<Item = f32> + use<> {
-        // What only touches an edge is not seen.
+        // An object that only touches an edge is not visible.
         let [left, right] = self.longitudes();
         let (left, right) = (left + 0.001, right - 0.001);
         let first = ((left - to_deg) / 360.0).ceil() as i32;

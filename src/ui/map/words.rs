@@ -85,7 +85,7 @@ pub(super) fn next(of: &GlobeSatellite, model: &Model) -> String {
     }
 }
 
-/// That there is no later pass, or that none was searched for.
+/// Says that there is no later pass, or why none is known.
 pub(super) fn no_later_pass(of: &GlobeSatellite, model: &Model) -> &'static str {
     match Search::of(of, model) {
         Search::None => "Passes are computed for favourites only.",

@@ -207,7 +207,7 @@ fn age_of_old(model: &Model, antenna: &AntennaModel) -> Option<String> {
     Some(format::age(age.as_secs_f64()))
 }
 
-/// What stands beside the measured values.
+/// Values beside the measured ones.
 fn wanted(antenna: &AntennaModel) -> WantedColumn {
     if antenna.snapshot.aim.is_none() && antenna.prediction.is_some() {
         WantedColumn::Predicted
@@ -216,7 +216,7 @@ fn wanted(antenna: &AntennaModel) -> WantedColumn {
     }
 }
 
-/// What following the Sun lifts.
+/// Sentence about the Sun avoidance that following the Sun lifts.
 fn sun_avoidance(model: &Model, antenna: &AntennaModel) -> Option<String> {
     let sun = model.station.sun_avoidance?;
     Some(words::sun_lifted(&antenna.config.name, sun.radius_deg))

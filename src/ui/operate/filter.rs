@@ -21,7 +21,7 @@ use crate::{
 /// Longest time in one frame for judging passes: a whole catalogue takes some seconds.
 const BUDGET: Duration = Duration::from_millis(5);
 
-/// What the rows depend on.
+/// Inputs that the rows depend on.
 #[derive(Clone, PartialEq)]
 struct Wanted {
     text: String,
@@ -152,7 +152,7 @@ fn is_named(predicted: &PredictedPass, text: &str) -> bool {
         || predicted.number().to_string().starts_with(text)
 }
 
-/// What is known at once.
+/// Returns `true` if the pass fits the filters that need no computation.
 fn fits(
     predicted: &PredictedPass,
     model: &Model,
@@ -164,7 +164,7 @@ fn fits(
         && (is_to_come || !wanted.arrangement.to_come)
 }
 
-/// What has to be worked out.
+/// Returns `true` if the pass fits the filters that need a computation.
 fn is_wanted(predicted: &PredictedPass, model: &Model, arrangement: &Arrangement) -> bool {
     let highest = predicted.pass.tca.time;
     let is_day = || sun_moon::sun(model.station.site.airless(), highest).elevation_deg() > 0.0;

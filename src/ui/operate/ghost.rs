@@ -114,7 +114,7 @@ pub(super) fn keep(
     ghost.asked = wanted;
 }
 
-/// What the session found about the way to `target`.
+/// Result of the session's check of the path to `target`.
 fn judged(antenna: &AntennaModel, target: Target) -> Option<&Preview> {
     antenna.snapshot.preview.as_deref().filter(|preview| preview.to == pointing(target))
 }
@@ -132,7 +132,7 @@ pub(super) fn shown<'a>(antenna: &'a AntennaModel, state: &OperateState) -> Opti
     })
 }
 
-/// What stands in the note: the sentence, and whether the antenna can be sent.
+/// Sentence in the note, and whether the antenna can be sent.
 fn found(model: &Model, antenna: &AntennaModel, target: Target) -> (String, bool) {
     let has_checks = !antenna.snapshot.state.checks.is_empty();
     let in_replay = replay::locked(&antenna.config.name);

@@ -191,8 +191,8 @@ fn left_out<'a>(
     })
 }
 
-/// What the way there leaves of a pass under way, or about to begin, for an antenna that has to
-/// slew.
+/// Part of a pass under way, or about to begin, that is left for an antenna that has to slew.
+/// `None` if the antenna is there in time.
 fn way_there(model: &Model, antenna: &AntennaModel, predicted: &PredictedPass) -> Option<WayThere> {
     let until_s = seconds_between(model.now, predicted.pass.aos.time);
     let config = &antenna.config;
@@ -277,8 +277,8 @@ pub(super) fn header(ui: &mut Ui, rect: Rect, model: &Model, small: bool) -> boo
     )
 }
 
-/// What is a caution of the second line of the header, and the rest, most important first: the end
-/// is cut in a small window.
+/// Cautions in the second line of the header, and the rest; most important first, because a small
+/// window cuts the end.
 fn second_line(model: &Model, predicted: &PredictedPass) -> [String; 2] {
     let age_s = predicted.satellite.elements.age_s(model.now);
     let number = predicted.satellite.elements.catalog_number();

@@ -41,7 +41,7 @@ pub(super) fn show(
     state.sky_time.keep(model);
     let then = state.sky_time.at();
     if then.is_some() {
-        // What was clicked in the sky of now is no direction for the sky of then.
+        // A click in the sky of now gives no direction in the sky of another time.
         state.ghost.forget_click();
     }
     ghost::keep(ui, model, state, commands);
@@ -137,7 +137,7 @@ pub(super) fn show(
     answer.pointed
 }
 
-/// What is read aloud for the whole plot.
+/// Text that a screen reader reads for the whole plot.
 fn description(model: &Model, state: &OperateState) -> String {
     let sentence = model.antenna().map(|antenna| state_sentence(model, antenna).text());
     let sentence = sentence.unwrap_or_else(|| "Sky plot".to_owned());

@@ -24,7 +24,7 @@ pub struct SkyTime {
     is_click_refused: bool,
 }
 
-/// What a sky was computed for.
+/// Inputs that a sky was computed from.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct SkyKey {
     at: Timestamp,

@@ -20,7 +20,7 @@ pub struct Arrangement {
     /// A group of the catalogue; `None` for all satellites.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub group: Option<String>,
-    /// Whether the Sun is up over the site when the satellite is highest.
+    /// Sunlight over the site when the satellite is highest: the Sun up, down, or either.
     pub light: Light,
     /// The Sun shines on the satellite when it is highest.
     pub sunlit: bool,
@@ -77,7 +77,7 @@ impl Light {
 }
 
 impl Arrangement {
-    /// What differs from the usual list, in words.
+    /// Differences from the default list, in words.
     pub(super) fn words(&self) -> String {
         let mut words: Vec<&str> = Vec::new();
         if self.order != Order::Aos {

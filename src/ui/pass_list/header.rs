@@ -201,7 +201,7 @@ struct Menu {
     chosen: String,
     /// The hover text.
     about: &'static str,
-    /// What stands in its place where nothing can be chosen.
+    /// Reason why nothing can be chosen, shown in place of the hover text.
     lock: Option<&'static str>,
 }
 

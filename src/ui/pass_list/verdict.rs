@@ -10,7 +10,7 @@ use crate::{
     },
 };
 
-/// What the selected antenna can take of a pass, and whether the schedule wants it to.
+/// Part of a pass that the selected antenna can take, and whether the schedule wants it to.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Verdict<'a> {
     /// The mount tracks the whole pass.

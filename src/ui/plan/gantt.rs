@@ -135,7 +135,8 @@ fn heads(ui: &Ui, head: Rect, place: Rect, span: Span) {
             (span.x(at, place).max(place.left()), width, word)
         })
         .collect();
-    // Of two days without room for both, the times of the one that begins would lack theirs.
+    // Where two days have no room for both labels, the later one stays: without it, its times would
+    // lack their day.
     let mut end = place.right();
     for (x, width, word) in labels.into_iter().rev() {
         if x + width <= end {

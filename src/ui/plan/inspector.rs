@@ -151,7 +151,7 @@ fn parts(
     });
 }
 
-/// What became of the pass in the last rehearsal, which is no record, and the button for another.
+/// Outcome of the pass in the last rehearsal, which is not recorded, and the button for a new one.
 fn rehearsal(
     ui: &mut Ui,
     width: f32,
@@ -225,7 +225,7 @@ fn facts(model: &Model, entry: &Entry) -> Vec<(&'static str, String)> {
     facts
 }
 
-/// What an antenna can do with the pass.
+/// Words for the part that an antenna has in the pass, with icon and colour.
 fn verdict(
     model: &Model,
     planned: &PlannedPass<'_>,
@@ -261,7 +261,7 @@ fn verdict(
     }
 }
 
-/// What it would cost to take a pass that is left out.
+/// Cost of taking a pass that is left out.
 fn price(
     ui: &mut Ui,
     width: f32,

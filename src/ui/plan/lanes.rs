@@ -131,7 +131,7 @@ fn title(ui: &Ui, bar: Rect, model: &Model, satellites: &[PlannedSatellite<'_>],
         .on_hover_text(worth(model));
 }
 
-/// What the schedule comes to, class by class.
+/// Worth of the schedule, class by class.
 fn worth(model: &Model) -> String {
     let choose_by = model.station.scheduling.choose_by;
     let classes = model.schedule.schedule.worth.iter();

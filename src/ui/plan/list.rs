@@ -280,7 +280,7 @@ fn state(
     }
 }
 
-/// What is lost, why it is left out, or why it was taken.
+/// Loss or cut of a pass, the reason why it is left out, or the reason why it was taken.
 fn reason(model: &Model, antenna: &AntennaModel, listed: &ListedPass<'_>) -> (String, bool) {
     let always = listed.planned.as_ref().and_then(|planned| planned.choice);
     match listed.standing {

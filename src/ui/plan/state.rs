@@ -1,4 +1,4 @@
-//! What the Plan view keeps between frames.
+//! State that the Plan view keeps between frames.
 
 use std::collections::BTreeMap;
 
@@ -43,7 +43,7 @@ pub struct PlanState {
     undo: Option<Undo>,
 }
 
-/// What takes a change of the plan back.
+/// Command that takes a change of the plan back.
 pub(super) struct Undo {
     pub(super) command: UiCommand,
     pub(super) words: String,

@@ -141,7 +141,7 @@ fn poll() -> [Of; 2] {
     ]
 }
 
-/// What the axes of an az/el mount read beyond the direction of the beam.
+/// Pointing terms of an az/el mount: the difference between the axes and the direction of the beam.
 fn pointing() -> [Of; 8] {
     [
         Of::number(pointing_term(Term::AzimuthOffset), ranges::POINTING_TERM_DEG, "°", |antenna| {
@@ -328,12 +328,12 @@ fn watch() -> [Of; 2] {
     ]
 }
 
-/// Whether the antenna is capable of program track.
+/// Returns `true` if the antenna is capable of program track.
 fn takes_positions(antenna: &Antenna) -> bool {
     antenna.connection.variant().capabilities.takes_positions
 }
 
-/// Whether the antenna turns both angles of the sky.
+/// Returns `true` if the antenna turns both angles of the sky.
 pub(super) fn has_elevation(antenna: &Antenna) -> bool {
     antenna.connection.variant().capabilities.has_elevation()
 }

@@ -1,4 +1,4 @@
-//! What has to be true before the settings are saved.
+//! Conditions that the settings must meet before they are saved.
 
 use super::{draft::Draft, page::Page};
 use crate::{

@@ -1,4 +1,4 @@
-//! The layout of a page: its cards in columns, and beside them what their edits change.
+//! Layout of a page: its cards in columns, and beside them the effect of the edits.
 
 use egui::{Align, Layout, Rect, ScrollArea, Ui, UiBuilder, vec2};
 
@@ -16,14 +16,14 @@ const MOST: [f32; 2] = [592.0, 800.0];
 pub(super) enum Part {
     /// The card with this index.
     Card(usize),
-    /// What the edits change: beside the cards, or as a fold above them.
+    /// Effect of the edits: beside the cards, or as a fold above them.
     Preview { is_fold: bool },
-    /// What cannot be used.
+    /// Values that cannot be used.
     Findings,
 }
 
-/// Shows a page with cards of so many `rows`; `draw` draws each part. What stands aside does not
-/// scroll with the cards.
+/// Shows a page with cards of so many `rows`; `draw` draws each part. The parts beside the cards do
+/// not scroll with them.
 pub(super) fn show(
     ui: &mut Ui,
     page: Rect,

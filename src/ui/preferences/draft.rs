@@ -177,7 +177,7 @@ impl Draft {
         ids.map(|id| (id, self.antenna_title(id))).collect()
     }
 
-    /// What the rules name.
+    /// Antennas and satellites that the rules name.
     pub(super) fn around_rules(&self) -> Around<'_> {
         Around {
             antennas: self.antenna_titles(),
@@ -246,7 +246,7 @@ impl Draft {
         model.link_tests.iter().find(is_it)
     }
 
-    /// Whether another antenna has the same name.
+    /// Returns `true` if another antenna has the same name.
     fn has_twin(&self, index: usize) -> bool {
         let Some(own) = self.antennas.get(index).map(name) else { return false };
         let mut kept = self.kept();

@@ -230,7 +230,7 @@ impl<T> Field<T> {
         &self.before
     }
 
-    /// Whether the typed text differs from the text before.
+    /// Returns `true` if the typed text differs from the previous text.
     pub(in crate::ui) fn is_edited(&self) -> bool {
         self.text != self.before
     }
@@ -293,7 +293,7 @@ pub(in crate::ui) struct Standing {
     /// The field of something that the station does not have yet.
     pub(super) is_new: bool,
     pub(in crate::ui) problem: Option<Problem>,
-    /// What a test has shown of the value.
+    /// Result of a test of the value.
     pub(super) proved: Option<String>,
     /// Note below the field.
     pub(super) note: Option<String>,

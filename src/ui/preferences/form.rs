@@ -42,7 +42,7 @@ const SEGMENT: f32 = 20.0;
 /// Height beyond which a long text is scrolled.
 const LINES: f32 = 140.0;
 
-/// What stands beside a field. No row moves when it comes or goes.
+/// Content beside a field. No row moves when it appears or disappears.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Beside {
     /// Its state: unchanged, edited, or why it cannot be used.
@@ -215,7 +215,7 @@ fn row<T>(
         state(ui, (group, &*label), room, field, standing);
     }
     if let Some(problem) = standing.problem.as_ref().filter(|_| response.has_focus()) {
-        // What would do is the value before, which a new station does not have.
+        // The cure may be the previous value, which a new station does not have.
         let cure = problem.would_do.as_ref().filter(|_| beside == Beside::State);
         why_below(&response, &label, &problem.why, cure);
     }

@@ -32,7 +32,7 @@ impl Page {
         all
     }
 
-    /// What is chosen on the page is used at once, without saving.
+    /// Returns `true` if choices on the page take effect at once, without saving.
     pub(super) fn is_used_at_once(self) -> bool {
         self == Self::Appearance
     }

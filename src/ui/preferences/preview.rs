@@ -1,4 +1,4 @@
-//! What the edits of a page change, before they are saved.
+//! Effect of the edits of a page, before they are saved.
 
 use egui::{Align2, Color32, FontId, Rect, Sense, Ui, pos2, vec2};
 

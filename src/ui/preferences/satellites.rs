@@ -15,7 +15,7 @@ use super::{
 };
 use crate::{model::Model, station::AntennaId, ui::object_search::ObjectSearch};
 
-/// What is open on the page.
+/// Open parts of the page.
 #[derive(Default)]
 pub(super) struct SatellitesState {
     /// The favourite whose limits are open.
@@ -25,7 +25,7 @@ pub(super) struct SatellitesState {
     search: ObjectSearch,
 }
 
-/// What the cards of the page show besides the draft.
+/// Data that the cards of the page show besides the draft.
 struct Around<'a> {
     model: &'a Model,
     favourites: Vec<u32>,

@@ -9,7 +9,7 @@ use super::{
 /// Most results that are listed.
 const MOST: usize = 12;
 
-/// What is searched for, until a result is chosen.
+/// Text of the search, until a result is chosen.
 #[derive(Default)]
 pub(super) struct Search {
     pub(super) text: String,

@@ -61,7 +61,7 @@ pub(super) fn show(
                 section,
                 &mut state.sought,
                 |ui| {
-                    // What runs is the record of the demonstration.
+                    // In the demonstration, only the record of the demonstration runs.
                     if section == RECORD && !model.demo {
                         about_record(ui, model);
                     }

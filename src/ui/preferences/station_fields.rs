@@ -37,7 +37,7 @@ pub(in crate::ui) struct Ground {
     frequencies: Vec<Frequency>,
     on_close: Option<OnClose>,
     record: Retention,
-    /// What other views edit comes from here.
+    /// Source of the settings that other views edit.
     elsewhere: Box<Station>,
 }
 

@@ -13,7 +13,7 @@ use crate::ui::{format, text, theme, widgets::paint};
 pub(super) const HEIGHT: f32 = 32.0;
 /// Dash and gap of the line at half the beam.
 const DASH: (f32, f32) = (4.0, 4.0);
-/// What the plot shows.
+/// Description of the plot.
 const ABOUT: &str = "Pointing error: the measured angle between the antenna's direction and the \
                      satellite. The dashed line is half the beamwidth.";
 /// Gap between the plot and the words beside it.

@@ -216,7 +216,7 @@ fn last_hour(ui: &Ui, room: Rect, model: &Model, commands: &mut Vec<UiCommand>) 
     room.with_max_x(min.x - 2.0 * GAP)
 }
 
-/// Whether the record is written, at the right.
+/// State of the recording, at the right.
 fn recording(ui: &Ui, room: Rect, model: &Model) {
     let t = theme::tokens(ui);
     let failing = model.record.as_ref().and_then(|record| record.failing.as_ref());

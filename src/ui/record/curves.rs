@@ -286,7 +286,7 @@ fn errors(ui: &Ui, rect: Rect, axis: &TimeAxis, opened: &OpenedPass) {
     }
 }
 
-/// What was predicted and measured at the cursor.
+/// Predicted and measured values at the cursor.
 fn readout(ui: &Ui, rect: Rect, x: f32, point: &TrackPoint, now: Timestamp) {
     let t: &Tokens = theme::tokens(ui);
     let is_right = x + READOUT + 20.0 < rect.right() + RIGHT - 8.0;

@@ -1,4 +1,4 @@
-//! What happened in a pass, in lanes below its curves.
+//! Events of a pass, in lanes below its curves.
 
 use egui::{Align2, Color32, Rect, Role, Sense, Ui, WidgetInfo, pos2};
 use jiff::Timestamp;

@@ -1,4 +1,4 @@
-//! What the antenna was led by, and how its clock stood.
+//! Conditions of a track: elements, commands to the antenna, and clocks.
 
 use egui::{Align2, Rect, Ui, pos2, vec2};
 

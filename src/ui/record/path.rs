@@ -103,15 +103,15 @@ pub(super) fn show(ui: &Ui, rect: Rect, model: &Model, opened: &OpenedPass, stat
         .widget_info(|| WidgetInfo::labeled(egui::Role::Image, true, &spoken));
 }
 
-/// What the station and the antenna have in the way, as they are set now.
+/// Obstacles of the station and keyholes of the antenna, as they are set now.
 struct InTheWay<'a> {
     mask: Option<&'a HorizonMask>,
     keyholes: Option<Keyholes>,
 }
 
 impl<'a> InTheWay<'a> {
-    /// Of another site than that of the pass the mask says nothing, and of an antenna that is gone
-    /// nothing is known.
+    /// The mask applies only to the site of the pass. An antenna that was removed has no known
+    /// keyholes.
     fn of(model: &'a Model, opened: &OpenedPass) -> Self {
         // The same place, whatever its refraction is set to since.
         let is_here = opened

@@ -1,4 +1,4 @@
-//! What the operator looks at in the record.
+//! View state of the record: filters, chosen pass, cursor and dialogs.
 
 use jiff::Timestamp;
 
@@ -29,7 +29,7 @@ pub struct RecordState {
     pub(super) query: PassQuery,
     /// Number of the chosen pass; `None` for the newest.
     chosen: Option<i64>,
-    /// What the station was asked for last.
+    /// Request that the station received last.
     asked: Option<RecordLook>,
     /// The time at which all drawings are read.
     pub(super) cursor: Option<Timestamp>,
@@ -86,7 +86,7 @@ impl RecordState {
         found(model).map_or(&[], |found| &found.page.passes)
     }
 
-    /// What is listed, the newest first.
+    /// Returns the listed passes, the newest first.
     pub(super) fn listed(model: &Model) -> Vec<Listed<'_>> {
         let missed = found(model).map_or(&[][..], |found| &found.missed);
         let tracked = Self::passes(model).iter().map(Listed::Tracked);
@@ -157,7 +157,7 @@ impl RecordState {
         self.query.count += PAGE;
     }
 
-    /// Whether a dialog of this view is open.
+    /// Returns `true` if a dialog of this view is open.
     pub fn is_asking(&self) -> bool {
         self.days.is_some()
     }

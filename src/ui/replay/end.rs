@@ -1,4 +1,4 @@
-//! What stands in place of the strip when a replay has ended by itself.
+//! Notice in place of the strip when a replay has ended by itself.
 
 use egui::{Align2, Rect, Ui, vec2};
 use jiff::Timestamp;

@@ -1,4 +1,4 @@
-//! What the antenna was led by, beside the path.
+//! Conditions of the track, beside the path.
 
 use super::path;
 use crate::{

@@ -45,7 +45,8 @@ pub(super) fn show(ui: &mut Ui, model: &Model, draft: &SetupDraft, state: &Setup
     }
 }
 
-/// What becomes of the links to the antennas.
+/// Sentences about the links to the antennas: those that Azel opens, and those that wait for
+/// Connect.
 fn links(draft: &SetupDraft) -> Vec<String> {
     let (mut opened, mut waiting) = (Vec::new(), Vec::new());
     for (index, antenna) in draft.form.antennas.iter().enumerate() {

@@ -206,7 +206,7 @@ fn show_ring(ui: &Ui, at: egui::Pos2, step: Step, state: &SetupState) {
     }
 }
 
-/// What a step came to so far.
+/// Result of a step so far.
 fn detail(step: Step, model: &Model, draft: &SetupDraft, state: &SetupState) -> String {
     match step {
         Step::Site => match draft.site() {

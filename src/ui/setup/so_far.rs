@@ -1,4 +1,4 @@
-//! What the station would be now: each part and how it stands.
+//! The station as it would be now: each part and its state.
 
 use egui::{Align2, Color32, Rect, Ui, pos2, vec2};
 

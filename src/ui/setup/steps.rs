@@ -62,7 +62,7 @@ impl Step {
     }
 }
 
-/// What became of a step.
+/// Outcome of a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) enum Passed {
     #[default]
@@ -71,7 +71,7 @@ pub(super) enum Passed {
     Skipped,
 }
 
-/// What became of each step.
+/// Outcome of each step.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Progress([Passed; Step::NUMBERED.len()]);
 

@@ -3,7 +3,7 @@
 use super::svg::Svg;
 use crate::astro::AzEl;
 
-/// What a thumbnail shows.
+/// Content of a thumbnail.
 pub(in crate::ui) struct Track {
     pub(in crate::ui) whole: Vec<AzEl>,
     /// The part that the antenna takes.

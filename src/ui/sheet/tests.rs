@@ -1,4 +1,4 @@
-//! What every page has to keep.
+//! Rules that every page has to keep.
 
 use roxmltree::{Document, Node};
 
@@ -6,7 +6,7 @@ fn number(node: Node<'_, '_>, name: &str) -> f64 {
     node.attribute(name).map_or(0.0, |value| value.parse().unwrap())
 }
 
-/// What of the page a text takes: left, top, right, bottom, by a usual width of its letters.
+/// Part of the page that a text takes: left, top, right, bottom, by a usual width of its letters.
 fn text_box(node: Node<'_, '_>) -> [f64; 4] {
     let (x, y, size) = (number(node, "x"), number(node, "y"), number(node, "font-size"));
     let em = |letter: char| match letter {

@@ -79,13 +79,13 @@ impl Dome {
         (rect.center().distance(self.centre) < limit).then(|| corners.map(inside).to_vec())
     }
 
-    /// Whether a rectangle lies within the rim.
+    /// Returns `true` if a rectangle lies within the rim.
     pub(in crate::ui) fn holds(&self, rect: Rect) -> bool {
         let corners = [rect.left_top(), rect.right_top(), rect.right_bottom(), rect.left_bottom()];
         corners.iter().all(|corner| corner.distance(self.centre) < self.radius)
     }
 
-    /// Whether a part of a rectangle lies within the rim or on its line.
+    /// Returns `true` if a part of a rectangle lies within the rim or on its line.
     pub(in crate::ui) fn touches(&self, rect: Rect) -> bool {
         rect.clamp(self.centre).distance(self.centre) < self.radius + 1.0
     }

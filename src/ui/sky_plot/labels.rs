@@ -177,7 +177,7 @@ impl<'a> Labels<'a> {
         let is_free = |side: &Side| !self.texts.iter().any(|text| text.intersects(rect(side)));
         let is_whole = |side: &Side| self.bounds.contains_rect(rect(side));
         let mut free: Vec<Side> = label.order.iter().copied().filter(is_free).collect();
-        // What is shown in any case rather covers a line than loses letters at the edge.
+        // A label that is always shown may cover a line rather than lose letters at the edge.
         if label.tolerance >= 1.0 && free.iter().any(is_whole) {
             free.retain(is_whole);
         }

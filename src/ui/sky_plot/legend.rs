@@ -17,7 +17,7 @@ const ROW: f32 = 18.0;
 const HALF: f32 = 10.0;
 
 const KEYHOLE_NAME: &str = "Keyhole";
-/// What a keyhole is.
+/// Explanation of a keyhole.
 pub(super) const KEYHOLE: &str = "Keyhole: the sky around an end of the lower axis, where an X/Y \
                                   mount cannot point or cannot turn fast enough.";
 

@@ -24,7 +24,7 @@ const LARGE: usize = 2;
 
 /// A line with its places.
 struct ReadoutLine {
-    /// That of the label with the first row of the value, and that of further rows.
+    /// Place of the label with the first row of the value, then the places of further rows.
     places: Vec<Rect>,
     label: (Pos2, Arc<Galley>),
     value: (Pos2, Arc<Galley>),

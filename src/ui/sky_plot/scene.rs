@@ -151,7 +151,7 @@ pub struct OtherAntenna<'a> {
     pub bearing: Option<Bearing<'a>>,
 }
 
-/// What the sky of another time shows besides.
+/// Marks that only the sky of another time shows.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Then<'a> {
     pub antennas: &'a [PlannedAntenna<'a>],
@@ -165,7 +165,7 @@ pub struct PlannedAntenna<'a> {
     /// Its place in the station.
     pub index: usize,
     pub name: &'a str,
-    /// What it does then, such as "tracking NOAA 20".
+    /// Its activity then, such as "tracking NOAA 20".
     pub doing: String,
     pub pointing: Pointing,
 }

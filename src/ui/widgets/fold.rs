@@ -34,7 +34,7 @@ impl Fold {
         self.chosen.unwrap_or(self.has_room)
     }
 
-    /// What the operator wants.
+    /// Takes the choice of the operator.
     pub fn choose(&mut self, is_open: bool) {
         self.chosen = Some(is_open);
     }

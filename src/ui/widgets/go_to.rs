@@ -60,7 +60,7 @@ pub struct GoToState {
     pub elevation: String,
     refusal: Option<(Field, String)>,
     previewed: Option<Target>,
-    /// What the fields hold, if it is a direction.
+    /// Direction in the fields, if they hold a valid one.
     typed: Option<Target>,
     /// The direction that was sent or left; the fields keep it.
     left: Option<Target>,

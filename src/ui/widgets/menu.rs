@@ -29,7 +29,7 @@ fn shown_in() -> Id {
     Id::unique("menu shown in")
 }
 
-/// Whether a menu is open. Its keys are not those of the view behind it.
+/// Returns `true` if a menu is open. Its keys are not those of the view behind it.
 pub fn is_open(ui: &Ui) -> bool {
     let pass = ui.data(|data| data.get_temp::<u64>(shown_in()));
     pass.is_some_and(|pass| pass + 1 >= ui.cumulative_pass_nr())
@@ -67,7 +67,7 @@ fn take_arrows(ui: &Ui, entries: &[Id]) {
     });
 }
 
-/// Whether an entry was chosen without the pointer, whose clicks close the menu anyway.
+/// Returns `true` if an entry was chosen without the pointer, whose clicks close the menu anyway.
 fn chosen_by_key(ui: &Ui, entries: &[Id]) -> bool {
     let is_clicked = |id: &Id| ui.read_response(*id).is_some_and(|entry| entry.clicked());
     !ui.input(|input| input.pointer.any_click()) && entries.iter().any(is_clicked)

@@ -208,7 +208,7 @@ mod tests {
     use super::{super::testing, *};
     use crate::ui::text;
 
-    /// What is painted of `name` in a width in points.
+    /// Text that is painted of `name` in a width in points.
     fn painted(name: &'static str, width: f32) -> String {
         let window: Harness<'_, ()> = testing::window([400.0, 60.0], (), move |ui, ()| {
             let rect = Rect::from_min_size(Pos2::ZERO, Vec2::new(width, 20.0));

@@ -33,7 +33,7 @@ pub fn off(because: OffBecause) -> &'static str {
     }
 }
 
-/// Who interrupted it, as a sentence.
+/// Cause of an interruption, as a sentence.
 pub fn interruption(by: Interruption) -> &'static str {
     match by {
         Interruption::ByHand => "The antenna was commanded by hand.",
@@ -266,7 +266,7 @@ pub fn not_tracking(operation: &Operation) -> Option<String> {
     Some(miss_cause(cause))
 }
 
-/// What became of a pass, as a sentence.
+/// Outcome of a pass, as a sentence.
 pub fn flown(flown: &Flown, now: Timestamp) -> String {
     let (_, aos) = flown.pass;
     let cause = flown.cause.map_or_else(String::new, |cause| format!(" {}", miss_cause(cause)));

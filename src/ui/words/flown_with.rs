@@ -1,4 +1,4 @@
-//! What an antenna was led by in a recorded pass, and how its clock stood.
+//! Conditions of a recorded track: elements, commands to the antenna, and clocks.
 
 use jiff::Timestamp;
 
@@ -76,8 +76,7 @@ pub fn facts(report: &RecordedReport, now: Timestamp) -> Vec<Fact> {
     facts
 }
 
-/// What to do first where the error is explained by the time, and the clock of the unit was off
-/// by then.
+/// First step where the time explains the error, and the clock of the unit was off by then.
 pub fn clock_first(report: &RecordedReport) -> Option<&'static str> {
     let is_time =
         |explanation: &Explanation| explanation.causes().any(|of| matches!(of, Cause::Late { .. }));

@@ -52,7 +52,7 @@ pub fn trial(sound: Sound) -> (String, String) {
     ("Azel".to_owned(), text.to_owned())
 }
 
-/// What the desktop does not do, in sentences.
+/// Services that the desktop lacks, in sentences.
 pub fn missing_outlets(outlets: &Outlets) -> Vec<MissingOutlet> {
     let of = |what, missing: &Option<Missing>| {
         let missing = missing.as_ref()?;
@@ -64,10 +64,10 @@ pub fn missing_outlets(outlets: &Outlets) -> Vec<MissingOutlet> {
     notifications.into_iter().chain(sounds).collect()
 }
 
-/// What is not told through the desktop.
+/// A kind of notice that the desktop does not deliver.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct MissingOutlet {
-    /// What, why, and what to do.
+    /// Service, reason, and remedy.
     pub words: String,
     /// The answer of the system, as it came.
     pub raw: Option<String>,

@@ -13,7 +13,7 @@ use crate::{
 pub const OFFSETS_NEED_ELEMENTS: &str =
     "Azel has no elements of what the unit tracks, and cannot judge where an offset would lead.";
 
-/// What becomes of offsets that a unit adds to its own track, which it adds `held` to in all.
+/// Handling of offsets that a unit adds to its own track; in all, it adds `held`.
 pub fn offsets_on_unit_about(held: &str) -> String {
     format!(
         "Each step is written to the unit, read back, and taken back after the track. The unit adds \

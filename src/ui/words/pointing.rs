@@ -26,7 +26,7 @@ pub fn peak_of(of: PeakOf) -> &'static str {
     }
 }
 
-/// What a model was fitted to.
+/// Data that a model was fitted to.
 pub fn fitted_to(fit: &PointingFit) -> String {
     let passes =
         if fit.passes == 1 { "1 pass".to_owned() } else { format!("{} passes", fit.passes) };

@@ -85,7 +85,8 @@ fn share(share: f64) -> String {
     format!("{} %", format::number(per_cent, decimals))
 }
 
-/// What was lost most, or else what explains the error; `None` where nothing stands out.
+/// Cause of the longest loss, or the cause of the error where that loss only says that the antenna
+/// was off its satellite. `None` for a good pass.
 pub fn cause_in_short(pass: &RecordedPass) -> Option<String> {
     let report = &pass.report.report;
     let by_length = |a: &&LostStretch, b: &&LostStretch| a.seconds().total_cmp(&b.seconds());
@@ -396,7 +397,7 @@ pub fn whole_share(share: f64) -> String {
     format!("{} %", format::number((share * 100.0).floor(), 0))
 }
 
-/// What taking a correction over does. `is_best`: of the best explanation.
+/// Effect of taking a correction over. `is_best`: of the best explanation.
 pub fn correction(how: &How, is_best: bool) -> String {
     let key = if is_best { " (C)" } else { "" };
     match how {
@@ -427,7 +428,7 @@ pub fn no_correction(best: Option<&Explanation>) -> String {
     })
 }
 
-/// What explains this pass and those before it together; `None` where it is the only one.
+/// Explanation of this pass and those before it together; `None` where it is the only one.
 pub fn explained_together(of: &ExplainedPasses, pass: &RecordedPass) -> Option<String> {
     let since = of.since.map(|since| format!(" from {}", format::date(since))).unwrap_or_default();
     let (passes, antenna) = (of.passes, &pass.antenna_name);
@@ -478,7 +479,7 @@ fn names_alike(explanations: &[Explanation]) -> Vec<String> {
     told
 }
 
-/// What the data cannot tell apart, as a sentence; `None` where the best cause stands alone.
+/// Causes that the data cannot tell apart, as a sentence; `None` where the best cause stands alone.
 pub fn alike(explanations: &[Explanation]) -> Option<String> {
     let told = names_alike(explanations);
     let alike = || explanations.iter().flat_map(Explanation::causes);
@@ -498,7 +499,7 @@ pub fn alike(explanations: &[Explanation]) -> Option<String> {
     })
 }
 
-/// What follows the best explanation where these data leave others open, else nothing.
+/// Words after the best explanation where these data leave others open, else nothing.
 fn or_alike(explanations: &[Explanation]) -> String {
     let others = names_alike(explanations).into_iter().skip(1);
     let others: Vec<String> = others.map(|name| name.to_lowercase()).collect();

@@ -8,7 +8,7 @@ use crate::{
     ui::format,
 };
 
-/// What became of a pass, and what was lost of it, in sentences.
+/// Outcome of a pass, and its losses, in sentences.
 pub fn outcome(pass: &RehearsedPass, now: Timestamp) -> String {
     if pass.is_given_up {
         return "A newer plan left it out.".to_owned();
@@ -47,7 +47,7 @@ pub fn in_short(of: &RehearsalState, now: Timestamp) -> Option<String> {
     }
 }
 
-/// What a pass came to beside its promise, for a row.
+/// Time that a pass got, and the promised time, for a row.
 pub fn beside_promise(pass: &RehearsedPass) -> String {
     let [got, promised] = [pass.got_s(), pass.promised_s].map(format::duration);
     format!("{got} of {promised}")

@@ -29,7 +29,7 @@ pub fn choose_by(rule: ChooseBy) -> &'static str {
     }
 }
 
-/// What the mount loses of a pass, as a sentence without a full stop.
+/// Time that the mount loses of a pass, and the place, as a sentence without a full stop.
 pub fn lost(lost: Lost) -> String {
     let seconds = format::duration(lost.seconds);
     match lost.at {
@@ -166,7 +166,7 @@ pub fn standing(model: &Model, standing: Standing<'_>, antenna: &str) -> String 
     }
 }
 
-/// What an antenna does by the schedule: a participle.
+/// Activity of an antenna by the schedule: a participle.
 pub fn doing(model: &Model, doing: PlannedActivity) -> String {
     match doing {
         PlannedActivity::Tracks(pass) => format!("tracking {}", pass_name(model, pass)),
@@ -189,7 +189,7 @@ pub fn satellite_name(model: &Model, number: u32) -> String {
     found.map_or_else(|| number.to_string(), |of| of.short_name().to_owned())
 }
 
-/// What it costs to take a pass, as a sentence.
+/// Cost of taking a pass, as a sentence.
 pub fn price(model: &Model, swap: &Swap) -> String {
     let Some(changes) = &swap.changes else {
         return "It cannot be taken.".to_owned();

@@ -7,7 +7,7 @@ pub fn needs(joining: Joining) -> String {
     format!("needs {} to get there", format::duration(joining.needs_s))
 }
 
-/// What an antenna that sets out at once has of a pass.
+/// Part of a pass that is left for an antenna which sets out at once.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WayThere {
     /// `None` if nothing is left of the pass.

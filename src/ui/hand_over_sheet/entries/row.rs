@@ -1,4 +1,4 @@
-//! What a row says of an entry.
+//! Words of an entry in its row.
 
 use jiff::Timestamp;
 
@@ -73,7 +73,7 @@ impl Row {
     }
 }
 
-/// What is missing of a pass, and who takes the rest.
+/// Parts that the antenna misses of a pass, and the antenna that takes the rest.
 fn shortened(sheet: &HandOverSheet<'_>, entry: &Entry) -> String {
     let by = |seconds: f64, word: &str| {
         (seconds >= LEAST_S).then(|| format!("{word} {}", format::duration(seconds)))

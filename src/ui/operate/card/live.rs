@@ -1,4 +1,4 @@
-//! What the live station does while the record is shown.
+//! State of the live station while the record is shown.
 
 use crate::{
     engine::antenna::AntennaModel,
@@ -12,7 +12,7 @@ use crate::{
 };
 
 impl LiveNow {
-    /// What `live` does while `model` is a replay.
+    /// Returns the state of `live` while `model` is a replay.
     pub fn of(live: &Model, model: &Model) -> Option<Self> {
         model.replay.as_ref()?;
         let antennas = live.antennas.iter().map(|antenna| live_antenna(live, antenna)).collect();

@@ -12,13 +12,13 @@ use crate::{
     },
 };
 
-/// What the section borrows.
+/// Values that the section borrows.
 pub(super) struct CardOffsets<'a> {
-    /// What the offsets that are on can be remembered of, and whether that would be new.
+    /// Subjects that Azel can remember the offsets in force for, and whether that would be new.
     keep: Vec<(OffsetsOf, &'a str, bool)>,
-    /// Those of the unit, in words.
+    /// Offsets on the unit, in words.
     on_unit: String,
-    /// Those that are still on the unit although no track needs them, in words.
+    /// Offsets that are still on the unit although no track needs them, in words.
     left: Option<String>,
 }
 

@@ -49,7 +49,7 @@ impl TypedPeak {
         if at > now {
             return Err("This time is yet to come.".to_owned());
         }
-        // What was measured is of now alone.
+        // The measured angles are valid only for now.
         let [azimuth, elevation] = measured
             .filter(|_| self.at.trim().is_empty())
             .map_or([None; 2], |[azimuth, elevation]| [Some(azimuth), Some(elevation)]);
@@ -162,7 +162,7 @@ fn with_reason(button: Response, lock: Option<&'static str>) -> Response {
     }
 }
 
-/// What the axes of the antenna read now, degrees.
+/// Angles that the axes of the antenna measure now, degrees.
 fn measured(model: &Model, id: AntennaId) -> Option<[f64; 2]> {
     let antenna = model.antenna_of(id).filter(|antenna| antenna.is_live())?;
     let pointing = antenna.snapshot.state.measured?.pointing;

@@ -66,7 +66,7 @@ fn fit_without(id: AntennaId, terms: Vec<Term>) -> UiCommand {
     UiCommand::Station(engine::Command::FitPointing(id, terms))
 }
 
-/// What the operator wants of a fit.
+/// Request of the operator concerning a fit.
 enum Wish {
     FillIn,
     /// The same without these terms.

@@ -59,7 +59,7 @@ pub(super) fn lines(effect: &Effect<Question>, zone: Option<&str>) -> [String; 2
     [blocks + &impossible, before]
 }
 
-/// What all keep-outs and the skyline take.
+/// Passes that all keep-outs and the skyline block or cut.
 fn in_all(tally: &Tally) -> String {
     let plural = if tally.touched == 1 { "" } else { "es" };
     format!(

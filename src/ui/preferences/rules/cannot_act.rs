@@ -6,7 +6,7 @@ use crate::{
     ui::preferences::satellites::draft::SatellitesDraft,
 };
 
-/// What the rules name, as edited.
+/// Antennas and satellites that the rules name, as edited.
 pub(in crate::ui::preferences) struct Around<'a> {
     /// The antennas that stay.
     pub(in crate::ui::preferences) antennas: Vec<(AntennaId, String)>,
@@ -56,7 +56,7 @@ impl Around<'_> {
 }
 
 impl CannotAct {
-    /// Whether the rule could not be read back from the station file.
+    /// Returns `true` if Azel could not read the rule back from the station file.
     pub(super) fn is_wrong(&self) -> bool {
         matches!(self, Self::NoAntenna | Self::NoSatellite | Self::NoGroup | Self::Hours)
     }
@@ -135,7 +135,7 @@ pub(super) fn wrong(rule: &RuleDraft, around: &Around<'_>) -> Option<CannotAct> 
     is_wrong.then_some(CannotAct::Hours)
 }
 
-/// Whether `first` holds wherever `second` does.
+/// Returns `true` if `first` applies wherever `second` does.
 fn covers(first: &RuleDraft, second: &RuleDraft, around: &Around<'_>) -> bool {
     let [one, other] = [first, second].map(|rule| rule.typed.read().0);
     let has_satellites = match (around.members(first.of), around.members(second.of)) {
@@ -154,7 +154,7 @@ fn covers(first: &RuleDraft, second: &RuleDraft, around: &Around<'_>) -> bool {
         && one.sun.is_none_or(|sun| other.sun == Some(sun))
 }
 
-/// Whether `inner` are hours of `outer` all along.
+/// Returns `true` if `inner` lies entirely within the hours of `outer`.
 fn is_within(inner: HoursOfDay, outer: HoursOfDay) -> bool {
     const DAY_MIN: i32 = 24 * 60;
     let minute = |time: jiff::civil::Time| i32::from(time.hour()) * 60 + i32::from(time.minute());

@@ -95,7 +95,7 @@ pub(super) fn when_in_short(
     if parts.is_empty() { "always".to_owned() } else { parts.join(", ") }
 }
 
-/// What a rule does, in a few words.
+/// Effect of a rule, in a few words.
 pub(super) fn then_in_short(rule: &RuleDraft) -> &'static str {
     match (rule.typed.read().0.then, rule.of) {
         (Then::Take, _) => "take, whatever the limits",

@@ -200,7 +200,7 @@ fn choice(ui: &Ui, row: Rect, shown: &Shown, state: &mut RulesState) -> Response
     response
 }
 
-/// What the rule decides in the next 48 h, or why it decides nothing.
+/// Number of passes that the rule decides in the next 48 h, or the reason why it decides none.
 fn last(ui: &Ui, place: Rect, shown: &Shown, is_idle: bool, is_removed: bool, state: &RulesState) {
     let t = theme::tokens(ui);
     let (words, ink) = match (&shown.hindrance, shown.decided(state)) {

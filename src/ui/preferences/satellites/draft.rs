@@ -20,8 +20,8 @@ const PRIORITIES: [Option<Priority>; 6] = {
 
 #[derive(PartialEq)]
 pub(in crate::ui::preferences) struct SatellitesDraft {
-    /// What each favourite has of its own. Which satellites are favourites is a field of the
-    /// station; what was set for one that left is kept until it is back.
+    /// Own settings of each favourite. A field of the station lists the favourites; the settings of
+    /// one that left are kept until it is back.
     own: Favourites,
     groups: Vec<GroupDraft>,
 }
@@ -42,7 +42,7 @@ pub(super) struct Named {
     priority: Option<Priority>,
 }
 
-/// What the groups of a satellite give it.
+/// Settings that a satellite gets from its groups.
 pub(super) struct OfGroups {
     /// With the name of the group.
     pub(super) priority: Option<(Priority, String)>,
@@ -127,7 +127,7 @@ impl SatellitesDraft {
         }
     }
 
-    /// What a favourite has of its own.
+    /// Returns the own settings of a favourite.
     pub(super) fn own(&self, number: u32) -> Favourite {
         self.own.get(number).cloned().unwrap_or_else(|| Favourite::new(number))
     }
@@ -166,7 +166,7 @@ impl SatellitesDraft {
         self.groups.len() - 1
     }
 
-    /// What a satellite has from its groups.
+    /// Returns the settings that a satellite gets from its groups.
     pub(super) fn of_groups(&self, number: u32) -> OfGroups {
         let mut found = OfGroups { priority: None, limits: PassLimits::default() };
         for (_, group) in self.kept().filter(|(_, group)| group.satellites.contains(&number)) {

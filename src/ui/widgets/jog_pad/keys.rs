@@ -63,12 +63,12 @@ pub struct KeyLabel {
     pub word: &'static str,
     /// The axis and direction, for screen readers.
     pub name: String,
-    /// What else is to be said of the key; may be empty.
+    /// Further description of the key; may be empty.
     pub about: String,
 }
 
 impl JogKeys {
-    /// What stands on the key of a direction; `None` where there is no such key.
+    /// Returns the label of the key of a direction; `None` if there is no such key.
     pub fn label(self, direction: JogDirection) -> Option<KeyLabel> {
         use JogDirection::{XMinus, XPlus, YMinus, YPlus};
         let (mark, word, name) = match (self, direction) {
