@@ -49,7 +49,7 @@ impl Watched {
         }
     }
 
-    /// Whether the unit receives anything within `time`.
+    /// Returns `true` if the unit receives anything within `time`.
     fn hears_within(&mut self, time: Duration) -> bool {
         self.unit.set_read_timeout(Some(time)).unwrap();
         let mut first = [0; STOP.len()];

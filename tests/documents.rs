@@ -187,8 +187,8 @@ fn every_test_file_is_part_of_a_test_binary() {
     }
 }
 
-/// Whether a file may name a make: the make's own folders, the lists of makes, and the
-/// start of the simulators.
+/// Returns `true` if a file may name a make: the make's own folders, the lists of makes, and the
+/// simulators.
 fn may_name_a_make(path: &str, makes: &BTreeSet<String>) -> bool {
     let mut parts = path.split('/').map(|part| part.trim_end_matches(".rs"));
     let lists = [

@@ -177,8 +177,8 @@ fn faults(sky: &Sky, found: &[Pass], expected: &[Stay]) -> Vec<String> {
     faults
 }
 
-/// Whether either answer is right: the stay grazes the floor, or is shorter than the grid
-/// shows.
+/// Returns `true` if only one answer is right: the highest point of the stay is clearly above or
+/// below the floor.
 fn is_settled(stay: &Stay, floor_deg: f64) -> bool {
     (stay.highest_deg - floor_deg).abs() > MAX_OFF_DEG
 }

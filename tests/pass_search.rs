@@ -146,7 +146,7 @@ fn cases() -> ProptestConfig {
     }
 }
 
-/// Whether the velocities of SGP4 agree with the change of its positions. They do not far
+/// Returns `true` if the velocities of SGP4 agree with the change of its positions. They do not far
 /// from the epoch, or with a drag that ends the orbit in days.
 fn is_an_orbit(propagator: &Propagator, search: &PassSearch) -> bool {
     let length_s = time::seconds_between(search.from, search.to);

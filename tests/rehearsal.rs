@@ -110,8 +110,8 @@ fn a_day_of_three_antennas_has_a_report_of_each_pass_beside_its_promise() {
     for pass in passes.iter().filter(|pass| !pass.is_given_up) {
         let report = pass.report.as_ref().unwrap_or_else(|| panic!("no report: {pass:?}"));
         assert!(pass.flown.is_some() && report.report.rms.is_some(), "{pass:?}");
-        // What was promised can be had by units that do as they are told. At a limit an RC2000C
-        // tells no angle: that the satellite is still within its beam there is not counted.
+        // Units without faults can keep the promise. At a limit, an RC2000C reports no angle, so
+        // that the time in which the satellite is still within its beam does not count there.
         assert!(pass.got_s() > 0.97 * pass.promised_s - AT_LIMIT_S, "{pass:?}");
     }
 }

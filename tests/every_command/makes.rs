@@ -19,7 +19,7 @@ use crate::{
     satrak_session::scene,
 };
 
-/// What was sent to a unit.
+/// Kind of a request that a unit received.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Sent {
     Question,
@@ -44,7 +44,7 @@ pub(super) struct Make<U: Unit> {
 }
 
 impl<U: Unit> Make<U> {
-    /// What the unit received after its first `skipped` requests.
+    /// Returns the requests that the unit received after its first `skipped` ones.
     pub(super) fn received(&self, rig: &Rig<Control<U>>, skipped: usize) -> Vec<(Sent, String)> {
         let received = rig.control.received().into_iter().skip(skipped);
         let text = received.map(|(_, request)| (self.text)(&request));

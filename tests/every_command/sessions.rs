@@ -26,10 +26,10 @@ struct Trial<'a, U: Unit> {
     before: usize,
 }
 
-/// What came of a command.
+/// Outcome of a command.
 #[derive(Debug)]
 struct Outcome {
-    /// What the unit received since.
+    /// Requests that the unit received since the command.
     received: Vec<(Sent, String)>,
     events: Vec<Event>,
     shown: Snapshot,

@@ -28,7 +28,7 @@ enum Given {
 /// All that shows of a command.
 #[derive(Debug, PartialEq)]
 struct Trace {
-    /// What the unit received, each request once.
+    /// Requests that the unit received, each once.
     received: BTreeSet<String>,
     events: Vec<Event>,
     intent: Intent,

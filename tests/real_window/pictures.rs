@@ -78,7 +78,7 @@ const CONTROLS: [Role; 5] =
     [Role::Button, Role::RadioButton, Role::Tab, Role::MenuItem, Role::ComboBox];
 const PAGES: [Role; 1] = [Role::RadioButton];
 
-/// What a picture shows, how it is opened, and how it is left for the next one.
+/// A picture: its name and view, and the acts that open it and leave it for the next one.
 struct Sight {
     name: &'static str,
     view: View,
@@ -180,7 +180,7 @@ impl Twin {
 
     /// Where a control of one of these roles is whose name contains `words`.
     fn find(&mut self, words: &str, roles: &[Role]) -> Option<Pos2> {
-        // What comes from another thread may take some frames.
+        // Content from another thread may take some frames.
         for _ in 0..50 {
             self.window.step();
             let is_control = |role: Role| roles.contains(&role);
@@ -240,7 +240,7 @@ impl Picture {
         self.pixels[start..start + 3].try_into().expect("three bytes")
     }
 
-    /// Whether more than a clock has changed.
+    /// Returns `true` if more than a clock has changed.
     fn differs(&self, other: &Self) -> bool {
         let pairs = self.pixels.chunks_exact(3).zip(other.pixels.chunks_exact(3));
         pairs.filter(|(one, other)| one != other).count() > self.pixels.len() / 3 / 200
@@ -286,7 +286,7 @@ impl Scene {
         Picture { width: self.size[0] as usize, pixels: self.screen.picture() }
     }
 
-    /// Whether STOP is at its place in this theme's red, over a picture.
+    /// Returns `true` if STOP is at its place in this theme's red, over a picture.
     fn is_drawn(&self, theme: ThemeName) -> bool {
         let picture = self.picture();
         let stop = theme.tokens().stop;

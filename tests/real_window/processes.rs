@@ -29,14 +29,14 @@ fn stat(id: u32) -> Option<Stat> {
 }
 
 impl Process {
-    /// Whether the process still runs. One that has ended and is not yet collected by its
-    /// parent does not.
+    /// Returns `true` if the process still runs. A process that has ended, but whose parent has not
+    /// yet collected it, does not run.
     pub(super) fn runs(self) -> bool {
         stat(self.id).is_some_and(|now| now.start == self.start && now.state != 'Z')
     }
 }
 
-/// Whether the process is stopped by a signal.
+/// Returns `true` if a signal has stopped the process.
 pub(super) fn is_stopped(id: u32) -> bool {
     stat(id).is_some_and(|now| now.state == 'T')
 }

@@ -34,8 +34,8 @@ fn station() -> Station {
     station
 }
 
-/// What was seen of the station on the way: the list of the day is that of one day, and of one
-/// run.
+/// Observations of the station on the way. They are collected because the list of the day covers
+/// only one day and one run.
 #[derive(Default)]
 struct Witness {
     /// Entries of the schedule that were under way: antenna, satellite and AOS.
@@ -126,7 +126,7 @@ async fn a_station_takes_its_passes_by_itself_and_each_that_it_misses_has_its_ca
     // The program ends and is started again.
     witness.until_time(&client, add_hours(start(), hours * 0.7)).await;
     witness.look(&client);
-    // What is under way has no line in either run.
+    // A pass under way has no line in either run.
     let told = std::mem::take(&mut witness.begun).into_iter();
     witness.begun = told.filter(|(antenna, pass)| witness.is_told(*antenna, *pass)).collect();
     assert!([dish, mast].iter().all(|antenna| operation(&client, *antenna).is_on()));
@@ -164,7 +164,7 @@ async fn a_station_takes_its_passes_by_itself_and_each_that_it_misses_has_its_ca
         println!("{antenna:?} {} {:.0} of {:.0} s {:?}", of.name, of.in_beam_s, of.of_s, of.cause);
     }
     let had = |of: &Flown| of.in_beam_s > 0.97 * of.of_s;
-    // What was meant to be disturbed, and by what.
+    // Passes that the test meant to disturb, by the cause.
     let causes = |wanted: MissCause| {
         flown.iter().filter(move |(_, of)| of.cause == Some(wanted)).map(|(antenna, _)| *antenna)
     };

@@ -113,7 +113,7 @@ struct Case {
     site: Site,
     /// The elements that a Satrak holds, where they are not those of the station.
     old: Option<Elements>,
-    /// What goes wrong, and the share of the pass after which it does.
+    /// The trouble, and the share of the pass after which it begins.
     trouble: Option<(Trouble, f64)>,
     is_stopped: bool,
 }

@@ -1,4 +1,4 @@
-//! What it costs to take a pass that the schedule leaves out, beside what happens when it is taken.
+//! Price of a pass that the schedule leaves out, compared with the changes when the pass is taken.
 
 use std::sync::Arc;
 

@@ -1,4 +1,4 @@
-//! What a station leaves in its record.
+//! Traces that a station leaves in its record.
 
 use std::{
     path::{Path, PathBuf},
@@ -339,7 +339,7 @@ async fn a_pass_under_way_is_reported_when_the_program_ends() {
     assert!(report.in_beam_s > 60.0 && report.known_s < 0.8 * report.counted_s, "{report:?}");
 }
 
-/// What the station publishes of its record once it has read this.
+/// Part of its record that the station publishes once it has read this.
 async fn look(client: &Client, look: &RecordLook) -> Found {
     client.send(Command::LookAtRecord(Some(look.clone()))).unwrap();
     until("the record", || {

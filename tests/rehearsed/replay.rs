@@ -48,7 +48,7 @@ fn told(shown: &Snapshot) -> Value {
     })
 }
 
-/// What the window makes of a snapshot at `at`, and how old things are there.
+/// Model that the window makes of a snapshot at `at`, with the ages of its values.
 fn modelled(at: Timestamp, shown: &Snapshot) -> Value {
     let passed = Duration::try_from(at.duration_since(shown.at.utc)).unwrap();
     let mut model = Model::before_anything(Moment { utc: at, steady: shown.at.steady + passed });
@@ -132,13 +132,13 @@ async fn a_pass_is_shown_again_as_it_was_at_every_recorded_event() {
     };
     for event in &events {
         let place = live.partition_point(|shown| shown.at.utc < *event);
-        // What was published after the watch ended.
+        // The station published this event after the watch ended.
         let Some(shown) = live.get(place) else { continue };
         let mut film = Projector::open(&file).unwrap();
         let from = film.film().shown_from(*event).unwrap();
         assert_eq!(from, shown.at.utc, "the first that shows it");
         compare(from, shown);
-        // What stood in the window when it happened.
+        // Snapshot that the window showed when the event happened.
         let Some(before) = place.checked_sub(1).and_then(|place| live.get(place)) else { continue };
         if *event <= filmed_from {
             continue;

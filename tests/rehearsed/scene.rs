@@ -27,10 +27,10 @@ pub(crate) struct Scene {
     _jobs: job::InPlace,
 }
 
-/// What a station keeps besides its file.
+/// Records that a station keeps besides its file.
 #[derive(Clone, Copy, Default)]
 struct Keeps {
-    /// What is owed to units.
+    /// Records of what is owed to units.
     marks: bool,
     record: bool,
 }

@@ -1,4 +1,5 @@
-//! What ends automatic operation, and what does not: one antenna, some minutes before a pass.
+//! Events that end automatic operation, and events that do not: one antenna, some minutes before a
+//! pass.
 
 use std::{
     sync::{

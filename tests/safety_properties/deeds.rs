@@ -1,4 +1,4 @@
-//! What the operator asks for in a case: one motion, and a key that may stay down.
+//! Requests of the operator in a case: one motion, and a key that may stay down.
 
 use std::{sync::Arc, time::Duration};
 

@@ -41,7 +41,7 @@ async fn is_full(mut dice: Dice) {
     if !at_the_start {
         fill(&folder);
     }
-    // What cannot be read counts as a mark of unknown age.
+    // An unreadable mark counts as one of unknown age.
     scene.send(Command::SeenStanding);
     scene.seconds(0.5).await;
     let mut judge = Judge::new(&scene, String::new());

@@ -49,7 +49,7 @@ fn is_silent(event: &Event) -> bool {
     matches!(event, Event::Safety(Safety::SilentInMotion))
 }
 
-/// Whether the event reports a STOP that is not obeyed.
+/// Returns `true` if the event reports that a STOP may not have been obeyed.
 fn is_alarm(event: &Event) -> bool {
     matches!(
         event,

@@ -239,8 +239,8 @@ fn way_out(scene: &Scene, axes_deg: [f64; 2], gap_deg: f64) -> Option<(f64, usiz
     lengths.min_by(|a, b| a.0.total_cmp(&b.0))
 }
 
-/// Whether a jog along the shortest way is free as far as it is judged ahead. For a unit
-/// with one speed that may reach beyond the far side of the zone.
+/// Returns `true` if a jog along the shortest way is free as far as Azel judges it ahead. For a
+/// unit with one speed, that may reach beyond the far side of the zone.
 fn is_way_wide(scene: &Scene, (_, axis, way): (f64, usize, f64), rate_deg_s: f64) -> bool {
     /// Longer than a jog is judged ahead.
     const AHEAD_S: f64 = 2.5;

@@ -33,7 +33,7 @@ use crate::common::dice::Dice;
 const HOURS_PER_FALSE_STOP: f64 = 1000.0;
 const LOOK: Duration = Duration::from_millis(500);
 
-/// What goes on in an ordinary run.
+/// Activity in an ordinary run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Kind {
     /// It stands.

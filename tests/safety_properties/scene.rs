@@ -110,12 +110,12 @@ impl Scene {
             open(&self.world, ends, &self.clock, self.marks.clone(), self.seed);
     }
 
-    /// Whether the cut of the line has been made.
+    /// Returns `true` if the line has been cut.
     pub(super) fn was_cut(&self) -> bool {
         self.line.lock().unwrap().was_cut
     }
 
-    /// Whether the session has ended, which it does only if it is killed or breaks down.
+    /// Returns `true` if the session has ended, which it does only if it is killed or breaks down.
     pub(super) fn has_ended(&self) -> bool {
         self.session.is_finished()
     }

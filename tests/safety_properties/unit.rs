@@ -33,13 +33,13 @@ pub(super) trait Unit: Send + Sync {
     /// Received commands, in order.
     fn words(&self) -> Vec<(Instant, Word)>;
 
-    /// Whether a STOP is among bytes that were written at once.
+    /// Returns `true` if a STOP is among bytes that were written at once.
     fn holds_stop(&self, bytes: &[u8]) -> bool;
 
-    /// Whether bytes that were written at once are more than a question.
+    /// Returns `true` if bytes that were written at once are more than a question.
     fn holds_order(&self, bytes: &[u8]) -> bool;
 
-    /// Whether a reply tells the position and answers a question, not an order.
+    /// Returns `true` if a reply reports the position and answers a question, not an order.
     fn is_reading(&self, reply: &[u8]) -> bool;
 
     /// A reply with this text, one of several, in place of the angle of an axis; the reply itself
@@ -67,7 +67,7 @@ pub(super) enum Word {
     Other,
 }
 
-/// Whether a word is among bytes.
+/// Returns `true` if a word is among bytes.
 pub(super) fn holds(bytes: &[u8], word: &[u8]) -> bool {
     bytes.windows(word.len()).any(|part| part == word)
 }

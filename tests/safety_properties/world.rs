@@ -52,7 +52,7 @@ pub(super) struct Wish {
     pub(super) make: Option<&'static str>,
 }
 
-/// What is in the sky at the start.
+/// Objects in the sky at the start.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Overhead {
     Nothing,
@@ -171,7 +171,7 @@ impl World {
         self.unit.words().into_iter().filter(|(at, _)| *at >= from).collect()
     }
 
-    /// Whether every jog is equally fast.
+    /// Returns `true` if every jog is equally fast.
     pub(super) fn has_one_speed(&self) -> bool {
         let jog = self.antenna.connection.variant().capabilities.jog;
         matches!(jog, JogSpeeds::Named([_]))

@@ -197,7 +197,7 @@ async fn a_silent_unit_is_lost_and_tried_again() {
     .await;
 }
 
-/// What the unit says of the age of the elements that it tracks with.
+/// Returns the unit's check of the age of the elements that it tracks with.
 async fn age_of_elements(outdated_after: SignedDuration) -> CheckState {
     let mut rig = Rig::connected(&Options { outdated_after, ..options() }, &antenna()).await;
     rig.send(track(iss()));

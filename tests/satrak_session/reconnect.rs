@@ -169,8 +169,8 @@ fn goto() -> Request {
     Request::Motion(Motion::Goto(Goto::new(Some(200.0), Some(40.0)).unwrap()))
 }
 
-/// What the unit was found doing after an outage in which this was sent to it, and whether that
-/// is as it was left.
+/// Returns the motion of the unit after an outage in which it received `request`, and whether Azel
+/// can explain its state by how it left the unit.
 async fn after_an_outage(rig: &mut Rig, request: Option<Request>, waits_s: f64) -> (Found, bool) {
     rig.set_off(true);
     rig.seconds(1.0).await;

@@ -15,7 +15,7 @@ use super::{
     script::{STILL, Scripted, plain},
 };
 
-/// What the unit receives of one STOP.
+/// Requests that the unit receives for one STOP.
 const STOP: [&str; 3] = ["STOP=", "TRACK=,0", "TRACK_AUTO_ENABLE=,0"];
 
 fn position(azimuth_deg: f64, elevation_deg: f64) -> Command {

@@ -1,4 +1,5 @@
-//! What the next start must find, over real processes: killed ones, and disks that take nothing.
+//! State that the next start must find, over real processes: killed ones, and disks that take
+//! nothing.
 
 use std::path::Path;
 

@@ -19,10 +19,11 @@ use super::{PATIENCE, Served, Units, program, says, wait_for};
 
 /// Kills of the short form; `AZEL_KILLS` sets another number, such as 100 for five minutes.
 const KILLS: u32 = 3;
-/// What a crash may cost.
+/// Time of the record that a crash may cost.
 const LOST: SignedDuration = SignedDuration::from_secs(1);
-/// Longest time from one measured position to the next at two questions a second. What was measured
-/// up to [`LOST`] before a crash is kept, and the last of that can be so much older.
+/// Longest time from one measured position to the next at two questions a second. Azel keeps
+/// positions measured up to [`LOST`] before a crash; the last of them can be older than that by
+/// this time.
 const BETWEEN: SignedDuration = SignedDuration::from_millis(700);
 
 fn place(units: &Units) -> PathBuf {

@@ -1,4 +1,4 @@
-//! What is shown can be copied, for another program or a message.
+//! Copying of shown texts, for another program or a message.
 
 use egui::{Event, Role, accesskit::Live};
 use egui_kittest::{

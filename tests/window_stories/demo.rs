@@ -37,7 +37,7 @@ fn measured(model: &Model, antenna: usize) -> Option<Measured> {
     model.antennas[antenna].snapshot.state.measured.filter(|_| is_up)
 }
 
-/// Whether the antenna stands there, within the resolution of its sensor.
+/// Returns `true` if the antenna stands there, within the resolution of its sensor.
 fn stands_at(model: &Model, antenna: usize, azimuth_deg: f64, elevation_deg: f64) -> bool {
     let wanted = AzEl::from_degrees(azimuth_deg, elevation_deg);
     measured(model, antenna).is_some_and(|measured| {

@@ -194,7 +194,7 @@ const VIEWS: [View; 9] = [
     View::Setup,
 ];
 
-/// Whether the keys work in the view without the focus on a control of their own.
+/// Returns `true` if the keys work in the view without the focus on a control of their own.
 fn is_live(binding: &Binding, view: View) -> bool {
     match binding.place {
         KeyScope::Everywhere | KeyScope::Views => true,
@@ -311,7 +311,7 @@ fn no_control_takes_a_key_that_means_something_else_in_its_view() {
 
 #[test]
 fn every_key_of_a_control_is_in_the_list() {
-    /// What they do in every table, row and drawing of a desktop.
+    /// Keys that every table, row and drawing of a desktop has.
     const USUAL: [Key; 10] = [
         Key::Home,
         Key::End,

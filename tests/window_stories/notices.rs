@@ -1,4 +1,4 @@
-//! What is told through the desktop: set in Preferences, and noted in the window.
+//! Notices through the desktop: set in Preferences, and noted in the window.
 
 use std::sync::Arc;
 

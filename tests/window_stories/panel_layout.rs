@@ -142,7 +142,7 @@ fn a_fold_that_is_opened_at_the_lower_end_is_brought_into_sight() {
     }
 }
 
-/// Whether a control of the card is there, whole and above all that scrolls.
+/// Returns `true` if such a control of the card is there, and whole in the window.
 fn stays(window: &Window, size: [f32; 2], is_it: impl Fn(&str) -> bool) -> bool {
     let whole = Rect::from_min_size(pos2(0.0, 0.0), vec2(size[0], size[1]));
     let buttons = window.query_all_by_role(Role::Button);

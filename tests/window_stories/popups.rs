@@ -10,7 +10,7 @@ use crate::window_stories::{
     states,
 };
 
-/// Whether a popup is open, recognized by an item that only it has.
+/// Returns `true` if a popup is open, recognized by an item that only it has.
 fn is_open(window: &Window, inside: &str) -> bool {
     window.query_all_by_label_contains(inside).next().is_some()
 }

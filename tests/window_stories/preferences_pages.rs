@@ -341,7 +341,8 @@ fn an_edit_is_marked_by_its_border_and_the_focus_by_a_ring_and_an_invalid_field_
             window.get_by_role_and_label(Role::TextInput, name).rect()
         };
         let t = theme::tokens(&window.ctx);
-        // Whether the border is that of a field as it was, and that of an edited one.
+        // `true` if the border is that of an unedited field, and `true` if it is that of an edited
+        // one.
         let border = |window: &Window| {
             let colours = painted::around(window, field(window, "Latitude"), 1.5);
             [colours.contains(&t.edge), colours.contains(&t.sat)]

@@ -469,7 +469,7 @@ fn while_the_record_is_shown_again_no_command_passes_and_stop_reaches_the_unit()
         _ => "stands. Nothing was recorded at this moment.",
     };
     window.get_by_label_contains(told);
-    // What has just happened is written within a second.
+    // Azel writes a new event within a second.
     wait_until("the first event", || {
         window.key_press(Key::Period);
         window.step();

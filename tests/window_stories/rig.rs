@@ -310,7 +310,7 @@ pub(crate) fn sent(window: &mut Window) -> Vec<UiCommand> {
     commands
 }
 
-/// Whether a text (not a control) of the window contains `words`.
+/// Returns `true` if a text (not a control) of the window contains `words`.
 pub(crate) fn says(window: &Window, words: &str) -> bool {
     window.query_all_by_role(Role::Label).any(|node| {
         let node = node.accesskit_node();

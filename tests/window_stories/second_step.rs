@@ -1,4 +1,4 @@
-//! What ends a track takes a second step that names what ends, by mouse and by key alike.
+//! Commands that end a track take a second step that names the track, by mouse and by key alike.
 
 use azel::{
     driver::{Command, Snapshot},

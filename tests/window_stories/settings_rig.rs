@@ -140,7 +140,7 @@ pub(crate) fn unlock<S>(window: &mut Harness<'_, S>, station: &str) {
     hold(window, "Hold 1 s to unlock");
 }
 
-/// Whether one of the texts contains `words`.
+/// Returns `true` if one of the texts contains `words`.
 pub(crate) fn says<S>(window: &Harness<'_, S>, words: &str) -> bool {
     texts(window).iter().any(|text| text.contains(words))
 }

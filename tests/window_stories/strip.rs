@@ -26,7 +26,8 @@ fn with_plan(size: [f32; 2]) -> Window {
     rig::window(size, model)
 }
 
-/// Whether it reads like "11:01Z to 11:14Z", as in the strip alone; in lanes after a name.
+/// Returns `true` if it reads like "11:01Z to 11:14Z", as in the strip alone; in lanes after a
+/// name.
 fn is_times(words: &str) -> bool {
     words.split(" to ").all(|time| time.ends_with('Z')) && words.contains(" to ")
 }

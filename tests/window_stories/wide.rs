@@ -59,7 +59,7 @@ fn more_cards_and_all_lanes_stand_in_a_wide_window_and_in_no_other() {
 
 #[test]
 fn what_unfolds_is_open_where_it_has_room_unless_the_operator_closes_it() {
-    // What the RC2000C can do takes 500 points.
+    // The controls of the RC2000C take 500 points.
     let mut window = rig::window([2560.0, 1600.0], three());
     let folds = |window: &Window| -> Vec<Option<bool>> {
         let lines = window.get_all_by_label_contains("More: ");

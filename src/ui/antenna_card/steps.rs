@@ -25,7 +25,7 @@ const GAP: f32 = 4.0;
 const ORDER: [JogDirection; 4] =
     [JogDirection::XMinus, JogDirection::XPlus, JogDirection::YMinus, JogDirection::YPlus];
 
-/// What the operator typed.
+/// Text that the operator typed.
 #[derive(Debug, Clone)]
 pub(super) struct StepState {
     typed: String,

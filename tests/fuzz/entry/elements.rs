@@ -104,9 +104,9 @@ fn in_order(found: &[Pass], from: Timestamp, to: Timestamp) {
     }
 }
 
-/// Whether the states of this day are those of a flying object. Years from the epoch the
-/// drag terms may move a satellite otherwise than its velocity says, and no pass of that
-/// is right or wrong.
+/// Returns `true` if the states of this day are those of a flying object. Years from the epoch, the
+/// drag terms may move a satellite in another way than its velocity says, and no pass of it is
+/// right or wrong.
 fn flies(propagator: &Propagator, from: Timestamp) -> bool {
     const SHARE: f64 = 0.01;
     let second = SignedDuration::from_secs(1);

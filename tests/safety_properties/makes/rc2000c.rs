@@ -159,7 +159,7 @@ const POSITION_BYTES: usize = 5;
 /// Texts in place of an angle.
 const NO_ANGLE: [&[u8; 5]; 4] = [b"     ", b"ERROR", b"-----", b"  NaN"];
 
-/// Whether a reply is one whole status.
+/// Returns `true` if a reply is one whole status.
 fn is_status(reply: &[u8]) -> bool {
     reply.first() == Some(&0x06) && reply.get(2) == Some(&b'1') && reply.len() > 30
 }

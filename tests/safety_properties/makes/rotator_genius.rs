@@ -158,7 +158,7 @@ const NO_ANGLE: [&[u8; 3]; 4] = [b"999", b"   ", b"NaN", b"361"];
 /// Figures that a unit with a fault might tell.
 const ODD: [&[u8; 3]; 8] = [b"999", b"  0", b"359", b"360", b" -1", b"   ", b"NaN", b"180"];
 
-/// Whether a reply is one whole status.
+/// Returns `true` if a reply is one whole status.
 fn is_status(reply: &[u8]) -> bool {
     reply.starts_with(b"|h") && reply.len() == HEADER_BYTES + 2 * ROTATOR_BYTES
 }

@@ -1,4 +1,4 @@
-//! What must be read whole is not cut.
+//! Texts that must be read whole are not cut.
 
 use azel::model::View;
 
@@ -14,7 +14,7 @@ use crate::window_stories::{
     settings_rig, states,
 };
 
-/// Whether it is a line of the list of keys.
+/// Returns `true` if it is a line of the list of keys.
 fn is_key(node: &Node<'_>) -> bool {
     let words = node.accesskit_node().label().or(node.accesskit_node().value());
     let words = words.unwrap_or_default();
@@ -106,15 +106,15 @@ fn raw_bytes_that_have_no_room_end_with_an_ellipsis() {
 
 /// Texts that end with an ellipsis where there is no room, as the pointer shows them whole.
 const MAY_BE_CUT: [&str; 6] = [
-    // What another antenna does, below the card.
+    // State of another antenna, below the card.
     "Holding at ",
-    // What a fold holds.
+    // Content of a fold.
     "Go to a stored satellite",
     "Send the other rotator",
-    // Where a source is, and its name.
+    // Place of a source, and its name.
     "celestrak.org/",
     "bundled, ",
-    // What was not read of a unit.
+    // Values that were not read of a unit.
     "192.168.10.21:4001, not read: ",
 ];
 

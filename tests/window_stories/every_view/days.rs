@@ -40,7 +40,7 @@ fn times(words: &str) -> Vec<(&str, &str)> {
     starts.filter_map(|(place, _)| Some((&words[..place], is_time(place)?))).collect()
 }
 
-/// Whether the day stands before a time, or before the time that a stretch begins with.
+/// Returns `true` if the day stands before a time, or before the time that a stretch begins with.
 fn has_day(before: &str) -> bool {
     let before = before.trim_end_matches(['T', ' ']);
     let is_date = |last: &str| last.len() == 10 && last.matches('-').count() == 2;

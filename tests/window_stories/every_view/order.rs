@@ -25,7 +25,7 @@ struct Read {
     layer: LayerId,
 }
 
-/// What can be seen of each widget, by its node.
+/// Visible part of each widget, by its node.
 fn places(window: &Window) -> BTreeMap<NodeId, (LayerId, Rect)> {
     window.ctx.viewport(|viewport| {
         let layers = viewport.this_pass.widgets.layers();
@@ -35,7 +35,7 @@ fn places(window: &Window) -> BTreeMap<NodeId, (LayerId, Rect)> {
     })
 }
 
-/// Whether it is a mark of a drawing, whose order is that of its meaning.
+/// Returns `true` if it is a mark of a drawing, whose order follows from its meaning.
 fn is_drawn(node: &AccessKitNode<'_>) -> bool {
     std::iter::successors(node.parent(), AccessKitNode::parent).any(|of| of.role() == Role::Canvas)
 }
@@ -66,7 +66,8 @@ fn common(a: Rangef, b: Rangef) -> f32 {
     a.intersection(b).span().max(0.0) / a.span().min(b.span())
 }
 
-/// Whether `later` stands before `earlier`: above it in its column, or left of it in its row.
+/// Returns `true` if `later` stands before `earlier`: above it in its column, or left of it in its
+/// row.
 fn goes_back(earlier: &Read, later: &Read) -> bool {
     let (a, b) = (earlier.place, later.place);
     let is_above = b.bottom() < a.top() + 0.5 && common(a.x_range(), b.x_range()) > 0.5;

@@ -17,8 +17,8 @@ use crate::window_stories::{
 /// A part by its name, and how its node is recognised.
 type Part = (&'static str, fn(&AccessKitNode<'_>) -> bool);
 
-/// What every view keeps, and what Operate keeps of an antenna. Never folded, hidden or scrolled
-/// away.
+/// Parts that every view keeps, and parts that Operate keeps of an antenna. They are never folded,
+/// hidden or scrolled away.
 const ALWAYS: [Part; 3] = [
     ("STOP", |node| node.role() == Role::Button && starts(node, "STOP")),
     ("the clock", |node| name(node).ends_with(" UTC")),
@@ -46,7 +46,7 @@ fn is_control(node: &AccessKitNode<'_>) -> bool {
     acts && node.role() != Role::Label
 }
 
-/// Whether there is such a node, and all of them are whole in the window.
+/// Returns `true` if there is such a node, and all of them are whole in the window.
 fn is_there(window: &Window, whole: Rect, is_it: fn(&AccessKitNode<'_>) -> bool) -> bool {
     let all = window.query_all(By::new()).filter(|node| is_it(&node.accesskit_node()));
     let places: Vec<Rect> = all.map(|node| node.rect()).collect();

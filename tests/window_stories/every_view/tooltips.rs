@@ -1,4 +1,4 @@
-//! What is told where the pointer rests stands beside its subject.
+//! A tooltip stands beside its subject.
 
 use azel::model::View;
 use egui::{Rect, Role};

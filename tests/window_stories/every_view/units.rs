@@ -5,7 +5,7 @@ use crate::window_stories::{
     rig::Window,
 };
 
-/// Whether `symbol` stands in `words` as the unit of a figure or the head of a column.
+/// Returns `true` if `symbol` stands in `words` as the unit of a figure or the head of a column.
 fn has_unit(words: &str, symbol: &str) -> bool {
     let ends =
         |of: &&str| of.split('/').next().is_some_and(|of| of.trim_matches(['.', ',']) == symbol);
