@@ -68,7 +68,7 @@ enum Doing {
 struct Bench {
     name: String,
     keys: ChildStdin,
-    /// Bytes that reached the unit of the first antenna, with their times.
+    /// Requests that arrive for the first antenna, with their times.
     arrivals: mpsc::Receiver<(Instant, &'static str)>,
     unit: SocketAddr,
     times: Vec<Duration>,
@@ -128,7 +128,7 @@ fn screen(display: u32) -> Running {
     screen
 }
 
-/// Words that a request may begin with, whose arrival is told.
+/// First words of the requests whose arrival the relay reports.
 const TOLD: [&str; 2] = ["MOVE=", "STOP="];
 
 /// A relay to the unit that delays every reply by `stall` and no request, and tells when which of

@@ -52,7 +52,7 @@ pub struct ElementsState {
     wants_search: bool,
     /// A row to scroll to.
     wanted_row: Option<usize>,
-    /// How far the table is scrolled.
+    /// Scroll position of the table.
     offset: f32,
     /// `None` until the operator folds or unfolds them.
     sources_are_open: Option<bool>,
@@ -69,7 +69,7 @@ pub struct ElementsState {
     uploads: Option<Choice>,
 }
 
-/// Where the upload to the selected unit is drawn, in place of the inspector.
+/// Place of the upload to the selected unit, in place of the inspector.
 pub struct UploadPlace {
     pub rect: Rect,
     /// Satellites to choose for the upload, if it was just opened.

@@ -1,5 +1,5 @@
-//! A page to print for whoever takes over the shift: the next 24 hours of the schedule as SVG,
-//! one page of A4 in black on white. What does not fit is counted on the page.
+//! A page to print for the operator who takes over the shift: the next 24 hours of the schedule as
+//! SVG, one page of A4 in black on white. The page counts the entries that do not fit.
 
 mod ages;
 mod entries;

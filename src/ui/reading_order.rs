@@ -106,7 +106,7 @@ impl Spots {
         struct Left {
             id: NodeId,
             spot: Option<Spot>,
-            /// How many of the others that are left are read before it.
+            /// Number of the remaining others that are read before it.
             before: usize,
         }
         let is_before =

@@ -4,7 +4,7 @@ use crate::{astro::time::seconds_between, plan::pass_report::TrackPoint};
 
 /// Points that are further apart are not joined, seconds.
 const APART_S: f64 = 3.0;
-/// The enlarged worst error takes at most so many degrees of the sky.
+/// Greatest size of the enlarged worst error in the sky, degrees.
 const MOST_DEG: f64 = 12.0;
 const ENLARGED: [u16; 4] = [50, 20, 10, 5];
 
@@ -17,7 +17,7 @@ pub(super) fn worst(track: &[TrackPoint]) -> Option<&TrackPoint> {
     track.iter().max_by(|a, b| a.error.off_deg.total_cmp(&b.error.off_deg))
 }
 
-/// By how much the error is drawn larger over the sky.
+/// Factor by which the error is drawn larger over the sky.
 pub(super) fn enlarged(track: &[TrackPoint]) -> u16 {
     let worst_deg = worst(track).map_or(0.0, |worst| worst.error.off_deg);
     let fits = |factor: &u16| worst_deg * f64::from(*factor) <= MOST_DEG;
@@ -34,7 +34,7 @@ pub(super) fn enlargement(factor: u16) -> String {
 
 /// Half of the height of the scale of errors, degrees.
 pub(super) fn error_top_deg(half_beam_deg: f64, track: &[TrackPoint]) -> f64 {
-    /// The scale reaches so far beyond half the beamwidth, and at most so many times as far.
+    /// Smallest and greatest reach of the scale, as multiples of half the beamwidth.
     const LEAST: f64 = 1.25;
     const MOST: f64 = 4.0;
     let worst_deg = worst(track).map_or(0.0, |worst| worst.error.off_deg);

@@ -141,7 +141,7 @@ fn tracking(model: &Model, pass: PassKey) -> String {
     }
 }
 
-/// When the present track would end.
+/// End of the present track.
 fn end(model: &Model, antenna: &AntennaModel) -> Option<jiff::Timestamp> {
     let snapshot = &antenna.snapshot;
     let window = snapshot.state.on_board.window.filter(|_| !antenna.follows());

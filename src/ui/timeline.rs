@@ -31,7 +31,7 @@ pub struct Bar<'a> {
     pub name: BarName<'a>,
     pub aos: Timestamp,
     pub los: Timestamp,
-    /// Maximum elevation, 0 to 90; `None` for a pass of which it is not known any more.
+    /// Maximum elevation, 0 to 90; `None` once it is not known any more.
     pub max_elevation_deg: Option<f64>,
     /// The mount loses part of the pass, such as at its keyhole.
     pub loses: bool,

@@ -36,7 +36,7 @@ struct Outcome {
 }
 
 impl Outcome {
-    /// Refusals as they are told.
+    /// Refusals that the operator sees.
     fn refusals(&self) -> Vec<&Refusal> {
         let refusals = self.events.iter().filter_map(|event| match event {
             Event::NotSent(refusal) | Event::OffsetRefused(refusal) => Some(refusal),
@@ -92,7 +92,7 @@ impl<'a, U: Unit> Trial<'a, U> {
         trial
     }
 
-    /// Returns `true` if a question was asked late that the session does not ask by itself.
+    /// Returns `true` if the unit received a late question that the session does not ask by itself.
     fn asks_late(&self, later: &Outcome) -> bool {
         let Command::Ask(question) = self.command else { return false };
         let asked = |received: &[(Sent, String)]| received.iter().any(|(_, text)| text == question);
@@ -116,7 +116,7 @@ impl<'a, U: Unit> Trial<'a, U> {
     }
 }
 
-/// Differences from the table, all told together.
+/// Differences from the table, all in one message.
 #[derive(Default)]
 struct Faults(Vec<String>);
 

@@ -82,7 +82,7 @@ async fn trace<U: Unit>(make: &Make<U>, command: &Command, given: Given) -> Trac
     }
 }
 
-/// The commands of which nothing shows even after STOP.
+/// The commands that leave no trace even after STOP.
 async fn without_a_trace<U: Unit>(make: Make<U>) -> BTreeSet<String> {
     let mut without = BTreeSet::new();
     let plain = trace(&make, &Command::Standby, Given::Never).await;

@@ -133,7 +133,7 @@ const SIGHTS: [Sight; 25] = [
     sight("setup", View::Setup, &[Click("Set up your station")], &[OPERATE]),
 ];
 
-/// The same window without a display, which tells where a control is.
+/// The same window without a display, which gives the places of the controls.
 struct Twin {
     window: Harness<'static, App>,
     _folder: tempfile::TempDir,

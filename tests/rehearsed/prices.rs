@@ -63,7 +63,7 @@ async fn check(station: &Station) {
     while seen.len() < LOOKED_AT {
         let is_rule =
             |why: &Why| matches!(why, Why::Refused(Refusal::Rule(Rule::MinElevation { .. })));
-        // Where antennas have come to be known where they stand, it is planned anew.
+        // Azel plans again once it knows where the antennas stand.
         now = planned(&client, now.revision - 1).await;
         let mut left_out: Vec<_> = now.schedule.left_out.iter().collect();
         left_out.sort_by_key(|left| !is_rule(&left.why) || by_rule > 1);
@@ -77,7 +77,7 @@ async fn check(station: &Station) {
         let (was, swap) = until("the price", || {
             let snapshot = client.snapshot();
             let revision = snapshot.schedule.revision;
-            // Asked anew, it is worked out anew.
+            // A new request makes Azel compute the price for the new schedule.
             if asked != revision {
                 asked = revision;
                 let _ = client.send(Command::PriceSwap(pass));

@@ -1,4 +1,4 @@
-//! A station in tokio's paused time, and what is asked of it.
+//! A station in tokio's paused time, and the requests to it.
 
 use std::{fs, num::NonZeroU32, path::Path, sync::Arc};
 
@@ -40,17 +40,17 @@ impl Scene {
         Self::keeping(start, station, Keeps::default())
     }
 
-    /// One that is recorded.
+    /// A station that is recorded.
     pub(super) fn recorded(start: Timestamp, station: &Station) -> Self {
         Self::keeping(start, station, Keeps { record: true, ..Keeps::default() })
     }
 
-    /// One that keeps records of what is owed to units.
+    /// A station that keeps records of what is owed to units.
     pub(super) fn marking(start: Timestamp, station: &Station) -> Self {
         Self::keeping(start, station, Keeps { marks: true, ..Keeps::default() })
     }
 
-    /// One that is recorded, with these units; it had other elements before.
+    /// A station that is recorded, with these units; it had other elements before.
     pub(super) fn with_units(
         units: Units,
         clock: Clock,
@@ -70,7 +70,7 @@ impl Scene {
         Self::begun(units, clock, folder_of(station), keeps)
     }
 
-    /// One whose clock a test sets.
+    /// A station whose clock a test sets.
     pub(super) fn by(clock: Clock, station: &Station) -> Self {
         let units = Units::new(&clock);
         Self::begun(units, clock, folder_of(station), Keeps::default())

@@ -39,7 +39,7 @@ use super::{
 };
 use crate::common::units::{self, measured, start, until};
 
-/// The station starts so long before the pass, seconds.
+/// Time from the start of the station to the pass, seconds.
 const BEFORE_S: f64 = 240.0;
 
 /// A station with this antenna alone.

@@ -114,7 +114,7 @@ impl Deed {
     }
 }
 
-/// Rates of a jog that leads into a keep-out if nobody stops it; any jog if there is none.
+/// Rates of a jog that leads into a keep-out unless something stops it; any jog if there is none.
 pub(super) fn rates_into_a_zone(dice: &mut Dice, world: &World) -> [f64; 2] {
     let axes_deg = world.unit.axes_deg();
     let ways = [(0, 1.0), (0, -1.0), (1, 1.0), (1, -1.0)];

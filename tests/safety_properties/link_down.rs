@@ -62,7 +62,7 @@ fn is_alarm(event: &Event) -> bool {
 /// Time after which a reply is missing; at the line speed of an RC2000C its characters
 /// take the rest.
 const MISSING: Duration = Duration::from_millis(760);
-/// Time after the first missing reply within which the operator is told.
+/// Time after the first missing reply within which the operator gets the warning.
 const ALARM: Duration = Duration::from_secs(1);
 /// Time for which a jog of an RC2000C runs on at its rate: the last renewal, one more if
 /// commands still get through, and the overrun.

@@ -29,7 +29,7 @@ use super::{
 };
 use crate::common::dice::Dice;
 
-/// One in so many hours is accepted.
+/// Hours for which one false stop is accepted.
 const HOURS_PER_FALSE_STOP: f64 = 1000.0;
 const LOOK: Duration = Duration::from_millis(500);
 

@@ -169,8 +169,8 @@ fn goto() -> Request {
     Request::Motion(Motion::Goto(Goto::new(Some(200.0), Some(40.0)).unwrap()))
 }
 
-/// Returns the motion of the unit after an outage in which it received `request`, and whether Azel
-/// can explain its state by how it left the unit.
+/// Returns the motion of the unit after an outage in which it received `request`, and whether
+/// commands from Azel explain its state.
 async fn after_an_outage(rig: &mut Rig, request: Option<Request>, waits_s: f64) -> (Found, bool) {
     rig.set_off(true);
     rig.seconds(1.0).await;
@@ -241,7 +241,7 @@ async fn a_track_that_somebody_has_ended_while_out_of_reach_is_not_as_it_was_lef
     let off = Request::Halt(Halt::TrackOff);
     assert_eq!(after_an_outage(&mut rig, Some(off), 10.0).await, (Found::Still, false));
     let mut rig = tracking().await;
-    // Its end has come meanwhile.
+    // The track has ended during the outage.
     assert_eq!(after_an_outage(&mut rig, None, 1500.0).await, (Found::Still, true));
 }
 
@@ -260,7 +260,7 @@ async fn a_motion_that_was_stopped_on_its_way_while_out_of_reach_is_not_as_it_wa
     }
 }
 
-/// Another unit at the same address, or one that somebody has set anew.
+/// Another unit at the same address, or one whose settings have changed.
 #[tokio::test(start_paused = true)]
 async fn a_unit_that_differs_after_an_outage_is_told_and_compared_before_anything_is_sent() {
     for (is_other, changes) in [(false, ""), (true, "SETTINGS=,?,?,?,8.0,?,?,?,?,?,?,?")] {

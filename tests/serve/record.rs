@@ -211,7 +211,7 @@ fn a_full_disk_costs_nothing_that_was_written_and_the_record_goes_on_when_there_
         (count() > before).then_some(())
     });
     served.until(|told| told["about"] == "alarm_over");
-    // Nobody waited for the disk.
+    // The full disk delayed no measurement.
     let positions = rows(&path, RowKind::Position);
     let of_dish = positions.iter().filter(|row| row.antenna.as_deref() == Some("Dish"));
     let times: Vec<Timestamp> = of_dish.map(|row| row.time).collect();

@@ -46,7 +46,7 @@ pub(crate) fn model() -> Model {
     model
 }
 
-/// A pass of ten minutes that begins so long after the moment that is shown.
+/// A pass of ten minutes that begins `begins_s` after the shown moment.
 fn times(model: &Model, name: &str, begins_s: f64) -> PassTimes {
     let at = |second: f64| add_seconds(model.now, begins_s + second);
     PassTimes {

@@ -137,7 +137,7 @@ pub(crate) fn antenna(config: Antenna, mut snapshot: Snapshot) -> AntennaModel {
 
 /// The station with its antenna in the state of `snapshot`, NOAA 20 selected.
 pub(crate) fn model(mut snapshot: Snapshot) -> Model {
-    // A Satrak names its checks before it was asked.
+    // A Satrak names its checks before the first question.
     if snapshot.state.checks.is_empty() {
         snapshot.state.checks = satrak::checks(None).into();
     }

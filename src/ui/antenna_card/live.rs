@@ -67,7 +67,7 @@ pub(super) fn show(ui: &Ui, at: &mut Cursor, live: &LiveNow, short: bool) {
     at.skip(GAP);
 }
 
-/// When a replay ends by itself.
+/// Says when a replay ends by itself.
 fn ends() -> String {
     let minutes = ENDS_BEFORE_PASS_S / 60.0;
     format!(

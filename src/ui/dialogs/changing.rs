@@ -24,7 +24,7 @@ pub fn show(ui: &Ui, model: &Model, commands: &mut Vec<UiCommand>) {
     }
 }
 
-/// Nothing can be asked of either station meanwhile but STOP.
+/// While the station changes, the operator can only press STOP.
 fn under_way(ui: &Ui, model: &Model) {
     modal(ui, "changing").show(ui.ctx(), |ui| {
         ui.set_width(WIDTH);

@@ -22,7 +22,7 @@ use crate::{
 
 const TITLE: f32 = 30.0;
 const LINE: f32 = 38.0;
-/// Epochs closer than this are those of one set: a TLE rounds them.
+/// Epochs closer than this belong to one set: a TLE rounds them.
 const SAME_EPOCH_S: f64 = 0.01;
 
 pub(super) fn height(model: &Model) -> f32 {
@@ -123,7 +123,7 @@ fn uploaded_epoch(model: &Model, antenna: &AntennaModel, number: u32) -> Option<
     objects.iter().find(|object| object.catalog_number == number).map(|object| object.epoch)
 }
 
-/// How old the knowledge of a unit is.
+/// Age of the knowledge about a unit.
 fn known_since(antenna: &AntennaModel, now: Instant) -> String {
     let snapshot = &antenna.snapshot;
     let since = match snapshot.link {

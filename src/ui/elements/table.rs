@@ -1,4 +1,4 @@
-//! The catalog as a table, of which only the rows in view are drawn.
+//! The catalog as a table that draws only the rows in view.
 
 use std::sync::Arc;
 
@@ -87,7 +87,7 @@ pub(super) fn show(
     }
 }
 
-/// The rows, as long as they are those of the present catalog.
+/// Returns the rows, as long as they belong to the present catalog.
 pub(super) fn shown(model: &Model) -> Option<&Answer> {
     let CatalogState::Ready(catalog) = &model.catalog else { return None };
     let answer = model.catalog_table.answer.as_ref();

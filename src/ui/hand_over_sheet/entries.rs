@@ -69,7 +69,7 @@ impl Density {
         self.layout.head() + DAY * days as f64 + self.row * rows.len() as f64
     }
 
-    /// How many rows fit in a column.
+    /// Number of rows that fit in a column.
     fn fitting(self, rows: &[Row], room: f64) -> usize {
         let fits = |count: &usize| self.height(rows.get(..*count).unwrap_or_default()) <= room;
         (1..=rows.len()).take_while(fits).count()

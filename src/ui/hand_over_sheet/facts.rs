@@ -16,7 +16,7 @@ use crate::{
 
 /// Points of a track.
 const POINTS: u32 = 30;
-/// A pass that is found begins at most so much later than its key says, seconds.
+/// Longest time from the start in the key of a pass to the start of the found pass, seconds.
 const SAME_S: f64 = 60.0;
 /// Distance between two looks at the Sun, seconds.
 const SUN_STEP_S: f64 = 120.0;

@@ -21,11 +21,11 @@ const HEAD: f32 = 36.0;
 /// Width of the border of the list with its padding.
 const BORDER: f32 = 17.0;
 const ID: &str = "keys";
-/// By this the list stands below the middle of the window, so that it leaves the top bar free.
+/// Distance of the list below the middle of the window, which leaves the top bar free.
 const DOWN: f32 = 24.0;
 
-/// How far a list of this width stands left of the middle of the window, so that the antenna cards of
-/// Operate stay free; in a window that has no room for both, not at all.
+/// Distance of a list of this width to the left of the middle of the window, so that the antenna
+/// cards of Operate stay free; 0 in a window that has no room for both.
 fn aside(window: f32, width: f32) -> f32 {
     let room = (window - width) / 2.0;
     let cards = antenna_card::WIDTH * (1 + operate::side_cards(window)) as f32;

@@ -73,7 +73,7 @@ pub(super) fn light(is_sunlit: bool) -> &'static str {
     if is_sunlit { "sunlit" } else { "in shadow" }
 }
 
-/// When the next pass begins, or until when it lasts.
+/// Start of the next pass, or its end once it is under way.
 pub(super) fn next(of: &GlobeSatellite, model: &Model) -> String {
     match of.next {
         Some(pass) => times(pass, model.now),

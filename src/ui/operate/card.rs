@@ -190,7 +190,7 @@ fn offer<'a>(antenna: &'a AntennaModel, left: Option<&'a str>) -> Option<Offer<'
     }
     let again = antenna.track_again.as_ref().map(|again| Offer::TrackAgain(short(&again.name)));
     let name = antenna.tracked_name().filter(|_| antenna.tracks_unasked());
-    // Where the elements are not known here, there is nothing to watch it by.
+    // Without the elements, Azel has nothing to watch the track by.
     let taken = name.filter(|_| antenna.snapshot.on_board.is_some());
     again.or(taken.map(|name| Offer::TakeOver(short(name))))
 }

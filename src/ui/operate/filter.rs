@@ -41,7 +41,7 @@ pub(super) struct FoundPasses {
     places: Vec<usize>,
     /// The row of each place.
     rows: HashMap<usize, usize>,
-    /// Passes that were judged for what is wanted.
+    /// Passes that were judged for the wanted filters.
     judged: HashMap<PassKey, bool>,
     is_whole: bool,
 }

@@ -33,7 +33,7 @@ const GAP: f32 = 6.0;
 /// Distance of the note from the ghost.
 const BESIDE: f32 = 18.0;
 
-/// The clicked direction, and what a session was asked to judge.
+/// The clicked direction, and the path that the session was asked to judge.
 #[derive(Debug, Clone, Default)]
 pub(super) struct GhostState {
     clicked: Option<Target>,

@@ -192,7 +192,7 @@ fn left_out<'a>(
 }
 
 /// Part of a pass under way, or about to begin, that is left for an antenna that has to slew.
-/// `None` if the antenna is there in time.
+/// `None` if no slew shortens the pass, or none can be judged.
 fn way_there(model: &Model, antenna: &AntennaModel, predicted: &PredictedPass) -> Option<WayThere> {
     let until_s = seconds_between(model.now, predicted.pass.aos.time);
     let config = &antenna.config;

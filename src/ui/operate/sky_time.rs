@@ -96,7 +96,7 @@ impl SkyTime {
     }
 }
 
-/// Where the schedule has the antennas at `at`.
+/// Positions of the antennas in the schedule at `at`.
 pub(super) fn planned_antennas(model: &Model, at: Timestamp) -> Vec<PlannedAntenna<'_>> {
     let antennas = model.antennas.iter().enumerate();
     let planned = antennas.filter_map(|(index, antenna)| {

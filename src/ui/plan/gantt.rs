@@ -316,7 +316,7 @@ fn frame(ui: &Ui, place: Rect, model: &Model, span: Span, state: &mut PlanState)
     Some(rect)
 }
 
-/// How many steps the grip was moved by keys while it has the focus.
+/// Number of steps by which keys moved the grip while it has the focus.
 fn by_keys(ui: &Ui, response: &Response) -> i32 {
     if !response.has_focus() {
         return 0;

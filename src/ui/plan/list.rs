@@ -38,7 +38,7 @@ const SHORT_S: f64 = 60.0;
 const ALL_FROM: f32 = 1000.0;
 /// Below this width, beside the drawer, a row has no room but for what cannot be read elsewhere.
 const LEAN_BELOW: f32 = 760.0;
-/// From this width on the column of the slew grows, by at most so much.
+/// Width from which the column of the slew grows, by at most [`MORE_SLEW`].
 const WIDE_FROM: f32 = 1024.0;
 const MORE_SLEW: f32 = 120.0;
 /// Width of the notes, with *Swap*, from which any reason has room in their column.

@@ -16,7 +16,7 @@ use crate::{
     ui::{confirm::Question, format, widgets::hold_button::HoldState, words},
 };
 
-/// How long a change can be undone, seconds.
+/// Time in which a change can be undone, seconds.
 const UNDO_S: f64 = 10.0;
 /// Spans of the lanes, hours.
 const LANES_H: [f64; 5] = [1.5, 3.0, 4.5, 6.0, 12.0];

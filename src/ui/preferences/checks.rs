@@ -107,7 +107,7 @@ fn beyond_the_unit(model: &Model, after: &Station) -> impl Iterator<Item = Strin
     })
 }
 
-/// Antennas that are connected anew by the change, which all stand.
+/// Sentences for the antennas that saving connects or reconnects. All of them stand.
 fn changed(model: &Model, after: &Station) -> impl Iterator<Item = String> {
     after.antennas.iter().filter_map(|antenna| {
         let name = &antenna.name;

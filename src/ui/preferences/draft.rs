@@ -98,7 +98,7 @@ impl Draft {
         }
     }
 
-    /// Edits of an antenna, of which its removal is one, and its unusable fields.
+    /// Edits of an antenna, its removal counted as one, and its unusable fields.
     pub(super) fn antenna_counts(&self, id: AntennaId) -> Counts {
         let found = self.index(id).and_then(|index| Some((index, self.antennas.get(index)?)));
         let Some((index, antenna)) = found else { return Counts::default() };

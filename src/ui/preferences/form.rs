@@ -374,7 +374,7 @@ fn lines(
         .hint_text(hint)
         .desired_rows(3)
         .desired_width(WORDS[1]);
-    // The area of the field scrolls its text alone: the page has to be scrolled by itself.
+    // The area of the field scrolls only its text, so that the page has to be scrolled separately.
     let is_asked_for =
         ui.input(|input| input.has_accesskit_action_request(id, Action::ScrollIntoView));
     let shown = frame.show(ui, |ui| area.id_salt(salt).show(ui, |ui| ui.add(edit)).inner);

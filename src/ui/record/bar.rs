@@ -31,7 +31,7 @@ const SEARCH: f32 = 208.0;
 /// In a bar below this width the recording state is a mark, and the title has no second line.
 const WIDE: f32 = 1150.0;
 const ANTENNA: f32 = 84.0;
-/// The last hour is shown again from so long ago on, seconds.
+/// Time before the present at which a replay of the last hour begins, seconds.
 const LAST_S: f64 = 60.0;
 const KINDS: [ListedKind; 4] = [
     ListedKind::Tracked(PassVerdict::Good),
@@ -98,7 +98,7 @@ fn title(ui: &Ui, rect: Rect, model: &Model, is_wide: bool, state: &RecordState)
     }
 }
 
-/// How many passes there are, since when, and how large the record is.
+/// Number of passes, start of the record, and its size.
 fn summary(model: &Model, state: &RecordState) -> String {
     let Some(page) = RecordState::page(model) else { return String::new() };
     let size = model.record.as_ref().map(|record| format::bytes(record.bytes));

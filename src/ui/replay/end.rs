@@ -12,8 +12,8 @@ use crate::{
     },
 };
 
-/// Shows why it has ended. That stands until the operator closes it or opens another view: without it
-/// every control would move under the pointer.
+/// Shows why it has ended. The notice stays until the operator closes it or opens another view:
+/// without it every control would move under the pointer.
 pub fn show(ui: &Ui, rect: Rect, why: &ReplayEnd, now: Timestamp, commands: &mut Vec<UiCommand>) {
     let t = theme::tokens(ui);
     ui.painter().rect_filled(rect, 0.0, t.warnbg);
@@ -30,7 +30,7 @@ pub fn show(ui: &Ui, rect: Rect, why: &ReplayEnd, now: Timestamp, commands: &mut
     }
 }
 
-/// Why a replay ended by itself, in a sentence.
+/// Reason why a replay ended by itself, in a sentence.
 fn ended(why: &ReplayEnd, now: Timestamp) -> String {
     match why {
         ReplayEnd::Stop => "Replay ended: STOP was pressed.".to_owned(),

@@ -57,7 +57,7 @@ pub(super) fn parts(model: &Model, draft: &SetupDraft, progress: Progress) -> Ve
     parts
 }
 
-/// How many of the parts are ready, such as "4 of 7".
+/// Number of parts that are ready, such as "4 of 7".
 pub(super) fn ready(parts: &[Part]) -> String {
     let good = parts.iter().filter(|part| part.tone == Tone::Good).count();
     format!("{good} of {}", parts.len())

@@ -20,7 +20,7 @@ const PADDING: f32 = 2.0;
 pub(super) const LINE: f32 = 1.0;
 pub(super) const MARK: f32 = 4.0;
 
-/// How far outside of the picture a mark may be that has a label in it, points.
+/// Greatest distance outside the picture of a mark whose label is in it, points.
 const OUTSIDE: f32 = 8.0;
 
 /// Identifies a label from frame to frame.
@@ -85,8 +85,8 @@ pub(in crate::ui) struct Labels<'a> {
 }
 
 impl<'a> Labels<'a> {
-    /// Starts a frame with the memory of the previous one. What is painted from here on lies
-    /// over the grounds of the labels.
+    /// Starts a frame with the memory of the previous one. Shapes painted from here on lie over the
+    /// grounds of the labels.
     pub(in crate::ui) fn new(
         painter: &'a Painter,
         tokens: &'a Tokens,

@@ -54,8 +54,8 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
     }
 }
 
-/// The sentence for a unit that does not answer over a link that is still open. What it does now is
-/// not known, so nothing is said as if it were.
+/// The sentence for a unit that does not answer over a link that is still open. Azel does not know
+/// its present state, and so does not state one.
 fn silent(model: &Model, antenna: &AntennaModel) -> Option<Spoken> {
     let last_reply = antenna.snapshot.state.traffic.last_reply?;
     let silent_s = model.steady.saturating_duration_since(last_reply).as_secs_f64();

@@ -56,8 +56,8 @@ pub(super) struct Standing<'a> {
     rect: Rect,
 }
 
-/// Places the wanted bars of the window in `lane`, in the order of AOS, with heights that
-/// grow with the maximum elevation from 0° to 90°. Of very many, those that can be told apart.
+/// Places the wanted bars of the window in `lane`, in the order of AOS, with heights that grow with
+/// the maximum elevation from 0° to 90°. If there are very many, only those that can be told apart.
 pub(super) fn stand<'a>(
     bars: &'a [Bar<'a>],
     wanted: impl Fn(&Bar<'_>) -> bool,

@@ -21,7 +21,7 @@ pub enum Segment {
     Foreign,
     /// Requested, but not confirmed yet.
     Pending,
-    /// Cannot be chosen now. Whoever points at it reads why, unless that stands beside it.
+    /// Cannot be chosen now. A tooltip gives the reason, unless the reason stands beside it.
     Locked(Option<&'static str>),
 }
 

@@ -74,7 +74,7 @@ fn name_of(model: &Model, entry: &Entry) -> String {
     schedule::satellite_name(model, entry.pass.satellite)
 }
 
-/// How automatic operation of an antenna stands, in one line. A time stands before a name, which may
+/// State of automatic operation of an antenna, in one line. A time stands before a name, which may
 /// be cut.
 pub fn in_short(model: &Model, antenna: &AntennaModel) -> String {
     let moment = |at| format::moment(at, model.now);
@@ -102,7 +102,7 @@ pub fn in_short(model: &Model, antenna: &AntennaModel) -> String {
     }
 }
 
-/// How automatic operation of an antenna stands and what it does next and when, as one or two
+/// State of automatic operation of an antenna, and its next action and time, as one or two
 /// sentences; `None` while it is off.
 pub fn in_full(model: &Model, antenna: &AntennaModel) -> Option<String> {
     let moment = |at| format::moment(at, model.now);
@@ -199,7 +199,7 @@ pub fn lost_by_closing(model: &Model) -> Option<String> {
     Some(format!("Automatic operation of {names} ends: it takes no pass until {until}.{next}"))
 }
 
-/// How automatic operation stands, in a word or two.
+/// State of automatic operation, in a word or two.
 pub fn standing(operation: &Operation) -> &'static str {
     match operation {
         Operation::Off(_) => "off",
@@ -274,7 +274,7 @@ pub fn flown(flown: &Flown, now: Timestamp) -> String {
     format!("{pass}: {}.{cause}", flown_part(flown))
 }
 
-/// How much of a pass was tracked, or missed: the end of a sentence.
+/// Part of a pass that was tracked, or missed: the end of a sentence.
 pub fn flown_part(flown: &Flown) -> String {
     let Flown { of_s, in_beam_s, cause, .. } = flown;
     if cause.is_none() {

@@ -11,7 +11,7 @@ use crate::{
     ui::format,
 };
 
-/// From here on the clock of a unit is worth a caution, seconds.
+/// Clock error from which a unit gets a caution, seconds.
 const CLOCK_OFF_S: f64 = 0.1;
 
 /// A name with a value.
@@ -27,7 +27,7 @@ pub enum FactKind {
     NotKnown,
 }
 
-/// All that is told of a track besides its error.
+/// Conditions of a recorded track, and its rms error.
 pub fn facts(report: &RecordedReport, now: Timestamp) -> Vec<Fact> {
     let fact = |name, value, kind| Fact { name, value, kind };
     let plain = |name, value| fact(name, value, FactKind::Plain);

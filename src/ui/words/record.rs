@@ -15,7 +15,7 @@ use crate::{
 /// Seconds without positions that a list need not tell.
 const UNTOLD_S: f64 = 10.0;
 
-/// By what the antenna was led.
+/// Kind of the track that led the antenna.
 pub fn tracked_by(by: TrackedBy) -> &'static str {
     match by {
         TrackedBy::ProgramTrack => "program track",
@@ -43,8 +43,9 @@ pub fn verdict(verdict: PassVerdict) -> &'static str {
     }
 }
 
-/// Share within half the beamwidth and the worst error, for a row. Of a good pass only what the mount
-/// could reach counts: beside its tick, the share of the whole would look like a failure.
+/// Share within half the beamwidth and the worst error, for a row. For a good pass, only the part
+/// within reach of the mount counts: beside its tick, the share of the whole would look like a
+/// failure.
 pub fn in_short(report: &PassReport) -> String {
     let lost_s = |is_meant: &dyn Fn(LossCause) -> bool| -> f64 {
         let meant = report.losses.iter().filter(|lost| is_meant(lost.cause));
@@ -281,7 +282,7 @@ fn together(causes: impl Iterator<Item = String>) -> String {
     whole
 }
 
-/// How much of the error these causes explain, after them.
+/// Share of the error that these causes explain, after them.
 fn explains(by: &Explanation) -> String {
     let share = whole_share(by.share);
     if by.with.is_some() {
@@ -468,7 +469,8 @@ fn names(of: &Explanation) -> String {
     together(of.causes().map(|of| cause(of).to_owned()))
 }
 
-/// The names of the best explanation and of those that these data do not tell from it, each once.
+/// Returns the names of the best explanation and of others that the data cannot rule out, each
+/// once.
 fn names_alike(explanations: &[Explanation]) -> Vec<String> {
     let mut told: Vec<String> = explanations.first().map(names).into_iter().collect();
     for alike in explanations.iter().map(names) {

@@ -29,7 +29,7 @@ pub fn outcome(pass: &RehearsedPass, now: Timestamp) -> String {
     told.join(" ")
 }
 
-/// How the last rehearsal went; `None` without one.
+/// Result of the last rehearsal; `None` without one.
 pub fn in_short(of: &RehearsalState, now: Timestamp) -> Option<String> {
     match of {
         RehearsalState::None => None,
@@ -53,7 +53,7 @@ pub fn beside_promise(pass: &RehearsedPass) -> String {
     format!("{got} of {promised}")
 }
 
-/// How good a pass was, in a word.
+/// Verdict on a pass, in a word.
 pub fn verdict(pass: &RehearsedPass) -> &'static str {
     match &pass.report {
         Some(report) => report.report.verdict.word(),

@@ -228,13 +228,13 @@ pub fn change(model: &Model, change: &Change) -> String {
     }
 }
 
-/// How good a schedule is known to be, in a few words.
+/// Known quality of a schedule, in a few words.
 pub fn proof(schedule: &Schedule) -> String {
     unproved(schedule).unwrap_or_else(|| "No better plan exists.".to_owned())
 }
 
-/// By how much a better schedule is not ruled out, by class; `None` where all classes are proved to
-/// be the best.
+/// Greatest possible gain of a better schedule, by class; `None` where all classes are proved to be
+/// the best.
 pub fn unproved(schedule: &Schedule) -> Option<String> {
     let classes = schedule.worth.iter().filter_map(|class| match class.proof {
         Proof::AtMost(bound) => {

@@ -61,7 +61,7 @@ fn read(window: &Window) -> Vec<Read> {
     .collect()
 }
 
-/// How much of the shorter of two ranges the other covers.
+/// Share of the shorter of two ranges that the other covers.
 fn common(a: Rangef, b: Rangef) -> f32 {
     a.intersection(b).span().max(0.0) / a.span().min(b.span())
 }

@@ -21,7 +21,7 @@ const FAR_DEG: f64 = 20.0;
 const TIME: f32 = 172.0;
 const ANGLE: f32 = 72.0;
 
-/// A peak that is typed. What is empty is that of now.
+/// A peak being entered; empty fields mean "now".
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(in crate::ui::preferences) struct TypedPeak {
     of: PeakOf,
@@ -38,7 +38,8 @@ impl Default for TypedPeak {
 }
 
 impl TypedPeak {
-    /// The peak, with the time and the angles of now in place of what is empty; or why there is none.
+    /// Returns the peak, with the current time and angles for empty fields; or the reason why there
+    /// is none.
     fn read(&self, now: Timestamp, measured: Option<[f64; 2]>) -> Result<Peak, String> {
         let at = match self.at.trim() {
             "" => now,

@@ -1,4 +1,4 @@
-//! Why a rule cannot act, of which some reasons keep it from being saved.
+//! Reasons why a rule cannot act; some of them keep it from being saved.
 
 use super::draft::{Of, RuleDraft, RulesDraft};
 use crate::{

@@ -205,7 +205,7 @@ impl SatellitesDraft {
         self.kept().filter_map(of).collect()
     }
 
-    /// Edits, of which each priority and each row of limits is one, and unusable names.
+    /// Edits, with each priority and each row of limits counted as one, and unusable names.
     pub(in crate::ui::preferences) fn counts(&self, before: &Self) -> Counts {
         let of_favourite = |own: &Favourite| {
             let was = before.own(own.satellite);
