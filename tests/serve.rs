@@ -539,6 +539,29 @@ fn an_alarm_says_which_antennas_a_setting_that_cannot_be_read_keeps_still() {
 }
 
 #[test]
+fn a_station_file_that_could_not_be_read_is_not_replaced() {
+    // Somebody may mend it meanwhile: its antennas are still not those that were seen here.
+    for is_mended in [false, true] {
+        let units = Units::start(|station| station.antennas.truncate(2));
+        let whole = std::fs::read_to_string(units.path()).unwrap();
+        let damaged = whole.replacen("[site]", "[site", 1);
+        assert_ne!(damaged, whole);
+        std::fs::write(units.path(), &damaged).unwrap();
+        let (running, _end, _woken) = units.open();
+        let client = running.client();
+        wait_for("the station", || client.snapshot().station_unread.then_some(()));
+        let there = if is_mended { whole } else { damaged };
+        std::fs::write(units.path(), &there).unwrap();
+        client.send(Command::SaveStation(Box::new(Station::default()))).unwrap();
+        let is_refusal = |alarm: &Alarm| matches!(&alarm.kind, AlarmKind::Settings(why) if why.contains("would replace it"));
+        wait_for("the refusal", || {
+            client.snapshot().alarms.list().iter().any(is_refusal).then_some(())
+        });
+        assert_eq!(std::fs::read_to_string(units.path()).unwrap(), there);
+    }
+}
+
+#[test]
 fn output_that_nobody_reads_holds_up_nothing() {
     let units = Units::start(|_| {});
     let process = program(&units).arg("serve").stdout(Stdio::piped()).spawn();

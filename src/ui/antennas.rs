@@ -99,7 +99,7 @@ pub fn show(
     let (side, body) = rect.split_left_right_at_x(rect.left() + list::WIDTH);
     let Some(mut unit) = ShownUnit::of(model, model.selected_antenna) else {
         list::show(ui, side, model, None, commands);
-        return none(ui, body, commands);
+        return none(ui, body, model, commands);
     };
     let form = state.forms.entry(unit.name().to_owned()).or_default();
     unit.is_unlocked = form.unlock.is_some();
@@ -144,7 +144,10 @@ pub fn show(
 }
 
 /// Shows that there is no antenna.
-fn none(ui: &Ui, rect: Rect, commands: &mut Vec<UiCommand>) {
+fn none(ui: &Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand>) {
+    if model.station_unread {
+        return;
+    }
     let t = theme::tokens(ui);
     let inner = rect.shrink(PADDING);
     let words = "No antenna yet. Set one up.";

@@ -27,7 +27,7 @@ use azel::{
         rotator_genius::WholeDegrees,
         satrak::{FaultKind, Goto, Motion, Request, encode},
     },
-    sim::{InMemory as _, Trouble, satrak},
+    sim::{InMemory as _, Trouble, rotator_genius, satrak},
     station::{Antenna, AntennaId, LockOut, Monitor, Resume, Station},
 };
 use jiff::{Timestamp, ToSpan as _};
@@ -541,6 +541,17 @@ async fn automatic_operation_resumes_after_a_crash_and_announces_motion() {
     until("the announcement", is_announced).await;
     assert!(scene.units.all_stand());
     until("the pass", || operation(&client, id).taking()?.proved_at).await;
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_reply_that_is_missing_now_and_then_does_not_keep_automatic_operation_off_after_a_crash()
+{
+    let loses = async |scene: &Scene, _: &Client, _: AntennaId| {
+        scene.units.mast.set_fault(rotator_genius::Fault::DropReply, true);
+    };
+    let (_scene, client, id) = after_a_crash(|_| {}, loses).await;
+    seconds(&client, 30.0).await;
+    assert!(operation(&client, id).is_on());
 }
 
 #[tokio::test(start_paused = true)]

@@ -5,7 +5,7 @@ mod errors;
 mod past_tracks;
 mod stake;
 
-use std::{collections::VecDeque, sync::Arc};
+use std::{collections::VecDeque, sync::Arc, time::Duration};
 
 pub use errors::{ErrorSample, Errors};
 pub use past_tracks::{PastTrack, PastTracks};
@@ -33,6 +33,9 @@ use crate::{
 
 /// Shortest span for measured rates, so that rounding does not show.
 const RATE_SPAN_S: f64 = 0.9;
+
+/// Longest time without a reply that is a hiccup of the link.
+const HICCUP: Duration = Duration::from_secs(3);
 
 /// Predicted direction of a target at the time of a measurement.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -364,6 +367,13 @@ impl AntennaModel {
         let is_of_another_link = (state.link_since.zip(state.measured))
             .is_some_and(|(since, measured)| measured.received < since);
         matches!(link, LinkState::Up { .. }) && !is_of_another_link
+    }
+
+    /// Returns `true` if no reply has come for longer than a hiccup of the link lasts.
+    pub fn is_silent(&self, now: Instant) -> bool {
+        let Snapshot { link, state, .. } = &*self.snapshot;
+        let last = state.traffic.last_reply.filter(|_| link.is_open());
+        !self.is_live() && last.is_none_or(|last| now.saturating_duration_since(last) > HICCUP)
     }
 
     /// Error of the last measurement against the prediction for its time; `None` while that

@@ -471,6 +471,12 @@ impl Engine {
             _ if let StationClaim::Theirs(by) = &self.station_claim => {
                 Err(format!("it is open in {by}: save it there, or close it there first"))
             }
+            // What it holds was never seen here: whatever is saved would replace it.
+            Some(path) if self.settings_unread && path.exists() => Err(format!(
+                "the station file could not be read, and saving would replace it. Mend it or move it \
+                 away, then start Azel again: {}",
+                path.display()
+            )),
             // The file there by now is another station than the operator has seen.
             Some(path) if self.demo.is_some() && path.exists() => Err(format!(
                 "a station has been set up elsewhere meanwhile: open it in the station menu: {}",

@@ -222,9 +222,8 @@ impl Engine {
     fn watch_state(&mut self, index: usize) {
         let Some(antenna) = self.antennas.get_mut(index) else { return };
         let snapshot = Arc::clone(&antenna.shown.snapshot);
-        let loses_positions = snapshot.link.is_open()
-            && !snapshot.silent
-            && snapshot.state.traffic.loses_positions(self.steady);
+        let loses_positions =
+            snapshot.link.is_open() && snapshot.state.traffic.loses_positions(self.steady);
         antenna.shown.loses_positions = loses_positions;
         let (alarms, now, of) = (&mut self.alarms, self.now, Some(antenna.shown.id()));
         if snapshot.stop == StopState::Ready

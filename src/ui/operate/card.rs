@@ -173,6 +173,10 @@ pub(super) fn none(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<Ui
         paint::text(ui, inner.left_top(), Align2::LEFT_TOP, words, text::body(), t.t2);
         return;
     }
+    if model.station_unread {
+        // The banner says so, and a new antenna could not be saved.
+        return;
+    }
     let words = "No antenna yet. Set one up.";
     let line = paint::text(ui, inner.left_top(), Align2::LEFT_TOP, words, text::body(), t.t2);
     let button = Button::primary("Set up an antenna");

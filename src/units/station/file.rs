@@ -78,6 +78,13 @@ pub enum SaveError {
         path.display()
     )]
     WouldDrop { place: String, path: PathBuf },
+    /// The file there is no TOML.
+    #[error(
+        "the settings were not saved: the station file cannot be read, and saving would replace it. \
+         Mend it or move it away, then save again: {}",
+        .0.display()
+    )]
+    Unreadable(PathBuf),
 }
 
 /// Path of this user's station file; `None` on a machine without a home.
@@ -190,9 +197,8 @@ fn merged(
     path: &Path,
     specs: &[&'static ControllerSpec],
 ) -> Result<String, SaveError> {
-    // A text that is no TOML was not read either, and stays as the previous file.
     let Some(Read { station, notes, left_out }) = read_text(old, specs) else {
-        return Ok(rewritten(old, new));
+        return Err(SaveError::Unreadable(path.to_owned()));
     };
     let places = notes.iter().map(|note| note.place.as_str());
     let unread = UnreadTree::at(places, left_out.iter().map(String::as_str));

@@ -128,8 +128,9 @@ impl Engine {
         }
         let is_ready = is_kept && self.is_ready(antenna);
         let ready_since = is_ready.then_some(resumption.ready_since.unwrap_or(self.steady));
-        let is_due = ready_since
-            .is_some_and(|since| self.steady.saturating_duration_since(since) >= RESTS_FOR);
+        let is_due = shown.is_live()
+            && ready_since
+                .is_some_and(|since| self.steady.saturating_duration_since(since) >= RESTS_FOR);
         if let Some(antenna) = self.antennas.get_mut(index) {
             antenna.at_work.resumption = Some(Resumption { ready_since });
         }
@@ -163,7 +164,7 @@ impl Engine {
         is_stopped
             && program_is_off
             && stands
-            && shown.is_live()
+            && !shown.is_silent(self.steady)
             && snapshot.intent == Intent::Standby
             && snapshot.left_moving.is_none()
             && !snapshot.being_compared

@@ -1,7 +1,5 @@
 //! State of an antenna that automatic operation looks at, taken from its snapshot.
 
-use std::time::Duration;
-
 use super::operation::{NotReady, Seen};
 use crate::{
     clock::Instant,
@@ -9,9 +7,6 @@ use crate::{
     driver::{Intent, Snapshot, StopState},
     engine::antenna::AntennaModel,
 };
-
-/// Longest time without a reply that is a hiccup of the link.
-const HICCUP: Duration = Duration::from_secs(3);
 
 pub(super) fn seen(antenna: &AntennaModel, now: Instant) -> Seen {
     let snapshot = &antenna.snapshot;
@@ -28,7 +23,7 @@ pub(super) fn seen(antenna: &AntennaModel, now: Instant) -> Seen {
         && asked.is_some_and(|asked| takes.is_some_and(|takes| takes != asked));
     Seen {
         is_live: antenna.is_live(),
-        is_silent: !antenna.is_live() && is_silent(snapshot, now),
+        is_silent: antenna.is_silent(now),
         is_locked_out: snapshot.lock_out.is_some(),
         can_be_sent: !stops
             && snapshot.state.measured_on_link().is_some()
@@ -47,11 +42,6 @@ pub(super) fn seen(antenna: &AntennaModel, now: Instant) -> Seen {
         turns_unasked: antenna.is_live() && moves && !is_asked(snapshot),
         is_moved_elsewhere: is_replaced || antenna.is_live() && antenna.tracks_unasked(),
     }
-}
-
-fn is_silent(snapshot: &Snapshot, now: Instant) -> bool {
-    let last = snapshot.state.traffic.last_reply.filter(|_| snapshot.link.is_open());
-    last.is_none_or(|last| now.saturating_duration_since(last) > HICCUP)
 }
 
 /// At a limit an axis may report no angle.

@@ -52,6 +52,18 @@ fn a_station_comes_back_as_it_was_saved() {
 }
 
 #[test]
+fn a_file_that_is_no_toml_is_never_replaced() {
+    let (_folder, path) = written("name = 'Here'\n[[antenna]\nname = 'A'\n");
+    let before = fs::read(&path).unwrap();
+    for _ in 0..2 {
+        let saved = save(&Station::default(), &path, crate::makes::SPECS);
+        assert!(matches!(&saved, Err(SaveError::Unreadable(file)) if *file == path), "{saved:?}");
+    }
+    assert_eq!(fs::read(&path).unwrap(), before);
+    assert!(!path.with_extension("toml.old").exists());
+}
+
+#[test]
 fn a_station_without_an_aos_elevation_keeps_that_of_its_first_antenna() {
     let antenna = "[[antenna]]\n[antenna.connection]\ncontroller = 'satrak'\naddress = 'h:1'\n\
                    [antenna.limits]\nminimum_elevation_deg = 12.5\n";
