@@ -552,7 +552,7 @@ fn a_station_file_that_could_not_be_read_is_not_replaced() {
         wait_for("the station", || client.snapshot().station_unread.then_some(()));
         let there = if is_mended { whole } else { damaged };
         std::fs::write(units.path(), &there).unwrap();
-        client.send(Command::SaveStation(Box::new(Station::default()))).unwrap();
+        client.send(Command::SaveStation(Box::default())).unwrap();
         let is_refusal = |alarm: &Alarm| matches!(&alarm.kind, AlarmKind::Settings(why) if why.contains("would replace it"));
         wait_for("the refusal", || {
             client.snapshot().alarms.list().iter().any(is_refusal).then_some(())
