@@ -25,7 +25,7 @@ use rustls::{
 };
 
 /// Longer than any step here takes.
-const PATIENCE: Duration = Duration::from_secs(120);
+const PATIENCE: Duration = Duration::from_mins(2);
 /// Pause between two looks at the library of the program.
 const LOOK: Duration = Duration::from_millis(50);
 const OBJECTS: usize = 5;

@@ -143,15 +143,19 @@ pub fn show(
     state.unlock.take_if(|_| answer != Some(UnlockAnswer::Open) && answer.is_some());
 }
 
-/// Shows that there is no antenna.
-fn none(ui: &Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand>) {
+/// Shows that there is no antenna. A new one could not be saved over a file that was not read.
+pub(super) fn none(ui: &Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand>) {
+    let t = theme::tokens(ui);
+    let inner = rect.shrink(PADDING);
+    let words = if model.station_unread {
+        "No antenna: the station file was not read."
+    } else {
+        "No antenna yet. Set one up."
+    };
+    let line = paint::text(ui, inner.left_top(), Align2::LEFT_TOP, words, text::body(), t.t2);
     if model.station_unread {
         return;
     }
-    let t = theme::tokens(ui);
-    let inner = rect.shrink(PADDING);
-    let words = "No antenna yet. Set one up.";
-    let line = paint::text(ui, inner.left_top(), Align2::LEFT_TOP, words, text::body(), t.t2);
     let button = Button::primary("Set up an antenna");
     let size = vec2(button.width(ui), HEIGHT);
     let place = Rect::from_min_size(line.left_bottom() + vec2(0.0, 12.0), size);

@@ -74,8 +74,8 @@ async fn a_unit_of_which_positions_are_missing_again_and_again_is_shown_as_one_u
     let is_told = || {
         let snapshot = client.snapshot();
         let stands = |kind: &AlarmKind| *kind == AlarmKind::LosesPositions;
-        let told = snapshot.alarms.list().iter().find(|alarm| stands(&alarm.kind))?;
-        told.over_since.is_none().then_some(())
+        let alarm = snapshot.alarms.list().iter().find(|alarm| stands(&alarm.kind))?;
+        alarm.over_since.is_none().then_some(())
     };
     units.mast.set_fault(rotator_genius::Fault::DropReply, true);
     until("the alarm", is_told).await;

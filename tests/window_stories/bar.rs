@@ -254,6 +254,19 @@ fn a_station_file_that_could_not_be_read_is_told_above_every_view() {
 }
 
 #[test]
+fn no_antenna_is_to_be_set_up_over_a_station_file_that_could_not_be_read() {
+    for view in [View::Operate, View::Antennas] {
+        for is_unread in [true, false] {
+            let mut model = rig::model(states::holding());
+            model.antennas.clear();
+            (model.station_unread, model.view) = (is_unread, view);
+            let window = rig::window(rig::SMALL, model);
+            assert_eq!(window.query_by_label("Set up an antenna").is_none(), is_unread, "{view:?}");
+        }
+    }
+}
+
+#[test]
 fn a_chip_says_in_words_how_its_link_stands() {
     let now = Instant::now();
     let lost = LinkState::Lost { since: now, reason: LinkLoss::Silent, retry_at: now };

@@ -471,7 +471,7 @@ impl Engine {
             _ if let StationClaim::Theirs(by) = &self.station_claim => {
                 Err(format!("it is open in {by}: save it there, or close it there first"))
             }
-            // What it holds was never seen here: whatever is saved would replace it.
+            // Nobody has seen its content here, so a save would replace it unseen.
             Some(path) if self.settings_unread && path.exists() => Err(format!(
                 "the station file could not be read, and saving would replace it. Mend it or move it \
                  away, then start Azel again: {}",

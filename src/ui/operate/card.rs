@@ -22,11 +22,11 @@ use crate::{
     device::{Capabilities, Pointing},
     driver::{Intent, LinkState, Snapshot},
     engine::{CatalogState, antenna::AntennaModel},
-    model::{Model, UiCommand, View},
+    model::{Model, UiCommand},
     plan::Barrier,
     station::{AntennaId, Mount},
     ui::{
-        bar,
+        antennas, bar,
         confirm::Question,
         dialogs::MaintenanceDialog,
         format, replay,
@@ -35,7 +35,6 @@ use crate::{
         widgets::{
             axes_table::{AxesTable, WantedColumn},
             beam_bar::BeamModel,
-            button::Button,
             go_to::Target,
             jog_pad::JogDirection,
             mode_selector::{self, ModeModel},
@@ -47,7 +46,7 @@ use crate::{
 
 /// Draws the card of `antenna`; `on_cards` are all antennas with a card, `live` is what the card says
 /// of the live station.
-// The card, whose it is, and who takes what is asked.
+// The card, its antenna, and the receivers of requests.
 #[allow(clippy::too_many_arguments)]
 pub(super) fn show(
     ui: &mut Ui,
@@ -166,25 +165,13 @@ pub(super) fn show(
 
 /// Draws the place of the card while there is no antenna.
 pub(super) fn none(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand>) {
-    let t = theme::tokens(ui);
-    let inner = rect.shrink(16.0);
     if model.demo && !matches!(model.catalog, CatalogState::Failed) {
+        let (t, inner) = (theme::tokens(ui), rect.shrink(16.0));
         let words = "The simulated antennas are starting.";
         paint::text(ui, inner.left_top(), Align2::LEFT_TOP, words, text::body(), t.t2);
         return;
     }
-    if model.station_unread {
-        // The banner says so, and a new antenna could not be saved.
-        return;
-    }
-    let words = "No antenna yet. Set one up.";
-    let line = paint::text(ui, inner.left_top(), Align2::LEFT_TOP, words, text::body(), t.t2);
-    let button = Button::primary("Set up an antenna");
-    let size = egui::vec2(button.width(ui), 32.0);
-    let place = Rect::from_min_size(line.left_bottom() + egui::vec2(0.0, 12.0), size);
-    if button.show(ui, "set up antenna", place).clicked() {
-        commands.push(UiCommand::Show(View::Preferences));
-    }
+    antennas::none(ui, rect, model, commands);
 }
 
 /// The line below the sentence: offsets to take back, or a track to take up again or to take over.
