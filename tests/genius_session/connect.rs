@@ -111,6 +111,15 @@ async fn noise_alone_is_told_as_unreadable() {
 }
 
 #[tokio::test(start_paused = true)]
+async fn a_web_server_that_closes_at_once_is_another_device() {
+    let script =
+        |_: &str| vec![(10, b"HTTP/1.1 400 Bad Request\r\n\r\n".to_vec()), (11, Vec::new())];
+    let mut device = Scripted::start(Rotators::Pair, Box::new(script));
+    device.seconds(0.1).await;
+    assert_eq!(device.events(), [Event::LinkLost(LinkLoss::OtherDevice)]);
+}
+
+#[tokio::test(start_paused = true)]
 async fn a_device_that_is_let_go_of_is_left_alone() {
     let mut rig = Rig::pair().await;
     rig.send(Command::Disconnect);

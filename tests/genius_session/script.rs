@@ -20,7 +20,7 @@ use tokio::{
 use super::rig::antenna;
 use crate::common::{clock::TestClock, rig::session};
 
-/// Replies to a command, each after a delay in milliseconds.
+/// Replies to a command, each after a delay in milliseconds. An empty one closes the connection.
 pub(super) type Script = Box<dyn FnMut(&str) -> Vec<(u64, Vec<u8>)> + Send>;
 
 /// A session with a scripted peer.
@@ -109,8 +109,13 @@ async fn serve(
                 let writer = Arc::clone(&writer);
                 tokio::spawn(async move {
                     sleep(Duration::from_millis(delay_ms)).await;
+                    let mut writer = writer.lock().await;
                     // An error is ignored: the session may be gone by then.
-                    let _ = writer.lock().await.write_all(&reply).await;
+                    let _ = if reply.is_empty() {
+                        writer.shutdown().await
+                    } else {
+                        writer.write_all(&reply).await
+                    };
                 });
             }
         }

@@ -90,6 +90,9 @@ impl Session {
         };
         let before = self.gate.state().traffic;
         let end = self.talk(stream).await;
+        let now = self.now();
+        // Counts what came right before the end, too.
+        self.gate.device().link_down(now);
         let after = self.gate.state().traffic;
         let has_replied = after.replies > before.replies;
         let end = match end {
@@ -107,8 +110,6 @@ impl Session {
             self.contact.loss_is_told = false;
         }
         self.remember_likeness();
-        let now = self.now();
-        self.gate.device().link_down(now);
         self.lose_shift(now);
         self.record();
         self.gate.forget_angles();

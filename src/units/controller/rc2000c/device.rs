@@ -65,9 +65,13 @@ impl Device for Rc2000c {
 
     fn receive(&mut self, bytes: &[u8], now: Moment) {
         self.hear(bytes, now);
+        let skipped_before = self.decoder.skipped_bytes();
         self.decoder.push(bytes);
         while let Some(frame) = self.decoder.next() {
             self.take_frame(frame, now);
+        }
+        if self.decoder.skipped_bytes() > skipped_before {
+            self.state.traffic.last_unreadable = Some(now.steady);
         }
         self.limit_noise(now);
     }

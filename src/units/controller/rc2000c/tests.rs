@@ -257,3 +257,11 @@ fn any_bytes_are_harmless() {
     assert!(bench.unit.heard.len() < 400);
     assert!(bench.unit.due(bench.now) > bench.now.steady, "it never spins");
 }
+
+#[test]
+fn bytes_without_a_frame_are_heard_but_not_read() {
+    let mut bench = Bench::new();
+    assert_eq!(bench.unit.state().traffic.last_unreadable, None);
+    bench.hear(b"\xf8\x80\xe6");
+    assert_eq!(bench.unit.state().traffic.last_unreadable, Some(bench.now.steady));
+}

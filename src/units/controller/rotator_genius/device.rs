@@ -31,6 +31,9 @@ impl Device for Genius {
     fn link_down(&mut self, now: Moment) {
         self.is_asked = false;
         self.record_unfinished(now);
+        if self.decoder.has_noise() {
+            self.take_noise(now);
+        }
         self.decoder = Decoder::new();
         self.quiet_at = None;
         self.status = None;

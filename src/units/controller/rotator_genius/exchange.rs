@@ -129,9 +129,8 @@ impl Genius {
                 }
             }
             Received::Noise(bytes) => {
-                self.state.traffic.damaged += 1;
-                self.state.traffic.last_unreadable = Some(now.steady);
                 tracing::debug!(length = bytes.len(), "bytes that are no reply");
+                self.take_noise(now);
             }
             Received::LayoutChanged(layout) => {
                 self.state.traffic.odd += 1;
@@ -142,6 +141,12 @@ impl Genius {
                 tracing::warn!("another protocol answers, or one that asks for a code");
             }
         }
+    }
+
+    /// Counts bytes that are no reply.
+    pub(super) fn take_noise(&mut self, now: Moment) {
+        self.state.traffic.damaged += 1;
+        self.state.traffic.last_unreadable = Some(now.steady);
     }
 
     fn count_reply(&mut self, now: Moment) {

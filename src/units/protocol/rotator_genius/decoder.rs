@@ -78,6 +78,11 @@ impl Decoder {
         self.pending.len()
     }
 
+    /// Returns `true` if bytes that begin no reply wait to be handed out.
+    pub fn has_noise(&self) -> bool {
+        !self.noise.is_empty()
+    }
+
     /// Ends unfinished replies after nothing has come for a while (250 ms are plenty), and
     /// returns the items left.
     ///
