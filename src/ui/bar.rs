@@ -212,12 +212,13 @@ pub fn glyph(antenna: &AntennaModel) -> LinkGlyph {
     }
 }
 
-/// Age of the last good reply, or empty.
+/// Age of what the unit reported last, or empty.
 pub fn age(model: &Model, antenna: &AntennaModel) -> String {
     let last = match antenna.snapshot.link {
         LinkState::Off | LinkState::Connecting { .. } => return String::new(),
         LinkState::Lost { since, .. } => Some(since),
-        _ => antenna.snapshot.state.traffic.last_reply,
+        LinkState::Stale { as_of } => Some(as_of),
+        LinkState::Up { .. } => antenna.snapshot.state.traffic.last_reply,
     };
     last.map_or_else(String::new, |last| {
         format::age(model.steady.saturating_duration_since(last).as_secs_f64())

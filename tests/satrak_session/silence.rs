@@ -12,7 +12,7 @@ use std::{
 use azel::{
     astro::Angle,
     clock::Instant,
-    driver::{Command, Event, Safety},
+    driver::{Command, Event, LinkState, Safety},
     sim::satrak::Fault,
 };
 
@@ -103,6 +103,7 @@ async fn replies_that_are_four_seconds_late_are_never_taken_for_newer_ones() {
         else {
             continue;
         };
+        assert!(!matches!(shown.link, LinkState::Up { .. }), "{:?}", shown.link);
         readings.insert(measured.received);
         assert!(measured.received - measured.asked >= Duration::from_secs(4), "{measured:?}");
     }

@@ -48,7 +48,7 @@ fn links(model: &Model) -> Vec<LinkState> {
     let usual = successors(Some(LinkState::Off), |link| match link {
         LinkState::Off => Some(LinkState::Connecting { since: at }),
         LinkState::Connecting { .. } => Some(LinkState::Up { since: at }),
-        LinkState::Up { .. } => Some(LinkState::Stale { last_reply: model.steady - AGE }),
+        LinkState::Up { .. } => Some(LinkState::Stale { as_of: model.steady - AGE }),
         LinkState::Stale { .. } | LinkState::Lost { .. } => None,
     });
     let retry_at = rig::soon(model);

@@ -275,7 +275,7 @@ fn a_chip_says_in_words_how_its_link_stands() {
             (LinkState::Off, "Satrak: Not connected, link off"),
             (LinkState::Connecting { since: now }, "Satrak: Connecting, link off"),
             (LinkState::Up { since: now }, "Satrak: Holding, link live"),
-            (LinkState::Stale { last_reply: now }, "Satrak: Slow, link late"),
+            (LinkState::Stale { as_of: now }, "Satrak: Slow, 0.0 s ago, link late"),
             (lost.clone(), "Satrak: No reply 0.0 s, link lost"),
         ] {
             let mut model = rig::model(Snapshot { link, ..states::holding() });

@@ -159,6 +159,17 @@ fn a_target_beyond_the_travel_is_out_of_reach_and_waited_for() {
 }
 
 #[test]
+fn a_position_that_is_missing_is_not_said_to_be_out_of_reach() {
+    let mut model = following(TrackPhase::Tracking, 0.4, AxisMotion::Still);
+    let snapshot = Arc::make_mut(&mut model.antennas[0].snapshot);
+    snapshot.state.measured.as_mut().unwrap().pointing.azimuth = None;
+    assert_eq!(
+        states::sentence(&model),
+        "Following NOAA 20. The unit reports no azimuth: it is not calibrated, or a sensor is missing."
+    );
+}
+
+#[test]
 fn after_a_lost_link_it_is_said_to_follow_on() {
     let mut model = following(TrackPhase::Tracking, 0.4, AxisMotion::Still);
     let back =

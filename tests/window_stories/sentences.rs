@@ -296,7 +296,7 @@ fn without_a_reply_it_says_since_when_and_what_was_going_on() {
 fn a_silent_unit_is_not_said_to_do_what_it_did_last() {
     let silent = |snapshot: Snapshot, silent_s| {
         told(snapshot, move |model, snapshot| {
-            snapshot.link = LinkState::Stale { last_reply: rig::ago(model, silent_s) };
+            snapshot.link = LinkState::Stale { as_of: rig::ago(model, silent_s) };
             snapshot.state.traffic.last_reply = Some(rig::ago(model, silent_s));
         })
     };
@@ -316,6 +316,18 @@ fn a_silent_unit_is_not_said_to_do_what_it_did_last() {
         snapshot.state.traffic.last_reply = Some(rig::ago(model, 30));
     });
     assert!(on_a_new_link.starts_with("No reply from Satrak for 30 s."), "{on_a_new_link}");
+    let late = told(states::tracking(0.0), |model, snapshot| {
+        snapshot.link = LinkState::Stale { as_of: rig::ago(model, 5) };
+        snapshot.state.traffic.last_reply = Some(rig::ago(model, 1));
+        if let Some(measured) = &mut snapshot.state.measured {
+            measured.asked = rig::ago(model, 5);
+        }
+    });
+    assert_eq!(
+        late,
+        "Satrak answers late: its position is 5.0 s old. It was tracking NOAA 20 and is probably \
+         still moving. Check its cable and the network."
+    );
     let mut stopping = states::moving();
     stopping.stop = StopState::NotConfirmed { since: rig::model(rig::quiet()).steady };
     assert!(silent(stopping, 9).contains("is not known to have stopped"));

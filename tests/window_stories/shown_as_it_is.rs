@@ -32,8 +32,8 @@ fn without_a_fresh_measurement_there_is_no_error_and_no_rate() {
 
         let mut model = rig::model(states::tracking(0.1));
         let mut snapshot = lost(states::tracking(0.1), &model);
-        let received = model.steady - Duration::from_millis(4900);
-        snapshot.state.measured.as_mut().unwrap().received = received;
+        let measured = snapshot.state.measured.as_mut().unwrap();
+        measured.asked = model.steady - Duration::from_millis(4900);
         model.antennas[0].snapshot = Arc::new(snapshot);
         let window = rig::window(size, model);
         let az = "actual 296.51, 4.9 s old, error not known, rate not known";

@@ -300,8 +300,13 @@ pub enum LinkState {
     Connecting { since: Instant },
     /// Open, with good replies.
     Up { since: Instant },
-    /// Open, but the last good reply is older than two poll periods.
-    Stale { last_reply: Instant },
+    /// Open, but the last good reply is older than two poll periods, or the position was asked for
+    /// longer ago than a unit that answers in time makes possible.
+    Stale {
+        /// What the unit reports is of this instant.
+        #[serde(alias = "last_reply")]
+        as_of: Instant,
+    },
     /// Gone, or silent for too long. It is dialled again automatically.
     Lost {
         /// When the last good reply came, or the link was lost.

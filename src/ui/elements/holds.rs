@@ -129,7 +129,7 @@ fn known_since(antenna: &AntennaModel, now: Instant) -> String {
     let since = match snapshot.link {
         LinkState::Off | LinkState::Connecting { .. } => None,
         LinkState::Up { .. } => snapshot.state.measured.map(|measured| measured.received),
-        LinkState::Stale { last_reply } => Some(last_reply),
+        LinkState::Stale { as_of } => Some(as_of),
         LinkState::Lost { since, .. } => Some(since),
     };
     match since {

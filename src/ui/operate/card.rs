@@ -194,7 +194,7 @@ fn lock_out(snapshot: &Snapshot) -> Option<LockOutModel<'_>> {
 /// The age of measured values that are old.
 fn age_of_old(model: &Model, antenna: &AntennaModel) -> Option<String> {
     let measured = antenna.snapshot.state.measured.filter(|_| !antenna.is_live())?;
-    let age = model.steady.saturating_duration_since(measured.received);
+    let age = model.steady.saturating_duration_since(measured.asked);
     Some(format::age(age.as_secs_f64()))
 }
 

@@ -2,6 +2,7 @@
 
 use super::{Spoken, short};
 use crate::{
+    clock::Instant,
     driver::{LinkLoss, LinkState, StopState},
     engine::{antenna::AntennaModel, claim::HeldBy},
     model::Model,
@@ -57,15 +58,29 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
 /// The sentence for a unit that does not answer over a link that is still open. Azel does not know
 /// its present state, and so does not state one.
 fn silent(model: &Model, antenna: &AntennaModel) -> Option<Spoken> {
-    let last_reply = antenna.snapshot.state.traffic.last_reply?;
-    let silent_s = model.steady.saturating_duration_since(last_reply).as_secs_f64();
-    if silent_s < SILENT_FROM_S || is_stopping(antenna) {
+    let state = &antenna.snapshot.state;
+    let silent_s = age_s(model, state.traffic.last_reply?);
+    if is_stopping(antenna) {
         return None;
+    }
+    if silent_s < SILENT_FROM_S {
+        let old_s = age_s(model, state.measured?.asked);
+        return (old_s >= SILENT_FROM_S).then(|| {
+            let name = &antenna.config.name;
+            let words =
+                format!("{name} answers late: its position is {} old. ", format::age(old_s));
+            what_it_did(Spoken::new(SentenceKind::Caution).plain(words), antenna)
+                .plain("Check its cable and the network.")
+        });
     }
     let silence = format!("No reply from {} for {}. ", antenna.config.name, format::age(silent_s));
     let spoken = Spoken::new(SentenceKind::Caution).plain(silence);
     let next = "Azel connects again if it stays silent.";
     Some(what_it_did(spoken, antenna).plain(next))
+}
+
+fn age_s(model: &Model, instant: Instant) -> f64 {
+    model.steady.saturating_duration_since(instant).as_secs_f64()
 }
 
 /// An unproved stop is the graver matter.

@@ -1,6 +1,6 @@
 //! Sentences of an antenna in program track.
 
-use super::{Spoken, place, short};
+use super::{Spoken, missing_angle, place, short};
 use crate::{
     driver::TrackView,
     engine::antenna::AntennaModel,
@@ -37,10 +37,13 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
 
 fn following(model: &Model, antenna: &AntennaModel, view: &TrackView, name: &str) -> Spoken {
     let lead = |kind| Spoken::new(kind).plain("Following ").bold(name);
-    let is_near = view.predicted.is_some() && !antenna.is_out_of_reach();
-    let Some(error) = antenna.error().filter(|_| is_near) else {
+    if view.predicted.is_none() || antenna.is_out_of_reach() {
         return lead(SentenceKind::Caution)
             .plain(format!(", which is out of reach. Waiting{}.", place(antenna)));
+    }
+    let Some(error) = antenna.error() else {
+        let why = missing_angle(antenna).unwrap_or("Its position is being read.");
+        return lead(SentenceKind::Caution).plain(format!(". {why}"));
     };
     let beam_deg = antenna.config.beam_width_deg;
     let off_deg = error.off_beam.degrees();

@@ -1,4 +1,4 @@
-//! The state of the link, by the age of the last good reply.
+//! The state of the link, by the age of the last good reply and of the position.
 
 use std::time::Duration;
 
@@ -7,6 +7,9 @@ use crate::{
     clock::{Instant, Moment},
     driver::{LinkLoss, LinkState},
 };
+
+/// A unit that answers in time answers within this time.
+const LATE_REPLY: Duration = Duration::from_secs(1);
 
 impl Session {
     /// The link is gone; the next attempt is at `retry_at`.
@@ -38,10 +41,14 @@ impl Session {
             let heard = self.gate.state().traffic.last_unreadable.is_some_and(|heard| heard > last);
             return Some(if heard { LinkLoss::Unreadable } else { LinkLoss::Silent });
         }
-        let late = age > self.gate.device().poll_period() * 2;
+        let patience = self.gate.device().poll_period() * 2;
+        let asked = self.gate.state().measured.map(|measured| measured.asked);
+        let is_old = |asked| now.steady.saturating_duration_since(asked) > patience + LATE_REPLY;
+        let late = age > patience || asked.is_some_and(is_old);
         match (&self.contact.link, late) {
-            (LinkState::Up { .. }, true) => {
-                self.contact.link = LinkState::Stale { last_reply: last }
+            (LinkState::Up { .. } | LinkState::Stale { .. }, true) => {
+                let as_of = asked.map_or(last, |asked| asked.min(last));
+                self.contact.link = LinkState::Stale { as_of };
             }
             (LinkState::Stale { .. }, false) => {
                 self.contact.link = LinkState::Up { since: start };
@@ -55,10 +62,11 @@ impl Session {
     pub(super) fn link_due(&mut self) -> Option<Instant> {
         let state = self.gate.state();
         let last = state.traffic.last_reply.max(state.link_since)?;
+        let asked = state.measured.map(|measured| measured.asked + LATE_REPLY);
         let wait = match self.contact.link {
             LinkState::Up { .. } => self.gate.device().poll_period() * 2 + Duration::from_millis(1),
-            _ => self.gate.device().patience(),
+            _ => return Some(last + self.gate.device().patience()),
         };
-        Some(last + wait)
+        Some(asked.map_or(last, |asked| asked.min(last)) + wait)
     }
 }
