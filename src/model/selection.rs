@@ -27,8 +27,9 @@ impl Model {
     /// Selects the antenna at this place of the list, with its own pass unless the operator chose
     /// one.
     pub fn select_antenna(&mut self, place: usize) {
+        let is_another = self.selected_antenna != place;
         self.selected_antenna = place;
-        if self.chosen.is_none() {
+        if self.chosen.is_none() && is_another {
             let planned = self.antenna().and_then(|antenna| self.next_planned_pass(antenna));
             self.selected = planned.map(PredictedPass::key);
         }

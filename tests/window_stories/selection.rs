@@ -149,6 +149,10 @@ fn an_antenna_that_is_selected_brings_the_next_pass_of_its_own_plan() {
         model.select_antenna(place);
         assert_eq!(model.selected, Some(planned(&model)[nth]), "antenna {place}");
     }
+    let own = planned(&model)[1];
+    model.selected = Some(own);
+    model.select_antenna(0);
+    assert_eq!(model.selected, Some(own), "it is selected already");
     let later = planned(&model)[3];
     model.choose_pass(later);
     model.select_antenna(1);
