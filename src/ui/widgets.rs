@@ -23,7 +23,6 @@ pub mod menu;
 pub mod modal;
 pub mod mode_selector;
 pub mod paint;
-pub mod radio;
 pub mod rate_slider;
 pub mod segmented;
 pub mod sentence;

@@ -5,7 +5,9 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use egui::{Align, Button, Key, Layout, Response, RichText, Role, TextEdit, Ui, WidgetInfo, vec2};
+use egui::{
+    Align, Button, Key, Layout, Response, RichText, Role, Sense, TextEdit, Ui, WidgetInfo, vec2,
+};
 
 use crate::{
     engine::{self, sources::Sources},
@@ -14,7 +16,10 @@ use crate::{
     orbit::{Source, SourcePlace},
     ui::{
         text, theme,
-        widgets::{input::select_when_tabbed, radio},
+        widgets::{
+            input::select_when_tabbed,
+            segmented::{self, Segment},
+        },
         words::sentence,
     },
 };
@@ -22,6 +27,7 @@ use crate::{
 const LABEL: f32 = 72.0;
 const ROW: f32 = 24.0;
 const NAME: f32 = 240.0;
+const KINDS: f32 = 320.0;
 /// Commonly used groups of `CelesTrak`.
 const GROUPS: [&str; 8] =
     ["active", "stations", "weather", "resource", "science", "amateur", "cubesat", "geo"];
@@ -42,6 +48,17 @@ enum Kind {
     File,
     Folder,
     SpaceTrack,
+}
+
+impl Kind {
+    fn word(self) -> &'static str {
+        match self {
+            Self::Web => "Server",
+            Self::File => "File",
+            Self::Folder => "Folder",
+            Self::SpaceTrack => "Space-Track",
+        }
+    }
 }
 
 impl AddState {
@@ -138,16 +155,7 @@ pub(in crate::ui) fn show(
             let words = "or drop files on this view, or paste elements with Ctrl V";
             ui.label(RichText::new(words).font(text::body()).color(t.t2));
         });
-        ui.horizontal(|ui| {
-            for (kind, word) in [
-                (Kind::Web, "Server"),
-                (Kind::File, "File"),
-                (Kind::Folder, "Folder"),
-                (Kind::SpaceTrack, "Space-Track"),
-            ] {
-                radio::show(ui, &mut state.kind, kind, word);
-            }
-        });
+        kinds(ui, state);
         if state.kind == Kind::Web {
             suggestions(ui, sources, state);
         }
@@ -187,6 +195,20 @@ pub(in crate::ui) fn show(
             }
         });
     });
+}
+
+/// The choice of the kind of source.
+fn kinds(ui: &mut Ui, state: &mut AddState) {
+    let kinds = [Kind::Web, Kind::File, Kind::Folder, Kind::SpaceTrack];
+    let segments = kinds.map(|kind| {
+        let is_chosen = kind == state.kind;
+        (kind.word(), if is_chosen { Segment::Chosen } else { Segment::Free })
+    });
+    let (place, _) = ui.allocate_exact_size(vec2(KINDS, ROW), Sense::hover());
+    let clicked = segmented::show(ui, "kind", place, "Kind of source", &segments);
+    if let Some(kind) = clicked.and_then(|index| kinds.get(index)) {
+        state.kind = *kind;
+    }
 }
 
 fn suggestions(ui: &mut Ui, sources: &Sources, state: &mut AddState) {

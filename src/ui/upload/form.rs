@@ -2,7 +2,7 @@
 
 use std::{net::SocketAddr, path::PathBuf, sync::Arc};
 
-use egui::{Align, Button, Layout, RichText, Role, TextEdit, Ui, WidgetInfo, vec2};
+use egui::{Align, Button, Layout, RichText, Role, Sense, TextEdit, Ui, WidgetInfo, vec2};
 
 use super::Choice;
 use crate::{
@@ -13,7 +13,11 @@ use crate::{
     transfer::{FileName, FileNameError, Peer, TleFile},
     ui::{
         text, theme,
-        widgets::{card, input::select_when_tabbed, radio},
+        widgets::{
+            card,
+            input::select_when_tabbed,
+            segmented::{self, Segment},
+        },
     },
 };
 
@@ -21,6 +25,7 @@ const LABEL: f32 = 72.0;
 const ROW: f32 = 24.0;
 /// Maximum width of a field.
 const MAX: f32 = 360.0;
+const LOG_IN: f32 = 168.0;
 const SSH: &str = "22";
 
 /// Input for one antenna.
@@ -187,8 +192,13 @@ pub(super) fn show(ui: &mut Ui, form: &mut Form) {
             if response.on_hover_text(name).clicked() {
                 factory_user.clone_into(&mut form.user);
             }
-            for (uses_key, word) in [(false, "Password"), (true, "Key file")] {
-                radio::show(ui, &mut form.uses_key, uses_key, word);
+            let segments = [("Password", false), ("Key file", true)].map(|(word, uses_key)| {
+                let is_chosen = uses_key == form.uses_key;
+                (word, if is_chosen { Segment::Chosen } else { Segment::Free })
+            });
+            let (place, _) = ui.allocate_exact_size(vec2(LOG_IN, ROW), Sense::hover());
+            if let Some(index) = segmented::show(ui, "log in", place, "Log-in", &segments) {
+                form.uses_key = index == 1;
             }
         });
         if form.uses_key {
