@@ -46,7 +46,7 @@ pub use link::{Dial, Endpoint, Stream, UnitLock, dial_line, endpoints, known_end
 pub use link_test::{LinkFault, LinkFinding, test_link};
 pub use motion_watch::{AxisLessons, Evidence};
 pub use position_log::PositionLog;
-pub use safety::{Mover, Response, Safety, Unlike};
+pub use safety::{Mover, OffTargetCause, Response, Safety, Unlike};
 pub use session::{Command, JOG_LEASE, OffsetChange, Session, Wires, is_ticket_of_session};
 pub use snapshot::{
     Event, Found, Inside, LeftMoving, LeftOffsets, LinkLoss, LinkState, OnBoardView, Snapshot,

@@ -19,7 +19,7 @@ pub mod schedule;
 mod site;
 mod way_there;
 
-pub use alarms::{alarm, alarm_state, alarm_times, setting_note};
+pub use alarms::{alarm, alarm_state, alarm_times, off_because, setting_note};
 pub use clock::compared_clock;
 pub use link_tests::{link_test, link_test_faults, link_test_reached, link_test_state, place};
 pub use notices::{missing_outlets, notice, reminder, trial};

@@ -9,7 +9,7 @@ use std::{
 use azel::{
     astro::{Angle, time::add_seconds},
     device::{Place, settings::Value},
-    driver::{OnBoardView, Snapshot},
+    driver::{OffTargetCause, OnBoardView, Snapshot},
     engine::{self, alarms::AlarmKind},
     model::{Model, UiCommand},
     orbit::{bundled, read_elements},
@@ -101,9 +101,10 @@ fn the_minimum_of_the_station_is_filled_in_to_be_applied() {
 #[test]
 fn a_missed_satellite_is_told_with_the_likeliest_cause() {
     let off = Angle::from_degrees(23.04);
-    let missed = AlarmKind::OffTarget { off, cause: Some(elsewhere(23.0)) };
+    let missed =
+        AlarmKind::OffTarget { off, cause: Some(OffTargetCause::Reported(elsewhere(23.0))) };
     let said = words::alarm(&missed, "Satrak", rig::now());
-    assert!(said.starts_with("Satrak is 23.0° off its satellite: the unit's location is 1596 km"));
+    assert!(said.starts_with("Satrak is 23.0° off its satellite. The unit's location is 1596 km"));
     let unexplained = AlarmKind::OffTarget { off, cause: None };
     let said = words::alarm(&unexplained, "Satrak", rig::now());
     assert!(said.contains("check its drives, and the age of its elements"), "{said}");

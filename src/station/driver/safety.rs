@@ -8,8 +8,18 @@ use serde::{Deserialize, Serialize};
 use crate::{
     driver::Evidence,
     name::{self, Name},
-    plan::{Barrier, on_board::Ranked},
+    plan::{Barrier, on_board::Ranked, pass_report::Explained},
 };
+
+/// Why an antenna is off its satellite.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum OffTargetCause {
+    /// Something that the unit reports of itself makes an error as large.
+    Reported(Ranked),
+    /// The positions of the pass so far show it.
+    Measured(Explained),
+}
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Safety {
@@ -57,10 +67,9 @@ pub enum Safety {
     /// The antenna stayed off its target for too long. Azel has sent STOP.
     OffTarget {
         off_deg: f64,
-        /// Cause, found in the unit's reports, that makes an error as large. Older records do not
-        /// hold it.
+        /// Older records do not hold it.
         #[serde(default)]
-        cause: Option<Box<Ranked>>,
+        cause: Option<Box<OffTargetCause>>,
     },
     /// The clock of this computer was set.
     ClockStepped {

@@ -208,6 +208,39 @@ impl Alarms {
         self.unopened |= shelved_until.is_none();
     }
 
+    /// Raises `present`, or lets it stand, and ends the other alarms of `antenna` for which
+    /// `is_of_matter` returns `true`. A cause that is known by now is added to the alarm that stands.
+    pub fn follow(
+        &mut self,
+        antenna: Option<AntennaId>,
+        now: Timestamp,
+        present: Option<AlarmKind>,
+        is_of_matter: impl Fn(&AlarmKind) -> bool,
+    ) {
+        let is_present =
+            |kind: &AlarmKind| present.as_ref().is_some_and(|present| same_matter(present, kind));
+        self.clear(antenna, now, |kind| is_of_matter(kind) && !is_present(kind));
+        if let Some(AlarmKind::OffTarget { cause: Some(present), .. }) = &present {
+            self.change(
+                |alarm| {
+                    let known = matches!(
+                        &alarm.kind,
+                        AlarmKind::OffTarget { cause, .. } if cause.as_ref() != Some(present)
+                    );
+                    known && alarm.antenna == antenna && !alarm.is_over()
+                },
+                |alarm| {
+                    if let AlarmKind::OffTarget { cause, .. } = &mut alarm.kind {
+                        *cause = Some(present.clone());
+                    }
+                },
+            );
+        }
+        if let Some(present) = present {
+            self.raise(antenna, present, now);
+        }
+    }
+
     /// Removes the alarms of antennas that are not among `antennas`.
     pub fn keep_only(&mut self, antennas: &[AntennaId]) {
         let is_known = |alarm: &Alarm| alarm.antenna.is_none_or(|id| antennas.contains(&id));

@@ -15,7 +15,7 @@ use super::{
 use crate::{
     astro::{Angle, Site, time::add_seconds},
     device::{OnBoard, TrackTarget, UnitClock},
-    driver::{self, Event, Refusal, Snapshot},
+    driver::{self, Event, OffTargetCause, Refusal, Snapshot},
     orbit::{PassSearch, passes},
     plan::{
         OnBoardPass, Supervision,
@@ -174,36 +174,36 @@ impl Engine {
         let (alarms, now, of) = (&mut self.alarms, self.now, Some(antenna.id()));
         let on_board = antenna.snapshot.on_board.as_ref().and_then(|view| {
             let off = view.missing?;
-            // A small known error is no cause of a large one: a stuck axis is reported by nothing.
-            let cause = view.found.causes.iter().find(|cause| cause.can_make(off)).cloned();
-            Some(AlarmKind::OffTarget { off, cause })
+            Some((off, view.found.cause_of(off).cloned()))
         });
         let from_here = antenna.snapshot.program_track.as_ref().and_then(|view| view.missing);
-        let missed = on_board.or(from_here.map(|off| AlarmKind::OffTarget { off, cause: None }));
-        match missed {
-            Some(kind) => alarms.raise(of, kind, now),
-            None => alarms.clear(of, now, |kind| matches!(kind, AlarmKind::OffTarget { .. })),
-        }
+        let missed = on_board.or(from_here.map(|off| (off, None))).map(|(off, reported)| {
+            let cause = antenna.off_because(reported.map(OffTargetCause::Reported));
+            AlarmKind::OffTarget { off, cause }
+        });
+        let is_missed = |kind: &AlarmKind| matches!(kind, AlarmKind::OffTarget { .. });
+        alarms.follow(of, now, missed, is_missed);
         let differs = antenna.misses().and_then(|found| found.causes.first().cloned());
-        match differs {
-            Some(cause) => alarms.raise(of, AlarmKind::UnitDiffers(cause), now),
-            None => alarms.clear(of, now, |kind| matches!(kind, AlarmKind::UnitDiffers(_))),
-        }
+        let differs = differs.map(AlarmKind::UnitDiffers);
+        alarms.follow(of, now, differs, |kind| matches!(kind, AlarmKind::UnitDiffers(_)));
         let left = antenna.snapshot.unit_offsets.as_ref();
         let left = left.and_then(|unit| Some((unit.offsets, unit.left.clone()?)));
-        match left.filter(|(offsets, _)| !offsets.is_none()) {
-            Some((offsets, why)) => alarms.raise(of, AlarmKind::OffsetsLeft { offsets, why }, now),
-            None => alarms.clear(of, now, |kind| matches!(kind, AlarmKind::OffsetsLeft { .. })),
-        }
+        let left = left.filter(|(offsets, _)| !offsets.is_none());
+        let left = left.map(|(offsets, why)| AlarmKind::OffsetsLeft { offsets, why });
+        alarms.follow(of, now, left, |kind| matches!(kind, AlarmKind::OffsetsLeft { .. }));
         let is_loading = matches!(self.catalog, CatalogState::Loading);
-        match antenna.not_compared().filter(|_| !is_loading) {
-            Some(kind) => alarms.raise(of, kind, now),
-            None => alarms.clear(of, now, |kind| matches!(kind, AlarmKind::NotCompared { .. })),
-        }
+        let not_compared = antenna.not_compared().filter(|_| !is_loading);
+        alarms.follow(of, now, not_compared, |kind| matches!(kind, AlarmKind::NotCompared { .. }));
     }
 }
 
 impl AntennaModel {
+    /// Why the antenna is off its satellite: what its positions show, such as an axis that stands,
+    /// or else what the unit reports of itself.
+    pub(super) fn off_because(&self, reported: Option<OffTargetCause>) -> Option<OffTargetCause> {
+        self.explained.clone().map(OffTargetCause::Measured).or(reported)
+    }
+
     /// Alarm for on-board track that cannot be compared with elements: the operator must
     /// watch it alone.
     fn not_compared(&self) -> Option<AlarmKind> {

@@ -181,9 +181,14 @@ impl Engine {
         self.watch_on_board(index);
     }
 
-    pub(super) fn take_event(&mut self, index: usize, event: Event) {
+    pub(super) fn take_event(&mut self, index: usize, mut event: Event) {
         let now = self.now;
-        let Some(id) = self.antennas.get(index).map(|antenna| antenna.shown.id()) else { return };
+        let Some(shown) = self.antennas.get(index).map(|antenna| &antenna.shown) else { return };
+        if let Event::Safety(Safety::OffTarget { cause, .. }) = &mut event {
+            let reported = cause.take().map(|cause| *cause);
+            *cause = shown.off_because(reported).map(Box::new);
+        }
+        let id = shown.id();
         let antenna = Some(id);
         match &event {
             Event::Back { .. } | Event::Connected(_) => {

@@ -4,7 +4,7 @@ use jiff::Timestamp;
 
 use super::{automatic::not_ready, clock};
 use crate::{
-    driver::LinkLoss,
+    driver::{LinkLoss, OffTargetCause},
     engine::{
         alarms::{Alarm, AlarmKind, AlarmState, Work},
         claim::HeldBy,
@@ -40,6 +40,16 @@ pub fn alarm_state(state: AlarmState, now: Timestamp) -> String {
 /// The cause in kilometres, in the window too: the desktop and the record have the same words.
 fn cause_of(ranked: &Ranked) -> String {
     super::cause(ranked, DistanceUnit::Kilometres)
+}
+
+/// Why an antenna is off its satellite, as a sentence.
+pub fn off_because(cause: &OffTargetCause) -> String {
+    match cause {
+        OffTargetCause::Reported(ranked) => super::capitalised(&cause_of(ranked)) + ".",
+        OffTargetCause::Measured(explained) => {
+            super::record::explained(explained).unwrap_or_default()
+        }
+    }
 }
 
 /// An alarm in words. `antenna` is the name of its antenna, if it has one.
@@ -121,11 +131,11 @@ pub fn alarm(kind: &AlarmKind, antenna: &str, now: Timestamp) -> String {
             let off = format::degrees(off.degrees(), 1);
             match cause {
                 Some(cause) => {
-                    format!("{antenna} is {off} off its satellite: {}.", cause_of(cause))
+                    format!("{antenna} is {off} off its satellite. {}", super::off_because(cause))
                 }
                 None => format!(
-                    "{antenna} is {off} off its satellite. Nothing that the unit reports explains \
-                     it: check its drives, and the age of its elements."
+                    "{antenna} is {off} off its satellite. Neither its positions nor the reports of \
+                     the unit tell why: check its drives, and the age of its elements."
                 ),
             }
         }

@@ -50,7 +50,7 @@ pub fn cause(ranked: &Ranked, unit: DistanceUnit) -> String {
             format!("the unit holds {name} ({catalog_number})")
         }
         Cause::Elements { told_deg, expected_deg } => format!(
-            "the unit predicts a maximum of {} and Azel {}: their elements differ",
+            "the unit predicts a maximum of {} and Azel {}: its elements or its location differ",
             format::degrees(*told_deg, 1),
             format::degrees(*expected_deg, 1)
         ),

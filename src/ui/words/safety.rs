@@ -9,7 +9,6 @@ use crate::{
         Unit, Unlike,
     },
     makes,
-    model::DistanceUnit,
     plan::Barrier,
     station::Station,
     ui::format,
@@ -312,9 +311,7 @@ pub fn safety(matter: &Safety, antenna: &str, now: Timestamp) -> String {
         Safety::OffTarget { off_deg, cause } => {
             let off = format::degrees(*off_deg, 1);
             let why = match cause {
-                Some(cause) => {
-                    super::capitalised(&super::cause(cause, DistanceUnit::Kilometres)) + "."
-                }
+                Some(cause) => super::off_because(cause),
                 None => "Check its drives, clock and offsets.".to_owned(),
             };
             format!(

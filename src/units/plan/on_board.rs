@@ -101,6 +101,14 @@ pub struct Supervision {
     pub lower_minimum_deg: Option<f64>,
 }
 
+impl Supervision {
+    /// The likeliest cause that makes an error of `off`. A small known error is no cause of a large
+    /// one.
+    pub fn cause_of(&self, off: Angle) -> Option<&Ranked> {
+        self.causes.iter().find(|cause| cause.can_make(off))
+    }
+}
+
 /// A pointing error and its time.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Error {

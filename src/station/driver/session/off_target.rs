@@ -6,7 +6,7 @@ use super::{Event, Session, activity::Activity};
 use crate::{
     astro::Angle,
     clock::{Instant, Moment},
-    driver::Safety,
+    driver::{OffTargetCause, Safety},
 };
 
 /// An alarm is raised for an antenna that has been off its target for this long.
@@ -56,6 +56,7 @@ impl Session {
         };
         if let Some(off) = off_target.hopeless() {
             let cause = self.activity.on_board().and_then(|track| track.watch.cause(off));
+            let cause = cause.map(|cause| Box::new(OffTargetCause::Reported(cause)));
             let off_deg = off.degrees();
             self.give_up(Event::Safety(Safety::OffTarget { off_deg, cause }), now);
         }

@@ -74,8 +74,8 @@ impl Watch {
     }
 
     /// Returns the cause, found in the unit's reports, that makes an error of `off`.
-    pub(super) fn cause(&self, off: Angle) -> Option<Box<Ranked>> {
-        self.found.causes.iter().find(|cause| cause.can_make(off)).cloned().map(Box::new)
+    pub(super) fn cause(&self, off: Angle) -> Option<Ranked> {
+        self.found.cause_of(off).cloned()
     }
 
     /// How long the antenna has been off its target for another reason than the clocks. A unit that

@@ -12,7 +12,7 @@ use crate::{
         panel::{Check, CheckState},
         settings::WriteError,
     },
-    driver::{Event, Found, LeftOffsets, LinkLoss, Safety, TrackProblem, Unit},
+    driver::{Event, Found, LeftOffsets, LinkLoss, OffTargetCause, Safety, TrackProblem, Unit},
     engine::{
         automatic::{Interruption, NotReady, OffBecause},
         claim::HeldBy,
@@ -71,12 +71,11 @@ pub enum AlarmKind {
     CannotTrack(TrackTarget, PrepareError),
     /// Program track of this target cannot begin, or cannot go on.
     CannotProgramTrack(String, TrackProblem),
-    /// The unit tracks on board, and not where the satellite is.
+    /// The antenna tracks, and is not where the satellite is.
     OffTarget {
         /// Error when it was noticed.
         off: Angle,
-        /// The likeliest cause.
-        cause: Option<Ranked>,
+        cause: Option<OffTargetCause>,
     },
     /// By the unit's own settings it would miss a pass; with the likeliest cause.
     UnitDiffers(Ranked),

@@ -3,8 +3,12 @@ use jiff::ToSpan as _;
 use super::*;
 use crate::{
     device::panel::{Check, CheckState},
-    driver::{LinkLoss, Mover, Response, Safety, Unit},
-    plan::Barrier,
+    driver::{LinkLoss, Mover, OffTargetCause, Response, Safety, Unit},
+    plan::{
+        Barrier,
+        on_board::{Cause, Ranked},
+        pass_report::Explained,
+    },
     station::Antenna,
 };
 
@@ -39,6 +43,40 @@ fn a_driver_that_goes_on_standing_is_one_alarm_whose_figure_grows() {
     }
     let kinds: Vec<&AlarmKind> = alarms.list().iter().map(|alarm| &alarm.kind).collect();
     assert_eq!(kinds, [&AlarmKind::DriverStands(Duration::from_secs(3))]);
+}
+
+#[test]
+fn a_cause_that_is_found_later_comes_into_the_alarm_that_stands() {
+    let mut alarms = Alarms::default();
+    let is_missed = |kind: &AlarmKind| matches!(kind, AlarmKind::OffTarget { .. });
+    let missed = |off_deg, cause| {
+        let off = crate::astro::Angle::from_degrees(off_deg);
+        Some(AlarmKind::OffTarget { off, cause })
+    };
+    let cause = OffTargetCause::Measured(Explained { causes: Vec::new(), error_deg: 0.9 });
+    for (off_deg, cause) in [(0.8, None), (0.9, Some(cause.clone())), (0.7, None)] {
+        alarms.follow(LOST_OF, time(), missed(off_deg, cause), is_missed);
+    }
+    let kinds: Vec<AlarmKind> = alarms.list().iter().map(|alarm| alarm.kind.clone()).collect();
+    assert_eq!(kinds, [missed(0.8, Some(cause)).unwrap()]);
+    alarms.follow(LOST_OF, time(), None, is_missed);
+    assert_eq!(states(&alarms), [AlarmState::NewAndOver { since: time() }]);
+}
+
+#[test]
+fn another_cause_ends_the_alarm_of_the_one_before() {
+    let mut alarms = Alarms::default();
+    let elements = Cause::Elements { told_deg: 40.0, expected_deg: 71.0 };
+    for cause in [elements, Cause::Clock { ahead_s: 12.0 }] {
+        let differs = AlarmKind::UnitDiffers(Ranked { cause, off: None });
+        let is_of_matter = |kind: &AlarmKind| matches!(kind, AlarmKind::UnitDiffers(_));
+        alarms.follow(LOST_OF, time(), Some(differs), is_of_matter);
+    }
+    assert_eq!(
+        states(&alarms),
+        [AlarmState::NewAndOver { since: time() }, AlarmState::New],
+        "the wrong cause is over"
+    );
 }
 
 /// The states of all rows.
