@@ -216,13 +216,13 @@ impl Order {
             Export::Schedule { format } => {
                 format!("plan-{}.{}", stamp(self.now), schedule_extension(*format))
             }
-            Export::HandOverSheet => format!("hand-over-{}.svg", stamp(self.now)),
+            Export::HandOverSheet => format!("hand-over-{}.html", stamp(self.now)),
             Export::Report { format } => {
                 let from = self.opened().map(|opened| opened.pass.report.from);
                 let extension = match format {
                     ReportFormat::Csv => "csv",
                     ReportFormat::Json => "json",
-                    ReportFormat::Svg => "svg",
+                    ReportFormat::Html => "html",
                 };
                 format!("pass-{}.{extension}", stamp(from.unwrap_or(self.now)))
             }
@@ -271,7 +271,7 @@ impl Order {
         let text = match format {
             ReportFormat::Csv => opened.csv(),
             ReportFormat::Json => opened.json().map_err(|error| error.to_string())?,
-            ReportFormat::Svg => report_sheet::svg(opened, self.now),
+            ReportFormat::Html => report_sheet::html(opened, self.now),
         };
         out.extend(text.into_bytes());
         Ok(())
@@ -423,7 +423,7 @@ impl Order {
         let until = self.schedule.until.unwrap_or(self.now);
         let span = (self.now, until);
         let sheet = HandOverSheet::new(&self.station, schedule, &satellites, span, self.now);
-        in_words(out.write_all(sheet.svg().as_bytes()))
+        in_words(out.write_all(sheet.html().as_bytes()))
     }
 }
 

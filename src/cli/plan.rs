@@ -69,7 +69,7 @@ enum Format {
     /// Events of a calendar: only what is taken
     Ics,
     /// A page to print for the next shift: the first 24 hours
-    Svg,
+    Html,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -151,7 +151,7 @@ pub(super) fn run(station: Option<&Path>, options: &Options) -> anyhow::Result<E
         Format::Csv => list(ScheduleFormat::Csv),
         Format::Json => list(ScheduleFormat::Json),
         Format::Ics => list(ScheduleFormat::Ics),
-        Format::Svg => write_sheet(&station, &schedule, &satellites, (from, to), now),
+        Format::Html => write_sheet(&station, &schedule, &satellites, (from, to), now),
     };
     written.context("The schedule cannot be written")?;
     Ok(input::exit_code(is_complete))
@@ -200,7 +200,7 @@ fn write_sheet(
         .map(|it| (it.elements.catalog_number(), (&it.elements, &it.propagator)))
         .collect();
     let sheet = HandOverSheet::new(station, schedule, &satellites, span, now);
-    written(|out| out.write_all(sheet.svg().as_bytes()))
+    written(|out| out.write_all(sheet.html().as_bytes()))
 }
 
 fn search(station: &Station, from: Timestamp, to: Timestamp) -> PassSearch {

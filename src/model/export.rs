@@ -37,7 +37,7 @@ pub enum ReportFormat {
     /// Its report and what happened in it.
     Json,
     /// A page to print.
-    Svg,
+    Html,
 }
 
 /// The form of the passes of several days.

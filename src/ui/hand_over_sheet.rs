@@ -1,10 +1,9 @@
-//! A page to print for the operator who takes over the shift: the next 24 hours of the schedule as
-//! SVG, one page of A4 in black on white. The page counts the entries that do not fit.
+//! A page to print for the operator who takes over the shift: the next 24 hours of the schedule. The
+//! page counts the entries that do not fit.
 
 mod ages;
 mod entries;
 mod facts;
-mod head;
 mod left_out;
 #[cfg(test)]
 mod tests;
@@ -13,10 +12,12 @@ mod time_line;
 use std::collections::BTreeMap;
 
 use jiff::Timestamp;
+use maud::{Markup, html};
 
 use super::{
     format,
-    sheet::{BOTTOM, LEFT, MARGIN, RIGHT, SMALL, section, svg::Svg},
+    page::{self, GAP_MM, HEIGHT_MM, section},
+    words,
 };
 use crate::{
     astro::time::{DAY_S, add_seconds},
@@ -25,12 +26,12 @@ use crate::{
     station::{AntennaId, Station},
 };
 
-/// Between two sections.
-const GAP: f64 = 9.0;
-/// Least height of the notes, with the signatures.
-const NOTES: f64 = 64.0;
-/// Height that is kept for passes that are left out beside many entries.
-const FEW_LEFT_OUT: f64 = 110.0;
+/// Height of the head of the page, millimetres; as in the style sheet.
+const HEAD_MM: f64 = 15.0;
+/// Least height of the notes, with the signatures, millimetres.
+const NOTES_MM: f64 = 24.0;
+/// Height that is kept for passes that are left out beside many entries, millimetres.
+const FEW_LEFT_OUT_MM: f64 = 38.0;
 
 /// The part of a schedule that the sheet shows, and what it is made from.
 pub struct HandOverSheet<'a> {
@@ -57,29 +58,44 @@ impl<'a> HandOverSheet<'a> {
         Self { station, schedule, satellites, from, until, printed }
     }
 
-    /// The page.
-    pub fn svg(&self) -> String {
-        let mut svg = Svg::new(&format!("Hand-over sheet, {}", self.station.name));
+    /// The page, as HTML.
+    pub fn html(&self) -> String {
         let entries = entries::Table::of(self);
         let left_out = left_out::List::of(self);
         let ages = ages::List::of(self);
+        let fixed_mm = HEAD_MM + self.time_line_mm() + ages.height_mm() + NOTES_MM;
+        let room_mm = HEIGHT_MM - fixed_mm - 5.0 * GAP_MM;
+        // The entries come first, but for a few lines of what is left out.
+        let few_mm = left_out.height_mm(FEW_LEFT_OUT_MM);
+        let laid_out = entries.lay_out(room_mm - few_mm);
+        let left_mm = room_mm - laid_out.height_mm();
+        let content = html! {
+            (self.head())
+            (self.time_line())
+            (laid_out.html())
+            (left_out.html(left_mm))
+            (ages.html())
+            (notes())
+        };
+        page::whole(&format!("Hand-over sheet, {}", self.station.name), &content)
+    }
 
-        let mut y = self.head(&mut svg, MARGIN);
-        y = self.time_line(&mut svg, y + GAP) + GAP;
-        // From here on the page is shared out: the entries come first.
-        let after = ages.height() + 2.0 * GAP + NOTES;
-        let few = left_out.height(FEW_LEFT_OUT);
-        y = entries.draw(&mut svg, y, BOTTOM - after - few - GAP - y) + GAP;
-        y = left_out.draw(&mut svg, y, BOTTOM - after - y) + GAP;
-        y = ages.draw(&mut svg, y) + GAP;
-        notes(&mut svg, y);
-        svg.finish()
+    /// Which station, which hours, and how good the schedule is known to be.
+    fn head(&self) -> Markup {
+        let minute = |at| format!("{} {}Z", format::date(at), format::minute_of_day(at));
+        let span = format!("{} to {} (UTC)", minute(self.from), minute(self.until));
+        let printed = format!("Printed {}", minute(self.printed));
+        let rule = words::schedule::choose_by(self.station.scheduling.choose_by);
+        let proof = words::schedule::proof(self.schedule);
+        let place = page::place(self.station.site);
+        let lines = [[&*span, &*printed], [&*format!("{rule}. {proof}"), &*place]];
+        page::head(&self.station.name, "Hand-over sheet", lines)
     }
 
     /// Name of a satellite; its number where it has none.
     fn name(&self, number: u32) -> String {
         let known = self.satellites.get(&number);
-        known.map_or_else(|| number.to_string(), |(elements, _)| elements.label())
+        known.map_or_else(|| number.to_string(), |(elements, _)| page::printable(&elements.label()))
     }
 
     /// Name of a satellite with the time of AOS.
@@ -87,25 +103,19 @@ impl<'a> HandOverSheet<'a> {
         format!("{} {}", self.name(pass.satellite), format::minute_of_day(pass.aos))
     }
 
-    fn antenna(&self, id: AntennaId) -> &str {
+    fn antenna(&self, id: AntennaId) -> String {
         let known = self.station.antennas.iter().find(|antenna| antenna.id == id);
-        known.map_or("?", |antenna| &antenna.name)
+        known.map_or_else(|| "?".to_owned(), |antenna| page::printable(&antenna.name))
     }
 }
 
 /// Lines to write on, and the signatures at the bottom of the page.
-fn notes(svg: &mut Svg, y: f64) {
-    const LINE: f64 = 17.0;
-    let signatures = BOTTOM - 2.0;
-    let mut y = section(svg, y, "Notes", "") + LINE;
-    while y < signatures - LINE - 4.0 {
-        svg.line([LEFT, y], [RIGHT, y], 0.25);
-        y += LINE;
-    }
-    let third = (RIGHT - LEFT) / 3.0;
-    for (word, column) in ["Handed over by", "Taken over by", "Time (UTC)"].into_iter().zip(0..) {
-        let x = LEFT + third * f64::from(column);
-        svg.text([x, signatures], third, SMALL, word);
-        svg.line([x + 56.0, signatures + 1.0], [x + third - 10.0, signatures + 1.0], 0.5);
-    }
+fn notes() -> Markup {
+    let content = html! {
+        div.lines {}
+        footer {
+            @for word in ["Handed over by", "Taken over by", "Time (UTC)"] { span { (word) } }
+        }
+    };
+    section("notes", "Notes", "", &content)
 }

@@ -559,7 +559,7 @@ fn the_arrows_lead_through_a_menu_and_not_through_the_list_behind_it() {
             .and_then(|entry| entry.accesskit_node().label())
     };
     for (key, entry) in [
-        (Press::ArrowDown, "Hand-over sheet (SVG)…"),
+        (Press::ArrowDown, "Hand-over sheet (HTML)…"),
         (Press::ArrowDown, "Plan as a table…"),
         (Press::ArrowDown, "Plan as CSV…"),
         (Press::ArrowUp, "Plan as a table…"),
@@ -599,7 +599,7 @@ fn the_hand_over_sheet_is_saved_to_a_file() {
         let mut window = view(size);
         window.get_by_role_and_label(Role::ComboBox, "Export the plan").click();
         settle(&mut window);
-        window.get_by_label("Hand-over sheet (SVG)…").click();
+        window.get_by_label("Hand-over sheet (HTML)…").click();
         assert_eq!(rig::asked(&mut window), [UiCommand::Save(Export::HandOverSheet)]);
     }
 }

@@ -267,7 +267,7 @@ fn a_click_on_an_event_moves_the_cursor_there() {
 #[test]
 fn a_report_is_saved_for_other_programs() {
     for (word, format) in [
-        ("Page to print (SVG)", ReportFormat::Svg),
+        ("Page to print (HTML)", ReportFormat::Html),
         ("Points (CSV)", ReportFormat::Csv),
         ("Report (JSON)", ReportFormat::Json),
     ] {

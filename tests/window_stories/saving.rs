@@ -78,22 +78,22 @@ fn without_a_dialog_of_the_desktop_the_path_is_typed() {
     };
     for size in SIZES {
         let mut window = rig::window(size, rig::model(states::holding()));
-        ask(&mut window, "/home/op/sheet.svg", false);
+        ask(&mut window, "/home/op/sheet.html", false);
         assert!(says(&window, "This desktop shows no file dialogs"), "{size:?}");
         window.key_press(Key::Enter);
-        assert_eq!(asked(&mut window), typed("/home/op/sheet.svg", false));
+        assert_eq!(asked(&mut window), typed("/home/op/sheet.html", false));
         assert!(!says(&window, "This desktop shows no file dialogs"));
         // Another path replaces no file.
-        ask(&mut window, "/home/op/sheet.svg", true);
+        ask(&mut window, "/home/op/sheet.html", true);
         window.get_by_role_and_label(Role::Button, "Replace it (Enter)");
         window.event(Event::Text("2".to_owned()));
         settle(&mut window);
         window.get_by_role_and_label(Role::Button, "Save (Enter)").click();
-        assert_eq!(asked(&mut window), typed("/home/op/sheet.svg2", false));
-        ask(&mut window, "/home/op/sheet.svg", true);
+        assert_eq!(asked(&mut window), typed("/home/op/sheet.html2", false));
+        ask(&mut window, "/home/op/sheet.html", true);
         window.get_by_role_and_label(Role::Button, "Replace it (Enter)").click();
-        assert_eq!(asked(&mut window), typed("/home/op/sheet.svg", true));
-        ask(&mut window, "/home/op/sheet.svg", false);
+        assert_eq!(asked(&mut window), typed("/home/op/sheet.html", true));
+        ask(&mut window, "/home/op/sheet.html", false);
         window.get_by_role_and_label(Role::Button, "Cancel").click();
         assert_eq!(asked(&mut window), []);
         assert!(!says(&window, "This desktop shows no file dialogs"));

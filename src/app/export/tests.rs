@@ -145,9 +145,9 @@ fn the_window_and_the_command_line_write_one_hand_over_sheet() {
     let span = (window.now, window.now + jiff::SignedDuration::from_hours(24));
     let schedule = &window.schedule.schedule;
     let sheet = HandOverSheet::new(&window.station, schedule, &satellites, span, window.now);
-    assert_eq!(lines(&window), sheet.svg().lines().collect::<Vec<_>>());
+    assert_eq!(lines(&window), sheet.html().lines().collect::<Vec<_>>());
     assert!(lines(&window).iter().any(|line| line.contains(">1 pass<")));
-    assert!(window.name().starts_with("hand-over-20") && window.name().ends_with("Z.svg"));
+    assert!(window.name().starts_with("hand-over-20") && window.name().ends_with("Z.html"));
 }
 
 #[test]
@@ -175,7 +175,7 @@ fn a_typed_path_is_written_and_a_file_there_is_replaced_only_if_the_operator_agr
         assert_eq!(request.purpose, PathPurpose::Save { export, replaces });
         request.why
     };
-    let path = folder.path().join("sheet.svg");
+    let path = folder.path().join("sheet.html");
     let sheet = || std::fs::read(&path).unwrap();
     let saved = SavedFile { path: path.clone(), left_out: 0 };
     assert_eq!(save(path.clone(), false), Outcome::Saved(saved.clone()));
@@ -185,9 +185,9 @@ fn a_typed_path_is_written_and_a_file_there_is_replaced_only_if_the_operator_agr
     assert_eq!(sheet(), b"theirs");
     assert_eq!(save(path.clone(), true), Outcome::Saved(saved));
     assert_ne!(sheet(), b"theirs");
-    assert!(why(save("sheet.svg".into(), false), false).contains("whole path"));
+    assert!(why(save("sheet.html".into(), false), false).contains("whole path"));
     assert!(why(save(folder.path().to_owned(), false), false).contains("folder"));
-    let nowhere = folder.path().join("missing").join("sheet.svg");
+    let nowhere = folder.path().join("missing").join("sheet.html");
     assert_eq!(why(save(nowhere.clone(), false), false), "there is no such folder");
     assert!(!nowhere.parent().unwrap().exists());
     let too_long = folder.path().join("s".repeat(1000));

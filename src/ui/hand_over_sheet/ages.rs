@@ -2,26 +2,26 @@
 
 use std::collections::BTreeSet;
 
+use maud::{Markup, html};
+
 use super::HandOverSheet;
 use crate::{
     astro::time::DAY_S,
     ui::{
         format,
-        sheet::{
-            CAPTION, LEFT, RIGHT, SECTION_HEAD, SMALL, section,
-            svg::{Anchor, Svg},
-        },
+        page::{SECTION_HEAD_MM, printable, section},
         words::OLD_ELEMENTS_S,
     },
 };
 
 const COLUMNS: usize = 4;
-const ROW: f64 = 9.0;
-const MOST_ROWS: usize = 5;
+/// Height of a row, millimetres; as in the style sheet.
+const ROW_MM: f64 = 3.2;
+const MAX_ROWS: usize = 5;
 
 /// The ages, the oldest first.
 pub(super) struct List {
-    said: String,
+    remark: String,
     ages: Vec<Age>,
 }
 
@@ -42,52 +42,47 @@ impl List {
         let mut ages: Vec<Age> = known
             .map(|(elements, _)| {
                 let seconds = elements.age_s(sheet.from);
-                Age { name: elements.label(), seconds, is_old: seconds.abs() > most_s }
+                Age { name: printable(&elements.label()), seconds, is_old: seconds.abs() > most_s }
             })
             .collect();
         ages.sort_by(|a, b| b.seconds.total_cmp(&a.seconds).then_with(|| a.name.cmp(&b.name)));
         let old = ages.iter().filter(|age| age.is_old).count();
-        let said = format!(
+        let remark = format!(
             "At {}Z, oldest first. {old} of {} older than {} (bold, \u{d7})",
             format::minute_of_day(sheet.from),
             ages.len(),
             format::age(most_s),
         );
-        Self { said, ages }
+        Self { remark, ages }
     }
 
     fn rows(&self) -> usize {
-        self.ages.len().div_ceil(COLUMNS).min(MOST_ROWS)
+        self.ages.len().div_ceil(COLUMNS).min(MAX_ROWS)
     }
 
-    pub(super) fn height(&self) -> f64 {
-        SECTION_HEAD + ROW * self.rows() as f64
+    pub(super) fn height_mm(&self) -> f64 {
+        SECTION_HEAD_MM + ROW_MM * self.rows() as f64
     }
 
-    /// Returns where the list ends.
-    pub(super) fn draw(&self, svg: &mut Svg, y: f64) -> f64 {
-        let top = section(svg, y, "Ages of elements", &self.said);
-        let column = (RIGHT - LEFT) / COLUMNS as f64;
+    pub(super) fn html(&self) -> Markup {
         let places = self.rows() * COLUMNS;
         let is_cut = self.ages.len() > places;
         let shown = if is_cut { places - 1 } else { self.ages.len() };
-        let at = |place: usize| {
-            let rows = self.rows().max(1);
-            [LEFT + column * (place / rows) as f64, top + ROW * (place % rows) as f64 + 6.5]
+        let rows = format!("grid-template-rows: repeat({}, {ROW_MM}mm)", self.rows().max(1));
+        let content = html! {
+            ul style=(rows) {
+                @for age in self.ages.iter().take(shown) {
+                    li.bold[age.is_old] {
+                        span { (age.name) }
+                        span { (age_in_words(age.seconds)) @if age.is_old { " \u{d7}" } }
+                    }
+                }
+                @if is_cut {
+                    li.quiet { "and " (self.ages.len() - shown) " more, all younger" }
+                }
+            }
         };
-        for (age, place) in self.ages.iter().take(shown).zip(0..) {
-            let [x, y] = at(place);
-            let face = if age.is_old { SMALL.bold() } else { SMALL };
-            let mark = if age.is_old { " \u{d7}" } else { "" };
-            svg.name([x, y], column - 60.0, face, &age.name);
-            let words = format!("{}{mark}", age_in_words(age.seconds));
-            svg.text([x + column - 12.0, y], 46.0, face.anchored(Anchor::End), &words);
-        }
-        if is_cut {
-            let words = format!("and {} more, all younger", self.ages.len() - shown);
-            svg.text(at(shown), column, CAPTION, &words);
-        }
-        y + self.height()
+        section("ages", "Ages of elements", &self.remark, &content)
     }
 }
 

@@ -1,85 +1,37 @@
 //! The table of what the antennas take, in the order of execution.
 
-mod cells;
 mod row;
 
+use maud::{Markup, html};
 use row::Row;
 
 use super::HandOverSheet;
-use crate::ui::sheet::{
-    LEFT, RIGHT, SECTION_HEAD, section,
-    svg::{Face, Svg},
-};
+use crate::ui::page::{SECTION_HEAD_MM, plot, section};
 
-/// Height of the line with a day.
-const DAY: f64 = 10.0;
-/// Space between two columns.
-const BETWEEN: f64 = 11.0;
-/// Height of the line that counts what does not fit.
-const FOOT: f64 = 9.0;
-
-/// How the rows stand on the page.
-#[derive(Debug, Clone, Copy)]
-struct Density {
-    layout: Layout,
-    row: f64,
-}
-
-#[derive(Debug, Clone, Copy)]
-enum Layout {
-    /// One line a row.
-    Wide,
-    /// Two columns, two lines a row.
-    Two,
-    /// Three columns, two lines a row; that an entry is shortened is only marked.
-    Three,
-}
-
-/// The roomiest first.
-const DENSITIES: [Density; 5] = [
-    Density { layout: Layout::Wide, row: 24.0 },
-    Density { layout: Layout::Two, row: 24.0 },
-    Density { layout: Layout::Two, row: 17.5 },
-    Density { layout: Layout::Three, row: 17.5 },
-    Density { layout: Layout::Three, row: 15.5 },
-];
-
-impl Layout {
-    fn columns(self) -> usize {
-        match self {
-            Self::Wide => 1,
-            Self::Two => 2,
-            Self::Three => 3,
-        }
-    }
-
-    /// Height of the names of the columns.
-    fn head(self) -> f64 {
-        match self {
-            Self::Wide => 9.0,
-            Self::Two | Self::Three => 17.0,
-        }
-    }
-}
-
-impl Density {
-    /// Height of a column with these rows.
-    fn height(self, rows: &[Row]) -> f64 {
-        let days = (0..rows.len()).filter(|index| begins_day(rows, *index)).count();
-        self.layout.head() + DAY * days as f64 + self.row * rows.len() as f64
-    }
-
-    /// Number of rows that fit in a column.
-    fn fitting(self, rows: &[Row], room: f64) -> usize {
-        let fits = |count: &usize| self.height(rows.get(..*count).unwrap_or_default()) <= room;
-        (1..=rows.len()).take_while(fits).count()
-    }
-}
+/// Heights of the line with a day and of a row, millimetres; as in the style sheet.
+const DAY_MM: f64 = 3.5;
+const ROW_MM: f64 = 6.0;
+/// Height of the line that counts what does not fit, millimetres.
+const MORE_MM: f64 = 3.2;
+const COLUMNS: usize = 3;
 
 /// Returns `true` if a row has its day above it: at the top of a column, and where the day changes.
 fn begins_day(rows: &[Row], index: usize) -> bool {
     let before = index.checked_sub(1).and_then(|before| rows.get(before));
     before.map(|before| &before.day) != rows.get(index).map(|row| &row.day)
+}
+
+/// Height of a column with these rows, millimetres.
+fn column_mm(rows: &[Row]) -> f64 {
+    let days = (0..rows.len()).filter(|index| begins_day(rows, *index)).count();
+    // Its heads take the room of a row.
+    ROW_MM * (rows.len() + 1) as f64 + DAY_MM * days as f64
+}
+
+/// Number of rows that fit in a column.
+fn fitting(rows: &[Row], room_mm: f64) -> usize {
+    let fits = |count: &usize| column_mm(rows.get(..*count).unwrap_or_default()) <= room_mm;
+    (1..=rows.len()).take_while(fits).count()
 }
 
 pub(super) struct Table {
@@ -88,8 +40,8 @@ pub(super) struct Table {
 }
 
 /// The rows of each column, and how many do not fit.
-struct Laid<'a> {
-    density: Density,
+pub(super) struct LaidOut<'a> {
+    passes: usize,
     columns: Vec<&'a [Row]>,
     more: usize,
 }
@@ -102,58 +54,106 @@ impl Table {
         Self { rows }
     }
 
-    /// Returns where the table ends.
-    pub(super) fn draw(&self, svg: &mut Svg, y: f64, room: f64) -> f64 {
-        let top = y + SECTION_HEAD;
-        let laid = self.laid(room - SECTION_HEAD);
-        let layout = laid.density.layout;
-        let mut said = "Sky: north up, rings 0°, 30°, 60°, dot at AOS, thick where taken. \
-                        Prio A: always. Bold: spare below 1:00"
-            .to_owned();
-        if matches!(layout, Layout::Three) {
-            said += ". *: shortened";
+    /// One wide column where all fit in it; else narrow ones of two lines a row, with as many as fit.
+    pub(super) fn lay_out(&self, room_mm: f64) -> LaidOut<'_> {
+        let passes = self.rows.len();
+        let room_mm = room_mm - SECTION_HEAD_MM;
+        if column_mm(&self.rows) <= room_mm {
+            return LaidOut { passes, columns: vec![&self.rows], more: 0 };
         }
-        section(svg, y, &counted(self.rows.len()), &said);
-        let width = (RIGHT - LEFT + BETWEEN) / layout.columns() as f64;
-        let mut bottom = top;
-        for (rows, column) in laid.columns.iter().zip(0..) {
-            let at = [LEFT + width * f64::from(column), top];
-            let end = laid.density.draw_column(svg, at, width - BETWEEN, rows);
-            bottom = bottom.max(end);
+        let even: Vec<&[Row]> = self.rows.chunks(passes.div_ceil(COLUMNS).max(1)).collect();
+        if even.iter().all(|rows| column_mm(rows) <= room_mm) {
+            return LaidOut { passes, columns: even, more: 0 };
         }
-        if laid.more > 0 {
-            let words = format!("and {} more in the list", laid.more);
-            svg.text([LEFT, bottom + 7.0], RIGHT - LEFT, Face::of(7.0).bold(), &words);
-            bottom += FOOT;
-        }
-        bottom
-    }
-
-    /// The roomiest way in which all fit; else as many as fit in the densest.
-    fn laid(&self, room: f64) -> Laid<'_> {
-        for density in DENSITIES {
-            let in_one = self.rows.len().div_ceil(density.layout.columns()).max(1);
-            let columns: Vec<&[Row]> = self.rows.chunks(in_one).collect();
-            if columns.iter().all(|rows| density.height(rows) <= room) {
-                return Laid { density, columns, more: 0 };
-            }
-        }
-        let [.., density] = DENSITIES;
         let mut left = &self.rows[..];
         let mut columns = Vec::new();
-        for _ in 0..density.layout.columns() {
-            let (column, rest) = left.split_at(density.fitting(left, room - FOOT));
+        for _ in 0..COLUMNS {
+            let (column, rest) = left.split_at(fitting(left, room_mm - MORE_MM));
             columns.push(column);
             left = rest;
         }
-        Laid { density, columns, more: left.len() }
+        LaidOut { passes, columns, more: left.len() }
     }
 }
 
-fn counted(passes: usize) -> String {
-    match passes {
-        0 => "No passes".to_owned(),
-        1 => "1 pass".to_owned(),
-        passes => format!("{passes} passes"),
+impl LaidOut<'_> {
+    pub(super) fn height_mm(&self) -> f64 {
+        let highest = self.columns.iter().map(|rows| column_mm(rows)).fold(0.0, f64::max);
+        let more_mm = if self.more > 0 { MORE_MM } else { 0.0 };
+        SECTION_HEAD_MM + highest + more_mm
+    }
+
+    pub(super) fn html(&self) -> Markup {
+        let is_dense = self.columns.len() > 1;
+        let remark = format!(
+            "Sky: north up, rings 0°, 30°, 60°, dot at AOS, thick where taken. Prio A: always. \
+             Bold: spare below 1:00{}",
+            if is_dense { ". *: shortened" } else { "" }
+        );
+        let name = match self.passes {
+            0 => "No passes".to_owned(),
+            1 => "1 pass".to_owned(),
+            passes => format!("{passes} passes"),
+        };
+        let content = html! {
+            div.columns.dense[is_dense].wide[!is_dense] {
+                @for rows in self.columns.iter().filter(|rows| !rows.is_empty()) {
+                    ol {
+                        (heads(is_dense))
+                        @for (index, row) in rows.iter().enumerate() {
+                            @if begins_day(rows, index) { li.day { (row.day) } }
+                            (pass(row, is_dense))
+                        }
+                    }
+                }
+            }
+            @if self.more > 0 { p.more { "and " (self.more) " more in the list" } }
+        };
+        section("passes", &name, &remark, &content)
+    }
+}
+
+fn heads(is_dense: bool) -> Markup {
+    html! {
+        li.pass.heads {
+            span.sky {}
+            div.line {
+                span.name { "Satellite" }
+                span.priority { @if is_dense { "P" } @else { "Prio" } }
+                span.aos { "AOS" }
+                span.los { "LOS" }
+            }
+            div.line {
+                span.sets-out { "Sets out" }
+                span.antenna { "Antenna" }
+                span.max { "Max, az" }
+                span.counts.number { @if is_dense { "Beam" } @else { "In beam" } }
+                span.spare.number { "Spare" }
+                span.shortened { "Shortened" }
+            }
+        }
+    }
+}
+
+fn pass(row: &Row, is_dense: bool) -> Markup {
+    let is_marked = is_dense && !row.shortened.is_empty();
+    html! {
+        li.pass {
+            (plot::thumbnail(&row.whole, &row.taken))
+            div.line {
+                span.name { (row.name) }
+                span.priority { (row.priority) }
+                span.aos { (row.aos) }
+                span.los { (row.los) }
+            }
+            div.line {
+                span.sets-out { (crate::ui::format::second_of_day(row.sets_out)) }
+                span.antenna { (row.antenna) }
+                span.max { (row.max) }
+                span.counts.number { (row.counts) @if is_marked { "*" } }
+                span.spare.number.bold[row.is_spare_short] { (row.spare) }
+                span.shortened { (row.shortened) }
+            }
+        }
     }
 }

@@ -2,28 +2,25 @@
 
 use jiff::Timestamp;
 
+use maud::{Markup, html};
+
 use super::HandOverSheet;
 use crate::{
     plan::schedule::{LeftOut, Why},
     ui::{
         format,
-        sheet::{
-            CAPTION, LEFT, RIGHT, SECTION_HEAD, SMALL, section,
-            svg::{Anchor, Svg, wrapped},
-        },
+        page::{SECTION_HEAD_MM, section},
         words,
     },
 };
 
-const HEAD: f64 = 9.0;
-const LINE: f64 = 8.0;
-/// Space below the last line of a row.
-const BELOW: f64 = 2.0;
+/// Heights of the names of the columns, of a row and of the line that counts the rest, millimetres; as
+/// in the style sheet.
+const HEADS_MM: f64 = 3.0;
+const ROW_MM: f64 = 6.0;
+const MORE_MM: f64 = 3.0;
 /// Times of a group that are written out.
 const TIMES: usize = 3;
-/// Left edges of the columns, and where the last one ends.
-const COLUMNS: [f64; 7] = [LEFT, 110.0, 196.0, 212.0, 238.0, 444.0, RIGHT];
-const SPACE: f64 = 5.0;
 
 /// The passes in groups of one satellite and one reason.
 pub(super) struct List {
@@ -39,8 +36,8 @@ struct Group {
     is_conflict: bool,
     aos: Vec<Timestamp>,
     max_elevation: String,
-    reason: Vec<String>,
-    price: Vec<String>,
+    reason: String,
+    price: String,
 }
 
 impl List {
@@ -64,62 +61,47 @@ impl List {
         Self { groups, passes: passes.len() }
     }
 
-    /// Height of as much as fits in `room`.
-    pub(super) fn height(&self, room: f64) -> f64 {
-        let rows: f64 = self.fitting(room).iter().map(Group::height).sum();
-        let foot = if self.fitting(room).len() < self.groups.len() { LINE } else { 0.0 };
-        SECTION_HEAD + HEAD + rows + foot
+    /// Height of as much as fits in `room_mm`.
+    pub(super) fn height_mm(&self, room_mm: f64) -> f64 {
+        let shown = self.fitting(room_mm).len();
+        let more_mm = if shown < self.groups.len() { MORE_MM } else { 0.0 };
+        let heads_mm = if self.passes > 0 { HEADS_MM } else { 0.0 };
+        SECTION_HEAD_MM + heads_mm + ROW_MM * shown as f64 + more_mm
     }
 
-    fn fitting(&self, room: f64) -> &[Group] {
-        let mut left = room - SECTION_HEAD - HEAD - LINE;
-        let fits = |group: &&Group| {
-            left -= group.height();
-            left >= 0.0
-        };
-        let count = self.groups.iter().take_while(fits).count();
-        self.groups.get(..count).unwrap_or_default()
+    fn fitting(&self, room_mm: f64) -> &[Group] {
+        let rows = (room_mm - SECTION_HEAD_MM - HEADS_MM - MORE_MM) / ROW_MM;
+        self.groups.get(..rows.max(0.0) as usize).unwrap_or(&self.groups)
     }
 
-    /// Returns where the list ends.
-    pub(super) fn draw(&self, svg: &mut Svg, y: f64, room: f64) -> f64 {
-        let shown = self.fitting(room);
-        let said = match self.passes {
+    pub(super) fn html(&self, room_mm: f64) -> Markup {
+        let shown = self.fitting(room_mm);
+        let remark = match self.passes {
             0 => "No pass is left out".to_owned(),
             1 => "1 pass".to_owned(),
             passes => format!("{passes} passes, those that lost to others first"),
         };
-        let mut at = section(svg, y, "Left out", &said);
-        if self.passes == 0 {
-            return at;
-        }
         let heads = ["AOS", "Satellite", "Prio", "Max", "Why", "Cost of taking it by hand"];
-        let edges = COLUMNS.iter().zip(COLUMNS.iter().skip(1));
-        for (word, (x, end)) in heads.into_iter().zip(edges) {
-            svg.text([*x, at + 5.5], end - x, CAPTION, word);
-        }
-        at += HEAD;
-        for group in shown {
-            group.draw(svg, at);
-            at += group.height();
-        }
         let more: usize = self.groups.iter().skip(shown.len()).map(|group| group.aos.len()).sum();
-        if more > 0 {
-            let words = format!("and {more} more in the list");
-            svg.text([LEFT, at + 6.0], RIGHT - LEFT, SMALL.bold(), &words);
-            at += LINE;
-        }
-        at
+        let content = html! {
+            ul {
+                @if self.passes > 0 {
+                    li.heads { @for head in heads { span { (head) } } }
+                }
+                @for group in shown { (group.html()) }
+                @if more > 0 { li.more { "and " (more) " more in the list" } }
+            }
+        };
+        section("left-out", "Left out", &remark, &content)
     }
 }
 
 fn group(sheet: &HandOverSheet<'_>, left: &LeftOut) -> Group {
-    let [.., why, price, right] = COLUMNS;
     let number = left.pass.satellite;
     let reason = words::schedule::why(
         words::schedule::Names {
             pass: &|(number, _)| sheet.name(number),
-            antenna: &|id| sheet.antenna(id).to_owned(),
+            antenna: &|id| sheet.antenna(id),
         },
         &left.why,
     );
@@ -149,31 +131,23 @@ fn group(sheet: &HandOverSheet<'_>, left: &LeftOut) -> Group {
         is_conflict: against_others,
         aos: vec![left.pass.aos],
         max_elevation: max.map(|deg| format::degrees(deg, 0)).unwrap_or_default(),
-        reason: wrapped(&reason, price - why - SPACE, SMALL, 2),
-        price: wrapped(&costs, right - price, SMALL, 2),
+        reason,
+        price: costs,
     }
 }
 
 impl Group {
-    fn height(&self) -> f64 {
-        LINE * self.reason.len().max(self.price.len()) as f64 + BELOW
-    }
-
-    fn draw(&self, svg: &mut Svg, y: f64) {
-        let [aos, name, priority, max, why, price, right] = COLUMNS;
-        let line = y + 6.5;
-        svg.text([aos, line], name - aos - SPACE, SMALL, &self.times());
-        svg.name([name, line], priority - name - SPACE, SMALL.bold(), &self.name);
-        svg.text([priority, line], max - priority, SMALL, &self.priority.to_string());
-        let end = SMALL.anchored(Anchor::End);
-        svg.text([why - SPACE - 4.0, line], why - max, end, &self.max_elevation);
-        for (x, end, lines) in [(why, price - SPACE, &self.reason), (price, right, &self.price)] {
-            for (words, index) in lines.iter().zip(0..) {
-                svg.text([x, line + LINE * f64::from(index)], end - x, SMALL, words);
+    fn html(&self) -> Markup {
+        html! {
+            li {
+                span { (self.times()) }
+                span.bold { (self.name) }
+                span { (self.priority) }
+                span.number { (self.max_elevation) }
+                span.words { (self.reason) }
+                span.words { (self.price) }
             }
         }
-        let bottom = y + self.height() - 0.5;
-        svg.line([LEFT, bottom], [RIGHT, bottom], 0.15);
     }
 
     fn times(&self) -> String {

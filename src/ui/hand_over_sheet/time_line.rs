@@ -1,6 +1,7 @@
 //! The hours of the sheet, a lane for each antenna.
 
 use jiff::{Timestamp, ToSpan as _};
+use maud::{Markup, html};
 
 use super::HandOverSheet;
 use crate::{
@@ -8,62 +9,74 @@ use crate::{
     engine::automatic,
     ui::{
         format,
-        sheet::{
-            BODY, CAPTION, LEFT, RIGHT, section,
-            svg::{Anchor, SHADE, Svg},
-        },
+        page::{SECTION_HEAD_MM, plot, printable, section},
     },
 };
 
-const LABEL: f64 = 74.0;
-const LANE: f64 = 13.0;
+/// Heights of a lane and of the names of the hours, millimetres; as in the style sheet.
+const LANE_MM: f64 = 4.6;
+const HOURS_MM: f64 = 3.2;
 /// More antennas than this are counted.
 const LANES: usize = 8;
+/// A lane as drawn: its width and its height.
+const WIDTH: f64 = 1000.0;
+const HEIGHT: f64 = 10.0;
 
 impl HandOverSheet<'_> {
-    /// Returns where the time line ends.
-    pub(super) fn time_line(&self, svg: &mut Svg, y: f64) -> f64 {
-        let said = "Box: pass; line before it: slew and set-up; grey: night";
-        let top = section(svg, y, "Time line (UTC)", said);
+    pub(super) fn time_line_mm(&self) -> f64 {
+        let lanes = self.station.antennas.len().min(LANES);
+        SECTION_HEAD_MM + LANE_MM * lanes as f64 + HOURS_MM
+    }
+
+    pub(super) fn time_line(&self) -> Markup {
+        let remark = "Box: pass; line before it: slew and set-up; grey: night";
         let antennas = &self.station.antennas;
-        let shown = antennas.len().min(LANES);
-        let bottom = top + LANE * shown as f64;
-        for [from, to] in self.nights() {
-            let (from, to) = (self.x(from), self.x(to));
-            svg.filled([from, top], [to - from, bottom - top], SHADE);
-        }
-        for hour in self.hours() {
-            svg.line([self.x(hour), top], [self.x(hour), bottom], 0.25);
-            let words = format::hour_of_day(hour);
-            let face = if words == "00" { CAPTION.bold() } else { CAPTION };
-            let x = self.x(hour).min(RIGHT - 4.5);
-            svg.text([x, bottom + 7.5], 20.0, face.anchored(Anchor::Middle), &words);
-        }
-        for (antenna, lane) in antennas.iter().take(shown).zip(0..) {
-            let y = top + LANE * f64::from(lane);
-            svg.line([LEFT, y + LANE], [RIGHT, y + LANE], 0.25);
-            svg.text([LEFT, y + 9.0], LABEL - 6.0, BODY, &antenna.name);
-            for entry in self.entries().into_iter().filter(|it| it.antenna == antenna.id) {
-                let go_at = automatic::sets_out(entry, antenna.automatic.between);
-                let moves_from = go_at.max(add_seconds(entry.from, -entry.slew_s - entry.set_up_s));
-                let [before, from, to] = [moves_from, entry.from, entry.to].map(|at| self.x(at));
-                svg.line([before, y + LANE / 2.0], [from, y + LANE / 2.0], 0.8);
-                svg.bar([from, y + 3.0], [(to - from).max(0.6), LANE - 6.0]);
+        let more = antennas.len().saturating_sub(LANES);
+        let background = html! {
+            @for [from, to] in self.nights() {
+                (plot::filled("shade", [self.x(from), 0.0], [self.x(to) - self.x(from), HEIGHT]))
             }
-        }
-        let more = antennas.len() - shown;
-        if more > 0 {
-            let words = format!("and {more} more");
-            svg.text([LEFT, bottom + 7.5], LABEL - 6.0, CAPTION, &words);
-        }
-        bottom + 9.0
+            @for hour in self.hours() {
+                (plot::filled("filled", [self.x(hour), 0.0], [0.6, HEIGHT]))
+            }
+        };
+        let content = html! {
+            @for antenna in antennas.iter().take(LANES) {
+                div.lane {
+                    span { (printable(&antenna.name)) }
+                    svg viewBox=(format!("0 0 {WIDTH} {HEIGHT}")) preserveAspectRatio="none" {
+                        (background)
+                        @for entry in self.entries().into_iter().filter(|it| it.antenna == antenna.id) {
+                            @let go_at = automatic::sets_out(entry, antenna.automatic.between);
+                            @let busy_s = entry.slew_s + entry.set_up_s;
+                            @let moves_from = go_at.max(add_seconds(entry.from, -busy_s));
+                            @let [before, from, to] =
+                                [moves_from, entry.from, entry.to].map(|at| self.x(at));
+                            (plot::filled("filled", [before, 4.4], [from - before, 1.2]))
+                            (plot::filled("filled", [from, 2.5], [(to - from).max(1.0), 5.0]))
+                        }
+                    }
+                }
+            }
+            div.lane.hours {
+                span { @if more > 0 { "and " (more) " more" } }
+                div {
+                    @for hour in self.hours() {
+                        @let words = format::hour_of_day(hour);
+                        span.bold[words == "00"]
+                            style=(format!("left: {}%", plot::number(self.x(hour) * 100.0 / WIDTH)))
+                        { (words) }
+                    }
+                }
+            }
+        };
+        section("time-line", "Time line (UTC)", remark, &content)
     }
 
     /// The place of a time that is within the sheet, or of the nearer end of it.
     fn x(&self, at: Timestamp) -> f64 {
         let share = seconds_between(self.from, at) / seconds_between(self.from, self.until);
-        let begin = LEFT + LABEL;
-        begin + (RIGHT - begin) * share.clamp(0.0, 1.0)
+        WIDTH * share.clamp(0.0, 1.0)
     }
 
     /// Full hours within the sheet.

@@ -174,7 +174,7 @@ fn rehearsal(model: &Model) -> (String, UiCommand) {
 fn save(ui: &Ui, list: DropDown<'_>, place: Rect, model: &Model, commands: &mut Vec<UiCommand>) {
     let plan = |format| Export::Schedule { format };
     let forms = [
-        ("Hand-over sheet (SVG)…", Export::HandOverSheet),
+        ("Hand-over sheet (HTML)…", Export::HandOverSheet),
         ("Plan as a table…", plan(ScheduleFormat::Table)),
         ("Plan as CSV…", plan(ScheduleFormat::Csv)),
         ("Plan as JSON…", plan(ScheduleFormat::Json)),

@@ -26,7 +26,7 @@ pub(super) const HEAD: f32 = 56.0;
 /// Room above, below and beside the sentence in its box.
 const INSET: f32 = 12.0;
 const FORMATS: [(ReportFormat, &str); 3] = [
-    (ReportFormat::Svg, "Page to print (SVG)"),
+    (ReportFormat::Html, "Page to print (HTML)"),
     (ReportFormat::Csv, "Points (CSV)"),
     (ReportFormat::Json, "Report (JSON)"),
 ];

@@ -136,7 +136,7 @@ impl RecordState {
 
     /// Saves the page of the report, if one is shown.
     pub fn export(&self, model: &Model) -> Option<UiCommand> {
-        let format = ReportFormat::Svg;
+        let format = ReportFormat::Html;
         self.opened(model).map(|_| UiCommand::Save(Export::Report { format }))
     }
 

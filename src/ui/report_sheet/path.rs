@@ -1,74 +1,69 @@
 //! The path over the sky, with the error of the antenna enlarged.
 
+use maud::{Markup, html};
+
 use crate::{
     plan::pass_report::TrackPoint,
     record::OpenedPass,
     ui::{
-        format, recorded_track,
-        sheet::{
-            CAPTION, LEFT, SMALL, section,
-            sky::Sky,
-            svg::{Anchor, Svg},
+        format,
+        page::{
+            plot::{self, Sky},
+            section,
         },
+        recorded_track,
     },
 };
 
-/// Width that is kept for the path.
-pub(super) const WIDTH: f64 = 262.0;
+/// The plot, in points of the paper.
+const SIZE: [f64; 2] = [262.0, 238.0];
 const RADIUS: f64 = 104.0;
-/// Room above the circle, for the name of north.
-const ABOVE: f64 = 10.0;
-const DASH: [f64; 2] = [3.0, 2.0];
+const CENTRE: [f64; 2] = [131.0, 119.0];
 const TICK: f64 = 4.0;
 
-/// Returns where the path ends.
-pub(super) fn draw(svg: &mut Svg, y: f64, opened: &OpenedPass) -> f64 {
+pub(super) fn html(opened: &OpenedPass) -> Markup {
     let factor = recorded_track::enlarged(&opened.track);
-    let y = section(svg, y, "Path", &recorded_track::enlargement(factor));
-    let sky = Sky { centre: [LEFT + WIDTH / 2.0, y + ABOVE + RADIUS], radius: RADIUS };
-    sky.rings(svg);
-    let [x, middle] = sky.centre;
-    let letter = SMALL.anchored(Anchor::Middle);
-    for (name, at) in [
-        ("N", [x, middle - RADIUS - 3.0]),
-        ("E", [x + RADIUS + 6.0, middle + 2.5]),
-        ("S", [x, middle + RADIUS + 8.0]),
-        ("W", [x - RADIUS - 6.0, middle + 2.5]),
-    ] {
-        svg.text(at, 10.0, letter, name);
-    }
+    let sky = Sky { centre: CENTRE, radius: RADIUS };
+    let [x, y] = CENTRE;
+    let letters = [
+        ("N", [x, y - RADIUS - 4.0]),
+        ("E", [x + RADIUS + 8.0, y + 2.5]),
+        ("S", [x, y + RADIUS + 10.0]),
+        ("W", [x - RADIUS - 8.0, y + 2.5]),
+    ];
     let predicted: Vec<_> = opened.path.iter().map(|sample| sky.at(sample.direction)).collect();
-    svg.dashed(&predicted, 0.6, DASH);
-    for piece in recorded_track::pieces(&opened.track) {
-        let flown: Vec<_> = piece.iter().map(|point| flown_at(sky, point, factor)).collect();
-        svg.path(&flown, 1.1);
-    }
-    minutes(svg, sky, opened, factor);
-    if let Some(worst) = recorded_track::worst(&opened.track) {
-        let (from, to) = (sky.at(worst.satellite), flown_at(sky, worst, factor));
-        svg.line(from, to, 0.6);
-        svg.dot(from, 1.4);
-        svg.dot(to, 1.4);
-    }
-    let bottom = middle + RADIUS + ABOVE;
-    let words = "dashed: predicted; solid: actual; dots: the worst error; ticks: whole minutes";
-    svg.text([LEFT, bottom + 8.0], WIDTH, CAPTION, words);
-    let ends = opened.path.first().zip(opened.path.last());
-    if let Some((first, last)) = ends {
-        let words = format!(
-            "AOS {} at {}, LOS {} at {}",
-            format::second_of_day(first.time),
-            format::azimuth(first.direction.azimuth_deg()),
-            format::second_of_day(last.time),
-            format::azimuth(last.direction.azimuth_deg()),
-        );
-        svg.text([LEFT, bottom + 17.0], WIDTH, CAPTION, &words);
-    }
-    bottom + 17.0
+    let measured = recorded_track::pieces(&opened.track)
+        .map(|piece| piece.iter().map(|point| measured_at(sky, point, factor)).collect::<Vec<_>>());
+    let worst = recorded_track::worst(&opened.track);
+    let worst = worst.map(|worst| [sky.at(worst.satellite), measured_at(sky, worst, factor)]);
+    let [width, height] = SIZE;
+    let content = html! {
+        svg viewBox=(format!("0 0 {width} {height}")) {
+            (sky.rings())
+            @for (letter, place) in letters { (plot::text("middle", place, letter)) }
+            (plot::line("thin dashed", &predicted))
+            @for piece in measured { (plot::line("thick measured", &piece)) }
+            @for tick in minutes(sky, opened, factor) { (plot::line("thin", &tick)) }
+            @if let Some(ends) = worst {
+                (plot::line("thin", &ends))
+                @for end in ends { (plot::ring("filled", end, 1.4)) }
+            }
+        }
+        p.quiet { "dashed: predicted; solid: actual; dots: the worst error; ticks: whole minutes" }
+        @if let Some((first, last)) = opened.path.first().zip(opened.path.last()) {
+            p.quiet {
+                "AOS " (format::second_of_day(first.time))
+                " at " (format::azimuth(first.direction.azimuth_deg()))
+                ", LOS " (format::second_of_day(last.time))
+                " at " (format::azimuth(last.direction.azimuth_deg()))
+            }
+        }
+    };
+    section("path", "Path", &recorded_track::enlargement(factor), &content)
 }
 
 /// The place of the antenna, with its error enlarged; within the circle.
-fn flown_at(sky: Sky, point: &TrackPoint, factor: u16) -> [f64; 2] {
+fn measured_at(sky: Sky, point: &TrackPoint, factor: u16) -> [f64; 2] {
     let [from, to] = [point.satellite, point.antenna].map(|direction| sky.at(direction));
     let enlarged = |from: f64, to: f64| from + (to - from) * f64::from(factor);
     let [x, y] =
@@ -77,8 +72,8 @@ fn flown_at(sky: Sky, point: &TrackPoint, factor: u16) -> [f64; 2] {
     [sky.centre[0] + x / out, sky.centre[1] + y / out]
 }
 
-/// Ticks across both paths at full minutes: outwards on the predicted one, inwards on the flown.
-fn minutes(svg: &mut Svg, sky: Sky, opened: &OpenedPass, factor: u16) {
+/// Ticks across both paths at full minutes: outwards on the predicted one, inwards on the measured.
+fn minutes(sky: Sky, opened: &OpenedPass, factor: u16) -> Vec<[[f64; 2]; 2]> {
     let begins_minute = |before: jiff::Timestamp, time: jiff::Timestamp| {
         before.as_second().div_euclid(60) != time.as_second().div_euclid(60)
     };
@@ -87,18 +82,21 @@ fn minutes(svg: &mut Svg, sky: Sky, opened: &OpenedPass, factor: u16) {
         let length = (bx - ax).hypot(by - ay).max(1e-9);
         [(by - ay) / length, -(bx - ax) / length]
     };
-    let mut tick = |[x, y]: [f64; 2], [nx, ny]: [f64; 2], length: f64| {
-        svg.line([x, y], [x + nx * length, y + ny * length], 0.5);
+    let tick = |[x, y]: [f64; 2], [nx, ny]: [f64; 2], length: f64| {
+        [[x, y], [x + nx * length, y + ny * length]]
     };
+    let mut ticks = Vec::new();
     for (a, b) in opened.path.iter().zip(opened.path.iter().skip(1)) {
         if begins_minute(a.time, b.time) {
             let at = sky.at(b.direction);
-            tick(at, left(sky.at(a.direction), at), TICK);
+            ticks.push(tick(at, left(sky.at(a.direction), at), TICK));
         }
     }
     for (a, b) in opened.track.iter().zip(opened.track.iter().skip(1)) {
         if begins_minute(a.time, b.time) {
-            tick(flown_at(sky, b, factor), left(sky.at(a.satellite), sky.at(b.satellite)), -TICK);
+            let across = left(sky.at(a.satellite), sky.at(b.satellite));
+            ticks.push(tick(measured_at(sky, b, factor), across, -TICK));
         }
     }
+    ticks
 }

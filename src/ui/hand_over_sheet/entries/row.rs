@@ -3,10 +3,11 @@
 use jiff::Timestamp;
 
 use crate::{
+    astro::AzEl,
     engine::automatic,
     plan::schedule::{Class, Entry},
     station::BetweenPasses,
-    ui::{format, hand_over_sheet::HandOverSheet, sheet::sky::Track},
+    ui::{format, hand_over_sheet::HandOverSheet},
 };
 
 /// Spare time below this is shown as short, seconds.
@@ -29,7 +30,9 @@ pub(super) struct Row {
     pub(super) shortened: String,
     pub(super) spare: String,
     pub(super) is_spare_short: bool,
-    pub(super) track: Track,
+    /// Its track over the sky, and the part that the antenna takes.
+    pub(super) whole: Vec<AzEl>,
+    pub(super) taken: Vec<AzEl>,
 }
 
 impl Row {
@@ -60,15 +63,13 @@ impl Row {
             los: pass.map(|pass| format::second_of_day(pass.los.time)).unwrap_or_default(),
             name: sheet.name(number),
             priority,
-            antenna: sheet.antenna(entry.antenna).to_owned(),
+            antenna: sheet.antenna(entry.antenna),
             counts: format::duration(entry.counted_s),
             shortened: shortened(sheet, entry),
             spare: entry.spare_s.map_or_else(|| "\u{2013}".to_owned(), format::duration),
             is_spare_short: entry.spare_s.is_some_and(|spare_s| spare_s < SHORT_S),
-            track: Track {
-                whole: sheet.track(number, whole.0, whole.1),
-                taken: sheet.track(number, entry.from, entry.to),
-            },
+            whole: sheet.track(number, whole.0, whole.1),
+            taken: sheet.track(number, entry.from, entry.to),
         }
     }
 }
