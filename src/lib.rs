@@ -8,6 +8,7 @@
 pub mod app;
 pub mod cli;
 pub mod desktop;
+pub mod export;
 pub mod model;
 pub mod ui;
 

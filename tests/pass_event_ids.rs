@@ -8,8 +8,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use azel::{
     astro::{Angle, HorizonMask, Site, time},
+    export::{EventFormat, ExportedPass, PassList, PassQuery, Satellite},
     orbit::{Elements, Pass, PassSearch, bundled, passes_of_all, read_elements, write_omm_json},
-    plan::pass_export::{ExportedPass, PassFormat, PassList, PassQuery, Satellite},
 };
 use jiff::Timestamp;
 use serde_json::Value;
@@ -58,7 +58,7 @@ fn calendar(elements: &[Elements], query: &PassQuery) -> Calendar {
     let list =
         PassList { query, place: None, carrier_hz: None, alarm_before_s: None, now: start() };
     let mut text = Vec::new();
-    list.write(&mut text, PassFormat::Ics, rows.iter().copied()).unwrap();
+    list.write(&mut text, EventFormat::Ics, rows.iter().copied()).unwrap();
     let text = String::from_utf8(text).unwrap().replace("\r\n ", "");
     let ids: Vec<&str> = text.lines().filter_map(|line| line.strip_prefix("UID:")).collect();
     assert_eq!(ids.len(), rows.len());

@@ -25,19 +25,17 @@ use crate::{
         recorded::Recorded,
         schedule::Planned,
     },
+    export::{
+        EventFormat, ExportedPass, ListFormat, LookList, PassList, PassQuery, PlanList, RowFormat,
+        Satellite, points, reports,
+    },
     job::Job,
     model::{
-        export::{DaysFormat, ElementForm, Export, ReportFormat, SavedFile},
+        export::{ElementForm, Export, ReportFormat, SavedFile},
         typed_path::{PathPurpose, PathRequest, TypedPath},
     },
     orbit::{PassSearch, write_omm_csv, write_omm_json, write_tle},
-    plan::{
-        pass_export::{
-            ExportedPass, LookFormat, LookList, PassFormat, PassList, PassQuery, Satellite,
-        },
-        schedule::LeftOut,
-        schedule_export::{ScheduleFormat, ScheduleList},
-    },
+    plan::schedule::LeftOut,
     record::{self, OpenedPass},
     station::{AntennaId, Station},
     ui::{hand_over_sheet::HandOverSheet, report_sheet, words},
@@ -228,8 +226,8 @@ impl Order {
             }
             Export::Days { first, last, format, .. } => {
                 let extension = match format {
-                    DaysFormat::Csv => "csv",
-                    DaysFormat::Json => "json",
+                    RowFormat::Csv => "csv",
+                    RowFormat::Json => "json",
                 };
                 let [first, last] = [first, last].map(|day| day.strftime("%Y%m%d"));
                 format!("passes-{first}-{last}.{extension}")
@@ -268,13 +266,12 @@ impl Order {
 
     fn write_report(&self, format: ReportFormat, out: &mut Vec<u8>) -> Result<(), String> {
         let opened = self.opened().ok_or("no pass of the record is shown any more")?;
-        let text = match format {
-            ReportFormat::Csv => opened.csv(),
-            ReportFormat::Json => opened.json().map_err(|error| error.to_string())?,
-            ReportFormat::Html => report_sheet::html(opened, self.now),
-        };
-        out.extend(text.into_bytes());
-        Ok(())
+        let passes = std::slice::from_ref(opened);
+        in_words(match format {
+            ReportFormat::Csv => points(out, passes),
+            ReportFormat::Json => reports(out, passes),
+            ReportFormat::Html => out.write_all(report_sheet::html(opened, self.now).as_bytes()),
+        })
     }
 
     /// The recorded passes that `query` finds of these days, in order of time.
@@ -317,7 +314,7 @@ impl Order {
     fn write_passes(
         &self,
         keys: &[PassKey],
-        format: PassFormat,
+        format: EventFormat,
         out: &mut Vec<u8>,
     ) -> Result<(), String> {
         let found: Vec<&PredictedPass> =
@@ -350,7 +347,7 @@ impl Order {
     fn write_looks(
         &self,
         pass: PassKey,
-        format: LookFormat,
+        format: ListFormat,
         out: &mut Vec<u8>,
     ) -> Result<(), String> {
         let gone = || "the pass is not in the list any more".to_owned();
@@ -379,7 +376,7 @@ impl Order {
         in_words(list.write(out, format))
     }
 
-    fn write_schedule(&self, format: ScheduleFormat, out: &mut Vec<u8>) -> Result<(), String> {
+    fn write_schedule(&self, format: EventFormat, out: &mut Vec<u8>) -> Result<(), String> {
         let name = |number: u32| {
             let found = self.lists.satellite(number);
             found.map_or_else(|| number.to_string(), |of| of.elements.name().to_owned())
@@ -400,7 +397,7 @@ impl Order {
             pass: &|(number, _)| name(number),
             antenna: &|id| antennas.get(&id).cloned().unwrap_or_default(),
         };
-        let list = ScheduleList {
+        let list = PlanList {
             schedule,
             satellites: &names,
             antennas: &antennas,
@@ -448,13 +445,11 @@ fn exported<'a>(
     })
 }
 
-fn write_days(passes: &[OpenedPass], format: DaysFormat, out: &mut Vec<u8>) -> Result<(), String> {
-    let text = match format {
-        DaysFormat::Csv => record::csv_of_several(passes),
-        DaysFormat::Json => record::json_of_several(passes).map_err(|error| error.to_string())?,
-    };
-    out.extend(text.into_bytes());
-    Ok(())
+fn write_days(passes: &[OpenedPass], format: RowFormat, out: &mut Vec<u8>) -> Result<(), String> {
+    in_words(match format {
+        RowFormat::Csv => points(out, passes),
+        RowFormat::Json => reports(out, passes),
+    })
 }
 
 /// The reason of a failure in the words of the system.
@@ -474,28 +469,28 @@ fn element_extension(form: ElementForm) -> &'static str {
     }
 }
 
-fn pass_extension(format: PassFormat) -> &'static str {
+fn pass_extension(format: EventFormat) -> &'static str {
     match format {
-        PassFormat::Table => "txt",
-        PassFormat::Csv => "csv",
-        PassFormat::Json => "json",
-        PassFormat::Ics => "ics",
+        EventFormat::Table => "txt",
+        EventFormat::Csv => "csv",
+        EventFormat::Json => "json",
+        EventFormat::Ics => "ics",
     }
 }
 
-fn look_extension(format: LookFormat) -> &'static str {
+fn look_extension(format: ListFormat) -> &'static str {
     match format {
-        LookFormat::Table => "txt",
-        LookFormat::Csv => "csv",
-        LookFormat::Json => "json",
+        ListFormat::Table => "txt",
+        ListFormat::Csv => "csv",
+        ListFormat::Json => "json",
     }
 }
 
-fn schedule_extension(format: ScheduleFormat) -> &'static str {
+fn schedule_extension(format: EventFormat) -> &'static str {
     match format {
-        ScheduleFormat::Table => "txt",
-        ScheduleFormat::Csv => "csv",
-        ScheduleFormat::Json => "json",
-        ScheduleFormat::Ics => "ics",
+        EventFormat::Table => "txt",
+        EventFormat::Csv => "csv",
+        EventFormat::Json => "json",
+        EventFormat::Ics => "ics",
     }
 }

@@ -22,7 +22,7 @@ pub(super) use self::{
     values::{duration_s, elevation, hours, instant, megahertz, minutes, share, step_s},
 };
 use super::Cli;
-use crate::{plan::pass_export::Satellite, station::Favourites};
+use crate::{export::Satellite, station::Favourites};
 
 /// Exit code when something was written, but part of the request could not be used.
 const NOT_ALL: u8 = 3;

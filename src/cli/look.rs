@@ -12,7 +12,7 @@ use super::{
 };
 use crate::{
     astro::time,
-    plan::pass_export::{LookFormat, LookList, Satellite},
+    export::{ListFormat, LookList, Satellite},
 };
 
 /// Maximum number of names listed if several satellites match.
@@ -44,8 +44,8 @@ pub(super) struct Options {
     #[arg(long, value_name = "MHZ", value_parser = input::megahertz, allow_negative_numbers = true)]
     doppler: Option<f64>,
     /// How the look angles are written
-    #[arg(long, value_enum, default_value_t = LookFormat::Table)]
-    format: LookFormat,
+    #[arg(long, value_enum, default_value_t = ListFormat::Table)]
+    format: ListFormat,
 }
 
 pub(super) fn run(station: Option<&Path>, options: &Options) -> anyhow::Result<ExitCode> {

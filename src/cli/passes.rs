@@ -16,8 +16,8 @@ use self::progress::Progress;
 use super::input::{self, EXIT_CODES, Elevations, InputOptions, Place, Satellites};
 use crate::{
     astro::{Angle, HorizonMask, time},
+    export::{EventFormat, ExportedPass, PassList, PassQuery},
     orbit::{PassSearch, decoded, found_passes},
-    plan::pass_export::{ExportedPass, PassFormat, PassList, PassQuery},
 };
 
 /// Limits of the predictions, for `--help`.
@@ -30,12 +30,14 @@ const GEOMETRIC: &str = "Directions, AOS and LOS are geometric without --elevati
     s before its AOS and goes down as much after its LOS.";
 
 /// Fields of CSV and JSON, for `--help`.
-const FIELDS: &str = "CSV has a row and JSON an object for each pass; lines end with LF. Fields: \
-    catalog_number, name; time, azimuth_deg and elevation_deg of aos, tca and los (in CSV aos_time \
-    and so on), in JSON also range_km, range_rate_km_s and, with --doppler, doppler_hz; \
-    max_elevation_deg, duration_s; starts_before and ends_after (the window cuts the pass); epoch \
-    and age_days (of the elements, at AOS); sunlit and, in CSV, range_km at TCA; in JSON \
-    dark_at_site; designator.";
+const FIELDS: &str = "CSV has a line for each pass; lines end with LF. JSON has format_version 1 and, \
+    under passes, an object with the same fields for each pass: catalog_number, name; aos_time, \
+    aos_azimuth_deg, aos_elevation_deg; tca_time, tca_azimuth_deg, tca_elevation_deg; los_time, \
+    los_azimuth_deg, los_elevation_deg; max_elevation_deg, duration_s; starts_before and ends_after (the \
+    window cuts the pass); epoch and age_days (of the elements, at AOS); range_km and sunlit at TCA; \
+    designator; dark_at_site at TCA; aos_range_km, los_range_km; aos_range_rate_km_s, \
+    tca_range_rate_km_s, los_range_rate_km_s; with --doppler aos_doppler_hz, tca_doppler_hz, \
+    los_doppler_hz.";
 
 /// Places where a pass is not sharp, for `--help`.
 const NOT_SHARP: &str = "TCA of a geosynchronous satellite may be off by a quarter of an hour or, \
@@ -85,13 +87,13 @@ pub(super) struct Options {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
     threads: Option<u16>,
     /// How the passes are written
-    #[arg(long, value_enum, default_value_t = PassFormat::Table)]
-    format: PassFormat,
+    #[arg(long, value_enum, default_value_t = EventFormat::Table)]
+    format: EventFormat,
 }
 
 pub(super) fn run(station: Option<&Path>, options: &Options) -> anyhow::Result<ExitCode> {
     options.input.check("passes", station)?;
-    if options.alarm.is_some() && options.format != PassFormat::Ics {
+    if options.alarm.is_some() && options.format != EventFormat::Ics {
         return Err(input::usage("passes", "--alarm is for events and needs --format ics").into());
     }
     let place = options.input.place(station)?;

@@ -18,15 +18,11 @@ use super::{
 };
 use crate::{
     astro::time,
+    export::{EventFormat, ExportedPass, PassQuery, PlanList, Satellite},
     makes,
     orbit::{Pass, PassSearch, passes_of_all},
-    plan::{
-        pass_export::{ExportedPass, PassQuery, Satellite},
-        schedule::{
-            Candidate, Common, LeftOut, Partial, PlannedAntenna, Request, Schedule, Steadiness,
-            plan,
-        },
-        schedule_export::{ScheduleFormat, ScheduleList},
+    plan::schedule::{
+        Candidate, Common, LeftOut, Partial, PlannedAntenna, Request, Schedule, Steadiness, plan,
     },
     station::{self, AntennaId, ChooseBy, Partly, Scheduling, Station},
     ui::{hand_over_sheet::HandOverSheet, words},
@@ -147,10 +143,10 @@ pub(super) fn run(station: Option<&Path>, options: &Options) -> anyhow::Result<E
     let now = Timestamp::now();
     let list = |format| write_list(&station, &schedule, &satellites, (&found, &query), now, format);
     let written = match options.format {
-        Format::Table => list(ScheduleFormat::Table),
-        Format::Csv => list(ScheduleFormat::Csv),
-        Format::Json => list(ScheduleFormat::Json),
-        Format::Ics => list(ScheduleFormat::Ics),
+        Format::Table => list(EventFormat::Table),
+        Format::Csv => list(EventFormat::Csv),
+        Format::Json => list(EventFormat::Json),
+        Format::Ics => list(EventFormat::Ics),
         Format::Html => write_sheet(&station, &schedule, &satellites, (from, to), now),
     };
     written.context("The schedule cannot be written")?;
@@ -163,7 +159,7 @@ fn write_list(
     satellites: &[Satellite],
     (passes, query): (&[ExportedPass<'_>], &PassQuery),
     now: Timestamp,
-    format: ScheduleFormat,
+    format: EventFormat,
 ) -> io::Result<()> {
     let names: BTreeMap<u32, String> = satellites
         .iter()
@@ -176,7 +172,7 @@ fn write_list(
         pass: &|(number, _)| name(number),
         antenna: &|id| antennas.get(&id).cloned().unwrap_or_default(),
     };
-    let list = ScheduleList {
+    let list = PlanList {
         schedule,
         satellites: &names,
         antennas: &antennas,

@@ -1,6 +1,7 @@
 //! The plan of a station carried out against simulated units.
 
 use std::{
+    borrow::Cow,
     io::{self, Write},
     num::NonZeroU32,
     path::Path,
@@ -9,8 +10,9 @@ use std::{
 };
 
 use anyhow::Context as _;
-use clap::{Args, ValueEnum};
+use clap::Args;
 use jiff::Timestamp;
+use serde::Serialize;
 
 use super::{
     input::{self, EXIT_CODES, InputOptions, Satellites},
@@ -18,9 +20,9 @@ use super::{
 };
 use crate::{
     astro::time,
+    export::{ListFormat, RowFormat, Time, civil, minutes, rounded, write_rows},
     makes,
     orbit::{Catalog, ReadReport},
-    plan::pass_export::{civil, io_error, plain, rfc3339},
     rehearsal::{self, Fault, Rehearsal, Rehearsed, RehearsedPass},
     sim::Mechanics,
     station::{self, Station},
@@ -58,16 +60,8 @@ pub(super) struct Options {
     #[command(flatten, next_help_heading = "Drives and sensors of all antennas")]
     mechanics: Mechanics,
     /// How the passes are written
-    #[arg(long, value_enum, default_value_t = Format::Table)]
-    format: Format,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Format {
-    /// For people
-    Table,
-    Csv,
-    Json,
+    #[arg(long, value_enum, default_value_t = ListFormat::Table)]
+    format: ListFormat,
 }
 
 /// `None` for as fast as it can.
@@ -122,13 +116,13 @@ pub(super) fn run(station: Option<&Path>, options: &Options) -> anyhow::Result<E
     }
     for line in &rehearsed.interruptions {
         let name = names.iter().find(|(id, _)| *id == line.antenna).map(|(_, name)| name.as_str());
-        let (at, words) = (rfc3339(line.at), day_line(line, line.at));
+        let (at, words) = (civil(line.at, "%Y-%m-%dT%H:%M:%SZ"), day_line(line, line.at));
         input::note(&format!("{}, {at}: {words}", name.unwrap_or_default()));
     }
     let written = match options.format {
-        Format::Table => written(|out| table(&rehearsed, out)),
-        Format::Csv => written(|out| csv(&rehearsed, out)),
-        Format::Json => written(|out| {
+        ListFormat::Table => written(|out| table(&rehearsed, out)),
+        ListFormat::Csv => written(|out| csv(&rehearsed, out)),
+        ListFormat::Json => written(|out| {
             serde_json::to_writer_pretty(&mut *out, &rehearsed)?;
             writeln!(out)
         }),
@@ -167,53 +161,40 @@ fn table(rehearsed: &Rehearsed, out: &mut impl Write) -> io::Result<()> {
     Ok(())
 }
 
-const HEADER: [&str; 13] = [
-    "antenna",
-    "catalog_number",
-    "name",
-    "aos_time",
-    "los_time",
-    "from_time",
-    "to_time",
-    "promised_s",
-    "got_s",
-    "rms_deg",
-    "worst_deg",
-    "verdict",
-    "outcome",
-];
+/// A rehearsed pass with its columns.
+#[derive(Default, Serialize)]
+struct Row<'a> {
+    antenna: Cow<'a, str>,
+    catalog_number: u32,
+    name: Cow<'a, str>,
+    aos_time: Time,
+    los_time: Time,
+    from_time: Time,
+    to_time: Time,
+    promised_s: f64,
+    got_s: f64,
+    rms_deg: Option<f64>,
+    worst_deg: Option<f64>,
+    verdict: &'static str,
+    outcome: String,
+}
 
 fn csv(rehearsed: &Rehearsed, out: &mut impl Write) -> io::Result<()> {
-    let mut table = csv::Writer::from_writer(out);
-    table.write_record(HEADER).map_err(io_error)?;
-    let number = |value: Option<f64>| value.map(|value| value.to_string()).unwrap_or_default();
-    for pass in &rehearsed.passes {
-        let fields: [String; 13] = [
-            plain(&pass.antenna_name).into_owned(),
-            pass.satellite.to_string(),
-            plain(&pass.satellite_name).into_owned(),
-            rfc3339(pass.aos),
-            rfc3339(pass.los),
-            rfc3339(pass.from),
-            rfc3339(pass.to),
-            milliseconds(pass.promised_s),
-            milliseconds(pass.got_s()),
-            number(pass.rms_deg()),
-            number(pass.worst_deg()),
-            verdict(pass).to_owned(),
-            plain(&outcome(pass, rehearsed.from)).into_owned(),
-        ];
-        table.write_record(fields).map_err(io_error)?;
-    }
-    table.flush()
-}
-
-/// Seconds to the millisecond.
-fn milliseconds(seconds: f64) -> String {
-    format!("{seconds:.3}")
-}
-
-fn minutes(seconds: f64) -> String {
-    let whole = seconds.round() as i64;
-    format!("{}:{:02}", whole / 60, whole % 60)
+    let csv = RowFormat::Csv;
+    let rows = rehearsed.passes.iter().map(|pass| Row {
+        antenna: csv.text(&pass.antenna_name),
+        catalog_number: pass.satellite,
+        name: csv.text(&pass.satellite_name),
+        aos_time: Time(pass.aos),
+        los_time: Time(pass.los),
+        from_time: Time(pass.from),
+        to_time: Time(pass.to),
+        promised_s: rounded(pass.promised_s, 1e3),
+        got_s: rounded(pass.got_s(), 1e3),
+        rms_deg: pass.rms_deg(),
+        worst_deg: pass.worst_deg(),
+        verdict: verdict(pass),
+        outcome: csv.text(&outcome(pass, rehearsed.from)).into_owned(),
+    });
+    write_rows(out, csv, ("passes", &[]), &Row::default(), rows)
 }

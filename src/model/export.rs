@@ -6,10 +6,7 @@ use jiff::civil::Date;
 
 use crate::{
     engine::passes::PassKey,
-    plan::{
-        pass_export::{LookFormat, PassFormat},
-        schedule_export::ScheduleFormat,
-    },
+    export::{EventFormat, ListFormat, RowFormat},
     record::PassQuery,
 };
 
@@ -40,30 +37,21 @@ pub enum ReportFormat {
     Html,
 }
 
-/// The form of the passes of several days.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum DaysFormat {
-    /// The points of their tracks.
-    Csv,
-    /// Their reports and what happened in them.
-    Json,
-}
-
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Export {
     /// The elements in use of these objects, by catalog number.
     Elements { numbers: Arc<[u32]>, form: ElementForm },
     /// These passes.
-    Passes { keys: Arc<[PassKey]>, format: PassFormat },
+    Passes { keys: Arc<[PassKey]>, format: EventFormat },
     /// Azimuth, elevation and range through one pass.
-    Looks { pass: PassKey, format: LookFormat },
+    Looks { pass: PassKey, format: ListFormat },
     /// The plan of all antennas.
-    Schedule { format: ScheduleFormat },
+    Schedule { format: EventFormat },
     /// The page to print for the next shift.
     HandOverSheet,
     /// The pass of the record that is shown.
     Report { format: ReportFormat },
     /// The passes of the record that `query` finds, whose AOS is from the first of these days to the
     /// last.
-    Days { query: PassQuery, first: Date, last: Date, format: DaysFormat },
+    Days { query: PassQuery, first: Date, last: Date, format: RowFormat },
 }

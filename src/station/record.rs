@@ -8,7 +8,6 @@
 mod along;
 mod causes;
 mod entry;
-mod export;
 mod file;
 mod film;
 mod keeping;
@@ -29,7 +28,6 @@ mod writer;
 pub use along::{Beside, PassTimes, neighbour, times_between, times_of_pass};
 pub use causes::{ExplainedPasses, explain_passes};
 pub use entry::{Entry, Kind};
-pub use export::{csv_of_several, json_of_several};
 pub use film::{Film, FilmError, Parts, Picture, Shown};
 pub use missed::{MissedEntry, missed};
 pub use pass::{AboutTrack, PassNote, PlannedPart, RecordedReport, TrackedBy};

@@ -7,13 +7,11 @@ mod azimuth_wrap;
 pub mod bounds;
 pub mod detour;
 pub mod on_board;
-pub mod pass_export;
 pub mod pass_report;
 pub mod pointing;
 pub mod program_track;
 mod rate_limited;
 pub mod schedule;
-pub mod schedule_export;
 mod trackability;
 
 pub use bounds::{Barrier, Bounds, BoundsAt, Clearance, Sweep};

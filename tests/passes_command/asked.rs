@@ -166,12 +166,10 @@ fn the_sources_of_the_station_are_groups() {
             .env("XDG_DATA_HOME", files.path("data"))
             .output()
             .unwrap();
-        let numbers: std::collections::BTreeSet<u64> = serde_json::from_slice(&output.stdout)
-            .map(|rows: Vec<Value>| rows)
-            .unwrap_or_default()
-            .iter()
-            .filter_map(|row| row["catalog_number"].as_u64())
-            .collect();
+        let whole: Value = serde_json::from_slice(&output.stdout).unwrap_or_default();
+        let rows = whole["passes"].as_array().into_iter().flatten();
+        let numbers: std::collections::BTreeSet<u64> =
+            rows.filter_map(|row| row["catalog_number"].as_u64()).collect();
         (output.status.code().unwrap(), Vec::from_iter(numbers), text(&output.stderr))
     };
     let (code, numbers, said) = run(&[]);

@@ -10,12 +10,12 @@ use azel::{
         passes::{ListedSatellite, PassKey},
         schedule::{Planned, Swap},
     },
+    export::EventFormat,
     model::{UiCommand, View, export::Export, rehearsal::RehearsalState},
     orbit::Propagator,
     plan::{
         pass_report::LossCause,
         schedule::{Class, Conflict, Entry, LeftOut, PassKey as Key, Schedule, Why},
-        schedule_export::ScheduleFormat,
     },
     rehearsal::{Rehearsed, RehearsedPass},
     station::{AntennaId, ChooseBy, Priority, Take},
@@ -541,7 +541,7 @@ fn the_plan_is_saved_to_a_file() {
         window.get_by_role_and_label(Role::ComboBox, "Export the plan").click();
         settle(&mut window);
         window.get_by_label("Plan as iCalendar…").click();
-        let wanted = Export::Schedule { format: ScheduleFormat::Ics };
+        let wanted = Export::Schedule { format: EventFormat::Ics };
         assert_eq!(rig::asked(&mut window), [UiCommand::Save(wanted)]);
     }
 }
@@ -573,7 +573,7 @@ fn the_arrows_lead_through_a_menu_and_not_through_the_list_behind_it() {
     settle(&mut window);
     assert_eq!(window.query_all_by_label_contains("Take it (Enter)").count(), 0);
     window.key_press(Press::Enter);
-    let wanted = Export::Schedule { format: ScheduleFormat::Table };
+    let wanted = Export::Schedule { format: EventFormat::Table };
     assert_eq!(rig::asked(&mut window), [UiCommand::Save(wanted)], "and no other pass is selected");
 }
 

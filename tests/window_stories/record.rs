@@ -17,9 +17,10 @@ use azel::{
         automatic::{Flown, Interruption, MissCause},
         recorded::{Found, MissedPass, RecordLook, Recorded},
     },
+    export::{self, RowFormat},
     model::{
         Model, UiCommand, View,
-        export::{DaysFormat, Export, ReportFormat},
+        export::{Export, ReportFormat},
     },
     orbit::{Pass, PassSearch, Propagator, bundled, passes},
     plan::{
@@ -281,14 +282,20 @@ fn a_report_is_saved_for_other_programs() {
         assert!(asked.contains(&UiCommand::Save(Export::Report { format })), "{asked:?}");
     }
     let (_, flown) = model();
-    let csv = flown[0].csv();
+    let written = |write: fn(&mut Vec<u8>, &[OpenedPass]) -> std::io::Result<()>| {
+        let mut text = Vec::new();
+        write(&mut text, &flown[..1]).unwrap();
+        String::from_utf8(text).unwrap()
+    };
+    let csv = written(export::points);
     let mut lines = csv.lines();
     let columns = lines.next().unwrap().split(',').count();
     assert_eq!(lines.clone().count(), flown[0].track.len());
     assert!(lines.all(|line| line.split(',').count() == columns));
-    let json: serde_json::Value = serde_json::from_str(&flown[0].json().unwrap()).unwrap();
-    assert_eq!(json["satellite"], NOAA_20);
-    assert_eq!(json["report"]["verdict"], "fair");
+    let json: serde_json::Value = serde_json::from_str(&written(export::reports)).unwrap();
+    assert_eq!(json["format_version"], 1);
+    assert_eq!(json["passes"][0]["satellite"], NOAA_20);
+    assert_eq!(json["passes"][0]["report"]["verdict"], "fair");
 }
 
 /// The record of a station whose unit was read, with the newest pass flown as `about` says and
@@ -401,7 +408,7 @@ fn the_passes_of_chosen_days_are_exported_as_the_list_is_filtered() {
             UiCommand::Save(Export::Days { query, first: day(1), last: day(12), format })
         };
         let all = PassQuery { count: 200, ..PassQuery::default() };
-        assert_eq!(asked(&mut window), [days(all.clone(), DaysFormat::Csv)]);
+        assert_eq!(asked(&mut window), [days(all.clone(), RowFormat::Csv)]);
         assert!(window.query_by_label("Points (CSV)").is_none(), "closed");
 
         preferences::write(&mut window, "Satellite or date", "noaa");
@@ -411,7 +418,7 @@ fn the_passes_of_chosen_days_are_exported_as_the_list_is_filtered() {
         let _ = asked(&mut window);
         window.key_press(Key::Enter);
         let noaa = PassQuery { text: "noaa".to_owned(), ..all };
-        assert_eq!(asked(&mut window), [days(noaa, DaysFormat::Json)]);
+        assert_eq!(asked(&mut window), [days(noaa, RowFormat::Json)]);
         // The key that opens it is no answer.
         window.get_by_role_and_label(Role::Button, "Export days").focus();
         settle(&mut window);

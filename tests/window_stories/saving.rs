@@ -6,13 +6,13 @@ use azel::{
     app::App,
     desktop::file_dialog::NoDialog,
     engine::passes::PredictedPass,
+    export::{EventFormat, ListFormat},
     makes,
     model::{
         UiCommand,
         export::{Export, SavedFile},
         typed_path::{PathPurpose, PathRequest, TypedPath},
     },
-    plan::pass_export::{LookFormat, PassFormat},
     station,
 };
 use egui::{Event, Key, Modifiers, Role};
@@ -44,10 +44,10 @@ fn the_listed_passes_and_the_selected_one_are_saved() {
             settle(&mut window);
         }
         let saved = choose(&mut window, "Listed passes as iCalendar…");
-        let wanted = Export::Passes { keys: listed.into(), format: PassFormat::Ics };
+        let wanted = Export::Passes { keys: listed.into(), format: EventFormat::Ics };
         assert_eq!(saved, [UiCommand::Save(wanted)]);
         let saved = choose(&mut window, "Az/el of the selected pass as CSV…");
-        let wanted = Export::Looks { pass: of_noaa_20, format: LookFormat::Csv };
+        let wanted = Export::Looks { pass: of_noaa_20, format: ListFormat::Csv };
         assert_eq!(saved, [UiCommand::Save(wanted)]);
     }
 }

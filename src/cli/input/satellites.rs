@@ -14,6 +14,7 @@ use rayon::prelude::*;
 
 use super::InputOptions;
 use crate::{
+    export::Satellite,
     library::{
         Exceptions, Library, Limits, disk::read_limited, element_files, library_folder,
         load_sources,
@@ -23,7 +24,6 @@ use crate::{
         Catalog, Elements, MAX_ELEMENT_BYTES, MergeSummary, Note, Refusal, Source, SourceOrders,
         read_element_bytes,
     },
-    plan::pass_export::Satellite,
     station,
 };
 

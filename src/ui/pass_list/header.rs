@@ -6,8 +6,8 @@ use super::{FLOORS_DEG, Filter, PassListModel};
 use crate::{
     engine,
     engine::passes::{SPANS_H, Scope},
+    export::{EventFormat, ListFormat},
     model::{UiCommand, export::Export},
-    plan::pass_export::{LookFormat, PassFormat},
     ui::{
         format,
         icons::{self, Icon},
@@ -170,9 +170,9 @@ fn save(ui: &Ui, place: Rect, model: &PassListModel<'_>, commands: &mut Vec<UiCo
     menu::show(&response, Popup::menu(&response).accessible_name(name), |ui| {
         ui.style_mut().wrap_mode = Some(TextWrapMode::Extend);
         let forms = [
-            ("Listed passes as CSV…", PassFormat::Csv),
-            ("Listed passes as JSON…", PassFormat::Json),
-            ("Listed passes as iCalendar…", PassFormat::Ics),
+            ("Listed passes as CSV…", EventFormat::Csv),
+            ("Listed passes as JSON…", EventFormat::Json),
+            ("Listed passes as iCalendar…", EventFormat::Ics),
         ];
         for (word, format) in forms {
             if ui.add_enabled(model.rows > 0, egui::Button::new(word)).clicked() {
@@ -181,8 +181,8 @@ fn save(ui: &Ui, place: Rect, model: &PassListModel<'_>, commands: &mut Vec<UiCo
         }
         ui.separator();
         let forms = [
-            ("Az/el of the selected pass as CSV…", LookFormat::Csv),
-            ("Az/el of the selected pass as JSON…", LookFormat::Json),
+            ("Az/el of the selected pass as CSV…", ListFormat::Csv),
+            ("Az/el of the selected pass as JSON…", ListFormat::Json),
         ];
         for (word, format) in forms {
             let choice = ui.add_enabled(model.selected.is_some(), egui::Button::new(word));

@@ -5,8 +5,8 @@ use egui::{Align2, Rect, Ui, pos2, vec2};
 use super::{PADDING, PlanState};
 use crate::{
     engine,
+    export::EventFormat,
     model::{Model, UiCommand, export::Export, rehearsal::RehearsalState},
-    plan::schedule_export::ScheduleFormat,
     station::{ChooseBy, Scheduling},
     ui::{
         format, replay, text, theme,
@@ -175,10 +175,10 @@ fn save(ui: &Ui, list: DropDown<'_>, place: Rect, model: &Model, commands: &mut 
     let plan = |format| Export::Schedule { format };
     let forms = [
         ("Hand-over sheet (HTML)…", Export::HandOverSheet),
-        ("Plan as a table…", plan(ScheduleFormat::Table)),
-        ("Plan as CSV…", plan(ScheduleFormat::Csv)),
-        ("Plan as JSON…", plan(ScheduleFormat::Json)),
-        ("Plan as iCalendar…", plan(ScheduleFormat::Ics)),
+        ("Plan as a table…", plan(EventFormat::Table)),
+        ("Plan as CSV…", plan(EventFormat::Csv)),
+        ("Plan as JSON…", plan(EventFormat::Json)),
+        ("Plan as iCalendar…", plan(EventFormat::Ics)),
     ];
     list.show(ui, place, |ui| {
         for (word, export) in forms {

@@ -5,10 +5,8 @@ use jiff::{ToSpan as _, civil::Date, tz::TimeZone};
 
 use super::RecordState;
 use crate::{
-    model::{
-        Model, UiCommand,
-        export::{DaysFormat, Export},
-    },
+    export::RowFormat,
+    model::{Model, UiCommand, export::Export},
     ui::{
         text, theme,
         widgets::{
@@ -71,7 +69,7 @@ pub(super) fn show(ui: &Ui, state: &mut RecordState, commands: &mut Vec<UiComman
 
 #[derive(Clone, Copy)]
 enum Answer {
-    Save(DaysFormat),
+    Save(RowFormat),
     Cancel,
 }
 
@@ -113,9 +111,9 @@ fn content(ui: &mut Ui, dialog: &mut DaysDialog, filters: bool) -> Option<Answer
     if cancel.clicked() {
         Some(Answer::Cancel)
     } else if points.clicked() {
-        Some(Answer::Save(DaysFormat::Csv))
+        Some(Answer::Save(RowFormat::Csv))
     } else if json.clicked() || enter && !points.has_focus() && !cancel.has_focus() {
-        Some(Answer::Save(DaysFormat::Json))
+        Some(Answer::Save(RowFormat::Json))
     } else {
         None
     }

@@ -1,6 +1,7 @@
-//! Writes a schedule as a table, CSV, JSON or iCalendar.
+//! A plan as a table, CSV, JSON or iCalendar.
 
 use std::{
+    borrow::Cow,
     collections::BTreeMap,
     io::{self, Write},
 };
@@ -8,29 +9,20 @@ use std::{
 use chrono::TimeDelta;
 use icalendar::{Alarm, Calendar, Component as _, Event, EventLike as _, Trigger};
 use jiff::Timestamp;
+use serde::Serialize;
 
 use super::{
-    pass_export::{ExportedPass, PassQuery, civil, event_ids, io_error, plain, rfc3339},
-    schedule::{Entry, LeftOut, Schedule},
+    EventFormat, ExportedPass, PassQuery, RowFormat, Time, civil, minutes, passes::event_ids,
+    rounded, write_rows,
 };
 use crate::{
     astro::time::{add_seconds, seconds_between},
+    plan::schedule::{Entry, LeftOut, Proof, Schedule},
     station::AntennaId,
 };
 
-/// How a schedule is written.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ScheduleFormat {
-    /// For people.
-    Table,
-    Csv,
-    Json,
-    /// Events of a calendar: only what is taken.
-    Ics,
-}
-
 /// A schedule with the names of what is in it.
-pub struct ScheduleList<'a> {
+pub struct PlanList<'a> {
     pub schedule: &'a Schedule,
     /// By catalog number.
     pub satellites: &'a BTreeMap<u32, String>,
@@ -44,46 +36,52 @@ pub struct ScheduleList<'a> {
     pub now: Timestamp,
 }
 
-const HEADER: [&str; 13] = [
-    "state",
-    "antenna",
-    "catalog_number",
-    "name",
-    "aos_time",
-    "from_time",
-    "to_time",
-    "counted_s",
-    "late_s",
-    "early_s",
-    "slew_s",
-    "spare_s",
-    "reason",
-];
+/// A planned pass with its columns.
+#[derive(Default, Serialize)]
+struct Row<'a> {
+    /// `taken` or `left out`.
+    state: &'static str,
+    antenna: Option<Cow<'a, str>>,
+    catalog_number: u32,
+    name: Cow<'a, str>,
+    aos_time: Time,
+    from_time: Option<Time>,
+    to_time: Option<Time>,
+    counted_s: Option<f64>,
+    late_s: Option<f64>,
+    early_s: Option<f64>,
+    slew_s: Option<f64>,
+    spare_s: Option<f64>,
+    reason: Option<String>,
+    antenna_id: Option<u32>,
+    set_up_s: Option<f64>,
+}
 
-/// A row of the table: an entry or a pass that is left out.
-enum Row<'a> {
+/// An entry, or a pass that is left out.
+enum Planned<'a> {
     Taken(&'a Entry),
     LeftOut(&'a LeftOut),
 }
 
-impl ScheduleList<'_> {
-    pub fn write(&self, out: &mut impl Write, format: ScheduleFormat) -> io::Result<()> {
+impl PlanList<'_> {
+    /// Writes the passes by AOS, taken or left out; a calendar has only what is taken.
+    pub fn write(&self, out: &mut impl Write, format: EventFormat) -> io::Result<()> {
         match format {
-            ScheduleFormat::Table => self.table(out),
-            ScheduleFormat::Csv => self.csv(out),
-            ScheduleFormat::Json => self.json(out),
-            ScheduleFormat::Ics => self.calendar(out),
+            EventFormat::Table => self.table(out),
+            EventFormat::Csv => self.write_rows(out, RowFormat::Csv),
+            EventFormat::Json => self.write_rows(out, RowFormat::Json),
+            EventFormat::Ics => self.calendar(out),
         }
     }
 
     /// All passes by AOS.
-    fn rows(&self) -> Vec<Row<'_>> {
-        let taken = self.schedule.entries.iter().map(Row::Taken);
-        let mut rows: Vec<Row<'_>> =
-            taken.chain(self.schedule.left_out.iter().map(Row::LeftOut)).collect();
+    fn planned(&self) -> Vec<Planned<'_>> {
+        let taken = self.schedule.entries.iter().map(Planned::Taken);
+        let mut rows: Vec<Planned<'_>> =
+            taken.chain(self.schedule.left_out.iter().map(Planned::LeftOut)).collect();
         rows.sort_by_key(|row| match row {
-            Row::Taken(entry) => (entry.pass.aos, entry.pass.satellite, entry.from),
-            Row::LeftOut(left) => (left.pass.aos, left.pass.satellite, left.pass.aos),
+            Planned::Taken(entry) => (entry.pass.aos, entry.pass.satellite, entry.from),
+            Planned::LeftOut(left) => (left.pass.aos, left.pass.satellite, left.pass.aos),
         });
         rows
     }
@@ -107,9 +105,9 @@ impl ScheduleList<'_> {
             "{:<antennas$}  {:<names$}  {:<19}  {:<8}  {:>6}  {:>5}  {:>6}",
             "Antenna", "Satellite", "From (UTC)", "To", "counts", "slew", "spare"
         )?;
-        for row in self.rows() {
-            match row {
-                Row::Taken(entry) => writeln!(
+        for planned in self.planned() {
+            match planned {
+                Planned::Taken(entry) => writeln!(
                     out,
                     "{:<antennas$}  {:<names$}  {}  {}  {:>6}  {:>5}  {:>6}",
                     self.antenna(entry.antenna),
@@ -120,7 +118,7 @@ impl ScheduleList<'_> {
                     minutes(entry.slew_s),
                     entry.spare_s.map(minutes).unwrap_or_default(),
                 )?,
-                Row::LeftOut(left) => writeln!(
+                Planned::LeftOut(left) => writeln!(
                     out,
                     "{:<antennas$}  {:<names$}  {}  {}",
                     "-",
@@ -133,59 +131,48 @@ impl ScheduleList<'_> {
         Ok(())
     }
 
-    fn csv(&self, out: &mut impl Write) -> io::Result<()> {
-        let mut table = csv::Writer::from_writer(out);
-        table.write_record(HEADER).map_err(io_error)?;
-        for row in self.rows() {
-            let fields: [String; 13] = match row {
-                Row::Taken(entry) => [
-                    "taken".to_owned(),
-                    plain(self.antenna(entry.antenna)).into_owned(),
-                    entry.pass.satellite.to_string(),
-                    plain(&self.satellite(entry.pass.satellite)).into_owned(),
-                    rfc3339(entry.pass.aos),
-                    rfc3339(entry.from),
-                    rfc3339(entry.to),
-                    entry.counted_s.to_string(),
-                    entry.late_s.to_string(),
-                    entry.early_s.to_string(),
-                    entry.slew_s.to_string(),
-                    entry.spare_s.map(|spare_s| spare_s.to_string()).unwrap_or_default(),
-                    String::new(),
-                ],
-                Row::LeftOut(left) => {
-                    let mut fields: [String; 13] = Default::default();
-                    let said = [
-                        "left out".to_owned(),
-                        String::new(),
-                        left.pass.satellite.to_string(),
-                        plain(&self.satellite(left.pass.satellite)).into_owned(),
-                        rfc3339(left.pass.aos),
-                    ];
-                    for (field, said) in fields.iter_mut().zip(said) {
-                        *field = said;
-                    }
-                    if let Some(reason) = fields.last_mut() {
-                        *reason = plain(&(self.reason)(left)).into_owned();
-                    }
-                    fields
-                }
-            };
-            table.write_record(fields).map_err(io_error)?;
-        }
-        table.flush()
+    fn write_rows(&self, out: &mut impl Write, format: RowFormat) -> io::Result<()> {
+        let is_best = self.schedule.worth.iter().all(|class| class.proof == Proof::Best);
+        let about = [("is_proved_best", is_best.into())];
+        let planned = self.planned();
+        let rows = planned.iter().map(|planned| self.row(format, planned));
+        write_rows(out, format, ("passes", &about), &Row::default(), rows)
     }
 
-    fn json(&self, out: &mut impl Write) -> io::Result<()> {
-        let antennas: BTreeMap<String, &String> =
-            self.antennas.iter().map(|(id, name)| (id.0.to_string(), name)).collect();
-        let whole = serde_json::json!({
-            "antennas": antennas,
-            "satellites": self.satellites,
-            "schedule": self.schedule,
-        });
-        serde_json::to_writer_pretty(&mut *out, &whole)?;
-        writeln!(out)
+    fn row(&self, format: RowFormat, planned: &Planned<'_>) -> Row<'_> {
+        let pass = match planned {
+            Planned::Taken(entry) => entry.pass,
+            Planned::LeftOut(left) => left.pass,
+        };
+        let name = self.satellite(pass.satellite);
+        let row = Row {
+            catalog_number: pass.satellite,
+            name: Cow::Owned(format.text(&name).into_owned()),
+            aos_time: Time(pass.aos),
+            ..Row::default()
+        };
+        let seconds = |value_s: f64| Some(rounded(value_s, 1e3));
+        match planned {
+            Planned::Taken(entry) => Row {
+                state: "taken",
+                antenna: Some(format.text(self.antenna(entry.antenna))),
+                antenna_id: Some(entry.antenna.0),
+                from_time: Some(Time(entry.from)),
+                to_time: Some(Time(entry.to)),
+                counted_s: seconds(entry.counted_s),
+                late_s: seconds(entry.late_s),
+                early_s: seconds(entry.early_s),
+                slew_s: seconds(entry.slew_s),
+                set_up_s: seconds(entry.set_up_s),
+                spare_s: entry.spare_s.and_then(seconds),
+                ..row
+            },
+            Planned::LeftOut(left) => {
+                let reason = (self.reason)(left);
+                let reason = Some(format.text(&reason).into_owned());
+                Row { state: "left out", reason, ..row }
+            }
+        }
     }
 
     fn calendar(&self, out: &mut impl Write) -> io::Result<()> {
@@ -236,8 +223,3 @@ const ALARM_BEFORE: TimeDelta = TimeDelta::minutes(5);
 
 /// UTC in the basic form of iCalendar.
 const BASIC: &str = "%Y%m%dT%H%M%SZ";
-
-fn minutes(seconds: f64) -> String {
-    let whole = seconds.round() as i64;
-    format!("{}:{:02}", whole / 60, whole % 60)
-}

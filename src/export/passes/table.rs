@@ -4,8 +4,8 @@ use std::io::{self, Write};
 
 use jiff::{Timestamp, Unit};
 
-use super::{ExportedPass, civil, turn};
-use crate::orbit::Pass;
+use super::{ExportedPass, turn};
+use crate::{export::civil, orbit::Pass};
 
 const DATE_AND_TIME: &str = "%Y-%m-%d %H:%M:%S";
 
@@ -75,13 +75,13 @@ mod tests {
     use jiff::SignedDuration;
 
     use super::super::testing::{example, written};
-    use crate::plan::pass_export::PassFormat;
+    use crate::export::EventFormat;
 
     #[test]
     fn columns_stand_below_their_heads() {
         let (elements, mut pass) = example();
         pass.starts_before = true;
-        let text = written(PassFormat::Table, elements, &[pass]);
+        let text = written(EventFormat::Table, elements, &[pass]);
         assert_eq!(
             text,
             "AOS (UTC)               az   TCA         az    el   LOS         az      lasts     number  name                   age\n\
@@ -94,7 +94,7 @@ mod tests {
     fn a_time_of_another_day_has_its_date() {
         let (elements, mut pass) = example();
         pass.los.time += SignedDuration::from_hours(47);
-        let text = written(PassFormat::Table, elements, &[pass]);
+        let text = written(EventFormat::Table, elements, &[pass]);
         assert_eq!(
             text,
             "AOS (UTC)               az   TCA         az    el   LOS                    az      lasts     number  name                   age\n \

@@ -4,14 +4,15 @@ use std::io::{self, Write};
 
 use jiff::Timestamp;
 
-use super::{ExportedPass, PassFormat, PassList, PassQuery, Satellite};
+use super::{ExportedPass, PassList, PassQuery, Satellite};
 use crate::{
     astro::{Angle, AzEl, Site},
+    export::EventFormat,
     orbit::{Elements, Pass, PassPoint, PassSearch, read_elements},
 };
 
 /// A satellite whose name contains everything that some form has to quote, and a pass.
-pub(super) fn example() -> (Elements, Pass) {
+pub(in crate::export) fn example() -> (Elements, Pass) {
     let text = serde_json::json!({
         "OBJECT_NAME": "ISS, (ZARYA); \"1\"", "OBJECT_ID": "1998-067A", "NORAD_CAT_ID": 25_544,
         "EPOCH": "2026-08-11T01:21:00", "MEAN_MOTION": 15.5, "ECCENTRICITY": 0.001,
@@ -36,13 +37,13 @@ pub(super) fn example() -> (Elements, Pass) {
     (elements, pass)
 }
 
-pub(super) fn written(format: PassFormat, elements: Elements, passes: &[Pass]) -> String {
+pub(super) fn written(format: EventFormat, elements: Elements, passes: &[Pass]) -> String {
     written_with(format, elements, passes, None)
 }
 
 /// Like [`written`], with the Doppler shift of a carrier.
 pub(super) fn written_with(
-    format: PassFormat,
+    format: EventFormat,
     elements: Elements,
     passes: &[Pass],
     carrier_hz: Option<f64>,
@@ -55,7 +56,7 @@ pub(super) fn written_with(
 /// Passes over Istanbul, in a window from the day before.
 pub(super) fn write_to(
     out: &mut impl Write,
-    format: PassFormat,
+    format: EventFormat,
     elements: Elements,
     passes: &[Pass],
     carrier_hz: Option<f64>,

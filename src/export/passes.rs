@@ -1,14 +1,11 @@
-//! Writes lists of passes as a table, CSV, JSON or iCalendar, and look angles in the
-//! first three forms.
+//! Lists of passes as a table, CSV, JSON or iCalendar.
 
 mod calendar;
-mod csv;
-mod digits;
 mod event_ids;
-mod json;
-mod looks;
-mod rows;
+mod row;
 mod table;
+#[cfg(test)]
+pub(super) mod testing;
 
 use std::{
     borrow::Borrow,
@@ -16,11 +13,11 @@ use std::{
 };
 
 use glam::DVec3;
-use jiff::{Timestamp, tz::TimeZone};
+use jiff::Timestamp;
 
-pub use self::csv::{io_error, plain, quoted};
-pub use self::event_ids::event_ids;
-pub use self::looks::{LookFormat, LookList};
+pub(super) use self::event_ids::event_ids;
+use self::row::Row;
+use super::{EventFormat, RowFormat, rounded, rows::write_many};
 use crate::{
     astro::{Air, HorizonMask, Site, frames::SiteFrame, time},
     orbit::{
@@ -98,24 +95,6 @@ impl Borrow<Propagator> for Satellite {
     }
 }
 
-/// Distance and Doppler shift of a satellite at one instant, rounded for export.
-#[derive(Debug, Clone, Copy)]
-struct Seen {
-    range_km: f64,
-    range_rate_km_s: f64,
-    doppler_hz: Option<f64>,
-}
-
-impl Seen {
-    fn new(distance: Distance, carrier_hz: Option<f64>) -> Self {
-        Self {
-            range_km: rounded(distance.range_km, 1e3),
-            range_rate_km_s: rounded(distance.range_rate_km_s, 1e6),
-            doppler_hz: carrier_hz.map(|carrier_hz| rounded(distance.doppler_hz(carrier_hz), 10.0)),
-        }
-    }
-}
-
 /// A search for passes, and the mask that cuts them.
 #[derive(Debug, Clone)]
 pub struct PassQuery {
@@ -161,37 +140,36 @@ pub struct PassList<'a> {
     pub now: Timestamp,
 }
 
-/// The form of a list.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
-pub enum PassFormat {
-    /// Columns to read
-    Table,
-    /// A header and one row per pass
-    Csv,
-    /// A list of objects
-    Json,
-    /// iCalendar (RFC 5545), one event per pass
-    Ics,
-}
-
 impl PassList<'_> {
     /// Writes the list of `rows`, in their order. All times are UTC. Rows of CSV and JSON are made by
     /// the threads of the rayon pool in which this is called, some thousand at a time.
     pub fn write<'a>(
         &self,
         out: &mut impl Write,
-        format: PassFormat,
+        format: EventFormat,
         rows: impl Iterator<Item = ExportedPass<'a>>,
     ) -> io::Result<()> {
         match format {
-            PassFormat::Table => {
+            EventFormat::Table => {
                 table::write(out, &rows.collect::<Vec<_>>())?;
                 writeln!(out, "{}", about_elevations(self.is_apparent()))
             }
-            PassFormat::Csv => csv::write(out, self, rows),
-            PassFormat::Json => json::write(out, self, rows),
-            PassFormat::Ics => calendar::write(out, self, &rows.collect::<Vec<_>>()),
+            EventFormat::Csv => self.write_rows(out, RowFormat::Csv, rows),
+            EventFormat::Json => self.write_rows(out, RowFormat::Json, rows),
+            EventFormat::Ics => calendar::write(out, self, &rows.collect::<Vec<_>>()),
         }
+    }
+
+    fn write_rows<'a>(
+        &self,
+        out: &mut impl Write,
+        format: RowFormat,
+        rows: impl Iterator<Item = ExportedPass<'a>>,
+    ) -> io::Result<()> {
+        let view = self.view();
+        let like = Row::like(self.carrier_hz.is_some());
+        let make = |rows: &[ExportedPass<'a>]| Row::of_all(&view, format, rows);
+        write_many(out, format, ("passes", &[]), &like, rows, make)
     }
 
     fn site(&self) -> Site {
@@ -208,12 +186,12 @@ impl PassList<'_> {
     }
 }
 
-fn is_refracted(site: Site) -> bool {
+pub(super) fn is_refracted(site: Site) -> bool {
     site.refraction().air != Air::None
 }
 
 /// The last line of a table.
-fn about_elevations(are_apparent: bool) -> &'static str {
+pub(super) fn about_elevations(are_apparent: bool) -> &'static str {
     if are_apparent {
         "Elevations are apparent, with the refraction of radio waves."
     } else {
@@ -226,34 +204,12 @@ fn times(pass: &Pass) -> [Timestamp; 3] {
     [pass.aos.time, pass.tca.time, pass.los.time]
 }
 
-/// RFC 3339, UTC, with milliseconds.
-pub fn rfc3339(time: Timestamp) -> String {
-    let mut text = Vec::new();
-    digits::push_time(&mut text, time);
-    String::from_utf8(text).unwrap_or_default()
-}
-
-/// To the nearest second, in UTC.
-pub fn civil(time: Timestamp, format: &str) -> String {
-    let rounded = time.round(jiff::Unit::Second).unwrap_or(time);
-    rounded.to_zoned(TimeZone::UTC).strftime(format).to_string()
-}
-
 /// An azimuth that is never written as 360.0.
-fn turn(azimuth_deg: f64) -> f64 {
+pub(super) fn turn(azimuth_deg: f64) -> f64 {
     if azimuth_deg >= 359.95 { 0.0 } else { azimuth_deg }
 }
 
 /// An angle in degrees without the noise beyond the sixth decimal.
-fn degrees(value: f64) -> f64 {
+pub(super) fn degrees(value: f64) -> f64 {
     rounded(value, 1e6)
 }
-
-/// Rounds to the nearest multiple of one divided by `parts`.
-fn rounded(value: f64, parts: f64) -> f64 {
-    // Adding zero makes a negative zero positive.
-    (value * parts).round() / parts + 0.0
-}
-
-#[cfg(test)]
-mod testing;

@@ -27,7 +27,7 @@ const POLAR_LATITUDE_DEG: f64 = 89.0;
 
 /// The identity of each of `rows`, which are ordered by AOS. All identities are different. A calendar
 /// appends its domain.
-pub fn event_ids(rows: &[ExportedPass<'_>], query: &PassQuery) -> Vec<String> {
+pub(in crate::export) fn event_ids(rows: &[ExportedPass<'_>], query: &PassQuery) -> Vec<String> {
     let cell = cell(query.search.site);
     // Number of earlier passes by satellite and slot.
     let mut before: BTreeMap<(u32, Option<i64>), usize> = BTreeMap::new();

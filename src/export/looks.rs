@@ -6,26 +6,11 @@ use jiff::Timestamp;
 use serde::Serialize;
 
 use super::{
-    Satellite, Seen, about_elevations, civil,
-    csv::{io_error, text_of},
-    degrees, is_refracted,
-    json::write_lines,
-    rfc3339, turn,
+    ListFormat, RowFormat, Satellite, Time, civil,
+    passes::{about_elevations, degrees, is_refracted, turn},
+    rounded, write_rows,
 };
 use crate::astro::{Site, time};
-
-const HEADER: [&str; 5] = ["time", "azimuth_deg", "elevation_deg", "range_km", "range_rate_km_s"];
-
-/// The form of a list of look angles.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
-pub enum LookFormat {
-    /// Columns to read
-    Table,
-    /// A header and one row per instant
-    Csv,
-    /// A list of objects
-    Json,
-}
 
 /// Look angles to write.
 #[derive(Debug, Clone, Copy)]
@@ -40,17 +25,10 @@ pub struct LookList<'a> {
     pub carrier_hz: Option<f64>,
 }
 
-/// Look angles at one instant, rounded for export.
-struct Look {
-    at: Timestamp,
-    azimuth_deg: f64,
-    elevation_deg: f64,
-    seen: Seen,
-}
-
-#[derive(Serialize)]
+/// Look angles at one instant.
+#[derive(Debug, Default, Serialize)]
 struct Row {
-    time: String,
+    time: Time,
     azimuth_deg: f64,
     elevation_deg: f64,
     range_km: f64,
@@ -61,24 +39,30 @@ struct Row {
 
 impl LookList<'_> {
     /// Writes the list, which ends where the object decays. All times are UTC.
-    pub fn write(&self, out: &mut impl Write, format: LookFormat) -> io::Result<()> {
-        match format {
-            LookFormat::Table => self.write_table(out),
-            LookFormat::Csv => self.write_csv(out),
-            LookFormat::Json => write_lines(out, self.looks().map(|look| row(&look))),
-        }
+    pub fn write(&self, out: &mut impl Write, format: ListFormat) -> io::Result<()> {
+        let row_format = match format {
+            ListFormat::Table => return self.write_table(out),
+            ListFormat::Csv => RowFormat::Csv,
+            ListFormat::Json => RowFormat::Json,
+        };
+        let like = Row { doppler_hz: self.carrier_hz, ..Row::default() };
+        write_rows(out, row_format, ("look_angles", &[]), &like, self.rows())
     }
 
-    fn looks(&self) -> impl Iterator<Item = Look> {
+    fn rows(&self) -> impl Iterator<Item = Row> {
         let instants = (0..self.count)
             .map(|index| time::add_seconds(self.from, f64::from(index) * self.step_s));
         instants.map_while(|at| {
             let look = self.satellite.propagator.look_from(self.site, at).ok()?;
-            Some(Look {
-                at,
+            let distance = look.distance();
+            let doppler_hz = |carrier_hz| rounded(distance.doppler_hz(carrier_hz), 10.0);
+            Some(Row {
+                time: Time(at),
                 azimuth_deg: degrees(look.direction.azimuth_deg()),
                 elevation_deg: degrees(look.direction.elevation_deg()),
-                seen: Seen::new(look.distance(), self.carrier_hz),
+                range_km: rounded(distance.range_km, 1e3),
+                range_rate_km_s: rounded(distance.range_rate_km_s, 1e6),
+                doppler_hz: self.carrier_hz.map(doppler_hz),
             })
         })
     }
@@ -89,58 +73,36 @@ impl LookList<'_> {
         let head = if is_fine { "UTC                    " } else { "UTC                " };
         write!(out, "{head}     az     el    range km      km/s")?;
         writeln!(out, "{}", if self.carrier_hz.is_some() { "    Doppler Hz" } else { "" })?;
-        for Look { at, azimuth_deg, elevation_deg, seen } in self.looks() {
+        for row in self.rows() {
+            let Time(at) = row.time;
             let shown = if is_fine {
-                rfc3339(at).replace('T', " ").trim_end_matches('Z').to_owned()
+                format!("{:.3}", at.round(jiff::Unit::Millisecond).unwrap_or(at))
+                    .replace('T', " ")
+                    .trim_end_matches('Z')
+                    .to_owned()
             } else {
                 civil(at, "%Y-%m-%d %H:%M:%S")
             };
             write!(
                 out,
                 "{shown}  {:>5.1}  {:>5.1}  {:>10.1}  {:>8.4}",
-                turn(azimuth_deg),
-                elevation_deg,
-                seen.range_km,
-                seen.range_rate_km_s,
+                turn(row.azimuth_deg),
+                row.elevation_deg,
+                row.range_km,
+                row.range_rate_km_s,
             )?;
-            let doppler = seen.doppler_hz.map(|hertz| format!("  {hertz:>12.1}"));
+            let doppler = row.doppler_hz.map(|hertz| format!("  {hertz:>12.1}"));
             writeln!(out, "{}", doppler.unwrap_or_default())?;
         }
         writeln!(out, "{}", about_elevations(is_refracted(self.site)))
-    }
-
-    fn write_csv(&self, out: &mut impl Write) -> io::Result<()> {
-        let mut table = csv::Writer::from_writer(out);
-        let doppler = self.carrier_hz.map(|_| "doppler_hz");
-        table.write_record(HEADER.into_iter().chain(doppler)).map_err(io_error)?;
-        for Look { at, azimuth_deg, elevation_deg, seen } in self.looks() {
-            let numbers = [azimuth_deg, elevation_deg, seen.range_km, seen.range_rate_km_s];
-            let mut fields = vec![rfc3339(at)];
-            fields.extend(numbers.map(|number| number.to_string()));
-            fields.extend(seen.doppler_hz.map(|hertz| text_of(Some(hertz))));
-            table.write_record(fields).map_err(io_error)?;
-        }
-        table.flush()
-    }
-}
-
-fn row(look: &Look) -> Row {
-    let Look { at, azimuth_deg, elevation_deg, seen } = *look;
-    Row {
-        time: rfc3339(at),
-        azimuth_deg,
-        elevation_deg,
-        range_km: seen.range_km,
-        range_rate_km_s: seen.range_rate_km_s,
-        doppler_hz: seen.doppler_hz,
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{super::testing::example, *};
+    use super::{super::passes::testing::example, *};
 
-    fn written(format: LookFormat, step_s: f64, carrier_hz: Option<f64>) -> String {
+    fn written(format: ListFormat, step_s: f64, carrier_hz: Option<f64>) -> String {
         let satellite = Satellite::new(example().0).unwrap();
         let from = "2026-08-12T01:00:00Z".parse().unwrap();
         let site = Site::default();
@@ -152,10 +114,11 @@ mod tests {
 
     #[test]
     fn all_forms_say_the_same() {
-        let rows: Vec<serde_json::Value> =
-            serde_json::from_str(&written(LookFormat::Json, 30.0, Some(1e8))).unwrap();
-        let csv = written(LookFormat::Csv, 30.0, Some(1e8));
-        let table = written(LookFormat::Table, 30.0, Some(1e8));
+        let whole: serde_json::Value =
+            serde_json::from_str(&written(ListFormat::Json, 30.0, Some(1e8))).unwrap();
+        let rows = whole["look_angles"].as_array().unwrap();
+        let csv = written(ListFormat::Csv, 30.0, Some(1e8));
+        let table = written(ListFormat::Table, 30.0, Some(1e8));
         // The last line of the table says which elevations these are.
         assert_eq!((rows.len(), csv.lines().count(), table.lines().count()), (3, 4, 5));
         let head = "time,azimuth_deg,elevation_deg,range_km,range_rate_km_s,doppler_hz";
@@ -175,7 +138,7 @@ mod tests {
 
     #[test]
     fn steps_of_parts_of_a_second_are_shown() {
-        let table = written(LookFormat::Table, 0.5, None);
+        let table = written(ListFormat::Table, 0.5, None);
         assert!(table.contains("\n2026-08-12 01:00:00.500  "), "{table}");
         assert_eq!(table.lines().next().unwrap().len(), table.lines().nth(1).unwrap().len());
     }

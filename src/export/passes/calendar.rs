@@ -6,8 +6,8 @@ use chrono::TimeDelta;
 use icalendar::{Alarm, Calendar, Component as _, Event, EventLike as _, Trigger};
 use jiff::{SignedDuration, Timestamp, Unit};
 
-use super::{ExportedPass, PassList, about_elevations, civil, event_ids::event_ids};
-use crate::{astro::Site, orbit::PassPoint};
+use super::{ExportedPass, PassList, about_elevations, event_ids::event_ids};
+use crate::{astro::Site, export::civil, orbit::PassPoint};
 
 pub(super) fn write(
     out: &mut impl Write,
@@ -88,12 +88,12 @@ mod tests {
     use jiff::SignedDuration;
 
     use super::super::testing::{example, written};
-    use crate::plan::pass_export::PassFormat;
+    use crate::export::EventFormat;
 
     #[test]
     fn an_event_has_its_times_and_one_identity() {
         let (elements, pass) = example();
-        let text = written(PassFormat::Ics, elements, &[pass]);
+        let text = written(EventFormat::Ics, elements, &[pass]);
         for line in [
             "BEGIN:VCALENDAR",
             "VERSION:2.0",
@@ -117,7 +117,7 @@ mod tests {
     fn an_event_lasts_a_second_at_least_and_tells_its_elements() {
         let (elements, mut pass) = example();
         pass.los.time = pass.aos.time + SignedDuration::from_millis(40);
-        let text = written(PassFormat::Ics, elements, &[pass]);
+        let text = written(EventFormat::Ics, elements, &[pass]);
         assert!(text.contains("DTSTART:20260812T010203Z\r\n"), "{text}");
         assert!(text.contains("DTEND:20260812T010204Z\r\n"), "{text}");
         let unfolded = text.replace("\r\n ", "");

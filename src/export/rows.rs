@@ -1,0 +1,228 @@
+//! Rows as comma-separated values and as JSON, from the fields of a struct.
+
+use std::{
+    borrow::Cow,
+    io::{self, Write},
+};
+
+use jiff::{Timestamp, Unit};
+use rayon::prelude::*;
+use serde::{Serialize, Serializer};
+
+/// Version of the fields of JSON. Fields are only ever added to a version.
+pub const FORMAT_VERSION: u32 = 1;
+/// Number of rows that are made and then written.
+const AT_ONCE: usize = 1 << 12;
+/// Number of rows that one thread takes at a time.
+const CHUNK: usize = 256;
+
+/// The form of rows for programs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum RowFormat {
+    Csv,
+    /// An object with `format_version` and the rows, one a line.
+    Json,
+}
+
+impl RowFormat {
+    /// A text that others wrote. In comma-separated values no spreadsheet takes it for a formula.
+    ///
+    /// Source: OWASP, "CSV Injection".
+    pub fn text(self, text: &str) -> Cow<'_, str> {
+        let is_formula = matches!(text.as_bytes(), [b'=' | b'+' | b'-' | b'@' | b'\t' | b'\r', ..]);
+        match self {
+            Self::Csv if is_formula => Cow::Owned(format!("'{text}")),
+            Self::Csv | Self::Json => Cow::Borrowed(text),
+        }
+    }
+
+    /// These rows, each in a line; in JSON each with a comma before it.
+    fn lines<R: Serialize>(self, rows: impl IntoIterator<Item = R>) -> io::Result<Vec<u8>> {
+        match self {
+            Self::Csv => {
+                let mut table =
+                    csv::WriterBuilder::new().has_headers(false).from_writer(Vec::new());
+                for row in rows {
+                    table.serialize(row).map_err(io_error)?;
+                }
+                table.into_inner().map_err(csv::IntoInnerError::into_error)
+            }
+            Self::Json => {
+                let mut text = Vec::new();
+                for row in rows {
+                    text.extend_from_slice(b",\n");
+                    serde_json::to_writer(&mut text, &row)?;
+                }
+                Ok(text)
+            }
+        }
+    }
+}
+
+/// A time in RFC 3339, UTC, with milliseconds.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Time(pub Timestamp);
+
+impl Serialize for Time {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let rounded = self.0.round(Unit::Millisecond).unwrap_or(self.0);
+        serializer.collect_str(&format_args!("{rounded:.3}"))
+    }
+}
+
+/// Rounds to the nearest multiple of one divided by `parts`.
+pub fn rounded(value: f64, parts: f64) -> f64 {
+    // Adding zero makes a negative zero positive.
+    (value * parts).round() / parts + 0.0
+}
+
+/// The original error of the output: its kind distinguishes a reader that has stopped from a full disk.
+fn io_error(error: csv::Error) -> io::Error {
+    match error.into_kind() {
+        csv::ErrorKind::Io(error) => error,
+        other => io::Error::other(format!("{other:?}")),
+    }
+}
+
+/// Writes `rows` in their order. The columns of CSV are the fields of `like`. JSON is an object with
+/// `format_version`, the fields of `about`, and the rows under `name`.
+pub fn write_rows<R: Serialize>(
+    out: &mut impl Write,
+    format: RowFormat,
+    (name, about): (&str, &[(&str, serde_json::Value)]),
+    like: &R,
+    rows: impl IntoIterator<Item = R>,
+) -> io::Result<()> {
+    write_lines(out, format, (name, about), like, [format.lines(rows)])
+}
+
+/// Writes a row for each of `items`, in their order. `make` makes the rows of some hundred items, in
+/// the threads of the rayon pool in which this is called; some thousand are held as text. The rest as
+/// for [`write_rows`].
+pub(super) fn write_many<T: Send + Sync, R: Serialize>(
+    out: &mut impl Write,
+    format: RowFormat,
+    (name, about): (&str, &[(&str, serde_json::Value)]),
+    like: &R,
+    mut items: impl Iterator<Item = T>,
+    make: impl Fn(&[T]) -> Vec<R> + Sync,
+) -> io::Result<()> {
+    let texts = std::iter::from_fn(|| {
+        let taken: Vec<T> = items.by_ref().take(AT_ONCE).collect();
+        let lines = |chunk: &[T]| format.lines(make(chunk));
+        (!taken.is_empty()).then(|| taken.par_chunks(CHUNK).map(lines).collect::<Vec<_>>())
+    });
+    write_lines(out, format, (name, about), like, texts.flatten())
+}
+
+fn write_lines<R: Serialize>(
+    out: &mut impl Write,
+    format: RowFormat,
+    (name, about): (&str, &[(&str, serde_json::Value)]),
+    like: &R,
+    texts: impl IntoIterator<Item = io::Result<Vec<u8>>>,
+) -> io::Result<()> {
+    match format {
+        RowFormat::Csv => {
+            let mut header = csv::Writer::from_writer(Vec::new());
+            header.serialize(like).map_err(io_error)?;
+            let header = header.into_inner().map_err(csv::IntoInnerError::into_error)?;
+            out.write_all(
+                header.split_inclusive(|byte| *byte == b'\n').next().unwrap_or_default(),
+            )?;
+            texts.into_iter().try_for_each(|text| out.write_all(&text?))
+        }
+        RowFormat::Json => {
+            write!(out, "{{\"format_version\":{FORMAT_VERSION}")?;
+            for (field, value) in about {
+                write!(out, ",\"{field}\":{value}")?;
+            }
+            write!(out, ",\"{name}\":[")?;
+            let mut is_first = true;
+            for text in texts {
+                let text = text?;
+                // No comma stands before the first.
+                let skipped = usize::from(is_first && !text.is_empty());
+                is_first &= text.is_empty();
+                out.write_all(text.get(skipped..).unwrap_or_default())?;
+            }
+            writeln!(out, "\n]}}")
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[derive(Serialize)]
+    struct Row {
+        number: usize,
+        name: Cow<'static, str>,
+        time: Time,
+        none: Option<f64>,
+    }
+
+    fn row(format: RowFormat, number: usize) -> Row {
+        let time = Time("2026-08-12T01:02:03.4567Z".parse().unwrap());
+        Row { number, name: format.text("=1, \"two\""), time, none: None }
+    }
+
+    fn written(format: RowFormat, count: usize, threads: usize) -> String {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        let mut out = Vec::new();
+        let make = |numbers: &[usize]| numbers.iter().map(|it| row(format, *it)).collect();
+        let about = [("site", serde_json::json!("Porto"))];
+        pool.in_place_scope(|_| {
+            write_many(&mut out, format, ("rows", &about), &row(format, 0), 0..count, make)
+        })
+        .unwrap();
+        String::from_utf8(out).unwrap()
+    }
+
+    #[test]
+    fn a_row_of_csv_quotes_what_it_must_and_is_no_formula() {
+        let text = written(RowFormat::Csv, 1, 1);
+        assert_eq!(
+            text,
+            "number,name,time,none\n0,\"'=1, \"\"two\"\"\",2026-08-12T01:02:03.457Z,\n"
+        );
+        assert_eq!(written(RowFormat::Csv, 0, 1), "number,name,time,none\n");
+        for name in ["+1", "-1", "@SUM(A1)", "\t1", "\r1"] {
+            assert_eq!(RowFormat::Csv.text(name), format!("'{name}"));
+            assert_eq!(RowFormat::Json.text(name), name);
+        }
+        for name in ["ISS (ZARYA)", "NOAA-20", ""] {
+            assert_eq!(RowFormat::Csv.text(name), name);
+        }
+    }
+
+    #[test]
+    fn json_has_a_version_and_a_row_a_line() {
+        let text = written(RowFormat::Json, 2, 1);
+        let whole: serde_json::Value = serde_json::from_str(&text).unwrap();
+        assert_eq!(whole["format_version"], 1);
+        assert_eq!(whole["site"], "Porto");
+        let second = serde_json::json!({
+            "number": 1, "name": "=1, \"two\"", "time": "2026-08-12T01:02:03.457Z", "none": null
+        });
+        assert_eq!(whole["rows"][1], second);
+        assert_eq!(text.lines().count(), 4);
+        let none: serde_json::Value =
+            serde_json::from_str(&written(RowFormat::Json, 0, 1)).unwrap();
+        assert_eq!(none["rows"], serde_json::json!([]));
+    }
+
+    #[test]
+    fn rows_are_in_order_whatever_thread_made_them() {
+        let count = 2 * AT_ONCE + 7;
+        for format in [RowFormat::Csv, RowFormat::Json] {
+            let one = written(format, count, 1);
+            assert_eq!(written(format, count, 3), one);
+            assert!(one.contains(&format!("{}", count - 1)));
+        }
+        let text = written(RowFormat::Csv, count, 1);
+        let numbers = text.lines().skip(1).map(|line| line.split(',').next().unwrap());
+        assert!(numbers.eq((0..count).map(|number| number.to_string())));
+    }
+}
