@@ -219,11 +219,7 @@ impl<'a> Search<'a> {
                 continue;
             }
             let here_deg = self.axes_deg(place);
-            let is_there = here_deg
-                .into_iter()
-                .zip(self.to_deg)
-                .all(|(here, to)| (here - to).abs() <= CELL_DEG / 2.0);
-            if is_there {
+            if self.is_last(here_deg) {
                 return Some(self.traced(&grid, place));
             }
             if count > MAX_PLACES {
@@ -258,6 +254,17 @@ impl<'a> Search<'a> {
             }
         }
         None
+    }
+
+    /// Returns `true` if the route may go straight to the end from here. Beside a margin, the position of
+    /// the grid that is nearest to the end may not be free.
+    fn is_last(&self, here_deg: [f64; 2]) -> bool {
+        let is_within = |max_deg| {
+            let mut axes = here_deg.into_iter().zip(self.to_deg);
+            axes.all(|(here, to)| (here - to).abs() <= max_deg)
+        };
+        is_within(CELL_DEG / 2.0)
+            || is_within(1.5 * CELL_DEG) && self.is_straight(here_deg, self.to_deg)
     }
 
     fn traced(&self, grid: &Grid, end: Cell) -> Vec<[f64; 2]> {
@@ -363,6 +370,25 @@ mod tests {
         let seconds: f64 = way.windows(2).map(|pair| limits().seconds(pair[0], pair[1])).sum();
         // The azimuth alone takes 15 s, in which the elevation has time to go up.
         assert!((15.0..22.0).contains(&seconds), "{seconds} {way:?}");
+    }
+
+    #[test]
+    fn a_way_ends_beside_a_margin_wherever_it_begins() {
+        let bounds = bounds(vec![mast(40.0)], None);
+        let now = bounds.at(noon());
+        for azimuth_deg in [110.0, 110.3, 109.7] {
+            let up = (0..200).map(|step| [azimuth_deg, 40.0 + 0.05 * f64::from(step)]);
+            // A route needs a quarter of a degree at its end.
+            let mut ends = up.filter(|place| now.has_room(*place, ROOM_DEG - CELL_DEG / 2.0));
+            let to_deg = ends.next().unwrap();
+            for part in 0..100 {
+                let (first, second) = (f64::from(part % 10) / 10.0, f64::from(part / 10) / 10.0);
+                let from_deg = [80.0 + first, 20.0 + second];
+                assert!(leads(&now, &limits(), from_deg, to_deg), "{from_deg:?} {to_deg:?}");
+                let way = between(&now, &limits(), from_deg, to_deg).unwrap();
+                assert_outside(&bounds, &way);
+            }
+        }
     }
 
     #[test]

@@ -360,7 +360,8 @@ impl Reach {
         };
         let up = along([first.0, second.0], zenith_deg);
         let round = along([first.1, zenith_deg[1]], [first.2, zenith_deg[1]]);
-        up.chain(round).find(|place| now.has_room(*place, self.slews.room_deg))
+        let room_deg = self.slews.room_deg * now.max_beam_turn();
+        up.chain(round).find(|place| now.has_room(*place, room_deg))
     }
 
     /// Where an antenna whose azimuth axis slews at `slews` loses the satellite at `samples[index]`,

@@ -306,6 +306,46 @@ fn a_park_position_out_of_reach_costs_no_pass() {
     assert_eq!(can_park(&station), [true, true, false]);
 }
 
+#[test]
+fn ways_lead_to_the_open_sky_beside_any_park_position() {
+    let mut random = Random::new(SEED + 77);
+    for case in 0..200 {
+        let mut between =
+            |from: f64, to: f64| from + (to - from) * f64::from(random.below(10_000)) / 1e4;
+        let park =
+            Direction { azimuth_deg: between(20.0, 340.0), elevation_deg: between(0.0, 15.0) };
+        let (left_deg, right_deg) = (park.azimuth_deg - 5.0, park.azimuth_deg + 5.0);
+        let top_deg = park.elevation_deg + 3.0;
+        let corners =
+            [(left_deg, 0.0), (right_deg, 0.0), (right_deg, top_deg), (left_deg, top_deg)];
+        let mut station = three_antennas();
+        station.keep_outs.push(KeepOut {
+            name: "Shed".to_owned(),
+            reason: String::new(),
+            entered: Entered::Hard,
+            antenna: None,
+            margin_deg: between(1.0, 8.0),
+            zone: KeepOut::zone_of(&corners).unwrap(),
+        });
+        for antenna in &mut station.antennas {
+            antenna.park = park;
+        }
+        for antenna in &station.antennas {
+            let reach = Reach::of(&station, antenna, None);
+            let now = reach.bounds.at(noon());
+            let open_deg = reach.open_sky_deg(&now).unwrap();
+            let [(from_deg, to_deg), _] = reach.slews.travel_deg;
+            for first_deg in [from_deg + 30.0, to_deg - 30.0] {
+                let place_deg = [first_deg, 60.0];
+                if now.has_room(place_deg, 3.0) {
+                    let what = format!("seed {}, case {case}: {place_deg:?}", SEED + 77);
+                    assert!(reach.is_way(place_deg, open_deg, &now), "{what} to {open_deg:?}");
+                }
+            }
+        }
+    }
+}
+
 /// The time between two samples counts only if both are in the beam.
 #[test]
 fn what_counts_of_a_pass_with_a_loss_begins_and_ends_in_the_beam() {
