@@ -8,7 +8,9 @@ use serde::Serialize;
 use super::{
     ListFormat, RowFormat, Satellite, Time, civil,
     passes::{about_elevations, degrees, is_refracted, turn},
-    rounded, write_rows,
+    rounded,
+    rows::{rfc3339, to_millisecond},
+    write_rows,
 };
 use crate::astro::{Site, time};
 
@@ -76,10 +78,7 @@ impl LookList<'_> {
         for row in self.rows() {
             let Time(at) = row.time;
             let shown = if is_fine {
-                format!("{:.3}", at.round(jiff::Unit::Millisecond).unwrap_or(at))
-                    .replace('T', " ")
-                    .trim_end_matches('Z')
-                    .to_owned()
+                rfc3339::<3>(to_millisecond(at)).replace('T', " ").trim_end_matches('Z').to_owned()
             } else {
                 civil(at, "%Y-%m-%d %H:%M:%S")
             };

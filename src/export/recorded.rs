@@ -31,9 +31,9 @@ struct Point<'a> {
     across_deg: f64,
 }
 
-/// A report with what happened in the pass.
+/// A pass with its report and what happened in it.
 #[derive(Serialize)]
-struct Report<'a> {
+struct Pass<'a> {
     antenna: &'a str,
     satellite: u32,
     name: &'a str,
@@ -42,10 +42,10 @@ struct Report<'a> {
 }
 
 #[derive(Serialize)]
-struct Reports<'a> {
+struct Whole<'a> {
     format_version: u32,
     program: &'static str,
-    passes: Vec<Report<'a>>,
+    passes: Vec<Pass<'a>>,
 }
 
 /// Writes the points of the tracks of these passes as comma-separated values.
@@ -66,14 +66,14 @@ pub fn points(out: &mut impl Write, passes: &[OpenedPass]) -> io::Result<()> {
 
 /// Writes the reports of these passes with their entries as JSON; `docs/record.md` tells the fields.
 pub fn reports(out: &mut impl Write, passes: &[OpenedPass]) -> io::Result<()> {
-    let passes = passes.iter().map(|opened| Report {
+    let passes = passes.iter().map(|opened| Pass {
         antenna: &opened.pass.antenna_name,
         satellite: opened.pass.report.elements.catalog_number(),
         name: opened.pass.report.elements.name(),
         report: &opened.pass.report,
         entries: &opened.entries,
     });
-    let whole = Reports {
+    let whole = Whole {
         format_version: FORMAT_VERSION,
         program: concat!("Azel ", env!("CARGO_PKG_VERSION")),
         passes: passes.collect(),

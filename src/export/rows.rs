@@ -5,7 +5,7 @@ use std::{
     io::{self, Write},
 };
 
-use jiff::{Timestamp, Unit};
+use jiff::{Timestamp, fmt::temporal::DateTimePrinter};
 use rayon::prelude::*;
 use serde::{Serialize, Serializer};
 
@@ -65,9 +65,24 @@ pub struct Time(pub Timestamp);
 
 impl Serialize for Time {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let rounded = self.0.round(Unit::Millisecond).unwrap_or(self.0);
-        serializer.collect_str(&format_args!("{rounded:.3}"))
+        serializer.serialize_str(&rfc3339::<3>(to_millisecond(self.0)))
     }
+}
+
+/// The nearest millisecond; half of one is rounded away from 1970.
+pub(super) fn to_millisecond(time: Timestamp) -> Timestamp {
+    let nanoseconds = time.subsec_nanosecond();
+    let milliseconds = (nanoseconds.abs() + 500_000) / 1_000_000 * nanoseconds.signum();
+    let since_1970 = time.as_second() * 1000 + i64::from(milliseconds);
+    Timestamp::from_millisecond(since_1970).unwrap_or(time)
+}
+
+/// A time in RFC 3339, UTC, with these decimals of a second; further ones are cut off.
+pub(super) fn rfc3339<const DECIMALS: u8>(time: Timestamp) -> String {
+    let mut text = String::with_capacity(32);
+    // Appending to a string cannot fail.
+    let _ = DateTimePrinter::new().precision(Some(DECIMALS)).print_timestamp(&time, &mut text);
+    text
 }
 
 /// Rounds to the nearest multiple of one divided by `parts`.

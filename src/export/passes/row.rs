@@ -7,7 +7,7 @@ use serde::{Serialize, Serializer};
 use super::{ExportedPass, View, degrees, times};
 use crate::{
     astro::sun_moon,
-    export::{RowFormat, Time, rounded},
+    export::{RowFormat, Time, rounded, rows::rfc3339},
     orbit::{Distance, OverGround, Propagator, is_lit},
 };
 
@@ -42,13 +42,37 @@ pub(super) struct Row<'a> {
     aos_range_rate_km_s: Option<f64>,
     tca_range_rate_km_s: Option<f64>,
     los_range_rate_km_s: Option<f64>,
-    /// `None` where no carrier is given; then the column is left out.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    aos_doppler_hz: Option<Option<f64>>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    tca_doppler_hz: Option<Option<f64>>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    los_doppler_hz: Option<Option<f64>>,
+    #[serde(skip_serializing_if = "Doppler::is_left_out")]
+    aos_doppler_hz: Doppler,
+    #[serde(skip_serializing_if = "Doppler::is_left_out")]
+    tca_doppler_hz: Doppler,
+    #[serde(skip_serializing_if = "Doppler::is_left_out")]
+    los_doppler_hz: Doppler,
+}
+
+/// A Doppler shift.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+enum Doppler {
+    /// No carrier is given, so that there is no such column.
+    #[default]
+    LeftOut,
+    Unknown,
+    Hertz(f64),
+}
+
+impl Doppler {
+    fn is_left_out(&self) -> bool {
+        *self == Self::LeftOut
+    }
+}
+
+impl Serialize for Doppler {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Self::LeftOut | Self::Unknown => serializer.serialize_none(),
+            Self::Hertz(hertz) => serializer.serialize_f64(*hertz),
+        }
+    }
 }
 
 /// An epoch, with microseconds: it has no digits beyond them.
@@ -57,7 +81,7 @@ struct Epoch(jiff::Timestamp);
 
 impl Serialize for Epoch {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_str(&format_args!("{:.6}", self.0))
+        serializer.serialize_str(&rfc3339::<6>(self.0))
     }
 }
 
@@ -66,13 +90,13 @@ impl Serialize for Epoch {
 struct Seen {
     range_km: f64,
     range_rate_km_s: f64,
-    doppler_hz: Option<f64>,
+    doppler_hz: Doppler,
 }
 
 impl<'a> Row<'a> {
     /// A row with the columns that rows with or without Doppler shifts have.
     pub(super) fn like(has_doppler: bool) -> Self {
-        let doppler = has_doppler.then_some(None);
+        let doppler = if has_doppler { Doppler::Unknown } else { Doppler::LeftOut };
         let [aos_doppler_hz, tca_doppler_hz, los_doppler_hz] = [doppler; 3];
         Self { aos_doppler_hz, tca_doppler_hz, los_doppler_hz, ..Self::default() }
     }
@@ -98,7 +122,9 @@ impl<'a> Row<'a> {
         let seen = |distance: Distance| Seen {
             range_km: rounded(distance.range_km, 1e3),
             range_rate_km_s: rounded(distance.range_rate_km_s, 1e6),
-            doppler_hz: view.carrier_hz.map(|hertz| rounded(distance.doppler_hz(hertz), 10.0)),
+            doppler_hz: view.carrier_hz.map_or(Doppler::LeftOut, |hertz| {
+                Doppler::Hertz(rounded(distance.doppler_hz(hertz), 10.0))
+            }),
         };
         let at = |place: &Option<OverGround>, time| {
             place.as_ref().map(|place| seen(view.distance(satellite, place, time, seen)))
@@ -108,8 +134,11 @@ impl<'a> Row<'a> {
         let tca = at(tca_place, pass.tca.time);
         let los = at(los_place, pass.los.time);
         let sun_km = sun_moon::sun_ecef_km(pass.tca.time);
-        let doppler_hz =
-            |seen: Option<Seen>| view.carrier_hz.map(|_| seen.and_then(|seen| seen.doppler_hz));
+        let doppler_hz = |seen: Option<Seen>| match (seen, view.carrier_hz) {
+            (Some(seen), _) => seen.doppler_hz,
+            (None, Some(_)) => Doppler::Unknown,
+            (None, None) => Doppler::LeftOut,
+        };
         Self {
             catalog_number: elements.catalog_number(),
             name: format.text(elements.name()),

@@ -208,8 +208,8 @@ impl Alarms {
         self.unopened |= shelved_until.is_none();
     }
 
-    /// Raises `present`, or lets it stand, and ends the other alarms of `antenna` for which
-    /// `is_of_matter` returns `true`. A cause that is known by now is added to the alarm that stands.
+    /// Raises `present`, or lets it stand in its present words, and ends the other alarms of `antenna`
+    /// for which `is_of_matter` returns `true`.
     pub fn follow(
         &mut self,
         antenna: Option<AntennaId>,
@@ -220,25 +220,25 @@ impl Alarms {
         let is_present =
             |kind: &AlarmKind| present.as_ref().is_some_and(|present| same_matter(present, kind));
         self.clear(antenna, now, |kind| is_of_matter(kind) && !is_present(kind));
-        if let Some(AlarmKind::OffTarget { cause: Some(present), .. }) = &present {
-            self.change(
-                |alarm| {
-                    let known = matches!(
-                        &alarm.kind,
-                        AlarmKind::OffTarget { cause, .. } if cause.as_ref() != Some(present)
-                    );
-                    known && alarm.antenna == antenna && !alarm.is_over()
-                },
-                |alarm| {
-                    if let AlarmKind::OffTarget { cause, .. } = &mut alarm.kind {
-                        *cause = Some(present.clone());
-                    }
-                },
-            );
-        }
         if let Some(present) = present {
+            self.restate(antenna, &present);
             self.raise(antenna, present, now);
         }
+    }
+
+    /// Brings a standing alarm of the matter of `present` up to date.
+    pub fn restate(&mut self, antenna: Option<AntennaId>, present: &AlarmKind) {
+        self.change(
+            |alarm| {
+                let is_standing = alarm.antenna == antenna && !alarm.is_over();
+                is_standing && alarm.kind.restated(present).is_some()
+            },
+            |alarm| {
+                if let Some(kind) = alarm.kind.restated(present) {
+                    alarm.kind = kind;
+                }
+            },
+        );
     }
 
     /// Removes the alarms of antennas that are not among `antennas`.

@@ -236,6 +236,9 @@ impl Engine {
         {
             alarms.clear(of, now, |kind| *kind == AlarmKind::StopNotConfirmed);
         }
+        if let LinkState::Lost { reason, .. } = &snapshot.link {
+            alarms.restate(of, &AlarmKind::LinkLost(reason.clone()));
+        }
         match snapshot.left_moving {
             Some(LeftMoving { since }) => {
                 let matter = Safety::LeftMoving { since, asks: true };

@@ -20,7 +20,9 @@ pub enum LinkStatus {
     /// The unit is locked out for maintenance.
     InMaintenance,
     Connecting,
-    /// Replies are missing, or the link is lost.
+    /// Replies are late or missing.
+    Late,
+    /// The link is lost.
     NoAnswer,
     /// This console has no link and is not trying to connect.
     NotConnected,
@@ -126,6 +128,7 @@ fn status_tag(ui: &Ui, row: Rect, status: LinkStatus) -> f32 {
         LinkStatus::Connected => ("Connected", t.ok),
         LinkStatus::InMaintenance => ("In maintenance", t.warn),
         LinkStatus::Connecting => ("Connecting", t.t3),
+        LinkStatus::Late => ("Answers late", t.warn),
         LinkStatus::NoAnswer => ("No answer", t.warn),
         LinkStatus::NotConnected => ("Not connected", t.t3),
         LinkStatus::Elsewhere => ("Driven elsewhere", t.warn),

@@ -239,9 +239,8 @@ fn link_status(antenna: &AntennaModel) -> LinkStatus {
         _ if snapshot.lock_out.is_some() => LinkStatus::InMaintenance,
         LinkState::Up { .. } if antenna.is_live() => LinkStatus::Connected,
         LinkState::Connecting { .. } => LinkStatus::Connecting,
-        LinkState::Up { .. } | LinkState::Stale { .. } | LinkState::Lost { .. } => {
-            LinkStatus::NoAnswer
-        }
+        LinkState::Stale { .. } => LinkStatus::Late,
+        LinkState::Up { .. } | LinkState::Lost { .. } => LinkStatus::NoAnswer,
     }
 }
 

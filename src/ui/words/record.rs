@@ -299,9 +299,9 @@ pub fn explained(explained: &Explained) -> Option<String> {
         [] => None,
         [only] => {
             let causes = together(only.causes().map(cause_now));
-            Some(format!("{causes}: {} of the error of {error}.", explains(only)))
+            Some(format!("{causes}: {} of the rms error of {error}.", explains(only)))
         }
-        several => Some(format!("The error of {error} may come from {}.", one_of(several))),
+        several => Some(format!("The rms error of {error} may come from {}.", one_of(several))),
     }
 }
 
@@ -325,6 +325,13 @@ fn cause_now(of: &Cause) -> String {
         }
         Cause::ElevationOffset { offset_deg } => {
             format!("The elevation is off by {}", deg(*offset_deg))
+        }
+        Cause::Stuck { since, axis } => {
+            let since = format::second_of_day(*since);
+            match axis {
+                None => format!("Both axes stand since {since}"),
+                Some(axis) => format!("{} stands since {since}", axis_as_subject(*axis)),
+            }
         }
         of => cause_as_subject(of),
     }
@@ -585,7 +592,7 @@ mod tests {
         assert_eq!(said(&[]), None);
         assert_eq!(
             said(&[late]).as_deref(),
-            Some("The antenna is 0.40 s late: that explains 97 % of the error of 0.50°.")
+            Some("The antenna is 0.40 s late: that explains 97 % of the rms error of 0.50°.")
         );
         assert_eq!(
             said(&[late, set, azimuth]).as_deref(),

@@ -38,7 +38,10 @@ impl Session {
         let last = self.gate.state().traffic.last_reply.map_or(start, |reply| reply.max(start));
         let age = now.steady.saturating_duration_since(last);
         if age >= self.gate.device().patience() {
-            let heard = self.gate.state().traffic.last_unreadable.is_some_and(|heard| heard > last);
+            // Not every try hears as much.
+            let since = self.contact.away_since.map_or(last, |away| away.min(last));
+            let unreadable = self.gate.state().traffic.last_unreadable;
+            let heard = unreadable.is_some_and(|heard| heard > since);
             return Some(if heard { LinkLoss::Unreadable } else { LinkLoss::Silent });
         }
         let patience = self.gate.device().poll_period() * 2;

@@ -62,17 +62,20 @@ impl Session {
         }
     }
 
-    /// Largest angle off target of an antenna whose beam holds it: half the beam, and the tolerance of
-    /// the reading.
+    /// Largest angle off target of an antenna whose beam holds it: half the beam, and what rounding
+    /// both angles to their resolution makes at most, with the noise.
     pub(super) fn in_beam(&self) -> Angle {
-        let reading_deg = 2.0 * self.variant.capabilities.standstill.resolution_deg;
-        let tolerance_deg = reading_deg + self.figures().tolerance_deg();
-        self.setup.ability.half_beam + Angle::from_degrees(tolerance_deg)
+        let resolution_deg = self.variant.capabilities.standstill.resolution_deg;
+        let error_deg = resolution_deg + self.figures().tolerance_deg();
+        self.setup.ability.half_beam + Angle::from_degrees(error_deg)
     }
 
-    /// Largest angle off target of a working antenna: that, and the tolerance of an arrival.
+    /// Largest angle off target of a working antenna: that, the tolerance of an arrival, and as much
+    /// again of rounding, for a unit that cuts its angles off.
     pub(super) fn on_target(&self) -> Angle {
-        self.in_beam() + Angle::from_degrees(self.variant.capabilities.arrives_within_deg)
+        let can = self.variant.capabilities;
+        let more_deg = can.standstill.resolution_deg + can.arrives_within_deg;
+        self.in_beam() + Angle::from_degrees(more_deg)
     }
 }
 

@@ -286,6 +286,20 @@ impl AlarmKind {
     }
 }
 
+impl AlarmKind {
+    /// What a standing alarm says now that its matter is `present`; `None` for nothing new. The first
+    /// error of an antenna that is off its satellite stays, and so does a cause once it is known.
+    pub(super) fn restated(&self, present: &Self) -> Option<Self> {
+        match (self, present) {
+            (Self::OffTarget { off, cause: before }, Self::OffTarget { cause, .. }) => {
+                let is_news = cause.is_some() && cause != before;
+                is_news.then(|| Self::OffTarget { off: *off, cause: cause.clone() })
+            }
+            _ => (same_matter(self, present) && self != present).then(|| present.clone()),
+        }
+    }
+}
+
 /// Compares two alarms, ignoring figures that change while the matter stays.
 pub(super) fn same_matter(a: &AlarmKind, b: &AlarmKind) -> bool {
     match (a, b) {

@@ -80,10 +80,10 @@ fn entails(cause: &AlarmKind, effect: &AlarmKind) -> bool {
                 | K::Unanswered(_)
                 | K::EndedShort
                 | K::TrackingEnded
-                | K::OffTarget { .. }
+                | K::OffTarget { cause: None, .. }
         ),
         K::ClockOff(_) | K::ClockNotSet => {
-            matches!(effect, K::OffTarget { .. } | K::UnitDiffers(_))
+            matches!(effect, K::OffTarget { cause: None, .. } | K::UnitDiffers(_))
         }
         _ => false,
     }

@@ -64,14 +64,25 @@ fn a_cause_that_is_found_later_comes_into_the_alarm_that_stands() {
 }
 
 #[test]
+fn a_lost_link_says_why_it_cannot_be_had_again() {
+    let mut alarms = Alarms::default();
+    alarms.raise(LOST_OF, AlarmKind::LinkLost(LinkLoss::Closed), time());
+    alarms.restate(LOST_OF, &AlarmKind::LinkLost(LinkLoss::OtherDevice));
+    let kinds: Vec<&AlarmKind> = alarms.list().iter().map(|alarm| &alarm.kind).collect();
+    assert_eq!(kinds, [&AlarmKind::LinkLost(LinkLoss::OtherDevice)]);
+}
+
+#[test]
 fn another_cause_ends_the_alarm_of_the_one_before() {
     let mut alarms = Alarms::default();
     let elements = Cause::Elements { told_deg: 40.0, expected_deg: 71.0 };
-    for cause in [elements, Cause::Clock { ahead_s: 12.0 }] {
-        let differs = AlarmKind::UnitDiffers(Ranked { cause, off: None });
+    let differs = |cause| AlarmKind::UnitDiffers(Ranked { cause, off: None });
+    for cause in [elements, Cause::Clock { ahead_s: 12.0 }, Cause::Clock { ahead_s: 14.0 }] {
         let is_of_matter = |kind: &AlarmKind| matches!(kind, AlarmKind::UnitDiffers(_));
-        alarms.follow(LOST_OF, time(), Some(differs), is_of_matter);
+        alarms.follow(LOST_OF, time(), Some(differs(cause)), is_of_matter);
     }
+    let standing = alarms.list().last().unwrap();
+    assert_eq!(standing.kind, differs(Cause::Clock { ahead_s: 14.0 }), "the figures of now");
     assert_eq!(
         states(&alarms),
         [AlarmState::NewAndOver { since: time() }, AlarmState::New],
