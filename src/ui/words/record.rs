@@ -596,7 +596,9 @@ mod tests {
         );
         assert_eq!(
             said(&[late, set, azimuth]).as_deref(),
-            Some("The error of 0.50° may come from time offset, other elements or azimuth offset.")
+            Some(
+                "The rms error of 0.50° may come from time offset, other elements or azimuth offset."
+            )
         );
         let y = Cause::Stuck { since: Timestamp::UNIX_EPOCH, axis: Some(Axis::Y) };
         assert_eq!(cause(&y), "Y stuck");
