@@ -47,8 +47,8 @@ impl LookList<'_> {
             ListFormat::Csv => RowFormat::Csv,
             ListFormat::Json => RowFormat::Json,
         };
-        let like = Row { doppler_hz: self.carrier_hz, ..Row::default() };
-        write_rows(out, row_format, ("look_angles", &[]), &like, self.rows())
+        let columns = Row { doppler_hz: self.carrier_hz, ..Row::default() };
+        write_rows(out, row_format, ("look_angles", &[]), &columns, self.rows())
     }
 
     fn rows(&self) -> impl Iterator<Item = Row> {

@@ -71,11 +71,11 @@ impl View {
         written: impl Fn(Distance) -> T,
     ) -> Distance {
         let distance = near.distance_from(self.site.ecef_km);
-        let beside = |side: f64| Distance {
+        let shifted = |side: f64| Distance {
             range_km: distance.range_km + side * NEAR_KM,
             range_rate_km_s: distance.range_rate_km_s + side * NEAR_KM_S,
         };
-        if written(beside(-1.0)) == written(beside(1.0)) {
+        if written(shifted(-1.0)) == written(shifted(1.0)) {
             return distance;
         }
         let exact = satellite.propagator.state_at(at);
@@ -167,9 +167,9 @@ impl PassList<'_> {
         rows: impl Iterator<Item = ExportedPass<'a>>,
     ) -> io::Result<()> {
         let view = self.view();
-        let like = Row::like(self.carrier_hz.is_some());
+        let columns = Row::columns(self.carrier_hz.is_some());
         let make = |rows: &[ExportedPass<'a>]| Row::of_all(&view, format, rows);
-        write_many(out, format, ("passes", &[]), &like, rows, make)
+        write_many(out, format, ("passes", &[]), &columns, rows, make)
     }
 
     fn site(&self) -> Site {

@@ -99,16 +99,16 @@ fn io_error(error: csv::Error) -> io::Error {
     }
 }
 
-/// Writes `rows` in their order. The columns of CSV are the fields of `like`. JSON is an object with
+/// Writes `rows` in their order. The columns of CSV are the fields of `columns`. JSON is an object with
 /// `format_version`, the fields of `about`, and the rows under `name`.
 pub fn write_rows<R: Serialize>(
     out: &mut impl Write,
     format: RowFormat,
     (name, about): (&str, &[(&str, serde_json::Value)]),
-    like: &R,
+    columns: &R,
     rows: impl IntoIterator<Item = R>,
 ) -> io::Result<()> {
-    write_lines(out, format, (name, about), like, [format.lines(rows)])
+    write_lines(out, format, (name, about), columns, [format.lines(rows)])
 }
 
 /// Writes a row for each of `items`, in their order. `make` makes the rows of some hundred items, in
@@ -118,7 +118,7 @@ pub(super) fn write_many<T: Send + Sync, R: Serialize>(
     out: &mut impl Write,
     format: RowFormat,
     (name, about): (&str, &[(&str, serde_json::Value)]),
-    like: &R,
+    columns: &R,
     mut items: impl Iterator<Item = T>,
     make: impl Fn(&[T]) -> Vec<R> + Sync,
 ) -> io::Result<()> {
@@ -127,20 +127,20 @@ pub(super) fn write_many<T: Send + Sync, R: Serialize>(
         let lines = |chunk: &[T]| format.lines(make(chunk));
         (!taken.is_empty()).then(|| taken.par_chunks(CHUNK).map(lines).collect::<Vec<_>>())
     });
-    write_lines(out, format, (name, about), like, texts.flatten())
+    write_lines(out, format, (name, about), columns, texts.flatten())
 }
 
 fn write_lines<R: Serialize>(
     out: &mut impl Write,
     format: RowFormat,
     (name, about): (&str, &[(&str, serde_json::Value)]),
-    like: &R,
+    columns: &R,
     texts: impl IntoIterator<Item = io::Result<Vec<u8>>>,
 ) -> io::Result<()> {
     match format {
         RowFormat::Csv => {
             let mut header = csv::Writer::from_writer(Vec::new());
-            header.serialize(like).map_err(io_error)?;
+            header.serialize(columns).map_err(io_error)?;
             let header = header.into_inner().map_err(csv::IntoInnerError::into_error)?;
             out.write_all(
                 header.split_inclusive(|byte| *byte == b'\n').next().unwrap_or_default(),

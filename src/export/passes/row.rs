@@ -95,7 +95,7 @@ struct Seen {
 
 impl<'a> Row<'a> {
     /// A row with the columns that rows with or without Doppler shifts have.
-    pub(super) fn like(has_doppler: bool) -> Self {
+    pub(super) fn columns(has_doppler: bool) -> Self {
         let doppler = if has_doppler { Doppler::Unknown } else { Doppler::LeftOut };
         let [aos_doppler_hz, tca_doppler_hz, los_doppler_hz] = [doppler; 3];
         Self { aos_doppler_hz, tca_doppler_hz, los_doppler_hz, ..Self::default() }

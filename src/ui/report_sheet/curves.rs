@@ -63,7 +63,7 @@ impl Plot {
 }
 
 /// Words at the right of a plot.
-fn beside(y: f64, words: &str) -> Markup {
+fn note(y: f64, words: &str) -> Markup {
     plot::text("", [WIDTH - WORDS + 5.0, y], words)
 }
 
@@ -101,7 +101,7 @@ fn direction(plot: &Plot, words: &str, opened: &OpenedPass, value: fn(AzEl) -> f
         @for third in 0..=3_u8 {
             (plot.line(bottom + (top - bottom) * f64::from(third) / 3.0, 0))
         }
-        (beside(plot.top + 7.0, words))
+        (note(plot.top + 7.0, words))
         @for piece in predicted {
             @let points: Vec<_> = piece.iter().map(|it| place(it.time, of_path(it))).collect();
             (plot::line("thin dashed", &points))
@@ -127,9 +127,9 @@ fn errors(plot: &Plot, half_beam_deg: f64, opened: &OpenedPass) -> Markup {
     html! {
         @for line in -lines..=lines { (plot.line(f64::from(line) * step, decimals)) }
         (plot::line("thin long", &[[NUMBERS, edge], [WIDTH - WORDS, edge]]))
-        (beside(edge + 2.3, &format!("half beam {}", format::degrees(half_beam_deg, 2))))
+        (note(edge + 2.3, &format!("half beam {}", format::degrees(half_beam_deg, 2))))
         @for (row, words) in [(0, "solid: off axis"), (1, "dashed: el"), (2, "dots: cross-el")] {
-            (beside(plot.y(0.0) + 9.0 * f64::from(row) + 2.3, words))
+            (note(plot.y(0.0) + 9.0 * f64::from(row) + 2.3, words))
         }
         @for piece in recorded_track::pieces(&opened.track) {
             (plot::line("thin dotted", &curve(piece, &across)))
