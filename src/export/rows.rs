@@ -108,7 +108,12 @@ pub fn write_rows<R: Serialize>(
     columns: &R,
     rows: impl IntoIterator<Item = R>,
 ) -> io::Result<()> {
-    write_lines(out, format, (name, about), columns, [format.lines(rows)])
+    let mut rows = rows.into_iter();
+    let texts = std::iter::from_fn(|| {
+        let mut chunk = rows.by_ref().take(AT_ONCE).peekable();
+        chunk.peek().is_some().then(|| format.lines(chunk))
+    });
+    write_lines(out, format, (name, about), columns, texts)
 }
 
 /// Writes a row for each of `items`, in their order. `make` makes the rows of some hundred items, in
@@ -226,6 +231,26 @@ mod tests {
         let none: serde_json::Value =
             serde_json::from_str(&written(RowFormat::Json, 0, 1)).unwrap();
         assert_eq!(none["rows"], serde_json::json!([]));
+    }
+
+    #[test]
+    fn rows_are_written_while_they_are_made() {
+        struct Short(usize);
+        impl io::Write for Short {
+            fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+                self.0 = self.0.checked_sub(bytes.len()).ok_or(io::ErrorKind::BrokenPipe)?;
+                Ok(bytes.len())
+            }
+            fn flush(&mut self) -> io::Result<()> {
+                Ok(())
+            }
+        }
+        for format in [RowFormat::Csv, RowFormat::Json] {
+            let endless = (0..).map(|number| row(format, number));
+            let columns = row(format, 0);
+            let error = write_rows(&mut Short(10_000), format, ("rows", &[]), &columns, endless);
+            assert_eq!(error.unwrap_err().kind(), io::ErrorKind::BrokenPipe);
+        }
     }
 
     #[test]

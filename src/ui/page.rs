@@ -70,7 +70,7 @@ pub(super) fn place(site: Site) -> String {
 pub(super) fn printable(text: &str) -> String {
     let is_unseen = |letter: char| {
         letter.is_control()
-            || matches!(letter, '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}')
+            || matches!(letter, '\u{61c}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}')
             || matches!(letter, '\u{2060}'..='\u{206f}' | '\u{feff}' | '\u{fff0}'..='\u{ffff}')
     };
     let words = text.split(|letter: char| letter.is_whitespace() || is_unseen(letter));

@@ -111,6 +111,20 @@ async fn noise_alone_is_told_as_unreadable() {
 }
 
 #[tokio::test(start_paused = true)]
+async fn a_new_link_is_not_late_for_the_position_of_the_one_before() {
+    let mut rig = Rig::pair().await;
+    rig.send(Command::Disconnect);
+    rig.seconds(60.0).await;
+    assert!(rig.shown().state.measured.is_some());
+    rig.send(Command::Connect);
+    for _ in 0..200 {
+        rig.seconds(0.01).await;
+        assert!(!matches!(rig.shown().link, LinkState::Stale { .. }), "{:?}", rig.shown().link);
+    }
+    rig.until_up(1).await;
+}
+
+#[tokio::test(start_paused = true)]
 async fn a_web_server_that_closes_at_once_is_another_device() {
     let script =
         |_: &str| vec![(10, b"HTTP/1.1 400 Bad Request\r\n\r\n".to_vec()), (11, Vec::new())];

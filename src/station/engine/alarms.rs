@@ -226,6 +226,12 @@ impl Alarms {
         }
     }
 
+    /// Returns `true` if an alarm of the matter of `kind` stands.
+    pub(super) fn stands(&self, antenna: Option<AntennaId>, kind: &AlarmKind) -> bool {
+        let is_it = |alarm: &Alarm| alarm.antenna == antenna && same_matter(&alarm.kind, kind);
+        self.list.iter().any(|alarm| !alarm.is_over() && is_it(alarm))
+    }
+
     /// Brings a standing alarm of the matter of `present` up to date.
     pub fn restate(&mut self, antenna: Option<AntennaId>, present: &AlarmKind) {
         self.change(

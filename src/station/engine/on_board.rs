@@ -178,13 +178,20 @@ impl Engine {
         });
         let from_here = antenna.snapshot.program_track.as_ref().and_then(|view| view.missing);
         let missed = on_board.or(from_here.map(|off| (off, None))).map(|(off, reported)| {
-            let cause = antenna.off_because(reported.map(OffTargetCause::Reported));
+            let cause = antenna.off_because(off, reported.map(OffTargetCause::Reported));
             AlarmKind::OffTarget { off, cause }
         });
         let is_missed = |kind: &AlarmKind| matches!(kind, AlarmKind::OffTarget { .. });
         alarms.follow(of, now, missed, is_missed);
-        let differs = antenna.misses().and_then(|found| found.causes.first().cloned());
-        let differs = differs.map(AlarmKind::UnitDiffers);
+        let differs = antenna.misses().and_then(|found| found.causes.first());
+        // Of two causes of nearly the same size, the one that stands goes on.
+        let standing = antenna.misses().into_iter().flat_map(|found| &found.causes).find(|cause| {
+            let kind = AlarmKind::UnitDiffers((*cause).clone());
+            let is_large =
+                differs.is_some_and(|first| first.off.is_none_or(|off| cause.can_make(off)));
+            is_large && alarms.stands(of, &kind)
+        });
+        let differs = standing.or(differs).cloned().map(AlarmKind::UnitDiffers);
         alarms.follow(of, now, differs, |kind| matches!(kind, AlarmKind::UnitDiffers(_)));
         let left = antenna.snapshot.unit_offsets.as_ref();
         let left = left.and_then(|unit| Some((unit.offsets, unit.left.clone()?)));
@@ -198,10 +205,15 @@ impl Engine {
 }
 
 impl AntennaModel {
-    /// Why the antenna is off its satellite: what its positions show, such as an axis that stands,
-    /// or else what the unit reports of itself.
-    pub(super) fn off_because(&self, reported: Option<OffTargetCause>) -> Option<OffTargetCause> {
-        self.explained.clone().map(OffTargetCause::Measured).or(reported)
+    /// Why the antenna is `off` its satellite: what its positions show, such as an axis that stands, or
+    /// else what the unit reports of itself.
+    pub(super) fn off_because(
+        &self,
+        off: Angle,
+        reported: Option<OffTargetCause>,
+    ) -> Option<OffTargetCause> {
+        let explained = self.explained.as_ref().filter(|explained| explained.can_make(off));
+        explained.cloned().map(OffTargetCause::Measured).or(reported)
     }
 
     /// Alarm for on-board track that cannot be compared with elements: the operator must

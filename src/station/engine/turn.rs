@@ -11,6 +11,7 @@ use super::{
     sources::{SourceWork, Task},
 };
 use crate::{
+    astro::Angle,
     clock::Moment,
     device::panel::CheckState,
     driver::{Event, LeftMoving, LinkState, Refusal, Safety, StopState, TimeSync},
@@ -184,9 +185,10 @@ impl Engine {
     pub(super) fn take_event(&mut self, index: usize, mut event: Event) {
         let now = self.now;
         let Some(shown) = self.antennas.get(index).map(|antenna| &antenna.shown) else { return };
-        if let Event::Safety(Safety::OffTarget { cause, .. }) = &mut event {
+        if let Event::Safety(Safety::OffTarget { off_deg, cause }) = &mut event {
             let reported = cause.take().map(|cause| *cause);
-            *cause = shown.off_because(reported).map(Box::new);
+            let off = Angle::from_degrees(*off_deg);
+            *cause = shown.off_because(off, reported).map(Box::new);
         }
         let id = shown.id();
         let antenna = Some(id);

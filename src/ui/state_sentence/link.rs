@@ -64,7 +64,7 @@ fn silent(model: &Model, antenna: &AntennaModel) -> Option<Spoken> {
         return None;
     }
     if silent_s < SILENT_FROM_S {
-        let old_s = age_s(model, state.measured?.asked);
+        let old_s = age_s(model, state.measured_on_link()?.asked);
         return (old_s >= SILENT_FROM_S).then(|| {
             let name = &antenna.config.name;
             let words =

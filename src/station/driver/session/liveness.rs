@@ -10,6 +10,8 @@ use crate::{
 
 /// A unit that answers in time answers within this time.
 const LATE_REPLY: Duration = Duration::from_secs(1);
+/// Noise that is older than this says nothing of a unit that is silent now.
+const HEARD: Duration = Duration::from_secs(30);
 
 impl Session {
     /// The link is gone; the next attempt is at `retry_at`.
@@ -38,14 +40,16 @@ impl Session {
         let last = self.gate.state().traffic.last_reply.map_or(start, |reply| reply.max(start));
         let age = now.steady.saturating_duration_since(last);
         if age >= self.gate.device().patience() {
-            // Not every try hears as much.
-            let since = self.contact.away_since.map_or(last, |away| away.min(last));
             let unreadable = self.gate.state().traffic.last_unreadable;
-            let heard = unreadable.is_some_and(|heard| heard > since);
+            let heard = unreadable.is_some_and(|heard| {
+                // Not every try hears as much.
+                let is_young = now.steady.saturating_duration_since(heard) < HEARD;
+                heard > last || self.contact.away_since.is_some_and(|away| heard > away && is_young)
+            });
             return Some(if heard { LinkLoss::Unreadable } else { LinkLoss::Silent });
         }
         let patience = self.gate.device().poll_period() * 2;
-        let asked = self.gate.state().measured.map(|measured| measured.asked);
+        let asked = self.gate.state().measured_on_link().map(|measured| measured.asked);
         let is_old = |asked| now.steady.saturating_duration_since(asked) > patience + LATE_REPLY;
         let late = age > patience || asked.is_some_and(is_old);
         match (&self.contact.link, late) {
@@ -65,7 +69,7 @@ impl Session {
     pub(super) fn link_due(&mut self) -> Option<Instant> {
         let state = self.gate.state();
         let last = state.traffic.last_reply.max(state.link_since)?;
-        let asked = state.measured.map(|measured| measured.asked + LATE_REPLY);
+        let asked = state.measured_on_link().map(|measured| measured.asked + LATE_REPLY);
         let wait = match self.contact.link {
             LinkState::Up { .. } => self.gate.device().poll_period() * 2 + Duration::from_millis(1),
             _ => return Some(last + self.gate.device().patience()),

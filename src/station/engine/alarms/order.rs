@@ -3,7 +3,10 @@
 use std::cmp::Reverse;
 
 use super::{Alarm, AlarmKind, Alarms};
-use crate::driver::Safety;
+use crate::{
+    driver::{OffTargetCause, Safety},
+    plan::on_board::Cause,
+};
 
 /// An alarm in its place in the list.
 #[derive(Debug, Clone, Copy)]
@@ -82,9 +85,13 @@ fn entails(cause: &AlarmKind, effect: &AlarmKind) -> bool {
                 | K::TrackingEnded
                 | K::OffTarget { cause: None, .. }
         ),
-        K::ClockOff(_) | K::ClockNotSet => {
-            matches!(effect, K::OffTarget { cause: None, .. } | K::UnitDiffers(_))
-        }
+        K::ClockOff(_) | K::ClockNotSet => match effect {
+            K::OffTarget { cause: Some(OffTargetCause::Reported(ranked)), .. } => {
+                matches!(ranked.cause, Cause::Clock { .. })
+            }
+            K::OffTarget { cause: None, .. } | K::UnitDiffers(_) => true,
+            _ => false,
+        },
         _ => false,
     }
 }

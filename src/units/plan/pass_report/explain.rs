@@ -15,7 +15,7 @@ use serde::{Deserialize, Serialize};
 
 pub use self::evidence::{Evidence, PathSource};
 use self::{evidence::Point, fit::Family};
-use crate::orbit::Propagator;
+use crate::{astro::Angle, orbit::Propagator};
 
 /// Fewer positions explain nothing.
 const MIN_POSITIONS: usize = 20;
@@ -157,6 +157,18 @@ pub struct Explained {
     pub causes: Vec<Explanation>,
     /// The error, root mean square, degrees.
     pub error_deg: f64,
+}
+
+/// Share of an error that the explained one has to be, to be named as its cause.
+const COMPARABLE_SHARE: f64 = 0.7;
+
+impl Explained {
+    /// Returns `true` if this explains an error of `off`. What explained the smaller error of the time
+    /// before need not, but the error of an axis that stands grows.
+    pub fn can_make(&self, off: Angle) -> bool {
+        let stands = |of: &Explanation| of.causes().any(|of| matches!(of, Cause::Stuck { .. }));
+        self.error_deg >= COMPARABLE_SHARE * off.degrees() || self.causes.iter().any(stands)
+    }
 }
 
 /// One or two causes with the sizes that fit best.

@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use jiff::Timestamp;
 
 use self::antennas::{drawn, measured, measured_of, normal, shaken, signed};
-use super::{Axis, Cause, Evidence, Explanation, PathSource};
+use super::{Axis, Cause, Evidence, Explained, Explanation, PathSource};
 use crate::{
     astro::{
         Angle, AzEl, Site,
@@ -688,5 +688,19 @@ fn the_refraction_that_a_unit_leaves_out_is_named_beside_any_other_cause() {
         // Azel leads by refraction, and has none to leave out.
         let named = found(&both, PathSource::Azel, &mut random);
         assert!(!named.iter().any(|it| it.causes().any(|it| *it == Cause::Refraction)));
+    }
+}
+
+#[test]
+fn what_explains_a_small_error_does_not_explain_a_large_one() {
+    let explained = |cause| {
+        let explanation = Explanation { cause, with: None, left_deg: 0.01, share: 0.97 };
+        Explained { causes: vec![explanation], error_deg: 0.5 }
+    };
+    let late = explained(Cause::Late { late_s: 0.4 });
+    let stuck = explained(Cause::Stuck { since: Timestamp::UNIX_EPOCH, axis: Some(Axis::X) });
+    for (off_deg, late_can, stuck_can) in [(0.6, true, true), (6.0, false, true)] {
+        let off = Angle::from_degrees(off_deg);
+        assert_eq!((late.can_make(off), stuck.can_make(off)), (late_can, stuck_can), "{off_deg}");
     }
 }
