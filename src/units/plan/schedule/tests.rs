@@ -118,7 +118,7 @@ fn assert_counts(entry: &Entry, list: &[Candidate], day: u32) {
 
 #[test]
 fn no_two_entries_come_closer_than_the_way_round_keep_outs_and_set_up() {
-    let (pairs, detours, _) = behind_keep_outs((3, 6, 5.0), &kinds()[..3]);
+    let (pairs, detours, _) = behind_keep_outs((4, 6, 5.0), &kinds()[..3]);
     assert!(pairs > 15 && detours > 5, "{pairs} {detours}");
 }
 
