@@ -318,6 +318,7 @@ fn a_silent_unit_is_not_said_to_do_what_it_did_last() {
     assert!(on_a_new_link.starts_with("No reply from Satrak for 30 s."), "{on_a_new_link}");
     let late = told(states::tracking(0.0), |model, snapshot| {
         snapshot.link = LinkState::Stale { as_of: rig::ago(model, 5) };
+        snapshot.state.link_since = Some(rig::ago(model, 60));
         snapshot.state.traffic.last_reply = Some(rig::ago(model, 1));
         if let Some(measured) = &mut snapshot.state.measured {
             measured.asked = rig::ago(model, 5);
