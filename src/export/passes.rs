@@ -168,7 +168,7 @@ impl PassList<'_> {
     ) -> io::Result<()> {
         let view = self.view();
         let columns = Row::columns(self.carrier_hz.is_some());
-        let make = |rows: &[ExportedPass<'a>]| Row::of_all(&view, format, rows);
+        let make = |rows: &[ExportedPass<'a>]| Row::all(&view, format, rows);
         write_many(out, format, ("passes", &[]), &columns, rows, make)
     }
 

@@ -58,7 +58,7 @@ pub fn points(out: &mut impl Write, passes: &[OpenedPass]) -> io::Result<()> {
             antenna: antenna.clone(),
             satellite,
             name: name.clone(),
-            ..Point::of(point)
+            ..Point::new(point)
         })
     });
     write_rows(out, RowFormat::Csv, ("points", &[]), &Point::default(), points)
@@ -83,7 +83,7 @@ pub fn reports(out: &mut impl Write, passes: &[OpenedPass]) -> io::Result<()> {
 }
 
 impl Point<'_> {
-    fn of(point: &TrackPoint) -> Self {
+    fn new(point: &TrackPoint) -> Self {
         let TrackPoint { time, antenna, satellite, error } = point;
         let degrees = |value_deg| rounded(value_deg, 1e4);
         Self {

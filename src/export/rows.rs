@@ -191,7 +191,7 @@ mod tests {
     fn written(format: RowFormat, count: usize, threads: usize) -> String {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         let mut out = Vec::new();
-        let make = |numbers: &[usize]| numbers.iter().map(|it| row(format, *it)).collect();
+        let make = |numbers: &[usize]| numbers.iter().map(|number| row(format, *number)).collect();
         let about = [("site", serde_json::json!("Porto"))];
         pool.in_place_scope(|_| {
             write_many(&mut out, format, ("rows", &about), &row(format, 0), 0..count, make)

@@ -102,17 +102,17 @@ impl<'a> Row<'a> {
     }
 
     /// A row for each pass, in their order.
-    pub(super) fn of_all(view: &View, format: RowFormat, passes: &[ExportedPass<'a>]) -> Vec<Self> {
+    pub(super) fn all(view: &View, format: RowFormat, passes: &[ExportedPass<'a>]) -> Vec<Self> {
         let wanted: Vec<_> = passes
             .iter()
             .flat_map(|row| times(&row.pass).map(|at| (&row.satellite.propagator, at)))
             .collect();
         let places = Propagator::over_ground(&wanted);
         let rows = passes.iter().zip(places.as_chunks().0);
-        rows.map(|(row, places)| Self::of(view, format, row, places)).collect()
+        rows.map(|(row, places)| Self::new(view, format, row, places)).collect()
     }
 
-    fn of(
+    fn new(
         view: &View,
         format: RowFormat,
         ExportedPass { satellite, pass }: &ExportedPass<'a>,

@@ -303,7 +303,7 @@ pub enum LinkState {
     /// Open, but the last good reply is older than two poll periods, or the position was asked for
     /// longer ago than a unit that answers in time makes possible.
     Stale {
-        /// What the unit reports is of this instant.
+        /// The instant to which the newest report belongs.
         #[serde(alias = "last_reply")]
         as_of: Instant,
     },

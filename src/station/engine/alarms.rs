@@ -165,15 +165,11 @@ impl Alarms {
     /// replaces alarms that it makes obsolete, and counts in the row of the same matter.
     pub fn raise(&mut self, antenna: Option<AntennaId>, kind: AlarmKind, now: Timestamp) {
         let is_same = |alarm: &Alarm| alarm.antenna == antenna && same_matter(&alarm.kind, &kind);
-        if let AlarmKind::DriverStands(_) | AlarmKind::StationStands(_) = kind {
-            let same = |alarm: &Alarm| !alarm.is_over() && is_same(alarm);
+        if let AlarmKind::DriverStands(_) | AlarmKind::StationStands(_) = kind
+            && self.stands(antenna, &kind)
+        {
             // The duration grows while the alarm stands.
-            if let Some(place) = self.list.iter().position(same) {
-                if let Some(standing) = Arc::make_mut(&mut self.list).get_mut(place) {
-                    standing.kind = kind;
-                }
-                return;
-            }
+            return self.restate(antenna, &kind);
         }
         let is_known = self.list.iter().any(|alarm| {
             let same = is_same(alarm) && !kind.is_momentary();
@@ -228,8 +224,8 @@ impl Alarms {
 
     /// Returns `true` if an alarm of the matter of `kind` stands.
     pub(super) fn stands(&self, antenna: Option<AntennaId>, kind: &AlarmKind) -> bool {
-        let is_it = |alarm: &Alarm| alarm.antenna == antenna && same_matter(&alarm.kind, kind);
-        self.list.iter().any(|alarm| !alarm.is_over() && is_it(alarm))
+        let is_same = |alarm: &Alarm| alarm.antenna == antenna && same_matter(&alarm.kind, kind);
+        self.list.iter().any(|alarm| !alarm.is_over() && is_same(alarm))
     }
 
     /// Brings a standing alarm of the matter of `present` up to date.

@@ -184,7 +184,7 @@ impl Engine {
         let is_missed = |kind: &AlarmKind| matches!(kind, AlarmKind::OffTarget { .. });
         alarms.follow(of, now, missed, is_missed);
         let differs = antenna.misses().and_then(|found| found.causes.first());
-        // Of two causes of nearly the same size, the one that stands goes on.
+        // Two causes of nearly the same size would ring in turn: the standing one goes on.
         let standing = antenna.misses().into_iter().flat_map(|found| &found.causes).find(|cause| {
             let kind = AlarmKind::UnitDiffers((*cause).clone());
             let is_large =

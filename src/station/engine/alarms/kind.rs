@@ -287,7 +287,7 @@ impl AlarmKind {
 }
 
 impl AlarmKind {
-    /// What a standing alarm says now that its matter is `present`; `None` for nothing new. The first
+    /// The kind of a standing alarm once its matter is `present`; `None` if nothing is new. The first
     /// error of an antenna that is off its satellite stays, and so does a cause once it is known.
     pub(super) fn restated(&self, present: &Self) -> Option<Self> {
         match (self, present) {
