@@ -13,15 +13,16 @@ use std::{hint::black_box, path::Path, time::Instant};
 use azel::{
     astro::{Angle, PointingModel, Site, time::add_seconds},
     clock::Clock,
+    contract::{
+        driver::TimeSync,
+        record::{AboutTrack, PassQuery, RecordedReport, TrackedBy},
+    },
     device::Pointing,
-    driver::TimeSync,
     orbit::{Elements, Pass, PassSearch, Propagator, bundled, passes},
     plan::pass_report::{
         Evidence, FlownOffsets, MeasuredPosition, PassReport, PassVerdict, PathSource,
     },
-    record::{
-        self, AboutTrack, PassNote, PassQuery, RecordedReport, Recorder, TrackedBy, open_pass,
-    },
+    record::{self, PassNote, Recorder, open_pass},
     station::{Antenna, AntennaId, Retention, Station},
 };
 use jiff::{Timestamp, ToSpan as _};

@@ -42,8 +42,9 @@ use self::{
 };
 use crate::{
     clock::Clock,
+    contract::driver::Snapshot,
     desktop::Desktop,
-    driver::{Outside, Snapshot},
+    driver::Outside,
     engine::{self, Client, Handle, Settings, antenna::AntennaModel},
     job::Wake,
     model::{Appearance, Model, UiCommand, View},

@@ -12,6 +12,7 @@ pub mod export;
 pub mod model;
 pub mod ui;
 
+pub use azel_contract as contract;
 pub use azel_orbit::{self as orbit, astro, name};
 pub use azel_station::{driver, engine, job, library, makes, record, rehearsal, sim, transfer};
 use azel_units::whole_file;

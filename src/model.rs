@@ -49,8 +49,12 @@ use self::{
 use crate::{
     astro::{HorizonMask, MaskForm},
     clock::{Instant, Moment},
+    contract::{
+        driver::{TimeSync, WireLog},
+        record,
+        record::Peaks,
+    },
     desktop::Outlets,
-    driver::{TimeSync, WireLog},
     engine::{
         CatalogState, Snapshot,
         alarms::{AlarmKind, Alarms},
@@ -69,7 +73,6 @@ use crate::{
         sources::Sources,
         uploads::Uploads,
     },
-    record::{self, Peaks},
     station::{AntennaId, Station},
 };
 

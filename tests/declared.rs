@@ -4,12 +4,12 @@
 use std::collections::BTreeSet;
 
 use azel::{
+    contract::driver::{Command, Event},
     device::{
         Variant,
         panel::{Act, Action},
         settings::{Access, Change, Field, Group, Kind, Secret, Value, Values, WriteError},
     },
-    driver::{Command, Event},
     makes,
     sim::{Control, Unit, rc2000c, rotator_genius, satrak},
     station::{Antenna, ControllerSpec, Station},
@@ -65,7 +65,7 @@ fn some_value(field: &Field) -> Value {
 async fn in_manual<U: Unit>(antenna: &Antenna, control: Control<U>) -> Rig<Control<U>> {
     let mut rig = Rig::new(control, START, |dial, clock| rig::session(antenna, dial, clock));
     rig.send(Command::Connect);
-    let is_known = |shown: &azel::driver::Snapshot| {
+    let is_known = |shown: &azel::contract::driver::Snapshot| {
         shown.state.measured.is_some() && shown.state.motion_lock == Some(false)
     };
     rig.until("it is read", OUTCOME_S, is_known).await;
@@ -92,7 +92,7 @@ async fn write_settings<U: Unit>(rig: &mut Rig<Control<U>>, group: &'static Grou
     }
     let change = Change { ticket, group: group.key, values, seen: None, is_unlocked: true };
     rig.send(Command::WriteSettings(change));
-    let is_over = |shown: &azel::driver::Snapshot| {
+    let is_over = |shown: &azel::contract::driver::Snapshot| {
         let written = shown.state.held.get(group.key).and_then(|held| held.written.as_ref());
         written.is_some_and(|written| {
             let is_known = written.result != Err(WriteError::NoSuchSetting);

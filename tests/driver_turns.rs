@@ -12,13 +12,14 @@ use std::{cell::RefCell, f64::consts::TAU, num::NonZeroU32, rc::Rc, time::Durati
 use azel::{
     astro::{Angle, AzEl, time::add_seconds},
     clock::Clock,
+    contract::driver::Command,
     controller::{
         rc2000c::Calibration,
         rotator_genius::{ROTATORS, Rotators},
         satrak::ELEMENT_FILE,
     },
     device::{CountPoint, TrackTarget},
-    driver::{AntennaHandle, Command, Debts},
+    driver::{AntennaHandle, Debts},
     orbit::{Elements, PassSearch, Propagator, bundled, passes},
     plan::{Bounds, OnBoardPass, ProgramTrack, Target},
     sim::{Control, Unit, rc2000c, rotator_genius, satrak},

@@ -9,7 +9,8 @@ use std::{
 
 use azel::{
     clock::Clock,
-    driver::{LinkFault, LinkFinding, Outside, test_link},
+    contract::driver::{LinkFault, LinkFinding},
+    driver::{Outside, test_link},
     makes,
     sim::satrak,
     station::{Link, Station},

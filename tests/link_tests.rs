@@ -10,7 +10,8 @@ use std::{
 
 use azel::{
     clock::Clock,
-    driver::{Dial, LinkFault, LinkFinding, Outside, Stream},
+    contract::driver::{LinkFault, LinkFinding},
+    driver::{Dial, Outside, Stream},
     engine::{
         Command, Handle, Settings,
         claim::HolderKind,

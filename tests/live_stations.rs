@@ -11,7 +11,7 @@ use azel::{
     astro::time::seconds_between,
     cli::serve::{Ended, Wake, until_the_end},
     clock::Clock,
-    driver,
+    contract::driver,
     engine::{Client, Command, Handle, Settings},
     plan::{ProgramTrack, Target},
     station,

@@ -12,11 +12,12 @@ use std::{
 };
 
 use azel::{
+    contract::transfer::{FileProtocol, Peer},
     library::{Library, Limits, save_sources},
     makes,
     orbit::{FetchProblem, RefreshHours, Source, SourcePlace, bundled, write_omm_json},
     station::{self, Station},
-    transfer::{self, CancellationToken, ElementSource, FetchError, FileProtocol, Peer},
+    transfer::{self, CancellationToken, ElementSource, FetchError},
 };
 use rustls::{
     ServerConfig, ServerConnection, StreamOwned,

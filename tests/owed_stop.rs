@@ -15,7 +15,8 @@ use std::{
 
 use azel::{
     clock::Clock,
-    driver::{AntennaHandle, Command, Driver, LinkState, Snapshot, StopState, Unit},
+    contract::driver::{Command, LinkState, Snapshot, StopState, Unit},
+    driver::{AntennaHandle, Driver},
     plan::Bounds,
     sim::satrak::{Control, Options, Simulator},
     station::{Antenna, Station},

@@ -8,18 +8,18 @@ use std::{
 use azel::{
     astro::{Angle, AzEl, PointingModel, Site, time::add_seconds},
     clock::Clock,
+    contract::{
+        driver::TimeSync,
+        record::{AboutTrack, Peak, PeakChange, PeakOf, RecordedReport, TrackedBy},
+    },
     device::Pointing,
-    driver::TimeSync,
     makes,
     orbit::{PassSearch, Propagator, bundled, passes},
     plan::{
         MountLimits, Trackability,
         pass_report::{Breaks, FlownOffsets, MeasuredPosition, TrackedPass},
     },
-    record::{
-        AboutTrack, Entry, Kind, PassNote, Peak, PeakChange, PeakOf, RecordedReport, Recorder,
-        TrackedBy,
-    },
+    record::{Entry, Kind, PassNote, Recorder},
     station::{Antenna, AntennaId, Retention, load},
 };
 use jiff::Timestamp;

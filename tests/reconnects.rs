@@ -18,7 +18,8 @@ use std::{
 use azel::{
     astro::Site,
     clock::Clock,
-    driver::{AntennaHandle, Command, Driver, Intent, LinkState},
+    contract::driver::{Command, Intent, LinkState},
+    driver::{AntennaHandle, Driver},
     plan::Bounds,
     sim::satrak::{Control, Options, Simulator},
     station::Antenna,

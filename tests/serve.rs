@@ -20,8 +20,11 @@ use azel::{
     astro::time::add_seconds,
     cli::serve::{Ended, Wake, until_the_end},
     clock::Clock,
+    contract::{
+        driver,
+        driver::{Event, LinkLoss, Refusal},
+    },
     controller::satrak::ELEMENT_FILE,
-    driver::{self, Event, LinkLoss, Refusal},
     engine::{
         Client, Command, Handle, Settings, Snapshot,
         alarms::{Alarm, AlarmKind, Priority},

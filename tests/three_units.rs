@@ -7,9 +7,10 @@ use std::time::Duration;
 
 use azel::{
     astro::{Angle, AzEl},
+    contract::driver::{Command, LinkState, StopState},
     controller::rc2000c::Calibration,
     device::{CountLine, CountPoint},
-    driver::{AntennaHandle, Command, LinkState, StopState},
+    driver::AntennaHandle,
     sim::{Control, Unit, rc2000c, rotator_genius, satrak},
     station::{Antenna, Mount, Station},
 };

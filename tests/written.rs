@@ -2,12 +2,16 @@
 
 use azel::{
     astro::{Angle, Offset, TrackOffsets},
+    contract::{
+        driver,
+        driver::OffsetChange,
+        transfer::{FileName, Peer, TleFile},
+    },
     device::{
         Pointing, TrackTarget,
         panel::Act,
         settings::{Change, Value, Values},
     },
-    driver::{self, OffsetChange},
     engine::{
         Attention, Command, Event,
         alarms::ShelveTime,
@@ -23,7 +27,6 @@ use azel::{
     plan::{OnBoardPass, ProgramTrack, Target},
     secret::Secret,
     station::{Antenna, AntennaId, Frequency, LockOut, OffsetsOf, Priority, Station},
-    transfer::{FileName, Peer, TleFile},
 };
 use jiff::{Timestamp, ToSpan as _};
 
@@ -38,7 +41,7 @@ fn noon() -> Timestamp {
 /// One of each and no more: a new one does not compile before it is listed here.
 #[expect(clippy::too_many_lines, reason = "one line a command")]
 fn commands_of_antennas() -> Vec<driver::Command> {
-    use driver::Command as C;
+    use azel::contract::driver::Command as C;
     let elements = bundled().unwrap().get(25_544).unwrap().clone();
     let site = Station::default().site;
     let track = || {

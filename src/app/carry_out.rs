@@ -4,7 +4,7 @@ use std::sync::atomic::Ordering;
 
 use super::App;
 use crate::{
-    driver,
+    contract::driver,
     engine::{Command, Stopped, passes::PredictedPass},
     model::{Appearance, UiCommand, View, replay::ReplayEnd},
     station::AntennaId,

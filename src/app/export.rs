@@ -15,6 +15,8 @@ use jiff::{Timestamp, civil::Date, tz::TimeZone};
 use super::{App, open_file::unusable};
 use crate::{
     astro::time::seconds_between,
+    contract,
+    contract::record::OpenedPass,
     desktop::{
         file_dialog::{self, NoDialog},
         folder,
@@ -36,7 +38,7 @@ use crate::{
     },
     orbit::{PassSearch, write_omm_csv, write_omm_json, write_tle},
     plan::schedule::LeftOut,
-    record::{self, OpenedPass},
+    record::{self},
     station::{AntennaId, Station},
     ui::{hand_over_sheet::HandOverSheet, report_sheet, words},
     whole_file,
@@ -277,7 +279,7 @@ impl Order {
     /// The recorded passes that `query` finds of these days, in order of time.
     fn passes_of(
         &self,
-        query: &record::PassQuery,
+        query: &contract::record::PassQuery,
         first: Date,
         last: Date,
     ) -> Result<Vec<OpenedPass>, String> {

@@ -15,9 +15,10 @@ use serde::Serialize;
 use super::{input, passes::written, record::record_of};
 use crate::{
     astro::Term,
+    contract::record::{ExplainedPasses, Peak, PeakOf, PointingFit},
     makes,
     plan::pointing::Kind,
-    record::{ExplainedPasses, Peak, PeakOf, Peaks, PointingFit, explain_passes, fit_pointing},
+    record::{explain_passes, fit_pointing, read_peaks},
     station::{self, Antenna, Mount, Station},
     ui::words::{pointing::pointing_term, record as words},
 };
@@ -100,7 +101,7 @@ pub(super) fn run(station: Option<&Path>, options: &Options) -> anyhow::Result<E
         None => record_of(Some(path.to_owned()))?,
     };
     let within = options.from.unwrap_or(Timestamp::MIN)..=options.to.unwrap_or(Timestamp::MAX);
-    let entered = Peaks::read(&record).context("The peaks in the record cannot be read")?;
+    let entered = read_peaks(&record).context("The peaks in the record cannot be read")?;
     let entered = entered.of(antenna.id).filter(|peak| within.contains(&peak.at));
     let peaks: Vec<Peak> = entered.chain(&options.sun).chain(&options.moon).copied().collect();
     let fit = fit_pointing(&record, antenna.id, of.site, &within, &peaks, Vec::new())

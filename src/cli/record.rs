@@ -14,8 +14,9 @@ use jiff::{SignedDuration, Timestamp};
 
 use super::{input, passes::written};
 use crate::{
+    contract::record::Row,
     engine::{Settings, demo_record_path, record_path, records_folder},
-    record::{Query, Record, Row, RowKind},
+    record::{Query, Record, RowKind},
 };
 
 /// Time between two looks for new rows. The record is written twice a second.

@@ -9,8 +9,8 @@ use serde::Serialize;
 
 use super::{FORMAT_VERSION, RowFormat, Time, rounded, write_rows};
 use crate::{
+    contract::record::{OpenedPass, RecordedReport, Row as Entry},
     plan::pass_report::TrackPoint,
-    record::{OpenedPass, RecordedReport, Row as Entry},
 };
 
 /// A point of a track with its columns. New ones are added at the end.

@@ -14,8 +14,8 @@ use super::{
 };
 use crate::{
     astro::HorizonMask,
+    contract::driver,
     desktop::Sound,
-    driver,
     engine::{
         self,
         passes::{PassKey, PredictedPass, Scope},

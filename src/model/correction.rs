@@ -5,11 +5,11 @@ use std::sync::Arc;
 use super::Model;
 use crate::{
     astro::{Angle, Offset, TrackOffsets},
+    contract::record::{RecordedPass, TrackedBy},
     device::settings::{Value, Written},
     driver,
     engine::antenna::AntennaModel,
     plan::pass_report::{Cause, Explanation},
-    record::{RecordedPass, TrackedBy},
     station::{AntennaId, OffsetsOf},
 };
 

@@ -5,9 +5,9 @@ use std::{path::PathBuf, sync::Arc};
 use jiff::civil::Date;
 
 use crate::{
+    contract::record::PassQuery,
     engine::passes::PassKey,
     export::{EventFormat, ListFormat, RowFormat},
-    record::PassQuery,
 };
 
 /// A file that was saved.

@@ -5,8 +5,8 @@ use std::{fmt::Write as _, sync::Arc};
 use jiff::tz::TimeZone;
 
 use crate::{
+    contract::driver::Recorded,
     device::{Direction, Finding, Meaning, WireLine, panel::Tone},
-    driver::Recorded,
 };
 
 /// One line of the log.

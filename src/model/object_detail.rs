@@ -10,11 +10,11 @@ use crate::{
         Angle,
         time::{DAY_S, add_seconds, seconds_between},
     },
+    contract::older_sets::OlderSet,
     engine::{
         older_sets::OlderSets,
         passes::{ListedSatellite, Observer, PredictedPass},
     },
-    library::OlderSet,
     orbit::{Elements, Pass, PassSearch, Propagator, passes},
     plan::Sample,
     station::Station,

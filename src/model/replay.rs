@@ -4,7 +4,7 @@ use jiff::Timestamp;
 
 use crate::{
     astro::time::{add_seconds, seconds_between},
-    record::{PassTimes, RecordedPass},
+    contract::record::{PassTimes, RecordedPass},
     station::AntennaId,
 };
 

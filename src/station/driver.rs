@@ -2,23 +2,18 @@
 //! station sends commands and reads snapshots; neither side waits for the other.
 
 mod before_sleep;
-mod command_row;
 pub mod dead_man;
 mod debts;
 #[cfg(test)]
 mod dice;
 mod gate;
-mod intent;
 mod link;
 mod link_test;
 mod motion_watch;
 mod position_log;
 mod pulse;
-mod safety;
 mod session;
-mod snapshot;
 mod time_sync;
-mod wire_log;
 
 use std::{
     future::{Future, poll_fn},
@@ -37,30 +32,20 @@ use std::{
 
 use tokio::sync::{Notify, mpsc, watch};
 
-pub use crate::{clock::Clock, job::Wake};
-pub use command_row::{Effect, LockedOut, Offline, Row};
-pub use debts::{Debts, Unit};
-pub use gate::{Preview, Refusal, Way};
-pub use intent::Intent;
-pub use link::{Dial, Endpoint, Stream, UnitLock, dial_line, endpoints, known_endpoints};
-pub use link_test::{LinkFault, LinkFinding, test_link};
-pub use motion_watch::{AxisLessons, Evidence};
-pub use position_log::PositionLog;
-pub use safety::{Mover, OffTargetCause, Response, Safety, Unlike};
-pub use session::{Command, JOG_LEASE, OffsetChange, Session, Wires, is_ticket_of_session};
-pub use snapshot::{
-    Event, Found, Inside, LeftMoving, LeftOffsets, LinkLoss, LinkState, OnBoardView, Snapshot,
-    StopState, StoppingWay, TrackProblem, TrackView, UnitOffsetsView,
-};
-pub use time_sync::{TimeSync, time_sync};
-pub use wire_log::{IsAwaited, MAX_LINES, Recorded, WireLog};
-
 use self::{before_sleep::BeforeSleep, pulse::Pulse};
+pub use crate::{clock::Clock, job::Wake};
 use crate::{
     clock::Instant,
+    contract::driver::{AxisLessons, Command, Event, Intent, Safety, Snapshot, TimeSync, WireLog},
     plan::{Bounds, on_board::KnownOrbit},
     station::{Antenna, LockOut},
 };
+pub use debts::Debts;
+pub use link::{Dial, Endpoint, Stream, UnitLock, dial_line, endpoints, known_endpoints};
+pub use link_test::test_link;
+pub use position_log::PositionLog;
+pub use session::{JOG_LEASE, Session, Wires, is_ticket_of_session};
+pub use time_sync::time_sync;
 
 /// Maximum number of waiting commands. The station sends at most a few at a time.
 const COMMANDS: usize = 64;

@@ -95,7 +95,8 @@ pub use self::{
 };
 use crate::{
     clock::{Clock, Instant},
-    driver::{AntennaHandle, Driver, JOG_LEASE, Outside, TimeSync, Unit},
+    contract::driver::{TimeSync, Unit},
+    driver::{AntennaHandle, Driver, JOG_LEASE, Outside},
     job::{Job, Wake},
     station::{LockOuts, Station},
 };

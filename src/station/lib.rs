@@ -15,5 +15,6 @@ pub mod rehearsal;
 pub mod sim;
 pub mod transfer;
 
+use azel_contract as contract;
 use azel_orbit::{self as orbit, astro, name};
 use azel_units::{clock, controller, device, plan, protocol, secret, station, whole_file};

@@ -30,10 +30,10 @@ pub use self::{
     authorities::system_authorities,
     exceptions::Exceptions,
     fetch::Limits,
-    history::{History, OlderSet},
+    history::History,
     index::IndexError,
-    list::{SourceProblem, SourcesError, check_source, has_log_in, load_sources, save_sources},
-    space_track::{LOG_IN_PAUSE, PasswordStore, SPACE_TRACK_HOST, SpaceTrackAccess, log_in_key},
+    list::{SourcesError, load_sources, save_sources},
+    space_track::{LOG_IN_PAUSE, PasswordStore, SpaceTrackAccess},
 };
 use self::{
     fetch::{ServerAnswer, agent, fetch, host},
@@ -43,6 +43,7 @@ use self::{
     unfinished::Unfinished,
 };
 use crate::{
+    contract::sources::SPACE_TRACK_HOST,
     orbit::{
         Catalog, Elements, FETCH_PAUSE, FetchProblem, FileReport, MergeSummary, ReadReport, Source,
         SourcePlace, SourceReport, may_fetch, not_before, read_element_bytes,

@@ -25,19 +25,17 @@ pub mod testing;
 mod tests;
 mod writer;
 
-pub use along::{Beside, PassTimes, neighbour, times_between, times_of_pass};
-pub use causes::{ExplainedPasses, explain_passes};
+pub use along::{Beside, neighbour, times_between, times_of_pass};
+pub use causes::explain_passes;
 pub use entry::{Entry, Kind};
 pub use film::{Film, FilmError, Parts, Picture, Shown};
 pub use missed::{MissedEntry, missed};
-pub use pass::{AboutTrack, PassNote, PlannedPart, RecordedReport, TrackedBy};
-pub use past::{
-    ListedKind, OpenedPass, PassPage, PassQuery, RecordedPass, open_pass, passes, passes_within,
-};
-pub use peaks::{Peak, PeakChange, PeakOf, Peaks};
-pub use pointing::{CannotFitPointing, FittedTerm, NoiseOf, PointingFit, fit_pointing};
-pub use read::{Query, Record, Row, RowKind};
-pub use recorder::{Failing, RecordedSession, Recorder, Status};
+pub use pass::PassNote;
+pub use past::{open_pass, passes, passes_within};
+pub use peaks::read_peaks;
+pub use pointing::{CannotFitPointing, fit_pointing};
+pub use read::{Query, Record, RowKind};
+pub use recorder::{RecordedSession, Recorder};
 
 /// Why a record cannot be written or read.
 #[derive(Debug, thiserror::Error)]

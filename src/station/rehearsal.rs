@@ -28,7 +28,7 @@ use self::{pass::Passes, units::Units};
 use crate::{
     astro::time::{add_seconds, seconds_between},
     clock::Clock,
-    driver,
+    contract::driver,
     engine::{Client, Command, Settings, Snapshot, in_place::InPlace, uploads},
     job,
     orbit::Catalog,

@@ -40,8 +40,8 @@ use super::{
     },
 };
 use crate::{
+    contract::driver::{Intent, OffsetChange},
     device::panel::{Act, CheckState, Reading},
-    driver::{Intent, OffsetChange},
     station::OffsetsOf,
 };
 pub use drive::{DriveModel, DriveState};

@@ -13,8 +13,8 @@ use super::{
     words,
 };
 use crate::{
+    contract::driver::{LinkState, StopState, TimeSync},
     device::{Phase, panel::Check},
-    driver::{LinkState, StopState, TimeSync},
     engine::{
         alarms::{Alarm, AlarmKind, Placed},
         antenna::AntennaModel,

@@ -29,7 +29,7 @@ use super::{
     timeline::Zoom,
 };
 use crate::{
-    driver::Command,
+    contract::driver::Command,
     engine::{
         antenna::AntennaModel,
         passes::{PassKey, PredictedPass},
@@ -42,7 +42,6 @@ pub(super) use layout::side_cards;
 use layout::{Areas, SIDE_CARDS};
 use side_card::SideCard;
 use sky_time::SkyTime;
-
 pub use sky_time::row::LONG_STEP_S;
 
 /// Height of the edge that marks the card of the selected antenna among several.

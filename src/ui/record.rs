@@ -84,7 +84,7 @@ fn show_report(
     ui: &mut Ui,
     rect: Rect,
     model: &Model,
-    opened: &crate::record::OpenedPass,
+    opened: &crate::contract::record::OpenedPass,
     state: &mut RecordState,
     commands: &mut Vec<UiCommand>,
 ) {

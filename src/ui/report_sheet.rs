@@ -15,7 +15,7 @@ use super::{
     page::{self, section},
     words::record,
 };
-use crate::record::OpenedPass;
+use crate::contract::record::OpenedPass;
 
 /// The page of a pass as HTML, printed at `printed`. Its times are of the day on which the pass began,
 /// unless they carry a day.

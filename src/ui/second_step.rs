@@ -4,8 +4,8 @@
 
 use super::{confirm::Question, format, state_sentence::short, words};
 use crate::{
+    contract::driver,
     device::Pointing,
-    driver,
     engine::{
         self,
         antenna::AntennaModel,

@@ -16,6 +16,7 @@ use super::{
     words::{self, sentence},
 };
 use crate::{
+    contract::transfer::{FileProtocol, Peer},
     engine::{
         self,
         host_keys::DoubtfulKey,
@@ -23,7 +24,6 @@ use crate::{
     },
     model::{Model, UiCommand},
     secret::Secret,
-    transfer::{FileProtocol, Peer},
 };
 
 /// A source as typed in a form.

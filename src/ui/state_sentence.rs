@@ -14,8 +14,8 @@ use super::{
 };
 use crate::{
     astro::time::add_seconds,
+    contract::driver::{Intent, StopState},
     device::{JogSpeeds, Phase, Pointing},
-    driver::{Intent, StopState},
     engine::{antenna::AntennaModel, passes::ListedSatellite},
     model::Model,
 };

@@ -33,7 +33,7 @@ use super::{
     words,
 };
 use crate::{
-    driver::Command,
+    contract::driver::Command,
     engine::{self, closing::CloseHow},
     model::{MaskNews, Model, UiCommand, View, export::SavedFile, typed_path::PathRequest},
 };

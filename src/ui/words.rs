@@ -19,6 +19,18 @@ pub mod schedule;
 mod site;
 mod way_there;
 
+use crate::{
+    contract::driver::Intent,
+    device::{Asked, Motion, SecondAxis, settings::Unfit},
+    engine::{
+        CatalogState,
+        antenna::{AntennaModel, Stake},
+    },
+    makes,
+    model::Model,
+    orbit::Elements,
+    ui::format,
+};
 pub use alarms::{alarm, alarm_state, alarm_times, off_because, setting_note};
 pub use clock::compared_clock;
 pub use link_tests::{link_test, link_test_faults, link_test_reached, link_test_state, place};
@@ -39,19 +51,6 @@ pub use safety::{
 };
 pub use site::{off_the_told, sun_there};
 pub use way_there::{WayThere, needs};
-
-use crate::{
-    device::{Asked, Motion, SecondAxis, settings::Unfit},
-    driver::Intent,
-    engine::{
-        CatalogState,
-        antenna::{AntennaModel, Stake},
-    },
-    makes,
-    model::Model,
-    orbit::Elements,
-    ui::format,
-};
 
 /// Age from which old elements are mentioned: after some days a satellite in low orbit is
 /// minutes away from the prediction.

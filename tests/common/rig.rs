@@ -4,9 +4,8 @@ use std::{sync::Arc, time::Duration};
 
 use azel::{
     clock::{Clock, Instant},
-    driver::{
-        AntennaHandle, Command, Debts, Dial, Event, LinkState, Session, Snapshot, Stream, WireLog,
-    },
+    contract::driver::{Command, Event, LinkState, Snapshot, WireLog},
+    driver::{AntennaHandle, Debts, Dial, Session, Stream},
     sim::{Control, Unit},
     station::Antenna,
 };

@@ -7,8 +7,9 @@ use std::{
 
 use azel::{
     clock::Clock,
+    contract::{driver, driver::TimeSync},
     controller::satrak::ELEMENT_FILE,
-    driver::{self, Dial, Outside, Stream, TimeSync, UnitLock},
+    driver::{Dial, Outside, Stream, UnitLock},
     engine::{
         Client, Command,
         status::{AntennaStatus, LinkStatus},

@@ -3,9 +3,9 @@
 use std::{future::Future, pin::Pin};
 
 use azel::{
+    contract::driver::Command,
     controller::rotator_genius::Rotators,
     device::settings::{Change, Value},
-    driver::Command,
     plan::Bounds,
     sim::{Control, Unit, rc2000c, rotator_genius, satrak},
     station::{Antenna, Station},

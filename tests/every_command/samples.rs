@@ -4,8 +4,11 @@ use std::path::PathBuf;
 
 use azel::{
     astro::{Angle, AzEl, Offset, Site, TrackOffsets},
+    contract::{
+        driver::{Command, OffsetChange},
+        record::{Peak, PeakChange, PeakOf},
+    },
     device::{Pointing, panel::Act, settings::Change},
-    driver::{Command, OffsetChange},
     engine::{
         self, Attention,
         alarms::ShelveTime,
@@ -18,7 +21,6 @@ use azel::{
     },
     orbit::{Source, SourcePlace},
     plan::{OnBoardPass, ProgramTrack, Target},
-    record::{Peak, PeakChange, PeakOf},
     secret::Secret,
     station::{AntennaId, LockOut, OffsetsOf, PassLimits, Priority, Station},
 };
@@ -84,7 +86,7 @@ pub(super) fn go_elsewhere() -> Command {
 
 /// One of each, in the order of [`Command`].
 pub(super) fn commands(values: &Values) -> Vec<Command> {
-    use Command as C;
+    use azel::contract::driver::Command as C;
     let target = Target::Fixed(AzEl::from_degrees(110.0, 40.0));
     let track = || {
         let passes = vec![(Timestamp::MIN, Timestamp::MAX)];

@@ -3,8 +3,8 @@
 use std::time::Duration;
 
 use azel::{
+    contract::driver::{Command, Effect, Event, LinkState, LockedOut, Offline, Refusal, Snapshot},
     device::settings::WriteError,
-    driver::{Command, Effect, Event, LinkState, LockedOut, Offline, Refusal, Snapshot},
     sim::{Control, Unit},
 };
 

@@ -4,8 +4,12 @@ use std::time::Duration;
 
 use azel::{
     astro::Angle,
+    contract::{
+        driver,
+        driver::{Effect, Event, Intent, Refusal, StopState},
+        transfer::{FileName, Peer, TleFile},
+    },
     device::Pointing,
-    driver::{self, Effect, Event, Intent, Refusal, StopState},
     engine::{
         Client, Command,
         alarms::AlarmKind,
@@ -17,7 +21,6 @@ use azel::{
     makes,
     orbit::bundled,
     station::{AntennaId, Station},
-    transfer::{FileName, Peer, TleFile},
 };
 use tokio::time::sleep;
 

@@ -4,7 +4,7 @@
 use std::{collections::BTreeSet, time::Duration};
 
 use azel::{
-    driver::{Command, Event, Intent, LinkState, Snapshot},
+    contract::driver::{Command, Event, Intent, LinkState, Snapshot},
     sim::Unit,
 };
 

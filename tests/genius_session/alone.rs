@@ -2,9 +2,9 @@
 
 use azel::{
     astro::Angle,
+    contract::driver::{Command, Event, Refusal, Response, Safety},
     controller::rotator_genius::{ALONE, OTHER, Rotators},
     device::{Asked, panel::Act, settings::Value},
-    driver::{Command, Event, Refusal, Response, Safety},
     plan::Bounds,
     protocol::rotator_genius::{RotatorNumber, WholeDegrees},
     sim::rotator_genius::{Fault, Options, RotatorOptions},

@@ -5,8 +5,8 @@ use std::time::Duration;
 use azel::{
     astro::Angle,
     clock::Instant,
+    contract::driver::{Command, Event, Found, LinkLoss, LinkState, Refusal},
     controller::rotator_genius::Rotators,
-    driver::{Command, Event, Found, LinkLoss, LinkState, Refusal},
     sim::rotator_genius::Fault,
 };
 

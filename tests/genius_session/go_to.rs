@@ -1,9 +1,9 @@
 //! Positions: the commands sent, and their results.
 
 use azel::{
+    contract::driver::{Event, Intent, Refusal},
     controller::rotator_genius::Rotators,
     device::{Asked, Motion},
-    driver::{Event, Intent, Refusal},
     protocol::rotator_genius::RotatorNumber,
     sim::rotator_genius::{Fault, Quirk},
 };

@@ -4,8 +4,8 @@ use std::time::Duration;
 
 use azel::{
     clock::Instant,
+    contract::driver::{Command, Event, Intent, LinkState, Refusal},
     controller::rotator_genius::Rotators,
-    driver::{Command, Event, Intent, LinkState, Refusal},
     protocol::rotator_genius::{Moving, RotatorNumber},
     sim::rotator_genius::Fault,
 };

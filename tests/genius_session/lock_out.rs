@@ -1,8 +1,8 @@
 //! Lock-out of a unit: neither rotator is moved or configured.
 
 use azel::{
+    contract::driver::{Command, Event, Intent, Refusal},
     device::settings::{Change, Value, WriteError},
-    driver::{Command, Event, Intent, Refusal},
     station::LockOut,
 };
 

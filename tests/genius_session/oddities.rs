@@ -1,9 +1,9 @@
 //! Oddities and faults: the session stays correct with each of them.
 
 use azel::{
+    contract::driver::{Event, LinkState},
     controller::rotator_genius::Rotators,
     device::panel::CheckState,
-    driver::{Event, LinkState},
     sim::rotator_genius::{Fault, Quirk},
 };
 

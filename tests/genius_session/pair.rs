@@ -2,9 +2,9 @@
 
 use azel::{
     astro::AzEl,
+    contract::driver::{Command, Event, Intent, Refusal, Safety},
     controller::rotator_genius::Rotators,
     device::panel::CheckState,
-    driver::{Command, Event, Intent, Refusal, Safety},
     plan::{Barrier, Bounds},
     protocol::rotator_genius::{RotatorNumber, WholeDegrees},
     sim::rotator_genius::{Fault, Options, RotatorOptions},

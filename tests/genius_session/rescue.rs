@@ -1,12 +1,12 @@
 //! Outside the limits only STOP ends a motion.
 
 use azel::{
+    contract::driver::{Command, Event, Refusal, StopState},
     controller::rotator_genius::{RESCUE, Rotators},
     device::{
         panel::{Act, CheckState},
         settings::Values,
     },
-    driver::{Command, Event, Refusal, StopState},
     protocol::rotator_genius::WholeDegrees,
     sim::rotator_genius::{Fault, Options, Quirk, RotatorOptions},
 };

@@ -3,8 +3,8 @@
 use azel::{
     astro::Angle,
     clock::Instant,
+    contract::driver::{Command, Snapshot, StopState},
     controller::rotator_genius::{ROTATORS, Rotators},
-    driver::{Command, Snapshot, StopState},
     protocol::rotator_genius::WholeDegrees,
     sim::rotator_genius::{Control, Options, RotatorOptions, RotatorState},
     station::Antenna,

@@ -7,8 +7,9 @@ use std::{
 
 use azel::{
     clock::Instant,
+    contract::driver::Event,
     controller::rotator_genius::Rotators,
-    driver::{AntennaHandle, Dial, Event, Stream},
+    driver::{AntennaHandle, Dial, Stream},
     protocol::rotator_genius::Request,
 };
 use jiff::Timestamp;

@@ -3,9 +3,10 @@
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use azel::{
+    contract::driver::Command,
     controller::rotator_genius::Rotators,
     device::settings::{Change, ReadFailure, Value, Values, WriteError},
-    driver::{AntennaHandle, Command},
+    driver::AntennaHandle,
     sim::rotator_genius::{Fault, Options, Quirk},
 };
 

@@ -7,7 +7,8 @@ use std::{
 
 use azel::{
     clock::Clock,
-    driver::{AntennaHandle, Driver, LinkLoss, LinkState, Snapshot, StopState},
+    contract::driver::{LinkLoss, LinkState, Snapshot, StopState},
+    driver::{AntennaHandle, Driver},
     plan::Bounds,
     sim::rotator_genius::Simulator,
     station::Antenna,

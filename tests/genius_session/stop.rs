@@ -2,8 +2,8 @@
 
 use azel::{
     clock::Instant,
+    contract::driver::{Command, Event, Intent, LinkState, StopState},
     controller::rotator_genius::Rotators,
-    driver::{Command, Event, Intent, LinkState, StopState},
     sim::rotator_genius::Fault,
 };
 

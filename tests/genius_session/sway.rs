@@ -1,8 +1,8 @@
 //! Readings of standing rotators that change, beside a barrier.
 
 use azel::{
+    contract::driver::{Event, Safety},
     controller::rotator_genius::Rotators,
-    driver::{Event, Safety},
     plan::Bounds,
     protocol::rotator_genius::WholeDegrees,
     sim::{

@@ -1,8 +1,8 @@
 //! Record of the link for the console.
 
 use azel::{
+    contract::driver::{Command, Event},
     device::{Direction, Finding, WireLine},
-    driver::{Command, Event},
     sim::rotator_genius::Fault,
 };
 

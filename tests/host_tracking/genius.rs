@@ -2,8 +2,8 @@
 
 use azel::{
     astro::{AzEl, time::add_seconds},
+    contract::driver::{Command, Event, Intent, Safety},
     controller::rotator_genius::{ROTATORS, Rotators},
-    driver::{Command, Event, Intent, Safety},
     plan::{ProgramTrack, Target, TrackPhase, TrackStats},
     protocol::rotator_genius::{Moving, RotatorNumber, WholeDegrees},
     sim::rotator_genius::{Control, Fault, Options, RotatorOptions},

@@ -3,7 +3,7 @@
 
 use azel::{
     astro::{Angle, AzEl},
-    driver::{Command, Event},
+    contract::driver::{Command, Event},
     orbit::Propagator,
     plan::Bounds,
     sim::{Control, Unit},

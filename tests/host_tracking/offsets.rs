@@ -2,8 +2,8 @@
 
 use azel::{
     astro::{Angle, AzEl, Offset, TrackOffsets, time::add_seconds},
+    contract::driver::{Command, Event, Intent, OffsetChange, Refusal},
     controller::rotator_genius::Rotators,
-    driver::{Command, Event, Intent, OffsetChange, Refusal},
     orbit::Propagator,
     plan::{Barrier, Bounds, ProgramTrack, Target, TrackPhase},
     sim::{Control, Unit},

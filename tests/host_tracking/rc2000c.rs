@@ -2,9 +2,9 @@
 
 use azel::{
     astro::{Angle, time::add_seconds},
+    contract::driver::{Command, Event},
     controller::rc2000c::Calibration,
     device::CountPoint,
-    driver::{Command, Event},
     plan::TrackStats,
     sim::rc2000c::{Control, Options},
     station::{Antenna, Mount},

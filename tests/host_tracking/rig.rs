@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use azel::{
     astro::time::seconds_between,
-    driver::Event,
+    contract::driver::Event,
     plan::{TrackPhase, TrackStats},
     sim::{Control, Unit},
 };

@@ -4,8 +4,9 @@ use std::{sync::Arc, time::Duration};
 
 use azel::{
     astro::{AzEl, time::add_seconds},
+    contract::driver::{Command, Event, Intent, Refusal, Safety, TrackProblem, Unlike},
     controller::satrak::Satrak,
-    driver::{Command, Debts, Event, Intent, Refusal, Safety, Session, TrackProblem, Unlike},
+    driver::{Debts, Session},
     plan::{ProgramTrack, Target, TrackPhase},
     protocol::satrak::{FaultKind, Goto, Halt, Motion, Request, encode},
     sim::satrak::{Control, Fault, Options},

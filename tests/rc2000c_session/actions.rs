@@ -1,9 +1,9 @@
 //! Moves to stored satellites and to counts.
 
 use azel::{
+    contract::driver::{Command, Event, Intent, Mover, Refusal, Response, Safety},
     controller::rc2000c::VARIANT,
     device::{Asked, panel::CheckState, settings::Value},
-    driver::{Command, Event, Intent, Mover, Refusal, Response, Safety},
     plan::Bounds,
     protocol::rc2000c::SatelliteName,
     sim::rc2000c::{Options, StoredSatellite},

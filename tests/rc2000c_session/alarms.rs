@@ -1,8 +1,8 @@
 //! Alarms: shown by name, forbidding what they must, and cleared on request.
 
 use azel::{
+    contract::driver::{Command, Event, Intent, Refusal},
     device::{panel::CheckState, settings::Value},
-    driver::{Command, Event, Intent, Refusal},
     protocol::rc2000c::Alarm,
     sim::rc2000c::Fault,
 };

@@ -3,8 +3,8 @@
 use std::time::Duration;
 
 use azel::{
+    contract::driver::{Command, Event, Found, Intent, LinkState, Refusal, StopState},
     device::panel::CheckState,
-    driver::{Command, Event, Found, Intent, LinkState, Refusal, StopState},
     sim::rc2000c::{Fault, Mode, Options, Quirk},
     station::{Antenna, LockOut},
 };

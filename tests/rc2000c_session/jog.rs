@@ -3,10 +3,9 @@
 use std::time::Duration;
 
 use azel::{
+    contract::driver::{Command, Event, LinkState, Refusal},
     controller::rc2000c::BAUD,
-    device::settings::Value,
-    device::{Asked, Motion},
-    driver::{Command, Event, LinkState, Refusal},
+    device::{Asked, Motion, settings::Value},
     plan::Barrier,
     sim::rc2000c::{AxisOptions, Fault, Options, Quirk},
 };

@@ -1,8 +1,8 @@
 //! Effects of lines: echoes, noise, pieces, lost and broken replies, wrong addresses.
 
 use azel::{
+    contract::driver::{Command, Event, LinkLoss, LinkState},
     device::{Direction, Finding, Meaning},
-    driver::{Command, Event, LinkLoss, LinkState},
     protocol::rc2000c::Address,
     sim::rc2000c::{Fault, Options, Quirk},
 };

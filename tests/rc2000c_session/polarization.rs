@@ -1,8 +1,8 @@
 //! Polarization: turned by hand, by the stored values, and by the unit.
 
 use azel::{
+    contract::driver::{Command, Event, Intent, Refusal},
     device::{Asked, settings::Value},
-    driver::{Command, Event, Intent, Refusal},
     sim::rc2000c::Quirk,
 };
 

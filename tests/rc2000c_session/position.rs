@@ -2,8 +2,8 @@
 
 use azel::{
     astro::{Angle, AzEl},
+    contract::driver::{Command, Event, Intent, Refusal, Way},
     device::{Asked, Motion, panel::CheckState},
-    driver::{Command, Event, Intent, Refusal, Way},
     plan::Bounds,
     sim::rc2000c::{Fault, Options, Quirk},
     station::Station,

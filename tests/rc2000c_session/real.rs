@@ -5,8 +5,9 @@ use std::{sync::Arc, time::Duration};
 
 use azel::{
     clock::Instant,
+    contract::driver::{Command, Event, Found, LinkLoss, LinkState},
     device::{Asked, settings::Value},
-    driver::{AntennaHandle, Command, Event, Found, LinkLoss, LinkState, dial_line},
+    driver::{AntennaHandle, dial_line},
     sim::rc2000c::{Control, Options, Quirk, Simulator},
 };
 use jiff::Timestamp;

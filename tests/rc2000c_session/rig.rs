@@ -2,13 +2,13 @@
 
 use azel::{
     clock::Instant,
+    contract::driver::{Command, Event, Found, Snapshot},
     controller::rc2000c::Calibration,
     device::{
         CountPoint,
         panel::{Act, CheckState},
         settings::Value,
     },
-    driver::{Command, Event, Found, Snapshot},
     protocol::rc2000c::Frame,
     sim::rc2000c::{Control, Options},
     station::{Antenna, LockOut, Mount},

@@ -4,9 +4,9 @@ use std::time::Duration;
 
 use azel::{
     astro::Angle,
+    contract::driver::{Command, Event, Intent, LinkState, StopState},
     controller::rc2000c::BAUD,
     device::settings::Value,
-    driver::{Command, Event, Intent, LinkState, StopState},
     sim::rc2000c::{Fault, Options, Quirk},
 };
 

@@ -1,7 +1,7 @@
 //! Readings of a standing antenna that change by noise, beside a keep-out.
 
 use azel::{
-    driver::{Event, Safety},
+    contract::driver::{Event, Safety},
     plan::Bounds,
     sim::{Mechanics, rc2000c::Options},
     station::{Antenna, Station},

@@ -1,8 +1,8 @@
 //! Track mode of the unit: shown, left alone, and ended only on request.
 
 use azel::{
+    contract::driver::{Command, Event, Found, LinkState, Refusal},
     device::{Asked, panel::CheckState, settings::Value},
-    driver::{Command, Event, Found, LinkState, Refusal},
     engine::alarms::{AlarmKind, alarm_of},
     sim::rc2000c::{Fault, Mode, Options, Quirk},
 };

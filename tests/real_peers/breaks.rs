@@ -1,7 +1,8 @@
 //! Links that break, stall or are given up during an upload.
 
-use azel::transfer::{
-    CancellationToken, FolderError, FolderState, TleFile, UploadError, UploadReason, UploadStep,
+use azel::{
+    contract::transfer::{TleFile, UploadStep},
+    transfer::{CancellationToken, FolderError, FolderState, UploadError, UploadReason},
 };
 
 use super::{
@@ -53,7 +54,7 @@ fn a_stall_in_the_middle_ends_by_its_limit_and_leaves_the_old_file() {
 fn a_cancel_in_the_middle_leaves_the_folder_as_it_was() {
     let (unit, new) = (Unit::new(), elements(2000));
     let cancel = CancellationToken::new();
-    let mut tell = |progress: azel::transfer::Progress| {
+    let mut tell = |progress: azel::contract::transfer::Progress| {
         if progress.step == UploadStep::Write && progress.done_bytes > 0 {
             cancel.cancel();
         }

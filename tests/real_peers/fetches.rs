@@ -6,9 +6,12 @@ use std::{
     time::Duration,
 };
 
-use azel::transfer::{
-    CancellationToken, ConnectError, ConnectStep, ElementSource, FetchError, FileProtocol,
-    Interruption, KnownHosts, Limits, Seen, Trust, fetch, what_a_unit_sees,
+use azel::{
+    contract::transfer::{FileProtocol, Seen},
+    transfer::{
+        CancellationToken, ConnectError, ConnectStep, ElementSource, FetchError, Interruption,
+        KnownHosts, Limits, Trust, fetch, what_a_unit_sees,
+    },
 };
 use rustls::pki_types::CertificateDer;
 

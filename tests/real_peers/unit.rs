@@ -11,11 +11,12 @@ use std::{
 
 use azel::{
     clock::Clock,
+    contract::transfer::{FileName, Peer, Progress, TleFile, Uploaded},
     controller::satrak::ELEMENT_FILES,
     orbit::{Catalog, Elements, bundled},
     transfer::{
-        self, CancellationToken, ConnectError, FileName, KeptFiles, KnownHosts, Limits, Login,
-        Peer, Progress, Proof, SftpFolder, TleFile, Upload, UploadError, Uploaded, open_sftp,
+        self, CancellationToken, ConnectError, KeptFiles, KnownHosts, Limits, Login, Proof,
+        SftpFolder, Upload, UploadError, open_sftp,
     },
 };
 

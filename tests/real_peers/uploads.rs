@@ -2,8 +2,9 @@
 
 use std::{fs, os::unix::fs::PermissionsExt as _, process::Command};
 
-use azel::transfer::{
-    CancellationToken, FileHash, FolderError, FolderState, Origin, UploadReason, UploadStep,
+use azel::{
+    contract::transfer::{FileHash, Origin, UploadStep},
+    transfer::{CancellationToken, FolderError, FolderState, UploadReason},
 };
 
 use super::{

@@ -8,10 +8,11 @@ use std::{
 
 use azel::{
     clock::Clock,
+    contract::record::PassQuery,
     engine::{Command, Settings, demo_record_path, in_place::InPlace, record_path},
     job,
     orbit::{Pass, PassSearch, Propagator, bundled, passes},
-    record::{PassQuery, passes as recorded},
+    record::passes as recorded,
     sim::{InMemory as _, Trouble},
     station::{self, Station},
 };

@@ -6,7 +6,7 @@ use std::{sync::Arc, time::Duration};
 
 use azel::{
     astro::time::seconds_between,
-    driver,
+    contract::driver,
     engine::{
         Client, Command,
         automatic::{Flown, Interruption, MissCause, OffBecause, Operation},

@@ -10,9 +10,10 @@ use std::{collections::BTreeMap, num::NonZeroU32, time::Duration};
 use azel::{
     astro::{PointingModel, Site},
     clock::Clock,
+    contract::record::RecordedReport,
     engine::Command,
     orbit::{Catalog, Elements, Pass, PassSearch, Propagator, bundled, passes},
-    record::{RecordedReport, RowKind},
+    record::RowKind,
     sim::{
         InMemory, Mechanics, Misreading, Trouble, rc2000c, rotator_genius,
         satrak::{self, BUNDLED_FILE},

@@ -7,8 +7,9 @@ use std::{
 
 use azel::{
     astro::time::seconds_between,
+    contract::record::{Peak, PeakChange, PeakOf, Row},
     engine::{Client, Command, alarms::AlarmKind, film::Projector},
-    record::{Kind, Peak, PeakChange, PeakOf, Row, RowKind, open_pass},
+    record::{Kind, RowKind, open_pass},
     station::{PollRates, Station},
 };
 use jiff::ToSpan as _;

@@ -1,7 +1,7 @@
 //! Learned figures of the drives outlast the session and the station that learned them.
 
 use azel::{
-    driver::{self, AxisLessons},
+    contract::{driver, driver::AxisLessons},
     engine::{Client, Command},
     station::Station,
 };

@@ -7,7 +7,11 @@ use std::{
 
 use azel::{
     astro::{Angle, Offset, PointingModel, Term, TrackOffsets},
-    driver::{self, OffsetChange},
+    contract::{
+        driver,
+        driver::OffsetChange,
+        record::{ListedKind, PassQuery, Peak, PeakChange, PeakOf, Peaks, Row},
+    },
     engine::{
         Client, Command,
         alarms::AlarmKind,
@@ -21,9 +25,7 @@ use azel::{
         pass_report::{Cause, LossCause, PassReport, PassVerdict},
         pointing,
     },
-    record::{
-        Kind, ListedKind, PassQuery, Peak, PeakChange, PeakOf, Peaks, Query, Record, Row, RowKind,
-    },
+    record::{Kind, Query, Record, RowKind, read_peaks},
     sim::{InMemory as _, Trouble},
     station::{self, OffsetsOf, Station},
 };
@@ -224,7 +226,7 @@ async fn with_a_pointing_model_the_axes_read_otherwise_and_the_report_tells_no_e
     assert!(fit.terms.iter().any(|of| of.term == Term::Sag && of.value.is_none()), "{fit:?}");
     drop(client);
     let ended = scene.ended().await;
-    let kept = Peaks::read(&path_in(ended.path())).unwrap();
+    let kept = read_peaks(&path_in(ended.path())).unwrap();
     assert!(is_known(&kept), "{kept:?}");
 }
 

@@ -4,9 +4,10 @@ use std::{sync::Arc, time::Duration};
 
 use azel::{
     clock::{Instant, Moment},
+    contract::record::{Peak, PeakChange, PeakOf},
     engine::{Client, Command, Snapshot, film::Projector, passes::PredictedPass},
     model::Model,
-    record::{Kind, Peak, PeakChange, PeakOf, RowKind},
+    record::{Kind, RowKind},
     station::{AntennaId, Station},
 };
 use jiff::{Timestamp, ToSpan as _};

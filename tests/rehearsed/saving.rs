@@ -2,7 +2,7 @@
 
 use azel::{
     astro::{Angle, Site},
-    driver,
+    contract::driver,
     engine::{Command, alarms::AlarmKind, antenna::AntennaModel},
     station::Station,
 };

@@ -4,9 +4,10 @@ use std::{fs, num::NonZeroU32, path::Path, sync::Arc};
 
 use azel::{
     clock::Clock,
+    contract::older_sets::OlderSet,
     engine::{Client, Command, Settings, automatic::Operation, in_place::InPlace, uploads},
     job,
-    library::{History, OlderSet},
+    library::History,
     orbit::Elements,
     station::{self, AntennaId, Station},
     transfer::{KeptFiles, KnownHosts, Limits, MemoryKeyring},

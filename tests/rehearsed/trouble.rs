@@ -2,7 +2,7 @@
 
 use azel::{
     astro::time::seconds_between,
-    driver,
+    contract::driver,
     engine::{Client, Command, Snapshot, alarms::AlarmKind, status::LinkStatus},
     plan::{ProgramTrack, Target},
     sim::{rc2000c, rotator_genius, satrak},

@@ -12,8 +12,11 @@ use std::{
 use azel::{
     astro::time::{add_seconds, seconds_between},
     clock::{Clock, Instant},
+    contract::{
+        driver,
+        driver::{LinkState, TimeSync},
+    },
     device::{Measured, Phase},
-    driver::{self, LinkState, TimeSync},
     engine::{
         Client, Command,
         alarms::AlarmKind,

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use azel::{
     astro::time::{add_seconds, seconds_between},
-    driver::TimeSync,
+    contract::driver::TimeSync,
     engine::{Client, automatic::DayEvent},
     protocol::satrak::{ClockTime, Request, Setting},
     sim::{InMemory as _, Trouble},

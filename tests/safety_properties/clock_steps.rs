@@ -2,7 +2,7 @@
 
 use azel::{
     clock::Instant,
-    driver::{Command, Event, Safety},
+    contract::driver::{Command, Event, Safety},
 };
 
 use super::{

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use azel::{
     clock::Instant,
-    driver::{Command, Event},
+    contract::driver::{Command, Event},
 };
 
 use super::{
@@ -104,8 +104,9 @@ async fn is_cut(mut dice: Dice) {
 }
 
 fn asks(scene: &Scene, since: Instant) -> bool {
-    let is_question =
-        |event: &Event| matches!(event, Event::Safety(azel::driver::Safety::AsksToResume { .. }));
+    let is_question = |event: &Event| {
+        matches!(event, Event::Safety(azel::contract::driver::Safety::AsksToResume { .. }))
+    };
     scene.told(since, is_question).is_some()
 }
 

@@ -5,7 +5,7 @@ use std::time::Duration;
 use azel::{
     astro::Angle,
     clock::Instant,
-    driver::{Command, Event, LinkState},
+    contract::driver::{Command, Event, LinkState},
 };
 
 use super::{

@@ -5,7 +5,7 @@ use std::{sync::Arc, time::Duration};
 use azel::{
     astro::{Angle, AzEl},
     clock::Instant,
-    driver::Command,
+    contract::driver::Command,
     plan::{ProgramTrack, Target, on_board::KnownOrbit},
 };
 

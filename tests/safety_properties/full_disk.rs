@@ -2,7 +2,7 @@
 
 use std::{fs, path::Path};
 
-use azel::driver::{Command, Event, Safety};
+use azel::contract::driver::{Command, Event, Safety};
 
 use super::{
     cases::for_each_case,

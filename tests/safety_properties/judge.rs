@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use azel::{clock::Instant, driver::Safety};
+use azel::{clock::Instant, contract::driver::Safety};
 
 use super::{scene::Scene, unit::Word};
 
@@ -69,7 +69,7 @@ impl Judge {
         let rate = (scene.clock.readings() - self.readings) as f64 / lasted_s;
         assert!(rate < MAX_READINGS_PER_S, "{rate} readings a second: {self}");
         let broke = scene.told(self.began, |event| {
-            matches!(event, azel::driver::Event::Safety(Safety::SessionBroke))
+            matches!(event, azel::contract::driver::Event::Safety(Safety::SessionBroke))
         });
         assert!(broke.is_none(), "the session broke down: {self}");
     }

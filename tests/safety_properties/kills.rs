@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use azel::{
     clock::Instant,
-    driver::{Command, Event, Safety},
+    contract::driver::{Command, Event, Safety},
 };
 
 use super::{

@@ -5,8 +5,8 @@ use std::time::Duration;
 use azel::{
     astro::Angle,
     clock::Instant,
+    contract::driver::{Command, Event, Safety},
     controller::rotator_genius::Rotators,
-    driver::{Command, Event, Safety},
     sim::rotator_genius::Fault,
 };
 

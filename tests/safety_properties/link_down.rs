@@ -5,7 +5,7 @@ use std::time::Duration;
 use azel::{
     astro::Angle,
     clock::Instant,
-    driver::{Command, Event, LinkState, Safety},
+    contract::driver::{Command, Event, LinkState, Safety},
 };
 
 use super::{

@@ -5,7 +5,7 @@ use std::time::Duration;
 use azel::{
     astro::{Angle, AzEl},
     clock::Instant,
-    driver::Command,
+    contract::driver::Command,
     plan::{ProgramTrack, Target},
 };
 

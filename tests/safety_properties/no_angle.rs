@@ -3,7 +3,7 @@
 use azel::{
     astro::{Angle, AzEl},
     clock::Instant,
-    driver::{Command, Event},
+    contract::driver::{Command, Event},
 };
 
 use super::{

@@ -11,7 +11,7 @@ use std::{cell::RefCell, collections::BTreeMap, rc::Rc, time::Duration};
 use azel::{
     astro::{AzEl, time::seconds_between},
     clock::Instant,
-    driver::{Command, Event},
+    contract::driver::{Command, Event},
     plan::{Bounds, ProgramTrack, Target},
     station::Mount,
 };

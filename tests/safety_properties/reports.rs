@@ -1,7 +1,7 @@
 //! Clocks, windows, elements, limits and settings that a unit reports wrong, with figures far
 //! beyond what makes sense.
 
-use azel::driver::Command;
+use azel::contract::driver::Command;
 
 use super::{
     cases::for_each_case,

@@ -2,7 +2,7 @@
 
 use azel::{
     astro::{Angle, AzEl, Offset},
-    driver::{Command, OffsetChange},
+    contract::driver::{Command, OffsetChange},
     plan::{ProgramTrack, Target},
 };
 

@@ -8,7 +8,8 @@ use std::{
 
 use azel::{
     clock::Instant,
-    driver::{AntennaHandle, Command, Debts, Dial, Event, Snapshot, Stream},
+    contract::driver::{Command, Event, Snapshot},
+    driver::{AntennaHandle, Debts, Dial, Stream},
     plan::{Barrier, on_board::KnownOrbit},
     station::KeepOut,
 };

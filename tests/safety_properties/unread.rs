@@ -1,7 +1,7 @@
 //! Station files in which one entry that safety depends on is damaged.
 
 use azel::{
-    driver::Command,
+    contract::driver::Command,
     makes::SPECS,
     plan::Bounds,
     station::{self, SunAvoidance},

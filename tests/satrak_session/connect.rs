@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use azel::{
-    driver::{Command, Event, Found, Intent, LinkState, StopState},
+    contract::driver::{Command, Event, Found, Intent, LinkState, StopState},
     station::{Antenna, PollRates},
 };
 

@@ -2,8 +2,8 @@
 
 use azel::{
     astro::Angle,
+    contract::driver::{Command, Event, Intent},
     device::{Asked, Motion},
-    driver::{Command, Event, Intent},
 };
 
 use super::{

@@ -3,9 +3,9 @@
 
 use azel::{
     astro::Angle,
+    contract::driver::{Command, Event},
     controller::satrak::settings::{FROM_GPS, FROM_THIS_PC, GROUPS},
     device::settings::{Change, Secret, Value},
-    driver::{Command, Event},
     protocol::satrak::{Query, encode},
 };
 

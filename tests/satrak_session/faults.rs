@@ -2,8 +2,8 @@
 
 use azel::{
     astro::Angle,
+    contract::driver::{Command, Event},
     device::{Asked, Motion},
-    driver::{Command, Event},
     protocol::satrak::FaultKind,
     sim::satrak::Fault,
 };

@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use azel::{
     clock::Instant,
-    driver::{Command, Event, LinkState, StopState},
+    contract::driver::{Command, Event, LinkState, StopState},
     sim::satrak::Fault,
 };
 use tokio::time::timeout;

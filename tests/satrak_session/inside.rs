@@ -2,7 +2,7 @@
 
 use azel::{
     astro::{AzEl, sun_moon},
-    driver::{Command, Event, Inside, Refusal, Safety, TrackProblem},
+    contract::driver::{Command, Event, Inside, Refusal, Safety, TrackProblem},
     plan::{Barrier, Bounds, ProgramTrack, Target},
     sim::satrak::Options,
     station::{Station, SunAvoidance, Unread},
@@ -180,7 +180,7 @@ async fn the_park_position_is_taken_where_it_is_nearer() {
     rig.until("inside", 5, |shown| shown.inside.is_some()).await;
     rig.send(Command::MoveAway);
     rig.until_event(60, |event| matches!(event, Event::Arrived(_))).await;
-    assert_eq!(rig.shown().intent, azel::driver::Intent::Park);
+    assert_eq!(rig.shown().intent, azel::contract::driver::Intent::Park);
 }
 
 #[tokio::test(start_paused = true)]

@@ -6,15 +6,14 @@ use std::sync::{
 };
 
 use azel::{
-    driver::{Command, Event, Intent, LinkState, Refusal, StopState, StoppingWay},
+    contract::driver::{Command, Event, Intent, LinkState, Refusal, StopState, StoppingWay},
     protocol::satrak::FaultKind,
     sim::satrak::Fault,
     station::Mount,
 };
 
 use super::{
-    rig::Rig,
-    rig::{antenna, options},
+    rig::{Rig, antenna, options},
     script::{STILL, Scripted, plain},
 };
 

@@ -1,6 +1,6 @@
 //! The operator leaves the unit to others, and comes back.
 
-use azel::driver::{Command, Event, Found, Intent, LinkState, Refusal, StopState};
+use azel::contract::driver::{Command, Event, Found, Intent, LinkState, Refusal, StopState};
 
 use super::rig::{Rig, iss, track};
 

@@ -2,11 +2,11 @@
 
 use azel::{
     astro::{Angle, AzEl},
+    contract::driver::{Command, Event, Found, Intent, LinkState, Refusal, StopState},
     device::{
         panel::Act,
         settings::{Value, WriteError},
     },
-    driver::{Command, Event, Found, Intent, LinkState, Refusal, StopState},
     plan::{ProgramTrack, Target},
     station::LockOut,
 };

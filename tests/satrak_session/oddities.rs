@@ -4,9 +4,9 @@ use std::collections::BTreeSet;
 
 use azel::{
     astro::{Angle, AzEl},
+    contract::driver::{Command, Event, LinkLoss, LinkState, Snapshot},
     controller::satrak::checks,
     device::panel::{Check, CheckState},
-    driver::{Command, Event, LinkLoss, LinkState, Snapshot},
     sim::satrak::{Fault, Options, Quirk},
 };
 use jiff::SignedDuration;

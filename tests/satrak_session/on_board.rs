@@ -2,8 +2,8 @@
 
 use azel::{
     astro::{Angle, AzEl, time},
+    contract::driver::{Command, Event, Intent, Refusal, Response, Safety},
     device::{Phase, TrackTarget, settings::Value},
-    driver::{Command, Event, Intent, Refusal, Response, Safety},
     orbit::{PassSearch, Propagator, passes},
     plan::{
         Bounds, OnBoardPass, Supervision,
@@ -171,7 +171,7 @@ async fn what_another_client_changes_while_the_unit_tracks_is_read_and_told() {
     let mut rig = read().await;
     rig.send(track(iss()));
     rig.until_event(10, |event| matches!(event, Event::Tracking(_))).await;
-    let in_pass = |shown: &azel::driver::Snapshot| {
+    let in_pass = |shown: &azel::contract::driver::Snapshot| {
         shown.state.program.is_some_and(|it| it.phase == azel::device::Phase::Tracking)
     };
     rig.until("in the pass", 120, in_pass).await;
@@ -390,8 +390,9 @@ async fn an_antenna_just_outside_its_beam_is_told_and_tracks_on() {
     let mut rig = read().await;
     chosen_by_another(&mut rig, &iss()).await;
     by_another(&rig, "TRACK=,1").await;
-    let tracks =
-        |shown: &azel::driver::Snapshot| shown.state.program.unwrap().phase == Phase::Tracking;
+    let tracks = |shown: &azel::contract::driver::Snapshot| {
+        shown.state.program.unwrap().phase == Phase::Tracking
+    };
     rig.until("in the pass", 120, tracks).await;
     rig.seconds(20.0).await;
     by_another(&rig, "SETTINGS=,?,?,?,0.9,?,?,?,?,?,?,?").await;
@@ -412,8 +413,9 @@ async fn what_the_unit_tracks_unasked_is_watched_like_what_it_was_asked_to() {
     by_another(&rig, "TRACK=,1").await;
     rig.until_event(5, |event| *event == Event::StartedByItself).await;
     rig.until("it is watched", 2, |shown| shown.on_board.is_some()).await;
-    let tracks =
-        |shown: &azel::driver::Snapshot| shown.state.program.unwrap().phase == Phase::Tracking;
+    let tracks = |shown: &azel::contract::driver::Snapshot| {
+        shown.state.program.unwrap().phase == Phase::Tracking
+    };
     rig.until("in the pass", 120, tracks).await;
     rig.seconds(20.0).await;
     let shown = rig.shown();
@@ -497,7 +499,8 @@ async fn a_unit_found_tracking_that_stands_elsewhere_is_told_with_the_cause() {
     rig.seconds(60.0).await;
     rig.events();
     rig.send(Command::Connect);
-    let found = |event: &Event| matches!(event, Event::Connected(azel::driver::Found::Tracking));
+    let found =
+        |event: &Event| matches!(event, Event::Connected(azel::contract::driver::Found::Tracking));
     rig.until_event(10, found).await;
     rig.until("missed", 150, |shown| {
         shown.on_board.as_ref().is_some_and(|view| view.missing.is_some())

@@ -2,7 +2,7 @@
 
 use azel::{
     astro::Angle,
-    driver::{Command, Event, Intent, StopState},
+    contract::driver::{Command, Event, Intent, StopState},
     sim::satrak::Fault,
 };
 

@@ -2,7 +2,7 @@
 
 use azel::{
     astro::{Angle, AzEl},
-    driver::{Command, Event, Intent, Refusal},
+    contract::driver::{Command, Event, Intent, Refusal},
     protocol::satrak::FaultKind,
     sim::satrak::Fault,
 };

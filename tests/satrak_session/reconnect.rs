@@ -3,10 +3,10 @@
 use azel::{
     astro::Angle,
     clock::Instant,
-    device::PrepareError,
-    driver::{
+    contract::driver::{
         Command, Event, Found, Intent, LinkLoss, LinkState, Refusal, Safety, StopState, Unlike,
     },
+    device::PrepareError,
     protocol::satrak::{Goto, Halt, Motion, Request},
     sim::satrak::Fault,
 };

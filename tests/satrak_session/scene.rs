@@ -5,9 +5,10 @@ use std::{collections::BTreeMap, sync::Arc};
 use azel::{
     astro::{Angle, Site, time},
     clock::Clock,
+    contract::driver::Command,
     controller::satrak::Satrak,
     device::TrackTarget,
-    driver::{AntennaHandle, Command, Debts, Dial, Session},
+    driver::{AntennaHandle, Debts, Dial, Session},
     orbit::{Elements, Pass, PassSearch, Propagator, passes, read_elements},
     plan::{OnBoardPass, on_board::KnownOrbit},
     sim::satrak::Options,

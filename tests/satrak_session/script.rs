@@ -7,7 +7,8 @@ use std::{
 
 use azel::{
     clock::Instant,
-    driver::{AntennaHandle, Dial, Event, Stream},
+    contract::driver::Event,
+    driver::{AntennaHandle, Dial, Stream},
     protocol::satrak::{Decoder, encode},
 };
 use tokio::{

@@ -3,9 +3,9 @@
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use azel::{
+    contract::driver::Command,
     controller::satrak::settings::{FROM_GPS, FROM_THIS_PC, GROUPS},
     device::settings::{Access, Change, Secret, Value, Values, WriteError},
-    driver::Command,
     protocol::satrak::encode,
     sim::satrak::Options,
 };

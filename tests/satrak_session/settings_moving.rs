@@ -1,8 +1,8 @@
 //! Settings that decide where the antenna points wait until it stands.
 
 use azel::{
+    contract::driver::{Command, Event, Refusal},
     device::settings::{Change, Hindrance, Value, WriteError},
-    driver::{Command, Event, Refusal},
 };
 
 use super::{

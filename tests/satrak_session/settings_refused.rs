@@ -4,8 +4,8 @@
 use std::time::Duration;
 
 use azel::{
+    contract::driver::{Command, Snapshot},
     device::settings::{Change, Hindrance, Value, WriteError, WriteStep},
-    driver::{Command, Snapshot},
     protocol::satrak::encode,
     sim::satrak::Fault,
 };

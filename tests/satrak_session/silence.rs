@@ -12,7 +12,7 @@ use std::{
 use azel::{
     astro::Angle,
     clock::Instant,
-    driver::{Command, Event, LinkState, Safety},
+    contract::driver::{Command, Event, LinkState, Safety},
     sim::satrak::Fault,
 };
 

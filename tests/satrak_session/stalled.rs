@@ -6,11 +6,14 @@ use std::sync::{
 };
 
 use azel::{
-    driver::{Command, Event, LinkLoss, Safety, Stream},
+    contract::driver::{Command, Event, LinkLoss, Safety},
+    driver::Stream,
     sim::satrak::Control,
 };
-use tokio::io::{AsyncReadExt as _, AsyncWriteExt as _, DuplexStream, duplex};
-use tokio::sync::watch;
+use tokio::{
+    io::{AsyncReadExt as _, AsyncWriteExt as _, DuplexStream, duplex},
+    sync::watch,
+};
 
 use super::rig::{Rig, antenna, options};
 

@@ -3,7 +3,7 @@
 use azel::{
     astro::Angle,
     clock::Instant,
-    driver::{Command, Event, Intent, LinkState, StopState},
+    contract::driver::{Command, Event, Intent, LinkState, StopState},
     sim::{
         Mechanics,
         satrak::{Fault, Options, Quirk},

@@ -2,8 +2,8 @@
 
 use azel::{
     astro::Angle,
+    contract::driver::{Command, Event, Intent},
     device::{Phase, PrepareError, TrackTarget},
-    driver::{Command, Event, Intent},
     sim::satrak::Options,
 };
 use jiff::SignedDuration;

@@ -1,7 +1,7 @@
 //! Two programs on one unit.
 
 use azel::{
-    driver::{Command, Event, StopState},
+    contract::driver::{Command, Event, StopState},
     sim::satrak::{Control, Options},
 };
 

@@ -7,7 +7,8 @@ use std::{
 };
 
 use azel::{
-    driver::{Command, Event, Refusal, Stream},
+    contract::driver::{Command, Event, Refusal},
+    driver::Stream,
     sim::satrak::Control,
 };
 use tokio::io::{AsyncRead, AsyncWrite, DuplexStream, ReadBuf};

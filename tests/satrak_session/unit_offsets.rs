@@ -2,8 +2,8 @@
 
 use azel::{
     astro::{Angle, AzEl, Offset, TrackOffsets},
+    contract::driver::{Command, Event, Intent, LeftOffsets, OffsetChange, Refusal},
     device::settings::{Value, WriteError},
-    driver::{Command, Event, Intent, LeftOffsets, OffsetChange, Refusal},
     plan::{
         Bounds,
         on_board::{OffLimits, Trespass},

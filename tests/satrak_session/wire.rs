@@ -3,8 +3,8 @@
 use std::{sync::Arc, time::Duration};
 
 use azel::{
+    contract::driver::{Command, Event, Recorded},
     device::{Direction, Finding, WireLine},
-    driver::{Command, Event, Recorded},
     protocol::satrak::{Query, encode},
     sim::satrak::{Fault, Options},
 };

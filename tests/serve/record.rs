@@ -9,8 +9,9 @@ use std::{
 };
 
 use azel::{
+    contract::record::Row,
     engine::record_path,
-    record::{Kind, Query, Record, Row, RowKind},
+    record::{Kind, Query, Record, RowKind},
 };
 use jiff::{SignedDuration, Timestamp};
 use serde_json::Value;

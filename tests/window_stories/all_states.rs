@@ -6,8 +6,8 @@
 use std::{iter::successors, time::Duration};
 
 use azel::{
+    contract::driver::{Intent, LinkLoss, LinkState, Snapshot, StopState},
     device::{AxisMotion, Phase},
-    driver::{Intent, LinkLoss, LinkState, Snapshot, StopState},
     engine::automatic::{Doing, Interruption, OffBecause, Operation},
     model::Model,
 };

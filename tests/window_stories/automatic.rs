@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use azel::{
     astro::time::add_seconds,
-    driver::{LinkLoss, LinkState},
+    contract::driver::{LinkLoss, LinkState},
     engine::{
         Command,
         automatic::{Doing, Interruption, OffBecause, Operation, Taking},

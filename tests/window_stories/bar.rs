@@ -2,9 +2,9 @@
 
 use azel::{
     clock::Instant,
+    contract::driver::{Intent, LinkLoss, LinkState, Snapshot, StopState},
     controller::satrak::checks,
     device::{Asked, Motion},
-    driver::{Intent, LinkLoss, LinkState, Snapshot, StopState},
     engine,
     engine::alarms::{AlarmKind, ShelveTime, Work},
     model::{ThemeName, UiCommand, View},

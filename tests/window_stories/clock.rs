@@ -1,6 +1,6 @@
 //! Trust in the clock of this computer.
 
-use azel::driver::TimeSync;
+use azel::contract::driver::TimeSync;
 use egui_kittest::kittest::Queryable as _;
 
 use crate::window_stories::{

@@ -1,12 +1,10 @@
 //! Closing the window while something typed is not where it belongs.
 
-use std::sync::Arc;
-
-use std::path::Path;
+use std::{path::Path, sync::Arc};
 
 use azel::{
     clock::Clock,
-    driver::{Intent, LinkState, Snapshot, StopState},
+    contract::driver::{Intent, LinkState, Snapshot, StopState},
     engine::{self, closing::CloseHow},
     model::{Model, UiCommand, View},
     station::{self, OnClose},

@@ -4,9 +4,9 @@ use std::time::Duration;
 
 use azel::{
     astro::time::add_seconds,
+    contract::driver::WireLog,
     controller::satrak,
     device::{Direction, Finding, WireLine},
-    driver::WireLog,
     model::{UiCommand, View},
     protocol::satrak::encode,
 };

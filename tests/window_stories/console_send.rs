@@ -5,7 +5,7 @@ use std::fs;
 
 use azel::{
     clock::Instant,
-    driver::{Command, LinkLoss, LinkState},
+    contract::driver::{Command, LinkLoss, LinkState},
     model::{Model, ThemeName, UiCommand, View},
     protocol::satrak::encode,
     station,

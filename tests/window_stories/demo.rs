@@ -6,12 +6,15 @@ use azel::{
     app::App,
     astro::{Angle, AzEl},
     clock::Clock,
+    contract::{
+        driver::{Command, LinkState, StopState},
+        record::Row,
+    },
     device::{Measured, panel::Act, settings::Value},
-    driver::{Command, LinkState, StopState},
     engine::{self, Handle, Settings, alarms::AlarmKind},
     makes,
     model::{Model, UiCommand, View},
-    record::{Query, Record, Row, RowKind},
+    record::{Query, Record, RowKind},
     station,
 };
 use egui::{Key, Role};

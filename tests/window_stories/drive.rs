@@ -2,7 +2,7 @@
 
 use azel::{
     astro::Angle,
-    driver::{Command, Intent, Snapshot},
+    contract::driver::{Command, Intent, Snapshot},
     model::UiCommand,
     station::AntennaId,
 };

@@ -17,7 +17,7 @@ use std::{collections::BTreeMap, sync::Arc};
 
 use azel::{
     astro::time::add_seconds,
-    driver::{Intent, LinkLoss, LinkState, Snapshot},
+    contract::driver::{Intent, LinkLoss, LinkState, Snapshot},
     engine::{self, alarms::AlarmKind, automatic::Doing},
     model::{DistanceUnit, Model, UiCommand, View},
     station::AntennaId,

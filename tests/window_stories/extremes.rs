@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use azel::{
-    driver::{LinkLoss, LinkState, Snapshot},
+    contract::driver::{LinkLoss, LinkState, Snapshot},
     engine::{self, CatalogState, passes::PassLists},
     model::{Model, Sky, UiCommand, View},
 };

@@ -6,14 +6,15 @@ use azel::{
         time::{add_seconds, seconds_between},
     },
     clock::Instant,
+    contract::driver::{Command, Event, Found, Intent, LinkState, Snapshot, TrackView},
     device::AxisMotion,
-    driver::{Command, Event, Found, Intent, LinkState, Snapshot, TrackView},
     engine::{self, passes::PredictedPass},
     model::{Model, UiCommand},
     plan::{ProgramTrack, Sample, Target, TrackPhase, TrackStats, program_track::OnPath},
     station::{Antenna, AntennaId, Mount},
     ui::bar::activity,
 };
+
 use std::{sync::Arc, time::Duration};
 
 use egui::Role;

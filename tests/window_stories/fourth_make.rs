@@ -11,8 +11,9 @@ use std::{
 use azel::{
     astro::{Angle, AzEl},
     clock::{Clock, Instant},
+    contract::driver::{Command, Event, Intent, Safety, Snapshot, StopState},
     device::Pointing,
-    driver::{AntennaHandle, Command, Driver, Event, Intent, Safety, Snapshot, StopState},
+    driver::{AntennaHandle, Driver},
     makes,
     model::View,
     plan::Bounds,

@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use azel::{
     astro::{Angle, AzEl},
+    contract::driver::{Command, Intent, LinkState, Preview, Refusal, Snapshot, Way},
     device::Pointing,
-    driver::{Command, Intent, LinkState, Preview, Refusal, Snapshot, Way},
     model::UiCommand,
     station::AntennaId,
 };

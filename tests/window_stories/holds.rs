@@ -4,11 +4,11 @@ use std::sync::Arc;
 
 use azel::{
     astro::AzEl,
-    device::{panel::Act, settings::Values},
-    driver::{
+    contract::driver::{
         Command, Event, Inside, Intent, LeftMoving, Mover, Refusal, Response, Safety, Snapshot,
         StopState,
     },
+    device::{panel::Act, settings::Values},
     engine::{self, alarms::AlarmKind},
     model::{Model, UiCommand},
     plan::{Barrier, Target},

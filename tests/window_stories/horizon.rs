@@ -1,13 +1,11 @@
 //! Keep-outs: added, drawn, typed, undone, compared with the passes and saved.
 
-use std::sync::Arc;
-
-use std::fs;
+use std::{fs, sync::Arc};
 
 use azel::{
     astro::{Angle, HorizonMask},
+    contract::driver::{Intent, Snapshot, StoppingWay},
     device::AxisMotion,
-    driver::{Intent, Snapshot, StoppingWay},
     makes,
     model::{
         Model, UiCommand, View,

@@ -5,8 +5,9 @@ use std::sync::Arc;
 
 use azel::{
     clock::Clock,
+    contract::driver::{Intent, LinkState, StopState},
     device::Measured,
-    driver::{Dial, Intent, LinkState, Outside, StopState, Stream, UnitLock},
+    driver::{Dial, Outside, Stream, UnitLock},
     model::{Model, View},
     sim::satrak::{Control, Options},
     station::{self, Antenna, Station},

@@ -11,7 +11,7 @@ use azel::{
         Angle, TrackOffsets,
         xy_mount::{AxisAngles, azel_from_axes},
     },
-    driver,
+    contract::driver,
     engine::{alarms::AlarmKind, passes::PredictedPass},
     model::{UiCommand, View},
     station::{AntennaId, Mount, Take},

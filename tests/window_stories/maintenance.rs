@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use azel::{
-    driver::{Command, Intent, LinkState, Snapshot},
+    contract::driver::{Command, Intent, LinkState, Snapshot},
     engine::{self, alarms::AlarmKind},
     model::UiCommand,
     station::{self, AntennaId, LockOut},

@@ -4,12 +4,12 @@ use std::sync::Arc;
 
 use azel::{
     astro::Angle,
+    contract::driver::{Intent, LinkState, Snapshot},
     controller::rotator_genius::{ROTATORS, Rotators},
     device::{
         AxisMotion, Measured, Pointing,
         panel::{Check, CheckState, Reading, Tone},
     },
-    driver::{Intent, LinkState, Snapshot},
     model::Model,
     station::{Antenna, Mount},
 };

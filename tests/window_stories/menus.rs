@@ -2,7 +2,7 @@
 
 use azel::{
     astro::AzEl,
-    driver::Command,
+    contract::driver::Command,
     engine,
     model::{UiCommand, View},
     station::AntennaId,

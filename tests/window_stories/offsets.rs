@@ -4,11 +4,11 @@ use std::sync::Arc;
 
 use azel::{
     astro::{Angle, Offset, TrackOffsets},
-    device::settings::WriteError,
-    driver::{
+    contract::driver::{
         Command, LeftOffsets, LinkState, OffsetChange, OnBoardView, Refusal, Snapshot,
         UnitOffsetsView,
     },
+    device::settings::WriteError,
     engine::{self, alarms::AlarmKind},
     model::UiCommand,
     station::{AntennaId, OffsetsOf},

@@ -8,8 +8,8 @@ use std::{
 
 use azel::{
     astro::{Angle, time::add_seconds},
+    contract::driver::{OffTargetCause, OnBoardView, Snapshot},
     device::{Place, settings::Value},
-    driver::{OffTargetCause, OnBoardView, Snapshot},
     engine::{self, alarms::AlarmKind},
     model::{Model, UiCommand},
     orbit::{bundled, read_elements},

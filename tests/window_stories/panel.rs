@@ -4,8 +4,8 @@
 use azel::{
     astro::Angle,
     clock::Instant,
+    contract::driver::{Command, Intent, LinkState},
     device::AxisMotion,
-    driver::{Command, Intent, LinkState},
     model::{Model, UiCommand, View},
     station::{Antenna, AntennaId},
 };

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use azel::{
     astro::AzEl,
-    driver::{Command, Event, Inside, Intent, LeftMoving, Refusal, Snapshot, StopState},
+    contract::driver::{Command, Event, Inside, Intent, LeftMoving, Refusal, Snapshot, StopState},
     engine::{self, track_again::TrackAgain},
     model::{Model, ThemeName},
     plan::Barrier,

@@ -1,12 +1,12 @@
 //! Actions of single makes: every action of every make from its key to its command.
 
 use azel::{
+    contract::driver::{Command, Intent},
     device::{
         Variant,
         panel::{Act, Action},
         settings::{Field, Kind, Value, Values},
     },
-    driver::{Command, Intent},
     model::{Model, UiCommand},
     station::AntennaId,
 };

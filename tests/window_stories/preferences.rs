@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use azel::{
     clock::Instant,
-    driver::{LinkFault, LinkFinding, LinkLoss, LinkState, Snapshot},
+    contract::driver::{LinkFault, LinkFinding, LinkLoss, LinkState, Snapshot},
     engine::{
         self,
         link_tests::{LinkTest, LinkTestStage},

@@ -4,8 +4,11 @@ use std::{sync::Arc, time::Duration};
 
 use azel::{
     astro::{PointingModel, Term},
+    contract::{
+        driver::{Intent, LinkFinding, Snapshot},
+        record::{FittedTerm, NoiseOf, Peak, PeakChange, PeakOf, Peaks, PointingFit},
+    },
     device::{OnBoard, Place},
-    driver::{Intent, LinkFinding, Snapshot},
     engine::{
         self,
         alarms::AlarmKind,
@@ -15,7 +18,6 @@ use azel::{
     },
     model::{Model, UiCommand, View, effects},
     plan::pointing::Kind,
-    record::{FittedTerm, NoiseOf, Peak, PeakChange, PeakOf, Peaks, PointingFit},
     station::{Antenna, AntennaId, Station},
     ui::theme,
 };

@@ -1,7 +1,7 @@
 //! Automatic acts of the station for its antennas, set in the form.
 
 use azel::{
-    driver::{Snapshot, StoppingWay},
+    contract::driver::{Snapshot, StoppingWay},
     station::{Monitor, OnClose, Resume},
 };
 use egui::Role;

@@ -6,11 +6,18 @@ use azel::{
     astro::{
         Angle, AzEl, HorizonMask, Offset, PointingModel, Site, TrackOffsets, time::add_seconds,
     },
+    contract::{
+        driver,
+        driver::TimeSync,
+        record::{
+            AboutTrack, ExplainedPasses, ListedKind, OpenedPass, PassPage, PassQuery, RecordedPass,
+            RecordedReport, Row, TrackedBy,
+        },
+    },
     device::{
         Pointing,
         settings::{Change, Value, Written},
     },
-    driver::{self, TimeSync},
     engine::{
         Command,
         alarms::{Alarm, AlarmKind},
@@ -29,10 +36,6 @@ use azel::{
             Cause, Evidence, Explanation, FlownOffsets, LossCause, LostStretch, MeasuredPosition,
             PassReport, PassVerdict, PathSource, PointingError, TrackPoint, WorstError,
         },
-    },
-    record::{
-        AboutTrack, ExplainedPasses, ListedKind, OpenedPass, PassPage, PassQuery, RecordedPass,
-        RecordedReport, Row, TrackedBy,
     },
     station::{self, OffsetsOf},
     ui::{format, theme},

@@ -5,8 +5,12 @@ use std::{sync::Arc, time::Duration};
 use azel::{
     app::App,
     astro::{Angle, time::add_seconds},
+    contract::{
+        driver,
+        driver::{Intent, StopState},
+        record::PassTimes,
+    },
     device::AxisMotion,
-    driver::{self, Intent, StopState},
     engine::{Command, Settings},
     model::{
         Model, UiCommand, View,
@@ -14,7 +18,6 @@ use azel::{
             JumpNews, ReplayCommand, ReplayEnd, ReplayProblem, Replayed, Stretch, StretchPass,
         },
     },
-    record::PassTimes,
     station::{self, AntennaId},
 };
 use egui::{Key, Modifiers, Role};

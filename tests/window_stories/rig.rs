@@ -9,8 +9,8 @@ use std::{
 use azel::{
     astro::time::add_seconds,
     clock::{Instant, Moment},
+    contract::driver::{LinkState, Snapshot, TimeSync, WireLog},
     controller::satrak,
-    driver::{LinkState, Snapshot, TimeSync, WireLog},
     engine::{
         CatalogState, Command,
         antenna::AntennaModel,
@@ -303,7 +303,7 @@ pub(crate) fn sent(window: &mut Window) -> Vec<UiCommand> {
     let mut commands = asked(window);
     commands.retain(|command| {
         let looks = |command: &Command| {
-            matches!(command, Command::Antenna(_, azel::driver::Command::Preview(_)))
+            matches!(command, Command::Antenna(_, azel::contract::driver::Command::Preview(_)))
         };
         !matches!(command, UiCommand::Station(command) if looks(command))
     });

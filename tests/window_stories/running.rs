@@ -5,8 +5,8 @@ use std::time::Duration;
 use azel::{
     astro::AzEl,
     clock::{Clock, Instant},
+    contract::driver::{Intent, LinkState, StopState},
     device::Measured,
-    driver::{Intent, LinkState, StopState},
     engine::CatalogState,
     makes,
     model::{Model, ThemeName, View},

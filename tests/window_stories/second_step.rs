@@ -1,7 +1,7 @@
 //! Commands that end a track take a second step that names the track, by mouse and by key alike.
 
 use azel::{
-    driver::{Command, Snapshot},
+    contract::driver::{Command, Snapshot},
     engine::{self, passes::PredictedPass},
     model::UiCommand,
 };

@@ -4,10 +4,10 @@ use std::{sync::Arc, time::Duration};
 
 use azel::{
     astro::{AzEl, time::add_seconds},
-    device::{Asked, AxisMotion, Motion, Offsets, Phase, PrepareError},
-    driver::{
+    contract::driver::{
         Event, Found, Intent, LinkLoss, LinkState, OnBoardView, Refusal, Snapshot, StopState,
     },
+    device::{Asked, AxisMotion, Motion, Offsets, Phase, PrepareError},
     engine::{
         claim::{HeldBy, Holder, HolderKind},
         passes::PredictedPass,

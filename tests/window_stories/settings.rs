@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use azel::{
+    contract::driver::{Command, Intent, LinkLoss, LinkState, Snapshot},
     device::settings::{Change, GroupState, ReadFailure, Value, WriteError, WriteStep, Written},
-    driver::{Command, Intent, LinkLoss, LinkState, Snapshot},
     engine,
     model::{UiCommand, View},
     station::AntennaId,

@@ -1,12 +1,11 @@
 //! Content of a unit's cards other than its settings.
 
 use azel::{
+    contract::driver::Command,
     device::{Program, settings::Value},
-    driver::Command,
     model::UiCommand,
     station::AntennaId,
 };
-
 use egui::Key;
 
 use crate::window_stories::{

@@ -3,9 +3,9 @@
 use std::sync::Arc;
 
 use azel::{
+    contract::driver::Snapshot,
     controller::satrak::settings::GROUPS,
     device::settings::{Access, Field, GroupState, Held, HeldGroup, Kind, Secret, Value, Values},
-    driver::Snapshot,
     model::View,
 };
 use egui::{Event, Key, Modifiers, Role};

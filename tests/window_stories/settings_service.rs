@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use azel::{
-    clock::Instant, device::settings::Value, driver::Command, engine, model::UiCommand,
+    clock::Instant, contract::driver::Command, device::settings::Value, engine, model::UiCommand,
     station::AntennaId,
 };
 use egui::{Event, Key, Role};

@@ -2,8 +2,8 @@
 //! meanwhile, and with the link lost in between.
 
 use azel::{
+    contract::driver::LinkState,
     device::settings::{GroupState, WriteError, Written},
-    driver::LinkState,
     protocol::satrak::encode,
     sim::satrak::{Control, Fault},
     station,

@@ -3,11 +3,11 @@
 use std::{sync::Arc, time::Duration};
 
 use azel::{
+    contract::driver::{LinkFault, LinkFinding},
     device::{
         AntennaState, OnBoard, Place, UnitClock,
         panel::{Check, CheckState},
     },
-    driver::{LinkFault, LinkFinding},
     engine::{
         self,
         link_tests::{LinkTest, LinkTestStage},

@@ -2,7 +2,7 @@
 //! with the mouse and once with the keyboard alone.
 
 use azel::{
-    driver::LinkFinding,
+    contract::driver::LinkFinding,
     engine::{antenna::AntennaModel, link_tests::LinkTestStage},
     makes,
     model::{Model, View},

@@ -4,8 +4,8 @@
 use std::{sync::Arc, time::Duration};
 
 use azel::{
+    contract::driver::{Command, Intent, LinkLoss, LinkState, OnBoardView, Snapshot},
     device::AxisMotion,
-    driver::{Command, Intent, LinkLoss, LinkState, OnBoardView, Snapshot},
     model::{Model, UiCommand},
 };
 use egui::Role;

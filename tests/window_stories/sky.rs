@@ -4,7 +4,7 @@ use std::{sync::Arc, time::Duration};
 
 use azel::{
     astro::time::add_seconds,
-    driver::Intent,
+    contract::driver::Intent,
     model::UiCommand,
     station::{AntennaId, Frequency},
     ui::format,

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use azel::{
     astro::time::add_seconds,
-    driver::{Command, Snapshot},
+    contract::driver::{Command, Snapshot},
     engine::schedule::Planned,
     model::{
         Model, UiCommand, View,

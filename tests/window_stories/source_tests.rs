@@ -1,6 +1,7 @@
 //! "Test from here" beside the form of a unit's source.
 
 use azel::{
+    contract::transfer::{AlgorithmPart, FileProtocol, OldAlgorithm, Peer, UnitView},
     engine::{
         self,
         host_keys::DoubtfulKey,
@@ -9,7 +10,7 @@ use azel::{
     model::{Model, ThemeName, UiCommand},
     orbit::write_tle,
     secret::Secret,
-    transfer::{AlgorithmPart, FileProtocol, OldAlgorithm, Peer, UnitView, what_a_unit_sees},
+    transfer::what_a_unit_sees,
     ui::{
         source_test::{self, SourceTestState, TypedSource},
         theme,

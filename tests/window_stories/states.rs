@@ -3,9 +3,9 @@
 use azel::{
     astro::{AzEl, time::add_seconds},
     clock::Instant,
+    contract::driver::{Intent, Snapshot},
     controller::satrak::checks,
     device::{Axis, AxisMotion, Drive, HeldSatellite, Measured, Phase, Program, TrackTarget},
-    driver::{Intent, Snapshot},
     model::Model,
     protocol::satrak::{Frame, Reply},
 };

@@ -5,7 +5,7 @@ use std::{fmt::Write as _, fs, path::Path};
 use azel::{
     app::App,
     clock::Clock,
-    driver::LinkState,
+    contract::driver::LinkState,
     engine::{Handle, Settings, claim::HolderKind},
     model::{KnownStation, Model, NextStation, ThemeName, UiCommand, View, typed_path::OpenedFile},
     orbit::bundled,

@@ -1,6 +1,6 @@
 //! Turning an axis by a set amount, and the rate of a jog.
 
-use azel::{driver::Command, model::UiCommand, station::AntennaId};
+use azel::{contract::driver::Command, model::UiCommand, station::AntennaId};
 use egui::{Key, Role};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use azel::{
     clock::Instant,
-    driver::{Intent, LinkLoss, LinkState, Snapshot, StopState},
+    contract::driver::{Intent, LinkLoss, LinkState, Snapshot, StopState},
     engine::alarms::AlarmKind,
     model::{Model, UiCommand, View},
     station::{Antenna, AntennaId},

@@ -118,7 +118,8 @@ fn passes_that_are_over_are_done_or_missed() {
 #[test]
 fn each_lane_of_a_high_strip_says_which_antenna_takes_a_pass() {
     let mut model = rig::model(states::holding());
-    let second = makes::model(makes::pair(), makes::pair_at(azel::driver::Intent::Position));
+    let second =
+        makes::model(makes::pair(), makes::pair_at(azel::contract::driver::Intent::Position));
     model.antennas.extend(second.antennas);
     model.antennas[1].config.id = AntennaId(2);
     model.schedule = Arc::new(plan::planned(&model));

@@ -1,12 +1,12 @@
 //! Questions to the operator during an upload.
 
 use azel::{
+    contract::transfer::UploadStep,
     engine::{
         host_keys::DoubtfulKey,
         uploads::{Ask, Busy, Failure, SecretWanted, Stage},
     },
     secret::Secret,
-    transfer::UploadStep,
 };
 use egui::{Event, Key, Role};
 use egui_kittest::kittest::Queryable as _;

@@ -2,11 +2,13 @@
 
 use azel::{
     astro::time::add_seconds,
+    contract::transfer::{
+        FileName, KeptFile, Origin, Peer, Progress, TleFile, UploadStep, Uploaded,
+    },
     controller::satrak::ELEMENT_FILES,
     engine,
     engine::uploads::{Ask, Failure, KeptEntry, Order, Stage, Uploads},
     model::{Model, ThemeName, UiCommand},
-    transfer::{FileName, KeptFile, Origin, Peer, Progress, TleFile, UploadStep, Uploaded},
     ui::{
         theme,
         upload::{self, UploadState},

@@ -3,13 +3,15 @@
 use std::sync::Arc;
 
 use azel::{
+    contract::transfer::{AlgorithmPart, FileObject, OldAlgorithm, Origin, Peer, UploadStep},
     controller::satrak::ELEMENT_FILES,
     device::HeldSatellite,
     engine,
-    engine::CatalogState,
-    engine::uploads::{Ask, Cargo, Failure, Kept, KeptEntry, Proved, Stage, Uploads, Warning},
+    engine::{
+        CatalogState,
+        uploads::{Ask, Cargo, Failure, Kept, KeptEntry, Proved, Stage, Uploads, Warning},
+    },
     model::{Model, UiCommand, View},
-    transfer::{AlgorithmPart, FileObject, OldAlgorithm, Origin, Peer, UploadStep},
 };
 use egui::{Key, Role};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};

@@ -2,7 +2,7 @@
 
 use azel::{
     astro::AzEl,
-    driver::{Intent, Snapshot},
+    contract::driver::{Intent, Snapshot},
     engine::antenna::Prediction,
 };
 use egui::Role;

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use azel::{
-    driver::{Command, Intent},
+    contract::driver::{Command, Intent},
     engine,
     model::{Model, UiCommand},
     station::AntennaId,

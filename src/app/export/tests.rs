@@ -1,5 +1,6 @@
 use super::*;
 use crate::{
+    contract,
     engine::passes::{ListedSatellite, Observer, PassList as Listed},
     makes::DemoAddresses,
     orbit::{Propagator, bundled, passes, read_elements},
@@ -212,7 +213,7 @@ fn the_passes_of_chosen_days_are_written_into_one_file() {
     let day = |text: &str| text.parse::<Date>().unwrap();
     let of = |first: &str, last: &str, format| {
         let (first, last) = (day(first), day(last));
-        let query = record::PassQuery::default();
+        let query = contract::record::PassQuery::default();
         let order = order(|_| Export::Days { query: query.clone(), first, last, format });
         Order { record: Some(path.clone()), ..order }
     };

@@ -6,14 +6,14 @@ use jiff::Timestamp;
 
 use crate::{
     astro::Site,
-    driver::WireLog,
+    contract::{driver::WireLog, record::PassTimes},
     engine::{
         Snapshot,
         film::Projector,
         recorded::{RecordLook, Recorded},
     },
     model::replay::{JumpNews, Stretch},
-    record::{self, Beside, FilmError, PassTimes},
+    record::{self, Beside, FilmError},
     station::AntennaId,
 };
 

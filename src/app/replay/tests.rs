@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::{
-    driver::{self, LinkState},
+    contract::{driver, driver::LinkState},
     engine::{antenna::AntennaModel, closing::CloseHow},
     job::InPlace,
     model::replay::StretchPass,
@@ -49,7 +49,7 @@ fn a_replay_whose_thread_cannot_be_started_says_so_and_stands() {
 
 #[test]
 fn a_command_given_in_a_replay_ends_there() {
-    use driver::Command as C;
+    use crate::contract::driver::Command as C;
     let mut replay = replay();
     let antenna = AntennaId(1);
     let moving = [C::Manual, C::Park, C::MoveAway, C::TakeOver, C::Resume, C::AutoTrack(true)];

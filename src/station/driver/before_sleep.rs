@@ -219,7 +219,10 @@ mod tests {
     use tokio::time::{Instant, sleep, timeout};
 
     use super::*;
-    use crate::driver::{Command, Debts, Event, Safety, session::testing};
+    use crate::{
+        contract::driver::{Command, Event, Safety},
+        driver::{Debts, session::testing},
+    };
 
     async fn seconds(seconds: f64) {
         sleep(Duration::try_from_secs_f64(seconds).unwrap()).await;

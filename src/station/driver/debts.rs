@@ -22,8 +22,8 @@ use tokio::sync::Notify;
 
 use crate::{
     clock::Instant,
+    contract::driver::Unit,
     promises::{FileState, Kept, Promises},
-    station::Antenna,
 };
 pub(super) use shifted_track::{AddedTo, ShiftedTrack};
 
@@ -32,31 +32,13 @@ const STOP: &str = ".toml";
 const AUTO_TRACK: &str = ".auto-track.toml";
 const OFFSETS: &str = ".offsets.toml";
 
-/// A unit, by what does not change when the operator renames its antenna.
-#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-pub struct Unit {
-    /// Key of its make, as in the station file.
-    pub make: String,
-    /// Address in lower case, because host names ignore case.
-    pub address: String,
-}
-
-impl Unit {
-    pub fn of(antenna: &Antenna) -> Self {
-        Self {
-            make: antenna.connection.spec().key.to_owned(),
-            address: antenna.connection.address.trim().to_lowercase(),
-        }
-    }
-
-    /// Name of a file, readable, and unique to the unit.
-    fn file_name(&self, ending: &str) -> String {
-        let plain = |letter: char| if letter.is_ascii_alphanumeric() { letter } else { '-' };
-        let readable: String = self.address.chars().map(plain).take(40).collect();
-        let hash = Sha256::digest(format!("{}\n{}", self.make, self.address));
-        let [a, b, c, d, ..] = *hash.first_chunk::<4>().unwrap_or(&[0; 4]);
-        format!("{}-{readable}-{a:02x}{b:02x}{c:02x}{d:02x}{ending}", self.make)
-    }
+/// Name of a file about `unit`, readable, and unique to it.
+fn file_name(unit: &Unit, ending: &str) -> String {
+    let plain = |letter: char| if letter.is_ascii_alphanumeric() { letter } else { '-' };
+    let readable: String = unit.address.chars().map(plain).take(40).collect();
+    let hash = Sha256::digest(format!("{}\n{}", unit.make, unit.address));
+    let [a, b, c, d, ..] = *hash.first_chunk::<4>().unwrap_or(&[0; 4]);
+    format!("{}-{readable}-{a:02x}{b:02x}{c:02x}{d:02x}{ending}", unit.make)
 }
 
 /// A unit that may be moving.
@@ -157,7 +139,7 @@ impl Debts {
     }
 
     fn path(&self, unit: &Unit, ending: &str) -> Option<PathBuf> {
-        Some(self.folder.as_ref()?.join(unit.file_name(ending)))
+        Some(self.folder.as_ref()?.join(file_name(unit, ending)))
     }
 
     /// The store of all promises of this program.
@@ -413,7 +395,7 @@ fn with_lowercase_address(path: &Path) -> io::Result<Option<(String, String)>> {
         return Ok(None);
     }
     table.insert("address".to_owned(), toml::Value::String(address.clone()));
-    let name = Unit { address, ..unit }.file_name(ending);
+    let name = file_name(&Unit { address, ..unit }, ending);
     Ok(Some((name, toml::to_string(&table).map_err(io::Error::other)?)))
 }
 

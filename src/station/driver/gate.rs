@@ -11,7 +11,6 @@ mod judged;
 mod offsets;
 mod preview;
 mod program;
-mod refusal;
 mod rules;
 mod settings;
 mod way;
@@ -21,13 +20,11 @@ use std::sync::Arc;
 
 use glam::DQuat;
 
-use super::{
-    intent::Intent,
-    motion_watch::{AxisLessons, Lead, MotionWatch},
-};
+use super::motion_watch::{Lead, MotionWatch};
 use crate::{
     astro::{Angle, AzEl},
     clock::{Instant, Moment},
+    contract::driver::{AxisLessons, Intent, Refusal},
     device::{
         AntennaState, Asked, Capabilities, Controller, Device, Motion, Pointing, Variant, aimed,
         panel::{Act, Action},
@@ -41,9 +38,7 @@ pub(super) use intervals::{Interval, Intervals};
 use judged::Judged;
 pub(super) use judged::PathQuestion;
 pub(super) use offsets::Demand;
-pub use preview::{Preview, Way};
 pub(super) use program::Held;
-pub use refusal::Refusal;
 use rules::{Check, RULES, Rule};
 pub(super) use settings::Shift;
 pub(super) use way::Route;

@@ -2,7 +2,6 @@
 
 use std::{io, sync::Arc, time::Duration};
 
-use serde::{Deserialize, Serialize};
 use tokio::io::{AsyncReadExt as _, AsyncWriteExt as _};
 
 use super::{
@@ -11,7 +10,8 @@ use super::{
 };
 use crate::{
     clock::Clock,
-    device::{AntennaState, Device},
+    contract::driver::{LinkFault, LinkFinding},
+    device::Device,
     station::{Antenna, Link, check_address},
 };
 
@@ -23,43 +23,6 @@ const MORE: Duration = Duration::from_millis(1200);
 const HEARD: usize = 256;
 /// Number of letters that are shown of them.
 const SHOWN: usize = 40;
-
-/// Outcome of a test.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub enum LinkFinding {
-    /// A unit of the make answered.
-    Reached {
-        /// Time from the first question to the first reply.
-        after: Duration,
-        /// All that the unit said.
-        state: Box<AntennaState>,
-    },
-    /// The link opened, and nothing came.
-    Silent,
-    /// The far end closed the link and said nothing.
-    Closed,
-    /// Something came that is no reply of the make.
-    SomethingElse {
-        /// The first printable characters, on one line.
-        text: String,
-    },
-    NotOpened(LinkFault),
-}
-
-/// Why a link could not be opened.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub enum LinkFault {
-    /// The host is there, and nothing listens on the port.
-    Refused,
-    /// The host does not answer.
-    NobodyThere,
-    NoSuchPort,
-    NotPermitted,
-    /// Another program uses the serial port.
-    Busy,
-    /// In the words of the operating system.
-    Other(String),
-}
 
 /// Asks the unit of `antenna` for two seconds at most, and sends nothing but questions.
 pub async fn test_link(
@@ -79,7 +42,7 @@ pub async fn test_link(
     for _ in 0..tries {
         finding = match outside.clock.timeout(CONNECT, dial()).await {
             Err(_) => LinkFinding::NotOpened(LinkFault::NobodyThere),
-            Ok(Err(error)) => LinkFinding::NotOpened(LinkFault::of(&error)),
+            Ok(Err(error)) => LinkFinding::NotOpened(link_fault(&error)),
             Ok(Ok(stream)) => talk(device.as_mut(), stream, &outside.clock, ASKING / tries).await,
         };
         if !matches!(finding, LinkFinding::Silent | LinkFinding::SomethingElse { .. }) {
@@ -152,17 +115,15 @@ fn printable(bytes: &[u8]) -> String {
     first.unwrap_or_default().chars().filter(is_shown).take(SHOWN).collect()
 }
 
-impl LinkFault {
-    fn of(error: &io::Error) -> Self {
-        match error.kind() {
-            io::ErrorKind::ConnectionRefused => Self::Refused,
-            io::ErrorKind::TimedOut
-            | io::ErrorKind::HostUnreachable
-            | io::ErrorKind::NetworkUnreachable => Self::NobodyThere,
-            io::ErrorKind::NotFound => Self::NoSuchPort,
-            io::ErrorKind::PermissionDenied => Self::NotPermitted,
-            io::ErrorKind::ResourceBusy => Self::Busy,
-            _ => Self::Other(in_words(error)),
-        }
+fn link_fault(error: &io::Error) -> LinkFault {
+    match error.kind() {
+        io::ErrorKind::ConnectionRefused => LinkFault::Refused,
+        io::ErrorKind::TimedOut
+        | io::ErrorKind::HostUnreachable
+        | io::ErrorKind::NetworkUnreachable => LinkFault::NobodyThere,
+        io::ErrorKind::NotFound => LinkFault::NoSuchPort,
+        io::ErrorKind::PermissionDenied => LinkFault::NotPermitted,
+        io::ErrorKind::ResourceBusy => LinkFault::Busy,
+        _ => LinkFault::Other(in_words(error)),
     }
 }

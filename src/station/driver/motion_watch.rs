@@ -10,16 +10,13 @@ mod range;
 
 use std::time::Duration;
 
-use serde::{Deserialize, Serialize};
-
-use axis::AxisWatch;
-pub(super) use lead::Lead;
-pub use lessons::AxisLessons;
-
 use crate::{
     clock::Instant,
+    contract::driver::{AxisLessons, Evidence},
     device::{AxisMotion, Drive},
 };
+use axis::AxisWatch;
+pub(super) use lead::Lead;
 
 /// Two readings outside the interval, at least this far apart, make a verdict: one alone may be
 /// misread.
@@ -49,21 +46,6 @@ pub(super) struct AxisReading {
     pub(super) drive: Drive,
     pub(super) asked: Instant,
     pub(super) received: Instant,
-}
-
-/// Evidence that somebody else moves an axis.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Evidence {
-    /// The axis is outside the interval that Azel's commands can reach.
-    Outside {
-        /// Distance from that interval, degrees, positive clockwise or up.
-        off_deg: f64,
-    },
-    /// The unit reports a jog that Azel did not send.
-    Jogged,
-    /// The unit reports that the axis turns without a command.
-    Runaway,
 }
 
 /// An axis that somebody else has moved.

@@ -43,20 +43,15 @@ use std::{
 
 use tokio::sync::{Mutex as AsyncMutex, Notify, mpsc, watch};
 
-pub use command::Command;
-pub(super) use io_loop::{CONNECT, MIN_WAIT, WRITE, in_words};
-pub use jog::LEASE as JOG_LEASE;
-pub use offsets::OffsetChange;
-
 use super::{
-    AntennaHandle, AxisLessons, COMMANDS, Clock, Dial, EVENTS, Event, Intent, LeftMoving,
-    LinkState, Numbered, Orbits, Orders, PositionLog, Preview, Snapshot, Stopper, Wake, WireLog,
-    before_sleep::Awake,
-    debts::{Debts, Unit},
-    gate::Gate,
+    AntennaHandle, COMMANDS, Clock, Dial, EVENTS, Numbered, Orbits, Orders, PositionLog, Stopper,
+    Wake, before_sleep::Awake, debts::Debts, gate::Gate,
 };
 use crate::{
     clock::{Instant, Moment},
+    contract::driver::{
+        AxisLessons, Event, LeftMoving, LinkState, Preview, Snapshot, Unit, WireLog,
+    },
     device::{AxisMotion, Controller, Pointing, Variant},
     plan::{Bounds, on_board::Ability},
     station::{Antenna, LockOut, Monitor},
@@ -65,7 +60,9 @@ use activity::Activity;
 use clocks::Clocks;
 use effect::Effects;
 use guard::Guard;
+pub(super) use io_loop::{CONNECT, MIN_WAIT, WRITE, in_words};
 use jog::JogKey;
+pub use jog::LEASE as JOG_LEASE;
 use judging::Judging;
 use likeness::{Likeness, Recheck};
 use lock_out::Locking;

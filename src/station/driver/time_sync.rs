@@ -1,17 +1,6 @@
 //! Finds out if a time service keeps the computer's clock right.
 
-use serde::{Deserialize, Serialize};
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-pub enum TimeSync {
-    /// A time service has set it and keeps it.
-    Synchronised,
-    /// No service keeps it, or the service has lost its sources.
-    NotSynchronised,
-    /// The operating system does not tell.
-    #[default]
-    NotKnown,
-}
+use crate::contract::driver::TimeSync;
 
 /// Asks the operating system. May take some seconds.
 #[cfg(target_os = "linux")]
@@ -40,7 +29,7 @@ mod systemd {
         zvariant::OwnedValue,
     };
 
-    use super::TimeSync;
+    use crate::contract::driver::TimeSync;
 
     const SERVICE: &str = "org.freedesktop.timedate1";
     const OBJECT: &str = "/org/freedesktop/timedate1";

@@ -25,8 +25,8 @@ use super::{
 use crate::{
     astro::{Angle, AzEl, Site, time::seconds_between},
     clock::Instant,
+    contract::driver::{Event, Intent, LinkState, Snapshot, StopState},
     device::{Measured, Phase, Variant, panel::Act, settings::Group},
-    driver::{Event, Intent, LinkState, Snapshot, StopState},
     plan::{Sample, TrackPhase, on_board::KnownOrbit, pass_report::Explained},
     station::{Antenna, AntennaId, ControllerSpec},
 };

@@ -34,8 +34,11 @@ use super::{
 };
 use crate::{
     astro::time::{add_seconds, seconds_between},
+    contract::{
+        driver,
+        driver::{Event, Found, Refusal, Response, Safety, StopState, TrackProblem, Unit},
+    },
     device::{Asked, Motion},
-    driver::{self, Event, Found, Refusal, Response, Safety, StopState, TrackProblem, Unit},
     plan::schedule::{Entry, sun_is},
     promises::FileState,
     station::{self, AntennaId, AutomationRule, BetweenPasses, Station, Then},

@@ -12,11 +12,12 @@ use super::{
     sources::{self, SourceWork, Task},
     uploads,
 };
+
 use jiff::Timestamp;
 
 use crate::{
     astro::time::seconds_between,
-    driver,
+    contract::driver,
     orbit::SourcePlace,
     plan::ProgramTrack,
     secret::Secret,

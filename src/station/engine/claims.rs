@@ -16,7 +16,7 @@ use super::{
     stop_elsewhere::{Courier, Press},
 };
 use crate::{
-    driver::Unit,
+    contract::driver::Unit,
     plan::Bounds,
     station::{self, AntennaId},
 };

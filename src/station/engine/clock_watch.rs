@@ -6,7 +6,7 @@ use std::time::Duration;
 use crate::{
     astro::time::seconds_between,
     clock::{Instant, Moment},
-    driver::TimeSync,
+    contract::driver::TimeSync,
     job::{Job, Wake},
 };
 

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::{Engine, Event as Told, antenna::Stake, automatic::Interruption};
 use crate::{
     clock::Instant,
-    driver::{Command, Event, Intent, StopState},
+    contract::driver::{Command, Event, Intent, StopState},
     station::{AntennaId, OnClose, Station},
 };
 

@@ -17,9 +17,12 @@ use super::{
 };
 use crate::{
     astro::{Term, TrackOffsets},
-    driver::{self, Effect, Row},
+    contract::{
+        driver,
+        driver::{Effect, Row},
+        record::PeakChange,
+    },
     orbit::{RefreshHours, Source},
-    record::PeakChange,
     secret::Secret,
     station::{
         Antenna, AntennaId, Frequency, OffsetsOf, PassLimits, Priority, Scheduling, Station, Take,

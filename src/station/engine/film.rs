@@ -15,7 +15,10 @@ use super::{
 use crate::{
     astro::time::{add_seconds, seconds_between},
     clock::Moment,
-    driver::{self, LinkState, WireLog},
+    contract::{
+        driver,
+        driver::{LinkState, WireLog},
+    },
     orbit::{Catalog, Elements, ReadReport},
     record::{Film, FilmError, Parts, Picture},
     station::{AntennaId, Station},

@@ -15,7 +15,8 @@ use tokio::sync::{Notify, mpsc, watch};
 use super::{Command, Engine, Settings, Snapshot, claim::HolderKind, passes::ListChoice};
 use crate::{
     clock::{Clock, Instant, Moment},
-    driver::{self, Orders, Outside, Stopper, WireLog},
+    contract::{driver, driver::WireLog},
+    driver::{Orders, Outside, Stopper},
     job::Wake,
     station::AntennaId,
 };

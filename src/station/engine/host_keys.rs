@@ -4,10 +4,10 @@ use std::io;
 
 use serde::{Deserialize, Serialize};
 
-use crate::job::Job;
 use crate::{
-    job::Wake,
-    transfer::{ConnectError, KnownHosts, OfferedKey, Peer},
+    contract::transfer::Peer,
+    job::{Job, Wake},
+    transfer::{ConnectError, KnownHosts, OfferedKey},
 };
 
 /// A host key that is not the known one, or the key of an unknown host.

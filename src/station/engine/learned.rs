@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::Engine;
 use crate::{
     clock::Instant,
-    driver::{AxisLessons, Unit},
+    contract::driver::{AxisLessons, Unit},
     promises::{FileState, Kept},
     station,
 };

@@ -7,7 +7,8 @@ use serde::{Deserialize, Serialize};
 
 use super::{Engine, claim::HeldBy, written};
 use crate::{
-    driver::{LinkFault, LinkFinding, Outside, Unit, UnitLock, test_link},
+    contract::driver::{LinkFault, LinkFinding, Unit},
+    driver::{Outside, UnitLock, test_link},
     job::{Job, Wake},
     station::{Antenna, AntennaId},
 };

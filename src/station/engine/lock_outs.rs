@@ -4,7 +4,7 @@ use std::{path::Path, sync::Arc};
 
 use super::{Engine, alarms::AlarmKind, uploads::Ask};
 use crate::{
-    driver::Command,
+    contract::driver::Command,
     promises::FileState,
     station::{Antenna, LOCK_OUTS_FILE, LockOut},
 };

@@ -7,8 +7,9 @@ use serde::{Deserialize, Serialize};
 
 use super::Engine;
 use crate::{
+    contract::older_sets::OlderSet,
     job::Job,
-    library::{Exceptions, History, OlderSet},
+    library::{Exceptions, History},
     orbit::Catalog,
 };
 

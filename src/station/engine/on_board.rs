@@ -14,8 +14,11 @@ use super::{
 };
 use crate::{
     astro::{Angle, Site, time::add_seconds},
+    contract::{
+        driver,
+        driver::{Event, OffTargetCause, Refusal, Snapshot},
+    },
     device::{OnBoard, TrackTarget, UnitClock},
-    driver::{self, Event, OffTargetCause, Refusal, Snapshot},
     orbit::{PassSearch, passes},
     plan::{
         OnBoardPass, Supervision,

@@ -9,12 +9,7 @@ use super::{
     Engine,
     alarms::{AlarmKind, Alarms},
 };
-use crate::{
-    driver::{Debts, Unit},
-    makes,
-    plan::Bounds,
-    station::Antenna,
-};
+use crate::{contract::driver::Unit, driver::Debts, makes, plan::Bounds, station::Antenna};
 
 impl Engine {
     /// Sends STOP to the units that an earlier run may have left moving, and switches auto-track off

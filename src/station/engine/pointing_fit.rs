@@ -9,8 +9,9 @@ use super::Engine;
 use crate::{
     astro::Term,
     clock::Instant,
+    contract::record::{Peak, PeakChange, Peaks, PointingFit},
     job::Job,
-    record::{self, Peak, PeakChange, Peaks, PointingFit, RecordError},
+    record::{self, RecordError, read_peaks},
     station::AntennaId,
 };
 
@@ -119,7 +120,7 @@ impl Engine {
         work.peaks_state = PeaksState::None;
         work.peaks_of.clone_from(&path);
         let Some(path) = path else { return };
-        let job = Job::start("azel-peaks", Arc::clone(&self.wake), move |_| Peaks::read(&path));
+        let job = Job::start("azel-peaks", Arc::clone(&self.wake), move |_| read_peaks(&path));
         work.read_by(job, again);
     }
 
@@ -190,7 +191,7 @@ mod tests {
     use std::sync::mpsc;
 
     use super::*;
-    use crate::{clock::Clock, record::PeakOf};
+    use crate::{clock::Clock, contract::record::PeakOf};
 
     const ANTENNA: AntennaId = AntennaId(3);
 

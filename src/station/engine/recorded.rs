@@ -3,15 +3,15 @@
 use std::{path::Path, sync::Arc, time::Duration};
 
 use jiff::Timestamp;
-
 use serde::{Deserialize, Serialize};
 
 use super::{Engine, automatic::Flown};
 use crate::{
     astro::Site,
     clock::Instant,
+    contract::record::{ExplainedPasses, OpenedPass, PassPage, PassQuery},
     job::Job,
-    record::{self, ExplainedPasses, MissedEntry, OpenedPass, PassPage, PassQuery, RecordError},
+    record::{self, MissedEntry, RecordError},
     station::AntennaId,
 };
 

@@ -34,10 +34,15 @@ use super::{
 use crate::{
     astro::time::seconds_between,
     clock::{Clock, Instant, Moment},
-    driver::{self, AntennaHandle, Event, Response, Safety, TimeSync},
+    contract,
+    contract::{
+        driver::{Event, Response, Safety, TimeSync},
+        record::{PeakChange, Status},
+    },
+    driver::{self, AntennaHandle},
     job::Job,
     plan::pass_report::LossCause,
-    record::{Entry, Kind, PassNote, PeakChange, RecordedSession, Recorder, Status},
+    record::{Entry, Kind, PassNote, RecordedSession, Recorder},
     station::{self, AntennaId, Station},
 };
 
@@ -227,7 +232,7 @@ impl Engine {
     pub(super) fn note_command(&mut self, command: &Command, by: By) {
         match command {
             command if command.only_looks() => return,
-            Command::Antenna(id, driver::Command::Jog { .. }) => {
+            Command::Antenna(id, contract::driver::Command::Jog { .. }) => {
                 let held = self.recording.jog.replace((*id, self.steady));
                 let lease = driver::JOG_LEASE;
                 let is_held = held.is_some_and(|(held, at)| {
@@ -246,8 +251,8 @@ impl Engine {
 
     /// Records a command that goes to a session. A client's command was recorded when it came,
     /// unless the client named only a pass.
-    pub(super) fn note_sent(&self, index: usize, command: &driver::Command) {
-        use driver::Command::{ProgramTrack, ProgramTrackIntoSun, Track};
+    pub(super) fn note_sent(&self, index: usize, command: &contract::driver::Command) {
+        use crate::contract::driver::Command::{ProgramTrack, ProgramTrackIntoSun, Track};
         let by = self.asked.map_or(By::Station, |asked| asked.by);
         let is_track = matches!(command, Track(_) | ProgramTrack(_) | ProgramTrackIntoSun(_));
         if by != By::Station && !is_track {

@@ -117,8 +117,8 @@ mod tests {
     use super::*;
     use crate::{
         clock::Instant,
+        contract::driver::{LinkState, Snapshot},
         device::{HeldSatellite, Phase, Program},
-        driver::{LinkState, Snapshot},
         engine::{
             antenna::AntennaModel,
             passes::{ListedSatellite, Observer},

@@ -15,7 +15,7 @@ use super::{
 };
 use crate::{
     astro::time::{DAY_S, add_seconds, seconds_between},
-    driver::LinkState,
+    contract::driver::LinkState,
     job::Job,
     plan::schedule::{
         self, Candidate, Change, Common, Entry, Off, Partial, PlannedAntenna, Reach, Request,

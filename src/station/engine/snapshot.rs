@@ -25,9 +25,8 @@ use super::{
 };
 use crate::{
     clock::Moment,
-    driver::TimeSync,
+    contract::{driver::TimeSync, record, record::Peaks},
     orbit::Catalog,
-    record::{self, Peaks},
     station::Station,
 };
 

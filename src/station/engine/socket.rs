@@ -23,7 +23,10 @@ use super::{
     status::AntennaStatus,
 };
 use crate::{
-    driver::{self, LinkState, StopState},
+    contract::{
+        driver,
+        driver::{LinkState, StopState},
+    },
     station::{AntennaId, LockOut},
 };
 

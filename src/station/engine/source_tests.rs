@@ -6,11 +6,13 @@ mod runner;
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
-pub(super) use runner::Runner;
-
 use super::host_keys::DoubtfulKey;
-use crate::secret::Secret;
-use crate::transfer::{ElementSource, FileProtocol, OldAlgorithm, Peer, UnitView};
+use crate::{
+    contract::transfer::{FileProtocol, OldAlgorithm, Peer, UnitView},
+    secret::Secret,
+    transfer::ElementSource,
+};
+pub(super) use runner::Runner;
 
 /// The last test.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]

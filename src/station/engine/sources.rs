@@ -15,10 +15,14 @@ use serde::{Deserialize, Serialize};
 pub(super) use self::passwords::Passwords;
 use super::older_sets::{SetChoice, use_older_sets};
 use crate::{
+    contract::{
+        older_sets::OlderSet,
+        sources::{check_source, has_log_in},
+    },
     job::{Job, Wake},
     library::{
-        self, History, IndexError, LOG_IN_PAUSE, Library, Limits, OlderSet, SpaceTrackAccess,
-        check_source, has_log_in, load_sources, read_element_file, save_sources,
+        self, History, IndexError, LOG_IN_PAUSE, Library, Limits, SpaceTrackAccess, load_sources,
+        read_element_file, save_sources,
     },
     orbit::{Catalog, Source, SourceOrders, SourcePlace, SourceReport, bundled, bundled_sharing},
     whole_file,

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::{Snapshot, antenna::AntennaModel, automatic::Operation};
 use crate::{
     astro::Angle,
-    driver::{LinkState, StopState},
+    contract::driver::{LinkState, StopState},
 };
 
 /// Status of an antenna.

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::{Command, Engine, Hold, antenna::AntennaModel, closing::CloseHow, handle::Stopped};
 use crate::{
     astro::time::add_seconds,
-    driver::{self, Intent},
+    contract::{driver, driver::Intent},
     plan::ProgramTrack,
     station::AntennaId,
 };

@@ -13,8 +13,8 @@ use super::{
 use crate::{
     astro::Angle,
     clock::Moment,
+    contract::driver::{Event, LeftMoving, LinkState, Refusal, Safety, StopState, TimeSync},
     device::panel::CheckState,
-    driver::{Event, LeftMoving, LinkState, Refusal, Safety, StopState, TimeSync},
     job::Job,
     station::Station,
 };

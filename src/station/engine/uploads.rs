@@ -17,6 +17,11 @@ mod sessions;
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
+use super::host_keys::DoubtfulKey;
+use crate::{
+    contract::transfer::{FileObject, KeptFile, OldAlgorithm, Progress, Uploaded},
+    secret::Secret,
+};
 pub use choice::{Chosen, ChosenObject};
 pub(super) use order::UploadTarget;
 pub use order::{Cargo, Order};
@@ -24,10 +29,6 @@ pub use places::Places;
 pub(super) use runner::{Runner, SessionRequest};
 pub use select::Busy;
 pub(super) use select::UnitNow;
-
-use super::host_keys::DoubtfulKey;
-use crate::secret::Secret;
-use crate::transfer::{FileObject, KeptFile, OldAlgorithm, Progress, Uploaded};
 
 /// Displayed state of uploads.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
@@ -89,7 +90,7 @@ impl Stage {
 
     /// Returns `true` if a cancel would still take effect.
     pub fn can_cancel(&self) -> bool {
-        use crate::transfer::UploadStep;
+        use crate::contract::transfer::UploadStep;
         match self {
             Self::Working { progress, is_cancelled } => {
                 !is_cancelled && progress.is_none_or(|now| now.step < UploadStep::Replace)

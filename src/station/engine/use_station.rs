@@ -11,7 +11,8 @@ use super::{
     claim::{Claim, Elsewhere},
 };
 use crate::{
-    driver::{Driver, Unit},
+    contract::driver::Unit,
+    driver::Driver,
     makes::{self, DemoAddresses},
     plan::Bounds,
     station::{self, AntennaId, LoadError, Note, Station},

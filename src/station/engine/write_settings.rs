@@ -7,8 +7,8 @@ use super::{
     copies::{OpenCopy, Outcome, Saving, Waiting},
 };
 use crate::{
+    contract::driver,
     device::settings::{Change, Guard},
-    driver,
 };
 
 impl Engine {

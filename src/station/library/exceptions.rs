@@ -8,8 +8,7 @@ use std::{
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
-use super::OlderSet;
-use crate::{orbit::Catalog, whole_file};
+use crate::{contract::older_sets::OlderSet, orbit::Catalog, whole_file};
 
 /// Name of the file in the folder of the library.
 const NAME: &str = "older-sets-in-use.json";

@@ -1,6 +1,6 @@
 //! A polite request to a server.
 
-use std::{env, io, net::IpAddr, time::Duration};
+use std::{env, io, time::Duration};
 
 use rustls::CertificateError;
 use ureq::{
@@ -10,7 +10,7 @@ use ureq::{
 };
 
 use super::{disk::read_limited, index::Record};
-use crate::orbit::FetchProblem;
+use crate::{contract::sources::check_address, orbit::FetchProblem};
 
 /// Limits for requests and files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -81,7 +81,7 @@ pub(super) fn agent(
     limits: Limits,
     authorities: &RootCerts,
 ) -> Result<Agent, FetchProblem> {
-    let is_local = check(url)?;
+    let is_local = check_address(url)?;
     let mut config = Agent::config_builder()
         .https_only(!is_local)
         .http_status_as_error(false)
@@ -161,20 +161,6 @@ fn way(agent: &Agent, url: &str) -> String {
     }
 }
 
-/// Checks that `url` is allowed; returns whether it is on this very computer. Only there
-/// may it be plain `http`. It may never carry a password: addresses are kept on disk and
-/// shown.
-pub(super) fn check(url: &str) -> Result<bool, FetchProblem> {
-    let uri: Uri = url.parse().map_err(|_| FetchProblem::Address)?;
-    let host = uri.host().ok_or(FetchProblem::Address)?;
-    let address: Option<IpAddr> = host.trim_matches(['[', ']']).parse().ok();
-    let is_local = host == "localhost" || address.is_some_and(|address| address.is_loopback());
-    let is_plain = uri.authority().is_some_and(|authority| !authority.as_str().contains('@'));
-    let is_safe =
-        uri.scheme_str() == Some("https") || (uri.scheme_str() == Some("http") && is_local);
-    if is_plain && is_safe { Ok(is_local) } else { Err(FetchProblem::Address) }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -211,24 +197,6 @@ mod tests {
             ("https://home.example/x", false),
         ] {
             assert_eq!(proxy.is_no_proxy(&url.parse().unwrap()), is_direct, "{url}");
-        }
-    }
-
-    #[test]
-    fn only_safe_addresses_are_asked() {
-        for (url, expected) in [
-            ("https://celestrak.org/NORAD/elements/gp.php?GROUP=active&FORMAT=json", Ok(false)),
-            ("http://127.0.0.1:80/x", Ok(true)),
-            ("http://[::1]/x", Ok(true)),
-            ("https://localhost/x", Ok(true)),
-            ("http://celestrak.org/x", Err(FetchProblem::Address)),
-            ("https://user:word@celestrak.org/x", Err(FetchProblem::Address)),
-            ("ftp://127.0.0.1/x", Err(FetchProblem::Address)),
-            ("file:///etc/passwd", Err(FetchProblem::Address)),
-            ("celestrak.org", Err(FetchProblem::Address)),
-            ("", Err(FetchProblem::Address)),
-        ] {
-            assert_eq!(check(url), expected, "{url}");
         }
     }
 }

@@ -11,9 +11,8 @@ use std::{
 };
 
 use flate2::{Compression, read::GzDecoder, write::GzEncoder};
-use serde::{Deserialize, Serialize};
 
-use crate::{orbit::Elements, whole_file};
+use crate::{contract::older_sets::OlderSet, whole_file};
 
 /// Name of the file in the folder of the library.
 const NAME: &str = "older-sets.gz";
@@ -21,14 +20,6 @@ const NAME: &str = "older-sets.gz";
 const MOST: usize = 4;
 /// A file that unpacks to more is not one of ours.
 const MAX_UNPACKED: u64 = 1 << 28;
-
-/// A set of elements that is not in use any more.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct OlderSet {
-    pub elements: Elements,
-    /// Name of the source that gave it.
-    pub source: String,
-}
 
 /// The older sets on disk.
 #[derive(Debug)]

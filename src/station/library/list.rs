@@ -7,35 +7,10 @@ use std::{
 
 use serde::{Deserialize, Serialize};
 
-use super::{fetch, space_track::log_in_key};
-use crate::{
-    orbit::{BUNDLED_SOURCE, Source, SourcePlace},
-    whole_file,
-};
+use crate::{orbit::Source, whole_file};
 
 /// Version that this program writes. A file of a later version is left alone.
 const VERSION: u32 = 1;
-
-/// Reason why a source cannot be added.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-pub enum SourceProblem {
-    #[error("type a name")]
-    NoName,
-    /// Another source has this name, which is also the name of its group.
-    #[error("another source has this name: type another one")]
-    NameTaken,
-    /// A relative path, which would depend on the folder in which the program was started.
-    #[error("type the whole path, from the root or the drive on")]
-    RelativePath,
-    /// Not an `https` address, or one with a user name in it.
-    #[error("type an address that begins with https:// and holds no password")]
-    Address,
-    #[error("type the log-in name")]
-    NoLogIn,
-    /// Two sources would share one account and its limits.
-    #[error("another source has this log-in: use that one")]
-    LogInTaken,
-}
 
 /// Reason why the list of sources cannot be used or written. The file stays unchanged.
 #[derive(Debug, thiserror::Error)]
@@ -53,36 +28,6 @@ pub enum SourcesError {
     Newer { found: u32, path: PathBuf },
     #[error("the list of element sources cannot be put into TOML: {0}")]
     Form(#[from] toml::ser::Error),
-}
-
-/// Checks that `source` can be added to `others`.
-pub fn check_source(source: &Source, others: &[Source]) -> Result<(), SourceProblem> {
-    let name = source.name.trim();
-    if name.is_empty() {
-        return Err(SourceProblem::NoName);
-    }
-    if name == BUNDLED_SOURCE || others.iter().any(|other| other.name == name) {
-        return Err(SourceProblem::NameTaken);
-    }
-    match &source.place {
-        SourcePlace::File(path) | SourcePlace::Folder(path) if path.is_relative() => {
-            Err(SourceProblem::RelativePath)
-        }
-        SourcePlace::SpaceTrack(user) if user.trim().is_empty() => Err(SourceProblem::NoLogIn),
-        SourcePlace::SpaceTrack(user) if others.iter().any(|other| has_log_in(other, user)) => {
-            Err(SourceProblem::LogInTaken)
-        }
-        SourcePlace::Web(url) if fetch::check(url).is_err() => Err(SourceProblem::Address),
-        _ => Ok(()),
-    }
-}
-
-/// Returns `true` if `source` logs in as `user`.
-pub fn has_log_in(source: &Source, user: &str) -> bool {
-    match &source.place {
-        SourcePlace::SpaceTrack(own) => log_in_key(own) == log_in_key(user),
-        SourcePlace::Web(_) | SourcePlace::File(_) | SourcePlace::Folder(_) => false,
-    }
 }
 
 #[derive(Serialize, Deserialize)]
@@ -132,6 +77,7 @@ pub fn save_sources(sources: &[Source], path: &Path) -> Result<(), SourcesError>
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::orbit::SourcePlace;
 
     fn source(name: &str, place: SourcePlace) -> Source {
         Source { name: name.to_owned(), place, refresh: None }
@@ -169,28 +115,5 @@ mod tests {
             assert_eq!(fs::read_to_string(&path).unwrap(), text);
         }
         assert!(matches!(load_sources(folder.path()), Err(SourcesError::Disk { .. })));
-    }
-
-    #[test]
-    fn only_what_can_be_asked_and_told_apart_is_added() {
-        let log_in = |user: &str| SourcePlace::SpaceTrack(user.to_owned());
-        let known = [Source::celestrak("weather"), source("Space-Track", log_in("Op@Example.org"))];
-        let web = |url: &str| SourcePlace::Web(url.to_owned());
-        for (name, place, expected) in [
-            ("own", SourcePlace::File("/a/b.tle".into()), Ok(())),
-            ("noaa", web("https://celestrak.org/x"), Ok(())),
-            (" ", web("https://celestrak.org/x"), Err(SourceProblem::NoName)),
-            ("weather", SourcePlace::File("/a".into()), Err(SourceProblem::NameTaken)),
-            (BUNDLED_SOURCE, SourcePlace::File("/a".into()), Err(SourceProblem::NameTaken)),
-            ("own", SourcePlace::Folder("b".into()), Err(SourceProblem::RelativePath)),
-            ("own", SourcePlace::File("".into()), Err(SourceProblem::RelativePath)),
-            ("own", web("http://celestrak.org/x"), Err(SourceProblem::Address)),
-            ("own", log_in("other@example.org"), Ok(())),
-            ("own", log_in(" op@example.ORG "), Err(SourceProblem::LogInTaken)),
-            ("own", log_in(" "), Err(SourceProblem::NoLogIn)),
-            ("own", web("https://me:word@celestrak.org/x"), Err(SourceProblem::Address)),
-        ] {
-            assert_eq!(check_source(&source(name, place), &known), expected, "{name}");
-        }
     }
 }

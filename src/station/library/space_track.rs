@@ -19,12 +19,10 @@ use super::{
     index::Record,
 };
 use crate::{
+    contract::sources::{SPACE_TRACK_HOST, log_in_key},
     orbit::{FetchProblem, RequestLimit},
     secret::Secret,
 };
-
-/// Host of the server.
-pub const SPACE_TRACK_HOST: &str = "www.space-track.org";
 const SERVER: &str = "https://www.space-track.org";
 
 /// Objects that one query names. With more of them the query asks for all objects.
@@ -96,12 +94,6 @@ impl fmt::Debug for SpaceTrackAccess {
 /// The key of an account in the index of the library.
 pub(super) fn key(user: &str) -> String {
     format!("{SPACE_TRACK_HOST}/{}", log_in_key(user))
-}
-
-/// Returns the form in which log-in names are compared and stored as a key: two spellings of one
-/// name share an account and its limits.
-pub fn log_in_key(user: &str) -> String {
-    user.trim().to_lowercase()
 }
 
 /// Limits that the requests of `record` have begun.

@@ -6,23 +6,14 @@ use jiff::Timestamp;
 use rusqlite::{OptionalExtension as _, named_params};
 
 use super::{
-    RecordError, RecordedPass, file,
+    RecordError, file,
     past::{COLUMNS, LONGEST, Passes, path_of, read_pass, read_passes},
 };
-use crate::{astro::Site, orbit::Propagator};
-
-/// The times of a pass that are marked on a time line.
-#[derive(Debug, Clone, PartialEq)]
-pub struct PassTimes {
-    /// Short name of the satellite.
-    pub name: String,
-    pub aos: Timestamp,
-    /// `None` where the elements cannot be propagated.
-    pub tca: Option<Timestamp>,
-    pub los: Timestamp,
-    /// When the satellite was outside half the beamwidth, or nothing was measured.
-    pub lost: Vec<(Timestamp, Timestamp)>,
-}
+use crate::{
+    astro::Site,
+    contract::record::{PassTimes, RecordedPass},
+    orbit::Propagator,
+};
 
 /// From where the next pass is sought, or the one before.
 #[derive(Debug, Clone, Copy, PartialEq)]

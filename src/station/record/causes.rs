@@ -3,13 +3,13 @@
 use std::{ops::RangeInclusive, path::Path};
 
 use jiff::Timestamp;
-use serde::{Deserialize, Serialize};
 
-use super::{RecordError, RecordedPass, RecordedReport, past::Passes};
+use super::{RecordError, past::Passes};
 use crate::{
     astro::{Angle, Site, time::apart},
+    contract::record::{ExplainedPasses, RecordedPass, RecordedReport},
     orbit::Propagator,
-    plan::pass_report::{Evidence, Explanation, MeasuredPosition, PathSource},
+    plan::pass_report::{Evidence, MeasuredPosition, PathSource},
     station::{AntennaId, Mount},
 };
 
@@ -17,17 +17,6 @@ use crate::{
 const PASSES: u32 = 30;
 /// Time between two positions that are used, seconds.
 const APART_S: f64 = 5.0;
-
-/// Causes of the errors of several passes of an antenna together.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct ExplainedPasses {
-    /// Number of passes.
-    pub passes: usize,
-    /// LOS of the first of them; `None` where there is none.
-    pub since: Option<Timestamp>,
-    /// The cause that these passes share, or up to three that they do not tell apart, the best first.
-    pub explanations: Vec<Explanation>,
-}
 
 /// Finds the causes of the errors of the newest passes of `antenna`, on this mount, in the record
 /// at `path` that end `within` a time. Other elements, which are each satellite's own, are left to

@@ -6,11 +6,11 @@ use jiff::Timestamp;
 use rusqlite::named_params;
 use serde_json::Value;
 
-use super::{
-    RecordError, file,
-    past::{LONGEST, ListedKind, PassPage, PassQuery},
+use super::{RecordError, file, past::LONGEST};
+use crate::{
+    contract::record::{ListedKind, PassPage, PassQuery},
+    station::AntennaId,
 };
-use crate::station::AntennaId;
 
 /// An entry of the list of the day about a pass without a report.
 #[derive(Debug, Clone, PartialEq)]

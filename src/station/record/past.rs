@@ -7,20 +7,22 @@ use std::{
 
 use jiff::{SignedDuration, Timestamp};
 use rusqlite::{Connection, Row as SqlRow, Rows, named_params};
-use serde::{Deserialize, Serialize};
 
 use super::{
-    AboutTrack, Kind, Query, RecordError, RecordedReport, Row, RowKind,
+    Kind, Query, RecordError, RowKind,
     file::{self, PER_DEGREE},
     read,
 };
 use crate::{
     astro::{Angle, Site, time::seconds_between},
+    contract::record::{
+        AboutTrack, ListedKind, OpenedPass, PassPage, PassQuery, RecordedPass, RecordedReport, Row,
+    },
     device::Pointing,
     orbit::Propagator,
     plan::{
         Sample,
-        pass_report::{MeasuredPosition, PassVerdict, TrackPoint},
+        pass_report::{MeasuredPosition, TrackPoint},
     },
     station::AntennaId,
 };
@@ -38,73 +40,13 @@ const STEP_S: f64 = 2.0;
 const TOLD: [Kind; 7] =
     [Kind::Command, Kind::Stop, Kind::Refusal, Kind::Link, Kind::Alarm, Kind::Day, Kind::Gap];
 
-/// Which passes are looked at.
-#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
-pub struct PassQuery {
-    pub antenna: Option<AntennaId>,
-    pub kind: Option<ListedKind>,
-    /// Part of the name of the satellite, its catalog number, or the beginning of a date.
-    pub text: String,
-    /// So many at most, the newest.
-    pub count: u32,
-}
-
-/// A kind of passes in a list.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub enum ListedKind {
-    /// Tracked, with this verdict.
-    Tracked(PassVerdict),
-    /// To be tracked by automatic operation, and not tracked.
-    NotTracked,
-}
-
-impl ListedKind {
-    /// The value of the column `verdict`; an empty text, which no row has, for passes that were not
-    /// tracked.
-    fn word(self) -> &'static str {
-        match self {
-            Self::Tracked(verdict) => verdict.word(),
-            Self::NotTracked => "",
-        }
+/// The value of the column `verdict`; an empty text, which no row has, for passes that were not
+/// tracked.
+fn verdict_of(kind: ListedKind) -> &'static str {
+    match kind {
+        ListedKind::Tracked(verdict) => verdict.word(),
+        ListedKind::NotTracked => "",
     }
-}
-
-/// A pass of the record.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct RecordedPass {
-    /// Number in the record.
-    pub id: i64,
-    pub antenna: AntennaId,
-    /// Name of the antenna at the time.
-    pub antenna_name: String,
-    pub report: RecordedReport,
-}
-
-/// The passes that a query finds, the newest first.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-pub struct PassPage {
-    pub passes: Vec<RecordedPass>,
-    /// Number of passes that the query finds without its limit.
-    pub matching: u32,
-    /// Number of all passes in the record.
-    pub all: u32,
-    /// LOS of the first pass in the record.
-    pub since: Option<Timestamp>,
-    /// Passes of the page whose report cannot be read.
-    pub unreadable: u32,
-}
-
-/// A pass with its track and what happened in it.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct OpenedPass {
-    pub pass: RecordedPass,
-    /// The measured track beside the predicted one, about a point a second.
-    pub track: Vec<TrackPoint>,
-    /// The predicted path from AOS to LOS.
-    pub path: Vec<Sample>,
-    /// Entries of the antenna, from five minutes before its track began to a minute after LOS; a gap
-    /// in that time has its own time at its end, which may be later.
-    pub entries: Vec<Row>,
 }
 
 /// The passes that `query` finds in the record at `path`.
@@ -221,7 +163,7 @@ impl Passes {
             ":to": within.end.as_microsecond(),
             ":latest": latest.as_microsecond(),
             ":antenna": query.antenna.map(|antenna| antenna.0),
-            ":kind": query.kind.map(ListedKind::word),
+            ":kind": query.kind.map(verdict_of),
             ":text": query.text.trim(),
         })?)
     }
@@ -298,7 +240,7 @@ impl Passes {
 /// The newest passes that `query` finds.
 fn page(db: &Connection, query: &PassQuery) -> Result<PassPage, RecordError> {
     let antenna = query.antenna.map(|antenna| antenna.0);
-    let kind = query.kind.map(ListedKind::word);
+    let kind = query.kind.map(verdict_of);
     let text = query.text.trim();
     let of_query = named_params! { ":antenna": antenna, ":kind": kind, ":text": text };
     let matching =

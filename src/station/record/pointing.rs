@@ -3,11 +3,11 @@
 use std::{ops::RangeInclusive, path::Path};
 
 use jiff::Timestamp;
-use serde::{Deserialize, Serialize};
 
-use super::{Peak, RecordError, past::Passes};
+use super::{RecordError, past::Passes};
 use crate::{
     astro::{PointingModel, Site, Term, time::apart},
+    contract::record::{FittedTerm, NoiseOf, Peak, PointingFit},
     plan::{
         pass_report::TrackPoint,
         pointing::{self, CannotFit, Fit, Kind, Point},
@@ -19,42 +19,6 @@ use crate::{
 const APART_S: f64 = 10.0;
 /// Positions further from the satellite are a slew, or no track at all, degrees.
 const NEAR_DEG: f64 = 10.0;
-
-/// The model that fits best. Nothing of it is applied.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct PointingFit {
-    /// Number of passes with a point that counts.
-    pub passes: usize,
-    pub noise: Vec<NoiseOf>,
-    /// Terms that were left out of the fit. They are zero.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub without: Vec<Term>,
-    /// One a term, in the order of [`Term::ALL`].
-    pub terms: Vec<FittedTerm>,
-}
-
-/// Points of a kind.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct NoiseOf {
-    pub of: Kind,
-    pub points: usize,
-    /// Standard deviation of one axis, degrees.
-    pub noise_deg: f64,
-}
-
-/// By how much the axes read more than the direction in which the beam points.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct FittedTerm {
-    pub term: Term,
-    /// Degrees; for the scale, degrees a degree. `None` where the points cannot tell it, and where
-    /// it was left out of the fit.
-    pub value: Option<f64>,
-    /// Half of the width of the interval that holds it in at least 95 of 100 cases; `None` also where the
-    /// value holds a part of terms that the points cannot tell.
-    pub half_of_95_percent: Option<f64>,
-    /// Terms that the points cannot tell it from.
-    pub not_told_from: Vec<Term>,
-}
 
 #[derive(Debug, thiserror::Error)]
 pub enum CannotFitPointing {
@@ -89,7 +53,7 @@ pub fn fit_pointing(
     let all = runs.iter().map(Vec::as_slice).chain(peaks.chunks(1));
     let fit = pointing::fit(all, &terms)
         .map_err(|why| CannotFitPointing::Points { passes: runs.len(), why })?;
-    Ok(PointingFit::new(runs.len(), &fit, without))
+    Ok(fitted(runs.len(), &fit, without))
 }
 
 fn thinned(track: &[TrackPoint], flown_with: &PointingModel) -> Vec<Point> {
@@ -105,28 +69,26 @@ fn thinned(track: &[TrackPoint], flown_with: &PointingModel) -> Vec<Point> {
     apart(near, APART_S, |point| point.time).map(point).collect()
 }
 
-impl PointingFit {
-    fn new(passes: usize, fit: &Fit, without: Vec<Term>) -> Self {
-        let term = |term: Term| {
-            let interval = fit.interval(term);
-            let alike = fit.alike.iter().find(|alike| alike.term == term);
-            FittedTerm {
-                term,
-                value: fit.kept.contains(&term).then(|| fit.model.term(term)),
-                half_of_95_percent: interval.map(|interval| interval.half),
-                not_told_from: alike.map(|alike| alike.with.clone()).unwrap_or_default(),
-            }
-        };
-        let noise = |found: &pointing::Found| NoiseOf {
-            of: found.kind,
-            points: found.points,
-            noise_deg: found.noise_deg,
-        };
-        Self {
-            passes,
-            noise: fit.noise.iter().map(noise).collect(),
-            without,
-            terms: Term::ALL.map(term).into(),
+fn fitted(passes: usize, fit: &Fit, without: Vec<Term>) -> PointingFit {
+    let term = |term: Term| {
+        let interval = fit.interval(term);
+        let alike = fit.alike.iter().find(|alike| alike.term == term);
+        FittedTerm {
+            term,
+            value: fit.kept.contains(&term).then(|| fit.model.term(term)),
+            half_of_95_percent: interval.map(|interval| interval.half),
+            not_told_from: alike.map(|alike| alike.with.clone()).unwrap_or_default(),
         }
+    };
+    let noise = |found: &pointing::Found| NoiseOf {
+        of: found.kind,
+        points: found.points,
+        noise_deg: found.noise_deg,
+    };
+    PointingFit {
+        passes,
+        noise: fit.noise.iter().map(noise).collect(),
+        without,
+        terms: Term::ALL.map(term).into(),
     }
 }

@@ -4,13 +4,13 @@ use std::{collections::BTreeMap, path::Path};
 
 use jiff::Timestamp;
 use rusqlite::{Connection, Row as SqlRow, params_from_iter};
-use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
 use super::{
     Kind, RecordError,
     file::{self, PER_DEGREE},
 };
+use crate::contract::record::Row;
 
 /// Times that no row is before or after, microseconds.
 const EARLIEST_US: i64 = i64::MIN / 2;
@@ -68,31 +68,6 @@ const OR_OF_SEVERAL: &str = "OR antenna IS NULL AND CASE kind WHEN 'gap' THEN 1 
             UNION ALL SELECT value FROM json_each(data, '$.elsewhere')) AS pressed \
         WHERE pressed.value IN (SELECT id FROM antenna AS named WHERE named.name = ?1)) \
     ELSE 0 END";
-
-/// A row of the record.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Row {
-    /// UTC.
-    pub time: Timestamp,
-    /// Number of the run of the program.
-    pub run: i64,
-    /// Seconds of the steady clock since that run began; `None` for lines on a link.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub steady_s: Option<f64>,
-    /// Name of the antenna at the time, if the row has one.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub antenna: Option<String>,
-    pub kind: String,
-    /// Content, according to the kind; see `docs/record.md`.
-    pub data: Value,
-}
-
-impl Row {
-    /// When something was written last before a gap.
-    pub fn gap_since(&self) -> Option<Timestamp> {
-        self.data.get("since")?.as_str()?.parse().ok()
-    }
-}
 
 /// Up to where a reader has read. Each antenna has a place of its own: one may answer later than
 /// another to what was measured before.

@@ -12,14 +12,13 @@ use std::{
     time::Duration,
 };
 
-use jiff::Timestamp;
-use serde::{Deserialize, Serialize};
 use tokio::runtime::Handle;
 
 use super::{Entry, PassNote, Picture, writer::Writer};
 use crate::{
     clock::{Clock, Moment},
-    driver::{PositionLog, WireLog},
+    contract::{driver::WireLog, record::Status},
+    driver::PositionLog,
     job,
     station::{AntennaId, Retention},
 };
@@ -28,30 +27,6 @@ use crate::{
 const ORDERS: usize = 4096;
 /// How long the end of the station waits for the last write.
 const FAREWELL: Duration = Duration::from_secs(2);
-
-/// State of a record.
-#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
-pub struct Status {
-    pub path: PathBuf,
-    /// Size on disk when it was last looked at, bytes.
-    pub bytes: u64,
-    /// Nothing is written at present.
-    pub failing: Option<Failing>,
-    /// When somebody was last found to have removed the file while it was open, or put another one in
-    /// its place.
-    #[serde(default)]
-    pub removed: Option<Timestamp>,
-}
-
-/// Why nothing is written.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Failing {
-    /// When something was written last.
-    pub since: Timestamp,
-    pub why: String,
-    /// Entries that wait.
-    pub waiting: u64,
-}
 
 pub(super) enum Order {
     Entry(Box<Entry>),

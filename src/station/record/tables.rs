@@ -12,8 +12,8 @@ use super::{
 use crate::{
     astro::Angle,
     clock::{Instant, Moment},
+    contract::driver::Recorded,
     device::{AxisMotion, Direction, Finding, Measured, WireLine},
-    driver::Recorded,
     station::AntennaId,
 };
 

@@ -6,12 +6,16 @@ use std::path::Path;
 
 use jiff::{Timestamp, ToSpan as _};
 
-use super::{AboutTrack, PassNote, RecordedReport, RecordedSession, Recorder, TrackedBy};
+use super::{PassNote, RecordedSession, Recorder};
 use crate::{
     astro::{PointingModel, time::add_seconds},
     clock::Clock,
+    contract::{
+        driver::{TimeSync, WireLog},
+        record::{AboutTrack, RecordedReport, TrackedBy},
+    },
     device::Pointing,
-    driver::{PositionLog, TimeSync, WireLog},
+    driver::PositionLog,
     orbit::{Propagator, bundled},
     plan::pass_report::{
         FlownOffsets, LossCause, LostStretch, MeasuredPosition, PassReport, PassVerdict,

@@ -16,14 +16,18 @@ use jiff::{Timestamp, ToSpan as _};
 use serde_json::{Value, json};
 
 use super::{
-    Entry, Kind, Query, Record, RecordError, RecordedSession, Recorder, Row, RowKind, file,
-    keeping, testing,
+    Entry, Kind, Query, Record, RecordError, RecordedSession, Recorder, RowKind, file, keeping,
+    testing,
 };
 use crate::{
     astro::Angle,
     clock::{Clock, Instant, Moment},
+    contract::{
+        driver::{MAX_LINES, WireLog},
+        record::Row,
+    },
     device::{Axis, AxisMotion, Direction, Drive, Finding, Meaning, Measured, Pointing, WireLine},
-    driver::{MAX_LINES, PositionLog, WireLog},
+    driver::PositionLog,
     station::{AntennaId, Retention},
 };
 

@@ -15,14 +15,14 @@ use super::{
     Entry, Kind, PassNote, RecordError, file,
     film::Camera,
     keeping,
-    recorder::{Failing, Order, RecordedSession, Shared, locked},
+    recorder::{Order, RecordedSession, Shared, locked},
     tables::Tables,
 };
 use crate::{
     astro::time::seconds_between,
     clock::{self, Clock, Moment},
+    contract::{driver::Recorded, record::Failing},
     device::Measured,
-    driver::Recorded,
 };
 
 /// Time between two writes: a crash costs no more than this, and less than a second with the turn

@@ -6,12 +6,13 @@ use serde::{Deserialize, Serialize};
 use super::Rehearsal;
 use crate::{
     astro::time::seconds_between,
+    contract::record::RecordedReport,
     engine::{
         Snapshot,
         automatic::{DayEvent, DayLine, Flown, OffBecause},
     },
     plan::schedule::{Entry, PassKey},
-    record::{PassNote, RecordedReport},
+    record::PassNote,
     station::{AntennaId, Station},
 };
 

@@ -10,8 +10,7 @@ use std::{
 use tokio::{runtime, sync::watch};
 use tokio_util::sync::CancellationToken;
 
-use super::Progress;
-use crate::job::Wake;
+use crate::{contract::transfer::Progress, job::Wake};
 
 /// A transfer in progress. Dropping it cancels it.
 ///
@@ -89,7 +88,7 @@ mod tests {
     use std::sync::Arc;
 
     use super::*;
-    use crate::transfer::UploadStep;
+    use crate::contract::transfer::UploadStep;
 
     /// Starts `work` and returns the receiver of its wakes.
     fn start<F: Future<Output = u8>>(

@@ -2,26 +2,8 @@
 
 use std::{fmt, io, path::PathBuf};
 
-use serde::{Deserialize, Serialize};
-
 use super::{Interruption, KnownHostsError, OfferedKey};
-
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Peer {
-    /// Name or IP address.
-    pub host: String,
-    pub port: u16,
-}
-
-impl fmt::Display for Peer {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if self.host.contains(':') {
-            write!(f, "[{}]:{}", self.host, self.port)
-        } else {
-            write!(f, "{}:{}", self.host, self.port)
-        }
-    }
-}
+use crate::contract::transfer::Peer;
 
 /// Step of connecting to another computer's files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

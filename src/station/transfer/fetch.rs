@@ -5,20 +5,19 @@ mod ftp;
 mod seen;
 mod web;
 
-use serde::{Deserialize, Serialize};
-
 use rustls::{RootCertStore, pki_types::CertificateDer};
 use secrecy::SecretString;
 use tokio_util::sync::CancellationToken;
 
-pub use seen::{Seen, UnitView, what_a_unit_sees};
-
-use crate::library::system_authorities;
-
 use super::{
-    ConnectError, FolderError, Interruption, KnownHosts, Limits, Login, OldAlgorithm, Peer, Proof,
-    folder::Folder as _, limits::within, open_sftp,
+    ConnectError, FolderError, Interruption, KnownHosts, Limits, Login, Proof, folder::Folder as _,
+    limits::within, open_sftp,
 };
+use crate::{
+    contract::transfer::{FileProtocol, OldAlgorithm, Peer},
+    library::system_authorities,
+};
+pub use seen::what_a_unit_sees;
 
 /// Source of a unit's elements on the network.
 #[derive(Debug, Clone)]
@@ -37,25 +36,6 @@ pub enum ElementSource {
         /// File name, with the folder unless it is the one after log-in.
         file: String,
     },
-}
-
-/// Protocol of a file server.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub enum FileProtocol {
-    /// Plain FTP: password and file can be read on the way.
-    Ftp,
-    /// With TLS from the first command on (`AUTH TLS`, RFC 4217).
-    FtpTls,
-    /// Over SSH.
-    Sftp,
-}
-
-impl FileProtocol {
-    /// Protocol that a unit most likely uses on `port`. The unit's setting is a port without a
-    /// protocol, and the example of its document has 22.
-    pub fn of_port(port: u16) -> Self {
-        if port == 22 { Self::Sftp } else { Self::Ftp }
-    }
 }
 
 /// Keys and authorities that a fetch trusts.

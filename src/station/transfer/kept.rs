@@ -11,39 +11,15 @@ use std::{
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
-use super::{FileHash, TleFile};
-use crate::whole_file;
+use crate::{
+    contract::transfer::{FileHash, KeptFile, Origin, TleFile},
+    whole_file,
+};
 
 /// Version that this program writes. A list of a later version is left alone.
 const VERSION: u32 = 1;
 /// Maximum number of versions of one file of one unit.
 const MAX: usize = 20;
-
-/// A file as it was on a unit.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub struct KeptFile {
-    /// Host and port of the unit.
-    pub unit: String,
-    /// Name of the file on the unit.
-    pub file: String,
-    /// Hash of the whole file.
-    pub sha256: FileHash,
-    /// Size of the whole file.
-    pub bytes: u64,
-    /// Time at which it was sent, or read on the unit.
-    pub at: Timestamp,
-    pub origin: Origin,
-}
-
-/// Origin of a file on a unit.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Origin {
-    /// The file was there before this program replaced it.
-    Found,
-    /// This program sent it.
-    Uploaded,
-}
 
 /// The list on disk.
 #[derive(Debug, Serialize, Deserialize)]

@@ -4,8 +4,7 @@ use std::path::PathBuf;
 
 use secrecy::{ExposeSecret as _, SecretString};
 
-use super::FileHash;
-use crate::device::ElementFiles;
+use crate::{contract::transfer::FileHash, device::ElementFiles};
 
 /// User and proof. `Debug` shows no secret.
 #[derive(Debug, Clone)]

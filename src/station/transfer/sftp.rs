@@ -8,10 +8,11 @@ use russh_sftp::{
 };
 
 use super::{
-    FolderError, Limits, OldAlgorithm,
+    FolderError, Limits,
     folder::{Folder, FolderFile, Tell},
     ssh::Ssh,
 };
+use crate::contract::transfer::OldAlgorithm;
 
 /// Bytes that every server accepts and sends in one packet.
 const CHUNK_BYTES: usize = 32 << 10;

@@ -21,9 +21,10 @@ use tokio::net::TcpStream;
 use tokio_util::sync::CancellationToken;
 
 use super::{
-    AlgorithmPart, ConnectError, ConnectStep, Interruption, KeyFileProblem, KeyVerdict, KnownHosts,
-    Limits, Login, OfferedKey, OldAlgorithm, Peer, Proof, SftpFolder, limits::within,
+    ConnectError, ConnectStep, Interruption, KeyFileProblem, KeyVerdict, KnownHosts, Limits, Login,
+    OfferedKey, Proof, SftpFolder, limits::within,
 };
+use crate::contract::transfer::{AlgorithmPart, OldAlgorithm, Peer};
 
 /// An SSH connection. Dropping it ends it.
 pub(super) struct Ssh {

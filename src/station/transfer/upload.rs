@@ -4,14 +4,14 @@
 mod error;
 mod put;
 
-use jiff::Timestamp;
-use serde::{Deserialize, Serialize};
 use tokio_util::sync::CancellationToken;
 
-pub use error::{FolderState, Progress, UploadError, UploadReason, UploadStep};
-
-use super::{FileHash, FileName, FileObject, KeptFiles, Origin, Peer, SftpFolder, TleFile};
-use crate::{astro::time, clock::Clock};
+use super::{KeptFiles, SftpFolder};
+use crate::{
+    clock::Clock,
+    contract::transfer::{FileName, Origin, Peer, Progress, TleFile, Uploaded},
+};
+pub use error::{FolderState, UploadError, UploadReason};
 use put::Put;
 
 #[derive(Debug, Clone)]
@@ -22,28 +22,6 @@ pub struct Upload {
     pub file: FileName,
     /// New content. To roll back, use the result of [`KeptFiles::read`].
     pub elements: TleFile,
-}
-
-/// Proof that a file is on a unit: it was read back in its place.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Uploaded {
-    pub unit: Peer,
-    /// Name of the file on the unit.
-    pub file: FileName,
-    pub bytes: u64,
-    pub sha256: FileHash,
-    /// Time of reading back.
-    pub at: Timestamp,
-    /// Objects in the order of the file.
-    pub objects: Vec<FileObject>,
-}
-
-impl Uploaded {
-    /// Age of the oldest elements in the file at `now`, seconds.
-    pub fn oldest_age_s(&self, now: Timestamp) -> Option<f64> {
-        let oldest = self.objects.iter().map(|object| object.epoch).min()?;
-        Some(time::seconds_between(oldest, now))
-    }
 }
 
 /// Carries out `upload` in `folder`. Afterwards `kept` has both the old and the new file.

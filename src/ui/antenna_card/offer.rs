@@ -5,7 +5,7 @@ use egui::{Align2, Rect, Ui, vec2};
 
 use super::CardAction;
 use crate::{
-    driver::OffsetChange,
+    contract::driver::OffsetChange,
     ui::{
         text, theme,
         widgets::{

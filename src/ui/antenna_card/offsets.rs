@@ -5,7 +5,7 @@ use egui::{Align2, Color32, Rect, Ui, pos2, vec2};
 use super::{CardAction, Cursor};
 use crate::{
     astro::{Offset, TrackOffsets},
-    driver::OffsetChange,
+    contract::driver::OffsetChange,
     station::OffsetsOf,
     ui::{
         icons::{self, Icon},

@@ -7,7 +7,7 @@ use super::{
     follow::{self, FollowChoice, FollowModel},
 };
 use crate::{
-    driver::Intent,
+    contract::driver::Intent,
     ui::{
         icons::{self, Icon},
         text, theme,

@@ -15,8 +15,8 @@ use super::{
     unit::ShownUnit,
 };
 use crate::{
+    contract::driver::{Command, LinkState},
     device::settings::{Access, Field},
-    driver::{Command, LinkState},
     model::{UiCommand, View},
     ui::{
         icons::Icon,

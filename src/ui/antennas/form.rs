@@ -17,8 +17,8 @@ use super::{
 };
 use crate::{
     clock::Instant,
+    contract::driver::Command,
     device::settings::{Access, Change, Group, Guard, Hindrance, Values},
-    driver::Command,
     model::UiCommand,
     ui::{copies::Taken, format, source_test::SourceTestState},
 };

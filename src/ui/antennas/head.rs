@@ -5,7 +5,7 @@ use egui::{Align2, Rect, Ui, pos2, vec2};
 use super::unit::ShownUnit;
 use crate::{
     astro::time::seconds_between,
-    driver::Command,
+    contract::driver::Command,
     engine,
     model::UiCommand,
     ui::{

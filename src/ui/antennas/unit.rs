@@ -4,8 +4,8 @@ use jiff::Timestamp;
 
 use crate::{
     astro::time::add_seconds,
+    contract::driver::Intent,
     device::settings::{Group, GroupState, Hindrance, ReadFailure, Values},
-    driver::Intent,
     engine::antenna::AntennaModel,
     model::Model,
 };

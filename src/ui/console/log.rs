@@ -2,9 +2,11 @@
 
 use std::{collections::VecDeque, sync::Arc};
 
-use crate::device::{Direction, WireLine};
-use crate::driver::{IsAwaited, MAX_LINES, Recorded, WireLog};
-use crate::model::ConsoleLine;
+use crate::{
+    contract::driver::{IsAwaited, MAX_LINES, Recorded, WireLog},
+    device::{Direction, WireLine},
+    model::ConsoleLine,
+};
 
 /// The filter of the log.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -228,8 +230,10 @@ impl Log {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::device::{Direction, WireLine};
-    use crate::model::testing::wire;
+    use crate::{
+        device::{Direction, WireLine},
+        model::testing::wire,
+    };
 
     fn sent(second: i64, text: &str) -> WireLine {
         wire(second, Direction::Sent, text)

@@ -8,8 +8,8 @@ use egui::{
 
 use super::{PADDING, entry::Entry, raw};
 use crate::{
+    contract::driver,
     device::Question,
-    driver,
     engine::antenna::AntennaModel,
     model::{Model, UiCommand},
     ui::{

@@ -5,8 +5,10 @@ use std::{sync::Arc, time::Duration};
 use jiff::{SignedDuration, Timestamp};
 
 use super::log::Log;
-use crate::device::{Finding, panel::Tone};
-use crate::model::ConsoleLine;
+use crate::{
+    device::{Finding, panel::Tone},
+    model::ConsoleLine,
+};
 
 /// Span of the statistics.
 const SPAN: SignedDuration = SignedDuration::from_mins(10);
@@ -78,10 +80,10 @@ fn tallies(now: Timestamp, log: &Log) -> Vec<Tally> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::testing::wire;
     use crate::{
+        contract::driver::WireLog,
         device::{Direction, WireLine},
-        driver::WireLog,
+        model::testing::wire,
     };
 
     #[test]

@@ -3,7 +3,7 @@
 use egui::{RichText, Sense, TextEdit, Ui, vec2};
 
 use crate::{
-    driver::Command,
+    contract::driver::Command,
     engine::antenna::AntennaModel,
     model::{Model, UiCommand},
     station::LockOut,

@@ -10,8 +10,8 @@ use egui::{
 };
 
 use crate::{
+    contract::sources::check_source,
     engine::{self, sources::Sources},
-    library::check_source,
     model::{UiCommand, typed_path::OpenedFile},
     orbit::{Source, SourcePlace},
     ui::{

@@ -7,7 +7,7 @@ use super::{PADDING, words};
 use crate::{
     astro::time::seconds_between,
     clock::Instant,
-    driver::LinkState,
+    contract::driver::LinkState,
     engine::{antenna::AntennaModel, uploads::Stage},
     model::Model,
     orbit::Elements,

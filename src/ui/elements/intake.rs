@@ -7,8 +7,8 @@ use egui::{Align2, Event, Key, Popup, Rect, Shape, Stroke, Ui, pos2, vec2};
 
 use super::{ElementsState, PADDING, words};
 use crate::{
+    contract::sources::check_source,
     engine,
-    library::check_source,
     model::{
         Model, UiCommand,
         intake::{Counts, Intake, Judged, Offer},

@@ -8,8 +8,8 @@ use super::{
     words::{self, Form},
 };
 use crate::{
+    contract::older_sets::OlderSet,
     engine::{Command, older_sets::SetChoice},
-    library::OlderSet,
     model::{
         Model, UiCommand,
         object_detail::{ObjectDetail, SetShift},

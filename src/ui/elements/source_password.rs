@@ -3,8 +3,8 @@
 use egui::Ui;
 
 use crate::{
+    contract::sources::SPACE_TRACK_HOST,
     engine::{Command, uploads::SecretWanted},
-    library::SPACE_TRACK_HOST,
     model::{Model, UiCommand},
     orbit::{Source, SourcePlace},
     ui::dialogs::{PasswordDialog, SecretAnswer},

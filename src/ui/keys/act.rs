@@ -5,7 +5,10 @@ use egui::{FocusDirection, Ui};
 use super::KeyTargets;
 use crate::{
     astro::{Offset, TrackOffsets, time::add_seconds},
-    driver::{self, Intent, OffsetChange},
+    contract::{
+        driver,
+        driver::{Intent, OffsetChange},
+    },
     engine::{self, antenna::AntennaModel, passes::PredictedPass},
     model::{
         Model, UiCommand, View,

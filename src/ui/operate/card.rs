@@ -19,8 +19,8 @@ use super::{
 };
 use crate::{
     astro::Angle,
+    contract::driver::{Intent, LinkState, Snapshot},
     device::{Capabilities, Pointing},
-    driver::{Intent, LinkState, Snapshot},
     engine::{CatalogState, antenna::AntennaModel},
     model::{Model, UiCommand},
     plan::Barrier,

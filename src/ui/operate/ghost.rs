@@ -8,8 +8,8 @@ use egui::{Key, Pos2, Rect, Role, Sense, Stroke, StrokeKind, Ui, WidgetInfo, pos
 use super::{OperateState, card::Locks};
 use crate::{
     astro::{Angle, AzEl},
+    contract::driver::{Command, Preview, StopState},
     device::Pointing,
-    driver::{Command, Preview, StopState},
     engine::antenna::AntennaModel,
     model::{Model, UiCommand},
     station::AntennaId,

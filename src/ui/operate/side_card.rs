@@ -1,7 +1,7 @@
 //! The card of one more antenna beside that of the selected one, in a wide window.
 
 use crate::{
-    driver::Command,
+    contract::driver::Command,
     engine::antenna::AntennaModel,
     model::{Model, UiCommand},
     station::AntennaId,

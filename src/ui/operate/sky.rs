@@ -6,7 +6,7 @@ use jiff::Timestamp;
 use super::{OperateState, all_antennas, ghost, sky_time};
 use crate::{
     astro::{Angle, AzEl, time::seconds_between},
-    driver::LinkState,
+    contract::driver::LinkState,
     engine::{
         antenna::AntennaModel,
         passes::{PassKey, PredictedPass},

@@ -4,7 +4,7 @@ use egui::{Align2, Frame, Margin, Rect, RichText, ScrollArea, Sense, Ui, UiBuild
 
 use super::{PADDING, PlanState};
 use crate::{
-    driver::LinkState,
+    contract::driver::LinkState,
     engine::{self, antenna::AntennaModel, automatic::Operation},
     model::{Model, UiCommand, View, plan::PlannedPass, rehearsal::RehearsalState},
     orbit::PassPoint,

@@ -8,7 +8,7 @@ use egui::{
 use super::{PADDING, PlanState, Span, legend, switches};
 use crate::{
     astro::time::{add_seconds, seconds_between},
-    driver::LinkState,
+    contract::driver::LinkState,
     engine::{
         self,
         antenna::AntennaModel,

@@ -18,7 +18,7 @@ use super::{
     preview,
 };
 use crate::{
-    driver::{AxisLessons, Command},
+    contract::driver::{AxisLessons, Command},
     engine::{antenna::AntennaModel, passes::mount_limits},
     model::{
         Model, UiCommand,

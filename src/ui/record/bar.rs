@@ -5,10 +5,10 @@ use egui::{Align2, Rect, RichText, Role, TextEdit, Ui, WidgetInfo, pos2, vec2};
 use super::{PADDING, RecordState, days::DaysDialog, lock};
 use crate::{
     astro::time::add_seconds,
+    contract::record::ListedKind,
     engine::antenna::AntennaModel,
     model::{Model, UiCommand, replay::Stretch},
     plan::pass_report::PassVerdict,
-    record::ListedKind,
     ui::{
         format,
         icons::{self, Icon},

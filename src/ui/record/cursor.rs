@@ -4,7 +4,7 @@ use jiff::Timestamp;
 
 use super::RecordState;
 use crate::{
-    astro::time::seconds_between, plan::pass_report::TrackPoint, record::OpenedPass,
+    astro::time::seconds_between, contract::record::OpenedPass, plan::pass_report::TrackPoint,
     ui::recorded_track,
 };
 

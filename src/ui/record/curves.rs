@@ -6,9 +6,9 @@ use jiff::{SignedDuration, Timestamp};
 use super::{PADDING, RecordState, cursor, events, lock, report};
 use crate::{
     astro::time::{add_seconds, seconds_between},
+    contract::record::OpenedPass,
     model::{Model, UiCommand},
     plan::pass_report::{PointingError, TrackPoint},
-    record::OpenedPass,
     ui::{
         format,
         profile::{

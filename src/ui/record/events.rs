@@ -6,13 +6,13 @@ use jiff::Timestamp;
 use super::{PADDING, RecordState, curves};
 use crate::{
     astro::time::seconds_between,
+    contract::record::{OpenedPass, Row},
     engine::{
         By,
         alarms::{Alarm, AlarmChange},
     },
     model::Model,
     plan::pass_report::LossCause,
-    record::{OpenedPass, Row},
     ui::{
         format,
         profile::scale::TimeAxis,

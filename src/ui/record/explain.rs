@@ -4,12 +4,12 @@ use egui::{Align2, Rect, Ui, pos2, vec2};
 
 use super::{PADDING, RecordState};
 use crate::{
+    contract::record::OpenedPass,
     model::{
         Model,
         correction::{Correction, correction},
     },
     plan::pass_report::Explanation,
-    record::OpenedPass,
     ui::{
         format, text, theme,
         widgets::{

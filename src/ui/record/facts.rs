@@ -4,8 +4,8 @@ use egui::{Align2, Rect, Ui, pos2, vec2};
 
 use super::PADDING;
 use crate::{
+    contract::record::OpenedPass,
     model::{Model, UiCommand, View},
-    record::OpenedPass,
     ui::{
         text, theme,
         widgets::{

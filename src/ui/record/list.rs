@@ -1,7 +1,6 @@
 //! The recorded passes by day, the newest first.
 
 use egui::{Align2, Color32, Rect, Role, ScrollArea, Sense, Ui, UiBuilder, WidgetInfo, pos2, vec2};
-
 use jiff::Timestamp;
 
 use super::{
@@ -9,10 +8,10 @@ use super::{
     state::{Listed, found},
 };
 use crate::{
+    contract::record::RecordedPass,
     engine::recorded::MissedPass,
     model::Model,
     plan::pass_report::PassVerdict,
-    record::RecordedPass,
     ui::{
         format,
         icons::{self, Icon},
@@ -94,7 +93,7 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, model: &Model, state: &mut RecordSta
 }
 
 /// Number of passes of the page, with those that cannot be read.
-fn on_page(page: &crate::record::PassPage) -> u32 {
+fn on_page(page: &crate::contract::record::PassPage) -> u32 {
     let passes = u32::try_from(page.passes.len()).unwrap_or(u32::MAX);
     passes.saturating_add(page.unreadable).min(page.matching)
 }

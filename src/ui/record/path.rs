@@ -8,9 +8,9 @@ use jiff::Timestamp;
 use super::{PADDING, RecordState, cursor};
 use crate::{
     astro::HorizonMask,
+    contract::record::OpenedPass,
     model::Model,
     plan::{Sample, pass_report::TrackPoint},
-    record::OpenedPass,
     ui::{
         format,
         profile::dashes,

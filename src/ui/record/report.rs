@@ -1,17 +1,16 @@
 //! Head and verdict of a report.
 
 use egui::{Align2, Popup, Rect, Ui, pos2, vec2};
-
 use jiff::Timestamp;
 
 use super::{PADDING, list, lock};
 use crate::{
+    contract::record::RecordedPass,
     model::{
         Model, UiCommand,
         export::{Export, ReportFormat},
         replay::Stretch,
     },
-    record::RecordedPass,
     ui::{
         format, replay, text, theme,
         widgets::{

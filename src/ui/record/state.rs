@@ -4,6 +4,7 @@ use jiff::Timestamp;
 
 use super::{days::DaysDialog, report};
 use crate::{
+    contract::record::{OpenedPass, PassPage, PassQuery, RecordedPass},
     engine::{
         self,
         recorded::{Found, MissedPass, RecordLook},
@@ -13,7 +14,6 @@ use crate::{
         correction::{Correction, correction},
         export::{Export, ReportFormat},
     },
-    record::{OpenedPass, PassPage, PassQuery, RecordedPass},
     ui::{
         replay,
         words::{record::no_correction, sentence},

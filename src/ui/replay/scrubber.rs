@@ -8,11 +8,11 @@ use jiff::Timestamp;
 use super::HEIGHT;
 use crate::{
     astro::time::{add_seconds, seconds_between},
+    contract::record::PassTimes,
     model::{
         UiCommand,
         replay::{ReplayCommand, Replayed, Stretch},
     },
-    record::PassTimes,
     ui::{format, text, theme, widgets::paint},
 };
 

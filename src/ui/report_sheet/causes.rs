@@ -3,7 +3,7 @@
 use maud::{Markup, html};
 
 use crate::{
-    record::OpenedPass,
+    contract::record::OpenedPass,
     ui::{
         format,
         page::{plot, section},

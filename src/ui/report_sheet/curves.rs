@@ -1,13 +1,12 @@
 //! Elevation, azimuth and error over the time of the pass.
 
 use jiff::{Timestamp, ToSpan as _};
-
 use maud::{Markup, html};
 
 use crate::{
     astro::{AzEl, time::seconds_between},
+    contract::record::OpenedPass,
     plan::{Sample, pass_report::TrackPoint},
-    record::OpenedPass,
     ui::{
         format,
         page::{plot, section},

@@ -3,7 +3,7 @@
 use maud::{Markup, html};
 
 use crate::{
-    record::RecordedReport,
+    contract::record::RecordedReport,
     ui::words::flown_with::{FactKind, clock_first, facts},
 };
 

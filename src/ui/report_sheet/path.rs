@@ -3,8 +3,8 @@
 use maud::{Markup, html};
 
 use crate::{
+    contract::record::OpenedPass,
     plan::pass_report::TrackPoint,
-    record::OpenedPass,
     ui::{
         format,
         page::{

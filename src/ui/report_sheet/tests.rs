@@ -1,8 +1,11 @@
 use super::*;
 use crate::{
     astro::{Angle, AzEl, PointingModel, Site, time::add_seconds},
+    contract::{
+        driver::TimeSync,
+        record::{AboutTrack, RecordedPass, RecordedReport, TrackedBy},
+    },
     device::Pointing,
-    driver::TimeSync,
     orbit::{PassSearch, Propagator, bundled, passes},
     plan::{
         MountLimits, Sample, Trackability,
@@ -10,7 +13,6 @@ use crate::{
             Breaks, Evidence, FlownOffsets, MeasuredPosition, PathSource, TrackPoint, TrackedPass,
         },
     },
-    record::{AboutTrack, RecordedPass, RecordedReport, TrackedBy},
     station::{AntennaId, Mount},
     ui::page::testing::prints_on_one_sheet,
 };

@@ -4,8 +4,8 @@
 use super::Step;
 use crate::{
     astro::Site,
+    contract::driver::LinkFinding,
     device::Place,
-    driver::LinkFinding,
     engine::link_tests::LinkTestStage,
     model::Model,
     station::{AntennaId, Favourites, Station},

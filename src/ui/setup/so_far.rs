@@ -8,7 +8,7 @@ use super::{
     steps::{Passed, Progress},
 };
 use crate::{
-    driver::TimeSync,
+    contract::driver::TimeSync,
     engine::CatalogState,
     model::Model,
     ui::{

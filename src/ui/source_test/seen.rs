@@ -5,8 +5,8 @@ use jiff::Timestamp;
 
 use crate::{
     astro::time::seconds_between,
+    contract::transfer::{FileObject, Seen, UnitView},
     orbit::Refusal,
-    transfer::{FileObject, Seen, UnitView},
     ui::{
         format,
         widgets::told::{Tone, line},

@@ -3,7 +3,7 @@
 use super::{Spoken, short};
 use crate::{
     clock::Instant,
-    driver::{LinkLoss, LinkState, StopState},
+    contract::driver::{LinkLoss, LinkState, StopState},
     engine::{antenna::AntennaModel, claim::HeldBy},
     model::Model,
     ui::{format, widgets::sentence::SentenceKind, words},

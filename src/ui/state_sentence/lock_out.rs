@@ -2,7 +2,7 @@
 
 use super::Spoken;
 use crate::{
-    driver::{LinkState, StopState},
+    contract::driver::{LinkState, StopState},
     engine::antenna::AntennaModel,
     ui::{format, widgets::sentence::SentenceKind},
 };

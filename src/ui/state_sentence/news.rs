@@ -3,7 +3,7 @@
 use super::{Spoken, short};
 use crate::{
     astro::time::seconds_between,
-    driver::{Event, Found},
+    contract::driver::{Event, Found},
     engine::antenna::AntennaModel,
     model::Model,
     plan::TrackStats,

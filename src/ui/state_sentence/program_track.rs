@@ -2,7 +2,7 @@
 
 use super::{Spoken, missing_angle, place, short};
 use crate::{
-    driver::TrackView,
+    contract::driver::TrackView,
     engine::antenna::AntennaModel,
     model::Model,
     plan::{TrackPhase, program_track::OnPath},

@@ -6,11 +6,11 @@ use egui::{Align, Button, Layout, RichText, Role, Sense, TextEdit, Ui, WidgetInf
 
 use super::Choice;
 use crate::{
+    contract::transfer::{FileName, FileNameError, Peer, TleFile},
     device::ElementFiles,
     engine::uploads::{Cargo, Chosen, Order},
     orbit::Catalog,
     station::Antenna,
-    transfer::{FileName, FileNameError, Peer, TleFile},
     ui::{
         text, theme,
         widgets::{

@@ -4,10 +4,10 @@ use egui::{RichText, Sense, Ui, vec2};
 
 use super::{chosen::named, form::Form, outcome};
 use crate::{
+    contract::transfer::Origin,
     engine,
     engine::uploads::{Ask, Cargo, KeptEntry, Order},
     model::{Model, UiCommand},
-    transfer::Origin,
     ui::{
         confirm::Question,
         format, text, theme,

@@ -5,10 +5,10 @@ use jiff::Timestamp;
 
 use crate::{
     astro::time::seconds_between,
+    contract::transfer::{FileObject, Uploaded},
     engine,
     engine::uploads::{Ask, Failure, Proved, Stage, Warning},
     model::{Model, UiCommand},
-    transfer::{FileObject, Uploaded},
     ui::{
         confirm::Question,
         dialogs, format, text, theme,

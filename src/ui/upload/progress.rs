@@ -5,10 +5,10 @@ use std::cmp::Ordering;
 use egui::{ProgressBar, RichText, Ui};
 
 use crate::{
+    contract::transfer::{Progress, UploadStep},
     engine,
     engine::uploads::{Ask, Stage},
     model::{Model, UiCommand},
-    transfer::{Progress, UploadStep},
     ui::{
         text, theme,
         widgets::{

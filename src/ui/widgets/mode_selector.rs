@@ -3,7 +3,7 @@
 use egui::{Rect, Ui};
 
 use super::segmented::{self, Segment};
-use crate::driver::Intent;
+use crate::contract::driver::Intent;
 
 /// All modes in the order in which they are shown.
 pub const ALL: [Intent; 5] =

@@ -4,7 +4,7 @@ use jiff::Timestamp;
 
 use super::{automatic::not_ready, clock};
 use crate::{
-    driver::{LinkLoss, OffTargetCause},
+    contract::driver::{LinkLoss, OffTargetCause},
     engine::{
         alarms::{Alarm, AlarmKind, AlarmState, Work},
         claim::HeldBy,

@@ -5,9 +5,8 @@ use jiff::Timestamp;
 use super::record;
 use crate::{
     astro::time::DAY_S,
-    driver::TimeSync,
+    contract::{driver::TimeSync, record::RecordedReport},
     plan::pass_report::{Cause, Explanation},
-    record::RecordedReport,
     ui::format,
 };
 

@@ -7,8 +7,8 @@ use jiff::Timestamp;
 use super::clock;
 use crate::{
     astro::time::seconds_between,
+    contract::driver::{LinkFault, LinkFinding},
     device::{AntennaState, panel::CheckState},
-    driver::{LinkFault, LinkFinding},
     engine::link_tests::{LinkTest, LinkTestStage},
     station::{ControllerSpec, Link},
     ui::{format, widgets::told::Tone, words::sentence},

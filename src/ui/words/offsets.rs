@@ -4,8 +4,8 @@ use jiff::{SignedDuration, Timestamp};
 
 use crate::{
     astro::{Angle, Offset, TrackOffsets},
+    contract::driver::LeftOffsets,
     device::{self, settings::WriteError},
-    driver::LeftOffsets,
     ui::format,
 };
 

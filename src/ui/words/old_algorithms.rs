@@ -1,6 +1,6 @@
 //! Sentences about old algorithms of SSH.
 
-use crate::transfer::{AlgorithmPart, OldAlgorithm};
+use crate::contract::transfer::{AlgorithmPart, OldAlgorithm};
 
 /// Returns the sentence about a connection that used `old`; `None` if it used no old algorithm.
 pub fn old_algorithms(old: &[OldAlgorithm]) -> Option<String> {

@@ -2,8 +2,8 @@
 
 use crate::{
     astro::Term,
+    contract::record::{NoiseOf, PeakOf, PointingFit},
     plan::pointing::Kind,
-    record::{NoiseOf, PeakOf, PointingFit},
 };
 
 pub fn pointing_term(term: Term) -> &'static str {

@@ -3,8 +3,8 @@
 use jiff::Timestamp;
 
 use crate::{
+    contract::driver::{LinkLoss, Refusal, TrackProblem},
     device::{PrepareError, settings::Hindrance},
-    driver::{LinkLoss, Refusal, TrackProblem},
     ui::format,
 };
 

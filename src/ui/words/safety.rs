@@ -4,7 +4,7 @@ use jiff::Timestamp;
 
 use super::clock;
 use crate::{
-    driver::{
+    contract::driver::{
         AxisLessons, Evidence, Inside, Mover, Response, Safety, Snapshot, StopState, StoppingWay,
         Unit, Unlike,
     },

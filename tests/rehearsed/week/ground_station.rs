@@ -14,7 +14,8 @@ use std::{
 use azel::{
     astro::time::add_seconds,
     clock::Clock,
-    driver::{Dial, Outside, Stream, TimeSync, UnitLock},
+    contract::driver::TimeSync,
+    driver::{Dial, Outside, Stream, UnitLock},
     engine::{Client, Settings, in_place::InPlace},
     job, library,
     makes::{self, DemoAddresses, Surroundings},

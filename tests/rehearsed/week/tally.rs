@@ -8,7 +8,7 @@ use std::{
 
 use azel::{
     astro::time::{add_seconds, seconds_between},
-    driver::Event,
+    contract::driver::Event,
     engine::{
         Snapshot,
         automatic::{DayEvent, Flown},

@@ -3,12 +3,12 @@
 use std::sync::Arc;
 
 use azel::{
+    contract::older_sets::OlderSet,
     engine::{
         self, CatalogState,
         older_sets::{OlderSets, SetChoice},
         sources::{SourceWork, Sources},
     },
-    library::OlderSet,
     model::{Model, UiCommand},
     orbit::{Elements, Source, SourcePlace, read_elements, write_omm_json},
     station,

@@ -4,9 +4,10 @@
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
-use super::{Debts, OFFSETS, Record, Unit, file};
+use super::{Debts, OFFSETS, Record, file};
 use crate::{
     astro::{Angle, Offset, TrackOffsets},
+    contract::driver::Unit,
     promises::{FileState, Kept},
 };
 
@@ -142,7 +143,7 @@ impl Debts {
 mod tests {
     use std::fs;
 
-    use super::*;
+    use super::{super::file_name, *};
 
     fn azimuth(degrees: f64) -> TrackOffsets {
         TrackOffsets::NONE.plus(Offset::Azimuth(Angle::from_degrees(degrees))).unwrap()
@@ -216,7 +217,7 @@ mod tests {
     #[test]
     fn a_record_that_cannot_be_read_stays() {
         let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join(unit().file_name(OFFSETS));
+        let path = folder.path().join(file_name(&unit(), OFFSETS));
         fs::write(&path, "since = ").unwrap();
         assert_eq!(Debts::marked_in(Some(folder.path().to_owned())).shifted(&unit()), None);
         assert!(path.exists());

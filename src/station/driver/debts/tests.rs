@@ -1,6 +1,7 @@
 use std::{fs, path::Path};
 
 use super::*;
+use crate::station::Antenna;
 
 fn unit(address: &str) -> Unit {
     Unit { make: "satrak".to_owned(), address: address.to_owned() }
@@ -48,11 +49,11 @@ fn killed_at_any_step_of_a_write_or_removal_the_next_start_knows_old_or_new() {
     let one = unit("10.0.0.5:4001");
     let written = tempfile::tempdir().unwrap();
     mark(&Debts::marked_in(Some(written.path().to_owned())), &one, 1);
-    let text = fs::read_to_string(written.path().join(one.file_name(STOP))).unwrap();
+    let text = fs::read_to_string(written.path().join(file_name(&one, STOP))).unwrap();
 
     let folder = tempfile::tempdir().unwrap();
     let [temporary, file] =
-        [".tmpa1B2c3", &*one.file_name(STOP)].map(|name| folder.path().join(name));
+        [".tmpa1B2c3", &*file_name(&one, STOP)].map(|name| folder.path().join(name));
     let is_left = || {
         let next = Debts::marked_in(Some(folder.path().to_owned()));
         assert_eq!(next.left_moving().is_empty(), next.marked(&one).is_none());
@@ -146,7 +147,7 @@ fn the_age_of_a_mark_counts_from_the_last_try() {
 fn a_mark_that_cannot_be_read_still_warns() {
     let folder = tempfile::tempdir().unwrap();
     let debts = Debts::marked_in(Some(folder.path().to_owned()));
-    fs::write(folder.path().join(unit("a:1").file_name(STOP)), "since = ").unwrap();
+    fs::write(folder.path().join(file_name(&unit("a:1"), STOP)), "since = ").unwrap();
     assert_eq!(debts.marked(&unit("a:1")).unwrap().since, None);
 }
 
@@ -219,7 +220,7 @@ fn auto_track_that_is_to_be_off_outlives_the_program_until_it_is_settled() {
 #[test]
 fn a_record_of_auto_track_that_cannot_be_read_stays() {
     let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join(unit("a:1").file_name(AUTO_TRACK));
+    let path = folder.path().join(file_name(&unit("a:1"), AUTO_TRACK));
     fs::write(&path, "since = ").unwrap();
     assert_eq!(Debts::marked_in(Some(folder.path().to_owned())).with_auto_track(), []);
     assert!(path.exists());

@@ -3,10 +3,13 @@
 
 use std::time::Duration;
 
-use super::{Gate, Intent, Moment, Refusal};
-use crate::plan::{
-    Bounds,
-    detour::{self, AxisLimits},
+use super::{Gate, Moment};
+use crate::{
+    contract::driver::{Intent, Refusal},
+    plan::{
+        Bounds,
+        detour::{self, AxisLimits},
+    },
 };
 
 /// Distance between two places of a detour that are tried as the next position, degrees.

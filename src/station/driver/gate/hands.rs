@@ -5,14 +5,12 @@ use std::time::Duration;
 use super::{Capabilities, Gate, Motion, Mount, Sweep, way};
 use crate::{
     clock::Moment,
+    contract::driver::{AxisLessons, Intent},
     device::{
         Axis, Measured,
         panel::{self, Act},
     },
-    driver::{
-        Intent,
-        motion_watch::{AxisFigures, AxisLessons, AxisReading, Foreign, Lead, MotionWatch},
-    },
+    driver::motion_watch::{AxisFigures, AxisReading, Foreign, Lead, MotionWatch},
 };
 
 /// Where the unit's azimuth and elevation and the angles of an X/Y mount differ by more, degrees, the

@@ -3,8 +3,9 @@
 
 use std::sync::Arc;
 
-use super::{Gate, Refusal};
+use super::Gate;
 use crate::{
+    contract::driver::Refusal,
     device::OnBoard,
     plan::{
         Bounds,

@@ -3,12 +3,12 @@
 use glam::DQuat;
 use jiff::Timestamp;
 
-use super::{Gate, Refusal, rules};
+use super::{Gate, rules};
 use crate::{
     astro::{Angle, AzEl},
     clock::Moment,
+    contract::driver::{Intent, Refusal},
     device::Motion,
-    driver::Intent,
     station::Mount,
 };
 

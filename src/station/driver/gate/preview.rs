@@ -1,31 +1,13 @@
 //! Judges the way to a direction before anybody asks for it.
 
-use serde::{Deserialize, Serialize};
-
-use super::{Gate, Moment, Motion, NoRoute, Refusal};
-use crate::{astro::AzEl, device::Pointing, driver::intent::Intent};
+use super::{Gate, Moment, Motion, NoRoute};
+use crate::{
+    contract::driver::{Intent, Refusal, Way},
+    device::Pointing,
+};
 
 /// Distance between two points of a way, degrees of the axis that turns further.
 const STEP_DEG: f64 = 2.0;
-
-/// Outcome of going to a direction now.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Preview {
-    /// The direction, as it was asked for.
-    pub to: Pointing,
-    pub way: Result<Way, Refusal>,
-}
-
-/// The way of both axes to a direction.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Way {
-    /// Directions along it, with its ends; empty where the antenna has no direction.
-    pub path: Vec<AzEl>,
-    /// How long it takes at the maximum rate, seconds; `None` where an angle is unknown.
-    pub arrives_s: Option<f64>,
-    /// One axis turns after the other, to stay clear of a barrier.
-    pub is_round_a_corner: bool,
-}
 
 impl Gate {
     /// The way that a motion to `to` would take now, or the reason to refuse it.

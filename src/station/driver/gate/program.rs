@@ -2,12 +2,12 @@
 
 use std::sync::Arc;
 
-use super::{Gate, NoRoute, Refusal};
+use super::{Gate, NoRoute};
 use crate::{
     astro::Angle,
     clock::Moment,
+    contract::driver::{Intent, Refusal},
     device::{Motion, OnBoard},
-    driver::Intent,
     plan::on_board::Judge,
 };
 

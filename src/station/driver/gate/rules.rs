@@ -2,15 +2,15 @@
 
 use std::time::Duration;
 
-use super::{Intervals, Refusal, Situation, way};
+use super::{Intervals, Situation, way};
 use crate::{
     astro::{Angle, xy_mount},
+    contract::driver::{Intent, Refusal},
     device::{
         Asked, Motion, SecondAxis, aimed,
         panel::{Act, Lead},
         settings::Hindrance,
     },
-    driver::intent::Intent,
     station::Mount,
 };
 

@@ -2,14 +2,14 @@
 
 use std::sync::Arc;
 
-use super::{Check, Gate, Refusal, Situation};
+use super::{Check, Gate, Situation};
 use crate::{
     clock::Moment,
+    contract::driver::{Intent, Refusal},
     device::{
         Motion, OnBoard, TrackTarget,
         settings::{Change, WriteError},
     },
-    driver::Intent,
     plan::on_board::Judge,
 };
 

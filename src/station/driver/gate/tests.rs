@@ -313,7 +313,7 @@ fn nothing_starts_while_a_stop_is_under_way() {
 
 #[test]
 fn each_motion_belongs_to_its_intents() {
-    use Intent::{Manual, Park, Position, Standby, Track};
+    use crate::contract::driver::Intent::{Manual, Park, Position, Standby, Track};
     let all = [Standby, Manual, Position, Track, Park];
     for (motion, allowed) in [
         (jog(1.0, 0.0), &[Manual][..]),

@@ -1,10 +1,9 @@
 //! Checks the way of a motion against the bounds of the antenna.
 
-use super::{
-    Angle, Gate, Intent, Intervals, Moment, Motion, Mount, NoRoute, Refusal, Situation, Sweep,
-};
+use super::{Angle, Gate, Intervals, Moment, Motion, Mount, NoRoute, Situation, Sweep};
 use crate::{
     astro::{AzEl, xy_mount},
+    contract::driver::{Intent, Refusal},
     device::{
         JogSpeeds, aimed,
         panel::{Act, Lead},

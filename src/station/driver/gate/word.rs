@@ -1,7 +1,10 @@
 //! The operator's permissions for motions that the rules alone would refuse.
 
 use super::{Bounds, Gate};
-use crate::{clock::Instant, clock::Moment, driver::Intent};
+use crate::{
+    clock::{Instant, Moment},
+    contract::driver::Intent,
+};
 
 #[derive(Debug, Default)]
 pub(super) struct Word {

@@ -3,13 +3,14 @@
 use std::time::Duration;
 
 use super::{
-    APART, AxisFigures, AxisReading, Evidence, SWINGS_BACK,
+    APART, AxisFigures, AxisReading, SWINGS_BACK,
     lead::{COASTS, Lead, Live},
-    lessons::{AxisLessons, DEAD_TIME, DeadTime, FASTEST_DEG_S, RATE_APART, RunsPast, Spread},
+    lessons::{DEAD_TIME, FASTEST_DEG_S, RATE_APART, RunsPast, Spread, max_dead_time, note_start},
     range::Range,
 };
 use crate::{
     clock::Instant,
+    contract::driver::{AxisLessons, Evidence, lessons::DeadTime},
     device::{AxisMotion, Drive},
 };
 
@@ -190,7 +191,7 @@ impl AxisWatch {
         if !self.motions.iter().any(|motion| motion.number == number) {
             return;
         }
-        let until = now + self.dead_time.most();
+        let until = now + max_dead_time(self.dead_time);
         for motion in self.motions.iter_mut().filter(|motion| motion.number < number) {
             motion.until.get_or_insert(until);
         }
@@ -380,7 +381,7 @@ impl AxisWatch {
             if std::mem::take(&mut self.starts)
                 && let Some(sent) = self.sent
             {
-                self.dead_time.note_start(at.saturating_duration_since(sent));
+                note_start(&mut self.dead_time, at.saturating_duration_since(sent));
             }
             self.turned = Some(Turned { from_deg: deg, at: Some(at), is_up });
             // It hunts.

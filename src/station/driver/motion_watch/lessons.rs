@@ -2,16 +2,13 @@
 
 use std::time::Duration;
 
-use serde::{Deserialize, Serialize};
-
-use crate::clock::Instant;
+use crate::{
+    clock::Instant,
+    contract::driver::lessons::{AtRest, DeadTime, LENGTHS_DEG, PastEnds, RUNS_PAST_DEG, STARTS},
+};
 
 /// Longest time from a command until the drive obeys it.
 pub(super) const DEAD_TIME: Duration = Duration::from_secs(2);
-/// An axis may run this far past the end of a motion until it has been seen to do better, degrees.
-const RUNS_PAST_DEG: f64 = 60.0;
-/// Number of windows after which what was seen in them counts.
-const ENOUGH: u8 = 8;
 /// A drive may run for so long at least, seconds.
 const RUNS_S: f64 = 0.45;
 /// No axis turns faster, degrees a second.
@@ -22,14 +19,8 @@ const COASTS_S: f64 = 2.7;
 pub(super) const RATE_APART: Duration = Duration::from_secs(1);
 /// A motion may run past its end by this many times as much as those before.
 const MARGIN: f64 = 2.5;
-/// Motions count together up to these lengths, degrees: an axis runs further past the end of a longer
-/// one, because it turns faster.
-const LENGTHS_DEG: [f64; 4] = [1.0, 4.0, 16.0, f64::INFINITY];
-const CLASSES: usize = LENGTHS_DEG.len() * 2;
 /// The length of a motion counts for as long as this, and up to twice as long.
 const WINDOW: Duration = Duration::from_secs(10);
-/// Number of starts after which the dead time counts.
-const STARTS: u8 = 3;
 /// Further starts may take this much longer, besides a quarter.
 const SPARE: Duration = Duration::from_millis(200);
 /// Noise beyond half a step is no more than this until the readings have shown less, and at most,
@@ -42,81 +33,6 @@ const PLACES: u8 = 6;
 const READINGS: u16 = 20;
 /// Further readings may differ by this many times as much.
 const SPREADS: f64 = 1.3;
-
-/// Properties of one axis that its motions have shown.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
-#[serde(default)]
-pub struct AxisLessons {
-    pub(super) past_ends: PastEnds,
-    pub(super) dead_time: DeadTime,
-    pub(super) at_rest: AtRest,
-}
-
-impl AxisLessons {
-    /// Returns `true` if an axis can have such properties. A file may have been edited or damaged.
-    pub fn is_plausible(&self) -> bool {
-        let PastEnds { seen_deg, fastest_deg_s, .. } = self.past_ends;
-        let angles_deg = seen_deg.into_iter().chain(self.at_rest.widest_deg);
-        let mut all = angles_deg.chain([fastest_deg_s, self.dead_time.longest_s]);
-        all.all(|figure| figure.is_finite() && figure >= 0.0)
-    }
-
-    /// Returns the longest time from a command until the axis turns, seconds; `None` until it is known.
-    pub fn dead_time_s(&self) -> Option<f64> {
-        (self.dead_time.starts >= STARTS).then_some(self.dead_time.longest_s)
-    }
-
-    /// Returns the largest rate between two readings, degrees a second; `None` until it is known.
-    pub fn max_rate_deg_s(&self) -> Option<f64> {
-        self.past_ends.knows_rate().then_some(self.past_ends.fastest_deg_s)
-    }
-
-    /// Returns how far the axis has run past the end of a motion, by coasting and because its drive
-    /// runs for a minimum time, degrees; `None` until it is known.
-    pub fn runs_past_deg(&self) -> Option<f64> {
-        let is_known = self.past_ends.windows.iter().any(|windows| *windows >= ENOUGH);
-        is_known.then(|| self.past_ends.furthest_deg())
-    }
-
-    /// Returns the largest difference between readings of the standing axis, degrees; `None` until it
-    /// is known.
-    pub fn spread_deg(&self) -> Option<f64> {
-        self.at_rest.widest_deg
-    }
-}
-
-/// How far an axis has run past the ends of its motions, by their lengths.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
-#[serde(default)]
-pub(super) struct PastEnds {
-    seen_deg: [f64; CLASSES],
-    /// Number of windows in which the end of a motion was watched.
-    windows: [u8; CLASSES],
-    /// The fastest turn that was seen, degrees a second.
-    fastest_deg_s: f64,
-    /// Number of readings between which the axis has turned.
-    turns: u8,
-}
-
-impl PastEnds {
-    fn knows_rate(&self) -> bool {
-        self.turns >= ENOUGH
-    }
-
-    /// Returns `true` once enough ends of motions were watched that are as long as those of `class`, or
-    /// longer: an axis runs no further past the end of a shorter motion.
-    fn knows_class(&self, class: usize) -> bool {
-        let last = if class < LENGTHS_DEG.len() { LENGTHS_DEG.len() } else { CLASSES };
-        let windows = self.windows.get(class..last).unwrap_or_default();
-        windows.iter().fold(0, |sum: u8, windows| sum.saturating_add(*windows)) >= ENOUGH
-    }
-
-    /// The furthest that it was seen to run past the end of any motion, degrees.
-    fn furthest_deg(&self) -> f64 {
-        let seen_deg = self.seen_deg.into_iter().filter(|deg| *deg <= RUNS_PAST_DEG / 2.0);
-        seen_deg.fold(0.0, f64::max)
-    }
-}
 
 /// How far an axis runs past the end of its motion.
 #[derive(Debug, Clone, Copy, Default)]
@@ -226,38 +142,19 @@ impl RunsPast {
     }
 }
 
-/// The time from a command to a standing axis until it turns.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
-#[serde(default)]
-pub(super) struct DeadTime {
-    longest_s: f64,
-    starts: u8,
+/// Takes in that a command needed so long until the axis turned.
+pub(super) fn note_start(known: &mut DeadTime, lasted: Duration) {
+    known.longest_s = known.longest_s.max(lasted.as_secs_f64());
+    known.starts = known.starts.saturating_add(1);
 }
 
-impl DeadTime {
-    pub(super) fn note_start(&mut self, lasted: Duration) {
-        self.longest_s = self.longest_s.max(lasted.as_secs_f64());
-        self.starts = self.starts.saturating_add(1);
+/// Longest time until a command is obeyed.
+pub(super) fn max_dead_time(known: DeadTime) -> Duration {
+    if known.starts < STARTS {
+        return DEAD_TIME;
     }
-
-    pub(super) fn most(&self) -> Duration {
-        if self.starts < STARTS {
-            return DEAD_TIME;
-        }
-        let longest = Duration::try_from_secs_f64(self.longest_s * 1.25).unwrap_or(DEAD_TIME);
-        longest.saturating_add(SPARE).min(DEAD_TIME)
-    }
-}
-
-/// By how much readings of a standing axis have differed.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
-#[serde(default)]
-pub(super) struct AtRest {
-    /// The largest difference that was seen, degrees.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    widest_deg: Option<f64>,
-    /// Number of places where the axis stood.
-    places: u8,
+    let longest = Duration::try_from_secs_f64(known.longest_s * 1.25).unwrap_or(DEAD_TIME);
+    longest.saturating_add(SPARE).min(DEAD_TIME)
 }
 
 /// By how much readings of a standing axis differ.

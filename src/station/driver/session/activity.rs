@@ -6,8 +6,8 @@ use super::{on_board::Watch, program_track::Tracking};
 use crate::{
     astro::Angle,
     clock::Instant,
+    contract::driver::Intent,
     device::{Motion, Pointing, TrackTarget},
-    driver::Intent,
 };
 
 /// Time within which an accepted command must show in the unit's state.

@@ -4,7 +4,10 @@
 use std::time::Duration;
 
 use super::Session;
-use crate::{clock::Instant, clock::Moment, driver::Event};
+use crate::{
+    clock::{Instant, Moment},
+    contract::driver::Event,
+};
 
 /// A unit that still has auto-track on is told again after this time.
 const AGAIN: Duration = Duration::from_secs(3);

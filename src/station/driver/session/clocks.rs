@@ -2,11 +2,12 @@
 
 use std::time::Duration;
 
-use super::{Event, Session, jog::JogKey};
+use super::{Session, jog::JogKey};
 use crate::{
     astro::time::seconds_between,
     clock::Moment,
-    driver::{LinkLoss, Safety, before_sleep::Awake},
+    contract::driver::{Event, LinkLoss, Safety},
+    driver::before_sleep::Awake,
 };
 
 /// Largest change between two looks of a clock that is kept right, seconds.

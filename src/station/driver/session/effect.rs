@@ -4,15 +4,15 @@
 use std::time::Duration;
 
 use super::{
-    Event, Session,
+    Session,
     activity::{Activity, SlewStage},
     standstill::Figures,
 };
 use crate::{
     astro::Angle,
     clock::{Instant, Moment},
+    contract::driver::{Event, Safety},
     device::{AxisMotion, Measured},
-    driver::Safety,
     name::Name,
 };
 

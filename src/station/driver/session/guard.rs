@@ -2,11 +2,12 @@
 
 use std::{io, path::PathBuf, time::Duration};
 
-use super::{Event, Session};
+use super::Session;
 use crate::{
     clock::{Instant, Moment},
+    contract::driver::{Event, Refusal, Safety},
     driver::{
-        Refusal, Safety, Stream,
+        Stream,
         dead_man::{BEAT, DeadMan},
         link::Duplicate,
     },

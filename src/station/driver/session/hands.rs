@@ -1,9 +1,10 @@
 //! Ends motions of Azel when somebody else moves the antenna.
 
-use super::{Event, Session, program_track::Tracking};
+use super::{Session, program_track::Tracking};
 use crate::{
     clock::Moment,
-    driver::{Safety, motion_watch::Foreign},
+    contract::driver::{Event, Safety},
+    driver::motion_watch::Foreign,
 };
 
 impl Session {

@@ -3,12 +3,12 @@
 
 use std::time::Duration;
 
-use super::{Command, Event, Intent, Session, program_track::NotFollowed};
+use super::{Session, program_track::NotFollowed};
 use crate::{
     astro::AzEl,
     clock::{Instant, Moment},
+    contract::driver::{Command, Event, Inside, Intent, Refusal},
     device::Motion,
-    driver::{Inside, Refusal},
     plan::{Barrier, Bounds, ProgramTrack, bounds::Budget},
 };
 

@@ -7,11 +7,12 @@ use tokio::{
     sync::{Mutex as AsyncMutex, mpsc, watch},
 };
 
-use super::{Command, Numbered, Session, Wires, wanted::Wanted};
+use super::{Numbered, Session, Wires, wanted::Wanted};
 use crate::{
     clock::{Clock, Moment},
+    contract::driver::{Command, LinkLoss, LinkState},
     device::Extent,
-    driver::{LinkLoss, LinkState, Stopper, Stream, before_sleep::Awake},
+    driver::{Stopper, Stream, before_sleep::Awake},
     plan::Bounds,
 };
 

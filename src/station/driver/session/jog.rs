@@ -2,9 +2,10 @@
 
 use std::time::Duration;
 
-use super::{Event, Session};
+use super::Session;
 use crate::{
     clock::{Instant, Moment},
+    contract::driver::Event,
     device::Motion,
 };
 

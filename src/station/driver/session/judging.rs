@@ -8,14 +8,12 @@ use tokio::{
     task::spawn_blocking,
 };
 
-use super::{Command, Event, Session};
+use super::Session;
 use crate::{
     clock::Moment,
+    contract::driver::{Command, Effect, Event, Intent, Refusal, TrackProblem},
     device::{Motion, OnBoard},
-    driver::{
-        Effect, Intent, Refusal, TrackProblem,
-        gate::{Detour, DetourQuestion, NoRoute, PathQuestion, Route},
-    },
+    driver::gate::{Detour, DetourQuestion, NoRoute, PathQuestion, Route},
     job::is_in_place,
     orbit::PropagationError,
     plan::{

@@ -3,11 +3,11 @@
 
 use std::time::Duration;
 
-use super::{Event, Session};
+use super::Session;
 use crate::{
     clock::{Instant, Moment},
+    contract::driver::{Event, Safety, Unlike},
     device::{AntennaState, Offsets, Place},
-    driver::{Safety, Unlike},
 };
 
 /// How long a unit may take to report again what it reported before.

@@ -2,10 +2,10 @@
 
 use std::time::Duration;
 
-use super::{Event, Session};
+use super::Session;
 use crate::{
     clock::{Instant, Moment},
-    driver::{LinkLoss, LinkState},
+    contract::driver::{Event, LinkLoss, LinkState},
 };
 
 /// A unit that answers in time answers within this time.

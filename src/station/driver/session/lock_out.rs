@@ -3,10 +3,10 @@
 
 use std::{sync::Arc, time::Duration};
 
-use super::{Command, Event, Session, activity::Activity, wanted::Wanted};
+use super::{Session, activity::Activity, wanted::Wanted};
 use crate::{
     clock::{Instant, Moment},
-    driver::{LinkState, LockedOut, Offline, Refusal},
+    contract::driver::{Command, Event, LinkState, LockedOut, Offline, Refusal},
     station::LockOut,
 };
 

@@ -6,11 +6,12 @@ use std::time::Duration;
 use jiff::Timestamp;
 use tokio::task::spawn_blocking;
 
-use super::{Event, Session};
+use super::Session;
 use crate::{
     astro::time::seconds_between,
     clock::{Instant, Moment},
-    driver::{LeftMoving, Safety, debts::Mark},
+    contract::driver::{Event, LeftMoving, Safety},
+    driver::debts::Mark,
     promises::Kept,
 };
 

@@ -3,18 +3,15 @@
 use std::{collections::VecDeque, time::Duration};
 
 use super::{
-    Event, Session,
+    Session,
     activity::{Activity, SlewStage},
 };
 use crate::{
     astro::Angle,
     clock::{Instant, Moment},
+    contract::driver::{Event, Mover, Response, Safety, StoppingWay},
     device::{Axis, AxisMotion, Drive, Measured},
-    driver::{
-        Safety, StoppingWay,
-        gate::{Interval, Intervals},
-        safety::{Mover, Response},
-    },
+    driver::gate::{Interval, Intervals},
     plan::{Barrier, Clearance, Sweep},
     station::Monitor,
 };

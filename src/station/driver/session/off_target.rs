@@ -2,11 +2,11 @@
 
 use std::time::Duration;
 
-use super::{Event, Session, activity::Activity};
+use super::{Session, activity::Activity};
 use crate::{
     astro::Angle,
     clock::{Instant, Moment},
-    driver::{OffTargetCause, Safety},
+    contract::driver::{Event, OffTargetCause, Safety},
 };
 
 /// An alarm is raised for an antenna that has been off its target for this long.

@@ -1,31 +1,18 @@
 //! Offsets of a track, changed while it runs.
 
-use serde::{Deserialize, Serialize};
-
 use super::{
-    Command, Event, Session,
+    Session,
     program_track::{Tracking, motion},
 };
 use crate::{
     astro::{MAX_ANGLE_OFFSET, MAX_TIME_OFFSET, Offset, TrackOffsets},
     clock::Moment,
-    driver::{Refusal, gate::Demand},
+    contract::driver::{Command, Event, OffsetChange, Refusal},
+    driver::gate::Demand,
 };
 
 /// So many changes can be undone.
 const MAX_UNDO: usize = 100;
-
-/// A change of the offsets of a track. Each is judged like a motion; one that is refused leaves
-/// them as they were.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub enum OffsetChange {
-    /// One of them grows by this much.
-    Step(Offset),
-    /// All of them end.
-    Zero,
-    /// Back to those before the last change that was not undone.
-    Undo,
-}
 
 impl Session {
     pub(super) fn change_offsets(&mut self, change: OffsetChange, now: Moment) {

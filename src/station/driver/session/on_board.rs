@@ -5,18 +5,16 @@ use std::{sync::Arc, time::Duration};
 
 use jiff::Timestamp;
 
-use super::{Event, Session, activity::Slew, off_target::OffTarget};
+use super::{Session, activity::Slew, off_target::OffTarget};
 use crate::{
     astro::{
         Angle, AzEl, TrackOffsets,
         time::{add_seconds, seconds_between},
     },
     clock::{Instant, Moment},
+    contract::driver::{Event, Intent, OnBoardView, TrackProblem},
     device::{LONGEST_WINDOW_S, Measured, OnBoard, Phase},
-    driver::{
-        Intent, OnBoardView, TrackProblem,
-        gate::{Held, NoRoute},
-    },
+    driver::gate::{Held, NoRoute},
     plan::{
         OnBoardPass, Supervision,
         on_board::{Judge, Ranked},

@@ -5,21 +5,18 @@ mod tracking;
 
 use std::time::Duration;
 
-pub(super) use tracking::{TrackConfig, Tracking};
-
-use super::{
-    Command, Event, Session, activity::Activity, likeness::Recheck, off_target::OffTarget,
-};
+use super::{Session, activity::Activity, likeness::Recheck, off_target::OffTarget};
 use crate::{
     clock::{Instant, Moment},
+    contract::driver::{Command, Event, Intent, Refusal, Safety, TrackProblem, Unlike},
     device::Motion,
-    driver::{Intent, Refusal, Safety, TrackProblem, Unlike},
     plan::{
         Bounds, ProgramTrack, TrackPhase,
         program_track::{Next, PathOrder, Planner},
     },
     station::{AfterPass, Antenna, Resume},
 };
+pub(super) use tracking::{TrackConfig, Tracking};
 
 /// Maximum number of commands in a row without an answer and without effect.
 const MAX_LOST: u32 = 3;

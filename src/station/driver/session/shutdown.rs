@@ -8,10 +8,7 @@ use super::{
     Session,
     io_loop::{CONNECT, MIN_WAIT, STOP_RETRY, WRITE},
 };
-use crate::{
-    clock::Instant,
-    driver::{LinkState, Stream},
-};
+use crate::{clock::Instant, contract::driver::LinkState, driver::Stream};
 
 /// Time limit for standstill at the end of a session, in addition to what its proof takes.
 const STANDSTILL_WITHIN: Duration = Duration::from_millis(1500);

@@ -5,10 +5,10 @@
 
 use std::time::Duration;
 
-use super::{Event, Session};
+use super::Session;
 use crate::{
     clock::{Instant, Moment},
-    driver::{LinkState, Safety},
+    contract::driver::{Event, LinkState, Safety},
 };
 
 /// Maximum time from the first overdue reply to the report.

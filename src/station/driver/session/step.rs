@@ -1,7 +1,11 @@
 //! One step at a time: the gate judges the next one by a position that shows the last.
 
-use super::{Event, Session};
-use crate::{clock::Instant, clock::Moment, device::Motion, driver::Refusal};
+use super::Session;
+use crate::{
+    clock::{Instant, Moment},
+    contract::driver::{Event, Refusal},
+    device::Motion,
+};
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Stepping {

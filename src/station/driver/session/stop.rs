@@ -3,14 +3,14 @@
 use std::time::Duration;
 
 use super::{
-    Event, Session,
+    Session,
     activity::Activity,
     standstill::{Figures, Looks, Proof},
 };
 use crate::{
     clock::{Instant, Moment},
+    contract::driver::{Event, Safety, StopState},
     device::Extent,
-    driver::{Safety, StopState},
 };
 
 /// A halt that is not proved by then is reported.

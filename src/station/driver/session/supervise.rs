@@ -4,15 +4,15 @@
 use std::time::Duration;
 
 use super::{
-    Event, Session,
+    Session,
     activity::{Activity, Arrival, GoTo, OnBoardStage, OnBoardTrack, Slew, SlewStage},
     likeness::Recheck,
 };
 use crate::{
     astro::Angle,
     clock::{Instant, Moment},
+    contract::driver::{Event, Found, Intent, Refusal},
     device::{Asked, AxisMotion, ControllerEvent, Motion, Phase, Pointing, TrackTarget},
-    driver::{Found, Intent, Refusal},
 };
 
 /// Time within which an accepted command to track must show in the unit's state.

@@ -8,15 +8,16 @@ use std::{sync::Arc, time::Duration};
 
 use jiff::Timestamp;
 
-use super::{Command, Event, OffsetChange, Session, offsets::most};
+use super::{Session, offsets::most};
 use crate::{
     astro::{Offset, TrackOffsets},
     clock::{Instant, Moment},
+    contract::driver::{Command, Event, LeftOffsets, OffsetChange, Refusal},
     device::{
         OnBoard, TrackOffsetFields,
         settings::{Change, WriteError},
     },
-    driver::{LeftOffsets, Refusal, debts::ShiftedTrack, gate::Shift},
+    driver::{debts::ShiftedTrack, gate::Shift},
     plan::{OnBoardPass, on_board::Judge},
     promises::Kept,
 };

@@ -1,11 +1,11 @@
 //! Leaves a unit to others, and takes it back when the operator says so.
 
 use super::{
-    Event, Session,
+    Session,
     activity::Activity,
     io_loop::{Input, MIN_WAIT, next_input},
 };
-use crate::driver::{LinkState, Refusal};
+use crate::contract::driver::{Event, LinkState, Refusal};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Wanted {

@@ -1,7 +1,7 @@
 //! Passes changes of settings to the gate.
 
-use super::{Event, Session};
-use crate::{clock::Moment, device::settings::Change};
+use super::Session;
+use crate::{clock::Moment, contract::driver::Event, device::settings::Change};
 
 impl Session {
     /// Writes `change`. If it is not sent, the reason also appears among the outcomes of the

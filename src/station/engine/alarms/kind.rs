@@ -7,12 +7,14 @@ use serde::{Deserialize, Serialize};
 
 use crate::{
     astro::{Angle, TrackOffsets},
+    contract::driver::{
+        Event, Found, LeftOffsets, LinkLoss, OffTargetCause, Safety, TrackProblem, Unit,
+    },
     device::{
         Asked, PrepareError, TrackTarget,
         panel::{Check, CheckState},
         settings::WriteError,
     },
-    driver::{Event, Found, LeftOffsets, LinkLoss, OffTargetCause, Safety, TrackProblem, Unit},
     engine::{
         automatic::{Interruption, NotReady, OffBecause},
         claim::HeldBy,

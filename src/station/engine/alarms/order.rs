@@ -4,7 +4,7 @@ use std::cmp::Reverse;
 
 use super::{Alarm, AlarmKind, Alarms};
 use crate::{
-    driver::{OffTargetCause, Safety},
+    contract::driver::{OffTargetCause, Safety},
     plan::on_board::Cause,
 };
 

@@ -2,8 +2,8 @@ use jiff::ToSpan as _;
 
 use super::*;
 use crate::{
+    contract::driver::{LinkLoss, Mover, OffTargetCause, Response, Safety, Unit},
     device::panel::{Check, CheckState},
-    driver::{LinkLoss, Mover, OffTargetCause, Response, Safety, Unit},
     plan::{
         Barrier,
         on_board::{Cause, Ranked},

@@ -2,7 +2,7 @@
 //! or the station ends.
 
 use super::AntennaModel;
-use crate::driver::{Intent, StopState};
+use crate::contract::driver::{Intent, StopState};
 
 /// Activity of an antenna that is at stake.
 #[derive(Debug, Clone, PartialEq, Eq)]

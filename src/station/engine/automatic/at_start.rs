@@ -7,9 +7,9 @@ use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
 use crate::{
+    contract::transfer::{FileHash, FileObject},
     engine::{passes::PassKey, uploads::UploadTarget},
     station::AntennaId,
-    transfer::{FileHash, FileObject},
 };
 
 /// The file is named like the station file, but for this.

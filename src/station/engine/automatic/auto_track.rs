@@ -1,7 +1,7 @@
 //! Auto-track: a unit starts the pass that it holds by itself, while automatic operation is on.
 
 use crate::{
-    driver,
+    contract::driver,
     engine::{Antenna, Engine},
 };
 

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use crate::{
     clock::Instant,
-    driver::{self, TimeSync},
+    contract::{driver, driver::TimeSync},
     engine::Engine,
 };
 

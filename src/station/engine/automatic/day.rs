@@ -9,10 +9,10 @@ use super::operation::{
 };
 use crate::{
     astro::time::seconds_between,
+    contract::transfer::OldAlgorithm,
     engine::passes::PassKey,
     plan::pass_report::{LossCause, LostStretch, PassReport},
     station::AntennaId,
-    transfer::OldAlgorithm,
 };
 
 /// Most lines that are kept.

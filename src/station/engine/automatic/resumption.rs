@@ -6,10 +6,12 @@ use std::time::Duration;
 use super::{LastRun, OffBecause, Operation};
 use crate::{
     clock::Instant,
-    driver::{Event, Intent, Safety, StopState, TimeSync, Unit},
+    contract::{
+        driver::{Event, Intent, Safety, StopState, TimeSync, Unit},
+        transfer::FileHash,
+    },
     engine::{Antenna, Engine},
     station::Station,
-    transfer::FileHash,
 };
 
 /// The unit must have been at rest for this long.

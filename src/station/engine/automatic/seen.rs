@@ -3,8 +3,8 @@
 use super::operation::{NotReady, Seen};
 use crate::{
     clock::Instant,
+    contract::driver::{Intent, Snapshot, StopState},
     device::Axis,
-    driver::{Intent, Snapshot, StopState},
     engine::antenna::AntennaModel,
 };
 

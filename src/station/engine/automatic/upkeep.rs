@@ -12,11 +12,11 @@ use super::{DayEvent, sets_out};
 use crate::{
     astro::time::seconds_between,
     clock::Instant,
+    contract::{driver, driver::TimeSync},
     device::{
         ClockSetting, UnitClock,
         settings::{Change, Hindrance, WriteError},
     },
-    driver::{self, TimeSync},
     engine::{Antenna, Engine, antenna::AntennaModel},
     plan::schedule::Entry,
     station::{AntennaId, BetweenPasses, Upkeep},

@@ -6,13 +6,13 @@ use super::*;
 use crate::{
     astro::{Angle, TrackOffsets},
     clock::{Instant, Moment},
+    contract::driver::{
+        Evidence, LeftOffsets, LinkLoss, Mover, Response, Safety, TrackProblem, Unit, Unlike,
+    },
     device::{
         Asked, PrepareError, TrackTarget,
         panel::{Check, CheckState},
         settings::WriteError,
-    },
-    driver::{
-        Evidence, LeftOffsets, LinkLoss, Mover, Response, Safety, TrackProblem, Unit, Unlike,
     },
     engine::{
         alarms::{AlarmKind, Alarms, ShelveTime, Work},

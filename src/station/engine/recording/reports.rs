@@ -12,7 +12,11 @@ use crate::{
         time::{add_seconds, apart, seconds_between},
     },
     clock::Instant as Steady,
-    driver::{LinkState, PositionLog, TimeSync, TrackView},
+    contract::{
+        driver::{LinkState, TimeSync, TrackView},
+        record::{AboutTrack, PlannedPart, RecordedReport, TrackedBy},
+    },
+    driver::PositionLog,
     engine::{
         Antenna, CatalogState, Engine,
         antenna::AntennaModel,
@@ -30,7 +34,7 @@ use crate::{
         },
         trackability,
     },
-    record::{AboutTrack, PassNote, PlannedPart, RecordedReport, TrackedBy},
+    record::PassNote,
     station::AntennaId,
 };
 

@@ -5,8 +5,8 @@ use serde::Serialize;
 
 use crate::{
     astro::TrackOffsets,
+    contract::driver::{Inside, Intent, LeftMoving, StopState},
     device::{Phase, panel::CheckState},
-    driver::{Inside, Intent, LeftMoving, StopState},
     engine::{antenna::AntennaModel, automatic::Operation, status::LinkStatus},
     plan::TrackPhase,
     station::LockOut,

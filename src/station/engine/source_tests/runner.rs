@@ -5,14 +5,13 @@ use std::{io, sync::Arc};
 use super::{SourceOrder, SourceTests, TestAsk, TestStage};
 use crate::{
     clock::Clock,
+    contract::transfer::{OldAlgorithm, UnitView},
     engine::{
         host_keys::{self, Decision, doubtful},
         uploads::Places,
     },
     job::{Job, Wake},
-    transfer::{
-        FetchError, OfferedKey, OldAlgorithm, Transfer, Trust, UnitView, fetch, what_a_unit_sees,
-    },
+    transfer::{FetchError, OfferedKey, Transfer, Trust, fetch, what_a_unit_sees},
 };
 
 /// The file as the unit will see it, and the old algorithms of the connection.

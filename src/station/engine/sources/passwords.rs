@@ -6,8 +6,9 @@ use std::{
 };
 
 use crate::{
+    contract::sources::{SPACE_TRACK_HOST, log_in_key},
     engine::uploads,
-    library::{PasswordStore, SPACE_TRACK_HOST, log_in_key},
+    library::PasswordStore,
     orbit::FetchProblem,
     secret::Secret,
     transfer::{Account, Keyring as _, KeyringError, MemoryKeyring, TimedKeyring},

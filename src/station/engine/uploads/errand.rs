@@ -8,12 +8,13 @@ use tokio_util::sync::CancellationToken;
 use super::{Cargo, Order, Places};
 use crate::{
     clock::Clock,
+    contract::transfer::{OldAlgorithm, Progress, Uploaded},
     job::{Job, Wake},
     secret::Secret,
     transfer::{
-        Account, ConnectError, Interruption, KeyFileProblem, Keyring as _, Login, OldAlgorithm,
-        Progress, Proof, SecretString, Transfer, Upload, UploadReason, Uploaded, check_host_key,
-        is_factory_password, open_sftp, upload,
+        Account, ConnectError, Interruption, KeyFileProblem, Keyring as _, Login, Proof,
+        SecretString, Transfer, Upload, UploadReason, check_host_key, is_factory_password,
+        open_sftp, upload,
     },
 };
 

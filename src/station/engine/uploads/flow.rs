@@ -9,9 +9,10 @@ use super::{
     select::{Selection, TICKETS, UnitNow, pick},
 };
 use crate::{
+    contract::transfer::Uploaded,
     engine::host_keys::{Decision, doubtful},
     secret::Secret,
-    transfer::{OfferedKey, Uploaded},
+    transfer::OfferedKey,
 };
 
 /// Why an unattended order ends.

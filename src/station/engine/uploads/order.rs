@@ -4,10 +4,11 @@ use std::path::PathBuf;
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error as _};
 
-use crate::engine::written;
 use crate::{
+    contract::transfer::{FileName, KeptFile, Peer, TleFile},
     device::ElementFiles,
-    transfer::{Account, FileName, KeptFile, Peer, TleFile},
+    engine::written,
+    transfer::Account,
 };
 
 /// An element file for a unit, with the way to get it there.

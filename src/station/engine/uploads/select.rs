@@ -7,14 +7,16 @@ use serde::{Deserialize, Serialize};
 
 use crate::{
     clock::Instant,
+    contract::{
+        driver,
+        transfer::{FileObject, Uploaded},
+    },
     device::{
         ElementFiles,
         panel::{Check, CheckState},
         settings::{Change, HeldGroup, Hindrance, Written},
     },
-    driver,
     engine::antenna::AntennaModel,
-    transfer::{FileObject, Uploaded},
 };
 
 /// Tickets of selections begin here; those of the forms are lower.
@@ -177,12 +179,12 @@ pub(super) fn pick(
 mod tests {
     use super::*;
     use crate::{
+        contract::driver::Command,
         controller::satrak::{
             ELEMENT_FILES,
             settings::{CATALOG_NUMBER, CONTINUE_TRACKING, PERIOD, SATELLITE_NAME},
         },
         device::settings::WriteError,
-        driver::Command,
     };
 
     const NUMBER: u32 = 43_013;

@@ -2,9 +2,8 @@
 
 use super::{Ask, Order, SessionRequest, Stage, UnitNow};
 use crate::{
-    driver::Command,
+    contract::{driver::Command, transfer::FileObject},
     engine::{Antenna, Engine, automatic::Interruption},
-    transfer::FileObject,
 };
 
 impl Engine {

@@ -7,10 +7,11 @@ use super::{DISH, clock, recorder, start};
 use crate::{
     astro::Site,
     clock::{Instant, Moment},
+    contract::record::{ListedKind, PassQuery},
     plan::pass_report::PassVerdict,
     record::{
-        Beside, Entry, Kind, ListedKind, PassNote, PassQuery, missed, neighbour, passes,
-        passes_within, testing, times_between, times_of_pass,
+        Beside, Entry, Kind, PassNote, missed, neighbour, passes, passes_within, testing,
+        times_between, times_of_pass,
     },
     station::AntennaId,
 };

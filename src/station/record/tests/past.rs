@@ -7,7 +7,8 @@ use super::{DISH, recorder, rows_of, start};
 use crate::{
     astro::Site,
     clock::{Instant, Moment},
-    record::{Entry, Kind, Query, Row, RowKind, open_pass, testing},
+    contract::record::Row,
+    record::{Entry, Kind, Query, RowKind, open_pass, testing},
 };
 
 const NOAA_20: u32 = 43013;

@@ -20,10 +20,13 @@ use tokio::{
 use tokio_util::sync::CancellationToken;
 
 use super::FetchError;
-use crate::transfer::{
-    ConnectError, ConnectStep, Limits, Peer,
-    limits::within,
-    ssh::{dial, failed, interrupted},
+use crate::{
+    contract::transfer::Peer,
+    transfer::{
+        ConnectError, ConnectStep, Limits,
+        limits::within,
+        ssh::{dial, failed, interrupted},
+    },
 };
 
 /// A file, its server and the log-in.

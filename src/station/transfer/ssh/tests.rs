@@ -89,7 +89,7 @@ async fn logged_in_with(
 
 #[tokio::test]
 async fn old_algorithms_are_taken_and_named_where_a_host_offers_nothing_else() {
-    use AlgorithmPart::{Cipher, KeyExchange, Mac};
+    use crate::contract::transfer::AlgorithmPart::{Cipher, KeyExchange, Mac};
     let default = Preferred::DEFAULT;
     for (preferred, expected) in [
         (default.clone(), vec![]),

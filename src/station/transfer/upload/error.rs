@@ -2,49 +2,10 @@
 
 use std::fmt;
 
-use serde::{Deserialize, Serialize};
-
-use crate::transfer::{FolderError, KeptError};
-
-/// Step of an upload, in order.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-pub enum UploadStep {
-    /// Read the present file on the unit.
-    ReadOld,
-    /// Keep it on this computer.
-    KeepOld,
-    /// Write the new file beside the old one.
-    Write,
-    /// Read the new file again and compare.
-    Compare,
-    /// Put the new file in the place of the old one. From here on there is no cancelling.
-    Replace,
-    /// Read the new file in its place and compare.
-    Prove,
-}
-
-impl fmt::Display for UploadStep {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::ReadOld => "reading the file on the unit",
-            Self::KeepOld => "keeping the file of the unit on this computer",
-            Self::Write => "writing the new file beside the old one",
-            Self::Compare => "comparing the new file with what was sent",
-            Self::Replace => "putting the new file in its place",
-            Self::Prove => "comparing the file in its place with what was sent",
-        })
-    }
-}
-
-/// Progress of an upload.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Progress {
-    pub step: UploadStep,
-    /// Bytes finished in this step.
-    pub done_bytes: u64,
-    /// Size of the new file; the present file on the unit may be larger or smaller.
-    pub file_bytes: u64,
-}
+use crate::{
+    contract::transfer::UploadStep,
+    transfer::{FolderError, KeptError},
+};
 
 /// Reason why an upload ended early.
 #[derive(Debug, thiserror::Error)]

@@ -4,10 +4,13 @@ use std::future::Future;
 
 use tokio_util::sync::CancellationToken;
 
-use super::{FolderState, Progress, UploadError, UploadReason, UploadStep};
-use crate::transfer::{
-    FileHash, KeptError,
-    folder::{Folder, FolderFile},
+use super::{FolderState, UploadError, UploadReason};
+use crate::{
+    contract::transfer::{FileHash, Progress, UploadStep},
+    transfer::{
+        KeptError,
+        folder::{Folder, FolderFile},
+    },
 };
 
 /// Name of the file while it is written, without `.txt` or `.tle` at the end, so that a

@@ -2,8 +2,8 @@
 
 use crate::{
     astro::{Angle, AzEl},
+    contract::driver::{Command, Intent},
     device::panel::Act,
-    driver::{Command, Intent},
     engine::{self, antenna::AntennaModel, passes::PredictedPass},
     model::{Model, UiCommand},
     plan::{self, ProgramTrack},

@@ -161,7 +161,7 @@ mod tests {
 
     use super::*;
     use crate::{
-        driver::{LinkState, Snapshot},
+        contract::driver::{LinkState, Snapshot},
         station::Antenna,
     };
 

@@ -1,7 +1,7 @@
 //! The reasons why controls of the card are locked.
 
 use crate::{
-    driver::{Intent, LinkState},
+    contract::driver::{Intent, LinkState},
     engine::antenna::AntennaModel,
     model::Model,
     ui::state_sentence::missing_angle,

@@ -5,9 +5,9 @@ use egui::{Label, Response, RichText, TextEdit, Ui};
 use jiff::Timestamp;
 
 use crate::{
+    contract::record::{Peak, PeakChange, PeakOf},
     engine,
     model::{Model, UiCommand},
-    record::{Peak, PeakChange, PeakOf},
     station::AntennaId,
     ui::{
         format, record, text, theme,

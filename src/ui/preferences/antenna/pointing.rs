@@ -5,9 +5,9 @@ use egui::{Grid, Label, RichText, Ui};
 use super::peaks::{self, TypedPeak};
 use crate::{
     astro::Term,
+    contract::record::{FittedTerm, PointingFit},
     engine::{self, pointing_fit::PointingFitted},
     model::{Model, UiCommand},
-    record::{FittedTerm, PointingFit},
     station::{Antenna, AntennaId},
     ui::{
         format,

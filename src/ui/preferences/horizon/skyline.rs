@@ -7,7 +7,7 @@ use egui::{Align2, Key, Rect, Sense, Ui, pos2, vec2};
 use super::{HorizonState, draft::Skies, pane, plot};
 use crate::{
     astro::{Angle, AzEl},
-    driver::{Intent, LinkState},
+    contract::driver::{Intent, LinkState},
     model::{Model, UiCommand},
     ui::{
         icons::{self, Icon},

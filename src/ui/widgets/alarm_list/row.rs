@@ -6,7 +6,7 @@ use egui::{Color32, Galley, Id, Rect, Sense, Ui, pos2, vec2};
 
 use super::AlarmRow;
 use crate::{
-    driver::Command,
+    contract::driver::Command,
     engine::{
         self,
         alarms::{AlarmState, Priority, ShelveTime},

@@ -116,7 +116,7 @@ fn table() -> Vec<Needed> {
 }
 
 fn motions() -> Vec<Needed> {
-    use Intent::{Manual, Position, Standby, Track};
+    use crate::contract::driver::Intent::{Manual, Position, Standby, Track};
     let manual = || Case::new(Manual);
     let turn = Asked::Motion(jog(1.0, 0.0));
     vec![
@@ -202,7 +202,7 @@ fn motions() -> Vec<Needed> {
 }
 
 fn actions_and_settings() -> Vec<Needed> {
-    use Intent::Manual;
+    use crate::contract::driver::Intent::Manual;
     vec![
         needed("no_action_while_locked_out", locked_out(rc2000c(Manual)), Asked::Act, |it| {
             matches!(it, Refusal::LockedOut { .. })

@@ -15,8 +15,9 @@ use tokio::time::sleep;
 use super::*;
 use crate::{
     clock::Clock,
+    contract::driver::{Command, Unit},
     driver::{
-        AntennaHandle, Command, Debts, Dial, Orders, Unit,
+        AntennaHandle, Debts, Dial, Orders,
         session::{
             Wires,
             testing::{self, START, antenna},

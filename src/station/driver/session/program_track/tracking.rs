@@ -5,11 +5,9 @@ use std::time::Duration;
 use crate::{
     astro::{Angle, PointingModel, TrackOffsets},
     clock::Instant,
+    contract::driver::TrackView,
     device::{Axis, AxisMotion, Capabilities, Measured, Pointing},
-    driver::{
-        TrackView,
-        session::{likeness::Recheck, off_target::OffTarget},
-    },
+    driver::session::{likeness::Recheck, off_target::OffTarget},
     plan::{
         Sample, TrackPhase, TrackStats,
         program_track::{AxisNow, Drives, OnPath, Planner},

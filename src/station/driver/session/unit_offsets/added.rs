@@ -7,8 +7,9 @@ use super::Step;
 use crate::{
     astro::{TrackOffsets, time::add_seconds},
     clock::Moment,
+    contract::driver::{LeftOffsets, UnitOffsetsView},
     device::OnBoard,
-    driver::{LeftOffsets, UnitOffsetsView, session::Session},
+    driver::session::Session,
 };
 
 /// Ends of windows that are further apart are those of two passes, seconds.

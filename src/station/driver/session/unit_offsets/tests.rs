@@ -7,9 +7,10 @@ use tokio::{io::AsyncWriteExt as _, time::sleep};
 use super::*;
 use crate::{
     astro::{Angle, Site, time::add_seconds},
+    contract::driver::{Command, Snapshot, Unit},
     device::TrackTarget,
     driver::{
-        AntennaHandle, Command, Debts, Snapshot, Unit,
+        AntennaHandle, Debts,
         session::testing::{self, antenna},
     },
     orbit::{PassSearch, Propagator, passes, read_elements},

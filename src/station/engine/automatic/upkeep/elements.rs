@@ -8,6 +8,7 @@ use super::{DayEvent, RETRY, is_free};
 use crate::{
     astro::time::{DAY_S, seconds_between},
     clock::Instant,
+    contract::transfer::{FileName, FileObject, TleFile},
     device::ElementFiles,
     engine::{
         CatalogState, Engine,
@@ -17,7 +18,6 @@ use crate::{
     },
     orbit::{Catalog, Elements},
     station::{self, AntennaId},
-    transfer::{FileName, FileObject, TleFile},
 };
 
 /// Least time before the antenna sets out, for an upload to begin, seconds.
@@ -282,13 +282,13 @@ mod tests {
     use super::*;
     use crate::{
         astro::time::add_seconds,
+        contract::transfer::Peer,
         controller::satrak::ELEMENT_FILES,
         engine::{
             automatic::{LastRun, tests::station},
             uploads::Failure,
         },
         orbit::bundled,
-        transfer::Peer,
     };
 
     const FAVOURITES: [u32; 2] = [25_544, 43_013];

@@ -8,9 +8,10 @@ use std::{
 
 use super::*;
 use crate::{
+    contract::transfer::Seen,
     engine::source_tests::TestedSource,
     orbit::{bundled, write_tle},
-    transfer::{KeptFiles, KnownHosts, Limits, MemoryKeyring, Seen},
+    transfer::{KeptFiles, KnownHosts, Limits, MemoryKeyring},
 };
 
 const NOAA_20: u32 = 43_013;

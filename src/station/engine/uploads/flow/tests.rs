@@ -2,13 +2,14 @@ use std::path::PathBuf;
 
 use super::*;
 use crate::{
+    contract::transfer::{
+        AlgorithmPart, FileName, FileObject, KeptFile, OldAlgorithm, Origin, Peer, Progress,
+        TleFile, UploadStep,
+    },
     controller::satrak::ELEMENT_FILES,
     device::settings::Hindrance,
     engine::uploads::Busy,
-    transfer::{
-        AlgorithmPart, ConnectError, FileName, FileObject, KeptFile, OldAlgorithm, Origin, Peer,
-        Progress, TleFile, UploadStep,
-    },
+    transfer::ConnectError,
 };
 
 const ISS: u32 = 25_544;

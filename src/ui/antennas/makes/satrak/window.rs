@@ -2,15 +2,15 @@
 
 use egui::{Align2, Rect, Ui, vec2};
 
-use crate::ui::antennas::cards::fields;
 use crate::{
+    contract::driver::{Command, Event, Refusal},
     controller::satrak::settings::{START, STOP, WINDOW},
     device::{Asked, Motion, settings::Value},
-    driver::{Command, Event, Refusal},
     engine::{on_board, passes::PredictedPass},
     model::UiCommand,
     ui::{
         antennas::{
+            cards::fields,
             form::Form,
             row::{self, Columns},
             unit::ShownUnit,

@@ -10,7 +10,8 @@ use super::{
 };
 use crate::{
     astro::{Angle, AzEl, Offset, TrackOffsets},
-    driver::{Command, Event, Intent, LinkState, OffsetChange, Safety, Snapshot, session::testing},
+    contract::driver::{Command, Event, Intent, LinkState, OffsetChange, Safety, Snapshot},
+    driver::session::testing,
     plan::{OnBoardPass, ProgramTrack, Target},
     sim::{InMemory as _, Trouble, rotator_genius, satrak},
     station::{LockOut, Station},

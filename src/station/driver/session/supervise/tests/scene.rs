@@ -19,12 +19,13 @@ use tokio::{
 use super::Checks;
 use crate::{
     clock::Clock,
+    contract::driver::{Command, Event, Intent, Snapshot},
     controller::{
         rotator_genius::{ROTATORS, Rotators},
         satrak::ELEMENT_FILE,
     },
     driver::{
-        AntennaHandle, Command, Debts, Dial, Event, Intent, Orders, Snapshot, Stream,
+        AntennaHandle, Debts, Dial, Orders, Stream,
         before_sleep::BeforeSleep,
         session::{Session, Wires, testing},
     },

@@ -3,10 +3,10 @@
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
-use super::FileHash;
 use crate::{
     device::ElementFiles,
     orbit::{Elements, TleRefusal, read_element_bytes, write_tle},
+    transfer::FileHash,
 };
 
 /// An object of a file on a unit.
@@ -150,8 +150,10 @@ impl FileName {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::controller::satrak::ELEMENT_FILES;
-    use crate::orbit::{TleRefusalReason, bundled, read_elements};
+    use crate::{
+        controller::satrak::ELEMENT_FILES,
+        orbit::{TleRefusalReason, bundled, read_elements},
+    };
 
     fn omm(name: &str, number: u32) -> String {
         format!(

@@ -1,7 +1,7 @@
 //! The table of commands: what each one is, and where it is taken. Everything that decides by the kind
 //! of a command reads its row here, and no command compiles without one.
 
-use super::Command;
+use crate::driver::Command;
 
 /// The row of a command.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -89,11 +89,11 @@ impl Row {
     };
 
     /// A command of the station that concerns no motion.
-    pub(crate) const OF_STATION: Self = Self { void_after_stop: false, ..Self::CHANGES };
+    pub const OF_STATION: Self = Self { void_after_stop: false, ..Self::CHANGES };
     /// A command of the station that only asks to be shown something.
-    pub(crate) const STATION_LOOKS: Self = Self::LOOKS;
+    pub const STATION_LOOKS: Self = Self::LOOKS;
     /// A command of the station that makes antennas move.
-    pub(crate) const STATION_MOVES: Self = Self::MOVES;
+    pub const STATION_MOVES: Self = Self::MOVES;
 }
 
 impl Command {

@@ -6,7 +6,6 @@ use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    driver::Evidence,
     name::{self, Name},
     plan::{Barrier, on_board::Ranked, pass_report::Explained},
 };
@@ -147,4 +146,19 @@ pub enum Response {
     Stopped,
     /// The operator was told; STOP is not wanted there, or would keep the antenna inside.
     Reported,
+}
+
+/// Evidence that somebody else moves an axis.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Evidence {
+    /// The axis is outside the interval that Azel's commands can reach.
+    Outside {
+        /// Distance from that interval, degrees, positive clockwise or up.
+        off_deg: f64,
+    },
+    /// The unit reports a jog that Azel did not send.
+    Jogged,
+    /// The unit reports that the axis turns without a command.
+    Runaway,
 }

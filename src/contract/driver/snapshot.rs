@@ -5,7 +5,6 @@ use std::{sync::Arc, time::Duration};
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
-use super::{AxisLessons, Intent, Preview, Refusal, Safety};
 use crate::{
     astro::{Angle, TrackOffsets},
     clock::Instant,
@@ -13,6 +12,7 @@ use crate::{
         AntennaState, Asked, Capabilities, Pointing, PrepareError, TrackTarget,
         settings::{GroupState, Held, Hindrance, WriteError},
     },
+    driver::{AxisLessons, Intent, Preview, Refusal, Safety},
     name::{self, Name},
     orbit::PropagationError,
     plan::{Barrier, Sample, Supervision, TrackPhase, TrackStats, program_track::OnPath},

@@ -1,0 +1,15 @@
+//! What a record shows: reports, passes, fits and its own state.
+
+mod pass;
+mod past;
+mod peaks;
+mod pointing;
+mod status;
+
+pub use pass::{AboutTrack, PlannedPart, RecordedReport, TrackedBy};
+pub use past::{
+    ExplainedPasses, ListedKind, OpenedPass, PassPage, PassQuery, PassTimes, RecordedPass, Row,
+};
+pub use peaks::{Peak, PeakChange, PeakOf, Peaks};
+pub use pointing::{FittedTerm, NoiseOf, PointingFit};
+pub use status::{Failing, Status};

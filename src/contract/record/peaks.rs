@@ -1,0 +1,78 @@
+//! Peaks of the noise of the Sun and the Moon, as the operator entered them: points for the pointing
+//! model of an antenna.
+
+use std::ops::RangeInclusive;
+
+use jiff::Timestamp;
+use serde::{Deserialize, Serialize};
+
+use crate::{
+    astro::{AzEl, Site},
+    plan::pointing::Point,
+    station::AntennaId,
+};
+
+/// Where the axes stood when the noise was greatest.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Peak {
+    pub of: PeakOf,
+    pub at: Timestamp,
+    pub azimuth_deg: f64,
+    pub elevation_deg: f64,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum PeakOf {
+    Sun,
+    Moon,
+}
+
+/// Change of a peak in an entry of the record.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum PeakChange {
+    Added(Peak),
+    Removed(Peak),
+}
+
+/// The peaks of all antennas, in the order in which they were entered.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct Peaks(Vec<(AntennaId, Peak)>);
+
+impl Peak {
+    /// Angles that an axis may read.
+    pub const AZIMUTHS_DEG: RangeInclusive<f64> = -360.0..=720.0;
+    pub const ELEVATIONS_DEG: RangeInclusive<f64> = -10.0..=90.0;
+
+    /// The point of an antenna at `site`.
+    pub fn point(&self, site: Site) -> Point {
+        let axes = AzEl::from_degrees(self.azimuth_deg, self.elevation_deg);
+        match self.of {
+            PeakOf::Sun => Point::of_sun(site, self.at, axes, 1.0),
+            PeakOf::Moon => Point::of_moon(site, self.at, axes, 1.0),
+        }
+    }
+}
+
+impl Peaks {
+    pub fn change(&mut self, antenna: AntennaId, change: PeakChange) {
+        let (PeakChange::Added(peak) | PeakChange::Removed(peak)) = change;
+        self.0.retain(|known| *known != (antenna, peak));
+        if matches!(change, PeakChange::Added(_)) {
+            self.0.push((antenna, peak));
+        }
+    }
+
+    /// Adds those of another list that are not in this one.
+    pub fn extend(&mut self, others: &Self) {
+        for (antenna, peak) in &others.0 {
+            self.change(*antenna, PeakChange::Added(*peak));
+        }
+    }
+
+    /// Those of an antenna.
+    pub fn of(&self, antenna: AntennaId) -> impl Iterator<Item = &Peak> {
+        self.0.iter().filter(move |(of, _)| *of == antenna).map(|(_, peak)| peak)
+    }
+}

@@ -1,0 +1,32 @@
+//! A file as it was on a unit.
+
+use jiff::Timestamp;
+use serde::{Deserialize, Serialize};
+
+use crate::transfer::FileHash;
+
+/// A file as it was on a unit.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct KeptFile {
+    /// Host and port of the unit.
+    pub unit: String,
+    /// Name of the file on the unit.
+    pub file: String,
+    /// Hash of the whole file.
+    pub sha256: FileHash,
+    /// Size of the whole file.
+    pub bytes: u64,
+    /// Time at which it was sent, or read on the unit.
+    pub at: Timestamp,
+    pub origin: Origin,
+}
+
+/// Origin of a file on a unit.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Origin {
+    /// The file was there before this program replaced it.
+    Found,
+    /// This program sent it.
+    Uploaded,
+}

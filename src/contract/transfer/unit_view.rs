@@ -1,0 +1,50 @@
+//! A file of elements as a unit will see it.
+
+use jiff::Timestamp;
+use serde::{Deserialize, Serialize};
+
+use crate::{
+    orbit::Refusal,
+    transfer::{FileHash, FileObject},
+};
+
+/// View that a unit will have of a file.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct UnitView {
+    pub bytes: u64,
+    pub sha256: FileHash,
+    /// Number of readable objects.
+    pub objects: usize,
+    /// Unreadable objects with the reasons; the unit may read them or fail on them.
+    pub refused: Vec<Refusal>,
+    /// Number of further refusals.
+    pub refused_unlisted: usize,
+    /// The file is TLE, the only form that units are known to read.
+    pub is_tle: bool,
+    /// Result of the unit's search for its satellite.
+    pub satellite: Seen,
+}
+
+/// Result of a search for a satellite by name.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Seen {
+    Found(FileObject),
+    /// Several objects with that name; the unit takes one of them.
+    Several(Vec<FileObject>),
+    /// No such object: the unit will report that it cannot find the satellite.
+    Missing {
+        /// Similar names in the file.
+        similar: Vec<String>,
+    },
+}
+
+impl UnitView {
+    /// Newest epoch among the objects found.
+    pub fn epoch(&self) -> Option<Timestamp> {
+        match &self.satellite {
+            Seen::Found(object) => Some(object.epoch),
+            Seen::Several(objects) => objects.iter().map(|object| object.epoch).max(),
+            Seen::Missing { .. } => None,
+        }
+    }
+}
