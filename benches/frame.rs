@@ -21,6 +21,7 @@ use std::{
 use azel::{
     app::App,
     clock::Clock,
+    controller::SPECS,
     engine::Settings,
     makes::DemoAddresses,
     orbit::{Elements, bundled},
@@ -61,8 +62,7 @@ fn main() {
     ] {
         let station = Station { favourites: first(count), ..station.clone() };
         let file = format!("{name}.toml");
-        station::save(&station, &folder.path().join(&file), azel::makes::SPECS)
-            .expect("a station file");
+        station::save(&station, &folder.path().join(&file), SPECS).expect("a station file");
         let is_planned =
             |app: &App| app.model().antennas.is_empty() || app.model().schedule.made_at.is_some();
         frames(name, [1440.0, 900.0], drawn, &settings(&file), is_planned);

@@ -5,12 +5,12 @@ use std::collections::BTreeSet;
 
 use azel::{
     contract::driver::{Command, Event},
+    controller::SPECS,
     device::{
         Variant,
         panel::{Act, Action},
         settings::{Access, Change, Field, Group, Kind, Secret, Value, Values, WriteError},
     },
-    makes,
     sim::{Control, Unit, rc2000c, rotator_genius, satrak},
     station::{Antenna, ControllerSpec, Station},
 };
@@ -143,7 +143,7 @@ async fn takes_all<U: Unit>(antenna: &Antenna, unit: impl Fn() -> Control<U>) {
 
 #[tokio::test(start_paused = true)]
 async fn each_group_and_each_action_that_a_make_declares_is_taken() {
-    for spec in makes::SPECS {
+    for spec in SPECS {
         for antenna in antennas(spec) {
             match spec.key {
                 "satrak" => {

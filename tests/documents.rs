@@ -6,6 +6,8 @@ use std::{
     path::Path,
 };
 
+use azel::controller::SPECS;
+
 /// Rust files below `folder`, with their paths from the top and their texts.
 fn sources(folder: &Path, found: &mut Vec<(String, String)>) {
     for entry in fs::read_dir(folder).unwrap() {
@@ -223,10 +225,10 @@ fn no_make_is_named_outside_of_its_folders() {
     let folders = folders.filter(|entry| entry.file_type().unwrap().is_dir());
     let makes: BTreeSet<String> =
         folders.map(|entry| entry.file_name().into_string().unwrap()).collect();
-    assert_eq!(makes.len(), azel::makes::SPECS.len(), "{makes:?}");
+    assert_eq!(makes.len(), SPECS.len(), "{makes:?}");
     // As a folder, as a type, and in the station file.
     let mut words: BTreeSet<String> = makes.iter().map(|make| make.replace('_', "")).collect();
-    words.extend(azel::makes::SPECS.iter().map(|make| make.key.to_owned()));
+    words.extend(SPECS.iter().map(|make| make.key.to_owned()));
     let mut named = BTreeSet::new();
     for (path, text) in &files {
         let path = path.replace('\\', "/").strip_prefix(&below).unwrap().to_owned();

@@ -10,8 +10,8 @@ use std::{
 use azel::{
     clock::Clock,
     contract::driver::{LinkFault, LinkFinding},
+    controller::SPECS,
     driver::{Outside, test_link},
-    makes,
     sim::satrak,
     station::{Link, Station},
 };
@@ -26,7 +26,7 @@ fn runtime() -> tokio::runtime::Runtime {
 }
 
 fn test(address: &str) -> LinkFinding {
-    let antenna = makes::SPECS[0].antenna("Dish", address);
+    let antenna = SPECS[0].antenna("Dish", address);
     runtime().block_on(test_link(&antenna, &Outside::from(Clock::system()), Arc::new(())))
 }
 
@@ -71,7 +71,7 @@ fn a_stranger_is_told_by_its_first_words() {
 #[test]
 fn a_serial_port_that_is_not_there_is_told() {
     let is_line = |link| matches!(link, Link::Line { .. });
-    let spec = makes::SPECS.iter().find(|spec| is_line(spec.link)).unwrap();
+    let spec = SPECS.iter().find(|spec| is_line(spec.link)).unwrap();
     let antenna = spec.antenna("Horn", "/dev/no-such-port-as-this");
     let finding =
         runtime().block_on(test_link(&antenna, &Outside::from(Clock::system()), Arc::new(())));

@@ -11,13 +11,13 @@ use std::{
 use azel::{
     clock::Clock,
     contract::driver::{LinkFault, LinkFinding},
+    controller::SPECS,
     driver::{Dial, Outside, Stream},
     engine::{
         Command, Handle, Settings,
         claim::HolderKind,
         link_tests::{LinkTest, LinkTestStage},
     },
-    makes,
     protocol::{
         rc2000c::Request as Rc2000cRequest,
         satrak::{Frame as SatrakFrame, Request as SatrakRequest},
@@ -107,8 +107,7 @@ impl Bench {
     fn claiming_in(claims: Option<&Path>, antennas: Vec<Antenna>) -> Self {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("station.toml");
-        station::save(&Station { antennas, ..Station::default() }, &path, azel::makes::SPECS)
-            .unwrap();
+        station::save(&Station { antennas, ..Station::default() }, &path, SPECS).unwrap();
         let settings = Settings {
             path: Some(path),
             library: Some(folder.path().join("elements")),
@@ -162,7 +161,7 @@ fn antenna(spec: &'static ControllerSpec, address: &str) -> Antenna {
 #[test]
 fn every_make_is_reached_and_is_sent_nothing_but_questions() {
     let mut bench = Bench::new(Vec::new());
-    for spec in makes::SPECS {
+    for spec in SPECS {
         let LinkFinding::Reached { after, state } = bench.finding(&antenna(spec, "unit:1")) else {
             panic!("{spec:?}")
         };
@@ -186,7 +185,7 @@ fn every_make_is_reached_and_is_sent_nothing_but_questions() {
 #[test]
 fn a_unit_that_knows_its_place_tells_it() {
     let mut bench = Bench::new(Vec::new());
-    let spec = makes::SPECS[0];
+    let spec = SPECS[0];
     let LinkFinding::Reached { state, .. } = bench.finding(&antenna(spec, "unit:1")) else {
         panic!("not reached")
     };
@@ -199,7 +198,7 @@ fn a_unit_that_knows_its_place_tells_it() {
 fn what_is_no_unit_is_told_apart() {
     // Each make at once: what is silent is waited for.
     std::thread::scope(|scope| {
-        for spec in makes::SPECS {
+        for spec in SPECS {
             scope.spawn(move || {
                 let mut bench = Bench::new(Vec::new());
                 let text = "SSH-2.0-OpenSSH_9.2p1 Debian".to_owned();
@@ -224,7 +223,7 @@ fn what_is_no_unit_is_told_apart() {
 
 #[test]
 fn a_unit_of_this_station_is_not_dialled_a_second_time() {
-    let spec = makes::SPECS[0];
+    let spec = SPECS[0];
     let mut bench = Bench::new(vec![spec.antenna("Dish", "unit:1")]);
     assert_eq!(bench.test(&antenna(spec, "unit:1")), LinkTestStage::InUse);
 }
@@ -232,7 +231,7 @@ fn a_unit_of_this_station_is_not_dialled_a_second_time() {
 #[test]
 fn a_unit_of_another_azel_is_not_dialled() {
     let claims = tempfile::tempdir().unwrap();
-    let spec = makes::SPECS[0];
+    let spec = SPECS[0];
     // Locks are of the whole machine, on which other tests run.
     let [one, two] = ["one", "two"].map(|unit| format!("{unit}-{}:1", std::process::id()));
     let holder = Bench::claiming_in(Some(claims.path()), vec![spec.antenna("Dish", &one)]);

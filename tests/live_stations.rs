@@ -12,6 +12,7 @@ use azel::{
     cli::serve::{Ended, Wake, until_the_end},
     clock::Clock,
     contract::driver,
+    controller::SPECS,
     engine::{Client, Command, Handle, Settings},
     plan::{ProgramTrack, Target},
     station,
@@ -36,7 +37,7 @@ fn begun(speed: NonZeroU32, wake: azel::job::Wake) -> (Live, tempfile::TempDir) 
     let units = Units::new(&clock);
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("station.toml");
-    station::save(&station(), &path, azel::makes::SPECS).unwrap();
+    station::save(&station(), &path, SPECS).unwrap();
     let library = Some(folder.path().join("elements"));
     let settings = Settings { path: Some(path), library, ..Settings::default() };
     let station = Handle::start(settings, units.outside(&clock), wake).unwrap();

@@ -13,8 +13,8 @@ use std::{
 
 use azel::{
     contract::transfer::{FileProtocol, Peer},
+    controller::SPECS,
     library::{Library, Limits, save_sources},
-    makes,
     orbit::{FetchProblem, RefreshHours, Source, SourcePlace, bundled, write_omm_json},
     station::{self, Station},
     transfer::{self, CancellationToken, ElementSource, FetchError},
@@ -215,7 +215,7 @@ impl Drop for Program {
 fn fetched(url: &str, environment: &[(&str, &str)]) -> Result<usize, FetchProblem> {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("station.toml");
-    station::save(&Station::default(), &file, makes::SPECS).unwrap();
+    station::save(&Station::default(), &file, SPECS).unwrap();
     let place = SourcePlace::Web(url.to_owned());
     let sources = [Source { name: "Own".to_owned(), place, refresh: Some(RefreshHours::from(2)) }];
     save_sources(&sources, &folder.path().join("sources.toml")).unwrap();

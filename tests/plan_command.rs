@@ -8,6 +8,7 @@ use std::{
 };
 
 use azel::{
+    controller::SPECS,
     makes::DemoAddresses,
     orbit::{bundled, tle_lines},
     station::{Station, save},
@@ -38,7 +39,7 @@ pub(super) fn folder_with(change: impl FnOnce(&mut Station)) -> tempfile::TempDi
     let mut station = Station::demo(&addresses);
     let numbers = station.favourites.numbers();
     change(&mut station);
-    save(&station, &folder.path().join("station.toml"), azel::makes::SPECS).unwrap();
+    save(&station, &folder.path().join("station.toml"), SPECS).unwrap();
     let catalog = bundled().unwrap();
     let sets = numbers.iter().filter_map(|number| catalog.get(*number));
     let lines = sets.flat_map(|elements| {

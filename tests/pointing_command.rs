@@ -12,8 +12,8 @@ use azel::{
         driver::TimeSync,
         record::{AboutTrack, Peak, PeakChange, PeakOf, RecordedReport, TrackedBy},
     },
+    controller::SPECS,
     device::Pointing,
-    makes,
     orbit::{PassSearch, Propagator, bundled, passes},
     plan::{
         MountLimits, Trackability,
@@ -125,7 +125,7 @@ fn pointing(folder: &Path, arguments: &[&str]) -> Output {
 #[test]
 fn the_model_of_recorded_passes_is_told_with_what_it_is_sure_of() {
     let folder = folder();
-    let station = load(&folder.path().join("station.toml"), makes::SPECS).unwrap().station;
+    let station = load(&folder.path().join("station.toml"), SPECS).unwrap().station;
     let antenna = station.antennas.iter().find(|antenna| antenna.name == "RC2000C").unwrap();
     let clock = Clock::new(|| "2026-08-13T00:00:00Z".parse().unwrap());
     let path = folder.path().join("record.sqlite");

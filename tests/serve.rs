@@ -20,11 +20,8 @@ use azel::{
     astro::time::add_seconds,
     cli::serve::{Ended, Wake, until_the_end},
     clock::Clock,
-    contract::{
-        driver,
-        driver::{Event, LinkLoss, Refusal},
-    },
-    controller::satrak::ELEMENT_FILE,
+    contract::driver::{self, Event, LinkLoss, Refusal},
+    controller::{SPECS, satrak::ELEMENT_FILE},
     engine::{
         Client, Command, Handle, Settings, Snapshot,
         alarms::{Alarm, AlarmKind, Priority},
@@ -33,7 +30,6 @@ use azel::{
         passes::PredictedPass,
         status::{AntennaStatus, LinkStatus},
     },
-    makes,
     orbit::bundled,
     plan::{ProgramTrack, Target},
     sim::{rc2000c, rotator_genius, satrak},
@@ -105,7 +101,7 @@ impl Units {
         };
         change(&mut station);
         let folder = tempfile::tempdir().expect("a folder");
-        station::save(&station, &folder.path().join("station.toml"), azel::makes::SPECS)
+        station::save(&station, &folder.path().join("station.toml"), SPECS)
             .expect("a station file");
         let controls = (dish.control(), mast.control(), horn.control());
         runtime.spawn(dish.run());
@@ -354,10 +350,10 @@ fn a_second_one_drives_nothing_until_the_first_has_ended() {
 fn a_unit_of_two_station_files_is_driven_from_the_first_and_stopped_from_both() {
     let units = Units::start(|_| {});
     let other = units.folder.path().join("other.toml");
-    let mut station = station::load(&units.path(), makes::SPECS).unwrap().station;
+    let mut station = station::load(&units.path(), SPECS).unwrap().station;
     station.antennas.retain(|antenna| antenna.name == "Mast");
     station.antennas[0].name = "Tower".to_owned();
-    station::save(&station, &other, azel::makes::SPECS).unwrap();
+    station::save(&station, &other, SPECS).unwrap();
     let (first, _end, _woken) = units.open();
     lead_to_the_sun(first.client());
     let (second, _end, _woken) = units.open_file(other);

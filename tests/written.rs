@@ -3,10 +3,10 @@
 use azel::{
     astro::{Angle, Offset, TrackOffsets},
     contract::{
-        driver,
-        driver::OffsetChange,
+        driver::{self, OffsetChange},
         transfer::{FileName, Peer, TleFile},
     },
+    controller::SPECS,
     device::{
         Pointing, TrackTarget,
         panel::Act,
@@ -22,7 +22,6 @@ use azel::{
         sources::Copied,
         uploads::{Ask, Cargo, Order},
     },
-    makes,
     orbit::{Elements, PassSearch, Propagator, RefreshHours, Source, bundled, passes},
     plan::{OnBoardPass, ProgramTrack, Target},
     secret::Secret,
@@ -168,7 +167,7 @@ fn what_is_asked_of_an_antenna_comes_back() {
 
 fn order() -> Order {
     let catalog = bundled().unwrap();
-    let takes = makes::SPECS.iter().find_map(|make| make.element_files).unwrap();
+    let takes = SPECS.iter().find_map(|make| make.element_files).unwrap();
     Order {
         antenna: "Dish".to_owned(),
         takes,
@@ -187,7 +186,7 @@ fn order() -> Order {
 fn what_is_asked_of_a_station_comes_back() {
     let pass = (25_544, noon());
     let station = Station {
-        antennas: makes::SPECS.iter().map(|make| make.antenna(make.name, "host:1")).collect(),
+        antennas: SPECS.iter().map(|make| make.antenna(make.name, "host:1")).collect(),
         keep_outs: vec![crate::common::mast(&[(1.0, 0.0), (9.0, 0.0), (9.0, 40.0), (1.0, 40.0)])],
         ..Station::default()
     };
@@ -238,7 +237,7 @@ fn what_is_asked_of_a_station_comes_back() {
             source,
             satellite: "ISS".to_owned(),
         }))),
-        Command::TestLink(Box::new(makes::SPECS[0].antenna("Dish", "host:1"))),
+        Command::TestLink(Box::new(SPECS[0].antenna("Dish", "host:1"))),
         Command::CloseAfter(CloseHow::Leave),
         Command::StayOpen,
         Command::Look(Attention { list: ListChoice::default(), selected: Some(pass) }),

@@ -9,7 +9,7 @@ use std::{
 use anyhow::Context as _;
 use clap::Args;
 
-use crate::{makes, station, ui::words::setting_note};
+use crate::{controller::SPECS, station, ui::words::setting_note};
 
 /// The file holds entries that cannot be used.
 const HOLDS_ERRORS: u8 = 3;
@@ -25,7 +25,7 @@ pub(super) fn run(station_file: Option<&Path>, options: &Options) -> anyhow::Res
     let usual = station::settings_path();
     let path = options.file.as_deref().or(station_file).or(usual.as_deref());
     let path = path.context("this user has no folder for settings")?;
-    let loaded = station::load(path, makes::SPECS)?;
+    let loaded = station::load(path, SPECS)?;
     let mut out = io::stdout().lock();
     for note in &loaded.notes {
         writeln!(out, "{}", setting_note(note))?;

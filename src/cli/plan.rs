@@ -18,8 +18,8 @@ use super::{
 };
 use crate::{
     astro::time,
+    controller::SPECS,
     export::{EventFormat, ExportedPass, PassQuery, PlanList, Satellite},
-    makes,
     orbit::{Pass, PassSearch, passes_of_all},
     plan::schedule::{
         Candidate, Common, LeftOut, Partial, PlannedAntenna, Request, Schedule, Steadiness, plan,
@@ -111,7 +111,7 @@ pub(super) fn run(station: Option<&Path>, options: &Options) -> anyhow::Result<E
     let path = station.or(own.as_deref()).context("this user has no folder for settings")?;
     let unusable = || format!("The station file {} cannot be used", path.display());
     let place = options.input.place(Some(path))?;
-    let station = station::load(path, makes::SPECS).with_context(unusable)?.station;
+    let station = station::load(path, SPECS).with_context(unusable)?.station;
     let scheduling = scheduling(&station, options);
     let station = Station { site: place.site, scheduling, ..station };
     let Satellites { list: mut satellites, is_complete } =

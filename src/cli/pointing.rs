@@ -16,7 +16,7 @@ use super::{input, passes::written, record::record_of};
 use crate::{
     astro::Term,
     contract::record::{ExplainedPasses, Peak, PeakOf, PointingFit},
-    makes,
+    controller::SPECS,
     plan::pointing::Kind,
     record::{explain_passes, fit_pointing, read_peaks},
     station::{self, Antenna, Mount, Station},
@@ -87,7 +87,7 @@ pub(super) fn run(station: Option<&Path>, options: &Options) -> anyhow::Result<E
     let own = station::settings_path().filter(|_| station.is_none());
     let path = station.or(own.as_deref()).context("this user has no folder for settings")?;
     let unusable = || format!("The station file {} cannot be used", path.display());
-    let of = station::load(path, makes::SPECS).with_context(unusable)?.station;
+    let of = station::load(path, SPECS).with_context(unusable)?.station;
     let antenna = chosen(&of, options.antenna.as_deref())?;
     if matches!(antenna.mount, Mount::Xy { .. }) {
         bail!(

@@ -20,8 +20,8 @@ use super::{
 };
 use crate::{
     astro::time,
+    controller::SPECS,
     export::{ListFormat, RowFormat, Time, civil, minutes, rounded, write_rows},
-    makes,
     orbit::{Catalog, ReadReport},
     rehearsal::{self, Fault, Rehearsal, Rehearsed, RehearsedPass},
     sim::Mechanics,
@@ -81,7 +81,7 @@ pub(super) fn run(station: Option<&Path>, options: &Options) -> anyhow::Result<E
     let path = station.or(own.as_deref()).context("this user has no folder for settings")?;
     let unusable = || format!("The station file {} cannot be used", path.display());
     let place = options.input.place(Some(path))?;
-    let station = station::load(path, makes::SPECS).with_context(unusable)?.station;
+    let station = station::load(path, SPECS).with_context(unusable)?.station;
     let Satellites { mut list, is_complete } =
         options.input.satellites(Some(path), options.from)?;
     options.input.keep_planned(&mut list, &station.favourites);

@@ -11,6 +11,7 @@ use clap::{Args, ValueEnum, builder::NonEmptyStringValueParser};
 use jiff::Timestamp;
 
 use crate::{
+    controller::SPECS,
     engine::{
         Settings,
         claim::LockFolders,
@@ -18,7 +19,6 @@ use crate::{
         socket::{Answer, Ask},
         status::{AntennaStatus, AutomaticStatus},
     },
-    makes,
     station::{self, Antenna, LockOut},
 };
 
@@ -133,7 +133,7 @@ pub(super) fn stop(station: Option<PathBuf>, options: &StopOptions) -> anyhow::R
 
 /// The antennas of the station file at `path`, or the one called `name`.
 fn antennas(path: &Path, name: Option<&str>) -> Vec<Antenna> {
-    let Ok(loaded) = station::load(path, makes::SPECS) else { return Vec::new() };
+    let Ok(loaded) = station::load(path, SPECS) else { return Vec::new() };
     let antennas = loaded.station.antennas.into_iter();
     antennas.filter(|antenna| name.is_none_or(|name| antenna.name == name)).collect()
 }

@@ -18,6 +18,7 @@ use super::log::Lines;
 use crate::{
     app::notifier::Notifier,
     clock::Clock,
+    controller::SPECS,
     desktop::Desktop,
     engine::{
         By, Command, Event, Handle, Settings, Snapshot,
@@ -27,7 +28,7 @@ use crate::{
         records_folder, signals,
         status::{AntennaStatus, LinkStatus},
     },
-    makes, station,
+    station,
     ui::words,
 };
 
@@ -130,7 +131,7 @@ pub(super) fn run(
             path.display()
         );
     }
-    if let Err(error) = station::load(&path, makes::SPECS) {
+    if let Err(error) = station::load(&path, SPECS) {
         bail!("{error}");
     }
     let format = options.format;

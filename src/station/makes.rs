@@ -11,11 +11,8 @@ use std::sync::Arc;
 use crate::{
     controller::{rc2000c, rotator_genius, satrak},
     sim::{self, InMemory},
-    station::{Antenna, ControllerSpec},
+    station::Antenna,
 };
-
-/// Descriptions of all makes, for the reader of the station file.
-pub static SPECS: &[&ControllerSpec] = &[&satrak::SPEC, &rotator_genius::SPEC, &rc2000c::SPEC];
 
 /// Simulators of all makes, as commands.
 pub static SIMULATORS: &[sim::Command] =

@@ -29,6 +29,7 @@ use crate::{
     astro::time::{add_seconds, seconds_between},
     clock::Clock,
     contract::driver,
+    controller::SPECS,
     engine::{Client, Command, Settings, Snapshot, in_place::InPlace, uploads},
     job,
     orbit::Catalog,
@@ -106,7 +107,7 @@ pub fn run(
             units.suffer(fault, what.from, &clock)?;
         }
         let path = folder.path().join("station.toml");
-        station::save(&station, &path, crate::makes::SPECS)?;
+        station::save(&station, &path, SPECS)?;
         let (reports, told) = mpsc::channel(REPORTS);
         let settings = Settings {
             path: Some(path),

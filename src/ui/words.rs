@@ -21,12 +21,12 @@ mod way_there;
 
 use crate::{
     contract::driver::Intent,
+    controller::SPECS,
     device::{Asked, Motion, SecondAxis, settings::Unfit},
     engine::{
         CatalogState,
         antenna::{AntennaModel, Stake},
     },
-    makes,
     model::Model,
     orbit::Elements,
     ui::format,
@@ -74,7 +74,7 @@ pub fn asked(asked: Asked) -> &'static str {
 /// Name of an action of any make.
 fn action_name(key: &str) -> &'static str {
     let mut actions =
-        makes::SPECS.iter().flat_map(|spec| spec.variants).flat_map(|variant| variant.actions);
+        SPECS.iter().flat_map(|spec| spec.variants).flat_map(|variant| variant.actions);
     actions.find(|action| action.key == key).map_or("Action", |action| action.label)
 }
 

@@ -10,3 +10,8 @@ pub mod rc2000c;
 mod reply_clock;
 pub mod rotator_genius;
 pub mod satrak;
+
+use crate::station::ControllerSpec;
+
+/// Descriptions of all makes, for the reader of the station file.
+pub static SPECS: &[&ControllerSpec] = &[&satrak::SPEC, &rotator_genius::SPEC, &rc2000c::SPEC];

@@ -5,10 +5,10 @@ use std::time::Duration;
 use azel::{
     astro::Angle,
     contract::{
-        driver,
-        driver::{Effect, Event, Intent, Refusal, StopState},
+        driver::{self, Effect, Event, Intent, Refusal, StopState},
         transfer::{FileName, Peer, TleFile},
     },
+    controller::SPECS,
     device::Pointing,
     engine::{
         Client, Command,
@@ -18,7 +18,6 @@ use azel::{
         passes::PassKey,
         uploads::{Ask, Cargo, Order, Stage as UploadStage},
     },
-    makes,
     orbit::bundled,
     station::{AntennaId, Station},
 };
@@ -275,7 +274,7 @@ async fn stop_voids_what_waits_for_the_station() {
 
 /// An order that a computer without a server refuses.
 fn order() -> Order {
-    let takes = makes::SPECS.iter().find_map(|make| make.element_files).unwrap();
+    let takes = SPECS.iter().find_map(|make| make.element_files).unwrap();
     let catalog = bundled().unwrap();
     Order {
         antenna: "Dish".to_owned(),

@@ -13,7 +13,7 @@ use std::{
 use azel::{
     app::App,
     clock::Clock,
-    controller::satrak::ELEMENT_FILE,
+    controller::{SPECS, satrak::ELEMENT_FILE},
     engine::{
         CatalogState, Command, Settings,
         automatic::DayEvent,
@@ -63,7 +63,7 @@ impl Fixture {
         // Whatever the time of day, no pass is near.
         station.scheduling.max_element_age_d = Some(0.1);
         let path = folder.path().join("station.toml");
-        station::save(&station, &path, azel::makes::SPECS).unwrap();
+        station::save(&station, &path, SPECS).unwrap();
         let keyring = Arc::new(MemoryKeyring::default());
         let places = Places {
             known_hosts: files.known.clone(),

@@ -9,6 +9,7 @@ use std::{
 use azel::{
     clock::Clock,
     contract::record::PassQuery,
+    controller::SPECS,
     engine::{Command, Settings, demo_record_path, in_place::InPlace, record_path},
     job,
     orbit::{Pass, PassSearch, Propagator, bundled, passes},
@@ -38,7 +39,7 @@ impl Tracked {
         let records = folder.path().join("records");
         let record = record_path(&records, &file);
         let station = Station { favourites: [ISS].into(), ..station() };
-        station::save(&station, &file, azel::makes::SPECS).expect("a station file");
+        station::save(&station, &file, SPECS).expect("a station file");
         let settings = Settings {
             path: Some(file),
             library: Some(folder.path().join("elements")),

@@ -8,10 +8,10 @@ use std::{
 use azel::{
     astro::{Angle, Offset, PointingModel, Term, TrackOffsets},
     contract::{
-        driver,
-        driver::OffsetChange,
+        driver::{self, OffsetChange},
         record::{ListedKind, PassQuery, Peak, PeakChange, PeakOf, Peaks, Row},
     },
+    controller::SPECS,
     engine::{
         Client, Command,
         alarms::AlarmKind,
@@ -19,7 +19,6 @@ use azel::{
         record_path,
         recorded::{Found, RecordLook},
     },
-    makes,
     orbit::{Pass, PassSearch, Propagator, bundled, passes},
     plan::{
         pass_report::{Cause, LossCause, PassReport, PassVerdict},
@@ -165,7 +164,7 @@ async fn with_a_pointing_model_the_axes_read_otherwise_and_the_report_tells_no_e
     let pass = next_pass(&station);
     let scene = Scene::recorded(pass.aos.time - 4.minutes(), &station);
     let file = scene.folder().join("station.toml");
-    let read = station::load(&file, makes::SPECS).unwrap().station;
+    let read = station::load(&file, SPECS).unwrap().station;
     assert!(read.antennas.iter().any(|of| of.name == "Mast" && of.pointing_model == model));
     let client = scene.client();
     track(&client, "Mast").await;

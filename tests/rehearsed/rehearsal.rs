@@ -6,6 +6,7 @@ use std::{num::NonZeroU32, path::Path, sync::Arc};
 
 use azel::{
     clock::Clock,
+    controller::SPECS,
     engine::{Client, Handle, Settings},
     makes::DemoAddresses,
     orbit::bundled,
@@ -104,7 +105,7 @@ fn check(names: &[&str], hours: f64, least: usize) {
 fn live(start: Timestamp, folder: &Path, station: &Station) -> Handle {
     let clock = Clock::at_speed(start, NonZeroU32::MIN);
     let path = folder.join("station.toml");
-    station::save(station, &path, azel::makes::SPECS).unwrap();
+    station::save(station, &path, SPECS).unwrap();
     let settings = Settings {
         path: Some(path),
         library: Some(folder.join("elements")),

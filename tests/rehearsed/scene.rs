@@ -5,6 +5,7 @@ use std::{fs, num::NonZeroU32, path::Path, sync::Arc};
 use azel::{
     clock::Clock,
     contract::older_sets::OlderSet,
+    controller::SPECS,
     engine::{Client, Command, Settings, automatic::Operation, in_place::InPlace, uploads},
     job,
     library::History,
@@ -135,7 +136,7 @@ fn upload_places(folder: &Path) -> uploads::Places {
 /// A folder with the file of the station.
 fn folder_of(station: &Station) -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
-    station::save(station, &folder.path().join("station.toml"), azel::makes::SPECS).unwrap();
+    station::save(station, &folder.path().join("station.toml"), SPECS).unwrap();
     folder
 }
 

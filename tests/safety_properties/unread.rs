@@ -2,7 +2,7 @@
 
 use azel::{
     contract::driver::Command,
-    makes::SPECS,
+    controller::SPECS,
     plan::Bounds,
     station::{self, SunAvoidance},
 };

@@ -9,12 +9,13 @@ use std::{
 };
 
 use azel::{
+    controller::SPECS,
     engine::{
         reach::{self, Outcome, Reached},
         socket::Ask,
         status::LinkStatus,
     },
-    makes, station,
+    station,
 };
 use serde_json::Value;
 
@@ -68,12 +69,12 @@ fn socket(folder: &Path) -> Option<PathBuf> {
 fn two_spellings_of_one_address_are_one_unit() {
     let units = Units::start(|_| {});
     let other = units.folder.path().join("other.toml");
-    let mut station = station::load(&units.path(), makes::SPECS).unwrap().station;
+    let mut station = station::load(&units.path(), SPECS).unwrap().station;
     station.antennas.retain(|antenna| antenna.name == "Mast");
     station.antennas[0].name = "Tower".to_owned();
     let address = &mut station.antennas[0].connection.address;
     *address = address.replace("127.0.0.1", "localhost");
-    station::save(&station, &other, makes::SPECS).unwrap();
+    station::save(&station, &other, SPECS).unwrap();
     let (first, _end, _woken) = units.open();
     lead_to_the_sun(first.client());
     let (second, _end, _woken) = units.open_file(other);
@@ -98,14 +99,14 @@ fn two_links_to_one_serial_port_are_one_unit() {
     let pty = nix::pty::openpty(None, None).unwrap();
     let device = nix::unistd::ttyname(&pty.slave).unwrap();
     let units = Units::start(|_| {});
-    let mut station = station::load(&units.path(), makes::SPECS).unwrap().station;
+    let mut station = station::load(&units.path(), SPECS).unwrap().station;
     station.antennas.retain(|antenna| antenna.name == "Horn");
     let files = ["one", "two"].map(|name| {
         let link = units.folder.path().join(name);
         symlink(&device, &link).unwrap();
         station.antennas[0].connection.address = link.to_str().unwrap().to_owned();
         let file = link.with_extension("toml");
-        station::save(&station, &file, makes::SPECS).unwrap();
+        station::save(&station, &file, SPECS).unwrap();
         file
     });
     let [one, two] = files;

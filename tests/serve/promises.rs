@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use azel::{makes, sim::satrak, station};
+use azel::{controller::SPECS, sim::satrak, station};
 
 use super::{Served, Units, program, says, wait_for};
 
@@ -60,10 +60,10 @@ fn a_stop_that_is_owed_outlives_a_program_that_is_killed() {
 fn a_stop_that_is_owed_to_a_unit_of_no_antenna_outlives_a_kill() {
     let units = Units::start(|station| station.antennas.truncate(2));
     killed_while_a_stop_is_owed(&units);
-    let mut station = station::load(&units.path(), makes::SPECS).unwrap().station;
+    let mut station = station::load(&units.path(), SPECS).unwrap().station;
     station.antennas.retain(|antenna| antenna.name == "Mast");
     std::fs::remove_file(units.path()).unwrap();
-    station::save(&station, &units.path(), makes::SPECS).unwrap();
+    station::save(&station, &units.path(), SPECS).unwrap();
     let (_served, first) = first_word(&units);
     assert_eq!(first, "STOP=");
     wait_for("standstill", || (!find(units.folder.path(), "satrak-")).then_some(()));

@@ -3,6 +3,7 @@
 use std::fs;
 
 use azel::{
+    controller::SPECS,
     model::{Appearance, DistanceUnit, ThemeName, UiCommand, View},
     station,
     ui::theme,
@@ -108,7 +109,7 @@ fn the_window_turns_light_while_the_sun_is_up_and_keeps_its_scale() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("station.toml");
     let unit = Unit::start(rig::now());
-    station::save(&unit.station(), &path, azel::makes::SPECS).unwrap();
+    station::save(&unit.station(), &path, SPECS).unwrap();
     let kept = "theme = 'night'\nlight_by_day = true\nscale_percent = 125\n";
     fs::write(folder.path().join("window.toml"), kept).unwrap();
     for (utc, wanted) in

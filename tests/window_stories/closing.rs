@@ -5,6 +5,7 @@ use std::{path::Path, sync::Arc};
 use azel::{
     clock::Clock,
     contract::driver::{Intent, LinkState, Snapshot, StopState},
+    controller::SPECS,
     engine::{self, closing::CloseHow},
     model::{Model, UiCommand, View},
     station::{self, OnClose},
@@ -171,7 +172,7 @@ fn an_answer_that_means_nothing_is_not_offered() {
 
 /// A window whose unit tracks NOAA 20.
 fn tracking(unit: &Unit, path: &Path) -> RealWindow {
-    station::save(&unit.station(), path, azel::makes::SPECS).unwrap();
+    station::save(&unit.station(), path, SPECS).unwrap();
     let mut window = open(path, clock_from(UTC.parse().unwrap()));
     step_until(&mut window, "it is measured", |model| {
         model.antenna().is_some_and(|of| of.snapshot.state.motion_lock == Some(false))

@@ -6,10 +6,10 @@ use std::fs;
 use azel::{
     clock::Instant,
     contract::driver::{Command, LinkLoss, LinkState},
+    controller::SPECS,
     model::{Model, ThemeName, UiCommand, View},
     protocol::satrak::encode,
-    station,
-    station::AntennaId,
+    station::{self, AntennaId},
     ui::theme,
 };
 use egui::{Event, Key, Modifiers, Rect, Role, pos2, vec2};
@@ -173,7 +173,7 @@ fn the_app_records_asks_and_saves() {
     let folder = tempfile::tempdir().unwrap();
     let settings = folder.path().join("station.toml");
     let unit = Unit::start(rig::now());
-    station::save(&unit.station(), &settings, azel::makes::SPECS).unwrap();
+    station::save(&unit.station(), &settings, SPECS).unwrap();
     let mut window = open(&settings, clock_from(rig::now()));
     window.key_press_modifiers(Modifiers::COMMAND, Key::Num5);
     let is_read = |model: &Model| {

@@ -10,9 +10,9 @@ use azel::{
         driver::{Command, LinkState, StopState},
         record::Row,
     },
+    controller::SPECS,
     device::{Measured, panel::Act, settings::Value},
     engine::{self, Handle, Settings, alarms::AlarmKind},
-    makes,
     model::{Model, UiCommand, View},
     record::{Query, Record, RowKind},
     station,
@@ -231,7 +231,7 @@ fn the_simulators_end_with_the_demonstration() {
     window.run_steps(3);
     window.get_by_role_and_label(Role::Button, "Save and end the demo").click();
     step_until(&mut window, "the demonstration is over", |model| !model.demo);
-    let saved = station::load(&folder.path().join("station.toml"), makes::SPECS).unwrap();
+    let saved = station::load(&folder.path().join("station.toml"), SPECS).unwrap();
     assert_eq!(saved.notes, []);
     assert_eq!(saved.station, *window.state().model().station);
     for address in addresses {

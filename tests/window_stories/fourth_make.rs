@@ -12,9 +12,9 @@ use azel::{
     astro::{Angle, AzEl},
     clock::{Clock, Instant},
     contract::driver::{Command, Event, Intent, Safety, Snapshot, StopState},
+    controller::SPECS,
     device::Pointing,
     driver::{AntennaHandle, Driver},
-    makes,
     model::View,
     plan::Bounds,
     station::{self, Antenna, ControllerSpec, Station},
@@ -33,7 +33,7 @@ use crate::window_stories::{
 const PATIENCE: Duration = Duration::from_secs(20);
 
 fn all_specs() -> Vec<&'static ControllerSpec> {
-    let mut specs = makes::SPECS.to_vec();
+    let mut specs = SPECS.to_vec();
     specs.push(&SPEC);
     specs
 }
@@ -78,7 +78,7 @@ fn its_antenna_is_read_from_the_station_file_and_comes_back_as_it_was_saved() {
     // The gear is repaired; the rest still stands in the file.
     assert_eq!(places, ["antenna[0].connection.drive.oil", "antenna[0].connection.length"]);
 
-    let known = station::load(&path, makes::SPECS).unwrap();
+    let known = station::load(&path, SPECS).unwrap();
     assert_eq!(known.station.antennas, [], "without its description it is not known");
 }
 

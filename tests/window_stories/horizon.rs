@@ -5,8 +5,8 @@ use std::{fs, sync::Arc};
 use azel::{
     astro::{Angle, HorizonMask},
     contract::driver::{Intent, Snapshot, StoppingWay},
+    controller::SPECS,
     device::AxisMotion,
-    makes,
     model::{
         Model, UiCommand, View,
         effects::{self, Effect, obstacles},
@@ -145,8 +145,8 @@ fn a_zone_is_added_named_and_saved_to_the_file() {
         assert_eq!(corners(&station, 0).len(), 4);
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("station.toml");
-        station::save(&station, &path, azel::makes::SPECS).unwrap();
-        let loaded = station::load(&path, makes::SPECS).unwrap();
+        station::save(&station, &path, SPECS).unwrap();
+        let loaded = station::load(&path, SPECS).unwrap();
         assert_eq!((loaded.station, loaded.notes), (station, Vec::new()));
         assert!(fs::read_to_string(&path).unwrap().contains("[[keep_out]]"));
     }

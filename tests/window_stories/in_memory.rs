@@ -6,6 +6,7 @@ use std::sync::Arc;
 use azel::{
     clock::Clock,
     contract::driver::{Intent, LinkState, StopState},
+    controller::SPECS,
     device::Measured,
     driver::{Dial, Outside, Stream, UnitLock},
     model::{Model, View},
@@ -56,7 +57,7 @@ fn a_window_drives_a_station_through_its_handle_alone() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("station.toml");
     let antennas = vec![Antenna::satrak("Dish", "in-memory:1")];
-    station::save(&Station { antennas, ..rig::station() }, &path, azel::makes::SPECS).unwrap();
+    station::save(&Station { antennas, ..rig::station() }, &path, SPECS).unwrap();
     let (unit, outside) = unit();
     let mut window = open(&path, outside);
     step_until(&mut window, "a measured angle", |model| measured(model).is_some());

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use azel::{
     contract::driver::{Command, Intent, LinkState, Snapshot},
+    controller::SPECS,
     engine::{self, alarms::AlarmKind},
     model::UiCommand,
     station::{self, AntennaId, LockOut},
@@ -173,7 +174,7 @@ fn it_is_kept_across_a_restart_and_moves_again_when_it_is_taken_off() {
     let utc = "2026-08-12T11:14:30Z".parse().unwrap();
     let (unit, folder) = (Unit::start(utc), tempfile::tempdir().unwrap());
     let path = folder.path().join("station.toml");
-    station::save(&unit.station(), &path, azel::makes::SPECS).unwrap();
+    station::save(&unit.station(), &path, SPECS).unwrap();
     let mut window = locked_out_by_ada(&path, clock_from(utc));
     let is_locked = |model: &azel::model::Model| {
         let snapshot = &model.antenna().unwrap().snapshot;
@@ -210,7 +211,7 @@ fn another_address_in_the_settings_is_locked_out_as_well() {
     let (unit, other) = (Unit::start(utc), Unit::start(utc));
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("station.toml");
-    station::save(&unit.station(), &path, azel::makes::SPECS).unwrap();
+    station::save(&unit.station(), &path, SPECS).unwrap();
     let mut window = locked_out_by_ada(&path, clock_from(utc));
     let is_locked = |model: &azel::model::Model| {
         model.antenna().is_some_and(|antenna| antenna.snapshot.lock_out.is_some())
@@ -248,7 +249,7 @@ fn a_list_that_cannot_be_read_locks_out_everything_and_says_so() {
     let utc = "2026-08-12T11:14:30Z".parse().unwrap();
     let (unit, folder) = (Unit::start(utc), tempfile::tempdir().unwrap());
     let path = folder.path().join("station.toml");
-    station::save(&unit.station(), &path, azel::makes::SPECS).unwrap();
+    station::save(&unit.station(), &path, SPECS).unwrap();
     std::fs::write(folder.path().join("lock-outs.toml"), "version = 1\n[[lock").unwrap();
     let mut window = open(&path, clock_from(utc));
     let snapshot = &window.state().model().antenna().unwrap().snapshot;

@@ -9,6 +9,7 @@ use std::{
 use azel::{
     astro::{Angle, time::add_seconds},
     contract::driver::{OffTargetCause, OnBoardView, Snapshot},
+    controller::SPECS,
     device::{Place, settings::Value},
     engine::{self, alarms::AlarmKind},
     model::{Model, UiCommand},
@@ -19,8 +20,7 @@ use azel::{
     },
     protocol::satrak::encode,
     sim::satrak::BUNDLED_FILE,
-    station,
-    station::AntennaId,
+    station::{self, AntennaId},
     ui::words,
 };
 use egui::Key;
@@ -136,7 +136,7 @@ fn what_the_unit_tracks_unasked_is_compared_by_the_elements_of_the_station() {
     let utc: Timestamp = "2026-08-12T11:14:30Z".parse().unwrap();
     let (unit, folder) = (Unit::start(utc), tempfile::tempdir().unwrap());
     let path = folder.path().join("station.toml");
-    station::save(&unit.station(), &path, azel::makes::SPECS).unwrap();
+    station::save(&unit.station(), &path, SPECS).unwrap();
     let catalog = bundled().unwrap();
     let held = catalog.get(rig::station().favourites.numbers()[0]).unwrap().name().to_owned();
     track_by_another(&unit, &held, utc);
@@ -159,7 +159,7 @@ fn what_the_unit_tracks_that_the_station_has_no_elements_of_is_an_alarm() {
     let folder = tempfile::tempdir().unwrap();
     let unit = Unit::of_elements(read_elements(UNKNOWN).elements, utc);
     let path = folder.path().join("station.toml");
-    station::save(&unit.station(), &path, azel::makes::SPECS).unwrap();
+    station::save(&unit.station(), &path, SPECS).unwrap();
     track_by_another(&unit, "HOMEMADE", utc);
     let mut window = open(&path, clock_from(utc));
     let not_compared = AlarmKind::NotCompared { satellite: Some("HOMEMADE".to_owned()) };

@@ -4,8 +4,8 @@ use std::{fs, path::Path};
 
 use azel::{
     app::App,
+    controller::SPECS,
     desktop::file_dialog::NoDialog,
-    makes,
     model::{
         UiCommand, View,
         intake::Offer,
@@ -71,7 +71,7 @@ fn type_path(window: &mut RealWindow, path: &Path) {
 
 fn save(path: &Path, name: &str) {
     let station = Station { name: name.to_owned(), antennas: Vec::new(), ..rig::station() };
-    station::save(&station, path, makes::SPECS).unwrap();
+    station::save(&station, path, SPECS).unwrap();
 }
 
 #[test]

@@ -5,10 +5,10 @@ use std::sync::Arc;
 
 use azel::{
     controller::{
+        SPECS,
         rc2000c::{BAUD, BUS_ADDRESS, Calibration},
         rotator_genius::Rotators,
     },
-    makes,
     model::View,
     station::{self, AfterPass, Antenna, Mount, Station},
 };
@@ -62,8 +62,8 @@ fn typed(window: &Window, label: &str) -> String {
 fn reloaded(station: &Station) -> Station {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("station.toml");
-    station::save(station, &path, azel::makes::SPECS).unwrap();
-    let loaded = station::load(&path, makes::SPECS).unwrap();
+    station::save(station, &path, SPECS).unwrap();
+    let loaded = station::load(&path, SPECS).unwrap();
     assert_eq!(loaded.notes, []);
     loaded.station
 }

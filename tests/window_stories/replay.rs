@@ -6,10 +6,10 @@ use azel::{
     app::App,
     astro::{Angle, time::add_seconds},
     contract::{
-        driver,
-        driver::{Intent, StopState},
+        driver::{self, Intent, StopState},
         record::PassTimes,
     },
+    controller::SPECS,
     device::AxisMotion,
     engine::{Command, Settings},
     model::{
@@ -409,7 +409,7 @@ fn the_moment_is_moved_by_the_bar_and_the_keys() {
 /// The real window on a station with a unit, and a record.
 fn open(folder: &tempfile::TempDir, unit: &Unit) -> RealWindow {
     let path = folder.path().join("station.toml");
-    station::save(&unit.station(), &path, azel::makes::SPECS).unwrap();
+    station::save(&unit.station(), &path, SPECS).unwrap();
     let settings = Settings {
         path: Some(path),
         library: Some(folder.path().join("elements")),

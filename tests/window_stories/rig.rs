@@ -10,7 +10,7 @@ use azel::{
     astro::time::add_seconds,
     clock::{Instant, Moment},
     contract::driver::{LinkState, Snapshot, TimeSync, WireLog},
-    controller::satrak,
+    controller::{SPECS, satrak},
     engine::{
         CatalogState, Command,
         antenna::AntennaModel,
@@ -287,7 +287,7 @@ pub(crate) fn asked(window: &mut Window) -> Vec<UiCommand> {
         // The reader of stations does not know a make that a test describes.
         let is_of_a_toy = |station: &Station| {
             let mut specs = station.antennas.iter().map(|antenna| antenna.connection.spec());
-            specs.any(|spec| !azel::makes::SPECS.contains(&spec))
+            specs.any(|spec| !SPECS.contains(&spec))
         };
         match command {
             UiCommand::Station(Command::SaveStation(station)) if is_of_a_toy(station) => {}

@@ -6,9 +6,9 @@ use azel::{
     astro::AzEl,
     clock::{Clock, Instant},
     contract::driver::{Intent, LinkState, StopState},
+    controller::SPECS,
     device::Measured,
     engine::CatalogState,
-    makes,
     model::{Model, ThemeName, View},
     protocol::satrak::AxisMotion,
     station,
@@ -188,7 +188,7 @@ fn a_satellite_that_is_up_is_tracked_within_the_beam() {
     let utc = "2026-08-12T11:14:30Z".parse().unwrap();
     let (unit, folder) = (Unit::start(utc), tempfile::tempdir().unwrap());
     let path = folder.path().join("station.toml");
-    station::save(&unit.station(), &path, azel::makes::SPECS).unwrap();
+    station::save(&unit.station(), &path, SPECS).unwrap();
     let mut window = open(&path, clock_from(utc));
     step_until(&mut window, "the antenna is measured", stands);
     step_until(&mut window, "the passes are planned", |model| {
@@ -221,7 +221,7 @@ fn closing_the_window_during_a_jog_stops_the_antenna() {
     let utc = "2026-08-12T11:14:30Z".parse().unwrap();
     let (unit, folder) = (Unit::start(utc), tempfile::tempdir().unwrap());
     let path = folder.path().join("station.toml");
-    station::save(&unit.station(), &path, azel::makes::SPECS).unwrap();
+    station::save(&unit.station(), &path, SPECS).unwrap();
     let mut window = open(&path, clock_from(utc));
     step_until(&mut window, "the antenna is measured", stands);
     hold_jog_until(&mut window, "it moves", moves);
@@ -258,7 +258,7 @@ fn saving_writes_the_file_and_ends_the_demonstration() {
     window.run_steps(3);
     window.get_by_role_and_label(Role::Button, "Save and end the demo").click();
     step_until(&mut window, "the demonstration is over", |model| !model.demo);
-    let saved = station::load(&path, makes::SPECS).unwrap();
+    let saved = station::load(&path, SPECS).unwrap();
     assert_eq!(saved.notes, []);
     assert_eq!(saved.station, *window.state().model().station);
     assert!((saved.station.site.latitude().degrees() + 33.5).abs() < 1e-9);
@@ -274,8 +274,7 @@ fn what_was_chosen_is_there_again_after_the_next_start() {
     let first = station::Antenna::satrak("First", "127.0.0.1:9");
     let second = station::Antenna { name: "Second".to_owned(), ..first.clone() };
     let antennas = vec![first, second];
-    station::save(&station::Station { antennas, ..Default::default() }, &path, azel::makes::SPECS)
-        .unwrap();
+    station::save(&station::Station { antennas, ..Default::default() }, &path, SPECS).unwrap();
 
     let mut window = open(&path, clock_from(utc));
     window.run_steps(3);

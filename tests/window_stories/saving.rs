@@ -4,10 +4,10 @@ use std::fs;
 
 use azel::{
     app::App,
+    controller::SPECS,
     desktop::file_dialog::NoDialog,
     engine::passes::PredictedPass,
     export::{EventFormat, ListFormat},
-    makes,
     model::{
         UiCommand,
         export::{Export, SavedFile},
@@ -105,7 +105,7 @@ fn a_desktop_without_dialogs_saves_to_the_typed_path() {
     let folder = tempfile::tempdir().unwrap();
     let settings = folder.path().join("station.toml");
     let unit = Unit::start(rig::now());
-    station::save(&unit.station(), &settings, makes::SPECS).unwrap();
+    station::save(&unit.station(), &settings, SPECS).unwrap();
     let mut window = open_as(&settings, clock_from(rig::now()), App::without_file_dialogs);
     step_until(&mut window, "the passes", |model| !model.upcoming().is_empty());
     window.run_steps(3);

@@ -3,6 +3,7 @@
 
 use azel::{
     contract::driver::LinkState,
+    controller::SPECS,
     device::settings::{GroupState, WriteError, Written},
     protocol::satrak::encode,
     sim::satrak::{Control, Fault},
@@ -45,7 +46,7 @@ impl Scene {
         let utc = "2026-08-12T11:14:30Z".parse().unwrap();
         let (unit, folder) = (Unit::start(utc), tempfile::tempdir().unwrap());
         let path = folder.path().join("station.toml");
-        station::save(&unit.station(), &path, azel::makes::SPECS).unwrap();
+        station::save(&unit.station(), &path, SPECS).unwrap();
         let mut window = open(&path, clock_from(utc));
         window.run_steps(2);
         window.key_press_modifiers(Modifiers::COMMAND, Key::Num4);

@@ -4,6 +4,7 @@ use std::{sync::Arc, time::Duration};
 
 use azel::{
     contract::driver::{LinkFault, LinkFinding},
+    controller::SPECS,
     device::{
         AntennaState, OnBoard, Place, UnitClock,
         panel::{Check, CheckState},
@@ -12,7 +13,6 @@ use azel::{
         self,
         link_tests::{LinkTest, LinkTestStage},
     },
-    makes,
     model::{Model, UiCommand, View},
     station::{Antenna, Station},
 };
@@ -65,7 +65,7 @@ pub(crate) fn write_site(window: &mut Window) {
 
 /// Adds an antenna of the first make and returns it as it would be tested.
 pub(crate) fn add_and_test(window: &mut Window, address: &str) -> Antenna {
-    press(window, &format!("Add {}", makes::SPECS[0].name));
+    press(window, &format!("Add {}", SPECS[0].name));
     write(window, "Address of the Satrak", address);
     press(window, "Test link of Satrak");
     match <[UiCommand; 1]>::try_from(asked(window)) {
@@ -164,7 +164,7 @@ fn the_set_up_is_found_again_where_it_was_left() {
         let mut window = window(size);
         write_site(&mut window);
         press(&mut window, NEXT[0]);
-        press(&mut window, &format!("Add {}", makes::SPECS[1].name));
+        press(&mut window, &format!("Add {}", SPECS[1].name));
         window.get_by_role_and_label(Role::Button, "Stay in the demo").click();
         assert_eq!(asked(&mut window), [UiCommand::Show(View::Operate)]);
         for view in [View::Operate, View::Map, View::Setup] {
@@ -327,7 +327,7 @@ fn an_address_of_the_demo_is_not_taken() {
     write_site(&mut window);
     press(&mut window, NEXT[0]);
     let address = window.state().model.antennas[0].config.connection.address.clone();
-    press(&mut window, &format!("Add {}", makes::SPECS[0].name));
+    press(&mut window, &format!("Add {}", SPECS[0].name));
     write(&mut window, "Address of the Satrak", &address);
     assert!(says(&window, "Satrak: this address belongs to the demo station"));
     assert!(is_locked(&window, NEXT[1]));
@@ -389,7 +389,7 @@ fn the_reason_why_a_field_cannot_be_used_moves_nothing_below_it() {
         assert_eq!(places(&window, &below), before, "{size:?}");
         write(&mut window, "Latitude", "41");
         press(&mut window, NEXT[0]);
-        press(&mut window, &format!("Add {}", makes::SPECS[0].name));
+        press(&mut window, &format!("Add {}", SPECS[0].name));
         let below = ["Test link of Satrak", "Remove Satrak"];
         write(&mut window, "Address of the Satrak", "unit.local:4001");
         let before = places(&window, &below);
@@ -407,7 +407,7 @@ fn the_note_of_a_field_that_is_filled_stays_and_moves_no_button() {
         let mut window = window(size);
         write_site(&mut window);
         press(&mut window, NEXT[0]);
-        press(&mut window, &format!("Add {}", makes::SPECS[0].name));
+        press(&mut window, &format!("Add {}", SPECS[0].name));
         let place = |window: &Window| window.get_by_label("Test link of Satrak").rect();
         let before = place(&window);
         write(&mut window, "Element file on the unit", "active.txt");

@@ -3,8 +3,8 @@
 
 use azel::{
     contract::driver::LinkFinding,
+    controller::SPECS,
     engine::{antenna::AntennaModel, link_tests::LinkTestStage},
-    makes,
     model::{Model, View},
     orbit::bundled,
     sim::satrak::BUNDLED_FILE,
@@ -125,7 +125,7 @@ fn set_up_and_track(keys_alone: bool) {
     operator.write("Locator", "KN41ob");
     operator.write("Altitude", "121");
     operator.go_on("Next: Antennas (Enter)");
-    operator.press(&format!("Add {}", makes::SPECS[0].name));
+    operator.press(&format!("Add {}", SPECS[0].name));
     operator.write("Address of the Satrak", &unit.address.to_string());
     assert!(says(&operator.window, "A new unit has none and cannot track."));
     operator.write("Element file on the unit", BUNDLED_FILE);
@@ -153,7 +153,7 @@ fn set_up_and_track(keys_alone: bool) {
         model.antenna().is_some_and(|of| of.snapshot.state.motion_lock == Some(false))
     });
     let model = window.state().model();
-    let saved = station::load(&path, makes::SPECS).unwrap().station;
+    let saved = station::load(&path, SPECS).unwrap().station;
     assert_eq!(saved, *model.station);
     let addresses: Vec<&str> = saved.antennas.iter().map(|of| &*of.connection.address).collect();
     assert_eq!(addresses, [unit.address.to_string()], "no address of the demo is saved");

@@ -6,6 +6,7 @@ use azel::{
     app::App,
     clock::Clock,
     contract::driver::LinkState,
+    controller::SPECS,
     engine::{Handle, Settings, claim::HolderKind},
     model::{KnownStation, Model, NextStation, ThemeName, UiCommand, View, typed_path::OpenedFile},
     orbit::bundled,
@@ -141,7 +142,7 @@ impl Two {
         for ((unit, name), file) in units.iter().zip(NAMES).zip(FILES) {
             let path = folder.path().join(file);
             let station = Station { name: name.to_owned(), ..unit.station() };
-            station::save(&station, &path, azel::makes::SPECS).unwrap();
+            station::save(&station, &path, SPECS).unwrap();
             writeln!(list, "[[station]]\nname = '{name}'\npath = '{}'", path.display()).unwrap();
         }
         fs::write(folder.path().join("stations.toml"), list).unwrap();

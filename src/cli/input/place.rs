@@ -7,7 +7,7 @@ use anyhow::{Context as _, anyhow, bail};
 use super::InputOptions;
 use crate::{
     astro::{Angle, Refraction, Site},
-    makes,
+    controller::SPECS,
     station::{self, NoteReason, Station},
 };
 
@@ -54,7 +54,7 @@ impl InputOptions {
 
 fn read_station(path: &Path, needs_site: bool) -> anyhow::Result<Station> {
     let unusable = || format!("The station file {} cannot be used", path.display());
-    let loaded = station::load(path, makes::SPECS).with_context(unusable)?;
+    let loaded = station::load(path, SPECS).with_context(unusable)?;
     let is_needed = |place: &str| {
         NEEDED.iter().any(|needed| place.starts_with(needed))
             || (needs_site && place.starts_with("site"))

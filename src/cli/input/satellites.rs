@@ -14,12 +14,12 @@ use rayon::prelude::*;
 
 use super::InputOptions;
 use crate::{
+    controller::SPECS,
     export::Satellite,
     library::{
         Exceptions, Library, Limits, disk::read_limited, element_files, library_folder,
         load_sources,
     },
-    makes,
     orbit::{
         Catalog, Elements, MAX_ELEMENT_BYTES, MergeSummary, Note, Refusal, Source, SourceOrders,
         read_element_bytes,
@@ -174,7 +174,7 @@ impl InputOptions {
 
 /// The orders of sources in a station file. [`InputOptions::place`] reports a file that cannot be read.
 fn source_orders(station: &Path) -> SourceOrders {
-    let loaded = station::load(station, makes::SPECS);
+    let loaded = station::load(station, SPECS);
     loaded.map(|loaded| loaded.station.favourites.source_orders()).unwrap_or_default()
 }
 

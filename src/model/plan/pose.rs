@@ -6,12 +6,8 @@ use super::Model;
 use crate::{
     astro::time::{add_seconds, seconds_between},
     device::Pointing,
-    engine::{
-        antenna::AntennaModel,
-        automatic::{between, parks_within_s, sets_out},
-        passes::PassKey,
-    },
-    plan::schedule::{Entry, Reach},
+    engine::{antenna::AntennaModel, passes::PassKey},
+    plan::schedule::{Entry, Reach, between, parks_within_s, sets_out},
     station::BetweenPasses,
 };
 

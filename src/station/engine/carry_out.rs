@@ -2,6 +2,8 @@
 
 use std::{io, sync::Arc};
 
+use jiff::Timestamp;
+
 use super::{
     CatalogState, Command, Engine, Event, StationClaim,
     alarms::AlarmKind,
@@ -12,12 +14,10 @@ use super::{
     sources::{self, SourceWork, Task},
     uploads,
 };
-
-use jiff::Timestamp;
-
 use crate::{
     astro::time::seconds_between,
     contract::driver,
+    controller::SPECS,
     orbit::SourcePlace,
     plan::ProgramTrack,
     secret::Secret,
@@ -435,7 +435,7 @@ impl Engine {
             && !matches!(self.station_claim, StationClaim::Theirs(_))
             && let Some(path) = &self.settings_path
         {
-            match station::save(&station, path, crate::makes::SPECS) {
+            match station::save(&station, path, SPECS) {
                 Ok(saved) => station.unread = saved.unread,
                 Err(error) => {
                     let text = error.to_string();
@@ -484,7 +484,7 @@ impl Engine {
                 path.display()
             )),
             Some(path) => {
-                let saved = station::save(&station, path, crate::makes::SPECS);
+                let saved = station::save(&station, path, SPECS);
                 saved.map_err(|error| error.to_string())
             }
             None => Err("this user has no folder for settings".to_owned()),

@@ -7,7 +7,7 @@ use super::{
     claim::{HeldBy, holder_of_station},
 };
 use crate::{
-    makes,
+    controller::SPECS,
     station::{self, LoadError},
 };
 
@@ -25,7 +25,7 @@ pub enum CannotOpen {
 /// Returns the name of the station that `settings` would open.
 pub fn look_at(settings: &Settings) -> Result<String, CannotOpen> {
     let path = settings.station_path().ok_or(CannotOpen::Unread(LoadError::Missing))?;
-    let loaded = station::load(&path, makes::SPECS).map_err(|error| match error {
+    let loaded = station::load(&path, SPECS).map_err(|error| match error {
         LoadError::Missing => CannotOpen::Missing(path.clone()),
         error => CannotOpen::Unread(error),
     })?;

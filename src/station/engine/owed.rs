@@ -9,7 +9,9 @@ use super::{
     Engine,
     alarms::{AlarmKind, Alarms},
 };
-use crate::{contract::driver::Unit, driver::Debts, makes, plan::Bounds, station::Antenna};
+use crate::{
+    contract::driver::Unit, controller::SPECS, driver::Debts, plan::Bounds, station::Antenna,
+};
 
 impl Engine {
     /// Sends STOP to the units that an earlier run may have left moving, and switches auto-track off
@@ -20,7 +22,7 @@ impl Engine {
         let left: BTreeSet<Unit> =
             debts.with_auto_track().into_iter().chain(debts.left_moving()).collect();
         for unit in left.into_iter().filter(|unit| !has_it(unit)) {
-            let spec = makes::SPECS.iter().find(|spec| spec.key == unit.make);
+            let spec = SPECS.iter().find(|spec| spec.key == unit.make);
             // A unit of a make that this version does not know stays an alarm.
             let Some(spec) = spec else { continue };
             let antenna = spec.antenna(&unit.address, &unit.address);

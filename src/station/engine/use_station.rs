@@ -12,8 +12,9 @@ use super::{
 };
 use crate::{
     contract::driver::Unit,
+    controller::SPECS,
     driver::Driver,
-    makes::{self, DemoAddresses},
+    makes::DemoAddresses,
     plan::Bounds,
     station::{self, AntennaId, LoadError, Note, Station},
 };
@@ -48,7 +49,7 @@ impl Engine {
         // The running demo ends once another station is in use.
         let _demo = self.demo.take();
         let loaded = match &self.settings_path {
-            Some(path) => station::load(path, makes::SPECS),
+            Some(path) => station::load(path, SPECS),
             None => Err(LoadError::Missing),
         };
         self.load_learned_drives();

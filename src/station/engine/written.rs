@@ -5,7 +5,7 @@ pub(super) mod station {
     use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error as _};
 
     use crate::{
-        makes,
+        controller::SPECS,
         station::{Station, from_toml},
     };
 
@@ -19,7 +19,7 @@ pub(super) mod station {
     pub(in crate::engine) fn deserialize<'de, D: Deserializer<'de>, T: From<Station>>(
         from: D,
     ) -> Result<T, D::Error> {
-        let (station, notes) = from_toml(toml::Table::deserialize(from)?, makes::SPECS);
+        let (station, notes) = from_toml(toml::Table::deserialize(from)?, SPECS);
         match notes.first() {
             None => Ok(station.into()),
             Some(note) => Err(D::Error::custom(format!("{note:?}"))),
@@ -58,13 +58,13 @@ pub(super) mod antenna {
 pub(super) mod element_files {
     use serde::{Deserialize, Deserializer, Serializer, de::Error as _, ser::Error as _};
 
-    use crate::{device::ElementFiles, makes};
+    use crate::{controller::SPECS, device::ElementFiles};
 
     pub(in crate::engine) fn serialize<S: Serializer>(
         takes: &'static ElementFiles,
         to: S,
     ) -> Result<S::Ok, S::Error> {
-        let make = makes::SPECS.iter().find(|make| make.element_files == Some(takes));
+        let make = SPECS.iter().find(|make| make.element_files == Some(takes));
         to.serialize_str(make.ok_or_else(|| S::Error::custom("no make takes files so"))?.key)
     }
 
@@ -72,7 +72,7 @@ pub(super) mod element_files {
         from: D,
     ) -> Result<&'static ElementFiles, D::Error> {
         let key = String::deserialize(from)?;
-        let make = makes::SPECS.iter().find(|make| make.key == key);
+        let make = SPECS.iter().find(|make| make.key == key);
         make.and_then(|make| make.element_files)
             .ok_or_else(|| D::Error::custom(format!("{key} takes no files of elements")))
     }

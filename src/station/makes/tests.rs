@@ -9,6 +9,7 @@ mod schedule;
 use super::*;
 use crate::{
     controller::{
+        SPECS,
         rc2000c::{BAUD, BUS_ADDRESS},
         rotator_genius::{ROTATORS, Rotators},
     },

@@ -23,11 +23,12 @@ pub(super) fn own(spec: &ControllerSpec) -> Option<&'static Own> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::controller::SPECS;
 
     #[test]
     fn every_group_of_a_unit_stands_in_one_section() {
         for Own { key, sections, .. } in &MAKES {
-            let spec = crate::makes::SPECS.iter().find(|spec| spec.key == *key).unwrap();
+            let spec = SPECS.iter().find(|spec| spec.key == *key).unwrap();
             let groups = spec.variants.iter().flat_map(|variant| variant.groups);
             let shown: Vec<_> = sections.iter().flat_map(|section| section.keys).collect();
             let known: Vec<_> = groups.map(|group| &group.key).collect();

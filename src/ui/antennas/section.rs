@@ -69,10 +69,11 @@ fn all_fields(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::controller::SPECS;
 
     #[test]
     fn a_make_without_cards_of_its_own_has_one_for_each_of_its_groups() {
-        for spec in crate::makes::SPECS.iter().filter(|spec| makes::own(spec).is_none()) {
+        for spec in SPECS.iter().filter(|spec| makes::own(spec).is_none()) {
             let connection = spec.connection("");
             let (sections, groups) = (Section::of(&connection), connection.variant().groups);
             assert_eq!(sections.len(), groups.len());

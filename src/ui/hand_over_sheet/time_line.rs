@@ -6,7 +6,7 @@ use maud::{Markup, html};
 use super::HandOverSheet;
 use crate::{
     astro::time::{add_seconds, seconds_between},
-    engine::automatic,
+    plan::schedule::sets_out,
     ui::{
         format,
         page::{SECTION_HEAD_MM, plot, printable, section},
@@ -47,7 +47,7 @@ impl HandOverSheet<'_> {
                     svg viewBox=(format!("0 0 {WIDTH} {HEIGHT}")) preserveAspectRatio="none" {
                         (background)
                         @for entry in self.entries().into_iter().filter(|it| it.antenna == antenna.id) {
-                            @let go_at = automatic::sets_out(entry, antenna.automatic.between);
+                            @let go_at = sets_out(entry, antenna.automatic.between);
                             @let busy_s = entry.slew_s + entry.set_up_s;
                             @let moves_from = go_at.max(add_seconds(entry.from, -busy_s));
                             @let [before, from, to] =

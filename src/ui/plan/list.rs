@@ -10,7 +10,7 @@ use crate::{
         Model, UiCommand,
         plan::{ListedPass, Standing},
     },
-    plan::schedule::Why,
+    plan::schedule::{Why, sets_out},
     station::Take,
     ui::{
         format,
@@ -270,7 +270,7 @@ fn state(
             (Icon::ChevronRight, words, t.cmd)
         }
         Standing::Planned(entry) if antenna.operation.is_on() => {
-            let at = crate::engine::automatic::sets_out(entry, antenna.config.automatic.between);
+            let at = sets_out(entry, antenna.config.automatic.between);
             (Icon::Clock, words::schedule::sets_out(antenna, at, model.now), t.t1)
         }
         Standing::Planned(_) => (Icon::Clock, "Planned".to_owned(), t.t1),

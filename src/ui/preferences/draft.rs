@@ -316,8 +316,11 @@ mod tests {
     use super::*;
     use crate::{
         astro::HorizonMask,
-        controller::rc2000c::{BAUD, BUS_ADDRESS, Calibration},
-        makes::{self, DemoAddresses},
+        controller::{
+            SPECS,
+            rc2000c::{BAUD, BUS_ADDRESS, Calibration},
+        },
+        makes::DemoAddresses,
     };
 
     fn station() -> Station {
@@ -343,13 +346,13 @@ mod tests {
     #[test]
     fn each_make_can_be_added_and_used_as_it_stands() {
         let mut draft = Draft::of(&Station::default());
-        for spec in makes::SPECS.iter().chain(makes::SPECS) {
+        for spec in SPECS.iter().chain(SPECS) {
             draft.add_antenna(spec, Timestamp::UNIX_EPOCH);
         }
         let station = draft.read().unwrap();
         let specs: Vec<&ControllerSpec> =
             station.antennas.iter().map(|of| of.connection.spec()).collect();
-        assert_eq!(specs, [makes::SPECS, makes::SPECS].concat());
+        assert_eq!(specs, [SPECS, SPECS].concat());
     }
 
     #[test]

@@ -16,7 +16,7 @@ use super::{
     search::{Found, Search, Spot, find},
 };
 use crate::{
-    makes,
+    controller::SPECS,
     model::{Model, UiCommand},
     ui::{
         bar,
@@ -229,7 +229,7 @@ fn antennas_head(ui: &mut Ui, draft: &mut Draft, now: Timestamp) -> Option<Page>
     );
     let mut added = None;
     add.show(ui, place, |ui| {
-        for spec in makes::SPECS {
+        for spec in SPECS {
             if ui.button(format!("Add {}", spec.name)).clicked() {
                 added = Some(draft.add_antenna(spec, now));
             }

@@ -5,8 +5,8 @@ use jiff::Timestamp;
 
 use super::draft::SetupDraft;
 use crate::{
+    controller::SPECS,
     engine::{self, link_tests::LinkTestStage},
-    makes,
     model::{Model, UiCommand},
     station::AntennaId,
     ui::{
@@ -52,7 +52,7 @@ pub(super) fn show(
     let word = if draft.form.antennas.is_empty() { "Add an antenna" } else { "Add another" };
     ui.label(RichText::new(word).font(text::value()));
     ui.horizontal_wrapped(|ui| {
-        for spec in makes::SPECS {
+        for spec in SPECS {
             let button = Button::normal(spec.short_name).icon(Icon::Plus);
             if named(ui, button, ("add", spec.key), true, &format!("Add {}", spec.name)) {
                 draft.form.add_antenna(spec, model.now);

@@ -8,11 +8,14 @@ use crate::{
         antenna::AntennaModel,
         automatic::{
             DayEvent, DayLine, Doing, Flown, GivenUp, Interruption, MissCause, NotReady,
-            OffBecause, On, Operation, Taking, between, sets_out,
+            OffBecause, On, Operation, Taking,
         },
     },
     model::Model,
-    plan::{pass_report::LossCause, schedule::Entry},
+    plan::{
+        pass_report::LossCause,
+        schedule::{Entry, between, sets_out},
+    },
     ui::format,
 };
 

@@ -8,7 +8,7 @@ use crate::{
         AxisLessons, Evidence, Inside, Mover, Response, Safety, Snapshot, StopState, StoppingWay,
         Unit, Unlike,
     },
-    makes,
+    controller::SPECS,
     plan::Barrier,
     station::Station,
     ui::format,
@@ -222,7 +222,7 @@ pub fn offsets_owed(unit: &Unit) -> String {
 }
 
 fn at_its_address(Unit { make, address }: &Unit) -> String {
-    let known = makes::SPECS.iter().find(|known| known.key == make);
+    let known = SPECS.iter().find(|known| known.key == make);
     format!("The {} at {address}", known.map_or(make.as_str(), |known| known.name))
 }
 

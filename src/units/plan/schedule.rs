@@ -6,6 +6,7 @@
 //! A class is never given up for those after it. Among equal rows the previous schedule, then
 //! fewer seconds of slew, then earlier passes come first.
 
+mod between;
 mod board;
 mod changes;
 mod joining;
@@ -25,6 +26,8 @@ mod under_way;
 mod way;
 mod why;
 
+pub use between::{LEAD_S, between, parks_within_s, sets_out};
+use board::{Board, Fact};
 pub use changes::{Cause, Change, Changed, changes};
 pub use joining::Joining;
 pub use of_station::{deciding_rule, sun_is};
@@ -36,11 +39,9 @@ pub use request::{
 };
 pub use row::Class;
 pub use sight::Sight;
-pub use way::{Impossible, Lost, Verdict, Way};
-
-use board::{Board, Fact};
 use solve::{Slews as _, Solution, Take};
 use way::at_ms;
+pub use way::{Impossible, Lost, Verdict, Way};
 
 /// The best schedule.
 pub fn plan(request: &Request<'_>) -> Schedule {

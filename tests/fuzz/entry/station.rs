@@ -4,7 +4,7 @@
 use std::fs;
 
 use azel::{
-    makes,
+    controller::SPECS,
     station::{KeepOut, Loaded, Note, SaveError, Station, load, save},
 };
 
@@ -14,7 +14,7 @@ pub(crate) fn run(bytes: &[u8]) {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("station.toml");
     fs::write(&path, bytes).expect("a place on the disk");
-    let (first, unread) = match load(&path, makes::SPECS) {
+    let (first, unread) = match load(&path, SPECS) {
         Ok(Loaded { station, notes }) => (station, places(&notes)),
         Err(error) => {
             assert!(!error.to_string().is_empty());
@@ -23,7 +23,7 @@ pub(crate) fn run(bytes: &[u8]) {
         }
     };
     assert!(is_finite(&format!("{first:?}")), "{first:?}");
-    if let Err(error) = save(&first, &path, makes::SPECS) {
+    if let Err(error) = save(&first, &path, SPECS) {
         assert!(matches!(error, SaveError::WouldDrop { .. }), "{error}");
         assert!(!unread.is_empty());
         assert_eq!(fs::read(&path).expect("it is there"), bytes);
@@ -32,11 +32,10 @@ pub(crate) fn run(bytes: &[u8]) {
     let old = fs::read(path.with_added_extension("old")).expect("the old file is kept");
     assert_eq!(old, bytes);
     let text = fs::read_to_string(&path).expect("it was saved");
-    let Loaded { station: second, notes } =
-        load(&path, makes::SPECS).expect("what was saved is read");
+    let Loaded { station: second, notes } = load(&path, SPECS).expect("what was saved is read");
     assert_eq!(places(&notes), unread, "{text}");
     same(&first, &second);
-    save(&second, &path, makes::SPECS).expect("what was loaded can be saved");
+    save(&second, &path, SPECS).expect("what was loaded can be saved");
     assert_eq!(fs::read_to_string(&path).expect("it was saved"), text);
     for antenna in &second.antennas {
         drop(antenna.controller());

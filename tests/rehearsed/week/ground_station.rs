@@ -15,6 +15,7 @@ use azel::{
     astro::time::add_seconds,
     clock::Clock,
     contract::driver::TimeSync,
+    controller::SPECS,
     driver::{Dial, Outside, Stream, UnitLock},
     engine::{Client, Settings, in_place::InPlace},
     job, library,
@@ -96,7 +97,7 @@ impl GroundStation {
         write_omm_json(&elements, &mut body).unwrap();
         let source = ElementServer::new(body);
         let folder = tempfile::tempdir().unwrap();
-        station::save(&station, &folder.path().join("station.toml"), makes::SPECS).unwrap();
+        station::save(&station, &folder.path().join("station.toml"), SPECS).unwrap();
         let listed = Source {
             name: "week".to_owned(),
             place: SourcePlace::Web(source.url()),

@@ -7,12 +7,12 @@ use std::{
 };
 
 use azel::{
+    controller::SPECS,
     engine::{
         self, CatalogState,
         sources::{Copied, SourceWork},
     },
     library::save_sources,
-    makes,
     model::{Model, UiCommand, View, typed_path::OpenedFile},
     orbit::{RefreshHours, Source, SourcePlace},
     station,
@@ -181,7 +181,7 @@ fn an_added_file_is_used_and_kept_for_the_next_start() {
     let folder = tempfile::tempdir().unwrap();
     let settings = folder.path().join("station.toml");
     let unit = Unit::start(week_later());
-    station::save(&unit.station(), &settings, azel::makes::SPECS).unwrap();
+    station::save(&unit.station(), &settings, SPECS).unwrap();
     let path = newer_elements(&folder);
     let mut window = open(&settings, clock_from(week_later()));
     step_until(&mut window, "the elements", |model| epoch_of_noaa_20(model).is_some());
@@ -214,7 +214,7 @@ fn a_server_that_is_set_to_be_asked_is_asked_without_the_operator_and_once() {
     let folder = tempfile::tempdir().unwrap();
     let settings = folder.path().join("station.toml");
     let unit = Unit::start(week_later());
-    station::save(&unit.station(), &settings, azel::makes::SPECS).unwrap();
+    station::save(&unit.station(), &settings, SPECS).unwrap();
     let text = fs::read_to_string(newer_elements(&folder)).unwrap();
     let server = Server::new(vec![ok("", &text), ok("", &text)]);
     let left_alone = server.source("alone");
@@ -237,7 +237,7 @@ fn a_followed_satellite_is_kept_in_the_station_file_and_listed() {
     let folder = tempfile::tempdir().unwrap();
     let settings = folder.path().join("station.toml");
     let unit = Unit::start(week_later());
-    station::save(&unit.station(), &settings, azel::makes::SPECS).unwrap();
+    station::save(&unit.station(), &settings, SPECS).unwrap();
     let mut window = open(&settings, clock_from(week_later()));
     step_until(&mut window, "the elements", |model| epoch_of_noaa_20(model).is_some());
     window.key_press_modifiers(Modifiers::COMMAND, Key::Num3);
@@ -254,7 +254,5 @@ fn a_followed_satellite_is_kept_in_the_station_file_and_listed() {
     step_until(&mut window, "its passes", |model| {
         model.pass_lists.favourites.passes.iter().any(|pass| pass.number() == METEOR_M2_3)
     });
-    assert!(
-        station::load(&settings, makes::SPECS).unwrap().station.favourites.contains(METEOR_M2_3)
-    );
+    assert!(station::load(&settings, SPECS).unwrap().station.favourites.contains(METEOR_M2_3));
 }

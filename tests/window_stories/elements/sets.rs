@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use azel::{
     contract::older_sets::OlderSet,
+    controller::SPECS,
     engine::{
         self, CatalogState,
         older_sets::{OlderSets, SetChoice},
@@ -209,7 +210,7 @@ fn a_preferred_source_is_used_until_its_elements_lag_and_over_the_next_start() {
     let folder = tempfile::tempdir().unwrap();
     let settings = folder.path().join("station.toml");
     let unit = Unit::start(week_later());
-    station::save(&unit.station(), &settings, azel::makes::SPECS).unwrap();
+    station::save(&unit.station(), &settings, SPECS).unwrap();
     let mut window = open(&settings, clock_from(week_later()));
     step_until(&mut window, "the elements", |model| epoch_of_noaa_20(model).is_some());
     let own = newer_elements(&folder);
@@ -247,7 +248,7 @@ fn an_older_set_is_used_over_the_next_start_until_a_newer_one_comes() {
     let folder = tempfile::tempdir().unwrap();
     let settings = folder.path().join("station.toml");
     let unit = Unit::start(week_later());
-    station::save(&unit.station(), &settings, azel::makes::SPECS).unwrap();
+    station::save(&unit.station(), &settings, SPECS).unwrap();
     let mut window = open(&settings, clock_from(week_later()));
     step_until(&mut window, "the elements", |model| epoch_of_noaa_20(model).is_some());
     let bundled = epoch_of_noaa_20(window.state().model());

@@ -2,14 +2,16 @@
 
 use std::{num::NonZeroU32, sync::Arc};
 
+use jiff::Timestamp;
 use tokio::sync::mpsc;
 
 use super::*;
 use crate::{
     clock::Clock,
+    controller::SPECS,
     driver::{Dial, Outside, UnitLock},
     engine::{By, Outbox, Settings},
-    station::Antenna as Config,
+    station::{self, Antenna as Config, Station},
 };
 
 /// A station whose antenna is on at the start, after a run that ended in order. No unit answers.
@@ -19,7 +21,7 @@ pub(in crate::engine) fn station(folder: &std::path::Path) -> (Engine, PathBuf) 
     config.automatic.is_on_at_start = true;
     let station = Station { antennas: vec![config], ..Station::default() };
     let path = folder.join("station.toml");
-    station::save(&station, &path, crate::makes::SPECS).unwrap();
+    station::save(&station, &path, SPECS).unwrap();
     let left = path.with_extension(at_start::EXTENSION);
     std::fs::write(&left, "is_orderly = true").unwrap();
     let settings = Settings { path: Some(path), ..Settings::default() };

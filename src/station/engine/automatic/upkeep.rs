@@ -8,17 +8,17 @@ use std::time::Duration;
 use jiff::Timestamp;
 
 pub(in crate::engine) use self::elements::RuleUpload;
-use super::{DayEvent, sets_out};
+use super::DayEvent;
 use crate::{
     astro::time::seconds_between,
     clock::Instant,
-    contract::{driver, driver::TimeSync},
+    contract::driver::{self, TimeSync},
     device::{
         ClockSetting, UnitClock,
         settings::{Change, Hindrance, WriteError},
     },
     engine::{Antenna, Engine, antenna::AntennaModel},
-    plan::schedule::Entry,
+    plan::schedule::{Entry, sets_out},
     station::{AntennaId, BetweenPasses, Upkeep},
 };
 

@@ -9,6 +9,7 @@ use super::super::*;
 use crate::{
     astro::HorizonMask,
     controller::{
+        SPECS,
         rc2000c::{BAUD, BUS_ADDRESS, Calibration},
         rotator_genius::{ROTATORS, Rotators},
     },
@@ -43,11 +44,11 @@ fn a_station_comes_back_as_it_was_saved() {
     station.antennas.push(Antenna::satrak("Second", "host.example:5"));
     give_ids(&mut station);
     station.horizon_mask = HorizonMask::parse("350 2.5\n10, -0.1\n123.25 12").ok();
-    save(&station, &path, crate::makes::SPECS).unwrap();
+    save(&station, &path, SPECS).unwrap();
     let loaded = load(&path).unwrap();
     assert_eq!(loaded.notes, []);
     assert_eq!(loaded.station, station);
-    save(&Station::default(), &path, crate::makes::SPECS).unwrap();
+    save(&Station::default(), &path, SPECS).unwrap();
     assert_eq!(load(&path.with_extension("toml.old")).unwrap().station, station);
 }
 
@@ -56,7 +57,7 @@ fn a_file_that_is_no_toml_is_never_replaced() {
     let (_folder, path) = written("name = 'Here'\n[[antenna]\nname = 'A'\n");
     let before = fs::read(&path).unwrap();
     for _ in 0..2 {
-        let saved = save(&Station::default(), &path, crate::makes::SPECS);
+        let saved = save(&Station::default(), &path, SPECS);
         assert!(matches!(&saved, Err(SaveError::Unreadable(file)) if *file == path), "{saved:?}");
     }
     assert_eq!(fs::read(&path).unwrap(), before);
@@ -119,12 +120,12 @@ fn favourites_keep_their_priorities_and_an_old_list_has_the_default() {
     assert_eq!((priority(43_013), priority(25_544), priority(7)), (Some(3), Some(1), None));
     let places: Vec<_> = loaded.notes.iter().map(|note| note.place.as_str()).collect();
     assert_eq!(places, ["favourites[2]"]);
-    station::save(&loaded.station, &path, crate::makes::SPECS).unwrap();
+    station::save(&loaded.station, &path, SPECS).unwrap();
     assert_eq!(load(&path).unwrap().station.favourites, favourites);
     // Tables alone are written in another form.
     let mut station = loaded.station;
     station.favourites.set_priority(43_013, Priority::ALL[4]);
-    station::save(&station, &path, crate::makes::SPECS).unwrap();
+    station::save(&station, &path, SPECS).unwrap();
     let loaded = load(&path).unwrap();
     let places: Vec<_> = loaded.notes.iter().map(|note| note.place.as_str()).collect();
     assert_eq!((loaded.station.favourites, places), (station.favourites, vec!["favourites[2]"]));
@@ -157,7 +158,7 @@ fn what_cannot_be_read_is_left_alone() {
     fs::write(&path, &utf_16).unwrap();
     let error = load(&path).unwrap_err();
     assert!(error.to_string().contains("save the file as UTF-8"), "{error}");
-    assert!(save(&Station::default(), &path, crate::makes::SPECS).is_err());
+    assert!(save(&Station::default(), &path, SPECS).is_err());
     assert_eq!(fs::read(&path).unwrap(), utf_16);
 }
 
@@ -167,10 +168,7 @@ fn a_failed_save_keeps_the_old_file() {
     // A folder of that name cannot be replaced by a file.
     let taken = folder.path().join("taken");
     fs::create_dir_all(taken.join("inside")).unwrap();
-    assert!(matches!(
-        save(&Station::default(), &taken, crate::makes::SPECS),
-        Err(SaveError::Write { .. })
-    ));
+    assert!(matches!(save(&Station::default(), &taken, SPECS), Err(SaveError::Write { .. })));
     assert_eq!(load(&path).unwrap().station.name, "Old");
 }
 
@@ -207,7 +205,7 @@ fn what_a_make_alone_has_comes_back_as_it_was_saved() {
     calibration.put_into(&mut rc2000c.connection).unwrap();
     let mut station = Station { antennas: vec![genius, rc2000c], ..Station::default() };
     give_ids(&mut station);
-    save(&station, &path, crate::makes::SPECS).unwrap();
+    save(&station, &path, SPECS).unwrap();
     let loaded = load(&path).unwrap();
     assert_eq!(loaded.notes, []);
     assert_eq!(loaded.station, station);
@@ -325,7 +323,7 @@ fn the_file_is_what_it_always_was() {
     give_ids(&mut station);
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("station.toml");
-    save(&station, &path, crate::makes::SPECS).unwrap();
+    save(&station, &path, SPECS).unwrap();
     assert_eq!(fs::read_to_string(&path).unwrap(), WRITTEN);
     assert_eq!(load(&path).unwrap().station, station);
     let (_folder, path) = written(BEFORE_IDS);

@@ -3,9 +3,12 @@
 use std::fs;
 
 use super::file::{load, written};
-use crate::station::{
-    Antenna, AntennaId, Entered, KeepOut, Loaded, Monitor, Note, NoteReason, OnClose, Priority,
-    Resume, Station, SunAvoidance, save,
+use crate::{
+    controller::SPECS,
+    station::{
+        Antenna, AntennaId, Entered, KeepOut, Loaded, Monitor, Note, NoteReason, OnClose, Priority,
+        Resume, Station, SunAvoidance, save,
+    },
 };
 
 fn mast() -> KeepOut {
@@ -44,7 +47,7 @@ fn keep_outs_and_what_is_done_by_itself_come_back_as_they_were_saved() {
     };
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("station.toml");
-    save(&station, &path, crate::makes::SPECS).unwrap();
+    save(&station, &path, SPECS).unwrap();
     let loaded = load(&path).unwrap();
     assert_eq!(loaded.notes, []);
     assert_eq!(loaded.station, station);
@@ -107,7 +110,7 @@ fn keep_outs_beyond_the_largest_number_do_not_hold_and_forbid_motion() {
     let NoteReason::DoesNotHold { name, why } = &note.reason else { panic!("{note:?}") };
     assert_eq!((name.as_str(), why.as_str()), ("mast 33", "a station has 32 keep-outs at most"));
     assert_eq!(station.unread.len(), 1, "it forbids motion");
-    save(&station, &path, crate::makes::SPECS).unwrap();
+    save(&station, &path, SPECS).unwrap();
     assert!(fs::read_to_string(&path).unwrap().contains("mast 33"), "nothing is lost");
 }
 
@@ -217,7 +220,7 @@ fn a_save_keeps_what_could_not_be_read() {
     let Loaded { mut station, notes } = load(&path).unwrap();
     station.favourites.set_priority(25_544, Priority::ALL[0]);
     station.antennas[0].beam_width_deg = 3.5;
-    save(&station, &path, crate::makes::SPECS).unwrap();
+    save(&station, &path, SPECS).unwrap();
     let text = fs::read_to_string(&path).unwrap();
     for line in [
         "nickname = 'west' # not known",
@@ -271,7 +274,7 @@ fn a_setting_that_the_operator_repairs_is_saved() {
     let Loaded { mut station, .. } = load(&path).unwrap();
     station.antennas[0].limits.minimum_elevation_deg = 25.0;
     station.sun_avoidance = Some(SunAvoidance { radius_deg: 5.0, ahead_min: 0.0 });
-    let saved = save(&station, &path, crate::makes::SPECS).unwrap();
+    let saved = save(&station, &path, SPECS).unwrap();
     let places: Vec<&str> = saved.unread.iter().map(|unread| unread.place.as_str()).collect();
     assert_eq!(places, ["keep_out[0].corner", "keep_out[0]"], "the mast is still unknown");
     let again = load(&path).unwrap().station;

@@ -3,7 +3,10 @@
 use std::fs;
 
 use super::file::{load, written};
-use crate::station::{HoursOfDay, Loaded, Notices, Station, Tones, save};
+use crate::{
+    controller::SPECS,
+    station::{HoursOfDay, Loaded, Notices, Station, Tones, save},
+};
 
 #[test]
 fn notices_come_back_as_they_were_saved_and_older_files_have_their_defaults() {
@@ -21,7 +24,7 @@ fn notices_come_back_as_they_were_saved_and_older_files_have_their_defaults() {
         reminders: [25_544, 43_013].into(),
     };
     let station = Station { notices, ..Station::default() };
-    save(&station, &path, crate::makes::SPECS).unwrap();
+    save(&station, &path, SPECS).unwrap();
     let loaded = load(&path).unwrap();
     assert_eq!((loaded.station, loaded.notes), (station, Vec::new()));
     assert!(fs::read_to_string(&path).unwrap().contains("from = \"22:00\""));

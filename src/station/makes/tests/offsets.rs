@@ -3,6 +3,7 @@
 use super::file::{load, written};
 use crate::{
     astro::{Angle, Offset, TrackOffsets},
+    controller::SPECS,
     station::{self, AntennaId, Loaded, OffsetsOf},
 };
 
@@ -18,7 +19,7 @@ fn they_come_back_as_they_were_remembered() {
     station.keep_offsets(OffsetsOf::Satellite(25_544), along);
     let azimuth = with(Offset::Azimuth(Angle::from_degrees(0.1)));
     station.keep_offsets(OffsetsOf::Antenna(AntennaId(4)), azimuth);
-    station::save(&station, &path, crate::makes::SPECS).unwrap();
+    station::save(&station, &path, SPECS).unwrap();
     let text = std::fs::read_to_string(&path).unwrap();
     assert!(text.contains("satellite = 25544\nalong_deg = -0.3\n"), "{text}");
     let Loaded { station: read, notes } = load(&path).unwrap();

@@ -1,10 +1,13 @@
 //! How passes are planned, in the station file.
 
 use super::file::{load, written};
-use crate::station::{
-    self, AntennaId, Automatic, AutomationRule, BetweenPasses, ChooseBy, Favourite, HoursOfDay,
-    Light, Loaded, Partly, PassChoice, PassLimits, Priority, RuleOf, SatelliteGroup, Scheduling,
-    SunIs, Take, Then, Upkeep,
+use crate::{
+    controller::SPECS,
+    station::{
+        self, AntennaId, Automatic, AutomationRule, BetweenPasses, ChooseBy, Favourite, HoursOfDay,
+        Light, Loaded, Partly, PassChoice, PassLimits, Priority, RuleOf, SatelliteGroup,
+        Scheduling, SunIs, Take, Then, Upkeep,
+    },
 };
 
 const ANTENNA: &str = "[[antenna]]\nid = 4\nname = 'Dish'\n[antenna.connection]\n\
@@ -83,7 +86,7 @@ fn everything_about_the_schedule_comes_back_as_it_was_saved() {
         uploads_elements: true,
         element_limit_d: 1.5,
     };
-    station::save(&station, &path, crate::makes::SPECS).unwrap();
+    station::save(&station, &path, SPECS).unwrap();
     let text = std::fs::read_to_string(&path).unwrap();
     assert!(text.contains("automatic_operation_at_start = true"), "{text}");
     let Loaded { station: read, notes } = load(&path).unwrap();

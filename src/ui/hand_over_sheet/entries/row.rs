@@ -4,8 +4,7 @@ use jiff::Timestamp;
 
 use crate::{
     astro::AzEl,
-    engine::automatic,
-    plan::schedule::{Class, Entry},
+    plan::schedule::{Class, Entry, sets_out},
     station::BetweenPasses,
     ui::{format, hand_over_sheet::HandOverSheet},
 };
@@ -54,7 +53,7 @@ impl Row {
                 sheet.station.priority(number).unwrap_or_default().number().to_string()
             }
         };
-        let sets_out = automatic::sets_out(entry, between);
+        let sets_out = sets_out(entry, between);
         Self {
             day: format::date(sets_out),
             sets_out,

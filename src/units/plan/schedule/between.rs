@@ -1,0 +1,45 @@
+//! Between passes: where an antenna goes, and when it sets out to the next one.
+
+use jiff::Timestamp;
+
+use crate::{
+    astro::time::add_seconds,
+    plan::schedule::{Entry, sun_is},
+    station::{Antenna, AutomationRule, BetweenPasses, Station, Then},
+};
+
+/// Longest time by which Azel sends an antenna to a pass earlier than necessary, seconds.
+pub const LEAD_S: f64 = 60.0;
+
+/// Where the antenna is between passes at `at`, by its settings and by the rules of the station.
+pub fn between(station: &Station, antenna: &Antenna, at: Timestamp) -> BetweenPasses {
+    let mut rules = station.rules.iter().filter(|rule| rule.is_for(antenna.id)).peekable();
+    if rules.peek().is_none() {
+        return antenna.automatic.between;
+    }
+    let sun = sun_is(station, at);
+    let mut holding = rules.filter(|rule| rule.of.is_none() && rule.holds_at(at, sun));
+    match holding.next() {
+        Some(AutomationRule { then: Then::Park, .. }) => BetweenPasses::Park,
+        _ => antenna.automatic.between,
+    }
+}
+
+/// Time after a pass that must be left before the antenna sets out, for it to park: both ways,
+/// seconds.
+pub fn parks_within_s(antenna: &Antenna) -> f64 {
+    antenna.longest_slew_s() + LEAD_S
+}
+
+/// When an antenna is sent to an entry, at the latest.
+pub fn sets_out(entry: &Entry, between: BetweenPasses) -> Timestamp {
+    let before_s = match between {
+        // As soon as the pass before is over.
+        BetweenPasses::Wait => entry.slew_s + entry.set_up_s + entry.spare_s.unwrap_or_default(),
+        BetweenPasses::Stay | BetweenPasses::Park => {
+            let lead_s = entry.spare_s.unwrap_or(LEAD_S).clamp(0.0, LEAD_S);
+            entry.slew_s + entry.set_up_s + lead_s
+        }
+    };
+    add_seconds(entry.from, -before_s)
+}
