@@ -42,10 +42,10 @@ use self::{
 };
 use crate::{
     clock::Clock,
-    contract::driver::Snapshot,
+    contract::{self, antenna::AntennaModel, driver::Snapshot},
     desktop::Desktop,
     driver::Outside,
-    engine::{self, Client, Handle, Settings, antenna::AntennaModel},
+    engine::{Client, Handle, Settings},
     job::Wake,
     model::{Appearance, Model, UiCommand, View},
     ui,
@@ -92,7 +92,7 @@ pub struct App {
     /// `None` where Azel reports nothing to the desktop.
     notifier: Option<Notifier>,
     /// The attention last reported to the station.
-    told: engine::Attention,
+    told: contract::Attention,
     /// Everything to be done before closing is done.
     closes: bool,
     /// The operator or the operating system has decided to close: no question is asked.
@@ -171,7 +171,7 @@ impl App {
             place_watch: PlaceWatch::default(),
             opens_set_up: true,
             notifier: None,
-            told: engine::Attention::default(),
+            told: contract::Attention::default(),
             closes: false,
             may_close,
             told_to_end,
@@ -236,9 +236,9 @@ impl App {
         self.model.outlets = self.notifier.as_ref().map(Notifier::outlets).unwrap_or_default();
         for event in events {
             match event {
-                engine::Event::Saved(result) => self.views.saved(result),
-                engine::Event::Changed => self.views.station_changed(),
-                engine::Event::MayEnd => self.closes = !self.change_now(),
+                contract::Event::Saved(result) => self.views.saved(result),
+                contract::Event::Changed => self.views.station_changed(),
+                contract::Event::MayEnd => self.closes = !self.change_now(),
             }
         }
         self.model.follow_antenna();
@@ -268,8 +268,8 @@ impl App {
     /// Reports to the station the list and the pass that the operator looks at.
     fn look(&mut self) {
         let (list, selected) = (self.model.list, self.model.selected);
-        let attention = engine::Attention { list, selected };
-        let look = engine::Command::Look(attention);
+        let attention = contract::Attention { list, selected };
+        let look = contract::Command::Look(attention);
         if attention != self.told && self.station.client().send(look).is_ok() {
             self.told = attention;
         }

@@ -12,6 +12,7 @@ pub mod globe;
 pub mod intake;
 mod joinings;
 mod line;
+pub mod notices;
 pub mod object_detail;
 pub mod plan;
 pub mod rehearsal;
@@ -50,22 +51,17 @@ use crate::{
     astro::{HorizonMask, MaskForm},
     clock::{Instant, Moment},
     contract::{
-        driver::{TimeSync, WireLog},
-        record,
-        record::Peaks,
-    },
-    desktop::Outlets,
-    engine::{
         CatalogState, Snapshot,
-        alarms::{AlarmKind, Alarms},
+        alarms::{Alarm, AlarmKind, Alarms},
         antenna::AntennaModel,
         automatic::DayLine,
         closing::Closing,
         copies::Copies,
+        driver::{TimeSync, WireLog},
         link_tests::LinkTest,
         older_sets::OlderSets,
         passes::{ListChoice, PassKey, PassLists, PredictedPass, Scope, UpcomingPasses},
-        pointing_fit::PointingFitted,
+        record::{self, Peaks, PointingFitted},
         recorded::Recorded,
         reminders::Reminder,
         schedule::{Planned, Swap},
@@ -73,6 +69,7 @@ use crate::{
         sources::Sources,
         uploads::Uploads,
     },
+    desktop::Outlets,
     station::{AntennaId, Station},
 };
 
@@ -357,10 +354,25 @@ impl Model {
 
     /// Raises the alarm that the station has published nothing new for `stood`; `None` clears it.
     pub fn watch_station(&mut self, stood: Option<Duration>) {
-        let stands = |kind: &AlarmKind| matches!(kind, AlarmKind::StationStands(_));
-        match stood {
-            Some(stood) => self.alarms.raise(None, AlarmKind::StationStands(stood), self.now),
-            None => self.alarms.clear(None, self.now, stands),
+        let is_standing = |alarm: &&mut Alarm| {
+            matches!(alarm.kind, AlarmKind::StationStands(_)) && !alarm.is_over()
+        };
+        let Alarms { list, next_id, unopened } = &mut self.alarms;
+        let known = list.iter().any(|alarm| matches!(alarm.kind, AlarmKind::StationStands(_)));
+        match stood.map(AlarmKind::StationStands) {
+            None if !known => {}
+            None => {
+                let standing = Arc::make_mut(list).iter_mut().filter(is_standing);
+                standing.for_each(|alarm| alarm.over_since = Some(self.now));
+            }
+            Some(kind) => match Arc::make_mut(list).iter_mut().find(is_standing) {
+                Some(alarm) => alarm.kind = kind,
+                None => {
+                    Arc::make_mut(list).push(Alarm::new(*next_id, None, kind, self.now));
+                    *next_id += 1;
+                    *unopened = true;
+                }
+            },
         }
     }
 

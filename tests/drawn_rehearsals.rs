@@ -14,12 +14,15 @@ use std::{
 
 use azel::{
     astro::{AzEl, Zone},
+    contract::{
+        automatic::{DayEvent, Interruption},
+        rehearsal::Rehearsed,
+    },
     controller::rc2000c::Calibration,
     device::CountPoint,
-    engine::automatic::{DayEvent, Interruption},
     makes::DemoAddresses,
     orbit::{Catalog, Elements, ReadReport, bundled},
-    rehearsal::{Fault, Rehearsal, Rehearsed, run},
+    rehearsal::{Fault, Rehearsal, run},
     sim::Mechanics,
     station::{Antenna, BetweenPasses, Direction, Entered, KeepOut, Mount, PollRates, Station},
 };

@@ -10,14 +10,15 @@ use std::{
 
 use azel::{
     clock::Clock,
-    contract::driver::{LinkFault, LinkFinding},
-    controller::SPECS,
-    driver::{Dial, Outside, Stream},
-    engine::{
-        Command, Handle, Settings,
+    contract::{
+        Command,
         claim::HolderKind,
+        driver::{LinkFault, LinkFinding},
         link_tests::{LinkTest, LinkTestStage},
     },
+    controller::SPECS,
+    driver::{Dial, Outside, Stream},
+    engine::{Handle, Settings},
     protocol::{
         rc2000c::Request as Rc2000cRequest,
         satrak::{Frame as SatrakFrame, Request as SatrakRequest},

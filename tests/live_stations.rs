@@ -11,9 +11,9 @@ use azel::{
     astro::time::seconds_between,
     cli::serve::{Ended, Wake, until_the_end},
     clock::Clock,
-    contract::driver,
+    contract::{Command, driver},
     controller::SPECS,
-    engine::{Client, Command, Handle, Settings},
+    engine::{Client, Handle, Settings},
     plan::{ProgramTrack, Target},
     station,
 };

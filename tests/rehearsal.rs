@@ -9,11 +9,14 @@ use std::{
 };
 
 use azel::{
-    engine::automatic::MissCause,
+    contract::{
+        automatic::MissCause,
+        rehearsal::{Rehearsed, RehearsedPass},
+    },
     makes::DemoAddresses,
     orbit::{Catalog, ReadReport, bundled},
     plan::pass_report::LossCause,
-    rehearsal::{Fault, Rehearsal, RehearsalError, Rehearsed, RehearsedPass, run},
+    rehearsal::{Fault, Rehearsal, RehearsalError, run},
     sim::Mechanics,
     station::{AntennaId, Station},
 };

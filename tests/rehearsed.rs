@@ -24,11 +24,12 @@ use std::{sync::Arc, time::Duration};
 
 use azel::{
     astro::time::seconds_between,
-    engine::{
-        Client, Command,
+    contract::{
+        Command,
         alarms::AlarmKind,
         automatic::{DayEvent, Flown},
     },
+    engine::Client,
     orbit::{PassSearch, Propagator, bundled, passes},
     station::{AntennaId, Notices, Station},
 };

@@ -20,14 +20,17 @@ use azel::{
     astro::time::add_seconds,
     cli::serve::{Ended, Wake, until_the_end},
     clock::Clock,
-    contract::driver::{self, Event, LinkLoss, Refusal},
-    controller::{SPECS, satrak::ELEMENT_FILE},
-    engine::{
-        Client, Command, Handle, Settings, Snapshot,
+    contract::{
+        Command, Snapshot,
         alarms::{Alarm, AlarmKind, Priority},
         antenna::AntennaModel,
         claim::{HeldBy, HolderKind},
+        driver::{self, Event, LinkLoss, Refusal},
         passes::PredictedPass,
+    },
+    controller::{SPECS, satrak::ELEMENT_FILE},
+    engine::{
+        Client, Handle, Settings,
         status::{AntennaStatus, LinkStatus},
     },
     orbit::bundled,

@@ -4,8 +4,8 @@ use std::sync::atomic::Ordering;
 
 use super::App;
 use crate::{
-    contract::driver,
-    engine::{Command, Stopped, passes::PredictedPass},
+    contract::{Command, driver, passes::PredictedPass},
+    engine::Stopped,
     model::{Appearance, UiCommand, View, replay::ReplayEnd},
     station::AntennaId,
 };

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::{
     astro::time::seconds_between,
-    engine::CatalogState,
+    contract::CatalogState,
     job::{Job, Wake},
     model::{
         Model, View,

@@ -10,8 +10,9 @@ use std::{
 
 use super::{App, Keeper, KnownWork, LogWork, MaskWork, Notifier, PlaceWatch};
 use crate::{
+    contract,
     desktop::Desktop,
-    engine::{self, CannotOpen, Handle, Settings, look_at},
+    engine::{CannotOpen, Handle, Settings, look_at},
     job::{Job, Wake},
     model::{KnownStation, Model, NextStation, UiCommand},
     station, ui,
@@ -195,7 +196,7 @@ impl App {
         self.views = ui::Views::with(keeper.memory.views.clone());
         (self.keeper, self.settings) = (keeper, settings);
         self.place_watch = PlaceWatch::default();
-        (self.told, self.closes) = (engine::Attention::default(), false);
+        (self.told, self.closes) = (contract::Attention::default(), false);
         if self.notifier.is_some() {
             let client = self.station.client().clone();
             let notifier = Notifier::start(client, Desktop::default(), Wake::clone(&self.wake));

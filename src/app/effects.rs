@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::{
     clock::Moment,
-    engine::passes::PassList,
+    contract::passes::PassList,
     job::{Job, Wake},
     model::{
         Model,

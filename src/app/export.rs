@@ -15,17 +15,16 @@ use jiff::{Timestamp, civil::Date, tz::TimeZone};
 use super::{App, open_file::unusable};
 use crate::{
     astro::time::seconds_between,
-    contract,
-    contract::record::OpenedPass,
+    contract::{
+        self, CatalogState,
+        passes::{PassKey, PassLists, PredictedPass},
+        record::OpenedPass,
+        recorded::Recorded,
+        schedule::Planned,
+    },
     desktop::{
         file_dialog::{self, NoDialog},
         folder,
-    },
-    engine::{
-        CatalogState,
-        passes::{PassKey, PassLists, PredictedPass},
-        recorded::Recorded,
-        schedule::Planned,
     },
     export::{
         EventFormat, ExportedPass, ListFormat, LookList, PassList, PassQuery, PlanList, RowFormat,

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::App;
 use crate::{
-    engine::CatalogState,
+    contract::CatalogState,
     job::Job,
     library::read_element_file,
     model::intake::{Intake, Judged, Offer},

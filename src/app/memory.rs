@@ -12,7 +12,7 @@ use serde::{Serialize, de::DeserializeOwned};
 
 use super::place::Place;
 use crate::{
-    engine::passes::{ListChoice, SPANS_H, Scope},
+    contract::passes::{ListChoice, SPANS_H, Scope},
     job::{Job, Wake},
     model::{Appearance, DistanceUnit, ThemeName, View},
     ui::{Kept, map::MapLayers, pass_list::Arrangement, sky_plot::Layers},

@@ -11,12 +11,11 @@ use tokio::{
 };
 
 use crate::{
+    contract::Snapshot,
     desktop::{Desktop, Notification, Outlets, Sound, Urgency},
-    engine::{
-        Client, Snapshot,
-        notices::{About, Notice, Teller},
-    },
+    engine::Client,
     job::Wake,
+    model::notices::{About, Notice, Teller},
     station::Tones,
     ui::words,
 };

@@ -10,10 +10,10 @@ use jiff::Timestamp;
 use super::App;
 use crate::{
     astro::time::seconds_between,
-    engine::{CatalogState, passes::PassKey},
+    contract::{CatalogState, passes::PassKey, rehearsal::Rehearsed},
     job::Job,
     model::rehearsal::RehearsalState,
-    rehearsal::{Rehearsal, RehearsalError, Rehearsed, run},
+    rehearsal::{Rehearsal, RehearsalError, run},
     sim::Mechanics,
     station::Station,
 };

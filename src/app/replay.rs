@@ -20,7 +20,7 @@ use super::{App, catalog_table::CatalogWork, effects::EffectsJobs};
 use crate::{
     astro::time::add_seconds,
     clock::{Instant, Moment},
-    engine::{
+    contract::{
         Command, Snapshot,
         passes::{PredictedPass, Scope},
         recorded::RecordLook,

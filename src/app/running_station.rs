@@ -12,13 +12,13 @@ use std::{
 
 use egui::{Context, ViewportCommand, ViewportId};
 
+use super::MOVING_FRAME;
 use crate::{
+    contract::By,
     driver::Outside,
-    engine::{By, Client, Handle, Settings, signals},
+    engine::{Client, Handle, Settings, signals},
     job::Wake,
 };
-
-use super::MOVING_FRAME;
 
 /// News that come within this time are shown by one frame.
 const MERGED: Duration = Duration::from_millis(30);

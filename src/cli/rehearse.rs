@@ -20,10 +20,11 @@ use super::{
 };
 use crate::{
     astro::time,
+    contract::rehearsal::{Rehearsed, RehearsedPass},
     controller::SPECS,
     export::{ListFormat, RowFormat, Time, civil, minutes, rounded, write_rows},
     orbit::{Catalog, ReadReport},
-    rehearsal::{self, Fault, Rehearsal, Rehearsed, RehearsedPass},
+    rehearsal::{self, Fault, Rehearsal},
     sim::Mechanics,
     station::{self, Station},
     ui::words::{

@@ -18,13 +18,17 @@ use super::log::Lines;
 use crate::{
     app::notifier::Notifier,
     clock::Clock,
+    contract::{
+        By, Command, Event, Snapshot,
+        antenna::{AntennaModel, Stake},
+        claim::HolderKind,
+        closing::CloseHow,
+    },
     controller::SPECS,
     desktop::Desktop,
     engine::{
-        By, Command, Event, Handle, Settings, Snapshot,
-        antenna::{AntennaModel, Stake},
-        claim::{HolderKind, LockFolders},
-        closing::CloseHow,
+        Handle, Settings,
+        claim::LockFolders,
         records_folder, signals,
         status::{AntennaStatus, LinkStatus},
     },

@@ -18,11 +18,8 @@ use crate::{
     app::{App, RunningStation, frames},
     cli::{held_keys::WithoutRepeats, marks, no_window, this_program, work_area::WorkArea},
     clock::Clock,
-    engine::{
-        Settings,
-        claim::{HolderKind, LockFolders},
-        records_folder,
-    },
+    contract::claim::HolderKind,
+    engine::{Settings, claim::LockFolders, records_folder},
     model::Appearance,
     station,
 };

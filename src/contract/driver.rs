@@ -13,7 +13,7 @@ mod time_sync;
 mod unit;
 mod wire_log;
 
-pub use command::{Command, OffsetChange};
+pub use command::{Command, OffsetChange, SESSION_TICKETS, is_ticket_of_session};
 pub use command_row::{Effect, LockedOut, Offline, Row};
 pub use intent::Intent;
 pub use lessons::AxisLessons;

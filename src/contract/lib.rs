@@ -3,14 +3,36 @@
 //!
 //! A station fills these types, and a window, which may be on another machine, reads them.
 
+pub mod alarms;
+pub mod antenna;
+pub mod automatic;
+pub mod claim;
+pub mod closing;
+mod command;
+pub mod copies;
 pub mod driver;
+mod event;
+pub mod host_keys;
+pub mod link_tests;
 pub mod older_sets;
+pub mod passes;
 pub mod record;
+pub mod recorded;
+pub mod rehearsal;
+pub mod reminders;
+pub mod schedule;
+mod snapshot;
+pub mod source_tests;
 pub mod sources;
 pub mod transfer;
+pub mod uploads;
+pub mod written;
 
 use azel_orbit as orbit;
 use azel_orbit::{astro, name};
 #[cfg(test)]
-use azel_units::controller;
-use azel_units::{clock, device, plan, station};
+use azel_units::demo;
+use azel_units::{clock, controller, device, plan, secret, station};
+pub use command::{Attention, Command};
+pub use event::{By, Event};
+pub use snapshot::{CatalogState, Snapshot};

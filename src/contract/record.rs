@@ -11,5 +11,5 @@ pub use past::{
     ExplainedPasses, ListedKind, OpenedPass, PassPage, PassQuery, PassTimes, RecordedPass, Row,
 };
 pub use peaks::{Peak, PeakChange, PeakOf, Peaks};
-pub use pointing::{FittedTerm, NoiseOf, PointingFit};
+pub use pointing::{FittedTerm, NoiseOf, PointingFit, PointingFitted};
 pub use status::{Failing, Status};

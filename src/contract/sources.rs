@@ -1,10 +1,11 @@
 //! Sources of elements.
 
-use std::net::IpAddr;
+use std::{net::IpAddr, path::PathBuf};
 
 use http::Uri;
+use serde::{Deserialize, Serialize};
 
-use crate::orbit::{BUNDLED_SOURCE, FetchProblem, Source, SourcePlace};
+use crate::orbit::{BUNDLED_SOURCE, FetchProblem, Source, SourcePlace, SourceReport};
 
 /// Host of the server.
 pub const SPACE_TRACK_HOST: &str = "www.space-track.org";
@@ -127,5 +128,43 @@ mod tests {
         ] {
             assert_eq!(check_address(url), expected, "{url}");
         }
+    }
+}
+
+/// The sources as last read.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct Sources {
+    /// All sources, in the operator's order.
+    pub list: Vec<Source>,
+    /// One report for each source, in the same order; empty while the library cannot be
+    /// used.
+    pub reports: Vec<SourceReport>,
+    pub work: SourceWork,
+    /// Problems with the list or the library as a whole, in the order in which they came up.
+    pub problems: Vec<String>,
+    /// The list cannot be read: it is left as it is and accepts no change.
+    pub is_locked: bool,
+}
+
+/// Work under way on the sources.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub enum SourceWork {
+    #[default]
+    Nothing,
+    Reading,
+    Asking,
+}
+
+/// Elements that are copied into the library.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub enum Copied {
+    File(PathBuf),
+    Text(String),
+}
+
+impl Sources {
+    /// Returns `true` if a change would be accepted now.
+    pub fn is_free(&self) -> bool {
+        self.work == SourceWork::Nothing && !self.is_locked
     }
 }

@@ -14,12 +14,11 @@ use super::{
 };
 use crate::{
     astro::HorizonMask,
-    contract::driver,
-    desktop::Sound,
-    engine::{
-        self,
+    contract::{
+        self, driver,
         passes::{PassKey, PredictedPass, Scope},
     },
+    desktop::Sound,
     station::AntennaId,
 };
 
@@ -30,7 +29,7 @@ pub enum UiCommand {
     Stop,
     /// Stop this antenna, also where that takes a connection.
     StopAntenna(AntennaId),
-    Station(engine::Command),
+    Station(contract::Command),
     /// Close the window at once.
     Close,
     /// Change the station of the window.
@@ -108,14 +107,14 @@ pub enum UiCommand {
 impl UiCommand {
     /// A command for the session of an antenna.
     pub fn antenna(antenna: AntennaId, command: driver::Command) -> Self {
-        Self::Station(engine::Command::Antenna(antenna, command))
+        Self::Station(contract::Command::Antenna(antenna, command))
     }
 
     /// Tracks the selected pass with the selected antenna.
     pub fn track_selected(model: &Model) -> Option<Self> {
         let pass = model.selected_pass().map(PredictedPass::key)?;
         let antenna = model.antenna()?.id();
-        Some(Self::Station(engine::Command::Track { antenna, pass, is_agreed: false }))
+        Some(Self::Station(contract::Command::Track { antenna, pass, is_agreed: false }))
     }
 
     /// Returns `true` if a STOP in the same frame voids the command.

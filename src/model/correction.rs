@@ -5,10 +5,12 @@ use std::sync::Arc;
 use super::Model;
 use crate::{
     astro::{Angle, Offset, TrackOffsets},
-    contract::record::{RecordedPass, TrackedBy},
+    contract::{
+        antenna::AntennaModel,
+        driver::is_ticket_of_session,
+        record::{RecordedPass, TrackedBy},
+    },
     device::settings::{Value, Written},
-    driver,
-    engine::antenna::AntennaModel,
     plan::pass_report::{Cause, Explanation},
     station::{AntennaId, OffsetsOf},
 };
@@ -82,7 +84,7 @@ fn settings(antenna: &AntennaModel, pass: &RecordedPass, explanation: &Explanati
     let state = antenna.snapshot.state.held.get(fields.group)?;
     // A session takes back what it adds for a pass.
     let is_later = |written: &Arc<Written>| {
-        written.at > pass.report.from && !driver::is_ticket_of_session(written.change.ticket)
+        written.at > pass.report.from && !is_ticket_of_session(written.change.ticket)
     };
     if state.written.as_ref().is_some_and(is_later) {
         return None;

@@ -7,7 +7,7 @@ pub mod sites;
 
 use std::{sync::Arc, time::Duration};
 
-use crate::{clock::Instant, engine::passes::PredictedPass, plan::Sample};
+use crate::{clock::Instant, contract::passes::PredictedPass, plan::Sample};
 
 /// Time without a change before the work begins.
 pub const DEBOUNCE: Duration = Duration::from_millis(300);

@@ -5,8 +5,7 @@ use std::{path::PathBuf, sync::Arc};
 use jiff::civil::Date;
 
 use crate::{
-    contract::record::PassQuery,
-    engine::passes::PassKey,
+    contract::{passes::PassKey, record::PassQuery},
     export::{EventFormat, ListFormat, RowFormat},
 };
 

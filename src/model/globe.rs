@@ -7,7 +7,7 @@ use jiff::Timestamp;
 use super::Model;
 use crate::{
     astro::{Angle, Cap, GroundPoint, sun_moon, time::add_seconds},
-    engine::{
+    contract::{
         antenna::AntennaModel,
         passes::{ListedSatellite, Observer},
     },

@@ -10,7 +10,7 @@ use jiff::Timestamp;
 
 use super::Model;
 use crate::{
-    engine::{antenna::AntennaModel, passes::PassKey},
+    contract::{antenna::AntennaModel, passes::PassKey},
     plan::schedule::{Joining, PlannedAntenna, Reach},
     station::AntennaId,
 };

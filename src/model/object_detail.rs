@@ -10,9 +10,8 @@ use crate::{
         Angle,
         time::{DAY_S, add_seconds, seconds_between},
     },
-    contract::older_sets::OlderSet,
-    engine::{
-        older_sets::OlderSets,
+    contract::{
+        older_sets::{OlderSet, OlderSets},
         passes::{ListedSatellite, Observer, PredictedPass},
     },
     orbit::{Elements, Pass, PassSearch, Propagator, passes},

@@ -9,7 +9,7 @@ use jiff::Timestamp;
 use super::Model;
 use crate::{
     astro::time::{add_seconds, seconds_between},
-    engine::{
+    contract::{
         antenna::AntennaModel,
         automatic::{DayEvent, Flown, Taking},
         passes::{PassKey, PredictedPass},
@@ -18,7 +18,6 @@ use crate::{
     plan::schedule::{Entry, LeftOut, Why},
     station::{AntennaId, PassChoice, Priority},
 };
-
 pub use pose::{PlannedActivity, Pose};
 
 /// Largest difference in AOS of one pass between the list and the schedule, seconds.

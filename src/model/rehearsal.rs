@@ -7,8 +7,10 @@ use jiff::Timestamp;
 use super::Model;
 use crate::{
     astro::time::seconds_between,
-    engine::passes::PassKey,
-    rehearsal::{Rehearsed, RehearsedPass},
+    contract::{
+        passes::PassKey,
+        rehearsal::{Rehearsed, RehearsedPass},
+    },
 };
 
 /// Largest difference in AOS of one pass between the list and the rehearsal, seconds.

@@ -3,7 +3,7 @@
 use super::Model;
 use crate::{
     astro::time::seconds_between,
-    engine::{
+    contract::{
         antenna::AntennaModel,
         passes::{PassKey, PredictedPass},
     },

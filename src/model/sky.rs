@@ -7,7 +7,7 @@ use jiff::Timestamp;
 use super::daylight::{self, SunSpan};
 use crate::{
     astro::{Angle, AzEl, Site, frames::SiteFrame, sun_moon},
-    engine::passes::{ListedSatellite, ahead},
+    contract::passes::{ListedSatellite, ahead},
     orbit::{LookAngles, Propagator, is_sunlit},
 };
 

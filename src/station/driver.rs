@@ -44,7 +44,7 @@ pub use debts::Debts;
 pub use link::{Dial, Endpoint, Stream, UnitLock, dial_line, endpoints, known_endpoints};
 pub use link_test::test_link;
 pub use position_log::PositionLog;
-pub use session::{JOG_LEASE, Session, Wires, is_ticket_of_session};
+pub use session::{JOG_LEASE, Session, Wires};
 pub use time_sync::time_sync;
 
 /// Maximum number of waiting commands. The station sends at most a few at a time.

@@ -10,7 +10,6 @@ pub mod claim;
 mod claims;
 mod clock_watch;
 pub mod closing;
-mod command;
 pub mod copies;
 mod demo;
 mod element_alarms;
@@ -21,7 +20,6 @@ pub mod in_place;
 mod learned;
 pub mod link_tests;
 mod lock_outs;
-pub mod notices;
 pub mod older_sets;
 pub mod on_board;
 mod opening;
@@ -36,7 +34,6 @@ pub mod reminders;
 pub mod schedule;
 mod settings;
 pub mod signals;
-mod snapshot;
 #[cfg(unix)]
 pub mod socket;
 pub mod source_tests;
@@ -49,7 +46,6 @@ mod turn;
 pub mod uploads;
 mod use_station;
 mod write_settings;
-mod written;
 
 use std::{
     io,
@@ -62,41 +58,49 @@ use jiff::Timestamp;
 use tokio::sync::{Notify, mpsc, watch};
 
 use self::{
-    alarms::{AlarmKind, Alarms},
-    antenna::AntennaModel,
-    automatic::{AtWork, DayLine, LastRun, RuleUpload},
-    claim::{Claim, HeldBy, UnitClaim, lock::Lock},
+    automatic::{AtWork, LastRun, RuleUpload},
+    claim::{Claim, UnitClaim, lock::Lock},
     claims::{ClaimsInUse, NoClaims},
     clock_watch::ClockWatch,
-    closing::Closing,
-    copies::{Copies, CopyWork},
+    copies::CopyWork,
     demo::Demo,
     handle::{AntennaEnds, Published, Request},
     learned::LearnedDrives,
-    link_tests::LinkTest,
-    older_sets::OlderSets,
-    passes::{PassLists, Searches},
+    passes::Searches,
     pointing_fit::PointingWork,
     recorded::RecordReading,
     recording::Recording,
-    reminders::Reminder,
-    schedule::{Planned, Scheduler},
-    source_tests::SourceTests,
-    sources::{Outcome, Passwords, Places, Sources, Task},
-    uploads::Uploads,
+    schedule::Scheduler,
+    sources::{Outcome, Passwords, Places, Task},
 };
 pub use self::{
-    command::{Attention, Command},
-    handle::{By, Client, Event, Handle, Stopped},
+    handle::{Client, Handle, Stopped},
     opening::{CannotOpen, look_at},
     recording::{demo_record_path, record_path, records_folder},
     settings::Settings,
-    snapshot::{CatalogState, Snapshot},
 };
 use crate::{
     clock::{Clock, Instant},
-    contract::driver::{TimeSync, Unit},
+    contract::{
+        Attention, By, CatalogState, Event, Snapshot,
+        alarms::{AlarmKind, Alarms},
+        antenna::AntennaModel,
+        automatic::DayLine,
+        claim::HeldBy,
+        closing::Closing,
+        copies::Copies,
+        driver::{TimeSync, Unit},
+        link_tests::LinkTest,
+        older_sets::OlderSets,
+        passes::PassLists,
+        reminders::Reminder,
+        schedule::Planned,
+        source_tests::SourceTests,
+        sources::Sources,
+        uploads::Uploads,
+    },
     driver::{AntennaHandle, Driver, JOG_LEASE, Outside},
+    engine::{alarms::KeepAlarms, antenna::Recent},
     job::{Job, Wake},
     station::{LockOuts, Station},
 };
@@ -212,6 +216,8 @@ struct CurrentRequest {
 /// One antenna and its session.
 struct Antenna {
     shown: AntennaModel,
+    /// Measurements from which the rates of its axes are computed.
+    recent: Recent,
     /// Tells sessions of the same antenna apart.
     session: u64,
     handle: AntennaHandle,

@@ -20,17 +20,14 @@ use std::{
 use jiff::Timestamp;
 use tokio::sync::mpsc;
 
-pub use self::{
-    fault::{Fault, FaultKind, WrongFault},
-    pass::{Rehearsed, RehearsedPass},
-};
+pub use self::fault::{Fault, FaultKind, WrongFault};
 use self::{pass::Passes, units::Units};
 use crate::{
     astro::time::{add_seconds, seconds_between},
     clock::Clock,
-    contract::driver,
+    contract::{Command, Snapshot, driver, rehearsal::Rehearsed},
     controller::SPECS,
-    engine::{Client, Command, Settings, Snapshot, in_place::InPlace, uploads},
+    engine::{Client, Settings, in_place::InPlace, uploads},
     job,
     orbit::Catalog,
     record::PassNote,

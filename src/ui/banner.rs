@@ -11,13 +11,14 @@ use super::{
     },
 };
 use crate::{
-    engine::CatalogState,
+    contract::CatalogState,
     model::{Model, UiCommand, View},
     orbit::BUNDLED_SOURCE,
 };
 
 /// Height of the strip.
 pub const HEIGHT: f32 = 32.0;
+
 /// Height of the strip of `model`, in a window that is not low.
 pub fn height(model: &Model) -> f32 {
     if has_replay(model) { replay::HEIGHT } else { HEIGHT }

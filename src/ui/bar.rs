@@ -3,8 +3,8 @@
 use egui::{Rect, Ui};
 
 use super::{
-    format, state_sentence, top_bar,
-    top_bar::{ClockHealth, ClockModel, ClockMood, StopLeftOut, TopBarModel},
+    format, state_sentence,
+    top_bar::{self, ClockHealth, ClockModel, ClockMood, StopLeftOut, TopBarModel},
     widgets::{
         alarm_list::{AlarmModel, AlarmRow, Section},
         link_chip::{AutomaticModel, ChipModel, LinkGlyph},
@@ -13,13 +13,13 @@ use super::{
     words,
 };
 use crate::{
-    contract::driver::{LinkState, StopState, TimeSync},
-    device::{Phase, panel::Check},
-    engine::{
+    contract::{
         alarms::{Alarm, AlarmKind, Placed},
         antenna::AntennaModel,
         automatic::Operation,
+        driver::{LinkState, StopState, TimeSync},
     },
+    device::{Phase, panel::Check},
     model::{Model, UiCommand},
     plan::Barrier,
     station::AntennaId,

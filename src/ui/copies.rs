@@ -1,7 +1,10 @@
 //! The dialog that compares a unit's settings with a file, and takes chosen values over
 //! into the form.
 
-use std::{collections::BTreeSet, path::Path, path::PathBuf};
+use std::{
+    collections::BTreeSet,
+    path::{Path, PathBuf},
+};
 
 use egui::{Align, Grid, Layout, RichText, ScrollArea, TextEdit, Ui};
 
@@ -10,8 +13,8 @@ use super::{
     widgets::{check_box::CheckBox, modal::modal},
 };
 use crate::{
+    contract::{self, antenna::AntennaModel, copies::OpenCopy},
     device::settings::{Difference, Field, Group, SettingsCopy, Value, Verdict},
-    engine::{self, antenna::AntennaModel, copies::OpenCopy},
     model::UiCommand,
 };
 
@@ -57,7 +60,7 @@ pub fn show(
         if let Some(path) = read {
             state.chosen.clear();
             let antenna = antenna.id();
-            commands.push(UiCommand::Station(engine::Command::ReadCopy { antenna, path }));
+            commands.push(UiCommand::Station(contract::Command::ReadCopy { antenna, path }));
         }
         match &open.read {
             None => {}
@@ -68,7 +71,7 @@ pub fn show(
     });
     if closed || modal.should_close() {
         *state = CompareState::default();
-        commands.push(UiCommand::Station(engine::Command::CloseCopy));
+        commands.push(UiCommand::Station(contract::Command::CloseCopy));
     }
     taken
 }

@@ -8,10 +8,6 @@ mod path;
 
 use egui::{Key, Label, RichText, Ui};
 
-pub use maintenance::MaintenanceDialog;
-pub use password::{PasswordDialog, SecretAnswer};
-pub use path::PathDialog;
-
 use super::{
     confirm::Question,
     text, theme,
@@ -21,7 +17,10 @@ use super::{
         told::{Tone, fact, line},
     },
 };
-use crate::{engine::host_keys::DoubtfulKey, model::UiCommand};
+use crate::{contract::host_keys::DoubtfulKey, model::UiCommand};
+pub use maintenance::MaintenanceDialog;
+pub use password::{PasswordDialog, SecretAnswer};
+pub use path::PathDialog;
 
 const WIDTH: f32 = 400.0;
 

@@ -22,10 +22,9 @@ mod sources;
 mod table;
 pub(super) mod words;
 
-pub use self::bar::refresh_due;
-
 use egui::{Rect, Ui};
 
+pub use self::bar::refresh_due;
 pub(super) use self::{
     add::{AddState, show as add_source},
     words::{objects, sentences as source_words},
@@ -33,7 +32,7 @@ pub(super) use self::{
 use self::{selection::Selection, words::Form};
 use super::{confirm::Question, replay, theme, upload::Choice, widgets::button::Button};
 use crate::{
-    engine::CatalogState,
+    contract::CatalogState,
     model::{Model, UiCommand, catalog_table},
 };
 

@@ -8,7 +8,7 @@ use super::{
 };
 use crate::{
     astro::AzEl,
-    engine::{
+    contract::{
         Command,
         passes::{ListedSatellite, PassKey, PredictedPass},
     },

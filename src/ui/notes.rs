@@ -6,7 +6,7 @@ use egui::{Align2, Area, Frame, Label, Margin, Order, Rect, RichText, Stroke, Ui
 
 use super::{map, text, theme, words};
 use crate::{
-    engine::{passes::PassKey, reminders::Reminder},
+    contract::{passes::PassKey, reminders::Reminder},
     model::{Model, UiCommand, View, export::SavedFile},
 };
 

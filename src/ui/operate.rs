@@ -29,9 +29,9 @@ use super::{
     timeline::Zoom,
 };
 use crate::{
-    contract::driver::Command,
-    engine::{
+    contract::{
         antenna::AntennaModel,
+        driver::Command,
         passes::{PassKey, PredictedPass},
     },
     model::{Model, UiCommand},

@@ -15,7 +15,7 @@ use super::{
     },
 };
 use crate::{
-    engine,
+    contract,
     model::{Model, UiCommand},
     station::{AntennaId, Light, PassLimits},
 };
@@ -48,7 +48,7 @@ pub(super) fn show(
     let form = LimitsForm { width, label_width: LABEL, antennas: &antennas, lock };
     form.show(ui, &mut limits, &all);
     if favourite.limits != limits {
-        let command = engine::Command::SetPassLimits { numbers: vec![number], limits };
+        let command = contract::Command::SetPassLimits { numbers: vec![number], limits };
         commands.push(UiCommand::Station(command));
     }
 }

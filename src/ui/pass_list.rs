@@ -22,11 +22,10 @@ use jiff::Timestamp;
 use super::{menus::PassMenu, text, theme, widgets::paint};
 use crate::{
     astro::time::seconds_between,
-    engine::passes::{PassKey, Scope, Work},
+    contract::passes::{PassKey, Scope, Work},
     model::UiCommand,
     plan::Sample,
 };
-
 pub use arrangement::{Arrangement, Light, Order};
 pub use filter::Filter;
 pub use short_row::{SHORT_ROW, short_row};

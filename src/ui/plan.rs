@@ -17,7 +17,7 @@ pub use self::state::PlanState;
 use super::{theme, widgets::paint};
 use crate::{
     astro::time::{add_seconds, seconds_between},
-    engine,
+    contract,
     model::{Model, UiCommand, plan::PlannedPass},
     station::Take,
 };
@@ -121,9 +121,9 @@ fn show_focus(ui: &Ui, list: &Response) {
 }
 
 /// The command by which the operator chooses a pass for the schedule, or leaves it to that.
-fn choose(planned: &PlannedPass<'_>, take: Option<Take>) -> engine::Command {
+fn choose(planned: &PlannedPass<'_>, take: Option<Take>) -> contract::Command {
     let predicted = planned.predicted;
-    engine::Command::ChoosePass {
+    contract::Command::ChoosePass {
         satellite: predicted.number(),
         tca: predicted.pass.tca.time,
         take,

@@ -4,13 +4,13 @@
 
 use super::{confirm::Question, format, state_sentence::short, words};
 use crate::{
-    contract::driver,
-    device::Pointing,
-    engine::{
+    contract::{
         self,
         antenna::AntennaModel,
+        driver,
         passes::{PassKey, PredictedPass},
     },
+    device::Pointing,
     model::{Model, UiCommand},
 };
 
@@ -32,7 +32,7 @@ fn question(model: &Model, command: &UiCommand) -> Option<Question> {
     let UiCommand::Station(station) = command else { return None };
     let antenna = model.antenna_of(station.antenna()?)?;
     let name = &antenna.config.name;
-    if let engine::Command::Antenna(_, driver::Command::AutoTrack(true)) = station {
+    if let contract::Command::Antenna(_, driver::Command::AutoTrack(true)) = station {
         let ends = match antenna.tracked_name() {
             Some(tracked) => format!(" It tracks {} now.", short(tracked)),
             None => String::new(),
@@ -71,7 +71,7 @@ pub(super) fn before_parking(antenna: &AntennaModel) -> Question {
 /// The question before a track, which names the one that it ends.
 fn before_a_track(model: &Model, pass: PassKey) -> Option<Question> {
     let (antenna, predicted) = (model.antenna()?, model.pass_lists.find(pass)?);
-    let track = engine::Command::Track { antenna: antenna.id(), pass, is_agreed: false };
+    let track = contract::Command::Track { antenna: antenna.id(), pass, is_agreed: false };
     let track = UiCommand::Station(track);
     let usual = || Question {
         text: format!(
@@ -107,11 +107,11 @@ fn way_there(model: &Model, antenna: &AntennaModel, predicted: &PredictedPass) -
 fn what(
     model: &Model,
     antenna: &AntennaModel,
-    command: &engine::Command,
+    command: &contract::Command,
 ) -> Option<(String, &'static str)> {
     let by_hand = |words: &str, yes| Some((words.to_owned(), yes));
     match command {
-        engine::Command::Antenna(_, command) => match command {
+        contract::Command::Antenna(_, command) => match command {
             driver::Command::Manual => by_hand("Moving by hand", "Manual"),
             driver::Command::Hold => by_hand("Position", "Position"),
             driver::Command::Position { .. } => by_hand("Going to a direction", "Go"),
@@ -120,7 +120,8 @@ fn what(
             }
             _ => None,
         },
-        engine::Command::Track { pass, .. } | engine::Command::ProgramTrackPass { pass, .. } => {
+        contract::Command::Track { pass, .. }
+        | contract::Command::ProgramTrackPass { pass, .. } => {
             let (number, _) = *pass;
             let is_other = antenna.tracked_number() != Some(number);
             is_other.then(|| (tracking(model, *pass), "Track"))

@@ -19,7 +19,7 @@ pub use self::steps::Step;
 use self::{draft::SetupDraft, steps::Progress};
 use super::{object_search::ObjectSearch, text, theme, widgets::paint};
 use crate::{
-    engine,
+    contract,
     model::{Model, UiCommand},
 };
 
@@ -113,7 +113,7 @@ impl SetupState {
             self.show_step(next);
         } else {
             let station = draft.station().map(Box::new);
-            let save = station.map(engine::Command::SaveStation);
+            let save = station.map(contract::Command::SaveStation);
             commands.extend(save.map(UiCommand::Station));
         }
     }

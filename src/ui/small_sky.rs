@@ -9,7 +9,7 @@ use super::{
     theme,
     widgets::paint,
 };
-use crate::{astro::Angle, engine::passes::PredictedPass, model::Model, orbit::LookAngles};
+use crate::{astro::Angle, contract::passes::PredictedPass, model::Model, orbit::LookAngles};
 
 /// Draws the plot in `rect`. `look`: where the satellite is now; `None` before the pass.
 pub(super) fn show(

@@ -16,11 +16,11 @@ use super::{
     words::{self, sentence},
 };
 use crate::{
-    contract::transfer::{FileProtocol, Peer},
-    engine::{
+    contract::{
         self,
         host_keys::DoubtfulKey,
         source_tests::{SourceOrder, TestAsk, TestStage, TestedSource},
+        transfer::{FileProtocol, Peer},
     },
     model::{Model, UiCommand},
     secret::Secret,
@@ -108,7 +108,7 @@ pub fn show(
 }
 
 fn push(commands: &mut Vec<UiCommand>, ask: TestAsk) {
-    commands.push(UiCommand::Station(engine::Command::TestSource(ask)));
+    commands.push(UiCommand::Station(contract::Command::TestSource(ask)));
 }
 
 fn order(
@@ -218,7 +218,7 @@ fn forget(ui: &mut Ui, key: &DoubtfulKey, question: &mut Option<Question>) {
     dialogs::changed_key(
         ui,
         key,
-        UiCommand::Station(engine::Command::TestSource(TestAsk::ForgetHostKey)),
+        UiCommand::Station(contract::Command::TestSource(TestAsk::ForgetHostKey)),
         question,
     );
 }

@@ -14,9 +14,12 @@ use super::{
 };
 use crate::{
     astro::time::add_seconds,
-    contract::driver::{Intent, StopState},
+    contract::{
+        antenna::AntennaModel,
+        driver::{Intent, StopState},
+        passes::ListedSatellite,
+    },
     device::{JogSpeeds, Phase, Pointing},
-    engine::{antenna::AntennaModel, passes::ListedSatellite},
     model::Model,
 };
 

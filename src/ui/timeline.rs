@@ -14,12 +14,11 @@ use std::ops::RangeInclusive;
 use egui::{Align2, Rangef, Rect, Role, Sense, Ui, Vec2, WidgetInfo, vec2};
 use jiff::Timestamp;
 
+use super::{format, menus::PassMenu, text, theme, widgets::paint};
 use crate::{
-    engine::passes::ListedSatellite,
+    contract::passes::ListedSatellite,
     model::{UiCommand, daylight::SunSpan, plan::Standing},
 };
-
-use super::{format, menus::PassMenu, text, theme, widgets::paint};
 use bars::LaneOf;
 use scale::Scale;
 pub use zoom::Zoom;

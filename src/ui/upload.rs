@@ -27,7 +27,7 @@ use super::{
     words::sentence,
 };
 use crate::{
-    engine::{
+    contract::{
         self, CatalogState,
         antenna::AntennaModel,
         uploads::{Ask, Cargo, Order, Stage},
@@ -170,7 +170,7 @@ fn send(
         && let Ok(order) = order
     {
         let begin = Ask::Begin(Box::new(order.clone()));
-        commands.push(UiCommand::Station(engine::Command::Upload(begin)));
+        commands.push(UiCommand::Station(contract::Command::Upload(begin)));
     }
     if let Err(problem) = order {
         let words = sentence(problem);

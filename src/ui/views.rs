@@ -23,8 +23,8 @@ use super::{
     notes::Notes,
     operate,
     pass_list::Arrangement,
-    plan, preferences, rail,
-    rail::RailEntry,
+    plan, preferences,
+    rail::{self, RailEntry},
     record, replay, second_step, setup,
     sky_plot::Layers,
     timeline::Zoom,
@@ -33,8 +33,7 @@ use super::{
     words,
 };
 use crate::{
-    contract::driver::Command,
-    engine::{self, closing::CloseHow},
+    contract::{self, closing::CloseHow, driver::Command},
     model::{MaskNews, Model, UiCommand, View, export::SavedFile, typed_path::PathRequest},
 };
 
@@ -240,7 +239,7 @@ impl Views {
         closing::waiting(ui, live, commands);
         changing::show(ui, live, commands);
         let is_manual = |command: &UiCommand| {
-            matches!(command, UiCommand::Station(engine::Command::Antenna(_, Command::Manual)))
+            matches!(command, UiCommand::Station(contract::Command::Antenna(_, Command::Manual)))
         };
         if commands.iter().skip(answered).any(is_manual) {
             self.operate.card.drive.focus_pad();
@@ -316,7 +315,7 @@ impl Views {
         self.question = None;
         match CloseHow::of(&model.station) {
             Some(how) if lost.is_empty() => {
-                commands.push(UiCommand::Station(engine::Command::CloseAfter(how)));
+                commands.push(UiCommand::Station(contract::Command::CloseAfter(how)));
             }
             _ => self.closing = Some(ClosingDialog { lost }),
         }

@@ -20,13 +20,13 @@ mod site;
 mod way_there;
 
 use crate::{
-    contract::driver::Intent,
-    controller::SPECS,
-    device::{Asked, Motion, SecondAxis, settings::Unfit},
-    engine::{
+    contract::{
         CatalogState,
         antenna::{AntennaModel, Stake},
+        driver::Intent,
     },
+    controller::SPECS,
+    device::{Asked, Motion, SecondAxis, settings::Unfit},
     model::Model,
     orbit::Elements,
     ui::format,

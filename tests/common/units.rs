@@ -7,15 +7,21 @@ use std::{
 
 use azel::{
     clock::Clock,
-    contract::{driver, driver::TimeSync},
+    contract::{
+        Command,
+        driver::{self, TimeSync},
+    },
     controller::satrak::ELEMENT_FILE,
     driver::{Dial, Outside, Stream, UnitLock},
     engine::{
-        Client, Command,
+        Client,
         status::{AntennaStatus, LinkStatus},
     },
     orbit::{Elements, bundled},
-    sim::{rc2000c, rotator_genius, satrak, satrak::BUNDLED_FILE},
+    sim::{
+        rc2000c, rotator_genius,
+        satrak::{self, BUNDLED_FILE},
+    },
     station::{Antenna, AntennaId, Station},
 };
 use jiff::Timestamp;

@@ -5,20 +5,18 @@ use std::path::PathBuf;
 use azel::{
     astro::{Angle, AzEl, Offset, Site, TrackOffsets},
     contract::{
-        driver::{Command, OffsetChange},
-        record::{Peak, PeakChange, PeakOf},
-    },
-    device::{Pointing, panel::Act, settings::Change},
-    engine::{
         self, Attention,
         alarms::ShelveTime,
         closing::CloseHow,
+        driver::{Command, OffsetChange},
         older_sets::SetChoice,
         passes::{PassKey, Scope},
+        record::{Peak, PeakChange, PeakOf},
         source_tests::TestAsk,
         sources::Copied,
         uploads::Ask,
     },
+    device::{Pointing, panel::Act, settings::Change},
     orbit::{Source, SourcePlace},
     plan::{OnBoardPass, ProgramTrack, Target},
     secret::Secret,
@@ -138,8 +136,8 @@ pub(super) fn commands_of_stations(
     antenna: AntennaId,
     pass: PassKey,
     station: Station,
-) -> Vec<engine::Command> {
-    use engine::Command as C;
+) -> Vec<contract::Command> {
+    use azel::contract::Command as C;
     let (number, aos) = pass;
     let numbers = || vec![number];
     let unit = station.antennas.first().unwrap().clone();

@@ -5,19 +5,18 @@ use std::time::Duration;
 use azel::{
     astro::Angle,
     contract::{
-        driver::{self, Effect, Event, Intent, Refusal, StopState},
-        transfer::{FileName, Peer, TleFile},
-    },
-    controller::SPECS,
-    device::Pointing,
-    engine::{
-        Client, Command,
+        Command,
         alarms::AlarmKind,
         automatic::{Interruption, Operation},
         closing::CloseHow,
+        driver::{self, Effect, Event, Intent, Refusal, StopState},
         passes::PassKey,
+        transfer::{FileName, Peer, TleFile},
         uploads::{Ask, Cargo, Order, Stage as UploadStage},
     },
+    controller::SPECS,
+    device::Pointing,
+    engine::Client,
     orbit::bundled,
     station::{AntennaId, Station},
 };

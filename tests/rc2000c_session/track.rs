@@ -1,9 +1,12 @@
 //! Track mode of the unit: shown, left alone, and ended only on request.
 
 use azel::{
-    contract::driver::{Command, Event, Found, LinkState, Refusal},
+    contract::{
+        alarms::AlarmKind,
+        driver::{Command, Event, Found, LinkState, Refusal},
+    },
     device::{Asked, panel::CheckState, settings::Value},
-    engine::alarms::{AlarmKind, alarm_of},
+    engine::alarms::alarm_of,
     sim::rc2000c::{Fault, Mode, Options, Quirk},
 };
 

@@ -13,12 +13,13 @@ use std::{
 use azel::{
     app::App,
     clock::Clock,
-    controller::{SPECS, satrak::ELEMENT_FILE},
-    engine::{
-        CatalogState, Command, Settings,
+    contract::{
+        CatalogState, Command,
         automatic::DayEvent,
-        uploads::{Failure, Places, Stage},
+        uploads::{Failure, Stage},
     },
+    controller::{SPECS, satrak::ELEMENT_FILE},
+    engine::{Settings, uploads::Places},
     model::Model,
     sim::satrak::{Control, Options, Simulator},
     station::{self, Antenna, AntennaId, Station},

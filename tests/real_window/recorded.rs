@@ -8,9 +8,9 @@ use std::{
 
 use azel::{
     clock::Clock,
-    contract::record::PassQuery,
+    contract::{Command, record::PassQuery},
     controller::SPECS,
-    engine::{Command, Settings, demo_record_path, in_place::InPlace, record_path},
+    engine::{Settings, demo_record_path, in_place::InPlace, record_path},
     job,
     orbit::{Pass, PassSearch, Propagator, bundled, passes},
     record::passes as recorded,

@@ -6,12 +6,13 @@ use std::{sync::Arc, time::Duration};
 
 use azel::{
     astro::time::seconds_between,
-    contract::driver,
-    engine::{
-        Client, Command,
+    contract::{
+        Command,
         automatic::{Flown, Interruption, MissCause, OffBecause, Operation},
+        driver,
         passes::PassKey,
     },
+    engine::Client,
     plan::{pass_report::LossCause, schedule::Entry},
     sim::satrak,
     station::{AntennaId, LockOut, Station},

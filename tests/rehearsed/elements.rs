@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use azel::{
-    engine::{Client, Command},
+    contract::Command,
+    engine::Client,
     orbit::{
         Catalog, Elements, FetchProblem, Source, SourcePlace, SourceReport, bundled, read_elements,
         write_omm_json,

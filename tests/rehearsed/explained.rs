@@ -10,8 +10,7 @@ use std::{collections::BTreeMap, num::NonZeroU32, time::Duration};
 use azel::{
     astro::{PointingModel, Site},
     clock::Clock,
-    contract::record::RecordedReport,
-    engine::Command,
+    contract::{Command, record::RecordedReport},
     orbit::{Catalog, Elements, Pass, PassSearch, Propagator, bundled, passes},
     record::RowKind,
     sim::{

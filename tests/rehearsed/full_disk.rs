@@ -7,8 +7,12 @@ use std::{
 
 use azel::{
     astro::time::seconds_between,
-    contract::record::{Peak, PeakChange, PeakOf, Row},
-    engine::{Client, Command, alarms::AlarmKind, film::Projector},
+    contract::{
+        Command,
+        alarms::AlarmKind,
+        record::{Peak, PeakChange, PeakOf, Row},
+    },
+    engine::{Client, film::Projector},
     record::{Kind, RowKind, open_pass},
     station::{PollRates, Station},
 };

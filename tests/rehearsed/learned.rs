@@ -1,8 +1,11 @@
 //! Learned figures of the drives outlast the session and the station that learned them.
 
 use azel::{
-    contract::{driver, driver::AxisLessons},
-    engine::{Client, Command},
+    contract::{
+        Command,
+        driver::{self, AxisLessons},
+    },
+    engine::Client,
     station::Station,
 };
 

@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use azel::{
-    engine::{Client, Command, passes::PassKey, schedule::Planned},
+    contract::{Command, passes::PassKey, schedule::Planned},
+    engine::Client,
     plan::schedule::{Change, Changed, Refusal, Rule, Why},
     station::{PassLimits, Station, Take},
 };

@@ -8,17 +8,15 @@ use std::{
 use azel::{
     astro::{Angle, Offset, PointingModel, Term, TrackOffsets},
     contract::{
-        driver::{self, OffsetChange},
-        record::{ListedKind, PassQuery, Peak, PeakChange, PeakOf, Peaks, Row},
-    },
-    controller::SPECS,
-    engine::{
-        Client, Command,
+        Command,
         alarms::AlarmKind,
+        driver::{self, OffsetChange},
         passes::PredictedPass,
-        record_path,
+        record::{ListedKind, PassQuery, Peak, PeakChange, PeakOf, Peaks, Row},
         recorded::{Found, RecordLook},
     },
+    controller::SPECS,
+    engine::{Client, record_path},
     orbit::{Pass, PassSearch, Propagator, bundled, passes},
     plan::{
         pass_report::{Cause, LossCause, PassReport, PassVerdict},
@@ -266,7 +264,7 @@ async fn a_pass_of_a_unit_is_reported_beside_the_offset_that_was_added_to_it() {
     })
     .await;
     client.send(Command::Track { antenna: dish, pass: key, is_agreed: false }).unwrap();
-    let dish_of = |snapshot: &azel::engine::Snapshot| {
+    let dish_of = |snapshot: &azel::contract::Snapshot| {
         let found = snapshot.antennas.iter().find(|of| of.id() == dish)?;
         Some(std::sync::Arc::clone(&found.snapshot))
     };

@@ -6,12 +6,13 @@ use std::{num::NonZeroU32, path::Path, sync::Arc};
 
 use azel::{
     clock::Clock,
+    contract::rehearsal::Rehearsed,
     controller::SPECS,
     engine::{Client, Handle, Settings},
     makes::DemoAddresses,
     orbit::bundled,
     record::RowKind,
-    rehearsal::{Rehearsal, Rehearsed, run},
+    rehearsal::{Rehearsal, run},
     sim::Mechanics,
     station::{self, Station},
 };

@@ -4,8 +4,12 @@ use std::{sync::Arc, time::Duration};
 
 use azel::{
     clock::{Instant, Moment},
-    contract::record::{Peak, PeakChange, PeakOf},
-    engine::{Client, Command, Snapshot, film::Projector, passes::PredictedPass},
+    contract::{
+        Command, Snapshot,
+        passes::PredictedPass,
+        record::{Peak, PeakChange, PeakOf},
+    },
+    engine::{Client, film::Projector},
     model::Model,
     record::{Kind, RowKind},
     station::{AntennaId, Station},

@@ -2,8 +2,7 @@
 
 use azel::{
     astro::{Angle, Site},
-    contract::driver,
-    engine::{Command, alarms::AlarmKind, antenna::AntennaModel},
+    contract::{Command, alarms::AlarmKind, antenna::AntennaModel, driver},
     station::Station,
 };
 

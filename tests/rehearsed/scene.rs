@@ -4,9 +4,9 @@ use std::{fs, num::NonZeroU32, path::Path, sync::Arc};
 
 use azel::{
     clock::Clock,
-    contract::older_sets::OlderSet,
+    contract::{Command, automatic::Operation, older_sets::OlderSet},
     controller::SPECS,
-    engine::{Client, Command, Settings, automatic::Operation, in_place::InPlace, uploads},
+    engine::{Client, Settings, in_place::InPlace, uploads},
     job,
     library::History,
     orbit::Elements,

@@ -2,8 +2,8 @@
 
 use azel::{
     astro::time::seconds_between,
-    contract::driver,
-    engine::{Client, Command, Snapshot, alarms::AlarmKind, status::LinkStatus},
+    contract::{Command, Snapshot, alarms::AlarmKind, driver},
+    engine::{Client, status::LinkStatus},
     plan::{ProgramTrack, Target},
     sim::{rc2000c, rotator_genius, satrak},
 };

@@ -13,18 +13,16 @@ use azel::{
     astro::time::{add_seconds, seconds_between},
     clock::{Clock, Instant},
     contract::{
-        driver,
-        driver::{LinkState, TimeSync},
-    },
-    device::{Measured, Phase},
-    engine::{
-        Client, Command,
+        Command,
         alarms::AlarmKind,
         automatic::{
             DayEvent, Doing, GivenUp, Interruption, MissCause, NotReady, OffBecause, On, Operation,
         },
         closing::CloseHow,
+        driver::{self, LinkState, TimeSync},
     },
+    device::{Measured, Phase},
+    engine::Client,
     orbit::{PassSearch, Propagator, bundled, passes},
     protocol::{
         rotator_genius::WholeDegrees,

@@ -4,8 +4,8 @@ use std::time::Duration;
 
 use azel::{
     astro::time::{add_seconds, seconds_between},
-    contract::driver::TimeSync,
-    engine::{Client, automatic::DayEvent},
+    contract::{automatic::DayEvent, driver::TimeSync},
+    engine::Client,
     protocol::satrak::{ClockTime, Request, Setting},
     sim::{InMemory as _, Trouble},
     station::AntennaId,

@@ -17,10 +17,11 @@ use std::time::Duration;
 
 use azel::{
     astro::time::{add_seconds, seconds_between},
-    engine::{
-        Client, Command,
+    contract::{
+        Command,
         automatic::{OffBecause, Operation},
     },
+    engine::Client,
     station::AntennaId,
 };
 use jiff::Timestamp;

@@ -6,9 +6,12 @@
 use std::{iter::successors, time::Duration};
 
 use azel::{
-    contract::driver::{Intent, LinkLoss, LinkState, Snapshot, StopState},
+    contract::{
+        automatic::{Doing, Interruption, OffBecause, Operation},
+        driver::{Intent, LinkLoss, LinkState, Snapshot, StopState},
+    },
     device::{AxisMotion, Phase},
-    engine::automatic::{Doing, Interruption, OffBecause, Operation},
+    engine::antenna::{Recent, refresh},
     model::Model,
 };
 
@@ -131,7 +134,9 @@ fn check(what: &str, snapshot: &Snapshot, operation: Option<&Operation>) {
         if let Some(operation) = operation {
             first.operation = operation.clone();
         }
-        first.refresh(model.station.site, |number| model.pass_lists.satellite(number));
+        refresh(first, &mut Recent::default(), model.station.site, |number| {
+            model.pass_lists.satellite(number)
+        });
         let window = rig::window(size, model);
         nothing_is_cut(&window, size);
         let cut: Vec<String> =

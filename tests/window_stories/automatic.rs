@@ -4,10 +4,10 @@ use std::sync::Arc;
 
 use azel::{
     astro::time::add_seconds,
-    contract::driver::{LinkLoss, LinkState},
-    engine::{
+    contract::{
         Command,
         automatic::{Doing, Interruption, OffBecause, Operation, Taking},
+        driver::{LinkLoss, LinkState},
     },
     model::{Model, UiCommand, View},
     station::OnClose,

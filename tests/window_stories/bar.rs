@@ -2,11 +2,14 @@
 
 use azel::{
     clock::Instant,
-    contract::driver::{Intent, LinkLoss, LinkState, Snapshot, StopState},
+    contract::{
+        self,
+        alarms::{AlarmKind, ShelveTime, Work},
+        driver::{Intent, LinkLoss, LinkState, Snapshot, StopState},
+    },
     controller::satrak::checks,
     device::{Asked, Motion},
-    engine,
-    engine::alarms::{AlarmKind, ShelveTime, Work},
+    engine::alarms::KeepAlarms,
     model::{ThemeName, UiCommand, View},
     station::{AntennaId, Note, NoteReason},
     ui::{format, theme, words},
@@ -27,17 +30,17 @@ fn carry_out(window: &mut Window) -> Vec<UiCommand> {
     let model = &mut window.state_mut().model;
     for command in &commands {
         match command {
-            UiCommand::Station(engine::Command::OpenedAlarms) => model.alarms.unopened = false,
-            UiCommand::Station(engine::Command::AcknowledgeAlarm(id)) => {
+            UiCommand::Station(contract::Command::OpenedAlarms) => model.alarms.unopened = false,
+            UiCommand::Station(contract::Command::AcknowledgeAlarm(id)) => {
                 model.alarms.acknowledge(*id, rig::now());
             }
-            UiCommand::Station(engine::Command::AcknowledgeAlarms { newest }) => {
+            UiCommand::Station(contract::Command::AcknowledgeAlarms { newest }) => {
                 model.alarms.acknowledge_all(*newest, model.now);
             }
-            UiCommand::Station(engine::Command::ShelveAlarm { id, time }) => {
+            UiCommand::Station(contract::Command::ShelveAlarm { id, time }) => {
                 model.alarms.shelve(*id, *time, model.now);
             }
-            UiCommand::Station(engine::Command::UnshelveAlarm(id)) => model.alarms.unshelve(*id),
+            UiCommand::Station(contract::Command::UnshelveAlarm(id)) => model.alarms.unshelve(*id),
             other => panic!("{other:?}"),
         }
     }
@@ -131,12 +134,12 @@ fn an_alarm_is_opened_acknowledged_and_stays_until_it_is_over() {
         let text = words::alarm(&kind, "Satrak", rig::now());
         let mut window = rig::window(size, model);
         window.get_by_label("2 alarms, 2 new").click();
-        assert_eq!(carry_out(&mut window), [UiCommand::Station(engine::Command::OpenedAlarms)]);
+        assert_eq!(carry_out(&mut window), [UiCommand::Station(contract::Command::OpenedAlarms)]);
         window.get_by_label(&format!("{text}, 11:15:30Z, new"));
         window.get_by_label(&format!("Acknowledge: {text}")).click();
         assert_eq!(
             carry_out(&mut window),
-            [UiCommand::Station(engine::Command::AcknowledgeAlarm(0))]
+            [UiCommand::Station(contract::Command::AcknowledgeAlarm(0))]
         );
         window.get_by_label(&format!("{text}, 11:15:30Z, seen"));
         window.get_by_label("2 alarms, 1 new");
@@ -180,7 +183,7 @@ fn all_alarms_are_acknowledged_at_once() {
         window.get_by_label("2 alarms, 2 new").click();
         carry_out(&mut window);
         window.get_by_label("Acknowledge all").click();
-        let wanted = engine::Command::AcknowledgeAlarms { newest: 1 };
+        let wanted = contract::Command::AcknowledgeAlarms { newest: 1 };
         assert_eq!(carry_out(&mut window), [UiCommand::Station(wanted)]);
         window.get_by_label("1 alarm, seen");
         assert!(!says(&window, "Acknowledge"));
@@ -204,12 +207,12 @@ fn a_seen_alarm_is_shelved_and_taken_back_but_no_top_priority_one() {
         window.get_by_label(&format!("Shelve: {text}")).click();
         assert_eq!(carry_out(&mut window), []);
         window.get_by_label(&format!("Shelve for 1 h: {text}")).click();
-        let wanted = engine::Command::ShelveAlarm { id: 0, time: ShelveTime::OneHour };
+        let wanted = contract::Command::ShelveAlarm { id: 0, time: ShelveTime::OneHour };
         assert_eq!(carry_out(&mut window), [UiCommand::Station(wanted)]);
         window.get_by_label("1 alarm, seen");
         window.get_by_label(&format!("{text}, 11:15:30Z, shelved to 12:15:30Z"));
         window.get_by_label(&format!("Unshelve: {text}")).click();
-        let wanted = engine::Command::UnshelveAlarm(0);
+        let wanted = contract::Command::UnshelveAlarm(0);
         assert_eq!(carry_out(&mut window), [UiCommand::Station(wanted)]);
         window.get_by_label(&format!("{text}, 11:15:30Z, seen"));
     }
@@ -229,7 +232,7 @@ fn a_acknowledges_the_newest_alarm_in_every_view() {
                 window.key_press(Key::A);
                 assert_eq!(
                     carry_out(&mut window),
-                    [UiCommand::Station(engine::Command::AcknowledgeAlarm(id))]
+                    [UiCommand::Station(contract::Command::AcknowledgeAlarm(id))]
                 );
             }
             window.key_press(Key::A);

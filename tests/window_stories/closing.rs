@@ -4,9 +4,12 @@ use std::{path::Path, sync::Arc};
 
 use azel::{
     clock::Clock,
-    contract::driver::{Intent, LinkState, Snapshot, StopState},
+    contract::{
+        self,
+        closing::CloseHow,
+        driver::{Intent, LinkState, Snapshot, StopState},
+    },
     controller::SPECS,
-    engine::{self, closing::CloseHow},
     model::{Model, UiCommand, View},
     station::{self, OnClose},
 };
@@ -118,7 +121,7 @@ fn antennas_that_move_or_are_tracked_are_asked_about_by_name() {
             press(&mut window, word);
             assert_eq!(
                 rig::asked(&mut window),
-                [UiCommand::Station(engine::Command::CloseAfter(how))]
+                [UiCommand::Station(contract::Command::CloseAfter(how))]
             );
             assert!(!rig::says(&window, "Close Azel?"));
         }
@@ -140,7 +143,10 @@ fn what_the_station_says_of_closing_is_done_unasked_unless_something_else_is_los
         Arc::make_mut(&mut model.station).on_close = Some(on_close);
         let mut window = asked_about(LARGE, model);
         assert!(!rig::says(&window, "Close Azel?"));
-        assert_eq!(rig::asked(&mut window), [UiCommand::Station(engine::Command::CloseAfter(how))]);
+        assert_eq!(
+            rig::asked(&mut window),
+            [UiCommand::Station(contract::Command::CloseAfter(how))]
+        );
     }
     let mut model = rig::model(states::tracking(0.1));
     (Arc::make_mut(&mut model.station).on_close, model.view) =

@@ -7,12 +7,14 @@ use azel::{
     astro::{Angle, AzEl},
     clock::Clock,
     contract::{
+        self,
+        alarms::AlarmKind,
         driver::{Command, LinkState, StopState},
         record::Row,
     },
     controller::SPECS,
     device::{Measured, panel::Act, settings::Value},
-    engine::{self, Handle, Settings, alarms::AlarmKind},
+    engine::{self, Handle, Settings},
     model::{Model, UiCommand, View},
     record::{Query, Record, RowKind},
     station,
@@ -51,7 +53,7 @@ fn stands_at(model: &Model, antenna: usize, azimuth_deg: f64, elevation_deg: f64
 
 fn send(window: &RealWindow, antenna: usize, command: Command) {
     let id = window.state().model().antennas[antenna].id();
-    let command = engine::Command::Antenna(id, command);
+    let command = contract::Command::Antenna(id, command);
     assert!(window.state().station().client().send(command).is_ok());
 }
 
@@ -189,7 +191,7 @@ fn a_pass_under_way_is_reported_before_a_station_of_ones_own_comes_into_use() {
     // It is refused until the faults of the unit are known.
     wait_until("the track", || {
         let shown = client.snapshot();
-        if shown.antennas.get(SATRAK).is_some_and(engine::antenna::AntennaModel::tracks) {
+        if shown.antennas.get(SATRAK).is_some_and(azel::contract::antenna::AntennaModel::tracks) {
             return true;
         }
         let now = client.now().utc;
@@ -199,14 +201,14 @@ fn a_pass_under_way_is_reported_before_a_station_of_ones_own_comes_into_use() {
         let pass = passes.iter().find(|pass| pass.in_progress(now));
         let Some((satrak, pass)) = satrak.zip(pass) else { return false };
         let (antenna, pass) = (satrak.id(), pass.key());
-        client.send(engine::Command::ProgramTrackPass { antenna, pass }).unwrap();
+        client.send(contract::Command::ProgramTrackPass { antenna, pass }).unwrap();
         false
     });
     let tracked_at = client.now().utc;
     // It is taken up within a second.
     wait_until("the pass", || client.now().utc > tracked_at + 2.seconds());
     let own = station::Station { antennas: Vec::new(), ..station::Station::default() };
-    client.send(engine::Command::SaveStation(Box::new(own))).unwrap();
+    client.send(contract::Command::SaveStation(Box::new(own))).unwrap();
     wait_until("the station of one's own", || !client.snapshot().demo);
     let query = Query { what: vec![RowKind::Pass], ..Query::default() };
     let mut passes = Vec::new();

@@ -9,10 +9,8 @@ use std::{path::PathBuf, sync::Arc};
 
 use azel::{
     astro::time::add_seconds,
-    engine::{
-        self,
-        sources::{SourceWork, Sources},
-    },
+    contract,
+    contract::sources::{SourceWork, Sources},
     model::{UiCommand, View},
     orbit::{
         FetchProblem, FileReport, MergeSummary, RefreshHours, RequestLimit, Source, SourcePlace,
@@ -109,7 +107,7 @@ fn is_disabled(window: &Window, button: &str) -> bool {
 
 fn refresh(names: &[&str], forced: bool) -> UiCommand {
     let names = names.iter().map(|name| (*name).to_owned()).collect();
-    UiCommand::Station(engine::Command::RefreshSources { names, forced })
+    UiCommand::Station(contract::Command::RefreshSources { names, forced })
 }
 
 #[test]
@@ -196,7 +194,7 @@ fn a_server_is_set_to_be_asked_by_itself() {
         settle(&mut window);
         window.get_by_label("Every 6 h").click();
         let hours = Some(RefreshHours::from(6));
-        let wanted = engine::Command::SetRefresh { name: "weather".to_owned(), hours };
+        let wanted = contract::Command::SetRefresh { name: "weather".to_owned(), hours };
         assert_eq!(asked(&mut window), [UiCommand::Station(wanted)]);
         Arc::make_mut(&mut window.state_mut().model.sources).list[0].refresh = hours;
         settle(&mut window);
@@ -217,7 +215,7 @@ fn a_source_is_removed_after_a_question() {
         window.key_press(Key::Enter);
         assert_eq!(
             asked(&mut window),
-            [UiCommand::Station(engine::Command::RemoveSource("own".to_owned()))]
+            [UiCommand::Station(contract::Command::RemoveSource("own".to_owned()))]
         );
     }
 }
@@ -240,7 +238,7 @@ fn a_typed_source_is_added_once_it_is_right_and_stays_typed_until_it_is_there() 
         click(&mut window, "Add source");
         assert_eq!(
             asked(&mut window),
-            [UiCommand::Station(engine::Command::AddSource(file_source()))]
+            [UiCommand::Station(contract::Command::AddSource(file_source()))]
         );
         let path = |window: &Window| {
             window.get_by_role_and_label(Role::TextInput, "Path").value().unwrap_or_default()
@@ -293,7 +291,7 @@ fn a_known_server_is_filled_in_and_a_plain_address_is_refused() {
         click(&mut window, "Add source");
         assert_eq!(
             asked(&mut window),
-            [UiCommand::Station(engine::Command::AddSource(Source::celestrak("stations")))]
+            [UiCommand::Station(contract::Command::AddSource(Source::celestrak("stations")))]
         );
         click(&mut window, "SatNOGS");
         window.get_by_role_and_label(Role::Button, "Add source").scroll_to_me();
@@ -301,7 +299,7 @@ fn a_known_server_is_filled_in_and_a_plain_address_is_refused() {
         click(&mut window, "Add source");
         assert_eq!(
             asked(&mut window),
-            [UiCommand::Station(engine::Command::AddSource(Source::satnogs()))]
+            [UiCommand::Station(contract::Command::AddSource(Source::satnogs()))]
         );
     }
 }
@@ -332,7 +330,7 @@ fn space_track_is_added_with_its_log_in_name() {
         window.get_by_role_and_label(Role::Button, "Add source").scroll_to_me();
         settle(&mut window);
         click(&mut window, "Add source");
-        let wanted = engine::Command::AddSource(space_track().0);
+        let wanted = contract::Command::AddSource(space_track().0);
         assert_eq!(asked(&mut window), [UiCommand::Station(wanted)]);
     }
 }
@@ -348,7 +346,7 @@ fn a_missing_or_refused_password_is_told_and_entered_in_a_dialog() {
         window.event(Event::Text("hunter2".to_owned()));
         settle(&mut window);
         click(&mut window, "Log in (Enter)");
-        let wanted = engine::Command::SetSourcePassword {
+        let wanted = contract::Command::SetSourcePassword {
             name: "Space-Track".to_owned(),
             secret: Secret::new("hunter2"),
             keep: false,

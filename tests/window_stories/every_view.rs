@@ -11,14 +11,17 @@ mod tooltips;
 mod tree;
 mod units;
 
-pub(crate) use days::words;
-
 use std::{collections::BTreeMap, sync::Arc};
 
 use azel::{
     astro::time::add_seconds,
-    contract::driver::{Intent, LinkLoss, LinkState, Snapshot},
-    engine::{self, alarms::AlarmKind, automatic::Doing},
+    contract::{
+        self,
+        alarms::AlarmKind,
+        automatic::Doing,
+        driver::{Intent, LinkLoss, LinkState, Snapshot},
+    },
+    engine::alarms::KeepAlarms,
     model::{DistanceUnit, Model, UiCommand, View},
     station::AntennaId,
 };
@@ -33,6 +36,7 @@ use crate::window_stories::{
     rig::{self, LARGE, SMALL, Window, asked, settle},
     settings_rig, setup, states, wide,
 };
+pub(crate) use days::words;
 
 /// A view in one of its states.
 pub(crate) struct Scene {
@@ -319,8 +323,9 @@ fn press(window: &mut Window, key: Key) {
 
 /// Carries out the command that a key has asked for, as far as it opens something.
 fn take_up(window: &mut Window) {
-    let opens =
-        |command: &UiCommand| matches!(command, UiCommand::Station(engine::Command::OpenedAlarms));
+    let opens = |command: &UiCommand| {
+        matches!(command, UiCommand::Station(contract::Command::OpenedAlarms))
+    };
     if asked(window).iter().any(opens) {
         window.state_mut().model.alarms.unopened = false;
     }
@@ -378,7 +383,7 @@ fn alarmed() -> Model {
     model.alarms.raise(of, AlarmKind::ClockNotSet, now);
     model.alarms.raise(of, AlarmKind::AutoStaysOn, now);
     model.alarms.acknowledge_all(1, now);
-    model.alarms.shelve(0, engine::alarms::ShelveTime::OneHour, now);
+    model.alarms.shelve(0, azel::contract::alarms::ShelveTime::OneHour, now);
     model.alarms.raise(of, AlarmKind::LinkLost(LinkLoss::Closed), now);
     model.alarms.clear(of, now, |kind| matches!(kind, AlarmKind::LinkLost(_)));
     model.alarms.raise(of, AlarmKind::StopNotConfirmed, now);

@@ -3,8 +3,12 @@
 use std::sync::Arc;
 
 use azel::{
-    contract::driver::{LinkLoss, LinkState, Snapshot},
-    engine::{self, CatalogState, passes::PassLists},
+    contract::{
+        self, CatalogState,
+        driver::{LinkLoss, LinkState, Snapshot},
+        passes::PassLists,
+    },
+    engine::antenna::{Recent, refresh},
     model::{Model, Sky, UiCommand, View},
 };
 use egui::{Rect, Role, pos2, vec2};
@@ -66,7 +70,9 @@ fn the_longest_names_cut_nothing() {
             for index in 0..count {
                 config.name = format!("{}{index}", &LONG[..LONG.len() - 1]);
                 let mut antenna = rig::antenna(config.clone(), states::tracking(0.04));
-                antenna.refresh(model.station.site, |number| model.pass_lists.satellite(number));
+                refresh(&mut antenna, &mut Recent::default(), model.station.site, |number| {
+                    model.pass_lists.satellite(number)
+                });
                 model.antennas.push(antenna);
             }
             let window = rig::window(size, model);
@@ -126,7 +132,7 @@ fn without_elements_it_says_so_and_the_antenna_can_still_be_driven() {
         window.drag_at(window.get_by_label("Jog X+").rect().center());
         let commands = asked(&mut window);
         assert!(
-            matches!(commands[..], [UiCommand::Station(engine::Command::Antenna(..)), ..]),
+            matches!(commands[..], [UiCommand::Station(contract::Command::Antenna(..)), ..]),
             "{commands:?}"
         );
     }

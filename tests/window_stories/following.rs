@@ -1,22 +1,25 @@
 //! Program track of an antenna.
 
+use std::{sync::Arc, time::Duration};
+
 use azel::{
     astro::{
         Angle, AzEl, TrackOffsets,
         time::{add_seconds, seconds_between},
     },
     clock::Instant,
-    contract::driver::{Command, Event, Found, Intent, LinkState, Snapshot, TrackView},
+    contract::{
+        self,
+        driver::{Command, Event, Found, Intent, LinkState, Snapshot, TrackView},
+        passes::PredictedPass,
+    },
     device::AxisMotion,
-    engine::{self, passes::PredictedPass},
+    engine::antenna::{Recent, refresh},
     model::{Model, UiCommand},
     plan::{ProgramTrack, Sample, Target, TrackPhase, TrackStats, program_track::OnPath},
     station::{Antenna, AntennaId, Mount},
     ui::bar::activity,
 };
-
-use std::{sync::Arc, time::Duration};
-
 use egui::Role;
 use egui_kittest::kittest::Queryable as _;
 
@@ -48,7 +51,9 @@ fn following(phase: TrackPhase, off_deg: f64, motion: AxisMotion) -> Model {
     snapshot.state.measured = Some(states::measured(134.0, 20.0 + off_deg, motion));
     let mut model = rig::model(rig::quiet());
     let mut antenna = rig::antenna(Antenna::genius("Mast", "192.168.1.250:9006"), snapshot);
-    antenna.refresh(model.station.site, |number| model.pass_lists.satellite(number));
+    refresh(&mut antenna, &mut Recent::default(), model.station.site, |number| {
+        model.pass_lists.satellite(number)
+    });
     model.antennas = vec![antenna];
     model
 }
@@ -235,7 +240,7 @@ fn chosen(size: [f32; 2], antenna: Antenna, entry: &str) -> Vec<UiCommand> {
 fn followed(size: [f32; 2], antenna: Antenna, entry: &str) -> ProgramTrack {
     match chosen(size, antenna, entry).as_slice() {
         [
-            UiCommand::Station(engine::Command::Antenna(
+            UiCommand::Station(contract::Command::Antenna(
                 AntennaId(1),
                 Command::ProgramTrack(follow),
             )),
@@ -262,11 +267,12 @@ fn sun_moon_and_a_direction_are_followed_by_one_click() {
 fn a_unit_that_tracks_by_itself_can_be_sent_from_here_all_the_same() {
     let satrak = Antenna::satrak("Dish", "192.168.10.21:4001");
     let entry = "Follow NOAA 20 position by position, from here";
-    let Some(UiCommand::Station(engine::Command::Track { pass, .. })) = Some(rig::track_noaa_20())
+    let Some(UiCommand::Station(contract::Command::Track { pass, .. })) =
+        Some(rig::track_noaa_20())
     else {
         unreachable!()
     };
     let wanted =
-        [UiCommand::Station(engine::Command::ProgramTrackPass { antenna: AntennaId(1), pass })];
+        [UiCommand::Station(contract::Command::ProgramTrackPass { antenna: AntennaId(1), pass })];
     assert_eq!(chosen(rig::LARGE, satrak, entry), wanted);
 }

@@ -28,7 +28,8 @@ fn click_the_south(window: &mut Window) -> Pointing {
     window.drag_at(at);
     window.drop_at(at);
     let commands = asked(window);
-    let [UiCommand::Station(azel::engine::Command::Antenna(AntennaId(1), command))] = &commands[..]
+    let [UiCommand::Station(azel::contract::Command::Antenna(AntennaId(1), command))] =
+        &commands[..]
     else {
         panic!("{commands:?}")
     };

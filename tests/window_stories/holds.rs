@@ -4,12 +4,16 @@ use std::sync::Arc;
 
 use azel::{
     astro::AzEl,
-    contract::driver::{
-        Command, Event, Inside, Intent, LeftMoving, Mover, Refusal, Response, Safety, Snapshot,
-        StopState,
+    contract::{
+        self,
+        alarms::AlarmKind,
+        driver::{
+            Command, Event, Inside, Intent, LeftMoving, Mover, Refusal, Response, Safety, Snapshot,
+            StopState,
+        },
     },
     device::{panel::Act, settings::Values},
-    engine::{self, alarms::AlarmKind},
+    engine::alarms::KeepAlarms,
     model::{Model, UiCommand},
     plan::{Barrier, Target},
     station::{Antenna, AntennaId, KeepOut, SunAvoidance},
@@ -142,13 +146,13 @@ fn the_sun_is_followed_at_once_or_by_a_hold_that_names_its_avoidance() {
         };
         let follow = |window: &mut Window| match &asked(window)[..] {
             [
-                UiCommand::Station(engine::Command::Antenna(
+                UiCommand::Station(contract::Command::Antenna(
                     AntennaId(1),
                     Command::ProgramTrack(follow),
                 )),
             ] => (follow.target.clone(), false),
             [
-                UiCommand::Station(engine::Command::Antenna(
+                UiCommand::Station(contract::Command::Antenna(
                     AntennaId(1),
                     Command::ProgramTrackIntoSun(follow),
                 )),
@@ -187,7 +191,7 @@ fn an_alarm_about_the_sun_offers_to_move_away_in_one_step() {
             let mut window = rig::window(size, model);
             window.get_by_label_contains("1 alarm").click();
             rig::settle(&mut window);
-            assert_eq!(asked(&mut window), [UiCommand::Station(engine::Command::OpenedAlarms)]);
+            assert_eq!(asked(&mut window), [UiCommand::Station(contract::Command::OpenedAlarms)]);
             window
         };
         let mut window = alarmed(inside(Barrier::Sun, false));

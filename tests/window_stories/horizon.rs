@@ -7,6 +7,7 @@ use azel::{
     contract::driver::{Intent, Snapshot, StoppingWay},
     controller::SPECS,
     device::AxisMotion,
+    engine::antenna::{Recent, refresh},
     model::{
         Model, UiCommand, View,
         effects::{self, Effect, obstacles},
@@ -414,7 +415,7 @@ fn each_mark_takes_what_was_measured_of_an_antenna_that_stands_in_manual() {
         let model = &mut window.state_mut().model;
         let site = model.station.site;
         for antenna in &mut model.antennas {
-            antenna.refresh(site, |_| None);
+            refresh(antenna, &mut Recent::default(), site, |_| None);
         }
         settle(window);
     };

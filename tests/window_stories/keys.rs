@@ -11,8 +11,8 @@ use azel::{
         Angle, TrackOffsets,
         xy_mount::{AxisAngles, azel_from_axes},
     },
-    contract::driver,
-    engine::{alarms::AlarmKind, passes::PredictedPass},
+    contract::{alarms::AlarmKind, driver, passes::PredictedPass},
+    engine::alarms::KeepAlarms,
     model::{UiCommand, View},
     station::{AntennaId, Mount, Take},
     ui::{

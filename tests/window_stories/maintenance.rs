@@ -3,9 +3,12 @@
 use std::sync::Arc;
 
 use azel::{
-    contract::driver::{Command, Intent, LinkState, Snapshot},
+    contract::{
+        self,
+        alarms::AlarmKind,
+        driver::{Command, Intent, LinkState, Snapshot},
+    },
     controller::SPECS,
-    engine::{self, alarms::AlarmKind},
     model::UiCommand,
     station::{self, AntennaId, LockOut},
 };
@@ -95,7 +98,7 @@ fn what_ends_is_named_and_asked_about() {
         assert!(
             matches!(
                 asked[..],
-                [UiCommand::Station(engine::Command::Antenna(AntennaId(1), Command::LockOut(_)))]
+                [UiCommand::Station(contract::Command::Antenna(AntennaId(1), Command::LockOut(_)))]
             ),
             "{asked:?}"
         );

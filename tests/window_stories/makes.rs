@@ -10,6 +10,7 @@ use azel::{
         AxisMotion, Measured, Pointing,
         panel::{Check, CheckState, Reading, Tone},
     },
+    engine::antenna::{Recent, refresh},
     model::Model,
     station::{Antenna, Mount},
 };
@@ -46,7 +47,9 @@ pub(crate) fn model(config: Antenna, snapshot: Snapshot) -> Model {
     Arc::make_mut(&mut model.station).antennas = vec![config.clone()];
     model.antennas = vec![rig::antenna(config, snapshot)];
     for antenna in &mut model.antennas {
-        antenna.refresh(model.station.site, |number| model.pass_lists.satellite(number));
+        refresh(antenna, &mut Recent::default(), model.station.site, |number| {
+            model.pass_lists.satellite(number)
+        });
     }
     model
 }

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use azel::{
     astro::{GroundPoint, time::add_seconds},
-    engine::passes::{ListedSatellite, PassLists, PredictedPass},
+    contract::passes::{ListedSatellite, PassLists, PredictedPass},
     model::{Model, UiCommand, View, globe::Towards},
     orbit::{Propagator, bundled},
 };

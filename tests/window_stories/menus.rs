@@ -2,8 +2,8 @@
 
 use azel::{
     astro::AzEl,
+    contract,
     contract::driver::Command,
-    engine,
     model::{UiCommand, View},
     station::AntennaId,
 };
@@ -25,10 +25,10 @@ fn window(size: [f32; 2]) -> Window {
     rig::window(size, rig::model(states::holding()))
 }
 
-fn meteor(window: &Window) -> azel::engine::passes::PassKey {
+fn meteor(window: &Window) -> azel::contract::passes::PassKey {
     let model = &window.state().model;
     let mut passes = model.pass_lists.favourites.passes.iter();
-    let is_it = |pass: &&azel::engine::passes::PredictedPass| {
+    let is_it = |pass: &&azel::contract::passes::PredictedPass| {
         pass.number() == METEOR_M2_4 && pass.pass.aos.time > model.now
     };
     passes.find(is_it).unwrap().key()
@@ -56,14 +56,14 @@ fn a_bar_and_a_row_offer_what_can_be_done_with_their_pass() {
         assert!(!commands.is_empty());
         window.get_by_label(place).click_secondary();
         let unmark =
-            engine::Command::SetFavourites { numbers: vec![METEOR_M2_4], is_favourite: false };
+            contract::Command::SetFavourites { numbers: vec![METEOR_M2_4], is_favourite: false };
         assert_eq!(choose(&mut window, "Remove from favourites"), [UiCommand::Station(unmark)]);
         // A track is asked for first.
         window.get_by_label(place).click_secondary();
         assert_eq!(choose(&mut window, "Track with Satrak…"), []);
         window.get_by_label_contains("Track METEOR-M2 4 with Satrak? The antenna moves");
         window.key_press(Key::Enter);
-        let track = engine::Command::Track { antenna: AntennaId(1), pass, is_agreed: false };
+        let track = contract::Command::Track { antenna: AntennaId(1), pass, is_agreed: false };
         assert_eq!(asked(&mut window), [UiCommand::Station(track)]);
     }
 }
@@ -101,7 +101,7 @@ fn a_satellite_of_the_sky_is_selected_tracked_or_pointed_at_from_its_menu() {
         assert_eq!(choose(&mut window, "Select"), [UiCommand::SelectSatellite(EUTELSAT_7C)]);
         window.get_by_label_contains(satellite).click_secondary();
         let commands = choose(&mut window, "Point Satrak here…");
-        let [UiCommand::Station(engine::Command::Antenna(_, Command::Preview(Some(to))))] =
+        let [UiCommand::Station(contract::Command::Antenna(_, Command::Preview(Some(to))))] =
             &commands[..]
         else {
             panic!("{commands:?}")
@@ -125,7 +125,7 @@ fn the_sky_itself_has_a_menu_where_the_pointer_is() {
     settle(&mut window);
     window.input_mut().events.extend([true, false].map(press));
     let commands = choose(&mut window, "Point Satrak here…");
-    let [UiCommand::Station(engine::Command::Antenna(_, Command::Preview(Some(to))))] =
+    let [UiCommand::Station(contract::Command::Antenna(_, Command::Preview(Some(to))))] =
         &commands[..]
     else {
         panic!("{commands:?}")

@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use azel::{
     astro::Angle,
+    contract::reminders::Reminder,
     desktop::{Missing, Outlets, Sound},
-    engine::reminders::Reminder,
     model::{UiCommand, View},
     station::{AntennaId, HoursOfDay, Notices, Station, Tones},
 };

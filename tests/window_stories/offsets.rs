@@ -4,12 +4,15 @@ use std::sync::Arc;
 
 use azel::{
     astro::{Angle, Offset, TrackOffsets},
-    contract::driver::{
-        Command, LeftOffsets, LinkState, OffsetChange, OnBoardView, Refusal, Snapshot,
-        UnitOffsetsView,
+    contract::{
+        self,
+        alarms::AlarmKind,
+        driver::{
+            Command, LeftOffsets, LinkState, OffsetChange, OnBoardView, Refusal, Snapshot,
+            UnitOffsetsView,
+        },
     },
     device::settings::WriteError,
-    engine::{self, alarms::AlarmKind},
     model::UiCommand,
     station::{AntennaId, OffsetsOf},
     ui::words,
@@ -112,7 +115,7 @@ fn they_are_remembered_of_the_satellite_or_the_antenna() {
     let on = with(&[Offset::Along(deg(0.2)), Offset::Elevation(deg(0.3))]);
     for size in rig::sizes() {
         let mut window = opened(size, on, "Offsets: along +0.20°, el +0.30°");
-        let keep = |of| UiCommand::Station(engine::Command::KeepOffsets { of, offsets: on });
+        let keep = |of| UiCommand::Station(contract::Command::KeepOffsets { of, offsets: on });
         let of_satellite = "Remember time, along and across the track for NOAA 20";
         assert_eq!(click(&mut window, of_satellite), [keep(OffsetsOf::Satellite(rig::NOAA_20))]);
         let of_antenna = "Remember azimuth and elevation for Mast";

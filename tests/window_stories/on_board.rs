@@ -8,10 +8,13 @@ use std::{
 
 use azel::{
     astro::{Angle, time::add_seconds},
-    contract::driver::{OffTargetCause, OnBoardView, Snapshot},
+    contract::{
+        self,
+        alarms::AlarmKind,
+        driver::{OffTargetCause, OnBoardView, Snapshot},
+    },
     controller::SPECS,
     device::{Place, settings::Value},
-    engine::{self, alarms::AlarmKind},
     model::{Model, UiCommand},
     orbit::{bundled, read_elements},
     plan::{
@@ -68,7 +71,7 @@ fn a_unit_that_would_miss_is_started_by_holding_only() {
     assert!(
         matches!(
             asked[..],
-            [UiCommand::Station(engine::Command::Track {
+            [UiCommand::Station(contract::Command::Track {
                 antenna: AntennaId(1),
                 is_agreed: true,
                 ..

@@ -4,8 +4,11 @@ use std::collections::HashMap;
 
 use azel::{
     astro::AzEl,
-    contract::driver::{Command, Event, Inside, Intent, LeftMoving, Refusal, Snapshot, StopState},
-    engine::{self, track_again::TrackAgain},
+    contract::{
+        self,
+        antenna::TrackAgain,
+        driver::{Command, Event, Inside, Intent, LeftMoving, Refusal, Snapshot, StopState},
+    },
     model::{Model, ThemeName},
     plan::Barrier,
     station::Antenna,
@@ -191,7 +194,7 @@ fn told(refusal: Refusal) -> Model {
 
 fn offered_again() -> Model {
     let mut model = rig::model(states::manual());
-    let command = engine::Command::Antenna(model.antennas[0].id(), Command::Resume);
+    let command = contract::Command::Antenna(model.antennas[0].id(), Command::Resume);
     let name = "NOAA 20 (JPSS-1)".to_owned();
     model.antennas[0].track_again = Some(TrackAgain { name, command, until: rig::now() });
     model

@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use azel::{
     astro::time::add_seconds,
-    engine,
-    engine::passes::{PredictedPass, Scope},
+    contract,
+    contract::passes::{PredictedPass, Scope},
     model::{Model, UiCommand},
     station::AntennaId,
     ui::{
@@ -198,7 +198,10 @@ fn the_lowest_elevation_is_chosen_above_the_list() {
     let choices = window.get_all_by_label_contains("30°");
     let choice = choices.into_iter().find(|node| node.rect().left() < 392.0).unwrap();
     choice.click();
-    assert_eq!(asked(&mut window), [UiCommand::Station(engine::Command::SetElevationFloor(30.0))]);
+    assert_eq!(
+        asked(&mut window),
+        [UiCommand::Station(contract::Command::SetElevationFloor(30.0))]
+    );
 }
 
 #[test]
@@ -241,7 +244,7 @@ fn a_pass_of_any_satellite_is_listed_selected_drawn_and_tracked() {
         settle(&mut window);
         window.get_by_label_contains("METEOR-M2 4, 59051, ");
         window.get_by_role_and_label(Role::Button, "Track METEOR-M2 4").click();
-        let track = UiCommand::Station(engine::Command::Track {
+        let track = UiCommand::Station(contract::Command::Track {
             antenna: AntennaId(1),
             pass: wanted,
             is_agreed: false,

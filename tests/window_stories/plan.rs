@@ -4,10 +4,11 @@ use std::sync::Arc;
 
 use azel::{
     astro::time::add_seconds,
-    engine::{
+    contract::{
         CatalogState, Command,
         automatic::{DayEvent, DayLine, Flown, Interruption, MissCause, OffBecause, Operation},
         passes::{ListedSatellite, PassKey},
+        rehearsal::{Rehearsed, RehearsedPass},
         schedule::{Planned, Swap},
     },
     export::EventFormat,
@@ -17,7 +18,6 @@ use azel::{
         pass_report::LossCause,
         schedule::{Class, Conflict, Entry, LeftOut, PassKey as Key, Schedule, Why},
     },
-    rehearsal::{Rehearsed, RehearsedPass},
     station::{AntennaId, ChooseBy, Priority, Take},
 };
 use egui::{Key as Press, Role};
@@ -510,7 +510,7 @@ fn without_satellites_or_antennas_the_view_says_what_to_do() {
     let mut window = view(LARGE);
     let model = &mut window.state_mut().model;
     model.antennas.clear();
-    model.pass_lists = azel::engine::passes::PassLists::default();
+    model.pass_lists = azel::contract::passes::PassLists::default();
     model.schedule = Arc::default();
     settle(&mut window);
     assert!(says(&window, "No satellite is planned."));

@@ -4,9 +4,9 @@ use std::sync::Arc;
 
 use azel::{
     clock::Instant,
-    contract::driver::{LinkFault, LinkFinding, LinkLoss, LinkState, Snapshot},
-    engine::{
+    contract::{
         self,
+        driver::{LinkFault, LinkFinding, LinkLoss, LinkState, Snapshot},
         link_tests::{LinkTest, LinkTestStage},
     },
     model::{Model, UiCommand, View},
@@ -102,7 +102,7 @@ fn is_disabled(window: &Window, button: &str) -> bool {
 
 pub(crate) fn saved(commands: Vec<UiCommand>) -> Station {
     match <[UiCommand; 1]>::try_from(commands) {
-        Ok([UiCommand::Station(engine::Command::SaveStation(station))]) => *station,
+        Ok([UiCommand::Station(contract::Command::SaveStation(station))]) => *station,
         other => panic!("{other:?}"),
     }
 }
@@ -257,7 +257,7 @@ fn a_link_is_tested_as_it_is_typed() {
         assert!(is_disabled(&window, "Test link"));
         write(&mut window, "Address of the Satrak", "tower:4001");
         press(&mut window, "Test link");
-        let [UiCommand::Station(engine::Command::TestLink(antenna))] = &asked(&mut window)[..]
+        let [UiCommand::Station(contract::Command::TestLink(antenna))] = &asked(&mut window)[..]
         else {
             panic!("no test")
         };

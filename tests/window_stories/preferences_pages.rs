@@ -5,17 +5,17 @@ use std::{sync::Arc, time::Duration};
 use azel::{
     astro::{PointingModel, Term},
     contract::{
-        driver::{Intent, LinkFinding, Snapshot},
-        record::{FittedTerm, NoiseOf, Peak, PeakChange, PeakOf, Peaks, PointingFit},
-    },
-    device::{OnBoard, Place},
-    engine::{
         self,
         alarms::AlarmKind,
         claim::HeldBy,
+        driver::{Intent, LinkFinding, Snapshot},
         link_tests::{LinkTest, LinkTestStage},
-        pointing_fit::PointingFitted,
+        record::{
+            FittedTerm, NoiseOf, Peak, PeakChange, PeakOf, Peaks, PointingFit, PointingFitted,
+        },
     },
+    device::{OnBoard, Place},
+    engine::alarms::KeepAlarms,
     model::{Model, UiCommand, View, effects},
     plan::pointing::Kind,
     station::{Antenna, AntennaId, Station},
@@ -319,7 +319,7 @@ fn the_outcome_of_a_test_moves_no_field() {
     let name = window.get_by_role_and_label(Role::TextInput, "Name").rect();
     window.get_by_role_and_label(Role::Button, "Test link").click();
     let commands = asked(&mut window);
-    let [UiCommand::Station(engine::Command::TestLink(antenna))] = &commands[..] else {
+    let [UiCommand::Station(contract::Command::TestLink(antenna))] = &commands[..] else {
         panic!("{commands:?}")
     };
     let finding = LinkFinding::Reached { state: Box::default(), after: Duration::from_millis(12) };
@@ -454,7 +454,7 @@ fn a_pointing_model_is_fitted_to_the_record_and_filled_in_and_used_only_once_sav
         let mut window = rig::window(size, model);
         open(&mut window, &name);
         press(&mut window, Role::Button, "Fit to recorded passes");
-        let fit = |without| UiCommand::Station(engine::Command::FitPointing(id, without));
+        let fit = |without| UiCommand::Station(contract::Command::FitPointing(id, without));
         assert_eq!(asked(&mut window), [fit(Vec::new())]);
         let term = |term| {
             let value = match term {
@@ -530,7 +530,7 @@ fn a_peak_is_entered_as_measured_now_or_as_typed_and_removed() {
             azimuth_deg: deg(pointing.azimuth),
             elevation_deg: deg(pointing.elevation),
         };
-        let change = |change| UiCommand::Station(engine::Command::ChangePeaks(id, change));
+        let change = |change| UiCommand::Station(contract::Command::ChangePeaks(id, change));
         assert_eq!(asked(&mut window), [change(PeakChange::Added(measured))]);
         press(&mut window, Role::RadioButton, "Moon");
         let at = now - jiff::SignedDuration::from_hours(1);

@@ -7,22 +7,19 @@ use azel::{
         Angle, AzEl, HorizonMask, Offset, PointingModel, Site, TrackOffsets, time::add_seconds,
     },
     contract::{
-        driver,
-        driver::TimeSync,
+        Command,
+        alarms::{Alarm, AlarmKind},
+        automatic::{Flown, Interruption, MissCause},
+        driver::{self, TimeSync},
         record::{
             AboutTrack, ExplainedPasses, ListedKind, OpenedPass, PassPage, PassQuery, RecordedPass,
             RecordedReport, Row, TrackedBy,
         },
+        recorded::{Found, MissedPass, RecordLook, Recorded},
     },
     device::{
         Pointing,
         settings::{Change, Value, Written},
-    },
-    engine::{
-        Command,
-        alarms::{Alarm, AlarmKind},
-        automatic::{Flown, Interruption, MissCause},
-        recorded::{Found, MissedPass, RecordLook, Recorded},
     },
     export::{self, RowFormat},
     model::{

@@ -6,12 +6,13 @@ use azel::{
     app::App,
     astro::{Angle, time::add_seconds},
     contract::{
+        Command,
         driver::{self, Intent, StopState},
         record::PassTimes,
     },
     controller::SPECS,
     device::AxisMotion,
-    engine::{Command, Settings},
+    engine::Settings,
     model::{
         Model, UiCommand, View,
         replay::{

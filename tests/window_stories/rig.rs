@@ -9,13 +9,14 @@ use std::{
 use azel::{
     astro::time::add_seconds,
     clock::{Instant, Moment},
-    contract::driver::{LinkState, Snapshot, TimeSync, WireLog},
-    controller::{SPECS, satrak},
-    engine::{
+    contract::{
         CatalogState, Command,
         antenna::AntennaModel,
+        driver::{LinkState, Snapshot, TimeSync, WireLog},
         passes::{ListedSatellite, Observer, PassLists, PredictedPass},
     },
+    controller::{SPECS, satrak},
+    engine::antenna::{Recent, refresh},
     model::{
         Model, ThemeName, UiCommand, View,
         catalog_table::{Answer, arrange},
@@ -158,7 +159,9 @@ pub(crate) fn model(mut snapshot: Snapshot) -> Model {
     };
     model.selected = model.pass_of(NOAA_20).map(PredictedPass::key);
     for antenna in &mut model.antennas {
-        antenna.refresh(model.station.site, |number| model.pass_lists.satellite(number));
+        refresh(antenna, &mut Recent::default(), model.station.site, |number| {
+            model.pass_lists.satellite(number)
+        });
     }
     model.refresh_sky();
     model

@@ -5,10 +5,12 @@ use std::time::Duration;
 use azel::{
     astro::AzEl,
     clock::{Clock, Instant},
-    contract::driver::{Intent, LinkState, StopState},
+    contract::{
+        CatalogState,
+        driver::{Intent, LinkState, StopState},
+    },
     controller::SPECS,
     device::Measured,
-    engine::CatalogState,
     model::{Model, ThemeName, View},
     protocol::satrak::AxisMotion,
     station,

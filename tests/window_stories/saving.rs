@@ -4,9 +4,9 @@ use std::fs;
 
 use azel::{
     app::App,
+    contract::passes::PredictedPass,
     controller::SPECS,
     desktop::file_dialog::NoDialog,
-    engine::passes::PredictedPass,
     export::{EventFormat, ListFormat},
     model::{
         UiCommand,

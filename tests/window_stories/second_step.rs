@@ -1,8 +1,11 @@
 //! Commands that end a track take a second step that names the track, by mouse and by key alike.
 
 use azel::{
-    contract::driver::{Command, Snapshot},
-    engine::{self, passes::PredictedPass},
+    contract::{
+        self,
+        driver::{Command, Snapshot},
+        passes::PredictedPass,
+    },
     model::UiCommand,
 };
 use egui::{Key, Role};
@@ -15,7 +18,7 @@ use crate::window_stories::{
 
 fn antenna(command: Command) -> UiCommand {
     let id = rig::model(states::holding()).antennas[0].id();
-    UiCommand::Station(engine::Command::Antenna(id, command))
+    UiCommand::Station(contract::Command::Antenna(id, command))
 }
 
 /// A window in which the first antenna tracks NOAA 20 and another pass is selected.
@@ -94,7 +97,7 @@ fn another_track_names_the_one_that_it_ends() {
             window.key_press(Key::Enter);
             let commands = asked(&mut window);
             assert!(
-                matches!(commands[..], [UiCommand::Station(engine::Command::Track { .. })]),
+                matches!(commands[..], [UiCommand::Station(contract::Command::Track { .. })]),
                 "{commands:?}"
             );
         }

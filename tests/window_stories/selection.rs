@@ -4,11 +4,11 @@ use std::sync::Arc;
 
 use azel::{
     astro::time::add_seconds,
-    device::{AxisMotion, Phase},
-    engine::{
+    contract::{
         automatic::Doing,
         passes::{PassKey, PredictedPass},
     },
+    device::{AxisMotion, Phase},
     model::Model,
     plan::schedule::{Entry, PassKey as Key},
     station::AntennaId,

@@ -4,14 +4,15 @@ use std::{sync::Arc, time::Duration};
 
 use azel::{
     astro::{AzEl, time::add_seconds},
-    contract::driver::{
-        Event, Found, Intent, LinkLoss, LinkState, OnBoardView, Refusal, Snapshot, StopState,
-    },
-    device::{Asked, AxisMotion, Motion, Offsets, Phase, PrepareError},
-    engine::{
+    contract::{
         claim::{HeldBy, Holder, HolderKind},
+        driver::{
+            Event, Found, Intent, LinkLoss, LinkState, OnBoardView, Refusal, Snapshot, StopState,
+        },
         passes::PredictedPass,
     },
+    device::{Asked, AxisMotion, Motion, Offsets, Phase, PrepareError},
+    engine::antenna::{Recent, refresh},
     model::Model,
 };
 
@@ -24,7 +25,9 @@ fn told(snapshot: Snapshot, change: impl FnOnce(&mut Model, &mut Snapshot)) -> S
     change(&mut model, &mut snapshot);
     let config = model.station.antennas[0].clone();
     let mut antenna = rig::antenna(config, snapshot);
-    antenna.refresh(model.station.site, |number| model.pass_lists.satellite(number));
+    refresh(&mut antenna, &mut Recent::default(), model.station.site, |number| {
+        model.pass_lists.satellite(number)
+    });
     antenna.news = model.antennas.remove(0).news;
     model.antennas = vec![antenna];
     states::sentence(&model)

@@ -3,9 +3,9 @@
 use std::sync::Arc;
 
 use azel::{
+    contract,
     contract::driver::{Command, Intent, LinkLoss, LinkState, Snapshot},
     device::settings::{Change, GroupState, ReadFailure, Value, WriteError, WriteStep, Written},
-    engine,
     model::{UiCommand, View},
     station::AntennaId,
 };
@@ -24,7 +24,7 @@ use crate::window_stories::{
 /// The commands, which must all be changes of settings of antenna 1.
 pub(crate) fn settles(commands: Vec<UiCommand>) -> Vec<Change> {
     let change = |command| match command {
-        UiCommand::Station(engine::Command::Antenna(
+        UiCommand::Station(contract::Command::Antenna(
             AntennaId(1),
             Command::WriteSettings(change),
         )) => change,

@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use azel::{
-    clock::Instant, contract::driver::Command, device::settings::Value, engine, model::UiCommand,
+    clock::Instant, contract, contract::driver::Command, device::settings::Value, model::UiCommand,
     station::AntennaId,
 };
 use egui::{Event, Key, Role};
@@ -67,7 +67,7 @@ fn a_change_that_is_not_heard_of_may_be_tried_again() {
             apply(&mut window);
             let commands = asked(&mut window);
             let [
-                UiCommand::Station(engine::Command::Antenna(
+                UiCommand::Station(contract::Command::Antenna(
                     AntennaId(1),
                     Command::WriteSettings(change),
                 )),
@@ -134,7 +134,10 @@ fn the_transmitter_is_switched_on_unlocked_and_confirmed() {
     apply(&mut window);
     let commands = asked(&mut window);
     let [
-        UiCommand::Station(engine::Command::Antenna(AntennaId(1), Command::WriteSettings(change))),
+        UiCommand::Station(contract::Command::Antenna(
+            AntennaId(1),
+            Command::WriteSettings(change),
+        )),
     ] = commands.as_slice()
     else {
         panic!("{commands:?}")

@@ -3,15 +3,15 @@
 use std::{sync::Arc, time::Duration};
 
 use azel::{
-    contract::driver::{LinkFault, LinkFinding},
+    contract::{
+        self,
+        driver::{LinkFault, LinkFinding},
+        link_tests::{LinkTest, LinkTestStage},
+    },
     controller::SPECS,
     device::{
         AntennaState, OnBoard, Place, UnitClock,
         panel::{Check, CheckState},
-    },
-    engine::{
-        self,
-        link_tests::{LinkTest, LinkTestStage},
     },
     model::{Model, UiCommand, View},
     station::{Antenna, Station},
@@ -69,7 +69,7 @@ pub(crate) fn add_and_test(window: &mut Window, address: &str) -> Antenna {
     write(window, "Address of the Satrak", address);
     press(window, "Test link of Satrak");
     match <[UiCommand; 1]>::try_from(asked(window)) {
-        Ok([UiCommand::Station(engine::Command::TestLink(antenna))]) => *antenna,
+        Ok([UiCommand::Station(contract::Command::TestLink(antenna))]) => *antenna,
         other => panic!("{other:?}"),
     }
 }

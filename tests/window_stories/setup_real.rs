@@ -2,9 +2,8 @@
 //! with the mouse and once with the keyboard alone.
 
 use azel::{
-    contract::driver::LinkFinding,
+    contract::{antenna::AntennaModel, driver::LinkFinding, link_tests::LinkTestStage},
     controller::SPECS,
-    engine::{antenna::AntennaModel, link_tests::LinkTestStage},
     model::{Model, View},
     orbit::bundled,
     sim::satrak::BUNDLED_FILE,

@@ -7,7 +7,8 @@ use std::{
 };
 
 use azel::{
-    engine::{self, sources::SourceWork},
+    contract,
+    contract::sources::SourceWork,
     model::UiCommand,
     orbit::{Source, SourcePlace},
 };
@@ -42,7 +43,7 @@ fn file(name: &str, path: &str) -> Source {
 }
 
 fn addition(source: Source) -> UiCommand {
-    UiCommand::Station(engine::Command::AddSource(source))
+    UiCommand::Station(contract::Command::AddSource(source))
 }
 
 fn is_at(window: &Window, step: &str) -> bool {

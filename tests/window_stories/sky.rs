@@ -5,6 +5,7 @@ use std::{sync::Arc, time::Duration};
 use azel::{
     astro::time::add_seconds,
     contract::driver::Intent,
+    engine::antenna::{Recent, refresh},
     model::UiCommand,
     station::{AntennaId, Frequency},
     ui::format,
@@ -217,14 +218,14 @@ fn errors_of_the_last_tracks_stay_to_be_looked_at() {
         let noaa = number(&model, rig::NOAA_20);
         let antenna = &mut model.antennas[0];
         antenna.snapshot = Arc::new(snapshot);
-        antenna.refresh(site, |_| noaa.as_ref());
+        refresh(antenna, &mut Recent::default(), site, |_| noaa.as_ref());
     }
     let mut over = states::holding();
     let mut measured = over.state.measured.unwrap();
     measured.received = model.steady + Duration::from_mins(1);
     over.state.measured = Some(measured);
     model.antennas[0].snapshot = Arc::new(over);
-    model.antennas[0].refresh(site, |_| None);
+    refresh(&mut model.antennas[0], &mut Recent::default(), site, |_| None);
     let past = model.antennas[0].past_tracks.iter().next().expect("a past track").clone();
     assert_eq!(past.name, "NOAA 20 (JPSS-1)");
 

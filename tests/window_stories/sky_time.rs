@@ -4,8 +4,10 @@ use std::sync::Arc;
 
 use azel::{
     astro::time::add_seconds,
-    contract::driver::{Command, Snapshot},
-    engine::schedule::Planned,
+    contract::{
+        driver::{Command, Snapshot},
+        schedule::Planned,
+    },
     model::{
         Model, UiCommand, View,
         plan::{PlannedActivity, Pose},

@@ -1,11 +1,11 @@
 //! "Test from here" beside the form of a unit's source.
 
 use azel::{
-    contract::transfer::{AlgorithmPart, FileProtocol, OldAlgorithm, Peer, UnitView},
-    engine::{
+    contract::{
         self,
         host_keys::DoubtfulKey,
         source_tests::{SourceOrder, SourceTests, TestAsk, TestStage, TestedSource},
+        transfer::{AlgorithmPart, FileProtocol, OldAlgorithm, Peer, UnitView},
     },
     model::{Model, ThemeName, UiCommand},
     orbit::write_tle,
@@ -95,7 +95,7 @@ fn asked(window: &mut Window) -> Vec<TestAsk> {
     window.run_steps(4);
     let commands = std::mem::take(&mut window.state_mut().commands);
     let ask = |command| match command {
-        UiCommand::Station(engine::Command::TestSource(ask)) => ask,
+        UiCommand::Station(contract::Command::TestSource(ask)) => ask,
         other => panic!("{other:?}"),
     };
     commands.into_iter().map(ask).collect()
@@ -180,7 +180,7 @@ fn a_test_names_old_algorithms_of_the_server() {
 
 #[test]
 fn what_the_unit_will_see_is_told() {
-    let azel::engine::CatalogState::Ready(catalog) = rig::model(rig::quiet()).catalog else {
+    let azel::contract::CatalogState::Ready(catalog) = rig::model(rig::quiet()).catalog else {
         panic!("the bundled elements")
     };
     let mut bytes = Vec::new();

@@ -5,9 +5,9 @@ use std::{fmt::Write as _, fs, path::Path};
 use azel::{
     app::App,
     clock::Clock,
-    contract::driver::LinkState,
+    contract::{claim::HolderKind, driver::LinkState},
     controller::SPECS,
-    engine::{Handle, Settings, claim::HolderKind},
+    engine::{Handle, Settings},
     model::{KnownStation, Model, NextStation, ThemeName, UiCommand, View, typed_path::OpenedFile},
     orbit::bundled,
     station::{self, Station},

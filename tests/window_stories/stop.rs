@@ -4,8 +4,14 @@ use std::time::Duration;
 
 use azel::{
     clock::Instant,
-    contract::driver::{Intent, LinkLoss, LinkState, Snapshot, StopState},
-    engine::alarms::AlarmKind,
+    contract::{
+        alarms::AlarmKind,
+        driver::{Intent, LinkLoss, LinkState, Snapshot, StopState},
+    },
+    engine::{
+        alarms::KeepAlarms,
+        antenna::{Recent, refresh},
+    },
     model::{Model, UiCommand, View},
     station::{Antenna, AntennaId},
     ui::words,
@@ -159,7 +165,7 @@ fn stop_shows_as_pressed_while_the_session_says_nothing() {
             let site = model.station.site;
             model.antennas[0].stop_pressed = Some(Instant::now());
             for _ in 0..2 {
-                model.antennas[0].refresh(site, |_| None);
+                refresh(&mut model.antennas[0], &mut Recent::default(), site, |_| None);
             }
             assert!(states::sentence(&model).contains("STOP was pressed"));
             let mut window = rig::window(size, model);
@@ -205,7 +211,7 @@ fn stop_shows_as_pressed_until_the_session_tells_of_it() {
         let snapshot = Snapshot { stop: told, ..states::moving() };
         model.antennas = vec![rig::antenna(model.station.antennas[0].clone(), snapshot)];
         model.antennas[0].stop_pressed = Some(Instant::now());
-        model.antennas[0].refresh(site, |_| None);
+        refresh(&mut model.antennas[0], &mut Recent::default(), site, |_| None);
         assert_eq!(model.antennas[0].stop_pressed, None, "{told:?}");
     }
 }

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use azel::{
     astro::time::add_seconds,
-    engine::automatic::{DayEvent, DayLine, Flown, MissCause},
+    contract::automatic::{DayEvent, DayLine, Flown, MissCause},
     model::{Model, UiCommand},
     plan::pass_report::LossCause,
     station::AntennaId,

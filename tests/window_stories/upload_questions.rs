@@ -1,9 +1,9 @@
 //! Questions to the operator during an upload.
 
 use azel::{
-    contract::transfer::UploadStep,
-    engine::{
+    contract::{
         host_keys::DoubtfulKey,
+        transfer::UploadStep,
         uploads::{Ask, Busy, Failure, SecretWanted, Stage},
     },
     secret::Secret,

@@ -2,12 +2,12 @@
 
 use azel::{
     astro::time::add_seconds,
-    contract::transfer::{
-        FileName, KeptFile, Origin, Peer, Progress, TleFile, UploadStep, Uploaded,
+    contract::{
+        self,
+        transfer::{FileName, KeptFile, Origin, Peer, Progress, TleFile, UploadStep, Uploaded},
+        uploads::{Ask, Failure, KeptEntry, Order, Stage, Uploads},
     },
     controller::satrak::ELEMENT_FILES,
-    engine,
-    engine::uploads::{Ask, Failure, KeptEntry, Order, Stage, Uploads},
     model::{Model, ThemeName, UiCommand},
     ui::{
         theme,
@@ -69,8 +69,8 @@ pub(crate) fn asked(window: &mut Window) -> Vec<Ask> {
     settle(window);
     let commands = std::mem::take(&mut window.state_mut().commands);
     let ask = |command| match command {
-        UiCommand::Station(engine::Command::Upload(Ask::ListKept { .. })) => None,
-        UiCommand::Station(engine::Command::Upload(ask)) => Some(ask),
+        UiCommand::Station(contract::Command::Upload(Ask::ListKept { .. })) => None,
+        UiCommand::Station(contract::Command::Upload(ask)) => Some(ask),
         other => panic!("{other:?}"),
     };
     commands.into_iter().filter_map(ask).collect()
@@ -105,7 +105,7 @@ pub(crate) fn peer() -> Peer {
 }
 
 pub(crate) fn file() -> TleFile {
-    let azel::engine::CatalogState::Ready(catalog) = rig::model(rig::quiet()).catalog else {
+    let azel::contract::CatalogState::Ready(catalog) = rig::model(rig::quiet()).catalog else {
         panic!("the bundled elements")
     };
     TleFile::of([ISS, NOAA_20].iter().filter_map(|number| catalog.get(*number)), &ELEMENT_FILES)

@@ -3,14 +3,13 @@
 use std::sync::Arc;
 
 use azel::{
-    contract::transfer::{AlgorithmPart, FileObject, OldAlgorithm, Origin, Peer, UploadStep},
-    controller::satrak::ELEMENT_FILES,
-    device::HeldSatellite,
-    engine,
-    engine::{
-        CatalogState,
+    contract::{
+        self, CatalogState,
+        transfer::{AlgorithmPart, FileObject, OldAlgorithm, Origin, Peer, UploadStep},
         uploads::{Ask, Cargo, Failure, Kept, KeptEntry, Proved, Stage, Uploads, Warning},
     },
+    controller::satrak::ELEMENT_FILES,
+    device::HeldSatellite,
     model::{Model, UiCommand, View},
 };
 use egui::{Key, Role};
@@ -120,7 +119,7 @@ fn an_object_that_a_tle_cannot_carry_is_refused_at_its_line_before_anything_is_t
     let mut catalog = azel::orbit::bundled().unwrap();
     catalog.merge(azel::orbit::read_elements(text), "own");
     let model = &mut window.state_mut().model;
-    model.catalog = azel::engine::CatalogState::Ready(std::sync::Arc::new(catalog));
+    model.catalog = azel::contract::CatalogState::Ready(std::sync::Arc::new(catalog));
     Arc::make_mut(&mut model.station).favourites.mark(340_000, true);
     settle(&mut window);
     assert!(says(&window, "Object 340000: a TLE carries"));
@@ -246,7 +245,7 @@ fn the_list_of_what_is_kept_is_asked_for_once_the_file_is_known() {
     let mut window = part(WIDTHS[0], Uploads::default());
     write(&mut window, "File", FILE);
     let unit = peer().to_string();
-    let ask = UiCommand::Station(engine::Command::Upload(Ask::ListKept {
+    let ask = UiCommand::Station(contract::Command::Upload(Ask::ListKept {
         unit: unit.clone(),
         file: FILE.to_owned(),
     }));
@@ -272,7 +271,7 @@ fn an_order_of_another_antenna_is_told_and_waited_for() {
 #[test]
 fn without_elements_an_old_file_can_still_be_put_back() {
     let mut window = typed(WIDTHS[0], Uploads::default());
-    window.state_mut().model.catalog = azel::engine::CatalogState::Failed;
+    window.state_mut().model.catalog = azel::contract::CatalogState::Failed;
     let of = (peer().to_string(), FILE.to_owned());
     let entry = kept_entry(Origin::Found, 2.0);
     let back = put_back("Wed 2026-08-12 09:15:30Z, was on the unit", &entry);

@@ -2,8 +2,10 @@
 
 use azel::{
     astro::AzEl,
-    contract::driver::{Intent, Snapshot},
-    engine::antenna::Prediction,
+    contract::{
+        antenna::Prediction,
+        driver::{Intent, Snapshot},
+    },
 };
 use egui::Role;
 use egui_kittest::kittest::Queryable as _;

@@ -3,8 +3,8 @@
 use std::collections::BTreeSet;
 
 use azel::{
+    contract,
     contract::driver::{Command, Intent},
-    engine,
     model::{Model, UiCommand},
     station::AntennaId,
 };
@@ -100,7 +100,7 @@ fn each_card_drives_its_own_antenna() {
     window.drag_at(track[1]);
     window.drop_at(track[1]);
     let commands = asked(&mut window);
-    let [UiCommand::Station(engine::Command::Track { antenna, pass, .. })] = &commands[..] else {
+    let [UiCommand::Station(contract::Command::Track { antenna, pass, .. })] = &commands[..] else {
         panic!("{commands:?}")
     };
     assert_eq!((*antenna, pass.0), (AntennaId(2), NOAA_20));
@@ -132,7 +132,7 @@ fn a_jog_of_the_second_card_ends_with_its_view() {
     let is_its = |command: &UiCommand| {
         matches!(
             command,
-            UiCommand::Station(engine::Command::Antenna(AntennaId(2), Command::Jog { .. }))
+            UiCommand::Station(contract::Command::Antenna(AntennaId(2), Command::Jog { .. }))
         )
     };
     assert!(!held.is_empty() && held.iter().all(is_its), "{held:?}");

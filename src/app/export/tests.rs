@@ -1,7 +1,7 @@
 use super::*;
 use crate::{
     contract,
-    engine::passes::{ListedSatellite, Observer, PassList as Listed},
+    contract::passes::{ListedSatellite, Observer, PassList as Listed},
     makes::DemoAddresses,
     orbit::{Propagator, bundled, passes, read_elements},
     plan::schedule::{Entry, PassKey as Key, Schedule, Why, testing::entry},

@@ -7,7 +7,7 @@ use jiff::Timestamp;
 
 use crate::{
     astro::time::add_seconds,
-    engine::alarms::{Alarm, Priority},
+    contract::alarms::{Alarm, Priority},
     model::{
         Model,
         replay::{ENDS_BEFORE_PASS_S, ReplayEnd},

@@ -6,12 +6,13 @@ use jiff::Timestamp;
 
 use crate::{
     astro::Site,
-    contract::{driver::WireLog, record::PassTimes},
-    engine::{
+    contract::{
         Snapshot,
-        film::Projector,
+        driver::WireLog,
+        record::PassTimes,
         recorded::{RecordLook, Recorded},
     },
+    engine::{film::Projector, recorded::read_record},
     model::replay::{JumpNews, Stretch},
     record::{self, Beside, FilmError},
     station::AntennaId,
@@ -87,7 +88,7 @@ impl Room {
     pub(super) fn answer(&mut self, asked: Asked, site: Site) -> Answer {
         let Asked { wanted, look, unmarked } = asked;
         Answer {
-            recorded: look.map(|look| Recorded::read(&self.path, look, site)),
+            recorded: look.map(|look| read_record(&self.path, look, site)),
             found: wanted.map(|wanted| self.find(wanted)),
             passes: unmarked.map(|stretch| {
                 let passes = self.passes(&stretch, site);

@@ -2,8 +2,11 @@
 
 use super::*;
 use crate::{
-    contract::{driver, driver::LinkState},
-    engine::{antenna::AntennaModel, closing::CloseHow},
+    contract::{
+        antenna::AntennaModel,
+        closing::CloseHow,
+        driver::{self, LinkState},
+    },
     job::InPlace,
     model::replay::StretchPass,
     station::Antenna,

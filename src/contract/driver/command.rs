@@ -1,16 +1,15 @@
 //! The operator's commands to an antenna.
 
+use serde::{Deserialize, Serialize};
+use smol_str::SmolStr;
+
 use crate::{
     astro::{Angle, Offset, TrackOffsets},
     device::{Pointing, panel::Act, settings::Change},
-    name,
-    name::Name,
+    name::{self, Name},
     plan::{OnBoardPass, ProgramTrack},
     station::LockOut,
 };
-
-use serde::{Deserialize, Serialize};
-use smol_str::SmolStr;
 
 /// A change of the offsets of a track. Each is judged like a motion; one that is refused leaves
 /// them as they were.
@@ -103,4 +102,13 @@ pub enum Command {
     ForgetDrives,
     /// Send a question to the unit; the answer appears in the wire log.
     Ask(SmolStr),
+}
+
+/// Tickets from here on are those of sessions.
+pub const SESSION_TICKETS: u64 = 1 << 62;
+
+/// Returns `true` for the ticket of a change that a session makes without a request, such as adding
+/// offsets for a pass and taking them back.
+pub fn is_ticket_of_session(ticket: u64) -> bool {
+    ticket >= SESSION_TICKETS
 }

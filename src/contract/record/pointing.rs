@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::{astro::Term, plan::pointing::Kind};
+use crate::{astro::Term, plan::pointing::Kind, station::AntennaId};
 
 /// The model that fits best. Nothing of it is applied.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -38,4 +38,12 @@ pub struct FittedTerm {
     pub half_of_95_percent: Option<f64>,
     /// Terms that the points cannot tell it from.
     pub not_told_from: Vec<Term>,
+}
+
+/// A fit to the record of an antenna. It changes nothing.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct PointingFitted {
+    pub antenna: AntennaId,
+    /// Or why there is none. `None` while it is worked out.
+    pub found: Option<Result<PointingFit, String>>,
 }

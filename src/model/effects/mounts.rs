@@ -61,7 +61,7 @@ mod tests {
     use super::*;
     use crate::{
         astro::{AzEl, time::add_seconds},
-        engine::passes::mount_limits,
+        contract::passes::mount_limits,
         plan::Sample,
         station::{Antenna, Mount},
     };

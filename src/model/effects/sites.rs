@@ -10,7 +10,7 @@ use crate::{
         Angle, Site,
         time::{add_seconds, seconds_between},
     },
-    engine::passes::ListedSatellite,
+    contract::passes::ListedSatellite,
     orbit::{PassSearch, passes},
     station::Station,
 };

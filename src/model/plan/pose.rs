@@ -5,8 +5,8 @@ use jiff::Timestamp;
 use super::Model;
 use crate::{
     astro::time::{add_seconds, seconds_between},
+    contract::{antenna::AntennaModel, passes::PassKey},
     device::Pointing,
-    engine::{antenna::AntennaModel, passes::PassKey},
     plan::schedule::{Entry, Reach, between, parks_within_s, sets_out},
     station::BetweenPasses,
 };

@@ -75,7 +75,6 @@ use step::Stepping;
 use stop::Stop;
 use supervise::{CHECKS, Check, Doubt};
 use unit_offsets::UnitOffsets;
-pub use unit_offsets::is_ticket_of_session;
 use wanted::Wanted;
 
 /// The session's ends of the channels to the station. A session that breaks down leaves them

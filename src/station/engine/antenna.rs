@@ -1,394 +1,117 @@
-//! One antenna of a running station: the last snapshot of its session, the prediction for
-//! it, and the error between the two.
+//! Compares what an antenna does with what is predicted for it.
 
-mod errors;
-mod past_tracks;
-mod stake;
+mod past_track;
 
-use std::{collections::VecDeque, sync::Arc, time::Duration};
+use std::{collections::VecDeque, sync::Arc};
 
-pub use errors::{ErrorSample, Errors};
-pub use past_tracks::{PastTrack, PastTracks};
-pub use stake::Stake;
-
-use jiff::Timestamp;
-use serde::{Deserialize, Serialize};
-
-use super::{
-    automatic::{OffBecause, Operation},
-    claim::HeldBy,
-    on_board::Judged,
-    passes::ListedSatellite,
-    track_again::TrackAgain,
-    written,
-};
 use crate::{
-    astro::{Angle, AzEl, Site, time::seconds_between},
+    astro::{Site, time::seconds_between},
     clock::Instant,
-    contract::driver::{Event, Intent, LinkState, Snapshot, StopState},
-    device::{Measured, Phase, Variant, panel::Act, settings::Group},
-    plan::{Sample, TrackPhase, on_board::KnownOrbit, pass_report::Explained},
-    station::{Antenna, AntennaId, ControllerSpec},
+    contract::{
+        antenna::{AntennaModel, Prediction},
+        driver::StopState,
+        passes::ListedSatellite,
+    },
+    device::{Measured, Phase},
 };
+use past_track::past_track;
 
 /// Shortest span for measured rates, so that rounding does not show.
 const RATE_SPAN_S: f64 = 0.9;
 
-/// Longest time without a reply that is a hiccup of the link.
-const HICCUP: Duration = Duration::from_secs(3);
+/// Measurements from which the rates of the axes are computed.
+#[derive(Debug, Default)]
+pub struct Recent(VecDeque<Measured>);
 
-/// Predicted direction of a target at the time of a measurement.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Prediction {
-    /// Catalog number of a satellite; `None` for another target.
-    pub catalog_number: Option<u32>,
-    pub at: Timestamp,
-    pub direction: AzEl,
+/// Compares the measurement in the snapshot with the prediction. `followed` finds a
+/// satellite by its catalog number.
+pub fn refresh<'a>(
+    antenna: &mut AntennaModel,
+    recent: &mut Recent,
+    site: Site,
+    followed: impl Fn(u32) -> Option<&'a Arc<ListedSatellite>>,
+) {
+    let is_told = |pressed: &Instant| match antenna.snapshot.stop {
+        StopState::Ready => false,
+        StopState::Stopping { .. } | StopState::NotConfirmed { .. } => true,
+        StopState::Stopped { at } => at >= *pressed,
+    };
+    antenna.stop_pressed = antenna.stop_pressed.filter(|pressed| !is_told(pressed));
+    let Some(measured) = antenna.snapshot.state.measured else { return };
+    if recent.0.back().is_some_and(|last| last.received == measured.received) {
+        return;
+    }
+    take_rate(antenna, recent, measured);
+    let before = antenna.prediction.map(|prediction| prediction.catalog_number);
+    antenna.prediction = if antenna.follows() {
+        followed_prediction(antenna)
+    } else {
+        // A satellite that the unit does not track yet, or that has not risen, is no
+        // error.
+        antenna.tracked_number().filter(|_| is_on_course(antenna)).and_then(|number| {
+            let propagator = &followed(number)?.propagator;
+            let satellite = |at| Some(propagator.look_from(site, at).ok()?.direction);
+            let is_up = satellite(measured.at)?.elevation_deg() >= 0.0;
+            let direction = antenna.snapshot.meant_offsets().demanded(measured.at, satellite)?;
+            is_up.then_some(Prediction { catalog_number: Some(number), at: measured.at, direction })
+        })
+    };
+    if antenna.prediction.map(|prediction| prediction.catalog_number) != before {
+        let errors = std::mem::take(&mut antenna.errors);
+        let name = antenna.errors_of.take().unwrap_or_default();
+        if let Some(track) = past_track(name, &errors) {
+            antenna.past_tracks.push(track);
+        }
+    }
+    if let Some(error) = antenna.error() {
+        if antenna.errors_of.is_none() {
+            antenna.errors_of = antenna.tracked_name().map(str::to_owned);
+        }
+        antenna.errors.push(error);
+    }
 }
 
-/// One antenna as clients see it.
-#[derive(Debug, Clone, Serialize, Deserialize)]
-pub struct AntennaModel {
-    #[serde(with = "written::antenna")]
-    pub config: Antenna,
-    /// Last snapshot of its session.
-    pub snapshot: Arc<Snapshot>,
-    /// Prediction for the time of the last measurement.
-    pub prediction: Option<Prediction>,
-    /// Errors of the present track, oldest first.
-    pub errors: Errors,
-    /// Causes of the error of the pass under way, if they are known.
-    // Older films hold another form under the field's own name, which is ignored.
-    #[serde(default, rename = "explained_by")]
-    pub explained: Option<Explained>,
-    /// The unit answers, but positions that it was asked for are missing again and again.
-    #[serde(default)]
-    pub loses_positions: bool,
-    /// Target of the present track.
-    pub errors_of: Option<String>,
-    /// Errors of the last tracks.
-    pub past_tracks: PastTracks,
-    /// Measured rates of azimuth and elevation, degrees a second.
-    pub rates_deg_s: Option<(f64, f64)>,
-    /// How its unit would track the selected or next pass on board.
-    pub judged: Option<Judged>,
-    /// The last event for the operator to read, with its time.
-    pub news: Option<(Event, Timestamp)>,
-    /// Time of a STOP that no snapshot shows yet.
-    pub stop_pressed: Option<Instant>,
-    /// Time of the last STOP that the station knows of.
-    pub last_stop: Option<Instant>,
-    /// The last track it was asked for.
-    pub ordered_track: Option<TrackAgain>,
-    /// A track that STOP ended, offered again.
-    pub track_again: Option<TrackAgain>,
-    /// A jog was refused for lack of a dead-man, and the operator has not allowed it since.
-    pub asks_unguarded: bool,
-    /// An action was refused because nobody here knows where it leads, and no other request
-    /// came since.
-    pub asks_unseen: Option<Act>,
-    /// The other Azel of this machine that drives its unit.
-    pub held_by: Option<HeldBy>,
-    /// Automatic operation.
-    pub operation: Operation,
-    /// Orbit by which its session judges on-board track.
-    pub orbit: Option<Arc<KnownOrbit>>,
-    /// Measurements from which Azel computes the rates.
-    pub(super) recent: VecDeque<Measured>,
-}
-
-impl AntennaModel {
-    /// An antenna whose session has just begun.
-    pub fn new(config: Antenna, snapshot: Arc<Snapshot>) -> Self {
-        Self {
-            config,
-            snapshot,
-            prediction: None,
-            errors: Errors::default(),
-            explained: None,
-            loses_positions: false,
-            errors_of: None,
-            past_tracks: PastTracks::default(),
-            rates_deg_s: None,
-            judged: None,
-            news: None,
-            stop_pressed: None,
-            last_stop: None,
-            ordered_track: None,
-            track_again: None,
-            asks_unguarded: false,
-            asks_unseen: None,
-            held_by: None,
-            operation: Operation::Off(OffBecause::NotSwitchedOn),
-            orbit: None,
-            recent: VecDeque::new(),
+fn take_rate(antenna: &mut AntennaModel, recent: &mut Recent, measured: Measured) {
+    while recent.0.len() > 1
+        && recent.0.get(1).is_some_and(|next| seconds_between(next.at, measured.at) >= RATE_SPAN_S)
+    {
+        recent.0.pop_front();
+    }
+    antenna.rates_deg_s = recent.0.front().and_then(|before| {
+        let span_s = seconds_between(before.at, measured.at);
+        if !(RATE_SPAN_S / 2.0..=10.0).contains(&span_s) {
+            return None;
         }
-    }
-
-    /// Permanent id.
-    pub fn id(&self) -> AntennaId {
-        self.config.id
-    }
-
-    /// Keeps showing a pressed STOP that the station has not heard of yet.
-    pub fn keep_pressed(&mut self, pressed: Option<Instant>) {
-        let is_news = |pressed: &Instant| self.last_stop.is_none_or(|last| last < *pressed);
-        self.stop_pressed = pressed.filter(is_news).or(self.stop_pressed);
-    }
-
-    /// Returns `true` if the antenna can be sent to its park position now.
-    pub fn can_park(&self) -> bool {
-        let snapshot = &self.snapshot;
-        let can = self.variant().capabilities;
-        can.takes_positions && snapshot.link.is_open() && snapshot.lock_out.is_none()
-    }
-
-    pub fn spec(&self) -> &'static ControllerSpec {
-        self.config.connection.spec()
-    }
-
-    pub fn variant(&self) -> &'static Variant {
-        self.config.connection.variant()
-    }
-
-    /// Groups of settings of its unit.
-    pub fn groups(&self) -> &'static [&'static Group] {
-        self.variant().groups
-    }
-
-    /// Compares the measurement in the snapshot with the prediction. `followed` finds a
-    /// satellite by its catalog number.
-    pub fn refresh<'a>(
-        &mut self,
-        site: Site,
-        followed: impl Fn(u32) -> Option<&'a Arc<ListedSatellite>>,
-    ) {
-        let is_told = |pressed: &Instant| match self.snapshot.stop {
-            StopState::Ready => false,
-            StopState::Stopping { .. } | StopState::NotConfirmed { .. } => true,
-            StopState::Stopped { at } => at >= *pressed,
-        };
-        self.stop_pressed = self.stop_pressed.filter(|pressed| !is_told(pressed));
-        let Some(measured) = self.snapshot.state.measured else { return };
-        if self.recent.back().is_some_and(|last| last.received == measured.received) {
-            return;
-        }
-        self.take_rate(measured);
-        let before = self.prediction.map(|prediction| prediction.catalog_number);
-        self.prediction = if self.follows() {
-            self.followed_prediction()
-        } else {
-            // A satellite that the unit does not track yet, or that has not risen, is no
-            // error.
-            self.tracked_number().filter(|_| self.is_on_course()).and_then(|number| {
-                let propagator = &followed(number)?.propagator;
-                let satellite = |at| Some(propagator.look_from(site, at).ok()?.direction);
-                let is_up = satellite(measured.at)?.elevation_deg() >= 0.0;
-                let direction = self.snapshot.meant_offsets().demanded(measured.at, satellite)?;
-                is_up.then_some(Prediction {
-                    catalog_number: Some(number),
-                    at: measured.at,
-                    direction,
-                })
-            })
-        };
-        if self.prediction.map(|prediction| prediction.catalog_number) != before {
-            let errors = std::mem::take(&mut self.errors);
-            self.past_tracks.keep(self.errors_of.take().unwrap_or_default(), &errors);
-        }
-        if let Some(error) = self.error() {
-            if self.errors_of.is_none() {
-                self.errors_of = self.tracked_name().map(str::to_owned);
-            }
-            self.errors.push(error);
-        }
-    }
-
-    fn take_rate(&mut self, measured: Measured) {
-        while self.recent.len() > 1
-            && self
-                .recent
-                .get(1)
-                .is_some_and(|next| seconds_between(next.at, measured.at) >= RATE_SPAN_S)
+        // Over the zenith the angles of the sky jump; the axes do not.
+        if antenna.config.mount.is_flipped(measured.axes[1].angle_deg)
+            != antenna.config.mount.is_flipped(before.axes[1].angle_deg)
         {
-            self.recent.pop_front();
+            return None;
         }
-        self.rates_deg_s = self.recent.front().and_then(|before| {
-            let span_s = seconds_between(before.at, measured.at);
-            if !(RATE_SPAN_S / 2.0..=10.0).contains(&span_s) {
-                return None;
-            }
-            // Over the zenith the angles of the sky jump; the axes do not.
-            if self.config.mount.is_flipped(measured.axes[1].angle_deg)
-                != self.config.mount.is_flipped(before.axes[1].angle_deg)
-            {
-                return None;
-            }
-            let (now, then) = (measured.pointing, before.pointing);
-            let azimuth = (now.azimuth? - then.azimuth?).wrapped_180();
-            let elevation = now
-                .elevation
-                .zip(then.elevation)
-                .map(|(now, then)| (now - then).degrees() / span_s);
-            Some((azimuth.degrees() / span_s, elevation.unwrap_or_default()))
-        });
-        self.recent.push_back(measured);
-    }
+        let (now, then) = (measured.pointing, before.pointing);
+        let azimuth = (now.azimuth? - then.azimuth?).wrapped_180();
+        let elevation =
+            now.elevation.zip(then.elevation).map(|(now, then)| (now - then).degrees() / span_s);
+        Some((azimuth.degrees() / span_s, elevation.unwrap_or_default()))
+    });
+    recent.0.push_back(measured);
+}
 
-    /// Prediction of program track: the session has the target and compares with it.
-    fn followed_prediction(&self) -> Option<Prediction> {
-        let view = self.snapshot.program_track.as_ref()?;
-        let predicted = view.predicted?;
-        Some(Prediction {
-            catalog_number: view.catalog_number,
-            at: predicted.time,
-            direction: predicted.direction,
-        })
-    }
+/// Prediction of program track: the session has the target and compares with it.
+fn followed_prediction(antenna: &AntennaModel) -> Option<Prediction> {
+    let view = antenna.snapshot.program_track.as_ref()?;
+    let predicted = view.predicted?;
+    Some(Prediction {
+        catalog_number: view.catalog_number,
+        at: predicted.time,
+        direction: predicted.direction,
+    })
+}
 
-    /// Returns `true` while program track follows a target or waits for one.
-    pub fn follows(&self) -> bool {
-        let view = self.snapshot.program_track.as_ref();
-        view.is_some_and(|view| view.phase != TrackPhase::Over)
-    }
-
-    /// Catalog number of the satellite that is tracked, or about to be. With on-board track it is
-    /// the satellite that the unit holds, whatever we asked for.
-    pub fn tracked_number(&self) -> Option<u32> {
-        let state = &self.snapshot.state;
-        if self.follows() {
-            return self.snapshot.program_track.as_ref().and_then(|view| view.catalog_number);
-        }
-        let enabled = state.program.is_some_and(|program| program.enabled);
-        if enabled {
-            return state.on_board.satellite.as_ref().map(|held| held.catalog_number);
-        }
-        (self.snapshot.intent == Intent::Track)
-            .then(|| self.snapshot.target.as_ref().map(|target| target.catalog_number))
-            .flatten()
-    }
-
-    /// Catalog number of the satellite that the antenna has the command to track or to wait for.
-    pub fn commanded_number(&self) -> Option<u32> {
-        let program = self.snapshot.state.program;
-        let is_done =
-            !self.follows() && program.is_some_and(|it| it.enabled && it.phase == Phase::Completed);
-        self.tracked_number().filter(|_| !is_done)
-    }
-
-    /// Begin of the track that the antenna is commanded to, at most `now` for one that runs; `None`
-    /// where that is not known.
-    pub fn track_begins(&self, now: Timestamp) -> Option<Timestamp> {
-        let snapshot = &self.snapshot;
-        if let Some(view) = &snapshot.program_track {
-            return Some(view.phase.begins(now));
-        }
-        let window = snapshot.state.on_board.window.filter(|_| self.is_program_on());
-        let target = || snapshot.target.as_ref().map(|target| target.from);
-        window.map(|(from, _)| from).or_else(target)
-    }
-
-    /// Returns `true` if the antenna tracks this satellite, or is on its way to a pass of it.
-    pub fn takes(&self, catalog_number: u32) -> bool {
-        self.snapshot.link.is_open() && self.commanded_number() == Some(catalog_number)
-    }
-
-    /// Returns `true` if the unit should point at its target now: not before its tracking
-    /// window opens, and not when the pass is over.
-    fn is_on_course(&self) -> bool {
-        self.snapshot.state.program.is_some_and(|program| {
-            program.enabled && matches!(program.phase, Phase::Tracking | Phase::Unknown(_))
-        })
-    }
-
-    /// Returns `true` if the unit tracks, or is about to, by a program that this console has
-    /// not started or taken over.
-    pub fn tracks_unasked(&self) -> bool {
-        self.is_live() && self.is_program_on() && self.snapshot.intent != Intent::Track
-    }
-
-    /// Name of the target that is tracked, or about to be; `None` where nothing is, or the
-    /// unit does not name it.
-    pub fn tracked_name(&self) -> Option<&str> {
-        let snapshot = &self.snapshot;
-        if self.follows() {
-            return snapshot.program_track.as_ref().map(|view| view.name.as_str());
-        }
-        let on_board = snapshot.state.on_board.satellite.as_ref().map(|held| held.name.as_str());
-        if self.is_program_on() {
-            return on_board;
-        }
-        let target = snapshot.target.as_ref().map(|target| target.name.as_str());
-        target.filter(|_| snapshot.intent == Intent::Track)
-    }
-
-    fn is_program_on(&self) -> bool {
-        let program = self.snapshot.state.program;
-        program.is_some_and(|it| it.enabled && it.phase != Phase::Completed)
-    }
-
-    /// Returns `true` while a target is tracked, on board or by this program.
-    pub fn tracks(&self) -> bool {
-        let snapshot = &self.snapshot;
-        let by_unit = snapshot
-            .state
-            .program
-            .is_some_and(|program| program.enabled && program.phase == Phase::Tracking);
-        let view = snapshot.program_track.as_ref();
-        by_unit || view.is_some_and(|view| view.phase == TrackPhase::Tracking)
-    }
-
-    /// Returns `true` if the antenna moves or has a track. Without a link it returns
-    /// `false`: nobody knows, and other settings may bring the link back.
-    pub fn is_busy(&self) -> bool {
-        let snapshot = &self.snapshot;
-        let moves = snapshot.state.measured.is_some_and(|measured| measured.moving());
-        let tracks = snapshot.program_track.is_some() || snapshot.intent == Intent::Track;
-        snapshot.link.is_open() && (moves || tracks)
-    }
-
-    /// Returns `true` if the target of program track is where the mount cannot reach.
-    pub fn is_out_of_reach(&self) -> bool {
-        let predicted = self.snapshot.program_track.as_ref().and_then(|view| view.predicted);
-        let mount = self.config.mount;
-        predicted.is_some_and(|Sample { mut direction, .. }| {
-            if !self.variant().capabilities.has_elevation() {
-                let [_, (lowest_deg, _)] = mount.travel_deg();
-                direction.elevation = Angle::from_degrees(lowest_deg);
-            }
-            !mount.reaches(direction)
-        })
-    }
-
-    /// Returns `true` while the unit answers in time. Else what was measured is old, such as that of
-    /// the link before, while a new one is silent.
-    pub fn is_live(&self) -> bool {
-        let Snapshot { link, state, .. } = &*self.snapshot;
-        let is_of_another_link = (state.link_since.zip(state.measured))
-            .is_some_and(|(since, measured)| measured.received < since);
-        matches!(link, LinkState::Up { .. }) && !is_of_another_link
-    }
-
-    /// Returns `true` if no reply has come for longer than a hiccup of the link lasts.
-    pub fn is_silent(&self, now: Instant) -> bool {
-        let Snapshot { link, state, .. } = &*self.snapshot;
-        let last = state.traffic.last_reply.filter(|_| link.is_open());
-        !self.is_live() && last.is_none_or(|last| now.saturating_duration_since(last) > HICCUP)
-    }
-
-    /// Error of the last measurement against the prediction for its time; `None` while that
-    /// measurement is old.
-    pub fn error(&self) -> Option<ErrorSample> {
-        let prediction = self.prediction.filter(|_| self.is_live())?;
-        let measured = self.snapshot.state.measured?;
-        let pointing = measured.pointing;
-        let azimuth = (pointing.azimuth? - prediction.direction.azimuth).wrapped_180();
-        let elevation = pointing.elevation.map(|at| at - prediction.direction.elevation);
-        Some(ErrorSample {
-            time: measured.at,
-            off_beam: pointing.separation(prediction.direction.into())?,
-            azimuth,
-            elevation: elevation.unwrap_or(Angle::ZERO),
-        })
-    }
+/// Returns `true` if the unit should point at its target now: not before its tracking
+/// window opens, and not when the pass is over.
+fn is_on_course(antenna: &AntennaModel) -> bool {
+    antenna.snapshot.state.program.is_some_and(|program| {
+        program.enabled && matches!(program.phase, Phase::Tracking | Phase::Unknown(_))
+    })
 }

@@ -12,8 +12,12 @@ mod upkeep;
 
 use std::path::PathBuf;
 
+pub use self::operation::Duty;
 pub(super) use self::{
-    at_start::LastRun, day::Flight, operation::is_same_pass, upkeep::RuleUpload,
+    at_start::LastRun,
+    day::Flight,
+    operation::{Operate, is_same_pass},
+    upkeep::RuleUpload,
 };
 use self::{
     clock_stop::ClockStop,
@@ -22,20 +26,19 @@ use self::{
     seen::seen,
     upkeep::UpkeepWork,
 };
-pub use self::{
-    day::{DayEvent, DayLine, Flown, MissCause},
-    operation::{Doing, Duty, GivenUp, Interruption, NotReady, OffBecause, On, Operation, Taking},
-};
-use super::{
-    Antenna, By, Command, CurrentRequest, Engine, StationClaim, alarms::AlarmKind,
-    antenna::AntennaModel, handle::Stopped, passes::PassKey,
-};
+use super::{Antenna, CurrentRequest, Engine, StationClaim, handle::Stopped};
 use crate::{
     astro::time::seconds_between,
-    contract::driver::{
-        self, Event, Found, Refusal, Response, Safety, StopState, TrackProblem, Unit,
+    contract::{
+        By, Command,
+        alarms::AlarmKind,
+        antenna::AntennaModel,
+        automatic::{DayEvent, DayLine, Doing, Flown, Interruption, OffBecause, On, Operation},
+        driver::{self, Event, Found, Refusal, Response, Safety, StopState, TrackProblem, Unit},
+        passes::PassKey,
     },
     device::{Asked, Motion},
+    engine::{alarms::KeepAlarms, automatic::operation::is_alarming},
     plan::schedule::{Entry, between, parks_within_s, sets_out},
     promises::FileState,
     station::{AntennaId, BetweenPasses},
@@ -457,7 +460,7 @@ impl Engine {
             }
             (Operation::Off(before), Operation::Off(now)) if before == now => return,
             (_, Operation::Off(because)) => {
-                if because.is_alarming() {
+                if is_alarming(*because) {
                     self.alarms.raise(Some(id), AlarmKind::AutomaticOff(*because), self.now);
                 }
                 DayEvent::SwitchedOff(*because)

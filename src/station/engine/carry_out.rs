@@ -5,19 +5,24 @@ use std::{io, sync::Arc};
 use jiff::Timestamp;
 
 use super::{
-    CatalogState, Command, Engine, Event, StationClaim,
-    alarms::AlarmKind,
+    Engine, StationClaim,
     automatic::Duty,
-    handle::{By, Stopped},
+    handle::Stopped,
     on_board,
-    passes::{PassKey, PredictedPass},
-    sources::{self, SourceWork, Task},
-    uploads,
+    sources::{self, Task},
 };
 use crate::{
     astro::time::seconds_between,
-    contract::driver,
+    contract::{
+        self, By, CatalogState, Command, Event,
+        alarms::AlarmKind,
+        driver,
+        passes::{PassKey, PredictedPass},
+        sources::SourceWork,
+        uploads,
+    },
     controller::SPECS,
+    engine::{alarms::KeepAlarms, sources::due_by_themselves},
     orbit::SourcePlace,
     plan::ProgramTrack,
     secret::Secret,
@@ -276,7 +281,7 @@ impl Engine {
             return match on_board::pass_for(predicted, config, site, now) {
                 Ok(mut pass) => {
                     (pass.target.from, pass.target.until) =
-                        on_board::whole_seconds(cut((pass.target.from, pass.target.until)));
+                        contract::passes::whole_seconds(cut((pass.target.from, pass.target.until)));
                     self.send(index, driver::Command::Track(Box::new(pass)));
                 }
                 Err(refusal) => self.take_event(index, driver::Event::NotSent(refusal)),
@@ -337,7 +342,7 @@ impl Engine {
         if self.refreshed_at.is_some_and(is_soon) {
             return;
         }
-        let due = self.sources.due_by_themselves(self.now);
+        let due = due_by_themselves(&self.sources, self.now);
         if !due.is_empty() {
             self.refreshed_at = Some(self.now);
             self.begin_elements(Task { ask: due, ..Task::default() });

@@ -4,11 +4,8 @@
 use std::{io, path::Path, sync::Arc};
 
 use super::{
-    Engine, Event, Hold, StationClaim,
-    alarms::AlarmKind,
-    claim::{
-        Claim, Claims, Elsewhere, HeldBy, HolderKind, LockFolders, Unclaimed, station_lock, taken,
-    },
+    Engine, Hold, StationClaim,
+    claim::{Claim, Claims, Elsewhere, LockFolders, Unclaimed, station_lock, taken},
 };
 #[cfg(unix)]
 use super::{
@@ -16,7 +13,13 @@ use super::{
     stop_elsewhere::{Courier, Press},
 };
 use crate::{
-    contract::driver::Unit,
+    contract::{
+        Event,
+        alarms::AlarmKind,
+        claim::{HeldBy, HolderKind},
+        driver::Unit,
+    },
+    engine::alarms::KeepAlarms,
     plan::Bounds,
     station::{self, AntennaId},
 };

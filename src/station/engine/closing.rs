@@ -2,59 +2,23 @@
 
 use std::time::Duration;
 
-use serde::{Deserialize, Serialize};
-
-use super::{Engine, Event as Told, antenna::Stake, automatic::Interruption};
+use super::Engine;
 use crate::{
-    clock::Instant,
-    contract::driver::{Command, Event, Intent, StopState},
-    station::{AntennaId, OnClose, Station},
+    contract::{
+        Event as Told,
+        antenna::Stake,
+        automatic::Interruption,
+        closing::{CloseHow, Closing, Wanted},
+        driver::{Command, Event, Intent, StopState},
+    },
+    engine::automatic::Operate,
+    station::AntennaId,
 };
 
 /// A STOP is reported as not proved before this time.
 const STOPPED_IN: Duration = Duration::from_secs(6);
 /// A session has taken up a command by this time.
 const TAKEN_IN: Duration = Duration::from_secs(2);
-
-/// Treatment of antennas that move or track at the end.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub enum CloseHow {
-    /// They are stopped and hold.
-    Hold,
-    /// They are parked; those that cannot be parked are stopped.
-    Park,
-    /// On-board track goes on; everything else that moves is stopped.
-    Leave,
-}
-
-/// A closing under way: the program ends when these antennas are done.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Closing {
-    /// The operator's choice.
-    pub how: CloseHow,
-    pub waits_for: Vec<(AntennaId, Wanted)>,
-    since: Instant,
-}
-
-/// Condition that a closing waits for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Wanted {
-    /// Proved standstill.
-    Still,
-    /// Arrival at the park position.
-    Parked,
-}
-
-impl CloseHow {
-    /// The choice in the station file; `None` where the operator is asked.
-    pub fn of(station: &Station) -> Option<Self> {
-        Some(match station.on_close? {
-            OnClose::Hold => Self::Hold,
-            OnClose::Park => Self::Park,
-            OnClose::Leave => Self::Leave,
-        })
-    }
-}
 
 impl Engine {
     /// Carries out the operator's choice and closes when it is done.

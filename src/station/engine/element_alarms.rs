@@ -5,9 +5,11 @@ use std::collections::BTreeSet;
 
 use jiff::Timestamp;
 
-use super::{CatalogState, Engine, alarms::AlarmKind, antenna::AntennaModel};
+use super::Engine;
 use crate::{
     astro::time::DAY_S,
+    contract::{CatalogState, alarms::AlarmKind, antenna::AntennaModel},
+    engine::alarms::KeepAlarms,
     orbit::{Catalog, SourceReport},
     plan::schedule::{LeftOut, Refusal, Schedule, Why},
     station::{AntennaId, Scheduling},

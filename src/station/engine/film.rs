@@ -6,19 +6,17 @@ use jiff::Timestamp;
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 use serde_json::Value;
 
-use super::{
-    CatalogState, Snapshot,
-    antenna::{AntennaModel, ErrorSample, Errors, PastTrack, PastTracks},
-    passes::PassLists,
-    written,
-};
 use crate::{
     astro::time::{add_seconds, seconds_between},
     clock::Moment,
     contract::{
-        driver,
-        driver::{LinkState, WireLog},
+        CatalogState, Snapshot,
+        antenna::{AntennaModel, ErrorSample, Errors, PastTrack, PastTracks},
+        driver::{self, LinkState, WireLog},
+        passes::PassLists,
+        written,
     },
+    engine::passes,
     orbit::{Catalog, Elements, ReadReport},
     record::{Film, FilmError, Parts, Picture},
     station::{AntennaId, Station},
@@ -155,8 +153,6 @@ fn without_parts(antennas: &[AntennaModel], parts: &mut Parts) -> Vec<AntennaMod
         );
         antenna.errors = Errors::default();
         antenna.past_tracks = PastTracks::default();
-        // The film keeps the rates computed from these measurements.
-        antenna.recent.clear();
     }
     antennas
 }
@@ -370,7 +366,7 @@ impl Projector {
             let read = ReadReport { elements: elements.to_vec(), ..ReadReport::default() };
             catalog.merge(read, RECORDED_SOURCE);
             let catalog = Arc::new(catalog);
-            let lists = PassLists::again(&catalog, &elements, station, made_at);
+            let lists = passes::again(&catalog, &elements, station, made_at);
             let station = Arc::clone(station);
             self.lists = Some(PredictedAgain { station, elements, made_at, catalog, lists });
         }

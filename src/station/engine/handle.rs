@@ -9,13 +9,16 @@ use std::{
     time::Duration,
 };
 
-use serde::{Deserialize, Serialize};
 use tokio::sync::{Notify, mpsc, watch};
 
-use super::{Command, Engine, Settings, Snapshot, claim::HolderKind, passes::ListChoice};
+use super::{Engine, Settings};
 use crate::{
     clock::{Clock, Instant, Moment},
-    contract::{driver, driver::WireLog},
+    contract::{
+        By, Command, Event, Snapshot,
+        driver::{self, WireLog},
+        passes::ListChoice,
+    },
     driver::{Orders, Outside, Stopper},
     job::Wake,
     station::AntennaId,
@@ -65,32 +68,6 @@ pub(super) struct Urgent {
     pub(super) is_stop_lost: bool,
 }
 
-/// Origin of a command.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum By {
-    /// The operator, in the window.
-    #[default]
-    Window,
-    /// `azel serve`, when it ends.
-    Serve,
-    /// Another program of this user, such as `azel stop`.
-    Program,
-    /// A signal of the operating system.
-    Signal,
-    /// The station, without a request, such as automatic operation.
-    Station,
-}
-
-impl From<HolderKind> for By {
-    fn from(kind: HolderKind) -> Self {
-        match kind {
-            HolderKind::Window => Self::Window,
-            HolderKind::Serve => Self::Serve,
-        }
-    }
-}
-
 /// A STOP that was already sent to the sessions.
 #[derive(Debug, Clone)]
 pub struct Stopped {
@@ -107,17 +84,6 @@ pub struct Stopped {
     pub(super) is_for_all: bool,
     /// Newest session at that time; later ones have not had this STOP.
     pub(super) newest_session: u64,
-}
-
-/// An event for the client.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub enum Event {
-    /// The station was saved at this time, or the reason why not.
-    Saved(Result<jiff::Timestamp, String>),
-    /// The station has changed other than by a save.
-    Changed,
-    /// The closing is done: the program may end.
-    MayEnd,
 }
 
 /// The state that a station publishes.

@@ -2,40 +2,18 @@
 
 use std::io;
 
-use serde::{Deserialize, Serialize};
-
 use crate::{
-    contract::transfer::Peer,
+    contract::{host_keys::DoubtfulKey, transfer::Peer},
     job::{Job, Wake},
     transfer::{ConnectError, KnownHosts, OfferedKey},
 };
 
-/// A host key that is not the known one, or the key of an unknown host.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub struct DoubtfulKey {
-    /// Host as named in the file of known hosts.
-    pub address: String,
-    /// Kind of key, such as `ssh-ed25519`.
-    pub algorithm: String,
-    /// `SHA256:…`, as `ssh-keygen -l` shows it on the host.
-    pub fingerprint: String,
-    /// Fingerprints of the expected keys; empty for an unknown host.
-    pub pinned: Vec<String>,
-}
-
-impl DoubtfulKey {
-    /// Returns `true` if the host has another key than before, which is refused.
-    pub fn is_changed(&self) -> bool {
-        !self.pinned.is_empty()
-    }
-
-    pub(super) fn of(offered: &OfferedKey, pinned: Vec<String>) -> Self {
-        Self {
-            address: offered.address(),
-            algorithm: offered.algorithm(),
-            fingerprint: offered.fingerprint(),
-            pinned,
-        }
+fn doubtful_key(offered: &OfferedKey, pinned: Vec<String>) -> DoubtfulKey {
+    DoubtfulKey {
+        address: offered.address(),
+        algorithm: offered.algorithm(),
+        fingerprint: offered.fingerprint(),
+        pinned,
     }
 }
 
@@ -48,7 +26,7 @@ pub(super) fn doubtful(
         ConnectError::HostKeyChanged { pinned, offered } => (offered, pinned),
         error => return Err(error),
     };
-    let key = DoubtfulKey::of(&offered, pinned);
+    let key = doubtful_key(&offered, pinned);
     Ok((offered, key))
 }
 

@@ -4,8 +4,11 @@ use std::{future::Future, io, sync::Arc};
 
 use tokio::sync::{Notify, mpsc};
 
-use super::{Client, Engine, Event, Outbox, Settings, handle::Request, wake_of};
-use crate::driver::{Driver, Outside};
+use super::{Client, Engine, Outbox, Settings, handle::Request, wake_of};
+use crate::{
+    contract::Event,
+    driver::{Driver, Outside},
+};
 
 /// Most requests that wait.
 const REQUESTS: usize = 64;

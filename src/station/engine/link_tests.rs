@@ -2,12 +2,12 @@
 
 use std::sync::Arc;
 
-use jiff::Timestamp;
-use serde::{Deserialize, Serialize};
-
-use super::{Engine, claim::HeldBy, written};
+use super::Engine;
 use crate::{
-    contract::driver::{LinkFault, LinkFinding, Unit},
+    contract::{
+        driver::{LinkFault, LinkFinding, Unit},
+        link_tests::{LinkTest, LinkTestStage},
+    },
     driver::{Outside, UnitLock, test_link},
     job::{Job, Wake},
     station::{Antenna, AntennaId},
@@ -15,28 +15,6 @@ use crate::{
 
 /// Maximum number of tests that are kept.
 const KEPT: usize = 16;
-
-/// The last test of an antenna.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct LinkTest {
-    /// As it was tested.
-    #[serde(with = "written::antenna")]
-    pub antenna: Antenna,
-    pub stage: LinkTestStage,
-}
-
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub enum LinkTestStage {
-    Working,
-    /// Nothing was asked: an antenna of this station has the unit.
-    InUse,
-    /// Nothing was asked: another Azel has the unit.
-    Elsewhere(HeldBy),
-    Done {
-        finding: LinkFinding,
-        at: Timestamp,
-    },
-}
 
 /// Runs the tests, each on a thread of its own.
 pub(super) struct Runner {

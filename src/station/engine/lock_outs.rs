@@ -2,9 +2,10 @@
 
 use std::{path::Path, sync::Arc};
 
-use super::{Engine, alarms::AlarmKind, uploads::Ask};
+use super::Engine;
 use crate::{
-    contract::driver::Command,
+    contract::{alarms::AlarmKind, driver::Command, uploads::Ask},
+    engine::alarms::KeepAlarms,
     promises::FileState,
     station::{Antenna, LOCK_OUTS_FILE, LockOut},
 };

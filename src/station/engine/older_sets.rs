@@ -2,33 +2,13 @@
 
 use std::{path::Path, sync::Arc};
 
-use jiff::Timestamp;
-use serde::{Deserialize, Serialize};
-
 use super::Engine;
 use crate::{
-    contract::older_sets::OlderSet,
+    contract::older_sets::{OlderSets, SetChoice},
     job::Job,
     library::{Exceptions, History},
     orbit::Catalog,
 };
-
-/// The older sets of one object.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct OlderSets {
-    pub catalog_number: u32,
-    /// The newest first.
-    pub sets: Vec<OlderSet>,
-}
-
-/// The set of elements that an object is to have.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub enum SetChoice {
-    /// The held set with this epoch, until one comes that is newer than all held.
-    Older { catalog_number: u32, epoch: Timestamp },
-    /// The newest set, as all objects have without a choice.
-    Newest { catalog_number: u32 },
-}
 
 /// The reading of older sets.
 #[derive(Default)]

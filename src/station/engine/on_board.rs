@@ -4,79 +4,25 @@
 use std::sync::Arc;
 
 use jiff::Timestamp;
-use serde::{Deserialize, Serialize};
 
-use super::{
-    Antenna, CatalogState, Engine,
-    alarms::AlarmKind,
-    antenna::AntennaModel,
-    passes::{PassKey, PredictedPass},
-};
+use super::{Antenna, Engine};
 use crate::{
     astro::{Angle, Site, time::add_seconds},
     contract::{
-        driver,
-        driver::{Event, OffTargetCause, Refusal, Snapshot},
+        CatalogState,
+        alarms::AlarmKind,
+        antenna::{AntennaModel, Judged},
+        driver::{self, Event, OffTargetCause, Refusal, Snapshot},
+        passes::{PassKey, PredictedPass, window},
     },
     device::{OnBoard, TrackTarget, UnitClock},
-    orbit::{PassSearch, passes},
+    engine::alarms::KeepAlarms,
     plan::{
-        OnBoardPass, Supervision,
+        OnBoardPass,
         on_board::{Ability, Judge, KnownOrbit},
     },
     station,
 };
-
-/// Margin of a search around a known pass, whose ends are exact to a millisecond.
-const EDGE_S: f64 = 0.002;
-
-/// Judgement of a unit, with the pass and the unit's settings behind it.
-#[derive(Debug, Clone, Serialize, Deserialize)]
-pub struct Judged {
-    /// How it would track; `None` where its antenna cannot track the pass.
-    pub found: Option<Arc<Supervision>>,
-    of: (PassKey, OnBoard),
-}
-
-/// Window in which the unit of `antenna` may point to the satellite of `predicted`: whole seconds
-/// within the first stay above its minimum elevation that is not over. The stay is geometric, as
-/// the unit points. An error where there is none.
-pub fn window(
-    predicted: &PredictedPass,
-    antenna: &station::Antenna,
-    site: Site,
-    now: Timestamp,
-) -> Result<(Timestamp, Timestamp), Refusal> {
-    let lowest_deg = antenna.limits.minimum_elevation_deg;
-    let lowest = Angle::from_degrees(lowest_deg);
-    let (aos, los) = (predicted.pass.aos.time, predicted.pass.los.time);
-    let search = PassSearch {
-        aos_elevation: lowest,
-        floor: lowest,
-        ..PassSearch::new(site.airless(), add_seconds(aos, -EDGE_S), add_seconds(los, EDGE_S))
-    };
-    let stays = passes(&predicted.satellite.propagator, &search, &|| false);
-    let within = stays.iter().map(|stay| (stay.aos.time.max(aos), stay.los.time.min(los)));
-    let mut whole = within.map(|(from, until)| (first_second(from), last_second(until)));
-    whole.find(|(from, until)| from < until && now < *until).ok_or(Refusal::TooLow {
-        highest_deg: predicted.pass.max_elevation().degrees(),
-        lowest_deg,
-    })
-}
-
-/// The whole seconds within a span.
-pub(super) fn whole_seconds((from, until): (Timestamp, Timestamp)) -> (Timestamp, Timestamp) {
-    (first_second(from), last_second(until))
-}
-
-fn first_second(time: Timestamp) -> Timestamp {
-    let cut = last_second(time);
-    if cut == time { time } else { add_seconds(cut, 1.0) }
-}
-
-fn last_second(time: Timestamp) -> Timestamp {
-    Timestamp::from_second(time.as_second()).unwrap_or(time)
-}
 
 /// The on-board pass for the unit of `antenna`.
 pub(super) fn pass_for(
@@ -181,7 +127,7 @@ impl Engine {
         });
         let from_here = antenna.snapshot.program_track.as_ref().and_then(|view| view.missing);
         let missed = on_board.or(from_here.map(|off| (off, None))).map(|(off, reported)| {
-            let cause = antenna.off_because(off, reported.map(OffTargetCause::Reported));
+            let cause = off_because(antenna, off, reported.map(OffTargetCause::Reported));
             AlarmKind::OffTarget { off, cause }
         });
         let is_missed = |kind: &AlarmKind| matches!(kind, AlarmKind::OffTarget { .. });
@@ -202,49 +148,36 @@ impl Engine {
         let left = left.map(|(offsets, why)| AlarmKind::OffsetsLeft { offsets, why });
         alarms.follow(of, now, left, |kind| matches!(kind, AlarmKind::OffsetsLeft { .. }));
         let is_loading = matches!(self.catalog, CatalogState::Loading);
-        let not_compared = antenna.not_compared().filter(|_| !is_loading);
+        let not_compared = not_compared(antenna).filter(|_| !is_loading);
         alarms.follow(of, now, not_compared, |kind| matches!(kind, AlarmKind::NotCompared { .. }));
     }
 }
 
-impl AntennaModel {
-    /// Why the antenna is `off` its satellite: what its positions show, such as an axis that stands, or
-    /// else what the unit reports of itself.
-    pub(super) fn off_because(
-        &self,
-        off: Angle,
-        reported: Option<OffTargetCause>,
-    ) -> Option<OffTargetCause> {
-        let explained = self.explained.as_ref().filter(|explained| explained.can_make(off));
-        explained.cloned().map(OffTargetCause::Measured).or(reported)
-    }
+/// Why the antenna is `off` its satellite: what its positions show, such as an axis that stands, or
+/// else what the unit reports of itantenna.
+pub(super) fn off_because(
+    antenna: &AntennaModel,
+    off: Angle,
+    reported: Option<OffTargetCause>,
+) -> Option<OffTargetCause> {
+    let explained = antenna.explained.as_ref().filter(|explained| explained.can_make(off));
+    explained.cloned().map(OffTargetCause::Measured).or(reported)
+}
 
-    /// Alarm for on-board track that cannot be compared with elements: the operator must
-    /// watch it alone.
-    fn not_compared(&self) -> Option<AlarmKind> {
-        let Snapshot { state, program_track, link, .. } = &*self.snapshot;
-        let tracks = state.program.is_some_and(|program| program.enabled);
-        if !tracks || !link.is_open() || program_track.is_some() || self.orbit.is_some() {
-            return None;
-        }
-        match &state.on_board.satellite {
-            Some(held) if held.catalog_number == 0 && held.name.is_empty() => None,
-            Some(held) => Some(AlarmKind::NotCompared { satellite: Some(held.name.clone()) }),
-            // A unit that takes satellites from here soon reports which one it holds.
-            None if self.variant().capabilities.has_program => None,
-            None => Some(AlarmKind::NotCompared { satellite: None }),
-        }
+/// Alarm for on-board track that cannot be compared with elements: the operator must
+/// watch it alone.
+fn not_compared(antenna: &AntennaModel) -> Option<AlarmKind> {
+    let Snapshot { state, program_track, link, .. } = &*antenna.snapshot;
+    let tracks = state.program.is_some_and(|program| program.enabled);
+    if !tracks || !link.is_open() || program_track.is_some() || antenna.orbit.is_some() {
+        return None;
     }
-
-    /// Judgement of the present on-board track, or else of the next one.
-    pub fn supervision(&self) -> Option<&Supervision> {
-        let running = self.snapshot.on_board.as_ref().map(|view| &*view.found);
-        running.or(self.judged.as_ref().and_then(|judged| judged.found.as_deref()))
-    }
-
-    /// The judgement, if by it the satellite is missed.
-    pub fn misses(&self) -> Option<&Supervision> {
-        self.supervision().filter(|found| !found.is_within_beam)
+    match &state.on_board.satellite {
+        Some(held) if held.catalog_number == 0 && held.name.is_empty() => None,
+        Some(held) => Some(AlarmKind::NotCompared { satellite: Some(held.name.clone()) }),
+        // A unit that takes satellites from here soon reports which one it holds.
+        None if antenna.variant().capabilities.has_program => None,
+        None => Some(AlarmKind::NotCompared { satellite: None }),
     }
 }
 
@@ -261,82 +194,5 @@ fn rounded(unit: &OnBoard) -> OnBoard {
         satellite: None,
         window: None,
         ..unit.clone()
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::{
-        astro::time::seconds_between,
-        engine::passes::{ListedSatellite, Observer},
-        orbit::{Pass, Propagator, bundled},
-        station::Station,
-    };
-
-    fn length_s((from, until): (Timestamp, Timestamp)) -> f64 {
-        seconds_between(from, until)
-    }
-
-    fn now() -> Timestamp {
-        "2026-08-12T00:00:00Z".parse().unwrap()
-    }
-
-    fn station(lowest_deg: [f64; 2]) -> Station {
-        let mut antennas =
-            vec![station::Antenna::genius("First", ""), station::Antenna::satrak("Second", "")];
-        for (antenna, lowest_deg) in antennas.iter_mut().zip(lowest_deg) {
-            antenna.limits.minimum_elevation_deg = lowest_deg;
-        }
-        Station { antennas, ..Station::default() }
-    }
-
-    /// The first pass above 60 degrees as the station lists it.
-    fn predicted_pass(station: &Station) -> PredictedPass {
-        let elements = bundled().unwrap().get(25_544).unwrap().clone();
-        let propagator = Propagator::new(&elements).unwrap();
-        let observer = Observer::of(station);
-        let search = PassSearch {
-            aos_elevation: observer.aos_elevation,
-            ..PassSearch::new(station.site, now(), add_seconds(now(), 5.0 * 86_400.0))
-        };
-        let high = |pass: &Pass| pass.max_elevation().degrees() > 60.0;
-        let pass = passes(&propagator, &search, &|| false).into_iter().find(high).unwrap();
-        PredictedPass::new(
-            Arc::new(ListedSatellite { elements, propagator }),
-            pass,
-            Arc::new(observer),
-        )
-    }
-
-    #[test]
-    fn the_window_of_an_antenna_keeps_to_its_own_lowest_elevation() {
-        let station = station([0.0, 45.0]);
-        let predicted = predicted_pass(&station);
-        let [first, second] = [0, 1].map(|index| {
-            window(&predicted, &station.antennas[index], station.site, now()).unwrap()
-        });
-        assert!(length_s(first) > 500.0 && length_s(second) < 200.0, "{first:?} {second:?}");
-        let aos = predicted.pass.aos.time;
-        assert!((0.0..1.01).contains(&seconds_between(aos, first.0)), "{aos} {first:?}");
-        let elevation = |at| {
-            let look = predicted.satellite.propagator.look_from(station.site, at).unwrap();
-            look.direction.elevation_deg()
-        };
-        for (from, until) in [second] {
-            for at in [from, until] {
-                assert!((45.0..46.0).contains(&elevation(at)), "{} {at}", elevation(at));
-            }
-            assert_eq!((from.subsec_nanosecond(), until.subsec_nanosecond()), (0, 0));
-        }
-    }
-
-    #[test]
-    fn a_pass_that_stays_too_low_has_no_window() {
-        let station = station([0.0, 89.5]);
-        let predicted = predicted_pass(&station);
-        let highest_deg = predicted.pass.max_elevation().degrees();
-        let refused = window(&predicted, &station.antennas[1], station.site, now());
-        assert_eq!(refused, Err(Refusal::TooLow { highest_deg, lowest_deg: 89.5 }));
     }
 }

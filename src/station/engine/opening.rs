@@ -2,11 +2,9 @@
 
 use std::path::PathBuf;
 
-use super::{
-    Settings,
-    claim::{HeldBy, holder_of_station},
-};
+use super::{Settings, claim::holder_of_station};
 use crate::{
+    contract::claim::HeldBy,
     controller::SPECS,
     station::{self, LoadError},
 };

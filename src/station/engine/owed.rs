@@ -5,12 +5,17 @@ use std::{collections::BTreeSet, sync::Arc};
 
 use jiff::Timestamp;
 
-use super::{
-    Engine,
-    alarms::{AlarmKind, Alarms},
-};
+use super::Engine;
 use crate::{
-    contract::driver::Unit, controller::SPECS, driver::Debts, plan::Bounds, station::Antenna,
+    contract::{
+        alarms::{AlarmKind, Alarms},
+        driver::Unit,
+    },
+    controller::SPECS,
+    driver::Debts,
+    engine::alarms::KeepAlarms,
+    plan::Bounds,
+    station::Antenna,
 };
 
 impl Engine {

@@ -1,8 +1,6 @@
 //! Predicted passes, computed in the background.
 
-mod choice;
 mod list;
-mod predicted_pass;
 mod search;
 
 #[cfg(test)]
@@ -11,19 +9,13 @@ mod tests;
 use std::sync::Arc;
 
 use jiff::Timestamp;
-use serde::{Deserialize, Serialize};
 
-pub use self::{
-    choice::{ListChoice, SPANS_H, Scope},
-    list::{PassList, UpcomingPasses, Work},
-    predicted_pass::{ListedSatellite, Observer, PredictedPass, mount_limits},
-};
 use self::{
     list::Search,
     search::{SearchKey, SearchScope},
 };
 use crate::{
-    astro::{Angle, AzEl, frames::SiteFrame, time::add_seconds},
+    contract::passes::{ListChoice, Observer, PassList, PassLists, Scope},
     job::Wake,
     orbit::{Catalog, Elements},
     station::Station,
@@ -32,18 +24,6 @@ use crate::{
 /// Hours ahead for the passes of the favourites at least: the strip shows this much, whatever
 /// the list shows.
 const FAVOURITES_H: u32 = 48;
-
-/// Key of a pass: catalog number of the satellite and AOS.
-pub type PassKey = (u32, Timestamp);
-
-/// The pass lists.
-#[derive(Debug, Clone, Default, Serialize, Deserialize)]
-pub struct PassLists {
-    /// Passes of the favourites.
-    pub favourites: PassList,
-    /// Passes of all satellites, searched for when the operator wants the list.
-    pub all: PassList,
-}
 
 /// The searches for the pass lists.
 #[derive(Default)]
@@ -103,6 +83,17 @@ impl Searches {
     }
 }
 
+/// The lists that were made at `made_at` of these elements of the favourites, predicted anew.
+pub(in crate::engine) fn again(
+    catalog: &Arc<Catalog>,
+    elements: &[Elements],
+    station: &Station,
+    made_at: Option<Timestamp>,
+) -> PassLists {
+    let key = SearchKey::of_favourites(catalog, station);
+    PassLists { favourites: list::again(&key, elements, made_at), all: PassList::default() }
+}
+
 impl SearchKey {
     fn of_favourites(catalog: &Arc<Catalog>, station: &Station) -> Self {
         Self {
@@ -113,65 +104,4 @@ impl SearchKey {
             span_h: FAVOURITES_H.max(station.scheduling.span_h.ceil() as u32),
         }
     }
-}
-
-impl PassLists {
-    /// The lists that were made at `made_at` of these elements of the favourites, predicted anew.
-    pub(in crate::engine) fn again(
-        catalog: &Arc<Catalog>,
-        elements: &[Elements],
-        station: &Station,
-        made_at: Option<Timestamp>,
-    ) -> Self {
-        let key = SearchKey::of_favourites(catalog, station);
-        Self { favourites: PassList::again(&key, elements, made_at), all: PassList::default() }
-    }
-
-    pub fn of(&self, scope: Scope) -> &PassList {
-        match scope {
-            Scope::Favourites => &self.favourites,
-            Scope::All => &self.all,
-        }
-    }
-
-    /// The pass of `key`, first among the favourites.
-    pub fn find(&self, key: PassKey) -> Option<&PredictedPass> {
-        self.favourites.find(key).or_else(|| self.all.find(key))
-    }
-
-    /// The pass of a favourite that is under way or comes next; geosynchronous satellites
-    /// only if there is no other.
-    pub fn next(&self, now: Timestamp) -> Option<&PredictedPass> {
-        let moving = |predicted: &&PredictedPass| !predicted.satellite.elements.is_geosynchronous();
-        let passes = self.favourites.upcoming(now);
-        passes.iter().find(moving).or_else(|| passes.iter().next())
-    }
-
-    /// The satellite with this catalog number, if a list has it.
-    pub fn satellite(&self, catalog_number: u32) -> Option<&Arc<ListedSatellite>> {
-        let number = |known: &Arc<ListedSatellite>| known.elements.catalog_number();
-        let followed = &self.favourites.satellites;
-        followed.iter().find(|known| number(known) == catalog_number).or_else(|| {
-            let all = &self.all.satellites;
-            let place = all.binary_search_by_key(&catalog_number, number).ok()?;
-            all.get(place)
-        })
-    }
-}
-
-/// Directions of a satellite while it is up in the next `span_s`, in steps of 30 s.
-pub fn ahead(
-    satellite: &ListedSatellite,
-    site: &SiteFrame,
-    now: Timestamp,
-    span_s: f64,
-) -> Vec<AzEl> {
-    let steps = (span_s / 30.0) as usize;
-    let times: Vec<_> = (0..=steps).map(|step| add_seconds(now, step as f64 * 30.0)).collect();
-    let states = satellite.propagator.states_at(&times);
-    let directions = states.into_iter().zip(times).map_while(|(state, at)| {
-        let direction = site.direction(state?.local(site, at).position_km);
-        (direction.elevation > Angle::ZERO).then_some(direction)
-    });
-    directions.collect()
 }

@@ -3,13 +3,12 @@
 use std::{io, path::PathBuf, sync::Arc, time::Duration};
 
 use jiff::Timestamp;
-use serde::{Deserialize, Serialize};
 
 use super::Engine;
 use crate::{
     astro::Term,
     clock::Instant,
-    contract::record::{Peak, PeakChange, Peaks, PointingFit},
+    contract::record::{Peak, PeakChange, Peaks, PointingFit, PointingFitted},
     job::Job,
     record::{self, RecordError, read_peaks},
     station::AntennaId,
@@ -17,14 +16,6 @@ use crate::{
 
 /// Time until peaks that could not be read are read again.
 const AGAIN: Duration = Duration::from_secs(5);
-
-/// A fit to the record of an antenna. It changes nothing.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct PointingFitted {
-    pub antenna: AntennaId,
-    /// Or why there is none. `None` while it is worked out.
-    pub found: Option<Result<PointingFit, String>>,
-}
 
 /// The fit that is worked out, or was last.
 #[derive(Default)]

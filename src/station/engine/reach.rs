@@ -6,13 +6,17 @@ use tokio::task::JoinSet;
 
 use super::{
     claim::{
-        HeldBy, Holder, LockFolders,
+        LockFolders,
         lock::{file_path, holder_of},
         place_lock, socket_path, station_lock, written_lock,
     },
     socket::{Answer, Ask, Asked, send},
 };
-use crate::{driver::endpoints, station::Antenna};
+use crate::{
+    contract::claim::{HeldBy, Holder},
+    driver::endpoints,
+    station::Antenna,
+};
 
 /// Outcome of a question to one process.
 #[derive(Debug)]
@@ -234,9 +238,9 @@ mod linux {
 
     use tokio::net::UnixStream;
 
-    use crate::engine::claim::{
-        HeldBy,
-        lock::{holder_of, machine},
+    use crate::{
+        contract::claim::HeldBy,
+        engine::claim::lock::{holder_of, machine},
     };
 
     /// Number of looks at the list of locks: it lacks a line now and then while other processes lock
@@ -313,7 +317,7 @@ mod tests {
     use tokio::signal::unix::{SignalKind, signal};
 
     use super::*;
-    use crate::engine::claim::HolderKind;
+    use crate::contract::claim::HolderKind;
 
     const LOCK: &str = "station-0";
 

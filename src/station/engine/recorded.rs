@@ -3,84 +3,40 @@
 use std::{path::Path, sync::Arc, time::Duration};
 
 use jiff::Timestamp;
-use serde::{Deserialize, Serialize};
 
-use super::{Engine, automatic::Flown};
+use super::Engine;
 use crate::{
     astro::Site,
     clock::Instant,
-    contract::record::{ExplainedPasses, OpenedPass, PassPage, PassQuery},
+    contract::{
+        record::ExplainedPasses,
+        recorded::{Found, MissedPass, RecordLook, Recorded},
+    },
     job::Job,
     record::{self, MissedEntry, RecordError},
-    station::AntennaId,
 };
 
 /// Time from the end of the work on a report until it can be read from the file.
 const UNTIL_WRITTEN: Duration = Duration::from_secs(1);
 
-/// Passes of the record that a client looks at.
-#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
-pub struct RecordLook {
-    pub query: PassQuery,
-    /// Number of the pass whose track is shown.
-    pub opened: Option<i64>,
+/// `None` where the entry has another form, as an older program wrote it.
+fn missed_pass(entry: MissedEntry) -> Option<MissedPass> {
+    let MissedEntry { id, at, antenna, antenna_name, flown } = entry;
+    let flown = serde_json::from_value(flown).ok()?;
+    Some(MissedPass { id, at, antenna, antenna_name, flown })
 }
 
-/// Content of the record for a look.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Recorded {
-    pub look: RecordLook,
-    /// Or why the record cannot be read.
-    pub found: Result<Found, String>,
-    /// Causes that explain the opened pass and those before it together. Finding them takes longer
-    /// than the rest.
-    pub together: Option<ExplainedPasses>,
+/// Reads the record at `path`. Reports without a site are of an antenna at `site`.
+pub fn read_record(path: &Path, look: RecordLook, site: Site) -> Recorded {
+    let found = read(path, &look, site).map_err(|error| error.to_string());
+    Recorded { look, found, together: None }
 }
 
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Found {
-    pub page: PassPage,
-    /// Passes that automatic operation was to track in the time of the page, and that were not
-    /// tracked, the newest first.
-    pub missed: Vec<MissedPass>,
-    pub opened: Option<OpenedPass>,
-}
-
-/// A pass that was to be tracked, and was not.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct MissedPass {
-    /// Number of its entry in the record.
-    pub id: i64,
-    /// When it was over for the antenna.
-    pub at: Timestamp,
-    pub antenna: AntennaId,
-    /// Name of the antenna at the time.
-    pub antenna_name: String,
-    pub flown: Flown,
-}
-
-impl MissedPass {
-    /// `None` where the entry has another form, as an older program wrote it.
-    fn of(entry: MissedEntry) -> Option<Self> {
-        let MissedEntry { id, at, antenna, antenna_name, flown } = entry;
-        let flown = serde_json::from_value(flown).ok()?;
-        Some(Self { id, at, antenna, antenna_name, flown })
-    }
-}
-
-impl Recorded {
-    /// Reads the record at `path`. Reports without a site are of an antenna at `site`.
-    pub fn read(path: &Path, look: RecordLook, site: Site) -> Self {
-        let found = read(path, &look, site).map_err(|error| error.to_string());
-        Self { look, found, together: None }
-    }
-
-    /// Returns `true` if the same pass is opened and the record has as many passes, so that what
-    /// explains them together is the same.
-    fn has_same_passes(&self, other: &Self) -> bool {
-        let passes = |of: &Self| of.found.as_ref().ok().map(|found| found.page.all);
-        self.look.opened == other.look.opened && passes(self) == passes(other)
-    }
+/// Returns `true` if the same pass is opened and the record has as many passes, so that what
+/// explains them together is the same.
+fn have_same_passes(one: &Recorded, other: &Recorded) -> bool {
+    let passes = |recorded: &Recorded| recorded.found.as_ref().ok().map(|found| found.page.all);
+    one.look.opened == other.look.opened && passes(one) == passes(other)
 }
 
 /// The reading of a record.
@@ -122,7 +78,7 @@ impl Engine {
         };
         let site = self.station.site;
         let job = Job::start("azel-look-back", Arc::clone(&self.wake), move |_| {
-            Recorded::read(&path, look, site)
+            read_record(&path, look, site)
         });
         self.record_reading.job =
             job.inspect_err(|error| tracing::error!(%error, "no thread to read the record")).ok();
@@ -134,7 +90,7 @@ impl Engine {
         }
         if let Some(Ok(mut recorded)) = Job::take(&mut self.record_reading.job) {
             let before = self.record_reading.found.take();
-            let before = before.filter(|before| before.has_same_passes(&recorded));
+            let before = before.filter(|before| have_same_passes(before, &recorded));
             recorded.together = before.as_ref().and_then(|before| before.together.clone());
             self.record_reading.found = Some(Arc::new(recorded));
             if before.is_none() {
@@ -171,7 +127,7 @@ impl Engine {
 fn read(path: &Path, look: &RecordLook, site: Site) -> Result<Found, RecordError> {
     let page = record::passes(path, &look.query)?;
     let missed = record::missed(path, &look.query, &page)?;
-    let missed = missed.into_iter().filter_map(MissedPass::of).collect();
+    let missed = missed.into_iter().filter_map(missed_pass).collect();
     let opened = look.opened.map(|id| record::open_pass(path, id, site)).transpose()?.flatten();
     Ok(Found { page, missed, opened })
 }
@@ -181,10 +137,13 @@ mod tests {
     use super::*;
     use crate::{
         clock::Clock,
-        engine::automatic::{DayEvent, DayLine, MissCause},
+        contract::{
+            automatic::{DayEvent, DayLine, Flown, MissCause},
+            record::PassQuery,
+        },
         plan::pass_report::LossCause,
         record::{Entry, Kind, Recorder},
-        station::Retention,
+        station::{AntennaId, Retention},
     };
 
     #[test]
@@ -211,7 +170,7 @@ mod tests {
         recorder.flush();
         let query = PassQuery { count: 10, ..PassQuery::default() };
         let look = RecordLook { query, opened: None };
-        let found = Recorded::read(&path, look, Site::default()).found.unwrap();
+        let found = read_record(&path, look, Site::default()).found.unwrap();
         let [only] = &found.missed[..] else { panic!("{found:?}") };
         assert_eq!((only.antenna, &only.flown), (antenna, &missed));
     }

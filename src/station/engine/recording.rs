@@ -24,22 +24,23 @@ use self::{
     state::State,
 };
 use super::{
-    Antenna, Command, Engine, Snapshot,
-    alarms::{Alarm, AlarmKind},
-    automatic::DayLine,
+    Antenna, Engine,
     claim::{digest, whole_path},
-    handle::{By, Stopped},
-    schedule::Planned,
+    handle::Stopped,
 };
 use crate::{
     astro::time::seconds_between,
     clock::{Clock, Instant, Moment},
-    contract,
     contract::{
+        self, By, Command, Snapshot,
+        alarms::{Alarm, AlarmKind},
+        automatic::DayLine,
         driver::{Event, Response, Safety, TimeSync},
         record::{PeakChange, Status},
+        schedule::Planned,
     },
     driver::{self, AntennaHandle},
+    engine::alarms::KeepAlarms,
     job::Job,
     plan::pass_report::LossCause,
     record::{Entry, Kind, PassNote, RecordedSession, Recorder},

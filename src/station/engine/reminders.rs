@@ -3,40 +3,22 @@
 use std::time::Duration;
 
 use jiff::Timestamp;
-use serde::{Deserialize, Serialize};
 
-use super::{
-    Engine, StationClaim,
-    alarms::{AlarmKind, Alarms},
-    passes::{PassKey, PassList, PredictedPass},
-};
+use super::{Engine, StationClaim};
 use crate::{
-    astro::{Angle, time::seconds_between},
+    astro::time::seconds_between,
+    contract::{
+        alarms::{AlarmKind, Alarms},
+        passes::{PassList, PredictedPass},
+        reminders::Reminder,
+    },
+    engine::alarms::KeepAlarms,
     plan::Trackability,
-    station::{AntennaId, Station},
+    station::Station,
 };
 
 /// Time before AOS at which an antenna should be on its way.
 const ON_ITS_WAY: Duration = Duration::from_secs(30);
-
-/// A reminder of a pass. It comes some minutes before AOS and lasts until LOS.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Reminder {
-    /// The pass, as it was listed when the reminder came.
-    pub pass: PassKey,
-    /// Short name of the satellite.
-    pub name: String,
-    pub los: Timestamp,
-    pub max_elevation: Angle,
-    /// The antennas that can track the pass or a part of it.
-    pub can_track: Vec<AntennaId>,
-}
-
-impl Reminder {
-    pub fn aos(&self) -> Timestamp {
-        self.pass.1
-    }
-}
 
 impl Engine {
     /// Brings the reminders and their alarms up to date.
@@ -117,12 +99,12 @@ mod tests {
     use super::*;
     use crate::{
         clock::Instant,
-        contract::driver::{LinkState, Snapshot},
-        device::{HeldSatellite, Phase, Program},
-        engine::{
+        contract::{
             antenna::AntennaModel,
+            driver::{LinkState, Snapshot},
             passes::{ListedSatellite, Observer},
         },
+        device::{HeldSatellite, Phase, Program},
         makes::DemoAddresses,
         orbit::{PassSearch, Propagator, bundled, passes},
         station::{Antenna, Favourites, Notices},
@@ -192,7 +174,7 @@ mod tests {
         let mut standing = |now, takes: bool| {
             refresh(&mut known, &station, &list, now);
             watch(&mut alarms, &known, |number| takes && number == ISS, now);
-            let stands = |alarm: &&crate::engine::alarms::Alarm| !alarm.is_over();
+            let stands = |alarm: &&crate::contract::alarms::Alarm| !alarm.is_over();
             alarms.list().iter().filter(stands).count()
         };
         assert_eq!(standing(aos - 31.seconds(), false), 0);

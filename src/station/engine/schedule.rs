@@ -4,22 +4,22 @@ use std::sync::Arc;
 
 use jiff::Timestamp;
 use rayon::prelude::*;
-use serde::{Deserialize, Serialize};
 
-use super::{
-    Engine,
-    alarms::{AlarmKind, Work},
-    antenna::AntennaModel,
-    automatic::is_same_pass,
-    passes::{PassKey, PredictedPass},
-};
+use super::{Engine, automatic::is_same_pass};
 use crate::{
     astro::time::{DAY_S, add_seconds, seconds_between},
-    contract::driver::LinkState,
+    contract::{
+        alarms::{AlarmKind, Work},
+        antenna::AntennaModel,
+        driver::LinkState,
+        passes::{PassKey, PredictedPass},
+        schedule::{Planned, Swap},
+    },
+    engine::alarms::KeepAlarms,
     job::Job,
     plan::schedule::{
-        self, Candidate, Change, Common, Entry, Off, Partial, PlannedAntenna, Reach, Request,
-        Schedule, Steadiness, changes, plan,
+        self, Candidate, Common, Entry, Off, Partial, PlannedAntenna, Reach, Request, Schedule,
+        Steadiness, changes, plan,
     },
     station::{AntennaId, Station, Take},
 };
@@ -29,30 +29,6 @@ const STEADINESS: Steadiness = Steadiness { percent: 3, seconds: 10 };
 
 /// An entry whose end moves by less is the same, seconds.
 const MOVED_S: f64 = 1.0;
-
-/// The schedule with its revision.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-pub struct Planned {
-    pub schedule: Schedule,
-    /// Changes with every new schedule.
-    pub revision: u64,
-    /// `None` before the first.
-    pub made_at: Option<Timestamp>,
-    /// End of what was planned.
-    pub until: Option<Timestamp>,
-    /// Changes that the last new schedule made.
-    pub changes: Vec<Change>,
-}
-
-/// Cost of taking a pass that the schedule leaves out.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Swap {
-    pub pass: PassKey,
-    /// Revision of the schedule that it was worked out against.
-    pub revision: u64,
-    /// Changes of the schedule that follow; `None` where the pass cannot be taken at all.
-    pub changes: Option<Vec<Change>>,
-}
 
 /// Inputs from which a schedule follows, besides the time.
 #[derive(Clone)]

@@ -7,12 +7,8 @@ use std::{
 
 use tokio::sync::mpsc;
 
-use super::{
-    claim::{HolderKind, LockFolders},
-    sources::Places,
-    uploads,
-};
-use crate::{orbit::Catalog, record::PassNote, station};
+use super::{claim::LockFolders, sources::Places, uploads};
+use crate::{contract::claim::HolderKind, orbit::Catalog, record::PassNote, station};
 
 /// Places of a station's files and its role among the Azels of this machine.
 #[derive(Debug, Clone, Default)]

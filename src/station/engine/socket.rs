@@ -18,14 +18,13 @@ use tokio::{
     time::{Instant, MissedTickBehavior, timeout, timeout_at},
 };
 
-use super::{
-    By, Client, Command, Snapshot, alarms::AlarmKind, antenna::AntennaModel, claim::LockFolder,
-    status::AntennaStatus,
-};
+use super::{Client, claim::LockFolder, status::AntennaStatus};
 use crate::{
     contract::{
-        driver,
-        driver::{LinkState, StopState},
+        By, Command, Snapshot,
+        alarms::AlarmKind,
+        antenna::AntennaModel,
+        driver::{self, LinkState, StopState},
     },
     station::{AntennaId, LockOut},
 };

@@ -3,119 +3,26 @@
 
 mod runner;
 
-use jiff::Timestamp;
-use serde::{Deserialize, Serialize};
-
-use super::host_keys::DoubtfulKey;
 use crate::{
-    contract::transfer::{FileProtocol, OldAlgorithm, Peer, UnitView},
-    secret::Secret,
+    contract::{source_tests::TestedSource, transfer::Peer},
     transfer::ElementSource,
 };
 pub(super) use runner::Runner;
 
-/// The last test.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-pub struct SourceTests {
-    /// The tested source; `None` before the first test.
-    pub order: Option<SourceOrder>,
-    pub stage: TestStage,
-}
-
-/// Stage of a test.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-pub enum TestStage {
-    /// No test yet.
-    #[default]
-    Idle,
-    Working,
-    /// The operator must decide about the host's key, seen for the first time.
-    AsksAboutHostKey(DoubtfulKey),
-    /// The file was fetched.
-    Seen {
-        /// The file as the unit will see it.
-        view: Box<UnitView>,
-        /// Time of the fetch.
-        at: Timestamp,
-        /// Old algorithms of the SSH connection.
-        #[serde(default)]
-        old_algorithms: Vec<OldAlgorithm>,
-    },
-    /// The fetch failed.
-    Failed {
-        /// The reason.
-        text: String,
-        /// The host key that was refused.
-        changed_key: Option<DoubtfulKey>,
-    },
-}
-
-impl TestStage {
-    /// Returns `true` while a test is under way or waits for an answer.
-    pub fn is_open(&self) -> bool {
-        matches!(self, Self::Working | Self::AsksAboutHostKey(_))
-    }
-}
-
-/// A source to test.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct SourceOrder {
-    /// Name of the antenna whose unit will fetch the source.
-    pub antenna: String,
-    pub source: TestedSource,
-    /// Name of the satellite that the unit will look for.
-    pub satellite: String,
-}
-
-/// A source of elements.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub enum TestedSource {
-    /// An `http` or `https` address.
-    Web {
-        /// As given to the unit.
-        url: String,
-    },
-    /// A file on a server.
-    Server {
-        peer: Peer,
-        protocol: FileProtocol,
-        /// User name on the server.
-        user: String,
-        password: Secret,
-        /// Path of the file.
-        file: String,
-    },
-}
-
-impl TestedSource {
-    fn source(&self) -> ElementSource {
-        match self.clone() {
-            Self::Web { url } => ElementSource::Web { url },
-            Self::Server { peer, protocol, user, password, file } => {
-                let password = password.inner().clone();
-                ElementSource::Server { peer, protocol, user, password, file }
-            }
-        }
-    }
-
-    /// The host whose key may need a decision.
-    fn peer(&self) -> Option<&Peer> {
-        match self {
-            Self::Web { .. } => None,
-            Self::Server { peer, .. } => Some(peer),
+fn source(tested: &TestedSource) -> ElementSource {
+    match tested.clone() {
+        TestedSource::Web { url } => ElementSource::Web { url },
+        TestedSource::Server { peer, protocol, user, password, file } => {
+            let password = password.inner().clone();
+            ElementSource::Server { peer, protocol, user, password, file }
         }
     }
 }
 
-/// A request of a view.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub enum TestAsk {
-    /// Test this source. Ignored while another test is open.
-    Begin(Box<SourceOrder>),
-    /// The shown key is the right one.
-    TrustHostKey,
-    /// Forget the known keys of the host that was refused.
-    ForgetHostKey,
-    /// End the test, or answer its question with no.
-    Cancel,
+/// The host whose key may need a decision.
+fn peer(tested: &TestedSource) -> Option<&Peer> {
+    match tested {
+        TestedSource::Web { .. } => None,
+        TestedSource::Server { peer, .. } => Some(peer),
+    }
 }

@@ -10,14 +10,13 @@ use std::{
 };
 
 use jiff::Timestamp;
-use serde::{Deserialize, Serialize};
 
 pub(super) use self::passwords::Passwords;
-use super::older_sets::{SetChoice, use_older_sets};
+use super::older_sets::use_older_sets;
 use crate::{
     contract::{
-        older_sets::OlderSet,
-        sources::{check_source, has_log_in},
+        older_sets::{OlderSet, SetChoice},
+        sources::{Copied, Sources, check_source, has_log_in},
     },
     job::{Job, Wake},
     library::{
@@ -28,56 +27,22 @@ use crate::{
     whole_file,
 };
 
-/// The sources as last read.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-pub struct Sources {
-    /// All sources, in the operator's order.
-    pub list: Vec<Source>,
-    /// One report for each source, in the same order; empty while the library cannot be
-    /// used.
-    pub reports: Vec<SourceReport>,
-    pub work: SourceWork,
-    /// Problems with the list or the library as a whole, in the order in which they came up.
-    pub problems: Vec<String>,
-    /// The list cannot be read: it is left as it is and accepts no change.
-    pub is_locked: bool,
-}
-
-/// Work under way on the sources.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-pub enum SourceWork {
-    #[default]
-    Nothing,
-    Reading,
-    Asking,
-}
-
-impl Sources {
-    /// Returns `true` if a change would be accepted now.
-    pub fn is_free(&self) -> bool {
-        self.work == SourceWork::Nothing && !self.is_locked
-    }
-}
-
-impl Sources {
-    /// Names of the sources whose servers are to be asked at `now` without a client.
-    pub(super) fn due_by_themselves(&self, now: Timestamp) -> Vec<String> {
-        let sources = self.list.iter().zip(&self.reports);
-        let is_pausing =
-            |report: &SourceReport| report.pause_end(now).is_some_and(|next| next > now);
-        // A server that has just failed is not asked for its other sources either.
-        let failed: Vec<String> = sources
-            .clone()
-            .filter(|(_, report)| report.failures > 0 && is_pausing(report))
-            .filter_map(|(source, _)| library::server_of(source))
-            .collect();
-        let is_due = |(source, report): &(&Source, &SourceReport)| {
-            let has_failed = library::server_of(source).is_some_and(|host| failed.contains(&host));
-            let next = source.next_by_itself(Some(report), now);
-            !is_pausing(report) && !has_failed && next.is_some_and(|next| next <= now)
-        };
-        sources.filter(is_due).map(|(source, _)| source.name.clone()).collect()
-    }
+/// Names of the sources whose servers are to be asked at `now` without a client.
+pub(super) fn due_by_themselves(sources: &Sources, now: Timestamp) -> Vec<String> {
+    let reported = sources.list.iter().zip(&sources.reports);
+    let is_pausing = |report: &SourceReport| report.pause_end(now).is_some_and(|next| next > now);
+    // A server that has just failed is not asked for its other sources either.
+    let failed: Vec<String> = reported
+        .clone()
+        .filter(|(_, report)| report.failures > 0 && is_pausing(report))
+        .filter_map(|(source, _)| library::server_of(source))
+        .collect();
+    let is_due = |(source, report): &(&Source, &SourceReport)| {
+        let has_failed = library::server_of(source).is_some_and(|host| failed.contains(&host));
+        let next = source.next_by_itself(Some(report), now);
+        !is_pausing(report) && !has_failed && next.is_some_and(|next| next <= now)
+    };
+    reported.filter(is_due).map(|(source, _)| source.name.clone()).collect()
 }
 
 /// Paths of the list and the library; `None` on a machine without a home.
@@ -100,13 +65,6 @@ impl Places {
     pub(super) fn library(&self) -> Option<&Path> {
         self.library.as_deref()
     }
-}
-
-/// Elements that are copied into the library.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub enum Copied {
-    File(PathBuf),
-    Text(String),
 }
 
 /// Work to do before everything is read anew.
@@ -430,14 +388,14 @@ mod tests {
         let library = Library::open(Path::new("/no/such"), Limits::default()).unwrap();
         let (_, reports) = library.load(&list);
         let mut sources = Sources { list: list.to_vec(), reports, ..Sources::default() };
-        assert_eq!(sources.due_by_themselves(now), ["active", "weather"]);
+        assert_eq!(due_by_themselves(&sources, now), ["active", "weather"]);
         sources.reports[0].failures = 1;
         sources.reports[0].next_fetch = now.checked_add(jiff::SignedDuration::from_hours(1)).ok();
-        assert_eq!(sources.due_by_themselves(now), [""; 0]);
+        assert_eq!(due_by_themselves(&sources, now), [""; 0]);
         sources.reports[0].failures = 0;
-        assert_eq!(sources.due_by_themselves(now), ["weather"]);
+        assert_eq!(due_by_themselves(&sources, now), ["weather"]);
         sources.list[1].refresh = None;
-        assert_eq!(sources.due_by_themselves(now), [""; 0]);
+        assert_eq!(due_by_themselves(&sources, now), [""; 0]);
     }
 
     fn space_track() -> Source {

@@ -3,10 +3,14 @@
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
-use super::{Snapshot, antenna::AntennaModel, automatic::Operation};
 use crate::{
     astro::Angle,
-    contract::driver::{LinkState, StopState},
+    contract::{
+        Snapshot,
+        antenna::AntennaModel,
+        automatic::Operation,
+        driver::{LinkState, StopState},
+    },
 };
 
 /// Status of an antenna.

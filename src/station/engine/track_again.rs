@@ -1,29 +1,22 @@
 //! Offers a track again, for a while, that STOP has ended.
 
 use jiff::Timestamp;
-use serde::{Deserialize, Serialize};
 
-use super::{Command, Engine, Hold, antenna::AntennaModel, closing::CloseHow, handle::Stopped};
+use super::{Engine, Hold, handle::Stopped};
 use crate::{
     astro::time::add_seconds,
-    contract::{driver, driver::Intent},
+    contract::{
+        Command,
+        antenna::{AntennaModel, TrackAgain},
+        closing::CloseHow,
+        driver::{self, Intent},
+    },
     plan::ProgramTrack,
     station::AntennaId,
 };
 
 /// Time for which a track is offered, seconds.
 const OFFERED_S: f64 = 600.0;
-
-/// A track that can be offered again.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct TrackAgain {
-    /// Name of the target.
-    pub name: String,
-    /// Command that starts the track again.
-    pub command: Command,
-    /// End of the track.
-    pub until: Timestamp,
-}
 
 impl Engine {
     /// Remembers the track that an antenna was asked for. Any other choice ends the offer.

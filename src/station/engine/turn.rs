@@ -3,18 +3,24 @@
 use std::sync::Arc;
 
 use super::{
-    Antenna, CatalogState, DemoStation, Engine,
-    alarms::{AlarmKind, Work, alarm_of, is_over},
-    automatic::Interruption,
+    Antenna, DemoStation, Engine,
+    alarms::{alarm_of, is_over},
     demo::Demo,
     owed,
-    sources::{SourceWork, Task},
+    sources::Task,
 };
 use crate::{
     astro::Angle,
     clock::Moment,
-    contract::driver::{Event, LeftMoving, LinkState, Refusal, Safety, StopState, TimeSync},
+    contract::{
+        CatalogState,
+        alarms::{AlarmKind, Work},
+        automatic::Interruption,
+        driver::{Event, LeftMoving, LinkState, Refusal, Safety, StopState, TimeSync},
+        sources::SourceWork,
+    },
     device::panel::CheckState,
+    engine::{alarms::KeepAlarms, antenna::refresh, automatic::Operate, on_board::off_because},
     job::Job,
     station::Station,
 };
@@ -167,7 +173,8 @@ impl Engine {
         let pass_lists = &self.pass_lists;
         let Some(antenna) = self.antennas.get_mut(index) else { return };
         antenna.shown.snapshot = antenna.handle.snapshot();
-        antenna.shown.refresh(self.station.site, |number| pass_lists.satellite(number));
+        let (shown, recent) = (&mut antenna.shown, &mut antenna.recent);
+        refresh(shown, recent, self.station.site, |number| pass_lists.satellite(number));
         let mut events = Vec::new();
         while let Some(event) = antenna.handle.next_event() {
             events.push(event);
@@ -188,7 +195,7 @@ impl Engine {
         if let Event::Safety(Safety::OffTarget { off_deg, cause }) = &mut event {
             let reported = cause.take().map(|cause| *cause);
             let off = Angle::from_degrees(*off_deg);
-            *cause = shown.off_because(off, reported).map(Box::new);
+            *cause = off_because(shown, off, reported).map(Box::new);
         }
         let id = shown.id();
         let antenna = Some(id);

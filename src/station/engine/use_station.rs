@@ -5,15 +5,19 @@ use std::sync::Arc;
 
 use super::{
     Antenna, DemoStation, Engine, Hold, StationClaim,
-    alarms::AlarmKind,
-    antenna::AntennaModel,
-    automatic::{AtWork, OffBecause, Operation},
+    automatic::AtWork,
     claim::{Claim, Elsewhere},
 };
 use crate::{
-    contract::driver::Unit,
+    contract::{
+        alarms::AlarmKind,
+        antenna::AntennaModel,
+        automatic::{OffBecause, Operation},
+        driver::Unit,
+    },
     controller::SPECS,
     driver::Driver,
+    engine::{alarms::KeepAlarms, antenna::Recent, automatic::Operate},
     makes::DemoAddresses,
     plan::Bounds,
     station::{self, AntennaId, LoadError, Note, Station},
@@ -185,7 +189,14 @@ impl Engine {
         self.recording.follow(&config, &handle, self.clock.now());
         let mut shown = AntennaModel::new(config, handle.snapshot());
         shown.held_by = held_by;
-        Antenna { shown, session: self.sessions, handle, at_work: AtWork::default(), hold }
+        Antenna {
+            shown,
+            recent: Recent::default(),
+            session: self.sessions,
+            handle,
+            at_work: AtWork::default(),
+            hold,
+        }
     }
 
     /// Index of an antenna, if the station still has it.

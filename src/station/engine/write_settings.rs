@@ -3,12 +3,16 @@
 
 use super::{
     Engine,
-    alarms::AlarmKind,
-    copies::{OpenCopy, Outcome, Saving, Waiting},
+    copies::{Outcome, Waiting},
 };
 use crate::{
-    contract::driver,
+    contract::{
+        alarms::AlarmKind,
+        copies::{OpenCopy, Saving},
+        driver,
+    },
     device::settings::{Change, Guard},
+    engine::alarms::KeepAlarms,
 };
 
 impl Engine {

@@ -1,15 +1,14 @@
 //! Outcome of each pass of the plan.
 
 use jiff::Timestamp;
-use serde::{Deserialize, Serialize};
 
 use super::Rehearsal;
 use crate::{
     astro::time::seconds_between,
-    contract::record::RecordedReport,
-    engine::{
+    contract::{
         Snapshot,
-        automatic::{DayEvent, DayLine, Flown, OffBecause},
+        automatic::{DayEvent, DayLine, Flown},
+        rehearsal::{Rehearsed, RehearsedPass},
     },
     plan::schedule::{Entry, PassKey},
     record::PassNote,
@@ -21,67 +20,9 @@ const SAME_AOS_S: f64 = 60.0;
 /// Time from the end of a pass to its report, seconds.
 const REPORTED_AFTER_S: f64 = 10.0;
 
-/// A rehearsal that is over.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Rehearsed {
-    pub from: Timestamp,
-    pub hours: f64,
-    pub seed: u64,
-    /// By start, then by antenna.
-    pub passes: Vec<RehearsedPass>,
-    /// When automatic operation of an antenna ended or was suspended, and why.
-    pub interruptions: Vec<DayLine>,
-    /// Names of the antennas whose make has no simulator.
-    pub left_out: Vec<String>,
-}
-
-/// A pass of the plan, and its outcome.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct RehearsedPass {
-    pub antenna: AntennaId,
-    pub antenna_name: String,
-    pub satellite: u32,
-    pub satellite_name: String,
-    pub aos: Timestamp,
-    pub los: Timestamp,
-    /// When the antenna was to track it.
-    pub from: Timestamp,
-    pub to: Timestamp,
-    /// Seconds within half the beamwidth that the plan promised, when it first named the pass.
-    pub promised_s: f64,
-    /// A newer plan left it out before it began.
-    pub is_given_up: bool,
-    /// Outcome that automatic operation reports; `None` where it never set out.
-    pub flown: Option<Flown>,
-    /// Why automatic operation of its antenna was off by then; `None` where it set out.
-    pub off: Option<OffBecause>,
-    /// Where the antenna pointed; `None` where it never tracked.
-    pub report: Option<RecordedReport>,
-}
-
-impl RehearsedPass {
-    /// Seconds within half the beamwidth.
-    pub fn got_s(&self) -> f64 {
-        self.flown.as_ref().map_or(0.0, |flown| flown.in_beam_s)
-    }
-
-    /// Seconds of the promise that were lost.
-    pub fn lost_s(&self) -> f64 {
-        (self.promised_s - self.got_s()).max(0.0)
-    }
-
-    pub fn rms_deg(&self) -> Option<f64> {
-        self.report.as_ref()?.report.rms.map(|rms| rms.off_deg)
-    }
-
-    pub fn worst_deg(&self) -> Option<f64> {
-        self.report.as_ref()?.report.worst.map(|worst| worst.error.off_deg)
-    }
-
-    fn is(&self, antenna: AntennaId, satellite: u32, aos: Timestamp) -> bool {
-        let is_same_aos = || seconds_between(self.aos, aos).abs() < SAME_AOS_S;
-        self.antenna == antenna && self.satellite == satellite && is_same_aos()
-    }
+fn is_pass(pass: &RehearsedPass, antenna: AntennaId, satellite: u32, aos: Timestamp) -> bool {
+    let is_same_aos = || seconds_between(pass.aos, aos).abs() < SAME_AOS_S;
+    pass.antenna == antenna && pass.satellite == satellite && is_same_aos()
 }
 
 /// The passes of a rehearsal that goes on.
@@ -134,7 +75,7 @@ impl Passes {
         let entries = planned.schedule.entries.iter();
         for entry in entries.filter(|it| self.from <= it.from && it.from < self.until) {
             let PassKey { satellite, aos } = entry.pass;
-            match self.list.iter_mut().find(|it| it.is(entry.antenna, satellite, aos)) {
+            match self.list.iter_mut().find(|it| is_pass(it, entry.antenna, satellite, aos)) {
                 Some(known) => {
                     (known.from, known.to) = (entry.from, entry.to);
                     known.is_given_up = false;
@@ -168,7 +109,7 @@ impl Passes {
 
     fn take_flown(&mut self, antenna: AntennaId, flown: &Flown) {
         let (satellite, aos) = flown.pass;
-        if let Some(pass) = self.list.iter_mut().find(|it| it.is(antenna, satellite, aos)) {
+        if let Some(pass) = self.list.iter_mut().find(|it| is_pass(it, antenna, satellite, aos)) {
             pass.flown = Some(flown.clone());
         }
     }

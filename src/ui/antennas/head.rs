@@ -5,8 +5,8 @@ use egui::{Align2, Rect, Ui, pos2, vec2};
 use super::unit::ShownUnit;
 use crate::{
     astro::time::seconds_between,
+    contract,
     contract::driver::Command,
-    engine,
     model::UiCommand,
     ui::{
         format, text, theme,
@@ -41,10 +41,10 @@ pub(super) fn show(ui: &Ui, rect: Rect, unit: &ShownUnit<'_>, commands: &mut Vec
             commands.extend(groups.iter().map(|group| read(group.key)));
         }
         if compare.show(ui, "Compare with file", of_compare).clicked() {
-            commands.push(UiCommand::Station(engine::Command::CompareSettings(antenna)));
+            commands.push(UiCommand::Station(contract::Command::CompareSettings(antenna)));
         }
         if save.show(ui, "Save copy", of_save).clicked() {
-            commands.push(UiCommand::Station(engine::Command::SaveSettings(antenna)));
+            commands.push(UiCommand::Station(contract::Command::SaveSettings(antenna)));
         }
         right = of_read.left() - button::GAP;
     }

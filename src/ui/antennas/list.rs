@@ -4,8 +4,8 @@ use egui::{Align2, Color32, Rect, Role, Stroke, StrokeKind, Ui, pos2, vec2};
 
 use super::{form::Form, makes, section::Section, unit::ShownUnit};
 use crate::{
+    contract::antenna::AntennaModel,
     device::settings::Value,
-    engine::antenna::AntennaModel,
     model::{Model, UiCommand, View},
     ui::{
         bar,

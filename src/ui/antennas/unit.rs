@@ -4,9 +4,8 @@ use jiff::Timestamp;
 
 use crate::{
     astro::time::add_seconds,
-    contract::driver::Intent,
+    contract::{antenna::AntennaModel, driver::Intent},
     device::settings::{Group, GroupState, Hindrance, ReadFailure, Values},
-    engine::antenna::AntennaModel,
     model::Model,
 };
 

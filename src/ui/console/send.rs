@@ -8,9 +8,8 @@ use egui::{
 
 use super::{PADDING, entry::Entry, raw};
 use crate::{
-    contract::driver,
+    contract::{antenna::AntennaModel, driver},
     device::Question,
-    engine::antenna::AntennaModel,
     model::{Model, UiCommand},
     ui::{
         bar::glyph,

@@ -3,7 +3,7 @@
 use egui::{Button, RichText, Ui, vec2};
 
 use crate::{
-    engine::{
+    contract::{
         self,
         antenna::{AntennaModel, Stake},
         closing::{CloseHow, Wanted},
@@ -64,7 +64,7 @@ impl ClosingDialog {
         });
         match modal.inner {
             Some(answer) => commands
-                .extend(answer.map(|how| UiCommand::Station(engine::Command::CloseAfter(how)))),
+                .extend(answer.map(|how| UiCommand::Station(contract::Command::CloseAfter(how)))),
             None if modal.should_close() => {}
             None => return,
         }
@@ -145,6 +145,6 @@ pub fn waiting(ui: &Ui, model: &Model, commands: &mut Vec<UiCommand>) {
         ui.button("Stay").clicked()
     });
     if modal.inner || modal.should_close() {
-        commands.push(UiCommand::Station(engine::Command::StayOpen));
+        commands.push(UiCommand::Station(contract::Command::StayOpen));
     }
 }

@@ -3,8 +3,7 @@
 use egui::{RichText, Sense, TextEdit, Ui, vec2};
 
 use crate::{
-    contract::driver::Command,
-    engine::antenna::AntennaModel,
+    contract::{antenna::AntennaModel, driver::Command},
     model::{Model, UiCommand},
     station::LockOut,
     ui::{

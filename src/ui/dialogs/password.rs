@@ -4,7 +4,7 @@ use egui::{Id, Key, RichText, TextEdit, Ui, text_edit::TextEditState};
 
 use super::WIDTH;
 use crate::{
-    engine::uploads::SecretWanted,
+    contract::uploads::SecretWanted,
     secret::Secret,
     ui::{
         text, theme,

@@ -10,8 +10,8 @@ use egui::{
 };
 
 use crate::{
-    contract::sources::check_source,
-    engine::{self, sources::Sources},
+    contract,
+    contract::sources::{Sources, check_source},
     model::{UiCommand, typed_path::OpenedFile},
     orbit::{Source, SourcePlace},
     ui::{
@@ -122,7 +122,7 @@ impl AddState {
     /// Requests `source`, which was typed.
     pub(in crate::ui) fn add(&mut self, source: Source, commands: &mut Vec<UiCommand>) {
         self.requested = Some(source.clone());
-        commands.push(UiCommand::Station(engine::Command::AddSource(source)));
+        commands.push(UiCommand::Station(contract::Command::AddSource(source)));
     }
 
     /// Clears the form once the source is in the list; returns `true` then.

@@ -7,7 +7,7 @@ use egui::{
 
 use super::{ElementsState, PADDING, add, words};
 use crate::{
-    engine::{self, CatalogState, sources::SourceWork},
+    contract::{self, CatalogState, sources::SourceWork},
     model::{Model, UiCommand},
     ui::{
         format,
@@ -196,6 +196,6 @@ fn next_due(model: &Model) -> Option<jiff::Timestamp> {
 
 /// Asks the servers that may be asked, and reads all other sources.
 pub fn refresh_due(model: &Model) -> UiCommand {
-    let command = engine::Command::RefreshSources { names: due(model), forced: false };
+    let command = contract::Command::RefreshSources { names: due(model), forced: false };
     UiCommand::Station(command)
 }

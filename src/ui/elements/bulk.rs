@@ -2,9 +2,12 @@
 
 use egui::{Align2, Rect, Ui, vec2};
 
-use super::{ElementsState, PADDING, copy, table, words, words::Form};
+use super::{
+    ElementsState, PADDING, copy, table,
+    words::{self, Form},
+};
 use crate::{
-    engine::{self, CatalogState},
+    contract::{self, CatalogState},
     model::{Model, UiCommand},
     station::Priority,
     ui::{
@@ -67,7 +70,7 @@ pub(super) fn show(
             let word = words::priority(priority);
             if ui.button(word).clicked() {
                 let numbers = marked.clone();
-                let command = engine::Command::SetPriority { numbers, priority };
+                let command = contract::Command::SetPriority { numbers, priority };
                 commands.push(UiCommand::Station(command));
             }
         }

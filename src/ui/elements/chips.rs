@@ -6,7 +6,7 @@ use egui::{Align2, Color32, Rect, Role, Stroke, StrokeKind, Ui, WidgetInfo, pos2
 
 use super::{ElementsState, PADDING, table, words};
 use crate::{
-    engine::CatalogState,
+    contract::CatalogState,
     model::{
         Model, UiCommand,
         catalog_table::Among,

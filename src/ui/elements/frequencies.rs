@@ -4,7 +4,7 @@ use egui::{Align, Layout, RichText, Role, TextEdit, Ui, WidgetInfo};
 
 use super::ElementsState;
 use crate::{
-    engine,
+    contract,
     model::{Model, UiCommand},
     station::Frequency,
     ui::{
@@ -81,7 +81,7 @@ pub(super) fn show(
             && let Ok(frequencies) = &read
         {
             let frequencies = frequencies.clone();
-            let command = engine::Command::SetFrequencies { satellite: number, frequencies };
+            let command = contract::Command::SetFrequencies { satellite: number, frequencies };
             commands.push(UiCommand::Station(command));
             is_over = true;
         }

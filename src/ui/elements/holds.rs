@@ -7,8 +7,7 @@ use super::{PADDING, words};
 use crate::{
     astro::time::seconds_between,
     clock::Instant,
-    contract::driver::LinkState,
-    engine::{antenna::AntennaModel, uploads::Stage},
+    contract::{antenna::AntennaModel, driver::LinkState, uploads::Stage},
     model::Model,
     orbit::Elements,
     ui::{

@@ -6,7 +6,7 @@ use super::{
     ElementsState, PADDING, copy, facts, frequencies, holds, next_passes, sets, table, words::Form,
 };
 use crate::{
-    engine::{self, CatalogState},
+    contract::{self, CatalogState},
     model::{Model, UiCommand},
     orbit::{Catalog, Elements},
     station::Priority,
@@ -254,7 +254,7 @@ fn show_priority(
         let response = response.on_hover_text(lock.unwrap_or(name));
         if let (true, Some(priority)) = (response.clicked(), other) {
             let numbers = vec![number];
-            let command = engine::Command::SetPriority { numbers, priority: *priority };
+            let command = contract::Command::SetPriority { numbers, priority: *priority };
             commands.push(UiCommand::Station(command));
         }
     }

@@ -7,8 +7,8 @@ use egui::{Align2, Event, Key, Popup, Rect, Shape, Stroke, Ui, pos2, vec2};
 
 use super::{ElementsState, PADDING, words};
 use crate::{
+    contract,
     contract::sources::check_source,
-    engine,
     model::{
         Model, UiCommand,
         intake::{Counts, Intake, Judged, Offer},
@@ -242,10 +242,10 @@ impl Shown<'_> {
         let source = free_name(self.offer, self.model);
         if button("Read once") {
             let offer = match self.offer {
-                Offer::File(path) => engine::sources::Copied::File(path.clone()),
-                Offer::Text(text) => engine::sources::Copied::Text(text.to_string()),
+                Offer::File(path) => crate::contract::sources::Copied::File(path.clone()),
+                Offer::Text(text) => crate::contract::sources::Copied::Text(text.to_string()),
             };
-            let command = engine::Command::CopyElements { name: source.clone(), from: offer };
+            let command = contract::Command::CopyElements { name: source.clone(), from: offer };
             commands.push(UiCommand::Station(command));
             state.taken.push(self.index);
         }
@@ -254,7 +254,7 @@ impl Shown<'_> {
         {
             let place = SourcePlace::File(path.clone());
             let source = Source { name: source, place, refresh: None };
-            commands.push(UiCommand::Station(engine::Command::AddSource(source)));
+            commands.push(UiCommand::Station(contract::Command::AddSource(source)));
             state.taken.push(self.index);
         }
     }

@@ -4,7 +4,7 @@ use egui::{Align2, Rect, Ui, pos2, vec2};
 
 use super::PADDING;
 use crate::{
-    engine::passes::PredictedPass,
+    contract::passes::PredictedPass,
     model::{Model, UiCommand, View},
     ui::{
         format,

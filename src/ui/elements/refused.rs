@@ -4,7 +4,7 @@ use egui::{Align2, Rect, Role, ScrollArea, Ui, UiBuilder, pos2, vec2};
 
 use super::{ElementsState, PADDING};
 use crate::{
-    engine::sources::Sources,
+    contract::sources::Sources,
     model::Model,
     orbit::Refusal,
     ui::{

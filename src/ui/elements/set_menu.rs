@@ -8,8 +8,10 @@ use super::{
     words::{self, Form},
 };
 use crate::{
-    contract::older_sets::OlderSet,
-    engine::{Command, older_sets::SetChoice},
+    contract::{
+        Command,
+        older_sets::{OlderSet, SetChoice},
+    },
     model::{
         Model, UiCommand,
         object_detail::{ObjectDetail, SetShift},

@@ -5,7 +5,7 @@ use egui::{Align2, Popup, Rect, Role, Stroke, StrokeKind, Ui, pos2};
 
 use super::words;
 use crate::{
-    engine::Command,
+    contract::Command,
     model::{Model, UiCommand},
     orbit::{BUNDLED_SOURCE, Catalog, SOURCE_LAG},
     ui::{

@@ -3,8 +3,7 @@
 use egui::Ui;
 
 use crate::{
-    contract::sources::SPACE_TRACK_HOST,
-    engine::{Command, uploads::SecretWanted},
+    contract::{Command, sources::SPACE_TRACK_HOST, uploads::SecretWanted},
     model::{Model, UiCommand},
     orbit::{Source, SourcePlace},
     ui::dialogs::{PasswordDialog, SecretAnswer},

@@ -10,7 +10,7 @@ use egui::{
 use super::{ElementsState, PADDING, source_password::SourcePassword, words};
 use crate::{
     astro::time::seconds_between,
-    engine::{self, CatalogState, passes::ListedSatellite},
+    contract::{self, CatalogState, passes::ListedSatellite},
     model::{Model, UiCommand},
     orbit::{BUNDLED_NEWEST, BUNDLED_SOURCE, RefreshHours, Source, SourcePlace, SourceReport},
     ui::{
@@ -292,7 +292,7 @@ impl Row<'_> {
         if small_button(ui, at(ASK, 48.0), fetch_lock, word, &spoken) {
             let again = words::ask_again(name, self.report, model.now);
             let forced = again.is_some();
-            let command = UiCommand::Station(engine::Command::RefreshSources {
+            let command = UiCommand::Station(contract::Command::RefreshSources {
                 names: vec![name.clone()],
                 forced,
             });
@@ -312,7 +312,7 @@ impl Row<'_> {
             *question = Some(Question {
                 text: format!("Remove the source {name}? Its elements will no longer be used."),
                 yes: "Remove",
-                command: UiCommand::Station(engine::Command::RemoveSource(name.clone())),
+                command: UiCommand::Station(contract::Command::RemoveSource(name.clone())),
             });
         }
     }
@@ -345,7 +345,7 @@ impl Row<'_> {
             for hours in [None].into_iter().chain(hours) {
                 let choice = egui::Button::selectable(hours == *refresh, words::refresh(hours));
                 if ui.add(choice).clicked() && hours != *refresh {
-                    let command = engine::Command::SetRefresh { name: name.clone(), hours };
+                    let command = contract::Command::SetRefresh { name: name.clone(), hours };
                     commands.push(UiCommand::Station(command));
                 }
             }

@@ -8,14 +8,14 @@ use egui::{
 };
 
 use super::{
-    ElementsState, PADDING, columns,
-    columns::Row,
+    ElementsState, PADDING,
+    columns::{self, Row},
     copy,
     selection::Way,
     words::{self, Form},
 };
 use crate::{
-    engine::{self, CatalogState, antenna::AntennaModel},
+    contract::{self, CatalogState, antenna::AntennaModel},
     model::{
         DistanceUnit, Model, UiCommand,
         catalog_table::{Answer, Column},
@@ -338,7 +338,7 @@ fn bar(ui: &Ui, place: Rect, degrees: f64) {
 
 /// Marks or unmarks favourites.
 pub(super) fn favour(numbers: Vec<u32>, is_favourite: bool, commands: &mut Vec<UiCommand>) {
-    let command = engine::Command::SetFavourites { numbers, is_favourite };
+    let command = contract::Command::SetFavourites { numbers, is_favourite };
     commands.push(UiCommand::Station(command));
 }
 
@@ -413,7 +413,7 @@ fn keys(
     let digits = [Key::Num1, Key::Num2, Key::Num3, Key::Num4, Key::Num5];
     for (key, priority) in digits.into_iter().zip(Priority::ALL) {
         if pressed(Modifiers::NONE, key) {
-            let command = engine::Command::SetPriority { numbers: chosen.clone(), priority };
+            let command = contract::Command::SetPriority { numbers: chosen.clone(), priority };
             commands.push(UiCommand::Station(command));
         }
     }

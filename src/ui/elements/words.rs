@@ -6,7 +6,7 @@ use jiff::Timestamp;
 use super::columns::Next;
 use crate::{
     astro::time::{DAY_S, seconds_between},
-    engine::sources::{SourceWork, Sources},
+    contract::sources::{SourceWork, Sources},
     model::{
         DistanceUnit, Model,
         catalog_table::{Among, NEXT_PASSES_H, Question},
@@ -384,8 +384,11 @@ pub(super) fn is_old(elements: &Elements, now: Timestamp) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::globe::NextPass;
-    use crate::{astro::Angle, astro::time::add_seconds, orbit::bundled};
+    use crate::{
+        astro::{Angle, time::add_seconds},
+        model::globe::NextPass,
+        orbit::bundled,
+    };
 
     fn now() -> Timestamp {
         "2026-11-14T12:15:30Z".parse().unwrap()

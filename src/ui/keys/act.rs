@@ -6,10 +6,11 @@ use super::KeyTargets;
 use crate::{
     astro::{Offset, TrackOffsets, time::add_seconds},
     contract::{
-        driver,
-        driver::{Intent, OffsetChange},
+        self,
+        antenna::AntennaModel,
+        driver::{self, Intent, OffsetChange},
+        passes::PredictedPass,
     },
-    engine::{self, antenna::AntennaModel, passes::PredictedPass},
     model::{
         Model, UiCommand, View,
         globe::Towards,
@@ -201,7 +202,7 @@ impl Act {
             Self::ChooseElements => commands.push(UiCommand::ChooseFile(OpenedFile::Elements)),
             Self::RefreshElements => commands.push(elements::refresh_due(model)),
             Self::Acknowledge => {
-                let seen = model.alarms.newest_unseen().map(engine::Command::AcknowledgeAlarm);
+                let seen = model.alarms.newest_unseen().map(contract::Command::AcknowledgeAlarm);
                 commands.extend(seen.map(UiCommand::Station));
             }
             Self::NextTheme => commands.push(UiCommand::SetTheme(theme::name(ui).next())),

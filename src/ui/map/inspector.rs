@@ -4,7 +4,7 @@ use egui::{Align2, Rect, RichText, ScrollArea, Sense, Ui, UiBuilder, pos2, vec2}
 
 use super::{PADDING, facts, upcoming};
 use crate::{
-    engine::{antenna::AntennaModel, passes::PredictedPass},
+    contract::{antenna::AntennaModel, passes::PredictedPass},
     model::{Model, UiCommand, View, globe::GlobeSatellite},
     ui::{
         format,

@@ -8,7 +8,7 @@ use egui::{
 
 use super::{MapState, PADDING, Shown, legend, nodes, words};
 use crate::{
-    engine::CatalogState,
+    contract::CatalogState,
     model::{DistanceUnit, Model, UiCommand, globe::GlobeSatellite},
     ui::{
         format,

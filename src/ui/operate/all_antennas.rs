@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use super::sky;
 use crate::{
     astro::Angle,
-    engine::antenna::AntennaModel,
+    contract::antenna::AntennaModel,
     model::Model,
     station::Mount,
     ui::sky_plot::{AzimuthStop, Measured, OtherAntenna},

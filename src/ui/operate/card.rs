@@ -19,9 +19,12 @@ use super::{
 };
 use crate::{
     astro::Angle,
-    contract::driver::{Intent, LinkState, Snapshot},
+    contract::{
+        CatalogState,
+        antenna::AntennaModel,
+        driver::{Intent, LinkState, Snapshot},
+    },
     device::{Capabilities, Pointing},
-    engine::{CatalogState, antenna::AntennaModel},
     model::{Model, UiCommand},
     plan::Barrier,
     station::{AntennaId, Mount},

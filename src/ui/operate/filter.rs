@@ -8,7 +8,7 @@ use std::{
 
 use crate::{
     astro::sun_moon,
-    engine::{
+    contract::{
         CatalogState,
         passes::{PassKey, PredictedPass, Scope, UpcomingPasses},
     },

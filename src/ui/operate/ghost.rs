@@ -8,9 +8,11 @@ use egui::{Key, Pos2, Rect, Role, Sense, Stroke, StrokeKind, Ui, WidgetInfo, pos
 use super::{OperateState, card::Locks};
 use crate::{
     astro::{Angle, AzEl},
-    contract::driver::{Command, Preview, StopState},
+    contract::{
+        antenna::AntennaModel,
+        driver::{Command, Preview, StopState},
+    },
     device::Pointing,
-    engine::antenna::AntennaModel,
     model::{Model, UiCommand},
     station::AntennaId,
     ui::{

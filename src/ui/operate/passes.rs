@@ -4,10 +4,9 @@ use egui::{Rect, Ui};
 use jiff::Timestamp;
 
 use super::{NEXT_FRAME, filter::FoundPasses};
-
 use crate::{
     astro::time::seconds_between,
-    engine::{
+    contract::{
         CatalogState,
         antenna::AntennaModel,
         passes::{PassKey, PredictedPass, Work},

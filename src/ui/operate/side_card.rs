@@ -1,8 +1,7 @@
 //! The card of one more antenna beside that of the selected one, in a wide window.
 
 use crate::{
-    contract::driver::Command,
-    engine::antenna::AntennaModel,
+    contract::{antenna::AntennaModel, driver::Command},
     model::{Model, UiCommand},
     station::AntennaId,
     ui::antenna_card::CardState,

@@ -6,9 +6,9 @@ use jiff::Timestamp;
 use super::{OperateState, all_antennas, ghost, sky_time};
 use crate::{
     astro::{Angle, AzEl, time::seconds_between},
-    contract::driver::LinkState,
-    engine::{
+    contract::{
         antenna::AntennaModel,
+        driver::LinkState,
         passes::{PassKey, PredictedPass},
     },
     model::{Model, Selected, Sky, UiCommand},

@@ -7,7 +7,7 @@ use jiff::Timestamp;
 
 use crate::{
     astro::{Site, time::add_seconds},
-    engine::passes::{PassKey, PredictedPass},
+    contract::passes::{PassKey, PredictedPass},
     model::{Model, Sky},
     ui::{format, sky_plot::PlannedAntenna, words},
 };

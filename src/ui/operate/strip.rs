@@ -6,7 +6,7 @@ use jiff::Timestamp;
 use super::passes::selected_key;
 use crate::{
     astro::time::add_seconds,
-    engine::{antenna::AntennaModel, automatic::Flown, passes::PredictedPass},
+    contract::{antenna::AntennaModel, automatic::Flown, passes::PredictedPass},
     model::{
         Model, UiCommand,
         plan::{PlannedPass, Standing},

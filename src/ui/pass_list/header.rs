@@ -4,8 +4,8 @@ use egui::{Align2, Color32, Popup, Rect, Role, Stroke, StrokeKind, TextWrapMode,
 
 use super::{FLOORS_DEG, Filter, PassListModel};
 use crate::{
-    engine,
-    engine::passes::{SPANS_H, Scope},
+    contract,
+    contract::passes::{SPANS_H, Scope},
     export::{EventFormat, ListFormat},
     model::{UiCommand, export::Export},
     ui::{
@@ -107,7 +107,7 @@ fn floors(ui: &Ui, line: Rect, model: &PassListModel<'_>, commands: &mut Vec<UiC
         for floor_deg in FLOORS_DEG {
             let choice = egui::Button::selectable(same(&floor_deg), words(floor_deg));
             if ui.add(choice).clicked() && !same(&floor_deg) {
-                commands.push(UiCommand::Station(engine::Command::SetElevationFloor(floor_deg)));
+                commands.push(UiCommand::Station(contract::Command::SetElevationFloor(floor_deg)));
             }
         }
     });

@@ -4,7 +4,8 @@ use egui::{Align2, Rect, Role, Ui, WidgetInfo, vec2};
 
 use super::PassListModel;
 use crate::{
-    engine::{self, passes::Work},
+    contract,
+    contract::passes::Work,
     model::UiCommand,
     ui::{
         format, text, theme,
@@ -44,7 +45,7 @@ pub(super) fn show(ui: &Ui, rect: Rect, model: &PassListModel<'_>, commands: &mu
             (
                 words,
                 t.t2,
-                Some(("Cancel", UiCommand::Station(engine::Command::CancelSearch(model.scope)))),
+                Some(("Cancel", UiCommand::Station(contract::Command::CancelSearch(model.scope)))),
             )
         }
         Work::Cancelled => {
@@ -55,7 +56,7 @@ pub(super) fn show(ui: &Ui, rect: Rect, model: &PassListModel<'_>, commands: &mu
             (
                 words,
                 t.warn,
-                Some(("Search", UiCommand::Station(engine::Command::ResumeSearch(model.scope)))),
+                Some(("Search", UiCommand::Station(contract::Command::ResumeSearch(model.scope)))),
             )
         }
     };

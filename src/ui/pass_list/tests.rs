@@ -10,7 +10,7 @@ use jiff::Timestamp;
 use super::*;
 use crate::{
     astro::{Angle, AzEl, time::add_seconds},
-    engine,
+    contract,
     plan::Loss,
     ui::widgets::testing,
 };
@@ -126,15 +126,15 @@ fn window(fixture: Fixture) -> Harness<'static, Fixture> {
         for action in show(ui, rect, &model, &mut fixture.state) {
             match action {
                 UiCommand::SelectPass(key) => fixture.selected = Some(key),
-                UiCommand::Station(engine::Command::SetElevationFloor(floor_deg)) => {
+                UiCommand::Station(contract::Command::SetElevationFloor(floor_deg)) => {
                     fixture.floor_deg = floor_deg;
                 }
                 UiCommand::SetScope(scope) => fixture.scope = scope,
                 UiCommand::SetSpan(span_h) => fixture.span_h = span_h,
-                UiCommand::Station(engine::Command::CancelSearch(_)) => {
+                UiCommand::Station(contract::Command::CancelSearch(_)) => {
                     fixture.work = Work::Cancelled;
                 }
-                UiCommand::Station(engine::Command::ResumeSearch(_)) => {
+                UiCommand::Station(contract::Command::ResumeSearch(_)) => {
                     fixture.work = Work::UnderWay { done: 0, of: 0 }
                 }
                 other => panic!("{other:?}"),
@@ -205,7 +205,7 @@ fn another_floor_is_chosen_from_the_drop_down() {
     window.run();
     assert_eq!(
         window.state().actions,
-        [UiCommand::Station(engine::Command::SetElevationFloor(30.0))]
+        [UiCommand::Station(contract::Command::SetElevationFloor(30.0))]
     );
     window.get_by_role_and_label(Role::ComboBox, "Elevation floor: 30°");
 }
@@ -245,8 +245,8 @@ fn a_search_tells_how_far_it_is_and_can_be_cancelled_and_begun_again() {
     assert_eq!(
         window.state().actions,
         [
-            UiCommand::Station(engine::Command::CancelSearch(Scope::All)),
-            UiCommand::Station(engine::Command::ResumeSearch(Scope::All))
+            UiCommand::Station(contract::Command::CancelSearch(Scope::All)),
+            UiCommand::Station(contract::Command::ResumeSearch(Scope::All))
         ]
     );
 }

@@ -4,7 +4,7 @@ use egui::{Align2, Rect, Ui, pos2, vec2};
 
 use super::{PADDING, PlanState};
 use crate::{
-    engine,
+    contract,
     export::EventFormat,
     model::{Model, UiCommand, export::Export, rehearsal::RehearsalState},
     station::{ChooseBy, Scheduling},
@@ -197,6 +197,6 @@ fn set(
     state: &mut PlanState,
     commands: &mut Vec<UiCommand>,
 ) {
-    let [to, back] = [scheduling, model.station.scheduling].map(engine::Command::SetScheduling);
+    let [to, back] = [scheduling, model.station.scheduling].map(contract::Command::SetScheduling);
     state.change(model, to, back, words, commands);
 }

@@ -9,7 +9,7 @@ use jiff::Timestamp;
 use super::{LABELS, PADDING, PlanState, Span, show_focus};
 use crate::{
     astro::time::seconds_between,
-    engine::passes::PredictedPass,
+    contract::passes::PredictedPass,
     model::{
         Model, UiCommand,
         plan::{PlannedPass, PlannedSatellite},

@@ -4,8 +4,7 @@ use egui::{Align2, Frame, Margin, Rect, RichText, ScrollArea, Sense, Ui, UiBuild
 
 use super::{PADDING, PlanState};
 use crate::{
-    contract::driver::LinkState,
-    engine::{self, antenna::AntennaModel, automatic::Operation},
+    contract::{self, antenna::AntennaModel, automatic::Operation, driver::LinkState},
     model::{Model, UiCommand, View, plan::PlannedPass, rehearsal::RehearsalState},
     orbit::PassPoint,
     plan::schedule::{Entry, Off, Why},
@@ -282,7 +281,7 @@ fn price(
         // Nobody works out what nobody asked then.
         return;
     } else {
-        let ask = UiCommand::Station(engine::Command::PriceSwap(key));
+        let ask = UiCommand::Station(contract::Command::PriceSwap(key));
         // Asked once a pass and schedule; the answer wakes the window.
         let id = ui.make_persistent_id("swap asked");
         let asked = (key, model.schedule.revision);
@@ -361,7 +360,7 @@ fn controls(
     let name = "Priority of the satellite, 1 is the first";
     let clicked = segmented::show(ui, "plan priority", place, name, &segments);
     if let Some(priority) = clicked.and_then(|index| Priority::ALL.get(index)) {
-        let set = |priority| engine::Command::SetPriority { numbers: vec![number], priority };
+        let set = |priority| contract::Command::SetPriority { numbers: vec![number], priority };
         let (to, back) = (set(*priority), set(present));
         state.change(model, to, back, "Another priority", commands);
     }

@@ -8,11 +8,11 @@ use egui::{
 use super::{PADDING, PlanState, Span, legend, switches};
 use crate::{
     astro::time::{add_seconds, seconds_between},
-    contract::driver::LinkState,
-    engine::{
+    contract::{
         self,
         antenna::AntennaModel,
         automatic::{DayEvent, Operation},
+        driver::LinkState,
     },
     model::{Model, UiCommand, plan::PlannedSatellite},
     plan::schedule::Entry,
@@ -216,7 +216,7 @@ fn label(
         let is_enabled = model.replay.is_none();
         shown.widget_info(|| WidgetInfo::labeled(Role::Button, is_enabled, &words));
         if shown.clicked() {
-            commands.push(UiCommand::Station(engine::Command::GoOn(antenna.id())));
+            commands.push(UiCommand::Station(contract::Command::GoOn(antenna.id())));
         }
         shown.on_hover_text(words);
     }

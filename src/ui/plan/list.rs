@@ -5,7 +5,7 @@ use egui::{Align2, Color32, Rect, Role, ScrollArea, Sense, Ui, UiBuilder, Widget
 
 use super::{PADDING, PlanState, show_focus, state::Shown};
 use crate::{
-    engine::{antenna::AntennaModel, passes::PassKey},
+    contract::{antenna::AntennaModel, passes::PassKey},
     model::{
         Model, UiCommand,
         plan::{ListedPass, Standing},

@@ -7,10 +7,8 @@ use jiff::Timestamp;
 use super::choose;
 use crate::{
     astro::time::seconds_between,
-    engine::{
-        self,
-        passes::{PassKey, PredictedPass},
-    },
+    contract,
+    contract::passes::{PassKey, PredictedPass},
     model::{Model, UiCommand, plan::PlannedPass},
     station::{AntennaId, Take},
     ui::{confirm::Question, format, widgets::hold_button::HoldState, words},
@@ -75,8 +73,8 @@ impl PlanState {
     pub(super) fn change(
         &mut self,
         model: &Model,
-        command: engine::Command,
-        back: engine::Command,
+        command: contract::Command,
+        back: contract::Command,
         words: &str,
         commands: &mut Vec<UiCommand>,
     ) {

@@ -4,7 +4,7 @@ use egui::{Rect, Role, Stroke, StrokeKind, Ui, WidgetInfo, pos2, vec2};
 
 use super::PlanState;
 use crate::{
-    engine::{self, antenna::AntennaModel, automatic::Operation},
+    contract::{self, antenna::AntennaModel, automatic::Operation},
     model::{Model, UiCommand},
     ui::{
         replay, theme,
@@ -38,7 +38,7 @@ pub(super) fn show(
     let can = antenna.snapshot.lock_out.is_none() && antenna.held_by.is_none() && !is_replayed;
     let locked = replay::locked(name);
     let about = |words| if is_replayed { &*locked } else { words };
-    let set = |is_on| UiCommand::Station(engine::Command::SetAutomatic { antenna: id, is_on });
+    let set = |is_on| UiCommand::Station(contract::Command::SetAutomatic { antenna: id, is_on });
     let (fill, line) = if is_on { (t.okbg, t.ok) } else { (t.bg0, t.edge) };
     let mut way = if is_on { 1.0 } else { 0.0 };
     let response = if is_on {

@@ -18,8 +18,11 @@ use super::{
     preview,
 };
 use crate::{
-    contract::driver::{AxisLessons, Command},
-    engine::{antenna::AntennaModel, passes::mount_limits},
+    contract::{
+        antenna::AntennaModel,
+        driver::{AxisLessons, Command},
+        passes::mount_limits,
+    },
     model::{
         Model, UiCommand,
         effects::{DEBOUNCE, Effect, mounts},

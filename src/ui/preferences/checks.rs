@@ -2,7 +2,7 @@
 
 use super::{draft::Draft, page::Page};
 use crate::{
-    engine::antenna::AntennaModel,
+    contract::antenna::AntennaModel,
     model::Model,
     station::{Entered, Mount, Station},
     ui::{format, widgets::told::Tone},

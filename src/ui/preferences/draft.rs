@@ -17,7 +17,7 @@ use super::{
 };
 use crate::{
     astro::Site,
-    engine::link_tests::LinkTest,
+    contract::link_tests::LinkTest,
     model::Model,
     station::{Antenna, AntennaId, ControllerSpec, Station},
 };

@@ -4,7 +4,7 @@ use egui::{Align2, Rect, Ui, pos2, vec2};
 
 use super::{HEAD, PADDING, PreferencesState, draft::Draft, page::Page};
 use crate::{
-    engine,
+    contract,
     model::{Model, UiCommand},
     station::{Antenna, AntennaId, Mount},
     ui::{
@@ -115,7 +115,7 @@ fn buttons(
     let widths = [test.width(ui), duplicate.width(ui), remove_width];
     let [of_test, of_duplicate, of_remove] = button::row(right, widths);
     if let (true, Some(antenna)) = (test.show(ui, "test link", of_test).clicked(), as_typed) {
-        commands.push(UiCommand::Station(engine::Command::TestLink(Box::new(antenna))));
+        commands.push(UiCommand::Station(contract::Command::TestLink(Box::new(antenna))));
     }
     if duplicate.show(ui, "duplicate", of_duplicate).clicked()
         && let Some(added) = draft.duplicate(index, model.now)

@@ -15,7 +15,7 @@ use jiff::Timestamp;
 use self::{draft::Skies, history::History, skyline::Recording};
 use crate::{
     astro::{Angle, AzEl, Site, sun_moon, time::add_seconds},
-    engine::antenna::AntennaModel,
+    contract::antenna::AntennaModel,
     model::{
         Model, UiCommand,
         effects::obstacles::{Obstacles, Question},

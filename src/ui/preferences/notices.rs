@@ -11,9 +11,9 @@ use super::{
     form::{self, Sought},
 };
 use crate::{
+    contract::CatalogState,
     desktop::Sound,
     device::settings::{Kind, Value},
-    engine::CatalogState,
     model::{Model, UiCommand},
     orbit::Elements,
     station::{HoursOfDay, Notices, Tones, ranges},

@@ -4,7 +4,7 @@ use egui::{Key, Role, TextEdit, Ui, WidgetInfo, vec2};
 
 use super::form::ROW;
 use crate::{
-    engine::CatalogState,
+    contract::CatalogState,
     model::Model,
     ui::{
         object_search::ObjectSearch,

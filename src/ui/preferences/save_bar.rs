@@ -5,7 +5,7 @@ use egui::{Align2, Color32, Key, Modifiers, Rect, Ui, pos2, vec2};
 
 use super::{PADDING, PreferencesState, checks::Checks, draft::Draft, page::Page};
 use crate::{
-    engine,
+    contract,
     model::{Model, UiCommand},
     station::Station,
     ui::{
@@ -87,7 +87,7 @@ pub(super) fn show(
         shown.clicked() || (is_free && enter() && can_save)
     };
     if is_pressed && let Some(station) = read {
-        commands.push(UiCommand::Station(engine::Command::SaveStation(Box::new(station))));
+        commands.push(UiCommand::Station(contract::Command::SaveStation(Box::new(station))));
     }
     is_reverted
 }

@@ -15,7 +15,7 @@ use super::{
 };
 use crate::{
     astro::{Site, sun_moon},
-    engine::{alarms::AlarmKind, antenna::AntennaModel},
+    contract::{alarms::AlarmKind, antenna::AntennaModel},
     model::{
         DistanceUnit, Model, UiCommand,
         effects::{

@@ -9,7 +9,7 @@ use super::{
     HEAD_Y, LEFT_SCALE, PADDING, PLOTS_TOP, RIGHT_SCALE, TIMES, error_plot, scale::TimeAxis,
 };
 use crate::{
-    engine::antenna::Errors,
+    contract::antenna::Errors,
     ui::{
         format,
         icons::{self, Icon},

@@ -5,8 +5,7 @@ use egui::{Align2, Rect, RichText, Role, TextEdit, Ui, WidgetInfo, pos2, vec2};
 use super::{PADDING, RecordState, days::DaysDialog, lock};
 use crate::{
     astro::time::add_seconds,
-    contract::record::ListedKind,
-    engine::antenna::AntennaModel,
+    contract::{antenna::AntennaModel, record::ListedKind},
     model::{Model, UiCommand, replay::Stretch},
     plan::pass_report::PassVerdict,
     ui::{

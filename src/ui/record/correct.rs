@@ -1,7 +1,7 @@
 //! The operator takes a correction over: it is typed into the form of the unit, or asked about.
 
 use crate::{
-    engine,
+    contract,
     model::{
         Model, UiCommand, View,
         correction::{Correction, How},
@@ -35,7 +35,7 @@ pub fn take_over(
                 "Remember for {name}: {then}, in place of {now}? It is added to what Azel sends \
                  in each track that begins from now on."
             );
-            let command = engine::Command::KeepOffsets { of, offsets };
+            let command = contract::Command::KeepOffsets { of, offsets };
             let command = UiCommand::Station(command);
             *question = Some(Question { text, yes: "Remember", command });
         }

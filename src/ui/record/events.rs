@@ -6,10 +6,10 @@ use jiff::Timestamp;
 use super::{PADDING, RecordState, curves};
 use crate::{
     astro::time::seconds_between,
-    contract::record::{OpenedPass, Row},
-    engine::{
+    contract::{
         By,
         alarms::{Alarm, AlarmChange},
+        record::{OpenedPass, Row},
     },
     model::Model,
     plan::pass_report::LossCause,

@@ -8,8 +8,7 @@ use super::{
     state::{Listed, found},
 };
 use crate::{
-    contract::record::RecordedPass,
-    engine::recorded::MissedPass,
+    contract::{record::RecordedPass, recorded::MissedPass},
     model::Model,
     plan::pass_report::PassVerdict,
     ui::{

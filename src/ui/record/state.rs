@@ -4,9 +4,9 @@ use jiff::Timestamp;
 
 use super::{days::DaysDialog, report};
 use crate::{
-    contract::record::{OpenedPass, PassPage, PassQuery, RecordedPass},
-    engine::{
+    contract::{
         self,
+        record::{OpenedPass, PassPage, PassQuery, RecordedPass},
         recorded::{Found, MissedPass, RecordLook},
     },
     model::{
@@ -173,14 +173,14 @@ impl RecordState {
         let look = RecordLook { query: self.query.clone(), opened: self.shown(model) };
         if self.asked.as_ref() != Some(&look) {
             self.asked = Some(look.clone());
-            commands.push(UiCommand::Station(engine::Command::LookAtRecord(Some(look))));
+            commands.push(UiCommand::Station(contract::Command::LookAtRecord(Some(look))));
         }
     }
 
     /// Ends the looking, in another view.
     pub fn leave(&mut self, commands: &mut Vec<UiCommand>) {
         if self.asked.take().is_some() {
-            commands.push(UiCommand::Station(engine::Command::LookAtRecord(None)));
+            commands.push(UiCommand::Station(contract::Command::LookAtRecord(None)));
         }
     }
 

@@ -5,8 +5,9 @@ use jiff::Timestamp;
 
 use super::draft::SetupDraft;
 use crate::{
+    contract,
+    contract::link_tests::LinkTestStage,
     controller::SPECS,
-    engine::{self, link_tests::LinkTestStage},
     model::{Model, UiCommand},
     station::AntennaId,
     ui::{
@@ -139,7 +140,7 @@ fn one(
             if named(ui, button, ("test", id.0), can, &spoken)
                 && let Some(antenna) = &antenna
             {
-                let test = engine::Command::TestLink(Box::new(antenna.clone()));
+                let test = contract::Command::TestLink(Box::new(antenna.clone()));
                 commands.push(UiCommand::Station(test));
             }
             named(ui, Button::quiet("Remove"), ("remove", id.0), true, &format!("Remove {name}"))

@@ -4,9 +4,8 @@
 use super::Step;
 use crate::{
     astro::Site,
-    contract::driver::LinkFinding,
+    contract::{driver::LinkFinding, link_tests::LinkTestStage},
     device::Place,
-    engine::link_tests::LinkTestStage,
     model::Model,
     station::{AntennaId, Favourites, Station},
     ui::preferences::{
@@ -156,7 +155,7 @@ impl SetupDraft {
             let Some(antenna) = self.form.antenna(index) else {
                 return Some(format!("{name}: a field cannot be used."));
             };
-            let of_demo = |of: &&crate::engine::antenna::AntennaModel| {
+            let of_demo = |of: &&crate::contract::antenna::AntennaModel| {
                 of.config.connection.spec() == antenna.connection.spec()
                     && of.config.connection.address == antenna.connection.address
             };

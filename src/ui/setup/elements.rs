@@ -4,7 +4,7 @@ use egui::{RichText, Ui};
 
 use super::draft::SetupDraft;
 use crate::{
-    engine::sources::SourceWork,
+    contract::sources::SourceWork,
     model::{Model, UiCommand},
     ui::{
         elements::{AddState, add_source, source_words},

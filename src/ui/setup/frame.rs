@@ -4,7 +4,7 @@ use egui::{Align2, Rect, Role, Stroke, Ui, WidgetInfo, pos2, vec2};
 
 use super::{NARROW_BELOW, PADDING, SetupState, Step, draft::SetupDraft, so_far, steps::Passed};
 use crate::{
-    engine::link_tests::LinkTest,
+    contract::link_tests::LinkTest,
     model::{Model, UiCommand},
     ui::{
         icons::{self, Icon},

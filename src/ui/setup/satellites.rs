@@ -8,7 +8,7 @@ use egui::{
 
 use super::draft::SetupDraft;
 use crate::{
-    engine::CatalogState,
+    contract::CatalogState,
     model::Model,
     orbit::Catalog,
     ui::{

@@ -8,8 +8,7 @@ use super::{
     steps::{Passed, Progress},
 };
 use crate::{
-    contract::driver::TimeSync,
-    engine::CatalogState,
+    contract::{CatalogState, driver::TimeSync},
     model::Model,
     ui::{
         format,

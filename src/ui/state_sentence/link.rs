@@ -3,8 +3,11 @@
 use super::{Spoken, short};
 use crate::{
     clock::Instant,
-    contract::driver::{LinkLoss, LinkState, StopState},
-    engine::{antenna::AntennaModel, claim::HeldBy},
+    contract::{
+        antenna::AntennaModel,
+        claim::HeldBy,
+        driver::{LinkLoss, LinkState, StopState},
+    },
     model::Model,
     ui::{format, widgets::sentence::SentenceKind, words},
 };

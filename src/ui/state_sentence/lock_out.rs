@@ -2,8 +2,10 @@
 
 use super::Spoken;
 use crate::{
-    contract::driver::{LinkState, StopState},
-    engine::antenna::AntennaModel,
+    contract::{
+        antenna::AntennaModel,
+        driver::{LinkState, StopState},
+    },
     ui::{format, widgets::sentence::SentenceKind},
 };
 

@@ -3,8 +3,10 @@
 use super::{Spoken, short};
 use crate::{
     astro::time::seconds_between,
-    contract::driver::{Event, Found},
-    engine::antenna::AntennaModel,
+    contract::{
+        antenna::AntennaModel,
+        driver::{Event, Found},
+    },
     model::Model,
     plan::TrackStats,
     ui::{format, widgets::sentence::SentenceKind, words},

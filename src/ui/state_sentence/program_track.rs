@@ -2,8 +2,7 @@
 
 use super::{Spoken, missing_angle, place, short};
 use crate::{
-    contract::driver::TrackView,
-    engine::antenna::AntennaModel,
+    contract::{antenna::AntennaModel, driver::TrackView},
     model::Model,
     plan::{TrackPhase, program_track::OnPath},
     ui::{format, widgets::sentence::SentenceKind},

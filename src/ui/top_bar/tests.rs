@@ -1,14 +1,13 @@
+use egui::{Modal, Role};
+use egui_kittest::{Harness, kittest::Queryable as _};
+
 use super::*;
 use crate::{
-    engine::{
-        self,
-        alarms::{AlarmState, Priority},
-    },
+    contract,
+    contract::alarms::{AlarmState, Priority},
     model::{ThemeName, View},
     ui::widgets::{alarm_list::AlarmRow, link_chip::LinkGlyph, testing},
 };
-use egui::{Modal, Role};
-use egui_kittest::{Harness, kittest::Queryable as _};
 
 const ALARM: AlarmRow<'_> = AlarmRow {
     moves_away: None,
@@ -144,8 +143,8 @@ fn an_alarm_is_acknowledged() {
     window.get_by_label("Acknowledge: RC2000C does not reply").click();
     window.run();
     let wanted = [
-        UiCommand::Station(engine::Command::OpenedAlarms),
-        UiCommand::Station(engine::Command::AcknowledgeAlarm(3)),
+        UiCommand::Station(contract::Command::OpenedAlarms),
+        UiCommand::Station(contract::Command::AcknowledgeAlarm(3)),
     ];
     assert_eq!(*window.state(), wanted);
 }

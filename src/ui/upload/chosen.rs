@@ -7,8 +7,8 @@ use egui::{Align, Button, Label, Layout, RichText, Role, Sense, TextEdit, Ui, Wi
 use super::form::Form;
 use crate::{
     astro::time::seconds_between,
+    contract::uploads::{Chosen, ChosenObject},
     device::HeldSatellite,
-    engine::uploads::{Chosen, ChosenObject},
     model::Model,
     orbit::{Catalog, Elements},
     ui::{

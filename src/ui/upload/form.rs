@@ -6,9 +6,11 @@ use egui::{Align, Button, Layout, RichText, Role, Sense, TextEdit, Ui, WidgetInf
 
 use super::Choice;
 use crate::{
-    contract::transfer::{FileName, FileNameError, Peer, TleFile},
+    contract::{
+        transfer::{FileName, FileNameError, Peer, TleFile},
+        uploads::{Cargo, Chosen, Order},
+    },
     device::ElementFiles,
-    engine::uploads::{Cargo, Chosen, Order},
     orbit::Catalog,
     station::Antenna,
     ui::{

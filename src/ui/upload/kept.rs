@@ -4,9 +4,11 @@ use egui::{RichText, Sense, Ui, vec2};
 
 use super::{chosen::named, form::Form, outcome};
 use crate::{
-    contract::transfer::Origin,
-    engine,
-    engine::uploads::{Ask, Cargo, KeptEntry, Order},
+    contract::{
+        self,
+        transfer::Origin,
+        uploads::{Ask, Cargo, KeptEntry, Order},
+    },
     model::{Model, UiCommand},
     ui::{
         confirm::Question,
@@ -37,7 +39,7 @@ pub(super) fn show(
     let kept = &model.uploads.kept;
     if kept.of != of {
         let (unit, file) = of;
-        commands.push(UiCommand::Station(engine::Command::Upload(Ask::ListKept { unit, file })));
+        commands.push(UiCommand::Station(contract::Command::Upload(Ask::ListKept { unit, file })));
         return;
     }
     let t = theme::tokens(ui);
@@ -113,7 +115,7 @@ fn one(
         *question = Some(Question {
             text,
             yes: "Put back",
-            command: UiCommand::Station(engine::Command::Upload(begin)),
+            command: UiCommand::Station(contract::Command::Upload(begin)),
         });
     }
 }

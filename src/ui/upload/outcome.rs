@@ -5,9 +5,11 @@ use jiff::Timestamp;
 
 use crate::{
     astro::time::seconds_between,
-    contract::transfer::{FileObject, Uploaded},
-    engine,
-    engine::uploads::{Ask, Failure, Proved, Stage, Warning},
+    contract::{
+        self,
+        transfer::{FileObject, Uploaded},
+        uploads::{Ask, Failure, Proved, Stage, Warning},
+    },
     model::{Model, UiCommand},
     ui::{
         confirm::Question,
@@ -47,7 +49,7 @@ pub(super) fn show(
             }
             warnings(ui, model);
             if ui.button("Close").clicked() {
-                commands.push(UiCommand::Station(engine::Command::Upload(Ask::Dismiss)));
+                commands.push(UiCommand::Station(contract::Command::Upload(Ask::Dismiss)));
             }
         });
     ui.add_space(4.0);
@@ -78,7 +80,7 @@ fn failed(ui: &mut Ui, model: &Model, failure: &Failure, question: &mut Option<Q
     let tone = if failure.is_cancel { Tone::Caution } else { Tone::Bad };
     match (&failure.changed_key, &failure.uploaded) {
         (Some(key), _) => {
-            let forget = UiCommand::Station(engine::Command::Upload(Ask::ForgetHostKey));
+            let forget = UiCommand::Station(contract::Command::Upload(Ask::ForgetHostKey));
             dialogs::changed_key(ui, key, forget, question);
         }
         (None, None) => line(ui, tone, &sentence(&failure.text)),

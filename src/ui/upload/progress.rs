@@ -5,9 +5,11 @@ use std::cmp::Ordering;
 use egui::{ProgressBar, RichText, Ui};
 
 use crate::{
-    contract::transfer::{Progress, UploadStep},
-    engine,
-    engine::uploads::{Ask, Stage},
+    contract::{
+        self,
+        transfer::{Progress, UploadStep},
+        uploads::{Ask, Stage},
+    },
     model::{Model, UiCommand},
     ui::{
         text, theme,
@@ -83,7 +85,7 @@ fn cancel(ui: &mut Ui, stage: &Stage, commands: &mut Vec<UiCommand>) {
     let can = stage.can_cancel();
     ui.horizontal_wrapped(|ui| {
         if ui.add_enabled(can, egui::Button::new("Cancel upload")).clicked() {
-            commands.push(UiCommand::Station(engine::Command::Upload(Ask::Cancel)));
+            commands.push(UiCommand::Station(contract::Command::Upload(Ask::Cancel)));
         }
         let words = match stage {
             Stage::Working { is_cancelled: true, .. } => {

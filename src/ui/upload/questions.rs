@@ -3,8 +3,8 @@
 use egui::Ui;
 
 use crate::{
-    engine,
-    engine::uploads::{Ask, Busy, Stage},
+    contract,
+    contract::uploads::{Ask, Busy, Stage},
     model::{Model, UiCommand},
     ui::dialogs::{self, Answer, PasswordDialog, SecretAnswer},
 };
@@ -33,7 +33,7 @@ pub(super) fn show(ui: &Ui, model: &Model, state: &mut Questions, commands: &mut
             None
         }
     };
-    commands.extend(ask.map(|ask| UiCommand::Station(engine::Command::Upload(ask))));
+    commands.extend(ask.map(|ask| UiCommand::Station(contract::Command::Upload(ask))));
 }
 
 fn yes_or_no(answer: Option<Answer>, yes: Ask) -> Option<Ask> {

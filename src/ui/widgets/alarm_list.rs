@@ -14,10 +14,8 @@ use super::{
     close_key, paint,
 };
 use crate::{
-    engine::{
-        self,
-        alarms::{AlarmState, Priority},
-    },
+    contract,
+    contract::alarms::{AlarmState, Priority},
     model::UiCommand,
     station::AntennaId,
     ui::{
@@ -122,7 +120,7 @@ pub fn show(
     let response = button(ui, rect, model, one_line);
     let was_open = Popup::is_id_open(ui.ctx(), Popup::default_response_id(&response));
     if response.clicked() && !was_open {
-        commands.push(UiCommand::Station(engine::Command::OpenedAlarms));
+        commands.push(UiCommand::Station(contract::Command::OpenedAlarms));
     }
     let [small, usual] = WIDTHS;
     let width = if one_line { small } else { usual };
@@ -205,7 +203,7 @@ fn list(ui: &mut Ui, model: &AlarmModel<'_>, opens: bool, commands: &mut Vec<UiC
         if Button::normal("Acknowledge all").show(ui, "acknowledge all", at).clicked()
             && let Some(newest) = model.rows.iter().map(|row| row.id).max()
         {
-            commands.push(UiCommand::Station(engine::Command::AcknowledgeAlarms { newest }));
+            commands.push(UiCommand::Station(contract::Command::AcknowledgeAlarms { newest }));
         }
     }
     let mut area = egui::ScrollArea::vertical().max_height(8.0 * row::HEIGHT);
@@ -243,7 +241,7 @@ fn heading(ui: &mut Ui, section: Section) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ui::widgets::testing;
+    use crate::{contract, ui::widgets::testing};
     use egui_kittest::kittest::Queryable as _;
 
     const ROWS: [AlarmRow<'_>; 2] = [
@@ -300,15 +298,15 @@ mod tests {
         });
         window.get_by_label("2 alarms, 1 new").click();
         window.run();
-        assert_eq!(*window.state(), [UiCommand::Station(engine::Command::OpenedAlarms)]);
+        assert_eq!(*window.state(), [UiCommand::Station(contract::Command::OpenedAlarms)]);
         window.get_by_label("METEOR-M2 3 elements are 9 days old, 10:41:10Z, seen");
         window.get_by_label("Acknowledge: RC2000C does not reply").click();
         window.run();
         assert_eq!(
             *window.state(),
             [
-                UiCommand::Station(engine::Command::OpenedAlarms),
-                UiCommand::Station(engine::Command::AcknowledgeAlarm(7))
+                UiCommand::Station(contract::Command::OpenedAlarms),
+                UiCommand::Station(contract::Command::AcknowledgeAlarm(7))
             ]
         );
     }

@@ -4,10 +4,10 @@ use jiff::Timestamp;
 
 use super::{automatic::not_ready, clock};
 use crate::{
-    contract::driver::{LinkLoss, OffTargetCause},
-    engine::{
+    contract::{
         alarms::{Alarm, AlarmKind, AlarmState, Work},
         claim::HeldBy,
+        driver::{LinkLoss, OffTargetCause},
     },
     model::DistanceUnit,
     plan::on_board::Ranked,

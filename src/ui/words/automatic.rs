@@ -4,7 +4,7 @@ use jiff::Timestamp;
 
 use super::{clock, schedule};
 use crate::{
-    engine::{
+    contract::{
         antenna::AntennaModel,
         automatic::{
             DayEvent, DayLine, Doing, Flown, GivenUp, Interruption, MissCause, NotReady,

@@ -7,9 +7,11 @@ use jiff::Timestamp;
 use super::clock;
 use crate::{
     astro::time::seconds_between,
-    contract::driver::{LinkFault, LinkFinding},
+    contract::{
+        driver::{LinkFault, LinkFinding},
+        link_tests::{LinkTest, LinkTestStage},
+    },
     device::{AntennaState, panel::CheckState},
-    engine::link_tests::{LinkTest, LinkTestStage},
     station::{ControllerSpec, Link},
     ui::{format, widgets::told::Tone, words::sentence},
 };

@@ -4,10 +4,9 @@ use jiff::Timestamp;
 
 use super::{alarm, alarm_times};
 use crate::{
+    contract::{Snapshot, alarms::AlarmKind, antenna::AntennaModel, reminders::Reminder},
     desktop::{Missing, Outlets, Sound},
-    engine::{
-        Snapshot, alarms::AlarmKind, antenna::AntennaModel, notices::About, reminders::Reminder,
-    },
+    model::notices::About,
     ui::format,
 };
 

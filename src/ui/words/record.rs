@@ -3,10 +3,12 @@
 use jiff::Timestamp;
 
 use crate::{
-    contract::record::{
-        ExplainedPasses, ListedKind, OpenedPass, RecordedPass, RecordedReport, TrackedBy,
+    contract::{
+        alarms::AlarmChange,
+        record::{
+            ExplainedPasses, ListedKind, OpenedPass, RecordedPass, RecordedReport, TrackedBy,
+        },
     },
-    engine::alarms::AlarmChange,
     model::correction::How,
     plan::pass_report::{
         Axis, Cause, Explained, Explanation, LossCause, LostStretch, PassReport, PassVerdict,

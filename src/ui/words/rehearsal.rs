@@ -4,8 +4,8 @@ use jiff::Timestamp;
 
 use super::{automatic, record};
 use crate::{
-    model::rehearsal::RehearsalState, plan::pass_report::PassVerdict, rehearsal::RehearsedPass,
-    ui::format,
+    contract::rehearsal::RehearsedPass, model::rehearsal::RehearsalState,
+    plan::pass_report::PassVerdict, ui::format,
 };
 
 /// Outcome of a pass, and its losses, in sentences.

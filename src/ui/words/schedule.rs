@@ -3,7 +3,7 @@
 use jiff::Timestamp;
 
 use crate::{
-    engine::{antenna::AntennaModel, passes::PassKey, schedule::Swap},
+    contract::{antenna::AntennaModel, passes::PassKey, schedule::Swap},
     model::{
         Model,
         plan::{PlannedActivity, Standing},

@@ -8,10 +8,10 @@ use std::{
 
 use azel::{
     astro::time::{add_seconds, seconds_between},
-    contract::driver::Event,
-    engine::{
+    contract::{
         Snapshot,
         automatic::{DayEvent, Flown},
+        driver::Event,
         passes::PassKey,
     },
     plan::schedule::Entry,

@@ -7,11 +7,11 @@ use std::{
 };
 
 use azel::{
-    controller::SPECS,
-    engine::{
+    contract::{
         self, CatalogState,
         sources::{Copied, SourceWork},
     },
+    controller::SPECS,
     library::save_sources,
     model::{Model, UiCommand, View, typed_path::OpenedFile},
     orbit::{RefreshHours, Source, SourcePlace},
@@ -74,7 +74,7 @@ fn a_held_file_says_what_it_holds_and_is_kept_or_read_once_after_its_release() {
         click(&mut window, "Keep as source: own.json");
         let place = SourcePlace::File(own.clone());
         let source = Source { name: "own".to_owned(), place, refresh: None };
-        assert_eq!(asked(&mut window), [UiCommand::Station(engine::Command::AddSource(source))]);
+        assert_eq!(asked(&mut window), [UiCommand::Station(contract::Command::AddSource(source))]);
         assert!(window.query_by_label("Keep as source: own.json").is_none(), "it is taken");
         click(&mut window, "Close");
         assert!(!says(&window, "What should be imported?"));
@@ -96,7 +96,7 @@ fn pasted_elements_are_told_with_their_refusals_and_taken_once() {
         click(&mut window, "Read once: pasted text");
         let name = "pasted 12 Aug 11:15".to_owned();
         let from = Copied::Text(text.to_owned());
-        let wanted = engine::Command::CopyElements { name, from };
+        let wanted = contract::Command::CopyElements { name, from };
         assert_eq!(asked(&mut window), [UiCommand::Station(wanted)]);
 
         let mut window = view(size, Vec::new());
@@ -149,7 +149,7 @@ fn enter_in_the_form_adds_the_source() {
         window.key_press(Key::Enter);
         let place = SourcePlace::Web("https://example.org/own.json".to_owned());
         let source = Source { name: "own".to_owned(), place, refresh: None };
-        assert_eq!(asked(&mut window), [UiCommand::Station(engine::Command::AddSource(source))]);
+        assert_eq!(asked(&mut window), [UiCommand::Station(contract::Command::AddSource(source))]);
     }
 }
 

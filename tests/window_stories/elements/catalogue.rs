@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use azel::{
-    engine::{self, CatalogState},
+    contract::{self, CatalogState},
     model::{
         UiCommand, View,
         export::{ElementForm, Export},
@@ -93,7 +93,7 @@ fn only_rows_in_view_are_built() {
 
 fn favour(number: u32, is_favourite: bool) -> UiCommand {
     let numbers = vec![number];
-    UiCommand::Station(engine::Command::SetFavourites { numbers, is_favourite })
+    UiCommand::Station(contract::Command::SetFavourites { numbers, is_favourite })
 }
 
 #[test]
@@ -136,7 +136,7 @@ fn rows_are_marked_by_mouse_and_keys_and_changed_together() {
         assert!(says(&window, "3 selected"));
         window.key_press(Key::Num1);
         let commands = asked(&mut window);
-        let [UiCommand::Station(engine::Command::SetPriority { numbers, priority })] =
+        let [UiCommand::Station(contract::Command::SetPriority { numbers, priority })] =
             &commands[..]
         else {
             panic!("{commands:?}");
@@ -145,7 +145,7 @@ fn rows_are_marked_by_mouse_and_keys_and_changed_together() {
         window.key_press(Key::F);
         let commands = asked(&mut window);
         let is_of_all = |command: &UiCommand| {
-            matches!(command, UiCommand::Station(engine::Command::SetFavourites { numbers, .. })
+            matches!(command, UiCommand::Station(contract::Command::SetFavourites { numbers, .. })
                 if numbers.len() == 3)
         };
         assert!(commands.iter().all(is_of_all) && commands.len() == 1, "{commands:?}");

@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use azel::{
+    contract,
     device::HeldSatellite,
-    engine,
     model::{UiCommand, View},
     station::{self, Frequency, Priority},
 };
@@ -30,7 +30,7 @@ fn the_selected_row_is_shown_in_detail_with_its_priority() {
         click(&mut window, "More important");
         let numbers = vec![NOAA_20];
         let priority = Priority::ALL[1];
-        let wanted = engine::Command::SetPriority { numbers, priority };
+        let wanted = contract::Command::SetPriority { numbers, priority };
         assert_eq!(asked(&mut window), [UiCommand::Station(wanted)]);
     }
 }
@@ -108,7 +108,7 @@ fn frequencies_are_changed_beside_the_elements() {
     settle(&mut window);
     click(&mut window, "Save frequencies");
     let frequencies = Frequency::read_list("43013 7812 HRD, X band").unwrap();
-    let wanted = engine::Command::SetFrequencies { satellite: NOAA_20, frequencies };
+    let wanted = contract::Command::SetFrequencies { satellite: NOAA_20, frequencies };
     assert_eq!(asked(&mut window), [UiCommand::Station(wanted)]);
     assert!(!says(&window, "Each line must be"));
 }

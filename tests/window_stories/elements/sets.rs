@@ -3,13 +3,12 @@
 use std::sync::Arc;
 
 use azel::{
-    contract::older_sets::OlderSet,
-    controller::SPECS,
-    engine::{
+    contract::{
         self, CatalogState,
-        older_sets::{OlderSets, SetChoice},
+        older_sets::{OlderSet, OlderSets, SetChoice},
         sources::{SourceWork, Sources},
     },
+    controller::SPECS,
     model::{Model, UiCommand},
     orbit::{Elements, Source, SourcePlace, read_elements, write_omm_json},
     station,
@@ -63,7 +62,7 @@ fn open_menu(window: &mut Window, row: &str) {
 }
 
 fn use_set(choice: SetChoice) -> UiCommand {
-    UiCommand::Station(engine::Command::UseSet(choice))
+    UiCommand::Station(contract::Command::UseSet(choice))
 }
 
 #[test]
@@ -180,7 +179,7 @@ fn the_order_of_sources_is_shown_with_the_source_in_use_and_set_by_a_menu() {
         detail(&mut window, size);
         let order = |order: &[&str]| {
             let sources = order.iter().map(|name| (*name).to_owned()).collect();
-            [UiCommand::Station(engine::Command::SetSourceOrder { satellite: NOAA_20, sources })]
+            [UiCommand::Station(contract::Command::SetSourceOrder { satellite: NOAA_20, sources })]
         };
         for (present, choice, wanted) in [
             (&[][..], "own first", &["own"][..]),
@@ -201,7 +200,7 @@ fn the_order_of_sources_is_shown_with_the_source_in_use_and_set_by_a_menu() {
     }
 }
 
-fn send(window: &RealWindow, command: engine::Command) {
+fn send(window: &RealWindow, command: contract::Command) {
     assert!(window.state().station().client().send(command).is_ok());
 }
 
@@ -220,7 +219,7 @@ fn a_preferred_source_is_used_until_its_elements_lag_and_over_the_next_start() {
     for (name, path) in [("own", &own), ("web", &web)] {
         let place = SourcePlace::File(path.clone());
         let source = Source { name: name.to_owned(), place, refresh: None };
-        send(&window, engine::Command::AddSource(source));
+        send(&window, contract::Command::AddSource(source));
         step_until(&mut window, "the source", |model| {
             model.sources.is_free() && model.sources.list.iter().any(|known| known.name == name)
         });
@@ -228,7 +227,7 @@ fn a_preferred_source_is_used_until_its_elements_lag_and_over_the_next_start() {
     let at = |day: u32| format!("2026-08-{day}T00:00:00Z").parse::<Timestamp>().ok();
     step_until(&mut window, "the newest set", |model| epoch_of_noaa_20(model) == at(17));
     let sources = vec!["own".to_owned()];
-    send(&window, engine::Command::SetSourceOrder { satellite: NOAA_20, sources });
+    send(&window, contract::Command::SetSourceOrder { satellite: NOAA_20, sources });
     step_until(&mut window, "the preferred set", |model| epoch_of_noaa_20(model) == at(14));
     drop(window);
 
@@ -238,7 +237,7 @@ fn a_preferred_source_is_used_until_its_elements_lag_and_over_the_next_start() {
     step_until(&mut window, "the elements again", |model| epoch_of_noaa_20(model).is_some());
     assert_eq!(epoch_of_noaa_20(window.state().model()), at(14), "from the first reading");
     std::fs::write(&web, text.replace("08-14T", "08-18T")).unwrap();
-    let read = engine::Command::RefreshSources { names: vec!["web".to_owned()], forced: false };
+    let read = contract::Command::RefreshSources { names: vec!["web".to_owned()], forced: false };
     send(&window, read);
     step_until(&mut window, "the next source", |model| epoch_of_noaa_20(model) == at(18));
 }
@@ -255,17 +254,17 @@ fn an_older_set_is_used_over_the_next_start_until_a_newer_one_comes() {
     let own = newer_elements(&folder);
     let source =
         Source { name: "own".to_owned(), place: SourcePlace::File(own.clone()), refresh: None };
-    send(&window, engine::Command::AddSource(source));
+    send(&window, contract::Command::AddSource(source));
     let newer: Option<Timestamp> = "2026-08-14T00:00:00Z".parse().ok();
     step_until(&mut window, "the newer set", |model| epoch_of_noaa_20(model) == newer);
 
-    send(&window, engine::Command::ListOlderSets(NOAA_20));
+    send(&window, contract::Command::ListOlderSets(NOAA_20));
     step_until(&mut window, "the older set", |model| {
         model.older_sets.as_ref().is_some_and(|older| !older.sets.is_empty())
     });
     let epoch = bundled.unwrap();
     let choice = SetChoice::Older { catalog_number: NOAA_20, epoch };
-    send(&window, engine::Command::UseSet(choice));
+    send(&window, contract::Command::UseSet(choice));
     step_until(&mut window, "the older set in use", |model| epoch_of_noaa_20(model) == bundled);
     let has_newest = |model: &Model| {
         let older = model.older_sets.as_ref();
@@ -278,7 +277,7 @@ fn an_older_set_is_used_over_the_next_start_until_a_newer_one_comes() {
     step_until(&mut window, "the older set again", |model| epoch_of_noaa_20(model) == bundled);
     let text = std::fs::read_to_string(&own).unwrap();
     std::fs::write(&own, text.replace("08-14T", "08-15T")).unwrap();
-    let read = engine::Command::RefreshSources { names: vec!["own".to_owned()], forced: false };
+    let read = contract::Command::RefreshSources { names: vec!["own".to_owned()], forced: false };
     send(&window, read);
     let newest: Option<Timestamp> = "2026-08-15T00:00:00Z".parse().ok();
     step_until(&mut window, "the newest set", |model| epoch_of_noaa_20(model) == newest);

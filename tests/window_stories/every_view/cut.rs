@@ -1,7 +1,6 @@
 //! Texts that must be read whole are not cut.
 
 use azel::model::View;
-
 use egui::accesskit::Role;
 use egui_kittest::{
     Node,
@@ -46,7 +45,7 @@ fn the_list_of_keys_and_the_head_of_a_card_are_whole() {
 fn the_satellite_of_the_track_button_is_whole_in_the_smallest_window() {
     let mut model = rig::model(states::holding());
     let meteor = model.pass_lists.favourites.passes.iter().find(|of| of.number() == 59_051);
-    model.selected = meteor.map(azel::engine::passes::PredictedPass::key);
+    model.selected = meteor.map(azel::contract::passes::PredictedPass::key);
     let window = rig::window(SMALL, model);
     assert!(painted::texts(&window).contains(&"Track METEOR-M2 4".to_owned()));
     let cut = painted::cut(&window);

@@ -7,7 +7,8 @@ use jiff::ToSpan as _;
 use super::*;
 use crate::{
     clock::{Instant, Moment},
-    engine::alarms::AlarmKind,
+    contract::alarms::AlarmKind,
+    engine::alarms::KeepAlarms,
     plan::schedule::{PassKey, testing},
     station::AntennaId,
 };

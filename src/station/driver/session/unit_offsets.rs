@@ -12,7 +12,7 @@ use super::{Session, offsets::most};
 use crate::{
     astro::{Offset, TrackOffsets},
     clock::{Instant, Moment},
-    contract::driver::{Command, Event, LeftOffsets, OffsetChange, Refusal},
+    contract::driver::{Command, Event, LeftOffsets, OffsetChange, Refusal, SESSION_TICKETS},
     device::{
         OnBoard, TrackOffsetFields,
         settings::{Change, WriteError},
@@ -21,15 +21,6 @@ use crate::{
     plan::{OnBoardPass, on_board::Judge},
     promises::Kept,
 };
-
-/// Tickets from here on are those of sessions.
-const TICKETS: u64 = 1 << 62;
-
-/// Returns `true` for the ticket of a change that a session makes without a request, such as adding
-/// offsets for a pass and taking them back.
-pub fn is_ticket_of_session(ticket: u64) -> bool {
-    ticket >= TICKETS
-}
 
 /// Interval at which the write of a record is checked.
 const LOOK: Duration = Duration::from_millis(2);
@@ -211,7 +202,7 @@ impl Session {
         }
         let shift = self.shift(wanted, now)?;
         self.unit_offsets.tickets += 1;
-        let ticket = TICKETS + self.unit_offsets.tickets;
+        let ticket = SESSION_TICKETS + self.unit_offsets.tickets;
         let group = self.gate.state().held.get(fields.group);
         let seen = group.and_then(|group| Some(group.held.as_ref()?.values.clone()));
         let change = Change { ticket, group: fields.group, values, seen, is_unlocked: false };

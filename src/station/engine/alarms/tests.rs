@@ -1,8 +1,13 @@
+use std::time::Duration;
+
 use jiff::ToSpan as _;
 
 use super::*;
 use crate::{
-    contract::driver::{LinkLoss, Mover, OffTargetCause, Response, Safety, Unit},
+    contract::{
+        alarms::AlarmState,
+        driver::{LinkLoss, Mover, OffTargetCause, Response, Safety, Unit},
+    },
     device::panel::{Check, CheckState},
     plan::{
         Barrier,

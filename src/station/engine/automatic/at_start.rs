@@ -7,8 +7,11 @@ use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    contract::transfer::{FileHash, FileObject},
-    engine::{passes::PassKey, uploads::UploadTarget},
+    contract::{
+        passes::PassKey,
+        transfer::{FileHash, FileObject},
+    },
+    engine::uploads::UploadTarget,
     station::AntennaId,
 };
 

@@ -2,100 +2,18 @@
 //! was switched on, off or suspended.
 
 use jiff::{Timestamp, tz::TimeZone};
-use serde::{Deserialize, Serialize};
 
-use super::operation::{
-    Duty, GivenUp, Interruption, NotReady, OffBecause, Operation, Seen, is_same_pass,
-};
+use super::operation::{Duty, Seen, is_same_pass};
 use crate::{
     astro::time::seconds_between,
-    contract::transfer::OldAlgorithm,
-    engine::passes::PassKey,
+    contract::automatic::{DayLine, Flown, GivenUp, MissCause, NotReady, Operation},
     plan::pass_report::{LossCause, LostStretch, PassReport},
-    station::AntennaId,
 };
 
 /// Most lines that are kept.
 const MAX: usize = 400;
 /// Share of a pass within half the beamwidth from which it counts as tracked.
 const TRACKED: f64 = 0.995;
-
-/// A line of the list.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct DayLine {
-    pub at: Timestamp,
-    pub antenna: AntennaId,
-    pub what: DayEvent,
-}
-
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum DayEvent {
-    SwitchedOn,
-    SwitchedOff(OffBecause),
-    Suspended(Interruption),
-    WentOn,
-    Flown(Flown),
-    /// The clock of the unit was set between two passes.
-    ClockSet {
-        /// Seconds by which it was ahead of this computer's, negative if it was behind; `None` if it
-        /// was never set.
-        was_ahead_s: Option<f64>,
-    },
-    ClockNotSet {
-        why: String,
-    },
-    /// Newer elements were uploaded to the unit between two passes, and verified.
-    ElementsUploaded {
-        file: String,
-        satellites: usize,
-        /// Old algorithms of the SSH connection.
-        #[serde(default, skip_serializing_if = "Vec::is_empty")]
-        old_algorithms: Vec<OldAlgorithm>,
-    },
-    ElementsNotUploaded {
-        why: String,
-    },
-}
-
-/// Outcome of a pass.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Flown {
-    pub pass: PassKey,
-    /// Short name of the satellite.
-    pub name: String,
-    /// Seconds that were to be had.
-    pub of_s: f64,
-    /// Seconds of them within half the beamwidth, as the report of the pass has it.
-    pub in_beam_s: f64,
-    pub proved_at: Option<Timestamp>,
-    /// Why most of the rest was lost; `None` where all of it was tracked.
-    pub cause: Option<MissCause>,
-}
-
-impl Flown {
-    pub fn lost_s(&self) -> f64 {
-        (self.of_s - self.in_beam_s).max(0.0)
-    }
-}
-
-/// Why a pass, or a part of it, was missed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum MissCause {
-    Off(OffBecause),
-    Suspended(Interruption),
-    /// After an outage nobody answered the question of tracking on.
-    NotResumed,
-    /// The unit or the gate refused it, or it could not be proved.
-    Refused,
-    NotReady(NotReady),
-    /// The track was ended, because the antenna stayed off its target.
-    OffTarget,
-    /// As the report of the pass tells it.
-    #[serde(untagged)]
-    Lost(LossCause),
-}
 
 /// A pass of the schedule while it is flown.
 #[derive(Debug, Clone, PartialEq)]
@@ -217,7 +135,13 @@ pub(super) fn add(list: &mut Vec<DayLine>, line: DayLine) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{astro::time::add_seconds, plan::pass_report::PassVerdict};
+    use crate::{
+        astro::time::add_seconds,
+        contract::automatic::{DayEvent, Interruption, OffBecause},
+        engine::automatic::Operate,
+        plan::pass_report::PassVerdict,
+        station::AntennaId,
+    };
 
     fn at(second: f64) -> Timestamp {
         add_seconds(Timestamp::UNIX_EPOCH, second)

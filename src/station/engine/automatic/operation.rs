@@ -8,7 +8,12 @@ use serde::{Deserialize, Serialize};
 
 use crate::{
     astro::time::{add_seconds, seconds_between},
-    engine::passes::PassKey,
+    contract::{
+        automatic::{
+            Attempt, Doing, GivenUp, Interruption, NotReady, OffBecause, On, Operation, Taking,
+        },
+        passes::PassKey,
+    },
     plan::Loss,
 };
 
@@ -28,144 +33,17 @@ pub(super) const LATE_S: f64 = 30.0;
 /// Time before LOS at which a unit that tracks on its own may end: its window has whole seconds.
 pub(super) const WINDOW_STEP_S: f64 = 1.0;
 
-/// Automatic operation of one antenna. Only the operator switches it on, and lets it go on.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Operation {
-    Off(OffBecause),
-    On(On),
-    /// Somebody moved the antenna: it waits for the operator, whatever the time.
-    Suspended {
-        by: Interruption,
-        since: Timestamp,
-    },
+/// Returns `true` if the rest of the pass is skipped.
+fn is_skipped(taking: &Taking) -> bool {
+    taking.given_up.is_some_and(|reason| is_final(reason) || taking.requests >= REQUESTS)
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum OffBecause {
-    /// Nobody has switched it on since the start.
-    NotSwitchedOn,
-    /// The operator switched it off.
-    Operator,
-    Stop,
-    /// The monitor or the dead-man has stopped the antenna.
-    Safety,
-    LockedOut,
-    /// The settings of the antenna were changed.
-    Changed,
-    /// After an outage the unit was not as it had been left.
-    NotAsLeft,
-    /// Two passes in a row could not be loaded or proved.
-    Failures,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Interruption {
-    /// By a command from this station, such as a jog.
-    ByHand,
-    /// By the panel of the unit, or by another program.
-    Elsewhere,
-    /// The unit ended a motion before its end, and Azel had not: by its panel, by another program, or by
-    /// a fault of its own.
-    EndedByUnit,
-    /// The clock of this computer was set, and no time service is known to keep it.
-    Clock,
-}
-
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct On {
-    pub doing: Doing,
-    failures: u8,
-    /// When the antenna was last moved by automatic operation, or seen to be.
-    moved_at: Option<Timestamp>,
-    /// Since when its unit tracks although nothing is asked of it.
-    moves_since: Option<Timestamp>,
-}
-
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Doing {
-    Rests,
-    /// The first motion after a rest is announced.
-    Announces {
-        moves_at: Timestamp,
-        pass: PassKey,
-    },
-    /// Goes to its park position between two passes.
-    Parks,
-    Takes(Taking),
-}
-
-/// A pass that is being taken.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Taking {
-    pub pass: PassKey,
-    pub from: Timestamp,
-    pub until: Timestamp,
-    /// When the unit was asked last, and how often since the pass was last proved.
-    pub asked_at: Timestamp,
-    requests: u8,
-    attempt: Attempt,
-    /// When it was proved that the antenna is on its way; for a unit with a program of its own
-    /// by reading back.
-    pub proved_at: Option<Timestamp>,
-    /// Reason why Azel does not track the pass now.
-    pub given_up: Option<GivenUp>,
-}
-
-impl Taking {
-    /// Returns `true` if the rest of the pass is skipped.
-    fn is_skipped(&self) -> bool {
-        self.given_up.is_some_and(|reason| reason.is_final() || self.requests >= REQUESTS)
-    }
-}
-
-/// Progress of the last request for a pass.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-enum Attempt {
-    /// Nothing has moved or been loaded for it.
-    NotBegun,
-    Begun,
-    /// After it had begun, the unit was found to miss the pass.
-    Objected,
-}
-
-/// Reason why a unit cannot begin its pass now. Azel judges this when the antenna should set out,
-/// because an earlier fault may be cleared by then.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum NotReady {
-    /// A fault of the unit locks its motion.
-    Fault,
-    /// An axis has no position.
-    NoPosition,
-    /// The unit's clock, site or elements would make it miss the pass.
-    WouldMiss,
-}
-
-/// Reason why Azel does not track a pass.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum GivenUp {
-    /// The unit or the gate refused it, or it could not be proved.
-    Refused,
-    /// The antenna stayed off its target.
-    OffTarget,
-    /// The unit's clock, site or elements would make it miss the rest of the pass.
-    WouldMiss,
-}
-
-impl GivenUp {
-    /// Returns `false` if Azel judges the rest of the pass again.
-    fn is_final(self) -> bool {
-        match self {
-            Self::Refused | Self::OffTarget => true,
-            // A clock or a setting may be corrected before the pass is over.
-            Self::WouldMiss => false,
-        }
+/// Returns `false` if Azel judges the rest of the pass again.
+fn is_final(reason: GivenUp) -> bool {
+    match reason {
+        GivenUp::Refused | GivenUp::OffTarget => true,
+        // A clock or a setting may be corrected before the pass is over.
+        GivenUp::WouldMiss => false,
     }
 }
 
@@ -189,50 +67,50 @@ pub struct Duty {
 
 /// State of the antenna at one moment, as far as it is known.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(super) struct Seen {
+pub(in crate::engine) struct Seen {
     /// The unit answers in time.
-    pub(super) is_live: bool,
+    pub(in crate::engine) is_live: bool,
     /// No reply has come for longer than a hiccup of the link lasts.
-    pub(super) is_silent: bool,
-    pub(super) is_locked_out: bool,
+    pub(in crate::engine) is_silent: bool,
+    pub(in crate::engine) is_locked_out: bool,
     /// Commands can be sent: no STOP is owed and nothing else forbids them.
-    pub(super) can_be_sent: bool,
+    pub(in crate::engine) can_be_sent: bool,
     /// Reason why the unit cannot begin a pass now.
-    pub(super) not_ready: Option<NotReady>,
+    pub(in crate::engine) not_ready: Option<NotReady>,
     /// The satellite that it tracks from here or is on its way to.
-    pub(super) takes: Option<u32>,
+    pub(in crate::engine) takes: Option<u32>,
     /// The satellite in `takes` is proved: the antenna tracks it or is on its way to it.
-    pub(super) is_proved: bool,
+    pub(in crate::engine) is_proved: bool,
     /// After an outage it waits for the operator's word to track on.
-    pub(super) awaits_operator: bool,
+    pub(in crate::engine) awaits_operator: bool,
     /// Satellite that the unit tracks on its own, and that can be taken over without a motion.
-    pub(super) offers: Option<u32>,
+    pub(in crate::engine) offers: Option<u32>,
     /// The schedule that is being made may give the antenna what its unit tracks.
-    pub(super) may_be_planned: bool,
-    pub(super) moves: bool,
+    pub(in crate::engine) may_be_planned: bool,
+    pub(in crate::engine) moves: bool,
     /// It turns, and nothing is asked of it: it may end an earlier motion. Until it stands, nothing is
     /// sent.
-    pub(super) turns_unasked: bool,
+    pub(in crate::engine) turns_unasked: bool,
     /// Its unit tracks on its own, or another satellite than it was asked to.
-    pub(super) is_moved_elsewhere: bool,
+    pub(in crate::engine) is_moved_elsewhere: bool,
 }
 
 /// How the operator wants it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Wishes {
+pub(in crate::engine) struct Wishes {
     /// Parks between passes where the time allows; `None` where it does not park. Seconds that
     /// both ways take at most.
-    pub(super) parks_within_s: Option<f64>,
-    pub(super) longest_rest_s: f64,
-    pub(super) announced_for_s: f64,
+    pub(in crate::engine) parks_within_s: Option<f64>,
+    pub(in crate::engine) longest_rest_s: f64,
+    pub(in crate::engine) announced_for_s: f64,
     /// The pass that automatic operation proved last, in this run or the one before: the unit may
     /// go on with it on its own.
-    pub(super) held: Option<PassKey>,
+    pub(in crate::engine) held: Option<PassKey>,
 }
 
 /// Action of the station for automatic operation.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Act {
+pub(in crate::engine) enum Act {
     Take(Duty),
     /// The unit tracks the pass already, and nothing moves.
     TakeOver(Duty),
@@ -241,7 +119,7 @@ pub(super) enum Act {
 
 /// Outcome of a request for a pass, as the session reports it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Outcome {
+pub(in crate::engine) enum Outcome {
     /// The pass cannot be loaded or proved, or the unit refused it.
     Failed,
     /// The path of the unit leads into a barrier.
@@ -252,69 +130,86 @@ pub(super) enum Outcome {
     WouldMiss,
 }
 
-impl OffBecause {
-    /// Returns `true` if the operator must be alerted, because somebody or something else ended it.
-    pub(super) fn is_alarming(self) -> bool {
-        matches!(self, Self::Safety | Self::Changed | Self::NotAsLeft | Self::Failures)
-    }
+/// Returns `true` if the operator must be alerted, because somebody or something else ended it.
+pub(super) fn is_alarming(reason: OffBecause) -> bool {
+    use OffBecause::{Changed, Failures, NotAsLeft, Safety};
+    matches!(reason, Safety | Changed | NotAsLeft | Failures)
 }
 
-impl Operation {
-    pub(super) fn switched_on() -> Self {
+/// Carries on automatic operation of an antenna. Nothing here has a clock or a link.
+pub(in crate::engine) trait Operate {
+    fn switched_on() -> Self;
+
+    /// Without the time that goes on for as long as the antenna moves.
+    fn without_motion(self) -> Self;
+
+    /// Returns `true` while it is on and asks nothing of the antenna.
+    fn is_idle(&self) -> bool;
+
+    /// Returns why the unit was not given the current pass.
+    fn not_ready(&self) -> Option<NotReady>;
+
+    /// Returns `true` if the antenna is proved to be on its way to the pass that it takes.
+    fn is_proved(&self) -> bool;
+
+    /// Ends it, unless it is off.
+    fn switch_off(&mut self, because: OffBecause);
+
+    fn suspend(&mut self, by: Interruption, now: Timestamp);
+
+    /// The operator lets it go on.
+    fn go_on(&mut self, now: Timestamp);
+
+    /// Takes the outcome of the request for the present pass.
+    fn take_outcome(&mut self, outcome: Outcome);
+
+    /// The unit ended a motion before its end, and Azel had not. A unit that has not begun its track
+    /// yet has failed to.
+    fn ended_by_unit(&mut self, now: Timestamp);
+
+    /// Returns the action for `now`. `duties` are in the order of time; those that are over are
+    /// ignored.
+    fn step(&mut self, duties: &[Duty], seen: Seen, wishes: Wishes, now: Timestamp) -> Option<Act>;
+}
+
+impl Operate for Operation {
+    fn switched_on() -> Self {
         Self::On(On { doing: Doing::Rests, failures: 0, moved_at: None, moves_since: None })
     }
 
-    /// Without the time that goes on for as long as the antenna moves.
-    pub(in crate::engine) fn without_motion(mut self) -> Self {
+    fn without_motion(mut self) -> Self {
         if let Self::On(on) = &mut self {
             on.moved_at = None;
         }
         self
     }
 
-    pub fn is_on(&self) -> bool {
-        matches!(self, Self::On(_))
-    }
-
-    /// Returns `true` while it is on and asks nothing of the antenna.
-    pub(in crate::engine) fn is_idle(&self) -> bool {
+    fn is_idle(&self) -> bool {
         matches!(self, Self::On(On { doing: Doing::Rests | Doing::Parks, .. }))
     }
 
-    /// The pass that is being taken.
-    pub fn taking(&self) -> Option<&Taking> {
-        match self {
-            Self::On(On { doing: Doing::Takes(taking), .. }) => Some(taking),
-            _ => None,
-        }
-    }
-
-    /// Returns why the unit was not given the current pass.
-    pub(super) fn not_ready(&self) -> Option<NotReady> {
+    fn not_ready(&self) -> Option<NotReady> {
         let given_up = self.taking()?.given_up?;
         (given_up == GivenUp::WouldMiss).then_some(NotReady::WouldMiss)
     }
 
-    /// Returns `true` if the antenna is proved to be on its way to the pass that it takes.
-    pub(super) fn is_proved(&self) -> bool {
+    fn is_proved(&self) -> bool {
         self.taking().is_some_and(|taking| taking.proved_at.is_some())
     }
 
-    /// Ends it, unless it is off.
-    pub(in crate::engine) fn switch_off(&mut self, because: OffBecause) {
+    fn switch_off(&mut self, because: OffBecause) {
         if !matches!(self, Self::Off(_)) || because == OffBecause::Operator {
             *self = Self::Off(because);
         }
     }
 
-    pub(in crate::engine) fn suspend(&mut self, by: Interruption, now: Timestamp) {
+    fn suspend(&mut self, by: Interruption, now: Timestamp) {
         if self.is_on() {
             *self = Self::Suspended { by, since: now };
         }
     }
 
-    /// The operator lets it go on.
-    pub(super) fn go_on(&mut self, now: Timestamp) {
+    fn go_on(&mut self, now: Timestamp) {
         if matches!(self, Self::Suspended { .. }) {
             *self = Self::switched_on();
             // The operator is there, and has just said it.
@@ -324,18 +219,17 @@ impl Operation {
         }
     }
 
-    /// Takes the outcome of the request for the present pass.
-    pub(super) fn take_outcome(&mut self, outcome: Outcome) {
+    fn take_outcome(&mut self, outcome: Outcome) {
         let Self::On(on) = self else { return };
         let Doing::Takes(taking) = &mut on.doing else { return };
-        if taking.is_skipped() {
+        if is_skipped(taking) {
             return;
         }
         match outcome {
             Outcome::Failed => {
                 taking.given_up = Some(GivenUp::Refused);
                 on.failures += 1;
-                self.end_after_failures();
+                end_after_failures(self);
             }
             // A blocked path says nothing about the next pass.
             Outcome::Blocked => taking.given_up = Some(GivenUp::Refused),
@@ -355,33 +249,17 @@ impl Operation {
         }
     }
 
-    /// The unit ended a motion before its end, and Azel had not. A unit that has not begun its track
-    /// yet has failed to.
-    pub(super) fn ended_by_unit(&mut self, now: Timestamp) {
+    fn ended_by_unit(&mut self, now: Timestamp) {
         let Self::On(on) = self else { return };
         match &on.doing {
-            Doing::Takes(taking) if taking.is_skipped() => {}
+            Doing::Takes(taking) if is_skipped(taking) => {}
             Doing::Rests | Doing::Announces { .. } => {}
             Doing::Takes(Taking { proved_at: None, .. }) => self.take_outcome(Outcome::Failed),
             Doing::Takes(_) | Doing::Parks => self.suspend(Interruption::EndedByUnit, now),
         }
     }
 
-    fn end_after_failures(&mut self) {
-        if matches!(self, Self::On(On { failures: FAILURES.., .. })) {
-            *self = Self::Off(OffBecause::Failures);
-        }
-    }
-
-    /// Returns the action for `now`. `duties` are in the order of time; those that are over are
-    /// ignored.
-    pub(super) fn step(
-        &mut self,
-        duties: &[Duty],
-        seen: Seen,
-        wishes: Wishes,
-        now: Timestamp,
-    ) -> Option<Act> {
+    fn step(&mut self, duties: &[Duty], seen: Seen, wishes: Wishes, now: Timestamp) -> Option<Act> {
         if seen.is_locked_out {
             self.switch_off(OffBecause::LockedOut);
         }
@@ -401,13 +279,66 @@ impl Operation {
             return None;
         }
         let act = on.step(duties, seen, wishes, now);
-        self.end_after_failures();
+        end_after_failures(self);
         act
     }
 }
 
-impl On {
+/// Steps of automatic operation that is on.
+trait OperateOn {
     /// Brings what it does up to date.
+    fn see(&mut self, seen: Seen, now: Timestamp);
+
+    /// After the clock was set back, what was done by the old time tells nothing any more.
+    fn forget_the_future(&mut self, now: Timestamp);
+
+    /// The pass of the schedule that the unit tracks on its own, as automatic operation left it.
+    fn found_at_work(
+        &self,
+        duties: &[Duty],
+        seen: Seen,
+        wishes: Wishes,
+        now: Timestamp,
+    ) -> Option<Duty>;
+
+    fn is_moved_for_long(&self, now: Timestamp) -> bool;
+
+    /// Seconds since the last motion.
+    fn rest_s(&self, now: Timestamp) -> f64;
+
+    fn step(&mut self, duties: &[Duty], seen: Seen, wishes: Wishes, now: Timestamp) -> Option<Act>;
+
+    /// An announcement stands only while its motion can be made and is still the next. One late reply
+    /// does not end it: with frequent ones, the warning would begin again for ever.
+    fn keep_announcement(&mut self, next: Duty, seen: Seen, wishes: Wishes, now: Timestamp);
+
+    fn take(&mut self, duty: Duty, requests: u8, now: Timestamp);
+
+    /// A pass that an outage took away is asked for again once the unit answers and does nothing,
+    /// and given up if that leads to nothing.
+    fn again(
+        &mut self,
+        taking: Taking,
+        duties: &[Duty],
+        seen: Seen,
+        wishes: Wishes,
+        now: Timestamp,
+    ) -> Option<Act>;
+
+    /// Asks again for a pass that the unit would have missed. The session judges what is left of it.
+    fn judge_again(&mut self, duty: Duty, wishes: Wishes, now: Timestamp) -> Option<Act>;
+
+    /// Parks until the next pass, where the time is enough for both ways.
+    fn park(
+        &mut self,
+        next: Option<Duty>,
+        seen: Seen,
+        wishes: Wishes,
+        now: Timestamp,
+    ) -> Option<Act>;
+}
+
+impl OperateOn for On {
     fn see(&mut self, seen: Seen, now: Timestamp) {
         self.forget_the_future(now);
         if !seen.is_moved_elsewhere {
@@ -426,7 +357,7 @@ impl On {
                 if seen.is_proved && taking.proved_at.is_none() {
                     taking.proved_at = Some(now);
                     taking.requests = 0;
-                    taking.given_up = taking.given_up.filter(|given_up| given_up.is_final());
+                    taking.given_up = taking.given_up.filter(|given_up| is_final(*given_up));
                 }
             }
             if now >= taking.until {
@@ -439,7 +370,6 @@ impl On {
         }
     }
 
-    /// After the clock was set back, what was done by the old time tells nothing any more.
     fn forget_the_future(&mut self, now: Timestamp) {
         self.moved_at = self.moved_at.filter(|at| *at <= now);
         self.moves_since = self.moves_since.filter(|since| *since <= now);
@@ -448,7 +378,6 @@ impl On {
         }
     }
 
-    /// The pass of the schedule that the unit tracks on its own, as automatic operation left it.
     fn found_at_work(
         &self,
         duties: &[Duty],
@@ -466,7 +395,6 @@ impl On {
         self.moves_since.is_some_and(|since| seconds_between(since, now) >= COASTS_S)
     }
 
-    /// Seconds since the last motion.
     fn rest_s(&self, now: Timestamp) -> f64 {
         self.moved_at.map_or(f64::INFINITY, |at| seconds_between(at, now))
     }
@@ -517,8 +445,6 @@ impl On {
         })
     }
 
-    /// An announcement stands only while its motion can be made and is still the next. One late reply
-    /// does not end it: with frequent ones, the warning would begin again for ever.
     fn keep_announcement(&mut self, next: Duty, seen: Seen, wishes: Wishes, now: Timestamp) {
         let Doing::Announces { pass, .. } = &self.doing else { return };
         let is_near = seconds_between(now, next.go_at) <= wishes.announced_for_s;
@@ -543,8 +469,6 @@ impl On {
         });
     }
 
-    /// A pass that an outage took away is asked for again once the unit answers and does nothing,
-    /// and given up if that leads to nothing.
     fn again(
         &mut self,
         taking: Taking,
@@ -556,12 +480,12 @@ impl On {
         let is_asked = seconds_between(taking.asked_at, now) < LATE_S;
         let is_idle = seen.takes != Some(taking.pass.0) && !seen.moves;
         // Somebody may stand beside the unit to repair it: announce its next motion.
-        if seen.not_ready.is_some() && is_idle && !taking.is_skipped() {
+        if seen.not_ready.is_some() && is_idle && !is_skipped(&taking) {
             (self.doing, self.moved_at) = (Doing::Rests, None);
             return None;
         }
         let is_ready = seen.is_live && seen.can_be_sent;
-        if taking.is_skipped() || is_asked || !is_idle || !is_ready {
+        if is_skipped(&taking) || is_asked || !is_idle || !is_ready {
             return None;
         }
         let duty = duties.iter().find(|duty| is_same_pass(duty.pass, taking.pass))?;
@@ -582,7 +506,6 @@ impl On {
         })
     }
 
-    /// Asks again for a pass that the unit would have missed. The session judges what is left of it.
     fn judge_again(&mut self, duty: Duty, wishes: Wishes, now: Timestamp) -> Option<Act> {
         let is_announced = self.rest_s(now) >= wishes.longest_rest_s;
         let Doing::Takes(taking) = &mut self.doing else { return None };
@@ -610,7 +533,6 @@ impl On {
         Some(Act::Take(duty))
     }
 
-    /// Parks until the next pass, where the time is enough for both ways.
     fn park(
         &mut self,
         next: Option<Duty>,
@@ -630,6 +552,12 @@ impl On {
         self.doing = Doing::Parks;
         self.moved_at = Some(now);
         Some(Act::Park)
+    }
+}
+
+fn end_after_failures(operation: &mut Operation) {
+    if matches!(operation, Operation::On(On { failures: FAILURES.., .. })) {
+        *operation = Operation::Off(OffBecause::Failures);
     }
 }
 

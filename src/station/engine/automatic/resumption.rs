@@ -3,10 +3,11 @@
 
 use std::time::Duration;
 
-use super::{LastRun, OffBecause, Operation};
+use super::LastRun;
 use crate::{
     clock::Instant,
     contract::{
+        automatic::{OffBecause, Operation},
         driver::{Event, Intent, Safety, StopState, TimeSync, Unit},
         transfer::FileHash,
     },

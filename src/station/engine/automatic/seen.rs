@@ -1,11 +1,14 @@
 //! State of an antenna that automatic operation looks at, taken from its snapshot.
 
-use super::operation::{NotReady, Seen};
+use super::operation::Seen;
 use crate::{
     clock::Instant,
-    contract::driver::{Intent, Snapshot, StopState},
+    contract::{
+        antenna::AntennaModel,
+        automatic::NotReady,
+        driver::{Intent, Snapshot, StopState},
+    },
     device::Axis,
-    engine::antenna::AntennaModel,
 };
 
 pub(super) fn seen(antenna: &AntennaModel, now: Instant) -> Seen {

@@ -8,9 +8,10 @@ use tokio::sync::mpsc;
 use super::*;
 use crate::{
     clock::Clock,
+    contract::By,
     controller::SPECS,
     driver::{Dial, Outside, UnitLock},
-    engine::{By, Outbox, Settings},
+    engine::{Outbox, Settings},
     station::{self, Antenna as Config, Station},
 };
 

@@ -8,16 +8,19 @@ use std::time::Duration;
 use jiff::Timestamp;
 
 pub(in crate::engine) use self::elements::RuleUpload;
-use super::DayEvent;
 use crate::{
     astro::time::seconds_between,
     clock::Instant,
-    contract::driver::{self, TimeSync},
+    contract::{
+        antenna::AntennaModel,
+        automatic::DayEvent,
+        driver::{self, TimeSync},
+    },
     device::{
         ClockSetting, UnitClock,
         settings::{Change, Hindrance, WriteError},
     },
-    engine::{Antenna, Engine, antenna::AntennaModel},
+    engine::{Antenna, Engine, automatic::Operate},
     plan::schedule::{Entry, sets_out},
     station::{AntennaId, BetweenPasses, Upkeep},
 };

@@ -8,7 +8,8 @@ use std::{
     sync::Mutex,
 };
 
-use super::{HeldBy, LockFolder, LockFolders, unpoisoned};
+use super::{LockFolder, LockFolders, unpoisoned};
+use crate::contract::claim::HeldBy;
 
 /// Why a lock was not taken.
 pub(super) enum NotLocked {

@@ -9,9 +9,9 @@ use std::sync::{
 use jiff::Timestamp;
 use rayon::prelude::*;
 
-use super::predicted_pass::{ListedSatellite, Observer, PredictedPass};
 use crate::{
     astro::{Angle, time::add_seconds},
+    contract::passes::{ListedSatellite, Observer, PredictedPass},
     job::Wake,
     orbit::{Catalog, Elements, PassSearch, Propagator, passes_of_all},
 };

@@ -5,7 +5,8 @@ use std::{
 
 use super::*;
 use crate::{
-    astro::Site,
+    astro::{Site, time::add_seconds},
+    contract::passes::{PassKey, PredictedPass, Work},
     makes::DemoAddresses,
     orbit::{bundled, read_element_bytes, write_omm_json},
 };
@@ -287,7 +288,7 @@ fn a_pass_cut_at_the_start_of_the_list_is_found_whenever_it_began_in_an_older_on
     let elements: Vec<Elements> = bundled.iter().filter(half_a_day).cloned().collect();
     let fixture = Fixture::new();
     let key = SearchKey::of_favourites(&fixture.catalog, &fixture.station);
-    let list = PassList::again(&key, &elements, Some(now()));
+    let list = list::again(&key, &elements, Some(now()));
     let mut cut = 0;
     for predicted in &*list.passes {
         let (number, aos) = predicted.key();

@@ -6,7 +6,8 @@ use serde::Serialize;
 
 use crate::{
     clock::Moment,
-    engine::{Engine, schedule::Planned},
+    contract::schedule::Planned,
+    engine::Engine,
     plan::schedule::{Change, Entry, LeftOut, PassKey, Schedule},
     record::Kind,
     station::AntennaId,

@@ -5,9 +5,13 @@ use serde::Serialize;
 
 use crate::{
     astro::TrackOffsets,
-    contract::driver::{Inside, Intent, LeftMoving, StopState},
+    contract::{
+        antenna::AntennaModel,
+        automatic::Operation,
+        driver::{Inside, Intent, LeftMoving, StopState},
+    },
     device::{Phase, panel::CheckState},
-    engine::{antenna::AntennaModel, automatic::Operation, status::LinkStatus},
+    engine::{automatic::Operate, status::LinkStatus},
     plan::TrackPhase,
     station::LockOut,
 };

@@ -2,10 +2,13 @@
 
 use std::{io, sync::Arc};
 
-use super::{SourceOrder, SourceTests, TestAsk, TestStage};
+use super::{peer, source};
 use crate::{
     clock::Clock,
-    contract::transfer::{OldAlgorithm, UnitView},
+    contract::{
+        source_tests::{SourceOrder, SourceTests, TestAsk, TestStage},
+        transfer::{OldAlgorithm, UnitView},
+    },
     engine::{
         host_keys::{self, Decision, doubtful},
         uploads::Places,
@@ -45,7 +48,7 @@ impl Runner {
                 }
             }
             (TestAsk::ForgetHostKey, TestStage::Failed { changed_key: Some(_), .. }) => {
-                let peer = shown.order.as_ref().and_then(|order| order.source.peer().cloned());
+                let peer = shown.order.as_ref().and_then(|order| peer(&order.source).cloned());
                 if let Some(peer) = peer {
                     self.decide(Decision::Forget(peer), shown);
                 }
@@ -128,7 +131,7 @@ fn start(
 ) -> io::Result<Transfer<Result<View, FetchError>>> {
     Transfer::start("azel-source-test", wake, move |_, cancel| async move {
         let trust = Trust { known_hosts: places.known_hosts, own_authorities: Vec::new() };
-        let fetched = fetch(&order.source.source(), &trust, places.limits, &cancel).await?;
+        let fetched = fetch(&source(&order.source), &trust, places.limits, &cancel).await?;
         Ok((what_a_unit_sees(&fetched.bytes, &order.satellite), fetched.old_algorithms))
     })
 }

@@ -5,10 +5,14 @@ use std::{io, sync::Arc};
 
 use tokio_util::sync::CancellationToken;
 
-use super::{Cargo, Order, Places};
+use super::Places;
 use crate::{
     clock::Clock,
-    contract::transfer::{OldAlgorithm, Progress, Uploaded},
+    contract::{
+        transfer::{OldAlgorithm, Progress, Uploaded},
+        uploads::{Cargo, Order},
+    },
+    engine::uploads::order::account,
     job::{Job, Wake},
     secret::Secret,
     transfer::{
@@ -98,7 +102,7 @@ fn find_secret(errand: &Errand, places: &Places) -> (Option<SecretString>, Optio
     if let Some(secret) = &errand.secret {
         return (Some(secret.inner().clone()), None);
     }
-    let account = errand.order.account();
+    let account = account(&errand.order);
     if let Ok(Some(secret)) = places.session.get(&account) {
         return (Some(secret), None);
     }
@@ -160,7 +164,7 @@ impl Attempt<'_> {
         self.old_algorithms = folder.old_algorithms().to_vec();
         if let Some(secret) = &secret {
             // The keyring in memory never fails.
-            let _ = places.session.set(&order.account(), secret);
+            let _ = places.session.set(&account(&order), secret);
         }
         let wanted = Upload { unit: order.unit.clone(), file: order.file.clone(), elements };
         match upload(&mut folder, wanted, &places.kept, clock, tell, cancel).await {
@@ -197,7 +201,7 @@ impl Attempt<'_> {
 
     fn forget(&self) {
         // The keyring in memory never fails.
-        let _ = self.places.session.remove(&self.order.account());
+        let _ = self.places.session.remove(&account(&self.order));
     }
 }
 

@@ -4,13 +4,18 @@
 use jiff::Timestamp;
 
 use super::{
-    Cargo, Failure, Order, Proved, SecretWanted, Stage, Uploads, Warning,
     errand::{Errand, Outcome, Report},
     select::{Selection, TICKETS, UnitNow, pick},
 };
 use crate::{
-    contract::transfer::Uploaded,
-    engine::host_keys::{Decision, doubtful},
+    contract::{
+        transfer::Uploaded,
+        uploads::{Cargo, Failure, Order, Proved, SecretWanted, Stage, Uploads, Warning},
+    },
+    engine::{
+        host_keys::{Decision, doubtful},
+        uploads::order::account,
+    },
     secret::Secret,
     transfer::OfferedKey,
 };
@@ -241,7 +246,7 @@ impl Flow {
                     fail(shown, text.unwrap_or_else(missing));
                     return None;
                 }
-                let account = order.account();
+                let account = account(order);
                 shown.stage = Stage::AsksForSecret(SecretWanted {
                     user: account.user,
                     address: account.address,

@@ -2,43 +2,12 @@
 
 use std::path::PathBuf;
 
-use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error as _};
+use serde::{Deserialize, Serialize};
 
 use crate::{
-    contract::transfer::{FileName, KeptFile, Peer, TleFile},
-    device::ElementFiles,
-    engine::written,
+    contract::{transfer::Peer, uploads::Order},
     transfer::Account,
 };
-
-/// An element file for a unit, with the way to get it there.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(remote = "Self")]
-pub struct Order {
-    /// Name of the unit's antenna.
-    pub antenna: String,
-    /// How the unit takes files.
-    #[serde(with = "written::element_files")]
-    pub takes: &'static ElementFiles,
-    /// Server of the unit's files.
-    pub unit: Peer,
-    /// Folder of the element files on the unit.
-    pub folder: String,
-    /// Name of the file in the folder.
-    pub file: FileName,
-    /// User name for the log-in.
-    pub user: String,
-    /// Private key for the log-in; `None` for a password.
-    pub key_file: Option<PathBuf>,
-    /// Content of the file.
-    pub cargo: Cargo,
-    /// Catalog number of the satellite to track; `None` for the one that the unit holds, or
-    /// the first of the file.
-    pub satellite: Option<u32>,
-    /// Started by a rule: the order fails instead of asking.
-    #[serde(default)]
-    pub is_unattended: bool,
-}
 
 /// Where an upload goes.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -54,48 +23,20 @@ pub(in crate::engine) struct UploadTarget {
     pub(in crate::engine) key_file: Option<PathBuf>,
 }
 
-/// Content of a file.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub enum Cargo {
-    /// New elements.
-    New(TleFile),
-    /// An earlier file, put back.
-    Kept(KeptFile),
-}
-
-impl Serialize for Order {
-    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        Self::serialize(self, to)
+/// Where the next upload to this unit goes.
+pub(in crate::engine) fn target(order: &Order) -> UploadTarget {
+    UploadTarget {
+        unit: order.unit.clone(),
+        folder: order.folder.clone(),
+        file: order.file.as_str().to_owned(),
+        user: order.user.clone(),
+        key_file: order.key_file.clone(),
     }
 }
 
-/// Refuses a file name that leads out of its folder.
-impl<'de> Deserialize<'de> for Order {
-    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        let order = Self::deserialize(from)?;
-        FileName::new(order.file.as_str(), order.takes).map_err(D::Error::custom)?;
-        Ok(order)
-    }
-}
-
-impl Order {
-    /// Where the next upload to this unit goes.
-    pub(in crate::engine) fn target(&self) -> UploadTarget {
-        UploadTarget {
-            unit: self.unit.clone(),
-            folder: self.folder.clone(),
-            file: self.file.as_str().to_owned(),
-            user: self.user.clone(),
-            key_file: self.key_file.clone(),
-        }
-    }
-
-    /// Account under which the password or passphrase is kept.
-    pub fn account(&self) -> Account {
-        let user = self
-            .key_file
-            .as_ref()
-            .map_or_else(|| self.user.clone(), |path| path.display().to_string());
-        Account { user, address: self.unit.to_string() }
-    }
+/// Account under which the password or passphrase is kept.
+pub(super) fn account(order: &Order) -> Account {
+    let key_file = order.key_file.as_ref();
+    let user = key_file.map_or_else(|| order.user.clone(), |path| path.display().to_string());
+    Account { user, address: order.unit.to_string() }
 }

@@ -3,14 +3,15 @@
 use std::{io, sync::Arc, time::Duration};
 
 use super::{
-    Ask, Kept, KeptEntry, Order, Places, Stage, Uploads, Warning,
+    Places,
     errand::{self, Report},
     flow::{Flow, Next},
     select::{Selection, UnitNow},
 };
 use crate::{
     clock::{Clock, Instant},
-    engine::host_keys,
+    contract::uploads::{Ask, Kept, KeptEntry, Order, Stage, Uploads, Warning},
+    engine::{host_keys, uploads::order::account},
     job::{Job, Wake},
     transfer::Transfer,
 };
@@ -148,7 +149,7 @@ impl Runner {
             && let Some((places, order)) = self.places.as_ref().zip(self.flow.order())
         {
             let wake = Arc::clone(&self.wake);
-            self.keeping = logged(errand::keep_secret(places, order.account(), secret, wake));
+            self.keeping = logged(errand::keep_secret(places, account(order), secret, wake));
         }
         let next = self.flow.reported(report, unit, shown);
         let kept = shown.kept.of.clone();

@@ -3,43 +3,33 @@
 use std::sync::Arc;
 
 use jiff::Timestamp;
-use serde::{Deserialize, Serialize};
 
 use crate::{
     clock::Instant,
     contract::{
+        antenna::AntennaModel,
         driver,
         transfer::{FileObject, Uploaded},
+        uploads::Busy,
     },
     device::{
         ElementFiles,
         panel::{Check, CheckState},
         settings::{Change, HeldGroup, Hindrance, Written},
     },
-    engine::antenna::AntennaModel,
+    engine::automatic::Operate,
 };
 
 /// Tickets of selections begin here; those of the forms are lower.
 pub(super) const TICKETS: u64 = 1 << 63;
 
-/// Why the operator must agree before a unit is set to use a file.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Busy {
-    /// The unit tracks; the track will be stopped.
-    Tracks,
-    /// Auto-track is on: the unit may begin to track. It will be switched off.
-    MayTrack,
-}
-
-impl Busy {
-    /// The reason for the unit of `antenna`, if any.
-    fn of(antenna: &AntennaModel) -> Option<Self> {
-        let program = antenna.snapshot.state.program?;
-        if program.enabled {
-            return Some(Self::Tracks);
-        }
-        (program.auto == Some(true)).then_some(Self::MayTrack)
+/// Why the operator must agree before the unit of `antenna` is set, if anything asks for it.
+fn busy(antenna: &AntennaModel) -> Option<Busy> {
+    let program = antenna.snapshot.state.program?;
+    if program.enabled {
+        return Some(Busy::Tracks);
     }
+    (program.auto == Some(true)).then_some(Busy::MayTrack)
 }
 
 /// Present state of an antenna's unit.
@@ -96,7 +86,7 @@ impl UnitNow {
         let locked_out = locked_out.map(|lock_out| format!("{}: {}", lock_out.by, lock_out.reason));
         let hindrance = antenna.snapshot.hindrance(antenna.variant().capabilities, steady);
         let is_idle = antenna.operation.is_idle();
-        Self { at, busy: Busy::of(antenna), locked_out, hindrance, is_idle, held, answer }
+        Self { at, busy: busy(antenna), locked_out, hindrance, is_idle, held, answer }
     }
 
     /// Returns `true` if a rule may change what the unit tracks from.

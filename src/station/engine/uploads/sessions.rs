@@ -1,9 +1,14 @@
 //! Connects uploads with the sessions of the antennas.
 
-use super::{Ask, Order, SessionRequest, Stage, UnitNow};
+use super::{SessionRequest, UnitNow};
 use crate::{
-    contract::{driver::Command, transfer::FileObject},
-    engine::{Antenna, Engine, automatic::Interruption},
+    contract::{
+        automatic::Interruption,
+        driver::Command,
+        transfer::FileObject,
+        uploads::{Ask, Stage},
+    },
+    engine::{Antenna, Engine, automatic::Operate, uploads::order::target},
 };
 
 impl Engine {
@@ -34,7 +39,7 @@ impl Engine {
         let Some(config) = self.upload_antenna().map(|antenna| antenna.shown.config.clone()) else {
             return;
         };
-        let Some(target) = self.upload_runner.order().map(Order::target) else { return };
+        let Some(target) = self.upload_runner.order().map(target) else { return };
         let file = target.file.clone();
         self.note_upload(&config, target, objects);
         if config.connection.element_file().is_none_or(|known| known == file) {

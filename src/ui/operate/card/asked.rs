@@ -2,9 +2,13 @@
 
 use crate::{
     astro::{Angle, AzEl},
-    contract::driver::{Command, Intent},
+    contract::{
+        self,
+        antenna::AntennaModel,
+        driver::{Command, Intent},
+        passes::PredictedPass,
+    },
     device::panel::Act,
-    engine::{self, antenna::AntennaModel, passes::PredictedPass},
     model::{Model, UiCommand},
     plan::{self, ProgramTrack},
     ui::{
@@ -42,19 +46,19 @@ impl CardHandler<'_> {
             CardAction::SetMode(Intent::Track) | CardAction::TrackSelected => {
                 let pass = self.model.selected_pass().map(PredictedPass::key);
                 let antenna = self.antenna.id();
-                let track = |pass| engine::Command::Track { antenna, pass, is_agreed: false };
+                let track = |pass| contract::Command::Track { antenna, pass, is_agreed: false };
                 return self.commands.extend(pass.map(track).map(UiCommand::Station));
             }
             CardAction::KeepOffsets(of) => {
                 let track = self.antenna.snapshot.program_track.as_ref();
-                let keep = |offsets| engine::Command::KeepOffsets { of, offsets };
+                let keep = |offsets| contract::Command::KeepOffsets { of, offsets };
                 let keep = track.map(|track| UiCommand::Station(keep(track.offsets)));
                 return self.commands.extend(keep);
             }
             CardAction::Offset(change) => Command::Offset(change),
             CardAction::TakeOver => Command::TakeOver,
             CardAction::GoOn => {
-                let go_on = engine::Command::GoOn(self.antenna.id());
+                let go_on = contract::Command::GoOn(self.antenna.id());
                 return self.commands.push(UiCommand::Station(go_on));
             }
             CardAction::TrackAgain => {
@@ -66,7 +70,7 @@ impl CardHandler<'_> {
             CardAction::TrackAnyway => {
                 let pass = self.model.selected_pass().map(PredictedPass::key);
                 let antenna = self.antenna.id();
-                let track = |pass| engine::Command::Track { antenna, pass, is_agreed: true };
+                let track = |pass| contract::Command::Track { antenna, pass, is_agreed: true };
                 return self.commands.extend(pass.map(track).map(UiCommand::Station));
             }
             CardAction::Jog { x, y, rate_deg_s } => {
@@ -103,7 +107,7 @@ impl CardHandler<'_> {
             FollowChoice::Selected => {
                 let pass = self.model.selected_pass().map(PredictedPass::key);
                 let antenna = self.antenna.id();
-                let track = |pass| engine::Command::ProgramTrackPass { antenna, pass };
+                let track = |pass| contract::Command::ProgramTrackPass { antenna, pass };
                 return self.commands.extend(pass.map(track).map(UiCommand::Station));
             }
             FollowChoice::Sun | FollowChoice::IntoSun => plan::Target::Sun,

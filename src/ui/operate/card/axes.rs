@@ -2,8 +2,8 @@
 
 use crate::{
     astro::Angle,
+    contract::antenna::AntennaModel,
     device::{AxisMotion, Capabilities, JogSpeeds, Measured, Pointing, SecondAxis},
-    engine::antenna::AntennaModel,
     station::Mount,
     ui::{
         format,

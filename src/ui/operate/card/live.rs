@@ -1,7 +1,7 @@
 //! State of the live station while the record is shown.
 
 use crate::{
-    engine::antenna::AntennaModel,
+    contract::antenna::AntennaModel,
     model::Model,
     ui::{
         antenna_card::{LiveAntenna, LiveNow},

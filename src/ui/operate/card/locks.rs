@@ -1,8 +1,10 @@
 //! The reasons why controls of the card are locked.
 
 use crate::{
-    contract::driver::{Intent, LinkState},
-    engine::antenna::AntennaModel,
+    contract::{
+        antenna::AntennaModel,
+        driver::{Intent, LinkState},
+    },
     model::Model,
     ui::state_sentence::missing_angle,
 };

@@ -2,7 +2,7 @@
 
 use super::Locks;
 use crate::{
-    engine::antenna::AntennaModel,
+    contract::antenna::AntennaModel,
     model::Model,
     station::OffsetsOf,
     ui::{

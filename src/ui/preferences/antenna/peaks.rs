@@ -5,8 +5,8 @@ use egui::{Label, Response, RichText, TextEdit, Ui};
 use jiff::Timestamp;
 
 use crate::{
+    contract,
     contract::record::{Peak, PeakChange, PeakOf},
-    engine,
     model::{Model, UiCommand},
     station::AntennaId,
     ui::{
@@ -96,7 +96,7 @@ pub(super) fn show(
     ui.add(Label::new(RichText::new(head).font(text::small()).color(t.t2)).wrap());
     let lock = record::lock(model);
     let mut change = |change| {
-        commands.push(UiCommand::Station(engine::Command::ChangePeaks(id, change)));
+        commands.push(UiCommand::Station(contract::Command::ChangePeaks(id, change)));
     };
     for peak in model.peaks.of(id) {
         ui.horizontal(|ui| {

@@ -5,8 +5,8 @@ use egui::{Grid, Label, RichText, Ui};
 use super::peaks::{self, TypedPeak};
 use crate::{
     astro::Term,
-    contract::record::{FittedTerm, PointingFit},
-    engine::{self, pointing_fit::PointingFitted},
+    contract,
+    contract::record::{FittedTerm, PointingFit, PointingFitted},
     model::{Model, UiCommand},
     station::{Antenna, AntennaId},
     ui::{
@@ -63,7 +63,7 @@ pub(super) fn show(
 }
 
 fn fit_without(id: AntennaId, terms: Vec<Term>) -> UiCommand {
-    UiCommand::Station(engine::Command::FitPointing(id, terms))
+    UiCommand::Station(contract::Command::FitPointing(id, terms))
 }
 
 /// Request of the operator concerning a fit.

@@ -11,7 +11,7 @@ use super::{
     edit, skyline,
 };
 use crate::{
-    engine::antenna::AntennaModel,
+    contract::antenna::AntennaModel,
     model::Model,
     station::{Entered, Mount},
     ui::{

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use jiff::Timestamp;
 
 use crate::{
-    engine::passes::PredictedPass,
+    contract::passes::PredictedPass,
     model::Model,
     plan::schedule::{deciding_rule, sun_is},
     station::{AntennaId, Station},

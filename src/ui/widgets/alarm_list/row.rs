@@ -6,10 +6,10 @@ use egui::{Color32, Galley, Id, Rect, Sense, Ui, pos2, vec2};
 
 use super::AlarmRow;
 use crate::{
-    contract::driver::Command,
-    engine::{
+    contract::{
         self,
         alarms::{AlarmState, Priority, ShelveTime},
+        driver::Command,
     },
     model::UiCommand,
     ui::{
@@ -114,11 +114,11 @@ fn buttons(row: &AlarmRow<'_>) -> Vec<RowButton> {
         buttons.push(RowButton { words: "Move away", command });
     }
     if row.is_new() {
-        let command = station(engine::Command::AcknowledgeAlarm(row.id));
+        let command = station(contract::Command::AcknowledgeAlarm(row.id));
         buttons.push(RowButton { words: "Acknowledge", command });
     }
     if let AlarmState::Shelved { .. } = row.state {
-        let command = station(engine::Command::UnshelveAlarm(row.id));
+        let command = station(contract::Command::UnshelveAlarm(row.id));
         buttons.push(RowButton { words: "Unshelve", command });
     }
     if row.can_be_shelved() {
@@ -144,7 +144,7 @@ fn choose_time(ui: &mut Ui, row: &AlarmRow<'_>, commands: &mut Vec<UiCommand>) -
         left += width + BUTTON_GAP;
         let pressed = Button::normal(words).show(ui, (words, row.id), at);
         if pressed.accessible_name(format!("Shelve for {words}: {}", row.text)).clicked() {
-            let shelve = engine::Command::ShelveAlarm { id: row.id, time };
+            let shelve = contract::Command::ShelveAlarm { id: row.id, time };
             commands.push(UiCommand::Station(shelve));
             is_chosen = true;
         }

@@ -4,17 +4,24 @@ use std::{collections::BTreeMap, mem, time::Duration};
 
 use jiff::Timestamp;
 
-use super::{DayEvent, RETRY, is_free};
+use super::{RETRY, is_free};
 use crate::{
     astro::time::{DAY_S, seconds_between},
     clock::Instant,
-    contract::transfer::{FileName, FileObject, TleFile},
-    device::ElementFiles,
-    engine::{
-        CatalogState, Engine,
+    contract::{
+        CatalogState,
         alarms::AlarmKind,
         antenna::AntennaModel,
-        uploads::{Ask, Cargo, Order, Stage, UploadTarget},
+        automatic::DayEvent,
+        transfer::{FileName, FileObject, TleFile},
+        uploads::{Ask, Cargo, Order, Stage},
+    },
+    device::ElementFiles,
+    engine::{
+        Engine,
+        alarms::KeepAlarms,
+        automatic::Operate,
+        uploads::{UploadTarget, old_algorithms},
     },
     orbit::{Catalog, Elements},
     station::{self, AntennaId},
@@ -169,7 +176,7 @@ impl Engine {
             Stage::Proved(proved) => {
                 let file = proved.uploaded.file.as_str().to_owned();
                 let satellites = proved.uploaded.objects.len();
-                let old_algorithms = self.uploads.old_algorithms().to_vec();
+                let old_algorithms = old_algorithms(&self.uploads).to_vec();
                 let what = DayEvent::ElementsUploaded { file, satellites, old_algorithms };
                 self.note_day(id, what);
             }
@@ -282,12 +289,9 @@ mod tests {
     use super::*;
     use crate::{
         astro::time::add_seconds,
-        contract::transfer::Peer,
+        contract::{transfer::Peer, uploads::Failure},
         controller::satrak::ELEMENT_FILES,
-        engine::{
-            automatic::{LastRun, tests::station},
-            uploads::Failure,
-        },
+        engine::automatic::{LastRun, tests::station},
         orbit::bundled,
     };
 

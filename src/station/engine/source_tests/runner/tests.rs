@@ -8,8 +8,7 @@ use std::{
 
 use super::*;
 use crate::{
-    contract::transfer::Seen,
-    engine::source_tests::TestedSource,
+    contract::{source_tests::TestedSource, transfer::Seen},
     orbit::{bundled, write_tle},
     transfer::{KeptFiles, KnownHosts, Limits, MemoryKeyring},
 };

@@ -2,17 +2,22 @@
 
 use egui::{Rect, Sense, Ui, pos2, vec2};
 
-use crate::ui::antennas::cards::{fields, is_reported};
 use crate::{
     astro::time::add_seconds,
+    contract::passes::PredictedPass,
     controller::satrak::settings::{
         AHEAD_S, CATALOG_NUMBER, CLOCK, FILE, FROM_GPS, FROM_THIS_PC, SET_FROM,
     },
     device::settings::Values,
-    engine::passes::PredictedPass,
     model::{Model, UiCommand},
     ui::{
-        antennas::{draft::Mark, form::Form, row, unit::ShownUnit},
+        antennas::{
+            cards::{fields, is_reported},
+            draft::Mark,
+            form::Form,
+            row,
+            unit::ShownUnit,
+        },
         format,
         icons::Icon,
         text, theme,

@@ -3,10 +3,13 @@
 use egui::{Align2, Rect, Ui, vec2};
 
 use crate::{
-    contract::driver::{Command, Event, Refusal},
+    contract::{
+        self,
+        driver::{Command, Event, Refusal},
+        passes::PredictedPass,
+    },
     controller::satrak::settings::{START, STOP, WINDOW},
     device::{Asked, Motion, settings::Value},
-    engine::{on_board, passes::PredictedPass},
     model::UiCommand,
     ui::{
         antennas::{
@@ -109,7 +112,7 @@ fn take_from_pass(ui: &mut Ui, unit: &ShownUnit<'_>, form: &mut Form) {
         ui.allocate_exact_size(vec2(ui.available_width(), SMALL_HEIGHT), egui::Sense::hover());
     let model = unit.model;
     let window = |predicted: &PredictedPass| {
-        on_board::window(predicted, &unit.antenna.config, model.station.site, model.now)
+        contract::passes::window(predicted, &unit.antenna.config, model.station.site, model.now)
     };
     let window = pass.map_or(Err(Refusal::PassUnknown), window);
     let can = window.is_ok() && unit.is_open() && unit.values(WINDOW.key).is_some();

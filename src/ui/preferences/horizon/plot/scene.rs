@@ -14,7 +14,7 @@ use super::{
 };
 use crate::{
     astro::{Angle, Zone},
-    engine::antenna::AntennaModel,
+    contract::antenna::AntennaModel,
     model::{
         Model,
         effects::{

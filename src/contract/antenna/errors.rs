@@ -43,24 +43,19 @@ impl Errors {
     }
 
     /// The chunks that are whole, and the samples after them.
-    pub(in crate::engine) fn chunks(
-        &self,
-    ) -> (impl Iterator<Item = &Arc<Vec<ErrorSample>>>, &[ErrorSample]) {
+    pub fn chunks(&self) -> (impl Iterator<Item = &Arc<Vec<ErrorSample>>>, &[ErrorSample]) {
         let whole = self.chunks.iter().take(self.chunks.len().saturating_sub(1));
         (whole, self.chunks.back().map(|newest| &newest[..]).unwrap_or_default())
     }
 
     /// The errors in these chunks, and those after them.
-    pub(in crate::engine) fn of_chunks(
-        whole: Vec<Arc<Vec<ErrorSample>>>,
-        newest: Vec<ErrorSample>,
-    ) -> Self {
+    pub fn of_chunks(whole: Vec<Arc<Vec<ErrorSample>>>, newest: Vec<ErrorSample>) -> Self {
         let newest = (!newest.is_empty()).then(|| Arc::new(newest));
         Self { chunks: whole.into_iter().chain(newest).collect() }
     }
 
     /// The errors at intervals of at least `interval_s`, and those for which `is_kept` returns true.
-    pub(super) fn thinned(&self, interval_s: f64, is_kept: impl Fn(&ErrorSample) -> bool) -> Self {
+    pub fn thinned(&self, interval_s: f64, is_kept: impl Fn(&ErrorSample) -> bool) -> Self {
         let (mut thinned, mut last) = (Self::default(), None);
         for sample in self.iter() {
             // After a step of the clock the samples go on at an earlier time.
@@ -75,7 +70,7 @@ impl Errors {
     }
 
     /// Adds an error and drops old ones, a chunk at a time.
-    pub(super) fn push(&mut self, sample: ErrorSample) {
+    pub fn push(&mut self, sample: ErrorSample) {
         match self.chunks.back_mut().filter(|chunk| chunk.len() < CHUNK) {
             Some(chunk) => {
                 let chunk = Arc::make_mut(chunk);

@@ -5,28 +5,24 @@ use std::path::PathBuf;
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
-use super::{
+use super::written;
+use crate::{
     alarms::ShelveTime,
+    astro::{Term, TrackOffsets},
     closing::CloseHow,
+    driver::{self, Effect, Row},
     older_sets::SetChoice,
+    orbit::{RefreshHours, Source},
     passes::{ListChoice, PassKey, Scope},
+    record::PeakChange,
     recorded::RecordLook,
+    secret::Secret,
     source_tests::TestAsk,
     sources::Copied,
-    uploads, written,
-};
-use crate::{
-    astro::{Term, TrackOffsets},
-    contract::{
-        driver,
-        driver::{Effect, Row},
-        record::PeakChange,
-    },
-    orbit::{RefreshHours, Source},
-    secret::Secret,
     station::{
         Antenna, AntennaId, Frequency, OffsetsOf, PassLimits, Priority, Scheduling, Station, Take,
     },
+    uploads,
 };
 
 /// A command of a client to a station. STOP is not one: it bypasses the queue of commands.

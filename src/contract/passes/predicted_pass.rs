@@ -5,10 +5,10 @@ use std::sync::{Arc, OnceLock};
 
 use jiff::Timestamp;
 
-use super::PassKey;
 use crate::{
     astro::{Angle, HorizonMask, Site, time::add_seconds},
     orbit::{Elements, Pass, PassSearch, Propagator, clear_stretches, passes},
+    passes::PassKey,
     plan::{MountLimits, ProgramTrack, Sample, Target, Trackability, trackability},
     station::{Antenna, Station},
 };
@@ -246,7 +246,7 @@ fn thinned(track: &[Sample]) -> Vec<Sample> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{makes::DemoAddresses, orbit::bundled};
+    use crate::{demo::DemoAddresses, orbit::bundled};
 
     #[test]
     fn an_outline_has_the_ends_and_the_verdict_of_the_whole_track() {

@@ -1,8 +1,10 @@
 //! Activity of an antenna that ends, or goes on unwatched, when the antenna is locked out
 //! or the station ends.
 
-use super::AntennaModel;
-use crate::contract::driver::{Intent, StopState};
+use crate::{
+    antenna::AntennaModel,
+    driver::{Intent, StopState},
+};
 
 /// Activity of an antenna that is at stake.
 #[derive(Debug, Clone, PartialEq, Eq)]

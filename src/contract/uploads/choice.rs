@@ -3,9 +3,9 @@
 use jiff::Timestamp;
 
 use crate::{
-    contract::transfer::{TleFile, TleFileError},
     device::ElementFiles,
     orbit::Catalog,
+    transfer::{TleFile, TleFileError},
 };
 
 /// The chosen satellites and the file made of them.

@@ -2,9 +2,9 @@
 
 use std::cmp::Reverse;
 
-use super::{Alarm, AlarmKind, Alarms};
 use crate::{
-    contract::driver::{OffTargetCause, Safety},
+    alarms::{Alarm, AlarmKind, Alarms},
+    driver::{OffTargetCause, Safety},
     plan::on_board::Cause,
 };
 
@@ -68,7 +68,7 @@ fn is_cause(cause: &Alarm, effect: &Alarm) -> bool {
 
 /// Returns `true` if an alarm of the kind `effect` comes of one of the kind `cause`.
 fn entails(cause: &AlarmKind, effect: &AlarmKind) -> bool {
-    use AlarmKind as K;
+    use crate::alarms::AlarmKind as K;
     match cause {
         // Nothing is sent and nothing is read.
         K::DriverStands(_) => {
@@ -98,7 +98,7 @@ fn entails(cause: &AlarmKind, effect: &AlarmKind) -> bool {
 
 /// Returns `true` for what follows where an antenna is not heard.
 fn is_of_silence(effect: &AlarmKind) -> bool {
-    use AlarmKind as K;
+    use crate::alarms::AlarmKind as K;
     matches!(
         effect,
         K::StopNotConfirmed

@@ -8,13 +8,15 @@ use std::{cmp::Reverse, collections::BTreeSet, time::Duration};
 
 use jiff::tz::TimeZone;
 
-use super::{
-    Snapshot,
-    alarms::{Alarm, Priority},
-    passes::PassKey,
-    reminders::Reminder,
+use crate::{
+    contract::{
+        Snapshot,
+        alarms::{Alarm, Priority},
+        passes::PassKey,
+        reminders::Reminder,
+    },
+    station::{HoursOfDay, Notices, Tones},
 };
-use crate::station::{HoursOfDay, Notices, Tones};
 
 /// An alarm or reminder to be told.
 #[derive(Debug, Clone, PartialEq)]

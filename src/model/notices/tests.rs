@@ -6,19 +6,20 @@ use super::*;
 use crate::{
     astro::{Angle, TrackOffsets},
     clock::{Instant, Moment},
-    contract::driver::{
-        Evidence, LeftOffsets, LinkLoss, Mover, Response, Safety, TrackProblem, Unit, Unlike,
+    contract::{
+        alarms::{AlarmKind, Alarms, ShelveTime, Work},
+        automatic::OffBecause,
+        claim::HeldBy,
+        driver::{
+            Evidence, LeftOffsets, LinkLoss, Mover, Response, Safety, TrackProblem, Unit, Unlike,
+        },
     },
     device::{
         Asked, PrepareError, TrackTarget,
         panel::{Check, CheckState},
         settings::WriteError,
     },
-    engine::{
-        alarms::{AlarmKind, Alarms, ShelveTime, Work},
-        automatic::OffBecause,
-        claim::HeldBy,
-    },
+    engine::alarms::KeepAlarms,
     plan::{
         Barrier,
         on_board::{Cause, Ranked},
@@ -245,7 +246,7 @@ fn nothing_silences_a_top_priority_alarm() {
 
 /// Each kind, and each matter of safety.
 fn every_kind() -> Vec<AlarmKind> {
-    use AlarmKind as K;
+    use crate::contract::alarms::AlarmKind as K;
     let ranked = || Ranked { cause: Cause::AzimuthOffset(1.0), off: None };
     let target = TrackTarget {
         catalog_number: 25_544,
@@ -283,7 +284,7 @@ fn every_kind() -> Vec<AlarmKind> {
         K::NotOnItsWay { pass: (25_544, time()), name: text(), why: None },
         K::AutomaticMoves { at: time(), name: text() },
         K::AutomaticOff(OffBecause::Failures),
-        K::AutomaticSuspended(crate::engine::automatic::Interruption::Elsewhere),
+        K::AutomaticSuspended(crate::contract::automatic::Interruption::Elsewhere),
         K::TrackingEnded,
         K::EndedShort,
         K::StartedByItself,
@@ -322,7 +323,7 @@ fn every_kind() -> Vec<AlarmKind> {
 
 /// Does not compile before a new kind stands here; then it belongs into the list above too.
 fn is_listed(kind: &AlarmKind) {
-    use AlarmKind as K;
+    use crate::contract::alarms::AlarmKind as K;
     match kind {
         K::LinkLost(_)
         | K::StopNotConfirmed

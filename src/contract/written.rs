@@ -1,7 +1,7 @@
 //! Serialisation of parts of snapshots and commands whose types need the list of makes.
 
 /// A station, as in its file.
-pub(super) mod station {
+pub mod station {
     use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error as _};
 
     use crate::{
@@ -9,14 +9,11 @@ pub(super) mod station {
         station::{Station, from_toml},
     };
 
-    pub(in crate::engine) fn serialize<S: Serializer>(
-        station: &Station,
-        to: S,
-    ) -> Result<S::Ok, S::Error> {
+    pub fn serialize<S: Serializer>(station: &Station, to: S) -> Result<S::Ok, S::Error> {
         station.serialize(to)
     }
 
-    pub(in crate::engine) fn deserialize<'de, D: Deserializer<'de>, T: From<Station>>(
+    pub fn deserialize<'de, D: Deserializer<'de>, T: From<Station>>(
         from: D,
     ) -> Result<T, D::Error> {
         let (station, notes) = from_toml(toml::Table::deserialize(from)?, SPECS);
@@ -28,7 +25,7 @@ pub(super) mod station {
 }
 
 /// An antenna, as in the station file.
-pub(super) mod antenna {
+pub mod antenna {
     use serde::{Deserializer, Serialize, Serializer, de::Error as _};
 
     use crate::station::{Antenna, Station};
@@ -38,29 +35,26 @@ pub(super) mod antenna {
         antenna: [&'a Antenna; 1],
     }
 
-    pub(in crate::engine) fn serialize<S: Serializer>(
-        antenna: &Antenna,
-        to: S,
-    ) -> Result<S::Ok, S::Error> {
+    pub fn serialize<S: Serializer>(antenna: &Antenna, to: S) -> Result<S::Ok, S::Error> {
         Alone { antenna: [antenna] }.serialize(to)
     }
 
-    pub(in crate::engine) fn deserialize<'de, D: Deserializer<'de>, T: From<Antenna>>(
+    pub fn deserialize<'de, D: Deserializer<'de>, T: From<Antenna>>(
         from: D,
     ) -> Result<T, D::Error> {
-        let mut station: Station = super::station::deserialize(from)?;
+        let mut station: Station = crate::written::station::deserialize(from)?;
         let antenna = station.antennas.pop();
         antenna.map(T::from).ok_or_else(|| D::Error::custom("there is no antenna"))
     }
 }
 
 /// Element files of a make, written as the key of the make.
-pub(super) mod element_files {
+pub mod element_files {
     use serde::{Deserialize, Deserializer, Serializer, de::Error as _, ser::Error as _};
 
     use crate::{controller::SPECS, device::ElementFiles};
 
-    pub(in crate::engine) fn serialize<S: Serializer>(
+    pub fn serialize<S: Serializer>(
         takes: &'static ElementFiles,
         to: S,
     ) -> Result<S::Ok, S::Error> {
@@ -68,7 +62,7 @@ pub(super) mod element_files {
         to.serialize_str(make.ok_or_else(|| S::Error::custom("no make takes files so"))?.key)
     }
 
-    pub(in crate::engine) fn deserialize<'de, D: Deserializer<'de>>(
+    pub fn deserialize<'de, D: Deserializer<'de>>(
         from: D,
     ) -> Result<&'static ElementFiles, D::Error> {
         let key = String::deserialize(from)?;

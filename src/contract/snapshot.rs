@@ -5,29 +5,27 @@ use std::sync::Arc;
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
-use super::{
+use super::written;
+use crate::{
     alarms::Alarms,
     antenna::AntennaModel,
     automatic::DayLine,
+    clock::Moment,
     closing::Closing,
     copies::Copies,
+    driver::TimeSync,
     link_tests::LinkTest,
     older_sets::OlderSets,
+    orbit::Catalog,
     passes::PassLists,
-    pointing_fit::PointingFitted,
+    record::{self, Peaks, PointingFitted},
     recorded::Recorded,
     reminders::Reminder,
     schedule::{Planned, Swap},
     source_tests::SourceTests,
     sources::Sources,
-    uploads::Uploads,
-    written,
-};
-use crate::{
-    clock::Moment,
-    contract::{driver::TimeSync, record, record::Peaks},
-    orbit::Catalog,
     station::Station,
+    uploads::Uploads,
 };
 
 /// State of the elements.

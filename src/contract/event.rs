@@ -1,0 +1,42 @@
+//! Events of a station, and who gave a command.
+
+use serde::{Deserialize, Serialize};
+
+use crate::claim::HolderKind;
+
+/// Origin of a command.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum By {
+    /// The operator, in the window.
+    #[default]
+    Window,
+    /// `azel serve`, when it ends.
+    Serve,
+    /// Another program of this user, such as `azel stop`.
+    Program,
+    /// A signal of the operating system.
+    Signal,
+    /// The station, without a request, such as automatic operation.
+    Station,
+}
+
+impl From<HolderKind> for By {
+    fn from(kind: HolderKind) -> Self {
+        match kind {
+            HolderKind::Window => Self::Window,
+            HolderKind::Serve => Self::Serve,
+        }
+    }
+}
+
+/// An event for the client.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub enum Event {
+    /// The station was saved at this time, or the reason why not.
+    Saved(Result<jiff::Timestamp, String>),
+    /// The station has changed other than by a save.
+    Changed,
+    /// The closing is done: the program may end.
+    MayEnd,
+}

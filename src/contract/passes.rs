@@ -1,0 +1,81 @@
+//! The pass lists of a station.
+
+mod choice;
+mod list;
+mod predicted_pass;
+mod window;
+
+use std::sync::Arc;
+
+use jiff::Timestamp;
+use serde::{Deserialize, Serialize};
+
+pub use self::{
+    choice::{ListChoice, SPANS_H, Scope},
+    list::{PassList, UpcomingPasses, Work},
+    predicted_pass::{ListedSatellite, Observer, PredictedPass, mount_limits},
+    window::{whole_seconds, window},
+};
+use crate::astro::{Angle, AzEl, frames::SiteFrame, time::add_seconds};
+
+/// Key of a pass: catalog number of the satellite and AOS.
+pub type PassKey = (u32, Timestamp);
+
+/// The pass lists.
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
+pub struct PassLists {
+    /// Passes of the favourites.
+    pub favourites: PassList,
+    /// Passes of all satellites, searched for when the operator wants the list.
+    pub all: PassList,
+}
+
+impl PassLists {
+    pub fn of(&self, scope: Scope) -> &PassList {
+        match scope {
+            Scope::Favourites => &self.favourites,
+            Scope::All => &self.all,
+        }
+    }
+
+    /// The pass of `key`, first among the favourites.
+    pub fn find(&self, key: PassKey) -> Option<&PredictedPass> {
+        self.favourites.find(key).or_else(|| self.all.find(key))
+    }
+
+    /// The pass of a favourite that is under way or comes next; geosynchronous satellites
+    /// only if there is no other.
+    pub fn next(&self, now: Timestamp) -> Option<&PredictedPass> {
+        let moving = |predicted: &&PredictedPass| !predicted.satellite.elements.is_geosynchronous();
+        let passes = self.favourites.upcoming(now);
+        passes.iter().find(moving).or_else(|| passes.iter().next())
+    }
+
+    /// The satellite with this catalog number, if a list has it.
+    pub fn satellite(&self, catalog_number: u32) -> Option<&Arc<ListedSatellite>> {
+        let number = |known: &Arc<ListedSatellite>| known.elements.catalog_number();
+        let followed = &self.favourites.satellites;
+        followed.iter().find(|known| number(known) == catalog_number).or_else(|| {
+            let all = &self.all.satellites;
+            let place = all.binary_search_by_key(&catalog_number, number).ok()?;
+            all.get(place)
+        })
+    }
+}
+
+/// Directions of a satellite while it is up in the next `span_s`, in steps of 30 s.
+pub fn ahead(
+    satellite: &ListedSatellite,
+    site: &SiteFrame,
+    now: Timestamp,
+    span_s: f64,
+) -> Vec<AzEl> {
+    let steps = (span_s / 30.0) as usize;
+    let times: Vec<_> = (0..=steps).map(|step| add_seconds(now, step as f64 * 30.0)).collect();
+    let states = satellite.propagator.states_at(&times);
+    let directions = states.into_iter().zip(times).map_while(|(state, at)| {
+        let direction = site.direction(state?.local(site, at).position_km);
+        (direction.elevation > Angle::ZERO).then_some(direction)
+    });
+    directions.collect()
+}

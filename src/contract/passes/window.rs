@@ -1,0 +1,132 @@
+//! The window in which a unit may point to a satellite.
+
+use jiff::Timestamp;
+
+use crate::{
+    astro::{Angle, Site, time::add_seconds},
+    driver::Refusal,
+    orbit::{PassSearch, passes},
+    passes::PredictedPass,
+    station::Antenna,
+};
+
+/// Margin of a search around a known pass, whose ends are exact to a millisecond.
+const EDGE_S: f64 = 0.002;
+
+/// Window in which the unit of `antenna` may point to the satellite of `predicted`: whole seconds
+/// within the first stay above its minimum elevation that is not over. The stay is geometric, as
+/// the unit points. An error where there is none.
+pub fn window(
+    predicted: &PredictedPass,
+    antenna: &Antenna,
+    site: Site,
+    now: Timestamp,
+) -> Result<(Timestamp, Timestamp), Refusal> {
+    let lowest_deg = antenna.limits.minimum_elevation_deg;
+    let lowest = Angle::from_degrees(lowest_deg);
+    let (aos, los) = (predicted.pass.aos.time, predicted.pass.los.time);
+    let search = PassSearch {
+        aos_elevation: lowest,
+        floor: lowest,
+        ..PassSearch::new(site.airless(), add_seconds(aos, -EDGE_S), add_seconds(los, EDGE_S))
+    };
+    let stays = passes(&predicted.satellite.propagator, &search, &|| false);
+    let within = stays.iter().map(|stay| (stay.aos.time.max(aos), stay.los.time.min(los)));
+    let mut whole = within.map(|(from, until)| (first_second(from), last_second(until)));
+    whole.find(|(from, until)| from < until && now < *until).ok_or(Refusal::TooLow {
+        highest_deg: predicted.pass.max_elevation().degrees(),
+        lowest_deg,
+    })
+}
+
+/// The whole seconds within a span.
+pub fn whole_seconds((from, until): (Timestamp, Timestamp)) -> (Timestamp, Timestamp) {
+    (first_second(from), last_second(until))
+}
+
+fn first_second(time: Timestamp) -> Timestamp {
+    let cut = last_second(time);
+    if cut == time { time } else { add_seconds(cut, 1.0) }
+}
+
+fn last_second(time: Timestamp) -> Timestamp {
+    Timestamp::from_second(time.as_second()).unwrap_or(time)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use super::*;
+    use crate::{
+        astro::time::seconds_between,
+        orbit::{Pass, Propagator, bundled},
+        passes::{ListedSatellite, Observer},
+        station::Station,
+    };
+
+    fn length_s((from, until): (Timestamp, Timestamp)) -> f64 {
+        seconds_between(from, until)
+    }
+
+    fn now() -> Timestamp {
+        "2026-08-12T00:00:00Z".parse().unwrap()
+    }
+
+    fn station(lowest_deg: [f64; 2]) -> Station {
+        let mut antennas = vec![Antenna::genius("First", ""), Antenna::satrak("Second", "")];
+        for (antenna, lowest_deg) in antennas.iter_mut().zip(lowest_deg) {
+            antenna.limits.minimum_elevation_deg = lowest_deg;
+        }
+        Station { antennas, ..Station::default() }
+    }
+
+    /// The first pass above 60 degrees as the station lists it.
+    fn predicted_pass(station: &Station) -> PredictedPass {
+        let elements = bundled().unwrap().get(25_544).unwrap().clone();
+        let propagator = Propagator::new(&elements).unwrap();
+        let observer = Observer::of(station);
+        let search = PassSearch {
+            aos_elevation: observer.aos_elevation,
+            ..PassSearch::new(station.site, now(), add_seconds(now(), 5.0 * 86_400.0))
+        };
+        let high = |pass: &Pass| pass.max_elevation().degrees() > 60.0;
+        let pass = passes(&propagator, &search, &|| false).into_iter().find(high).unwrap();
+        PredictedPass::new(
+            Arc::new(ListedSatellite { elements, propagator }),
+            pass,
+            Arc::new(observer),
+        )
+    }
+
+    #[test]
+    fn the_window_of_an_antenna_keeps_to_its_own_lowest_elevation() {
+        let station = station([0.0, 45.0]);
+        let predicted = predicted_pass(&station);
+        let [first, second] = [0, 1].map(|index| {
+            window(&predicted, &station.antennas[index], station.site, now()).unwrap()
+        });
+        assert!(length_s(first) > 500.0 && length_s(second) < 200.0, "{first:?} {second:?}");
+        let aos = predicted.pass.aos.time;
+        assert!((0.0..1.01).contains(&seconds_between(aos, first.0)), "{aos} {first:?}");
+        let elevation = |at| {
+            let look = predicted.satellite.propagator.look_from(station.site, at).unwrap();
+            look.direction.elevation_deg()
+        };
+        for (from, until) in [second] {
+            for at in [from, until] {
+                assert!((45.0..46.0).contains(&elevation(at)), "{} {at}", elevation(at));
+            }
+            assert_eq!((from.subsec_nanosecond(), until.subsec_nanosecond()), (0, 0));
+        }
+    }
+
+    #[test]
+    fn a_pass_that_stays_too_low_has_no_window() {
+        let station = station([0.0, 89.5]);
+        let predicted = predicted_pass(&station);
+        let highest_deg = predicted.pass.max_elevation().degrees();
+        let refused = window(&predicted, &station.antennas[1], station.site, now());
+        assert_eq!(refused, Err(Refusal::TooLow { highest_deg, lowest_deg: 89.5 }));
+    }
+}

@@ -1,0 +1,68 @@
+//! The outcome of a rehearsal.
+
+use jiff::Timestamp;
+use serde::{Deserialize, Serialize};
+
+use crate::{
+    automatic::{DayLine, Flown, OffBecause},
+    record::RecordedReport,
+    station::AntennaId,
+};
+
+/// A rehearsal that is over.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Rehearsed {
+    pub from: Timestamp,
+    pub hours: f64,
+    pub seed: u64,
+    /// By start, then by antenna.
+    pub passes: Vec<RehearsedPass>,
+    /// When automatic operation of an antenna ended or was suspended, and why.
+    pub interruptions: Vec<DayLine>,
+    /// Names of the antennas whose make has no simulator.
+    pub left_out: Vec<String>,
+}
+
+/// A pass of the plan, and its outcome.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct RehearsedPass {
+    pub antenna: AntennaId,
+    pub antenna_name: String,
+    pub satellite: u32,
+    pub satellite_name: String,
+    pub aos: Timestamp,
+    pub los: Timestamp,
+    /// When the antenna was to track it.
+    pub from: Timestamp,
+    pub to: Timestamp,
+    /// Seconds within half the beamwidth that the plan promised, when it first named the pass.
+    pub promised_s: f64,
+    /// A newer plan left it out before it began.
+    pub is_given_up: bool,
+    /// Outcome that automatic operation reports; `None` where it never set out.
+    pub flown: Option<Flown>,
+    /// Why automatic operation of its antenna was off by then; `None` where it set out.
+    pub off: Option<OffBecause>,
+    /// Where the antenna pointed; `None` where it never tracked.
+    pub report: Option<RecordedReport>,
+}
+
+impl RehearsedPass {
+    /// Seconds within half the beamwidth.
+    pub fn got_s(&self) -> f64 {
+        self.flown.as_ref().map_or(0.0, |flown| flown.in_beam_s)
+    }
+
+    /// Seconds of the promise that were lost.
+    pub fn lost_s(&self) -> f64 {
+        (self.promised_s - self.got_s()).max(0.0)
+    }
+
+    pub fn rms_deg(&self) -> Option<f64> {
+        self.report.as_ref()?.report.rms.map(|rms| rms.off_deg)
+    }
+
+    pub fn worst_deg(&self) -> Option<f64> {
+        self.report.as_ref()?.report.worst.map(|worst| worst.error.off_deg)
+    }
+}
