@@ -6,7 +6,7 @@ use super::{
     format, state_sentence,
     top_bar::{self, ClockHealth, ClockModel, ClockMood, StopLeftOut, TopBarModel},
     widgets::{
-        alarm_list::{AlarmModel, AlarmRow, Section},
+        alarm_list::{self, AlarmModel, AlarmRow, Section},
         link_chip::{AutomaticModel, ChipModel, LinkGlyph},
         stop_button::StopLook,
     },
@@ -14,7 +14,7 @@ use super::{
 };
 use crate::{
     contract::{
-        alarms::{Alarm, AlarmKind, Placed},
+        alarms::{Alarm, AlarmKind, AlarmState, Placed},
         antenna::AntennaModel,
         automatic::Operation,
         driver::{LinkState, StopState, TimeSync},
@@ -34,12 +34,14 @@ pub fn show(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand
     let ages: Vec<String> = model.antennas.iter().map(|antenna| age(model, antenna)).collect();
     let automatic: Vec<Option<String>> =
         model.antennas.iter().map(|antenna| words::automatic::in_full(model, antenna)).collect();
+    let alarms: Vec<Option<String>> =
+        model.antennas.iter().map(|antenna| alarm(model, antenna)).collect();
     let chips: Vec<ChipModel<'_>> = model
         .antennas
         .iter()
-        .zip(ages.iter().zip(&automatic))
+        .zip(ages.iter().zip(&automatic).zip(&alarms))
         .enumerate()
-        .map(|(index, (antenna, (age, words)))| ChipModel {
+        .map(|(index, (antenna, ((age, words), alarm)))| ChipModel {
             name: &antenna.config.name,
             link: glyph(antenna),
             activity: activity(antenna),
@@ -47,6 +49,7 @@ pub fn show(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand
             selected: index == model.selected_antenna,
             maintenance: antenna.snapshot.lock_out.is_some(),
             automatic: words.as_deref().map(|words| automatic_model(antenna, words)),
+            alarm: alarm.as_deref(),
         })
         .collect();
 
@@ -112,12 +115,10 @@ fn told_alarms(model: &Model) -> Vec<ToldAlarm<'_>> {
     };
     let tell = |Placed { alarm, follows }| {
         let antenna = alarm.antenna.and_then(|id| model.antenna_of(id));
-        let name = antenna.map_or("Azel", |antenna| antenna.config.name.as_str());
-        let reason = barrier_of(&alarm.kind).map(|of| words::reason(of, &model.station));
         ToldAlarm {
             alarm,
             follows: follows.and_then(section_of) == Some(Section::of(alarm.state())),
-            text: words::alarm(&alarm.kind, name, model.now) + &reason.unwrap_or_default(),
+            text: alarm_text(model, alarm),
             time: words::alarm_times(alarm, model.now),
             state: words::alarm_state(alarm.state(), model.now),
             moves_away: alarm.antenna.filter(|_| {
@@ -126,6 +127,27 @@ fn told_alarms(model: &Model) -> Vec<ToldAlarm<'_>> {
         }
     };
     placed.iter().copied().map(tell).collect()
+}
+
+fn alarm_text(model: &Model, alarm: &Alarm) -> String {
+    let antenna = alarm.antenna.and_then(|id| model.antenna_of(id));
+    let name = antenna.map_or("Azel", |antenna| antenna.config.name.as_str());
+    let reason = barrier_of(&alarm.kind).map(|of| words::reason(of, &model.station));
+    words::alarm(&alarm.kind, name, model.now) + &reason.unwrap_or_default()
+}
+
+/// The gravest red alarm that stands for an antenna, in words; the newest of several.
+pub fn alarm(model: &Model, antenna: &AntennaModel) -> Option<String> {
+    let stands = |alarm: &&Alarm| match alarm.state() {
+        AlarmState::New | AlarmState::Seen => true,
+        AlarmState::NewAndOver { .. } | AlarmState::Over { .. } | AlarmState::Shelved { .. } => {
+            false
+        }
+    };
+    let own = model.alarms.list().iter().filter(|alarm| alarm.antenna == Some(antenna.id()));
+    let red = own.filter(stands).filter(|alarm| alarm_list::is_red(alarm.priority()));
+    // The list has the newest last, and of equals the last one is taken.
+    red.max_by_key(|alarm| alarm.priority()).map(|alarm| alarm_text(model, alarm))
 }
 
 /// The barrier that an alarm is about.

@@ -1,6 +1,7 @@
 //! Bar at the top: alarms, chips, theme; and the table of the axes.
 
 use azel::{
+    astro::Angle,
     clock::Instant,
     contract::{
         self,
@@ -10,7 +11,7 @@ use azel::{
     controller::satrak::checks,
     device::{Asked, Motion},
     engine::alarms::KeepAlarms,
-    model::{ThemeName, UiCommand, View},
+    model::{Model, ThemeName, UiCommand, View},
     station::{AntennaId, Note, NoteReason},
     ui::{format, theme, words},
 };
@@ -361,4 +362,58 @@ fn the_table_says_whether_it_compares_with_a_command_or_a_prediction() {
 fn rows(window: &Window) -> Vec<String> {
     let rows = window.get_all_by_label_contains("actual");
     rows.filter_map(|node| node.accesskit_node().value()).collect()
+}
+
+/// Two antennas, the first off its satellite; the one at `selected` is selected.
+fn off_target(selected: usize) -> Model {
+    let mut model = rig::model(states::tracking(2.0));
+    let mut second = model.station.antennas[0].clone();
+    (second.name, second.id) = ("Mast".to_owned(), AntennaId(2));
+    model.antennas.push(rig::antenna(second, states::holding()));
+    model.selected_antenna = selected;
+    let off = AlarmKind::OffTarget { off: Angle::from_degrees(2.0), cause: None };
+    model.alarms.raise(Some(AntennaId::FIRST), off, model.now);
+    model
+}
+
+#[test]
+fn an_antenna_with_a_red_alarm_is_in_alarm_at_its_chip_and_on_the_cards() {
+    let chip =
+        |window: &Window| window.query_by_label("Satrak: Alarm: Tracking, link live").is_some();
+    let header = |window: &Window| window.query_by_label_contains("Alarm: Satrak is").is_some();
+    let line = |window: &Window| window.query_by_label_contains("Show Satrak: Alarm: ").is_some();
+    for size in SIZES {
+        let window = rig::window(size, off_target(0));
+        assert_eq!(
+            (chip(&window), header(&window), line(&window)),
+            (true, true, false),
+            "{size:?}"
+        );
+        assert!(window.query_by_label_contains("Show Mast: Alarm").is_none(), "{size:?}");
+        window.get_by_label("Mast: Holding, link live");
+        let window = rig::window(size, off_target(1));
+        // A wide window has a card for each of two antennas.
+        assert!(chip(&window) && (line(&window) || header(&window)), "{size:?}");
+    }
+}
+
+#[test]
+fn an_alarm_that_is_seen_stays_at_the_antenna_and_one_that_is_over_does_not() {
+    let is_in_alarm = |model: Model| {
+        let window = rig::window(rig::LARGE, model);
+        window.query_by_label_contains("Satrak: Alarm: ").is_some()
+    };
+    let mut seen = off_target(0);
+    let id = seen.alarms.list()[0].id;
+    seen.alarms.acknowledge(id, seen.now);
+    assert!(is_in_alarm(seen));
+    let mut shelved = off_target(0);
+    shelved.alarms.shelve(id, ShelveTime::OneHour, shelved.now);
+    assert!(!is_in_alarm(shelved));
+    let mut over = off_target(0);
+    over.alarms.clear(Some(AntennaId::FIRST), over.now, |_| true);
+    assert!(!is_in_alarm(over));
+    let mut slight = rig::model(states::tracking(0.0));
+    slight.alarms.raise(Some(AntennaId::FIRST), AlarmKind::ClockNotSet, slight.now);
+    assert!(!is_in_alarm(slight));
 }

@@ -1,13 +1,16 @@
 //! The head of the card: name, link, and the menu to connect or disconnect.
 
-use egui::{Align2, Popup, Rect, Role, Stroke, StrokeKind, Ui, pos2, vec2};
+use egui::{Align2, Color32, Popup, Rect, Role, Stroke, StrokeKind, Ui, pos2, vec2};
 
 use super::{CardAction, Cursor};
 use crate::ui::{
     icons::{self, Icon},
     text::{self, Weight},
     theme,
-    widgets::{link_chip::LinkGlyph, menu, paint},
+    widgets::{
+        link_chip::{self, LinkGlyph},
+        menu, paint,
+    },
 };
 
 /// Side of the button that opens the link menu.
@@ -42,6 +45,8 @@ pub struct HeaderModel<'a> {
     pub takes_panel: bool,
     /// The unit is locked out for maintenance.
     pub in_maintenance: bool,
+    /// The gravest red alarm that stands for the antenna, in words.
+    pub alarm: Option<&'a str>,
     /// It is shown as recorded at this time, in words, and commands nothing.
     pub recorded: Option<&'a str>,
 }
@@ -78,7 +83,10 @@ pub(super) fn show(
     let room = end.with_min_x(row.left() + 24.0);
     // The second line has the width for itself.
     let upper = if short { end } else { end.translate(vec2(0.0, -8.0)) };
-    let tag_left = status_tag(ui, upper, model.status);
+    let mut tag_left = status_tag(ui, upper, model.status);
+    if let Some(alarm) = model.alarm {
+        tag_left = alarm_tag(ui, upper.with_max_x(tag_left - 4.0), alarm);
+    }
     let name_room = room.with_max_x(tag_left - 6.0);
     if short {
         paint::text_in(ui, name_room, Align2::LEFT_CENTER, model.name, text::value(), t.t1);
@@ -133,6 +141,20 @@ fn status_tag(ui: &Ui, row: Rect, status: LinkStatus) -> f32 {
         LinkStatus::NotConnected => ("Not connected", t.t3),
         LinkStatus::Elsewhere => ("Driven elsewhere", t.warn),
     };
+    let tag = tag_at_right(ui, row, words, colour);
+    paint::name_text(ui, "reach", tag, words);
+    tag.left()
+}
+
+/// Paints the tag of an antenna in alarm and returns its left end.
+fn alarm_tag(ui: &Ui, row: Rect, alarm: &str) -> f32 {
+    let tag = tag_at_right(ui, row, link_chip::ALARM, theme::tokens(ui).bad);
+    let words = format!("{}: {alarm}", link_chip::ALARM);
+    paint::name_text(ui, "alarm", tag, &words).on_hover_text(alarm);
+    tag.left()
+}
+
+fn tag_at_right(ui: &Ui, row: Rect, words: &str, colour: Color32) -> Rect {
     let font = text::sized(11.0, Weight::SemiBold);
     let width = (paint::text_width(ui, words, font.clone()) + 12.0).min(0.5 * row.width());
     let size = vec2(width.ceil(), 18.0);
@@ -141,6 +163,5 @@ fn status_tag(ui: &Ui, row: Rect, status: LinkStatus) -> f32 {
     ui.painter().rect_stroke(tag, 3.0, Stroke::new(1.0, colour), StrokeKind::Inside);
     let room = tag.shrink2(vec2(4.0, 0.0));
     paint::text_in(ui, room, Align2::CENTER_CENTER, words, font, colour);
-    paint::name_text(ui, "reach", tag, words);
-    tag.left()
+    tag
 }

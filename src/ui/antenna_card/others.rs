@@ -5,8 +5,13 @@ use egui::{Align2, Rect, Role, Ui, pos2, vec2};
 use super::{CardAction, Cursor};
 use crate::ui::{
     icons::{self, Icon},
-    text, theme,
-    widgets::{fold, link_chip::LinkGlyph, paint},
+    text::{self, Weight},
+    theme,
+    widgets::{
+        fold,
+        link_chip::{ALARM, LinkGlyph},
+        paint,
+    },
 };
 
 /// Height of a line with its sentence.
@@ -23,6 +28,8 @@ pub struct OtherAntenna {
     pub pointing: String,
     /// The state sentence.
     pub sentence: String,
+    /// The gravest red alarm that stands for the antenna, in words.
+    pub alarm: Option<String>,
 }
 
 /// Shows the lines, in a low window without sentences.
@@ -45,7 +52,11 @@ pub(super) fn show(
 
 fn line(ui: &Ui, row: Rect, at: &Cursor, other: &OtherAntenna, short: bool) -> bool {
     let t = theme::tokens(ui);
-    let name = format!("Show {}: {}", other.name, other.sentence);
+    let about = match &other.alarm {
+        Some(alarm) => format!("{ALARM}: {alarm} {}", other.sentence),
+        None => other.sentence.clone(),
+    };
+    let name = format!("Show {}: {about}", other.name);
     let response = paint::control(ui, ("other", other.index), row, Role::Button, true, &name);
     if response.hovered() {
         ui.painter().rect_filled(row, 0.0, t.bg3);
@@ -59,7 +70,12 @@ fn line(ui: &Ui, row: Rect, at: &Cursor, other: &OtherAntenna, short: bool) -> b
     icons::paint(ui.painter(), chevron, Icon::ChevronRight, t.t2);
     let start = pos2(at.left + 22.0, y);
     let title = paint::text(ui, start, Align2::LEFT_CENTER, &other.name, text::body_medium(), t.t1);
-    let room = first.with_min_x(title.right() + 8.0).with_max_x(chevron.left() - 8.0);
+    let mut room = first.with_min_x(title.right() + 8.0).with_max_x(chevron.left() - 8.0);
+    if other.alarm.is_some() {
+        let font = text::sized(12.0, Weight::SemiBold);
+        let word = paint::text_in(ui, room, Align2::LEFT_CENTER, ALARM, font, t.bad);
+        room = room.with_min_x(word.right() + 8.0);
+    }
     paint::text_in(ui, room, Align2::RIGHT_CENTER, &other.pointing, text::body(), t.t1);
     if !short {
         let below = Rect::from_min_max(pos2(start.x, first.bottom()), pos2(at.right, row.bottom()));
@@ -67,5 +83,5 @@ fn line(ui: &Ui, row: Rect, at: &Cursor, other: &OtherAntenna, short: bool) -> b
         paint::text_in(ui, below, Align2::LEFT_CENTER, &other.sentence, text::small(), t.t2);
     }
     paint::focus_ring(ui, &response, 0);
-    response.on_hover_text(&other.sentence).clicked()
+    response.on_hover_text(about).clicked()
 }

@@ -47,6 +47,7 @@ fn model() -> CardModel<'static> {
         header: HeaderModel {
             takes_panel: false,
             in_maintenance: false,
+            alarm: None,
             recorded: None,
             name: "Satrak",
             second_line: "3.0 m X/Y, on-board tracking",

@@ -65,6 +65,7 @@ pub(super) fn show(
     let snapshot = &antenna.snapshot;
     let (make, can) = (antenna.variant(), antenna.variant().capabilities);
     let (second_line, recorded) = (second_line(antenna), recorded(model));
+    let alarm = bar::alarm(model, antenna);
     let table = axes::table(antenna);
     let (age, wanted) = (age_of_old(model, antenna), wanted(antenna));
     let predicted_decimals = model.appearance.angle_decimals as usize;
@@ -94,13 +95,10 @@ pub(super) fn show(
     state_sentence(model, antenna).with(|sentence| {
         let card = CardModel {
             header: HeaderModel {
-                name: &antenna.config.name,
                 second_line: &second_line,
-                link: bar::glyph(antenna),
-                status: link_status(antenna),
-                takes_panel: can.waits_for_word,
-                in_maintenance: snapshot.lock_out.is_some(),
+                alarm: alarm.as_deref(),
                 recorded: recorded.as_deref(),
+                ..header(antenna)
             },
             sentence: *sentence,
             offer: offer(antenna, offsets.left()),
@@ -225,6 +223,20 @@ fn second_line(antenna: &AntennaModel) -> String {
         (Some(name), _) => format!("{kind}, {name}"),
         (None, Mount::AzEl { .. }) => kind.to_owned(),
         (None, Mount::Xy { .. }) => format!("{kind} at {}", antenna.config.connection.address),
+    }
+}
+
+/// The head of the card without words that are made for it.
+fn header(antenna: &AntennaModel) -> HeaderModel<'_> {
+    HeaderModel {
+        name: &antenna.config.name,
+        second_line: "",
+        link: bar::glyph(antenna),
+        status: link_status(antenna),
+        takes_panel: antenna.variant().capabilities.waits_for_word,
+        in_maintenance: antenna.snapshot.lock_out.is_some(),
+        alarm: None,
+        recorded: None,
     }
 }
 
@@ -390,6 +402,7 @@ fn others(model: &Model, on_cards: &[AntennaId]) -> Vec<OtherAntenna> {
                 (false, false) => at,
             },
             sentence: state_sentence(model, antenna).text(),
+            alarm: bar::alarm(model, antenna),
         }
     };
     others.map(in_short).collect()

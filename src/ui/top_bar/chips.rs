@@ -16,6 +16,8 @@ use crate::{
 };
 
 const MORE_WIDTH: f32 = 56.0;
+/// Its further width for the word of an alarm.
+const ALARM_WIDTH: f32 = 38.0;
 /// More chips than this keep glyph and name only.
 const FULL_CHIPS: usize = 4;
 
@@ -34,9 +36,12 @@ pub(super) fn show(
         (false, false) => ChipForm::OneLine,
     };
     let widths: Vec<f32> = chips.iter().map(|chip| chip.width(ui, form)).collect();
-    let shown = how_many_fit(&widths, gap, rect.width());
+    // Room for the word is kept for any alarm, of whichever antenna is hidden.
+    let any_alarm = chips.iter().any(|chip| chip.alarm.is_some());
+    let more_width = if any_alarm { MORE_WIDTH + ALARM_WIDTH } else { MORE_WIDTH };
+    let shown = how_many_fit(&widths, gap, rect.width(), more_width);
     let hidden = chips.get(shown..).unwrap_or_default();
-    let more = if hidden.is_empty() { 0.0 } else { MORE_WIDTH + gap };
+    let more = if hidden.is_empty() { 0.0 } else { more_width + gap };
     let taken: f32 = widths.iter().take(shown).map(|width| width + gap).sum::<f32>() + more - gap;
     let start = rect.right() - taken.max(0.0);
     let mut x = start;
@@ -48,7 +53,7 @@ pub(super) fn show(
         x += width + gap;
     }
     if !hidden.is_empty() {
-        let place = Rect::from_min_size(pos2(x, rect.top()), vec2(MORE_WIDTH, rect.height()));
+        let place = Rect::from_min_size(pos2(x, rect.top()), vec2(more_width, rect.height()));
         let response = more_chip(ui, place, hidden);
         menu::show(
             &response,
@@ -68,13 +73,13 @@ pub(super) fn show(
     start
 }
 
-/// Number of chips that have room, beside the chip for the others if not all fit.
-fn how_many_fit(widths: &[f32], gap: f32, room: f32) -> usize {
+/// Number of chips that have room, beside the chip for the others, as wide as `more`, if not all fit.
+fn how_many_fit(widths: &[f32], gap: f32, room: f32, more: f32) -> usize {
     let all: f32 = widths.iter().map(|width| width + gap).sum::<f32>() - gap;
     if all <= room {
         return widths.len();
     }
-    let mut left = room - MORE_WIDTH;
+    let mut left = room - more;
     widths
         .iter()
         .take_while(|width| {
@@ -89,17 +94,30 @@ fn more_chip(ui: &Ui, rect: Rect, hidden: &[ChipModel<'_>]) -> Response {
     let t = theme::tokens(ui);
     let worst = hidden.iter().map(|chip| chip.link).max_by_key(|link| badness(*link));
     let worst = worst.unwrap_or_default();
-    let name = format!("{} more antennas, the worst link is {}", hidden.len(), worst.word());
+    let in_alarm = hidden.iter().filter(|chip| chip.alarm.is_some()).count();
+    let alarms = if in_alarm > 0 { format!(", {in_alarm} in alarm") } else { String::new() };
+    let name =
+        format!("{} more antennas{alarms}, the worst link is {}", hidden.len(), worst.word());
     let response = paint::control(ui, "more chips", rect, Role::Button, true, &name);
     let selected = hidden.iter().any(|chip| chip.selected);
-    let border = Stroke::new(1.0, if selected { t.sat } else { t.line });
+    let border = match (selected, in_alarm) {
+        (true, _) => t.sat,
+        (false, 0) => t.line,
+        (false, _) => t.bad,
+    };
+    let border = Stroke::new(1.0, border);
     ui.painter().rect(rect, 6.0, t.bg2, border, StrokeKind::Inside);
     let (icon, colour) = worst.look(t);
     let glyph = paint::square(pos2(rect.left() + 16.0, rect.center().y), 13.0);
     icons::paint(ui.painter(), glyph, icon, colour);
     let at = pos2(rect.left() + 28.0, rect.center().y);
     let font = text::sized(13.0, Weight::SemiBold);
-    paint::text(ui, at, Align2::LEFT_CENTER, format!("+{}", hidden.len()), font, t.t1);
+    let count = format!("+{}", hidden.len());
+    let count = paint::text(ui, at, Align2::LEFT_CENTER, count, font.clone(), t.t1);
+    if in_alarm > 0 {
+        let room = rect.with_min_x(count.right() + 6.0).with_max_x(rect.right() - 4.0);
+        paint::text_in(ui, room, Align2::LEFT_CENTER, link_chip::ALARM, font, t.bad);
+    }
     paint::focus_ring(ui, &response, 6);
     response
 }
@@ -119,9 +137,9 @@ mod tests {
 
     #[test]
     fn what_has_no_room_goes_into_the_last_chip() {
-        assert_eq!(how_many_fit(&[100.0, 100.0], 8.0, 208.0), 2);
-        assert_eq!(how_many_fit(&[100.0, 100.0, 100.0], 8.0, 280.0), 2);
-        assert_eq!(how_many_fit(&[100.0, 100.0, 100.0], 8.0, 260.0), 1);
-        assert_eq!(how_many_fit(&[], 8.0, 0.0), 0);
+        assert_eq!(how_many_fit(&[100.0, 100.0], 8.0, 208.0, MORE_WIDTH), 2);
+        assert_eq!(how_many_fit(&[100.0, 100.0, 100.0], 8.0, 280.0, MORE_WIDTH), 2);
+        assert_eq!(how_many_fit(&[100.0, 100.0, 100.0], 8.0, 260.0, MORE_WIDTH), 1);
+        assert_eq!(how_many_fit(&[], 8.0, 0.0, MORE_WIDTH), 0);
     }
 }

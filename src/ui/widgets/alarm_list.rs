@@ -64,6 +64,14 @@ impl Section {
     }
 }
 
+/// Returns `true` for an alarm that is red while it stands.
+pub fn is_red(priority: Priority) -> bool {
+    match priority {
+        Priority::First | Priority::Warning => true,
+        Priority::Caution => false,
+    }
+}
+
 #[derive(Debug, Clone, Copy)]
 pub struct AlarmRow<'a> {
     /// Identifies the alarm in the operator's answer.

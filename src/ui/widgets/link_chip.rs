@@ -1,7 +1,7 @@
 //! An antenna in the top bar: its link and its activity.
 
 use egui::{
-    Align2, Color32, Rect, Response, Role, Sense, Stroke, StrokeKind, Ui, Vec2, pos2, vec2,
+    Align2, Color32, FontId, Rect, Response, Role, Sense, Stroke, StrokeKind, Ui, Vec2, pos2, vec2,
 };
 
 use super::paint;
@@ -16,6 +16,8 @@ const RADIUS: u8 = 6;
 /// Size of the tag of automatic operation.
 pub const TAG: Vec2 = vec2(38.0, 16.0);
 pub const TWO_LINES_WIDTH: f32 = 162.0;
+/// The word of an antenna for which a red alarm stands.
+pub const ALARM: &str = "Alarm";
 
 /// State of the link to a unit. Each has its own shape.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -78,6 +80,8 @@ pub struct ChipModel<'a> {
     pub maintenance: bool,
     /// `None` while automatic operation is off.
     pub automatic: Option<AutomaticModel<'a>>,
+    /// The gravest red alarm that stands for the antenna, in words.
+    pub alarm: Option<&'a str>,
 }
 
 /// Automatic operation while it is not off.
@@ -103,11 +107,12 @@ fn ago(age: &str) -> String {
 
 impl ChipModel<'_> {
     fn second_line(&self) -> String {
-        if self.maintenance {
-            self.activity.to_owned()
-        } else {
-            with_age(self.activity, self.age, self.link)
-        }
+        let words = match (self.maintenance, self.alarm, self.link) {
+            // The age of a live reply leaves its room to the alarm.
+            (true, _, _) | (false, Some(_), LinkGlyph::Live) => self.activity.to_owned(),
+            (false, _, _) => with_age(self.activity, self.age, self.link),
+        };
+        if self.alarm.is_some() { format!("{ALARM}: {words}") } else { words }
     }
 
     pub fn width(&self, ui: &Ui, form: ChipForm) -> f32 {
@@ -117,13 +122,20 @@ impl ChipModel<'_> {
             ChipForm::OneLine => {
                 let age = paint::text_width(ui, &self.short_age(), text::small());
                 let age = if self.maintenance { age.max(12.0) } else { age };
-                (26.0 + name + self.tag_width() + 6.0 + age + 10.0).ceil()
+                let alarm = self.alarm_width(ui);
+                (26.0 + name + self.tag_width() + alarm + 6.0 + age + 10.0).ceil()
             }
             ChipForm::Name => {
                 let lock = if self.maintenance { 18.0 } else { 0.0 };
-                (26.0 + name + self.tag_width() + 10.0 + lock).ceil()
+                (26.0 + name + self.tag_width() + self.alarm_width(ui) + 10.0 + lock).ceil()
             }
         }
+    }
+
+    /// Width of the word of an alarm in one line, with the gap before it.
+    fn alarm_width(&self, ui: &Ui) -> f32 {
+        let width = || 6.0 + paint::text_width(ui, ALARM, alarm_font());
+        self.alarm.map_or(0.0, |_| width())
     }
 
     /// Width of the tag beside the name, with the gap before it.
@@ -142,6 +154,10 @@ impl ChipModel<'_> {
     }
 }
 
+fn alarm_font() -> FontId {
+    text::sized(12.0, Weight::SemiBold)
+}
+
 pub fn show(ui: &Ui, rect: Rect, model: &ChipModel<'_>, form: ChipForm) -> Response {
     let t = theme::tokens(ui);
     let second = model.second_line();
@@ -156,10 +172,11 @@ pub fn show(ui: &Ui, rect: Rect, model: &ChipModel<'_>, form: ChipForm) -> Respo
         egui::WidgetInfo::selected(Role::Button, true, model.selected, name)
     });
     ui.painter().rect_filled(rect, RADIUS, if response.hovered() { t.bg3 } else { t.bg2 });
-    let border = match (model.selected, model.maintenance) {
-        (true, _) => t.sat,
-        (false, true) => t.warn,
-        (false, false) => t.line,
+    let border = match (model.selected, model.alarm, model.maintenance) {
+        (true, _, _) => t.sat,
+        (false, Some(_), _) => t.bad,
+        (false, None, true) => t.warn,
+        (false, None, false) => t.line,
     };
     ui.painter().rect_stroke(rect, RADIUS, Stroke::new(1.0, border), StrokeKind::Inside);
     let (icon, colour) = model.link.look(t);
@@ -186,7 +203,9 @@ pub fn show(ui: &Ui, rect: Rect, model: &ChipModel<'_>, form: ChipForm) -> Respo
         }
         paint::text_in(ui, first, Align2::LEFT_CENTER, model.name, strong, t.t1);
         let below = room.translate(vec2(0.0, 8.5));
-        paint::text_in(ui, below, Align2::LEFT_CENTER, &second, text::small(), t.t2);
+        let (font, colour) =
+            if model.alarm.is_some() { (alarm_font(), t.bad) } else { (text::small(), t.t2) };
+        paint::text_in(ui, below, Align2::LEFT_CENTER, &second, font, colour);
     } else {
         let glyph = paint::square(pos2(rect.left() + 14.0, centre), 13.0);
         icons::paint(ui.painter(), glyph, icon, colour);
@@ -198,16 +217,20 @@ pub fn show(ui: &Ui, rect: Rect, model: &ChipModel<'_>, form: ChipForm) -> Respo
             automatic_tag(ui, Rect::from_min_size(min, TAG), automatic.is_suspended);
             end = min.x + TAG.x;
         }
+        if model.alarm.is_some() {
+            let room = room.with_min_x(end + 6.0);
+            let word = paint::text_in(ui, room, Align2::LEFT_CENTER, ALARM, alarm_font(), t.bad);
+            end = word.right();
+        }
         if form == ChipForm::OneLine && !model.maintenance {
             let (room, age) = (room.with_min_x(end + 6.0), model.short_age());
             paint::text_in(ui, room, Align2::LEFT_CENTER, &age, text::small(), t.t3);
         }
     }
     paint::focus_ring(ui, &response, RADIUS);
-    match model.automatic {
-        Some(automatic) => response.on_hover_text(automatic.words),
-        None => response,
-    }
+    let about: Vec<&str> =
+        model.alarm.into_iter().chain(model.automatic.map(|automatic| automatic.words)).collect();
+    if about.is_empty() { response } else { response.on_hover_text(about.join("\n")) }
 }
 
 /// Paints the tag of automatic operation, dashed while that is suspended.

@@ -4,11 +4,11 @@ use std::sync::Arc;
 
 use egui::{Color32, Galley, Id, Rect, Sense, Ui, pos2, vec2};
 
-use super::AlarmRow;
+use super::{AlarmRow, is_red};
 use crate::{
     contract::{
         self,
-        alarms::{AlarmState, Priority, ShelveTime},
+        alarms::{AlarmState, ShelveTime},
         driver::Command,
     },
     model::UiCommand,
@@ -168,7 +168,9 @@ fn icon(row: &AlarmRow<'_>, t: &Tokens) -> (Icon, Color32) {
         (AlarmState::Shelved { .. }, _) => (Icon::Clock, t.t2),
         (AlarmState::NewAndOver { .. }, _) => (Icon::Check, t.warn),
         (AlarmState::Over { .. }, _) => (Icon::Check, t.t3),
-        (_, Priority::First | Priority::Warning) => (Icon::Octagon, t.bad),
-        (_, Priority::Caution) => (Icon::Warning, t.warn),
+        (AlarmState::New | AlarmState::Seen, priority) if is_red(priority) => {
+            (Icon::Octagon, t.bad)
+        }
+        (AlarmState::New | AlarmState::Seen, _) => (Icon::Warning, t.warn),
     }
 }
