@@ -16,7 +16,10 @@ use egui::{Key, Modifiers, Rect, RichText, ScrollArea, Sense, Ui, UiBuilder};
 use jiff::Timestamp;
 
 pub use self::steps::Step;
-use self::{draft::SetupDraft, steps::Progress};
+use self::{
+    draft::SetupDraft,
+    steps::{Passed, Progress},
+};
 use super::{object_search::ObjectSearch, text, theme, widgets::paint};
 use crate::{
     contract,
@@ -59,6 +62,14 @@ impl SetupState {
         self.step = step;
         self.problem = None;
         self.wants_focus = true;
+    }
+
+    /// Outcome of a step. The antennas are not done while the link of one has not been tested.
+    fn passed(&self, step: Step, draft: &SetupDraft, model: &Model) -> Passed {
+        match self.progress.of(step) {
+            Passed::Done if step == Step::Antennas && draft.has_untested(model) => Passed::NotYet,
+            passed => passed,
+        }
     }
 
     /// Why the operator cannot go on from the step that is shown.
@@ -243,6 +254,9 @@ fn take_keys(
     let ends_typing = ui.text_edit_focused() && is_for_step;
     let enter = |ui: &Ui| ui.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Enter));
     if (is_free || ends_typing) && enter(ui) {
-        state.go_on(draft, model, commands);
+        let is_tested = state.step == Step::Antennas && draft.test_typed(model, commands);
+        if !is_tested {
+            state.go_on(draft, model, commands);
+        }
     }
 }

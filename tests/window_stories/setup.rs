@@ -322,6 +322,45 @@ fn the_outcome_of_a_test_says_when_and_goes_on_counting() {
 }
 
 #[test]
+fn enter_in_an_address_tests_it_and_goes_on_once_it_was_tested() {
+    let mut window = window(rig::LARGE);
+    write_site(&mut window);
+    press(&mut window, NEXT[0]);
+    press(&mut window, &format!("Add {}", makes::SPECS[0].name));
+    write(&mut window, "Address of the Satrak", "unit.local:4001");
+    window.key_press(Key::Enter);
+    let tested = match <[UiCommand; 1]>::try_from(asked(&mut window)) {
+        Ok([UiCommand::Station(engine::Command::TestLink(antenna))]) => *antenna,
+        other => panic!("{other:?}"),
+    };
+    assert_eq!(tested.connection.address, "unit.local:4001");
+    let test = LinkTest { antenna: tested.clone(), stage: LinkTestStage::Working };
+    window.state_mut().model.link_tests = Arc::new(vec![test]);
+    window.key_press(Key::Enter);
+    assert_eq!(asked(&mut window), [], "it is being tested");
+    assert!(is_at(&window, "Antennas"));
+    tell(&mut window, &tested, LinkFinding::Silent);
+    window.key_press(Key::Enter);
+    settle(&mut window);
+    assert!(is_at(&window, "Satellites"));
+    window.get_by_label_contains("Step 2: Antennas, done, 0 of 1 reached");
+}
+
+#[test]
+fn a_step_with_an_untested_antenna_has_no_tick() {
+    for size in SIZES {
+        let mut window = window(size);
+        write_site(&mut window);
+        press(&mut window, NEXT[0]);
+        let antenna = add_and_test(&mut window, "unit.local:4001");
+        press(&mut window, NEXT[1]);
+        window.get_by_label_contains("Step 2: Antennas, 0 of 1 reached");
+        tell(&mut window, &antenna, reached());
+        window.get_by_label_contains("Step 2: Antennas, done, 1 of 1 reached");
+    }
+}
+
+#[test]
 fn an_address_of_the_demo_is_not_taken() {
     let mut window = window(rig::LARGE);
     write_site(&mut window);

@@ -1,6 +1,8 @@
 //! The step about the antennas: a card for each.
 
-use egui::{Align, Layout, RichText, Role, Sense, Ui, WidgetInfo, style::ScrollAnimation, vec2};
+use egui::{
+    Align, Layout, Response, RichText, Role, Sense, Ui, WidgetInfo, style::ScrollAnimation, vec2,
+};
 use jiff::Timestamp;
 
 use super::draft::SetupDraft;
@@ -9,7 +11,7 @@ use crate::{
     contract::link_tests::LinkTestStage,
     controller::SPECS,
     model::{Model, UiCommand},
-    station::AntennaId,
+    station::{Antenna, AntennaId},
     ui::{
         icons::Icon,
         preferences::{
@@ -39,6 +41,7 @@ pub(super) fn show(
     commands: &mut Vec<UiCommand>,
 ) {
     let t = theme::tokens(ui);
+    draft.typed_address = None;
     let mut removed = None;
     for index in 0..draft.form.antennas.len() {
         card::show(ui, CARD, |ui| {
@@ -55,7 +58,8 @@ pub(super) fn show(
     ui.horizontal_wrapped(|ui| {
         for spec in SPECS {
             let button = Button::normal(spec.short_name).icon(Icon::Plus);
-            if named(ui, button, ("add", spec.key), true, &format!("Add {}", spec.name)) {
+            let name = format!("Add {}", spec.name);
+            if named(ui, button, ("add", spec.key), true, &name).on_hover_text(&name).clicked() {
                 draft.form.add_antenna(spec, model.now);
                 draft.wants_address = draft.form.antennas.last().map(|of| of.before().id);
             }
@@ -130,6 +134,9 @@ fn one(
         focus_to_replace(ui, response, &field.text);
         draft.wants_address = None;
     }
+    if responses.get(ADDRESS).is_some_and(Response::has_focus) {
+        draft.typed_address = Some(id);
+    }
     ui.add_space(4.0);
     let is_removed = ui
         .horizontal(|ui| {
@@ -137,13 +144,13 @@ fn one(
             let word = if test.is_some() { "Test again" } else { "Test link" };
             let can = antenna.is_some();
             let (button, spoken) = (Button::normal(word).locked(!can), format!("{word} of {name}"));
-            if named(ui, button, ("test", id.0), can, &spoken)
+            if named(ui, button, ("test", id.0), can, &spoken).clicked()
                 && let Some(antenna) = &antenna
             {
-                let test = contract::Command::TestLink(Box::new(antenna.clone()));
-                commands.push(UiCommand::Station(test));
+                commands.push(test_of(antenna));
             }
-            named(ui, Button::quiet("Remove"), ("remove", id.0), true, &format!("Remove {name}"))
+            let remove = format!("Remove {name}");
+            named(ui, Button::quiet("Remove"), ("remove", id.0), true, &remove).clicked()
         })
         .inner;
     let top = ui.min_rect().bottom();
@@ -159,6 +166,11 @@ fn one(
         ui.scroll_to_rect_animation(told, None, ScrollAnimation::none());
     }
     is_removed
+}
+
+/// The command that tests the link of an antenna.
+pub(super) fn test_of(antenna: &Antenna) -> UiCommand {
+    UiCommand::Station(contract::Command::TestLink(Box::new(antenna.clone())))
 }
 
 /// Returns `true` once for each outcome of a test.
@@ -179,9 +191,9 @@ fn named(
     salt: impl egui::AsIdSalt,
     enabled: bool,
     name: &str,
-) -> bool {
+) -> Response {
     let (place, _) = ui.allocate_exact_size(vec2(button.width(ui), HEIGHT), Sense::hover());
     let response = button.show(ui, salt, place);
     response.widget_info(|| WidgetInfo::labeled(Role::Button, enabled, name));
-    response.on_hover_text(name).clicked()
+    response
 }

@@ -1,12 +1,12 @@
 //! The station as typed so far. It rests on the draft of Preferences, of which the steps show a
 //! part.
 
-use super::Step;
+use super::{Step, antennas};
 use crate::{
     astro::Site,
     contract::{driver::LinkFinding, link_tests::LinkTestStage},
     device::Place,
-    model::Model,
+    model::{Model, UiCommand},
     station::{AntennaId, Favourites, Station},
     ui::preferences::{
         draft::Draft,
@@ -28,6 +28,8 @@ pub(super) struct SetupDraft {
     proposed: Favourites,
     /// The antenna whose address is to be typed now.
     pub(super) wants_address: Option<AntennaId>,
+    /// The antenna whose address has the keyboard focus.
+    pub(super) typed_address: Option<AntennaId>,
 }
 
 impl SetupDraft {
@@ -44,6 +46,7 @@ impl SetupDraft {
             proposed: favourites.clone(),
             favourites,
             wants_address: None,
+            typed_address: None,
         }
     }
 
@@ -101,6 +104,38 @@ impl SetupDraft {
         } else {
             typed.name
         }
+    }
+
+    /// Tests the link to the address that has the focus, if it has not been tested. Returns `true` while
+    /// the step waits for that test or for an address that can be used.
+    pub(super) fn test_typed(&self, model: &Model, commands: &mut Vec<UiCommand>) -> bool {
+        let mut antennas = self.form.antennas.iter();
+        let typed = antennas.position(|of| Some(of.before().id) == self.typed_address);
+        let Some(index) = typed else { return false };
+        let antenna = self.form.antenna(index);
+        // A question may take the panel from somebody at the unit: its button alone asks.
+        if antenna.as_ref().is_some_and(|of| of.connection.variant().capabilities.waits_for_word) {
+            return false;
+        }
+        match self.form.test(index, model).map(|test| &test.stage) {
+            Some(
+                LinkTestStage::InUse | LinkTestStage::Elsewhere(_) | LinkTestStage::Done { .. },
+            ) => false,
+            Some(LinkTestStage::Working) => true,
+            None => {
+                commands.extend(antenna.as_ref().map(antennas::test_of));
+                true
+            }
+        }
+    }
+
+    /// Returns `true` while the link of an antenna has not been tested.
+    pub(super) fn has_untested(&self, model: &Model) -> bool {
+        let is_tested = |index: usize| {
+            let test = self.form.test(index, model);
+            test.is_some_and(|test| test.stage != LinkTestStage::Working)
+        };
+        !(0..self.form.antennas.len()).all(is_tested)
     }
 
     /// Antennas whose units told their place, with it.

@@ -90,12 +90,13 @@ fn column(
         let min = pos2(rect.left(), top + STEP * index as f32);
         let row = Rect::from_min_size(min, vec2(rect.width(), STEP));
         let detail = detail(step, model, draft, state);
-        if entry(ui, row, step, &detail, unadded.as_deref(), state) {
+        let passed = state.passed(step, draft, model);
+        if entry(ui, row, step, (&detail, passed), unadded.as_deref(), state) {
             clicked = Some(step);
         }
         let (ring, words) =
             (pos2(row.left() + 32.0, row.center().y), row.with_min_x(row.left() + 60.0));
-        show_ring(ui, ring, step, state);
+        show_ring(ui, ring, step, passed, state);
         let (name, below) = words.shrink2(vec2(0.0, 18.0)).split_top_bottom_at_fraction(0.5);
         let strong = text::sized(14.0, Weight::SemiBold);
         paint::text_in(ui, name, Align2::LEFT_CENTER, step.name(), strong, t.t1);
@@ -131,10 +132,11 @@ fn strip(
         let min = pos2(rect.left() + width * index as f32, rect.top());
         let cell = Rect::from_min_size(min, vec2(width, rect.height()));
         let detail = detail(step, model, draft, state);
-        if entry(ui, cell, step, &detail, unadded.as_deref(), state) {
+        let passed = state.passed(step, draft, model);
+        if entry(ui, cell, step, (&detail, passed), unadded.as_deref(), state) {
             clicked = Some(step);
         }
-        show_ring(ui, pos2(cell.left() + 28.0, cell.center().y), step, state);
+        show_ring(ui, pos2(cell.left() + 28.0, cell.center().y), step, passed, state);
         let words = cell.with_min_x(cell.left() + 50.0);
         paint::text_in(ui, words, Align2::LEFT_CENTER, step.name(), text::body_medium(), t.t1);
     }
@@ -147,7 +149,7 @@ fn entry(
     ui: &Ui,
     row: Rect,
     step: Step,
-    detail: &str,
+    (detail, passed): (&str, Passed),
     unadded: Option<&str>,
     state: &SetupState,
 ) -> bool {
@@ -155,7 +157,7 @@ fn entry(
     let is_shown = state.step == step;
     let why = unadded.filter(|_| !is_shown);
     let is_enabled = why.is_none();
-    let passed = match state.progress.of(step) {
+    let passed = match passed {
         Passed::NotYet => "",
         Passed::Done => ", done",
         Passed::Skipped => ", skipped",
@@ -176,11 +178,11 @@ fn entry(
     response.clicked()
 }
 
-fn show_ring(ui: &Ui, at: egui::Pos2, step: Step, state: &SetupState) {
+fn show_ring(ui: &Ui, at: egui::Pos2, step: Step, passed: Passed, state: &SetupState) {
     let t = theme::tokens(ui);
     let is_shown = state.step == step;
     let painter = ui.painter();
-    let (icon, colour) = match state.progress.of(step) {
+    let (icon, colour) = match passed {
         _ if is_shown => {
             painter.circle_filled(at, RING, t.sat);
             (None, t.onsat)
