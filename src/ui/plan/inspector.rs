@@ -334,7 +334,7 @@ fn controls(
         (word, state)
     });
     let place = row.with_min_x(row.left() + LABEL);
-    let clicked = segmented::show(ui, "this pass", place, "This pass", &segments);
+    let clicked = segmented::show_commands(ui, "this pass", place, "This pass", &segments);
     if let Some((take, _)) = clicked.and_then(|index| choices.get(index)) {
         state.choose_for(model, planned, *take, commands);
     }
@@ -358,7 +358,7 @@ fn controls(
         .collect();
     let place = row.with_min_x(row.left() + LABEL);
     let name = "Priority of the satellite, 1 is the first";
-    let clicked = segmented::show(ui, "plan priority", place, name, &segments);
+    let clicked = segmented::show_commands(ui, "plan priority", place, name, &segments);
     if let Some(priority) = clicked.and_then(|index| Priority::ALL.get(index)) {
         let set = |priority| contract::Command::SetPriority { numbers: vec![number], priority };
         let (to, back) = (set(*priority), set(present));

@@ -51,7 +51,7 @@ pub fn show(ui: &Ui, rect: Rect, model: &ModeModel<'_>) -> Option<Intent> {
             (word(*mode), state)
         })
         .collect();
-    let clicked = segmented::show(ui, "mode", rect, "Mode", &segments)?;
+    let clicked = segmented::show_commands(ui, "mode", rect, "Mode", &segments)?;
     modes.get(clicked).copied()
 }
 
@@ -59,7 +59,7 @@ pub fn show(ui: &Ui, rect: Rect, model: &ModeModel<'_>) -> Option<Intent> {
 mod tests {
     use super::*;
     use crate::ui::widgets::testing;
-    use egui::{Role, pos2, vec2};
+    use egui::{Key, Role, pos2, vec2};
     use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
     #[test]
@@ -81,6 +81,25 @@ mod tests {
         window.get_by_role_and_label(Role::RadioButton, "Position").click();
         window.run();
         assert_eq!(*window.state(), Some(Intent::Position));
+    }
+
+    #[test]
+    fn an_arrow_key_that_passes_over_a_mode_does_not_command_it() {
+        let mut window = testing::window([400.0, 80.0], None, |ui, clicked| {
+            let rect = Rect::from_min_size(pos2(20.0, 20.0), vec2(312.0, 32.0));
+            let current = Some(Intent::Standby);
+            let model = ModeModel { offered: &ALL, current, ..ModeModel::default() };
+            *clicked = show(ui, rect, &model).or(*clicked);
+        });
+        window.get_by_role_and_label(Role::RadioButton, "Standby").focus();
+        window.run();
+        window.key_press(Key::ArrowLeft);
+        window.run();
+        assert_eq!(*window.state(), None);
+        assert!(window.get_by_role_and_label(Role::RadioButton, "Park").is_focused());
+        window.key_press(Key::Enter);
+        window.run();
+        assert_eq!(*window.state(), Some(Intent::Park));
     }
 
     #[test]

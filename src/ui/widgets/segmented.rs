@@ -1,5 +1,5 @@
-//! A choice among a few segments side by side. Tab stops at one of them, and the arrows lead to the
-//! others, as in any group of radio buttons; Enter or Space chooses.
+//! A choice among a few segments side by side. Tab stops at one of them, and the arrows choose another
+//! one, as in any group of radio buttons. Where a choice is a command, they only lead to it.
 
 use egui::{
     Align2, CornerRadius, FocusDirection, Id, Key, Modifiers, Rect, Response, Role, Sense, Stroke,
@@ -31,14 +31,46 @@ impl Segment {
     }
 }
 
+/// Effect of an arrow key.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Arrows {
+    /// Chooses the segment that it leads to.
+    Choose,
+    /// Moves the focus; Enter or Space chooses.
+    Focus,
+}
+
 /// Shows segments in `rect`, each as wide as its text needs, with the remaining width shared
-/// evenly. Returns the index of a clicked segment.
+/// evenly. Returns the index of a segment that was clicked or chosen by an arrow key.
 pub fn show(
     ui: &Ui,
     salt: &str,
     rect: Rect,
     name: &str,
     segments: &[(&str, Segment)],
+) -> Option<usize> {
+    show_with(ui, salt, rect, name, segments, Arrows::Choose)
+}
+
+/// Like [`show`] for choices that are carried out at once and may move an antenna: an arrow key that
+/// passes over a segment must not command it.
+pub fn show_commands(
+    ui: &Ui,
+    salt: &str,
+    rect: Rect,
+    name: &str,
+    segments: &[(&str, Segment)],
+) -> Option<usize> {
+    show_with(ui, salt, rect, name, segments, Arrows::Focus)
+}
+
+fn show_with(
+    ui: &Ui,
+    salt: &str,
+    rect: Rect,
+    name: &str,
+    segments: &[(&str, Segment)],
+    arrows: Arrows,
 ) -> Option<usize> {
     let t = theme::tokens(ui);
     let group = ui.interact(rect, ui.make_persistent_id(salt), egui::Sense::hover());
@@ -98,7 +130,10 @@ pub fn show(
     }
     if let Some(index) = focused {
         // Only now: a segment that is no stop of Tab yet would lose the focus at once.
-        take_arrows(ui, index, &ids, segments);
+        let next = take_arrows(ui, index, &ids, segments);
+        if arrows == Arrows::Choose {
+            clicked = clicked.or(next);
+        }
     }
     if segments.iter().all(|(_, state)| state.is_locked()) {
         paint::dashed_border(ui, rect, f32::from(RADIUS), Stroke::new(1.0, t.edge));
@@ -145,23 +180,29 @@ fn tab_stop(ui: &Ui, ids: &[Id], segments: &[(&str, Segment)]) -> Option<usize> 
         .or_else(|| (0..segments.len()).find(is_free))
 }
 
-/// Leads the focus from the segment at `index` to the next free one in the direction of an arrow.
-fn take_arrows(ui: &Ui, index: usize, ids: &[Id], segments: &[(&str, Segment)]) {
+/// Leads the focus from the segment at `index` to the next free one in the direction of an arrow, from
+/// the last one to the first. Returns that segment.
+fn take_arrows(ui: &Ui, index: usize, ids: &[Id], segments: &[(&str, Segment)]) -> Option<usize> {
     let [back, on] = ui.input_mut(|input| {
-        [Key::ArrowLeft, Key::ArrowRight].map(|key| input.consume_key(Modifiers::NONE, key))
+        [[Key::ArrowLeft, Key::ArrowUp], [Key::ArrowRight, Key::ArrowDown]]
+            .map(|keys| keys.map(|key| input.consume_key(Modifiers::NONE, key)).contains(&true))
     });
     if back == on {
-        return;
+        return None;
     }
     let is_free = |place: &usize| segments.get(*place).is_some_and(|(_, state)| !state.is_locked());
-    let next =
-        if on { (index + 1..segments.len()).find(is_free) } else { (0..index).rev().find(is_free) };
+    let next = if on {
+        (index + 1..segments.len()).chain(0..index).find(is_free)
+    } else {
+        (0..index).rev().chain((index + 1..segments.len()).rev()).find(is_free)
+    };
     ui.memory_mut(|memory| {
         memory.move_focus(FocusDirection::None);
         if let Some(next) = next.and_then(|next| ids.get(next)) {
             memory.request_focus(*next);
         }
     });
+    next
 }
 
 /// A place for the segments, whose nodes are children of the node of the group.
@@ -215,23 +256,23 @@ mod tests {
     }
 
     #[test]
-    fn tab_stops_at_the_chosen_segment_and_the_arrows_lead_to_the_others() {
+    fn tab_stops_at_the_chosen_segment_and_an_arrow_chooses_the_next_one() {
         let mut window = window(1);
         window.get_by_label("before").focus();
         window.run();
         let press = |window: &mut Harness<'_, usize>, key| {
             window.key_press(key);
             window.run();
-            focused(window)
+            (focused(window), *window.state())
         };
-        assert_eq!(press(&mut window, Key::Tab), Some("Pair"));
-        assert_eq!(press(&mut window, Key::ArrowRight), Some("Elevation"), "not the locked one");
-        assert_eq!(press(&mut window, Key::ArrowRight), Some("Elevation"), "the last one");
-        assert_eq!(*window.state(), 1, "nothing is chosen yet");
-        press(&mut window, Key::Space);
-        assert_eq!(*window.state(), 3);
-        assert_eq!(press(&mut window, Key::ArrowLeft), Some("Pair"));
-        assert_eq!(press(&mut window, Key::Tab), Some("after"));
+        assert_eq!(press(&mut window, Key::Tab), (Some("Pair"), 1));
+        let last = (Some("Elevation"), 3);
+        assert_eq!(press(&mut window, Key::ArrowRight), last, "not the locked one");
+        assert_eq!(press(&mut window, Key::ArrowRight), (Some("Azimuth"), 0), "round the end");
+        assert_eq!(press(&mut window, Key::ArrowLeft), last, "round the start");
+        assert_eq!(press(&mut window, Key::ArrowUp), (Some("Pair"), 1));
+        assert_eq!(press(&mut window, Key::ArrowDown), last);
+        assert_eq!(press(&mut window, Key::Tab), (Some("after"), 3));
         let button = window.get_by_role_and_label(Role::RadioButton, "Azimuth");
         button.click();
         window.run();
