@@ -241,6 +241,9 @@ pub struct SourceReport {
     pub limits: Vec<RequestLimit>,
     /// The source was not read, because the program ended while reading it the last time.
     pub is_set_aside: bool,
+    /// Number of its objects of which the bundled elements or another source have a newer set.
+    #[serde(default)]
+    pub newer_elsewhere: usize,
 }
 
 /// The state of one file.
@@ -328,6 +331,7 @@ mod tests {
             next_fetch: Some(at("2026-08-12T14:00:00Z")),
             limits: Vec::new(),
             is_set_aside: false,
+            newer_elsewhere: 0,
         };
         let now = at("2026-08-12T12:00:00Z");
         let off = Source::celestrak("active");
@@ -370,6 +374,7 @@ mod tests {
             next_fetch: Some(at("2031-01-01T02:00:00Z")),
             limits: limits.to_vec(),
             is_set_aside: false,
+            newer_elsewhere: 0,
         };
         let source = Source { refresh: Some(RefreshHours::from(2)), ..Source::celestrak("active") };
         assert_eq!(source.next_by_itself(Some(&report), now), Some(Timestamp::UNIX_EPOCH));

@@ -18,6 +18,7 @@ mod unfinished;
 
 use std::{
     borrow::Cow,
+    collections::BTreeMap,
     io,
     path::{Path, PathBuf},
 };
@@ -75,6 +76,9 @@ pub fn server_of(source: &Source) -> Option<String> {
 pub fn read_element_file(path: &Path) -> io::Result<Vec<u8>> {
     Ok(disk::read(path, Limits::default().bytes)?.bytes)
 }
+
+/// Epochs by catalog number.
+type Epochs = BTreeMap<u32, Timestamp>;
 
 /// Library of elements on disk.
 #[derive(Debug)]
@@ -139,12 +143,24 @@ impl Library {
     pub fn load_into(&self, sources: &[Source], catalog: &mut Catalog) -> Vec<SourceReport> {
         let mut unfinished = Unfinished::load(&self.folder);
         let report = |source: &Source| {
+            let mut epochs = Epochs::new();
             if unfinished.holds(source) {
-                return SourceReport { is_set_aside: true, ..no_report(source) };
+                return (SourceReport { is_set_aside: true, ..no_report(source) }, epochs);
             }
-            unfinished.during(source, || self.load_one(source, catalog))
+            let load = || self.load_one(source, catalog, &mut epochs);
+            (unfinished.during(source, load), epochs)
         };
-        sources.iter().map(report).collect()
+        let read: Vec<(SourceReport, Epochs)> = sources.iter().map(report).collect();
+        // Only now: a later source may have newer sets than an earlier one.
+        let compared = read.into_iter().map(|(report, epochs)| {
+            let is_older = |(number, epoch): &(&u32, &Timestamp)| {
+                let best = catalog.get(**number);
+                best.is_some_and(|best| catalog.is_better(best.epoch(), **epoch))
+            };
+            let newer_elsewhere = epochs.iter().filter(is_older).count();
+            SourceReport { newer_elsewhere, ..report }
+        });
+        compared.collect()
     }
 
     /// Stops setting aside the sources in `names`, and those that are no longer in `sources`.
@@ -152,7 +168,13 @@ impl Library {
         Unfinished::load(&self.folder).keep(sources, names);
     }
 
-    fn load_one(&self, source: &Source, catalog: &mut Catalog) -> SourceReport {
+    /// Reads a source, and adds the epoch of its best set of each object to `epochs`.
+    fn load_one(
+        &self,
+        source: &Source,
+        catalog: &mut Catalog,
+        epochs: &mut Epochs,
+    ) -> SourceReport {
         let mut report = no_report(source);
         if let Some(record) = key(source).and_then(|key| self.index.get(&key)) {
             if let SourcePlace::SpaceTrack(_) = source.place {
@@ -181,6 +203,13 @@ impl Library {
                         report.as_of = report.as_of.max(file.modified);
                     }
                     let objects = read.elements.len();
+                    for elements in &read.elements {
+                        let epoch = elements.epoch();
+                        let best = epochs.entry(elements.catalog_number()).or_insert(epoch);
+                        if catalog.is_better(epoch, *best) {
+                            *best = epoch;
+                        }
+                    }
                     let merge = catalog.merge(read, &source.name);
                     report.files.push(FileReport { path, objects, merge, problem: None });
                 }
@@ -419,6 +448,7 @@ fn no_report(source: &Source) -> SourceReport {
         next_fetch: None,
         limits: Vec::new(),
         is_set_aside: false,
+        newer_elsewhere: 0,
     }
 }
 

@@ -55,6 +55,7 @@ pub(crate) fn report(source: &Source, objects: usize) -> SourceReport {
         next_fetch: None,
         limits: Vec::new(),
         is_set_aside: false,
+        newer_elsewhere: 0,
     }
 }
 
@@ -108,6 +109,16 @@ fn is_disabled(window: &Window, button: &str) -> bool {
 fn refresh(names: &[&str], forced: bool) -> UiCommand {
     let names = names.iter().map(|name| (*name).to_owned()).collect();
     UiCommand::Station(contract::Command::RefreshSources { names, forced })
+}
+
+#[test]
+fn a_source_says_at_its_row_how_many_newer_sets_are_elsewhere() {
+    for size in rig::SIZES {
+        let source = file_source();
+        let report = SourceReport { newer_elsewhere: 12, ..report(&source, 30) };
+        let window = view(size, vec![(source, report)]);
+        assert!(says(&window, "Other sources have newer elements for 12 of 30."), "{size:?}");
+    }
 }
 
 #[test]

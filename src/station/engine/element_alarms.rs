@@ -136,6 +136,7 @@ mod tests {
                 next_fetch: None,
                 limits: Vec::new(),
                 is_set_aside: false,
+                newer_elsewhere: 0,
             }];
             engine.watch_sources();
             let is_source_alarm = |kind: &AlarmKind| matches!(kind, AlarmKind::SourceFails { .. });

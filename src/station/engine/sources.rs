@@ -329,14 +329,19 @@ mod tests {
 
         /// A file that holds the ISS a day after the bundled elements.
         fn newer_file(&self) -> Source {
+            self.file("own", "2026-08-12T10:00:00.000000")
+        }
+
+        /// A file that holds the ISS at this epoch.
+        fn file(&self, name: &str, epoch: &str) -> Source {
             let bundled = bundled().unwrap();
             let mut text = Vec::new();
             write_omm_json([bundled.get(ISS).unwrap()], &mut text).unwrap();
             let mut list: serde_json::Value = serde_json::from_slice(&text).unwrap();
-            list[0]["EPOCH"] = "2026-08-12T10:00:00.000000".into();
-            let path = self.folder.path().join("own.json");
+            list[0]["EPOCH"] = epoch.into();
+            let path = self.folder.path().join(format!("{name}.json"));
             fs::write(&path, list.to_string()).unwrap();
-            Source { name: "own".to_owned(), place: SourcePlace::File(path), refresh: None }
+            Source { name: name.to_owned(), place: SourcePlace::File(path), refresh: None }
         }
     }
 
@@ -363,6 +368,21 @@ mod tests {
         let gone = fixture.run(&Task { list: Some(Vec::new()), ..Task::default() });
         assert!(iss_epoch(&gone.catalog) < own_epoch());
         assert!(gone.sources.list.is_empty());
+    }
+
+    #[test]
+    fn a_source_counts_its_satellites_with_newer_sets_elsewhere() {
+        let fixture = Fixture::new();
+        let newer_elsewhere = |list: &[&Source]| -> Vec<usize> {
+            let list = Some(list.iter().copied().cloned().collect());
+            let outcome = fixture.run(&Task { list, ..Task::default() });
+            outcome.sources.reports.iter().map(|report| report.newer_elsewhere).collect()
+        };
+        let (old, new) = (fixture.file("old", "2026-08-01T10:00:00.000000"), fixture.newer_file());
+        assert_eq!(newer_elsewhere(&[&old]), [1], "the bundled set is newer");
+        assert_eq!(newer_elsewhere(&[&new]), [0]);
+        let later = fixture.file("later", "2026-08-12T11:00:00.000000");
+        assert_eq!(newer_elsewhere(&[&new, &later]), [1, 0], "a source that is read after it");
     }
 
     #[test]

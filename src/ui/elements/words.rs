@@ -168,6 +168,11 @@ pub(super) fn state(
             let all = report.objects() + report.refused();
             (Tone::Caution, format!("{when}, {} of {all} refused", report.refused()))
         }
+        (None, Some(report)) if report.newer_elsewhere > 0 => {
+            let older = format!("{} newer elsewhere", older_of(report));
+            let when = if when.is_empty() { String::new() } else { format!(", {when}") };
+            (Tone::Plain, older + &when)
+        }
         (None, _) if when.is_empty() => (Tone::Good, "read".to_owned()),
         (None, _) if source.place.is_server() => (Tone::Good, when),
         (None, _) => (Tone::Good, format!("changed {when}")),
@@ -205,6 +210,10 @@ pub(in crate::ui) fn sentences(
         let refused = format::number(report.refused() as f64, 0);
         lines.push((Tone::Plain, format!("{refused} refused: unreadable.")));
     }
+    if report.newer_elsewhere > 0 {
+        let words = format!("Other sources have newer elements for {}.", older_of(report));
+        lines.push((Tone::Plain, words));
+    }
     if let Some(problem) = &report.fetch_problem {
         let stays = if report.objects() > 0 { " The previous elements stay in use." } else { "" };
         lines.push((Tone::Bad, format!("{}{stays}", sentence(&problem.to_string()))));
@@ -212,6 +221,13 @@ pub(in crate::ui) fn sentences(
     }
     lines.extend(asked(report, now).map(|words| (Tone::Plain, words)));
     lines
+}
+
+/// How many satellites of a source have newer elements elsewhere, such as "12 of 30".
+fn older_of(report: &SourceReport) -> String {
+    let [older, all] =
+        [report.newer_elsewhere, report.objects()].map(|count| format::number(count as f64, 0));
+    format!("{older} of {all}")
 }
 
 /// Returns the operator's next step after a problem.
@@ -458,6 +474,7 @@ mod tests {
                 next_fetch: None,
                 limits: Vec::new(),
                 is_set_aside: false,
+                newer_elsewhere: 0,
             };
             let lines = sentences(&source, Some(&report), now());
             assert!(lines.iter().any(|(_, line)| line.contains("certificate")), "{lines:?}");
