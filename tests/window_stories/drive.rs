@@ -2,7 +2,8 @@
 
 use azel::{
     astro::Angle,
-    contract::driver::{Command, Intent, Snapshot},
+    clock::Instant,
+    contract::driver::{Command, Intent, LinkState, Snapshot},
     model::UiCommand,
     station::AntennaId,
 };
@@ -323,6 +324,31 @@ fn a_fault_that_locks_motion_locks_the_card_and_not_stop() {
         window.get_by_role_and_label(Role::Button, "Track NOAA 20").click();
         window.get_by_label("STOP").click();
         assert_eq!(asked(&mut window), [UiCommand::Stop]);
+    }
+}
+
+#[test]
+fn without_a_known_fault_the_card_says_why_motion_is_locked() {
+    let steady = Instant::now();
+    let unnamed = |link| {
+        let mut snapshot = Snapshot { link, ..states::manual() };
+        snapshot.state.motion_lock = Some(true);
+        snapshot
+    };
+    for (link, wanted) in [
+        (
+            LinkState::Stale { as_of: steady },
+            "Locked: the unit answers late and has not named its fault.",
+        ),
+        (LinkState::Up { since: steady }, "Locked: the unit reports a fault without naming it."),
+    ] {
+        for size in rig::sizes() {
+            let mut model = rig::model(unnamed(link.clone()));
+            model.steady = steady;
+            let window = rig::window(size, model);
+            assert!(says(&window, wanted), "{wanted}");
+            assert!(!says(&window, "Locked by a fault"), "no fault is known");
+        }
     }
 }
 

@@ -5,6 +5,7 @@ use crate::{
         antenna::AntennaModel,
         driver::{Intent, LinkState},
     },
+    device::panel::Check,
     model::Model,
     ui::state_sentence::missing_angle,
 };
@@ -48,11 +49,7 @@ impl<'a> Locks<'a> {
                 Some("Locked: the unit does not answer.")
             }
         };
-        let fault = (snapshot.state.motion_lock == Some(true)).then_some(if has_checks {
-            "Locked by a fault. See Faults."
-        } else {
-            "Locked by the unit. See what it reports."
-        });
+        let fault = fault(antenna, has_checks);
         let maintenance =
             snapshot.lock_out.is_some().then_some("Locked: the unit is in maintenance.");
         let link = maintenance.or(link);
@@ -83,6 +80,22 @@ impl<'a> Locks<'a> {
             action: common.or(action),
         }
     }
+}
+
+/// The reason why the unit locks motion, if it does.
+fn fault(antenna: &AntennaModel, has_checks: bool) -> Option<&'static str> {
+    let state = &antenna.snapshot.state;
+    if state.motion_lock != Some(true) {
+        return None;
+    }
+    let is_named = state.checks.iter().any(Check::forbids_motion);
+    Some(match (is_named, has_checks) {
+        (true, _) => "Locked by a fault. See Faults.",
+        (false, false) => "Locked by the unit. See what it reports.",
+        // It tells that it has a fault, but the list of its faults has not come.
+        (false, true) if antenna.is_live() => "Locked: the unit reports a fault without naming it.",
+        (false, true) => "Locked: the unit answers late and has not named its fault.",
+    })
 }
 
 /// The reason why the antenna cannot be sent to a direction at all.
