@@ -20,6 +20,7 @@ use azel::{
     plan::{
         Supervision,
         on_board::{Cause, Error, Ranked, Unknown},
+        pass_report::{self, Explained, Explanation},
     },
     protocol::satrak::encode,
     sim::satrak::BUNDLED_FILE,
@@ -57,6 +58,20 @@ pub(crate) fn told(found: Supervision) -> Snapshot {
     let mut snapshot = states::holding();
     snapshot.on_board = Some(OnBoardView { found: Arc::new(found), missing: None, arrives: None });
     snapshot
+}
+
+#[test]
+fn the_cause_of_an_error_goes_once_the_antenna_is_measured_within_its_beam() {
+    let cause = pass_report::Cause::ElevationOffset { offset_deg: 2.0 };
+    let causes = vec![Explanation { cause, left_deg: 0.01, share: 0.9, with: None }];
+    let says_cause = |off_deg: f64, error_deg: f64| {
+        let mut model = rig::model(states::tracking(off_deg));
+        model.antennas[0].explained = Some(Explained { causes: causes.clone(), error_deg });
+        says(&rig::window(LARGE, model), "The elevation is off by +2.00°")
+    };
+    assert!(says_cause(2.0, 1.9));
+    assert!(!says_cause(0.04, 1.9), "it is inside the beam again");
+    assert!(says_cause(0.3, 0.3), "an error within the beam has a cause too");
 }
 
 #[test]

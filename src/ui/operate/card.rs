@@ -26,7 +26,7 @@ use crate::{
     },
     device::{Capabilities, Pointing},
     model::{Model, UiCommand},
-    plan::Barrier,
+    plan::{Barrier, pass_report::Explained},
     station::{AntennaId, Mount},
     ui::{
         antennas, bar,
@@ -361,7 +361,14 @@ fn track<'a>(
 /// The reason why the unit would miss the selected satellite, and a further note on its
 /// on-board track.
 fn on_board(model: &Model, antenna: &AntennaModel) -> [Option<String>; 2] {
-    let explained = antenna.explained.as_ref().and_then(words::record::explained);
+    let half_beam_deg = antenna.config.beam_width_deg / 2.0;
+    let off_deg = antenna.error().map(|error| error.off_beam.degrees());
+    // The search for a cause looks at minutes, and would tell of an error that is over.
+    let is_over = |explained: &&Explained| {
+        explained.error_deg > half_beam_deg && off_deg.is_some_and(|off| off <= half_beam_deg)
+    };
+    let explained = antenna.explained.as_ref().filter(|explained| !is_over(explained));
+    let explained = explained.and_then(words::record::explained);
     let Some(found) = antenna.supervision() else { return [None, explained] };
     let name = model.selected_pass().map(|predicted| predicted.satellite.short_name());
     let is_missed = !found.is_within_beam;
@@ -372,8 +379,7 @@ fn on_board(model: &Model, antenna: &AntennaModel) -> [Option<String>; 2] {
     let lowest_deg = antenna.config.limits.minimum_elevation_deg;
     let lower = found.lower_minimum_deg.map(|deg| words::lower_minimum(deg, lowest_deg));
     // Beside a larger error, the small one that is known would look like its cause.
-    let half_beam_deg = antenna.config.beam_width_deg / 2.0;
-    let is_off = antenna.error().is_some_and(|error| error.off_beam.degrees() > half_beam_deg);
+    let is_off = off_deg.is_some_and(|off| off > half_beam_deg);
     let off = words::within_beam(found, model.appearance.distances);
     let off = off.filter(|_| !is_missed && !is_off);
     let said = explained.into_iter().chain(off).chain(lower).chain(words::not_known(found));
