@@ -33,12 +33,16 @@ pub(super) fn show(ui: &Ui, at: &mut Cursor, model: &CardModel<'_>, actions: &mu
     };
     // The reason of a suspension is shown whole.
     let words = layout(automatic.words, if is_suspended { usize::MAX } else { ROWS });
+    let is_cut = words.elided;
     let room = if is_suspended { words.size().y } else { layout("\n", ROWS).size().y };
     let row = at.take(room.max(TAG.y));
     link_chip::automatic_tag(ui, Rect::from_min_size(row.left_top(), TAG), is_suspended);
     ui.painter().galley(pos2(row.left() + TAG.x + GAP, row.top()), words, colour);
     let spoken = format!("Automatic operation: {}", automatic.words);
-    paint::name_text(ui, "automatic", row, &spoken).on_hover_text(&spoken);
+    let named = paint::name_text(ui, "automatic", row, &spoken);
+    if is_cut {
+        named.on_hover_text(&spoken);
+    }
     if let Some(go_on) = model.go_on {
         at.skip(4.0);
         let row = at.take(SMALL_HEIGHT);
@@ -54,7 +58,9 @@ pub(super) fn show(ui: &Ui, at: &mut Cursor, model: &CardModel<'_>, actions: &mu
         if response.clicked() {
             actions.push(CardAction::GoOn);
         }
-        response.on_hover_text(said);
+        if !has_room {
+            response.on_hover_text(said);
+        }
     }
     at.skip(6.0);
 }

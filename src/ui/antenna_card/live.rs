@@ -85,5 +85,8 @@ fn line(ui: &Ui, row: Rect, (icon, colour): (Icon, egui::Color32), name: &str, w
     let room = rest.with_min_x(drawn.right() + 8.0);
     paint::text_in(ui, room, Align2::RIGHT_CENTER, words, text::small(), t.t2);
     let all = format!("{name}: {words}");
-    paint::name_text(ui, ("live", name), row, &all).on_hover_text(all);
+    let named = paint::name_text(ui, ("live", name), row, &all);
+    if !paint::fits(ui, words, text::small(), room) {
+        named.on_hover_text(all);
+    }
 }

@@ -29,8 +29,15 @@ pub(super) fn band(ui: &Ui, rect: Rect, model: &LockOutModel<'_>, actions: &mut 
     let state = if model.locking { "Being locked out" } else { "In maintenance" };
     let words = format!("{state} by {}", model.by);
     let room = rect.with_min_x(rect.left() + 30.0).with_max_x(key.left() - 6.0);
-    paint::text_in(ui, room, Align2::LEFT_CENTER, &words, text::body_medium(), t.warn);
-    paint::name_text(ui, "lock-out", room, &words).on_hover_text(&words);
+    paint::named_text_in(
+        ui,
+        "lock-out",
+        room,
+        Align2::LEFT_CENTER,
+        &words,
+        text::body_medium(),
+        t.warn,
+    );
     if button.show(ui, "take off", key).clicked() {
         actions.push(CardAction::Maintenance);
     }

@@ -58,8 +58,15 @@ pub(super) fn show(ui: &Ui, block: Rect, offer: Offer<'_>, actions: &mut Vec<Car
     let button = Button::normal(key_words);
     let key = row.with_min_x(row.right() - button.width(ui));
     let room = row.with_max_x(key.left() - 8.0);
-    paint::text_in(ui, room, Align2::LEFT_CENTER, &words, text::body(), t.t2);
-    paint::name_text(ui, "offered track", room, &words).on_hover_text(&words);
+    paint::named_text_in(
+        ui,
+        "offered track",
+        room,
+        Align2::LEFT_CENTER,
+        &words,
+        text::body(),
+        t.t2,
+    );
     let response = button.show(ui, "take the offer", key);
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &said));
     if response.clicked() {

@@ -223,9 +223,13 @@ fn satellite_row(
         }
         return;
     }
-    let width = button.width(ui).min(rest.width());
-    let response = button.show(ui, "track", row.with_min_x(row.right() - width));
-    if response.on_hover_text(selected).clicked() {
+    let whole = button.width(ui);
+    let width = whole.min(rest.width());
+    let mut response = button.show(ui, "track", row.with_min_x(row.right() - width));
+    if width < whole {
+        response = response.on_hover_text(selected);
+    }
+    if response.clicked() {
         actions.push(CardAction::TrackSelected);
     }
 }

@@ -71,8 +71,12 @@ fn show(
     let (state, _) = field_state::of(unit, group, field, draft);
     let at = Columns::of(row::take(ui));
     paint::text_in(ui, at.label, egui::Align2::LEFT_CENTER, field.label, text::small(), t.t1);
-    let about = if field.about.is_empty() { field.label } else { field.about };
-    paint::name_text(ui, ("label", field.key), at.label, field.label).on_hover_text(about);
+    let named = paint::name_text(ui, ("label", field.key), at.label, field.label);
+    if !field.about.is_empty() {
+        named.on_hover_text(field.about);
+    } else if !paint::fits(ui, field.label, text::small(), at.label) {
+        named.on_hover_text(field.label);
+    }
     on_unit(ui, unit, group, field, &at);
     if field.access != Access::Read {
         let is_long = matches!(field.kind, Kind::Text(_) | Kind::Password(_) | Kind::Time);

@@ -99,8 +99,15 @@ pub(super) fn show(
         let (said, colour) = pending(ui, unit, form);
         let left = rect.left() + rect.width() * REPORT;
         let room = Rect::from_x_y_ranges(left..=reverting.left() - 12.0, rect.y_range());
-        paint::text_in(ui, room, Align2::RIGHT_CENTER, &said, text::small(), colour);
-        paint::name_text(ui, "pending", room, &said).on_hover_text(&said);
+        paint::named_text_in(
+            ui,
+            "pending",
+            room,
+            Align2::RIGHT_CENTER,
+            &said,
+            text::small(),
+            colour,
+        );
     }
     if revert.show(ui, "revert settings", reverting).clicked() {
         form.revert();

@@ -65,7 +65,10 @@ pub(super) fn show(ui: &Ui, rect: Rect, unit: &ShownUnit<'_>, commands: &mut Vec
     let down = room.translate(vec2(0.0, 13.0));
     paint::text_in(ui, down, Align2::LEFT_CENTER, &words, text::small(), colour);
     let place = down.with_min_y(rect.center().y + 4.0).with_max_y(rect.bottom());
-    paint::name_text(ui, "settings read", place, &words).on_hover_text(&words);
+    let named = paint::name_text(ui, "settings read", place, &words);
+    if !paint::fits(ui, &words, text::small(), down) {
+        named.on_hover_text(&words);
+    }
 }
 
 /// Result of the copy that was just saved.

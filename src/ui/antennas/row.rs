@@ -67,11 +67,14 @@ pub(super) fn head(ui: &mut Ui) {
     }
 }
 
-/// A text in a column with the accessible name `name`; a cut text is shown whole under the
-/// pointer.
+/// A text in a column with the accessible name `name`, which is under the pointer if the text is cut or
+/// a short form.
 pub(super) fn said(ui: &Ui, rect: Rect, words: &str, font: FontId, colour: Color32, name: &str) {
-    paint::text_in(ui, rect, Align2::LEFT_CENTER, words, font, colour);
-    paint::name_text(ui, ("said", name), rect, name).on_hover_text(name);
+    paint::text_in(ui, rect, Align2::LEFT_CENTER, words, font.clone(), colour);
+    let named = paint::name_text(ui, ("said", name), rect, name);
+    if !name.contains(words) || !paint::fits(ui, words, font, rect) {
+        named.on_hover_text(name);
+    }
 }
 
 /// A state with its mark.

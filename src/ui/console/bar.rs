@@ -189,8 +189,15 @@ pub(super) fn show_strip(ui: &Ui, rect: Rect, state: &ConsoleState) {
             Err(why) => (format!("Not saved: {why}"), t.bad),
         };
         let room = inner.with_min_x(width.right() + PADDING);
-        paint::text_in(ui, room, Align2::RIGHT_CENTER, &words, text::small(), colour);
-        paint::name_text(ui, "saved log", room, &words).on_hover_text(&words);
+        paint::named_text_in(
+            ui,
+            "saved log",
+            room,
+            Align2::RIGHT_CENTER,
+            &words,
+            text::small(),
+            colour,
+        );
     }
 }
 

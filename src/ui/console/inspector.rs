@@ -135,7 +135,10 @@ fn show_value(ui: &mut Ui, value: &ExplainedValue) {
     let right = egui::Align2::RIGHT_CENTER;
     paint::text_in(ui, room, right, &shown, text::small(), t.t1);
     let words = format!("{number} {}: {shown}", value.name);
-    paint::name_text(ui, ("value", value.number), row, &words).on_hover_text(&words);
+    let named = paint::name_text(ui, ("value", value.number), row, &words);
+    if !paint::fits(ui, &shown, text::small(), room) {
+        named.on_hover_text(&words);
+    }
 }
 
 fn bytes(ui: &mut Ui, line: &ConsoleLine) {

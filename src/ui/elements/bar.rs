@@ -110,7 +110,10 @@ fn title(ui: &Ui, rect: Rect, model: &Model, has_sentence: bool) {
         paint::text_in(ui, line(40.0), Align2::LEFT_CENTER, &words, text::small(), colour);
     }
     let place = if has_sentence { line(40.0) } else { rect };
-    paint::name_text(ui, "elements summary", place, &words).on_hover_text(&words);
+    let named = paint::name_text(ui, "elements summary", place, &words);
+    if !has_sentence || !paint::fits(ui, &words, text::small(), place) {
+        named.on_hover_text(&words);
+    }
 }
 
 /// All elements in a sentence, or what is done with them.

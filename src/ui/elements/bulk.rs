@@ -105,5 +105,8 @@ pub(super) fn show(
     let room = room.with_min_x(first.right() + 12.0);
     paint::text_in(ui, room, Align2::LEFT_CENTER, &more, text::small(), t.t2);
     let spoken = format!("{count}. {more}");
-    paint::name_text(ui, "marked", first.union(room), spoken.trim()).on_hover_text(spoken.trim());
+    let named = paint::name_text(ui, "marked", first.union(room), spoken.trim());
+    if !paint::fits(ui, &more, text::small(), room) {
+        named.on_hover_text(spoken.trim());
+    }
 }

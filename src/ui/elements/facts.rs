@@ -47,7 +47,10 @@ pub(super) fn show(
         let drawn = paint::text_in(ui, room, Align2::RIGHT_CENTER, &words, text::small(), t.warn);
         let at = pos2(drawn.left() - 11.0, drawn.center().y);
         icons::paint(ui.painter(), paint::square(at, 12.0), Icon::Warning, t.warn);
-        paint::name_text(ui, "older set in use", drawn, &words).on_hover_text(&words);
+        let named = paint::name_text(ui, "older set in use", drawn, &words);
+        if !paint::fits(ui, &words, text::small(), room) {
+            named.on_hover_text(&words);
+        }
     } else {
         paint::text_in(ui, room, Align2::RIGHT_CENTER, from, text::small(), t.t2);
     }
@@ -83,13 +86,7 @@ pub(super) fn show(
 }
 
 fn fact(ui: &Ui, line: Rect, name: &str, value: &str, colour: Color32) -> Rect {
-    let t = theme::tokens(ui);
-    let left = paint::text_in(ui, line, Align2::LEFT_CENTER, name, text::small(), t.t2);
-    let room = line.with_min_x(left.right() + 8.0);
-    let drawn = paint::text_in(ui, room, Align2::RIGHT_CENTER, value, text::small(), colour);
-    let words = format!("{name}: {value}");
-    paint::name_text(ui, ("element fact", name), line, &words).on_hover_text(&words);
-    drawn
+    paint::fact_in(ui, ("element fact", name), line, name, value, colour)
 }
 
 pub(super) fn figures(elements: &Elements) -> [(&'static str, String); 7] {

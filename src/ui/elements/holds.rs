@@ -74,7 +74,10 @@ fn one(ui: &Ui, line: Rect, model: &Model, antenna: &AntennaModel, elements: &El
     let colour = if tone == Tone::Caution { t.warn } else { t.t1 };
     paint::text_in(ui, room, Align2::LEFT_CENTER, &words, text::small(), colour);
     let spoken = format!("{name}: {words} {since}");
-    paint::name_text(ui, ("holds", name), line, spoken.trim()).on_hover_text(spoken.trim());
+    let named = paint::name_text(ui, ("holds", name), line, spoken.trim());
+    if !paint::fits(ui, &words, text::small(), room) {
+        named.on_hover_text(spoken.trim());
+    }
 }
 
 /// Words for the elements on an antenna. `uploaded`: the epoch of the set that was proved on it.

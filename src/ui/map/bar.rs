@@ -81,8 +81,15 @@ fn title(ui: &Ui, rect: Rect, model: &Model, shown: Shown) {
     paint::text_in(ui, line(top + 19.0), Align2::LEFT_CENTER, "Map", text::title(), t.t1);
     let words = words::summary(model, shown);
     let second = line(top + 40.0);
-    paint::text_in(ui, second, Align2::LEFT_CENTER, &words, text::small(), t.t2);
-    paint::name_text(ui, "map summary", second, &words).on_hover_text(&words);
+    paint::named_text_in(
+        ui,
+        "map summary",
+        second,
+        Align2::LEFT_CENTER,
+        &words,
+        text::small(),
+        t.t2,
+    );
 }
 
 fn scope(ui: &Ui, place: Rect, shown: &mut Shown) {

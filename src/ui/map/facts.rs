@@ -1,11 +1,11 @@
 //! The figures of the selected satellite.
 
-use egui::{Align2, Rect, Ui, pos2, vec2};
+use egui::{Rect, Ui, pos2, vec2};
 
 use super::{PADDING, words};
 use crate::{
     model::{Model, globe::GlobeSatellite},
-    ui::{format, text, theme, widgets::paint},
+    ui::{format, theme, widgets::paint},
 };
 
 /// Height of a line.
@@ -21,11 +21,7 @@ pub(super) fn show(ui: &Ui, rect: Rect, model: &Model, of: &GlobeSatellite) {
     for (index, (name, value)) in facts(model, of).into_iter().enumerate() {
         let min = pos2(rect.left() + PADDING, rect.top() + index as f32 * LINE);
         let line = Rect::from_min_size(min, vec2(rect.width() - 2.0 * PADDING, LINE));
-        let left = paint::text_in(ui, line, Align2::LEFT_CENTER, name, text::small(), t.t2);
-        let room = line.with_min_x(left.right() + 8.0);
-        paint::text_in(ui, room, Align2::RIGHT_CENTER, &value, text::small(), t.t1);
-        let words = format!("{name}: {value}");
-        paint::name_text(ui, ("fact", index), line, &words).on_hover_text(&words);
+        paint::fact_in(ui, ("fact", index), line, name, &value, t.t1);
     }
 }
 

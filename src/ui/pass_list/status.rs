@@ -70,8 +70,15 @@ pub(super) fn show(ui: &Ui, rect: Rect, model: &PassListModel<'_>, commands: &mu
         }
         left.set_right(place.left() - GAP);
     }
-    paint::text_in(ui, left, Align2::LEFT_CENTER, &words, text::small(), colour);
-    paint::name_text(ui, "search status", left, &words).on_hover_text(&words);
+    paint::named_text_in(
+        ui,
+        "search status",
+        left,
+        Align2::LEFT_CENTER,
+        &words,
+        text::small(),
+        colour,
+    );
 }
 
 fn progress(ui: &Ui, rect: Rect, done: usize, of: usize) {

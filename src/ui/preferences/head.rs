@@ -41,7 +41,10 @@ pub(super) fn show(
     paint::text_in(ui, up, Align2::LEFT_CENTER, &title, font, t.t1);
     let down = room.translate(vec2(0.0, rect.height() * 0.23));
     paint::text_in(ui, down, Align2::LEFT_CENTER, &about, text::small(), t.t2);
-    paint::name_text(ui, "page", room, &format!("{title}. {about}")).on_hover_text(&about);
+    let named = paint::name_text(ui, "page", room, &format!("{title}. {about}"));
+    if !paint::fits(ui, &about, text::small(), down) {
+        named.on_hover_text(&about);
+    }
 }
 
 fn about(page: Page, model: &Model, draft: &Draft) -> String {

@@ -121,7 +121,10 @@ fn lines(ui: &Ui, room: Rect, checks: &Checks, (said, colour): (String, Color32)
         let words = "Ctrl Enter saves";
         paint::text_in(ui, below, Align2::RIGHT_CENTER, words, text::caption(), t.t3);
     }
-    paint::name_text(ui, "outcome", right, &said).on_hover_text(&said);
+    let named = paint::name_text(ui, "outcome", right, &said);
+    if !paint::fits(ui, &said, text::body_medium(), right) {
+        named.on_hover_text(&said);
+    }
     if checks.lines.is_empty() {
         return;
     }
@@ -142,8 +145,8 @@ fn lines(ui: &Ui, room: Rect, checks: &Checks, (said, colour): (String, Color32)
         }
         let ink = if *tone == Tone::Good { t.t1 } else { ink };
         let place = row.with_min_x(row.left() + LINE);
-        paint::text_in(ui, place, Align2::LEFT_CENTER, words, text::small(), ink);
-        paint::name_text(ui, ("check", index), place, words).on_hover_text(words);
+        let (salt, left) = (("check", index), Align2::LEFT_CENTER);
+        paint::named_text_in(ui, salt, place, left, words, text::small(), ink);
     }
 }
 

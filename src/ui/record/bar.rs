@@ -89,8 +89,7 @@ fn title(ui: &Ui, rect: Rect, model: &Model, is_wide: bool, state: &RecordState)
             )
         };
         paint::text_in(ui, line(-9.0), left, "Record", text::title(), t.t1);
-        paint::text_in(ui, line(12.0), left, &words, text::small(), t.t2);
-        paint::name_text(ui, "record summary", line(12.0), &words).on_hover_text(&words);
+        paint::named_text_in(ui, "record summary", line(12.0), left, &words, text::small(), t.t2);
     } else {
         paint::text_in(ui, rect, left, "Record", text::title(), t.t1);
         paint::name_text(ui, "record summary", rect, &words).on_hover_text(&words);
@@ -245,5 +244,7 @@ fn recording(ui: &Ui, room: Rect, model: &Model) {
     }
     let response = paint::name_text(ui, "recording", place, &words);
     response.widget_info(|| WidgetInfo::labeled(Role::Status, true, &words));
-    response.on_hover_text(&words);
+    if !has_words || !paint::fits(ui, &words, text::small(), rest) {
+        response.on_hover_text(&words);
+    }
 }

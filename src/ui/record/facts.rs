@@ -61,11 +61,7 @@ pub(super) fn show(
             FactKind::NotKnown => t.t2,
         };
         let line = Rect::from_min_size(pos2(inner.left(), y), vec2(inner.width(), LINE));
-        let left = paint::text_in(ui, line, Align2::LEFT_CENTER, name, text::small(), t.t2);
-        let room = line.with_min_x(left.right() + 8.0);
-        paint::text_in(ui, room, Align2::RIGHT_CENTER, &value, text::small(), colour);
-        let words = format!("{name}: {value}");
-        paint::name_text(ui, ("flown with", index), line, &words).on_hover_text(&words);
+        paint::fact_in(ui, ("flown with", index), line, name, &value, colour);
         y += LINE;
     }
     let Some(words) = clock_first(&opened.pass.report) else { return };

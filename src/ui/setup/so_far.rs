@@ -120,7 +120,12 @@ pub(super) fn show(ui: &Ui, rect: Rect, model: &Model, draft: &SetupDraft, progr
         let colour = if part.tone == Tone::Good { t.t2 } else { colour };
         paint::text_in(ui, state, Align2::RIGHT_CENTER, &part.state, text::small(), colour);
         let spoken = format!("{}: {}", part.name, part.state);
-        paint::name_text(ui, ("part", index), row, &spoken).on_hover_text(&spoken);
+        let named = paint::name_text(ui, ("part", index), row, &spoken);
+        let has_room = paint::fits(ui, &part.name, text::body(), name)
+            && paint::fits(ui, &part.state, text::small(), state);
+        if !has_room {
+            named.on_hover_text(&spoken);
+        }
     }
 }
 

@@ -6,7 +6,7 @@ use egui::{
     text::{LayoutJob, TextFormat, TextWrapping},
 };
 
-use crate::ui::theme;
+use crate::ui::{text, theme};
 
 /// Longest number of a satellite within its constellation, such as M072.
 const MAX_NUMBER_CHARS: usize = 6;
@@ -38,12 +38,64 @@ pub fn text_in(
     font: FontId,
     colour: Color32,
 ) -> Rect {
+    cut_text_in(ui, rect, anchor, text, font, colour).0
+}
+
+/// Paints like [`text_in`]. Returns the painted rectangle, and `true` if the text was cut.
+fn cut_text_in(
+    ui: &Ui,
+    rect: Rect,
+    anchor: Align2,
+    text: &str,
+    font: FontId,
+    colour: Color32,
+) -> (Rect, bool) {
     let mut job = LayoutJob::single_section(text.to_owned(), TextFormat::simple(font, colour));
     job.wrap = TextWrapping::truncate_at_width(rect.width());
     let galley = ui.painter().layout_job(job);
-    let place = anchor.align_size_within_rect(galley.size(), rect);
+    let (place, is_cut) = (anchor.align_size_within_rect(galley.size(), rect), galley.elided);
     ui.painter().galley(place.min, galley, colour);
+    (place, is_cut)
+}
+
+/// Paints like [`text_in`] and names the text. If it was cut, it is whole under the pointer.
+pub fn named_text_in(
+    ui: &Ui,
+    salt: impl egui::AsIdSalt,
+    rect: Rect,
+    anchor: Align2,
+    text: &str,
+    font: FontId,
+    colour: Color32,
+) -> Rect {
+    let (place, is_cut) = cut_text_in(ui, rect, anchor, text, font, colour);
+    let named = name_text(ui, salt, rect, text);
+    if is_cut {
+        named.on_hover_text(text);
+    }
     place
+}
+
+/// Paints a name at the left of `line` and its value at the right. If one was cut, both are whole under
+/// the pointer. Returns the rectangle of the value.
+pub fn fact_in(
+    ui: &Ui,
+    salt: impl egui::AsIdSalt,
+    line: Rect,
+    name: &str,
+    value: &str,
+    colour: Color32,
+) -> Rect {
+    let (font, ink) = (text::small(), theme::tokens(ui).t2);
+    let (left, is_name_cut) = cut_text_in(ui, line, Align2::LEFT_CENTER, name, font.clone(), ink);
+    let room = line.with_min_x(left.right() + 8.0);
+    let (drawn, is_cut) = cut_text_in(ui, room, Align2::RIGHT_CENTER, value, font, colour);
+    let words = format!("{name}: {value}");
+    let named = name_text(ui, salt, line, &words);
+    if is_name_cut || is_cut {
+        named.on_hover_text(words);
+    }
+    drawn
 }
 
 /// Paints the name of a satellite on one line, anchored in `rect`. Where it has no room it is cut before
@@ -92,6 +144,11 @@ pub fn paragraph_in(ui: &Ui, rect: Rect, text: &str, font: FontId, colour: Color
 /// Width of one line of text, in points.
 pub fn text_width(ui: &Ui, text: &str, font: FontId) -> f32 {
     ui.painter().layout_no_wrap(text.to_owned(), font, Color32::PLACEHOLDER).size().x
+}
+
+/// Returns `true` if a line of text has room in the width of `rect`.
+pub fn fits(ui: &Ui, text: &str, font: FontId, rect: Rect) -> bool {
+    text_width(ui, text, font) <= rect.width()
 }
 
 /// A square of `side` around `centre`, for an icon.
@@ -206,7 +263,6 @@ mod tests {
     use egui_kittest::Harness;
 
     use super::{super::testing, *};
-    use crate::ui::text;
 
     /// Text that is painted of `name` in a width in points.
     fn painted(name: &'static str, width: f32) -> String {

@@ -268,7 +268,10 @@ fn standing(ui: &Ui, rect: Rect, salt: impl egui::AsIdSalt, standing: &Standing,
         room = rect.with_min_x(rect.left() + 18.0);
     }
     paint::text_in(ui, room, Align2::LEFT_CENTER, &words, text::small(), colour);
-    paint::name_text(ui, salt, rect, &words).on_hover_text(&words);
+    let named = paint::name_text(ui, salt, rect, &words);
+    if !paint::fits(ui, &words, text::small(), room) {
+        named.on_hover_text(&words);
+    }
 }
 
 fn zone(

@@ -81,8 +81,15 @@ pub(super) fn form(ui: &mut Ui, skies: &mut Skies) {
         let words = format!("{}. The plot shows no skyline.", words::capitalised(&why));
         let words = words.replace('-', "−");
         let line = row(ui, 28.0);
-        paint::text_in(ui, line, Align2::LEFT_CENTER, &words, text::small(), t.bad);
-        paint::name_text(ui, "mask problem", line, &words).on_hover_text(&words);
+        paint::named_text_in(
+            ui,
+            "mask problem",
+            line,
+            Align2::LEFT_CENTER,
+            &words,
+            text::small(),
+            t.bad,
+        );
     }
 }
 
@@ -259,8 +266,7 @@ fn told(ui: &Ui, room: Rect, state: &HorizonState) {
         Some(Err(words)) => (words, t.bad),
         None => return,
     };
-    paint::text_in(ui, room, Align2::LEFT_CENTER, words, text::small(), colour);
-    paint::name_text(ui, "exchanged", room, words).on_hover_text(words);
+    paint::named_text_in(ui, "exchanged", room, Align2::LEFT_CENTER, words, text::small(), colour);
 }
 
 #[cfg(test)]

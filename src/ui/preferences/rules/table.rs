@@ -219,7 +219,10 @@ fn last(ui: &Ui, place: Rect, shown: &Shown, is_idle: bool, is_removed: bool, st
         icons::paint(ui.painter(), at, Icon::Warning, ink);
     }
     let name = format!("Next 48 h: {words}");
-    paint::name_text(ui, ("decides", shown.index), place, &name).on_hover_text(&words);
+    let named = paint::name_text(ui, ("decides", shown.index), place, &name);
+    if !paint::fits(ui, &words, text::small(), room) {
+        named.on_hover_text(&words);
+    }
 }
 
 fn switch(ui: &Ui, rect: Rect, number: &str, is_on: &mut bool, index: usize) {

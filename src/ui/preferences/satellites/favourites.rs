@@ -119,13 +119,16 @@ fn row(
     let in_short = pass_limits::in_short(&all, &around.antennas);
     let words = if in_short.is_empty() { "No limits" } else { &in_short };
     let is_open = state.favourite == Some(number);
-    let response = Button::normal(words).chevron().show(ui, "limits", limits_at);
+    let button = Button::normal(words).chevron();
+    let has_room = button.width(ui) <= limits_at.width();
+    let response = button.show(ui, "limits", limits_at);
     response.widget_info(|| {
         let name = format!("Limits of {name}: {words}");
         egui::WidgetInfo::labeled(egui::Role::Button, true, name)
     });
     ui.ctx().accesskit_node_builder(response.id, |node| node.set_expanded(is_open));
-    if response.on_hover_text(words).clicked() {
+    let response = if has_room { response } else { response.on_hover_text(words) };
+    if response.clicked() {
         state.favourite = (!is_open).then_some(number);
     }
     if is_open {

@@ -102,7 +102,9 @@ fn row(
     let ink = if problem.is_some() { t.bad } else { t.t2 };
     paint::text_in(ui, room, Align2::LEFT_CENTER, &summary, text::small(), ink);
     paint::focus_ring(ui, &response, 4);
-    if response.on_hover_text(&summary).clicked() {
+    let has_room = paint::fits(ui, &summary, text::small(), room);
+    let response = if has_room { response } else { response.on_hover_text(&summary) };
+    if response.clicked() {
         state.satellites.group = (!is_open).then_some(index);
     }
 }
