@@ -326,11 +326,11 @@ fn enter_in_an_address_tests_it_and_goes_on_once_it_was_tested() {
     let mut window = window(rig::LARGE);
     write_site(&mut window);
     press(&mut window, NEXT[0]);
-    press(&mut window, &format!("Add {}", makes::SPECS[0].name));
+    press(&mut window, &format!("Add {}", SPECS[0].name));
     write(&mut window, "Address of the Satrak", "unit.local:4001");
     window.key_press(Key::Enter);
     let tested = match <[UiCommand; 1]>::try_from(asked(&mut window)) {
-        Ok([UiCommand::Station(engine::Command::TestLink(antenna))]) => *antenna,
+        Ok([UiCommand::Station(contract::Command::TestLink(antenna))]) => *antenna,
         other => panic!("{other:?}"),
     };
     assert_eq!(tested.connection.address, "unit.local:4001");
