@@ -70,7 +70,7 @@ fn product(text: &str) -> &str {
 }
 
 /// Layers that are packages of several layers.
-const PACKAGES: [&str; 2] = ["station/", "units/"];
+const PACKAGES: [&str; 3] = ["station/", "units/", "window/"];
 /// Layers inside of the package of orbits.
 const IN_ORBIT: [&str; 2] = ["astro", "name"];
 

@@ -248,7 +248,7 @@ fn keys_of_controls() -> Vec<Taken> {
             }
         }
     }
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/ui");
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/window/ui");
     let mut files = Vec::new();
     sources(&root, &mut files);
     let mut keys = Vec::new();

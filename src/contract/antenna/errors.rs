@@ -55,6 +55,7 @@ impl Errors {
     }
 
     /// The errors at intervals of at least `interval_s`, and those for which `is_kept` returns true.
+    #[must_use]
     pub fn thinned(&self, interval_s: f64, is_kept: impl Fn(&ErrorSample) -> bool) -> Self {
         let (mut thinned, mut last) = (Self::default(), None);
         for sample in self.iter() {

@@ -164,7 +164,7 @@ impl Attempt<'_> {
         self.old_algorithms = folder.old_algorithms().to_vec();
         if let Some(secret) = &secret {
             // The keyring in memory never fails.
-            let _ = places.session.set(&account(&order), secret);
+            let _ = places.session.set(&account(order), secret);
         }
         let wanted = Upload { unit: order.unit.clone(), file: order.file.clone(), elements };
         match upload(&mut folder, wanted, &places.kept, clock, tell, cancel).await {
@@ -201,7 +201,7 @@ impl Attempt<'_> {
 
     fn forget(&self) {
         // The keyring in memory never fails.
-        let _ = self.places.session.remove(&account(&self.order));
+        let _ = self.places.session.remove(&account(self.order));
     }
 }
 

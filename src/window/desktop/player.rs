@@ -83,8 +83,8 @@ async fn run(program: &PathBuf, with: &[&str], sound: Sound) -> io::Result<ExitS
 /// A file with the sound that goes with its last reader.
 fn file(sound: Sound) -> io::Result<File> {
     let bytes: &[u8] = match sound {
-        Sound::Falling => include_bytes!("../../assets/sounds/alarm.wav"),
-        Sound::Rising => include_bytes!("../../assets/sounds/reminder.wav"),
+        Sound::Falling => include_bytes!("../../../assets/sounds/alarm.wav"),
+        Sound::Rising => include_bytes!("../../../assets/sounds/reminder.wav"),
     };
     let mut file = tempfile::tempfile()?;
     file.write_all(bytes)?;
@@ -126,7 +126,7 @@ mod tests {
         let wanted = "pw-play\naplay -q /dev/stdin\naplay -q /dev/stdin\n";
         assert_eq!(log(folder.path()), wanted);
         let played = fs::read(folder.path().join("log.wav")).unwrap();
-        assert_eq!(played, include_bytes!("../../assets/sounds/reminder.wav"));
+        assert_eq!(played, include_bytes!("../../../assets/sounds/reminder.wav"));
     }
 
     #[tokio::test]

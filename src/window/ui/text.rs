@@ -87,22 +87,30 @@ pub fn definitions() -> FontDefinitions {
         fonts.font_data.insert(name.to_owned(), FontData::from_static(bytes).into());
         fonts.families.entry(family).or_default().push(name.to_owned());
     };
-    add(Weight::Regular.family(), "Inter", include_bytes!("../../assets/fonts/Inter-Regular.otf"));
+    add(
+        Weight::Regular.family(),
+        "Inter",
+        include_bytes!("../../../assets/fonts/Inter-Regular.otf"),
+    );
     add(
         Weight::Medium.family(),
         "Inter Medium",
-        include_bytes!("../../assets/fonts/Inter-Medium.otf"),
+        include_bytes!("../../../assets/fonts/Inter-Medium.otf"),
     );
     add(
         Weight::SemiBold.family(),
         "Inter SemiBold",
-        include_bytes!("../../assets/fonts/Inter-SemiBold.otf"),
+        include_bytes!("../../../assets/fonts/Inter-SemiBold.otf"),
     );
-    add(Weight::Bold.family(), "Inter Bold", include_bytes!("../../assets/fonts/Inter-Bold.otf"));
+    add(
+        Weight::Bold.family(),
+        "Inter Bold",
+        include_bytes!("../../../assets/fonts/Inter-Bold.otf"),
+    );
     add(
         FontFamily::Monospace,
         "JetBrains Mono",
-        include_bytes!("../../assets/fonts/JetBrainsMono-Regular.ttf"),
+        include_bytes!("../../../assets/fonts/JetBrainsMono-Regular.ttf"),
     );
     fonts
 }

@@ -1,4 +1,11 @@
-//! A notification service that keeps what it is called with.
+//! A notification service that keeps what it is called with, also for the package above.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::indexing_slicing,
+    clippy::missing_panics_doc,
+    reason = "a test may end here"
+)]
 
 use std::{collections::HashMap, os::unix::net::UnixStream, sync::mpsc};
 
@@ -12,13 +19,13 @@ use super::{
 
 /// A call of `Notify`.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Call {
-    pub(crate) app: String,
-    pub(crate) replaces: u32,
-    pub(crate) title: String,
-    pub(crate) text: String,
-    pub(crate) urgency: u8,
-    pub(crate) is_silent: bool,
+pub struct Call {
+    pub app: String,
+    pub replaces: u32,
+    pub title: String,
+    pub text: String,
+    pub urgency: u8,
+    pub is_silent: bool,
 }
 
 struct Desk {
@@ -83,13 +90,13 @@ pub(super) async fn desk(capabilities: &[&str]) -> (Bus, Connection, mpsc::Recei
 }
 
 /// Ids of the notifications that were closed.
-pub(crate) async fn closed(server: &Connection) -> Vec<u32> {
+pub async fn closed(server: &Connection) -> Vec<u32> {
     let desk = server.object_server().interface::<_, Desk>(OBJECT).await.unwrap();
     desk.get().await.closed.clone()
 }
 
 /// A desktop with a notification service and without players.
-pub(crate) fn desktop() -> (Desktop, Connection, mpsc::Receiver<Call>) {
+pub fn desktop() -> (Desktop, Connection, mpsc::Receiver<Call>) {
     let (bus, server, calls) = zbus::block_on(desk(&["body"]));
     (Desktop { bus, player: Player::within(None), ..Desktop::default() }, server, calls)
 }

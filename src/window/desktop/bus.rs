@@ -33,7 +33,7 @@ pub(super) struct Service {
 }
 
 impl Bus {
-    #[cfg(test)]
+    #[cfg(any(test, feature = "testing"))]
     pub(super) fn of(service: Service) -> Self {
         Self { service: Some(service), ..Self::default() }
     }

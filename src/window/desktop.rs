@@ -10,8 +10,8 @@ pub mod folder;
 #[cfg(target_os = "linux")]
 mod player;
 #[cfg(target_os = "linux")]
-#[cfg(test)]
-pub(crate) mod testing;
+#[cfg(any(test, feature = "testing"))]
+pub mod testing;
 
 #[cfg(not(target_os = "linux"))]
 use self::elsewhere::{Bus, Player};

@@ -365,14 +365,16 @@ impl Model {
                 let standing = Arc::make_mut(list).iter_mut().filter(is_standing);
                 standing.for_each(|alarm| alarm.over_since = Some(self.now));
             }
-            Some(kind) => match Arc::make_mut(list).iter_mut().find(is_standing) {
-                Some(alarm) => alarm.kind = kind,
-                None => {
-                    Arc::make_mut(list).push(Alarm::new(*next_id, None, kind, self.now));
+            Some(kind) => {
+                let list = Arc::make_mut(list);
+                if let Some(alarm) = list.iter_mut().find(is_standing) {
+                    alarm.kind = kind;
+                } else {
+                    list.push(Alarm::new(*next_id, None, kind, self.now));
                     *next_id += 1;
                     *unopened = true;
                 }
-            },
+            }
         }
     }
 

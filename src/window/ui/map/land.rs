@@ -12,7 +12,7 @@ use super::{grid, projection::Projection};
 use crate::ui::tokens::Tokens;
 
 /// Described in `assets/map/README.md`.
-static ASSET: &[u8] = include_bytes!("../../../assets/map/land-110m.bin");
+static ASSET: &[u8] = include_bytes!("../../../../assets/map/land-110m.bin");
 
 static OUTLINES: LazyLock<Outlines> = LazyLock::new(|| Outlines::read(ASSET).unwrap_or_default());
 

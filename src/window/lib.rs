@@ -1,0 +1,15 @@
+//! The window of a station: what the views show, and how they draw it. It knows the contract of a station,
+//! and nothing of the station itself.
+//!
+//! From the bottom: [`desktop`], [`export`], [`model`], [`ui`]; a lower folder never names a higher one.
+
+pub mod desktop;
+pub mod export;
+pub mod model;
+pub mod ui;
+
+use azel_contract as contract;
+use azel_orbit::{self as orbit, astro};
+#[cfg(test)]
+use azel_station::{engine, makes, transfer};
+use azel_units::{clock, controller, device, plan, secret, station};
