@@ -5,6 +5,7 @@
 use std::{
     fs, io,
     path::{Path, PathBuf},
+    sync::Arc,
     time::Duration,
 };
 
@@ -21,6 +22,10 @@ use crate::{
 
 /// Usual name of the file.
 const FILE: &str = "window.toml";
+/// Entries of earlier versions. They are read in silence, and the next write drops them.
+const RETIRED: [&str; 2] = ["columns", "keys"];
+/// Entries that are absent while they have no value.
+const OPTIONAL: [&str; 5] = ["antenna", "group", "list_width", "strip_hours", "window"];
 /// Maximum wait for the last write at the end of the program.
 const FAREWELL: Duration = Duration::from_millis(500);
 
@@ -40,23 +45,41 @@ pub(super) struct Memory {
     pub(super) views: Kept,
 }
 
-impl Memory {
-    /// Reads the file at `path`. A missing or wrong part gets its default.
-    fn read(path: &Path) -> Self {
-        let text = match fs::read_to_string(path) {
-            Ok(text) => text,
-            Err(error) => {
-                if error.kind() != io::ErrorKind::NotFound {
-                    tracing::warn!(%error, path = %path.display(), "not read");
-                }
-                return Self::default();
+/// Reads the file at `path`; empty where there is none, or none that can be read.
+fn read(path: &Path) -> toml::Table {
+    let text = match fs::read_to_string(path) {
+        Ok(text) => text,
+        Err(error) => {
+            if error.kind() != io::ErrorKind::NotFound {
+                tracing::warn!(%error, path = %path.display(), "not read");
             }
-        };
-        let table: toml::Table = toml::from_str(&text).unwrap_or_else(|error| {
-            tracing::warn!(%error, path = %path.display(), "not used");
-            toml::Table::new()
-        });
-        let is_set = |key: &str| flag(&table, key).unwrap_or_default();
+            return toml::Table::new();
+        }
+    };
+    toml::from_str(&text).unwrap_or_else(|error| {
+        tracing::warn!(%error, path = %path.display(), "not used");
+        toml::Table::new()
+    })
+}
+
+/// Adds entries of `old` that this version does not know, such as those of a later one.
+fn keep_unknown(new: &mut toml::Table, old: &toml::Table) {
+    for (key, old) in old {
+        match (new.get_mut(key), old) {
+            (Some(toml::Value::Table(new)), toml::Value::Table(old)) => keep_unknown(new, old),
+            (Some(_), _) => {}
+            (None, _) if RETIRED.contains(&&**key) || OPTIONAL.contains(&&**key) => {}
+            (None, _) => {
+                new.insert(key.clone(), old.clone());
+            }
+        }
+    }
+}
+
+impl Memory {
+    /// The memory that a file holds. A missing or wrong part gets its default.
+    fn of_file(table: &toml::Table) -> Self {
+        let is_set = |key: &str| flag(table, key).unwrap_or_default();
         let number = |key: &str| {
             let number = table.get(key).and_then(toml::Value::as_integer);
             number.and_then(|number| u32::try_from(number).ok())
@@ -65,24 +88,24 @@ impl Memory {
         let list = ListChoice::default();
         Self {
             appearance: Appearance {
-                theme: word(&table, "theme"),
+                theme: word(table, "theme"),
                 light_by_day: is_set("light_by_day"),
                 scale_percent: number("scale_percent")
                     .filter(|percent| Appearance::SCALES_PERCENT.contains(percent))
                     .unwrap_or(Appearance::default().scale_percent),
-                local_time: flag(&table, "local_time").unwrap_or(Appearance::default().local_time),
+                local_time: flag(table, "local_time").unwrap_or(Appearance::default().local_time),
                 angle_decimals: number("angle_decimals")
                     .filter(|decimals| Appearance::ANGLE_DECIMALS.contains(decimals))
                     .unwrap_or(Appearance::default().angle_decimals),
-                distances: word(&table, "distances"),
+                distances: word(table, "distances"),
             },
             list: ListChoice {
-                scope: word(&table, "pass_scope"),
+                scope: word(table, "pass_scope"),
                 favourites_h: span("pass_hours").unwrap_or(list.favourites_h),
                 all_h: span("pass_hours_of_all").unwrap_or(list.all_h),
             },
             antenna: table.get("antenna").and_then(toml::Value::as_str).map(str::to_owned),
-            view: kept_view(word(&table, "view")),
+            view: kept_view(word(table, "view")),
             place: table.get("window").and_then(|place| place.clone().try_into().ok()),
             views: Kept {
                 travel_open: is_set("travel_open"),
@@ -105,7 +128,7 @@ impl Memory {
         self.view = kept_view(view);
     }
 
-    fn to_toml(&self) -> Result<String, toml::ser::Error> {
+    fn to_toml(&self) -> Result<toml::Table, toml::ser::Error> {
         #[derive(Serialize)]
         struct Lines<'a> {
             theme: ThemeName,
@@ -132,7 +155,7 @@ impl Memory {
             #[serde(skip_serializing_if = "Option::is_none")]
             window: Option<Place>,
         }
-        toml::to_string(&Lines {
+        toml::Table::try_from(Lines {
             theme: self.appearance.theme,
             light_by_day: self.appearance.light_by_day,
             scale_percent: self.appearance.scale_percent,
@@ -231,6 +254,8 @@ pub(super) struct Keeper {
     /// The kept state.
     pub(super) memory: Memory,
     written: Memory,
+    /// The file as it was read.
+    file: Arc<toml::Table>,
     path: Option<PathBuf>,
     job: Option<Job<()>>,
 }
@@ -241,12 +266,14 @@ impl Keeper {
     pub(super) fn beside(station: Option<&Path>) -> Self {
         let path = station.map(memory_path);
         let usual = station.map(|station| station.with_file_name(FILE));
+        let file = path.as_deref().map(read).unwrap_or_default();
         let memory = match (path.as_deref(), usual.as_deref()) {
-            (Some(path), Some(usual)) if !path.exists() => Memory::read(usual).of_another_station(),
-            (Some(path), _) => Memory::read(path),
-            (None, _) => Memory::default(),
+            (Some(path), Some(usual)) if !path.exists() => {
+                Memory::of_file(&read(usual)).of_another_station()
+            }
+            _ => Memory::of_file(&file),
         };
-        Self { written: memory.clone(), memory, path, job: None }
+        Self { written: memory.clone(), memory, file: Arc::new(file), path, job: None }
     }
 
     /// Writes changes on a thread of its own, one write at a time.
@@ -259,9 +286,10 @@ impl Keeper {
         }
         // Not tried again before the next change.
         self.written = self.memory.clone();
-        let memory = self.memory.clone();
-        let work =
-            Job::start("azel-window-file", Wake::clone(wake), move |_| write(&memory, &path));
+        let (memory, file) = (self.memory.clone(), Arc::clone(&self.file));
+        let work = Job::start("azel-window-file", Wake::clone(wake), move |_| {
+            write(&memory, &file, &path);
+        });
         match work {
             Ok(job) => self.job = Some(job),
             Err(error) => tracing::warn!(%error, "no thread to keep the window"),
@@ -279,11 +307,13 @@ impl Keeper {
     }
 }
 
-fn write(memory: &Memory, path: &Path) {
-    let written = memory
-        .to_toml()
-        .map_err(io::Error::other)
-        .and_then(|text| whole_file::replace(path, text.as_bytes()));
+fn write(memory: &Memory, file: &toml::Table, path: &Path) {
+    let text = memory.to_toml().and_then(|mut table| {
+        keep_unknown(&mut table, file);
+        toml::to_string(&table)
+    });
+    let written =
+        text.map_err(io::Error::other).and_then(|text| whole_file::replace(path, text.as_bytes()));
     if let Err(error) = written {
         tracing::warn!(%error, path = %path.display(), "the window is not kept");
     }
@@ -421,10 +451,32 @@ mod tests {
             ("theme = \"", Memory::default()),
         ] {
             fs::write(&path, text).unwrap();
-            assert_eq!(Memory::read(&path), wanted, "{text}");
+            assert_eq!(Memory::of_file(&read(&path)), wanted, "{text}");
         }
         fs::write(&path, [0xFF, 0xFE]).unwrap();
-        assert_eq!(Memory::read(&path), Memory::default());
+        assert_eq!(Memory::of_file(&read(&path)), Memory::default());
+    }
+
+    #[test]
+    fn a_write_keeps_entries_of_a_later_version_and_drops_those_of_earlier_ones() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("window.toml");
+        let text = "antenna = 'Mast'\nlater = 1\nkeys = [['operate', 'N', 'J']]\ncolumns = ['age']\n\
+                    strip_hours = 24\n[layers]\nclouds = true\nnames = true\n";
+        fs::write(&path, text).unwrap();
+        let mut keeper = Keeper::beside(Some(&folder.path().join("station.toml")));
+        keeper.memory.antenna = None;
+        keeper.memory.views.strip_hours = None;
+        keeper.memory.views.layers.names = false;
+        keeper.finish(&silent());
+        let file = read(&path);
+        assert_eq!(file.get("later"), Some(&toml::Value::Integer(1)));
+        let layers = file.get("layers").and_then(toml::Value::as_table).unwrap();
+        let flags = ["clouds", "names"].map(|key| layers.get(key).and_then(toml::Value::as_bool));
+        assert_eq!(flags, [Some(true), Some(false)]);
+        for gone in ["keys", "columns", "antenna", "strip_hours"] {
+            assert_eq!(file.get(gone), None, "{gone}");
+        }
     }
 
     #[test]

@@ -1,7 +1,9 @@
-//! What a station shows and accepts: snapshots, events, commands and refusals. Everything here can be
-//! serialised, and nothing here does any work.
+//! What a station shows and accepts: snapshots, events, commands and refusals. A station fills these
+//! types, and a window, which may be on another machine, reads them.
 //!
-//! A station fills these types, and a window, which may be on another machine, reads them.
+//! They can be serialised, and no work is done here. Two types have contents that a client gets apart
+//! from a snapshot: the lines of a link ([`driver::WireLog`]), and the passes of a list
+//! ([`passes::PassList`]), whose outlines are worked out at first use.
 
 pub mod alarms;
 pub mod antenna;

@@ -19,6 +19,10 @@ pub use unread::Unread;
 use super::{Antenna, AntennaId, ControllerSpec, Favourites, Frequency, OnClose, Station, ranges};
 use crate::astro::{HorizonMask, Site};
 
+/// Entries of earlier versions, without the numbers of list entries. They are read in silence, and the
+/// next save drops them.
+const RETIRED: [&str; 1] = ["antenna.upkeep.upload"];
+
 /// An entry of the file that was not taken over as it stands.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Note {
@@ -339,11 +343,19 @@ impl Fields<'_> {
     }
 
     fn name_the_unknown(&mut self) {
-        let unknown: Vec<String> = self.table.keys().cloned().collect();
+        let keys = self.table.keys().filter(|key| !is_retired(&self.path, key));
+        let unknown: Vec<String> = keys.cloned().collect();
         for key in unknown {
             self.note(&key, NoteReason::Unknown);
         }
     }
+}
+
+/// Returns `true` if earlier versions wrote an entry at this place, such as `antenna[0].upkeep.`.
+fn is_retired(path: &str, key: &str) -> bool {
+    let mut place = format!("{path}{key}");
+    place.retain(|letter| !letter.is_ascii_digit() && !matches!(letter, '[' | ']'));
+    RETIRED.contains(&&*place)
 }
 
 fn catalog_number(value: &Value) -> Option<u32> {

@@ -94,6 +94,17 @@ fn everything_about_the_schedule_comes_back_as_it_was_saved() {
 }
 
 #[test]
+fn an_entry_of_an_earlier_version_is_read_in_silence_and_dropped() {
+    let entry = "[antenna.upkeep]\nsets_clock = true\n[antenna.upkeep.upload]\nhost = 'unit'\n";
+    let (_folder, path) = written(&format!("{ANTENNA}\n{entry}"));
+    let Loaded { station, notes } = load(&path).unwrap();
+    assert_eq!(notes, []);
+    station::save(&station, &path, SPECS).unwrap();
+    let text = std::fs::read_to_string(&path).unwrap();
+    assert!(text.contains("sets_clock") && !text.contains("upload]"), "{text}");
+}
+
+#[test]
 fn a_station_file_from_before_schedules_means_what_it_meant() {
     let (_folder, path) = written(&format!("favourites = [43013]\n{ANTENNA}"));
     let Loaded { station, notes } = load(&path).unwrap();
