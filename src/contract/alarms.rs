@@ -137,9 +137,9 @@ impl AlarmChange {
         let is_set = |part: fn(&Alarm) -> bool| part(alarm) && !before.is_some_and(part);
         if is_new {
             Some(Self::Came)
-        } else if is_set(|it| it.shelved_until.is_some()) {
+        } else if is_set(|alarm| alarm.shelved_until.is_some()) {
             Some(Self::Shelved)
-        } else if is_set(|it| it.seen) {
+        } else if is_set(|alarm| alarm.seen) {
             Some(Self::Acknowledged)
         } else if is_set(Alarm::is_over) {
             Some(Self::Over)

@@ -170,8 +170,8 @@ impl AntennaModel {
     /// Catalog number of the satellite that the antenna has the command to track or to wait for.
     pub fn commanded_number(&self) -> Option<u32> {
         let program = self.snapshot.state.program;
-        let is_done =
-            !self.follows() && program.is_some_and(|it| it.enabled && it.phase == Phase::Completed);
+        let is_done = !self.follows()
+            && program.is_some_and(|program| program.enabled && program.phase == Phase::Completed);
         self.tracked_number().filter(|_| !is_done)
     }
 
@@ -215,7 +215,7 @@ impl AntennaModel {
 
     fn is_program_on(&self) -> bool {
         let program = self.snapshot.state.program;
-        program.is_some_and(|it| it.enabled && it.phase != Phase::Completed)
+        program.is_some_and(|program| program.enabled && program.phase != Phase::Completed)
     }
 
     /// Returns `true` while a target is tracked, on board or by this program.

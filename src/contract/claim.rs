@@ -1,4 +1,4 @@
-//! Who holds a station file or a unit.
+//! The holder of a station file or of a unit.
 
 use std::path::PathBuf;
 

@@ -29,7 +29,7 @@ impl Alarms {
         };
         // A cause comes before its effect, so that the chain ends.
         let first_cause =
-            |effect| std::iter::successors(cause_of(effect), |of| cause_of(of)).last();
+            |effect| std::iter::successors(cause_of(effect), |cause| cause_of(cause)).last();
         let place = |alarm| Placed { alarm, follows: first_cause(alarm).map(|cause| cause.id) };
         let all: Vec<Placed<'_>> = self.list.iter().map(place).collect();
         let mut groups: Vec<Vec<Placed<'_>>> = Vec::new();

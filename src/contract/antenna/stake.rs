@@ -35,7 +35,9 @@ impl AntennaModel {
             return Some(Stake::OnBoard(held.map(|held| held.name.clone())));
         }
         if snapshot.intent == Intent::Track {
-            return Some(Stake::OnBoard(snapshot.target.as_ref().map(|it| it.name.clone())));
+            return Some(Stake::OnBoard(
+                snapshot.target.as_ref().map(|target| target.name.clone()),
+            ));
         }
         let moves = state.measured.is_some_and(|measured| measured.moving());
         if moves || snapshot.jog.is_some() || snapshot.step.is_some() {

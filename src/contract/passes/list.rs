@@ -174,8 +174,8 @@ impl<'a> UpcomingPasses<'a> {
 
     pub fn iter(&self) -> impl Iterator<Item = &'a PredictedPass> {
         let passes = &self.list.passes;
-        let starts = iter::once(0).chain(self.left_out.iter().map(|of| of.end));
-        let ends = self.left_out.iter().map(|of| of.start).chain(iter::once(passes.len()));
+        let starts = iter::once(0).chain(self.left_out.iter().map(|range| range.end));
+        let ends = self.left_out.iter().map(|range| range.start).chain(iter::once(passes.len()));
         starts.zip(ends).flat_map(|(start, end)| passes.get(start..end).unwrap_or_default())
     }
 

@@ -178,8 +178,8 @@ impl Operate for Operation {
     }
 
     fn without_motion(mut self) -> Self {
-        if let Self::On(on) = &mut self {
-            on.moved_at = None;
+        if let Self::On(active) = &mut self {
+            active.moved_at = None;
         }
         self
     }
@@ -213,22 +213,22 @@ impl Operate for Operation {
         if matches!(self, Self::Suspended { .. }) {
             *self = Self::switched_on();
             // The operator is there, and has just said it.
-            if let Self::On(on) = self {
-                on.moved_at = Some(now);
+            if let Self::On(active) = self {
+                active.moved_at = Some(now);
             }
         }
     }
 
     fn take_outcome(&mut self, outcome: Outcome) {
-        let Self::On(on) = self else { return };
-        let Doing::Takes(taking) = &mut on.doing else { return };
+        let Self::On(active) = self else { return };
+        let Doing::Takes(taking) = &mut active.doing else { return };
         if is_skipped(taking) {
             return;
         }
         match outcome {
             Outcome::Failed => {
                 taking.given_up = Some(GivenUp::Refused);
-                on.failures += 1;
+                active.failures += 1;
                 end_after_failures(self);
             }
             // A blocked path says nothing about the next pass.
@@ -250,8 +250,8 @@ impl Operate for Operation {
     }
 
     fn ended_by_unit(&mut self, now: Timestamp) {
-        let Self::On(on) = self else { return };
-        match &on.doing {
+        let Self::On(active) = self else { return };
+        match &active.doing {
             Doing::Takes(taking) if is_skipped(taking) => {}
             Doing::Rests | Doing::Announces { .. } => {}
             Doing::Takes(Taking { proved_at: None, .. }) => self.take_outcome(Outcome::Failed),
@@ -263,14 +263,14 @@ impl Operate for Operation {
         if seen.is_locked_out {
             self.switch_off(OffBecause::LockedOut);
         }
-        let Self::On(on) = self else { return None };
-        on.see(seen, now);
-        if let Some(duty) = on.found_at_work(duties, seen, wishes, now) {
-            on.take(duty, 1, now);
+        let Self::On(active) = self else { return None };
+        see(active, seen, now);
+        if let Some(duty) = found_at_work(active, duties, seen, wishes, now) {
+            take(active, duty, 1, now);
             return Some(Act::TakeOver(duty));
         }
         if seen.is_moved_elsewhere {
-            if on.is_moved_for_long(now) && !seen.may_be_planned {
+            if is_moved_for_long(active, now) && !seen.may_be_planned {
                 self.suspend(Interruption::Elsewhere, now);
             }
             return None;
@@ -278,281 +278,239 @@ impl Operate for Operation {
         if seen.turns_unasked {
             return None;
         }
-        let act = on.step(duties, seen, wishes, now);
+        let act = step(active, duties, seen, wishes, now);
         end_after_failures(self);
         act
     }
 }
 
-/// Steps of automatic operation that is on.
-trait OperateOn {
-    /// Brings what it does up to date.
-    fn see(&mut self, seen: Seen, now: Timestamp);
-
-    /// After the clock was set back, what was done by the old time tells nothing any more.
-    fn forget_the_future(&mut self, now: Timestamp);
-
-    /// The pass of the schedule that the unit tracks on its own, as automatic operation left it.
-    fn found_at_work(
-        &self,
-        duties: &[Duty],
-        seen: Seen,
-        wishes: Wishes,
-        now: Timestamp,
-    ) -> Option<Duty>;
-
-    fn is_moved_for_long(&self, now: Timestamp) -> bool;
-
-    /// Seconds since the last motion.
-    fn rest_s(&self, now: Timestamp) -> f64;
-
-    fn step(&mut self, duties: &[Duty], seen: Seen, wishes: Wishes, now: Timestamp) -> Option<Act>;
-
-    /// An announcement stands only while its motion can be made and is still the next. One late reply
-    /// does not end it: with frequent ones, the warning would begin again for ever.
-    fn keep_announcement(&mut self, next: Duty, seen: Seen, wishes: Wishes, now: Timestamp);
-
-    fn take(&mut self, duty: Duty, requests: u8, now: Timestamp);
-
-    /// A pass that an outage took away is asked for again once the unit answers and does nothing,
-    /// and given up if that leads to nothing.
-    fn again(
-        &mut self,
-        taking: Taking,
-        duties: &[Duty],
-        seen: Seen,
-        wishes: Wishes,
-        now: Timestamp,
-    ) -> Option<Act>;
-
-    /// Asks again for a pass that the unit would have missed. The session judges what is left of it.
-    fn judge_again(&mut self, duty: Duty, wishes: Wishes, now: Timestamp) -> Option<Act>;
-
-    /// Parks until the next pass, where the time is enough for both ways.
-    fn park(
-        &mut self,
-        next: Option<Duty>,
-        seen: Seen,
-        wishes: Wishes,
-        now: Timestamp,
-    ) -> Option<Act>;
+/// Brings the activity up to date.
+fn see(active: &mut On, seen: Seen, now: Timestamp) {
+    forget_the_future(active, now);
+    if !seen.is_moved_elsewhere {
+        active.moves_since = None;
+    } else if active.moves_since.is_none() {
+        active.moves_since = Some(now);
+    }
+    if let Doing::Takes(taking) = &mut active.doing {
+        if seen.takes == Some(taking.pass.0) && seen.is_live {
+            if seen.moves {
+                active.moved_at = Some(now);
+            }
+            if taking.attempt == Attempt::NotBegun {
+                taking.attempt = Attempt::Begun;
+            }
+            if seen.is_proved && taking.proved_at.is_none() {
+                taking.proved_at = Some(now);
+                taking.requests = 0;
+                taking.given_up = taking.given_up.filter(|given_up| is_final(*given_up));
+            }
+        }
+        if now >= taking.until {
+            // A track from here counts as proved before the unit has answered to it.
+            if taking.proved_at.is_some() && taking.given_up.is_none() {
+                active.failures = 0;
+            }
+            active.doing = Doing::Rests;
+        }
+    }
 }
 
-impl OperateOn for On {
-    fn see(&mut self, seen: Seen, now: Timestamp) {
-        self.forget_the_future(now);
-        if !seen.is_moved_elsewhere {
-            self.moves_since = None;
-        } else if self.moves_since.is_none() {
-            self.moves_since = Some(now);
+/// Drops times of the old clock after it was set back.
+fn forget_the_future(active: &mut On, now: Timestamp) {
+    active.moved_at = active.moved_at.filter(|at| *at <= now);
+    active.moves_since = active.moves_since.filter(|since| *since <= now);
+    if matches!(&active.doing, Doing::Takes(taking) if taking.asked_at > now) {
+        active.doing = Doing::Rests;
+    }
+}
+
+/// The pass of the schedule that the unit tracks on its own, as automatic operation left it.
+fn found_at_work(
+    active: &On,
+    duties: &[Duty],
+    seen: Seen,
+    wishes: Wishes,
+    now: Timestamp,
+) -> Option<Duty> {
+    let is_free = !matches!(active.doing, Doing::Takes(_)) && seen.can_be_sent;
+    let held = wishes.held.filter(|held| is_free && seen.offers == Some(held.0))?;
+    let is_it = |duty: &&Duty| is_same_pass(duty.pass, held) && now < duty.until;
+    duties.iter().find(is_it).copied()
+}
+
+fn is_moved_for_long(active: &On, now: Timestamp) -> bool {
+    active.moves_since.is_some_and(|since| seconds_between(since, now) >= COASTS_S)
+}
+
+/// Seconds since the last motion.
+fn rest_s(active: &On, now: Timestamp) -> f64 {
+    active.moved_at.map_or(f64::INFINITY, |at| seconds_between(at, now))
+}
+
+fn step(
+    active: &mut On,
+    duties: &[Duty],
+    seen: Seen,
+    wishes: Wishes,
+    now: Timestamp,
+) -> Option<Act> {
+    if let Doing::Takes(taking) = &active.doing {
+        return again(active, *taking, duties, seen, wishes, now);
+    }
+    let left = |duty: &&Duty| seconds_between(now, duty.until) > WORTH_S;
+    let next = duties.iter().find(left).copied();
+    let Some(duty) = next else {
+        if matches!(active.doing, Doing::Announces { .. }) {
+            active.doing = Doing::Rests;
         }
-        if let Doing::Takes(taking) = &mut self.doing {
-            if seen.takes == Some(taking.pass.0) && seen.is_live {
-                if seen.moves {
-                    self.moved_at = Some(now);
-                }
-                if taking.attempt == Attempt::NotBegun {
-                    taking.attempt = Attempt::Begun;
-                }
-                if seen.is_proved && taking.proved_at.is_none() {
-                    taking.proved_at = Some(now);
-                    taking.requests = 0;
-                    taking.given_up = taking.given_up.filter(|given_up| is_final(*given_up));
-                }
-            }
-            if now >= taking.until {
-                // A track from here counts as proved before the unit has answered to it.
-                if taking.proved_at.is_some() && taking.given_up.is_none() {
-                    self.failures = 0;
-                }
-                self.doing = Doing::Rests;
-            }
+        return park(active, None, seen, wishes, now);
+    };
+    // The operator has it tracked already, from here.
+    if seen.is_live && seen.takes == Some(duty.pass.0) && now >= duty.go_at {
+        take(active, duty, 1, now);
+        return None;
+    }
+    keep_announcement(active, duty, seen, wishes, now);
+    let is_announced = rest_s(active, now) >= wishes.longest_rest_s;
+    let lead_s = if is_announced { wishes.announced_for_s } else { 0.0 };
+    if seconds_between(now, duty.go_at) > lead_s {
+        return park(active, Some(duty), seen, wishes, now);
+    }
+    match &active.doing {
+        Doing::Announces { moves_at, pass } if is_same_pass(*pass, duty.pass) => {
+            let is_over = now >= *moves_at;
+            is_over.then_some(())?;
         }
-    }
-
-    fn forget_the_future(&mut self, now: Timestamp) {
-        self.moved_at = self.moved_at.filter(|at| *at <= now);
-        self.moves_since = self.moves_since.filter(|since| *since <= now);
-        if matches!(&self.doing, Doing::Takes(taking) if taking.asked_at > now) {
-            self.doing = Doing::Rests;
-        }
-    }
-
-    fn found_at_work(
-        &self,
-        duties: &[Duty],
-        seen: Seen,
-        wishes: Wishes,
-        now: Timestamp,
-    ) -> Option<Duty> {
-        let is_free = !matches!(self.doing, Doing::Takes(_)) && seen.can_be_sent;
-        let held = wishes.held.filter(|held| is_free && seen.offers == Some(held.0))?;
-        let is_it = |duty: &&Duty| is_same_pass(duty.pass, held) && now < duty.until;
-        duties.iter().find(is_it).copied()
-    }
-
-    fn is_moved_for_long(&self, now: Timestamp) -> bool {
-        self.moves_since.is_some_and(|since| seconds_between(since, now) >= COASTS_S)
-    }
-
-    fn rest_s(&self, now: Timestamp) -> f64 {
-        self.moved_at.map_or(f64::INFINITY, |at| seconds_between(at, now))
-    }
-
-    fn step(&mut self, duties: &[Duty], seen: Seen, wishes: Wishes, now: Timestamp) -> Option<Act> {
-        if let Doing::Takes(taking) = &self.doing {
-            return self.again(*taking, duties, seen, wishes, now);
-        }
-        let left = |duty: &&Duty| seconds_between(now, duty.until) > WORTH_S;
-        let next = duties.iter().find(left).copied();
-        let Some(duty) = next else {
-            if matches!(self.doing, Doing::Announces { .. }) {
-                self.doing = Doing::Rests;
-            }
-            return self.park(None, seen, wishes, now);
-        };
-        // The operator has it tracked already, from here.
-        if seen.is_live && seen.takes == Some(duty.pass.0) && now >= duty.go_at {
-            self.take(duty, 1, now);
+        _ if is_announced && !(seen.is_live && seen.can_be_sent && seen.not_ready.is_none()) => {
             return None;
         }
-        self.keep_announcement(duty, seen, wishes, now);
-        let is_announced = self.rest_s(now) >= wishes.longest_rest_s;
-        let lead_s = if is_announced { wishes.announced_for_s } else { 0.0 };
-        if seconds_between(now, duty.go_at) > lead_s {
-            return self.park(Some(duty), seen, wishes, now);
+        _ if is_announced => {
+            let moves_at = add_seconds(now, wishes.announced_for_s);
+            active.doing = Doing::Announces { moves_at, pass: duty.pass };
+            return None;
         }
-        match &self.doing {
-            Doing::Announces { moves_at, pass } if is_same_pass(*pass, duty.pass) => {
-                let is_over = now >= *moves_at;
-                is_over.then_some(())?;
-            }
-            _ if is_announced
-                && !(seen.is_live && seen.can_be_sent && seen.not_ready.is_none()) =>
-            {
-                return None;
-            }
-            _ if is_announced => {
-                let moves_at = add_seconds(now, wishes.announced_for_s);
-                self.doing = Doing::Announces { moves_at, pass: duty.pass };
-                return None;
-            }
-            _ => {}
-        }
-        (seen.is_live && seen.can_be_sent && seen.not_ready.is_none()).then(|| {
-            self.take(duty, 1, now);
-            Act::Take(duty)
-        })
+        _ => {}
     }
+    (seen.is_live && seen.can_be_sent && seen.not_ready.is_none()).then(|| {
+        take(active, duty, 1, now);
+        Act::Take(duty)
+    })
+}
 
-    fn keep_announcement(&mut self, next: Duty, seen: Seen, wishes: Wishes, now: Timestamp) {
-        let Doing::Announces { pass, .. } = &self.doing else { return };
-        let is_near = seconds_between(now, next.go_at) <= wishes.announced_for_s;
-        let is_it = is_same_pass(*pass, next.pass) && is_near;
-        if !is_it || seen.is_silent || !seen.can_be_sent || seen.not_ready.is_some() {
-            self.doing = Doing::Rests;
-        }
+/// An announcement stands only while its motion can be made and is still the next. One late reply
+/// does not end it: with frequent ones, the warning would begin again for ever.
+fn keep_announcement(active: &mut On, next: Duty, seen: Seen, wishes: Wishes, now: Timestamp) {
+    let Doing::Announces { pass, .. } = &active.doing else { return };
+    let is_near = seconds_between(now, next.go_at) <= wishes.announced_for_s;
+    let is_it = is_same_pass(*pass, next.pass) && is_near;
+    if !is_it || seen.is_silent || !seen.can_be_sent || seen.not_ready.is_some() {
+        active.doing = Doing::Rests;
     }
+}
 
-    fn take(&mut self, duty: Duty, requests: u8, now: Timestamp) {
-        let Duty { pass, from, until, .. } = duty;
-        self.moved_at = Some(now);
-        self.doing = Doing::Takes(Taking {
-            pass,
-            from,
-            until,
-            asked_at: now,
-            requests,
-            attempt: Attempt::NotBegun,
-            proved_at: None,
-            given_up: None,
-        });
-    }
+fn take(active: &mut On, duty: Duty, requests: u8, now: Timestamp) {
+    let Duty { pass, from, until, .. } = duty;
+    active.moved_at = Some(now);
+    active.doing = Doing::Takes(Taking {
+        pass,
+        from,
+        until,
+        asked_at: now,
+        requests,
+        attempt: Attempt::NotBegun,
+        proved_at: None,
+        given_up: None,
+    });
+}
 
-    fn again(
-        &mut self,
-        taking: Taking,
-        duties: &[Duty],
-        seen: Seen,
-        wishes: Wishes,
-        now: Timestamp,
-    ) -> Option<Act> {
-        let is_asked = seconds_between(taking.asked_at, now) < LATE_S;
-        let is_idle = seen.takes != Some(taking.pass.0) && !seen.moves;
-        // Somebody may stand beside the unit to repair it: announce its next motion.
-        if seen.not_ready.is_some() && is_idle && !is_skipped(&taking) {
-            (self.doing, self.moved_at) = (Doing::Rests, None);
-            return None;
-        }
-        let is_ready = seen.is_live && seen.can_be_sent;
-        if is_skipped(&taking) || is_asked || !is_idle || !is_ready {
-            return None;
-        }
-        let duty = duties.iter().find(|duty| is_same_pass(duty.pass, taking.pass))?;
-        if taking.given_up.is_some() {
-            return self.judge_again(*duty, wishes, now);
-        }
-        if taking.requests >= REQUESTS {
-            if let Doing::Takes(taking) = &mut self.doing {
-                taking.given_up = Some(GivenUp::Refused);
-            }
-            self.failures += 1;
-            return None;
-        }
-        let is_worth_it = seconds_between(now, duty.until) > WORTH_S;
-        is_worth_it.then(|| {
-            self.take(*duty, taking.requests + 1, now);
-            Act::Take(*duty)
-        })
+/// A pass that an outage took away is asked for again once the unit answers and does nothing,
+/// and given up if that leads to nothing.
+fn again(
+    active: &mut On,
+    taking: Taking,
+    duties: &[Duty],
+    seen: Seen,
+    wishes: Wishes,
+    now: Timestamp,
+) -> Option<Act> {
+    let is_asked = seconds_between(taking.asked_at, now) < LATE_S;
+    let is_idle = seen.takes != Some(taking.pass.0) && !seen.moves;
+    // Somebody may stand beside the unit to repair it: announce its next motion.
+    if seen.not_ready.is_some() && is_idle && !is_skipped(&taking) {
+        (active.doing, active.moved_at) = (Doing::Rests, None);
+        return None;
     }
+    let is_ready = seen.is_live && seen.can_be_sent;
+    if is_skipped(&taking) || is_asked || !is_idle || !is_ready {
+        return None;
+    }
+    let duty = duties.iter().find(|duty| is_same_pass(duty.pass, taking.pass))?;
+    if taking.given_up.is_some() {
+        return judge_again(active, *duty, wishes, now);
+    }
+    if taking.requests >= REQUESTS {
+        if let Doing::Takes(taking) = &mut active.doing {
+            taking.given_up = Some(GivenUp::Refused);
+        }
+        active.failures += 1;
+        return None;
+    }
+    let is_worth_it = seconds_between(now, duty.until) > WORTH_S;
+    is_worth_it.then(|| {
+        take(active, *duty, taking.requests + 1, now);
+        Act::Take(*duty)
+    })
+}
 
-    fn judge_again(&mut self, duty: Duty, wishes: Wishes, now: Timestamp) -> Option<Act> {
-        let is_announced = self.rest_s(now) >= wishes.longest_rest_s;
-        let Doing::Takes(taking) = &mut self.doing else { return None };
-        if seconds_between(now, duty.until) <= WORTH_S {
-            return None;
-        }
-        let attempt = mem::replace(&mut taking.attempt, Attempt::NotBegun);
-        if attempt != Attempt::NotBegun {
-            taking.requests += 1;
-        }
-        if taking.requests >= REQUESTS {
-            if attempt == Attempt::Begun {
-                taking.given_up = Some(GivenUp::Refused);
-                self.failures += 1;
-            }
-            return None;
-        }
-        // The unit may have been put right, so that it moves now.
-        if is_announced {
-            (self.doing, self.moved_at) = (Doing::Rests, None);
-            return None;
-        }
-        // The reason stands until the unit is proved to take the pass, so that its alarm stands too.
-        taking.asked_at = now;
-        Some(Act::Take(duty))
+/// Asks again for a pass that the unit would have missed. The session judges what is left of it.
+fn judge_again(active: &mut On, duty: Duty, wishes: Wishes, now: Timestamp) -> Option<Act> {
+    let is_announced = rest_s(active, now) >= wishes.longest_rest_s;
+    let Doing::Takes(taking) = &mut active.doing else { return None };
+    if seconds_between(now, duty.until) <= WORTH_S {
+        return None;
     }
+    let attempt = mem::replace(&mut taking.attempt, Attempt::NotBegun);
+    if attempt != Attempt::NotBegun {
+        taking.requests += 1;
+    }
+    if taking.requests >= REQUESTS {
+        if attempt == Attempt::Begun {
+            taking.given_up = Some(GivenUp::Refused);
+            active.failures += 1;
+        }
+        return None;
+    }
+    // The unit may have been put right, so that it moves now.
+    if is_announced {
+        (active.doing, active.moved_at) = (Doing::Rests, None);
+        return None;
+    }
+    // The reason stands until the unit is proved to take the pass, so that its alarm stands too.
+    taking.asked_at = now;
+    Some(Act::Take(duty))
+}
 
-    fn park(
-        &mut self,
-        next: Option<Duty>,
-        seen: Seen,
-        wishes: Wishes,
-        now: Timestamp,
-    ) -> Option<Act> {
-        let park_s = wishes.parks_within_s?;
-        let has_time = next.is_none_or(|duty| seconds_between(now, duty.go_at) > park_s);
-        // After a rest, or before its first pass, it stays where it is: parking is not announced.
-        let is_awake =
-            self.moved_at.is_some_and(|at| seconds_between(at, now) < wishes.longest_rest_s);
-        let is_due = matches!(self.doing, Doing::Rests) && is_awake;
-        if !has_time || !is_due || !seen.is_live || !seen.can_be_sent || seen.moves {
-            return None;
-        }
-        self.doing = Doing::Parks;
-        self.moved_at = Some(now);
-        Some(Act::Park)
+/// Parks until the next pass, where the time is enough for both ways.
+fn park(
+    active: &mut On,
+    next: Option<Duty>,
+    seen: Seen,
+    wishes: Wishes,
+    now: Timestamp,
+) -> Option<Act> {
+    let park_s = wishes.parks_within_s?;
+    let has_time = next.is_none_or(|duty| seconds_between(now, duty.go_at) > park_s);
+    // After a rest, or before its first pass, it stays where it is: parking is not announced.
+    let is_awake =
+        active.moved_at.is_some_and(|at| seconds_between(at, now) < wishes.longest_rest_s);
+    let is_due = matches!(active.doing, Doing::Rests) && is_awake;
+    if !has_time || !is_due || !seen.is_live || !seen.can_be_sent || seen.moves {
+        return None;
     }
+    active.doing = Doing::Parks;
+    active.moved_at = Some(now);
+    Some(Act::Park)
 }
 
 fn end_after_failures(operation: &mut Operation) {
