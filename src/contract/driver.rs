@@ -1,4 +1,4 @@
-//! What the session of one antenna shows and accepts.
+//! Snapshots, events and commands of the session of one antenna.
 
 mod command;
 mod command_row;

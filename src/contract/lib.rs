@@ -1,5 +1,5 @@
-//! What a station shows and accepts: snapshots, events, commands and refusals. A station fills these
-//! types, and a window, which may be on another machine, reads them.
+//! The contract between a station and its clients: snapshots, events, commands and refusals. A station
+//! fills these types, and a window, which may be on another machine, reads them.
 //!
 //! They can be serialised, and no work is done here. Two types have contents that a client gets apart
 //! from a snapshot: the lines of a link ([`driver::WireLog`]), and the passes of a list

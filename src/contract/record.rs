@@ -1,4 +1,4 @@
-//! What a record shows: reports, passes, fits and its own state.
+//! Reports, passes and fits of a record, and its own state.
 
 mod pass;
 mod past;

@@ -1,6 +1,6 @@
 //! A running station on its own thread: antennas, elements, passes, alarms and the work on
-//! units. Clients send [`Command`]s and take [`Snapshot`]s and [`Event`]s; the station
-//! runs without any just as well.
+//! units. Clients send [`Command`](crate::contract::Command)s and take [`Snapshot`]s and [`Event`]s;
+//! the station runs without any just as well.
 
 pub mod alarms;
 pub mod antenna;

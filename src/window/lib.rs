@@ -1,4 +1,4 @@
-//! The window of a station: what the views show, and how they draw it. It knows the contract of a station,
+//! The window of a station: its views, and the model that they draw. It knows the contract of a station,
 //! and nothing of the station itself.
 //!
 //! From the bottom: [`desktop`], [`export`], [`model`], [`ui`]; a lower folder never names a higher one.

@@ -46,7 +46,7 @@ pub enum MaskError {
 impl HorizonMask {
     /// Builds a mask from points of azimuth (-180 to 360) and elevation (-90 to 90) in degrees, in
     /// any order. An azimuth that occurs twice, one point after the other, makes a wall: the mask
-    /// changes from the first to the second elevation within [`WALL_DEG`]. So do 360 and 0, and 180
+    /// changes from the first to the second elevation within `WALL_DEG`. So do 360 and 0, and 180
     /// and -180.
     pub fn from_degrees(points: impl IntoIterator<Item = (f64, f64)>) -> Result<Self, MaskError> {
         let mut builder = Builder::default();

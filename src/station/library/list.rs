@@ -42,7 +42,7 @@ fn this_version() -> u32 {
     VERSION
 }
 
-/// Reads the sources at `path`; none if there is no file. Entries that [`check_source`]
+/// Reads the sources at `path`; none if there is no file. Entries that `check_source`
 /// refuses are kept: no server is ever asked at such an address, and the operator sees
 /// them and may remove them.
 pub fn load_sources(path: &Path) -> Result<Vec<Source>, SourcesError> {

@@ -1,4 +1,4 @@
-//! What is kept of the errors of a track that is over.
+//! Summarises the errors of a track that is over.
 
 use crate::{
     astro::Angle,

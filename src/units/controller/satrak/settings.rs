@@ -70,7 +70,7 @@ static PLANS: [Plan; 13] = [
 /// A new source may lack the satellite, and switches the reading mode.
 const SOURCE: &[Query] = &[Query::Faults, Query::Settings];
 
-/// The groups of [`PLANS`].
+/// The groups of settings, in the order of `PLANS`.
 // An index past the end does not compile here, and `get` would need an unwrap.
 #[allow(clippy::indexing_slicing)]
 pub static GROUPS: &[&Group] = &{

@@ -30,7 +30,7 @@ pub fn line(ui: &mut Ui, tone: Tone, words: &str) {
     sentence(ui, tone, words);
 }
 
-/// A [`line`] with more for whoever points at it.
+/// A [`line()`] with more for whoever points at it.
 pub fn line_with_tip(ui: &mut Ui, tone: Tone, words: &str, tip: &str) {
     sentence(ui, tone, words).on_hover_text(tip);
 }
