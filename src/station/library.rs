@@ -41,7 +41,7 @@ use self::{
     index::{Index, Record},
     lock::Lock,
     space_track::{Step, Visit},
-    unfinished::Unfinished,
+    unfinished::{Reading, SetAside},
 };
 use crate::{
     contract::sources::SPACE_TRACK_HOST,
@@ -141,14 +141,15 @@ impl Library {
     /// A source whose reading ended the program is set aside: it is not read, and its report
     /// says so, until [`Self::read_again`] names it.
     pub fn load_into(&self, sources: &[Source], catalog: &mut Catalog) -> Vec<SourceReport> {
-        let mut unfinished = Unfinished::load(&self.folder);
+        let mut set_aside = SetAside::load(&self.folder);
+        let mut reading = Reading::begin(&self.folder, &mut set_aside);
         let report = |source: &Source| {
             let mut epochs = Epochs::new();
-            if unfinished.holds(source) {
+            if set_aside.contains(source) {
                 return (SourceReport { is_set_aside: true, ..no_report(source) }, epochs);
             }
             let load = || self.load_one(source, catalog, &mut epochs);
-            (unfinished.during(source, load), epochs)
+            (reading.during(source, load), epochs)
         };
         let read: Vec<(SourceReport, Epochs)> = sources.iter().map(report).collect();
         // Only now: a later source may have newer sets than an earlier one.
@@ -165,7 +166,7 @@ impl Library {
 
     /// Stops setting aside the sources in `names`, and those that are no longer in `sources`.
     pub fn read_again(&self, sources: &[Source], names: &[String]) {
-        Unfinished::load(&self.folder).keep(sources, names);
+        SetAside::load(&self.folder).keep(sources, names);
     }
 
     /// Reads a source, and adds the epoch of its best set of each object to `epochs`.

@@ -553,18 +553,17 @@ mod tests {
         let fixture = Fixture::new();
         let own = fixture.newer_file();
         fixture.run(&Task { list: Some(vec![own.clone()]), ..Task::default() });
-        let marker = fixture.folder.path().join("data/unfinished.toml");
-        assert!(!marker.exists(), "the reading came to its end");
+        let note = fixture.folder.path().join("data/reading.toml");
+        assert_eq!(fs::read(&note).unwrap(), b"", "the reading came to its end");
         // The state that a program leaves if it ends at this point.
-        fs::write(&marker, toml::to_string(&serde_json::json!({ "source": [own] })).unwrap())
-            .unwrap();
+        fs::write(&note, toml::to_string(&own).unwrap()).unwrap();
         for _ in 0..2 {
             let outcome = fixture.run(&Task::default());
             assert!(outcome.sources.reports[0].is_set_aside);
             assert!(iss_epoch(&outcome.catalog) < own_epoch());
         }
         let outcome = fixture.run(&Task { ask: vec!["own".to_owned()], ..Task::default() });
-        assert!(!outcome.sources.reports[0].is_set_aside && !marker.exists());
+        assert!(!outcome.sources.reports[0].is_set_aside);
         assert_eq!(iss_epoch(&outcome.catalog), own_epoch());
     }
 

@@ -16,7 +16,7 @@ const MAX_TRIES: usize = 100;
 /// A lock, until it is dropped or its process ends.
 #[derive(Debug)]
 pub(super) struct Lock {
-    _file: File,
+    file: File,
 }
 
 impl Lock {
@@ -27,10 +27,15 @@ impl Lock {
         options.read(true).write(true).create(true).truncate(false);
         let file = options.open(folder.join(name))?;
         match file.try_lock() {
-            Ok(()) => Ok(Some(Self { _file: file })),
+            Ok(()) => Ok(Some(Self { file })),
             Err(TryLockError::WouldBlock) => Ok(None),
             Err(TryLockError::Error(error)) => Err(error),
         }
+    }
+
+    /// The locked file.
+    pub(super) fn file(&mut self) -> &mut File {
+        &mut self.file
     }
 
     /// Takes a lock that every owner releases at once. Returns `None` after a second, or where no

@@ -1,79 +1,140 @@
-//! Sources that the program has not finished reading, in a small file of the library.
+//! Sources that are set aside because reading them ended the program, in a small file of the
+//! library.
 //!
-//! A source is entered before it is read and removed afterwards. An entry at the start of
-//! the program means that this source ended the last run and would end this one: it is set
-//! aside until the operator asks for it.
+//! The source that is being read stands in a file of its own, which its reader locks. A source
+//! that is found there by the next one to lock it ended its reader, and would end the program
+//! again: it is set aside until the operator asks for it.
 
 use std::{
-    fs,
+    fs::{self, File},
+    io::{self, Read as _, Seek as _, Write as _},
     path::{Path, PathBuf},
 };
 
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Serialize, de::DeserializeOwned};
 
+use super::lock::Lock;
 use crate::{orbit::Source, whole_file};
 
-/// Name of the file in the folder of the library.
-const NAME: &str = "unfinished.toml";
+/// Names of the files in the folder of the library.
+const SET_ASIDE: &str = "unfinished.toml";
+const READING: &str = "reading.toml";
 
-/// Sources that are set aside or being read.
+/// Sources that are set aside.
 #[derive(Debug)]
-pub(super) struct Unfinished {
+pub(super) struct SetAside {
     path: PathBuf,
-    held: Held,
+    list: List,
 }
 
 #[derive(Debug, Default, Serialize, Deserialize)]
-struct Held {
+struct List {
     #[serde(default)]
     source: Vec<Source>,
 }
 
-impl Unfinished {
-    /// Reads the entries that the last run left in `folder`. An unreadable file sets nothing
-    /// aside.
+impl SetAside {
+    /// Reads the list in `folder`. An unreadable file sets nothing aside.
     pub(super) fn load(folder: &Path) -> Self {
-        let path = folder.join(NAME);
-        let text = fs::read_to_string(&path).ok();
-        let held = text.and_then(|text| toml::from_str(&text).ok()).unwrap_or_default();
-        Self { path, held }
+        let path = folder.join(SET_ASIDE);
+        let list = fs::read_to_string(&path).ok().and_then(|text| parsed(&text));
+        Self { path, list: list.unwrap_or_default() }
     }
 
     /// Returns `true` if `source` is set aside with its present settings.
-    pub(super) fn holds(&self, source: &Source) -> bool {
-        self.held.source.contains(source)
+    pub(super) fn contains(&self, source: &Source) -> bool {
+        self.list.source.contains(source)
+    }
+
+    fn add(&mut self, source: Source) -> io::Result<()> {
+        if !self.contains(&source) {
+            self.list.source.push(source);
+        }
+        self.save()
     }
 
     /// Removes the sources named in `but`, and those that are no longer in `list`.
     pub(super) fn keep(&mut self, list: &[Source], but: &[String]) {
-        let before = self.held.source.len();
-        self.held.source.retain(|held| list.contains(held) && !but.contains(&held.name));
-        if self.held.source.len() != before {
-            self.save();
+        let before = self.list.source.len();
+        self.list.source.retain(|held| list.contains(held) && !but.contains(&held.name));
+        if self.list.source.len() != before {
+            warn(&self.path, self.save());
         }
     }
 
-    /// Runs `read` with `source` entered in the file.
+    fn save(&self) -> io::Result<()> {
+        if self.list.source.is_empty() {
+            return whole_file::remove(&self.path);
+        }
+        let text = toml::to_string(&self.list).map_err(io::Error::other)?;
+        whole_file::replace(&self.path, text.as_bytes())
+    }
+}
+
+/// Note of the source that this program is reading. It is empty while another program reads, which
+/// is rare: a source that ends this program in that time is not noticed.
+#[derive(Debug)]
+pub(super) struct Reading {
+    path: PathBuf,
+    lock: Option<Lock>,
+}
+
+impl Reading {
+    /// Begins to read in `folder`. A source that an earlier program did not finish is added to
+    /// `set_aside`.
+    pub(super) fn begin(folder: &Path, set_aside: &mut SetAside) -> Self {
+        let path = folder.join(READING);
+        let taken = Lock::try_take(folder, READING).and_then(|mut lock| {
+            lock.as_mut().map_or(Ok(()), |lock| take_over(lock.file(), set_aside))?;
+            Ok(lock)
+        });
+        let lock = taken.unwrap_or_else(|error| {
+            warn(&path, Err(error));
+            None
+        });
+        Self { path, lock }
+    }
+
+    /// Runs `read` with `source` in the note.
     pub(super) fn during<T>(&mut self, source: &Source, read: impl FnOnce() -> T) -> T {
-        self.held.source.push(source.clone());
-        self.save();
+        self.note(&toml::to_string(source).unwrap_or_default());
         let outcome = read();
-        self.held.source.pop();
-        self.save();
+        self.note("");
         outcome
     }
 
-    /// Errors are ignored: a full disk must not keep the elements from being read.
-    fn save(&self) {
-        let saved = if self.held.source.is_empty() {
-            fs::remove_file(&self.path)
-        } else {
-            let text = toml::to_string(&self.held).map_err(std::io::Error::other);
-            text.and_then(|text| whole_file::replace(&self.path, text.as_bytes()))
-        };
-        if let Err(error) = saved {
-            tracing::warn!(%error, path = %self.path.display(), "what is read is not noted");
-        }
+    fn note(&mut self, text: &str) {
+        let Some(lock) = &mut self.lock else { return };
+        warn(&self.path, rewrite(lock.file(), text));
+    }
+}
+
+/// Moves the source in the note `file` to `set_aside`.
+fn take_over(file: &mut File, set_aside: &mut SetAside) -> io::Result<()> {
+    let mut bytes = Vec::new();
+    file.read_to_end(&mut bytes)?;
+    if let Some(source) = str::from_utf8(&bytes).ok().and_then(parsed) {
+        set_aside.add(source)?;
+        rewrite(file, "")?;
+    }
+    Ok(())
+}
+
+fn rewrite(file: &mut File, text: &str) -> io::Result<()> {
+    file.set_len(0)?;
+    file.rewind()?;
+    file.write_all(text.as_bytes())?;
+    file.sync_data()
+}
+
+fn parsed<T: DeserializeOwned>(text: &str) -> Option<T> {
+    toml::from_str(text).ok()
+}
+
+/// An error is logged alone: a full disk must not keep the elements from being read.
+fn warn(path: &Path, noted: io::Result<()>) {
+    if let Err(error) = noted {
+        tracing::warn!(%error, path = %path.display(), "what is read is not noted");
     }
 }
 
@@ -83,35 +144,61 @@ mod tests {
 
     use super::*;
 
-    #[test]
-    fn what_ended_the_program_is_held_until_it_is_asked_for() {
-        let folder = tempfile::tempdir().unwrap();
-        let folder = &folder.path().join("deep");
-        let list = [Source::celestrak("weather"), Source::celestrak("noaa")];
-        let ends = || panic!("on purpose");
-        let mut first = Unfinished::load(folder);
-        assert_eq!(first.during(&list[0], || 7), 7);
-        assert!(!folder.join(NAME).exists());
-        catch_unwind(AssertUnwindSafe(|| first.during(&list[1], ends))).unwrap_err();
+    fn begin(folder: &Path) -> (SetAside, Reading) {
+        let mut set_aside = SetAside::load(folder);
+        let reading = Reading::begin(folder, &mut set_aside);
+        (set_aside, reading)
+    }
 
-        let mut second = Unfinished::load(folder);
-        assert_eq!([&list[0], &list[1]].map(|source| second.holds(source)), [false, true]);
-        second.during(&list[0], || ());
-        second.keep(&list, &[]);
-        assert!(Unfinished::load(folder).holds(&list[1]));
-        second.keep(&list, &["noaa".to_owned()]);
-        assert!(!Unfinished::load(folder).holds(&list[1]));
-        assert!(!folder.join(NAME).exists());
+    /// Leaves `folder` as a program that ends while it reads `source`.
+    fn end_in(folder: &Path, source: &Source) {
+        let (_, mut reading) = begin(folder);
+        let ends = || panic!("on purpose");
+        catch_unwind(AssertUnwindSafe(|| reading.during(source, ends))).unwrap_err();
     }
 
     #[test]
-    fn what_is_gone_from_the_list_or_has_moved_is_not_held() {
+    fn a_source_that_ended_the_program_is_set_aside_until_it_is_asked_for() {
         let folder = tempfile::tempdir().unwrap();
-        let mut unfinished = Unfinished::load(folder.path());
-        unfinished.held.source.push(Source::celestrak("noaa"));
+        let folder = &folder.path().join("deep");
+        let list = [Source::celestrak("weather"), Source::celestrak("noaa")];
+        assert_eq!(begin(folder).1.during(&list[0], || 7), 7);
+        assert!(begin(folder).0.list.source.is_empty());
+        end_in(folder, &list[1]);
+
+        let (mut set_aside, mut reading) = begin(folder);
+        assert_eq!([&list[0], &list[1]].map(|source| set_aside.contains(source)), [false, true]);
+        reading.during(&list[0], || ());
+        drop(reading);
+        set_aside.keep(&list, &[]);
+        assert!(begin(folder).0.contains(&list[1]));
+        set_aside.keep(&list, &["noaa".to_owned()]);
+        assert!(!begin(folder).0.contains(&list[1]));
+        assert!(!folder.join(SET_ASIDE).exists());
+    }
+
+    #[test]
+    fn a_source_that_another_program_reads_is_not_set_aside() {
+        let folder = tempfile::tempdir().unwrap();
+        let source = Source::celestrak("weather");
+        let (_, mut first) = begin(folder.path());
+        first.during(&source, || {
+            let (set_aside, mut second) = begin(folder.path());
+            assert!(!set_aside.contains(&source));
+            second.during(&source, || ());
+        });
+        drop(first);
+        assert!(begin(folder.path()).0.list.source.is_empty());
+    }
+
+    #[test]
+    fn a_source_that_is_gone_from_the_list_or_has_moved_is_not_set_aside() {
+        let folder = tempfile::tempdir().unwrap();
+        end_in(folder.path(), &Source::celestrak("noaa"));
+        let (mut set_aside, _reading) = begin(folder.path());
         let moved = Source { name: "noaa".to_owned(), ..Source::celestrak("weather") };
-        assert!(!unfinished.holds(&moved));
-        unfinished.keep(&[moved], &[]);
-        assert!(unfinished.held.source.is_empty());
+        assert!(!set_aside.contains(&moved));
+        set_aside.keep(&[moved], &[]);
+        assert!(set_aside.list.source.is_empty());
     }
 }

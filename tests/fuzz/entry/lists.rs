@@ -1,5 +1,5 @@
 //! Any bytes in the small files beside the station: lock-outs, list of sources, index of
-//! the library and its note of unfinished sources.
+//! the library and its notes of unfinished sources.
 
 use std::{fs, path::Path};
 
@@ -21,6 +21,7 @@ pub(crate) fn run(bytes: &[u8]) {
     sources(&put("sources.toml"));
     put("index.toml");
     put("unfinished.toml");
+    put("reading.toml");
     library(folder.path());
 }
 
