@@ -276,6 +276,10 @@ fn keys_of_controls() -> Vec<Taken> {
 
 /// The views in which a control of this file can have the focus.
 fn views_of(place: &str) -> Vec<View> {
+    // The other lists take the arrows alone.
+    if place == "widgets/list.rs" {
+        return vec![View::Elements, View::Console];
+    }
     let one = match place.split(['/', '.']).next().unwrap() {
         "operate" | "antenna_card" | "pass_list" | "profile" | "sky_plot" | "timeline" => {
             View::Operate

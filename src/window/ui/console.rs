@@ -8,7 +8,6 @@ mod links;
 mod log;
 mod raw;
 mod row;
-mod selection;
 mod send;
 mod table;
 mod tally;
@@ -17,11 +16,10 @@ use std::{path::PathBuf, sync::Arc, time::Duration};
 
 use egui::{Rect, Ui, ViewportId};
 
-use super::theme;
+use super::{theme, widgets::selection::RowSelection};
 use crate::model::{ConsoleLine, Model, UiCommand};
 use entry::Entry;
 use log::{Filter, Log};
-use selection::Selection;
 
 /// In a window below this width the inspector is a drawer.
 const DRAWER_BELOW: f32 = 1100.0;
@@ -34,7 +32,7 @@ pub struct ConsoleState {
     log: Log,
     filter: Filter,
     filter_wants_focus: bool,
-    selection: Selection,
+    selection: RowSelection<u64>,
     table: table::TableState,
     tallies: tally::Tallies,
     is_paused: bool,
@@ -56,12 +54,19 @@ impl ConsoleState {
     }
 
     fn selected(&self) -> Option<&Arc<ConsoleLine>> {
-        self.log.line(self.selection.cursor()?)
+        self.log.line(self.selection.row()?)
+    }
+
+    /// The selected lines that are shown, by position.
+    fn chosen(&self) -> impl Iterator<Item = u64> {
+        let shown = self.log.shown();
+        let is_shown = |position: &u64| shown.binary_search(position).is_ok();
+        self.selection.marked().iter().copied().filter(is_shown)
     }
 
     /// Copies the selected lines as text, if any.
     fn copy(&self, ui: &Ui) {
-        let chosen = self.selection.among(self.log.shown());
+        let chosen = self.chosen();
         let lines: Vec<String> =
             chosen.filter_map(|position| Some(self.log.line(position)?.report())).collect();
         if !lines.is_empty() {

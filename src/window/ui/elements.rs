@@ -13,7 +13,6 @@ mod inspector;
 mod intake;
 mod next_passes;
 mod refused;
-mod selection;
 mod set_menu;
 mod sets;
 mod source_order;
@@ -25,12 +24,17 @@ pub(super) mod words;
 use egui::{Rect, Ui};
 
 pub use self::bar::refresh_due;
+use self::words::Form;
 pub(super) use self::{
     add::{AddState, show as add_source},
     words::{objects, sentences as source_words},
 };
-use self::{selection::Selection, words::Form};
-use super::{confirm::Question, replay, theme, upload::Choice, widgets::button::Button};
+use super::{
+    confirm::Question,
+    replay, theme,
+    upload::Choice,
+    widgets::{button::Button, list::Scroll, selection::BoxSelection},
+};
 use crate::{
     contract::CatalogState,
     model::{Model, UiCommand, catalog_table},
@@ -47,12 +51,9 @@ const LOW_BELOW: f32 = 700.0;
 pub struct ElementsState {
     add: add::AddState,
     question: catalog_table::Question,
-    selection: Selection,
+    selection: BoxSelection<u32>,
     wants_search: bool,
-    /// A row to scroll to.
-    wanted_row: Option<usize>,
-    /// Scroll position of the table.
-    offset: f32,
+    scroll: Scroll,
     /// `None` until the operator folds or unfolds them.
     sources_are_open: Option<bool>,
     refused_are_open: bool,

@@ -26,6 +26,7 @@ use self::{land::Land, projection::Zoom};
 use super::{
     sky_plot::{labels::Key, placement::Memory},
     theme,
+    widgets::list::Scroll,
 };
 use crate::model::{
     Model, UiCommand,
@@ -109,6 +110,7 @@ pub struct MapState {
     layers_key: bool,
     labels: HashMap<Key, Memory>,
     land: Option<Land>,
+    scroll: Scroll,
 }
 
 impl MapState {

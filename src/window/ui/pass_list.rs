@@ -25,6 +25,7 @@ use crate::{
     contract::passes::{PassKey, Scope, Work},
     model::UiCommand,
     plan::Sample,
+    ui::widgets::list::Scroll,
 };
 pub use arrangement::{Arrangement, Light, Order};
 pub use filter::Filter;
@@ -105,8 +106,7 @@ pub struct PassListState {
     pub filter: Filter,
     /// The selected pass in the last frame.
     shown: Option<PassKey>,
-    /// Scroll offset, points.
-    offset: f32,
+    scroll: Scroll,
     /// The row at the upper edge and its pass.
     top: Option<(usize, PassKey)>,
     /// The list of the last frame with rows.
@@ -141,13 +141,13 @@ impl PassListState {
     /// were added. Keeps the visible rows in place when passes end; at the very top the list
     /// moves up.
     fn rows_gone_above(&self, model: &PassListModel<'_>) -> f32 {
-        let Some((before, key)) = self.top.filter(|_| self.offset > 0.0) else { return 0.0 };
+        let Some((before, key)) = self.top.filter(|_| self.scroll.offset > 0.0) else { return 0.0 };
         (model.place)(key).map_or(0.0, |place| before as f32 - place as f32)
     }
 
-    fn remember(&mut self, offset: f32, row_height: f32, model: &PassListModel<'_>) {
-        let row = (offset / row_height) as usize;
-        self.offset = offset;
+    fn remember(&mut self, scroll: Scroll, row_height: f32, model: &PassListModel<'_>) {
+        let row = (scroll.offset / row_height) as usize;
+        self.scroll = scroll;
         self.top = (model.row)(row).map(|pass| (row, pass.key));
     }
 }

@@ -205,8 +205,11 @@ fn an_added_file_is_used_and_kept_for_the_next_start() {
     let mut window = open(&settings, clock_from(week_later()));
     step_until(&mut window, "the newer elements again", is_used);
     let kept = std::fs::read_dir(folder.path().join("elements")).unwrap();
-    let kept: Vec<_> = kept.map(|file| file.unwrap().file_name()).collect();
-    assert_eq!(kept, ["older-sets.gz"], "no server was asked, and the reading came to its end");
+    let mut kept: Vec<_> = kept.map(|file| file.unwrap().file_name()).collect();
+    kept.sort();
+    assert_eq!(kept, ["older-sets.gz", "reading.toml"], "no server was asked");
+    let reading = std::fs::read(folder.path().join("elements/reading.toml")).unwrap();
+    assert_eq!(reading, b"", "the reading came to its end");
 }
 
 #[test]

@@ -203,7 +203,9 @@ fn focusable(window: &Window) -> Vec<Stop> {
 
 /// The place of the node that has the focus, and the node with its name.
 fn focused(window: &Window) -> Option<(Rect, Stop)> {
-    let node = window.root().children_recursive().find(Node::is_focused)?;
+    // Screen readers are led on to a row of a list, which has the focus itself.
+    let has_focus = |node: &Node<'_>| node.accesskit_node().is_focused_in_tree();
+    let node = window.root().children_recursive().find(has_focus)?;
     let place = node.rect();
     let node = node.accesskit_node();
     let name = node.label().or(node.value()).unwrap_or_default();

@@ -12,7 +12,7 @@ use crate::{
         icons::{self, Icon},
         text::{self, Weight},
         theme,
-        widgets::{link_chip, paint},
+        widgets::{link_chip, list::paint_ground, paint},
     },
 };
 
@@ -77,13 +77,7 @@ fn antenna_line(
     let name = format!("{}, settings: {activity}", antenna.config.name);
     let id = ("settings of", &antenna.config.name);
     let response = paint::control(ui, id, rect, Role::Button, true, &name);
-    if shown.is_some() {
-        ui.painter().rect_filled(rect, 0.0, t.bgsel);
-        let bar = rect.with_max_x(rect.left() + 3.0);
-        ui.painter().rect_filled(bar, 0.0, t.sat);
-    } else if response.hovered() {
-        ui.painter().rect_filled(rect, 0.0, t.bg3);
-    }
+    paint_ground(ui, rect, shown.is_some(), response.hovered());
     let (icon, colour) = bar::glyph(antenna).look(t);
     let at = paint::square(pos2(rect.left() + 23.0, rect.center().y), 13.0);
     icons::paint(ui.painter(), at, icon, colour);

@@ -117,7 +117,7 @@ type Buttons = Each<Button<'static>>;
 
 impl Buttons {
     fn of(model: &Model, state: &ConsoleState, has_drawer: bool) -> Self {
-        let nothing_chosen = state.selection.among(state.log.shown()).next().is_none();
+        let nothing_chosen = state.chosen().next().is_none();
         let details = if state.inspector_is_open { "Close details" } else { "Details" };
         Self {
             pause: if state.is_paused {

@@ -4,9 +4,9 @@ use egui::{Align2, Color32, Rect, Ui, pos2};
 use jiff::Timestamp;
 
 use super::{PADDING, raw};
-use crate::model::ConsoleLine;
 use crate::{
     device::{Direction, Finding, panel::Tone},
+    model::ConsoleLine,
     ui::{
         format,
         icons::{self, Icon},
@@ -73,29 +73,19 @@ pub(super) fn head(ui: &Ui, rect: Rect, names_antenna: bool) {
     word(columns.round_trip, Align2::RIGHT_CENTER, "Reply after");
 }
 
-/// Paints the row of a line.
-pub(super) fn show(
-    ui: &Ui,
-    rect: Rect,
-    names_antenna: bool,
-    now: Timestamp,
-    line: &ConsoleLine,
-    is_selected: bool,
-    is_hovered: bool,
-) {
+/// Ground of a line by its meaning.
+pub(super) fn tint(ui: &Ui, line: &ConsoleLine) -> Color32 {
     let t = theme::tokens(ui);
-    let ground = match line.meaning.tone {
-        _ if is_selected => t.bgsel,
+    match line.meaning.tone {
         Tone::Bad => t.badbg,
         Tone::Caution => t.warnbg,
-        _ if is_hovered => t.bg3,
-        _ => Color32::TRANSPARENT,
-    };
-    ui.painter().rect_filled(rect, 0.0, ground);
-    ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, (1.0, t.line));
-    if is_selected {
-        ui.painter().rect_filled(rect.with_max_x(rect.left() + 3.0), 0.0, t.sat);
+        Tone::Plain | Tone::Change | Tone::Good => Color32::TRANSPARENT,
     }
+}
+
+/// Paints the row of a line.
+pub(super) fn show(ui: &Ui, rect: Rect, names_antenna: bool, now: Timestamp, line: &ConsoleLine) {
+    let t = theme::tokens(ui);
     let columns = Columns::of(rect, names_antenna);
     let left = Align2::LEFT_CENTER;
     paint::text_in(

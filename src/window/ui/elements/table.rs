@@ -3,15 +3,14 @@
 use std::sync::Arc;
 
 use egui::{
-    Align2, Color32, Event, EventFilter, Id, Key, Modifiers, Rect, Response, Role, ScrollArea,
-    Sense, Stroke, StrokeKind, Ui, UiBuilder, WidgetInfo, pos2, vec2,
+    Align2, Color32, Event, Key, Modifiers, Rect, Role, Sense, Stroke, StrokeKind, Ui, WidgetInfo,
+    pos2, vec2,
 };
 
 use super::{
     ElementsState, PADDING,
     columns::{self, Row},
     copy,
-    selection::Way,
     words::{self, Form},
 };
 use crate::{
@@ -26,8 +25,8 @@ use crate::{
         icons::{self, Icon},
         text::{self, Weight},
         theme,
-        upload::Choice,
-        widgets::paint,
+        upload::Choice as UploadChoice,
+        widgets::{list::List, paint, selection::Choice},
     },
 };
 
@@ -49,42 +48,23 @@ pub(super) fn show(
     let rows = shown(model).map(|answer| Arc::clone(&answer.rows)).unwrap_or_default();
     show_head(ui, top, &rows, model.appearance.distances, state);
     ui.painter().rect_filled(body, 0.0, theme::tokens(ui).field);
-    let id = ui.make_persistent_id("catalogue");
-    let list = ui.interact(body, id, Sense::CLICK | Sense::FOCUSABLE);
-    list.widget_info(|| WidgetInfo::labeled(Role::ListBox, true, "Catalogue"));
-    keys(ui, &list, body.height(), &rows, model, lock, state, commands);
+    let list = List::new(ui, body, "catalogue", "Catalogue", ROW);
+    keys(ui, &list, &rows, model, lock, state, commands);
     let CatalogState::Ready(catalog) = &model.catalog else {
-        return nothing(ui, body, "There is nothing to search.");
+        return list.show_empty(ui, "no objects", "There is nothing to search.");
     };
     if rows.is_empty() {
-        return nothing(ui, body, &words::nothing_found(&state.question, catalog.len()));
+        let words = words::nothing_found(&state.question, catalog.len());
+        return list.show_empty(ui, "no objects", &words);
     }
-    let wanted = state.wanted_row.take().map(|row| {
-        let top = row as f32 * ROW;
-        state.offset.min(top).max(top + ROW - body.height())
-    });
-    ui.scope_builder(UiBuilder::new().id_salt("catalogue rows").max_rect(body), |ui| {
-        ui.set_clip_rect(body.intersect(ui.clip_rect()));
-        ui.spacing_mut().item_spacing = vec2(0.0, 0.0);
-        let mut area = ScrollArea::vertical().id_salt("catalogue").auto_shrink(false);
-        if let Some(offset) = wanted {
-            area = area.vertical_scroll_offset(offset);
+    let draws = Draws { list: &list, model, catalog, rows: &rows, lock };
+    let mut scroll = state.scroll;
+    list.show_rows(ui, rows.len(), &mut scroll, |ui, place, index| {
+        if let Some(number) = rows.get(index) {
+            draws.row(ui, place, *number, state, commands);
         }
-        let output = area.show_rows(ui, ROW, rows.len(), |ui, range| {
-            let top = ui.max_rect().top();
-            for (place, number) in rows.get(range).unwrap_or_default().iter().enumerate() {
-                let min = pos2(body.left(), top + place as f32 * ROW);
-                let place = Rect::from_min_size(min, vec2(body.width(), ROW));
-                let draws = Draws { id, model, catalog, rows: &rows, lock };
-                draws.row(ui, place, *number, state, commands);
-            }
-        });
-        state.offset = output.state.clamped_offset().y;
     });
-    if list.has_focus() {
-        let ring = Stroke::new(2.0, theme::tokens(ui).sat);
-        ui.painter().rect_stroke(body.shrink(1.0), 0.0, ring, StrokeKind::Inside);
-    }
+    state.scroll = scroll;
 }
 
 /// Returns the rows, as long as they belong to the present catalog.
@@ -92,13 +72,6 @@ pub(super) fn shown(model: &Model) -> Option<&Answer> {
     let CatalogState::Ready(catalog) = &model.catalog else { return None };
     let answer = model.catalog_table.answer.as_ref();
     answer.filter(|answer| Arc::ptr_eq(&answer.inputs.catalog, catalog))
-}
-
-fn nothing(ui: &Ui, rect: Rect, words: &str) {
-    let t = theme::tokens(ui);
-    let at = rect.left_top() + vec2(PADDING, 12.0);
-    let place = paint::paragraph(ui, at, rect.width() - 2.0 * PADDING, words, text::body(), t.t2);
-    paint::name_text(ui, "no objects", place, words);
 }
 
 fn show_head(ui: &Ui, rect: Rect, rows: &[u32], unit: DistanceUnit, state: &mut ElementsState) {
@@ -171,7 +144,7 @@ fn paint_box(ui: &Ui, rect: Rect, mark: Option<Icon>) {
 
 /// Data from which all rows are drawn.
 struct Draws<'a> {
-    id: Id,
+    list: &'a List,
     model: &'a Model,
     catalog: &'a Catalog,
     rows: &'a [u32],
@@ -188,27 +161,12 @@ impl Draws<'_> {
         commands: &mut Vec<UiCommand>,
     ) {
         let Some(elements) = self.catalog.get(number) else { return };
-        let t = theme::tokens(ui);
         let row = Row::new(elements, self.catalog, self.model);
         let is_selected = state.selection.row() == Some(number);
         let priority = self.model.station.priority(number);
-        // The whole list is one Tab stop.
-        let response = ui.interact(rect, self.id.with(number), Sense::CLICK);
-        response.widget_info(|| {
-            let name = row.spoken(priority.map(Priority::number));
-            WidgetInfo::selected(Role::ListBoxOption, true, is_selected, name)
-        });
-        ui.ctx().accesskit_node_builder(response.id, |node| node.set_selected(is_selected));
-        let ground = match (is_selected, response.hovered()) {
-            (true, _) => t.bgsel,
-            (false, true) => t.bg3,
-            (false, false) => Color32::TRANSPARENT,
-        };
-        ui.painter().rect_filled(rect, 0.0, ground);
-        ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, (1.0, t.line));
-        if is_selected {
-            ui.painter().rect_filled(rect.with_max_x(rect.left() + 3.0), 0.0, t.sat);
-        }
+        let spoken = || row.spoken(priority.map(Priority::number));
+        let clear = Color32::TRANSPARENT;
+        let response = self.list.option(ui, rect, number, is_selected, clear, spoken);
         for (column, place) in columns::places(rect) {
             if column == Column::Star {
                 self.star(ui, place, &row, priority, commands);
@@ -218,13 +176,8 @@ impl Draws<'_> {
         }
         self.mark(ui, rect, &row, state);
         if response.clicked() {
-            let way = match ui.input(|input| input.modifiers) {
-                Modifiers { shift: true, .. } => Way::Range,
-                Modifiers { command: true, .. } => Way::Toggle,
-                _ => Way::Select,
-            };
-            state.selection.choose(number, way, self.rows);
-            ui.memory_mut(|memory| memory.request_focus(self.id));
+            let choice = ui.input(|input| input.modifiers).into();
+            state.selection.choose(number, choice, self.rows);
         }
         response.on_hover_text(row.tip());
     }
@@ -234,7 +187,11 @@ impl Draws<'_> {
         let at = pos2(rect.left() + PADDING + BOX / 2.0, rect.center().y);
         let place = paint::square(at, BOX);
         let is_marked = state.selection.is_marked(number);
-        let response = ui.interact(place.expand(3.0), self.id.with(("mark", number)), Sense::CLICK);
+        let response = ui.interact(
+            place.expand(3.0),
+            self.list.response.id.with(("mark", number)),
+            Sense::CLICK,
+        );
         response.widget_info(|| {
             let name = format!("Mark {}", row.elements.label());
             WidgetInfo::selected(Role::CheckBox, true, is_marked, name)
@@ -242,8 +199,8 @@ impl Draws<'_> {
         paint_box(ui, place, is_marked.then_some(Icon::Check));
         if response.clicked() {
             let shift = ui.input(|input| input.modifiers.shift);
-            let way = if shift { Way::Range } else { Way::Toggle };
-            state.selection.choose(number, way, self.rows);
+            let choice = if shift { Choice::Range } else { Choice::Toggle };
+            state.selection.choose(number, choice, self.rows);
         }
     }
 
@@ -265,7 +222,7 @@ impl Draws<'_> {
         };
         let is_free = self.lock.is_none();
         let sense = if is_free { Sense::CLICK } else { Sense::hover() };
-        let response = ui.interact(place, self.id.with(("star", number)), sense);
+        let response = ui.interact(place, self.list.response.id.with(("star", number)), sense);
         response.widget_info(|| WidgetInfo::labeled(Role::Button, is_free, &name));
         let at = paint::square(place.center() - vec2(2.0, 0.0), 15.0);
         let (icon, colour) = match (priority, response.hovered() && is_free) {
@@ -343,25 +300,18 @@ pub(super) fn favour(numbers: Vec<u32>, is_favourite: bool, commands: &mut Vec<U
 }
 
 /// Handles the keys of the list while it has the focus.
-#[allow(clippy::too_many_arguments)]
 fn keys(
     ui: &Ui,
-    list: &Response,
-    height: f32,
+    list: &List,
     rows: &[u32],
     model: &Model,
     lock: Option<&'static str>,
     state: &mut ElementsState,
     commands: &mut Vec<UiCommand>,
 ) {
-    if list.clicked() {
-        list.request_focus();
-    }
-    if !list.has_focus() {
+    if !list.response.has_focus() {
         return;
     }
-    let filter = EventFilter { vertical_arrows: true, ..EventFilter::default() };
-    ui.memory_mut(|memory| memory.set_focus_lock_filter(list.id, filter));
     let pressed = |modifiers, key| ui.input_mut(|input| input.consume_key(modifiers, key));
     if ui.input(|input| input.events.iter().any(|event| matches!(event, Event::Copy))) {
         let form = if ui.input(|input| input.modifiers.shift) { Form::Omm } else { Form::Tle };
@@ -370,30 +320,16 @@ fn keys(
     if pressed(Modifiers::COMMAND, Key::A) {
         state.selection.mark_all(rows);
     }
-    let page = ((height / ROW) as isize - 1).max(1);
-    let moves = [
-        (Key::ArrowUp, -1),
-        (Key::ArrowDown, 1),
-        (Key::PageUp, -page),
-        (Key::PageDown, page),
-        (Key::Home, isize::MIN),
-        (Key::End, isize::MAX),
-    ];
-    for (key, down) in moves {
-        for (modifiers, way) in [(Modifiers::SHIFT, Way::Range), (Modifiers::NONE, Way::Select)] {
-            if pressed(modifiers, key) {
-                let place = state.selection.go(down, way, rows);
-                state.wanted_row = place.or(state.wanted_row);
-            }
-        }
+    if let Some(place) = list.step(ui).and_then(|step| state.selection.go(step, rows)) {
+        state.scroll.bring_into_view(place);
     }
     if pressed(Modifiers::NONE, Key::U) {
         let takes = |antenna: &AntennaModel| antenna.spec().element_files.is_some();
         if model.antenna().is_some_and(takes) {
             let marked = state.selection.marked();
             let choice = match state.selection.row() {
-                Some(number) if marked.is_empty() => Choice::Also(number),
-                _ => Choice::These(marked.iter().copied().collect()),
+                Some(number) if marked.is_empty() => UploadChoice::Also(number),
+                _ => UploadChoice::These(marked.iter().copied().collect()),
             };
             state.upload(choice);
         }

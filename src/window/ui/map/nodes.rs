@@ -79,23 +79,18 @@ fn satellite(
     if response.has_focus() {
         ui.painter().circle_stroke(at, TARGET / 2.0 + 2.0, Stroke::new(2.0, t.sat));
     }
-    chosen(ui, &response, of, commands);
+    chosen(&response, of, commands);
+    // The arrows lead on from here rather than from node to node.
+    if response.clicked() && ui.input(|input| input.pointer.any_released()) {
+        response.surrender_focus();
+    }
     response.on_hover_text(words::tip(of, model));
 }
 
 /// Takes a click on a satellite, which selects it, and a double click, which opens the sky plot.
-pub(super) fn chosen(
-    ui: &Ui,
-    response: &Response,
-    of: &GlobeSatellite,
-    commands: &mut Vec<UiCommand>,
-) {
+pub(super) fn chosen(response: &Response, of: &GlobeSatellite, commands: &mut Vec<UiCommand>) {
     if response.clicked() {
         commands.push(UiCommand::SelectSatellite(of.number()));
-        // The arrows lead on from here rather than from node to node.
-        if ui.input(|input| input.pointer.any_released()) {
-            response.surrender_focus();
-        }
     }
     if response.double_clicked() {
         commands.push(UiCommand::Show(View::Operate));

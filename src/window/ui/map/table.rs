@@ -2,9 +2,7 @@
 
 use std::borrow::Cow;
 
-use egui::{
-    Align2, Color32, FontId, Rect, Role, ScrollArea, Sense, Ui, UiBuilder, WidgetInfo, pos2, vec2,
-};
+use egui::{Align2, Color32, FontId, Rect, Role, Ui, pos2, vec2};
 
 use super::{MapState, PADDING, Shown, legend, nodes, words};
 use crate::{
@@ -16,7 +14,7 @@ use crate::{
         text::{self, Weight},
         theme,
         tokens::Tokens,
-        widgets::paint,
+        widgets::{list::List, paint},
     },
 };
 
@@ -150,7 +148,7 @@ pub(super) fn show(
     model: &Model,
     shown: &[&GlobeSatellite],
     is_drawer: bool,
-    state: &MapState,
+    state: &mut MapState,
     commands: &mut Vec<UiCommand>,
 ) -> bool {
     let t = theme::tokens(ui);
@@ -243,32 +241,20 @@ fn show_rows(
     body: Rect,
     model: &Model,
     shown: &[&GlobeSatellite],
-    state: &MapState,
+    state: &mut MapState,
     commands: &mut Vec<UiCommand>,
 ) {
-    let id = ui.make_persistent_id("where they are");
-    let list = ui.interact(body, id, Sense::hover());
-    list.widget_info(|| WidgetInfo::labeled(Role::ListBox, true, "Where they are"));
+    let list = List::new(ui, body, "where they are", "Where they are", ROW);
     if shown.is_empty() {
-        let t = theme::tokens(ui);
-        let words = why_empty(model, state.shown);
-        let at = body.left_top() + vec2(PADDING, 8.0);
-        let width = body.width() - 2.0 * PADDING;
-        let place = paint::paragraph(ui, at, width, words, text::body(), t.t2);
-        paint::name_text(ui, "no satellites", place, words);
-        return;
+        return list.show_empty(ui, "no satellites", why_empty(model, state.shown));
     }
-    ui.scope_builder(UiBuilder::new().id_salt("map rows").max_rect(body), |ui| {
-        ui.set_clip_rect(body.intersect(ui.clip_rect()));
-        ui.spacing_mut().item_spacing = vec2(0.0, 0.0);
-        ScrollArea::vertical().id_salt("map table").auto_shrink(false).show(ui, |ui| {
-            for of in shown {
-                let size = vec2(body.width(), ROW);
-                let (_, rect) = ui.allocate_space(size);
-                show_row(ui, rect, of, model, commands);
-            }
-        });
+    let mut scroll = state.scroll;
+    list.show_rows(ui, shown.len(), &mut scroll, |ui, place, index| {
+        if let Some(satellite) = shown.get(index) {
+            show_row(ui, &list, place, satellite, model, commands);
+        }
     });
+    state.scroll = scroll;
 }
 
 fn why_empty(model: &Model, choice: Shown) -> &'static str {
@@ -284,28 +270,16 @@ fn why_empty(model: &Model, choice: Shown) -> &'static str {
 
 fn show_row(
     ui: &Ui,
+    list: &List,
     rect: Rect,
     of: &GlobeSatellite,
     model: &Model,
     commands: &mut Vec<UiCommand>,
 ) {
     let t = theme::tokens(ui);
-    let id = ui.make_persistent_id(("map row", of.number()));
-    let response = ui.interact(rect, id, Sense::click());
-    response.widget_info(|| {
-        WidgetInfo::selected(Role::ListBoxOption, true, of.is_selected, spoken(of, model))
-    });
-    ui.ctx().accesskit_node_builder(response.id, |node| node.set_selected(of.is_selected));
-    let ground = match (of.is_selected, response.hovered()) {
-        (true, _) => t.bgsel,
-        (false, true) => t.bg3,
-        (false, false) => Color32::TRANSPARENT,
-    };
-    ui.painter().rect_filled(rect, 0.0, ground);
-    ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, (1.0, t.line));
-    if of.is_selected {
-        ui.painter().rect_filled(rect.with_max_x(rect.left() + 3.0), 0.0, t.sat);
-    }
+    let spoken = || spoken(of, model);
+    let clear = Color32::TRANSPARENT;
+    let response = list.option(ui, rect, of.number(), of.is_selected, clear, spoken);
     for (column, place) in columns(rect) {
         let anchor = if column.is_left() { Align2::LEFT_CENTER } else { Align2::RIGHT_CENTER };
         let (font, colour) = column.look(of, model, t);
@@ -315,8 +289,7 @@ fn show_row(
         };
         paint(ui, place, anchor, &column.cell(of, model), font, colour);
     }
-    paint::focus_ring(ui, &response, 0);
-    nodes::chosen(ui, &response, of, commands);
+    nodes::chosen(&response, of, commands);
 }
 
 /// The row for screen readers.

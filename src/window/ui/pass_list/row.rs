@@ -1,6 +1,6 @@
 //! A row of the list: thumbnail, three lines, progress.
 
-use egui::{Align2, Color32, FontId, Rect, Stroke, StrokeKind, Ui, pos2};
+use egui::{Align2, Color32, FontId, Rect, Ui, pos2};
 use jiff::Timestamp;
 
 use super::{
@@ -30,25 +30,21 @@ const LINES: [f32; 3] = [20.0, 38.5, 56.0];
 const AZIMUTHS: f32 = 62.0;
 /// Gap between columns.
 const COLUMN_GAP: f32 = 8.0;
-/// Thickness of the bar of the selected row and of the progress line.
+/// Thickness of the progress line.
 const BAR: f32 = 3.0;
 
-/// Appearance of a row, apart from its content.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Look {
-    pub(super) selected: bool,
-    pub(super) hovered: bool,
-    pub(super) focused: bool,
-    pub(super) thumbnail: bool,
-}
-
 /// Paints the row in `rect`. Returns `true` if a text was cut.
-pub(super) fn paint(ui: &Ui, rect: Rect, row: &PassRow<'_>, now: Timestamp, look: Look) -> bool {
+pub(super) fn paint(
+    ui: &Ui,
+    rect: Rect,
+    row: &PassRow<'_>,
+    now: Timestamp,
+    has_thumbnail: bool,
+) -> bool {
     let t = theme::tokens(ui);
     let phase = Phase::of(row, now);
-    ground(ui, rect, look, t);
     let mut left = rect.left() + PADDING;
-    if look.thumbnail {
+    if has_thumbnail {
         let at =
             paint::square(pos2(left + thumbnail::SIDE / 2.0, rect.center().y), thumbnail::SIDE);
         thumbnail::paint(ui, at, row.path);
@@ -67,25 +63,7 @@ pub(super) fn paint(ui: &Ui, rect: Rect, row: &PassRow<'_>, now: Timestamp, look
         let line = track.with_max_x(rect.left() + done * rect.width());
         ui.painter().rect_filled(line, 0.0, t.sat);
     }
-    if look.focused {
-        let ring = Stroke::new(2.0, t.sat);
-        ui.painter().rect_stroke(rect.shrink(1.0), 0.0, ring, StrokeKind::Inside);
-    }
     name_cut || verdict_cut
-}
-
-fn ground(ui: &Ui, rect: Rect, look: Look, t: &Tokens) {
-    let fill = match (look.selected, look.hovered) {
-        (true, _) => t.bgsel,
-        (false, true) => t.bg3,
-        (false, false) => Color32::TRANSPARENT,
-    };
-    ui.painter().rect_filled(rect, 0.0, fill);
-    ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, (1.0, t.line));
-    if look.selected {
-        let bar = rect.with_max_x(rect.left() + BAR);
-        ui.painter().rect_filled(bar, 0.0, t.sat);
-    }
 }
 
 /// Paints name and countdown. Returns `true` if the name was cut.

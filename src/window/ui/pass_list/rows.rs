@@ -1,18 +1,18 @@
 //! The rows in view, and the keys that move between them.
 
-use egui::{
-    FocusDirection, Id, Key, Modifiers, Rect, Response, Role, ScrollArea, Sense, Ui, UiBuilder,
-    WidgetInfo, pos2, style::ScrollAnimation, vec2,
-};
+use egui::{Rect, Response, Ui};
 
 use super::{
     PassListModel, PassListState, PassRow, Verdict,
     phase::{self, Phase},
-    row::{self, Look},
+    row,
 };
 use crate::{
     model::UiCommand,
-    ui::widgets::{context_menu, copy_menu},
+    ui::widgets::{
+        context_menu, copy_menu,
+        list::{List, Step},
+    },
 };
 
 pub(super) fn show(
@@ -22,115 +22,80 @@ pub(super) fn show(
     state: &mut PassListState,
     commands: &mut Vec<UiCommand>,
 ) {
+    let list = List::new(ui, rect, "pass list", "Passes", row::HEIGHT);
     let is_news = state.is_news(model.selected);
     let selected = model.selected.filter(|_| is_news).and_then(model.place);
-    let opens_at = state.opens_at(model);
     let gone = state.rows_gone_above(model);
-    // An id of this column and not of the scroll area, so that a row keeps its id at any
-    // scroll position.
-    let list = ui.make_persistent_id("passes");
-    ui.scope_builder(UiBuilder::new().max_rect(rect), |ui| {
-        ui.set_clip_rect(rect.intersect(ui.clip_rect()));
-        ui.ctx().accesskit_node_builder(ui.unique_id(), |node| node.set_role(Role::ListBox));
-        ui.spacing_mut().item_spacing = vec2(0.0, 0.0);
-        let mut area = ScrollArea::vertical().id_salt("passes").auto_shrink(false);
-        let mut offset = (state.offset - gone * row::HEIGHT).max(0.0);
-        if let Some(first) = opens_at {
-            offset = first as f32 * row::HEIGHT;
+    let mut scroll = state.scroll;
+    if let Some(first) = state.opens_at(model) {
+        scroll.set(first as f32 * row::HEIGHT);
+    } else if gone != 0.0 {
+        scroll.set(scroll.offset - gone * row::HEIGHT);
+    }
+    if let Some(place) = selected {
+        scroll.bring_into_view(place);
+    }
+    if let Some(pass) = list.arrow_step(ui).and_then(|step| stepped(step, model)) {
+        commands.push(UiCommand::SelectPass(pass.key));
+    }
+    list.show_rows(ui, model.rows, &mut scroll, |ui, place, index| {
+        if let Some(pass) = (model.row)(index) {
+            show_row(ui, &list, place, &pass, model, commands);
         }
-        if let Some(index) = selected {
-            // Before the rows are placed: afterwards it would take one more frame.
-            let top = index as f32 * row::HEIGHT;
-            offset = offset.min(top).max(top + row::HEIGHT - rect.height());
-        }
-        if gone != 0.0 || opens_at.is_some() || selected.is_some() {
-            area = area.vertical_scroll_offset(offset);
-        }
-        let shown = area.show_rows(ui, row::HEIGHT, model.rows, |ui, range| {
-            let top = ui.max_rect().top();
-            let place = |index: usize| {
-                let down = row::HEIGHT * (index as f32 - range.start as f32);
-                let min = pos2(rect.left(), top + down);
-                Rect::from_min_size(min, vec2(rect.width(), row::HEIGHT))
-            };
-            // One more row above those in view, so that the focus can reach it; below there is one
-            // already.
-            for index in range.start.saturating_sub(1)..range.end {
-                let Some(pass) = (model.row)(index) else { continue };
-                let response = one(ui, list, place(index), &pass, model);
-                copy_menu::by_key(ui, &response, || phase::copied(&pass));
-                context_menu::show(ui, &response, |ui| {
-                    (model.menu)(ui, response.id, pass.key, commands);
-                    if context_menu::entry(ui, response.id, "Copy this pass") {
-                        ui.copy_text(phase::copied(&pass));
-                    }
-                });
-                if response.clicked() {
-                    response.request_focus();
-                    commands.push(UiCommand::SelectPass(pass.key));
-                }
-                if response.gained_focus() {
-                    into_view(ui, place(index));
-                }
-                if response.has_focus()
-                    && let Some(target) = step(ui, index, model.rows)
-                    && let Some(next) = (model.row)(target)
-                {
-                    focus(ui, list.with(next.key), place(target));
-                    commands.push(UiCommand::SelectPass(next.key));
-                }
+    });
+    state.remember(scroll, row::HEIGHT, model);
+}
+
+/// The pass to which a step leads from the selected one, or the first pass.
+fn stepped<'a>(step: Step, model: &PassListModel<'a>) -> Option<PassRow<'a>> {
+    let from = model.selected.and_then(model.place);
+    let target = from.map_or(Some(0), |from| step.target(from, model.rows))?;
+    (model.row)(target).filter(|pass| model.selected != Some(pass.key))
+}
+
+fn show_row(
+    ui: &Ui,
+    list: &List,
+    rect: Rect,
+    pass: &PassRow<'_>,
+    model: &PassListModel<'_>,
+    commands: &mut Vec<UiCommand>,
+) {
+    let response = one(ui, list, rect, pass, model);
+    let mut menu = |opener: &Response| {
+        context_menu::show(ui, opener, |ui| {
+            (model.menu)(ui, opener.id, pass.key, commands);
+            if context_menu::entry(ui, opener.id, "Copy this pass") {
+                ui.copy_text(phase::copied(pass));
             }
         });
-        state.remember(shown.state.clamped_offset().y, row::HEIGHT, model);
-    });
+    };
+    menu(&response);
+    if model.selected == Some(pass.key) {
+        // The keys mean the selected row.
+        let focused = list.response.clone().with_new_rect(rect);
+        copy_menu::by_key(ui, &focused, || phase::copied(pass));
+        menu(&focused);
+    }
+    if response.clicked() {
+        commands.push(UiCommand::SelectPass(pass.key));
+    }
 }
 
-fn one(ui: &Ui, list: Id, rect: Rect, pass: &PassRow<'_>, model: &PassListModel<'_>) -> Response {
-    let response = ui.interact(rect, list.with(pass.key), Sense::click());
-    let selected = model.selected == Some(pass.key);
-    let phase = Phase::of(pass, model.now);
-    response.widget_info(|| {
-        let name = phase::spoken(pass, phase, model.now);
-        WidgetInfo::selected(Role::ListBoxOption, true, selected, name)
-    });
-    ui.ctx().accesskit_node_builder(response.id, |node| node.set_selected(selected));
-    if ui.is_rect_visible(rect) {
-        let look = Look {
-            selected,
-            hovered: response.hovered(),
-            focused: response.has_focus(),
-            thumbnail: model.thumbnails,
-        };
-        if row::paint(ui, rect, pass, model.now, look) {
-            let verdict = pass.verdict.map(Verdict::sentence).unwrap_or_default();
-            return response.on_hover_text(format!("{}\n{verdict}", pass.name).trim_end());
-        }
+fn one(
+    ui: &Ui,
+    list: &List,
+    rect: Rect,
+    pass: &PassRow<'_>,
+    model: &PassListModel<'_>,
+) -> Response {
+    let is_selected = model.selected == Some(pass.key);
+    let spoken = || phase::spoken(pass, Phase::of(pass, model.now), model.now);
+    let clear = egui::Color32::TRANSPARENT;
+    let response = list.option(ui, rect, pass.key, is_selected, clear, spoken);
+    if ui.is_rect_visible(rect) && row::paint(ui, rect, pass, model.now, model.thumbnails) {
+        let verdict = pass.verdict.map(Verdict::sentence).unwrap_or_default();
+        return response.on_hover_text(format!("{}\n{verdict}", pass.name).trim_end());
     }
     response
-}
-
-/// The index that the arrow keys of this frame lead to from `index`.
-fn step(ui: &Ui, index: usize, rows: usize) -> Option<usize> {
-    let (up, down) = ui.input_mut(|input| {
-        let up = input.count_and_consume_key(Modifiers::NONE, Key::ArrowUp);
-        (up, input.count_and_consume_key(Modifiers::NONE, Key::ArrowDown))
-    });
-    if up == 0 && down == 0 {
-        return None;
-    }
-    // The arrow keys would also move the focus to a control above or below.
-    ui.memory_mut(|memory| memory.move_focus(FocusDirection::None));
-    let target = (index + down).saturating_sub(up).min(rows.saturating_sub(1));
-    (target != index).then_some(target)
-}
-
-fn focus(ui: &Ui, id: Id, rect: Rect) {
-    ui.memory_mut(|memory| memory.request_focus(id));
-    into_view(ui, rect);
-}
-
-/// Scrolls to `rect` without animation: a row that is still sliding in could not take the
-/// focus.
-fn into_view(ui: &Ui, rect: Rect) {
-    ui.scroll_to_rect_animation(rect, None, ScrollAnimation::none());
 }

@@ -22,7 +22,7 @@ use crate::{
         text::{self, Weight},
         theme,
         timeline::labels::{self, Placed, Wish},
-        widgets::{button::Button, paint},
+        widgets::{button::Button, list, paint},
         words,
     },
 };
@@ -181,11 +181,8 @@ fn label(
     let spoken = format!("{name}. {standing} {}", whole.unwrap_or_default());
     let spoken = spoken.trim_end();
     response.widget_info(|| WidgetInfo::selected(Role::RadioButton, true, is_chosen, spoken));
-    if is_chosen {
-        ui.painter().rect_filled(rect, 0.0, t.bgsel);
-        ui.painter().rect_filled(rect.with_max_x(rect.left() + 3.0), 0.0, t.sat);
-    }
-    ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, (1.0, t.line));
+    list::paint_ground(ui, rect, is_chosen, false);
+    list::paint_divider(ui, rect);
     let inner = rect.shrink2(vec2(PADDING, 6.0));
     let (first, second) = inner.split_top_bottom_at_fraction(0.5);
     let (glyph, colour) = bar::glyph(antenna).look(t);

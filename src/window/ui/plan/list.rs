@@ -1,9 +1,9 @@
 //! The passes of the chosen antenna in the order in which they are carried out: those that are
 //! over, those that it takes and those that it leaves out.
 
-use egui::{Align2, Color32, Rect, Role, ScrollArea, Sense, Ui, UiBuilder, WidgetInfo, pos2, vec2};
+use egui::{Align2, Color32, Rect, Role, Ui, WidgetInfo, pos2, vec2};
 
-use super::{PADDING, PlanState, show_focus, state::Shown};
+use super::{PADDING, PlanState, state::Shown};
 use crate::{
     contract::{antenna::AntennaModel, passes::PassKey},
     model::{
@@ -21,6 +21,7 @@ use crate::{
         tokens::Tokens,
         widgets::{
             button::Button,
+            list::List,
             paint,
             segmented::{self, Segment},
         },
@@ -122,7 +123,6 @@ pub(super) fn show(
     let columns = Columns::of(rect.width());
     show_bar(ui, bar, antenna, counts, columns, state);
     heads(ui, head, columns);
-    ui.painter().rect_filled(body, 0.0, theme::tokens(ui).field);
     let rows: Vec<&ListedPass<'_>> = all
         .iter()
         .filter(|of| match state.shown {
@@ -131,30 +131,18 @@ pub(super) fn show(
             Shown::LeftOut => !is_taken(of),
         })
         .collect();
-    let list = ui.interact(body, ui.make_persistent_id("plan list"), Sense::FOCUSABLE);
-    let title = title(antenna);
-    list.widget_info(|| WidgetInfo::labeled(Role::ListBox, true, &title));
+    ui.painter().rect_filled(body, 0.0, theme::tokens(ui).field);
+    let list = List::new(ui, body, "plan list", &title(antenna), ROW);
     if rows.is_empty() {
-        let words = "No such pass in this period.";
-        let at = body.left_top() + vec2(PADDING, 8.0);
-        let place = paint::paragraph(ui, at, body.width() - 32.0, words, text::body(), t.t2);
-        paint::name_text(ui, "no rows", place, words);
-        return;
+        return list.show_empty(ui, "no rows", "No such pass in this period.");
     }
-    ui.scope_builder(UiBuilder::new().id_salt("plan list").max_rect(body), |ui| {
-        ui.set_clip_rect(body.intersect(ui.clip_rect()));
-        ui.spacing_mut().item_spacing = vec2(0.0, 0.0);
-        let area = ScrollArea::vertical().id_salt("execution").auto_shrink(false);
-        area.show_rows(ui, ROW, rows.len(), |ui, shown| {
-            for index in shown {
-                let (_, row) = ui.allocate_space(vec2(body.width(), ROW));
-                if let Some(listed) = rows.get(index) {
-                    show_row(ui, row, model, antenna, listed, columns, state, commands);
-                }
-            }
-        });
+    let mut scroll = state.scroll;
+    list.show_rows(ui, rows.len(), &mut scroll, |ui, row, index| {
+        if let Some(listed) = rows.get(index) {
+            show_row(ui, &list, row, model, antenna, listed, columns, state, commands);
+        }
     });
-    show_focus(ui, &list);
+    state.scroll = scroll;
 }
 
 fn show_bar(
@@ -327,6 +315,7 @@ fn cannot_swap(model: &Model, pass: PassKey) -> bool {
 #[allow(clippy::too_many_arguments)]
 fn show_row(
     ui: &Ui,
+    list: &List,
     row: Rect,
     model: &Model,
     antenna: &AntennaModel,
@@ -339,25 +328,12 @@ fn show_row(
     let is_selected = model.selected_pass().is_some_and(|selected| selected.key() == listed.key);
     let (icon, words, colour) = state(model, antenna, listed, t);
     let (why, is_caution) = reason(model, antenna, listed);
-    let id = ui.make_persistent_id(("plan list row", listed.key));
-    let response = ui.interact(row, id, Sense::CLICK);
     let max = listed.max_elevation_deg.map(|deg| format::degrees(deg, 0)).unwrap_or_default();
     let [aos, los] = [listed.key.1, listed.los].map(|at| format::moment(at, model.now));
     let spoken = format!("{}, {aos} to {los}, {max}. {words}. {why}", listed.name);
-    response.widget_info(|| WidgetInfo::selected(Role::ListBoxOption, true, is_selected, &spoken));
-    ui.ctx().accesskit_node_builder(response.id, |node| node.set_selected(is_selected));
     let is_missed = matches!(listed.standing, Standing::Flown(flown) if flown.cause.is_some());
-    let ground = match (is_selected, response.hovered()) {
-        (true, _) => t.bgsel,
-        (false, true) => t.bg3,
-        (false, false) if is_missed => t.badbg,
-        (false, false) => Color32::TRANSPARENT,
-    };
-    ui.painter().rect_filled(row, 0.0, ground);
-    ui.painter().hline(row.x_range(), row.bottom() - 0.5, (1.0, t.line));
-    if is_selected {
-        ui.painter().rect_filled(row.with_max_x(row.left() + 3.0), 0.0, t.sat);
-    }
+    let tint = if is_missed { t.badbg } else { Color32::TRANSPARENT };
+    let response = list.option(ui, row, listed.key, is_selected, tint, || spoken.clone());
     let at = |x: f32| row.left() + x;
     let small = text::small();
     let (left, right) = (Align2::LEFT_CENTER, Align2::RIGHT_CENTER);

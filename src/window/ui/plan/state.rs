@@ -11,7 +11,12 @@ use crate::{
     contract::passes::{PassKey, PredictedPass},
     model::{Model, UiCommand, plan::PlannedPass},
     station::{AntennaId, Take},
-    ui::{confirm::Question, format, widgets::hold_button::HoldState, words},
+    ui::{
+        confirm::Question,
+        format,
+        widgets::{hold_button::HoldState, list::Scroll},
+        words,
+    },
 };
 
 /// Time in which a change can be undone, seconds.
@@ -35,6 +40,7 @@ pub struct PlanState {
     pub(super) inspector_is_open: bool,
     /// Start of the lanes after the start of the plan, seconds.
     pub(super) lanes_after_s: f64,
+    pub(super) scroll: Scroll,
     zoom: usize,
     /// The switches of automatic operation that are held.
     holds: BTreeMap<AntennaId, HoldState>,

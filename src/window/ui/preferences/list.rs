@@ -27,7 +27,7 @@ use crate::{
             drop_down::DropDown,
             input::focus_to_replace,
             link_chip::LinkGlyph,
-            paint,
+            list, paint,
         },
     },
 };
@@ -280,15 +280,9 @@ fn line(
     is_chosen: bool,
     name: &str,
 ) -> egui::Response {
-    let t = theme::tokens(ui);
     let response = paint::control(ui, salt, row, role, true, name);
     response.widget_info(|| WidgetInfo::selected(role, true, is_chosen, name));
-    if is_chosen {
-        ui.painter().rect_filled(row, 0.0, t.bgsel);
-        ui.painter().rect_filled(row.with_max_x(row.left() + 3.0), 0.0, t.sat);
-    } else if response.hovered() {
-        ui.painter().rect_filled(row, 0.0, t.bg3);
-    }
+    list::paint_ground(ui, row, is_chosen, response.hovered());
     paint::focus_ring(ui, &response, 0);
     response
 }

@@ -14,6 +14,7 @@ use crate::{
         format, text, theme,
         widgets::{
             button::{Button, SMALL_HEIGHT},
+            list::paint_stripe,
             paint,
         },
         words::record as words,
@@ -86,7 +87,7 @@ pub(super) fn show(
         let row = next();
         if place == 0 {
             ui.painter().rect_filled(row.shrink2(vec2(0.0, 1.0)), 0.0, t.bgsel);
-            ui.painter().rect_filled(row.with_max_x(row.left() + 3.0), 0.0, t.sat);
+            paint_stripe(ui, row);
         }
         explained(ui, row, place, &columns, explanation);
         if let Some(with) = &explanation.with {

@@ -1,6 +1,6 @@
 //! The recorded passes by day, the newest first.
 
-use egui::{Align2, Color32, Rect, Role, ScrollArea, Sense, Ui, UiBuilder, WidgetInfo, pos2, vec2};
+use egui::{Align2, Color32, Rect, Ui, pos2, vec2};
 use jiff::Timestamp;
 
 use super::{
@@ -17,7 +17,11 @@ use crate::{
         text::{self, Weight},
         theme,
         tokens::Tokens,
-        widgets::{button::Button, paint},
+        widgets::{
+            button::Button,
+            list::{List, paint_divider},
+            paint,
+        },
         words::{automatic, record as words},
     },
 };
@@ -30,18 +34,14 @@ const FOOT: f32 = 44.0;
 
 pub(super) fn show(ui: &mut Ui, rect: Rect, model: &Model, state: &mut RecordState) {
     let t = theme::tokens(ui);
-    ui.painter().rect_filled(rect, 0.0, t.field);
+    ui.painter().rect_filled(rect, 0.0, theme::tokens(ui).field);
+    let list = List::new(ui, rect, "recorded passes", "Recorded passes", ROW);
     ui.painter().vline(rect.right() - 0.5, rect.y_range(), (1.0, t.line));
-    let id = ui.make_persistent_id("recorded passes");
-    let list = ui.interact(rect, id, Sense::hover());
-    list.widget_info(|| WidgetInfo::labeled(Role::ListBox, true, "Recorded passes"));
     let shown = state.shown(model);
     let scrolls = std::mem::take(&mut state.scrolls);
     let mut chosen = None;
-    ui.scope_builder(UiBuilder::new().id_salt("record list").max_rect(rect), |ui| {
-        ui.set_clip_rect(rect.intersect(ui.clip_rect()));
-        ui.spacing_mut().item_spacing = vec2(0.0, 0.0);
-        ScrollArea::vertical().id_salt("record list").auto_shrink(false).show(ui, |ui| {
+    list.show_scrolling(ui, |ui, area| {
+        area.show(ui, |ui| {
             let listed = RecordState::listed(model);
             let day = |of: &Listed<'_>| format::date(of.aos());
             for of_day in listed.chunk_by(|a, b| day(a) == day(b)) {
@@ -60,7 +60,7 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, model: &Model, state: &mut RecordSta
                     let height = if cause.is_some() { HIGH_ROW } else { ROW };
                     let (_, place) = ui.allocate_space(vec2(rect.width(), height));
                     let is_shown = shown == Some(pass.id);
-                    if row(ui, place, model.now, pass, cause.as_deref(), is_shown) {
+                    if row(ui, &list, place, model.now, pass, cause.as_deref(), is_shown) {
                         chosen = Some(pass.id);
                     }
                     if is_shown && scrolls {
@@ -129,6 +129,7 @@ fn missed(ui: &Ui, rect: Rect, now: Timestamp, pass: &MissedPass) {
     let aos = format::moment(pass.flown.pass.1, now);
     let cause = pass.flown.cause.map_or_else(String::new, automatic::miss_cause);
     let lines = Lines { name: &pass.flown.name, max: "", aos: &aos, antenna: &pass.antenna_name };
+    paint_divider(ui, rect);
     lines.paint(ui, rect, (Icon::Dash, t.t3), (words::NOT_TRACKED, t.t2), Some(&cause));
     let antenna = &pass.antenna_name;
     let spoken = format!("{}, {aos}, {antenna}: not tracked. {cause}", pass.flown.name);
@@ -146,6 +147,7 @@ pub(super) fn mark(verdict: PassVerdict, t: &Tokens) -> (Icon, Color32) {
 
 fn row(
     ui: &Ui,
+    list: &List,
     rect: Rect,
     now: Timestamp,
     pass: &RecordedPass,
@@ -164,24 +166,12 @@ fn row(
         words::verdict(report.report.verdict),
         cause.map_or_else(String::new, |cause| format!(", {cause}"))
     );
-    let id = ui.make_persistent_id(("recorded pass", pass.id));
-    let response = ui.interact(rect, id, Sense::click());
-    response.widget_info(|| WidgetInfo::selected(Role::ListBoxOption, true, is_shown, &spoken));
-    ui.ctx().accesskit_node_builder(response.id, |node| node.set_selected(is_shown));
-    let ground = match (is_shown, response.hovered()) {
-        (true, _) => t.bgsel,
-        (false, true) => t.bg3,
-        (false, false) => Color32::TRANSPARENT,
-    };
-    ui.painter().rect_filled(rect, 0.0, ground);
-    if is_shown {
-        ui.painter().rect_filled(rect.with_max_x(rect.left() + 3.0), 0.0, t.sat);
-    }
+    let clear = Color32::TRANSPARENT;
+    let response = list.option(ui, rect, pass.id, is_shown, clear, || spoken.clone());
     let (icon, colour) = mark(report.report.verdict, t);
     let said_in = if report.report.verdict == PassVerdict::Good { t.t1 } else { colour };
     let lines = Lines { name, max: &max, aos: &aos, antenna: &pass.antenna_name };
     lines.paint(ui, rect, (icon, colour), (&said, said_in), cause);
-    paint::focus_ring(ui, &response, 0);
     response.clicked()
 }
 
@@ -203,7 +193,6 @@ impl Lines<'_> {
         cause: Option<&str>,
     ) {
         let t = theme::tokens(ui);
-        ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, (1.0, t.line));
         let inner = rect.shrink2(vec2(PADDING, 0.0));
         let line = |y: f32| {
             Rect::from_x_y_ranges(inner.x_range(), rect.top() + y - 9.0..=rect.top() + y + 9.0)

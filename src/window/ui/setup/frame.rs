@@ -12,6 +12,7 @@ use crate::{
         theme,
         widgets::{
             button::{Button, HEIGHT},
+            list::paint_ground,
             paint,
         },
         words,
@@ -153,7 +154,6 @@ fn entry(
     unadded: Option<&str>,
     state: &SetupState,
 ) -> bool {
-    let t = theme::tokens(ui);
     let is_shown = state.step == step;
     let why = unadded.filter(|_| !is_shown);
     let is_enabled = why.is_none();
@@ -168,12 +168,8 @@ fn entry(
     if let Some(why) = why {
         response = response.on_hover_text(why);
     }
-    if is_shown {
-        ui.painter().rect_filled(row, 0.0, t.bgsel);
-        ui.painter().rect_filled(row.with_max_x(row.left() + 3.0), 0.0, t.sat);
-    } else if is_enabled && response.hovered() {
-        ui.painter().rect_filled(row, 0.0, t.bg3);
-    }
+    let is_hovered = is_enabled && response.hovered();
+    paint_ground(ui, row, is_shown, is_hovered);
     paint::focus_ring(ui, &response, 0);
     response.clicked()
 }

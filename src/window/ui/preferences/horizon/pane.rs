@@ -23,7 +23,7 @@ use crate::{
             button::{Button, SMALL_HEIGHT},
             check_box::CheckBox,
             input::Input,
-            paint,
+            list, paint,
             segmented::{self, Segment},
         },
         words,
@@ -173,13 +173,8 @@ fn choice(
     let words = format!("{name}, {kind}, {points} points, margin {margin}, blocks {blocks}");
     response.widget_info(|| WidgetInfo::selected(Role::ListBoxOption, true, is_chosen, &words));
     let ground = rect.expand2(vec2(PADDING, 0.0));
-    if is_chosen {
-        ui.painter().rect_filled(ground, 0.0, t.bgsel);
-        ui.painter().rect_filled(ground.with_max_x(ground.left() + 3.0), 0.0, t.sat);
-    } else if response.hovered() {
-        ui.painter().rect_filled(ground, 0.0, t.bg3);
-    }
-    ui.painter().hline(ground.x_range(), rect.bottom() - 0.5, (1.0, t.line));
+    list::paint_ground(ui, ground, is_chosen, response.hovered());
+    list::paint_divider(ui, ground);
     let colours = [t.t1, t.t2, t.t1, t.t1, t.t1];
     let font = if is_chosen { text::small_strong() } else { text::small() };
     let mut colours = colours.into_iter();

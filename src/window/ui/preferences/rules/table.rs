@@ -17,7 +17,7 @@ use crate::{
         icons::{self, Icon},
         preferences::PADDING,
         text, theme,
-        widgets::paint,
+        widgets::{list, paint},
         words,
     },
 };
@@ -184,9 +184,9 @@ fn choice(ui: &Ui, row: Rect, shown: &Shown, state: &mut RulesState) -> Response
         ui.painter().rect_filled(row, 0.0, ground);
     }
     if is_chosen {
-        ui.painter().rect_filled(row.with_max_x(row.left() + 3.0), 0.0, t.sat);
+        list::paint_stripe(ui, row);
     }
-    ui.painter().hline(row.x_range(), row.bottom() - 0.5, (1.0, t.line));
+    list::paint_divider(ui, row);
     if state.wants_focus.take_if(|wanted| *wanted == shown.index).is_some() {
         response.request_focus();
     }
