@@ -42,6 +42,7 @@ pub mod source_test;
 pub mod state_sentence;
 pub mod text;
 pub mod theme;
+mod time_axis;
 pub mod timeline;
 pub mod tokens;
 pub mod top_bar;

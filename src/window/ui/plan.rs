@@ -11,12 +11,10 @@ mod state;
 mod switches;
 
 use egui::{EventFilter, Rect, Response, Ui};
-use jiff::Timestamp;
 
 pub use self::state::PlanState;
 use super::{theme, widgets::paint};
 use crate::{
-    astro::time::{add_seconds, seconds_between},
     contract,
     model::{Model, UiCommand, plan::PlannedPass},
     station::Take,
@@ -71,39 +69,6 @@ pub fn show(
         inspector::show(ui, place, model, state, commands);
     }
     state.forget_old_undo(model.now);
-}
-
-/// A part of the time axis.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Span {
-    from: Timestamp,
-    seconds: f64,
-}
-
-impl Span {
-    fn to(self) -> Timestamp {
-        add_seconds(self.from, self.seconds)
-    }
-
-    fn x(self, at: Timestamp, place: Rect) -> f32 {
-        let share = seconds_between(self.from, at) / self.seconds;
-        egui::lerp(place.left()..=place.right(), share as f32)
-    }
-
-    fn at(self, x: f32, place: Rect) -> Timestamp {
-        let share = f64::from((x - place.left()) / place.width().max(1.0));
-        add_seconds(self.from, share * self.seconds)
-    }
-
-    /// The x range of a time, cut at the part and at least as wide as visible; `None` outside.
-    fn range(self, from: Timestamp, to: Timestamp, place: Rect) -> Option<egui::Rangef> {
-        if to <= self.from || from >= self.to() {
-            return None;
-        }
-        let left = self.x(from, place).max(place.left());
-        let right = self.x(to, place).min(place.right()).max(left + 3.0);
-        Some(egui::Rangef::new(left, right))
-    }
 }
 
 /// Shows that a list of passes has the focus. It is one stop of Tab, and the arrows go through the

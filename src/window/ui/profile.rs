@@ -13,9 +13,8 @@ use egui::{Align2, Rect, Role, Sense, Shape, Stroke, Ui, WidgetInfo, pos2, vec2}
 use jiff::Timestamp;
 
 use super::{text, theme, widgets::paint};
-use crate::{astro::HorizonMask, plan::Sample};
+use crate::{astro::HorizonMask, plan::Sample, ui::time_axis::TimeAxis};
 pub use past::PastModel;
-use scale::TimeAxis;
 
 /// Padding at the left and the right edge.
 const PADDING: f32 = 16.0;
@@ -99,7 +98,7 @@ pub fn show(
         pos2(error_rect.left(), rect.top() + PLOTS_TOP),
         pos2(error_rect.right(), error_rect.top() - PLOT_GAP),
     );
-    let Some(axis) = TimeAxis::new(model.track, curves_rect) else {
+    let Some(axis) = axis(model.track, curves_rect) else {
         let sentence = format!("The path of {} is not known.", model.name);
         empty(ui, rect.with_min_y(head.bottom()), &sentence);
         response.widget_info(|| WidgetInfo::labeled(Role::Image, true, &sentence));
@@ -133,6 +132,11 @@ fn empty(ui: &Ui, rect: Rect, sentence: &str) {
 }
 
 /// Paints the line of the present through both plots.
+/// The axis from the first to the last sample; `None` if no time lies between them.
+fn axis(track: &[Sample], rect: Rect) -> Option<TimeAxis> {
+    TimeAxis::new(track.first()?.time, track.last()?.time, rect.x_range())
+}
+
 fn now_line(ui: &Ui, rect: Rect, axis: &TimeAxis, now: Timestamp) {
     if !axis.contains(now) {
         return;

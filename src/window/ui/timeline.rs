@@ -18,9 +18,10 @@ use super::{format, menus::PassMenu, text, theme, widgets::paint};
 use crate::{
     contract::passes::ListedSatellite,
     model::{UiCommand, daylight::SunSpan, plan::Standing},
+    ui::time_axis::TimeAxis,
 };
 use bars::LaneOf;
-use scale::Scale;
+use scale::axis;
 pub use zoom::Zoom;
 
 #[derive(Debug, Clone, Copy)]
@@ -160,7 +161,7 @@ pub fn show(ui: &mut Ui, rect: Rect, model: &TimelineModel<'_>, commands: &mut V
     }
     let names = if is_small { SMALL_NAMES } else { NAMES };
     let x = Rangef::new(rect.left() + names, rect.right() - MARGIN);
-    let scale = Scale::new(model.now, hours, x);
+    let scale = axis(model.now, hours, x);
     if is_small {
         return small(ui, rect, x, &scale, model, commands);
     }
@@ -179,7 +180,7 @@ fn all_lanes(
     ui: &Ui,
     rect: Rect,
     x: Rangef,
-    scale: &Scale,
+    scale: &TimeAxis,
     model: &TimelineModel<'_>,
     commands: &mut Vec<UiCommand>,
 ) {
@@ -222,7 +223,7 @@ fn full(
     ui: &Ui,
     rect: Rect,
     x: Rangef,
-    scale: &Scale,
+    scale: &TimeAxis,
     model: &TimelineModel<'_>,
     commands: &mut Vec<UiCommand>,
 ) {
@@ -267,7 +268,7 @@ fn small(
     ui: &Ui,
     rect: Rect,
     x: Rangef,
-    scale: &Scale,
+    scale: &TimeAxis,
     model: &TimelineModel<'_>,
     commands: &mut Vec<UiCommand>,
 ) {

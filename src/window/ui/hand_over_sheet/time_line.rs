@@ -1,6 +1,7 @@
 //! The hours of the sheet, a lane for each antenna.
 
-use jiff::{Timestamp, ToSpan as _};
+use egui::Rangef;
+use jiff::Timestamp;
 use maud::{Markup, html};
 
 use super::HandOverSheet;
@@ -10,6 +11,7 @@ use crate::{
     ui::{
         format,
         page::{SECTION_HEAD_MM, plot, printable, section},
+        time_axis::TimeAxis,
     },
 };
 
@@ -75,15 +77,16 @@ impl HandOverSheet<'_> {
 
     /// The place of a time that is within the sheet, or of the nearer end of it.
     fn x(&self, at: Timestamp) -> f64 {
-        let share = seconds_between(self.from, at) / seconds_between(self.from, self.until);
-        WIDTH * share.clamp(0.0, 1.0)
+        self.axis().x_within(at).into()
+    }
+
+    fn axis(&self) -> TimeAxis {
+        let x = Rangef::new(0.0, WIDTH as f32);
+        TimeAxis::lasting(self.from, seconds_between(self.from, self.until), x)
     }
 
     /// Full hours within the sheet.
-    fn hours(&self) -> Vec<Timestamp> {
-        let hour = jiff::TimestampRound::new().smallest(jiff::Unit::Hour);
-        let first = self.from.round(hour.mode(jiff::RoundMode::Ceil)).unwrap_or(self.from);
-        let hours = first.series(1.hour());
-        hours.take_while(|hour| *hour <= self.until).collect()
+    fn hours(&self) -> impl Iterator<Item = Timestamp> + use<> {
+        self.axis().multiples(3600)
     }
 }

@@ -6,9 +6,8 @@ use egui::{
 };
 use jiff::Timestamp;
 
-use super::{LABELS, PADDING, PlanState, Span, show_focus};
+use super::{LABELS, PADDING, PlanState, show_focus};
 use crate::{
-    astro::time::seconds_between,
     contract::passes::PredictedPass,
     model::{
         Model, UiCommand,
@@ -19,6 +18,7 @@ use crate::{
         format,
         text::{self, Weight},
         theme,
+        time_axis::TimeAxis,
         widgets::paint,
         words,
     },
@@ -41,8 +41,8 @@ pub(super) fn height(rows: usize) -> f32 {
 }
 
 /// The whole plan.
-pub(super) fn span(model: &Model) -> Span {
-    Span { from: model.now, seconds: model.station.scheduling.span_h * 3600.0 }
+fn axis(model: &Model, place: Rect) -> TimeAxis {
+    TimeAxis::lasting(model.now, model.station.scheduling.span_h * 3600.0, place.x_range())
 }
 
 pub(super) fn show(
@@ -56,11 +56,11 @@ pub(super) fn show(
     let t = theme::tokens(ui);
     let (head, body) = rect.split_top_bottom_at_y(rect.top() + HEAD);
     ui.painter().rect_filled(head, 0.0, t.bg1);
-    let span = span(model);
     let time = |place: Rect| place.with_min_x(rect.left() + LABELS);
-    heads(ui, head, time(head), span);
+    let axis = axis(model, time(rect));
+    heads(ui, head, time(head), axis);
     let framed = time(rect).with_min_y(head.bottom());
-    let frame = if satellites.is_empty() { None } else { frame(ui, framed, model, span, state) };
+    let frame = if satellites.is_empty() { None } else { frame(ui, framed, model, axis, state) };
     // One stop of Tab: arrows go through the passes.
     let list = ui.interact(body, ui.make_persistent_id("plan passes"), Sense::FOCUSABLE);
     list.widget_info(|| WidgetInfo::labeled(Role::ListBox, true, "Passes by satellite"));
@@ -71,7 +71,7 @@ pub(super) fn show(
         paint::name_text(ui, "nothing planned", place, words);
         return;
     }
-    day_and_night(ui, time(body), model, span);
+    day_and_night(ui, time(body), model, axis);
     ui.scope_builder(UiBuilder::new().id_salt("plan rows").max_rect(body), |ui| {
         ui.set_clip_rect(body.intersect(ui.clip_rect()));
         ui.spacing_mut().item_spacing = vec2(0.0, 0.0);
@@ -82,7 +82,7 @@ pub(super) fn show(
                 let before = index.checked_sub(1).and_then(|before| satellites.get(before));
                 let Some(satellite) = satellites.get(index) else { continue };
                 let is_first = before.is_none_or(|before| before.priority != satellite.priority);
-                show_row(ui, row, time(row), model, satellite, is_first, span, commands);
+                show_row(ui, row, time(row), model, satellite, is_first, axis, commands);
             }
         });
     });
@@ -90,24 +90,24 @@ pub(super) fn show(
         let stroke = Stroke::new(1.0, theme::tokens(ui).sat);
         ui.painter().rect_stroke(frame, 0.0, stroke, StrokeKind::Inside);
     }
-    let x = span.x(model.now, time(rect));
+    let x = axis.x(model.now);
     ui.painter().vline(x, body.y_range(), (1.75, t.t1));
     show_focus(ui, &list);
 }
 
 /// The day is a little lighter than the night.
-fn day_and_night(ui: &Ui, place: Rect, model: &Model, span: Span) {
+fn day_and_night(ui: &Ui, place: Rect, model: &Model, axis: TimeAxis) {
     let t = theme::tokens(ui);
     ui.painter().rect_filled(place, 0.0, t.bg0);
     for day in model.sky.sun_spans.iter().filter(|span| span.up) {
-        if let Some(x) = span.range(day.from, day.to, place) {
+        if let Some(x) = axis.range(day.from, day.to) {
             ui.painter().rect_filled(Rect::from_x_y_ranges(x, place.y_range()), 0.0, t.bg1);
         }
     }
 }
 
 /// Days over hours.
-fn heads(ui: &Ui, head: Rect, place: Rect, span: Span) {
+fn heads(ui: &Ui, head: Rect, place: Rect, axis: TimeAxis) {
     let t = theme::tokens(ui);
     ui.painter().hline(head.x_range(), head.bottom() - 0.5, (1.0, t.line));
     let labels = head.with_max_x(place.left());
@@ -115,10 +115,10 @@ fn heads(ui: &Ui, head: Rect, place: Rect, span: Span) {
     let (left, right) = (Align2::LEFT_CENTER, Align2::RIGHT_CENTER);
     paint::text_in(ui, inner, left, "Priority", text::caption(), t.t3);
     paint::text_in(ui, inner, right, "taken", text::caption(), t.t3);
-    let hour_width = place.width() / (span.seconds / 3600.0) as f32;
+    let hour_width = axis.hour_width();
     let every = [1, 2, 3, 6, 12].into_iter().find(|of| hour_width * *of as f32 >= HOUR_APART);
-    for at in multiples(span, every.unwrap_or(24) * 3600) {
-        let x = span.x(at, place);
+    for at in axis.multiples(every.unwrap_or(24) * 3600) {
+        let x = axis.x(at);
         let (word, y) = (format::hour_of_day(at), head.bottom() - HOURS_UP);
         if x + 10.0 < place.right() {
             let centre = Align2::CENTER_CENTER;
@@ -127,12 +127,12 @@ fn heads(ui: &Ui, head: Rect, place: Rect, span: Span) {
     }
     let font = text::sized(12.0, Weight::SemiBold);
     let y = head.top() + HEAD / 4.0;
-    let days = std::iter::once(span.from).chain(multiples(span, DAY_S));
+    let days = std::iter::once(axis.start()).chain(axis.multiples(DAY_S));
     let labels: Vec<_> = days
         .map(|at| {
             let word = format::weekday(at);
             let width = paint::text_width(ui, &word, font.clone());
-            (span.x(at, place).max(place.left()), width, word)
+            (axis.x(at).max(place.left()), width, word)
         })
         .collect();
     // Where two days have no room for both labels, the later one stays: without it, its times would
@@ -146,15 +146,6 @@ fn heads(ui: &Ui, head: Rect, place: Rect, span: Span) {
     }
 }
 
-fn multiples(span: Span, step_s: i64) -> impl Iterator<Item = Timestamp> {
-    let start = span.from.as_second();
-    let first = start + (-start).rem_euclid(step_s);
-    let end = span.to();
-    (0..)
-        .map_while(move |step| Timestamp::from_second(first + step * step_s).ok())
-        .take_while(move |at| *at < end)
-}
-
 #[allow(clippy::too_many_arguments)]
 fn show_row(
     ui: &Ui,
@@ -163,7 +154,7 @@ fn show_row(
     model: &Model,
     satellite: &PlannedSatellite<'_>,
     is_first: bool,
-    span: Span,
+    axis: TimeAxis,
     commands: &mut Vec<UiCommand>,
 ) {
     let t = theme::tokens(ui);
@@ -174,8 +165,8 @@ fn show_row(
     if is_selected {
         ui.painter().rect_filled(labels, 0.0, t.bgsel);
     }
-    for at in multiples(span, DAY_S) {
-        ui.painter().vline(span.x(at, place), row.y_range(), (1.0, t.edge));
+    for at in axis.multiples(DAY_S) {
+        ui.painter().vline(axis.x(at), row.y_range(), (1.0, t.edge));
     }
     ui.painter().hline(row.x_range(), row.top() + 0.5, (1.0, line));
     let inner = labels.shrink2(vec2(PADDING, 0.0));
@@ -199,7 +190,7 @@ fn show_row(
     );
     paint::name_text(ui, ("plan row", satellite.number), labels, &spoken);
     for planned in &satellite.passes {
-        bar(ui, row, place, model, planned, selected, span, commands);
+        bar(ui, row, model, planned, selected, axis, commands);
     }
 }
 
@@ -207,17 +198,16 @@ fn show_row(
 fn bar(
     ui: &Ui,
     row: Rect,
-    place: Rect,
     model: &Model,
     planned: &PlannedPass<'_>,
     selected: Option<(u32, Timestamp)>,
-    span: Span,
+    axis: TimeAxis,
     commands: &mut Vec<UiCommand>,
 ) {
     let t = theme::tokens(ui);
     let predicted = planned.predicted;
     let pass = &predicted.pass;
-    let Some(x) = span.range(pass.aos.time, pass.los.time, place) else { return };
+    let Some(x) = axis.range(pass.aos.time, pass.los.time) else { return };
     let share = (pass.max_elevation().degrees() / 90.0).clamp(0.0, 1.0) as f32;
     let height = egui::lerp(BARS, share);
     let bottom = row.bottom() - 1.0;
@@ -282,27 +272,32 @@ fn spoken(model: &Model, planned: &PlannedPass<'_>) -> String {
 
 /// Draws the grip above the frame of the part that the lanes show; it or the arrow keys move that.
 /// Returns the frame.
-fn frame(ui: &Ui, place: Rect, model: &Model, span: Span, state: &mut PlanState) -> Option<Rect> {
+fn frame(
+    ui: &Ui,
+    place: Rect,
+    model: &Model,
+    axis: TimeAxis,
+    state: &mut PlanState,
+) -> Option<Rect> {
     let t = theme::tokens(ui);
-    let lanes = super::lanes::span(model, state);
-    let x = span.range(lanes.from, lanes.to(), place)?;
+    let lanes = super::lanes::axis(model, place, state);
+    let x = axis.range(lanes.start(), lanes.end())?;
     let rect = Rect::from_x_y_ranges(x, place.y_range()).shrink(0.5);
     // The grip stands wholly above the rows: it leaves the bars to clicks, and is read before them.
     let grip = rect.with_max_y(rect.top() + 8.0);
     let grip = grip.expand2(vec2(4.0, 0.0)).translate(vec2(0.0, -8.5));
     let id = ui.make_persistent_id("lanes frame");
     let response = ui.interact(grip, id, Sense::drag());
-    let words = format!("Part of the lanes, from {}", format::moment(lanes.from, model.now));
+    let words = format!("Part of the lanes, from {}", format::moment(lanes.start(), model.now));
     response.widget_info(|| WidgetInfo::labeled(Role::Splitter, true, &words));
     ui.painter().rect_filled(grip.shrink2(vec2(4.0, 2.0)), 2.0, t.sat);
     let by_s = if response.dragged() {
-        let moved = span.at(place.left() + response.drag_delta().x, place);
-        seconds_between(span.from, moved)
+        axis.seconds_across(response.drag_delta().x)
     } else {
         f64::from(by_keys(ui, &response)) * KEY_S
     };
     if by_s != 0.0 {
-        let most = (span.seconds - lanes.seconds).max(0.0);
+        let most = (axis.seconds() - lanes.seconds()).max(0.0);
         state.lanes_after_s = (state.lanes_after_s + by_s).clamp(0.0, most);
         ui.ctx().request_repaint_after_for(
             std::time::Duration::from_millis(16),

@@ -5,7 +5,7 @@ use egui::{
     vec2,
 };
 
-use super::{PADDING, PlanState, Span, legend, switches};
+use super::{PADDING, PlanState, legend, switches};
 use crate::{
     astro::time::{add_seconds, seconds_between},
     contract::{
@@ -21,6 +21,7 @@ use crate::{
         pass_bar::{self, BarForm},
         text::{self, Weight},
         theme,
+        time_axis::TimeAxis,
         timeline::labels::{self, Placed, Wish},
         widgets::{button::Button, list, paint},
         words,
@@ -44,9 +45,9 @@ pub(super) fn height(lanes: usize) -> f32 {
 }
 
 /// The part of the plan in the lanes.
-pub(super) fn span(model: &Model, state: &PlanState) -> Span {
+pub(super) fn axis(model: &Model, place: Rect, state: &PlanState) -> TimeAxis {
     let from = add_seconds(model.now, state.lanes_after_s - PAST_S);
-    Span { from, seconds: state.lanes_h() * 3600.0 }
+    TimeAxis::lasting(from, state.lanes_h() * 3600.0, place.x_range())
 }
 
 pub(super) fn show(
@@ -60,13 +61,13 @@ pub(super) fn show(
 ) {
     let t = theme::tokens(ui);
     let (bar, rest) = rect.split_top_bottom_at_y(rect.top() + BAR);
-    let (axis, body) = rest.split_top_bottom_at_y(rest.top() + AXIS);
+    let (names, body) = rest.split_top_bottom_at_y(rest.top() + AXIS);
     ui.painter().rect_filled(bar, 0.0, t.bg2);
-    ui.painter().rect_filled(axis, 0.0, t.bg1);
-    let span = span(model, state);
-    title(ui, bar, model, satellites, span);
+    ui.painter().rect_filled(names, 0.0, t.bg1);
     let place = |row: Rect| row.with_min_x(rect.left() + LABEL);
-    hours(ui, place(axis), span);
+    let axis = axis(model, place(rect), state);
+    title(ui, bar, model, satellites, axis);
+    hours(ui, place(names), axis);
     if model.antennas.is_empty() {
         let words = "No antenna yet. Add one in Preferences or run the set-up.";
         let at = body.left_top() + vec2(PADDING, 12.0);
@@ -95,22 +96,21 @@ pub(super) fn show(
                     state,
                     commands,
                 );
-                lane(ui, row, place(row), model, antenna, span, commands);
+                lane(ui, row, place(row), model, antenna, axis, commands);
             }
         });
     });
-    let place = place(body);
-    if let Some(x) = span.range(model.now, add_seconds(model.now, 1.0), place) {
-        let y = egui::Rangef::new(axis.bottom() - 6.0, body.bottom());
-        ui.painter().vline(x.min, y, (1.75, t.t1));
+    if axis.contains(model.now) {
+        let y = egui::Rangef::new(names.bottom() - 6.0, body.bottom());
+        ui.painter().vline(axis.x(model.now), y, (1.75, t.t1));
     }
 }
 
-fn title(ui: &Ui, bar: Rect, model: &Model, satellites: &[PlannedSatellite<'_>], span: Span) {
+fn title(ui: &Ui, bar: Rect, model: &Model, satellites: &[PlannedSatellite<'_>], axis: TimeAxis) {
     let t = theme::tokens(ui);
     let inner = bar.shrink2(vec2(PADDING, 0.0));
     let left = Align2::LEFT_CENTER;
-    let words = format!("Antennas, {}", format::minutes(span.from, span.to(), model.now));
+    let words = format!("Antennas, {}", format::minutes(axis.start(), axis.end(), model.now));
     let font = text::sized(13.0, Weight::SemiBold);
     let drawn = paint::text_in(ui, inner, left, &words, font, t.t1);
     let all: usize = satellites.iter().map(|satellite| satellite.passes.len()).sum();
@@ -139,25 +139,21 @@ fn worth(model: &Model) -> String {
     lines.collect::<Vec<_>>().join("\n")
 }
 
-fn hours(ui: &Ui, axis: Rect, span: Span) {
+fn hours(ui: &Ui, names: Rect, axis: TimeAxis) {
     let t = theme::tokens(ui);
-    ui.painter().hline(axis.x_range(), axis.bottom() - 0.5, (1.0, t.line));
-    for (x, word) in marks(axis, span) {
-        let at = pos2(x, axis.center().y);
-        if x + 18.0 < axis.right() && x - 18.0 > axis.left() {
+    ui.painter().hline(names.x_range(), names.bottom() - 0.5, (1.0, t.line));
+    for time in marks(axis) {
+        let at = pos2(axis.x(time), names.center().y);
+        if at.x + 18.0 < names.right() && at.x - 18.0 > names.left() {
+            let word = format::on_axis(time);
             paint::text(ui, at, Align2::CENTER_CENTER, word, text::caption(), t.t3);
         }
     }
 }
 
 /// The half or full hours of the lanes.
-fn marks(place: Rect, span: Span) -> Vec<(f32, String)> {
-    let step_s = if span.seconds > 7.0 * 3600.0 { 3600 } else { 1800 };
-    let start = span.from.as_second();
-    let first = start + (-start).rem_euclid(step_s);
-    let times = (0..).map_while(|step| jiff::Timestamp::from_second(first + step * step_s).ok());
-    let within = times.take_while(|at| *at < span.to());
-    within.map(|at| (span.x(at, place), format::on_axis(at))).collect()
+fn marks(axis: TimeAxis) -> impl Iterator<Item = jiff::Timestamp> {
+    axis.multiples(if axis.seconds() > 7.0 * 3600.0 { 3600 } else { 1800 })
 }
 
 fn label(
@@ -226,13 +222,14 @@ fn lane(
     place: Rect,
     model: &Model,
     antenna: &AntennaModel,
-    span: Span,
+    axis: TimeAxis,
     commands: &mut Vec<UiCommand>,
 ) {
     let t = theme::tokens(ui);
     ui.painter().rect_filled(place, 0.0, t.bg0);
     ui.painter().hline(row.x_range(), row.bottom() - 0.5, (1.0, t.line));
-    for (x, _) in marks(place, span) {
+    for time in marks(axis) {
+        let x = axis.x(time);
         ui.painter().vline(x, place.y_range(), (1.0, t.line));
     }
     let id = antenna.id();
@@ -243,7 +240,7 @@ fn lane(
     for (place_in_day, line) in own {
         let DayEvent::Flown(flown) = &line.what else { continue };
         let to = add_seconds(flown.pass.1, flown.of_s);
-        let Some(x) = span.range(flown.pass.1, to, place) else { continue };
+        let Some(x) = axis.range(flown.pass.1, to) else { continue };
         let rect = band(x);
         let words = words::automatic::flown(flown, model.now);
         let form = if flown.cause.is_none() { BarForm::Done } else { BarForm::Missed };
@@ -256,8 +253,8 @@ fn lane(
     let mut before = model.now;
     let mut bars = Vec::new();
     for entry in ahead {
-        way(ui, place, middle, before, entry, span);
-        bars.extend(bar(ui, band, place, model, antenna, entry, span, commands));
+        way(ui, middle, before, entry, axis);
+        bars.extend(bar(ui, band, model, antenna, entry, axis, commands));
         before = entry.to;
     }
     names(ui, place, &bars);
@@ -271,25 +268,25 @@ fn lane(
         };
         let room = place.shrink2(vec2(PADDING, 0.0));
         // Beside the line of now, not through it.
-        let now = span.x(model.now, place) + 8.0;
+        let now = axis.x(model.now) + 8.0;
         let room = room.with_min_x(room.left().max(now.min(room.right())));
         paint::text_in(ui, room, Align2::LEFT_CENTER, words, text::small(), t.t3);
     }
 }
 
 /// The wait after the entry before, and the slew to the next one.
-fn way(ui: &Ui, place: Rect, y: f32, before: jiff::Timestamp, entry: &Entry, span: Span) {
+fn way(ui: &Ui, y: f32, before: jiff::Timestamp, entry: &Entry, axis: TimeAxis) {
     let t = theme::tokens(ui);
     let slew_s = entry.slew_s + entry.set_up_s;
     let arrives = add_seconds(before, slew_s);
-    if let Some(x) = span.range(arrives, entry.from, place)
+    if let Some(x) = axis.range(arrives, entry.from)
         && seconds_between(arrives, entry.from) > 0.0
     {
         let line = [pos2(x.min, y), pos2(x.max, y)];
         ui.painter().extend(egui::Shape::dotted_line(&line, t.t3, 5.0, 0.75));
     }
     if slew_s > 0.0
-        && let Some(x) = span.range(before, arrives.min(entry.from), place)
+        && let Some(x) = axis.range(before, arrives.min(entry.from))
     {
         let rect = Rect::from_x_y_ranges(x, y - ENTRY / 2.0..=y + ENTRY / 2.0);
         let stroke = Stroke::new(1.0, t.cmd);
@@ -333,15 +330,14 @@ fn names(ui: &Ui, place: Rect, bars: &[NamedBar]) {
 fn bar(
     ui: &Ui,
     band: impl Fn(egui::Rangef) -> Rect,
-    place: Rect,
     model: &Model,
     antenna: &AntennaModel,
     entry: &Entry,
-    span: Span,
+    axis: TimeAxis,
     commands: &mut Vec<UiCommand>,
 ) -> Option<NamedBar> {
     let t = theme::tokens(ui);
-    let rect = band(span.range(entry.from, entry.to, place)?);
+    let rect = band(axis.range(entry.from, entry.to)?);
     let key = (entry.pass.satellite, entry.pass.aos);
     let name = words::schedule::pass_name(model, key);
     let found = model.pass_lists.find(key);

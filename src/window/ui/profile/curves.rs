@@ -4,12 +4,12 @@ use egui::{Align2, Color32, Mesh, Painter, Pos2, Rect, Shape, Stroke, Ui, Vec2, 
 
 use super::{
     ProfileModel, dashes,
-    scale::{self, AZIMUTH_TOP_DEG, ELEVATION_TOP_DEG, TimeAxis},
+    scale::{self, AZIMUTH_TOP_DEG, ELEVATION_TOP_DEG},
 };
 use crate::{
     astro::HorizonMask,
     plan::Sample,
-    ui::{format, text, theme, widgets::paint},
+    ui::{format, text, theme, time_axis::TimeAxis, widgets::paint},
 };
 
 /// Dash and gap of the part of the path ahead.
@@ -159,7 +159,7 @@ mod tests {
             at("2026-11-14T11:05:00Z", f64::NAN),
             at("2026-11-14T11:10:00Z", 90.0),
         ];
-        let axis = TimeAxis::new(&track, PLOT).unwrap();
+        let axis = super::super::axis(&track, PLOT).unwrap();
         let mask = HorizonMask::from_degrees([(0.0, -2.0), (90.0, 45.0), (180.0, 0.0)]).unwrap();
         let skyline = skyline(PLOT, &axis, &track, &mask);
         assert_eq!(skyline, [pos2(40.0, 140.0), pos2(340.0, 90.0)]);

@@ -3,11 +3,8 @@
 use egui::{Align2, Rect, Stroke, Ui, pos2};
 use jiff::Timestamp;
 
-use super::{
-    dashes,
-    scale::{self, TimeAxis},
-};
-use crate::ui::{format, text, theme, widgets::paint};
+use super::{dashes, scale};
+use crate::ui::{format, text, theme, time_axis::TimeAxis, widgets::paint};
 
 /// Height of the plot.
 pub(super) const HEIGHT: f32 = 32.0;

@@ -5,11 +5,11 @@ use jiff::Timestamp;
 
 use super::{
     ProfileModel,
-    scale::{self, ELEVATION_TOP_DEG, TimeAxis},
+    scale::{self, ELEVATION_TOP_DEG},
 };
 use crate::{
     astro::time::{add_seconds, seconds_between},
-    ui::{along, format, text, theme, widgets::paint},
+    ui::{along, format, text, theme, time_axis::TimeAxis, widgets::paint},
 };
 
 /// Step of an arrow key, and with Shift.

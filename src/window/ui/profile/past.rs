@@ -5,15 +5,14 @@ use egui::{
 };
 use jiff::Timestamp;
 
-use super::{
-    HEAD_Y, LEFT_SCALE, PADDING, PLOTS_TOP, RIGHT_SCALE, TIMES, error_plot, scale::TimeAxis,
-};
+use super::{HEAD_Y, LEFT_SCALE, PADDING, PLOTS_TOP, RIGHT_SCALE, TIMES, error_plot};
 use crate::{
     contract::antenna::Errors,
     ui::{
         format,
         icons::{self, Icon},
         text, theme,
+        time_axis::TimeAxis,
         widgets::{close_key, menu, paint},
     },
 };
@@ -98,7 +97,7 @@ pub(super) fn show(ui: &Ui, rect: Rect, head: Rect, track: &PastModel<'_>) {
         pos2(rect.left() + LEFT_SCALE, rect.top() + PLOTS_TOP),
         pos2(rect.right() - RIGHT_SCALE, rect.bottom() - TIMES),
     );
-    let axis = TimeAxis::between(track.from, track.until, plot);
+    let axis = TimeAxis::new(track.from, track.until, plot.x_range());
     if let Some(axis) = axis.filter(|_| plot.is_positive()) {
         let errors = track.errors.iter();
         let errors: Vec<_> =

@@ -1,12 +1,6 @@
-//! The scales of the plots: times to x, values to y.
+//! The scales of the plots: values to y.
 
 use egui::{Pos2, Rect, pos2};
-use jiff::Timestamp;
-
-use crate::{
-    astro::time::{add_seconds, seconds_between},
-    plan::Sample,
-};
 
 /// Top of the elevation scale.
 pub(in crate::ui) const ELEVATION_TOP_DEG: f64 = 90.0;
@@ -16,52 +10,6 @@ pub(in crate::ui) const AZIMUTH_TOP_DEG: f64 = 360.0;
 const MIN_ERROR_HALF_BEAMS: f64 = 1.4;
 /// Maximum top of the error plot, in half beams; larger errors lie at the top edge.
 const MAX_ERROR_HALF_BEAMS: f64 = 3.0;
-
-/// The time axis that both plots share.
-#[derive(Debug, Clone, Copy)]
-pub(in crate::ui) struct TimeAxis {
-    start: Timestamp,
-    end: Timestamp,
-    left: f32,
-    width: f32,
-}
-
-impl TimeAxis {
-    /// The axis from the first to the last sample, across the width of `rect`. `None` if no
-    /// time lies between them.
-    pub(in crate::ui) fn new(track: &[Sample], rect: Rect) -> Option<Self> {
-        Self::between(track.first()?.time, track.last()?.time, rect)
-    }
-
-    /// The axis from `start` to `end`, across the width of `rect`.
-    pub(in crate::ui) fn between(start: Timestamp, end: Timestamp, rect: Rect) -> Option<Self> {
-        (end > start).then(|| Self { start, end, left: rect.left(), width: rect.width() })
-    }
-
-    pub(in crate::ui) fn start(&self) -> Timestamp {
-        self.start
-    }
-
-    pub(in crate::ui) fn end(&self) -> Timestamp {
-        self.end
-    }
-
-    pub(in crate::ui) fn contains(&self, time: Timestamp) -> bool {
-        (self.start..=self.end).contains(&time)
-    }
-
-    /// The x of `time`, which may lie outside the axis.
-    pub(in crate::ui) fn x(&self, time: Timestamp) -> f32 {
-        let part = seconds_between(self.start, time) / seconds_between(self.start, self.end);
-        self.left + part as f32 * self.width
-    }
-
-    /// The time at `x`; beyond the axis that of its end.
-    pub(in crate::ui) fn time(&self, x: f32) -> Timestamp {
-        let part = f64::from((x - self.left) / self.width).clamp(0.0, 1.0);
-        add_seconds(self.start, part * seconds_between(self.start, self.end))
-    }
-}
 
 /// The y of `value` in `rect`, whose bottom is 0 and whose top is `top`. A value beyond them
 /// lies at the edge.
@@ -134,35 +82,12 @@ pub(in crate::ui) fn broken_at_north(points: impl Iterator<Item = (f32, f64)>) -
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::astro::AzEl;
     use egui::vec2;
 
     const PLOT: Rect = Rect { min: pos2(40.0, 10.0), max: pos2(340.0, 100.0) };
 
-    fn sample(time: &str) -> Sample {
-        Sample { time: time.parse().unwrap(), direction: AzEl::from_degrees(0.0, 0.0) }
-    }
-
     fn near(a: f32, b: f32) -> bool {
         (a - b).abs() < 1e-3
-    }
-
-    #[test]
-    fn the_pass_fills_the_width() {
-        let track = [sample("2026-11-14T11:00:00Z"), sample("2026-11-14T11:10:00Z")];
-        let axis = TimeAxis::new(&track, PLOT).unwrap();
-        assert!(near(axis.x(axis.start()), 40.0) && near(axis.x(axis.end()), 340.0));
-        let later: Timestamp = "2026-11-14T11:12:30Z".parse().unwrap();
-        assert!(near(axis.x(later), 415.0) && !axis.contains(later));
-        assert_eq!(axis.time(190.0), "2026-11-14T11:05:00Z".parse().unwrap());
-        assert_eq!((axis.time(0.0), axis.time(900.0)), (axis.start(), axis.end()));
-    }
-
-    #[test]
-    fn a_path_without_length_has_no_axis() {
-        assert!(TimeAxis::new(&[], PLOT).is_none());
-        let one = sample("2026-11-14T11:00:00Z");
-        assert!(TimeAxis::new(&[one, one], PLOT).is_none());
     }
 
     #[test]

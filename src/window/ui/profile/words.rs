@@ -4,10 +4,10 @@ use std::fmt::Write as _;
 
 use egui::{Align2, Rect, Ui, pos2};
 
-use super::{ProfileModel, scale::TimeAxis};
+use super::ProfileModel;
 use crate::{
     plan::Sample,
-    ui::{format, text, theme, widgets::paint},
+    ui::{format, text, theme, time_axis::TimeAxis, widgets::paint},
 };
 
 /// Centre of the times below the plots.

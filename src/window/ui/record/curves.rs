@@ -5,7 +5,7 @@ use jiff::{SignedDuration, Timestamp};
 
 use super::{PADDING, RecordState, cursor, events, lock, report};
 use crate::{
-    astro::time::{add_seconds, seconds_between},
+    astro::time::add_seconds,
     contract::record::OpenedPass,
     model::{Model, UiCommand},
     plan::pass_report::{PointingError, TrackPoint},
@@ -13,9 +13,10 @@ use crate::{
         format,
         profile::{
             dashes,
-            scale::{self, AZIMUTH_TOP_DEG, ELEVATION_TOP_DEG, TimeAxis},
+            scale::{self, AZIMUTH_TOP_DEG, ELEVATION_TOP_DEG},
         },
         recorded_track, text, theme,
+        time_axis::TimeAxis,
         tokens::Tokens,
         widgets::paint,
     },
@@ -55,7 +56,7 @@ pub(super) fn show(
     else {
         return;
     };
-    let Some(axis) = TimeAxis::between(start, end, plots) else { return };
+    let Some(axis) = TimeAxis::new(start, end, plots.x_range()) else { return };
     let mut y = rect.top();
     let mut part = |height: f32| {
         y += height;
@@ -174,15 +175,11 @@ fn grid(ui: &Ui, rect: Rect, axis: &TimeAxis) {
 
 /// Full minutes at which lines stand, at most eight.
 pub(super) fn minutes(axis: &TimeAxis) -> Vec<Timestamp> {
-    let span_s = seconds_between(axis.start(), axis.end());
     let every_s = [60, 120, 300, 600, 1800, 3600, 7200]
         .into_iter()
-        .find(|every| span_s / f64::from(*every) <= 8.0)
+        .find(|every| axis.seconds() / f64::from(*every) <= 8.0)
         .unwrap_or(14_400);
-    let every = i64::from(every_s);
-    let first = (axis.start().as_second() + every - 1).div_euclid(every) * every;
-    let times = (0..9).map(|step| Timestamp::from_second(first + step * every));
-    times.filter_map(Result::ok).take_while(|at| *at < axis.end()).collect()
+    axis.multiples(i64::from(every_s)).take(9).filter(|time| *time < axis.end()).collect()
 }
 
 fn directions(ui: &Ui, rect: Rect, axis: &TimeAxis, opened: &OpenedPass) {

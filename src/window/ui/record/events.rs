@@ -14,9 +14,8 @@ use crate::{
     model::Model,
     plan::pass_report::LossCause,
     ui::{
-        format,
-        profile::scale::TimeAxis,
-        text, theme,
+        format, text, theme,
+        time_axis::TimeAxis,
         widgets::paint,
         words::{alarm, record as words},
     },

@@ -7,13 +7,13 @@ use jiff::Timestamp;
 
 use super::HEIGHT;
 use crate::{
-    astro::time::{add_seconds, seconds_between},
+    astro::time::seconds_between,
     contract::record::PassTimes,
     model::{
         UiCommand,
         replay::{ReplayCommand, Replayed, Stretch},
     },
-    ui::{format, text, theme, widgets::paint},
+    ui::{format, text, theme, time_axis::TimeAxis, widgets::paint},
 };
 
 /// Least width of the bar.
@@ -37,10 +37,10 @@ pub(super) fn scrubber(ui: &Ui, rect: Rect, replay: &Replayed, commands: &mut Ve
         return;
     }
     let t = theme::tokens(ui);
-    let line = Line::of(rect, &replay.stretch);
+    let line = Line::new(rect, &replay.stretch);
     let is_high = rect.height() >= HEIGHT;
     ui.painter().rect(line.bar, 0.0, t.bg0, (1.0, t.edge), StrokeKind::Inside);
-    let x = line.x(replay.at);
+    let x = line.axis.x_within(replay.at);
     ui.painter().rect_filled(line.bar.with_max_x(x), 0.0, t.warn);
     for (place, times) in replay.passes.iter().enumerate() {
         pass(ui, &line, place, times, replay.at);
@@ -68,28 +68,17 @@ pub(super) fn scrubber(ui: &Ui, rect: Rect, replay: &Replayed, commands: &mut Ve
 /// The bar, and the time along it.
 struct Line {
     bar: Rect,
-    from: Timestamp,
-    whole_s: f64,
+    axis: TimeAxis,
 }
 
 impl Line {
-    fn of(rect: Rect, stretch: &Stretch) -> Self {
+    fn new(rect: Rect, stretch: &Stretch) -> Self {
         let y = rect.center().y;
+        let whole_s = seconds_between(stretch.from, stretch.until);
         Self {
             bar: Rect::from_x_y_ranges(rect.x_range(), y - HALF_BAR..=y + HALF_BAR),
-            from: stretch.from,
-            whole_s: seconds_between(stretch.from, stretch.until).max(1.0),
+            axis: TimeAxis::lasting(stretch.from, whole_s, rect.x_range()),
         }
-    }
-
-    fn x(&self, at: Timestamp) -> f32 {
-        let share = (seconds_between(self.from, at) / self.whole_s).clamp(0.0, 1.0);
-        egui::lerp(self.bar.x_range(), share as f32)
-    }
-
-    fn at(&self, x: f32) -> Timestamp {
-        let share = f64::from((x - self.bar.left()) / self.bar.width()).clamp(0.0, 1.0);
-        add_seconds(self.from, share * self.whole_s)
     }
 }
 
@@ -97,16 +86,16 @@ impl Line {
 fn pass(ui: &Ui, line: &Line, place: usize, times: &PassTimes, now: Timestamp) {
     let t = theme::tokens(ui);
     let y = line.bar.center().y;
-    let (from, until) = (line.x(times.aos), line.x(times.los));
+    let (from, until) = (line.axis.x_within(times.aos), line.axis.x_within(times.los));
     let within = Rect::from_x_y_ranges(from..=until, y - HALF_BOX..=y + HALF_BOX);
     for (from, until) in &times.lost {
-        let (from, until) = (line.x(*from), line.x(*until));
+        let (from, until) = (line.axis.x_within(*from), line.axis.x_within(*until));
         let lost = within.with_min_x(from).with_max_x(until.max(from + LEAST_LOST));
         ui.painter().rect_filled(lost, 0.0, t.bad);
     }
     ui.painter().rect_stroke(within, 0.0, (1.0, t.sat), StrokeKind::Inside);
     if let Some(tca) = times.tca {
-        ui.painter().vline(line.x(tca), within.y_range(), (1.0, t.sat));
+        ui.painter().vline(line.axis.x_within(tca), within.y_range(), (1.0, t.sat));
     }
     paint::name_text(ui, ("pass", place), within, &in_words(times, now));
 }
@@ -140,7 +129,7 @@ fn below(ui: &Ui, rect: Rect, line: &Line, passes: &[PassTimes]) {
     for (word, at) in words {
         let width = paint::text_width(ui, word, text::caption());
         let most = (rect.right() - width / 2.0).max(rect.left() + width / 2.0);
-        let middle = line.x(at).clamp(rect.left() + width / 2.0, most);
+        let middle = line.axis.x_within(at).clamp(rect.left() + width / 2.0, most);
         let place = Rect::from_center_size(pos2(middle, rect.bottom() - 9.0), vec2(width, 16.0));
         if taken.iter().any(|of| of.intersects(place.expand2(vec2(WORD_GAP, 0.0)))) {
             continue;
@@ -156,7 +145,7 @@ fn moment(ui: &Ui, line: &Line, replay: &Replayed, commands: &mut Vec<UiCommand>
     let response = ui.interact(place, id(), Sense::click_and_drag());
     let words = format!("Moment of the replay, {}", format::moment(replay.at, replay.at));
     response.widget_info(|| WidgetInfo::labeled(Role::Slider, true, &words));
-    let wanted = response.interact_pointer_pos().map(|at| line.at(at.x));
+    let wanted = response.interact_pointer_pos().map(|at| line.axis.time(at.x));
     if response.has_focus() {
         // The arrows move the moment, not the focus.
         let filter = EventFilter { horizontal_arrows: true, ..EventFilter::default() };

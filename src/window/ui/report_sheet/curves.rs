@@ -1,6 +1,7 @@
 //! Elevation, azimuth and error over the time of the pass.
 
-use jiff::{Timestamp, ToSpan as _};
+use egui::Rangef;
+use jiff::Timestamp;
 use maud::{Markup, html};
 
 use crate::{
@@ -11,6 +12,7 @@ use crate::{
         format,
         page::{plot, section},
         recorded_track,
+        time_axis::TimeAxis,
     },
 };
 
@@ -29,8 +31,7 @@ const MOST_MINUTES: i64 = 12;
 
 /// A plot: a range of values over the time of the pass.
 struct Plot {
-    from: Timestamp,
-    until: Timestamp,
+    axis: TimeAxis,
     top: f64,
     height: f64,
     /// Values at the bottom and at the top.
@@ -39,9 +40,7 @@ struct Plot {
 
 impl Plot {
     fn x(&self, time: Timestamp) -> f64 {
-        let whole_s = seconds_between(self.from, self.until).max(1e-3);
-        let part = (seconds_between(self.from, time) / whole_s).clamp(0.0, 1.0);
-        NUMBERS + part * (WIDTH - WORDS - NUMBERS)
+        self.axis.x_within(time).into()
     }
 
     fn y(&self, value: f64) -> f64 {
@@ -68,8 +67,9 @@ fn note(y: f64, words: &str) -> Markup {
 
 pub(super) fn html(opened: &OpenedPass) -> Markup {
     let report = &opened.pass.report;
-    let plot =
-        |top, height, values| Plot { from: report.from, until: report.until, top, height, values };
+    let x = Rangef::new(NUMBERS as f32, (WIDTH - WORDS) as f32);
+    let axis = TimeAxis::lasting(report.from, seconds_between(report.from, report.until), x);
+    let plot = |top, height, values| Plot { axis, top, height, values };
     let half_beam_deg = report.half_beam_deg.max(1e-3);
     let top_deg = recorded_track::error_top_deg(half_beam_deg, &opened.track);
     let elevation = plot(TOP, DIRECTION, [0.0, 90.0]);
@@ -140,15 +140,11 @@ fn errors(plot: &Plot, half_beam_deg: f64, opened: &OpenedPass) -> Markup {
 
 /// The full minutes below the last plot.
 fn times(plot: &Plot) -> Markup {
-    let minutes = seconds_between(plot.from, plot.until) / 60.0;
+    let minutes = plot.axis.seconds() / 60.0;
     let every = (minutes / MOST_MINUTES as f64).ceil().max(1.0) as i64;
-    let from = plot.from.as_second();
-    let first = (from + 60 * every - 1).div_euclid(60 * every) * 60 * every;
-    let first = Timestamp::from_second(first).ok();
-    let times = std::iter::successors(first, |time| time.checked_add(every.minutes()).ok());
     let bottom = plot.top + plot.height;
     html! {
-        @for time in times.take_while(|time| *time <= plot.until) {
+        @for time in plot.axis.multiples(60 * every) {
             @let x = plot.x(time);
             (plot::line("thin", &[[x, bottom], [x, bottom + 2.5]]))
             (plot::text("quiet middle", [x, bottom + 9.5], &format::minute_of_day(time)))

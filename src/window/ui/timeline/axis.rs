@@ -1,11 +1,13 @@
 //! The hours above the lanes, the grid through them, and the now-line.
 
-use super::{
-    TimelineModel,
-    scale::{Scale, is_full_hour},
-};
-use crate::ui::{format, text, theme, widgets::paint};
 use egui::{Align2, Rangef, Rect, Shape, Stroke, Ui, pos2, vec2};
+
+use super::TimelineModel;
+use crate::ui::{
+    format, text, theme,
+    time_axis::{TimeAxis, is_full_hour},
+    widgets::paint,
+};
 
 const NOW_WIDTH: f32 = 1.75;
 const NOW_TRIANGLE: egui::Vec2 = vec2(10.0, 7.0);
@@ -25,7 +27,7 @@ fn named_every_hours(hour_width: f32) -> i64 {
 
 /// Paints the background of the lanes and a line for each full hour in `lanes`, and the
 /// names of the hours in `names`, the band above.
-pub(super) fn show(ui: &Ui, scale: &Scale, lanes: Rect, names: Rect) {
+pub(super) fn show(ui: &Ui, scale: &TimeAxis, lanes: Rect, names: Rect) {
     let t = theme::tokens(ui);
     ui.painter().rect_filled(lanes, 0, t.bg0);
     let step_s = if scale.hour_width() >= WIDE_HOUR { HOUR_S / 2 } else { HOUR_S };
@@ -40,7 +42,7 @@ pub(super) fn show(ui: &Ui, scale: &Scale, lanes: Rect, names: Rect) {
 
 /// The names of hours, each with the x of its centre. A name that would reach beyond the end
 /// of the lane is left out.
-fn hour_names(ui: &Ui, scale: &Scale, names: Rect) -> Vec<(f32, String)> {
+fn hour_names(ui: &Ui, scale: &TimeAxis, names: Rect) -> Vec<(f32, String)> {
     let every_s = named_every_hours(scale.hour_width()) * HOUR_S;
     let hours = scale.multiples(every_s).filter(|at| is_full_hour(*at));
     let named = hours.map(|at| (scale.x(at), format::on_axis(at)));
@@ -52,9 +54,9 @@ fn hour_names(ui: &Ui, scale: &Scale, names: Rect) -> Vec<(f32, String)> {
 
 /// Paints the now-line through `y`, with its triangle on top, and a dashed line for the time that
 /// the sky plot shows.
-pub(super) fn time_lines(ui: &Ui, scale: &Scale, model: &TimelineModel<'_>, y: Rangef) {
+pub(super) fn time_lines(ui: &Ui, scale: &TimeAxis, model: &TimelineModel<'_>, y: Rangef) {
     let t = theme::tokens(ui);
-    if let Some(then) = model.then.filter(|then| *then < scale.to()) {
+    if let Some(then) = model.then.filter(|then| *then < scale.end()) {
         let x = scale.x(then);
         let line = [pos2(x, y.min), pos2(x, y.max)];
         ui.painter().extend(Shape::dashed_line(&line, Stroke::new(NOW_WIDTH, t.warn), 4.0, 3.0));
@@ -82,7 +84,7 @@ mod tests {
         let last = ends.map(|end| {
             let now = format!("2026-11-14T{end}:00Z").parse::<Timestamp>().unwrap();
             let now = now - jiff::SignedDuration::from_mins(12 * 60 - 10);
-            let scale = Scale::new(now, 12.0, names.x_range());
+            let scale = super::super::scale::axis(now, 12.0, names.x_range());
             let mut window = testing::window([640.0, 80.0], Vec::new(), move |ui, shown| {
                 *shown = hour_names(ui, &scale, names);
             });

@@ -8,7 +8,7 @@ use jiff::Timestamp;
 use super::{
     Bar, State, TimelineModel, head,
     labels::{self, Placed, Wish},
-    scale::{Scale, bar_height},
+    scale::bar_height,
 };
 use crate::{
     model::{UiCommand, plan},
@@ -16,6 +16,7 @@ use crate::{
         format,
         pass_bar::{self, BarForm},
         text, theme,
+        time_axis::TimeAxis,
         widgets::{context_menu, paint},
     },
 };
@@ -62,7 +63,7 @@ pub(super) fn stand<'a>(
     bars: &'a [Bar<'a>],
     wanted: impl Fn(&Bar<'_>) -> bool,
     selected: Option<(u32, Timestamp)>,
-    scale: &Scale,
+    scale: &TimeAxis,
     lane: Rect,
     heights: &RangeInclusive<f32>,
 ) -> Vec<Standing<'a>> {
@@ -71,7 +72,7 @@ pub(super) fn stand<'a>(
         .iter()
         .filter(|bar| wanted(bar))
         .filter_map(|bar| {
-            let x = scale.span(bar.aos, bar.los)?;
+            let x = scale.range(bar.aos, bar.los)?;
             let top = floor - bar_height(bar.max_elevation_deg.unwrap_or_default(), heights);
             Some(Standing { bar, rect: Rect::from_x_y_ranges(x, top..=floor) })
         })
@@ -270,8 +271,7 @@ fn max_elevation(bar: &Bar<'_>, separator: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::astro::time::add_seconds;
-    use crate::ui::timeline::BarName;
+    use crate::{astro::time::add_seconds, ui::timeline::BarName};
 
     #[test]
     fn bars_leave_room_for_names_in_a_low_lane() {
@@ -294,7 +294,7 @@ mod tests {
             state: State::Mount { can_track: number % 7 < 3 },
         };
         let lane = Rect::from_min_size(egui::Pos2::ZERO, vec2(1000.0, 80.0));
-        let scale = Scale::new(now, 24.0, lane.x_range());
+        let scale = super::super::scale::axis(now, 24.0, lane.x_range());
         let shown = |count, selected| {
             let bars: Vec<Bar<'_>> = (0..count).map(bar).collect();
             let standing = stand(&bars, |_| true, selected, &scale, lane, &(14.0..=44.0));

@@ -3,8 +3,8 @@
 use egui::{Align2, Rect, Stroke, StrokeKind, Ui, pos2};
 use jiff::Timestamp;
 
-use super::{SunSpan, scale::Scale};
-use crate::ui::{format, text, theme, widgets::paint};
+use super::SunSpan;
+use crate::ui::{format, text, theme, time_axis::TimeAxis, widgets::paint};
 
 /// Gap between two captions below the lane, in points.
 const GAP: f32 = 8.0;
@@ -12,7 +12,7 @@ const GAP: f32 = 8.0;
 /// Shows the spans in `bar`, and their captions in `words`, the band below.
 pub(super) fn show(
     ui: &Ui,
-    scale: &Scale,
+    scale: &TimeAxis,
     now: Timestamp,
     spans: &[SunSpan],
     bar: Rect,
@@ -21,7 +21,7 @@ pub(super) fn show(
     let t = theme::tokens(ui);
     let mut free_from = words.left();
     for span in spans {
-        let Some(x) = scale.span(span.from, span.to) else {
+        let Some(x) = scale.range(span.from, span.to) else {
             continue;
         };
         let rect = Rect::from_x_y_ranges(x, bar.y_range());
@@ -43,9 +43,9 @@ pub(super) fn show(
 
 /// The caption of a span: the state at the start of the window, or the change that begins
 /// the span.
-fn caption(span: &SunSpan, scale: &Scale, now: Timestamp) -> String {
+fn caption(span: &SunSpan, scale: &TimeAxis, now: Timestamp) -> String {
     let began = format::minute(span.from, now);
-    match (span.from > scale.from(), span.up) {
+    match (span.from > scale.start(), span.up) {
         (false, true) => "day".to_owned(),
         (false, false) => "night".to_owned(),
         (true, true) => format!("sunrise {began}"),
