@@ -46,6 +46,7 @@ mod time_axis;
 pub mod timeline;
 pub mod tokens;
 pub mod top_bar;
+mod upcoming;
 pub mod upload;
 mod views;
 pub mod widgets;

@@ -11,7 +11,6 @@ mod frequencies;
 mod holds;
 mod inspector;
 mod intake;
-mod next_passes;
 mod refused;
 mod set_menu;
 mod sets;

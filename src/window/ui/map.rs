@@ -15,7 +15,6 @@ mod nodes;
 mod projection;
 mod table;
 mod tracks;
-mod upcoming;
 mod words;
 
 use std::collections::HashMap;

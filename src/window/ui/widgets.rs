@@ -17,6 +17,7 @@ pub mod fold;
 pub mod go_to;
 pub mod hold_button;
 pub mod input;
+pub mod inspector;
 pub mod jog_pad;
 pub mod link_chip;
 pub mod list;

@@ -5,15 +5,14 @@ use egui::{Rect, RichText, ScrollArea, Ui, UiBuilder, pos2, vec2};
 use jiff::Timestamp;
 
 use super::{ConsoleState, PADDING};
-use crate::model::ConsoleLine;
 use crate::{
     device::{Direction, Explained, ExplainedValue, Finding, panel::Tone},
-    model::Model,
+    model::{ConsoleLine, Model},
     ui::{
         format, text, theme,
         widgets::{
             button::{Button, SMALL_HEIGHT},
-            paint,
+            inspector, paint,
         },
         words,
     },
@@ -32,9 +31,7 @@ pub(super) fn show(
     state: &mut ConsoleState,
     is_drawer: bool,
 ) {
-    let t = theme::tokens(ui);
-    ui.painter().rect_filled(rect, 0.0, t.bg1);
-    ui.painter().vline(rect.left() + 0.5, rect.y_range(), (1.0, t.line));
+    inspector::show_ground(ui, rect);
     let inner = rect.shrink(PADDING);
     if is_drawer {
         let close = Button::quiet("Close");
@@ -45,16 +42,15 @@ pub(super) fn show(
             state.inspector_is_open = false;
         }
     }
+    let Some(line) = state.selected() else {
+        let words = "Click a line to see its values and its bytes.";
+        return inspector::show_nothing(ui, rect, "No line selected", words);
+    };
     let builder = UiBuilder::new().id_salt("inspector").max_rect(inner);
     ui.scope_builder(builder, |ui| {
         ui.set_clip_rect(rect.intersect(ui.clip_rect()));
         ui.spacing_mut().item_spacing.y = 4.0;
-        if let Some(line) = state.selected() {
-            return details(ui, line, explained(model, line).as_ref(), model.now);
-        }
-        ui.label(RichText::new("No line selected").font(text::value()));
-        let words = "Click a line to see its values and its bytes.";
-        ui.label(RichText::new(words).font(text::body()).color(t.t2));
+        details(ui, line, explained(model, line).as_ref(), model.now);
     });
 }
 

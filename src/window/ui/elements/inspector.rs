@@ -1,32 +1,31 @@
 //! The selected object in detail.
 
-use egui::{Align2, Frame, Margin, Rect, Role, ScrollArea, Sense, Ui, UiBuilder, pos2, vec2};
+use egui::{Align2, Frame, Margin, Rect, Role, Ui, pos2, vec2};
 
-use super::{
-    ElementsState, PADDING, copy, facts, frequencies, holds, next_passes, sets, table, words::Form,
-};
+use super::{ElementsState, PADDING, copy, facts, frequencies, holds, sets, table, words::Form};
 use crate::{
-    contract::{self, CatalogState},
-    model::{Model, UiCommand},
+    contract::{self, CatalogState, passes::PredictedPass},
+    model::{Model, UiCommand, View, object_detail::ObjectDetail},
     orbit::{Catalog, Elements},
     station::Priority,
     ui::{
         confirm::Question,
         format,
         icons::{self, Icon},
-        pass_limits, replay,
-        text::{self, Weight},
-        theme,
+        pass_limits, replay, text, theme,
+        upcoming::Upcoming,
         upload::Choice,
         widgets::{
             button::{Button, HEIGHT as BUTTON, SMALL_HEIGHT},
+            inspector::{self, Head, Parts},
             paint,
         },
     },
 };
 
 pub(super) const WIDTH: f32 = 344.0;
-const HEAD: f32 = 56.0;
+/// Side of the star, which is a button.
+const STAR: f32 = 22.0;
 const FOOT: f32 = 88.0;
 const GAP: f32 = 8.0;
 
@@ -41,9 +40,7 @@ pub(super) fn show(
     question: &mut Option<Question>,
     commands: &mut Vec<UiCommand>,
 ) {
-    let t = theme::tokens(ui);
-    ui.painter().rect_filled(rect, 0.0, t.bg1);
-    ui.painter().vline(rect.left() + 0.5, rect.y_range(), (1.0, t.line));
+    inspector::show_ground(ui, rect);
     let selected = match &model.catalog {
         CatalogState::Ready(catalog) => {
             state.selection.row().and_then(|row| Some((catalog.get(row)?, &**catalog)))
@@ -52,24 +49,13 @@ pub(super) fn show(
     };
     let Some((elements, catalog)) = selected else {
         let words = "Click a satellite in the table to see its elements.";
-        let at = rect.min + vec2(PADDING, PADDING);
-        let width = rect.width() - 2.0 * PADDING;
-        let place = paint::paragraph(ui, at, width, words, text::body(), t.t2);
-        paint::name_text(ui, "nothing selected", place, words);
-        return;
+        return inspector::show_nothing(ui, rect, "No satellite selected", words);
     };
-    let (top, rest) = rect.split_top_bottom_at_y(rect.top() + HEAD);
-    let (body, foot) = rest.split_top_bottom_at_y(rest.bottom() - FOOT);
-    head(ui, top, model, elements, lock, commands);
-    ui.scope_builder(UiBuilder::new().id_salt("element inspector").max_rect(body), |ui| {
-        ui.set_clip_rect(body.intersect(ui.clip_rect()));
-        ui.spacing_mut().item_spacing = vec2(0.0, 0.0);
-        let area = ScrollArea::vertical().id_salt("element details").auto_shrink(false);
-        area.show(ui, |ui| {
-            let object = Object { model, elements, catalog, lock };
-            object.parts(ui, body.width(), state, question, commands);
-            paint::follow_focus(ui);
-        });
+    let Parts { head, body, foot } = Parts::new(rect, FOOT);
+    show_head(ui, head, model, elements, lock, commands);
+    inspector::show_body(ui, body, "elements", |ui| {
+        let object = Object { model, elements, catalog, lock };
+        object.parts(ui, body.width(), state, question, commands);
     });
     show_foot(ui, foot, model, elements, lock, state, commands);
 }
@@ -93,10 +79,7 @@ impl Object<'_> {
     ) {
         let Self { model, elements, catalog, lock } = *self;
         let number = elements.catalog_number();
-        let place = |ui: &mut Ui, height: f32| {
-            let (rect, _) = ui.allocate_exact_size(vec2(width, height), Sense::hover());
-            rect
-        };
+        let place = |ui: &mut Ui, height: f32| inspector::place(ui, width, height);
         let part = place(ui, facts::HEIGHT);
         facts::show(ui, part, model, elements, catalog, lock, commands);
         let part = place(ui, holds::height(model));
@@ -104,9 +87,7 @@ impl Object<'_> {
         let detail = sets::detail(model, number);
         let part = place(ui, sets::height(detail, catalog.set_aside(number).is_some()));
         sets::show(ui, part, model, elements, catalog, detail, question);
-        let passes = detail.map(|detail| detail.passes.as_slice());
-        let part = place(ui, next_passes::height(passes));
-        next_passes::show(ui, part, model, passes, commands);
+        let part = self.next_passes(ui, width, detail, commands);
         let t = theme::tokens(ui);
         ui.painter().hline(part.x_range(), part.bottom() - 0.5, (1.0, t.line));
         Frame::new().inner_margin(Margin::symmetric(PADDING as i8, 8)).show(ui, |ui| {
@@ -117,10 +98,39 @@ impl Object<'_> {
             pass_limits::show(ui, room, model, number, lock, commands);
         });
     }
+
+    /// A click on the pass of a favourite opens it on the sky plot.
+    fn next_passes(
+        &self,
+        ui: &mut Ui,
+        width: f32,
+        detail: Option<&ObjectDetail>,
+        commands: &mut Vec<UiCommand>,
+    ) -> Rect {
+        let Self { model, .. } = *self;
+        let passes: Vec<&PredictedPass> = detail.iter().flat_map(|of| &of.passes).collect();
+        let floor = format::degrees(model.station.elevation_floor_deg, 0);
+        let upcoming = Upcoming {
+            title: "Next passes",
+            remark: &format!("floor {floor}"),
+            passes: &passes,
+            empty: match detail {
+                None => "The passes are being computed.",
+                Some(_) => "No pass in the next 7 d.",
+            },
+        };
+        let part = inspector::place(ui, width, upcoming.height());
+        let clicked = upcoming.show(ui, part, model).map(PredictedPass::key);
+        if let Some(key) = clicked.filter(|key| model.pass_lists.find(*key).is_some()) {
+            commands.push(UiCommand::SelectPass(key));
+            commands.push(UiCommand::Show(View::Operate));
+        }
+        part
+    }
 }
 
 /// Star, name, number and designator at the left, the countdown at the right.
-fn head(
+fn show_head(
     ui: &Ui,
     rect: Rect,
     model: &Model,
@@ -129,15 +139,10 @@ fn head(
     commands: &mut Vec<UiCommand>,
 ) {
     let t = theme::tokens(ui);
-    ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, (1.0, t.line));
     let number = elements.catalog_number();
-    let inner = rect.shrink2(vec2(PADDING, 0.0));
-    let line = |y: f32| {
-        Rect::from_x_y_ranges(inner.x_range(), rect.top() + y - 12.0..=rect.top() + y + 12.0)
-    };
     let is_favourite = model.station.favourites.contains(number);
     let name = if is_favourite { "Remove from favourites" } else { "Add to favourites" };
-    let place = paint::square(pos2(inner.left() + 9.0, rect.top() + 17.0), 22.0);
+    let place = paint::square(pos2(rect.left() + PADDING + 9.0, rect.top() + 19.0), STAR);
     let response = paint::control(ui, "inspector star", place, Role::Button, lock.is_none(), name);
     let (icon, colour) = if is_favourite { (Icon::Star, t.sat) } else { (Icon::OpenStar, t.t3) };
     icons::paint(ui.painter(), place.shrink(2.0), icon, colour);
@@ -155,24 +160,16 @@ fn head(
             (event, format::countdown(model.now, at))
         }
     };
-    let right = Align2::RIGHT_CENTER;
-    let up = paint::text_in(ui, line(16.0), right, event, text::small(), t.t3);
-    let font = text::sized(20.0, Weight::SemiBold);
-    let down = paint::text_in(ui, line(41.0), right, &countdown, font, t.t1);
-    if !countdown.is_empty() {
-        let words = format!("{event} {countdown}");
-        paint::name_text(ui, "element countdown", up.union(down), words.trim());
-    }
-    let left = Align2::LEFT_CENTER;
-    let label = elements.label();
-    let room = line(17.0).with_min_x(place.right() + 4.0).with_max_x(up.left() - GAP);
-    paint::text_in(ui, room, left, &label, text::title(), t.t1);
     let designator = elements.international_designator().unwrap_or("no designator");
     let detail = format!("{number}, {designator}");
-    let room = line(41.0).with_min_x(place.right() + 4.0).with_max_x(down.left() - GAP);
-    let detail_place = paint::text_in(ui, room, left, &detail, text::small(), t.t2);
-    let spoken = format!("{label}, {detail}");
-    paint::name_text(ui, "element selected", detail_place, &spoken).on_hover_text(&spoken);
+    let head = Head {
+        name: &elements.label(),
+        detail: &detail,
+        event,
+        countdown: &countdown,
+        indent: STAR + 2.0,
+    };
+    inspector::show_head(ui, rect, "elements", head);
 }
 
 #[allow(clippy::too_many_arguments)]

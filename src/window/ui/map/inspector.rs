@@ -1,8 +1,8 @@
 //! The selected satellite in detail.
 
-use egui::{Align2, Rect, RichText, ScrollArea, Sense, Ui, UiBuilder, pos2, vec2};
+use egui::{Align2, Rect, Ui, pos2, vec2};
 
-use super::{PADDING, facts, upcoming};
+use super::{PADDING, facts, words};
 use crate::{
     contract::{antenna::AntennaModel, passes::PredictedPass},
     model::{Model, UiCommand, View, globe::GlobeSatellite},
@@ -13,15 +13,17 @@ use crate::{
         state_sentence::state_sentence,
         text::{self, Weight},
         theme,
+        upcoming::Upcoming,
         widgets::{
             button::{Button, HEIGHT as BUTTON},
+            inspector::{self, Head, Parts},
             paint, sentence,
         },
     },
 };
 
-/// Height of the name and the countdown.
-const HEAD: f32 = 56.0;
+/// Next passes that are shown.
+const PASSES: usize = 3;
 const PLOT: f32 = 252.0;
 /// Height of the foot with its buttons.
 const FOOT: f32 = 60.0;
@@ -29,65 +31,34 @@ const GAP: f32 = 8.0;
 
 /// Draws the panel.
 pub(super) fn show(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand>) {
-    let t = theme::tokens(ui);
-    ui.painter().rect_filled(rect, 0.0, t.bg1);
-    ui.painter().vline(rect.left() + 0.5, rect.y_range(), (1.0, t.line));
-    let inner = rect.shrink2(vec2(PADDING, 0.0));
+    inspector::show_ground(ui, rect);
     let Some(of) = model.globe.selected() else {
-        let place = inner.shrink2(vec2(0.0, PADDING));
-        let builder = UiBuilder::new().id_salt("map inspector").max_rect(place);
-        ui.scope_builder(builder, |ui| {
-            ui.label(RichText::new("No satellite selected").font(text::value()));
-            let words = "Click a satellite on the map or in the table.";
-            ui.label(RichText::new(words).font(text::body()).color(t.t2));
-        });
-        return;
+        let words = "Click a satellite on the map or in the table.";
+        return inspector::show_nothing(ui, rect, "No satellite selected", words);
     };
     // The selected pass may be over.
     let predicted = model.selected_pass().or_else(|| model.pass_of(of.number()));
-    let (top, rest) = rect.split_top_bottom_at_y(rect.top() + HEAD);
-    head(ui, top, model, of, predicted);
-    let (body, foot) = rest.split_top_bottom_at_y(rest.bottom() - FOOT);
-    ui.scope_builder(UiBuilder::new().id_salt("map inspector").max_rect(body), |ui| {
-        ui.set_clip_rect(body.intersect(ui.clip_rect()));
-        ui.spacing_mut().item_spacing = vec2(0.0, 0.0);
-        let area = ScrollArea::vertical().id_salt("map details").auto_shrink(false);
-        area.show(ui, |ui| parts(ui, body.width(), model, of, predicted, commands));
+    let Parts { head, body, foot } = Parts::new(rect, FOOT);
+    show_head(ui, head, model, of, predicted);
+    inspector::show_body(ui, body, "map", |ui| {
+        parts(ui, body.width(), model, of, predicted, commands);
     });
     buttons(ui, foot, commands);
 }
 
-/// Name and age of the elements at the left, the countdown of the pass at the right.
-fn head(
+fn show_head(
     ui: &Ui,
     rect: Rect,
     model: &Model,
     of: &GlobeSatellite,
     predicted: Option<&PredictedPass>,
 ) {
-    let t = theme::tokens(ui);
-    ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, (1.0, t.line));
-    let inner = rect.shrink2(vec2(PADDING, 0.0));
-    let line = |y: f32| {
-        Rect::from_x_y_ranges(inner.x_range(), rect.top() + y - 12.0..=rect.top() + y + 12.0)
-    };
     let (event, countdown) = predicted.map_or(("", "no pass".to_owned()), |of| until(of, model));
-    let right = Align2::RIGHT_CENTER;
-    let up = paint::text_in(ui, line(16.0), right, event, text::small(), t.t3);
-    let font = text::sized(20.0, Weight::SemiBold);
-    let down = paint::text_in(ui, line(37.0), right, &countdown, font, t.t1);
-    let words = format!("{event} {countdown}");
-    paint::name_text(ui, "map countdown", up.union(down), words.trim());
-
-    let left = Align2::LEFT_CENTER;
-    let name = of.satellite.short_name();
-    paint::text_in(ui, line(19.0).with_max_x(up.left() - GAP), left, name, text::title(), t.t1);
-    let elements = &of.satellite.elements;
-    let age = format::age(elements.age_s(model.now));
+    let age = format::age(of.satellite.elements.age_s(model.now));
     let detail = format!("{}, elements {age} old", of.number());
-    let room = line(40.0).with_max_x(down.left() - GAP);
-    let detail_place = paint::text_in(ui, room, left, &detail, text::small(), t.t2);
-    paint::name_text(ui, "map selected", detail_place, &format!("{name}, {detail}"));
+    let name = of.satellite.short_name();
+    let head = Head { name, detail: &detail, event, countdown: &countdown, indent: 0.0 };
+    inspector::show_head(ui, rect, "map", head);
 }
 
 /// The next event of a pass and the time until then.
@@ -113,10 +84,7 @@ fn parts(
     commands: &mut Vec<UiCommand>,
 ) {
     let t = theme::tokens(ui);
-    let place = |ui: &mut Ui, height: f32| {
-        let (rect, _) = ui.allocate_exact_size(vec2(width, height), Sense::hover());
-        rect
-    };
+    let place = |ui: &mut Ui, height: f32| inspector::place(ui, width, height);
     if let Some(predicted) = predicted {
         let plot = place(ui, PLOT);
         let look = model.sky.selected.map_or(of.look, |selected| selected.look);
@@ -136,9 +104,26 @@ fn parts(
         let block = spoken.with(|words| sentence::show_short(ui, at, width - 2.0 * PADDING, words));
         place(ui, block.bottom() - room.top() + GAP);
     }
-    let passes = upcoming::passes(model, of.number());
-    let list = place(ui, upcoming::height(passes.len()));
-    upcoming::show(ui, list, model, of, &passes, commands);
+    let upcoming = Upcoming {
+        title: &format!("Next at {}", model.station.name),
+        remark: "",
+        passes: &later_passes(model, of.number()),
+        empty: words::no_later_pass(of, model),
+    };
+    let list = place(ui, upcoming.height());
+    if let Some(pass) = upcoming.show(ui, list, model) {
+        commands.push(UiCommand::SelectPass(pass.key()));
+    }
+}
+
+/// The passes of a satellite after the present one.
+pub(super) fn later_passes(model: &Model, number: u32) -> Vec<&PredictedPass> {
+    // The satellite may be no favourite.
+    let lists = [&model.pass_lists.favourites, &model.pass_lists.all];
+    let is_later = |of: &&PredictedPass| of.number() == number && of.pass.aos.time > model.now;
+    let found =
+        lists.map(|list| list.passes.iter().filter(is_later).take(PASSES).collect::<Vec<_>>());
+    found.into_iter().find(|passes| !passes.is_empty()).unwrap_or_default()
 }
 
 /// The antenna whose sentence is shown: that which tracks the satellite, else the selected one.

@@ -1,6 +1,6 @@
 //! The selected pass: its path, times, what each antenna can take of it, and the operator's choice.
 
-use egui::{Align2, Frame, Margin, Rect, RichText, ScrollArea, Sense, Ui, UiBuilder, pos2, vec2};
+use egui::{Align2, Frame, Margin, Rect, Sense, Ui, pos2, vec2};
 
 use super::{PADDING, PlanState};
 use crate::{
@@ -17,6 +17,7 @@ use crate::{
         theme,
         widgets::{
             button::{Button, HEIGHT as BUTTON},
+            inspector::{self, Head, Parts},
             paint,
             segmented::{self, Segment},
         },
@@ -24,7 +25,6 @@ use crate::{
     },
 };
 
-const HEAD: f32 = 56.0;
 const PLOT: f32 = 188.0;
 const LINE: f32 = 20.0;
 const FOOT: f32 = 48.0;
@@ -39,25 +39,14 @@ pub(super) fn show(
     commands: &mut Vec<UiCommand>,
 ) {
     let t = theme::tokens(ui);
-    ui.painter().rect_filled(rect, 0.0, t.bg1);
-    ui.painter().vline(rect.left() + 0.5, rect.y_range(), (1.0, t.line));
+    inspector::show_ground(ui, rect);
     let Some(planned) = model.selected_planned() else {
-        let inner = rect.shrink(PADDING);
-        ui.scope_builder(UiBuilder::new().id_salt("plan inspector").max_rect(inner), |ui| {
-            ui.label(RichText::new("No pass selected").font(text::value()));
-            let words = "Click a bar or a row.";
-            ui.label(RichText::new(words).font(text::body()).color(t.t2));
-        });
-        return;
+        return inspector::show_nothing(ui, rect, "No pass selected", "Click a bar or a row.");
     };
-    let (top, rest) = rect.split_top_bottom_at_y(rect.top() + HEAD);
-    let (body, foot) = rest.split_top_bottom_at_y(rest.bottom() - FOOT);
-    head(ui, top, model, &planned);
-    ui.scope_builder(UiBuilder::new().id_salt("plan inspector").max_rect(body), |ui| {
-        ui.set_clip_rect(body.intersect(ui.clip_rect()));
-        ui.spacing_mut().item_spacing = vec2(0.0, 0.0);
-        let area = ScrollArea::vertical().id_salt("plan details").auto_shrink(false);
-        area.show(ui, |ui| parts(ui, body.width(), model, &planned, state, commands));
+    let Parts { head, body, foot } = Parts::new(rect, FOOT);
+    show_head(ui, head, model, &planned);
+    inspector::show_body(ui, body, "plan", |ui| {
+        parts(ui, body.width(), model, &planned, state, commands);
     });
     ui.painter().hline(foot.x_range(), foot.top() + 0.5, (1.0, t.line));
     let inner = foot.shrink2(vec2(PADDING, GAP));
@@ -68,31 +57,17 @@ pub(super) fn show(
     }
 }
 
-fn head(ui: &Ui, rect: Rect, model: &Model, planned: &PlannedPass<'_>) {
-    let t = theme::tokens(ui);
-    ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, (1.0, t.line));
-    let inner = rect.shrink2(vec2(PADDING, 0.0));
-    let line = |y: f32| {
-        Rect::from_x_y_ranges(inner.x_range(), rect.top() + y - 12.0..=rect.top() + y + 12.0)
-    };
+fn show_head(ui: &Ui, rect: Rect, model: &Model, planned: &PlannedPass<'_>) {
     let predicted = planned.predicted;
     let is_up = predicted.in_progress(model.now);
     let (event, at) =
         if is_up { ("LOS", predicted.pass.los.time) } else { ("AOS", predicted.pass.aos.time) };
     let countdown = format::countdown(model.now, at);
-    let (left, right) = (Align2::LEFT_CENTER, Align2::RIGHT_CENTER);
-    paint::text_in(ui, line(16.0), right, event, text::small(), t.t3);
-    let font = text::sized(20.0, Weight::SemiBold);
-    let drawn = paint::text_in(ui, line(37.0), right, &countdown, font, t.t1);
-    paint::name_text(ui, "plan countdown", drawn, &format!("{event} {countdown}"));
-    let name = predicted.satellite.short_name();
-    let room = line(19.0).with_max_x(inner.right() - 40.0);
-    paint::text_in(ui, room, left, name, text::title(), t.t1);
     let age = format::age(predicted.satellite.elements.age_s(model.now));
     let detail = format!("{}, elements {age} old", predicted.number());
-    let room = line(40.0).with_max_x(drawn.left() - GAP);
-    let place = paint::text_in(ui, room, left, &detail, text::small(), t.t2);
-    paint::name_text(ui, "plan selected", place, &format!("{name}, {detail}"));
+    let name = predicted.satellite.short_name();
+    let head = Head { name, detail: &detail, event, countdown: &countdown, indent: 0.0 };
+    inspector::show_head(ui, rect, "plan", head);
 }
 
 fn parts(
@@ -104,10 +79,8 @@ fn parts(
     commands: &mut Vec<UiCommand>,
 ) {
     let t = theme::tokens(ui);
-    let place = |ui: &mut Ui, height: f32| {
-        let (rect, _) = ui.allocate_exact_size(vec2(width, height), Sense::hover());
-        rect.shrink2(vec2(PADDING, 0.0))
-    };
+    let place =
+        |ui: &mut Ui, height: f32| inspector::place(ui, width, height).shrink2(vec2(PADDING, 0.0));
     let plot = place(ui, PLOT);
     let look = model.sky.selected.filter(|_| planned.predicted.in_progress(model.now));
     small_sky::show(ui, plot, model, planned.predicted, look.map(|selected| selected.look));
@@ -123,7 +96,7 @@ fn parts(
     for entry in &planned.entries {
         for (label, value) in facts(model, entry) {
             let row = place(ui, LINE);
-            pair(ui, row, label, &value);
+            paint::fact_in(ui, ("plan fact", label), row, label, &value, t.t1);
         }
     }
     rehearsal(ui, width, model, planned, commands);
@@ -202,13 +175,6 @@ fn event(ui: &Ui, row: Rect, model: &Model, word: &str, at: &PassPoint) {
     sighting(ui, row, [word, &time, &azimuth, &elevation], t.t1);
     let words = format!("{word} {time}, azimuth {azimuth}, elevation {elevation}");
     paint::name_text(ui, ("plan event", word), row, &words);
-}
-
-fn pair(ui: &Ui, row: Rect, label: &str, value: &str) {
-    let t = theme::tokens(ui);
-    paint::text_in(ui, row, Align2::LEFT_CENTER, label, text::small(), t.t2);
-    paint::text_in(ui, row, Align2::RIGHT_CENTER, value, text::small(), t.t1);
-    paint::name_text(ui, ("plan fact", label), row, &format!("{label}: {value}"));
 }
 
 fn facts(model: &Model, entry: &Entry) -> Vec<(&'static str, String)> {
