@@ -3,7 +3,7 @@
 use std::{
     collections::{BTreeMap, BTreeSet},
     fs,
-    path::Path,
+    path::{Path, PathBuf},
 };
 
 use azel::controller::SPECS;
@@ -279,16 +279,69 @@ fn what_drives_is_named_by_no_view() {
     assert!(wrong.is_empty(), "{wrong:?}");
 }
 
+/// The documents at the top, in `docs` and in `docs/operator`.
+fn documents() -> Vec<PathBuf> {
+    let top = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let folders = ["docs", "docs/operator"].map(|folder| top.join(folder));
+    let entries = folders.iter().flat_map(|folder| fs::read_dir(folder).unwrap());
+    let paths = entries.map(|entry| entry.unwrap().path());
+    let pages = paths.filter(|path| path.extension().is_some_and(|ending| ending == "md"));
+    let at_the_top = ["README.md", "CONTRIBUTING.md", "CHANGELOG.md"].map(|name| top.join(name));
+    pages.chain(at_the_top).collect()
+}
+
+/// Anchors of the headings of a document, as GitHub makes them.
+fn anchors(text: &str) -> BTreeSet<String> {
+    let mut is_code = false;
+    let mut found = BTreeSet::new();
+    for line in text.lines() {
+        is_code ^= line.starts_with("```");
+        let Some(heading) = line.strip_prefix('#').filter(|_| !is_code) else { continue };
+        let kept =
+            heading.trim_start_matches('#').trim().chars().filter_map(|letter| match letter {
+                ' ' => Some('-'),
+                '-' | '_' => Some(letter),
+                _ if letter.is_alphanumeric() => Some(letter),
+                _ => None,
+            });
+        found.insert(kept.collect::<String>().to_lowercase());
+    }
+    found
+}
+
+#[test]
+fn every_link_between_the_documents_leads_to_a_file_and_a_heading() {
+    let (mut broken, mut read) = (Vec::new(), 0);
+    for document in documents() {
+        let text = fs::read_to_string(&document).unwrap();
+        let targets = text.split("](").skip(1).filter_map(|rest| rest.split(')').next());
+        for target in targets.filter(|target| !target.contains("://")) {
+            let (file, anchor) = target.split_once('#').unwrap_or((target, ""));
+            let path = match file {
+                "" => document.clone(),
+                file => document.parent().unwrap().join(file),
+            };
+            let leads = path.exists()
+                && (anchor.is_empty()
+                    || anchors(&fs::read_to_string(&path).unwrap()).contains(anchor));
+            read += 1;
+            if !leads {
+                broken.push(format!("{}: {target}", document.display()));
+            }
+        }
+    }
+    assert!(read > 60, "{read}");
+    assert!(broken.is_empty(), "{broken:#?}");
+}
+
 #[test]
 fn every_path_that_the_documents_name_is_there() {
     let top = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut files = Vec::new();
     sources(&top.join("src"), &mut files);
     sources(&top.join("tests"), &mut files);
-    let in_docs = fs::read_dir(top.join("docs")).unwrap().map(|entry| entry.unwrap().path());
-    let documents = in_docs.filter(|path| path.extension().is_some_and(|of| of == "md"));
     let (mut gone, mut read) = (Vec::new(), 0);
-    for document in documents.chain(["README.md", "CONTRIBUTING.md"].map(|name| top.join(name))) {
+    for document in documents() {
         let text = fs::read_to_string(&document).unwrap();
         for path in
             text.split('`').skip(1).step_by(2).filter(|path| !path.contains(['<', '*', ' ']))

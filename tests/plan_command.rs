@@ -68,7 +68,7 @@ fn every_pass_is_taken_or_left_out_with_a_reason_in_every_form() {
     assert_eq!((&whole["format_version"], &whole["is_proved_best"]), (&1.into(), &true.into()));
     let names: BTreeSet<&String> =
         passes.iter().flat_map(|pass| pass.as_object().unwrap().keys()).collect();
-    let handbook = include_str!("../docs/operator.md");
+    let handbook = include_str!("../docs/operator/command-line.md");
     let (_, table) = handbook.split_once("\n| field of a plan | unit | meaning |\n").unwrap();
     let rows = table.lines().skip(1).take_while(|line| line.starts_with('|'));
     let cells = rows.filter_map(|row| row.split('|').nth(1));

@@ -6,7 +6,7 @@ use super::*;
 
 /// Fields by the table in the handbook.
 fn documented() -> BTreeSet<String> {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/operator.md");
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/operator/command-line.md");
     let handbook = std::fs::read_to_string(path).unwrap();
     let (_, table) = handbook.split_once("\n| field of a pass | unit | meaning |\n").unwrap();
     let rows = table.lines().skip(1).take_while(|line| line.starts_with('|'));
