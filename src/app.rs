@@ -221,7 +221,7 @@ impl App {
             let before: Vec<_> = self.model.antennas.iter().map(AntennaModel::id).collect();
             let was_demo = self.model.demo;
             let (shown, station) = (Arc::clone(self.station.snapshot()), &self.station);
-            self.model.take(&shown, |antenna| station.wire(antenna));
+            self.model.take(shown, |antenna| station.wire(antenna));
             if self.model.demo && !was_demo && self.opens_set_up {
                 self.model.view = View::Setup;
             }

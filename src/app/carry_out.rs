@@ -27,7 +27,7 @@ impl App {
 
     /// Shows STOP as pressed from this frame on.
     fn show_stopped(&mut self, stopped: &Stopped) {
-        let antennas = self.model.antennas.iter_mut();
+        let antennas = self.model.shown_mut().antennas.iter_mut();
         for antenna in antennas.filter(|of| stopped.antennas.contains(&of.id())) {
             antenna.stop_pressed = Some(stopped.at);
         }

@@ -26,7 +26,8 @@ pub(super) struct EffectsJobs {
 impl EffectsJobs {
     pub(super) fn work(&mut self, model: &mut Model, wake: &Wake) {
         let Self { obstacles, mounts, sites } = self;
-        let passes = &model.pass_lists.favourites;
+        let shown = Arc::clone(model.shown());
+        let passes = &shown.pass_lists.favourites;
         let now = Moment { utc: model.now, steady: model.steady };
         work(&mut model.obstacle_effects, obstacles, passes, now, wake);
         work(&mut model.mount_effects, mounts, passes, now, wake);

@@ -221,7 +221,7 @@ impl Replay {
             UiCommand::InspectObject(number) => model.catalog_table.inspected = Some(number),
             UiCommand::Station(Command::LookAtRecord(look)) => {
                 if look.is_none() {
-                    model.recorded = None;
+                    model.shown_mut().recorded = None;
                 }
                 self.look = look;
             }
@@ -279,7 +279,7 @@ impl Replay {
         };
         self.room = Some(room);
         if recorded.is_some() {
-            self.model.recorded = recorded.map(Arc::new);
+            self.model.shown_mut().recorded = recorded.map(Arc::new);
         }
         if let Some(replay) = &mut self.model.replay
             && let Some((stretch, passes)) = passes
@@ -333,17 +333,16 @@ impl Replay {
         }
     }
 
-    fn take_scene(&mut self, at: Timestamp, Scene { shown, wires }: Scene) {
+    fn take_scene(&mut self, at: Timestamp, Scene { mut shown, wires }: Scene) {
         let model = &mut self.model;
-        let recorded = model.recorded.take();
-        model.take(&shown, |antenna| {
-            wires.iter().find(|(of, _)| *of == antenna).map(|(_, wire)| wire.clone())
-        });
         // The record is read by itself, and a closing is of the live station.
-        (model.recorded, model.closing) = (recorded, None);
+        (shown.recorded, shown.closing) = (model.recorded.clone(), None);
         // Ages are those of that moment.
         let passed = at.duration_since(shown.at.utc).try_into().unwrap_or_default();
         (model.now, model.steady) = (at, shown.at.steady + passed);
+        model.take(Arc::new(shown), |antenna| {
+            wires.iter().find(|(of, _)| *of == antenna).map(|(_, wire)| wire.clone())
+        });
         if !model.antennas.is_empty()
             && let Some(pass) = self.unselected.take()
         {

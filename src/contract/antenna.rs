@@ -42,7 +42,7 @@ pub struct Prediction {
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct AntennaModel {
     #[serde(with = "written::antenna")]
-    pub config: Antenna,
+    pub config: Arc<Antenna>,
     /// Last snapshot of its session.
     pub snapshot: Arc<Snapshot>,
     /// Prediction for the time of the last measurement.
@@ -89,9 +89,9 @@ pub struct AntennaModel {
 
 impl AntennaModel {
     /// An antenna whose session has just begun.
-    pub fn new(config: Antenna, snapshot: Arc<Snapshot>) -> Self {
+    pub fn new(config: impl Into<Arc<Antenna>>, snapshot: Arc<Snapshot>) -> Self {
         Self {
-            config,
+            config: config.into(),
             snapshot,
             prediction: None,
             errors: Errors::default(),

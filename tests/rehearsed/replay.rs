@@ -57,7 +57,7 @@ fn told(shown: &Snapshot) -> Value {
 fn modelled(at: Timestamp, shown: &Snapshot) -> Value {
     let passed = Duration::try_from(at.duration_since(shown.at.utc)).unwrap();
     let mut model = Model::before_anything(Moment { utc: at, steady: shown.at.steady + passed });
-    model.take(shown, |_| None);
+    model.take(Arc::new(shown.clone()), |_| None);
     let age_s = |of: Instant| model.steady.saturating_duration_since(of).as_secs_f64();
     let antennas = model.antennas.iter().map(|antenna| {
         let measured = antenna.snapshot.state.measured;

@@ -3,7 +3,7 @@
 //! Each list goes from one state to the next by a `match` that names all of them: a new state cannot
 //! be forgotten.
 
-use std::{iter::successors, time::Duration};
+use std::{iter::successors, sync::Arc, time::Duration};
 
 use azel::{
     contract::{
@@ -13,6 +13,7 @@ use azel::{
     device::{AxisMotion, Phase},
     engine::antenna::{Recent, refresh},
     model::Model,
+    station::Antenna,
 };
 
 use crate::window_stories::{
@@ -123,19 +124,21 @@ fn operations() -> Vec<Operation> {
 fn check(what: &str, snapshot: &Snapshot, operation: Option<&Operation>) {
     for size in SIZES {
         let mut model = three();
-        let first = &mut model.antennas[0];
-        let mut config = first.config.clone();
+        let shown = Arc::clone(model.shown());
+        let steady = model.steady;
+        let first = &mut model.shown_mut().antennas[0];
+        let mut config = Antenna::clone(&first.config);
         LONG.clone_into(&mut config.name);
         let id = config.id;
         let mut snapshot = snapshot.clone();
-        snapshot.state.traffic.last_reply = Some(model.steady - AGE);
+        snapshot.state.traffic.last_reply = Some(steady - AGE);
         *first = rig::antenna(config, snapshot);
-        first.config.id = id;
+        Arc::make_mut(&mut first.config).id = id;
         if let Some(operation) = operation {
             first.operation = operation.clone();
         }
-        refresh(first, &mut Recent::default(), model.station.site, |number| {
-            model.pass_lists.satellite(number)
+        refresh(first, &mut Recent::default(), shown.station.site, |number| {
+            shown.pass_lists.satellite(number)
         });
         let window = rig::window(size, model);
         nothing_is_cut(&window, size);

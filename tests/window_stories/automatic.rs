@@ -43,11 +43,11 @@ fn suspended(by: Interruption) -> Operation {
 /// Three antennas, of which the first has this operation and a plan.
 pub(crate) fn scene(operation: Operation) -> Model {
     let mut model = three();
-    model.schedule = Arc::new(plan::planned(&model));
+    model.shown_mut().schedule = Arc::new(plan::planned(&model));
     // The pass that is up is not its own.
-    let schedule = &mut Arc::make_mut(&mut model.schedule).schedule;
+    let schedule = &mut Arc::make_mut(&mut model.shown_mut().schedule).schedule;
     schedule.entries.retain(|entry| entry.from > rig::now());
-    model.antennas[0].operation = operation;
+    model.shown_mut().antennas[0].operation = operation;
     model
 }
 
@@ -151,7 +151,7 @@ fn nothing_below_moves_while_the_words_change() {
 fn a_chip_keeps_its_tag_while_the_unit_does_not_answer() {
     let mut model = scene(on(&Doing::Rests));
     let since = rig::ago(&model, 14);
-    Arc::make_mut(&mut model.antennas[0].snapshot).link =
+    Arc::make_mut(&mut model.shown_mut().antennas[0].snapshot).link =
         LinkState::Lost { since, reason: LinkLoss::Closed, retry_at: since };
     let window = rig::window(SMALL, model);
     assert_eq!(tags(&window), 2);
@@ -198,7 +198,7 @@ fn a_long_name_in_a_lane_is_cut_after_its_time() {
     let mut model = scene(on(&Doing::Rests));
     model.view = View::Plan;
     // The name of a satellite that no list knows is its number.
-    let entry = &mut Arc::make_mut(&mut model.schedule).schedule.entries[0];
+    let entry = &mut Arc::make_mut(&mut model.shown_mut().schedule).schedule.entries[0];
     entry.pass.satellite = 799_999_999;
     let window = rig::window(LARGE, model);
     let texts = painted::texts(&window);
@@ -233,9 +233,10 @@ fn closing_between_passes_asks_while_automatic_operation_is_not_off() {
 #[test]
 fn the_question_before_closing_names_all_antennas_that_work_by_themselves() {
     let mut model = scene(on(&Doing::Rests));
-    model.antennas[2].operation = suspended(Interruption::Elsewhere);
+    model.shown_mut().antennas[2].operation = suspended(Interruption::Elsewhere);
     for index in [0, 2] {
-        model.antennas[index].config.automatic.is_on_at_start = true;
+        Arc::make_mut(&mut model.shown_mut().antennas[index].config).automatic.is_on_at_start =
+            true;
     }
     let mut window = closing::asked_about(LARGE, model);
     assert!(rig::says(
@@ -252,8 +253,8 @@ fn the_question_before_closing_names_all_antennas_that_work_by_themselves() {
 fn closing_during_a_pass_names_automatic_operation_whatever_the_station_file_says() {
     for on_close in [None, Some(OnClose::Hold)] {
         let mut model = rig::model(states::tracking(0.1));
-        Arc::make_mut(&mut model.station).on_close = on_close;
-        model.antennas[0].operation = on(&taking(true));
+        Arc::make_mut(&mut model.shown_mut().station).on_close = on_close;
+        model.shown_mut().antennas[0].operation = on(&taking(true));
         let window = closing::asked_about(LARGE, model);
         for told in ["Satrak tracks NOAA 20 by itself.", "Automatic operation of Satrak ends: "] {
             assert!(rig::says(&window, told), "{told}");

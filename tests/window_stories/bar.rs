@@ -31,17 +31,23 @@ fn carry_out(window: &mut Window) -> Vec<UiCommand> {
     let model = &mut window.state_mut().model;
     for command in &commands {
         match command {
-            UiCommand::Station(contract::Command::OpenedAlarms) => model.alarms.unopened = false,
+            UiCommand::Station(contract::Command::OpenedAlarms) => {
+                model.shown_mut().alarms.unopened = false;
+            }
             UiCommand::Station(contract::Command::AcknowledgeAlarm(id)) => {
-                model.alarms.acknowledge(*id, rig::now());
+                model.shown_mut().alarms.acknowledge(*id, rig::now());
             }
             UiCommand::Station(contract::Command::AcknowledgeAlarms { newest }) => {
-                model.alarms.acknowledge_all(*newest, model.now);
+                let now = model.now;
+                model.shown_mut().alarms.acknowledge_all(*newest, now);
             }
             UiCommand::Station(contract::Command::ShelveAlarm { id, time }) => {
-                model.alarms.shelve(*id, *time, model.now);
+                let now = model.now;
+                model.shown_mut().alarms.shelve(*id, *time, now);
             }
-            UiCommand::Station(contract::Command::UnshelveAlarm(id)) => model.alarms.unshelve(*id),
+            UiCommand::Station(contract::Command::UnshelveAlarm(id)) => {
+                model.shown_mut().alarms.unshelve(*id);
+            }
             other => panic!("{other:?}"),
         }
     }
@@ -130,8 +136,12 @@ fn an_alarm_is_opened_acknowledged_and_stays_until_it_is_over() {
     for size in rig::sizes() {
         let mut model = rig::model(states::holding());
         let (now, kind) = (model.now, AlarmKind::LinkLost(LinkLoss::Closed));
-        model.alarms.raise(Some(AntennaId::FIRST), kind.clone(), now);
-        model.alarms.raise(None, AlarmKind::Elements("the file is empty".to_owned()), now);
+        model.shown_mut().alarms.raise(Some(AntennaId::FIRST), kind.clone(), now);
+        model.shown_mut().alarms.raise(
+            None,
+            AlarmKind::Elements("the file is empty".to_owned()),
+            now,
+        );
         let text = words::alarm(&kind, "Satrak", rig::now());
         let mut window = rig::window(size, model);
         window.get_by_label("2 alarms, 2 new").click();
@@ -144,7 +154,11 @@ fn an_alarm_is_opened_acknowledged_and_stays_until_it_is_over() {
         );
         window.get_by_label(&format!("{text}, 11:15:30Z, seen"));
         window.get_by_label("2 alarms, 1 new");
-        window.state_mut().model.alarms.clear(Some(AntennaId::FIRST), rig::now(), |_| true);
+        window.state_mut().model.shown_mut().alarms.clear(
+            Some(AntennaId::FIRST),
+            rig::now(),
+            |_| true,
+        );
         settle(&mut window);
         window.get_by_label(&format!("{text}, 11:15:30Z, over since 11:15:30Z"));
         window.get_by_label("1 alarm, 1 new");
@@ -159,8 +173,8 @@ fn an_alarm_that_is_over_and_new_says_so_with_its_times_and_repeats() {
         let of = Some(AntennaId::FIRST);
         for minutes in [-1441_i64, -2] {
             let at = now + minutes.minutes();
-            model.alarms.raise(of, kind.clone(), at);
-            model.alarms.clear(of, at + 15.seconds(), |_| true);
+            model.shown_mut().alarms.raise(of, kind.clone(), at);
+            model.shown_mut().alarms.clear(of, at + 15.seconds(), |_| true);
         }
         let text = words::alarm(&kind, "Satrak", rig::now());
         let mut window = rig::window(size, model);
@@ -178,7 +192,8 @@ fn all_alarms_are_acknowledged_at_once() {
     for size in rig::sizes() {
         let mut model = rig::model(states::holding());
         for kind in [AlarmKind::ClockNotSet, AlarmKind::AutoStaysOn] {
-            model.alarms.raise(Some(AntennaId::FIRST), kind, model.now);
+            let now = model.now;
+            model.shown_mut().alarms.raise(Some(AntennaId::FIRST), kind, now);
         }
         let mut window = rig::window(size, model);
         window.get_by_label("2 alarms, 2 new").click();
@@ -197,9 +212,11 @@ fn a_seen_alarm_is_shelved_and_taken_back_but_no_top_priority_one() {
         let mut model = rig::model(states::holding());
         let of = Some(AntennaId::FIRST);
         for kind in [AlarmKind::ClockNotSet, AlarmKind::StopNotConfirmed] {
-            model.alarms.raise(of, kind, model.now);
+            let now = model.now;
+            model.shown_mut().alarms.raise(of, kind, now);
         }
-        model.alarms.acknowledge_all(1, model.now);
+        let now = model.now;
+        model.shown_mut().alarms.acknowledge_all(1, now);
         let text = words::alarm(&AlarmKind::ClockNotSet, "Satrak", rig::now());
         let mut window = rig::window(size, model);
         window.get_by_label("2 alarms, seen").click();
@@ -226,7 +243,8 @@ fn a_acknowledges_the_newest_alarm_in_every_view() {
             let mut model = rig::model(states::holding());
             model.view = view;
             for kind in [AlarmKind::ClockNotSet, AlarmKind::AutoStaysOn] {
-                model.alarms.raise(Some(AntennaId::FIRST), kind, model.now);
+                let now = model.now;
+                model.shown_mut().alarms.raise(Some(AntennaId::FIRST), kind, now);
             }
             let mut window = rig::window(size, model);
             for id in [1, 0] {
@@ -247,7 +265,7 @@ fn a_station_file_that_could_not_be_read_is_told_above_every_view() {
     for size in rig::sizes() {
         for view in [View::Operate, View::Plan, View::Elements, View::Preferences] {
             let mut model = rig::model(states::holding());
-            (model.station_unread, model.view) = (true, view);
+            (model.shown_mut().station_unread, model.view) = (true, view);
             let window = rig::window(size, model);
             assert!(
                 rig::says(&window, "The station file could not be read: no antenna"),
@@ -262,8 +280,8 @@ fn no_antenna_is_to_be_set_up_over_a_station_file_that_could_not_be_read() {
     for view in [View::Operate, View::Antennas] {
         for is_unread in [true, false] {
             let mut model = rig::model(states::holding());
-            model.antennas.clear();
-            (model.station_unread, model.view) = (is_unread, view);
+            model.shown_mut().antennas.clear();
+            (model.shown_mut().station_unread, model.view) = (is_unread, view);
             let window = rig::window(rig::SMALL, model);
             assert_eq!(window.query_by_label("Set up an antenna").is_none(), is_unread, "{view:?}");
         }
@@ -311,7 +329,7 @@ fn chips_and_function_keys_select_antennas() {
         let mut model = rig::model(states::holding());
         let mut second = model.station.antennas[0].clone();
         second.name = "Mast".to_owned();
-        model.antennas.push(rig::antenna(second, states::holding()));
+        model.shown_mut().antennas.push(rig::antenna(second, states::holding()));
         let mut window = rig::window(size, model);
         window.get_by_label("Mast: Holding, link live").click();
         assert_eq!(asked(&mut window), [UiCommand::SelectAntenna(1)]);
@@ -369,10 +387,11 @@ fn off_target(selected: usize) -> Model {
     let mut model = rig::model(states::tracking(2.0));
     let mut second = model.station.antennas[0].clone();
     (second.name, second.id) = ("Mast".to_owned(), AntennaId(2));
-    model.antennas.push(rig::antenna(second, states::holding()));
+    model.shown_mut().antennas.push(rig::antenna(second, states::holding()));
     model.selected_antenna = selected;
     let off = AlarmKind::OffTarget { off: Angle::from_degrees(2.0), cause: None };
-    model.alarms.raise(Some(AntennaId::FIRST), off, model.now);
+    let now = model.now;
+    model.shown_mut().alarms.raise(Some(AntennaId::FIRST), off, now);
     model
 }
 
@@ -405,15 +424,19 @@ fn an_alarm_that_is_seen_stays_at_the_antenna_and_one_that_is_over_does_not() {
     };
     let mut seen = off_target(0);
     let id = seen.alarms.list()[0].id;
-    seen.alarms.acknowledge(id, seen.now);
+    let now = seen.now;
+    seen.shown_mut().alarms.acknowledge(id, now);
     assert!(is_in_alarm(seen));
     let mut shelved = off_target(0);
-    shelved.alarms.shelve(id, ShelveTime::OneHour, shelved.now);
+    let now = shelved.now;
+    shelved.shown_mut().alarms.shelve(id, ShelveTime::OneHour, now);
     assert!(!is_in_alarm(shelved));
     let mut over = off_target(0);
-    over.alarms.clear(Some(AntennaId::FIRST), over.now, |_| true);
+    let now = over.now;
+    over.shown_mut().alarms.clear(Some(AntennaId::FIRST), now, |_| true);
     assert!(!is_in_alarm(over));
     let mut slight = rig::model(states::tracking(0.0));
-    slight.alarms.raise(Some(AntennaId::FIRST), AlarmKind::ClockNotSet, slight.now);
+    let now = slight.now;
+    slight.shown_mut().alarms.raise(Some(AntennaId::FIRST), AlarmKind::ClockNotSet, now);
     assert!(!is_in_alarm(slight));
 }

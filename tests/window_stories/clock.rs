@@ -10,7 +10,7 @@ use crate::window_stories::{
 
 fn with(size: [f32; 2], sync: TimeSync) -> Window {
     let mut model = rig::model(states::holding());
-    model.time_sync = sync;
+    model.shown_mut().time_sync = sync;
     rig::window(size, model)
 }
 
@@ -30,11 +30,11 @@ fn a_clock_that_nobody_keeps_is_told_in_every_window() {
     for size in SIZES.into_iter().chain([[1360.0, 700.0], [1200.0, 800.0]]) {
         for antennas in [1, 4, 7] {
             let mut model = rig::model(states::holding());
-            model.time_sync = TimeSync::NotSynchronised;
+            model.shown_mut().time_sync = TimeSync::NotSynchronised;
             for number in 1..antennas {
                 let mut config = model.station.antennas[0].clone();
                 config.name = format!("Antenna {number}");
-                model.antennas.push(rig::antenna(config, states::holding()));
+                model.shown_mut().antennas.push(rig::antenna(config, states::holding()));
             }
             let window = rig::window(size, model);
             let told = window.get_by_label("Clock: not synchronised").rect();

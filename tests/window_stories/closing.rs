@@ -104,7 +104,7 @@ fn antennas_that_move_or_are_tracked_are_asked_about_by_name() {
         let model = || {
             let mut model = rig::model(states::tracking(0.1));
             let moved = Snapshot { unproved: true, ..makes::rc2000c_off() };
-            model.antennas.push(rig::antenna(makes::rc2000c(), moved));
+            model.shown_mut().antennas.push(rig::antenna(makes::rc2000c(), moved));
             model
         };
         for (word, how) in ANSWERS {
@@ -140,7 +140,7 @@ fn what_the_station_says_of_closing_is_done_unasked_unless_something_else_is_los
         (OnClose::Leave, CloseHow::Leave),
     ] {
         let mut model = rig::model(states::tracking(0.1));
-        Arc::make_mut(&mut model.station).on_close = Some(on_close);
+        Arc::make_mut(&mut model.shown_mut().station).on_close = Some(on_close);
         let mut window = asked_about(LARGE, model);
         assert!(!rig::says(&window, "Close Azel?"));
         assert_eq!(
@@ -149,7 +149,7 @@ fn what_the_station_says_of_closing_is_done_unasked_unless_something_else_is_los
         );
     }
     let mut model = rig::model(states::tracking(0.1));
-    (Arc::make_mut(&mut model.station).on_close, model.view) =
+    (Arc::make_mut(&mut model.shown_mut().station).on_close, model.view) =
         (Some(OnClose::Hold), View::Preferences);
     let mut window = rig::window(LARGE, model);
     write(&mut window, "Latitude", "40");

@@ -332,7 +332,7 @@ fn the_log_of_one_antenna_can_be_chosen() {
         let mast = rig::antenna(config, states::holding());
         let log = WireLog::default();
         log.push(wire(2.05, Direction::Sent, "VERSION?"));
-        window.state_mut().model.antennas.push(mast);
+        window.state_mut().model.shown_mut().antennas.push(mast);
         window.state_mut().model.wires.push(log);
         settle(&mut window);
         assert_eq!(rows(&window).len(), 7);

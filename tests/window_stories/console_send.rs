@@ -142,7 +142,7 @@ fn every_control_is_whole_and_named_in_every_window_and_theme() {
         for name in [ThemeName::Dark, ThemeName::Light, ThemeName::Night] {
             for demo in [false, true] {
                 let mut window = view(size);
-                window.state_mut().model.demo = demo;
+                window.state_mut().model.shown_mut().demo = demo;
                 theme::set(&window.ctx, name);
                 write(&mut window, "Query to send", "SATELLITE_HTTP?");
                 row(&mut window, "ERR,7*5E", Modifiers::NONE);

@@ -278,7 +278,7 @@ fn the_band_of_the_demonstration_and_the_rail_keep_their_places_in_all_views() {
     for size in rig::SIZES {
         let seen = views.map(|view| {
             let mut model = rig::model(rig::quiet());
-            model.demo = true;
+            model.shown_mut().demo = true;
             model.view = view;
             let window = rig::window(size, model);
             let words = window.get_by_label_contains("Demo station:");

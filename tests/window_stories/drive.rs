@@ -115,7 +115,7 @@ fn m_gives_the_arrows_to_the_jog_pad_and_moves_nothing_itself() {
             }
             assert_eq!(asked(&mut window), [antenna(Command::Manual)]);
             // The session shows it a moment later.
-            window.state_mut().model.antennas[0].snapshot = states::manual().into();
+            window.state_mut().model.shown_mut().antennas[0].snapshot = states::manual().into();
             assert_eq!(asked(&mut window), [], "nothing moves by itself");
             assert!(window.get_by_label(pad).is_focused());
             window.key_press(Key::Enter);
@@ -140,7 +140,7 @@ fn m_waits_for_manual_only_until_something_else_is_done() {
     settle(&mut window);
     window.key_press(Key::ArrowDown);
     settle(&mut window);
-    window.state_mut().model.antennas[0].snapshot = states::manual().into();
+    window.state_mut().model.shown_mut().antennas[0].snapshot = states::manual().into();
     window.state_mut().commands.clear();
     assert_eq!(asked(&mut window), []);
     window.key_press(Key::ArrowDown);
@@ -227,7 +227,7 @@ fn another_view_and_another_antenna_end_the_jog() {
             let mut model = rig::model(states::manual());
             let mut second = model.station.antennas[0].clone();
             second.name = "Mast".to_owned();
-            model.antennas.push(rig::antenna(second, states::manual()));
+            model.shown_mut().antennas.push(rig::antenna(second, states::manual()));
             let mut window = rig::window(size, model);
             window.drag_at(window.get_by_label("Jog X+").rect().center());
             settle(&mut window);

@@ -71,7 +71,7 @@ pub(crate) fn view(size: [f32; 2], sources: Vec<(Source, SourceReport)>) -> Wind
     let mut model = rig::model(states::holding());
     model.view = View::Elements;
     let (list, reports) = sources.into_iter().unzip();
-    model.sources = Arc::new(Sources { list, reports, ..Sources::default() });
+    model.shown_mut().sources = Arc::new(Sources { list, reports, ..Sources::default() });
     let mut window = rig::window(size, model);
     if size == rig::SMALL {
         // In a low window they are folded.
@@ -207,7 +207,7 @@ fn a_server_is_set_to_be_asked_by_itself() {
         let hours = Some(RefreshHours::from(6));
         let wanted = contract::Command::SetRefresh { name: "weather".to_owned(), hours };
         assert_eq!(asked(&mut window), [UiCommand::Station(wanted)]);
-        Arc::make_mut(&mut window.state_mut().model.sources).list[0].refresh = hours;
+        Arc::make_mut(&mut window.state_mut().model.shown_mut().sources).list[0].refresh = hours;
         settle(&mut window);
         window.get_by_role_and_label(Role::ComboBox, "Refresh of weather: Every 6 h");
     }
@@ -255,7 +255,7 @@ fn a_typed_source_is_added_once_it_is_right_and_stays_typed_until_it_is_there() 
             window.get_by_role_and_label(Role::TextInput, "Path").value().unwrap_or_default()
         };
         assert_eq!(path(&window), "/var/elements/own.tle", "it may not have been kept");
-        Arc::make_mut(&mut window.state_mut().model.sources).list.push(file_source());
+        Arc::make_mut(&mut window.state_mut().model.shown_mut().sources).list.push(file_source());
         settle(&mut window);
         let form = window.query_by_role_and_label(Role::TextInput, "Path");
         assert!(form.is_none(), "the form closes");
@@ -366,7 +366,7 @@ fn a_missing_or_refused_password_is_told_and_entered_in_a_dialog() {
         assert!(!says(&window, "Password of op@example.org"), "the dialog is closed");
 
         let set = |window: &mut Window, problem, limits| {
-            let sources = Arc::make_mut(&mut window.state_mut().model.sources);
+            let sources = Arc::make_mut(&mut window.state_mut().model.shown_mut().sources);
             sources.reports[0].fetch_problem = problem;
             sources.reports[0].limits = limits;
             settle(window);
@@ -403,7 +403,7 @@ fn nothing_is_taken_while_servers_are_asked_or_the_list_is_unreadable() {
     for size in rig::sizes() {
         for (lock, words) in locks {
             let mut window = view(size, vec![server(3.0)]);
-            lock(Arc::make_mut(&mut window.state_mut().model.sources));
+            lock(Arc::make_mut(&mut window.state_mut().model.shown_mut().sources));
             settle(&mut window);
             assert!(says(&window, words));
             click(&mut window, "Add a source");

@@ -327,7 +327,7 @@ fn take_up(window: &mut Window) {
         matches!(command, UiCommand::Station(contract::Command::OpenedAlarms))
     };
     if asked(window).iter().any(opens) {
-        window.state_mut().model.alarms.unopened = false;
+        window.state_mut().model.shown_mut().alarms.unopened = false;
     }
     settle(window);
 }
@@ -357,7 +357,9 @@ fn in_view(size: [f32; 2], view: View, mut model: Model) -> Window {
 }
 
 fn demo() -> Model {
-    Model { demo: true, ..wide::three() }
+    let mut model = wide::three();
+    model.shown_mut().demo = true;
+    model
 }
 
 fn lost() -> Model {
@@ -365,14 +367,15 @@ fn lost() -> Model {
     let (since, retry_at) = (rig::ago(&model, 42), model.steady);
     let link = LinkState::Lost { since, reason: LinkLoss::Silent, retry_at };
     let config = model.station.antennas[0].clone();
-    model.antennas = vec![rig::antenna(config, Snapshot { link, ..states::tracking(0.0) })];
+    model.shown_mut().antennas =
+        vec![rig::antenna(config, Snapshot { link, ..states::tracking(0.0) })];
     model
 }
 
 fn without_antennas() -> Model {
     let mut model = rig::model(states::holding());
-    model.antennas.clear();
-    Arc::make_mut(&mut model.station).antennas.clear();
+    model.shown_mut().antennas.clear();
+    Arc::make_mut(&mut model.shown_mut().station).antennas.clear();
     model
 }
 
@@ -380,14 +383,14 @@ fn without_antennas() -> Model {
 fn alarmed() -> Model {
     let mut model = rig::model(states::holding());
     let (of, now) = (Some(AntennaId::FIRST), model.now);
-    model.alarms.raise(of, AlarmKind::ClockNotSet, now);
-    model.alarms.raise(of, AlarmKind::AutoStaysOn, now);
-    model.alarms.acknowledge_all(1, now);
-    model.alarms.shelve(0, azel::contract::alarms::ShelveTime::OneHour, now);
-    model.alarms.raise(of, AlarmKind::LinkLost(LinkLoss::Closed), now);
-    model.alarms.clear(of, now, |kind| matches!(kind, AlarmKind::LinkLost(_)));
-    model.alarms.raise(of, AlarmKind::StopNotConfirmed, now);
-    model.alarms.raise(None, AlarmKind::Elements("the file is empty".to_owned()), now);
+    model.shown_mut().alarms.raise(of, AlarmKind::ClockNotSet, now);
+    model.shown_mut().alarms.raise(of, AlarmKind::AutoStaysOn, now);
+    model.shown_mut().alarms.acknowledge_all(1, now);
+    model.shown_mut().alarms.shelve(0, azel::contract::alarms::ShelveTime::OneHour, now);
+    model.shown_mut().alarms.raise(of, AlarmKind::LinkLost(LinkLoss::Closed), now);
+    model.shown_mut().alarms.clear(of, now, |kind| matches!(kind, AlarmKind::LinkLost(_)));
+    model.shown_mut().alarms.raise(of, AlarmKind::StopNotConfirmed, now);
+    model.shown_mut().alarms.raise(None, AlarmKind::Elements("the file is empty".to_owned()), now);
     model
 }
 

@@ -64,16 +64,16 @@ fn the_longest_names_cut_nothing() {
     for size in SIZES {
         for count in [1, 4] {
             let mut model = rig::model(states::tracking(0.04));
-            LONG.clone_into(&mut Arc::make_mut(&mut model.station).name);
+            LONG.clone_into(&mut Arc::make_mut(&mut model.shown_mut().station).name);
             let mut config = model.station.antennas[0].clone();
-            model.antennas.clear();
+            model.shown_mut().antennas.clear();
             for index in 0..count {
                 config.name = format!("{}{index}", &LONG[..LONG.len() - 1]);
                 let mut antenna = rig::antenna(config.clone(), states::tracking(0.04));
                 refresh(&mut antenna, &mut Recent::default(), model.station.site, |number| {
                     model.pass_lists.satellite(number)
                 });
-                model.antennas.push(antenna);
+                model.shown_mut().antennas.push(antenna);
             }
             let window = rig::window(size, model);
             nothing_is_cut(&window, size);
@@ -99,8 +99,8 @@ fn every_state_fits_both_windows() {
 fn a_station_without_antennas_offers_to_set_one_up() {
     for size in SIZES {
         let mut model = rig::model(states::holding());
-        model.antennas.clear();
-        Arc::make_mut(&mut model.station).antennas.clear();
+        model.shown_mut().antennas.clear();
+        Arc::make_mut(&mut model.shown_mut().station).antennas.clear();
         let mut window = rig::window(size, model);
         nothing_is_cut(&window, size);
         window.get_by_role_and_label(Role::Button, "Set up an antenna").click();
@@ -111,8 +111,8 @@ fn a_station_without_antennas_offers_to_set_one_up() {
 }
 
 fn without_elements(mut model: Model) -> Model {
-    model.catalog = CatalogState::Failed;
-    model.pass_lists = PassLists::default();
+    model.shown_mut().catalog = CatalogState::Failed;
+    model.shown_mut().pass_lists = PassLists::default();
     model.selected = None;
     model.sky = Sky::default();
     model.refresh_sky();
@@ -142,7 +142,7 @@ fn without_elements_it_says_so_and_the_antenna_can_still_be_driven() {
 fn the_demo_station_says_that_no_metal_moves() {
     for size in SIZES {
         let mut model = rig::model(states::holding());
-        model.demo = true;
+        model.shown_mut().demo = true;
         let mut window = rig::window(size, model);
         assert!(says(&window, "Demo station: the antennas are simulated, no real antenna moves."));
         nothing_is_cut(&window, size);
@@ -159,7 +159,7 @@ fn the_demo_station_says_that_no_metal_moves() {
 fn what_saving_does_to_the_demonstration_is_said_before_and_while_one_types() {
     for size in SIZES {
         let mut model = rig::model(states::holding());
-        (model.demo, model.view) = (true, View::Preferences);
+        (model.shown_mut().demo, model.view) = (true, View::Preferences);
         let mut window = rig::window(size, model);
         let ends = "Saving ends the demo and uses this station.";
         window.get_by_label(ends);
@@ -185,10 +185,10 @@ fn the_end_of_the_demonstration_moves_nothing_under_the_pointer() {
     for size in SIZES {
         for view in [View::Operate, View::Plan, View::Antennas, View::Preferences, View::Map] {
             let mut model = rig::model(states::holding());
-            (model.demo, model.view) = (true, view);
+            (model.shown_mut().demo, model.view) = (true, view);
             let mut window = rig::window(size, model);
             let before = places(&window);
-            window.state_mut().model.demo = false;
+            window.state_mut().model.shown_mut().demo = false;
             settle(&mut window);
             assert_eq!(places(&window), before, "{view:?} {size:?}");
             assert!(!says(&window, "Demo station"));
@@ -206,9 +206,9 @@ fn the_end_of_the_demonstration_moves_nothing_under_the_pointer() {
 fn the_demo_station_without_elements_says_so() {
     for size in SIZES {
         let mut model = without_elements(rig::model(states::holding()));
-        model.demo = true;
-        Arc::make_mut(&mut model.station).antennas.clear();
-        model.antennas.clear();
+        model.shown_mut().demo = true;
+        Arc::make_mut(&mut model.shown_mut().station).antennas.clear();
+        model.shown_mut().antennas.clear();
         let window = rig::window(size, model);
         assert!(says(&window, "Demo station: the elements could not be read."));
         nothing_is_cut(&window, size);
@@ -222,7 +222,8 @@ fn a_lost_link_locks_what_cannot_be_sent_and_says_why() {
         let (since, retry_at) = (rig::ago(&model, 42), model.steady);
         let link = LinkState::Lost { since, reason: LinkLoss::Silent, retry_at };
         let config = model.station.antennas[0].clone();
-        model.antennas = vec![rig::antenna(config, Snapshot { link, ..states::tracking(0.0) })];
+        model.shown_mut().antennas =
+            vec![rig::antenna(config, Snapshot { link, ..states::tracking(0.0) })];
         let mut window = rig::window(size, model);
         nothing_is_cut(&window, size);
         assert!(says(&window, "No reply from Satrak for 42 s"));

@@ -54,14 +54,14 @@ fn following(phase: TrackPhase, off_deg: f64, motion: AxisMotion) -> Model {
     refresh(&mut antenna, &mut Recent::default(), model.station.site, |number| {
         model.pass_lists.satellite(number)
     });
-    model.antennas = vec![antenna];
+    model.shown_mut().antennas = vec![antenna];
     model
 }
 
 /// A Genius that tracks NOAA 20 with these offsets.
 pub(super) fn tracking(offsets: TrackOffsets) -> Model {
     let mut model = following(TrackPhase::Tracking, 0.0, AxisMotion::Plus);
-    let snapshot = Arc::make_mut(&mut model.antennas[0].snapshot);
+    let snapshot = Arc::make_mut(&mut model.shown_mut().antennas[0].snapshot);
     if let Some(view) = &mut snapshot.program_track {
         view.offsets = offsets;
         view.can_undo = !offsets.is_none();
@@ -112,7 +112,7 @@ fn the_sentence_predicts_the_arrival_on_target() {
         ),
         (None, "Following NOAA 20. The antenna is still turning, 40.00° off target."),
     ] {
-        let snapshot = Arc::make_mut(&mut model.antennas[0].snapshot);
+        let snapshot = Arc::make_mut(&mut model.shown_mut().antennas[0].snapshot);
         if let Some(view) = &mut snapshot.program_track {
             view.on_path = Some(OnPath::OnItsWay { until });
         }
@@ -153,7 +153,7 @@ fn the_plot_shows_where_the_antenna_was_sent() {
 fn a_target_beyond_the_travel_is_out_of_reach_and_waited_for() {
     let mut model = following(TrackPhase::Tracking, 40.0, AxisMotion::Still);
     let Mount::AzEl { azimuth_from_deg, elevation_to_deg, .. } =
-        &mut model.antennas[0].config.mount
+        &mut Arc::make_mut(&mut model.shown_mut().antennas[0].config).mount
     else {
         panic!("a Genius turns azimuth and elevation")
     };
@@ -167,7 +167,7 @@ fn a_target_beyond_the_travel_is_out_of_reach_and_waited_for() {
 #[test]
 fn a_position_that_is_missing_is_not_said_to_be_out_of_reach() {
     let mut model = following(TrackPhase::Tracking, 0.4, AxisMotion::Still);
-    let snapshot = Arc::make_mut(&mut model.antennas[0].snapshot);
+    let snapshot = Arc::make_mut(&mut model.shown_mut().antennas[0].snapshot);
     snapshot.state.measured.as_mut().unwrap().pointing.azimuth = None;
     assert_eq!(
         states::sentence(&model),
@@ -180,7 +180,7 @@ fn after_a_lost_link_it_is_said_to_follow_on() {
     let mut model = following(TrackPhase::Tracking, 0.4, AxisMotion::Still);
     let back =
         Event::Back { after: Duration::from_secs(20), found: Found::Still, is_explained: true };
-    model.antennas[0].news = Some((back, model.now));
+    model.shown_mut().antennas[0].news = Some((back, model.now));
     let said = states::sentence(&model);
     assert!(said.ends_with("It is still following."), "{said}");
 }
@@ -193,7 +193,7 @@ fn after_the_pass_it_is_told_how_well_it_was_followed() {
     stats.take(Angle::from_degrees(0.8));
     let mut model = following(TrackPhase::Over, 0.0, AxisMotion::Still);
     let over = Event::ProgramTrackOver { name: "NOAA 20 (JPSS-1)".to_owned(), stats };
-    model.antennas[0].news = Some((over, model.now));
+    model.shown_mut().antennas[0].news = Some((over, model.now));
     let wanted = "The pass of NOAA 20 is over. It was followed with an error of 0.71° rms, 0.80° \
                   at worst, using 206 commands.";
     assert_eq!(states::sentence(&model), wanted);
@@ -226,7 +226,7 @@ fn chosen(size: [f32; 2], antenna: Antenna, entry: &str) -> Vec<UiCommand> {
     snapshot.link = LinkState::Up { since: Instant::now() };
     snapshot.state.motion_lock = Some(false);
     let mut model = rig::model(rig::quiet());
-    model.antennas = vec![rig::antenna(antenna, snapshot)];
+    model.shown_mut().antennas = vec![rig::antenna(antenna, snapshot)];
     let mut window = rig::window(size, model);
     let key = window.get_by_role_and_label(Role::Button, "Follow something else");
     key.scroll_to_me();

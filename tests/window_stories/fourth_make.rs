@@ -87,7 +87,7 @@ fn its_own_settings_are_fields_of_the_form() {
     for size in rig::sizes() {
         let antenna = SPEC.antenna("Lever", SPEC.default_address);
         let mut model = model(antenna.clone(), rig::quiet());
-        (model.view, Arc::make_mut(&mut model.station).antennas) =
+        (model.view, Arc::make_mut(&mut model.shown_mut().station).antennas) =
             (View::Preferences, vec![antenna]);
         let mut window = rig::window(size, model);
         open(&mut window, "Lever");

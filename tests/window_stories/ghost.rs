@@ -40,7 +40,7 @@ fn click_the_south(window: &mut Window) -> Pointing {
 
 /// The session answers.
 fn answer(window: &mut Window, to: Pointing, way: Result<Way, Refusal>) {
-    let shown = &mut window.state_mut().model.antennas[0].snapshot;
+    let shown = &mut window.state_mut().model.shown_mut().antennas[0].snapshot;
     let preview = Some(Arc::new(Preview { to, way }));
     *shown = Arc::new(Snapshot { preview, ..Snapshot::clone(shown) });
     settle(window);
@@ -137,7 +137,7 @@ fn what_a_track_would_lose_is_asked_once_more() {
 fn without_a_link_a_click_says_so_and_asks_nobody() {
     let mut model = rig::model(rig::quiet());
     let off = Snapshot::before_anything(LinkState::Off);
-    model.antennas[0].snapshot = Arc::new(off);
+    model.shown_mut().antennas[0].snapshot = Arc::new(off);
     let mut window = rig::window(LARGE, model);
     let at = zenith(&window) + vec2(0.0, 60.0);
     window.drag_at(at);

@@ -31,7 +31,7 @@ const UNGUARDED: &str = "Hold 1 s to move without the dead-man timer";
 
 fn shows(snapshot: Snapshot) -> Model {
     let mut model = rig::model(states::holding());
-    model.antennas = vec![rig::antenna(model.station.antennas[0].clone(), snapshot)];
+    model.shown_mut().antennas = vec![rig::antenna(model.station.antennas[0].clone(), snapshot)];
     model
 }
 
@@ -43,11 +43,11 @@ fn a_jog_without_a_dead_man_is_allowed_by_holding_only() {
         [(unguarded(), false), (Snapshot { unguarded: false, ..unguarded() }, true)]
     {
         let mut model = shows(snapshot);
-        model.antennas[0].asks_unguarded = is_refused;
+        model.shown_mut().antennas[0].asks_unguarded = is_refused;
         assert!(rig::window(LARGE, model).query_by_label(UNGUARDED).is_none());
     }
     let mut model = shows(unguarded());
-    model.antennas[0].asks_unguarded = true;
+    model.shown_mut().antennas[0].asks_unguarded = true;
     let mut window = rig::window(LARGE, model);
     assert!(says(&window, "nothing would stop the antenna"));
     window.get_by_label(UNGUARDED).click();
@@ -163,7 +163,7 @@ fn the_sun_is_followed_at_once_or_by_a_hold_that_names_its_avoidance() {
         assert_eq!(follow(&mut window), (Target::Sun, false));
 
         let mut model = shows(states::holding());
-        Arc::make_mut(&mut model.station).sun_avoidance =
+        Arc::make_mut(&mut model.shown_mut().station).sun_avoidance =
             Some(SunAvoidance { radius_deg: 5.0, ahead_min: 10.0 });
         let mut window = choose_the_sun(model);
         assert_eq!(asked(&mut window), [], "it is asked for first");
@@ -187,7 +187,11 @@ fn an_alarm_about_the_sun_offers_to_move_away_in_one_step() {
     for size in rig::sizes() {
         let alarmed = |snapshot: Snapshot| {
             let mut model = shows(snapshot);
-            model.alarms.raise(Some(AntennaId::FIRST), AlarmKind::Safety(told.clone()), rig::now());
+            model.shown_mut().alarms.raise(
+                Some(AntennaId::FIRST),
+                AlarmKind::Safety(told.clone()),
+                rig::now(),
+            );
             let mut window = rig::window(size, model);
             window.get_by_label_contains("1 alarm").click();
             rig::settle(&mut window);
@@ -209,16 +213,16 @@ fn a_keep_out_is_told_of_with_its_reason() {
     let mut model = shows(states::manual());
     let mast = crate::common::mast(&[(80.0, 0.0), (80.0, 30.0), (100.0, 30.0), (100.0, 0.0)]);
     let reason = "Steel mast, 24 m away".to_owned();
-    Arc::make_mut(&mut model.station).keep_outs = vec![KeepOut { reason, ..mast }];
+    Arc::make_mut(&mut model.shown_mut().station).keep_outs = vec![KeepOut { reason, ..mast }];
     let barrier = || Barrier::KeepOut("mast".into());
     let refusal = Refusal::Forbidden { barrier: barrier(), at: AzEl::from_degrees(90.0, 20.0) };
-    model.antennas[0].news = Some((Event::NotSent(refusal), rig::now()));
+    model.shown_mut().antennas[0].news = Some((Event::NotSent(refusal), rig::now()));
     let told = Safety::Forbidden {
         barrier: barrier(),
         driver: Mover::Somebody,
         response: Response::Stopped,
     };
-    model.alarms.raise(Some(AntennaId::FIRST), AlarmKind::Safety(told), rig::now());
+    model.shown_mut().alarms.raise(Some(AntennaId::FIRST), AlarmKind::Safety(told), rig::now());
     let mut window = rig::window(LARGE, model);
     assert!(says(&window, "at 90.0°, 20.0°. “mast”: Steel mast, 24 m away."));
     window.get_by_label_contains("1 alarm").click();
@@ -234,11 +238,11 @@ fn an_action_whose_end_nobody_here_knows_is_started_by_holding_only() {
     let act = Act { action: action.key, values: Values::default() };
     for size in rig::sizes() {
         let mut model = shows(states::holding());
-        model.antennas = vec![rig::antenna(dish.clone(), states::holding())];
+        model.shown_mut().antennas = vec![rig::antenna(dish.clone(), states::holding())];
         assert!(rig::window(size, model).query_by_label(UNSEEN).is_none());
         let mut model = shows(states::holding());
-        model.antennas = vec![rig::antenna(dish.clone(), states::holding())];
-        model.antennas[0].asks_unseen = Some(act.clone());
+        model.shown_mut().antennas = vec![rig::antenna(dish.clone(), states::holding())];
+        model.shown_mut().antennas[0].asks_unseen = Some(act.clone());
         let mut window = rig::window(size, model);
         assert!(says(&window, action.about));
         window.get_by_label(UNSEEN).click();

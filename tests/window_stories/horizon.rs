@@ -12,7 +12,7 @@ use azel::{
         Model, UiCommand, View,
         effects::{self, Effect, obstacles},
     },
-    station::{self, Entered, KeepOut, Station, SunAvoidance},
+    station::{self, Antenna, Entered, KeepOut, Station, SunAvoidance},
 };
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, Role};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
@@ -58,7 +58,7 @@ fn page_of(size: [f32; 2], mut model: Model) -> Window {
 /// The page of a station with a mast in the east.
 pub(crate) fn page(size: [f32; 2]) -> Window {
     let mut model = rig::model(states::holding());
-    Arc::make_mut(&mut model.station).keep_outs = vec![mast()];
+    Arc::make_mut(&mut model.shown_mut().station).keep_outs = vec![mast()];
     page_of(size, model)
 }
 
@@ -314,7 +314,7 @@ fn the_sun_is_kept_away_from_once_that_is_set() {
 fn a_keep_out_is_tightened_while_the_antenna_moves_and_loosened_only_when_it_stands() {
     let moving = |margin: &str| {
         let mut model = rig::model(states::moving());
-        Arc::make_mut(&mut model.station).keep_outs = vec![mast()];
+        Arc::make_mut(&mut model.shown_mut().station).keep_outs = vec![mast()];
         let mut window = page_of(LARGE, model);
         choose(&mut window, "mast");
         field(&mut window, "Safety margin", margin);
@@ -332,7 +332,7 @@ fn a_keep_out_around_an_antenna_is_saved_by_a_hold() {
     let measured = model.antennas[0].snapshot.state.measured.unwrap();
     let at = measured.direction().unwrap();
     let (az, el) = (at.azimuth_deg(), at.elevation_deg());
-    Arc::make_mut(&mut model.station).keep_outs = vec![mast()];
+    Arc::make_mut(&mut model.shown_mut().station).keep_outs = vec![mast()];
     let mut window = page_of(LARGE, model);
     choose(&mut window, "mast");
     for (corner, (azimuth, elevation)) in
@@ -399,7 +399,7 @@ fn the_skyline_is_recorded_by_pointing() {
 #[test]
 fn each_mark_takes_what_was_measured_of_an_antenna_that_stands_in_manual() {
     let mut model = rig::model(manual(10.0, 5.4, AxisMotion::Still));
-    Arc::make_mut(&mut model.station).horizon_mask = HorizonMask::parse("0 3").ok();
+    Arc::make_mut(&mut model.shown_mut().station).horizon_mask = HorizonMask::parse("0 3").ok();
     let mut window = page_of(LARGE, model);
     let click = |window: &mut Window, button: &str| {
         window.get_by_role_and_label(Role::Button, button).scroll_to_me();
@@ -410,11 +410,11 @@ fn each_mark_takes_what_was_measured_of_an_antenna_that_stands_in_manual() {
     click(&mut window, "Record the skyline");
     click(&mut window, "Mark 10.0°, 5.4°");
     let point = |window: &mut Window, snapshot: Snapshot| {
-        let config = window.state().model.antennas[0].config.clone();
-        window.state_mut().model.antennas = vec![rig::antenna(config, snapshot)];
+        let config = Antenna::clone(&window.state().model.antennas[0].config);
+        window.state_mut().model.shown_mut().antennas = vec![rig::antenna(config, snapshot)];
         let model = &mut window.state_mut().model;
         let site = model.station.site;
-        for antenna in &mut model.antennas {
+        for antenna in &mut model.shown_mut().antennas {
             refresh(antenna, &mut Recent::default(), site, |_| None);
         }
         settle(window);
@@ -436,7 +436,7 @@ fn each_mark_takes_what_was_measured_of_an_antenna_that_stands_in_manual() {
 #[test]
 fn a_mask_is_read_from_a_file_and_written_to_one() {
     let mut model = rig::model(states::holding());
-    Arc::make_mut(&mut model.station).horizon_mask = HorizonMask::parse("0 3").ok();
+    Arc::make_mut(&mut model.shown_mut().station).horizon_mask = HorizonMask::parse("0 3").ok();
     let mut window = page_of(LARGE, model);
     window.get_by_role_and_label(Role::Button, "Export").click();
     let mask = HorizonMask::parse("0 3").unwrap();
@@ -462,7 +462,7 @@ fn what_holds_is_drawn_in_the_sky_plot() {
         let mut model = rig::model(states::holding());
         let overhead = KeepOut { name: "overhead".to_owned(), zone: cap.clone(), ..mast() };
         assert!(overhead.zone.clearance(azel::astro::AzEl::from_degrees(0.0, 90.0)) < Angle::ZERO);
-        Arc::make_mut(&mut model.station).keep_outs = vec![mast(), overhead];
+        Arc::make_mut(&mut model.shown_mut().station).keep_outs = vec![mast(), overhead];
         rig::window(size, model);
     }
 }
@@ -471,7 +471,7 @@ fn what_holds_is_drawn_in_the_sky_plot() {
 fn the_margin_is_the_beam_the_overshoot_and_what_is_added() {
     let stopping_way = StoppingWay { overrun_s: 0.4, stops: 0, is_learned: false };
     let mut model = rig::model(Snapshot { stopping_way, ..states::holding() });
-    Arc::make_mut(&mut model.station).keep_outs = vec![mast()];
+    Arc::make_mut(&mut model.shown_mut().station).keep_outs = vec![mast()];
     let mut window = page_of(LARGE, model);
     choose(&mut window, "mast");
     // With a Satrak of 3 degrees per second.
@@ -481,7 +481,7 @@ fn the_margin_is_the_beam_the_overshoot_and_what_is_added() {
 #[test]
 fn the_reason_of_a_keep_out_is_shown_where_the_pointer_rests() {
     let mut model = rig::model(states::holding());
-    Arc::make_mut(&mut model.station).keep_outs =
+    Arc::make_mut(&mut model.shown_mut().station).keep_outs =
         vec![KeepOut { reason: "Steel mast".to_owned(), ..mast() }];
     let mut window = page_of(LARGE, model);
     window.get_by_label_contains("mast, Keep-out, hard").hover();

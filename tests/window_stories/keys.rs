@@ -35,9 +35,10 @@ fn opened(size: [f32; 2]) -> Window {
     for name in ["Mast", "Roof", "Field"] {
         let mut config = model.station.antennas[0].clone();
         name.clone_into(&mut config.name);
-        model.antennas.push(rig::antenna(config, states::manual()));
+        model.shown_mut().antennas.push(rig::antenna(config, states::manual()));
     }
-    model.alarms.raise(None, AlarmKind::Elements("the file is empty".to_owned()), model.now);
+    let now = model.now;
+    model.shown_mut().alarms.raise(None, AlarmKind::Elements("the file is empty".to_owned()), now);
     model.selected = model.pass_lists.favourites.passes.get(2).map(PredictedPass::key);
     let mut window = rig::window(size, model);
     // One step from the ends of the choices.
@@ -137,13 +138,18 @@ fn every_key_of_the_list_does_something() {
                 let pass = model.selected_pass().unwrap();
                 let (satellite, tca) = (pass.number(), pass.pass.tca.time);
                 let now = model.now;
-                Arc::make_mut(&mut model.station).choose_pass(satellite, tca, Some(take), now);
+                Arc::make_mut(&mut model.shown_mut().station).choose_pass(
+                    satellite,
+                    tca,
+                    Some(take),
+                    now,
+                );
                 window.key_press(Key::Plus);
                 asked(&mut window);
             }
             if binding.place == KeyScope::Record {
                 window = record::to_correct(SMALL);
-                window.state_mut().model.record = Some(Arc::default());
+                window.state_mut().model.shown_mut().record = Some(Arc::default());
                 asked(&mut window);
                 // The last row has none after it.
                 if key == Key::ArrowUp {

@@ -110,7 +110,7 @@ fn it_is_shown_on_chip_card_and_lists_and_taken_off_by_a_hold() {
     for size in SIZES {
         let mut model = rig::model(locked(states::holding()));
         let other = locked(Snapshot::before_anything(LinkState::Off));
-        model.antennas.push(rig::antenna(makes::rc2000c(), other));
+        model.shown_mut().antennas.push(rig::antenna(makes::rc2000c(), other));
         let mut window = rig::window(size, model);
         for chip in ["Satrak: In maintenance, link live", "RC2000C: In maintenance, link off"] {
             window.get_by_label(chip);

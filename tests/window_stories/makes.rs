@@ -10,7 +10,6 @@ use azel::{
         AxisMotion, Measured, Pointing,
         panel::{Check, CheckState, Reading, Tone},
     },
-    engine::antenna::{Recent, refresh},
     model::Model,
     station::{Antenna, Mount},
 };
@@ -44,13 +43,9 @@ pub(crate) fn rc2000c() -> Antenna {
 /// The station with `config` as its antenna in the state of `snapshot`.
 pub(crate) fn model(config: Antenna, snapshot: Snapshot) -> Model {
     let mut model = rig::model(quiet());
-    Arc::make_mut(&mut model.station).antennas = vec![config.clone()];
-    model.antennas = vec![rig::antenna(config, snapshot)];
-    for antenna in &mut model.antennas {
-        refresh(antenna, &mut Recent::default(), model.station.site, |number| {
-            model.pass_lists.satellite(number)
-        });
-    }
+    Arc::make_mut(&mut model.shown_mut().station).antennas = vec![config.clone()];
+    model.shown_mut().antennas = vec![rig::antenna(config, snapshot)];
+    rig::refresh_antennas(&mut model);
     model
 }
 

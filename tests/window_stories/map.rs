@@ -65,8 +65,9 @@ fn every_window_shows_the_whole_map() {
     for size in [LARGE, SMALL, FULL, [1440.0, 640.0], [1200.0, 760.0]] {
         for is_demo in [false, true] {
             let mut model = model();
-            model.demo = is_demo;
-            "Şile northern field unit".clone_into(&mut Arc::make_mut(&mut model.station).name);
+            model.shown_mut().demo = is_demo;
+            "Şile northern field unit"
+                .clone_into(&mut Arc::make_mut(&mut model.shown_mut().station).name);
             let window = rig::window(size, model);
             nothing_is_cut(&window, size);
             nothing_overlaps(&window);
@@ -174,9 +175,9 @@ fn the_tracks_of_a_long_list_come_little_by_little() {
         Arc::new(ListedSatellite { elements: elements.clone(), propagator })
     });
     let chosen = model.pass_lists.satellite(NOAA_20).cloned();
-    model.pass_lists.favourites.satellites =
+    model.shown_mut().pass_lists.favourites.satellites =
         Arc::new(chosen.into_iter().chain(satellites).collect());
-    model.pass_lists.favourites.revision += 1;
+    model.shown_mut().pass_lists.favourites.revision += 1;
     for wanted in [9, 17, 21, 21] {
         model.now = add_seconds(model.now, 1.0);
         model.refresh_sky();
@@ -192,9 +193,9 @@ fn the_tracks_of_a_long_list_come_little_by_little() {
 fn only_where_passes_were_searched_for_is_it_said_that_there_is_none() {
     let said = |change: fn(&mut Model)| {
         let mut model = model();
-        model.pass_lists.favourites.passes = Arc::default();
-        model.pass_lists.favourites.revision += 1;
-        model.pass_lists.favourites.made_at = Some(model.now);
+        model.shown_mut().pass_lists.favourites.passes = Arc::default();
+        model.shown_mut().pass_lists.favourites.revision += 1;
+        model.shown_mut().pass_lists.favourites.made_at = Some(model.now);
         change(&mut model);
         model.refresh_sky();
         let window = rig::window(FULL, model);
@@ -204,11 +205,11 @@ fn only_where_passes_were_searched_for_is_it_said_that_there_is_none() {
     };
     assert_eq!(said(|_| {}), [true, false, false, true]);
     assert_eq!(
-        said(|model| model.pass_lists.favourites.made_at = None),
+        said(|model| model.shown_mut().pass_lists.favourites.made_at = None),
         [false, false, true, false]
     );
     let not_followed = |model: &mut Model| {
-        Arc::make_mut(&mut model.station).favourites = std::iter::empty().collect();
+        Arc::make_mut(&mut model.shown_mut().station).favourites = std::iter::empty().collect();
     };
     assert_eq!(said(not_followed), [false, true, false, false]);
 }
@@ -217,7 +218,7 @@ fn only_where_passes_were_searched_for_is_it_said_that_there_is_none() {
 fn a_mask_decides_what_is_up() {
     let mut model = model();
     let mask = azel::astro::HorizonMask::from_degrees([(0.0, 89.0)]).unwrap();
-    Arc::make_mut(&mut model.station).horizon_mask = Some(mask);
+    Arc::make_mut(&mut model.shown_mut().station).horizon_mask = Some(mask);
     model.refresh_sky();
     assert!(model.globe.satellites.iter().all(|of| !of.is_up));
     assert!(says(&rig::window(LARGE, model), "5 favourites, 0 above the mask at Şile 1"));
@@ -471,9 +472,9 @@ fn only_what_antennas_track_is_shown_where_that_is_wanted() {
 fn a_map_without_satellites_says_why() {
     for size in SIZES {
         let mut model = model();
-        model.pass_lists = PassLists::default();
+        model.shown_mut().pass_lists = PassLists::default();
         model.selected = None;
-        Arc::make_mut(&mut model.station).favourites = [].into();
+        Arc::make_mut(&mut model.shown_mut().station).favourites = [].into();
         model.refresh_sky();
         let mut window = rig::window(size, model);
         if size == SMALL {

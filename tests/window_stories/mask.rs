@@ -29,7 +29,8 @@ fn page(size: [f32; 2]) -> Window {
 
 fn with_mask(size: [f32; 2], text: &str) -> Window {
     let mut model = rig::model(states::holding());
-    Arc::make_mut(&mut model.station).horizon_mask = Some(HorizonMask::parse(text).unwrap());
+    Arc::make_mut(&mut model.shown_mut().station).horizon_mask =
+        Some(HorizonMask::parse(text).unwrap());
     select_next(&mut model);
     rig::window(size, model)
 }
@@ -39,7 +40,7 @@ fn select_next(model: &mut Model) {
     let satellite = Arc::clone(model.pass_lists.satellite(rig::NOAA_20).unwrap());
     let pass = rig::predicted_passes(&satellite, &model.station, model.now).remove(0);
     model.selected = Some(pass.key());
-    model.pass_lists.favourites.passes = vec![pass].into();
+    model.shown_mut().pass_lists.favourites.passes = vec![pass].into();
     model.refresh_sky();
 }
 
@@ -75,7 +76,7 @@ fn a_wrong_line_is_named_and_nothing_typed_is_lost() {
 #[test]
 fn a_mask_that_is_not_touched_stays_when_the_form_is_saved() {
     let mut model = rig::model(states::holding());
-    Arc::make_mut(&mut model.station).horizon_mask = HorizonMask::parse(HILLS).ok();
+    Arc::make_mut(&mut model.shown_mut().station).horizon_mask = HorizonMask::parse(HILLS).ok();
     model.view = View::Preferences;
     let mut window = rig::window(LARGE, model);
     write(&mut window, "Latitude", "40");
@@ -105,7 +106,7 @@ fn a_wall_on_the_way_parts_the_pass() {
 #[test]
 fn old_elements_come_before_the_mask() {
     let mut model = rig::model(states::holding());
-    Arc::make_mut(&mut model.station).horizon_mask = HorizonMask::parse("0 20").ok();
+    Arc::make_mut(&mut model.shown_mut().station).horizon_mask = HorizonMask::parse("0 20").ok();
     model.now = add_seconds(model.now, 9.0 * 86_400.0);
     select_next(&mut model);
     rig::window(LARGE, model).get_by_label_contains("lements 10 d old, clear of the mask ");

@@ -166,7 +166,7 @@ fn reminded(size: [f32; 2], view: View) -> (Window, Reminder) {
         can_track: vec![AntennaId::FIRST],
     };
     model.view = view;
-    model.reminders = Arc::new(vec![reminder.clone()]);
+    model.shown_mut().reminders = Arc::new(vec![reminder.clone()]);
     (rig::window(size, model), reminder)
 }
 
@@ -204,7 +204,7 @@ fn the_note_leads_to_its_pass_and_can_be_closed() {
         assert!(!says(&window, NOTE));
         // The next pass has a note of its own.
         let next = Reminder { pass: (25_544, reminder.aos() - 1.second()), ..reminder };
-        window.state_mut().model.reminders = Arc::new(vec![next]);
+        window.state_mut().model.shown_mut().reminders = Arc::new(vec![next]);
         settle(&mut window);
         assert!(says(&window, "ISS AOS in 4:59"));
     }
@@ -214,7 +214,7 @@ fn the_note_leads_to_its_pass_and_can_be_closed() {
 fn a_pass_that_no_antenna_can_track_says_so() {
     let (mut window, reminder) = reminded(SIZES[0], View::Map);
     let reminder = Reminder { can_track: Vec::new(), ..reminder };
-    window.state_mut().model.reminders = Arc::new(vec![reminder]);
+    window.state_mut().model.shown_mut().reminders = Arc::new(vec![reminder]);
     settle(&mut window);
     assert!(says(&window, "max 54°, no antenna can track it."));
 }

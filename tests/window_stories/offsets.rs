@@ -120,7 +120,7 @@ fn they_are_remembered_of_the_satellite_or_the_antenna() {
         assert_eq!(click(&mut window, of_satellite), [keep(OffsetsOf::Satellite(rig::NOAA_20))]);
         let of_antenna = "Remember azimuth and elevation for Mast";
         assert_eq!(click(&mut window, of_antenna), [keep(OffsetsOf::Antenna(AntennaId(1)))]);
-        let station = std::sync::Arc::make_mut(&mut window.state_mut().model.station);
+        let station = std::sync::Arc::make_mut(&mut window.state_mut().model.shown_mut().station);
         station.keep_offsets(OffsetsOf::Antenna(AntennaId(1)), on);
         settle(&mut window);
         assert_eq!(click(&mut window, &format!("{of_antenna}: remembered already")), []);
@@ -169,8 +169,9 @@ fn while_nothing_is_tracked_there_are_none_and_their_keys_are_left_alone() {
 #[test]
 fn without_a_link_they_are_shown_and_locked_with_the_reason() {
     let mut model = following::tracking(with(&[Offset::Azimuth(deg(0.5))]));
-    let snapshot = std::sync::Arc::make_mut(&mut model.antennas[0].snapshot);
-    snapshot.link = LinkState::Connecting { since: model.steady };
+    let steady = model.steady;
+    let snapshot = std::sync::Arc::make_mut(&mut model.shown_mut().antennas[0].snapshot);
+    snapshot.link = LinkState::Connecting { since: steady };
     let mut window = rig::window(SIZES[1], model);
     window.get_by_role_and_label(Role::Button, "Offsets: az +0.50°").click();
     settle(&mut window);

@@ -66,7 +66,8 @@ fn the_cause_of_an_error_goes_once_the_antenna_is_measured_within_its_beam() {
     let causes = vec![Explanation { cause, left_deg: 0.01, share: 0.9, with: None }];
     let says_cause = |off_deg: f64, error_deg: f64| {
         let mut model = rig::model(states::tracking(off_deg));
-        model.antennas[0].explained = Some(Explained { causes: causes.clone(), error_deg });
+        model.shown_mut().antennas[0].explained =
+            Some(Explained { causes: causes.clone(), error_deg });
         says(&rig::window(LARGE, model), "The elevation is off by +2.00°")
     };
     assert!(says_cause(2.0, 1.9));

@@ -1,6 +1,8 @@
 //! Driving antennas whose capabilities differ from a Satrak's: the controls on the card
 //! and their commands.
 
+use std::sync::Arc;
+
 use azel::{
     astro::Angle,
     clock::Instant,
@@ -334,8 +336,8 @@ fn the_modes_are_those_of_the_unit_and_each_is_asked_for() {
 fn what_was_typed_for_one_antenna_is_not_for_the_next() {
     let mut model = genius(Intent::Position);
     let second = makes::model(makes::rc2000c(), makes::rc2000c_at(Intent::Position));
-    model.antennas.extend(second.antennas);
-    model.antennas[1].config.id = AntennaId(2);
+    model.shown_mut().antennas.extend(second.antennas.clone());
+    Arc::make_mut(&mut model.shown_mut().antennas[1].config).id = AntennaId(2);
     let mut window = rig::window(rig::LARGE, model);
     type_into(&mut window, AZIMUTH, "121");
     window.state_mut().model.selected_antenna = 1;
@@ -409,8 +411,8 @@ fn the_other_antennas_stand_below_and_a_click_shows_one() {
         let mut snapshot = states::holding();
         snapshot.link = LinkState::Up { since: Instant::now() };
         snapshot.state.measured = Some(states::measured(43.0, 12.0, AxisMotion::Still));
-        model.antennas.push(rig::antenna(genius, snapshot));
-        model.antennas[1].config.id = AntennaId(2);
+        model.shown_mut().antennas.push(rig::antenna(genius, snapshot));
+        Arc::make_mut(&mut model.shown_mut().antennas[1].config).id = AntennaId(2);
         let mut window = rig::window(size, model);
         let is_other = |name: &str| name.starts_with("Show Mast: Holding at 43°, 12°");
         let other = |window: &rig::Window| {

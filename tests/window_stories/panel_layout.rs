@@ -188,7 +188,7 @@ fn jog_keys(model: Model, size: [f32; 2]) -> Option<[Rect; 2]> {
 
 fn told(refusal: Refusal) -> Model {
     let mut model = rig::model(states::manual());
-    model.antennas[0].news = Some((Event::NotSent(refusal), rig::now()));
+    model.shown_mut().antennas[0].news = Some((Event::NotSent(refusal), rig::now()));
     model
 }
 
@@ -196,13 +196,14 @@ fn offered_again() -> Model {
     let mut model = rig::model(states::manual());
     let command = contract::Command::Antenna(model.antennas[0].id(), Command::Resume);
     let name = "NOAA 20 (JPSS-1)".to_owned();
-    model.antennas[0].track_again = Some(TrackAgain { name, command, until: rig::now() });
+    model.shown_mut().antennas[0].track_again =
+        Some(TrackAgain { name, command, until: rig::now() });
     model
 }
 
 fn unguarded() -> Model {
     let mut model = rig::model(Snapshot { unguarded: true, ..states::manual() });
-    model.antennas[0].asks_unguarded = true;
+    model.shown_mut().antennas[0].asks_unguarded = true;
     model
 }
 

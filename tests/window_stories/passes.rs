@@ -222,10 +222,11 @@ fn satellites_and_span_are_chosen_in_list_and_drawer() {
 fn a_pass_of_any_satellite_is_listed_selected_drawn_and_tracked() {
     for size in rig::sizes() {
         let mut model = rig::model(states::holding());
-        let favourites = std::mem::take(&mut model.pass_lists.favourites.passes);
+        let favourites = std::mem::take(&mut model.shown_mut().pass_lists.favourites.passes);
         // The same passes, as if their satellites were not favourites.
-        model.pass_lists.all.passes = favourites;
-        model.pass_lists.all.satellites = model.pass_lists.favourites.satellites.clone();
+        model.shown_mut().pass_lists.all.passes = favourites;
+        model.shown_mut().pass_lists.all.satellites =
+            model.pass_lists.favourites.satellites.clone();
         model.list.scope = Scope::All;
         let is_wanted =
             |pass: &&PredictedPass| pass.number() == METEOR_M2_4 && pass.pass.aos.time > model.now;
@@ -266,7 +267,7 @@ fn the_span_cuts_the_list_and_leaves_strip_and_next_pass_alone() {
     assert!(0 < listed && listed < all);
     let mut window = rig::window(LARGE, model);
     window.get_by_label(&format!("Next passes, {listed} · AOS at 5°"));
-    Arc::make_mut(&mut window.state_mut().model.pass_lists.favourites.passes).clear();
+    Arc::make_mut(&mut window.state_mut().model.shown_mut().pass_lists.favourites.passes).clear();
     settle(&mut window);
     assert!(says(&window, "No pass in the next 6 h. Choose a lower elevation."));
 }
@@ -428,8 +429,9 @@ fn a_pass_that_is_over_leaves_nothing_selected() {
     for size in rig::sizes() {
         let mut model = rig::model(states::holding());
         model.now = add_seconds(states::los(), 1.0);
-        Arc::make_mut(&mut model.pass_lists.favourites.passes)
-            .retain(|predicted| predicted.pass.los.time > model.now);
+        let now = model.now;
+        Arc::make_mut(&mut model.shown_mut().pass_lists.favourites.passes)
+            .retain(|predicted| predicted.pass.los.time > now);
         model.refresh_sky();
         let window = rig::window(size, model);
         window.get_by_label("No pass is selected. Choose one from the list.");

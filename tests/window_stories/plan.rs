@@ -84,7 +84,7 @@ pub(crate) fn planned(model: &azel::model::Model) -> Planned {
 pub(crate) fn view(size: [f32; 2]) -> Window {
     let mut model = rig::model(states::holding());
     model.view = View::Plan;
-    model.schedule = Arc::new(planned(&model));
+    model.shown_mut().schedule = Arc::new(planned(&model));
     let mut window = window(size, model);
     window.state_mut().commands.clear();
     window
@@ -116,7 +116,7 @@ fn a_pass_is_known_in_the_schedule_also_where_a_new_list_has_it_earlier_or_later
         for pass in of_entries.chain(schedule.left_out.iter_mut().map(|left| &mut left.pass)) {
             pass.aos = add_seconds(pass.aos, shift_s);
         }
-        model.schedule = Arc::new(planned);
+        model.shown_mut().schedule = Arc::new(planned);
         let keys: Vec<PassKey> =
             model.planned_passes().iter().map(|planned| planned.predicted.key()).collect();
         assert!(keys.len() > 4);
@@ -190,8 +190,8 @@ fn many_favourites_leave_ten_rows_to_what_an_antenna_carries_out() {
         for is_demo in [false, true] {
             let mut model = wide::three();
             model.view = View::Plan;
-            model.demo = is_demo;
-            model.schedule = Arc::new(planned(&model));
+            model.shown_mut().demo = is_demo;
+            model.shown_mut().schedule = Arc::new(planned(&model));
             let CatalogState::Ready(catalog) = &model.catalog else { unreachable!() };
             let moving = catalog.iter().filter(|elements| !elements.is_geosynchronous());
             let listed = moving.filter_map(|elements| {
@@ -200,7 +200,7 @@ fn many_favourites_leave_ten_rows_to_what_an_antenna_carries_out() {
             });
             let satellites: Vec<_> = listed.take(60).collect();
             assert_eq!(satellites.len(), 60);
-            model.pass_lists.favourites.satellites = satellites.into();
+            model.shown_mut().pass_lists.favourites.satellites = satellites.into();
             let window = window(size, model);
             let list = window.get_by_role_and_label(Role::ListBox, "Satrak, as planned").rect();
             let rows = window.query_all_by_role(Role::ListBoxOption);
@@ -220,7 +220,7 @@ fn the_switch_counts_the_rows_that_each_of_its_choices_shows() {
     let model = &mut window.state_mut().model;
     let mut planned = planned(model);
     planned.schedule.entries.pop();
-    model.schedule = Arc::new(planned);
+    model.shown_mut().schedule = Arc::new(planned);
     settle(&mut window);
     let counts = ["All ", "Taken ", "Left out "].map(|choice| {
         let is_choice = |label: &str| {
@@ -316,7 +316,7 @@ fn the_price_of_a_pass_is_asked_once_and_a_swap_asks_with_it() {
     assert_eq!(window.state().commands.iter().filter(asked).count(), 1);
     assert!(says(&window, "being worked out"));
     let swap = Swap { pass: key, revision: 4, changes: Some(Vec::new()) };
-    window.state_mut().model.swap = Some(Arc::new(swap));
+    window.state_mut().model.shown_mut().swap = Some(Arc::new(swap));
     settle(&mut window);
     assert!(says(&window, "No other pass is lost."));
     window.state_mut().commands.clear();
@@ -338,7 +338,7 @@ fn a_pass_that_no_antenna_can_take_is_not_swapped() {
     let key = pass(&window, 3);
     window.state_mut().model.selected = Some(key);
     let swap = Swap { pass: key, revision: 4, changes: None };
-    window.state_mut().model.swap = Some(Arc::new(swap));
+    window.state_mut().model.shown_mut().swap = Some(Arc::new(swap));
     settle(&mut window);
     assert!(says(&window, "Always is not available: no antenna can track enough of this pass."));
     let always = window.get_by_role_and_label(Role::RadioButton, "Always");
@@ -440,7 +440,7 @@ fn automatic_operation_takes_a_hold_to_switch_on_and_a_click_to_switch_off() {
     window.key_up(Press::Space);
     let set = |is_on| Command::SetAutomatic { antenna: id, is_on };
     assert_eq!(commands(&mut window), [set(true)]);
-    window.state_mut().model.antennas[0].operation =
+    window.state_mut().model.shown_mut().antennas[0].operation =
         Operation::Suspended { by: Interruption::ByHand, since: rig::now() };
     settle(&mut window);
     assert!(window.query_by_label_contains("Suspended").is_some());
@@ -454,7 +454,7 @@ fn a_suspended_antenna_goes_on_by_a_button_that_names_the_pass() {
         let mut window = self::view(LARGE);
         let id = window.state().model.antennas[0].id();
         window.state_mut().model.view = view;
-        window.state_mut().model.antennas[0].operation =
+        window.state_mut().model.shown_mut().antennas[0].operation =
             Operation::Suspended { by: Interruption::Elsewhere, since: rig::now() };
         settle(&mut window);
         let button = window
@@ -486,7 +486,7 @@ fn what_was_missed_is_told_with_its_cause() {
         })
     };
     let line = |what| DayLine { at: rig::now(), antenna: id, what };
-    window.state_mut().model.day = Arc::new(vec![
+    window.state_mut().model.shown_mut().day = Arc::new(vec![
         line(flown(None)),
         line(flown(Some(MissCause::Off(OffBecause::Stop)))),
         DayLine {
@@ -509,9 +509,9 @@ fn what_was_missed_is_told_with_its_cause() {
 fn without_satellites_or_antennas_the_view_says_what_to_do() {
     let mut window = view(LARGE);
     let model = &mut window.state_mut().model;
-    model.antennas.clear();
-    model.pass_lists = azel::contract::passes::PassLists::default();
-    model.schedule = Arc::default();
+    model.shown_mut().antennas.clear();
+    model.shown_mut().pass_lists = azel::contract::passes::PassLists::default();
+    model.shown_mut().schedule = Arc::default();
     settle(&mut window);
     assert!(says(&window, "No satellite is planned."));
     assert!(says(&window, "No antenna yet."));
@@ -529,7 +529,9 @@ fn limits_of_a_satellite_are_changed_where_it_is_shown() {
         panic!("no other limits");
     };
     assert_eq!((numbers, limits.min_max_elevation_deg), (vec![satellite], Some(30.0)));
-    Arc::make_mut(&mut window.state_mut().model.station).favourites.set_limits(satellite, limits);
+    Arc::make_mut(&mut window.state_mut().model.shown_mut().station)
+        .favourites
+        .set_limits(satellite, limits);
     settle(&mut window);
     assert!(window.query_by_label("Maximum elevation, from 30°").is_some());
 }

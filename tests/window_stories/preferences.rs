@@ -269,7 +269,7 @@ fn a_link_is_tested_as_it_is_typed() {
             (LinkTestStage::InUse, "Not asked: an antenna of this station uses the unit."),
         ] {
             let test = LinkTest { antenna: (**antenna).clone(), stage };
-            window.state_mut().model.link_tests = Arc::new(vec![test]);
+            window.state_mut().model.shown_mut().link_tests = Arc::new(vec![test]);
             settle(&mut window);
             assert!(says(&window, words), "{words}");
         }
@@ -296,7 +296,7 @@ fn it_says_what_came_of_saving() {
 fn the_demo_station_is_taken_over_without_its_antennas() {
     for size in SIZES {
         let mut model: Model = rig::model(states::holding());
-        (model.demo, model.view) = (true, View::Preferences);
+        (model.shown_mut().demo, model.view) = (true, View::Preferences);
         let before = Station::clone(&model.station);
         assert_eq!(before.antennas.len(), 1);
         let mut window = rig::window(size, model);
@@ -313,7 +313,7 @@ fn the_demo_station_is_taken_over_without_its_antennas() {
 fn in_the_demo_all_pages_are_about_the_new_station() {
     for size in SIZES {
         let mut model: Model = rig::model(states::holding());
-        (model.demo, model.view) = (true, View::Preferences);
+        (model.shown_mut().demo, model.view) = (true, View::Preferences);
         let mut window = rig::window(size, model);
         assert!(says(&window, "Preferences of your new station"));
         open(&mut window, "Site");
@@ -331,7 +331,7 @@ fn in_the_demo_all_pages_are_about_the_new_station() {
 fn a_page_that_is_used_at_once_has_nothing_to_save() {
     for is_demo in [true, false] {
         let mut model = rig::model(states::holding());
-        (model.demo, model.view) = (is_demo, View::Preferences);
+        (model.shown_mut().demo, model.view) = (is_demo, View::Preferences);
         let mut window = rig::window(rig::LARGE, model);
         let save = if is_demo { "Save and end the demo" } else { "Save and use" };
         open(&mut window, "Appearance");
@@ -364,7 +364,7 @@ fn every_field_and_the_bar_below_are_whole_in_every_window() {
     for (size, columns) in SIZES.into_iter().chain(WIDE).zip([1, 1, 2, 3]) {
         let mut model = rig::model(states::holding());
         model.view = View::Preferences;
-        Arc::make_mut(&mut model.station).favourites = Station::default().favourites;
+        Arc::make_mut(&mut model.shown_mut().station).favourites = Station::default().favourites;
         let mut window = rig::window(size, model);
         let bar = window.get_by_role_and_label(Role::Button, "Save and use").rect();
         assert!(bar.right() <= size[0] && bar.bottom() <= size[1], "{bar:?}");

@@ -29,8 +29,8 @@ const RC2000C: &str = "Add Research Concepts RC2000C";
 fn bare(size: [f32; 2]) -> Window {
     let mut model = rig::model(states::holding());
     model.view = View::Preferences;
-    model.antennas.clear();
-    Arc::make_mut(&mut model.station).antennas.clear();
+    model.shown_mut().antennas.clear();
+    Arc::make_mut(&mut model.shown_mut().station).antennas.clear();
     rig::window(size, model)
 }
 
@@ -89,7 +89,7 @@ fn every_make_is_added_as_it_stands_and_comes_back_from_its_file() {
 
         let mut model = rig::model(states::holding());
         model.view = View::Preferences;
-        model.station = reloaded(&station).into();
+        model.shown_mut().station = reloaded(&station).into();
         let mut window = rig::window(size, model);
         open(&mut window, "Site");
         write(&mut window, "Elevation floor", "11");

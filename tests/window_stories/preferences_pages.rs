@@ -183,8 +183,8 @@ fn what_an_edit_changes_of_the_passes_is_asked_for_and_shown_beside_what_was() {
     for size in rig::sizes() {
         let mut model: Model = rig::model(states::holding());
         let config = Antenna { id: AntennaId(1), ..Antenna::genius("Genius", "tower:9006") };
-        model.antennas = vec![rig::antenna(config.clone(), rig::quiet())];
-        Arc::make_mut(&mut model.station).antennas = vec![config];
+        model.shown_mut().antennas = vec![rig::antenna(config.clone(), rig::quiet())];
+        Arc::make_mut(&mut model.shown_mut().station).antennas = vec![config];
         model.view = View::Preferences;
         let mut window = rig::window(size, model);
         open(&mut window, "Genius");
@@ -239,8 +239,8 @@ fn a_travel_beyond_that_of_the_unit_is_told_before_saving() {
     held.state.travel_deg = [Some((0.0, 400.0)), None];
     let mut model: Model = rig::model(states::holding());
     let config = Antenna { id: AntennaId(1), ..Antenna::genius("Genius", "tower:9006") };
-    model.antennas = vec![rig::antenna(config.clone(), held)];
-    Arc::make_mut(&mut model.station).antennas = vec![config];
+    model.shown_mut().antennas = vec![rig::antenna(config.clone(), held)];
+    Arc::make_mut(&mut model.shown_mut().station).antennas = vec![config];
     model.view = View::Preferences;
     let mut window = rig::window(LARGE, model);
     open(&mut window, "Genius");
@@ -277,8 +277,8 @@ fn the_settings_of_a_unit_lead_to_the_page_of_its_antenna() {
 #[test]
 fn a_station_without_an_antenna_says_how_to_add_one() {
     let mut model = rig::model(states::holding());
-    model.antennas.clear();
-    Arc::make_mut(&mut model.station).antennas.clear();
+    model.shown_mut().antennas.clear();
+    Arc::make_mut(&mut model.shown_mut().station).antennas.clear();
     model.view = View::Preferences;
     let window = rig::window(SMALL, model);
     assert!(says(&window, "No antenna yet. Add one."));
@@ -328,7 +328,7 @@ fn the_outcome_of_a_test_moves_no_field() {
         (LinkTestStage::Done { finding, at: rig::now() }, "Reached, 12 ms"),
     ] {
         let test = LinkTest { antenna: (**antenna).clone(), stage };
-        window.state_mut().model.link_tests = Arc::new(vec![test]);
+        window.state_mut().model.shown_mut().link_tests = Arc::new(vec![test]);
         settle(&mut window);
         assert!(says(&window, words), "{words}");
         assert_eq!(window.get_by_role_and_label(Role::TextInput, "Name").rect(), name);
@@ -376,7 +376,8 @@ fn a_station_without_a_record_says_whether_another_azel_keeps_it() {
     let mut window = form(LARGE);
     assert!(says(&window, "Nothing is recorded: this user has no folder for records."));
     let model = &mut window.state_mut().model;
-    model.alarms.raise(None, AlarmKind::StationElsewhere(HeldBy::Azel(None)), model.now);
+    let now = model.now;
+    model.shown_mut().alarms.raise(None, AlarmKind::StationElsewhere(HeldBy::Azel(None)), now);
     settle(&mut window);
     let kept = "Nothing is recorded from here: the Azel that has this station open records it.";
     assert!(says(&window, kept));
@@ -386,7 +387,7 @@ fn a_station_without_a_record_says_whether_another_azel_keeps_it() {
 fn a_moved_site_shows_its_passes_beside_those_of_the_saved_one() {
     for size in rig::sizes() {
         let mut window = form(size);
-        window.state_mut().model.pass_lists.favourites.made_at = Some(rig::now());
+        window.state_mut().model.shown_mut().pass_lists.favourites.made_at = Some(rig::now());
         unfold(&mut window);
         assert!(says(&window, "Being worked out."));
         write(&mut window, "Latitude", "70");
@@ -416,7 +417,7 @@ fn the_station_file_is_told_with_its_age_and_its_folder_opened() {
         let mut model = rig::model(states::holding());
         model.view = View::Preferences;
         model.stations.open = Some("/home/ops/.config/azel/station.toml".into());
-        model.station_saved_at = Some(model.now);
+        model.shown_mut().station_saved_at = Some(model.now);
         let mut window = rig::window(size, model);
         let now = azel::ui::format::moment(rig::now(), rig::now());
         let file = format!("Station file: /home/ops/.config/azel/station.toml, saved {now}");
@@ -425,7 +426,7 @@ fn the_station_file_is_told_with_its_age_and_its_folder_opened() {
         press(&mut window, Role::Button, "Open folder");
         let folder = "/home/ops/.config/azel".into();
         assert_eq!(rig::asked(&mut window), [UiCommand::OpenFolder(folder)]);
-        window.state_mut().model.station_saved_at = None;
+        window.state_mut().model.shown_mut().station_saved_at = None;
         settle(&mut window);
         assert!(says(&window, "station.toml, not saved yet"));
     }
@@ -447,10 +448,10 @@ fn a_pointing_model_is_fitted_to_the_record_and_filled_in_and_used_only_once_sav
     for size in rig::sizes() {
         let mut model = makes::model(makes::pair(), makes::pair_at(Intent::Standby));
         let mut station = Station::clone(&model.station);
-        let antenna = model.antennas[0].config.clone();
+        let antenna = Antenna::clone(&model.antennas[0].config);
         let (id, name) = (antenna.id, antenna.name.clone());
         station.antennas = vec![antenna];
-        (model.station, model.view) = (Arc::new(station), View::Preferences);
+        (model.shown_mut().station, model.view) = (Arc::new(station), View::Preferences);
         let mut window = rig::window(size, model);
         open(&mut window, &name);
         press(&mut window, Role::Button, "Fit to recorded passes");
@@ -470,7 +471,7 @@ fn a_pointing_model_is_fitted_to_the_record_and_filled_in_and_used_only_once_sav
         let found = PointingFit { passes: 12, noise: vec![noise], without: Vec::new(), terms };
         let tell = |window: &mut Window, found| {
             let fitted = PointingFitted { antenna: id, found };
-            window.state_mut().model.pointing_fitted = Some(Arc::new(fitted));
+            window.state_mut().model.shown_mut().pointing_fitted = Some(Arc::new(fitted));
             settle(window);
         };
         tell(&mut window, Some(Err("2 usable points are too few in 1 recorded passes".into())));
@@ -510,10 +511,10 @@ fn a_peak_is_entered_as_measured_now_or_as_typed_and_removed() {
     for size in rig::sizes() {
         let mut model = makes::model(makes::pair(), makes::pair_at(Intent::Standby));
         let mut station = Station::clone(&model.station);
-        let antenna = model.antennas[0].config.clone();
+        let antenna = Antenna::clone(&model.antennas[0].config);
         let (id, name) = (antenna.id, antenna.name.clone());
         station.antennas = vec![antenna];
-        (model.station, model.view) = (Arc::new(station), View::Preferences);
+        (model.shown_mut().station, model.view) = (Arc::new(station), View::Preferences);
         let pointing = model.antennas[0].snapshot.state.measured.unwrap().pointing;
         let deg = |of: Option<azel::astro::Angle>| of.unwrap().degrees();
         let now = model.now;
@@ -521,7 +522,7 @@ fn a_peak_is_entered_as_measured_now_or_as_typed_and_removed() {
         open(&mut window, &name);
         assert!(says(&window, "Nothing is recorded: no peak can be kept."));
         says_why(&mut window, "Add peak", "Nothing is recorded.");
-        window.state_mut().model.record = Some(Arc::default());
+        window.state_mut().model.shown_mut().record = Some(Arc::default());
         settle(&mut window);
         press(&mut window, Role::Button, "Add peak");
         let measured = Peak {
@@ -547,7 +548,7 @@ fn a_peak_is_entered_as_measured_now_or_as_typed_and_removed() {
         let mut peaks = Peaks::default();
         peaks.change(id, PeakChange::Added(typed));
         peaks.change(AntennaId(99), PeakChange::Added(measured));
-        window.state_mut().model.peaks = Arc::new(peaks);
+        window.state_mut().model.shown_mut().peaks = Arc::new(peaks);
         settle(&mut window);
         let row = format!("Moon, {}: az 120.50°, el 31.00°", azel::ui::format::moment(at, now));
         assert!(says(&window, &row), "{row}");

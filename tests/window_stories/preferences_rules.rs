@@ -55,7 +55,7 @@ fn page(size: [f32; 2], page: &str, rules: Vec<AutomationRule>) -> Window {
     let mut model = rig::model(states::holding());
     model.view = View::Preferences;
     let station = Station { groups: vec![weather()], rules, ..Station::clone(&model.station) };
-    model.station = Arc::new(station);
+    model.shown_mut().station = Arc::new(station);
     let mut window = rig::window(size, model);
     open(&mut window, page);
     window

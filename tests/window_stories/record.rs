@@ -174,7 +174,7 @@ fn recorded(flown: &[OpenedPass], place: usize) -> Recorded {
 fn model() -> (Model, Vec<OpenedPass>) {
     let mut model = rig::model(states::holding());
     let flown = flown(&model);
-    model.recorded = Some(Arc::new(recorded(&flown, 0)));
+    model.shown_mut().recorded = Some(Arc::new(recorded(&flown, 0)));
     model.view = View::Record;
     (model, flown)
 }
@@ -247,7 +247,7 @@ fn rows_tell_verdict_and_cause_and_the_arrows_lead_through_them() {
     let look = looks(&asked(&mut window));
     assert_eq!(look[0].as_ref().unwrap().opened, Some(flown[1].pass.id));
     assert!(says(&window, "The pass is being read."), "not the report of the other");
-    window.state_mut().model.recorded = Some(Arc::new(recorded(&flown, 1)));
+    window.state_mut().model.shown_mut().recorded = Some(Arc::new(recorded(&flown, 1)));
     settle(&mut window);
     assert!(says(&window, "Nothing was lost."));
     assert!(says(&window, "A good pass: there is nothing to explain"));
@@ -306,7 +306,7 @@ fn explained_by(cause: Cause, set: impl FnOnce(&mut AboutTrack)) -> Model {
     let report = &mut flown[0].pass.report;
     report.causes = vec![Explanation { cause, left_deg: 0.01, share: 0.9, with: None }];
     set(&mut report.about);
-    model.recorded = Some(Arc::new(recorded(&flown, 0)));
+    model.shown_mut().recorded = Some(Arc::new(recorded(&flown, 0)));
     model.view = View::Record;
     model
 }
@@ -341,7 +341,7 @@ fn a_pass_that_was_not_tracked_stands_in_the_list_and_says_why() {
         };
         let mut recorded = recorded(&flown, 0);
         recorded.found.as_mut().unwrap().missed.push(missed);
-        model.recorded = Some(Arc::new(recorded));
+        model.shown_mut().recorded = Some(Arc::new(recorded));
         let now = model.now;
         let mut window = rig::window(size, model);
         if size != LARGE {
@@ -386,7 +386,7 @@ fn a_report_says_why_it_is_not_replayed_where_nothing_is_recorded() {
 fn the_passes_of_chosen_days_are_exported_as_the_list_is_filtered() {
     for size in rig::sizes() {
         let (mut model, _) = model();
-        model.record = Some(Arc::default());
+        model.shown_mut().record = Some(Arc::default());
         let mut window = rig::window(size, model);
         let press = |window: &mut Window, name: &str| {
             window.get_by_role_and_label(Role::Button, name).click();
@@ -443,7 +443,7 @@ fn the_passes_of_chosen_days_are_exported_as_the_list_is_filtered() {
 #[test]
 fn without_a_report_there_is_nothing_to_export() {
     let (mut model, _) = model();
-    model.recorded = Some(Arc::new(recorded(&[], 0)));
+    model.shown_mut().recorded = Some(Arc::new(recorded(&[], 0)));
     let mut window = rig::window(LARGE, model);
     let _ = asked(&mut window);
     window.key_press(Key::E);
@@ -513,7 +513,7 @@ fn a_correction_of_what_azel_sends_is_asked_about() {
     let offsets = TrackOffsets::NONE.plus(with).unwrap();
     let keep = UiCommand::Station(Command::KeepOffsets { of, offsets });
     assert_eq!(asked(&mut window), [keep]);
-    let station = &mut window.state_mut().model.station;
+    let station = &mut window.state_mut().model.shown_mut().station;
     Arc::make_mut(station).keep_offsets(of, offsets);
     settle(&mut window);
     assert!(window.query_by_label("Apply…").is_none(), "it is remembered");
@@ -530,7 +530,7 @@ fn what_nothing_here_corrects_has_no_correction_and_neither_has_a_setting_writte
     assert!(says(&window, "Nothing to apply: no setting or offset corrects"), "C tells why");
     let offset = Cause::AzimuthOffset { offset_deg: 0.25 };
     let mut model = explained_by(offset, |_| ());
-    let antenna = &mut model.antennas[0];
+    let antenna = &mut model.shown_mut().antennas[0];
     let group = Arc::make_mut(&mut Arc::make_mut(&mut antenna.snapshot).state.held)
         .get_mut("general")
         .unwrap();
@@ -590,7 +590,7 @@ fn the_bar_of_the_link_runs_below_its_words_and_a_loss_of_no_length_is_not_told(
     report.report.losses.push(LostStretch { from: time, until, cause: LossCause::EarlyEnd });
     let row = Row { time, run: 1, steady_s: None, antenna: None, kind: "link".to_owned(), data };
     flown[0].entries.push(row);
-    model.recorded = Some(Arc::new(recorded(&flown, 0)));
+    model.shown_mut().recorded = Some(Arc::new(recorded(&flown, 0)));
     let mut window = rig::window(LARGE, model);
     settle(&mut window);
     let ground = theme::tokens(&window.ctx).bg0;
@@ -618,7 +618,7 @@ fn a_gap_is_told_from_its_beginning_and_a_stop_with_who_pressed_it() {
         row("gap", flown[0].pass.report.until + 1.hour(), gap),
     ];
     let lasted_s = flown[0].pass.report.until.duration_since(from + 2.minutes()).as_secs_f64();
-    model.recorded = Some(Arc::new(recorded(&flown, 0)));
+    model.shown_mut().recorded = Some(Arc::new(recorded(&flown, 0)));
     let mut window = rig::window(LARGE, model);
     settle(&mut window);
     let at = |minutes: i64| (from + minutes.minutes()).strftime("%H:%M:%SZ").to_string();
@@ -662,7 +662,7 @@ fn an_acknowledged_alarm_is_no_new_one() {
         row(came + 2.minutes(), &older),
         row(came + 3.minutes(), &over),
     ];
-    model.recorded = Some(Arc::new(recorded(&flown, 0)));
+    model.shown_mut().recorded = Some(Arc::new(recorded(&flown, 0)));
     let mut window = rig::window(LARGE, model);
     settle(&mut window);
     let told = |minutes: i64, what: &str| {
@@ -677,10 +677,11 @@ fn an_acknowledged_alarm_is_no_new_one() {
 fn what_stood_in_the_way_is_on_the_path_where_it_is_known() {
     let named = |has_mask: bool, site: Site| {
         let (mut model, flown) = model();
-        model.antennas[0].config = station::Antenna::satrak("Dish", "10.0.0.5:4001");
-        model.antennas[0].config.id = flown[0].pass.antenna;
+        model.shown_mut().antennas[0].config =
+            Arc::new(station::Antenna::satrak("Dish", "10.0.0.5:4001"));
+        Arc::make_mut(&mut model.shown_mut().antennas[0].config).id = flown[0].pass.antenna;
         let mask = HorizonMask::from_degrees([(0.0, 5.0), (90.0, 30.0), (180.0, 5.0)]).unwrap();
-        let station = Arc::make_mut(&mut model.station);
+        let station = Arc::make_mut(&mut model.shown_mut().station);
         (station.horizon_mask, station.site) = (has_mask.then_some(mask), site);
         let window = rig::window(LARGE, model);
         ["mask", "keyhole"].map(|word| window.query_by_label(word).is_some())
@@ -697,7 +698,7 @@ fn half_of_a_wide_beam_is_named_within_the_margin() {
     for size in SIZES {
         let (mut model, mut flown) = model();
         flown[0].pass.report.half_beam_deg = 10.0;
-        model.recorded = Some(Arc::new(recorded(&flown, 0)));
+        model.shown_mut().recorded = Some(Arc::new(recorded(&flown, 0)));
         let window = rig::window(size, model);
         let runs = painted::runs(&window);
         // Blanks are not painted.
@@ -733,7 +734,7 @@ fn two_causes_that_act_together_stand_together_and_the_passes_before_are_told() 
         let mut found = recorded(&flown, 0);
         let explanations = vec![Explanation { with: None, share: 0.92, ..mixed }];
         found.together = Some(ExplainedPasses { passes: 12, since: None, explanations });
-        model.recorded = Some(Arc::new(found));
+        model.shown_mut().recorded = Some(Arc::new(found));
         model.view = View::Record;
         let name = model.antennas[0].config.name.clone();
         let mut window = rig::window(size, model);

@@ -211,7 +211,8 @@ fn the_card_says_what_the_live_antenna_does_meanwhile() {
         let mut model = model();
         let replied = model.steady;
         model.steady += Duration::from_millis(400);
-        Arc::make_mut(&mut model.antennas[0].snapshot).state.traffic.last_reply = Some(replied);
+        Arc::make_mut(&mut model.shown_mut().antennas[0].snapshot).state.traffic.last_reply =
+            Some(replied);
         let window = rig::window(size, model);
         let name = rig_name(&window);
         window.get_by_label_contains(&format!("{name}, as recorded at 11:15:30Z, "));

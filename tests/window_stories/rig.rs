@@ -12,7 +12,7 @@ use azel::{
     contract::{
         CatalogState, Command,
         antenna::AntennaModel,
-        driver::{LinkState, Snapshot, TimeSync, WireLog},
+        driver::{LinkState, Snapshot, TimeSync},
         passes::{ListedSatellite, Observer, PassLists, PredictedPass},
     },
     controller::{SPECS, satrak},
@@ -148,23 +148,30 @@ pub(crate) fn model(mut snapshot: Snapshot) -> Model {
     pass_lists.favourites.passes = orbits.passes.clone().into();
     let antennas = vec![antenna(station.antennas[0].clone(), snapshot)];
     let at = Moment { utc: now(), steady: Instant::now() };
-    let mut model = Model {
+    let shown = azel::contract::Snapshot {
         time_sync: TimeSync::Synchronised,
         station: Arc::new(station),
         catalog: CatalogState::Ready(Arc::clone(&orbits.catalog)),
-        wires: antennas.iter().map(|_| WireLog::default()).collect(),
         antennas,
         pass_lists,
-        ..Model::before_anything(at)
+        ..azel::contract::Snapshot::before_anything(at)
     };
+    let mut model = Model::before_anything(at);
+    model.take(Arc::new(shown), |_| None);
     model.selected = model.pass_of(NOAA_20).map(PredictedPass::key);
-    for antenna in &mut model.antennas {
-        refresh(antenna, &mut Recent::default(), model.station.site, |number| {
-            model.pass_lists.satellite(number)
-        });
-    }
+    refresh_antennas(&mut model);
     model.refresh_sky();
     model
+}
+
+/// Works out what the station adds to the measurements of its antennas.
+pub(crate) fn refresh_antennas(model: &mut Model) {
+    let shown = Arc::clone(model.shown());
+    for antenna in &mut model.shown_mut().antennas {
+        refresh(antenna, &mut Recent::default(), shown.station.site, |number| {
+            shown.pass_lists.satellite(number)
+        });
+    }
 }
 
 /// Instant `seconds` before the frame of `model`.
@@ -240,7 +247,8 @@ fn arrange_catalog(story: &mut Story) {
             _ => {}
         }
     }
-    let CatalogState::Ready(catalog) = &model.catalog else { return };
+    let shown = Arc::clone(model.shown());
+    let CatalogState::Ready(catalog) = &shown.catalog else { return };
     let inputs = model.catalog_table.inputs(catalog, &model.station);
     let is_arranged = |answer: &Answer| answer.inputs == inputs;
     if model.view == View::Elements && !model.catalog_table.answer.as_ref().is_some_and(is_arranged)

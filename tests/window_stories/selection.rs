@@ -42,14 +42,14 @@ fn tracking() -> Model {
         })
         .collect();
     assert!(plan.schedule.entries.len() > 3);
-    model.schedule = Arc::new(plan);
+    model.shown_mut().schedule = Arc::new(plan);
     model.selected = None;
     model
 }
 
 /// The antenna has ended its track and stands; the time is a moment after LOS.
 fn after_los(model: &mut Model) {
-    model.antennas = rig::model(states::holding()).antennas;
+    model.shown_mut().antennas.clone_from(&rig::model(states::holding()).antennas);
     model.now = add_seconds(states::los(), 1.0);
 }
 
@@ -78,7 +78,7 @@ fn the_last_snapshot_of_a_track_selects_no_later_pass_of_its_satellite() {
         &rig::station(),
         add_seconds(los, 12.0 * 3600.0),
     );
-    let listed = Arc::make_mut(&mut model.pass_lists.favourites.passes);
+    let listed = Arc::make_mut(&mut model.shown_mut().pass_lists.favourites.passes);
     let dated = listed.partition_point(|predicted| !predicted.is_always_up());
     listed.splice(dated..dated, later);
     model.now = add_seconds(los, 0.3);
@@ -121,10 +121,10 @@ fn a_choice_survives_a_list_that_is_being_made() {
     let mut model = tracking();
     let later = planned(&model)[1];
     model.choose_pass(later);
-    let passes = std::mem::take(&mut model.pass_lists.favourites.passes);
+    let passes = std::mem::take(&mut model.shown_mut().pass_lists.favourites.passes);
     model.follow_antenna();
     assert!(model.selected_pass().is_none());
-    model.pass_lists.favourites.passes = passes;
+    model.shown_mut().pass_lists.favourites.passes = passes;
     model.follow_antenna();
     assert_eq!(model.selected, Some(later));
 }
@@ -132,12 +132,12 @@ fn a_choice_survives_a_list_that_is_being_made() {
 /// The antenna of `model` and a second one, which takes the third pass.
 fn pair(model: &mut Model) {
     let mut second = model.antennas[0].clone();
-    second.config.id = AntennaId(2);
-    model.antennas.push(second);
+    Arc::make_mut(&mut second.config).id = AntennaId(2);
+    model.shown_mut().antennas.push(second);
     let mut plan = (*model.schedule).clone();
     let mut ahead = plan.schedule.entries.iter_mut().filter(|entry| entry.from > model.now);
     ahead.nth(2).unwrap().antenna = AntennaId(2);
-    model.schedule = Arc::new(plan);
+    model.shown_mut().schedule = Arc::new(plan);
 }
 
 #[test]
@@ -162,11 +162,11 @@ fn an_antenna_that_is_selected_brings_the_next_pass_of_its_own_plan() {
 #[test]
 fn before_its_first_track_an_antenna_keeps_the_selection_unless_it_works_by_itself() {
     let mut model = tracking();
-    model.antennas = rig::model(states::holding()).antennas;
+    model.shown_mut().antennas.clone_from(&rig::model(states::holding()).antennas);
     model.selected = pass_of(&model, NOAA_20);
     model.follow_antenna();
     assert_eq!(model.selected, pass_of(&model, NOAA_20), "it can still be tracked by hand");
-    model.antennas[0].operation = automatic::on(&Doing::Rests);
+    model.shown_mut().antennas[0].operation = automatic::on(&Doing::Rests);
     model.follow_antenna();
     assert_eq!(model.selected, Some(planned(&model)[0]), "the antenna will take this one");
 }
@@ -174,12 +174,12 @@ fn before_its_first_track_an_antenna_keeps_the_selection_unless_it_works_by_itse
 #[test]
 fn at_the_start_a_pass_under_way_is_selected_whatever_the_plan_has() {
     let mut model = tracking();
-    model.antennas = rig::model(states::holding()).antennas;
-    let plan = std::mem::take(&mut model.schedule);
+    model.shown_mut().antennas.clone_from(&rig::model(states::holding()).antennas);
+    let plan = std::mem::take(&mut model.shown_mut().schedule);
     let under_way = model.next_pass().map(PredictedPass::key);
     for schedule in [Arc::default(), plan] {
         model.selected = None;
-        model.schedule = schedule;
+        model.shown_mut().schedule = schedule;
         model.follow_antenna();
         assert_eq!(model.selected, under_way, "the order in which both come does not matter");
     }

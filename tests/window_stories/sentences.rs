@@ -28,8 +28,8 @@ fn told(snapshot: Snapshot, change: impl FnOnce(&mut Model, &mut Snapshot)) -> S
     refresh(&mut antenna, &mut Recent::default(), model.station.site, |number| {
         model.pass_lists.satellite(number)
     });
-    antenna.news = model.antennas.remove(0).news;
-    model.antennas = vec![antenna];
+    antenna.news = model.shown_mut().antennas.remove(0).news;
+    model.shown_mut().antennas = vec![antenna];
     states::sentence(&model)
 }
 
@@ -37,7 +37,7 @@ fn unchanged(_: &mut Model, _: &mut Snapshot) {}
 
 /// Change that adds an event just now.
 fn just(event: Event) -> impl FnOnce(&mut Model, &mut Snapshot) {
-    move |model, _| model.antennas[0].news = Some((event, model.now))
+    move |model, _| model.shown_mut().antennas[0].news = Some((event, model.now))
 }
 
 fn lost(model: &mut Model, snapshot: &mut Snapshot) {
@@ -92,7 +92,7 @@ fn tracking_says_how_far_off_and_when_it_ends() {
     let by_itself = Snapshot { intent: Intent::Standby, target: None, ..states::tracking(0.04) };
     assert!(told(by_itself, unchanged).starts_with("Tracking NOAA 20 by its own program. "));
     let unknown = told(states::tracking(0.04), |model, _| {
-        Arc::make_mut(&mut model.pass_lists.favourites.satellites).clear();
+        Arc::make_mut(&mut model.shown_mut().pass_lists.favourites.satellites).clear();
     });
     assert!(unknown.ends_with("Azel has no elements of it to compare with."), "{unknown}");
 }
@@ -356,7 +356,7 @@ fn a_make_that_serves_one_program_says_that_another_may_have_it() {
         let (since, retry_at) = (rig::ago(&model, 42), model.steady + Duration::from_secs(3));
         let mut snapshot = rig::quiet();
         snapshot.link = LinkState::Lost { since, reason, retry_at };
-        model.antennas = makes::model(makes::pair(), snapshot).antennas;
+        model.shown_mut().antennas.clone_from(&makes::model(makes::pair(), snapshot).antennas);
         let sentence = format!("No reply from Genius for 42 s: {wanted}Next try in 3.0 s.");
         assert_eq!(states::sentence(&model), sentence);
     }
@@ -367,7 +367,7 @@ fn a_refusal_without_a_code_is_told_in_its_words() {
     let asked = Asked::Action(azel::controller::rotator_genius::OTHER);
     let refused = Event::Refused(asked, "F for rotator 2: it is outside its limits".to_owned());
     let mut model = makes::model(makes::alone(), states::holding());
-    model.antennas[0].news = Some((refused, model.now));
+    model.shown_mut().antennas[0].news = Some((refused, model.now));
     let sentence = states::sentence(&model);
     assert!(
         sentence.ends_with("the unit answered F for rotator 2: it is outside its limits."),
@@ -384,7 +384,7 @@ fn what_has_just_happened_is_told_first_and_for_a_while() {
         "Satrak answers again after 42 s. It is still tracking NOAA 20."
     );
     let later = told(states::tracking(0.0), |model, _| {
-        model.antennas[0].news = Some((back, add_seconds(model.now, -13.0)));
+        model.shown_mut().antennas[0].news = Some((back, add_seconds(model.now, -13.0)));
     });
     assert!(later.starts_with("Tracking NOAA 20"), "{later}");
     let refused = PrepareError::Refused("ERR,7".to_owned());
@@ -449,7 +449,7 @@ fn an_antenna_that_another_azel_drives_names_it() {
     let since = "2026-08-12T09:00:00Z".parse().unwrap();
     let (socket, antenna) = (None, None);
     let holder = Holder { kind: HolderKind::Serve, process: 4242, since, socket, antenna };
-    model.antennas[0].held_by = Some(HeldBy::Azel(Some(holder)));
+    model.shown_mut().antennas[0].held_by = Some(HeldBy::Azel(Some(holder)));
     assert_eq!(
         states::sentence(&model),
         "Satrak is driven by azel serve (process 4242, since 2026-08-12 09:00Z). Nothing goes to \

@@ -251,7 +251,7 @@ fn leaving_with_edits_asks_nothing_and_keeps_them_counted_on_the_rail() {
         model.view = View::Antennas;
         let mut config = model.station.antennas[0].clone();
         "Mast".clone_into(&mut config.name);
-        model.antennas.push(rig::antenna(config, read()));
+        model.shown_mut().antennas.push(rig::antenna(config, read()));
         let mut window = rig::window(size, model);
         for (leave, wanted) in
             [(Key::Num1, UiCommand::Show(View::Operate)), (Key::F2, UiCommand::SelectAntenna(1))]

@@ -67,7 +67,7 @@ pub(crate) fn opened(size: [f32; 2], snapshot: Snapshot) -> Window {
 
 /// Changes the state of the unit.
 pub(crate) fn change(window: &mut Window, index: usize, with: impl FnOnce(&mut Snapshot)) {
-    let antenna = &mut window.state_mut().model.antennas[index];
+    let antenna = &mut window.state_mut().model.shown_mut().antennas[index];
     with(Arc::make_mut(&mut antenna.snapshot));
     rig::settle(window);
 }

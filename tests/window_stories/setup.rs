@@ -34,7 +34,7 @@ const FINISH: &str = "Finish (Enter)";
 
 pub(crate) fn window(size: [f32; 2]) -> Window {
     let mut model: Model = rig::model(rig::quiet());
-    (model.demo, model.view) = (true, View::Setup);
+    (model.shown_mut().demo, model.view) = (true, View::Setup);
     rig::window(size, model)
 }
 
@@ -77,7 +77,7 @@ pub(crate) fn add_and_test(window: &mut Window, address: &str) -> Antenna {
 pub(crate) fn tell(window: &mut Window, antenna: &Antenna, finding: LinkFinding) {
     let stage = LinkTestStage::Done { finding, at: rig::now() };
     let test = LinkTest { antenna: antenna.clone(), stage };
-    window.state_mut().model.link_tests = Arc::new(vec![test]);
+    window.state_mut().model.shown_mut().link_tests = Arc::new(vec![test]);
     settle(window);
 }
 
@@ -186,7 +186,7 @@ fn the_set_up_is_found_again_where_it_was_left() {
 fn the_station_menu_leads_to_the_set_up_of_a_demo_alone() {
     for (demo, view) in [(true, View::Operate), (false, View::Operate)] {
         let mut model = rig::model(rig::quiet());
-        (model.demo, model.view) = (demo, view);
+        (model.shown_mut().demo, model.view) = (demo, view);
         let mut window = rig::window(rig::SMALL, model);
         window.get_by_label("Station Şile 1").click();
         settle(&mut window);
@@ -335,7 +335,7 @@ fn enter_in_an_address_tests_it_and_goes_on_once_it_was_tested() {
     };
     assert_eq!(tested.connection.address, "unit.local:4001");
     let test = LinkTest { antenna: tested.clone(), stage: LinkTestStage::Working };
-    window.state_mut().model.link_tests = Arc::new(vec![test]);
+    window.state_mut().model.shown_mut().link_tests = Arc::new(vec![test]);
     window.key_press(Key::Enter);
     assert_eq!(asked(&mut window), [], "it is being tested");
     assert!(is_at(&window, "Antennas"));

@@ -74,7 +74,7 @@ fn enter_adds_the_typed_source_and_the_next_enter_goes_on() {
         assert_eq!(asked(&mut window), [addition(file("own", PATH))], "{size:?}");
         assert!(is_at(&window, "Elements"), "{size:?}");
         // The server of another source may take its time.
-        let sources = Arc::make_mut(&mut window.state_mut().model.sources);
+        let sources = Arc::make_mut(&mut window.state_mut().model.shown_mut().sources);
         sources.work = SourceWork::Asking;
         settle(&mut window);
         press_enter(&mut window);
@@ -91,7 +91,9 @@ fn next_adds_the_typed_source() {
         press(&mut window, NEXT[3]);
         assert_eq!(asked(&mut window), [addition(file("own", PATH))]);
         assert!(is_at(&window, "Check and finish"));
-        Arc::make_mut(&mut window.state_mut().model.sources).list.push(file("own", PATH));
+        Arc::make_mut(&mut window.state_mut().model.shown_mut().sources)
+            .list
+            .push(file("own", PATH));
         settle(&mut window);
         press(&mut window, "Back");
         assert_eq!(text(&window, "Name"), "", "it is in the list");
@@ -189,7 +191,7 @@ fn a_source_that_cannot_be_added_keeps_the_step_and_says_why() {
             "This source is not added yet: type the whole path, from the root or the drive on.",
         );
         fill(&mut window, "own", PATH);
-        Arc::make_mut(&mut window.state_mut().model.sources).work = SourceWork::Reading;
+        Arc::make_mut(&mut window.state_mut().model.shown_mut().sources).work = SourceWork::Reading;
         settle(&mut window);
         is_kept(
             &mut window,

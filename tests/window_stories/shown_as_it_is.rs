@@ -34,7 +34,7 @@ fn without_a_fresh_measurement_there_is_no_error_and_no_rate() {
         let mut snapshot = lost(states::tracking(0.1), &model);
         let measured = snapshot.state.measured.as_mut().unwrap();
         measured.asked = model.steady - Duration::from_millis(4900);
-        model.antennas[0].snapshot = Arc::new(snapshot);
+        model.shown_mut().antennas[0].snapshot = Arc::new(snapshot);
         let window = rig::window(size, model);
         let az = "actual 296.51, 4.9 s old, error not known, rate not known";
         window.get_by_label_contains(az);
@@ -84,7 +84,7 @@ fn what_does_not_set_has_no_los_and_another_day_is_named() {
     let held = snapshot.state.on_board.satellite.as_mut().unwrap();
     held.catalog_number = always.number();
     snapshot.state.on_board.window = Some((rig::now(), "2026-08-14T07:57:24Z".parse().unwrap()));
-    model.antennas[0].snapshot = Arc::new(snapshot);
+    model.shown_mut().antennas[0].snapshot = Arc::new(snapshot);
     let said = states::sentence(&model);
     assert!(!said.contains("LOS"), "{said}");
     if said.contains("it stops and holds") {

@@ -157,8 +157,9 @@ fn the_doppler_shift_is_that_of_the_satellites_own_frequencies() {
     assert!(!none.iter().any(|words| words.contains("MHz") || words == "Doppler"), "{none:?}");
     let of = |satellite, mhz, name: &str| Frequency { satellite, mhz, name: name.to_owned() };
     let own = [of(rig::NOAA_20, 7812.0, "HRD"), of(rig::NOAA_20, 1707.0, "")];
-    Arc::make_mut(&mut model.station).frequencies = [own[0].clone(), of(25_544, 145.8, "")].into();
-    Arc::make_mut(&mut model.station).frequencies.push(own[1].clone());
+    Arc::make_mut(&mut model.shown_mut().station).frequencies =
+        [own[0].clone(), of(25_544, 145.8, "")].into();
+    Arc::make_mut(&mut model.shown_mut().station).frequencies.push(own[1].clone());
     let look = model.sky.selected.unwrap().look;
     let shown = painted(model);
     for of in own {
@@ -172,8 +173,8 @@ fn the_doppler_shift_is_that_of_the_satellites_own_frequencies() {
 fn with_a_second_antenna() -> Window {
     let mut model = rig::model(states::holding());
     let second = makes::model(makes::pair(), makes::pair_at(Intent::Position));
-    model.antennas.extend(second.antennas);
-    model.antennas[1].config.id = AntennaId(2);
+    model.shown_mut().antennas.extend(second.antennas.clone());
+    Arc::make_mut(&mut model.shown_mut().antennas[1].config).id = AntennaId(2);
     rig::window(LARGE, model)
 }
 
@@ -216,7 +217,7 @@ fn errors_of_the_last_tracks_stay_to_be_looked_at() {
         measured.at = add_seconds(measured.at, f64::from(second));
         snapshot.state.measured = Some(measured);
         let noaa = number(&model, rig::NOAA_20);
-        let antenna = &mut model.antennas[0];
+        let antenna = &mut model.shown_mut().antennas[0];
         antenna.snapshot = Arc::new(snapshot);
         refresh(antenna, &mut Recent::default(), site, |_| noaa.as_ref());
     }
@@ -224,8 +225,8 @@ fn errors_of_the_last_tracks_stay_to_be_looked_at() {
     let mut measured = over.state.measured.unwrap();
     measured.received = model.steady + Duration::from_mins(1);
     over.state.measured = Some(measured);
-    model.antennas[0].snapshot = Arc::new(over);
-    refresh(&mut model.antennas[0], &mut Recent::default(), site, |_| None);
+    model.shown_mut().antennas[0].snapshot = Arc::new(over);
+    refresh(&mut model.shown_mut().antennas[0], &mut Recent::default(), site, |_| None);
     let past = model.antennas[0].past_tracks.iter().next().expect("a past track").clone();
     assert_eq!(past.name, "NOAA 20 (JPSS-1)");
 

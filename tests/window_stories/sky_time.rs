@@ -31,7 +31,7 @@ const SPAN_S: f64 = 12.0 * 3600.0;
 fn planned(snapshot: Snapshot) -> Model {
     let mut model = rig::model(snapshot);
     let until = Some(add_seconds(model.now, SPAN_S));
-    model.schedule = Arc::new(Planned { until, ..plan::planned(&model) });
+    model.shown_mut().schedule = Arc::new(Planned { until, ..plan::planned(&model) });
     model
 }
 
@@ -228,8 +228,8 @@ fn without_a_schedule_there_is_only_now() {
 fn two_entries(model: &mut Model, between: BetweenPasses) -> [Entry; 2] {
     let mut station = (*model.station).clone();
     station.antennas[0].automatic.between = between;
-    model.antennas[0].config = station.antennas[0].clone();
-    model.station = Arc::new(station);
+    model.shown_mut().antennas[0].config = Arc::new(station.antennas[0].clone());
+    model.shown_mut().station = Arc::new(station);
     let mut entries = model.schedule.schedule.entries.clone();
     entries.retain(|entry| entry.from > model.now);
     let first = entries[0].clone();
@@ -248,7 +248,7 @@ fn two_entries(model: &mut Model, between: BetweenPasses) -> [Entry; 2] {
     ];
     let schedule = Schedule { entries: entries.to_vec(), ..Schedule::default() };
     let until = model.schedule.until;
-    model.schedule = Arc::new(Planned { schedule, until, ..Planned::default() });
+    model.shown_mut().schedule = Arc::new(Planned { schedule, until, ..Planned::default() });
     entries
 }
 
@@ -312,6 +312,6 @@ fn before_its_first_pass_it_holds_where_it_stands_and_without_passes_nothing_is_
     let (doing, elevation_deg) = pose(&model, at);
     assert_eq!(doing, PlannedActivity::Stays);
     assert!((elevation_deg - stands.elevation_deg()).abs() < 0.1, "{elevation_deg}");
-    model.schedule = Arc::default();
+    model.shown_mut().schedule = Arc::default();
     assert_eq!(model.pose_at(&model.antennas[0], at), None);
 }

@@ -45,7 +45,7 @@ type Window = Harness<'static, Form>;
 
 fn form(width: f32, is_web: bool, tests: SourceTests) -> Window {
     let mut model = rig::model(states::tracking(0.0));
-    model.source_tests = tests.into();
+    model.shown_mut().source_tests = tests.into();
     let form = Form {
         model,
         state: SourceTestState::default(),
@@ -180,7 +180,8 @@ fn a_test_names_old_algorithms_of_the_server() {
 
 #[test]
 fn what_the_unit_will_see_is_told() {
-    let azel::contract::CatalogState::Ready(catalog) = rig::model(rig::quiet()).catalog else {
+    let model = rig::model(rig::quiet());
+    let azel::contract::CatalogState::Ready(catalog) = &model.catalog else {
         panic!("the bundled elements")
     };
     let mut bytes = Vec::new();

@@ -31,7 +31,7 @@ const UTC: &str = "2026-08-12T11:14:30Z";
 fn the_menu_of_every_station_leads_to_the_others_and_to_the_demo() {
     for (size, demo) in SIZES.into_iter().flat_map(|size| [(size, false), (size, true)]) {
         let mut model = rig::model(rig::quiet());
-        model.demo = demo;
+        model.shown_mut().demo = demo;
         let known = |name: &str, path: &str| KnownStation { name: name.into(), path: path.into() };
         model.stations.known =
             vec![known("Şile 1", "/a.toml"), known("Hill", "/b.toml"), known("Hill", "/c.toml")];

@@ -57,7 +57,8 @@ fn a_stop_that_is_not_proved_says_what_to_do_and_can_be_repeated() {
         let mut model = rig::model(states::moving());
         let since = rig::ago(&model, 4);
         let snapshot = Snapshot { stop: StopState::NotConfirmed { since }, ..states::moving() };
-        model.antennas = vec![rig::antenna(model.station.antennas[0].clone(), snapshot)];
+        model.shown_mut().antennas =
+            vec![rig::antenna(model.station.antennas[0].clone(), snapshot)];
         let text = states::sentence(&model);
         assert!(text.contains("after STOP. Use the local panel."), "{text}");
         let mut window = rig::window(size, model);
@@ -69,10 +70,11 @@ fn a_stop_that_is_not_proved_says_what_to_do_and_can_be_repeated() {
 fn stop_goes_out_while_the_alarm_list_is_open() {
     for size in SIZES {
         let mut model = rig::model(states::moving());
-        model.alarms.raise(
+        let now = model.now;
+        model.shown_mut().alarms.raise(
             Some(AntennaId::FIRST),
             AlarmKind::LinkLost(LinkLoss::Closed),
-            model.now,
+            now,
         );
         let mut window = rig::window(size, model);
         window.get_by_label("1 alarm, 1 new").click();
@@ -112,11 +114,12 @@ fn stop_goes_out_without_link_and_without_antennas() {
         let since = model.steady;
         let link = LinkState::Lost { since, reason: LinkLoss::Silent, retry_at: since };
         let snapshot = Snapshot { link, ..states::moving() };
-        model.antennas = vec![rig::antenna(model.station.antennas[0].clone(), snapshot)];
+        model.shown_mut().antennas =
+            vec![rig::antenna(model.station.antennas[0].clone(), snapshot)];
         stop_stops(&mut rig::window(size, model), "STOP");
 
         let mut model = rig::model(states::moving());
-        model.antennas.clear();
+        model.shown_mut().antennas.clear();
         stop_stops(&mut rig::window(size, model), "STOP");
     }
 }
@@ -138,7 +141,10 @@ fn what_else_stop_stops_is_told_at_the_button_on_every_view() {
     for size in SIZES {
         for view in [View::Operate, View::Console, View::Map] {
             let mut model = rig::model(states::holding());
-            model.antennas.push(rig::antenna(makes::pair(), makes::pair_at(Intent::Standby)));
+            model
+                .shown_mut()
+                .antennas
+                .push(rig::antenna(makes::pair(), makes::pair_at(Intent::Standby)));
             model.view = view;
             let mut window = rig::window(size, model);
             let stop = window.get_by_role_and_label(Role::Button, "STOP");
@@ -163,9 +169,9 @@ fn stop_shows_as_pressed_while_the_session_says_nothing() {
         ] {
             let mut model = rig::model(snapshot);
             let site = model.station.site;
-            model.antennas[0].stop_pressed = Some(Instant::now());
+            model.shown_mut().antennas[0].stop_pressed = Some(Instant::now());
             for _ in 0..2 {
-                refresh(&mut model.antennas[0], &mut Recent::default(), site, |_| None);
+                refresh(&mut model.shown_mut().antennas[0], &mut Recent::default(), site, |_| None);
             }
             assert!(states::sentence(&model).contains("STOP was pressed"));
             let mut window = rig::window(size, model);
@@ -181,7 +187,7 @@ fn what_stop_leaves_alone_is_named_beside_it_and_has_a_stop_of_its_own() {
         let mut model = rig::model(states::holding());
         let off = Snapshot::before_anything(LinkState::Off);
         let second = Antenna { id: AntennaId(2), ..makes::rc2000c() };
-        model.antennas.push(rig::antenna(second, off));
+        model.shown_mut().antennas.push(rig::antenna(second, off));
         model.selected_antenna = 1;
         let mut window = rig::window(size, model);
         let stop = window.get_by_role_and_label(Role::Button, "STOP");
@@ -209,9 +215,10 @@ fn stop_shows_as_pressed_until_the_session_tells_of_it() {
         StopState::NotConfirmed { since: later },
     ] {
         let snapshot = Snapshot { stop: told, ..states::moving() };
-        model.antennas = vec![rig::antenna(model.station.antennas[0].clone(), snapshot)];
-        model.antennas[0].stop_pressed = Some(Instant::now());
-        refresh(&mut model.antennas[0], &mut Recent::default(), site, |_| None);
+        model.shown_mut().antennas =
+            vec![rig::antenna(model.station.antennas[0].clone(), snapshot)];
+        model.shown_mut().antennas[0].stop_pressed = Some(Instant::now());
+        refresh(&mut model.shown_mut().antennas[0], &mut Recent::default(), site, |_| None);
         assert_eq!(model.antennas[0].stop_pressed, None, "{told:?}");
     }
 }
@@ -222,10 +229,13 @@ fn after_a_stop_the_bar_says_in_words_what_was_left_alone() {
         let mut model = rig::model(states::holding());
         let at = model.steady;
         let stopped = Snapshot { stop: StopState::Stopped { at }, ..states::holding() };
-        model.antennas = vec![rig::antenna(model.station.antennas[0].clone(), stopped)];
+        model.shown_mut().antennas = vec![rig::antenna(model.station.antennas[0].clone(), stopped)];
         let off = || Snapshot::before_anything(LinkState::Off);
-        model.antennas.push(rig::antenna(makes::rc2000c(), off()));
-        model.antennas.push(rig::antenna(makes::pair(), Snapshot { unproved: true, ..off() }));
+        model.shown_mut().antennas.push(rig::antenna(makes::rc2000c(), off()));
+        model
+            .shown_mut()
+            .antennas
+            .push(rig::antenna(makes::pair(), Snapshot { unproved: true, ..off() }));
         let window = rig::window(size, model);
         let said = "RC2000C is not connected: STOP does not reach it.";
         window.get_by_label(said);

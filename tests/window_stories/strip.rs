@@ -22,7 +22,7 @@ use crate::window_stories::{
 
 fn with_plan(size: [f32; 2]) -> Window {
     let mut model = rig::model(states::holding());
-    model.schedule = Arc::new(plan::planned(&model));
+    model.shown_mut().schedule = Arc::new(plan::planned(&model));
     rig::window(size, model)
 }
 
@@ -94,7 +94,7 @@ fn after_two_passes(model: &mut Model) {
         DayLine { at: model.now, antenna: AntennaId(1), what: DayEvent::Flown(flown) }
     };
     let before = (37_849, add_seconds(model.now, -900.0));
-    model.day = Arc::new(vec![
+    model.shown_mut().day = Arc::new(vec![
         flown(before, None),
         flown(key, Some(MissCause::Lost(LossCause::OutsideBeam))),
     ]);
@@ -120,9 +120,9 @@ fn each_lane_of_a_high_strip_says_which_antenna_takes_a_pass() {
     let mut model = rig::model(states::holding());
     let second =
         makes::model(makes::pair(), makes::pair_at(azel::contract::driver::Intent::Position));
-    model.antennas.extend(second.antennas);
-    model.antennas[1].config.id = AntennaId(2);
-    model.schedule = Arc::new(plan::planned(&model));
+    model.shown_mut().antennas.extend(second.antennas.clone());
+    Arc::make_mut(&mut model.shown_mut().antennas[1].config).id = AntennaId(2);
+    model.shown_mut().schedule = Arc::new(plan::planned(&model));
     let window = rig::window([1920.0, 1080.0], model);
     let bars = bars(&window);
     let of = |antenna: &str| {

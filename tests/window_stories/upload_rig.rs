@@ -41,7 +41,7 @@ pub(crate) type Window = Harness<'static, Part>;
 /// The part alone, of this width.
 pub(crate) fn part(width: f32, uploads: Uploads) -> Window {
     let mut model = rig::model(states::holding());
-    model.uploads = uploads.into();
+    model.shown_mut().uploads = uploads.into();
     let part = Part { model, state: UploadState::default(), commands: Vec::new() };
     let mut window = Harness::builder()
         .with_size([width, 1800.0])
@@ -105,7 +105,8 @@ pub(crate) fn peer() -> Peer {
 }
 
 pub(crate) fn file() -> TleFile {
-    let azel::contract::CatalogState::Ready(catalog) = rig::model(rig::quiet()).catalog else {
+    let model = rig::model(rig::quiet());
+    let azel::contract::CatalogState::Ready(catalog) = &model.catalog else {
         panic!("the bundled elements")
     };
     TleFile::of([ISS, NOAA_20].iter().filter_map(|number| catalog.get(*number)), &ELEMENT_FILES)

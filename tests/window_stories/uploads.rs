@@ -77,7 +77,7 @@ fn the_satellite_on_the_unit_stays_marked_until_the_operator_marks_another() {
     const SUOMI: u32 = 37_849;
     let mut window = typed(WIDTHS[0], Uploads::default());
     let holds = |window: &mut Window, catalog_number, name: &str| {
-        let antenna = window.state_mut().model.antennas.first_mut().unwrap();
+        let antenna = window.state_mut().model.shown_mut().antennas.first_mut().unwrap();
         let name = name.to_owned();
         let held = HeldSatellite { catalog_number, name, maximum_elevation_deg: None };
         Arc::make_mut(&mut antenna.snapshot).state.on_board.satellite = Some(held);
@@ -119,8 +119,8 @@ fn an_object_that_a_tle_cannot_carry_is_refused_at_its_line_before_anything_is_t
     let mut catalog = azel::orbit::bundled().unwrap();
     catalog.merge(azel::orbit::read_elements(text), "own");
     let model = &mut window.state_mut().model;
-    model.catalog = azel::contract::CatalogState::Ready(std::sync::Arc::new(catalog));
-    Arc::make_mut(&mut model.station).favourites.mark(340_000, true);
+    model.shown_mut().catalog = azel::contract::CatalogState::Ready(std::sync::Arc::new(catalog));
+    Arc::make_mut(&mut model.shown_mut().station).favourites.mark(340_000, true);
     settle(&mut window);
     assert!(says(&window, "Object 340000: a TLE carries"));
     assert!(is_disabled(&window, "Upload and verify"));
@@ -192,7 +192,7 @@ fn what_went_wrong_is_told_and_what_was_typed_stays() {
         "the user may not do this in the folder",
     ] {
         let mut window = typed(WIDTHS[0], Uploads::default());
-        window.state_mut().model.uploads = failed(words).into();
+        window.state_mut().model.shown_mut().uploads = failed(words).into();
         settle(&mut window);
         assert!(says(&window, words.get(1..).unwrap()), "{words}");
         let user = window.get_by_role_and_label(Role::TextInput, "User").value();
@@ -251,11 +251,13 @@ fn the_list_of_what_is_kept_is_asked_for_once_the_file_is_known() {
     }));
     assert!(window.state().commands.contains(&ask));
     let of = (unit, FILE.to_owned());
-    Arc::make_mut(&mut window.state_mut().model.uploads).kept = Kept { of: of.clone(), list: None };
+    Arc::make_mut(&mut window.state_mut().model.shown_mut().uploads).kept =
+        Kept { of: of.clone(), list: None };
     settle(&mut window);
     assert!(says(&window, "The list is being read."));
     let problem = Some(Err("the list of kept files cannot be read".to_owned()));
-    Arc::make_mut(&mut window.state_mut().model.uploads).kept = Kept { of, list: problem };
+    Arc::make_mut(&mut window.state_mut().model.shown_mut().uploads).kept =
+        Kept { of, list: problem };
     settle(&mut window);
     assert!(says(&window, "The list of kept files cannot be read."));
 }
@@ -271,12 +273,12 @@ fn an_order_of_another_antenna_is_told_and_waited_for() {
 #[test]
 fn without_elements_an_old_file_can_still_be_put_back() {
     let mut window = typed(WIDTHS[0], Uploads::default());
-    window.state_mut().model.catalog = azel::contract::CatalogState::Failed;
+    window.state_mut().model.shown_mut().catalog = azel::contract::CatalogState::Failed;
     let of = (peer().to_string(), FILE.to_owned());
     let entry = kept_entry(Origin::Found, 2.0);
     let back = put_back("Wed 2026-08-12 09:15:30Z, was on the unit", &entry);
     let list = Some(Ok(vec![entry]));
-    Arc::make_mut(&mut window.state_mut().model.uploads).kept = Kept { of, list };
+    Arc::make_mut(&mut window.state_mut().model.shown_mut().uploads).kept = Kept { of, list };
     settle(&mut window);
     click(&mut window, "Kept on this computer: 1 file");
     assert!(is_disabled(&window, "Upload and verify"));
@@ -331,7 +333,7 @@ fn the_elements_view_opens_the_part_in_place_of_the_inspector() {
 /// The Elements view with the upload open, in the smallest window.
 fn opened_small(uploads: Uploads) -> rig::Window {
     let mut model = rig::model(states::holding());
-    model.uploads = uploads.into();
+    model.shown_mut().uploads = uploads.into();
     opened(rig::SMALL, model)
 }
 
@@ -358,7 +360,7 @@ fn the_form_is_in_sight_above_a_list_of_a_hundred_satellites() {
         let others = others.filter(|number| *number != NOAA_20);
         // The one that is inspected is always in the file.
         let numbers: Vec<u32> = [NOAA_20].into_iter().chain(others).take(SATELLITES).collect();
-        let favourites = &mut Arc::make_mut(&mut model.station).favourites;
+        let favourites = &mut Arc::make_mut(&mut model.shown_mut().station).favourites;
         *favourites = favourites.with_numbers(&numbers);
         let mut window = opened(size, model);
         let whole = egui::Rect::from_min_size(egui::Pos2::ZERO, size.into());
@@ -377,7 +379,7 @@ fn the_form_is_in_sight_above_a_list_of_a_hundred_satellites() {
         // An earlier file is not behind the list either.
         let of = (peer().to_string(), FILE.to_owned());
         let kept = Kept { of, list: Some(Ok(vec![kept_entry(Origin::Found, 2.0)])) };
-        Arc::make_mut(&mut window.state_mut().model.uploads).kept = kept;
+        Arc::make_mut(&mut window.state_mut().model.shown_mut().uploads).kept = kept;
         window.get_by_role_and_label(Role::TextInput, "File").focus();
         rig::settle(&mut window);
         window.event(egui::Event::Text(FILE.to_owned()));

@@ -35,7 +35,7 @@ fn a_genius_measures_and_is_told_whole_degrees() {
 #[test]
 fn a_target_in_the_sky_keeps_its_decimals() {
     let mut model = makes::model(makes::pair(), makes::pair_at(Intent::Track));
-    model.antennas[0].prediction = Some(Prediction {
+    model.shown_mut().antennas[0].prediction = Some(Prediction {
         catalog_number: Some(rig::NOAA_20),
         at: rig::now(),
         direction: AzEl::from_degrees(43.25, 12.5),

@@ -1,6 +1,6 @@
 //! Wide and high windows use their room: two cards, a lane for each antenna, more hours.
 
-use std::collections::BTreeSet;
+use std::{collections::BTreeSet, sync::Arc};
 
 use azel::{
     contract,
@@ -24,10 +24,10 @@ pub(crate) fn three() -> Model {
     let mut model = rig::model(states::holding());
     let genius = makes::model(makes::pair(), makes::pair_at(Intent::Position));
     let rc2000c = makes::model(makes::rc2000c(), makes::rc2000c_at(Intent::Manual));
-    model.antennas.extend(genius.antennas);
-    model.antennas.extend(rc2000c.antennas);
-    for (index, antenna) in model.antennas.iter_mut().enumerate() {
-        antenna.config.id = AntennaId(1 + index as u32);
+    model.shown_mut().antennas.extend(genius.antennas.clone());
+    model.shown_mut().antennas.extend(rc2000c.antennas.clone());
+    for (index, antenna) in model.shown_mut().antennas.iter_mut().enumerate() {
+        Arc::make_mut(&mut antenna.config).id = AntennaId(1 + index as u32);
     }
     model
 }
@@ -120,7 +120,7 @@ fn each_card_drives_its_own_antenna() {
 #[test]
 fn a_jog_of_the_second_card_ends_with_its_view() {
     let mut model = three();
-    model.antennas[1].snapshot = makes::pair_at(Intent::Manual).into();
+    model.shown_mut().antennas[1].snapshot = makes::pair_at(Intent::Manual).into();
     let mut window = rig::window(WIDE[0], model);
     let key = window
         .get_all_by_role_and_label(Role::Button, "Jog clockwise")

@@ -229,7 +229,7 @@ impl Engine {
     fn try_unit(&mut self, index: usize) {
         let Some(antenna) = self.antennas.get_mut(index) else { return };
         let Hold::Elsewhere(lock) = &antenna.hold else { return };
-        let (config, lock) = (antenna.shown.config.clone(), lock.clone());
+        let (config, lock) = (Arc::clone(&antenna.shown.config), lock.clone());
         let of = Some(config.id);
         match self.claim_unit(&config, lock.as_deref()) {
             Ok(claim) => {
@@ -254,7 +254,7 @@ impl Engine {
     /// A STOP that the unit is owed goes there.
     fn leave_unit(&mut self, index: usize, elsewhere: Option<Elsewhere>) {
         let Some(antenna) = self.antennas.get(index) else { return };
-        let config = antenna.shown.config.clone();
+        let config = Arc::clone(&antenna.shown.config);
         let owes_stop = self.driver.debts().owes(&Unit::of(&config));
         let claim = match elsewhere {
             Some(elsewhere) => {
@@ -273,7 +273,7 @@ impl Engine {
     /// Replaces the session of an antenna, or the lack of one.
     fn reopen(&mut self, index: usize, claim: Result<Option<Claim>, Elsewhere>) {
         let Some(antenna) = self.antennas.get(index) else { return };
-        let config = antenna.shown.config.clone();
+        let config = Arc::clone(&antenna.shown.config);
         let bounds = Bounds::of(&self.station, &config);
         self.note_learned_drives();
         let opened = self.open_claimed(config, bounds, claim);

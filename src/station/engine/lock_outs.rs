@@ -54,7 +54,8 @@ impl Engine {
     /// Carries lock-outs over to other antennas: a lock-out stays with its antenna.
     pub(super) fn keep_locked_out(&mut self, after: &[Antenna]) {
         let antennas = self.antennas.iter();
-        let before: Vec<Antenna> = antennas.map(|antenna| antenna.shown.config.clone()).collect();
+        let before: Vec<Antenna> =
+            antennas.map(|antenna| Antenna::clone(&antenna.shown.config)).collect();
         if self.lock_outs.stay_with_antennas(&before, after) {
             self.keep_lock_outs();
         }

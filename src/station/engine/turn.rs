@@ -48,7 +48,7 @@ impl Engine {
         for index in 0..self.antennas.len() {
             self.take_antenna(index);
         }
-        let antennas = self.antennas.iter().map(|antenna| &antenna.shown.config);
+        let antennas = self.antennas.iter().map(|antenna| &*antenna.shown.config);
         let strangers = owed::strangers(self.driver.debts(), antennas);
         owed::tell(&mut self.alarms, strangers, self.now);
         self.run_automatic(turn);

@@ -126,7 +126,7 @@ impl Engine {
         }
         for config in &station.antennas {
             let bounds = Bounds::of(&station, config);
-            let kept = before.iter().position(|antenna| antenna.shown.config == *config);
+            let kept = before.iter().position(|antenna| *antenna.shown.config == *config);
             let antenna = if let Some(kept) = kept {
                 let antenna = before.swap_remove(kept);
                 antenna.handle.keep_within(bounds);
@@ -158,6 +158,7 @@ impl Engine {
     }
 
     pub(super) fn open_antenna(&mut self, config: station::Antenna, bounds: Bounds) -> Antenna {
+        let config = Arc::new(config);
         let claim = self.claim_unit(&config, None);
         self.open_claimed(config, bounds, claim)
     }
@@ -165,7 +166,7 @@ impl Engine {
     /// Opens an antenna with a claim on its unit, or leaves the unit to its holder.
     pub(super) fn open_claimed(
         &mut self,
-        config: station::Antenna,
+        config: Arc<station::Antenna>,
         bounds: Bounds,
         claim: Result<Option<Claim>, Elsewhere>,
     ) -> Antenna {
@@ -177,7 +178,8 @@ impl Engine {
                 let lock = Box::new(claim.clone());
                 // Only a start connects without the operator, and not a change of a setting later.
                 let connects_at_start = config.connects_at_start && !self.has_started;
-                let opened = station::Antenna { connects_at_start, ..config.clone() };
+                let opened =
+                    station::Antenna { connects_at_start, ..station::Antenna::clone(&config) };
                 let learned = self.learned_drives(&config);
                 let handle = self.driver.open(&opened, bounds, learned, lock_out, lock);
                 (handle, None, Hold::Ours(claim))

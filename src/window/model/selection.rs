@@ -43,9 +43,6 @@ impl Model {
     pub fn follow_antenna(&mut self) {
         let chosen = self.chosen.and_then(|key| self.pass_lists.find(key));
         let is_over = chosen.is_some_and(|predicted| predicted.pass.los.time <= self.now);
-        if is_over {
-            self.chosen = None;
-        }
         let chosen = chosen.filter(|_| !is_over);
         let antenna = self.antenna();
         let taken = || self.pass_taken_by(antenna?);
@@ -59,6 +56,9 @@ impl Model {
             .or_else(|| self.next_pass());
         // Without any pass, as during a new search, the selection comes back with the list.
         self.selected = selected.map(PredictedPass::key).or(self.selected);
+        if is_over {
+            self.chosen = None;
+        }
     }
 
     /// The pass that an antenna tracks or waits for, by command or by automatic operation.

@@ -197,7 +197,7 @@ fn what_is_typed_in_the_preferences_is_not_overtaken() {
 fn without_elements_there_is_still_a_way_to_add_some() {
     for size in rig::sizes() {
         let mut window = view(size, Vec::new());
-        window.state_mut().model.catalog = CatalogState::Failed;
+        window.state_mut().model.shown_mut().catalog = CatalogState::Failed;
         settle(&mut window);
         assert!(says(&window, "There are no elements."));
         assert!(says(&window, "There is nothing to search."));
@@ -233,12 +233,12 @@ fn groups_of_the_operator_stand_behind_those_of_the_sources() {
         priority: None,
         limits: PassLimits::default(),
     };
-    Arc::make_mut(&mut window.state_mut().model.station).groups = vec![weather];
+    Arc::make_mut(&mut window.state_mut().model.shown_mut().station).groups = vec![weather];
     settle(&mut window);
     window.get_by_role_and_label(Role::RadioButton, "weather, your group, 2").click();
     settle(&mut window);
     assert_eq!(rows(&window).len(), 2, "one is not held");
-    Arc::make_mut(&mut window.state_mut().model.station).groups.clear();
+    Arc::make_mut(&mut window.state_mut().model.shown_mut().station).groups.clear();
     settle(&mut window);
     assert!(rows(&window).len() > 2, "the group is gone");
 }

@@ -48,7 +48,7 @@ fn the_detail_says_what_each_antenna_holds() {
         detail(&mut window, size);
         assert!(says(&window, "Satrak: What it holds has not been read yet."));
         let hold = |window: &mut Window, number: u32, name: &str| {
-            let antenna = &mut window.state_mut().model.antennas[0];
+            let antenna = &mut window.state_mut().model.shown_mut().antennas[0];
             Arc::make_mut(&mut antenna.snapshot).state.on_board.satellite = Some(HeldSatellite {
                 catalog_number: number,
                 name: name.to_owned(),
@@ -63,7 +63,7 @@ fn the_detail_says_what_each_antenna_holds() {
         let model = &mut window.state_mut().model;
         let mut genius = station::Antenna::genius("Genius", "192.168.1.250:9006");
         genius.id = station::AntennaId(7);
-        model.antennas.push(rig::antenna(genius, rig::quiet()));
+        model.shown_mut().antennas.push(rig::antenna(genius, rig::quiet()));
         settle(&mut window);
         assert!(says(&window, "Genius: Stores no elements: Azel tracks with the set in use."));
     }
@@ -91,7 +91,7 @@ fn the_detail_lists_the_next_passes_and_opens_one_on_the_sky_plot() {
 fn frequencies_are_changed_beside_the_elements() {
     let mut window = view([1440.0, 1200.0], Vec::new());
     let own = Frequency::read_list("43013 7812 HRD").unwrap();
-    Arc::make_mut(&mut window.state_mut().model.station).frequencies = own;
+    Arc::make_mut(&mut window.state_mut().model.shown_mut().station).frequencies = own;
     settle(&mut window);
     assert!(says(&window, "7812.000 MHz HRD"));
     click(&mut window, "Edit frequencies");

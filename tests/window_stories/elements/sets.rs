@@ -47,7 +47,7 @@ fn hold(window: &mut Window, sets: impl IntoIterator<Item = Elements>) {
     let of_weather = |elements| OlderSet { elements, source: "weather".to_owned() };
     let sets = sets.into_iter().map(of_weather).collect();
     let older = OlderSets { catalog_number: NOAA_20, sets };
-    window.state_mut().model.older_sets = Some(Arc::new(older));
+    window.state_mut().model.shown_mut().older_sets = Some(Arc::new(older));
     settle(window);
 }
 
@@ -96,7 +96,7 @@ fn while_an_older_set_is_in_use_it_is_told_and_the_newest_is_one_click_away() {
         let mut window = view(size, Vec::new());
         let model = &mut window.state_mut().model;
         let older = with_epoch(model, "2026-08-10T02:04:00");
-        let CatalogState::Ready(catalog) = &mut model.catalog else { unreachable!() };
+        let CatalogState::Ready(catalog) = &mut model.shown_mut().catalog else { unreachable!() };
         let newest = catalog.get(NOAA_20).unwrap().clone();
         Arc::make_mut(catalog).use_in_place(older, "weather");
         write(&mut window, "Search the catalogue", "43013");
@@ -114,7 +114,7 @@ fn while_an_older_set_is_in_use_it_is_told_and_the_newest_is_one_click_away() {
         assert_eq!(asked(&mut window), [use_set(choice)]);
 
         let sources = Sources { work: SourceWork::Reading, ..Sources::default() };
-        window.state_mut().model.sources = Arc::new(sources);
+        window.state_mut().model.shown_mut().sources = Arc::new(sources);
         settle(&mut window);
         let button = window.get_by_role_and_label(Role::Button, "Use the newest");
         assert!(button.accesskit_node().is_disabled(), "it would not be taken now");
@@ -128,7 +128,7 @@ fn a_set_between_the_older_one_in_use_and_the_newest_is_not_called_the_newest() 
         let model = &mut window.state_mut().model;
         let in_use = with_epoch(model, "2026-08-03T02:04:00");
         let between = with_epoch(model, "2026-08-05T02:04:00");
-        let CatalogState::Ready(catalog) = &mut model.catalog else { unreachable!() };
+        let CatalogState::Ready(catalog) = &mut model.shown_mut().catalog else { unreachable!() };
         let newest = catalog.get(NOAA_20).unwrap().clone();
         Arc::make_mut(catalog).use_in_place(in_use, "weather");
         detail(&mut window, size);
@@ -153,7 +153,7 @@ fn a_set_between_the_older_one_in_use_and_the_newest_is_not_called_the_newest() 
 }
 
 fn with_order(window: &mut Window, order: &[&str]) {
-    let station = Arc::make_mut(&mut window.state_mut().model.station);
+    let station = Arc::make_mut(&mut window.state_mut().model.shown_mut().station);
     let order = order.iter().map(|name| (*name).to_owned()).collect();
     station.favourites.set_sources(NOAA_20, order);
     settle(window);

@@ -29,7 +29,7 @@ fn planned(second: i64, from: i64) -> Model {
     let (from, to) = (at(from), at(from + 600));
     let pass = PassKey { satellite: 43013, aos: from };
     let entry = testing::entry(AntennaId(1), pass, to);
-    Arc::make_mut(&mut model.schedule).schedule.entries.push(entry);
+    Arc::make_mut(&mut model.shown_mut().schedule).schedule.entries.push(entry);
     model
 }
 
@@ -48,7 +48,7 @@ fn a_replay_ends_two_minutes_before_a_planned_pass() {
 fn a_replay_ends_on_a_new_alarm_of_the_first_priority_alone() {
     let with = |kind: AlarmKind, second| {
         let mut model = live(20);
-        model.alarms.raise(None, kind, at(second));
+        model.shown_mut().alarms.raise(None, kind, at(second));
         model
     };
     let grave = AlarmKind::StopNotConfirmed;
@@ -56,7 +56,7 @@ fn a_replay_ends_on_a_new_alarm_of_the_first_priority_alone() {
     assert_eq!(why_over(at(15), &with(grave.clone(), 10)), None, "it was there before");
     let mut seen = with(grave, 10);
     let id = seen.alarms.newest_unseen().unwrap();
-    seen.alarms.acknowledge(id, at(11));
+    seen.shown_mut().alarms.acknowledge(id, at(11));
     assert_eq!(why_over(at(0), &seen), None);
     let slight = AlarmKind::NoRecord("the disk is full".to_owned());
     assert_ne!(with(slight.clone(), 10).alarms.list()[0].priority(), Priority::First);

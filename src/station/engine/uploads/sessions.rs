@@ -1,5 +1,7 @@
 //! Connects uploads with the sessions of the antennas.
 
+use std::sync::Arc;
+
 use super::{SessionRequest, UnitNow};
 use crate::{
     contract::{
@@ -36,7 +38,8 @@ impl Engine {
     /// Records a verified upload, and configures the antenna to track from its file. An antenna without
     /// a configured file uses the unit's current one.
     fn use_upload(&mut self, objects: &[FileObject]) {
-        let Some(config) = self.upload_antenna().map(|antenna| antenna.shown.config.clone()) else {
+        let Some(config) = self.upload_antenna().map(|antenna| Arc::clone(&antenna.shown.config))
+        else {
             return;
         };
         let Some(target) = self.upload_runner.order().map(target) else { return };
@@ -46,7 +49,7 @@ impl Engine {
             return;
         }
         let (id, mut config) = (config.id, config);
-        if let Err(why) = config.connection.use_element_file(&file) {
+        if let Err(why) = Arc::make_mut(&mut config).connection.use_element_file(&file) {
             tracing::error!(file, ?why, "the element file cannot be set");
             return;
         }
@@ -55,7 +58,7 @@ impl Engine {
                 known.connection = config.connection.clone();
             }
         });
-        let is_kept = self.station.antennas.contains(&config);
+        let is_kept = self.station.antennas.contains(&*config);
         if let Some(antenna) = self.antennas.iter_mut().find(|one| one.shown.id() == id)
             && is_kept
         {

@@ -77,7 +77,7 @@ pub(super) fn show(
             let peak = &mut state.peak;
             ui.add_enabled_ui(!is_removed, |ui| {
                 form::section(ui, &group, form, section, sought, |ui| {
-                    let known = model.antennas.iter().find(|of| of.config == config);
+                    let known = model.antennas.iter().find(|of| *of.config == config);
                     if let Some(known) = known.filter(|_| *section == WATCH) {
                         let words = words::stopping_way(known.snapshot.stopping_way);
                         form::told(ui, "Coasting after STOP", &words);

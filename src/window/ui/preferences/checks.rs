@@ -88,7 +88,7 @@ fn removed(model: &Model, after: &Station) -> impl Iterator<Item = String> {
 fn beyond_the_unit(model: &Model, after: &Station) -> impl Iterator<Item = String> {
     after.antennas.iter().filter_map(|antenna| {
         let known = model.antenna_of(antenna.id)?;
-        if known.config == *antenna || matches!(antenna.mount, Mount::Xy { .. }) {
+        if *known.config == *antenna || matches!(antenna.mount, Mount::Xy { .. }) {
             return None;
         }
         let both = antenna.mount.travel_deg().into_iter().zip(known.snapshot.state.travel_deg);
@@ -112,7 +112,7 @@ fn changed(model: &Model, after: &Station) -> impl Iterator<Item = String> {
     after.antennas.iter().filter_map(|antenna| {
         let name = &antenna.name;
         match model.antenna_of(antenna.id) {
-            Some(known) if known.config == *antenna => None,
+            Some(known) if *known.config == *antenna => None,
             Some(_) => Some(format!("{name} does not move. Saving reconnects it.")),
             None => Some(format!("{name} is new. Saving connects it.")),
         }

@@ -286,6 +286,8 @@ fn order(
 
 #[cfg(test)]
 mod tests {
+    use std::sync::Arc;
+
     use super::*;
     use crate::{
         astro::time::add_seconds,
@@ -373,7 +375,7 @@ mod tests {
     fn uploading(folder: &std::path::Path) -> Engine {
         let (mut engine, _) = station(folder);
         let shown = &mut engine.antennas[0].shown;
-        shown.config.upkeep.uploads_elements = true;
+        Arc::make_mut(&mut shown.config).upkeep.uploads_elements = true;
         engine.uploads.antenna.clone_from(&shown.config.name);
         engine.uploads.stage = Stage::Working { progress: None, is_cancelled: false };
         engine.rule_upload = Some(RuleUpload { antenna: AntennaId(1), since: engine.steady });
@@ -393,8 +395,12 @@ mod tests {
         let ends: [fn(&mut Engine); 5] = [
             |_| {},
             |engine| engine.set_automatic(0, false),
-            |engine| engine.antennas[0].shown.config.upkeep.uploads_elements = false,
-            |engine| engine.antennas[0].shown.config.name = "Another".to_owned(),
+            |engine| {
+                Arc::make_mut(&mut engine.antennas[0].shown.config).upkeep.uploads_elements = false;
+            },
+            |engine| {
+                Arc::make_mut(&mut engine.antennas[0].shown.config).name = "Another".to_owned();
+            },
             |engine| engine.antennas.clear(),
         ];
         for (number, change) in ends.into_iter().enumerate() {

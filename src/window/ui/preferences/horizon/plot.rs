@@ -55,7 +55,7 @@ pub(super) fn show(
     let name = "Horizon and keep-outs of the site";
     canvas.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, name));
     scene::paint_sky(ui, rect, dome, model, skies, state, antenna);
-    draw::draw_on_canvas(ui, &canvas, dome, skies, state, antenna.map(|of| &of.config));
+    draw::draw_on_canvas(ui, &canvas, dome, skies, state, antenna.map(|of| &*of.config));
     let marks = &mut paint::marks_of(ui, &canvas);
     match state.chosen {
         Chosen::Zone(index) => handles::zone_handles(marks, dome, index, skies, state, t),

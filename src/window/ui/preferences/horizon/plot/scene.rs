@@ -53,7 +53,7 @@ pub(super) fn paint_sky(
     }
     grid::rings(painter, dome, t);
     grid::ring_numbers(painter, dome, t);
-    let config = antenna.map(|antenna| &antenna.config);
+    let config = antenna.map(|antenna| &*antenna.config);
     let minimum_deg = config.map_or(0.0, |config| config.limits.minimum_elevation_deg);
     grid::rim(painter, dome, Angle::from_degrees(minimum_deg), t);
     let chosen = match state.chosen {
