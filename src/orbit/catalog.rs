@@ -129,7 +129,8 @@ pub struct MergeSummary {
     /// Objects that got a better epoch.
     pub updated: usize,
     /// Sets with the same epoch as the known set.
-    pub known: usize,
+    #[serde(rename = "known")]
+    pub unchanged: usize,
     /// Sets older than the known set, or too far ahead, left out.
     pub older: usize,
     /// Objects that could not be read.
@@ -213,8 +214,8 @@ impl Catalog {
             return;
         }
         let newest = std::mem::replace(&mut current.elements, chosen.elements);
-        let aside = SetAside { newest, source_in_use: source_in_use.unwrap_or_default() };
-        self.passed_over.insert(number, aside);
+        let set_aside = SetAside { newest, source_in_use: source_in_use.unwrap_or_default() };
+        self.passed_over.insert(number, set_aside);
     }
 
     /// Returns `true` if the operator has chosen the set of an object in place of its order.
@@ -224,7 +225,7 @@ impl Catalog {
 
     /// The newest set of an object whose preferred source has an older one.
     pub fn passed_over(&self, catalog_number: u32) -> Option<&Elements> {
-        self.passed_over.get(&catalog_number).map(|aside| &*aside.newest)
+        self.passed_over.get(&catalog_number).map(|set_aside| &*set_aside.newest)
     }
 
     /// Adds the elements of `source`. The newest epoch of an object wins, whatever the order of
@@ -238,7 +239,7 @@ impl Catalog {
             ..MergeSummary::default()
         };
         let group = self.group(source);
-        let known = self.entries.len();
+        let previous_count = self.entries.len();
         let mut clock = self.clock;
         let mut members: Vec<u32> = Vec::with_capacity(report.elements.len());
         self.entries.reserve(report.elements.len());
@@ -249,7 +250,7 @@ impl Catalog {
             if let Some(sets) = self.candidates.get_mut(&number) {
                 sets.push(entry.clone());
             }
-            let (sorted, _) = self.entries.split_at_mut(known);
+            let (sorted, _) = self.entries.split_at_mut(previous_count);
             let place = sorted.binary_search_by_key(&number, Entry::number).ok();
             match place.and_then(|place| sorted.get_mut(place)) {
                 Some(current) => {
@@ -270,7 +271,7 @@ impl Catalog {
             is_same
         });
         self.clock = clock;
-        summary.added = self.entries.len() - known;
+        summary.added = self.entries.len() - previous_count;
         if let Some(group) = self.groups.get_mut(group as usize) {
             group.members.extend(members);
             group.members.sort_unstable();
@@ -286,8 +287,8 @@ impl Catalog {
 
     fn shared(&self, elements: Elements) -> Arc<Elements> {
         let previous = self.previous.upgrade();
-        let known = previous.as_ref().and_then(|all| all.entry(elements.catalog_number()));
-        let same = known.filter(|known| *known.elements == elements);
+        let previous_entry = previous.as_ref().and_then(|all| all.entry(elements.catalog_number()));
+        let same = previous_entry.filter(|entry| *entry.elements == elements);
         same.map_or_else(|| Arc::new(elements), |same| Arc::clone(&same.elements))
     }
 
@@ -312,9 +313,9 @@ impl Catalog {
     /// The source of the elements in use of an object: the first that gave the newest set, or
     /// that of the older set in its place.
     pub fn source_of(&self, catalog_number: u32) -> Option<&str> {
-        let aside = self.set_aside.get(&catalog_number);
-        if let Some(aside) = aside.or_else(|| self.passed_over.get(&catalog_number)) {
-            return Some(&aside.source_in_use);
+        let set_aside = self.set_aside.get(&catalog_number);
+        if let Some(set_aside) = set_aside.or_else(|| self.passed_over.get(&catalog_number)) {
+            return Some(&set_aside.source_in_use);
         }
         self.source_of_newest(catalog_number)
     }
@@ -335,19 +336,19 @@ impl Catalog {
         }
         older.take_name(&current.elements);
         let newest = std::mem::replace(&mut current.elements, Arc::new(older));
-        let aside = SetAside { newest, source_in_use: source.to_owned() };
-        self.set_aside.insert(number, aside);
+        let set_aside = SetAside { newest, source_in_use: source.to_owned() };
+        self.set_aside.insert(number, set_aside);
     }
 
     /// The newest set of an object of which an older one is in use.
     pub fn set_aside(&self, catalog_number: u32) -> Option<&Elements> {
-        self.set_aside.get(&catalog_number).map(|aside| &*aside.newest)
+        self.set_aside.get(&catalog_number).map(|entry| &*entry.newest)
     }
 
     /// All newest sets that are not in use, each with its source.
     pub fn all_set_aside(&self) -> impl Iterator<Item = (&Elements, &str)> {
-        self.set_aside.iter().chain(&self.passed_over).map(|(number, aside)| {
-            (&*aside.newest, self.source_of_newest(*number).unwrap_or_default())
+        self.set_aside.iter().chain(&self.passed_over).map(|(number, set_aside)| {
+            (&*set_aside.newest, self.source_of_newest(*number).unwrap_or_default())
         })
     }
 
@@ -381,8 +382,8 @@ impl Catalog {
     pub fn in_group(&self, group: &str) -> impl Iterator<Item = &Elements> {
         self.groups
             .iter()
-            .filter(move |known| known.name == group)
-            .flat_map(|known| &known.members)
+            .filter(move |candidate| candidate.name == group)
+            .flat_map(|candidate| &candidate.members)
             .filter_map(|number| self.get(*number))
     }
 
@@ -443,7 +444,7 @@ fn settle(
             std::mem::swap(current, &mut other);
             summary.updated += 1;
         }
-        Ordering::Equal => summary.known += 1,
+        Ordering::Equal => summary.unchanged += 1,
         Ordering::Less => summary.older += 1,
     }
     take_name(&mut current.elements, &other.elements);
@@ -458,12 +459,12 @@ fn take_name(elements: &mut Arc<Elements>, other: &Elements) {
 }
 
 fn search<'a>(
-    among: impl Iterator<Item = &'a Elements>,
+    candidates: impl Iterator<Item = &'a Elements>,
     text: &str,
     limit: usize,
 ) -> Vec<&'a Elements> {
     let text = text.trim().to_lowercase();
-    let mut found: Vec<(String, &Elements)> = among
+    let mut found: Vec<(String, &Elements)> = candidates
         .map(|elements| (elements.name().to_lowercase(), elements))
         .filter(|(name, elements)| {
             name.contains(&text) || elements.catalog_number().to_string().starts_with(&text)

@@ -75,7 +75,7 @@ pub const EPOCH_YEARS: std::ops::RangeInclusive<i16> = 1957..=2056;
 
 /// The mean perigee of a real orbit may lie just below the ground, 50 km for an object that comes
 /// down and 11 km for one that the Moon lifts at each perigee.
-const LEAST_PERIGEE_KM: f64 = -500.0;
+const MIN_PERIGEE_KM: f64 = -500.0;
 
 const MAX_CATALOG_NUMBER: u32 = 999_999_999;
 
@@ -96,14 +96,16 @@ pub enum ElementsError {
     MeanMotion(f64),
     /// An angle or B* that no orbit has. Beyond one turn, the fraction of a degree soon becomes
     /// rounding noise, and so do the passes.
-    #[error("{name} {value:?} is not from {least} to {most}")]
+    #[error("{name} {value:?} is not from {min} to {max}")]
     OutOfRange {
         #[serde(deserialize_with = "name::one")]
         name: Name,
         /// Degrees, or B* per Earth radius.
         value: f64,
-        least: f64,
-        most: f64,
+        #[serde(rename = "least")]
+        min: f64,
+        #[serde(rename = "most")]
+        max: f64,
     },
     #[error("epoch {0} is not from {first} to {last}", first = EPOCH_YEARS.start(), last = EPOCH_YEARS.end())]
     Epoch(civil::DateTime),
@@ -137,14 +139,14 @@ impl Classification {
 }
 
 impl Serialize for Elements {
-    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        Self::serialize(self, to)
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        Self::serialize(self, serializer)
     }
 }
 
 impl<'de> Deserialize<'de> for Elements {
-    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        Self::deserialize(from)?.checked().map_err(D::Error::custom)
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        Self::deserialize(deserializer)?.checked().map_err(D::Error::custom)
     }
 }
 
@@ -183,7 +185,7 @@ impl Elements {
         if self.mean_motion_rev_day <= 0.0 {
             return Err(ElementsError::MeanMotion(self.mean_motion_rev_day));
         }
-        for (name, value, least, most) in [
+        for (name, value, min, max) in [
             ("inclination", self.inclination_deg, 0.0, 180.0),
             ("right ascension of the node", self.node_deg, -360.0, 360.0),
             ("argument of perigee", self.perigee_deg, -360.0, 360.0),
@@ -191,8 +193,8 @@ impl Elements {
             // Real sets of manoeuvring objects reach 3.6.
             ("B*", self.bstar, -10.0, 10.0),
         ] {
-            if !(least..=most).contains(&value) {
-                return Err(ElementsError::OutOfRange { name, value, least, most });
+            if !(min..=max).contains(&value) {
+                return Err(ElementsError::OutOfRange { name, value, min, max });
             }
         }
         // The fraction of a day in a TLE leaves noise below the digits that an OMM writes. Without
@@ -208,7 +210,7 @@ impl Elements {
             .filter(|epoch| EPOCH_YEARS.contains(&utc(*epoch).year()))
             .ok_or(ElementsError::Epoch(as_written))?;
         let Heights { perigee_km, .. } = self.heights();
-        if perigee_km < LEAST_PERIGEE_KM {
+        if perigee_km < MIN_PERIGEE_KM {
             return Err(ElementsError::Perigee(perigee_km));
         }
         if Propagator::is_up_at_epoch(&self) { Ok(self) } else { Err(ElementsError::Decayed) }

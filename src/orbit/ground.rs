@@ -20,9 +20,9 @@ pub struct TrackPoint {
 }
 
 impl State {
-    /// The point below a satellite in this state at `at`.
-    pub fn sub_point(&self, at: Timestamp) -> SubPoint {
-        let (point, height_km) = frames::geodetic(frames::teme_to_ecef(at) * self.position_km);
+    /// The point below a satellite in this state at `time`.
+    pub fn sub_point(&self, time: Timestamp) -> SubPoint {
+        let (point, height_km) = frames::geodetic(frames::teme_to_ecef(time) * self.position_km);
         SubPoint { point, height_km }
     }
 }
@@ -40,10 +40,10 @@ impl SubPoint {
 }
 
 impl Propagator {
-    /// The ground track from `from` onwards: `count` points, `step_s` seconds apart. It ends early
+    /// The ground track from `start` onwards: `count` points, `step_s` seconds apart. It ends early
     /// if the orbit does.
-    pub fn ground_track(&self, from: Timestamp, step_s: f64, count: u32) -> Vec<TrackPoint> {
-        let times = (0..count).map(|step| add_seconds(from, f64::from(step) * step_s));
+    pub fn ground_track(&self, start: Timestamp, step_s: f64, count: u32) -> Vec<TrackPoint> {
+        let times = (0..count).map(|step| add_seconds(start, f64::from(step) * step_s));
         let point = |time| {
             let state = self.state_at(time).ok()?;
             Some(TrackPoint { time, point: state.sub_point(time).point })
@@ -57,7 +57,7 @@ mod tests {
     use super::*;
     use crate::{astro::Site, bundled};
 
-    const AT: &str = "2026-08-12T11:15:30Z";
+    const TIME: &str = "2026-08-12T11:15:30Z";
 
     fn propagator(number: u32) -> Propagator {
         Propagator::new(bundled().unwrap().get(number).unwrap()).unwrap()
@@ -69,12 +69,12 @@ mod tests {
 
     #[test]
     fn a_satellite_is_in_the_zenith_of_the_point_below_it() {
-        let at: Timestamp = AT.parse().unwrap();
+        let time: Timestamp = TIME.parse().unwrap();
         // Orbits that are low, of half a day and geosynchronous.
         for number in [25_544, 43_013, 24_876, 54_743] {
             let propagator = propagator(number);
-            let below = propagator.state_at(at).unwrap().sub_point(at);
-            let look = propagator.look_from(site(below.point), at).unwrap();
+            let below = propagator.state_at(time).unwrap().sub_point(time);
+            let look = propagator.look_from(site(below.point), time).unwrap();
             assert!(look.direction.elevation_deg() > 89.999, "{number} {look:?}");
             assert!((look.range_km - below.height_km).abs() < 1e-3, "{number} {below:?}");
         }
@@ -82,16 +82,16 @@ mod tests {
 
     #[test]
     fn a_footprint_ends_where_the_satellite_stands_at_its_elevation() {
-        let at: Timestamp = AT.parse().unwrap();
+        let time: Timestamp = TIME.parse().unwrap();
         for number in [25_544, 43_013, 54_743] {
             let propagator = propagator(number);
-            let below = propagator.state_at(at).unwrap().sub_point(at);
+            let below = propagator.state_at(time).unwrap().sub_point(time);
             for elevation_deg in [0.0, 5.0, 20.0] {
                 let footprint = below.footprint(Angle::from_degrees(elevation_deg));
                 for row in footprint.edge() {
                     let longitude = footprint.centre.longitude + row.half_width;
                     let edge = GroundPoint::new(row.latitude, longitude);
-                    let look = propagator.look_from(site(edge), at).unwrap();
+                    let look = propagator.look_from(site(edge), time).unwrap();
                     let off_deg = look.direction.elevation_deg() - elevation_deg;
                     assert!(off_deg.abs() < 0.35, "{number} {elevation_deg} {off_deg}");
                 }
@@ -105,16 +105,19 @@ mod tests {
 
     #[test]
     fn a_track_follows_the_satellite_and_ends_with_its_orbit() {
-        let at: Timestamp = AT.parse().unwrap();
+        let time: Timestamp = TIME.parse().unwrap();
         let noaa_20 = propagator(43_013);
-        let track = noaa_20.ground_track(at, 20.0, 600);
+        let track = noaa_20.ground_track(time, 20.0, 600);
         assert_eq!(track.len(), 600);
         for point in track.iter().step_by(50) {
             let below = noaa_20.state_at(point.time).unwrap().sub_point(point.time);
             assert_eq!(below.point, point.point);
         }
         // The inclination is 98.7 degrees.
-        let north = track.iter().map(|of| of.point.latitude.degrees()).fold(-90.0, f64::max);
+        let north = track
+            .iter()
+            .map(|track_point| track_point.point.latitude.degrees())
+            .fold(-90.0, f64::max);
         assert!((north - 81.4).abs() < 0.4, "{north}");
         let end: Timestamp = "2200-01-01T00:00:00Z".parse().unwrap();
         assert_eq!(noaa_20.ground_track(end, 20.0, 10), []);
@@ -123,10 +126,11 @@ mod tests {
     #[test]
     fn a_geostationary_satellite_stays_over_its_place() {
         // Turksat 5A at 31 degrees east.
-        let at: Timestamp = AT.parse().unwrap();
+        let time: Timestamp = TIME.parse().unwrap();
         let catalog = bundled().unwrap();
-        let turksat = catalog.iter().find(|of| of.name().starts_with("TURKSAT 5A")).unwrap();
-        let track = Propagator::new(turksat).unwrap().ground_track(at, 3600.0, 24);
+        let turksat =
+            catalog.iter().find(|elements| elements.name().starts_with("TURKSAT 5A")).unwrap();
+        let track = Propagator::new(turksat).unwrap().ground_track(time, 3600.0, 24);
         for TrackPoint { point, .. } in track {
             assert!((point.longitude.degrees() - 31.0).abs() < 0.2, "{point:?}");
             assert!(point.latitude.degrees().abs() < 0.2, "{point:?}");

@@ -55,7 +55,7 @@ impl LookAngles {
 }
 
 impl Distance {
-    fn of(line_km: DVec3, velocity_km_s: DVec3) -> Self {
+    fn new(line_km: DVec3, velocity_km_s: DVec3) -> Self {
         let range_km = line_km.length();
         Self { range_km, range_rate_km_s: line_km.dot(velocity_km_s) / range_km }
     }
@@ -85,24 +85,24 @@ pub struct Local {
 }
 
 impl State {
-    /// Look angles from `site` at `at`, the time of this state.
-    pub fn look_from(&self, site: Site, at: Timestamp) -> LookAngles {
+    /// Look angles from `site` at `time`, the time of this state.
+    pub fn look_from(&self, site: Site, time: Timestamp) -> LookAngles {
         let site = SiteFrame::from(site);
-        let place = self.over_ground(at);
+        let place = self.over_ground(time);
         let direction = site.direction(site.enu_km(place.position_km));
         let Distance { range_km, range_rate_km_s } = place.distance_from(site.ecef_km);
         LookAngles { direction, range_km, range_rate_km_s }
     }
 
-    /// As seen from a site at `at`, the time of this state.
-    pub fn local(&self, site: &SiteFrame, at: Timestamp) -> Local {
-        let OverGround { position_km, velocity_km_s } = self.over_ground(at);
+    /// As seen from a site at `time`, the time of this state.
+    pub fn local(&self, site: &SiteFrame, time: Timestamp) -> Local {
+        let OverGround { position_km, velocity_km_s } = self.over_ground(time);
         Local { position_km: site.enu_km(position_km), velocity_km_s: site.to_enu * velocity_km_s }
     }
 
-    /// In Earth-fixed axes at `at`, the time of this state.
-    pub fn over_ground(&self, at: Timestamp) -> OverGround {
-        let to_ecef = frames::teme_to_ecef(at);
+    /// In Earth-fixed axes at `time`, the time of this state.
+    pub fn over_ground(&self, time: Timestamp) -> OverGround {
+        let to_ecef = frames::teme_to_ecef(time);
         OverGround::of_inertial(to_ecef * self.position_km, to_ecef * self.velocity_km_s)
     }
 }
@@ -116,14 +116,14 @@ impl OverGround {
 
     /// Distance from a site, given in Earth-fixed axes.
     pub fn distance_from(&self, site_ecef_km: DVec3) -> Distance {
-        Distance::of(self.position_km - site_ecef_km, self.velocity_km_s)
+        Distance::new(self.position_km - site_ecef_km, self.velocity_km_s)
     }
 }
 
 impl Propagator {
-    /// Look angles of the satellite from `site` at `at`, with UT1 taken as UTC.
-    pub fn look_from(&self, site: Site, at: Timestamp) -> Result<LookAngles, PropagationError> {
-        Ok(self.state_at(at)?.look_from(site, at))
+    /// Look angles of the satellite from `site` at `time`, with UT1 taken as UTC.
+    pub fn look_from(&self, site: Site, time: Timestamp) -> Result<LookAngles, PropagationError> {
+        Ok(self.state_at(time)?.look_from(site, time))
     }
 }
 
@@ -139,8 +139,8 @@ mod tests {
         let propagator = Propagator::new(catalog.get(25_544).unwrap()).unwrap();
         let start: Timestamp = "2026-08-12T00:00:00Z".parse().unwrap();
         for minute in 0..90 {
-            let at = time::add_seconds(start, 60.0 * f64::from(minute));
-            let look = |offset_s| propagator.look_from(site, time::add_seconds(at, offset_s));
+            let time = time::add_seconds(start, 60.0 * f64::from(minute));
+            let look = |offset_s| propagator.look_from(site, time::add_seconds(time, offset_s));
             let change_km = look(0.5).unwrap().range_km - look(-0.5).unwrap().range_km;
             let now = look(0.0).unwrap();
             assert!((change_km - now.range_rate_km_s).abs() < 5e-4, "{change_km} {now:?}");

@@ -18,74 +18,74 @@ const MAX_NAMES: usize = 4096;
 /// The longest sentence has some 200 bytes.
 const MAX_BYTES: usize = 1024;
 
-static KEPT: Mutex<BTreeSet<Name>> = Mutex::new(BTreeSet::new());
+static NAMES: Mutex<BTreeSet<Name>> = Mutex::new(BTreeSet::new());
 
 fn keep(text: &str) -> Result<Name, &'static str> {
-    let mut kept = KEPT.lock().unwrap_or_else(PoisonError::into_inner);
-    if let Some(known) = kept.get(text) {
-        return Ok(known);
+    let mut names = NAMES.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some(existing) = names.get(text) {
+        return Ok(existing);
     }
-    if kept.len() >= MAX_NAMES || text.len() > MAX_BYTES {
+    if names.len() >= MAX_NAMES || text.len() > MAX_BYTES {
         return Err("more or longer names than this program has");
     }
     let name: Name = Box::leak(text.into());
-    kept.insert(name);
+    names.insert(name);
     Ok(name)
 }
 
 #[derive(PartialEq, Eq, PartialOrd, Ord)]
-struct Kept(Name);
+struct ReadName(Name);
 
-impl<'de> Deserialize<'de> for Kept {
-    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+impl<'de> Deserialize<'de> for ReadName {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         struct Text;
 
         impl de::Visitor<'_> for Text {
-            type Value = Kept;
+            type Value = ReadName;
 
             fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
                 f.write_str("a name")
             }
 
-            fn visit_str<E: de::Error>(self, text: &str) -> Result<Kept, E> {
-                keep(text).map(Kept).map_err(E::custom)
+            fn visit_str<E: de::Error>(self, text: &str) -> Result<ReadName, E> {
+                keep(text).map(ReadName).map_err(E::custom)
             }
         }
 
-        from.deserialize_str(Text)
+        deserializer.deserialize_str(Text)
     }
 }
 
-pub fn one<'de, D: Deserializer<'de>>(from: D) -> Result<Name, D::Error> {
-    Kept::deserialize(from).map(|name| name.0)
+pub fn one<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Name, D::Error> {
+    ReadName::deserialize(deserializer).map(|name| name.0)
 }
 
-pub fn option<'de, D: Deserializer<'de>>(from: D) -> Result<Option<Name>, D::Error> {
-    Ok(Option::<Kept>::deserialize(from)?.map(|name| name.0))
+pub fn option<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<Name>, D::Error> {
+    Ok(Option::<ReadName>::deserialize(deserializer)?.map(|name| name.0))
 }
 
-pub fn list<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<Name>, D::Error> {
-    Ok(Vec::<Kept>::deserialize(from)?.into_iter().map(|name| name.0).collect())
+pub fn list<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<Name>, D::Error> {
+    Ok(Vec::<ReadName>::deserialize(deserializer)?.into_iter().map(|name| name.0).collect())
 }
 
 pub fn map<'de, D: Deserializer<'de>, T: Deserialize<'de>>(
-    from: D,
+    deserializer: D,
 ) -> Result<BTreeMap<Name, T>, D::Error> {
-    let read = BTreeMap::<Kept, T>::deserialize(from)?;
+    let read = BTreeMap::<ReadName, T>::deserialize(deserializer)?;
     Ok(read.into_iter().map(|(name, value)| (name.0, value)).collect())
 }
 
 pub fn option_map<'de, D: Deserializer<'de>, T: Deserialize<'de>>(
-    from: D,
+    deserializer: D,
 ) -> Result<Option<BTreeMap<Name, T>>, D::Error> {
-    let read = Option::<BTreeMap<Kept, T>>::deserialize(from)?;
+    let read = Option::<BTreeMap<ReadName, T>>::deserialize(deserializer)?;
     Ok(read.map(|read| read.into_iter().map(|(name, value)| (name.0, value)).collect()))
 }
 
 pub fn shared_map<'de, D: Deserializer<'de>, T: Deserialize<'de>>(
-    from: D,
+    deserializer: D,
 ) -> Result<Arc<BTreeMap<Name, T>>, D::Error> {
-    map(from).map(Arc::new)
+    map(deserializer).map(Arc::new)
 }
 
 #[cfg(test)]

@@ -86,8 +86,8 @@ pub struct PassSearch {
 
 impl PassSearch {
     /// All passes over the horizon of `site` from `from` to `to`.
-    pub fn new(site: Site, from: Timestamp, to: Timestamp) -> Self {
-        Self { site, from, to, aos_elevation: Angle::ZERO, floor: Angle::ZERO }
+    pub fn new(site: Site, start: Timestamp, end: Timestamp) -> Self {
+        Self { site, from: start, to: end, aos_elevation: Angle::ZERO, floor: Angle::ZERO }
     }
 }
 
@@ -204,9 +204,9 @@ mod tests {
 
     /// Passes over Istanbul in the first `hours` from the start.
     fn search(propagator: &Propagator, hours: f64, aos_deg: f64) -> Vec<Pass> {
-        let to = time::add_seconds(start(), hours * 3600.0);
+        let end = time::add_seconds(start(), hours * 3600.0);
         let aos_elevation = Angle::from_degrees(aos_deg);
-        let search = PassSearch { aos_elevation, ..PassSearch::new(istanbul(), start(), to) };
+        let search = PassSearch { aos_elevation, ..PassSearch::new(istanbul(), start(), end) };
         passes(propagator, &search, &|| false)
     }
 
@@ -223,12 +223,12 @@ mod tests {
     fn a_window_within_a_pass_cuts_it_at_both_ends() {
         let iss = propagator(ISS);
         let whole = search(&iss, 24.0, 0.0)[0];
-        let from = time::add_seconds(whole.aos.time, 60.0);
-        let to = time::add_seconds(whole.los.time, -60.0);
-        let cut = passes(&iss, &PassSearch::new(istanbul(), from, to), &|| false);
+        let start = time::add_seconds(whole.aos.time, 60.0);
+        let end = time::add_seconds(whole.los.time, -60.0);
+        let cut = passes(&iss, &PassSearch::new(istanbul(), start, end), &|| false);
         assert_eq!(cut.len(), 1);
         assert!(cut[0].starts_before && cut[0].ends_after);
-        assert_eq!((cut[0].aos.time, cut[0].los.time), (from, to));
+        assert_eq!((cut[0].aos.time, cut[0].los.time), (start, end));
         assert!(cut[0].aos.direction.elevation_deg() > 0.0);
     }
 
@@ -241,15 +241,15 @@ mod tests {
 
     #[test]
     fn a_cancelled_search_ends_at_once() {
-        let asked = Cell::new(0);
-        let to = time::add_seconds(start(), 1e9);
+        let calls = Cell::new(0);
+        let end = time::add_seconds(start(), 1e9);
         let cancelled = || {
-            asked.set(asked.get() + 1);
-            asked.get() > 3
+            calls.set(calls.get() + 1);
+            calls.get() > 3
         };
         let iss = propagator(ISS);
-        passes(&iss, &PassSearch::new(istanbul(), start(), to), &cancelled);
-        assert!(asked.get() < 10, "{}", asked.get());
+        passes(&iss, &PassSearch::new(istanbul(), start(), end), &cancelled);
+        assert!(calls.get() < 10, "{}", calls.get());
     }
 
     #[test]
@@ -259,19 +259,20 @@ mod tests {
                     2 29141  82.4288 273.4882 0015848 277.2124  83.9133 15.93343074  6828\n";
         let elements = &read_elements(text).elements[0];
         let propagator = Propagator::new(elements).unwrap();
-        let to = time::add_seconds(elements.epoch(), 10.0 * time::DAY_S);
+        let window_end = time::add_seconds(elements.epoch(), 10.0 * time::DAY_S);
         let pole = Site::new(90.0, 0.0, 0.0).unwrap();
-        let found = passes(&propagator, &PassSearch::new(pole, elements.epoch(), to), &|| false);
+        let found =
+            passes(&propagator, &PassSearch::new(pole, elements.epoch(), window_end), &|| false);
         let end = time::add_seconds(elements.epoch(), 420.0 * 60.0);
         // One pass per revolution of 87 minutes, the first 20 minutes after the epoch.
         assert_eq!(found.len(), 5);
         assert!(found.iter().all(|pass| pass.los.time < end));
         // The equations continue and bring the object up again.
         for days in [1.0, 3.0, 9.0] {
-            let from = time::add_seconds(elements.epoch(), days * time::DAY_S);
-            let later = PassSearch::new(pole, from, time::add_seconds(from, 10.0 * time::DAY_S));
+            let start = time::add_seconds(elements.epoch(), days * time::DAY_S);
+            let later = PassSearch::new(pole, start, time::add_seconds(start, 10.0 * time::DAY_S));
             assert_eq!(passes(&propagator, &later, &|| false), []);
-            assert_eq!(propagator.state_at(from), Err(PropagationError::Decayed));
+            assert_eq!(propagator.state_at(start), Err(PropagationError::Decayed));
         }
     }
 
@@ -283,16 +284,16 @@ mod tests {
         for number in numbers {
             let propagator = propagator(number);
             for days in [60.0, 100.0, 140.0] {
-                let at =
+                let time_at =
                     |hours: f64| time::add_seconds(start(), days * time::DAY_S + hours * 3600.0);
                 // In the steps of a caller that only asks for states.
                 let mut before = (0..)
                     .map(|step| time::add_seconds(propagator.epoch(), f64::from(step) * 600.0));
                 let is_down = before
                     .by_ref()
-                    .take_while(|time| *time < at(0.0))
+                    .take_while(|time| *time < time_at(0.0))
                     .any(|time| propagator.state_at(time).is_err());
-                let search = PassSearch::new(istanbul(), at(0.0), at(24.0));
+                let search = PassSearch::new(istanbul(), time_at(0.0), time_at(24.0));
                 let found = passes(&propagator, &search, &|| false);
                 assert!(!is_down || found.is_empty(), "{number} +{days} d: {found:?}");
             }

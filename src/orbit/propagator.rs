@@ -134,10 +134,11 @@ impl Resonance {
     }
 
     fn reach(&self, reached: Resumable) {
-        let mut kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        let is_near = kept.ahead_min(reached).is_some_and(|min| (0.0..=RESUMED_MIN).contains(&min));
+        let mut resumable = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let is_near =
+            resumable.ahead_min(reached).is_some_and(|min| (0.0..=RESUMED_MIN).contains(&min));
         if !is_near {
-            *kept = reached;
+            *resumable = reached;
         }
     }
 }
@@ -190,10 +191,10 @@ impl Propagator {
         state.is_ok()
     }
 
-    /// The state at `at`, in TEME.
-    pub fn state_at(&self, at: Timestamp) -> Result<State, PropagationError> {
+    /// The state at `time`, in TEME.
+    pub fn state_at(&self, time: Timestamp) -> Result<State, PropagationError> {
         let mut resumable = self.resumable();
-        let state = self.state_after(time::seconds_between(self.epoch, at), &mut resumable);
+        let state = self.state_after(time::seconds_between(self.epoch, time), &mut resumable);
         if self.secular.is_none() {
             self.resonance.reach(resumable);
         }
@@ -208,36 +209,38 @@ impl Propagator {
     /// The states at several times, each later than the one before. Those of near-circular orbits
     /// are computed eight at once, within 2e-8 km of [`Self::state_at`].
     pub fn states_at(&self, times: &[Timestamp]) -> Vec<Option<State>> {
-        let is_round = |at: &Timestamp| self.near_circular_at(*at).is_some();
+        let is_round = |time: &Timestamp| self.near_circular_at(*time).is_some();
         let ends = times.first().into_iter().chain(times.last());
         match self.secular().filter(|_| ends.clone().all(is_round)) {
             Some(secular) => {
-                let minutes = |at: &Timestamp| time::seconds_between(self.epoch, *at) / 60.0;
+                let minutes = |utc: &Timestamp| time::seconds_between(self.epoch, *utc) / 60.0;
                 let minutes: Vec<f64> = times.iter().map(minutes).collect();
                 secular.states(&minutes).map(Some).collect()
             }
-            None => times.iter().map(|at| self.state_at(*at).ok()).collect(),
+            None => times.iter().map(|time| self.state_at(*time).ok()).collect(),
         }
     }
 
     /// The places of several satellites, each at a time of its own. Those of near-circular orbits
     /// are computed eight at once, within 2e-8 km of [`Self::state_at`].
-    pub fn over_ground(wanted: &[(&Self, Timestamp)]) -> Vec<Option<OverGround>> {
-        let mut places = vec![None; wanted.len()];
-        let mut near_circular = Vec::with_capacity(wanted.len());
-        for ((propagator, at), place) in wanted.iter().zip(&mut places) {
-            match propagator.near_circular_at(*at) {
-                Some((secular, minutes)) => near_circular.push((secular, minutes, *at, place)),
-                None => *place = propagator.state_at(*at).ok().map(|state| state.over_ground(*at)),
+    pub fn over_ground(requests: &[(&Self, Timestamp)]) -> Vec<Option<OverGround>> {
+        let mut places = vec![None; requests.len()];
+        let mut near_circular = Vec::with_capacity(requests.len());
+        for ((propagator, time), place) in requests.iter().zip(&mut places) {
+            match propagator.near_circular_at(*time) {
+                Some((secular, minutes)) => near_circular.push((secular, minutes, *time, place)),
+                None => {
+                    *place = propagator.state_at(*time).ok().map(|state| state.over_ground(*time))
+                }
             }
         }
         let mut lanes = Secular::default();
         for chunk in near_circular.chunks_mut(LANES) {
             let (mut minutes, mut turn) = (Lanes::ZERO, Lanes::ZERO);
-            for (lane, (secular, at_min, at, _)) in chunk.iter().enumerate() {
+            for (lane, (secular, at_min, utc, _)) in chunk.iter().enumerate() {
                 lanes.set(lane, secular);
                 minutes.set(lane, *at_min);
-                turn.set(lane, time::gmst(*at).radians());
+                turn.set(lane, time::gmst(*utc).radians());
             }
             for ((.., place), of_lane) in chunk.iter_mut().zip(lanes.motions(minutes, turn)) {
                 let (position_km, velocity_km_s) = of_lane;
@@ -247,9 +250,9 @@ impl Propagator {
         places
     }
 
-    /// The long-term motion, and the minutes since the epoch, if the orbit is near-circular at `at`.
-    fn near_circular_at(&self, at: Timestamp) -> Option<(&Secular, f64)> {
-        let since_epoch_s = time::seconds_between(self.epoch, at);
+    /// The long-term motion, and the minutes since the epoch, if the orbit is near-circular at `time`.
+    fn near_circular_at(&self, time: Timestamp) -> Option<(&Secular, f64)> {
+        let since_epoch_s = time::seconds_between(self.epoch, time);
         let minutes = since_epoch_s / 60.0;
         let secular = self.secular().filter(|secular| secular.is_near_circular_at(minutes))?;
         let is_known = since_epoch_s.abs() <= FARTHEST_DAYS * time::DAY_S;
@@ -354,9 +357,9 @@ fn sgp4_state(
         reached_min * since_epoch_min > 0.0 && since_epoch_min.abs() >= reached_min.abs()
     });
     resumable.0 = resumed.or_else(|| constants.initial_state());
-    let at = sgp4::MinutesSinceEpoch(since_epoch_min);
+    let minutes = sgp4::MinutesSinceEpoch(since_epoch_min);
     let prediction = constants
-        .propagate_from_state(at, resumable.0.as_mut(), false)
+        .propagate_from_state(minutes, resumable.0.as_mut(), false)
         .map_err(|_| PropagationError::Decayed)?;
     let position_km = DVec3::from_array(prediction.position);
     let velocity_km_s = DVec3::from_array(prediction.velocity);

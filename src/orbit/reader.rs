@@ -323,7 +323,7 @@ mod tests {
 
     #[test]
     fn what_holds_nothing_says_what_it_is() {
-        for (bytes, why) in [
+        for (bytes, nothing) in [
             (&b"No GP data found\n"[..], Nothing::NoGpData),
             (b"<!DOCTYPE html>\n<html><body>503</body></html>", Nothing::WebPage),
             (b" <html>\n<head><title>403 Forbidden</title></head>", Nothing::WebPage),
@@ -333,7 +333,7 @@ mod tests {
             (b"hello\rworld\r\n", Nothing::Unknown),
             (b"[]", Nothing::Unknown),
         ] {
-            assert_eq!(read_element_bytes(bytes), of_nothing(why), "{why}");
+            assert_eq!(read_element_bytes(bytes), of_nothing(nothing), "{nothing}");
         }
     }
 

@@ -6,10 +6,10 @@ use jiff::Timestamp;
 use super::State;
 use crate::astro::{frames, sun_moon};
 
-/// Returns `true` if a satellite in `state` (TEME, valid at `at`) is in sunlight, as [`is_lit`] has
+/// Returns `true` if a satellite in `state` (TEME, valid at `time`) is in sunlight, as [`is_lit`] has
 /// it.
-pub fn is_sunlit(state: &State, at: Timestamp) -> bool {
-    is_lit(state.position_km, sun_moon::sun_teme_km(at))
+pub fn is_sunlit(state: &State, time: Timestamp) -> bool {
+    is_lit(state.position_km, sun_moon::sun_teme_km(time))
 }
 
 /// Returns `true` if a satellite is in sunlight. Its position and that of the Sun are from the centre
@@ -31,10 +31,10 @@ mod tests {
 
     #[test]
     fn the_shadow_lies_behind_the_earth_only() {
-        let at: Timestamp = "2026-08-12T00:00:00Z".parse().unwrap();
-        let sun = sun_moon::sun_teme_km(at).normalize();
+        let time: Timestamp = "2026-08-12T00:00:00Z".parse().unwrap();
+        let sun = sun_moon::sun_teme_km(time).normalize();
         let side = sun.any_orthonormal_vector();
-        let lit = |position_km| is_sunlit(&State { position_km, velocity_km_s: DVec3::ZERO }, at);
+        let lit = |position_km| is_sunlit(&State { position_km, velocity_km_s: DVec3::ZERO }, time);
         assert!(lit(sun * 7000.0));
         assert!(!lit(sun * -7000.0));
         assert!(!lit(sun * -7000.0 + side * 6377.0));

@@ -38,7 +38,7 @@ pub(super) trait Number:
     /// A yes or no for every lane.
     type Answer: BitAnd<Output = Self::Answer> + BitOr<Output = Self::Answer>;
     /// This value in every lane.
-    fn of(value: f64) -> Self;
+    fn splat(value: f64) -> Self;
     fn sqrt(self) -> Self;
     fn abs(self) -> Self;
     /// The nearest whole number, for numbers below 2^51.
@@ -55,16 +55,16 @@ pub(super) trait Number:
     /// The angle of the direction (`x`, `self`), -pi to pi, accurate to 5e-11.
     fn atan2(self, x: Self) -> Self;
     /// The nearest number from `low` to `high`.
-    fn within(self, low: f64, high: f64) -> Self;
+    fn clamped(self, low: f64, high: f64) -> Self;
     /// Compares each lane with `than`: true if it is less, false for NaN.
-    fn is_less(self, than: Self) -> Self::Answer;
+    fn is_less(self, other: Self) -> Self::Answer;
     /// Returns `true` if any lane is at least `limit`; NaN is not.
     fn any_reaches(self, limit: f64) -> bool;
 }
 
 impl Number for f64 {
     type Answer = bool;
-    fn of(value: f64) -> Self {
+    fn splat(value: f64) -> Self {
         value
     }
     fn sqrt(self) -> Self {
@@ -76,11 +76,11 @@ impl Number for f64 {
     fn atan2(self, x: Self) -> Self {
         self.atan2(x)
     }
-    fn within(self, low: f64, high: f64) -> Self {
+    fn clamped(self, low: f64, high: f64) -> Self {
         self.clamp(low, high)
     }
-    fn is_less(self, than: Self) -> bool {
-        self < than
+    fn is_less(self, other: Self) -> bool {
+        self < other
     }
     fn any_reaches(self, limit: f64) -> bool {
         self >= limit
@@ -89,13 +89,16 @@ impl Number for f64 {
 
 /// The value of a polynomial, constant term first. Its coefficients may differ from lane to lane.
 #[inline(always)]
-pub(super) fn series<N, C, const COUNT: usize>(polynomial: &[C; COUNT], at: N) -> N
+pub(super) fn series<N, C, const COUNT: usize>(polynomial: &[C; COUNT], argument: N) -> N
 where
     N: Number + Add<C, Output = N>,
     C: Copy + Into<N>,
 {
-    polynomial.split_last().map_or(N::of(0.0), |(highest, others)| {
-        others.iter().rev().fold((*highest).into(), |sum, coefficient| sum * at + *coefficient)
+    polynomial.split_last().map_or(N::splat(0.0), |(highest, others)| {
+        others
+            .iter()
+            .rev()
+            .fold((*highest).into(), |sum, coefficient| sum * argument + *coefficient)
     })
 }
 

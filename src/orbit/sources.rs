@@ -114,19 +114,20 @@ pub fn may_fetch(last_attempt: Option<Timestamp>, now: Timestamp, forced: bool) 
     forced || last_attempt.is_none_or(|last| last > now || now.duration_since(last) >= FETCH_PAUSE)
 }
 
-/// A limit of a server, which holds for the operator too: no request for `pause` after `at`.
+/// A limit of a server, which holds for the operator too: no request for `pause` after `time`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct RequestLimit {
     /// Time of the request that began the limit.
-    pub at: Timestamp,
+    #[serde(rename = "at")]
+    pub time: Timestamp,
     pub pause: SignedDuration,
 }
 
 /// Returns the end of the last of `limits`. A limit that begins after `now` does not count: the
 /// clock was ahead, and must not block the source for years.
 pub fn not_before(limits: &[RequestLimit], now: Timestamp) -> Option<Timestamp> {
-    let limits = limits.iter().filter(|limit| limit.at <= now);
-    limits.filter_map(|limit| limit.at.checked_add(limit.pause).ok()).max()
+    let limits = limits.iter().filter(|limit| limit.time <= now);
+    limits.filter_map(|limit| limit.time.checked_add(limit.pause).ok()).max()
 }
 
 /// The reason why a server gave no new elements. The elements that are held stay.
@@ -308,18 +309,18 @@ mod tests {
 
     #[test]
     fn a_server_is_asked_once_in_two_hours_unless_forced() {
-        let at = |text: &str| -> Timestamp { text.parse().unwrap() };
-        let now = at("2026-08-12T12:00:00Z");
+        let time = |text: &str| -> Timestamp { text.parse().unwrap() };
+        let now = time("2026-08-12T12:00:00Z");
         assert!(may_fetch(None, now, false));
-        assert!(may_fetch(Some(at("2026-08-12T10:00:00Z")), now, false));
-        assert!(!may_fetch(Some(at("2026-08-12T10:00:01Z")), now, false));
-        assert!(may_fetch(Some(at("2026-08-12T11:59:59Z")), now, true));
-        assert!(may_fetch(Some(at("2026-08-13T00:00:00Z")), now, false));
+        assert!(may_fetch(Some(time("2026-08-12T10:00:00Z")), now, false));
+        assert!(!may_fetch(Some(time("2026-08-12T10:00:01Z")), now, false));
+        assert!(may_fetch(Some(time("2026-08-12T11:59:59Z")), now, true));
+        assert!(may_fetch(Some(time("2026-08-13T00:00:00Z")), now, false));
     }
 
     #[test]
     fn a_source_refreshes_by_itself_only_when_set_and_waits_longer_after_failures() {
-        let at = |text: &str| -> Timestamp { text.parse().unwrap() };
+        let time = |text: &str| -> Timestamp { text.parse().unwrap() };
         let report = |failures| SourceReport {
             source: "active".to_owned(),
             files: Vec::new(),
@@ -328,18 +329,18 @@ mod tests {
             fetch_problem: None,
             failures,
             // Asked at 12:00.
-            next_fetch: Some(at("2026-08-12T14:00:00Z")),
+            next_fetch: Some(time("2026-08-12T14:00:00Z")),
             limits: Vec::new(),
             is_set_aside: false,
             newer_elsewhere: 0,
         };
-        let now = at("2026-08-12T12:00:00Z");
-        let off = Source::celestrak("active");
-        assert_eq!(off.next_by_itself(Some(&report(0)), now), None);
-        let source = Source { refresh: Some(RefreshHours::from(1)), ..off };
+        let now = time("2026-08-12T12:00:00Z");
+        let disabled = Source::celestrak("active");
+        assert_eq!(disabled.next_by_itself(Some(&report(0)), now), None);
+        let source = Source { refresh: Some(RefreshHours::from(1)), ..disabled };
         let after_h = |failures| {
             let next = source.next_by_itself(Some(&report(failures)), now).unwrap();
-            time::seconds_between(at("2026-08-12T12:00:00Z"), next) / 3600.0
+            time::seconds_between(time("2026-08-12T12:00:00Z"), next) / 3600.0
         };
         for (failures, min_h) in [(0, 2.0), (1, 4.0), (2, 8.0), (4, 32.0), (9, 32.0)] {
             assert!((min_h..=1.1 * min_h).contains(&after_h(failures)), "{}", after_h(failures));
@@ -349,20 +350,20 @@ mod tests {
         assert_eq!(source.next_by_itself(Some(&never), now), Some(Timestamp::UNIX_EPOCH));
         let refused = SourceReport { fetch_problem: Some(FetchProblem::LogIn), ..report(1) };
         assert_eq!(source.next_by_itself(Some(&refused), now), None, "the account would be locked");
-        let aside = SourceReport { is_set_aside: true, ..report(0) };
-        assert_eq!(source.next_by_itself(Some(&aside), now), None);
+        let skipped = SourceReport { is_set_aside: true, ..report(0) };
+        assert_eq!(source.next_by_itself(Some(&skipped), now), None);
         let file = Source { place: SourcePlace::File("own.tle".into()), ..source.clone() };
         assert_eq!(file.next_by_itself(Some(&report(0)), now), None);
     }
 
     #[test]
     fn a_request_by_a_clock_that_was_ahead_blocks_nothing() {
-        let at = |text: &str| -> Timestamp { text.parse().unwrap() };
-        let now = at("2026-08-12T12:00:00Z");
+        let time = |text: &str| -> Timestamp { text.parse().unwrap() };
+        let now = time("2026-08-12T12:00:00Z");
         let hour = SignedDuration::from_hours(1);
         let limits = [("2031-01-01T00:00:00Z", hour), ("2026-08-12T11:59:50Z", hour / 240)]
-            .map(|(text, pause)| RequestLimit { at: at(text), pause });
-        assert_eq!(not_before(&limits, now), Some(at("2026-08-12T12:00:05Z")));
+            .map(|(text, pause)| RequestLimit { time: time(text), pause });
+        assert_eq!(not_before(&limits, now), Some(time("2026-08-12T12:00:05Z")));
         assert_eq!(not_before(&limits[..1], now), None);
         let report = SourceReport {
             source: "active".to_owned(),
@@ -371,7 +372,7 @@ mod tests {
             newest_epoch: None,
             fetch_problem: None,
             failures: 0,
-            next_fetch: Some(at("2031-01-01T02:00:00Z")),
+            next_fetch: Some(time("2031-01-01T02:00:00Z")),
             limits: limits.to_vec(),
             is_set_aside: false,
             newer_elsewhere: 0,
@@ -379,7 +380,7 @@ mod tests {
         let source = Source { refresh: Some(RefreshHours::from(2)), ..Source::celestrak("active") };
         assert_eq!(source.next_by_itself(Some(&report), now), Some(Timestamp::UNIX_EPOCH));
         assert_eq!((report.next_request(now), report.pause_end(now)), (None, None));
-        assert_eq!(report.not_before(now), Some(at("2026-08-12T12:00:05Z")));
+        assert_eq!(report.not_before(now), Some(time("2026-08-12T12:00:05Z")));
     }
 
     #[test]

@@ -146,8 +146,8 @@ impl Clock {
     }
 
     /// Waits until the steady clock shows `until`.
-    pub async fn sleep_until(&self, until: Instant) {
-        let left = until.saturating_duration_since(Self::scaled(self.speed));
+    pub async fn sleep_until(&self, end: Instant) {
+        let left = end.saturating_duration_since(Self::scaled(self.speed));
         self.sleep(left).await;
     }
 
@@ -172,8 +172,8 @@ impl Clock {
     fn scaled(speed: NonZeroU32) -> Instant {
         let (now, base) = (tokio::time::Instant::now(), *BASE);
         // A paused clock of a test may have begun before the first reading.
-        let since = nanos(now.saturating_duration_since(base));
-        let real = since - nanos(base.saturating_duration_since(now));
+        let elapsed_ns = nanos(now.saturating_duration_since(base));
+        let real = elapsed_ns - nanos(base.saturating_duration_since(now));
         Instant(real.saturating_mul(speed.get().into()))
     }
 }

@@ -45,15 +45,16 @@ impl Eq for Secret {}
 
 /// Leaves the secret out.
 impl Serialize for Secret {
-    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        to.serialize_none()
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_none()
     }
 }
 
 /// Reads a secret that a client sends; one that was left out is empty.
 impl<'de> Deserialize<'de> for Secret {
-    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        Option::<String>::deserialize(from).map(|text| Self(text.unwrap_or_default().into()))
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        Option::<String>::deserialize(deserializer)
+            .map(|text| Self(text.unwrap_or_default().into()))
     }
 }
 

@@ -173,7 +173,11 @@ impl Station {
     /// The limits of a satellite: its own, and for what it has none, those of its groups in
     /// their order.
     pub fn pass_limits(&self, satellite: u32) -> PassLimits {
-        let own = self.favourites.get(satellite).map(|of| of.limits.clone()).unwrap_or_default();
+        let own = self
+            .favourites
+            .get(satellite)
+            .map(|favourite| favourite.limits.clone())
+            .unwrap_or_default();
         self.groups_of(satellite).fold(own, |limits, group| limits.or(&group.limits))
     }
 

@@ -13,20 +13,20 @@ use tempfile::NamedTempFile;
 /// Puts `bytes` at `path`, in folders that are made where they are missing.
 pub fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
     let target = target(path);
-    persist(beside(&target, bytes, Readers::Owner)?, &target)
+    persist(temporary(&target, bytes, Readers::Owner)?, &target)
 }
 
 /// The same for a file that others of this computer may read, as far as the user lets them read
 /// new files or could read the old one.
 pub fn replace_for_others(path: &Path, bytes: &[u8]) -> io::Result<()> {
     let target = target(path);
-    persist(beside(&target, bytes, Readers::AsUsual)?, &target)
+    persist(temporary(&target, bytes, Readers::AsUsual)?, &target)
 }
 
 /// The same as [`replace`]; what stood there before is kept at [`old`].
 pub fn replace_and_keep_old(path: &Path, bytes: &[u8]) -> io::Result<()> {
     let target = target(path);
-    let file = beside(&target, bytes, Readers::Owner)?;
+    let file = temporary(&target, bytes, Readers::Owner)?;
     match fs::copy(path, old(path)) {
         Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error),
         _ => {}
@@ -63,7 +63,7 @@ enum Readers {
     AsUsual,
 }
 
-fn beside(path: &Path, bytes: &[u8], readers: Readers) -> io::Result<NamedTempFile> {
+fn temporary(path: &Path, bytes: &[u8], readers: Readers) -> io::Result<NamedTempFile> {
     let folder = path.parent().unwrap_or(Path::new("."));
     fs::create_dir_all(folder)?;
     let mut builder = tempfile::Builder::new();
@@ -130,28 +130,28 @@ mod tests {
         use std::os::unix::fs::symlink;
 
         let folder = tempfile::tempdir().unwrap();
-        let at = |name: &str| folder.path().join(name);
-        fs::create_dir(at("kept")).unwrap();
-        symlink("kept/station.toml", at("near.toml")).unwrap();
-        symlink(at("near.toml"), at("far.toml")).unwrap();
+        let path = |name: &str| folder.path().join(name);
+        fs::create_dir(path("kept")).unwrap();
+        symlink("kept/station.toml", path("near.toml")).unwrap();
+        symlink(path("near.toml"), path("far.toml")).unwrap();
         for (link, text) in [("near.toml", "first"), ("far.toml", "second")] {
-            replace_and_keep_old(&at(link), text.as_bytes()).unwrap();
-            assert!(fs::symlink_metadata(at(link)).unwrap().is_symlink(), "{link}");
-            assert_eq!(fs::read_to_string(at("kept/station.toml")).unwrap(), text);
+            replace_and_keep_old(&path(link), text.as_bytes()).unwrap();
+            assert!(fs::symlink_metadata(path(link)).unwrap().is_symlink(), "{link}");
+            assert_eq!(fs::read_to_string(path("kept/station.toml")).unwrap(), text);
         }
-        assert_eq!(fs::read_to_string(old(&at("far.toml"))).unwrap(), "first");
+        assert_eq!(fs::read_to_string(old(&path("far.toml"))).unwrap(), "first");
     }
 
     #[test]
     fn a_failure_leaves_everything_as_it_was() {
         let folder = tempfile::tempdir().unwrap();
         // A folder of that name cannot be replaced by a file.
-        let taken = folder.path().join("taken");
-        fs::create_dir_all(taken.join("inside")).unwrap();
-        replace(&taken, b"new").unwrap_err();
-        replace_and_keep_old(&taken, b"new").unwrap_err();
+        let occupied = folder.path().join("taken");
+        fs::create_dir_all(occupied.join("inside")).unwrap();
+        replace(&occupied, b"new").unwrap_err();
+        replace_and_keep_old(&occupied, b"new").unwrap_err();
         assert_eq!(names(folder.path()), ["taken"]);
-        assert_eq!(names(&taken), ["inside"]);
+        assert_eq!(names(&occupied), ["inside"]);
     }
 
     #[cfg(unix)]

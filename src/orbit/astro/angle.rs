@@ -90,16 +90,16 @@ mod tests {
 
     #[test]
     fn wrapping_keeps_the_direction_and_the_half_open_range() {
-        for (given, full, half) in [
+        for (degrees, full, half) in [
             (0.0, 0.0, 0.0),
             (360.0, 0.0, 0.0),
             (-10.0, 350.0, -10.0),
             (180.0, 180.0, -180.0),
             (725.0, 5.0, 5.0),
         ] {
-            let angle = Angle::from_degrees(given);
-            assert!((angle.wrapped_360().degrees() - full).abs() < 1e-9, "{given}");
-            assert!((angle.wrapped_180().degrees() - half).abs() < 1e-9, "{given}");
+            let angle = Angle::from_degrees(degrees);
+            assert!((angle.wrapped_360().degrees() - full).abs() < 1e-9, "{degrees}");
+            assert!((angle.wrapped_180().degrees() - half).abs() < 1e-9, "{degrees}");
         }
         assert!(Angle::from_radians(-1e-20).wrapped_360().radians() < 1.0);
     }

@@ -73,12 +73,12 @@ impl AzEl {
     #[must_use]
     pub fn towards(self, bearing_deg: f64, distance_deg: f64) -> Self {
         let (sin_az, cos_az) = self.azimuth.radians().sin_cos();
-        let at = self.to_enu();
+        let start = self.to_enu();
         let clockwise = DVec3::new(cos_az, -sin_az, 0.0);
-        let up = clockwise.cross(at);
+        let up = clockwise.cross(start);
         let (sin, cos) = bearing_deg.to_radians().sin_cos();
         let (far, near) = distance_deg.to_radians().sin_cos();
-        Self::from_enu(at * near + (up * cos + clockwise * sin) * far)
+        Self::from_enu(start * near + (up * cos + clockwise * sin) * far)
     }
 
     /// The angle between two directions, 0 to 180 degrees.
@@ -97,9 +97,9 @@ mod tests {
     fn a_direction_survives_the_way_over_its_vector() {
         for az in (0..360).step_by(15) {
             for el in (-85..90).step_by(5) {
-                let given = AzEl::from_degrees(f64::from(az), f64::from(el));
-                let back = AzEl::from_enu(given.to_enu());
-                assert!(given.separation(back).degrees() < 1e-9);
+                let direction = AzEl::from_degrees(f64::from(az), f64::from(el));
+                let back = AzEl::from_enu(direction.to_enu());
+                assert!(direction.separation(back).degrees() < 1e-9);
             }
         }
     }
@@ -111,9 +111,9 @@ mod tests {
                 let plain = AzEl::from_degrees(f64::from(az), f64::from(el));
                 let flipped = plain.flipped();
                 assert!((90.0..=180.0).contains(&flipped.elevation_deg()));
-                let seen = AzEl::of_axes(flipped.azimuth, flipped.elevation);
-                assert!(plain.separation(seen).degrees() < 1e-9);
-                assert!((seen.elevation_deg() - plain.elevation_deg()).abs() < 1e-9);
+                let restored = AzEl::of_axes(flipped.azimuth, flipped.elevation);
+                assert!(plain.separation(restored).degrees() < 1e-9);
+                assert!((restored.elevation_deg() - plain.elevation_deg()).abs() < 1e-9);
                 assert!(plain.separation(flipped).degrees() < 1e-9, "also as they count");
                 assert_eq!(AzEl::of_axes(plain.azimuth, plain.elevation), plain);
             }
@@ -122,18 +122,18 @@ mod tests {
 
     #[test]
     fn a_bearing_leads_up_and_clockwise_and_so_far() {
-        let from = AzEl::from_degrees(120.0, 40.0);
+        let start = AzEl::from_degrees(120.0, 40.0);
         assert!(
-            from.towards(0.0, 10.0).separation(AzEl::from_degrees(120.0, 50.0)).degrees() < 1e-9
+            start.towards(0.0, 10.0).separation(AzEl::from_degrees(120.0, 50.0)).degrees() < 1e-9
         );
         assert!(
-            from.towards(180.0, 10.0).separation(AzEl::from_degrees(120.0, 30.0)).degrees() < 1e-9
+            start.towards(180.0, 10.0).separation(AzEl::from_degrees(120.0, 30.0)).degrees() < 1e-9
         );
-        let clockwise = from.towards(90.0, 10.0);
+        let clockwise = start.towards(90.0, 10.0);
         assert!(clockwise.azimuth_deg() > 130.0 && clockwise.elevation_deg() < 40.0);
         for bearing in (0..360).step_by(20) {
-            let away = from.separation(from.towards(f64::from(bearing), 7.0));
-            assert!((away.degrees() - 7.0).abs() < 1e-9);
+            let distance = start.separation(start.towards(f64::from(bearing), 7.0));
+            assert!((distance.degrees() - 7.0).abs() < 1e-9);
         }
     }
 

@@ -91,8 +91,8 @@ impl From<Site> for SiteFrame {
     }
 }
 
-pub fn teme_to_ecef(at: Timestamp) -> DMat3 {
-    DMat3::from_rotation_z(-time::gmst(at).radians())
+pub fn teme_to_ecef(time: Timestamp) -> DMat3 {
+    DMat3::from_rotation_z(-time::gmst(time).radians())
 }
 
 /// The Earth-fixed velocity in km/s of a body at `position_ecef_km`. `velocity_km_s` is its
@@ -140,8 +140,8 @@ mod tests {
             for (longitude, altitude_m) in [(-179.9, 0.0), (0.0, 10_000.0), (29.17, -1000.0)] {
                 let site = Site::new(f64::from(latitude), longitude, altitude_m).unwrap();
                 let (point, height_km) = geodetic(site_ecef_km(site));
-                let off = (point.latitude - site.latitude()).degrees();
-                assert!(off.abs() < 1e-8, "{latitude} {off}");
+                let deviation = (point.latitude - site.latitude()).degrees();
+                assert!(deviation.abs() < 1e-8, "{latitude} {deviation}");
                 let off_km = height_km - altitude_m / 1000.0;
                 assert!(off_km.abs() < 1e-6, "{latitude} {off_km}");
             }
@@ -150,13 +150,13 @@ mod tests {
 
     #[test]
     fn what_stands_still_over_the_ground_has_no_velocity() {
-        let at: Timestamp = "2026-08-12T00:00:00Z".parse().unwrap();
-        let later = time::add_seconds(at, 1.0);
+        let time: Timestamp = "2026-08-12T00:00:00Z".parse().unwrap();
+        let later = time::add_seconds(time, 1.0);
         let fixed = DVec3::new(42_164.0, 0.0, 0.0);
-        let before = teme_to_ecef(at).transpose() * fixed;
+        let before = teme_to_ecef(time).transpose() * fixed;
         let after = teme_to_ecef(later).transpose() * fixed;
         let inertial_km_s = after - before;
-        let seen = velocity_over_ground_km_s(fixed, teme_to_ecef(at) * inertial_km_s);
-        assert!(seen.length() < 2e-4, "{seen}");
+        let relative = velocity_over_ground_km_s(fixed, teme_to_ecef(time) * inertial_km_s);
+        assert!(relative.length() < 2e-4, "{relative}");
     }
 }

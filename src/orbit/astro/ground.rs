@@ -149,16 +149,20 @@ mod tests {
 
     fn ends(cap: &Cap, row: &CapRow) -> [GroundPoint; 2] {
         [row.half_width, -row.half_width]
-            .map(|aside| GroundPoint::new(row.latitude, cap.centre.longitude + aside))
+            .map(|offset| GroundPoint::new(row.latitude, cap.centre.longitude + offset))
     }
 
     #[test]
     fn a_point_survives_the_way_over_its_vertical() {
         for latitude in (-90..=90).step_by(15) {
             for longitude in (-180..180).step_by(15) {
-                let given = GroundPoint::from_degrees(f64::from(latitude), f64::from(longitude));
-                assert!(given.distance(GroundPoint::below(given.vertical())).degrees() < 1e-9);
-                let far = given.distance(given.antipode()).degrees();
+                let ground_point =
+                    GroundPoint::from_degrees(f64::from(latitude), f64::from(longitude));
+                assert!(
+                    ground_point.distance(GroundPoint::below(ground_point.vertical())).degrees()
+                        < 1e-9
+                );
+                let far = ground_point.distance(ground_point.antipode()).degrees();
                 assert!((far - 180.0).abs() < 1e-6, "{far}");
             }
         }
@@ -171,9 +175,9 @@ mod tests {
         for (latitude, longitude, wanted_deg) in
             [(60.0, 29.0, 0.0), (-10.0, 29.0, 180.0), (89.999, -151.0, 0.0), (41.0, 29.001, 90.0)]
         {
-            let to = GroundPoint::from_degrees(latitude, longitude);
-            let off = istanbul.bearing(to) - Angle::from_degrees(wanted_deg);
-            assert!(off.wrapped_180().degrees().abs() < 0.01, "{latitude} {longitude}");
+            let target = GroundPoint::from_degrees(latitude, longitude);
+            let deviation = istanbul.bearing(target) - Angle::from_degrees(wanted_deg);
+            assert!(deviation.wrapped_180().degrees().abs() < 0.01, "{latitude} {longitude}");
         }
         // Across the date line, the shorter way is east.
         let fiji = GroundPoint::from_degrees(0.0, 179.0);
@@ -188,8 +192,8 @@ mod tests {
                 let cap = cap(latitude, 175.0, radius);
                 for row in cap.edge() {
                     for end in ends(&cap, &row) {
-                        let off = cap.centre.distance(end) - cap.radius;
-                        assert!(off.degrees().abs() < 1e-6, "{latitude} {radius} {row:?}");
+                        let deviation = cap.centre.distance(end) - cap.radius;
+                        assert!(deviation.degrees().abs() < 1e-6, "{latitude} {radius} {row:?}");
                     }
                 }
                 let rows = cap.rows();
@@ -225,12 +229,12 @@ mod tests {
             let rows = cap.rows();
             assert_eq!(rows.len(), cap.edge().len() + 1);
             let at_pole = if pole > 0.0 { rows[0] } else { rows[rows.len() - 1] };
-            let beyond = if pole > 0.0 { rows[1] } else { rows[rows.len() - 2] };
+            let next_row = if pole > 0.0 { rows[1] } else { rows[rows.len() - 2] };
             assert!((at_pole.latitude.degrees() - pole).abs() < 1e-9);
             assert!((at_pole.half_width.degrees() - 180.0).abs() < 1e-9);
             // The edge beyond the pole lies 13 degrees from it, all the way round.
-            assert!((beyond.latitude.degrees().abs() - 77.0).abs() < 1e-9, "{beyond:?}");
-            assert!((beyond.half_width.degrees() - 180.0).abs() < 1e-9, "{beyond:?}");
+            assert!((next_row.latitude.degrees().abs() - 77.0).abs() < 1e-9, "{next_row:?}");
+            assert!((next_row.half_width.degrees() - 180.0).abs() < 1e-9, "{next_row:?}");
         }
     }
 

@@ -107,12 +107,12 @@ fn numbers(content: &str) -> Option<(f64, f64)> {
 /// Collects points one by one, each with its line number.
 #[derive(Default)]
 struct Builder {
-    points: Vec<Given>,
+    points: Vec<ReadPoint>,
 }
 
 /// A point as it was given.
 #[derive(Clone, Copy)]
-struct Given {
+struct ReadPoint {
     line: usize,
     /// Its place among the points, from 0.
     place: usize,
@@ -121,7 +121,7 @@ struct Given {
     elevation_deg: f64,
 }
 
-impl Given {
+impl ReadPoint {
     /// From 0 to below 360.
     fn around_deg(self) -> f64 {
         // The sum makes 0 of -0.
@@ -152,14 +152,14 @@ impl Builder {
             return Err((line, MaskError::TooManyPoints));
         }
         let (place, azimuth_deg) = (self.points.len(), azimuth_deg + 0.0);
-        self.points.push(Given { line, place, azimuth_deg, elevation_deg });
+        self.points.push(ReadPoint { line, place, azimuth_deg, elevation_deg });
         Ok(())
     }
 
     fn finish(self) -> Result<HorizonMask, (usize, MaskError)> {
         let sorted = self.sorted();
         let mut points: Vec<(f64, f64)> = Vec::with_capacity(sorted.len());
-        let mut last: Option<(Given, bool)> = None;
+        let mut last: Option<(ReadPoint, bool)> = None;
         for point in sorted {
             let (mut azimuth_deg, mut is_wall) = (point.around_deg(), false);
             if let Some((other, other_is_wall)) = last
@@ -186,15 +186,15 @@ impl Builder {
     }
 
     /// The points from north to the right. Of two at one azimuth, the first ends the line before it.
-    fn sorted(mut self) -> Vec<Given> {
+    fn sorted(mut self) -> Vec<ReadPoint> {
         let steps = self.points.iter().zip(self.points.iter().skip(1));
         let turn: i64 = steps.map(|(a, b)| b.azimuth_deg.total_cmp(&a.azimuth_deg) as i64).sum();
         if turn < 0 {
             self.points.reverse();
         }
-        let by_azimuth = |a: &Given, b: &Given| {
-            let around = a.around_deg().total_cmp(&b.around_deg());
-            around.then(b.azimuth_deg.total_cmp(&a.azimuth_deg))
+        let by_azimuth = |a: &ReadPoint, b: &ReadPoint| {
+            let order = a.around_deg().total_cmp(&b.around_deg());
+            order.then(b.azimuth_deg.total_cmp(&a.azimuth_deg))
         };
         // The sort is stable.
         self.points.sort_by(by_azimuth);

@@ -30,8 +30,8 @@ pub enum LocatorError {
     #[error("must have 4, 6 or 8 characters, such as KN41 or KN41ob")]
     Length,
     /// The character at this place, counted from 1, is not in the range of its place.
-    #[error("has a wrong character at place {place}: it must be {from} to {to}")]
-    Character { place: usize, from: char, to: char },
+    #[error("has a wrong character at place {place}: it must be {first} to {last}")]
+    Character { place: usize, first: char, last: char },
 }
 
 /// Reads a locator of 4, 6 or 8 characters, in capitals or not.
@@ -48,8 +48,8 @@ pub fn read_locator(text: &str) -> Result<LocatorSquare, LocatorError> {
         for (offset, letter) in pair.iter().enumerate() {
             let step = division.step(*letter).ok_or_else(|| LocatorError::Character {
                 place: 2 * index + offset + 1,
-                from: division.first,
-                to: division.last(),
+                first: division.first,
+                last: division.last(),
             })?;
             if offset == 0 {
                 longitude_deg += 2.0 * height_deg * step;
@@ -95,10 +95,10 @@ mod tests {
             ("RE78ir", -41.283_33, 174.745),
         ] {
             let square = read_locator(locator).unwrap();
-            let off = (latitude_deg - square.centre.latitude.degrees()).abs();
-            assert!(off <= square.height_deg / 2.0, "{locator}");
-            let off = (longitude_deg - square.centre.longitude.degrees()).abs();
-            assert!(off <= square.height_deg, "{locator}");
+            let deviation = (latitude_deg - square.centre.latitude.degrees()).abs();
+            assert!(deviation <= square.height_deg / 2.0, "{locator}");
+            let difference = (longitude_deg - square.centre.longitude.degrees()).abs();
+            assert!(difference <= square.height_deg, "{locator}");
         }
     }
 

@@ -45,9 +45,9 @@ impl Term {
 
     /// By how much the readings change with this term at a direction, azimuth on the sky and
     /// elevation: degrees per degree, for the scale per unit.
-    pub fn effect(self, at: AzEl) -> [f64; 2] {
-        let (sin_az, cos_az) = at.azimuth.radians().sin_cos();
-        let (sin_el, cos_el) = at.elevation.radians().sin_cos();
+    pub fn effect(self, direction: AzEl) -> [f64; 2] {
+        let (sin_az, cos_az) = direction.azimuth.radians().sin_cos();
+        let (sin_el, cos_el) = direction.elevation.radians().sin_cos();
         match self {
             Self::AzimuthOffset => [cos_el, 0.0],
             Self::ElevationOffset => [0.0, 1.0],
@@ -55,7 +55,7 @@ impl Term {
             Self::TiltEast => [-sin_el * cos_az, sin_az],
             Self::Collimation => [1.0, 0.0],
             Self::NonPerpendicularity => [sin_el, 0.0],
-            Self::ElevationScale => [0.0, at.elevation_deg()],
+            Self::ElevationScale => [0.0, direction.elevation_deg()],
             Self::Sag => [0.0, cos_el],
         }
     }
@@ -107,13 +107,13 @@ impl PointingModel {
         let (height, flat) = mount.elevation.radians().sin_cos();
         let (sin_p, cos_p) = self.non_perpendicularity_deg.to_radians().sin_cos();
         let (sin_c, _) = self.collimation_deg.to_radians().sin_cos();
-        let aside = (-sin_c - height * sin_p) / (flat * cos_p);
-        if !(-1.0..=1.0).contains(&aside) {
+        let lateral = (-sin_c - height * sin_p) / (flat * cos_p);
+        if !(-1.0..=1.0).contains(&lateral) {
             return None;
         }
-        let azimuth = mount.azimuth - Angle::from_radians(aside.asin());
-        let ahead = flat * (1.0 - aside * aside).sqrt();
-        let across = height * cos_p - flat * aside * sin_p;
+        let azimuth = mount.azimuth - Angle::from_radians(lateral.asin());
+        let ahead = flat * (1.0 - lateral * lateral).sqrt();
+        let across = height * cos_p - flat * lateral * sin_p;
         let elevation_deg = across.atan2(ahead).to_degrees();
         Some(AzEl {
             azimuth: (azimuth + Angle::from_degrees(self.azimuth_offset_deg)).wrapped_360(),
@@ -166,8 +166,8 @@ impl PointingModel {
         let lean = DVec3::new(self.tilt_east_deg, self.tilt_north_deg, 0.0);
         let angle = lean.length().to_radians();
         // It turns about the horizontal axis across the lean.
-        let about = lean.cross(DVec3::NEG_Z).normalize_or_zero();
-        let turn = if angle > 0.0 { DMat3::from_axis_angle(about, angle) } else { DMat3::IDENTITY };
+        let axis = lean.cross(DVec3::NEG_Z).normalize_or_zero();
+        let turn = if angle > 0.0 { DMat3::from_axis_angle(axis, angle) } else { DMat3::IDENTITY };
         [turn.x_axis, turn.y_axis, turn.z_axis]
     }
 }

@@ -172,13 +172,13 @@ impl Atmosphere {
         let (mut before, mut off_before) = (geometric, error(geometric));
         let mut here = geometric - off_before;
         for _ in 0..ROUNDS {
-            let off = error(here);
-            let change = off - off_before;
-            if off.abs() < TOLERANCE || change.abs() < f64::EPSILON {
+            let deviation = error(here);
+            let change = deviation - off_before;
+            if deviation.abs() < TOLERANCE || change.abs() < f64::EPSILON {
                 break;
             }
-            let next = here - off * (here - before) / change;
-            (before, off_before, here) = (here, off, next);
+            let next = here - deviation * (here - before) / change;
+            (before, off_before, here) = (here, deviation, next);
         }
         Angle::from_radians(here)
     }
@@ -272,16 +272,16 @@ mod tests {
                         + 0.028_69 * e * e
                         + h * (0.2305 + 0.094_28 * e + 0.010_96 * e * e)
                         + 0.008_583 * h * h);
-                let off = e - air.geometric(deg(e)).degrees() - of_apparent_deg;
-                assert!(off.abs() < 0.03, "{h} km, apparent {e}: {off}");
+                let deviation = e - air.geometric(deg(e)).degrees() - of_apparent_deg;
+                assert!(deviation.abs() < 0.03, "{h} km, apparent {e}: {deviation}");
                 let of_geometric_deg = 1.0
                     / (1.728
                         + 0.5411 * e
                         + 0.037_23 * e * e
                         + h * (0.1815 + 0.062_72 * e + 0.013_80 * e * e)
                         + h * h * (0.017_27 + 0.008_288 * e));
-                let off = air.apparent(deg(e)).degrees() - e - of_geometric_deg;
-                assert!(off.abs() < 0.03, "{h} km, geometric {e}: {off}");
+                let difference = air.apparent(deg(e)).degrees() - e - of_geometric_deg;
+                assert!(difference.abs() < 0.03, "{h} km, geometric {e}: {difference}");
             }
         }
     }
@@ -307,10 +307,10 @@ mod tests {
             change(&mut refraction);
             refraction.check().unwrap_err().to_string()
         };
-        assert!(refused(|it| it.pressure_hpa = 29.9).contains("pressure_hpa 29.9"));
-        assert!(refused(|it| it.temperature_c = f64::NAN).contains("temperature_c NaN"));
-        assert!(refused(|it| it.humidity_percent = 101.0).contains("humidity_percent 101"));
-        let hot = refused(|it| (it.temperature_c, it.humidity_percent) = (60.0, 100.0));
+        assert!(refused(|air| air.pressure_hpa = 29.9).contains("pressure_hpa 29.9"));
+        assert!(refused(|air| air.temperature_c = f64::NAN).contains("temperature_c NaN"));
+        assert!(refused(|air| air.humidity_percent = 101.0).contains("humidity_percent 101"));
+        let hot = refused(|air| (air.temperature_c, air.humidity_percent) = (60.0, 100.0));
         assert!(hot.contains("refractivity"), "{hot}");
         assert_eq!(Refraction::default().check(), Ok(()));
     }

@@ -21,46 +21,46 @@ pub const RISE_DEG: f64 = -0.833;
 const ASTRONOMICAL_UNIT_KM: f64 = 149_597_870.7;
 
 /// Apparent direction of the Sun, seen from `site`, with the refraction of radio waves.
-pub fn sun(site: Site, at: Timestamp) -> AzEl {
+pub fn sun(site: Site, time: Timestamp) -> AzEl {
     let frame = SiteFrame::from(site);
-    frame.direction(sun_enu_km(&frame, at))
+    frame.direction(sun_enu_km(&frame, time))
 }
 
 /// From the site to the Sun, geometric: east, north, up.
-pub fn sun_enu_km(site: &SiteFrame, at: Timestamp) -> DVec3 {
-    seen_from(site, at, sun_teme_km(at))
+pub fn sun_enu_km(site: &SiteFrame, time: Timestamp) -> DVec3 {
+    seen_from(site, time, sun_teme_km(time))
 }
 
 /// Apparent direction of the Moon, seen from `site`, with parallax and the refraction of radio
 /// waves.
-pub fn moon(site: Site, at: Timestamp) -> AzEl {
+pub fn moon(site: Site, time: Timestamp) -> AzEl {
     let frame = SiteFrame::from(site);
-    frame.direction(seen_from(&frame, at, moon_teme_km(at)))
+    frame.direction(seen_from(&frame, time, moon_teme_km(time)))
 }
 
 /// The point of the ground at which the Sun is in the zenith.
-pub fn subsolar_point(at: Timestamp) -> GroundPoint {
-    GroundPoint::below(sun_ecef_km(at))
+pub fn subsolar_point(time: Timestamp) -> GroundPoint {
+    GroundPoint::below(sun_ecef_km(time))
 }
 
 /// The part of the ground where it is night: the Sun is below [`RISE_DEG`].
-pub fn night(at: Timestamp) -> Cap {
+pub fn night(time: Timestamp) -> Cap {
     let radius = Angle::from_degrees(90.0 + RISE_DEG);
-    Cap { centre: subsolar_point(at).antipode(), radius }
+    Cap { centre: subsolar_point(time).antipode(), radius }
 }
 
-fn seen_from(site: &SiteFrame, at: Timestamp, teme_km: DVec3) -> DVec3 {
-    site.enu_km(frames::teme_to_ecef(at) * teme_km)
+fn seen_from(site: &SiteFrame, time: Timestamp, teme_km: DVec3) -> DVec3 {
+    site.enu_km(frames::teme_to_ecef(time) * teme_km)
 }
 
 /// From the centre of the Earth to the Sun, in Earth-fixed axes.
-pub fn sun_ecef_km(at: Timestamp) -> DVec3 {
-    frames::teme_to_ecef(at) * sun_teme_km(at)
+pub fn sun_ecef_km(time: Timestamp) -> DVec3 {
+    frames::teme_to_ecef(time) * sun_teme_km(time)
 }
 
 /// From the centre of the Earth to the Sun, in TEME.
-pub fn sun_teme_km(at: Timestamp) -> DVec3 {
-    let days = days_tt(at);
+pub fn sun_teme_km(time: Timestamp) -> DVec3 {
+    let days = days_tt(time);
     let mean_longitude_deg = 280.460 + 0.985_647_4 * days;
     let anomaly = (357.528 + 0.985_600_3 * days).to_radians();
     let (sin, cos) = anomaly.sin_cos();
@@ -70,8 +70,8 @@ pub fn sun_teme_km(at: Timestamp) -> DVec3 {
     equatorial(days, longitude_deg.to_radians(), 0.0) * (distance_au * ASTRONOMICAL_UNIT_KM)
 }
 
-fn moon_teme_km(at: Timestamp) -> DVec3 {
-    let days = days_tt(at);
+fn moon_teme_km(time: Timestamp) -> DVec3 {
+    let days = days_tt(time);
     let centuries = days / 36_525.0;
     // Symbols as in the book: anomalies of Moon and Sun, distance from the node,
     // elongation from the Sun.
@@ -116,8 +116,8 @@ fn moon_teme_km(at: Timestamp) -> DVec3 {
 }
 
 /// Days since 2000-01-01T12:00 in Terrestrial Time.
-fn days_tt(at: Timestamp) -> f64 {
-    time::days_since_j2000(at) + TT_MINUS_UTC_S / time::DAY_S
+fn days_tt(time: Timestamp) -> f64 {
+    time::days_since_j2000(time) + TT_MINUS_UTC_S / time::DAY_S
 }
 
 /// Unit vector in the equatorial frame of date, from ecliptic longitude and latitude in radians.
@@ -160,14 +160,14 @@ mod tests {
     #[test]
     fn sun_and_moon_stand_where_astropy_sees_them() {
         let (mut sun_off, mut moon_off) = (0.0_f64, 0.0_f64);
-        for ((latitude, longitude, altitude), at, sun_seen, moon_seen) in TABLE {
+        for ((latitude, longitude, altitude), text, sun_seen, moon_seen) in TABLE {
             let site = Site::new(latitude, longitude, altitude).unwrap().airless();
-            let at: Timestamp = at.parse().unwrap();
-            let off = |found: AzEl, (az, el): (f64, f64)| {
+            let time: Timestamp = text.parse().unwrap();
+            let deviation = |found: AzEl, (az, el): (f64, f64)| {
                 found.separation(AzEl::from_degrees(az, el)).degrees()
             };
-            sun_off = sun_off.max(off(sun(site, at), sun_seen));
-            moon_off = moon_off.max(off(moon(site, at), moon_seen));
+            sun_off = sun_off.max(deviation(sun(site, time), sun_seen));
+            moon_off = moon_off.max(deviation(moon(site, time), moon_seen));
         }
         println!("Sun {sun_off} degrees, Moon {moon_off} degrees");
         assert!(sun_off < 0.02, "{sun_off}");
@@ -177,16 +177,16 @@ mod tests {
     #[test]
     fn sun_and_moon_appear_higher_by_the_refraction_at_their_elevation() {
         let mut compared = 0;
-        for ((latitude, longitude, altitude), at, ..) in TABLE {
+        for ((latitude, longitude, altitude), text, ..) in TABLE {
             let site = Site::new(latitude, longitude, altitude).unwrap();
-            let at: Timestamp = at.parse().unwrap();
+            let time: Timestamp = text.parse().unwrap();
             for body in [sun, moon] {
-                let (seen, there) = (body(site, at), body(site.airless(), at));
-                let lifted_deg = (seen.elevation - there.elevation).degrees();
-                assert!(seen.azimuth == there.azimuth && lifted_deg >= 0.0, "{lifted_deg}");
-                if there.elevation_deg() > 10.0 {
+                let (apparent, geometric) = (body(site, time), body(site.airless(), time));
+                let lifted_deg = (apparent.elevation - geometric.elevation).degrees();
+                assert!(apparent.azimuth == geometric.azimuth && lifted_deg >= 0.0, "{lifted_deg}");
+                if geometric.elevation_deg() > 10.0 {
                     // Flat layers, which are enough that high, of refractivity 315 at sea level.
-                    let scale = (-altitude / 7350.0).exp() / there.elevation.radians().tan();
+                    let scale = (-altitude / 7350.0).exp() / geometric.elevation.radians().tan();
                     let flat_deg = (315e-6 * scale).to_degrees();
                     assert!((lifted_deg - flat_deg).abs() < 0.05 * flat_deg, "{lifted_deg}");
                     compared += 1;
@@ -198,18 +198,18 @@ mod tests {
 
     #[test]
     fn the_sun_rises_and_sets_on_the_edge_of_the_night() {
-        for at in ["2026-03-20T14:46:00Z", "2026-06-21T08:24:00Z", "2026-11-14T18:13:40Z"] {
-            let at: Timestamp = at.parse().unwrap();
-            let below = subsolar_point(at);
+        for text in ["2026-03-20T14:46:00Z", "2026-06-21T08:24:00Z", "2026-11-14T18:13:40Z"] {
+            let time: Timestamp = text.parse().unwrap();
+            let below = subsolar_point(time);
             let site = |point: GroundPoint| {
                 let (latitude, longitude) = (point.latitude, point.longitude);
                 Site::new(latitude.degrees(), longitude.degrees(), 0.0).unwrap().airless()
             };
-            assert!(sun(site(below), at).elevation_deg() > 89.98);
-            let night = night(at);
+            assert!(sun(site(below), time).elevation_deg() > 89.98);
+            let night = night(time);
             for row in night.edge() {
                 let end = GroundPoint::new(row.latitude, night.centre.longitude + row.half_width);
-                let elevation_deg = sun(site(end), at).elevation_deg();
+                let elevation_deg = sun(site(end), time).elevation_deg();
                 assert!((elevation_deg - RISE_DEG).abs() < 0.01, "{elevation_deg} at {end:?}");
             }
         }
@@ -219,11 +219,11 @@ mod tests {
     fn at_the_equinox_the_night_is_bounded_by_two_meridians() {
         // The equinox of March 2026 is at 14:46 UTC; apparent noon in Greenwich is at
         // 12:07 on that day.
-        let at: Timestamp = "2026-03-20T14:46:00Z".parse().unwrap();
-        let below = subsolar_point(at);
+        let time: Timestamp = "2026-03-20T14:46:00Z".parse().unwrap();
+        let below = subsolar_point(time);
         assert!(below.latitude.degrees().abs() < 0.01, "{below:?}");
         assert!((below.longitude.degrees() + 39.7).abs() < 0.2, "{below:?}");
-        for row in night(at).edge() {
+        for row in night(time).edge() {
             if row.latitude.degrees().abs() < 60.0 {
                 // The night loses 0.833 degrees, and more on a parallel further north.
                 let lost_deg = 90.0 - row.half_width.degrees();

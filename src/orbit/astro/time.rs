@@ -15,9 +15,9 @@ pub const DAY_S: f64 = 86_400.0;
 /// Nanoseconds in a second.
 pub const SECOND_NS: i64 = 1_000_000_000;
 
-/// Seconds from `from` to `to`, negative if `to` is earlier. Exact to the nanosecond over decades.
-pub fn seconds_between(from: Timestamp, to: Timestamp) -> f64 {
-    to.duration_since(from).as_secs_f64()
+/// Seconds from `start` to `end`, negative if `end` is earlier. Exact to the nanosecond over decades.
+pub fn seconds_between(start: Timestamp, end: Timestamp) -> f64 {
+    end.duration_since(start).as_secs_f64()
 }
 
 /// `time` plus `seconds`; unchanged if the result would leave the calendar.
@@ -35,15 +35,15 @@ pub fn add_seconds(time: Timestamp, seconds: f64) -> Timestamp {
 /// Those of `items`, oldest first, that are at least so many seconds after the one before.
 pub fn apart<T>(
     items: impl Iterator<Item = T>,
-    least_s: f64,
+    min_s: f64,
     time: impl Fn(&T) -> Timestamp,
 ) -> impl Iterator<Item = T> {
     let mut last: Option<Timestamp> = None;
     items.filter(move |item| {
-        let at = time(item);
-        let is_apart = last.is_none_or(|last| seconds_between(last, at) >= least_s);
+        let utc = time(item);
+        let is_apart = last.is_none_or(|last| seconds_between(last, utc) >= min_s);
         if is_apart {
-            last = Some(at);
+            last = Some(utc);
         }
         is_apart
     })

@@ -105,18 +105,18 @@ impl TrackOffsets {
     /// With one of them changed by `step`; `None` if it would be too large.
     #[must_use]
     pub fn plus(mut self, step: Offset) -> Option<Self> {
-        let (angle, by) = match step {
-            Offset::Time(by) => {
-                let sum = self.time.checked_add(by)?;
+        let (angle, change) = match step {
+            Offset::Time(change) => {
+                let sum = self.time.checked_add(change)?;
                 self.time = SignedDuration::from_millis(i64::try_from(sum.as_millis()).ok()?);
                 return (self.time.abs() <= MAX_TIME_OFFSET).then_some(self);
             }
-            Offset::Along(by) => (&mut self.along, by),
-            Offset::Across(by) => (&mut self.across, by),
-            Offset::Azimuth(by) => (&mut self.azimuth, by),
-            Offset::Elevation(by) => (&mut self.elevation, by),
+            Offset::Along(change) => (&mut self.along, change),
+            Offset::Across(change) => (&mut self.across, change),
+            Offset::Azimuth(change) => (&mut self.azimuth, change),
+            Offset::Elevation(change) => (&mut self.elevation, change),
         };
-        let thousandths = ((*angle + by).degrees() * 1000.0).round();
+        let thousandths = ((*angle + change).degrees() * 1000.0).round();
         // Not a negative zero, nor what steps of a tenth leave of one.
         *angle = Angle::from_degrees(thousandths / 1000.0 + 0.0);
         (angle.abs() <= MAX_ANGLE_OFFSET).then_some(self)
@@ -132,7 +132,7 @@ impl TrackOffsets {
 
     /// Both together; `None` if one of them would be too large.
     #[must_use]
-    pub fn and(self, other: Self) -> Option<Self> {
+    pub fn checked_add(self, other: Self) -> Option<Self> {
         other.each().into_iter().try_fold(self, Self::plus)
     }
 
@@ -142,17 +142,18 @@ impl TrackOffsets {
         other.each().into_iter().try_fold(self, |rest, offset| rest.plus(-offset))
     }
 
-    /// Returns the direction to point in at `at` for a target that is in the directions `target`;
+    /// Returns the direction in which to point at `time` for a target that is in the directions `target`;
     /// `None` where it has none.
     pub fn demanded(
         self,
-        at: Timestamp,
+        time: Timestamp,
         target: impl Fn(Timestamp) -> Option<AzEl>,
     ) -> Option<AzEl> {
-        let at = self.time_of(at);
-        let direction = target(at)?;
+        let utc = self.time_of(time);
+        let direction = target(utc)?;
         let way = || {
-            let [before, after] = [-WAY_S, WAY_S].map(|beside_s| target(add_seconds(at, beside_s)));
+            let [before, after] =
+                [-WAY_S, WAY_S].map(|beside_s| target(add_seconds(utc, beside_s)));
             Some(after?.to_enu() - before?.to_enu())
         };
         let way = if self.needs_motion() { way() } else { None };
@@ -160,8 +161,8 @@ impl TrackOffsets {
     }
 
     /// The time for which the target is computed.
-    fn time_of(self, at: Timestamp) -> Timestamp {
-        add_seconds(at, self.time.as_secs_f64())
+    fn time_of(self, time: Timestamp) -> Timestamp {
+        add_seconds(time, self.time.as_secs_f64())
     }
 
     /// Returns `true` if the way of the target over the sky is needed.
@@ -172,11 +173,11 @@ impl TrackOffsets {
     /// The direction to point in for a target in `direction`, which moves along `way`; without
     /// a way nothing is added along or across it.
     fn added_to(self, direction: AzEl, way: Option<DVec3>) -> AzEl {
-        let beside = self.beside(direction, way);
+        let shifted = self.shifted_beside_track(direction, way);
         if self.azimuth == Angle::ZERO && self.elevation == Angle::ZERO {
-            return beside;
+            return shifted;
         }
-        AzEl::of_axes(beside.azimuth + self.azimuth, beside.elevation + self.elevation)
+        AzEl::of_axes(shifted.azimuth + self.azimuth, shifted.elevation + self.elevation)
     }
 
     /// The same without the offsets of azimuth and elevation: where the antenna points on the
@@ -204,13 +205,13 @@ impl TrackOffsets {
         Self { time: self.time, ..Self::NONE }
     }
 
-    fn beside(self, direction: AzEl, way: Option<DVec3>) -> AzEl {
-        let at = direction.to_enu();
-        let ahead = way.and_then(|way| way.reject_from_normalized(at).try_normalize());
+    fn shifted_beside_track(self, direction: AzEl, way: Option<DVec3>) -> AzEl {
+        let vector = direction.to_enu();
+        let ahead = way.and_then(|way| way.reject_from_normalized(vector).try_normalize());
         let Some(ahead) = ahead.filter(|_| self.needs_motion()) else { return direction };
-        let right = at.cross(ahead);
+        let right = vector.cross(ahead);
         let (sin, cos) = self.along.radians().sin_cos();
-        let along = at * cos + ahead * sin;
+        let along = vector * cos + ahead * sin;
         let (sin, cos) = self.across.radians().sin_cos();
         AzEl::from_enu(along * cos + right * sin)
     }
@@ -264,14 +265,14 @@ impl TryFrom<Written> for TrackOffsets {
 
     fn try_from(written: Written) -> Result<Self, TooLarge> {
         let time = SignedDuration::try_from_secs_f64(written.time_s).map_err(|_| TooLarge)?;
-        let each = [
+        let steps = [
             Offset::Time(time),
             Offset::Along(Angle::from_degrees(written.along_deg)),
             Offset::Across(Angle::from_degrees(written.across_deg)),
             Offset::Azimuth(Angle::from_degrees(written.azimuth_deg)),
             Offset::Elevation(Angle::from_degrees(written.elevation_deg)),
         ];
-        each.into_iter().try_fold(Self::NONE, Self::plus).ok_or(TooLarge)
+        steps.into_iter().try_fold(Self::NONE, Self::plus).ok_or(TooLarge)
     }
 }
 

@@ -75,26 +75,26 @@ impl Zone {
         if corners.len() > MAX_CORNERS {
             return Err(ZoneError::TooManyCorners);
         }
-        for (corner, at) in (1..).zip(&corners) {
-            if !at.azimuth.is_finite() {
+        for (corner, direction) in (1..).zip(&corners) {
+            if !direction.azimuth.is_finite() {
                 return Err(ZoneError::Azimuth { corner });
             }
             // Written so that NaN is refused too.
-            if !(-90.0..=90.0).contains(&at.elevation_deg()) {
+            if !(-90.0..=90.0).contains(&direction.elevation_deg()) {
                 return Err(ZoneError::Elevation { corner });
             }
         }
         let ends = corners.iter().zip(corners.iter().cycle().skip(1)).enumerate();
         let mut edges = Vec::with_capacity(corners.len());
-        for (index, (from, to)) in ends {
-            let closes = index + 1 == corners.len() && is_a_turn_on(*to, *from);
+        for (index, (start, end)) in ends {
+            let closes = index + 1 == corners.len() && is_a_turn_on(*end, *start);
             if !closes {
-                edges.push(Edge::new(*from, *to, index + 1)?);
+                edges.push(Edge::new(*start, *end, index + 1)?);
             }
         }
         crossing::check(&edges)?;
-        let cap = Cap::around(&edges);
-        let extent = Extent::around(&edges);
+        let cap = Cap::enclosing(&edges);
+        let extent = Extent::enclosing(&edges);
         Ok(Self { corners, edges, cap, extent })
     }
 
@@ -109,36 +109,36 @@ impl Zone {
         self.clearance_of(direction.to_enu())
     }
 
-    /// An angle that [`Self::clearance_of`] the unit vector `at` is not less than, at a fraction of
-    /// the cost: good enough where the zone is far away.
-    pub fn clearance_is_at_least(&self, at: DVec3) -> Angle {
-        let clearance = self.cap.clearance(at);
+    /// A lower bound of [`Self::clearance_of`] the unit vector `point`, at a fraction of the cost:
+    /// good enough where the zone is far away.
+    pub fn clearance_lower_bound(&self, point: DVec3) -> Angle {
+        let clearance = self.cap.clearance(point);
         Angle::from_radians(if clearance > 0.0 { clearance } else { -PI })
     }
 
     /// A lower bound of the clearance of every direction in a box of azimuths and elevations, each
     /// given from the lower to the upper end. The bound is useful where the box stands above, below
     /// or beside the zone; elsewhere it is -180 degrees.
-    pub fn clearance_of_box_is_at_least(
+    pub fn box_clearance_lower_bound(
         &self,
         azimuths: (Angle, Angle),
         elevations: (Angle, Angle),
     ) -> Angle {
-        let radians = |(from, to): (Angle, Angle)| (from.radians(), to.radians());
+        let radians = |(start, end): (Angle, Angle)| (start.radians(), end.radians());
         let clearance =
             self.extent.map(|extent| extent.clearance(radians(azimuths), radians(elevations)));
         Angle::from_radians(clearance.filter(|clearance| *clearance > 0.0).unwrap_or(-PI))
     }
 
     /// As [`Self::clearance`], of a unit vector (east, north, up).
-    pub fn clearance_of(&self, at: DVec3) -> Angle {
-        let elevation = at.z.atan2(at.x.hypot(at.y));
-        let azimuth = at.x.atan2(at.y);
+    pub fn clearance_of(&self, point: DVec3) -> Angle {
+        let elevation = point.z.atan2(point.x.hypot(point.y));
+        let azimuth = point.x.atan2(point.y);
         let mut nearest = f64::INFINITY;
         let mut crossed = 0_i64;
         for edge in &self.edges {
-            nearest = nearest.min(edge.chord_squared(at, azimuth, elevation));
-            crossed += edge.crossings_below(at, azimuth, elevation);
+            nearest = nearest.min(edge.chord_squared(point, azimuth, elevation));
+            crossed += edge.crossings_below(point, azimuth, elevation);
         }
         // The chord stays precise near zero, where the cosine does not.
         let distance = 2.0 * (nearest.sqrt() / 2.0).min(1.0).asin();
@@ -171,40 +171,41 @@ impl Zone {
             else {
                 continue;
             };
-            points.extend(fan(edge.at(0.0), arriving, leaving, margin.radians(), step));
+            points.extend(fan(edge.point_at(0.0), arriving, leaving, margin.radians(), step));
             let parts = (edge.length() / step).ceil().max(1.0) as u32;
             points.extend((1..parts).filter_map(|part| {
                 let share = f64::from(part) / f64::from(parts);
-                let away = self.outward(edge, share)?;
-                Some(away_from(edge.at(share), away, margin.radians()))
+                let outward = self.outward(edge, share)?;
+                Some(away_from(edge.point_at(share), outward, margin.radians()))
             }));
         }
         // Points that are too near come from the inside of a bend.
-        let least = margin.radians() - 1e-6;
+        let min = margin.radians() - 1e-6;
         let points = points.into_iter().map(AzEl::from_enu);
-        points.filter(|point| self.clearance(*point).radians() >= least).collect()
+        points.filter(|point| self.clearance(*point).radians() >= min).collect()
     }
 
     /// The direction away from the zone, perpendicular to `edge` at `share` of its length.
     fn outward(&self, edge: &Edge, share: f64) -> Option<DVec3> {
-        let at = edge.at(share);
+        let point = edge.point_at(share);
         let across = edge.across(share);
-        [across, -across].into_iter().find(|away| {
+        [across, -across].into_iter().find(|side| {
             let inwards = share.clamp(1e-3, 1.0 - 1e-3);
-            let probe = away_from(edge.at(inwards), edge.across(inwards) * away.dot(across), 1e-6);
-            at.is_finite() && self.clearance(AzEl::from_enu(probe)).radians() > 0.0
+            let probe =
+                away_from(edge.point_at(inwards), edge.across(inwards) * side.dot(across), 1e-6);
+            point.is_finite() && self.clearance(AzEl::from_enu(probe)).radians() > 0.0
         })
     }
 
     /// The middle of the edge from corner `index` (from 0) to the next one; `None` if there is no
     /// such edge. Its azimuth continues from the corner's without wrapping.
     pub fn middle_of_edge(&self, index: usize) -> Option<AzEl> {
-        let (edge, from) = (self.edges.get(index)?, self.corners.get(index)?);
-        let middle = AzEl::from_enu(edge.at(0.5));
-        let turned = (middle.azimuth - from.azimuth).wrapped_180();
+        let (edge, start) = (self.edges.get(index)?, self.corners.get(index)?);
+        let middle = AzEl::from_enu(edge.point_at(0.5));
+        let turned = (middle.azimuth - start.azimuth).wrapped_180();
         let azimuth = match edge.turn() {
-            Some(turn) => from.azimuth + Angle::from_radians(turn / 2.0),
-            None => from.azimuth + turned,
+            Some(turn) => start.azimuth + Angle::from_radians(turn / 2.0),
+            None => start.azimuth + turned,
         };
         Some(AzEl { azimuth, elevation: middle.elevation })
     }
@@ -216,19 +217,19 @@ fn is_a_turn_on(a: AzEl, b: AzEl) -> bool {
     is_counted_on && is_same(a.to_enu(), b.to_enu())
 }
 
-/// The point at the angle `by` from `at` in the direction `away`, which is perpendicular to `at`.
-fn away_from(at: DVec3, away: DVec3, by: f64) -> DVec3 {
-    at * by.cos() + away * by.sin()
+/// The point at `angle` from `point` in `direction`, which is perpendicular to `point`.
+fn away_from(point: DVec3, direction: DVec3, angle: f64) -> DVec3 {
+    point * angle.cos() + direction * angle.sin()
 }
 
-/// Points at the angle `by` around the corner `at`, from one perpendicular direction to another.
-fn fan(at: DVec3, from: DVec3, to: DVec3, by: f64, step: f64) -> Vec<DVec3> {
-    let angle = from.cross(to).length().atan2(from.dot(to));
-    let parts = (angle * by / step).ceil().max(1.0) as u32;
+/// Points at `angle` around `corner`, from one perpendicular direction to another.
+fn fan(corner: DVec3, start: DVec3, end: DVec3, turn: f64, step: f64) -> Vec<DVec3> {
+    let angle = start.cross(end).length().atan2(start.dot(end));
+    let parts = (angle * turn / step).ceil().max(1.0) as u32;
     let turned = |part: u32| {
         let share = f64::from(part) / f64::from(parts);
-        let mixed = from * ((1.0 - share) * angle).sin() + to * (share * angle).sin();
-        away_from(at, mixed.try_normalize().unwrap_or(from), by)
+        let mixed = start * ((1.0 - share) * angle).sin() + end * (share * angle).sin();
+        away_from(corner, mixed.try_normalize().unwrap_or(start), turn)
     };
     (0..=parts).map(turned).collect()
 }

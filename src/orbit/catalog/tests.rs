@@ -76,7 +76,7 @@ fn ordered(order: &[&str], sources: &[(&str, u32)]) -> Catalog {
 
 #[test]
 fn the_first_source_of_the_order_is_used_until_it_lags_behind() {
-    for (order, sources, wanted) in [
+    for (order, sources, expected) in [
         (&["own", "web"][..], &[("web", 12), ("own", 11)][..], ("own", 11)),
         (&["own", "web"], &[("web", 12), ("own", 9)], ("own", 9)),
         (&["own", "web"], &[("web", 12), ("own", 8)], ("web", 12)),
@@ -92,11 +92,11 @@ fn the_first_source_of_the_order_is_used_until_it_lags_behind() {
         catalog.apply_orders(|_| false);
         let day = |elements: &Elements| elements.epoch().to_string()[8..10].parse().unwrap();
         let in_use = catalog.get(5).unwrap();
-        assert_eq!((catalog.source_of(5).unwrap(), day(in_use)), wanted, "{sources:?}");
+        assert_eq!((catalog.source_of(5).unwrap(), day(in_use)), expected, "{sources:?}");
         assert_eq!(in_use.name(), "FIVE");
         let newest = sources.iter().map(|(_, day)| *day).max().unwrap_or(1);
         let passed_over = catalog.passed_over(5).map(day);
-        assert_eq!(passed_over, Some(newest).filter(|newest| *newest != wanted.1));
+        assert_eq!(passed_over, Some(newest).filter(|newest| *newest != expected.1));
         assert_eq!(catalog.all_set_aside().count(), usize::from(passed_over.is_some()));
         assert_eq!((catalog.set_aside(5), catalog.passed_over(6)), (None, None));
     }
@@ -104,9 +104,9 @@ fn the_first_source_of_the_order_is_used_until_it_lags_behind() {
 
 #[test]
 fn a_set_with_an_epoch_ahead_does_not_win_over_a_current_one() {
-    let at = |text: &str| -> Timestamp { text.parse().unwrap() };
-    let now = at("2026-08-12T12:00:00Z");
-    for (days, wanted) in [
+    let time = |text: &str| -> Timestamp { text.parse().unwrap() };
+    let now = time("2026-08-12T12:00:00Z");
+    for (days, expected) in [
         (&[12, 26][..], 12),
         (&[26, 12], 12),
         // Half a day ahead is normal, a day and a half is not.
@@ -117,17 +117,17 @@ fn a_set_with_an_epoch_ahead_does_not_win_over_a_current_one() {
         (&[14], 14),
     ] {
         let own: Vec<_> = days.iter().map(|day| (5, "FIVE", *day)).collect();
-        let mut together = Catalog::default();
-        together.set_time(now);
-        together.merge(report(&own), "one");
+        let mut combined = Catalog::default();
+        combined.set_time(now);
+        combined.merge(report(&own), "one");
         let mut apart = Catalog::default();
         apart.set_time(now);
         for set in own {
             apart.merge(report(&[set]), &set.2.to_string());
         }
-        for catalog in [together, apart] {
+        for catalog in [combined, apart] {
             let epoch = catalog.get(5).unwrap().epoch();
-            assert_eq!(epoch, at(&format!("2026-08-{wanted:02}T00:00:00Z")), "{days:?}");
+            assert_eq!(epoch, time(&format!("2026-08-{expected:02}T00:00:00Z")), "{days:?}");
             assert!(!catalog.is_outdated(now));
         }
     }
@@ -146,9 +146,9 @@ fn a_preferred_source_with_an_epoch_ahead_is_not_used() {
 
 #[test]
 fn another_time_outdates_a_choice_between_sets() {
-    let at = |text: &str| -> Timestamp { text.parse().unwrap() };
+    let time = |text: &str| -> Timestamp { text.parse().unwrap() };
     let mut catalog = Catalog::default();
-    catalog.set_time(at("2026-08-12T12:00:00Z"));
+    catalog.set_time(time("2026-08-12T12:00:00Z"));
     catalog.merge(report(&[(5, "FIVE", 12), (5, "FIVE", 20), (6, "ALONE", 30)]), "own");
     for (now, expected) in [
         ("2026-08-12T12:00:00Z", false),
@@ -157,7 +157,7 @@ fn another_time_outdates_a_choice_between_sets() {
         ("2026-08-11T00:00:01Z", false),
         ("1970-01-01T00:00:00Z", true),
     ] {
-        assert_eq!(catalog.is_outdated(at(now)), expected, "{now}");
+        assert_eq!(catalog.is_outdated(time(now)), expected, "{now}");
     }
 }
 
@@ -172,9 +172,9 @@ fn a_set_that_the_operator_chose_comes_before_the_order() {
 fn the_newest_epoch_wins_whatever_the_order() {
     let mut catalog = Catalog::default();
     let first = catalog.merge(report(&[(5, "OLD", 10), (6, "B", 12)]), "first");
-    assert_eq!((first.added, first.updated, first.known), (2, 0, 0));
+    assert_eq!((first.added, first.updated, first.unchanged), (2, 0, 0));
     let second = catalog.merge(report(&[(5, "NEW", 11), (6, "STALE", 11)]), "second");
-    assert_eq!((second.added, second.updated, second.known), (0, 1, 0));
+    assert_eq!((second.added, second.updated, second.unchanged), (0, 1, 0));
     assert_eq!((second.older, second.refused.len()), (1, 0));
     assert_eq!(catalog.get(5).unwrap().name(), "NEW");
     assert_eq!(catalog.get(6).unwrap().name(), "B");
@@ -187,7 +187,7 @@ fn the_newest_set_of_one_text_wins() {
     let mut catalog = Catalog::default();
     let objects = [(7, "A", 2), (5, "B", 3), (7, "C", 4), (7, "D", 1), (5, "E", 3)];
     let summary = catalog.merge(report(&objects), "one");
-    assert_eq!((summary.added, summary.updated, summary.known), (2, 1, 1));
+    assert_eq!((summary.added, summary.updated, summary.unchanged), (2, 1, 1));
     assert_eq!((summary.older, summary.refused.len()), (1, 0));
     assert_eq!(catalog.iter().map(Elements::name).collect::<Vec<_>>(), ["B", "C"]);
 }

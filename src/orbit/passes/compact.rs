@@ -142,9 +142,9 @@ impl<'a> Rest<'a> {
     /// Takes those with AOS before `end_ns`.
     fn take_before(&mut self, end_ns: i64) -> &'a [CompactPass] {
         let count = self.passes.iter().take_while(|compact| aos_ns(compact) < end_ns).count();
-        let (taken, rest) = self.passes.split_at(count);
+        let (head, rest) = self.passes.split_at(count);
         *self = Self::new(rest);
-        taken
+        head
     }
 }
 
@@ -166,8 +166,12 @@ mod tests {
             let pass = Pass { aos, tca, los, starts_before: index == 0, ends_after: false };
             CompactPass::new(satellite, &pass)
         };
-        let of = |satellite| (0..count).map(move |index| pass(satellite, index));
-        FoundPasses::new(vec![of(0).chain(of(3)).collect(), Vec::new(), of(7).collect()])
+        let passes_of = |satellite| (0..count).map(move |index| pass(satellite, index));
+        FoundPasses::new(vec![
+            passes_of(0).chain(passes_of(3)).collect(),
+            Vec::new(),
+            passes_of(7).collect(),
+        ])
     }
 
     #[test]

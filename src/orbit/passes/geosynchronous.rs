@@ -49,6 +49,6 @@ pub(super) fn never_rises(track: &Track<'_>) -> bool {
     let highest_km = axis_km * (1.0 + eccentricity) + 0.01 * WGS72_RADIUS_KM;
     let reach = (window.radius_km * window.floor.cos() / highest_km).acos() - window.floor;
     let site_km = Vector::from(window.site_ecef_km);
-    let away = r.cross(site_km).length().atan2(r.dot(site_km));
-    (away - excursion).min(PI) > reach
+    let angle = r.cross(site_km).length().atan2(r.dot(site_km));
+    (angle - excursion).min(PI) > reach
 }

@@ -75,8 +75,8 @@ impl Bend {
     #[inline(always)]
     fn fits<N: Number>(self, curve: N) -> N::Answer {
         match self {
-            Self::Crest => curve.is_less(N::of(0.0)),
-            Self::Trough => N::of(0.0).is_less(curve),
+            Self::Crest => curve.is_less(N::splat(0.0)),
+            Self::Trough => N::splat(0.0).is_less(curve),
         }
     }
 }
@@ -132,7 +132,7 @@ impl<N: Number> Height<N> {
     /// acceleration `a`.
     #[inline(always)]
     pub(super) fn new(q: Vector<N>, range: N, v: Vector<N>, a: Vector<N>) -> Self {
-        let inverse_range = N::of(1.0) / range;
+        let inverse_range = N::splat(1.0) / range;
         let range_rate = q.dot(v) * inverse_range;
         let range_curve = (v.length_squared() + q.dot(a) - range_rate * range_rate) * inverse_range;
         let sine = q.z * inverse_range;
@@ -165,7 +165,7 @@ impl<N: Number> LocalSeries<N> {
     pub(super) fn mended(&self, second: &Self) -> Self {
         let span_s = second.at_s - self.at_s;
         let missed_km = second.position - self.place(span_s).enu_km;
-        let per_second = N::of(1.0) / span_s;
+        let per_second = N::splat(1.0) / span_s;
         Self { velocity: self.velocity + missed_km * per_second, ..*self }
     }
 
@@ -186,7 +186,7 @@ impl<N: Number> LocalSeries<N> {
     /// the method does not converge, [`LocalState::turns`] does not hold for the place.
     #[inline(always)]
     pub(super) fn turning(&self) -> LocalState<N> {
-        let mut place = self.place(N::of(0.0));
+        let mut place = self.place(N::splat(0.0));
         for _ in 0..MAX_STEPS {
             let step_s = -place.height.rate / place.height.curve;
             if !step_s.abs().any_reaches(LAST_STEP_S) {
@@ -245,14 +245,18 @@ impl LocalSeries<Lanes> {
 impl LocalState<Lanes> {
     pub(super) fn lane(&self, lane: usize) -> LocalState {
         let Height { sine, rate, curve } = &self.height;
-        let of = |numbers: &Lanes| numbers.lane(lane);
+        let lane_value = |numbers: &Lanes| numbers.lane(lane);
         LocalState {
-            at_s: of(&self.at_s),
+            at_s: lane_value(&self.at_s),
             enu_km: self.enu_km.lane(lane),
             velocity: self.velocity.lane(lane),
             acceleration: self.acceleration.lane(lane),
-            range_km: of(&self.range_km),
-            height: Height { sine: of(sine), rate: of(rate), curve: of(curve) },
+            range_km: lane_value(&self.range_km),
+            height: Height {
+                sine: lane_value(sine),
+                rate: lane_value(rate),
+                curve: lane_value(curve),
+            },
         }
     }
 }
@@ -260,14 +264,14 @@ impl LocalState<Lanes> {
 /// The cross product of the vector with the Earth's rotation: `v × omega`.
 #[inline(always)]
 fn turned<N: Number>(v: Vector<N>) -> Vector<N> {
-    Vector::new(v.y * EARTH_RATE_RAD_S, v.x * -EARTH_RATE_RAD_S, N::of(0.0))
+    Vector::new(v.y * EARTH_RATE_RAD_S, v.x * -EARTH_RATE_RAD_S, N::splat(0.0))
 }
 
 /// The acceleration due to the Earth's mass and flattening at `r`, and its change for a body that
 /// moves with `v`. The change is that of the mass alone, which is a thousand times larger.
 #[inline(always)]
 fn gravity<N: Number>(r: Vector<N>, v: Vector<N>) -> (Vector<N>, Vector<N>) {
-    let inverse2 = N::of(1.0) / r.length_squared();
+    let inverse2 = N::splat(1.0) / r.length_squared();
     let mass = inverse2 * inverse2.sqrt() * -GRAVITY_KM3_S2;
     let bulge = inverse2 * (1.5 * J2 * WGS72_RADIUS_KM * WGS72_RADIUS_KM);
     let rise2 = r.z * r.z * inverse2 * 5.0;

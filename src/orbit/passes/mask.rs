@@ -119,8 +119,8 @@ impl Follower<'_> {
     }
 
     /// Moves from one look to the next, via every point of the mask between them.
-    fn step(&self, from: Look, to: Look, stretches: &mut Stretches<'_>) {
-        let beyond = |look: &Look| {
+    fn step(&self, start: Look, end: Look, stretches: &mut Stretches<'_>) {
+        let side = |look: &Look| {
             if look.elevation > self.highest + LEVEL {
                 1
             } else {
@@ -128,27 +128,27 @@ impl Follower<'_> {
             }
         };
         // Wholly above or wholly below the mask, the path does not matter.
-        if beyond(&from) * beyond(&to) == 1 {
-            stretches.pass_by(from.place, to.place);
+        if side(&start) * side(&end) == 1 {
+            stretches.pass_by(start.place, end.place);
             return;
         }
-        let turn = from.turn_to(to.azimuth);
-        let span_s = to.place.at_s - from.place.at_s;
+        let turn = start.turn_to(end.azimuth);
+        let span_s = end.place.at_s - start.place.at_s;
         if turn.abs() > MAX_TURN && span_s > TOLERANCE_S {
-            if let Some(middle) = self.look(from.place.at_s + 0.5 * span_s) {
-                self.step(from, middle, stretches);
-                self.step(middle, to, stretches);
+            if let Some(middle) = self.look(start.place.at_s + 0.5 * span_s) {
+                self.step(start, middle, stretches);
+                self.step(middle, end, stretches);
             }
             return;
         }
-        let mut last = from;
-        for azimuth in self.points_between(from.azimuth, turn) {
-            if let Some(look) = self.look_at_azimuth(last, to, azimuth) {
+        let mut last = start;
+        for azimuth in self.points_between(start.azimuth, turn) {
+            if let Some(look) = self.look_at_azimuth(last, end, azimuth) {
                 self.cross(last, look, stretches);
                 last = look;
             }
         }
-        self.cross(last, to, stretches);
+        self.cross(last, end, stretches);
     }
 
     /// Azimuths of the points that a turn by `turn` from `start` passes, in that order.
@@ -157,7 +157,7 @@ impl Follower<'_> {
         let first = Angle::from_radians(low).wrapped_360().radians();
         let split = self.points.partition_point(|point| *point <= first);
         let (before, after) = self.points.split_at(split);
-        let mut between: Vec<f64> = after
+        let mut crossed: Vec<f64> = after
             .iter()
             .chain(before)
             .copied()
@@ -167,35 +167,35 @@ impl Follower<'_> {
             })
             .collect();
         if turn < 0.0 {
-            between.reverse();
+            crossed.reverse();
         }
-        between.into_iter()
+        crossed.into_iter()
     }
 
     /// The look between two others at which the azimuth is `azimuth`.
-    fn look_at_azimuth(&self, from: Look, to: Look, azimuth: f64) -> Option<Look> {
-        self.settle(from, to, |look| look.turn_to(azimuth)).map(|(_, look)| look)
+    fn look_at_azimuth(&self, start: Look, end: Look, azimuth: f64) -> Option<Look> {
+        self.settle(start, end, |look| look.turn_to(azimuth)).map(|(_, look)| look)
     }
 
     /// Records where the clearance changes its sign between two looks.
-    fn cross(&self, from: Look, to: Look, stretches: &mut Stretches<'_>) {
-        if from.is_clear() == to.is_clear() {
-            stretches.pass_by(from.place, to.place);
-        } else if let Some((_, at)) = self.settle(from, to, |look| look.clearance + LEVEL) {
-            if to.is_clear() {
-                stretches.open(at.place, false);
-                stretches.pass_by(at.place, to.place);
+    fn cross(&self, start: Look, end: Look, stretches: &mut Stretches<'_>) {
+        if start.is_clear() == end.is_clear() {
+            stretches.pass_by(start.place, end.place);
+        } else if let Some((_, crossing)) = self.settle(start, end, |look| look.clearance + LEVEL) {
+            if end.is_clear() {
+                stretches.open(crossing.place, false);
+                stretches.pass_by(crossing.place, end.place);
             } else {
-                stretches.pass_by(from.place, at.place);
-                stretches.close(at.place, false);
+                stretches.pass_by(start.place, crossing.place);
+                stretches.close(crossing.place, false);
             }
         }
     }
 
     /// The last look before and the first look after `value` changes its sign, as close together as
     /// the tolerance; by the Illinois method of false position.
-    fn settle(&self, from: Look, to: Look, value: impl Fn(&Look) -> f64) -> Option<(Look, Look)> {
-        let (mut a, mut b) = ((from, value(&from)), (to, value(&to)));
+    fn settle(&self, start: Look, end: Look, value: impl Fn(&Look) -> f64) -> Option<(Look, Look)> {
+        let (mut a, mut b) = ((start, value(&start)), (end, value(&end)));
         if (a.1 > 0.0) == (b.1 > 0.0) {
             return None;
         }
@@ -243,12 +243,12 @@ impl Stretches<'_> {
         self.open = Some(Open { aos, highest: aos, around_s: 0.0, starts_before });
     }
 
-    fn pass_by(&mut self, from: LocalState, to: LocalState) {
+    fn pass_by(&mut self, start: LocalState, end: LocalState) {
         if let Some(open) = &mut self.open
-            && to.height.sine > open.highest.height.sine
+            && end.height.sine > open.highest.height.sine
         {
-            open.highest = to;
-            open.around_s = to.at_s - from.at_s;
+            open.highest = end;
+            open.around_s = end.at_s - start.at_s;
         }
     }
 

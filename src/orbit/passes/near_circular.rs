@@ -29,7 +29,7 @@ const FARTHEST_REACH: f64 = 1.3;
 const MARGIN: f64 = 0.012;
 /// The cosine of 179 degrees of inclination. Towards 180 degrees, the long-period wave of the
 /// latitude grows without bounds.
-const LEAST_COS_INCLINATION: f64 = -0.999_848;
+const MIN_COS_INCLINATION: f64 = -0.999_848;
 /// The neglected waves in the distance, in km.
 const RADIUS_MARGIN_KM: f64 = 15.0;
 
@@ -76,7 +76,7 @@ impl<'a> NearCircular<'a> {
         let visible = reach(window.aos_elevation);
         let possible = (0.0..FARTHEST_REACH).contains(&visible)
             && sin_inclination >= 0.0
-            && cos_inclination > LEAST_COS_INCLINATION;
+            && cos_inclination > MIN_COS_INCLINATION;
         possible.then(|| Self {
             track,
             secular,
@@ -101,14 +101,14 @@ impl<'a> NearCircular<'a> {
         let time_of = move |beta: f64| {
             let guess_s = (beta - first) / rate - self.half_pass_s;
             // The node does not move quite evenly, so one step of Newton's method follows.
-            let (there, rate_there) = beta_at(guess_s);
-            guess_s + (beta - there) / rate_there
+            let (beta_then, rate_there) = beta_at(guess_s);
+            guess_s + (beta - beta_then) / rate_there
         };
         // There are two arcs of at most four pieces each in every turn of the Earth, and a turn
         // takes at least three quarters of a day.
         let turns = (end_s + self.half_pass_s) / (0.75 * time::DAY_S) + 3.0;
         self.arcs
-            .from(first)
+            .starting_at(first)
             .take(8 * turns as usize)
             .map(move |(start, end)| {
                 (time_of(start).max(-self.half_pass_s), time_of(end).min(end_s))

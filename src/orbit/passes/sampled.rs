@@ -130,20 +130,20 @@ impl Finder<'_> {
     }
 
     /// Looks for extremes between two states.
-    fn span(&mut self, from: &LocalSeries, to: &LocalSeries) {
-        self.span_within(from, to, PLACE_MARGIN);
+    fn span(&mut self, start: &LocalSeries, end: &LocalSeries) {
+        self.span_within(start, end, PLACE_MARGIN);
     }
 
-    fn span_within(&mut self, from: &LocalSeries, to: &LocalSeries, place_margin: f64) {
-        let curve = Quintic::new(from, to, place_margin);
+    fn span_within(&mut self, start: &LocalSeries, end: &LocalSeries, place_margin: f64) {
+        let curve = Quintic::new(start, end, place_margin);
         let mut looks = (0..=LOOKS).map(|index| curve.look(f64::from(index) / f64::from(LOOKS)));
         let is_near = looks.any(|look| look.range_km < NEAR * self.off_km(&look));
         if is_near
             && place_margin > HALVED * HALVED
-            && let Some(middle) = self.track.series(f64::midpoint(from.at_s, to.at_s))
+            && let Some(middle) = self.track.series(f64::midpoint(start.at_s, end.at_s))
         {
-            self.span_within(from, &middle, place_margin * HALVED);
-            self.span_within(&middle, to, place_margin * HALVED);
+            self.span_within(start, &middle, place_margin * HALVED);
+            self.span_within(&middle, end, place_margin * HALVED);
             return;
         }
         let mut a = curve.look(0.0);
@@ -296,24 +296,24 @@ struct Look {
 }
 
 impl Quintic {
-    fn new(from: &LocalSeries, to: &LocalSeries, place_margin: f64) -> Self {
-        let span_s = to.at_s - from.at_s;
-        let (v0, v1) = (from.velocity * span_s, to.velocity * span_s);
+    fn new(start: &LocalSeries, end: &LocalSeries, place_margin: f64) -> Self {
+        let span_s = end.at_s - start.at_s;
+        let (v0, v1) = (start.velocity * span_s, end.velocity * span_s);
         let half_square = 0.5 * span_s * span_s;
-        let (a0, a1) = (from.acceleration * half_square, to.acceleration * half_square);
+        let (a0, a1) = (start.acceleration * half_square, end.acceleration * half_square);
         // The difference between the end and the parabola of the start.
-        let position = to.position - (from.position + v0 + a0);
+        let position = end.position - (start.position + v0 + a0);
         let velocity = v1 - (v0 + a0 * 2.0);
         let acceleration = a1 - a0;
         let coefficients = [
-            from.position,
+            start.position,
             v0,
             a0,
             position * 10.0 - velocity * 4.0 + acceleration,
             velocity * 7.0 - position * 15.0 - acceleration * 2.0,
             position * 6.0 - velocity * 3.0 + acceleration,
         ];
-        Self { from_s: from.at_s, span_s, place_margin, coefficients }
+        Self { from_s: start.at_s, span_s, place_margin, coefficients }
     }
 
     /// The look at a `share` of the step, 0 to 1.
@@ -369,9 +369,9 @@ mod tests {
     fn the_greatest_elevation_of_a_close_fly_by_is_exact() {
         let epoch: Timestamp = "2026-08-12T00:00:00Z".parse().unwrap();
         let mut dice = 12_345_u32;
-        let mut roll = |least: f64, most: f64| {
+        let mut roll = |min: f64, max: f64| {
             dice = dice.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-            least + f64::from(dice >> 8) / f64::from(1_u32 << 24) * (most - least)
+            min + f64::from(dice >> 8) / f64::from(1_u32 << 24) * (max - min)
         };
         let (mut nearest_km, mut high) = (f64::MAX, 0);
         for _ in 0..if cfg!(debug_assertions) { 120 } else { 4000 } {
@@ -389,19 +389,19 @@ mod tests {
             // Perigee comes after 30 degrees of mean anomaly.
             let perigee = time::add_seconds(epoch, elements.period_s() / 12.0);
             let below = |offset_s: f64| {
-                let at = time::add_seconds(perigee, offset_s);
-                let state = propagator.state_at(at).unwrap();
+                let time = time::add_seconds(perigee, offset_s);
+                let state = propagator.state_at(time).unwrap();
                 let p = state.position_km;
-                let longitude = p.y.atan2(p.x) - time::gmst(at).radians();
+                let longitude = p.y.atan2(p.x) - time::gmst(time).radians();
                 let latitude = (p.z / p.length()).asin().to_degrees();
                 Site::new(latitude, Angle::from_radians(longitude).wrapped_180().degrees(), 4500.0)
             };
             let site = below(roll(-60.0, 60.0)).unwrap().airless();
-            let to = time::add_seconds(perigee, 1500.0);
-            let search = PassSearch::new(site, epoch, to);
+            let end = time::add_seconds(perigee, 1500.0);
+            let search = PassSearch::new(site, epoch, end);
             let look = |offset_s: f64| {
-                let at = time::add_seconds(perigee, offset_s);
-                propagator.look_from(site, at).unwrap()
+                let utc = time::add_seconds(perigee, offset_s);
+                propagator.look_from(site, utc).unwrap()
             };
             let looks: Vec<_> = (-3000..3000).map(|tenth| look(f64::from(tenth) / 10.0)).collect();
             let highest =
@@ -412,7 +412,7 @@ mod tests {
                 let aos_elevation = Angle::from_degrees(aos_deg);
                 let found = passes(&propagator, &PassSearch { aos_elevation, ..search }, &|| false);
                 let tops = found.iter().map(|pass| pass.max_elevation().degrees());
-                let said = tops.fold(f64::MIN, f64::max);
+                let reported = tops.fold(f64::MIN, f64::max);
                 if highest < aos_deg {
                     continue;
                 }
@@ -420,8 +420,8 @@ mod tests {
                 // A tenth of a second from the crest, a satellite at 100 km has moved by 0.4 degrees,
                 // and is below the crest by the square of that.
                 assert!(
-                    said > highest - 1e-4 && said < highest + 0.5,
-                    "{said} {highest} from {aos_deg}: {site:?} {text}"
+                    reported > highest - 1e-4 && reported < highest + 0.5,
+                    "{reported} {highest} from {aos_deg}: {site:?} {text}"
                 );
             }
         }
@@ -431,28 +431,28 @@ mod tests {
 
     #[test]
     fn the_greatest_elevation_of_a_geosynchronous_satellite_is_exact_and_takes_few_states() {
-        let from: Timestamp = "2026-08-12T00:00:00Z".parse().unwrap();
+        let start: Timestamp = "2026-08-12T00:00:00Z".parse().unwrap();
         let site = Site::new(41.02, 29.17, 100.0).unwrap().airless();
-        let search = PassSearch::new(site, from, time::add_seconds(from, time::DAY_S));
+        let search = PassSearch::new(site, start, time::add_seconds(start, time::DAY_S));
         let catalog = bundled().unwrap();
         for number in [35_696, 44_637, 45_985, 50_002, 53_813] {
             let propagator = Propagator::new(catalog.get(number).unwrap()).unwrap();
             let (found, effort) = passes_and_effort(&propagator, &search, &|| false);
             assert!(found.len() == 1 && effort < 20, "{number}: {effort} states, {found:?}");
             let elevation = |half_minute: u32| {
-                let at = time::add_seconds(from, 30.0 * f64::from(half_minute));
-                propagator.look_from(site, at).unwrap().direction.elevation.radians()
+                let time = time::add_seconds(start, 30.0 * f64::from(half_minute));
+                propagator.look_from(site, time).unwrap().direction.elevation.radians()
             };
             let highest = (0..2880).map(elevation).fold(f64::MIN, f64::max);
-            let said = found[0].max_elevation().radians();
-            assert!((said - highest).abs() < 3e-7, "{number}: {said} {highest}");
+            let reported = found[0].max_elevation().radians();
+            assert!((reported - highest).abs() < 3e-7, "{number}: {reported} {highest}");
         }
     }
 
     /// Geosynchronous satellites over sites all round the Earth, whose elevation hardly changes.
     #[test]
     fn the_greatest_elevation_of_any_geosynchronous_satellite_is_exact() {
-        let from: Timestamp = "2026-08-10T05:03:34Z".parse().unwrap();
+        let start: Timestamp = "2026-08-10T05:03:34Z".parse().unwrap();
         let (mut worst, mut count) = (0.0_f64, 0);
         let catalog = bundled().unwrap();
         let geosynchronous =
@@ -461,28 +461,28 @@ mod tests {
         for (number, elements) in catalog.iter().filter(geosynchronous).enumerate().step_by(every) {
             let Ok(propagator) = Propagator::new(elements) else { continue };
             for share in 0..3_u32 {
-                let below = propagator.state_at(from).unwrap().sub_point(from).point;
+                let below = propagator.state_at(start).unwrap().sub_point(start).point;
                 let index = 3 * number as u32 + share;
                 let latitude = f64::from(index * 37 % 130) - 65.0;
                 let east = below.longitude.degrees() + f64::from(index * 53 % 90) - 45.0;
                 let longitude = Angle::from_degrees(east).wrapped_180().degrees();
                 let site = Site::new(latitude, longitude, 2850.0).unwrap().airless();
                 let hours = 6.0 + f64::from(index * 29 % 67);
-                let from = time::add_seconds(from, f64::from(index * 997 % 86_400));
-                let to = time::add_seconds(from, hours * 3600.0);
+                let begin = time::add_seconds(start, f64::from(index * 997 % 86_400));
+                let end = time::add_seconds(begin, hours * 3600.0);
                 let aos_elevation = Angle::from_degrees(10.0);
-                let search = PassSearch { aos_elevation, ..PassSearch::new(site, from, to) };
+                let search = PassSearch { aos_elevation, ..PassSearch::new(site, begin, end) };
                 let found = passes(&propagator, &search, &|| false);
                 let steps = (hours * 12.0) as u32;
                 let times =
-                    (0..=steps).map(|step| time::add_seconds(from, f64::from(step) * 300.0));
-                let elevation_deg = |at: Timestamp| {
-                    propagator.look_from(site, at).unwrap().direction.elevation_deg()
+                    (0..=steps).map(|step| time::add_seconds(begin, f64::from(step) * 300.0));
+                let elevation_deg = |time: Timestamp| {
+                    propagator.look_from(site, time).unwrap().direction.elevation_deg()
                 };
                 for pass in found {
-                    let within =
-                        times.clone().filter(|at| (pass.aos.time..=pass.los.time).contains(at));
-                    let highest = within.map(elevation_deg).fold(f64::MIN, f64::max);
+                    let in_pass =
+                        times.clone().filter(|utc| (pass.aos.time..=pass.los.time).contains(utc));
+                    let highest = in_pass.map(elevation_deg).fold(f64::MIN, f64::max);
                     let low = highest - pass.max_elevation().degrees();
                     worst = worst.max(low);
                     count += 1;

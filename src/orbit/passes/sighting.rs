@@ -28,7 +28,7 @@ impl<N: Number> Sighting<N> {
     #[inline(always)]
     pub(super) fn at_elevation(place: &LocalState<N>, elevation: f64) -> Self {
         let Vector { x, y, .. } = place.enu_km;
-        Self { at_s: place.at_s, azimuth: x.atan2(y), elevation: N::of(elevation) }
+        Self { at_s: place.at_s, azimuth: x.atan2(y), elevation: N::splat(elevation) }
     }
 }
 
@@ -43,11 +43,11 @@ impl Sighting {
 
 impl Sighting<Lanes> {
     pub(super) fn lane(&self, lane: usize) -> Sighting {
-        let of = |numbers: &Lanes| numbers.lane(lane);
+        let lane_value = |numbers: &Lanes| numbers.lane(lane);
         Sighting {
-            at_s: of(&self.at_s),
-            azimuth: of(&self.azimuth),
-            elevation: of(&self.elevation),
+            at_s: lane_value(&self.at_s),
+            azimuth: lane_value(&self.azimuth),
+            elevation: lane_value(&self.elevation),
         }
     }
 }

@@ -41,7 +41,7 @@ impl<N: Number> Exactness<N> {
     #[inline(always)]
     pub(super) fn is_crest(&self, tau: N, place: &LocalState<N>) -> N::Answer {
         let (tau, range_km) = (tau.abs(), place.range_km);
-        tau.is_less(N::of(LONGEST_STEP_S))
+        tau.is_less(N::splat(LONGEST_STEP_S))
             & (tau * self.drift_km_s).is_less(range_km * CREST_TOLERANCE)
             & self.drift_km_s.is_less(place.height.curve.abs() * range_km * CREST_TIME_TOLERANCE_S)
     }
@@ -52,10 +52,10 @@ impl<N: Number> Exactness<N> {
     pub(super) fn is_crossing(&self, sine: f64, tau: N, place: &LocalState<N>) -> N::Answer {
         let tau = tau.abs();
         let rise_km_s = place.height.rate.abs() * place.range_km;
-        tau.is_less(N::of(LONGEST_STEP_S))
+        tau.is_less(N::splat(LONGEST_STEP_S))
             & place.crosses(sine)
             & ((tau * self.drift_km_s).is_less(rise_km_s * TIME_TOLERANCE_S)
-                | tau.is_less(N::of(TIME_TOLERANCE_S)))
+                | tau.is_less(N::splat(TIME_TOLERANCE_S)))
     }
 }
 
@@ -74,7 +74,7 @@ pub(super) struct Track<'a> {
 
 impl<'a> Track<'a> {
     pub(super) fn new(window: &'a Window, satellite: u32, propagator: &'a Propagator) -> Self {
-        let start_since_epoch_s = time::seconds_between(propagator.epoch(), window.from);
+        let start_since_epoch_s = time::seconds_between(propagator.epoch(), window.start);
         Self {
             window,
             satellite,
@@ -221,13 +221,13 @@ impl<'a> Track<'a> {
         let mut at_s = guess_s;
         for round in 0.. {
             let width_s = (above_s - below_s).abs();
-            let inside = |at_s: f64| (at_s - below_s) * (at_s - above_s) < 0.0;
+            let is_between = |at_s: f64| (at_s - below_s) * (at_s - above_s) < 0.0;
             // Where the method does not converge, halving does.
-            if round > 6 || !inside(at_s) {
+            if round > 6 || !is_between(at_s) {
                 at_s = f64::midpoint(below_s, above_s);
             }
             let series = self.series(at_s)?;
-            let near = Some(series.crossing(sine, 0.0)).filter(|place| inside(place.at_s));
+            let near = Some(series.crossing(sine, 0.0)).filter(|place| is_between(place.at_s));
             if let Some(place) = near
                 && self.exactness.is_crossing(sine, place.at_s - at_s, &place)
             {

@@ -32,7 +32,7 @@ impl<N: Number> TwoBody<N> {
     #[inline(always)]
     pub(super) fn new(window: &Window, series: &LocalSeries<N>, crest: &LocalState<N>) -> Self {
         let (r, v) = (series.state.position_km, series.state.velocity_km_s);
-        let inverse_r0 = N::of(1.0) / r.length();
+        let inverse_r0 = N::splat(1.0) / r.length();
         let inverse_a = inverse_r0 * 2.0 - v.length_squared() * (1.0 / GRAVITY_KM3_S2);
         let root = (inverse_a * GRAVITY_KM3_S2).sqrt();
         let rad_s = root * inverse_r0;
@@ -46,7 +46,7 @@ impl<N: Number> TwoBody<N> {
         let share = above_km * rad_s * rad_s / falling_km_s2;
         let half = (share * 2.0).sqrt() * (share * (share * 0.03 + 1.0 / 12.0) + 1.0);
         Self {
-            period: N::of(1.0) / (inverse_a * root),
+            period: N::splat(1.0) / (inverse_a * root),
             sigma: r.dot(v) * inverse_a / root,
             narrow: -(inverse_a / inverse_r0) + 1.0,
             crest: (crest.at_s - series.at_s) * rad_s,

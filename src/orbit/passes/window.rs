@@ -17,7 +17,7 @@ use crate::{
 /// A site and a span of time, prepared for computation.
 #[derive(Debug, Clone)]
 pub(super) struct Window {
-    pub(super) from: Timestamp,
+    pub(super) start: Timestamp,
     /// The same, since 1970.
     from_ns: i64,
     pub(super) length_s: f64,
@@ -59,7 +59,7 @@ impl Window {
         let to_enu = frames::ecef_to_enu(search.site);
         let radius_km = site_ecef_km.length();
         Some(Self {
-            from: search.from,
+            start: search.from,
             from_ns: time::nanoseconds(search.from),
             length_s,
             sidereal: time::gmst(search.from).radians(),

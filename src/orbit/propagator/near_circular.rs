@@ -36,9 +36,9 @@ impl Secular {
         let mut lanes = Secular::default();
         (0..LANES).for_each(|lane| lanes.set(lane, self));
         minutes.chunks(LANES).flat_map(move |chunk| {
-            let mut at = Lanes::ZERO;
-            chunk.iter().enumerate().for_each(|(lane, minutes)| at.set(lane, *minutes));
-            let motions = lanes.motions(at, Lanes::ZERO).take(chunk.len());
+            let mut lane_minutes = Lanes::ZERO;
+            chunk.iter().enumerate().for_each(|(lane, minutes)| lane_minutes.set(lane, *minutes));
+            let motions = lanes.motions(lane_minutes, Lanes::ZERO).take(chunk.len());
             motions.map(|(position_km, velocity_km_s)| State { position_km, velocity_km_s })
         })
     }
@@ -76,22 +76,22 @@ fn motion<N: Number>(secular: &Secular<N>, minutes: N, turn: N) -> Motion<N> {
     let [wave, wave_at_epoch] = drag_wave.eccentricity;
     let eccentricity = (series(&plane.eccentricity, minutes)
         - (sin_shifted - wave_at_epoch) * wave)
-        .within(MIN_ECCENTRICITY, 1.0);
+        .clamped(MIN_ECCENTRICITY, 1.0);
 
     // The eccentricity vector, towards the node and across, with the long waves.
     let (sin_perigee, cos_perigee) = (series(&plane.perigee, minutes) - shift).sin_cos();
-    let by_parameter = N::of(1.0) / (axis * (-(eccentricity * eccentricity) + 1.0));
+    let by_parameter = N::splat(1.0) / (axis * (-(eccentricity * eccentricity) + 1.0));
     let along = eccentricity * cos_perigee;
     let across = eccentricity * sin_perigee + by_parameter * waves.odd_vector;
     let mean = series(&plane.argument, minutes) + by_parameter * along * waves.odd_angle;
 
     let (sine, cosine) = eccentric_angle(mean, along, across);
-    let toward = along * cosine + across * sine;
+    let radial = along * cosine + across * sine;
     let crossing = along * sine - across * cosine;
     let round = -(along * along + across * across) + 1.0;
     let parameter = axis * round;
-    let radius = axis * (-toward + 1.0);
-    let by_radius = N::of(1.0) / radius;
+    let radius = axis * (-radial + 1.0);
+    let by_radius = N::splat(1.0) / radius;
     let flatness = round.sqrt();
     let middle = crossing / (flatness + 1.0);
     let ratio = axis * by_radius;
@@ -101,7 +101,7 @@ fn motion<N: Number>(secular: &Secular<N>, minutes: N, turn: N) -> Motion<N> {
     // The short waves, which come twice a revolution.
     let sin_double = sin_true * cos_true * 2.0;
     let cos_double = -(sin_true * sin_true * 2.0) + 1.0;
-    let by_parameter = N::of(1.0) / parameter;
+    let by_parameter = N::splat(1.0) / parameter;
     let first = by_parameter * (0.5 * WGS72.j2);
     let second = first * by_parameter;
     let distance = radius * (-(second * flatness * waves.three * 1.5) + 1.0)
@@ -115,9 +115,9 @@ fn motion<N: Number>(secular: &Secular<N>, minutes: N, turn: N) -> Motion<N> {
     let (sin_node, cos_node) = node.sin_cos();
 
     // Radians per unit of time of the theory, in which gravity is 1.
-    let rate = N::of(1.0) / (axis * root_axis);
+    let rate = N::splat(1.0) / (axis * root_axis);
     let outward = root_axis * crossing * by_radius - rate * first * sin_double * waves.square;
-    let around = parameter.sqrt() * by_radius
+    let tangential = parameter.sqrt() * by_radius
         + rate * first * (cos_double * waves.square + waves.three * 1.5);
 
     let up = Vector::new(
@@ -130,7 +130,7 @@ fn motion<N: Number>(secular: &Secular<N>, minutes: N, turn: N) -> Motion<N> {
         cos_node * cos_tilt * cos_place - sin_node * sin_place,
         sin_tilt * cos_place,
     );
-    let velocity = (up * outward + ahead * around) * N::of(WGS72.ae * WGS72.ke / 60.0);
+    let velocity = (up * outward + ahead * tangential) * N::splat(WGS72.ae * WGS72.ke / 60.0);
     (up * (distance * WGS72.ae), velocity)
 }
 
@@ -186,7 +186,7 @@ mod tests {
                 }
                 let mut lanes = Secular::default();
                 (0..LANES).for_each(|lane| lanes.set(lane, secular));
-                let (positions, velocities) = motion(&lanes, Lanes::from(times), Lanes::of(0.0));
+                let (positions, velocities) = motion(&lanes, Lanes::from(times), Lanes::splat(0.0));
                 for (lane, minutes) in times.iter().enumerate() {
                     let state = propagator.state_after(minutes * 60.0, &mut Resumable::default());
                     let state = state.unwrap();
@@ -211,14 +211,15 @@ mod tests {
             let mut lanes = Secular::default();
             (0..LANES).for_each(|lane| lanes.set(lane, secular));
             let minutes = Lanes::from([0.0, 11.0, 23.0, 355.0, 1447.0, -59.0, 71.0, 10_083.0]);
-            let plain = motion(&lanes, minutes, Lanes::of(1.2));
+            let plain = motion(&lanes, minutes, Lanes::splat(1.2));
             let wide = widest(
                 #[inline(always)]
-                || motion(&lanes, minutes, Lanes::of(1.2)),
+                || motion(&lanes, minutes, Lanes::splat(1.2)),
             );
             let bits = |(position, velocity): Motion<Lanes>| {
-                [position, velocity]
-                    .map(|Vector { x, y, z }| [x, y, z].map(|it| it.as_array().map(f64::to_bits)))
+                [position, velocity].map(|Vector { x, y, z }| {
+                    [x, y, z].map(|coordinate| coordinate.as_array().map(f64::to_bits))
+                })
             };
             assert_eq!(bits(plain), bits(wide));
             compared += 1;
@@ -233,9 +234,9 @@ mod tests {
         let secular = propagator.secular().unwrap();
         let turn: f64 = 1.2;
         let (still, _) = motion(secular, 100.0, 0.0);
-        let (seen, _) = motion(secular, 100.0, turn);
+        let (position, _) = motion(secular, 100.0, turn);
         let x = still.x * turn.cos() + still.y * turn.sin();
         let y = still.y * turn.cos() - still.x * turn.sin();
-        assert!((seen - Vector::new(x, y, still.z)).length() < 1e-8);
+        assert!((position - Vector::new(x, y, still.z)).length() < 1e-8);
     }
 }

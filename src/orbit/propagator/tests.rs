@@ -17,8 +17,8 @@ fn any_time_gives_a_state_or_a_reason() {
         for propagator in &propagators {
             let far = Timestamp::from_second(second).unwrap();
             let near = time::add_seconds(propagator.epoch, near_s);
-            for at in [far, near, Timestamp::MIN, Timestamp::MAX] {
-                if let Ok(state) = propagator.state_at(at) {
+            for time in [far, near, Timestamp::MIN, Timestamp::MAX] {
+                if let Ok(state) = propagator.state_at(time) {
                     prop_assert!(state.position_km.length() >= WGS72_RADIUS_KM);
                 }
             }
@@ -32,28 +32,28 @@ fn any_time_gives_a_state_or_a_reason() {
 #[test]
 fn far_from_its_epoch_no_object_is_away_from_the_earth() {
     let catalog = bundled().unwrap();
-    let (mut known, mut refused) = (0, 0);
+    let (mut defined, mut refused) = (0, 0);
     for elements in catalog.iter().step_by(29) {
         let Ok(propagator) = Propagator::new(elements) else { continue };
         let apogee_km = elements.heights().apogee_km + 6378.0;
         for years in [-90.0, -40.0, -20.0, -10.0, -3.0, -0.1, 0.1, 3.0, 10.0, 40.0, 90.0] {
-            let at = time::add_seconds(elements.epoch(), years * 365.25 * time::DAY_S);
-            let one = propagator.state_at(at);
+            let time = time::add_seconds(elements.epoch(), years * 365.25 * time::DAY_S);
+            let one = propagator.state_at(time);
             refused += u32::from(one == Err(PropagationError::TooFarFromEpoch));
-            for state in [one.ok(), propagator.states_at(&[at])[0]].into_iter().flatten() {
-                known += 1;
+            for state in [one.ok(), propagator.states_at(&[time])[0]].into_iter().flatten() {
+                defined += 1;
                 let times = state.position_km.length() / apogee_km;
                 assert!(times < 10.5, "{} at {years} years: {times}", elements.name());
             }
         }
     }
-    assert!(known > 5_000 && refused > 100, "{known} {refused}");
+    assert!(defined > 5_000 && refused > 100, "{defined} {refused}");
 }
 
 #[test]
 fn what_is_surely_up_has_a_state_at_its_epoch() {
-    let known = bundled().unwrap().get(25_544).unwrap().sgp4();
-    let taken = std::cell::Cell::new(0);
+    let iss = bundled().unwrap().get(25_544).unwrap().sgp4();
+    let calls = std::cell::Cell::new(0);
     let angles = (0.0..=180.0_f64, 0.0..360.0_f64, 0.0..360.0_f64, 0.0..360.0_f64);
     let sizes = (CLOSE_REV_DAY..17.5, 0.0..SMALL_ECCENTRICITY, -10.0..10.0_f64);
     proptest!(ProptestConfig::with_cases(20_000), |(angles in angles, sizes in sizes)| {
@@ -61,15 +61,15 @@ fn what_is_surely_up_has_a_state_at_its_epoch() {
         let (mean_motion, eccentricity, drag_term) = sizes;
         let numbers = sgp4::Elements {
             inclination, right_ascension, argument_of_perigee, mean_anomaly, mean_motion,
-            eccentricity, drag_term, ..known.clone()
+            eccentricity, drag_term, ..iss.clone()
         };
         if is_surely_up_at_epoch(&numbers) {
             let (_, constants) = start(&numbers).unwrap();
             prop_assert!(sgp4_state(&constants, 0.0, &mut Resumable::default()).is_ok());
-            taken.set(taken.get() + 1);
+            calls.set(calls.get() + 1);
         }
     });
-    assert!(taken.get() > 10_000, "{}", taken.get());
+    assert!(calls.get() > 10_000, "{}", calls.get());
     let all = bundled().unwrap();
     let surely = all.iter().filter(|elements| is_surely_up_at_epoch(&elements.sgp4())).count();
     assert!(surely * 10 > all.len() * 8, "{surely} of {}", all.len());
@@ -104,11 +104,11 @@ fn states_of_a_resonant_orbit_do_not_depend_on_what_was_asked_before() {
     let days = proptest::collection::vec(-400.0..400.0_f64, 1..30);
     proptest!(|(days in days, number in 0..numbers.len())| {
         let elements = catalog.get(numbers[number]).unwrap();
-        let asked = Propagator::new(elements).unwrap();
+        let propagator = Propagator::new(elements).unwrap();
         for day in days {
-            let at = time::add_seconds(asked.epoch, day * time::DAY_S);
+            let time = time::add_seconds(propagator.epoch, day * time::DAY_S);
             let fresh = Propagator::new(elements).unwrap();
-            prop_assert_eq!(asked.state_at(at), fresh.state_at(at), "{}", day);
+            prop_assert_eq!(propagator.state_at(time), fresh.state_at(time), "{}", day);
         }
     });
 }
@@ -134,18 +134,18 @@ fn several_states_are_those_of_each_time() {
         let catalog = bundled().unwrap();
         let propagator = Propagator::new(catalog.get(number).unwrap()).unwrap();
         for (days, count) in [(-2.0, 1), (0.0, 8), (1.5, 13), (60.0, 3), (40_000.0, 2)] {
-            let at = |step: u32| {
+            let time = |step: u32| {
                 let seconds = days * time::DAY_S + f64::from(step) * 500.0;
                 time::add_seconds(propagator.epoch, seconds)
             };
-            let times: Vec<Timestamp> = (0..count).map(at).collect();
+            let times: Vec<Timestamp> = (0..count).map(time).collect();
             let several = propagator.states_at(&times);
             assert_eq!(several.len(), times.len());
-            for (at, several) in times.iter().zip(several) {
-                let one = propagator.state_at(*at).ok();
-                assert_eq!(several.is_some(), one.is_some(), "{number} {at}");
+            for (utc, several) in times.iter().zip(several) {
+                let one = propagator.state_at(*utc).ok();
+                assert_eq!(several.is_some(), one.is_some(), "{number} {utc}");
                 let off_km = several.zip(one).map(|(a, b)| a.position_km - b.position_km);
-                assert!(off_km.is_none_or(|off| off.length() < 2e-8), "{number} {at}");
+                assert!(off_km.is_none_or(|deviation| deviation.length() < 2e-8), "{number} {utc}");
             }
         }
     }
@@ -172,17 +172,17 @@ fn places_of_several_satellites_are_those_of_each() {
     let near = propagators.iter().zip(0..).map(|(propagator, hour)| {
         (propagator, time::add_seconds(propagator.epoch, 5000.0 * f64::from(hour)))
     });
-    let wanted: Vec<_> = near.chain([(&propagators[0], Timestamp::MAX)]).collect();
-    let places = Propagator::over_ground(&wanted);
-    assert_eq!(places.len(), wanted.len());
-    for ((propagator, at), found) in wanted.into_iter().zip(places) {
-        let one = propagator.state_at(at).ok().map(|state| state.over_ground(at));
-        assert_eq!(found.is_some(), one.is_some(), "{at}");
+    let requests: Vec<_> = near.chain([(&propagators[0], Timestamp::MAX)]).collect();
+    let places = Propagator::over_ground(&requests);
+    assert_eq!(places.len(), requests.len());
+    for ((propagator, time), found) in requests.into_iter().zip(places) {
+        let one = propagator.state_at(time).ok().map(|state| state.over_ground(time));
+        assert_eq!(found.is_some(), one.is_some(), "{time}");
         let Some((found, one)) = found.zip(one) else { continue };
         let off_km = (found.position_km - one.position_km).length();
-        assert!(off_km < 2e-8, "{at} {off_km}");
+        assert!(off_km < 2e-8, "{time} {off_km}");
         let off_km_s = (found.velocity_km_s - one.velocity_km_s).length();
-        assert!(off_km_s < 1e-10, "{at} {off_km_s}");
+        assert!(off_km_s < 1e-10, "{time} {off_km_s}");
     }
 }
 
@@ -191,8 +191,8 @@ fn time_may_turn_back_over_the_epoch() {
     let catalog = bundled().unwrap();
     let elements = catalog.get(54_743).unwrap();
     let propagator = Propagator::new(elements).unwrap();
-    let at = |days: f64| time::add_seconds(elements.epoch(), days * time::DAY_S);
-    let first = propagator.state_at(at(3.0));
-    assert!(propagator.state_at(at(-3.0)).is_ok());
-    assert_eq!(propagator.state_at(at(3.0)), first);
+    let time = |days: f64| time::add_seconds(elements.epoch(), days * time::DAY_S);
+    let first = propagator.state_at(time(3.0));
+    assert!(propagator.state_at(time(-3.0)).is_ok());
+    assert_eq!(propagator.state_at(time(3.0)), first);
 }

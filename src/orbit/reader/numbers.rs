@@ -10,7 +10,7 @@ pub(super) fn alpha_5(text: &str) -> Option<u64> {
     let Some(letter @ 'A'..='Z') = letters.next() else {
         return digits(text);
     };
-    let leading = ALPHA_5.chars().position(|known| known == letter)? as u64 + 10;
+    let leading = ALPHA_5.chars().position(|candidate| candidate == letter)? as u64 + 10;
     let rest = Some(letters.as_str()).filter(|rest| rest.len() == 4)?;
     Some(leading * 10_000 + digits(rest)?)
 }

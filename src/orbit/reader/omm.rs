@@ -57,7 +57,7 @@ struct Field(usize);
 impl Field {
     /// The field called `name`, in any case.
     fn named(name: &str) -> Option<Self> {
-        FIELDS.iter().position(|known| known.eq_ignore_ascii_case(name)).map(Self)
+        FIELDS.iter().position(|field| field.eq_ignore_ascii_case(name)).map(Self)
     }
 
     /// Returns `true` if the field holds text that is taken as it is.

@@ -79,7 +79,7 @@ pub(super) fn is_numbered(line: &str) -> bool {
 pub(super) fn read(text: &str) -> ReadReport {
     let sets = sets(text);
     let mut read: Vec<Result<Read, RefusalReason>> = Vec::new();
-    sets.par_iter().with_min_len(LEAST_FOR_A_THREAD).map(TleSet::read).collect_into_vec(&mut read);
+    sets.par_iter().with_min_len(MIN_PER_THREAD).map(TleSet::read).collect_into_vec(&mut read);
     let mut report = ReadReport::default();
     report.elements.reserve_exact(read.len());
     for (set, read) in sets.iter().zip(read) {
@@ -98,7 +98,7 @@ pub(super) fn read(text: &str) -> ReadReport {
 }
 
 /// Number of sets below which another thread is not worth its start.
-const LEAST_FOR_A_THREAD: usize = 64;
+const MIN_PER_THREAD: usize = 64;
 
 /// The lines of a set, at least one of the two.
 struct TleSet<'a> {
@@ -205,9 +205,10 @@ fn sets(text: &str) -> Vec<TleSet<'_>> {
 pub(crate) fn is_remark(text: &str) -> bool {
     let is_digit = |byte: Option<&u8>| byte.is_some_and(u8::is_ascii_digit);
     let bytes = text.as_bytes();
-    let between_digits =
-        |at: usize| at > 0 && is_digit(bytes.get(at - 1)) && is_digit(bytes.get(at + 1));
-    let has_time = text.match_indices(':').any(|(at, _)| between_digits(at));
+    let between_digits = |index: usize| {
+        index > 0 && is_digit(bytes.get(index - 1)) && is_digit(bytes.get(index + 1))
+    };
+    let has_time = text.match_indices(':').any(|(position, _)| between_digits(position));
     text.chars().count() > MAX_NAME_CHARS
         || !text.contains(char::is_alphanumeric)
         || text.ends_with(':')
@@ -280,7 +281,7 @@ mod tests {
     const LINE_2: &str = "2 25544  51.6416 247.4627 0006703 130.5360 325.0288 15.72125391563537";
 
     /// `line` with `text` written from `column` (from 1) on and the checksum corrected.
-    fn with(line: &str, column: usize, text: &str) -> String {
+    fn replaced(line: &str, column: usize, text: &str) -> String {
         let mut line = line.to_owned();
         line.replace_range(column - 1..column - 1 + text.len(), text);
         let sum: u32 = line[..68]
@@ -383,7 +384,7 @@ mod tests {
 
     #[test]
     fn alpha_5_numbers_are_read() {
-        let text = format!("{}\n{}\n", with(LINE_1, 3, "T0001"), with(LINE_2, 3, "T0001"));
+        let text = format!("{}\n{}\n", replaced(LINE_1, 3, "T0001"), replaced(LINE_2, 3, "T0001"));
         let report = read(&text);
         assert_eq!(report.refused, []);
         assert_eq!(report.elements[0].catalog_number(), 270_001);
@@ -391,8 +392,8 @@ mod tests {
 
     #[test]
     fn blank_old_fields_are_read() {
-        let first = with(LINE_1, 63, " ");
-        let report = read(&format!("{}\n{LINE_2}\n", with(&first, 8, " ")));
+        let first = replaced(LINE_1, 63, " ");
+        let report = read(&format!("{}\n{LINE_2}\n", replaced(&first, 8, " ")));
         assert_eq!(report.refused, []);
     }
 
@@ -420,7 +421,7 @@ mod tests {
     #[test]
     fn the_epoch_is_exact_and_its_day_exists() {
         let epoch = |text: &str| {
-            let first = with(LINE_1, 19, text);
+            let first = replaced(LINE_1, 19, text);
             read(&format!("{first}\n{LINE_2}")).elements.first().map(Elements::epoch)
         };
         assert_eq!(epoch("26  1.00000001"), Some("2026-01-01T00:00:00.000864Z".parse().unwrap()));
@@ -445,12 +446,12 @@ mod tests {
         for (index, columns) in NUMBERS.iter().enumerate() {
             for column in columns.iter().cloned().flatten() {
                 let mut lines = lines.map(str::to_owned);
-                let held = lines[index][column - 1..column].to_owned();
-                lines[index] = with(&lines[index], column, text);
+                let original = lines[index][column - 1..column].to_owned();
+                lines[index] = replaced(&lines[index], column, text);
                 if column <= 7 {
-                    lines[1 - index] = with(&lines[1 - index], column, text);
+                    lines[1 - index] = replaced(&lines[1 - index], column, text);
                 }
-                sets.push((held, lines.join("\n")));
+                sets.push((original, lines.join("\n")));
             }
         }
         sets
@@ -459,16 +460,16 @@ mod tests {
     #[test]
     fn a_blank_in_place_of_a_digit_is_read_as_0_or_refused() {
         // Every field ends in 0, and B* and the second derivative are there.
-        let first = with(LINE_1, 45, " 12340-5 -11600-4 0  290");
-        let first = with(&with(&first, 3, "25540"), 43, "0");
-        let second = with(LINE_2, 3, "25540  51.6410 247.4620 0006700 130.5360 325.0280");
-        let second = with(&second, 53, "15.7212539056350");
+        let first = replaced(LINE_1, 45, " 12340-5 -11600-4 0  290");
+        let first = replaced(&replaced(&first, 3, "25540"), 43, "0");
+        let second = replaced(LINE_2, 3, "25540  51.6410 247.4620 0006700 130.5360 325.0280");
+        let second = replaced(&second, 53, "15.7212539056350");
         assert_eq!(read(&format!("{first}\n{second}")).refused, []);
         let zeros = each_with(&first, &second, "0");
         let mut refused = 0;
-        for ((held, blank), (_, zero)) in each_with(&first, &second, " ").iter().zip(&zeros) {
+        for ((original, blank), (_, zero)) in each_with(&first, &second, " ").iter().zip(&zeros) {
             let (read_blank, read_zero) = (read(blank), read(zero));
-            let is_number = held.bytes().all(|byte| byte.is_ascii_digit());
+            let is_number = original.bytes().all(|byte| byte.is_ascii_digit());
             let same = read_blank.elements == read_zero.elements;
             assert!(!read_blank.refused.is_empty() || (same || !is_number), "{blank}");
             refused += read_blank.refused.len();
@@ -477,8 +478,8 @@ mod tests {
         // The last digit of an eccentricity and of B*.
         for (place, text) in [("ECCENTRICITY", 33), ("BSTAR", 59)] {
             let lines = match place {
-                "BSTAR" => [with(&first, text, " "), second.clone()],
-                _ => [first.clone(), with(&second, text, " ")],
+                "BSTAR" => [replaced(&first, text, " "), second.clone()],
+                _ => [first.clone(), replaced(&second, text, " ")],
             };
             assert_eq!(refusal(&lines.join("\n")), RefusalReason::Field(place));
         }
@@ -494,7 +495,7 @@ mod tests {
                 }
             }
         }
-        let first = with(LINE_2, 9, " 51.6e25");
+        let first = replaced(LINE_2, 9, " 51.6e25");
         assert_eq!(refusal(&format!("{LINE_1}\n{first}")), RefusalReason::Field("INCLINATION"));
     }
 
@@ -519,15 +520,15 @@ mod tests {
         assert_eq!(refusal(&format!("{short}2-\n{LINE_2}")), check);
         let wide = LINE_1.replace(" 08", "\u{b0}08");
         assert_eq!(refusal(&format!("{wide}\n{LINE_2}")), Why::NotAscii { line: 1 });
-        let other = with(LINE_2, 3, "25545");
+        let other = replaced(LINE_2, 3, "25545");
         assert_eq!(refusal(&format!("{LINE_1}\n{other}")), Why::TwoObjects);
-        let shifted = with(LINE_2, 17, "2");
+        let shifted = replaced(LINE_2, 17, "2");
         let column = Why::Shifted { line: 2, column: 17 };
         assert_eq!(refusal(&format!("{LINE_1}\n{shifted}")), column);
-        let xp = with(LINE_1, 63, "4");
+        let xp = replaced(LINE_1, 63, "4");
         let orbit = Why::Orbit(ElementsError::EphemerisType(4));
         assert_eq!(refusal(&format!("{xp}\n{LINE_2}")), orbit);
-        let still = with(LINE_2, 53, " 0.00000000");
+        let still = replaced(LINE_2, 53, " 0.00000000");
         let orbit = Why::Orbit(ElementsError::MeanMotion(0.0));
         assert_eq!(refusal(&format!("{LINE_1}\n{still}")), orbit);
     }

@@ -52,7 +52,7 @@ impl Lanes {
     }
 
     #[inline]
-    fn with(self, other: Self, op: impl Fn(f64, f64) -> f64) -> Self {
+    fn zip_with(self, other: Self, op: impl Fn(f64, f64) -> f64) -> Self {
         Self(by_lane(self.0, other.0, op))
     }
 }
@@ -67,8 +67,8 @@ impl Answers {
     /// In each lane the first number where the answer is yes, else the second.
     #[inline]
     pub(super) fn select(self, yes: Lanes, no: Lanes) -> Lanes {
-        let both = by_lane(yes.0, no.0, |yes, no| (yes, no));
-        Lanes(by_lane(self.0, both, |answer, (yes, no)| if answer != 0 { yes } else { no }))
+        let pairs = by_lane(yes.0, no.0, |yes, no| (yes, no));
+        Lanes(by_lane(self.0, pairs, |answer, (yes, no)| if answer != 0 { yes } else { no }))
     }
 }
 
@@ -91,7 +91,7 @@ macro_rules! operations {
             type Output = Self;
             #[inline]
             fn $method(self, other: Self) -> Self {
-                self.with(other, f64::$method)
+                self.zip_with(other, f64::$method)
             }
         }
 
@@ -99,7 +99,7 @@ macro_rules! operations {
             type Output = Self;
             #[inline]
             fn $method(self, other: f64) -> Self {
-                self.with(other.into(), f64::$method)
+                self.zip_with(other.into(), f64::$method)
             }
         }
     )*};
@@ -139,7 +139,7 @@ impl BitOr for Answers {
 impl Number for Lanes {
     type Answer = Answers;
     #[inline]
-    fn of(value: f64) -> Self {
+    fn splat(value: f64) -> Self {
         value.into()
     }
     #[inline]
@@ -155,12 +155,12 @@ impl Number for Lanes {
         trig::atan2(self, x)
     }
     #[inline]
-    fn within(self, low: f64, high: f64) -> Self {
+    fn clamped(self, low: f64, high: f64) -> Self {
         Self(self.0.map(|number| number.clamp(low, high)))
     }
     #[inline]
-    fn is_less(self, than: Self) -> Answers {
-        Answers(by_lane(self.0, than.0, |number, than| if number < than { u64::MAX } else { 0 }))
+    fn is_less(self, other: Self) -> Answers {
+        Answers(by_lane(self.0, other.0, |number, limit| if number < limit { u64::MAX } else { 0 }))
     }
     #[inline]
     fn any_reaches(self, limit: f64) -> bool {

@@ -41,7 +41,7 @@ pub(super) fn atan2(y: Lanes, x: Lanes) -> Lanes {
     let tangent = is_midway.select(less - more, less) / is_midway.select(less + more, more);
     let square = tangent * tangent;
     let from_nearest = tangent + tangent * square * series(&TANGENT, square);
-    let angle = from_nearest + is_midway.select(Lanes::of(FRAC_PI_4), Lanes::ZERO);
+    let angle = from_nearest + is_midway.select(Lanes::splat(FRAC_PI_4), Lanes::ZERO);
     let angle = is_upright.select(-angle + FRAC_PI_2, angle);
     let angle = x.is_less(Lanes::ZERO).select(-angle + PI, angle);
     y.is_less(Lanes::ZERO).select(-angle, angle)

@@ -55,7 +55,7 @@ impl Vector<Lanes> {
 impl<N: Number> From<DVec3> for Vector<N> {
     #[inline]
     fn from(vector: DVec3) -> Self {
-        Self::new(N::of(vector.x), N::of(vector.y), N::of(vector.z))
+        Self::new(N::splat(vector.x), N::splat(vector.y), N::splat(vector.z))
     }
 }
 

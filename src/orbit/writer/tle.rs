@@ -194,7 +194,7 @@ mod tests {
 
     #[test]
     fn numbers_go_up_to_the_last_letter() {
-        for (given, expected) in [
+        for (input, expected) in [
             (5, Ok("00005")),
             (99_999, Ok("99999")),
             (100_000, Ok("A0000")),
@@ -203,13 +203,13 @@ mod tests {
             (340_000, Err(TleRefusalReason::CatalogNumber)),
             (999_999_999, Err(TleRefusalReason::CatalogNumber)),
         ] {
-            assert_eq!(number(given), expected.map(str::to_owned), "{given}");
+            assert_eq!(number(input), expected.map(str::to_owned), "{input}");
         }
     }
 
     #[test]
     fn drag_terms_take_their_columns() {
-        for (given, expected) in [
+        for (input, expected) in [
             (0.000_353_83, Some(" 35383-3")),
             (-0.000_011_606, Some("-11606-4")),
             (0.5, Some(" 50000+0")),
@@ -221,7 +221,7 @@ mod tests {
             (1.0e-20, Some(" 00000-9")),
             (f64::MAX, None),
         ] {
-            assert_eq!(assumed_point(given).as_deref(), expected, "{given}");
+            assert_eq!(assumed_point(input).as_deref(), expected, "{input}");
         }
         assert_eq!(fraction(-0.000_021_82).as_deref(), Some("-.00002182"));
         assert_eq!(fraction(0.999_999_999), None);
@@ -244,7 +244,7 @@ mod tests {
 
     #[test]
     fn an_epoch_at_the_end_of_a_year_may_round_into_the_next() {
-        let text = |at: &str| epoch(at.parse().unwrap());
+        let text = |iso: &str| epoch(iso.parse().unwrap());
         assert_eq!(text("2025-12-31T23:59:59.9999Z"), Ok("26001.00000000".to_owned()));
         assert_eq!(text("2024-12-31T12:00:00Z"), Ok("24366.50000000".to_owned()));
         assert_eq!(text("1957-10-04T00:00:00.000864Z"), Ok("57277.00000001".to_owned()));

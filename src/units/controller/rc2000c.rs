@@ -94,7 +94,7 @@ pub struct Rc2000c {
 struct Order {
     request: Request,
     /// The request it belongs to; `None` for a part of a halt.
-    asked: Option<Asked>,
+    origin: Option<Asked>,
 }
 
 /// A jog that lives until a halt, a refusal or a missing reply.
@@ -110,9 +110,9 @@ const STATUS: &str = "STATUS";
 const DEVICE_TYPE: &str = "DEVICE TYPE";
 
 fn questions(address: Address) -> [Question; 2] {
-    let question = |key: &str, about: &'static str, query| Question {
+    let question = |key: &str, subject: &'static str, query| Question {
         key: key.into(),
-        about: about.into(),
+        about: subject.into(),
         bytes: Request::Query(query).to_bytes(address).into(),
     };
     [
@@ -123,7 +123,7 @@ fn questions(address: Address) -> [Question; 2] {
 
 impl Rc2000c {
     /// The unit of `antenna`, by the settings of its connection. Silent until the link is up.
-    pub fn of(antenna: &Antenna) -> Self {
+    pub fn new(antenna: &Antenna) -> Self {
         let connection = &antenna.connection;
         let bus_address = u8::try_from(connection.whole(&BUS_ADDRESS)).ok();
         let address =
@@ -174,8 +174,8 @@ impl Rc2000c {
 
     /// Returns the next request to send, the most urgent first.
     fn next_request(&mut self, now: Moment) -> Option<(Request, Purpose)> {
-        if let Some(Order { request, asked }) = self.orders.pop_front() {
-            return Some((request, Purpose::Order(asked)));
+        if let Some(Order { request, origin }) = self.orders.pop_front() {
+            return Some((request, Purpose::Order(origin)));
         }
         if let Some(jog) = self.next_jog(now) {
             return Some(jog);
@@ -216,34 +216,34 @@ impl Rc2000c {
     /// The command that keeps a held jog alive, when it is time. One that comes
     /// too late would begin the jog anew, so it is not sent.
     fn next_jog(&mut self, now: Moment) -> Option<(Request, Purpose)> {
-        let held = self.jog.as_mut()?;
-        let age = held.sent.map(|sent| now.steady.saturating_duration_since(sent));
+        let held_jog = self.jog.as_mut()?;
+        let age = held_jog.sent.map(|sent| now.steady.saturating_duration_since(sent));
         if age.is_some_and(|age| age < RENEWAL) {
             return None;
         }
-        let motion = held.motion;
-        let jog = unit::Jog::new(held.direction, held.speed, JOG).ok();
+        let motion = held_jog.motion;
+        let jog = unit::Jog::new(held_jog.direction, held_jog.speed, JOG).ok();
         let jog = jog.filter(|_| age.is_none_or(|age| age < JOG));
         let Some(jog) = jog else {
             self.jog = None;
             self.events.push_back(ControllerEvent::Unanswered(motion.into()));
             return None;
         };
-        held.sent = Some(now.steady);
+        held_jog.sent = Some(now.steady);
         Some((Request::Motion(unit::Motion::Jog(jog)), Purpose::Order(Some(motion.into()))))
     }
 
     /// Queues the command for `asked`, or says why there is none.
-    fn order(&mut self, asked: Asked, request: Result<Request, String>) {
+    fn order(&mut self, origin: Asked, request: Result<Request, String>) {
         match request {
-            Ok(request) => self.orders.push_back(Order { request, asked: Some(asked) }),
-            Err(reason) => self.events.push_back(ControllerEvent::Refused(asked, reason)),
+            Ok(request) => self.orders.push_back(Order { request, origin: Some(origin) }),
+            Err(reason) => self.events.push_back(ControllerEvent::Refused(origin, reason)),
         }
     }
 
     /// The next status tells what a command has brought about.
     fn look_soon(&mut self, now: Moment) {
-        self.poll_at = self.poll_at.map(|at| at.min(now.steady));
+        self.poll_at = self.poll_at.map(|instant| instant.min(now.steady));
     }
 }
 

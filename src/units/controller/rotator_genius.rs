@@ -137,8 +137,8 @@ impl Genius {
         // However fast requests come, the position must not grow old.
         let is_overdue =
             self.next_poll.is_some_and(|due| due + self.rates.period(true) <= now.steady);
-        if !is_overdue && let Some(Order { request, asked }) = self.orders.pop_front() {
-            return Some((Request::Motion(request), Purpose::Motion(asked)));
+        if !is_overdue && let Some(Order { request, origin }) = self.orders.pop_front() {
+            return Some((Request::Motion(request), Purpose::Motion(origin)));
         }
         if self.next_poll.is_some() && std::mem::take(&mut self.is_asked) {
             return Some((Request::Read, Purpose::Asked));
@@ -156,7 +156,7 @@ impl Genius {
     }
 
     fn is_rescue_armed(&self, now: Instant) -> bool {
-        self.rescue_until.is_some_and(|until| now < until)
+        self.rescue_until.is_some_and(|end| now < end)
     }
 
     /// Returns `true` if something can be sent before the next poll.

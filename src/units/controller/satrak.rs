@@ -79,7 +79,7 @@ pub struct Satrak {
     calm: VecDeque<Halt>,
     preparation: Option<Preparation>,
     /// Questions of the operator.
-    wanted: VecDeque<Query>,
+    pending: VecDeque<Query>,
     changes: ChangeQueue,
     /// A setting that takes the unit long; other questions go on meanwhile.
     slow: Option<Outstanding>,
@@ -115,7 +115,7 @@ impl Satrak {
             motion: None,
             calm: VecDeque::new(),
             preparation: None,
-            wanted: VecDeque::new(),
+            pending: VecDeque::new(),
             changes: ChangeQueue::new(GROUPS),
             slow: None,
             events: VecDeque::new(),
@@ -137,9 +137,9 @@ impl Satrak {
     /// Returns `true` if the tracking program is on, or may be because nothing was read since
     /// it was switched on.
     fn program_may_run(&self) -> bool {
-        let switched_on = self
-            .program_switched_on
-            .is_some_and(|at| self.state.measured.is_none_or(|measured| measured.asked <= at));
+        let switched_on = self.program_switched_on.is_some_and(|instant| {
+            self.state.measured.is_none_or(|measured| measured.asked <= instant)
+        });
         switched_on || self.state.program.is_none_or(|program| program.enabled)
     }
 
@@ -163,7 +163,7 @@ impl Satrak {
             if let Some(request) = self.write_request(now) {
                 return Some((request, Purpose::WriteSettings));
             }
-            if let Some(query) = self.wanted.pop_front() {
+            if let Some(query) = self.pending.pop_front() {
                 return Some((Request::Query(query), Purpose::Asked(query)));
             }
         }
@@ -178,8 +178,8 @@ impl Satrak {
 
     /// Queues a question of the operator, once.
     fn want(&mut self, query: Query) {
-        if self.schedule.is_some() && !self.wanted.contains(&query) {
-            self.wanted.push_back(query);
+        if self.schedule.is_some() && !self.pending.contains(&query) {
+            self.pending.push_back(query);
         }
     }
 

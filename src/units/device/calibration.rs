@@ -90,8 +90,8 @@ impl CountLine {
         let centre_deg = mean(|point| point.degrees);
         // Measured from the centre, because large counts would cost digits.
         let (across, along) = points.iter().fold((0.0, 0.0), |(across, along), point| {
-            let off = f64::from(point.counts) - centre_counts;
-            (across + off * (point.degrees - centre_deg), along + off * off)
+            let deviation = f64::from(point.counts) - centre_counts;
+            (across + deviation * (point.degrees - centre_deg), along + deviation * deviation)
         });
         let deg_per_count = across / along;
         // NaN is refused too.
@@ -158,8 +158,8 @@ mod tests {
         let measured = points(&[(1000, 10.0), (2000, 20.3), (3000, 30.0)]);
         let line = CountLine::through(&measured).unwrap();
         let residuals = line.residuals_deg(&measured);
-        for (residual, wanted) in residuals.iter().zip([-0.1, 0.2, -0.1]) {
-            assert!((residual - wanted).abs() < 1e-9, "{residuals:?}");
+        for (residual, expected) in residuals.iter().zip([-0.1, 0.2, -0.1]) {
+            assert!((residual - expected).abs() < 1e-9, "{residuals:?}");
         }
     }
 

@@ -114,8 +114,8 @@ impl JogSpeeds {
     pub fn nearest(self, rate_deg_s: f64, maximum_rate_deg_s: f64) -> Option<JogSpeed> {
         let Self::Named(speeds) = self else { return None };
         let share = rate_deg_s.abs() / maximum_rate_deg_s;
-        let off = |speed: &JogSpeed| (speed.share - share).abs();
-        speeds.iter().min_by(|a, b| off(a).total_cmp(&off(b))).copied()
+        let distance = |speed: &JogSpeed| (speed.share - share).abs();
+        speeds.iter().min_by(|a, b| distance(a).total_cmp(&distance(b))).copied()
     }
 }
 

@@ -74,9 +74,9 @@ pub struct Place {
 impl Place {
     /// Distance over the ground from the site, km.
     pub fn km_from(self, site: Site) -> f64 {
-        let there = GroundPoint::from_degrees(self.latitude_deg, self.longitude_deg);
+        let ground_point = GroundPoint::from_degrees(self.latitude_deg, self.longitude_deg);
         let here = GroundPoint::new(site.latitude(), site.longitude());
-        here.distance(there).radians() * MEAN_RADIUS_KM
+        here.distance(ground_point).radians() * MEAN_RADIUS_KM
     }
 
     /// This place at the altitude of `site`, or `site` where its step hides the difference; `None`
@@ -89,8 +89,9 @@ impl Place {
         if away_deg.iter().all(|away_deg| away_deg.abs() <= self.step_deg + 1e-9) {
             return Some(site);
         }
-        let there = Site::new(self.latitude_deg, self.longitude_deg, site.altitude_m()).ok()?;
-        there.with_refraction(site.refraction()).ok()
+        let station_site =
+            Site::new(self.latitude_deg, self.longitude_deg, site.altitude_m()).ok()?;
+        station_site.with_refraction(site.refraction()).ok()
     }
 }
 
@@ -131,8 +132,8 @@ impl Offsets {
 impl OnBoard {
     /// The same without offsets in azimuth and elevation that are meant to be on.
     #[must_use]
-    pub fn without(&self, meant: TrackOffsets) -> Self {
-        let less = |unit: Offsets| Some(unit.with_axes_of(unit.of_the_axes()?.less(meant)?));
+    pub fn without(&self, offsets: TrackOffsets) -> Self {
+        let less = |unit: Offsets| Some(unit.with_axes_of(unit.of_the_axes()?.less(offsets)?));
         Self { offsets: self.offsets.map(|unit| less(unit).unwrap_or(unit)), ..self.clone() }
     }
 }
@@ -153,15 +154,15 @@ pub struct TrackOffsetFields {
 impl TrackOffsetFields {
     /// Values that make the offsets in azimuth and elevation `to`, where those in force are
     /// `from`.
-    pub fn values(&self, from: TrackOffsets, to: TrackOffsets) -> Values {
-        let each = [
-            (self.azimuth_deg, from.azimuth(), to.azimuth()),
-            (self.elevation_deg, from.elevation(), to.elevation()),
+    pub fn values(&self, previous: TrackOffsets, new: TrackOffsets) -> Values {
+        let rows = [
+            (self.azimuth_deg, previous.azimuth(), new.azimuth()),
+            (self.elevation_deg, previous.elevation(), new.elevation()),
         ];
-        let changed = each.into_iter().filter(|(_, from, to)| from != to);
+        let changed = rows.into_iter().filter(|(_, start, end)| start != end);
         // Thousandths without the rounding error of radians, so that the read-back is the same.
         let decimal = |angle: Angle| Value::Decimal((angle.degrees() * 1000.0).round() / 1000.0);
-        changed.map(|(key, _, to)| (key, decimal(to))).collect()
+        changed.map(|(key, _, last)| (key, decimal(last))).collect()
     }
 }
 

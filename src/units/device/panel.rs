@@ -73,8 +73,8 @@ pub struct Check {
 impl Check {
     /// A check that never forbids motion.
     pub const fn new(name: &'static str, state: CheckState, advice: &'static str) -> Self {
-        let told = Cow::Borrowed("");
-        Self { name, when_good: "", state, told, advice, locks_motion: false }
+        let text = Cow::Borrowed("");
+        Self { name, when_good: "", state, told: text, advice, locks_motion: false }
     }
 
     /// Returns `true` for a fault that forbids all motion.

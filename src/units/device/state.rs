@@ -67,8 +67,8 @@ pub struct AntennaState {
 impl AntennaState {
     /// The last position that was asked for on the present link.
     pub fn measured_on_link(&self) -> Option<Measured> {
-        let since = self.link_since?;
-        self.measured.filter(|measured| measured.asked >= since)
+        let start = self.link_since?;
+        self.measured.filter(|measured| measured.asked >= start)
     }
 
     /// The state of a group of settings, empty if it is new.
@@ -137,8 +137,8 @@ impl Measured {
         travel_deg: [(f64, f64); 2],
         has_elevation: bool,
     ) -> Option<[f64; 2]> {
-        let mut known = *self;
-        for (axis, (from_deg, to_deg)) in known.axes.iter_mut().zip(travel_deg) {
+        let mut measured = *self;
+        for (axis, (from_deg, to_deg)) in measured.axes.iter_mut().zip(travel_deg) {
             let end_deg = match (axis.minus_limit, axis.plus_limit) {
                 (true, false) => Some(from_deg),
                 (false, true) => Some(to_deg),
@@ -146,7 +146,7 @@ impl Measured {
             };
             axis.angle_deg = axis.angle_deg.or(end_deg);
         }
-        known.axes_deg(has_elevation)
+        measured.axes_deg(has_elevation)
     }
 }
 
@@ -180,8 +180,8 @@ impl Pointing {
     /// Angle from here to `other`: in the sky where all angles are known, else in azimuth
     /// alone; `None` without an azimuth.
     pub fn separation(self, other: Self) -> Option<Angle> {
-        if let (Some(here), Some(there)) = (self.direction(), other.direction()) {
-            return Some(here.separation(there));
+        if let (Some(here), Some(there_direction)) = (self.direction(), other.direction()) {
+            return Some(here.separation(there_direction));
         }
         Some((self.azimuth? - other.azimuth?).wrapped_180().abs())
     }
@@ -324,6 +324,6 @@ impl Traffic {
     /// Returns `true` while three positions of the last ten seconds are missing.
     pub fn loses_positions(&self, now: Instant) -> bool {
         let oldest = self.missed.first().copied().flatten();
-        oldest.is_some_and(|at| now.saturating_duration_since(at) < MISSED_WITHIN)
+        oldest.is_some_and(|instant| now.saturating_duration_since(instant) < MISSED_WITHIN)
     }
 }

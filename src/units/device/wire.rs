@@ -36,9 +36,9 @@ pub struct WireLine {
 
 impl WireLine {
     /// A whole line without further details.
-    pub fn new(direction: Direction, bytes: &[u8], finding: Finding, at: Timestamp) -> Self {
+    pub fn new(direction: Direction, bytes: &[u8], finding: Finding, time: Timestamp) -> Self {
         Self {
-            at,
+            at: time,
             direction,
             bytes: bytes.into(),
             length: bytes.len(),
@@ -52,7 +52,7 @@ impl WireLine {
 
     /// Returns `true` for a routine question or answer with nothing unusual in it.
     pub fn is_usual_poll(&self) -> bool {
-        let is_calm = |of: &Meaning| matches!(of.tone, Tone::Plain | Tone::Good);
+        let is_calm = |meaning: &Meaning| matches!(meaning.tone, Tone::Plain | Tone::Good);
         self.is_poll && self.finding.is_good() && self.meaning.as_ref().is_none_or(is_calm)
     }
 }

@@ -6,7 +6,7 @@
 //! flipped. All flips of a pass are tried, and the best is taken.
 
 mod flip;
-mod seen;
+mod view;
 
 use super::{
     Sample,
@@ -15,7 +15,7 @@ use super::{
 };
 use crate::astro::{Angle, AzEl};
 pub(super) use flip::{Choice, Flip};
-use seen::{Ends, Seen, SinCos, sin_cos};
+use view::{Ends, SinCos, View, sin_cos};
 
 /// Smallest improvement in pointing, degrees, for which a flip other than the preferred one is
 /// taken: it is not worth moving the elevation over the zenith for less.
@@ -50,11 +50,11 @@ impl Start {
     pub(super) fn departure(
         self,
         index: usize,
-        wanted: &[f64],
+        targets: &[f64],
         rates_deg_s: [f64; 2],
     ) -> Option<Departure> {
         let at_deg = self.axes_deg.get(index).copied().flatten().filter(|_| self.sets_out)?;
-        let (first_deg, rate_deg_s) = (wanted.first()?, rates_deg_s.get(index)?);
+        let (first_deg, rate_deg_s) = (targets.first()?, rates_deg_s.get(index)?);
         let reach_deg = rate_deg_s * self.lead_s;
         let near_deg = reach_deg + rate_deg_s * ON_COURSE_S;
         ((first_deg - at_deg).abs() > near_deg).then_some(Departure { at_deg, reach_deg })
@@ -106,9 +106,9 @@ impl AzElAxes {
     /// The flips other than [`Flip::None`] that the axes can make along `samples`.
     pub(super) fn others(&self, samples: &[Sample]) -> impl Iterator<Item = Flip> + use<> {
         let can_flip = self.elevation_deg.is_some_and(|(_, highest_deg)| highest_deg > 90.0);
-        let is_high = samples.iter().any(|sample| seen::is_overhead(sample.direction));
-        let over = [Flip::FromTop, Flip::UntilTop].into_iter().filter(move |_| is_high);
-        std::iter::once(Flip::Whole).chain(over).filter(move |_| can_flip)
+        let is_high = samples.iter().any(|sample| view::is_overhead(sample.direction));
+        let overhead_flips = [Flip::FromTop, Flip::UntilTop].into_iter().filter(move |_| is_high);
+        std::iter::once(Flip::Whole).chain(overhead_flips).filter(move |_| can_flip)
     }
 
     /// The positions with this `flip` along `samples`, `step_s` seconds apart. The azimuth axis
@@ -125,13 +125,13 @@ impl AzElAxes {
         let flipped = flip.flipped(samples);
         let ends = self.elevation_deg.map(Ends::new);
         // The sines and cosines are needed only where an axis does not keep up.
-        let seen = |index: usize| {
+        let view_at = |index: usize| {
             let (sample, is_flipped) = samples.get(index).zip(flipped.get(index))?;
-            Some(Seen::new(sample.direction, *is_flipped, ends))
+            Some(View::new(sample.direction, *is_flipped, ends))
         };
         let cost = |index: usize| {
-            let seen = seen(index);
-            move |azimuth: &SinCos| seen.map_or(0.0, |seen| seen.azimuth_cost(*azimuth))
+            let view = view_at(index);
+            move |azimuth: &SinCos| view.map_or(0.0, |view| view.azimuth_cost(*azimuth))
         };
         // First computed as if the axis had no ends, so that a turn of the sky that the axis does
         // not make in time does not take it to an end.
@@ -147,10 +147,10 @@ impl AzElAxes {
         );
         let (from_deg, to_deg) = self.azimuth_deg;
         let departures =
-            |index: usize, wanted: &[f64]| start.departure(index, wanted, self.rates_deg_s);
-        let wanted = &wrap.positions_deg;
+            |index: usize, targets: &[f64]| start.departure(index, targets, self.rates_deg_s);
+        let targets = &wrap.positions_deg;
         let azimuths: Vec<f64> =
-            rate_limited(wanted, azimuth_max_deg, departures(0, wanted), sin_cos, cost)
+            rate_limited(targets, azimuth_max_deg, departures(0, targets), sin_cos, cost)
                 .into_iter()
                 .map(|axis_deg| axis_deg.min(to_deg).max(from_deg))
                 .collect();
@@ -159,13 +159,13 @@ impl AzElAxes {
             .zip(&flipped)
             .zip(&azimuths)
             .map(|((sample, is_flipped), azimuth_deg)| {
-                Seen::elevation_deg((sample.direction, *is_flipped), ends, *azimuth_deg)
+                View::elevation_deg((sample.direction, *is_flipped), ends, *azimuth_deg)
             })
             .collect();
         let cost = |index: usize| {
-            let pair = seen(index).zip(azimuths.get(index).map(|deg| sin_cos(*deg)));
+            let pair = view_at(index).zip(azimuths.get(index).map(|deg| sin_cos(*deg)));
             move |elevation: &SinCos| {
-                pair.map_or(0.0, |(seen, azimuth)| seen.cost(azimuth, *elevation))
+                pair.map_or(0.0, |(view, azimuth)| view.cost(azimuth, *elevation))
             }
         };
         let departure = departures(1, &elevations);
@@ -190,7 +190,8 @@ impl AzElAxes {
             span_s = step_s;
             let lowest_deg = self.elevation_deg.map_or(f64::MIN, |(lowest_deg, _)| lowest_deg);
             if sample.direction.elevation_deg() >= lowest_deg {
-                let off_deg = self.off(sample.direction, axes_deg.map(Option::unwrap_or_default));
+                let off_deg =
+                    self.misalignment(sample.direction, axes_deg.map(Option::unwrap_or_default));
                 sum_deg2 += off_deg.degrees().powi(2);
                 count += 1;
             }
@@ -199,7 +200,11 @@ impl AzElAxes {
     }
 
     /// The angle by which the axes point away from `direction`.
-    pub(super) fn off(&self, direction: AzEl, [azimuth_deg, elevation_deg]: [f64; 2]) -> Angle {
+    pub(super) fn misalignment(
+        &self,
+        direction: AzEl,
+        [azimuth_deg, elevation_deg]: [f64; 2],
+    ) -> Angle {
         if self.elevation_deg.is_some() {
             direction.separation(AzEl::from_degrees(azimuth_deg, elevation_deg))
         } else {

@@ -31,11 +31,11 @@ impl AzimuthRange {
     }
 
     fn nearest_end(self, azimuth_deg: f64) -> f64 {
-        let off = |end_deg: f64| {
-            let off = (azimuth_deg - end_deg).rem_euclid(TURN_DEG);
-            off.min(TURN_DEG - off)
+        let distance = |end_deg: f64| {
+            let deviation = (azimuth_deg - end_deg).rem_euclid(TURN_DEG);
+            deviation.min(TURN_DEG - deviation)
         };
-        if off(self.to_deg) < off(self.from_deg) { self.to_deg } else { self.from_deg }
+        if distance(self.to_deg) < distance(self.from_deg) { self.to_deg } else { self.from_deg }
     }
 }
 
@@ -77,10 +77,11 @@ impl AzimuthWrap {
             let mut best: Option<(usize, f64, f64)> = None;
             for position in range.positions(*first) {
                 let shift = position - first;
-                let lasts = rest.iter().take_while(|at| range.holds(**at + shift)).count();
+                let lasts =
+                    rest.iter().take_while(|degrees| range.holds(**degrees + shift)).count();
                 let way = near.map_or(0.0, |near| (position - near).abs());
-                let is_better = best.is_none_or(|(most, _, shortest)| {
-                    lasts > most || (lasts == most && way < shortest)
+                let is_better = best.is_none_or(|(max, _, shortest)| {
+                    lasts > max || (lasts == max && way < shortest)
                 });
                 if is_better {
                     best = Some((lasts, shift, way));
@@ -88,8 +89,8 @@ impl AzimuthWrap {
             }
             // Rounding may put a position just outside an end.
             let (lasts, shift, _) = best.unwrap_or((1, 0.0, 0.0));
-            for at in rest.iter().take(lasts.max(1)) {
-                wrap.go_on(at + shift);
+            for axis_deg in rest.iter().take(lasts.max(1)) {
+                wrap.go_on(axis_deg + shift);
             }
             start += lasts.max(1);
         }
@@ -117,9 +118,9 @@ mod tests {
     }
 
     /// Degrees from `from` to `to`, both included.
-    fn sweep(from: i32, to: i32) -> Vec<f64> {
-        let step = if from < to { 1 } else { -1 };
-        (0..=(to - from).abs()).map(|count| f64::from(from + step * count)).collect()
+    fn sweep(start: i32, end: i32) -> Vec<f64> {
+        let step = if start < end { 1 } else { -1 };
+        (0..=(end - start).abs()).map(|count| f64::from(start + step * count)).collect()
     }
 
     fn start(wrap: &AzimuthWrap) -> Option<f64> {
@@ -155,14 +156,14 @@ mod tests {
 
     #[test]
     fn every_position_is_within_the_ends_and_points_where_it_should() {
-        for (from, to) in [PLAIN, OVERLAP, (-180.0, 180.0), (-180.0, 540.0), (90.0, 480.0)] {
+        for (first, end) in [PLAIN, OVERLAP, (-180.0, 180.0), (-180.0, 540.0), (90.0, 480.0)] {
             for start in (-720..720).step_by(37) {
                 for way in [-500, -123, 7, 200, 500] {
                     let azimuths = sweep(start, start + way);
-                    let wrap = wrap(&azimuths, (from, to), None);
+                    let wrap = wrap(&azimuths, (first, end), None);
                     assert_eq!(wrap.positions_deg.len(), azimuths.len());
                     for (axis, azimuth) in wrap.positions_deg.iter().zip(&azimuths) {
-                        assert!((from - 1e-6..=to + 1e-6).contains(axis), "{axis}");
+                        assert!((first - 1e-6..=end + 1e-6).contains(axis), "{axis}");
                         let turns = (axis - azimuth) / TURN_DEG;
                         assert!((turns - turns.round()).abs() < 1e-6);
                     }
@@ -186,17 +187,20 @@ mod tests {
     fn before_and_after_what_it_reaches_an_axis_stands_at_the_end_that_is_next_to_it() {
         const SECTOR: (f64, f64) = (90.0, 270.0);
         // From 275 through north to the end at 90, and back.
-        let (there, back) = (sweep(275, 460), sweep(460, 275));
+        let (out, back) = (sweep(275, 460), sweep(460, 275));
         let waits = |wrap: &AzimuthWrap| {
             let at_end =
                 wrap.positions_deg.iter().filter(|axis| (**axis - 90.0).abs() < 1e-9).count();
             (at_end, wrap.slews.len())
         };
-        assert_eq!(waits(&wrap(&there, SECTOR, None)), (176, 0));
+        assert_eq!(waits(&wrap(&out, SECTOR, None)), (176, 0));
         assert_eq!(waits(&wrap(&back, SECTOR, None)), (176, 0));
         // A sweep that lies wholly beyond has no such end.
-        let beyond = wrap(&sweep(280, 440), SECTOR, None);
-        assert_eq!((start(&beyond), beyond.positions_deg.last()), (Some(270.0), Some(&90.0)));
+        let past_travel = wrap(&sweep(280, 440), SECTOR, None);
+        assert_eq!(
+            (start(&past_travel), past_travel.positions_deg.last()),
+            (Some(270.0), Some(&90.0))
+        );
     }
 
     #[test]

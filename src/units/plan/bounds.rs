@@ -9,7 +9,7 @@
 
 mod aim;
 mod blocks;
-mod least;
+mod min_clearance;
 mod near;
 mod sun;
 mod sweep;
@@ -24,7 +24,7 @@ use crate::{
     astro::{Angle, AzEl, PointingModel, Site},
     station::{Antenna, Entered, KeepOut, Mount, Station, SunAvoidance},
 };
-use aim::{Aim, Towards};
+use aim::{Aim, AimVectors};
 pub use blocks::Budget;
 use blocks::Reached;
 use near::{Clear, Named, Near};
@@ -152,12 +152,14 @@ impl Bounds {
     /// be gone round, or less than `room_deg` outside its margin.
     pub(super) fn is_gone_round(&self, axes_deg: [f64; 2], room_deg: f64) -> bool {
         let (aim, room) = (self.aim(axes_deg), Angle::from_degrees(room_deg));
-        let mut rounded = self.keep_outs.iter().filter(|(it, _)| it.entered == Entered::GoRound);
-        rounded.any(|(it, margin)| {
-            let (zone, near) = (&it.zone, *margin + room);
-            let is_near =
-                |at: DVec3| zone.clearance_is_at_least(at) < near && zone.clearance_of(at) < near;
-            aim.each().map(AzEl::to_enu).any(is_near)
+        let mut rounded =
+            self.keep_outs.iter().filter(|(keep_out, _)| keep_out.entered == Entered::GoRound);
+        rounded.any(|(keep_out, margin)| {
+            let (zone, near) = (&keep_out.zone, *margin + room);
+            let is_near = |point: DVec3| {
+                zone.clearance_lower_bound(point) < near && zone.clearance_of(point) < near
+            };
+            aim.directions().map(AzEl::to_enu).any(is_near)
         })
     }
 }
@@ -192,44 +194,46 @@ impl<'a> BoundsAt<'a> {
     /// one position, else taken from samples, and negative where [`Self::blocks`] finds a way in.
     pub fn least_clearances(&self, place: Sweep) -> Vec<Clearance> {
         let within_deg = place.sampled_within_deg() * self.max_beam_turn();
-        let each = self.each_in(place).into_iter().enumerate();
+        let clearances = self.each_in(place).into_iter().enumerate();
         let shared = Budget::default();
         let sharing = self.sharing(&shared);
-        each.map(|(index, (barrier, angle, warns_only))| {
-            let may_hide = (0.0..within_deg).contains(&angle.degrees());
-            let hides = may_hide && sharing.blocks_from(place, Some(index)).is_some();
-            let angle = if hides { Angle::from_degrees(-FINEST_DEG) } else { angle };
-            Clearance { barrier: barrier.clone_of(), angle, warns_only }
-        })
-        .collect()
+        clearances
+            .map(|(index, (barrier, angle, warns_only))| {
+                let may_hide = (0.0..within_deg).contains(&angle.degrees());
+                let hides = may_hide && sharing.blocks_from(place, Some(index)).is_some();
+                let angle = if hides { Angle::from_degrees(-FINEST_DEG) } else { angle };
+                Clearance { barrier: barrier.clone_of(), angle, warns_only }
+            })
+            .collect()
     }
 
     /// For each barrier, in the order of [`Self::clearances`], whether all samples of `place` are
     /// inside it.
     pub fn holds_all_of(&self, place: Sweep) -> Vec<bool> {
         let mut samples = place.samples().map(|sample| self.aim(sample));
-        let first = samples.next().into_iter().flat_map(|at| self.each(at));
-        let mut inside: Vec<_> = first.map(|(_, angle, _)| angle < Angle::ZERO).collect();
+        let first = samples.next().into_iter().flat_map(|aim| self.named_clearances(aim));
+        let mut is_inside: Vec<_> = first.map(|(_, angle, _)| angle < Angle::ZERO).collect();
         for aim in samples {
-            if !inside.contains(&true) {
+            if !is_inside.contains(&true) {
                 break;
             }
-            for (inside, barrier) in inside.iter_mut().zip(self.barriers(aim)) {
-                *inside = *inside && barrier.angle_below(Angle::ZERO).is_some();
+            for (is_inside, barrier) in is_inside.iter_mut().zip(self.barriers(aim)) {
+                *is_inside = *is_inside && barrier.angle_below(Angle::ZERO).is_some();
             }
         }
-        inside
+        is_inside
     }
 
     /// The clearance from every barrier of axes that count `direction`.
     pub fn clearances(&self, direction: AzEl) -> Vec<Clearance> {
-        let each = self.each(self.aim_at(direction));
-        each.map(|(barrier, angle, warns_only)| Clearance {
-            barrier: barrier.clone_of(),
-            angle,
-            warns_only,
-        })
-        .collect()
+        let named_clearances = self.named_clearances(self.aim_at(direction));
+        named_clearances
+            .map(|(barrier, angle, warns_only)| Clearance {
+                barrier: barrier.clone_of(),
+                angle,
+                warns_only,
+            })
+            .collect()
     }
 
     /// The nearest barrier that refuses motion, of axes that count `direction`; `None` if there is
@@ -237,8 +241,8 @@ impl<'a> BoundsAt<'a> {
     pub fn nearest(&self, direction: AzEl) -> Option<Clearance> {
         let mut nearest: Option<(Named<'_>, Angle)> = None;
         for barrier in self.barriers(self.aim_at(direction)).filter(|barrier| !barrier.warns_only) {
-            let least = nearest.map_or(Angle::from_degrees(f64::INFINITY), |(_, least)| least);
-            if let Some(angle) = barrier.angle_below(least) {
+            let min = nearest.map_or(Angle::from_degrees(f64::INFINITY), |(_, min)| min);
+            if let Some(angle) = barrier.angle_below(min) {
                 nearest = Some((barrier.name, angle));
             }
         }
@@ -264,8 +268,9 @@ impl<'a> BoundsAt<'a> {
 
     /// The first barrier that refuses motion and that the axes may be inside of in `place`.
     pub fn may_be_inside(&self, place: Sweep) -> Option<Barrier> {
-        let each = self.barriers(self.aim(place.middle())).zip(self.stands(place));
-        each.filter(|(_, stands)| *stands != Standing::Outside)
+        let pairs = self.barriers(self.aim(place.middle())).zip(self.stands(place));
+        pairs
+            .filter(|(_, stands)| *stands != Standing::Outside)
             .map(|(barrier, _)| barrier.name.clone_of())
             .next()
     }
@@ -304,8 +309,8 @@ impl<'a> BoundsAt<'a> {
     /// The bounds without the barriers that the axes may be inside of. Keeps a barrier if the search
     /// ended before it settled that.
     pub fn without_entered(&self, place: Sweep) -> Bounds {
-        let mut each = self.stands(place).into_iter();
-        let mut is_kept = || each.next() != Some(Standing::MayBeInside);
+        let mut standings = self.stands(place).into_iter();
+        let mut is_kept = || standings.next() != Some(Standing::MayBeInside);
         let mut rest = self.bounds.clone();
         rest.minimum_elevation = self.minimum_elevation.filter(|_| is_kept());
         rest.keep_outs.retain(|_| is_kept());
@@ -319,22 +324,23 @@ impl<'a> BoundsAt<'a> {
         let is_one = place.radius_deg() <= 0.0;
         let shared = Budget::default();
         let sharing = self.sharing(&shared);
-        let each = self.barriers(self.aim(place.middle())).enumerate();
-        each.map(|(index, barrier)| {
-            if barrier.warns_only {
-                Standing::Outside
-            } else if is_one {
-                let entered = barrier.angle_below(Angle::ZERO);
-                entered.map_or(Standing::Outside, |_| Standing::MayBeInside)
-            } else {
-                match sharing.blocks_from(place, Some(index)) {
-                    None => Standing::Outside,
-                    Some(Reached { is_settled: true, .. }) => Standing::MayBeInside,
-                    Some(Reached { is_settled: false, .. }) => Standing::Unsettled,
+        let numbered = self.barriers(self.aim(place.middle())).enumerate();
+        numbered
+            .map(|(index, barrier)| {
+                if barrier.warns_only {
+                    Standing::Outside
+                } else if is_one {
+                    let entered = barrier.angle_below(Angle::ZERO);
+                    entered.map_or(Standing::Outside, |_| Standing::MayBeInside)
+                } else {
+                    match sharing.blocks_from(place, Some(index)) {
+                        None => Standing::Outside,
+                        Some(Reached { is_settled: true, .. }) => Standing::MayBeInside,
+                        Some(Reached { is_settled: false, .. }) => Standing::Unsettled,
+                    }
                 }
-            }
-        })
-        .collect()
+            })
+            .collect()
     }
 
     /// The first barrier that the axes may enter within `sweep`, and a direction inside it. From
@@ -349,7 +355,7 @@ impl<'a> BoundsAt<'a> {
     }
 
     fn blocks_all(&self, sweep: Sweep) -> Option<(Barrier, AzEl)> {
-        self.blocks_from(sweep, None).map(|reached| (reached.barrier, reached.at))
+        self.blocks_from(sweep, None).map(|reached| (reached.barrier, reached.direction))
     }
 
     /// Like [`Self::blocks`], for an unknown position within `start`: any descent counts as one below
@@ -398,19 +404,19 @@ impl<'a> BoundsAt<'a> {
     fn each_in(&self, place: Sweep) -> Vec<(Named<'_>, Angle, bool)> {
         let barriers: Vec<_> = self.barriers(self.aim(place.middle())).collect();
         let groups: Vec<_> = (0..barriers.len()).map(Some).collect();
-        let mut least = vec![Angle::from_degrees(f64::INFINITY); barriers.len()];
-        self.lower_to_least(place, &groups, &mut least);
-        let each = barriers.iter().zip(least);
-        each.map(|(barrier, least)| (barrier.name, least, barrier.warns_only)).collect()
+        let mut minima = vec![Angle::from_degrees(f64::INFINITY); barriers.len()];
+        self.lower_to_min(place, &groups, &mut minima);
+        let pairs = barriers.iter().zip(minima);
+        pairs.map(|(barrier, min)| (barrier.name, min, barrier.warns_only)).collect()
     }
 
-    fn each(&self, aim: Aim) -> impl Iterator<Item = (Named<'_>, Angle, bool)> {
+    fn named_clearances(&self, aim: Aim) -> impl Iterator<Item = (Named<'_>, Angle, bool)> {
         self.barriers(aim).map(|barrier| (barrier.name, barrier.angle(), barrier.warns_only))
     }
 
     fn barriers(&self, aim: Aim) -> impl Iterator<Item = Near<'_>> {
-        let at = aim.to_enu();
-        (0..self.number()).filter_map(move |index| self.barrier(index, aim, at))
+        let vectors = aim.to_enu();
+        (0..self.number()).filter_map(move |index| self.barrier(index, aim, vectors))
     }
 
     fn number(&self) -> usize {
@@ -420,7 +426,7 @@ impl<'a> BoundsAt<'a> {
     }
 
     /// The barrier at `index`: first the minimum elevation, then the keep-outs, then the Sun.
-    fn barrier(&self, index: usize, aim: Aim, at: Towards) -> Option<Near<'_>> {
+    fn barrier(&self, index: usize, aim: Aim, vectors: AimVectors) -> Option<Near<'_>> {
         let zone_index = match self.minimum_elevation {
             Some(minimum) if index == 0 => {
                 let angle = Clear::Known(aim.axes.elevation - minimum);
@@ -433,20 +439,24 @@ impl<'a> BoundsAt<'a> {
             return Some(Near {
                 name: Named::KeepOut(&zone.name),
                 warns_only: zone.entered == Entered::Warn,
-                angle: Clear::OfZone { zone: &zone.zone, margin: *margin, at },
+                angle: Clear::OfZone { zone: &zone.zone, margin: *margin, vectors },
             });
         }
         let sun = self.sun.as_ref().filter(|_| index < self.number())?;
-        Some(Near { name: Named::Sun, warns_only: false, angle: Clear::OfSun { sun, at } })
+        Some(Near { name: Named::Sun, warns_only: false, angle: Clear::OfSun { sun, vectors } })
     }
 }
 
 /// The keep-out or the Sun that is entered deepest.
 fn deepest(clearances: Vec<Clearance>) -> Option<Barrier> {
-    let entered = clearances.into_iter().filter(|it| {
-        !it.warns_only && it.angle < Angle::ZERO && it.barrier != Barrier::MinimumElevation
+    let entered = clearances.into_iter().filter(|clearance| {
+        !clearance.warns_only
+            && clearance.angle < Angle::ZERO
+            && clearance.barrier != Barrier::MinimumElevation
     });
-    entered.min_by(|a, b| a.angle.degrees().total_cmp(&b.angle.degrees())).map(|it| it.barrier)
+    entered
+        .min_by(|a, b| a.angle.degrees().total_cmp(&b.angle.degrees()))
+        .map(|clearance| clearance.barrier)
 }
 
 #[cfg(test)]
@@ -499,26 +509,23 @@ mod tests {
     #[test]
     fn a_way_round_a_corner_is_free_and_the_box_of_both_axes_is_not() {
         let bounds = bounds(vec![mast()]);
-        let free = |from, to| bounds.at(noon()).blocks(Sweep::between(from, to), high()).is_none();
-        let (from, to) = ([60.0, 20.0], [160.0, 70.0]);
-        assert!(!free(from, to), "both axes at once may sweep through");
-        assert!(free(from, [60.0, 70.0]) && free([60.0, 70.0], to), "elevation first");
-        assert!(!free(from, [160.0, 20.0]), "azimuth first");
+        let free =
+            |start, end| bounds.at(noon()).blocks(Sweep::between(start, end), high()).is_none();
+        let (first, last) = ([60.0, 20.0], [160.0, 70.0]);
+        assert!(!free(first, last), "both axes at once may sweep through");
+        assert!(free(first, [60.0, 70.0]) && free([60.0, 70.0], last), "elevation first");
+        assert!(!free(first, [160.0, 20.0]), "azimuth first");
     }
 
     #[test]
     fn a_keep_out_of_one_antenna_holds_for_no_other() {
         let other = KeepOut { antenna: Some("Dish".to_owned()), ..mast() };
-        let inside = Sweep([(110.0, 110.0), (20.0, 20.0)]);
-        assert_eq!(bounds(vec![other]).at(noon()).blocks(inside, high()), None);
-        let (barrier, _) = bounds(vec![mast()]).at(noon()).blocks(inside, high()).unwrap();
+        let boxed = Sweep([(110.0, 110.0), (20.0, 20.0)]);
+        assert_eq!(bounds(vec![other]).at(noon()).blocks(boxed, high()), None);
+        let (barrier, _) = bounds(vec![mast()]).at(noon()).blocks(boxed, high()).unwrap();
         assert_eq!(barrier, Barrier::KeepOut("mast".into()));
         let warns = KeepOut { entered: Entered::Warn, ..mast() };
-        assert_eq!(
-            bounds(vec![warns]).at(noon()).blocks(inside, high()),
-            None,
-            "told, not refused"
-        );
+        assert_eq!(bounds(vec![warns]).at(noon()).blocks(boxed, high()), None, "told, not refused");
     }
 
     proptest! {
@@ -539,15 +546,15 @@ mod tests {
             prop_assume!(zone.is_ok());
             let zone = KeepOut { zone: zone.unwrap(), ..mast() };
             let bounds = bounds(vec![zone]);
-            let to: [f64; 2] = [az + daz, f64::min(el + del, 90.0)];
-            let (now, sweep) = (bounds.at(noon()), Sweep::between([az, el], to));
+            let end: [f64; 2] = [az + daz, f64::min(el + del, 90.0)];
+            let (now, sweep) = (bounds.at(noon()), Sweep::between([az, el], end));
             if let Some((_, direction)) = &now.blocks(sweep, high()) {
                 let nearest = now.nearest(*direction).unwrap();
-                let is_settled = now.blocks_from(sweep, None).is_some_and(|it| it.is_settled);
+                let is_settled = now.blocks_from(sweep, None).is_some_and(|reached| reached.is_settled);
                 prop_assert!(!is_settled || nearest.angle.degrees() < 0.0, "{nearest:?}");
             } else {
                 for (a, b) in part {
-                    let axes = [az + a * daz, el + b * (to[1] - el)];
+                    let axes = [az + a * daz, el + b * (end[1] - el)];
                     let nearest = now.nearest(bounds.direction(axes)).unwrap();
                     prop_assert!(nearest.angle.degrees() > -FINEST_DEG - 1e-6, "{axes:?} {nearest:?}");
                 }

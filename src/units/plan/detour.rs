@@ -38,14 +38,14 @@ impl AxisLimits {
     }
 
     fn holds(&self, axes_deg: [f64; 2]) -> bool {
-        let mut both = self.travel_deg.into_iter().zip(axes_deg);
-        both.all(|((from, to), at)| (from..=to).contains(&at))
+        let mut axes = self.travel_deg.into_iter().zip(axes_deg);
+        axes.all(|((start, end), degrees)| (start..=end).contains(&degrees))
     }
 
     /// Time until both axes, which move together, have arrived, seconds.
     pub fn seconds(&self, from_deg: [f64; 2], to_deg: [f64; 2]) -> f64 {
-        let each = from_deg.into_iter().zip(to_deg).zip(self.rates_deg_s);
-        each.map(|((from, to), rate)| (to - from).abs() / rate).fold(0.0, f64::max)
+        let axes = from_deg.into_iter().zip(to_deg).zip(self.rates_deg_s);
+        axes.map(|((start, end), rate)| (end - start).abs() / rate).fold(0.0, f64::max)
     }
 }
 
@@ -71,12 +71,12 @@ pub fn between_within(
     now: &BoundsAt<'_>,
     limits: &AxisLimits,
     (from_deg, to_deg): ([f64; 2], [f64; 2]),
-    most_s: f64,
+    max_s: f64,
 ) -> Option<Vec<[f64; 2]>> {
     let search = Search::new(now, limits, (from_deg, to_deg));
     // The cost counts the length of a route too.
-    let most = (most_s * 1.1 + 1.0) * 1e6;
-    let way = search.way(most as u64, 1)?;
+    let max = (max_s * 1.1 + 1.0) * 1e6;
+    let way = search.way(max as u64, 1)?;
     Some(search.pulled_straight(&way))
 }
 
@@ -95,12 +95,12 @@ pub fn leads(
 pub fn in_steps(turns_deg: &[[f64; 2]], step_deg: f64) -> Vec<[f64; 2]> {
     let mut places = Vec::new();
     for pair in turns_deg.windows(2) {
-        let [from, to] = pair else { continue };
-        let [first, second] = [to[0] - from[0], to[1] - from[1]];
+        let [start, end] = pair else { continue };
+        let [first, second] = [end[0] - start[0], end[1] - start[1]];
         let parts = (first.abs().max(second.abs()) / step_deg).ceil().max(1.0);
         places.extend((1..=parts as u32).map(|part| {
             let share = f64::from(part) / parts;
-            [from[0] + first * share, from[1] + second * share]
+            [start[0] + first * share, start[1] + second * share]
         }));
     }
     places
@@ -126,10 +126,10 @@ struct Grid {
 }
 
 impl Grid {
-    fn over(travel_deg: [(f64, f64); 2], from_deg: [f64; 2]) -> Self {
-        let range = |(least_deg, most_deg): (f64, f64), from_deg: f64| {
+    fn new(travel_deg: [(f64, f64); 2], from_deg: [f64; 2]) -> Self {
+        let range = |(min_deg, max_deg): (f64, f64), from_deg: f64| {
             let cells = |to_deg: f64| ((to_deg - from_deg) / CELL_DEG) as i32;
-            cells(least_deg).max(-MAX_CELLS)..=cells(most_deg).min(MAX_CELLS)
+            cells(min_deg).max(-MAX_CELLS)..=cells(max_deg).min(MAX_CELLS)
         };
         let [first, second] = travel_deg;
         let first = range(first, from_deg[0]);
@@ -195,7 +195,7 @@ impl<'a> Search<'a> {
     }
 
     /// A route that costs at most `most`: the cheapest one with a `greed` of 1.
-    fn way(&self, most: u64, greed: u64) -> Option<Vec<[f64; 2]>> {
+    fn way(&self, max: u64, greed: u64) -> Option<Vec<[f64; 2]>> {
         let room_deg = self.room_deg;
         // Both ends may touch the edge of the room.
         let ends = [self.from_deg, self.to_deg];
@@ -203,7 +203,7 @@ impl<'a> Search<'a> {
             return None;
         }
         let mut open = BinaryHeap::new();
-        let mut grid = Grid::over(self.limits.travel_deg, self.from_deg);
+        let mut grid = Grid::new(self.limits.travel_deg, self.from_deg);
         grid.put((0, 0), Place::Known { spent: 0, before: (0, 0) });
         open.push((Reverse(self.cost(self.from_deg, self.to_deg)), (0, 0), 0));
         let steps = NEIGHBOURS.map(|(first, second)| {
@@ -212,7 +212,7 @@ impl<'a> Search<'a> {
         let mut count = 1;
         while let Some((_, place, spent)) = open.pop() {
             let is_reached_for_less = match grid.place(place) {
-                Place::Known { spent: least, .. } => least < spent,
+                Place::Known { spent: min, .. } => min < spent,
                 Place::Unknown | Place::Taken => true,
             };
             if is_reached_for_less {
@@ -247,7 +247,7 @@ impl<'a> Search<'a> {
                     continue;
                 }
                 let whole = cost + greed * self.cost(next_deg, self.to_deg);
-                if whole <= most {
+                if whole <= max {
                     grid.put(next, Place::Known { spent: cost, before: place });
                     open.push((Reverse(whole), next, cost));
                 }
@@ -261,7 +261,7 @@ impl<'a> Search<'a> {
     fn is_last(&self, here_deg: [f64; 2]) -> bool {
         let is_within = |max_deg| {
             let mut axes = here_deg.into_iter().zip(self.to_deg);
-            axes.all(|(here, to)| (here - to).abs() <= max_deg)
+            axes.all(|(here, end)| (here - end).abs() <= max_deg)
         };
         is_within(CELL_DEG / 2.0)
             || is_within(1.5 * CELL_DEG) && self.is_straight(here_deg, self.to_deg)
@@ -349,10 +349,10 @@ mod tests {
 
     fn assert_outside(bounds: &Bounds, way: &[[f64; 2]]) {
         for pair in way.windows(2) {
-            let [from, to] = pair else { continue };
+            let [start, end] = pair else { continue };
             for part in 0..=100 {
                 let share = f64::from(part) / 100.0;
-                let axes = [0, 1].map(|axis| from[axis] + (to[axis] - from[axis]) * share);
+                let axes = [0, 1].map(|axis| start[axis] + (end[axis] - start[axis]) * share);
                 let nearest = bounds.at(noon()).nearest(bounds.direction(axes)).unwrap();
                 assert!(nearest.angle.degrees() >= -1e-6, "{axes:?} {nearest:?}");
             }
@@ -404,8 +404,9 @@ mod tests {
         let way = between(&wall.at(noon()), &limits(), [80.0, 20.0], [140.0, 20.0]);
         // The azimuth axis ends in the north.
         assert_eq!(way, None);
-        let over = AxisLimits::new([(-300.0, 360.0), (0.0, 90.0)], [4.0, 4.0], 0.0);
-        let way = between(&wall.at(noon()), &over, [80.0, 20.0], [140.0 - 360.0, 20.0]).unwrap();
+        let wide_limits = AxisLimits::new([(-300.0, 360.0), (0.0, 90.0)], [4.0, 4.0], 0.0);
+        let way =
+            between(&wall.at(noon()), &wide_limits, [80.0, 20.0], [140.0 - 360.0, 20.0]).unwrap();
         assert_outside(&wall, &way);
     }
 

@@ -44,17 +44,17 @@ pub struct KnownOrbit {
 impl KnownOrbit {
     /// The pass that a unit with the report `told` tracks, in its own window; `None` if the unit
     /// holds another satellite or reports no window.
-    pub fn pass_of(&self, told: &OnBoard) -> Option<OnBoardPass> {
-        let held = told.satellite.as_ref()?;
-        let (from, until) = told.window?;
-        let is_this = held.catalog_number == self.elements.catalog_number();
+    pub fn pass_of(&self, on_board: &OnBoard) -> Option<OnBoardPass> {
+        let held_satellite = on_board.satellite.as_ref()?;
+        let (start, end) = on_board.window?;
+        let is_this = held_satellite.catalog_number == self.elements.catalog_number();
         is_this.then(|| OnBoardPass {
             target: TrackTarget {
-                catalog_number: held.catalog_number,
-                name: held.name.clone(),
+                catalog_number: held_satellite.catalog_number,
+                name: held_satellite.name.clone(),
                 element_file: None,
-                from,
-                until,
+                from: start,
+                until: end,
             },
             elements: self.elements.clone(),
             site: self.site,
@@ -104,8 +104,8 @@ pub struct Supervision {
 impl Supervision {
     /// The likeliest cause that makes an error of `off`. A small known error is no cause of a large
     /// one.
-    pub fn cause_of(&self, off: Angle) -> Option<&Ranked> {
-        self.causes.iter().find(|cause| cause.can_make(off))
+    pub fn cause_of(&self, deviation: Angle) -> Option<&Ranked> {
+        self.causes.iter().find(|cause| cause.can_make(deviation))
     }
 }
 
@@ -149,8 +149,8 @@ impl Judge {
     }
 
     /// Direction in which the satellite appears at `at`: the one to point at.
-    pub fn direction(&self, at: Timestamp) -> Option<AzEl> {
-        Some(self.propagator.look_from(self.pass.site, at).ok()?.direction)
+    pub fn direction(&self, time: Timestamp) -> Option<AzEl> {
+        Some(self.propagator.look_from(self.pass.site, time).ok()?.direction)
     }
 
     /// Judges a unit by its report `unit`. `holds_target` says that the target was sent to the
@@ -177,14 +177,14 @@ impl Judge {
     /// Checks the real track against the limits of the antenna. The error is the first
     /// position outside them, or the first unknown position.
     pub fn is_clear(&self, unit: &OnBoard, bounds: &Bounds) -> Result<(), NotClear> {
-        let unit = UnitPath::of(unit, self);
+        let unit = UnitPath::new(unit, self);
         unit.either_way().try_for_each(|unit| path_is_clear(self.path(unit), &self.ability, bounds))
     }
 
     /// Where the unit goes if it is started at `at`: to where it waits for the window, or to the
     /// satellite within it.
-    pub fn start(&self, unit: &OnBoard, at: Timestamp) -> Option<AzEl> {
-        UnitPath::of(unit, self).direction(at)
+    pub fn start(&self, unit: &OnBoard, time: Timestamp) -> Option<AzEl> {
+        UnitPath::new(unit, self).direction(time)
     }
 
     /// The real track according to the report of the unit, from where the unit waits to where it
@@ -198,15 +198,15 @@ impl Judge {
 
     fn worst(&self, unit: &UnitPath<'_>) -> Error {
         let errors = self.truth.iter().filter_map(|truth| {
-            let off = unit.direction(truth.time)?.separation(truth.direction);
-            Some(Error { off, at: truth.time })
+            let deviation = unit.direction(truth.time)?.separation(truth.direction);
+            Some(Error { off: deviation, at: truth.time })
         });
         errors.reduce(worse).unwrap_or(Error { off: Angle::ZERO, at: self.pass.target.from })
     }
 
     /// The maximum elevation that the unit will compute for the window.
     fn highest(&self, unit: &UnitPath<'_>) -> Option<Angle> {
-        let elevations = self.truth.iter().filter_map(|at| unit.computed(at.time));
+        let elevations = self.truth.iter().filter_map(|sample| unit.computed(sample.time));
         elevations.map(|direction| direction.elevation).reduce(|a, b| if b > a { b } else { a })
     }
 

@@ -102,8 +102,8 @@ impl PassReport {
 
     /// Returns `true` if the error at a time is one of pointing or of the drives. `end`: of what
     /// counts of the pass.
-    pub fn judges(&self, at: Timestamp, end: Timestamp) -> bool {
-        let is_there = |lost: &&LostStretch| (lost.from..=lost.until).contains(&at);
+    pub fn judges(&self, time: Timestamp, end: Timestamp) -> bool {
+        let is_there = |lost: &&LostStretch| (lost.from..=lost.until).contains(&time);
         self.losses.iter().filter(is_there).all(|lost| lost.is_judged(end))
     }
 }
@@ -169,21 +169,21 @@ impl TrackPoint {
         has_elevation: bool,
         flown: MeasuredPosition,
     ) -> Option<Self> {
-        let direction = |at| propagator.look_from(site, at).ok().map(|look| look.direction);
+        let direction = |time| propagator.look_from(site, time).ok().map(|look| look.direction);
         let satellite = direction(flown.time)?;
         let ahead = direction(add_seconds(flown.time, MOTION_S))?;
         let azimuth = flown.pointing.azimuth?;
         let elevation =
             flown.pointing.elevation.or((!has_elevation).then_some(satellite.elevation))?;
         let antenna = AzEl { azimuth, elevation };
-        let off = flown.pointing.separation(satellite.into())?;
-        let at = satellite.to_enu();
-        let error = antenna.to_enu() - at;
-        let way = (ahead.to_enu() - at).reject_from_normalized(at).normalize_or_zero();
+        let deviation = flown.pointing.separation(satellite.into())?;
+        let vector = satellite.to_enu();
+        let error = antenna.to_enu() - vector;
+        let way = (ahead.to_enu() - vector).reject_from_normalized(vector).normalize_or_zero();
         let along = Angle::from_radians(error.dot(way));
-        let across = Angle::from_radians(error.dot(at.cross(way)));
+        let across = Angle::from_radians(error.dot(vector.cross(way)));
         let error = PointingError {
-            off_deg: off.degrees(),
+            off_deg: deviation.degrees(),
             azimuth_deg: (azimuth - satellite.azimuth).wrapped_180().degrees(),
             elevation_deg: (elevation - satellite.elevation).degrees(),
             along_deg: along.degrees(),
@@ -203,9 +203,9 @@ impl TrackedPass<'_> {
         let points: Vec<TrackPoint> = near.filter_map(|flown| self.compare(*flown)).collect();
         let stretches = self.stretches(&points);
         let seconds = |is_meant: fn(State) -> bool| {
-            let meant = stretches.iter().filter(|stretch| is_meant(stretch.state));
+            let tracked_stretches = stretches.iter().filter(|stretch| is_meant(stretch.state));
             // The sum of nothing is a negative zero.
-            meant.map(Stretch::seconds).sum::<f64>().abs()
+            tracked_stretches.map(Stretch::seconds).sum::<f64>().abs()
         };
         let known_s = seconds(|state| matches!(state, State::InBeam | State::Outside));
         let in_beam_s = seconds(|state| state == State::InBeam);
@@ -268,8 +268,8 @@ impl TrackedPass<'_> {
     }
 
     /// Returns `true` if the mount can point at the satellite then.
-    fn is_in_reach(&self, at: Timestamp) -> bool {
-        let look = self.propagator.look_from(self.site, at);
+    fn is_in_reach(&self, time: Timestamp) -> bool {
+        let look = self.propagator.look_from(self.site, time);
         look.is_ok_and(|look| self.limits.mount.reaches(look.direction))
     }
 
@@ -287,15 +287,16 @@ fn root_mean_square(compared: &[&TrackPoint]) -> Option<PointingError> {
     if count == 0 {
         return None;
     }
-    let of = |part: fn(&PointingError) -> f64| {
-        let squares: f64 = compared.iter().map(|it| part(&it.error).powi(2)).sum();
+    let rms = |part: fn(&PointingError) -> f64| {
+        let squares: f64 =
+            compared.iter().map(|track_point| part(&track_point.error).powi(2)).sum();
         (squares / count as f64).sqrt()
     };
     Some(PointingError {
-        off_deg: of(|error| error.off_deg),
-        azimuth_deg: of(|error| error.azimuth_deg),
-        elevation_deg: of(|error| error.elevation_deg),
-        along_deg: of(|error| error.along_deg),
-        across_deg: of(|error| error.across_deg),
+        off_deg: rms(|error| error.off_deg),
+        azimuth_deg: rms(|error| error.azimuth_deg),
+        elevation_deg: rms(|error| error.elevation_deg),
+        along_deg: rms(|error| error.along_deg),
+        across_deg: rms(|error| error.across_deg),
     })
 }

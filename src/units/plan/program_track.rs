@@ -79,8 +79,8 @@ impl ProgramTrack {
     /// Drops all passes after the one at `now`, or after the next.
     #[must_use]
     pub fn one_pass(mut self, now: Timestamp) -> Self {
-        let over = self.passes.iter().filter(|(_, los)| *los <= now).count();
-        self.passes.truncate(over + 1);
+        let past_count = self.passes.iter().filter(|(_, los)| *los <= now).count();
+        self.passes.truncate(past_count + 1);
         self
     }
 }
@@ -89,7 +89,7 @@ impl ProgramTrack {
 mod tests {
     use super::*;
 
-    fn at(second: i64) -> Timestamp {
+    fn time(second: i64) -> Timestamp {
         Timestamp::from_second(second).unwrap()
     }
 
@@ -97,31 +97,31 @@ mod tests {
         ProgramTrack::new(
             Target::Sun,
             Site::new(41.0, 29.0, 100.0).unwrap(),
-            passes.iter().map(|(aos, los)| (at(*aos), at(*los))).collect(),
+            passes.iter().map(|(aos, los)| (time(*aos), time(*los))).collect(),
         )
     }
 
     #[test]
     fn a_target_waits_is_followed_and_is_over() {
         let follow = follow(&[(10, 20), (50, 60)]);
-        assert_eq!(follow.phase(at(9)), TrackPhase::Waiting { aos: at(10) });
-        assert_eq!(follow.phase(at(10)), TrackPhase::Tracking);
-        assert_eq!(follow.phase(at(20)), TrackPhase::Waiting { aos: at(50) });
-        assert_eq!(follow.phase(at(60)), TrackPhase::Over);
+        assert_eq!(follow.phase(time(9)), TrackPhase::Waiting { aos: time(10) });
+        assert_eq!(follow.phase(time(10)), TrackPhase::Tracking);
+        assert_eq!(follow.phase(time(20)), TrackPhase::Waiting { aos: time(50) });
+        assert_eq!(follow.phase(time(60)), TrackPhase::Over);
     }
 
     #[test]
     fn without_passes_a_target_is_always_followed() {
-        assert_eq!(follow(&[]).phase(at(9)), TrackPhase::Tracking);
-        assert_eq!(follow(&[]).one_pass(at(9)).phase(at(9)), TrackPhase::Tracking);
+        assert_eq!(follow(&[]).phase(time(9)), TrackPhase::Tracking);
+        assert_eq!(follow(&[]).one_pass(time(9)).phase(time(9)), TrackPhase::Tracking);
     }
 
     #[test]
     fn one_pass_is_the_one_under_way_or_the_next() {
         let passes = [(10, 20), (50, 60), (90, 99)];
-        assert_eq!(follow(&passes).one_pass(at(0)).phase(at(20)), TrackPhase::Over);
-        assert_eq!(follow(&passes).one_pass(at(20)).phase(at(59)), TrackPhase::Tracking);
-        assert_eq!(follow(&passes).one_pass(at(55)).phase(at(60)), TrackPhase::Over);
-        assert_eq!(follow(&passes).one_pass(at(99)).phase(at(99)), TrackPhase::Over);
+        assert_eq!(follow(&passes).one_pass(time(0)).phase(time(20)), TrackPhase::Over);
+        assert_eq!(follow(&passes).one_pass(time(20)).phase(time(59)), TrackPhase::Tracking);
+        assert_eq!(follow(&passes).one_pass(time(55)).phase(time(60)), TrackPhase::Over);
+        assert_eq!(follow(&passes).one_pass(time(99)).phase(time(99)), TrackPhase::Over);
     }
 }

@@ -23,17 +23,17 @@ pub(super) struct Departure {
 /// Where the course is slow enough, they are the course itself; elsewhere they minimise the sum of
 /// `cost(interval)(position)`, with each position as `prepare` makes it once for all intervals.
 pub(super) fn rate_limited<P, C: Fn(&P) -> f64>(
-    wanted: &[f64],
+    targets: &[f64],
     max_deg: f64,
     departure: Option<Departure>,
     prepare: impl Fn(f64) -> P,
     cost: impl Fn(usize) -> C,
 ) -> Vec<f64> {
-    let mut steps = wanted.iter().zip(wanted.iter().skip(1));
-    if departure.is_none() && steps.all(|(from, to)| (to - from).abs() <= max_deg) {
-        return wanted.to_vec();
+    let mut steps = targets.iter().zip(targets.iter().skip(1));
+    if departure.is_none() && steps.all(|(start, end)| (end - start).abs() <= max_deg) {
+        return targets.to_vec();
     }
-    let mut bounds = Envelope::around(wanted, max_deg);
+    let mut bounds = Envelope::envelope_of(targets, max_deg);
     if let Some(departure) = departure {
         bounds.keep_within_reach(departure, max_deg);
     }
@@ -42,15 +42,16 @@ pub(super) fn rate_limited<P, C: Fn(&P) -> f64>(
         return way;
     }
     for slew in bounds.slews() {
-        let mut place = at(&bounds.low, slew.start.saturating_sub(1));
-        let rough = cheapest::between(&bounds, &slew, place, max_deg, &prepare, &cost);
+        let mut place = position_at(&bounds.low, slew.start.saturating_sub(1));
+        let rough = cheapest::find(&bounds, &slew, place, max_deg, &prepare, &cost);
         for (index, rough_deg) in slew.zip(rough.places_deg) {
             // Within a cell of the grid, the course itself is better.
-            let course = at(wanted, index);
+            let course = position_at(targets, index);
             let is_near = (course - rough_deg).abs() <= rough.cell_deg;
             let way_deg = if is_near { course - place } else { rough_deg - place };
             place += way_deg.min(max_deg).max(-max_deg);
-            place = place.max(at(&bounds.low, index)).min(at(&bounds.high, index));
+            place =
+                place.max(position_at(&bounds.low, index)).min(position_at(&bounds.high, index));
             if let Some(way) = way.get_mut(index) {
                 *way = place;
             }
@@ -67,12 +68,12 @@ struct Envelope {
 }
 
 impl Envelope {
-    fn around(wanted: &[f64], max_deg: f64) -> Self {
-        let mut high = lowest(wanted.iter().map(|place| -place).collect(), max_deg);
+    fn envelope_of(targets: &[f64], max_deg: f64) -> Self {
+        let mut high = lowest(targets.iter().map(|place| -place).collect(), max_deg);
         for place in &mut high {
             *place = -*place;
         }
-        Self { low: lowest(wanted.to_vec(), max_deg), high }
+        Self { low: lowest(targets.to_vec(), max_deg), high }
     }
 
     fn keep_within_reach(&mut self, departure: Departure, max_deg: f64) {
@@ -116,7 +117,7 @@ fn lowest(mut way: Vec<f64>, max_deg: f64) -> Vec<f64> {
     way
 }
 
-fn at(places: &[f64], index: usize) -> f64 {
+fn position_at(places: &[f64], index: usize) -> f64 {
     places.get(index).copied().unwrap_or_default()
 }
 
@@ -129,26 +130,31 @@ mod tests {
     }
 
     /// Positions along `wanted`, with errors weighted by `weight`.
-    fn weighted(wanted: &[f64], weight: &[f64], max_deg: f64) -> Vec<f64> {
-        let cost = |at: usize| {
-            move |place: &f64| weight[at] * (1.0 - (place - wanted[at]).to_radians().cos())
+    fn weighted(targets: &[f64], weight: &[f64], max_deg: f64) -> Vec<f64> {
+        let cost = |index: usize| {
+            move |place: &f64| weight[index] * (1.0 - (place - targets[index]).to_radians().cos())
         };
-        rate_limited(wanted, max_deg, None, |place| place, cost)
+        rate_limited(targets, max_deg, None, |place| place, cost)
     }
 
-    fn cost(way: &[f64], wanted: &[f64], weight: &[f64]) -> f64 {
-        let off = |(way, wanted): (&f64, &f64)| 1.0 - (way - wanted).to_radians().cos();
-        way.iter().zip(wanted).map(off).zip(weight).map(|(off, weight)| off * weight).sum()
+    fn cost(way: &[f64], targets: &[f64], weight: &[f64]) -> f64 {
+        let cost_of = |(way, target): (&f64, &f64)| 1.0 - (way - target).to_radians().cos();
+        way.iter()
+            .zip(targets)
+            .map(cost_of)
+            .zip(weight)
+            .map(|(deviation, weight)| deviation * weight)
+            .sum()
     }
 
     /// Positions of an axis that chases the course as fast as it can.
-    fn chased(wanted: &[f64], max_deg: f64) -> Vec<f64> {
-        let mut place = wanted[0];
-        let step = |wanted: &f64| {
-            place += (wanted - place).clamp(-max_deg, max_deg);
+    fn chased(targets: &[f64], max_deg: f64) -> Vec<f64> {
+        let mut place = targets[0];
+        let step = |target: &f64| {
+            place += (target - place).clamp(-max_deg, max_deg);
             place
         };
-        wanted.iter().map(step).collect()
+        targets.iter().map(step).collect()
     }
 
     /// Azimuth and weight of a pass that misses the zenith by `off_deg`, a second apart.
@@ -156,21 +162,25 @@ mod tests {
         let along = (-300..=300).map(|second| f64::from(second) * 0.6);
         let place = |along: f64| along.atan2(off_deg).to_degrees();
         let elevation = |along: f64| (90.0 - along.hypot(off_deg).min(90.0)).to_radians();
-        (along.clone().map(place).collect(), along.map(|at| elevation(at).cos().powi(2)).collect())
+        (
+            along.clone().map(place).collect(),
+            along.map(|index| elevation(index).cos().powi(2)).collect(),
+        )
     }
 
     #[test]
     fn a_slow_course_is_followed_as_it_is() {
-        let wanted: Vec<f64> = (0..100).map(|at| (f64::from(at) * 0.1).sin() * 9.0).collect();
-        assert_eq!(weighted(&wanted, &[1.0; 100], 1.0), wanted);
+        let targets: Vec<f64> =
+            (0..100).map(|index| (f64::from(index) * 0.1).sin() * 9.0).collect();
+        assert_eq!(weighted(&targets, &[1.0; 100], 1.0), targets);
         assert!(weighted(&[], &[], 1.0).is_empty());
     }
 
     #[test]
     fn an_axis_that_hardly_turns_stays_where_it_is() {
-        let wanted: Vec<f64> = (0..100).map(f64::from).collect();
+        let targets: Vec<f64> = (0..100).map(f64::from).collect();
         for max_deg in [0.0, 1e-12, 1e-5] {
-            let way = weighted(&wanted, &[1.0; 100], max_deg);
+            let way = weighted(&targets, &[1.0; 100], max_deg);
             assert!(fastest(&way) <= max_deg + 1e-9, "{max_deg}");
         }
     }
@@ -179,54 +189,57 @@ mod tests {
     fn a_course_that_jumps_back_is_crossed_on_the_way() {
         // Like an azimuth that changes sides at the zenith: 2 degrees per interval, of which the
         // axis makes half.
-        let wanted: Vec<f64> = (-50..50)
-            .map(|at| {
-                let side = if at < 0 { 0.0 } else { -180.0 };
-                (f64::from(at) * 0.1).atan().to_degrees() + 90.0 + side
+        let targets: Vec<f64> = (-50..50)
+            .map(|step| {
+                let side = if step < 0 { 0.0 } else { -180.0 };
+                (f64::from(step) * 0.1).atan().to_degrees() + 90.0 + side
             })
             .collect();
-        let wanted_at = wanted.as_slice();
+        let wanted_at = targets.as_slice();
         let cost =
-            |at: usize| move |place: &f64| (place - wanted_at[at]).to_radians().sin().powi(2);
-        let way = rate_limited(&wanted, 4.0, None, |place| place, cost);
+            |index: usize| move |place: &f64| (place - wanted_at[index]).to_radians().sin().powi(2);
+        let way = rate_limited(&targets, 4.0, None, |place| place, cost);
         assert!(fastest(&way) <= 4.0 + 1e-9);
         assert!(way.iter().all(|place| place.abs() < 60.0), "{way:?}");
-        assert!((way[20] - wanted[20]).abs() < 0.1 && (way[80] - wanted[80]).abs() < 0.1);
+        assert!((way[20] - targets[20]).abs() < 0.1 && (way[80] - targets[80]).abs() < 0.1);
     }
 
     #[test]
     fn over_the_zenith_the_slew_begins_early_and_costs_far_less_than_going_after() {
-        let (wanted, weight) = overhead(2.0);
-        assert!(fastest(&wanted) > 10.0);
+        let (targets, weight) = overhead(2.0);
+        assert!(fastest(&targets) > 10.0);
         for max_deg in [2.0, 6.0] {
-            let way = weighted(&wanted, &weight, max_deg);
+            let way = weighted(&targets, &weight, max_deg);
             assert!(fastest(&way) <= max_deg + 1e-9);
             // Half of the turn is done at the zenith.
             assert!(way[300].abs() < max_deg, "{}", way[300]);
-            let (best, after) =
-                (cost(&way, &wanted, &weight), cost(&chased(&wanted, max_deg), &wanted, &weight));
+            let (best, after) = (
+                cost(&way, &targets, &weight),
+                cost(&chased(&targets, max_deg), &targets, &weight),
+            );
             assert!(best < after / 3.0, "{best} {after}");
-            assert!((way[0] - wanted[0]).abs() < 1e-9 && (way[600] - wanted[600]).abs() < 1e-9);
+            assert!((way[0] - targets[0]).abs() < 1e-9 && (way[600] - targets[600]).abs() < 1e-9);
         }
     }
 
     #[test]
     fn no_shift_of_the_slew_is_better() {
-        let (wanted, weight) = overhead(3.0);
-        let way = weighted(&wanted, &weight, 3.0);
-        let best = cost(&way, &wanted, &weight);
+        let (targets, weight) = overhead(3.0);
+        let way = weighted(&targets, &weight, 3.0);
+        let best = cost(&way, &targets, &weight);
         for shift in [-4_i32, -2, 2, 4] {
             let moved: Vec<f64> = (0..601)
-                .map(|at| way[usize::try_from((at + shift).clamp(0, 600)).unwrap()])
+                .map(|index| way[usize::try_from((index + shift).clamp(0, 600)).unwrap()])
                 .collect();
-            assert!(cost(&moved, &wanted, &weight) >= best, "{shift}");
+            assert!(cost(&moved, &targets, &weight) >= best, "{shift}");
         }
     }
 
     #[test]
     fn a_turn_back_is_taken_at_full_rate() {
-        let wanted: Vec<f64> = (0..200).map(|at| if at < 100 { 350.0 } else { 5.0 }).collect();
-        let way = weighted(&wanted, &[1.0; 200], 6.0);
+        let targets: Vec<f64> =
+            (0..200).map(|index| if index < 100 { 350.0 } else { 5.0 }).collect();
+        let way = weighted(&targets, &[1.0; 200], 6.0);
         assert!(fastest(&way) <= 6.0 + 1e-9);
         let turning = way.windows(2).filter(|two| (two[0] - two[1]).abs() > 1e-9).count();
         assert_eq!(turning, 58, "345 degrees at 6 degrees");

@@ -6,10 +6,11 @@
 //! A class is never given up for those after it. Among equal rows the previous schedule, then
 //! fewer seconds of slew, then earlier passes come first.
 
-mod between;
+mod between_passes;
 mod board;
 mod changes;
 mod joining;
+mod left_out;
 mod legs;
 mod of_station;
 mod outcome;
@@ -24,9 +25,8 @@ pub mod testing;
 mod tests;
 mod under_way;
 mod way;
-mod why;
 
-pub use between::{LEAD_S, between, parks_within_s, sets_out};
+pub use between_passes::{LEAD_S, between, parks_within_s, sets_out};
 use board::{Board, Fact};
 pub use changes::{Cause, Change, Changed, changes};
 pub use joining::Joining;
@@ -68,33 +68,33 @@ impl Board<'_> {
         Schedule { entries, left_out, worth, slew_s }
     }
 
-    fn at(&self, take: u32) -> Option<(&Take, &Fact)> {
+    fn with_fact(&self, take: u32) -> Option<(&Take, &Fact)> {
         self.takes.get(take as usize).zip(self.facts.get(take as usize))
     }
 
     fn entry(&self, before: Option<u32>, take: u32, all: &[Vec<u32>]) -> Option<Entry> {
-        let (it, fact) = self.at(take)?;
-        let antenna = self.request.antennas.get(it.antenna as usize)?;
+        let (of_take, fact) = self.with_fact(take)?;
+        let antenna = self.request.antennas.get(of_take.antenna as usize)?;
         let set_up_ms = legs::set_up_ms(antenna);
-        let earlier = before.and_then(|before| self.at(before));
+        let earlier = before.and_then(|before| self.with_fact(before));
         let (slew_ms, spare_ms) = if let Some((before, (earlier, _))) = before.zip(earlier) {
             let slew_ms = self.legs.turning_ms(before as usize, take as usize);
-            (slew_ms, Some(it.from_ms - earlier.to_ms - slew_ms - set_up_ms))
+            (slew_ms, Some(of_take.from_ms - earlier.to_ms - slew_ms - set_up_ms))
         } else {
             let slew_ms = self.legs.first_ms(take as usize).unwrap_or_default();
-            let spare_ms = it.from_ms - way::ms(antenna.free_from) - slew_ms - set_up_ms;
+            let spare_ms = of_take.from_ms - way::ms(antenna.free_from) - slew_ms - set_up_ms;
             (slew_ms, antenna.stands_deg.map(|_| spare_ms))
         };
         let parts = all.iter().flatten().filter(|other| **other != take);
-        let mut parts = parts.filter_map(|other| self.at(*other));
+        let mut parts = parts.filter_map(|other| self.with_fact(*other));
         let shared_with = parts.find(|(_, other)| other.pass == fact.pass);
         let seconds = |ms: i64| ms as f64 / 1000.0;
         Some(Entry {
             pass: fact.pass,
             antenna: fact.antenna,
             class: fact.class,
-            from: at_ms(it.from_ms),
-            to: at_ms(it.to_ms),
+            from: at_ms(of_take.from_ms),
+            to: at_ms(of_take.to_ms),
             late_s: seconds(fact.late_ms),
             early_s: seconds(fact.early_ms),
             counted_s: seconds(fact.counted_ms),

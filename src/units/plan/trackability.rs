@@ -74,11 +74,16 @@ pub enum Loss {
 impl Loss {
     /// Where a mount with an azimuth axis loses the satellite at `samples[index]`, the first that is
     /// lost. `is_slewing` if the axis slews a whole turn about that time.
-    pub(super) fn at(mount: Mount, samples: &[Sample], index: usize, is_slewing: bool) -> Self {
+    pub(super) fn at_sample(
+        mount: Mount,
+        samples: &[Sample],
+        index: usize,
+        is_slewing: bool,
+    ) -> Self {
         let Some(sample) = samples.get(index) else { return Self::OutOfReach };
         // Beyond the travel no rate of the axis would help.
         if !mount.reaches(sample.direction) {
-            Self::beyond(mount, samples, index)
+            Self::beyond_travel(mount, samples, index)
         } else if is_slewing {
             Self::Slew
         } else if sample.direction.elevation_deg() >= OVERHEAD_FROM_DEG {
@@ -91,7 +96,7 @@ impl Loss {
     /// Beyond the end of the azimuth travel through which the satellite leaves it before
     /// `samples[index]` or comes into it afterwards. In the middle of what an axis cannot reach, the
     /// nearer end says nothing.
-    pub(super) fn beyond(mount: Mount, samples: &[Sample], index: usize) -> Self {
+    pub(super) fn beyond_travel(mount: Mount, samples: &[Sample], index: usize) -> Self {
         let end = |sample: &Sample| mount.azimuth_end_before(sample.direction);
         let Some((before, from_here)) = samples.split_at_checked(index) else {
             return Self::OutOfReach;
@@ -125,10 +130,10 @@ pub fn trackability(samples: &[Sample], limits: MountLimits) -> Trackability {
 
 impl Trackability {
     /// Returns the trackability of a pass of `whole_s` seconds that loses these stretches.
-    fn new(lost: Outside, whole_s: f64, at: Loss) -> Self {
+    fn new(lost: Outside, whole_s: f64, loss: Loss) -> Self {
         match (lost.first, lost.last) {
-            (Some(from), Some(until)) if lost.seconds > 0.0 && lost.seconds < whole_s => {
-                Self::Loses { seconds: lost.seconds, at, from, until }
+            (Some(start), Some(end)) if lost.seconds > 0.0 && lost.seconds < whole_s => {
+                Self::Loses { seconds: lost.seconds, at: loss, from: start, until: end }
             }
             (Some(_), Some(_)) if lost.seconds > 0.0 => Self::Nothing,
             _ => Self::Whole,
@@ -146,9 +151,9 @@ struct Outside {
 
 impl Outside {
     /// Adds the stretch between two times, which lies after those before.
-    fn add(&mut self, from: Timestamp, until: Timestamp) {
-        self.seconds += seconds_between(from, until);
-        self.first = self.first.or(Some(from));
-        self.last = Some(until);
+    fn add(&mut self, start: Timestamp, end: Timestamp) {
+        self.seconds += seconds_between(start, end);
+        self.first = self.first.or(Some(start));
+        self.last = Some(end);
     }
 }

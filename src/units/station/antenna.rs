@@ -30,9 +30,9 @@ impl AntennaId {
 
     /// The first id from `from` on that is not in `taken`.
     #[must_use]
-    pub fn free(from: Self, taken: &[Self]) -> Self {
-        let mut id = from;
-        while taken.contains(&id) {
+    pub fn free(first: Self, used: &[Self]) -> Self {
+        let mut id = first;
+        while used.contains(&id) {
             id = Self(id.0.wrapping_add(1));
         }
         id
@@ -66,13 +66,13 @@ pub struct Antenna {
     #[serde(skip_serializing_if = "is_default")]
     pub monitor: Monitor,
     /// Largest sway between two positions of a standing antenna, degrees, 0 to 2.
-    #[serde(skip_serializing_if = "is_usual_sway")]
+    #[serde(skip_serializing_if = "is_default_sway")]
     pub sway_deg: f64,
     /// Action on an intent when the link is back after an outage.
     #[serde(skip_serializing_if = "is_default")]
     pub resume: Resume,
     /// Outage after which the operator is asked in any case, seconds, 0 to 600.
-    #[serde(skip_serializing_if = "is_usual_outage")]
+    #[serde(skip_serializing_if = "is_default_outage")]
     pub resume_after_s: f64,
     #[serde(flatten)]
     pub automatic: Automatic,
@@ -83,12 +83,12 @@ pub struct Antenna {
 
 // The signatures are serde's.
 #[allow(clippy::trivially_copy_pass_by_ref)]
-fn is_usual_sway(sway_deg: &f64) -> bool {
+fn is_default_sway(sway_deg: &f64) -> bool {
     sway_deg.total_cmp(&DEFAULT_SWAY_DEG).is_eq()
 }
 
 #[allow(clippy::trivially_copy_pass_by_ref)]
-fn is_usual_outage(resume_after_s: &f64) -> bool {
+fn is_default_outage(resume_after_s: &f64) -> bool {
     resume_after_s.total_cmp(&DEFAULT_RESUME_AFTER_S).is_eq()
 }
 

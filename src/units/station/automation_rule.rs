@@ -8,7 +8,7 @@ use super::{AntennaId, HoursOfDay};
 /// A rule. The first rule that is on and whose conditions all hold decides.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct AutomationRule {
-    #[serde(rename = "on", default = "usually_on", skip_serializing_if = "is_usual")]
+    #[serde(rename = "on", default = "enabled_by_default", skip_serializing_if = "is_enabled")]
     pub is_on: bool,
     /// `None` for all antennas.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -55,26 +55,26 @@ pub enum Then {
     Park,
 }
 
-fn usually_on() -> bool {
+fn enabled_by_default() -> bool {
     true
 }
 
 // The signature is serde's.
 #[allow(clippy::trivially_copy_pass_by_ref)]
-fn is_usual(is_on: &bool) -> bool {
-    *is_on == usually_on()
+fn is_enabled(is_on: &bool) -> bool {
+    *is_on == enabled_by_default()
 }
 
 impl AutomationRule {
     /// Returns `true` if it holds at a moment, where the Sun stands as given.
-    pub fn holds_at(&self, at: Timestamp, sun: SunIs) -> bool {
+    pub fn holds_at(&self, time: Timestamp, sun: SunIs) -> bool {
         self.is_on
-            && self.sun.is_none_or(|wanted| wanted == sun)
-            && self.hours.is_none_or(|hours| hours.contain(at, &TimeZone::UTC))
+            && self.sun.is_none_or(|side| side == sun)
+            && self.hours.is_none_or(|hours| hours.contain(time, &TimeZone::UTC))
     }
 
     /// Returns `true` if it is about this antenna.
     pub fn is_for(&self, antenna: AntennaId) -> bool {
-        self.antenna.is_none_or(|of| of == antenna)
+        self.antenna.is_none_or(|antenna_id| antenna_id == antenna)
     }
 }

@@ -94,31 +94,32 @@ impl Connection {
     }
 
     fn place(&self, setting: &Setting) -> Option<usize> {
-        let is_it = |of: &&Setting| (of.field.key, of.table) == (setting.field.key, setting.table);
+        let is_it =
+            |other: &&Setting| (other.field.key, other.table) == (setting.field.key, setting.table);
         self.spec.settings.iter().position(is_it)
     }
 }
 
 impl Serialize for Connection {
     fn serialize<S: Serializer>(&self, out: S) -> Result<S::Ok, S::Error> {
-        let all: Vec<Held<'_>> = self.spec.settings.iter().copied().zip(&self.values).collect();
+        let all: Vec<Entry<'_>> = self.spec.settings.iter().copied().zip(&self.values).collect();
         let mut map = out.serialize_map(None)?;
         map.serialize_entry("controller", self.spec.key)?;
         map.serialize_entry("address", &self.address)?;
-        for held in all.chunk_by(|(a, _), (b, _)| a.table == b.table) {
-            match held.first().and_then(|(setting, _)| setting.table) {
-                Some(table) => map.serialize_entry(table.key, &OfTable(held))?,
-                None => write(held, &mut map)?,
+        for values in all.chunk_by(|(a, _), (b, _)| a.table == b.table) {
+            match values.first().and_then(|(setting, _)| setting.table) {
+                Some(table) => map.serialize_entry(table.key, &OfTable(values))?,
+                None => write(values, &mut map)?,
             }
         }
         map.end()
     }
 }
 
-type Held<'a> = (&'static Setting, &'a Value);
+type Entry<'a> = (&'static Setting, &'a Value);
 
 /// The settings of one table and their values.
-struct OfTable<'a>(&'a [Held<'a>]);
+struct OfTable<'a>(&'a [Entry<'a>]);
 
 impl Serialize for OfTable<'_> {
     fn serialize<S: Serializer>(&self, out: S) -> Result<S::Ok, S::Error> {
@@ -128,8 +129,8 @@ impl Serialize for OfTable<'_> {
     }
 }
 
-fn write<M: SerializeMap>(held: &[Held<'_>], map: &mut M) -> Result<(), M::Error> {
-    held.iter().filter(|(_, value)| !is_empty(value)).try_for_each(|(setting, value)| {
+fn write<M: SerializeMap>(values: &[Entry<'_>], map: &mut M) -> Result<(), M::Error> {
+    values.iter().filter(|(_, value)| !is_empty(value)).try_for_each(|(setting, value)| {
         map.serialize_entry(setting.field.key, &Spelled(setting, value))
     })
 }

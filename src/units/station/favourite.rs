@@ -57,8 +57,8 @@ impl TryFrom<i64> for Priority {
     type Error = NoPriority;
 
     fn try_from(number: i64) -> Result<Self, NoPriority> {
-        let known = Self::ALL.into_iter().find(|known| i64::from(known.0) == number);
-        known.ok_or(NoPriority)
+        let found = Self::ALL.into_iter().find(|priority| i64::from(priority.0) == number);
+        found.ok_or(NoPriority)
     }
 }
 
@@ -95,31 +95,31 @@ impl Favourites {
 
     /// Marks a satellite, or changes what is known of it.
     pub fn put(&mut self, favourite: Favourite) {
-        match self.0.iter_mut().find(|known| known.satellite == favourite.satellite) {
-            Some(known) => *known = favourite,
+        match self.0.iter_mut().find(|entry| entry.satellite == favourite.satellite) {
+            Some(existing) => *existing = favourite,
             None => self.0.push(favourite),
         }
     }
 
     /// Marks a satellite, and gives it this priority.
     pub fn set_priority(&mut self, satellite: u32, priority: Priority) {
-        let known = self.get(satellite).cloned();
-        let favourite = known.unwrap_or_else(|| Favourite::new(satellite));
+        let previous = self.get(satellite).cloned();
+        let favourite = previous.unwrap_or_else(|| Favourite::new(satellite));
         self.put(Favourite { priority: Some(priority), ..favourite });
     }
 
     /// Marks a satellite, and gives it these limits.
     pub fn set_limits(&mut self, satellite: u32, limits: PassLimits) {
-        let known = self.get(satellite).cloned();
-        let favourite = known.unwrap_or_else(|| Favourite::new(satellite));
+        let previous = self.get(satellite).cloned();
+        let favourite = previous.unwrap_or_else(|| Favourite::new(satellite));
         self.put(Favourite { limits, ..favourite });
     }
 
     /// Gives a satellite this order of sources. It becomes a favourite if the order names any.
     pub fn set_sources(&mut self, satellite: u32, sources: Vec<String>) {
-        let known = self.get(satellite).cloned();
-        if known.is_some() || !sources.is_empty() {
-            let favourite = known.unwrap_or_else(|| Favourite::new(satellite));
+        let previous = self.get(satellite).cloned();
+        if previous.is_some() || !sources.is_empty() {
+            let favourite = previous.unwrap_or_else(|| Favourite::new(satellite));
             self.put(Favourite { sources, ..favourite });
         }
     }
@@ -144,8 +144,8 @@ impl Favourites {
     pub fn with_numbers(&self, numbers: &[u32]) -> Self {
         let mut list = Self::default();
         for number in numbers {
-            let known = self.get(*number).cloned();
-            list.put(known.unwrap_or_else(|| Favourite::new(*number)));
+            let previous = self.get(*number).cloned();
+            list.put(previous.unwrap_or_else(|| Favourite::new(*number)));
         }
         list
     }

@@ -94,10 +94,14 @@ pub fn settings_path() -> Option<PathBuf> {
 
 /// Path in `folder` for one more station file; there is no file yet.
 pub fn free_path(folder: &Path) -> PathBuf {
-    let usual = folder.join(FILE);
+    let default_path = folder.join(FILE);
     let mut numbered = (2..).map(|number| folder.join(format!("station-{number}.toml")));
     let is_free = |path: &PathBuf| !path.exists();
-    if is_free(&usual) { usual } else { numbered.find(is_free).unwrap_or(usual) }
+    if is_free(&default_path) {
+        default_path
+    } else {
+        numbered.find(is_free).unwrap_or(default_path)
+    }
 }
 
 /// Reads the station at `path`, with controllers of the makes in `specs`.
@@ -124,7 +128,7 @@ pub fn load(path: &Path, specs: &[&'static ControllerSpec]) -> Result<Loaded, Lo
 fn line_of(text: &str, place: &str) -> Option<usize> {
     let document = toml_edit::Document::parse(text).ok()?;
     let mut item = document.as_item();
-    let mut at = None;
+    let mut span = None;
     for part in place.split('.') {
         let (key, index) = match part.split_once('[') {
             Some((key, rest)) => (key, rest.trim_end_matches(']').parse::<usize>().ok()),
@@ -133,15 +137,15 @@ fn line_of(text: &str, place: &str) -> Option<usize> {
         let table = item.as_table_like();
         let named = table.and_then(|table| table.get_key_value(key));
         let Some((name, inner)) = named else { break };
-        at = name.span().or_else(|| inner.span()).or(at);
+        span = name.span().or_else(|| inner.span()).or(span);
         item = inner;
         if let Some(index) = index {
             let Some(entry) = item.get(index) else { break };
-            at = entry.span().or(at);
+            span = entry.span().or(span);
             item = entry;
         }
     }
-    let before = text.get(..at?.start)?;
+    let before = text.get(..span?.start)?;
     Some(before.matches('\n').count() + 1)
 }
 
@@ -201,7 +205,7 @@ fn merged(
         return Err(SaveError::Unreadable(path.to_owned()));
     };
     let places = notes.iter().map(|note| note.place.as_str());
-    let unread = UnreadTree::at(places, left_out.iter().map(String::as_str));
+    let unread = UnreadTree::find(places, left_out.iter().map(String::as_str));
     if unread.is_empty() {
         return Ok(rewritten(old, new));
     }

@@ -18,8 +18,13 @@ pub struct Frequency {
 impl Frequency {
     /// Frequencies as the operator types them: one a line, a catalogue number, MHz and a name.
     pub fn list_text(list: &[Self]) -> String {
-        let line = |of: &Self| format!("{} {} {}", of.satellite, of.mhz, of.name);
-        list.iter().map(|of| line(of).trim_end().to_owned()).collect::<Vec<_>>().join("\n")
+        let line = |frequency: &Self| {
+            format!("{} {} {}", frequency.satellite, frequency.mhz, frequency.name)
+        };
+        list.iter()
+            .map(|frequency| line(frequency).trim_end().to_owned())
+            .collect::<Vec<_>>()
+            .join("\n")
     }
 
     /// Reads what [`Self::list_text`] writes.
@@ -51,14 +56,21 @@ mod tests {
 
     #[test]
     fn what_is_written_is_read_back_and_a_wrong_line_is_named() {
-        let of = |satellite, mhz, name: &str| Frequency { satellite, mhz, name: name.to_owned() };
-        let list =
-            vec![of(25_544, 145.8, "Voice"), of(43_013, 7812.0, "HRD, X band"), of(1, 1.5, "")];
+        let frequency =
+            |satellite, mhz, name: &str| Frequency { satellite, mhz, name: name.to_owned() };
+        let list = vec![
+            frequency(25_544, 145.8, "Voice"),
+            frequency(43_013, 7812.0, "HRD, X band"),
+            frequency(1, 1.5, ""),
+        ];
         assert_eq!(Frequency::read_list(&Frequency::list_text(&list)), Ok(list));
-        assert_eq!(Frequency::read_list("\n 25544\t145,8 \n"), Ok(vec![of(25_544, 145.8, "")]));
+        assert_eq!(
+            Frequency::read_list("\n 25544\t145,8 \n"),
+            Ok(vec![frequency(25_544, 145.8, "")])
+        );
         for (text, line) in [("x 145.8", 1), ("25544 145.8\n25544", 2), ("25544 -3", 1)] {
-            let why = Frequency::read_list(text).unwrap_err().to_string();
-            assert!(why.starts_with(&format!("line {line} ")), "{text}: {why}");
+            let message = Frequency::read_list(text).unwrap_err().to_string();
+            assert!(message.starts_with(&format!("line {line} ")), "{text}: {message}");
         }
     }
 }

@@ -28,10 +28,10 @@ impl HoursOfDay {
     }
 
     /// Returns `true` if the clock of `zone` shows one of these hours.
-    pub fn contain(&self, at: Timestamp, zone: &TimeZone) -> bool {
-        let time = zone.to_datetime(at).time();
-        let Self { from, to } = *self;
-        if from <= to { (from..to).contains(&time) } else { from <= time || time < to }
+    pub fn contain(&self, utc: Timestamp, zone: &TimeZone) -> bool {
+        let time = zone.to_datetime(utc).time();
+        let Self { from: start, to: end } = *self;
+        if start <= end { (start..end).contains(&time) } else { start <= time || time < end }
     }
 }
 
@@ -48,18 +48,19 @@ mod tests {
     #[test]
     fn hours_go_across_midnight_by_the_clock_of_the_zone() {
         let istanbul = TimeZone::fixed(jiff::tz::offset(3));
-        let is_quiet = |hours: HoursOfDay, at: &str| hours.contain(at.parse().unwrap(), &istanbul);
-        for (at, quiet) in [
+        let is_quiet =
+            |hours: HoursOfDay, text: &str| hours.contain(text.parse().unwrap(), &istanbul);
+        for (hour, quiet) in [
             ("2026-08-12T18:59:59Z", false),
             ("2026-08-12T19:00:00Z", true),
             ("2026-08-12T21:30:00Z", true),
             ("2026-08-13T02:59:59Z", true),
             ("2026-08-13T03:00:00Z", false),
         ] {
-            assert_eq!(is_quiet(HoursOfDay::NIGHT, at), quiet, "{at}");
+            assert_eq!(is_quiet(HoursOfDay::NIGHT, hour), quiet, "{hour}");
         }
-        let HoursOfDay { from: to, to: from } = HoursOfDay::NIGHT;
-        let by_day = HoursOfDay { from, to };
+        let HoursOfDay { from: end, to: start } = HoursOfDay::NIGHT;
+        let by_day = HoursOfDay { from: start, to: end };
         assert!(is_quiet(by_day, "2026-08-12T09:00:00Z"));
         assert!(!is_quiet(by_day, "2026-08-12T20:00:00Z"));
     }

@@ -103,7 +103,10 @@ impl KeepOut {
     /// angle in radians does not keep the last digit of its degrees.
     pub fn corners_deg(zone: &Zone) -> Vec<(f64, f64)> {
         let rounded = |angle: Angle| (angle.degrees() * 1e9).round() / 1e9;
-        zone.corners().iter().map(|at| (rounded(at.azimuth), rounded(at.elevation))).collect()
+        zone.corners()
+            .iter()
+            .map(|direction| (rounded(direction.azimuth), rounded(direction.elevation)))
+            .collect()
     }
 
     /// The zone with these corners (azimuth, elevation), degrees.

@@ -37,9 +37,9 @@ impl OffsetsOf {
 
 impl Station {
     /// The offsets that are remembered of a satellite or an antenna.
-    pub fn kept_offsets(&self, of: OffsetsOf) -> TrackOffsets {
-        let kept = self.offsets.iter().find(|kept| kept.of == of);
-        of.part(kept.map(|kept| kept.offsets).unwrap_or_default())
+    pub fn kept_offsets(&self, offsets_of: OffsetsOf) -> TrackOffsets {
+        let entry = self.offsets.iter().find(|kept_offsets| kept_offsets.of == offsets_of);
+        offsets_of.part(entry.map(|kept_offsets| kept_offsets.offsets).unwrap_or_default())
     }
 
     /// The offsets with which an antenna begins a track.
@@ -50,10 +50,11 @@ impl Station {
     }
 
     /// Remembers these offsets in place of earlier ones; none are forgotten.
-    pub fn keep_offsets(&mut self, of: OffsetsOf, offsets: TrackOffsets) {
-        self.offsets.retain(|kept| kept.of != of);
-        let offsets = of.part(offsets);
-        self.offsets.extend((!offsets.is_none()).then_some(KeptOffsets { of, offsets }));
+    pub fn keep_offsets(&mut self, offsets_of: OffsetsOf, offsets: TrackOffsets) {
+        self.offsets.retain(|kept_offsets| kept_offsets.of != offsets_of);
+        let offsets = offsets_of.part(offsets);
+        self.offsets
+            .extend((!offsets.is_none()).then_some(KeptOffsets { of: offsets_of, offsets }));
     }
 }
 
@@ -65,18 +66,18 @@ mod tests {
     #[test]
     fn a_track_begins_with_those_of_its_satellite_and_of_its_antenna() {
         let deg = Angle::from_degrees;
-        let with = |steps: &[Offset]| {
+        let offsets = |steps: &[Offset]| {
             steps.iter().copied().try_fold(TrackOffsets::NONE, TrackOffsets::plus).unwrap()
         };
-        let all = with(&[Offset::Along(deg(0.1)), Offset::Elevation(deg(0.2))]);
+        let all = offsets(&[Offset::Along(deg(0.1)), Offset::Elevation(deg(0.2))]);
         let mut station = Station::default();
         let (antenna, other) = (AntennaId(1), AntennaId(2));
         station.keep_offsets(OffsetsOf::Satellite(25_544), all);
         station.keep_offsets(OffsetsOf::Antenna(antenna), all);
         assert_eq!(station.first_offsets(antenna, Some(25_544)), all, "not twice");
-        let along = with(&[Offset::Along(deg(0.1))]);
+        let along = offsets(&[Offset::Along(deg(0.1))]);
         assert_eq!(station.first_offsets(other, Some(25_544)), along);
-        let elevation = with(&[Offset::Elevation(deg(0.2))]);
+        let elevation = offsets(&[Offset::Elevation(deg(0.2))]);
         assert_eq!(station.first_offsets(antenna, None), elevation);
         station.keep_offsets(OffsetsOf::Satellite(25_544), TrackOffsets::NONE);
         assert_eq!(station.offsets.len(), 1, "forgotten");

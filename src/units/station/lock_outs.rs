@@ -28,8 +28,8 @@ pub struct LockOut {
 
 /// Reads a text and replaces control characters with spaces, so that it can neither send escape
 /// sequences to a terminal nor forge a line.
-fn one_line<'de, D: Deserializer<'de>>(from: D) -> Result<String, D::Error> {
-    let text = String::deserialize(from)?;
+fn one_line<'de, D: Deserializer<'de>>(deserializer: D) -> Result<String, D::Error> {
+    let text = String::deserialize(deserializer)?;
     Ok(text.replace(char::is_control, " "))
 }
 
@@ -41,7 +41,7 @@ struct UnitKey {
 }
 
 impl UnitKey {
-    fn of(connection: &Connection) -> Self {
+    fn new(connection: &Connection) -> Self {
         let address = connection.address.trim().to_lowercase();
         Self { make: connection.spec().key.to_owned(), address }
     }
@@ -70,11 +70,12 @@ struct File {
 struct Entry {
     make: String,
     address: String,
-    #[serde(deserialize_with = "one_line")]
-    by: String,
+    #[serde(rename = "by", deserialize_with = "one_line")]
+    operator: String,
     #[serde(deserialize_with = "one_line")]
     reason: String,
-    since: Timestamp,
+    #[serde(rename = "since")]
+    start: Timestamp,
 }
 
 impl LockOuts {
@@ -88,14 +89,14 @@ impl LockOuts {
         };
         match read {
             Ok(units) => (Self { units, ..Self::default() }, None),
-            Err(why) => {
+            Err(reason) => {
                 let others = LockOut {
                     by: "Azel".to_owned(),
                     reason: format!("{LOCK_OUTS_FILE} cannot be read"),
                     since: now,
                 };
                 let lock_outs = Self { others: Some(others), ..Self::default() };
-                (lock_outs, Some(format!("{}: {}", why.trim(), path.display())))
+                (lock_outs, Some(format!("{}: {}", reason.trim(), path.display())))
             }
         }
     }
@@ -125,15 +126,15 @@ impl LockOuts {
             return Err(format!("it has version {}, this program knows {VERSION}", file.version));
         }
         let unit = |line: Entry| {
-            let Entry { make, address, by, reason, since } = line;
-            (UnitKey { make, address }, LockOut { by, reason, since })
+            let Entry { make, address, operator, reason, start } = line;
+            (UnitKey { make, address }, LockOut { by: operator, reason, since: start })
         };
         Ok(file.lock_outs.into_iter().map(unit).collect())
     }
 
     /// The lock-out of the unit at `connection`.
     pub fn of(&self, connection: &Connection) -> Option<&LockOut> {
-        self.units.get(&UnitKey::of(connection)).or(self.others.as_ref())
+        self.units.get(&UnitKey::new(connection)).or(self.others.as_ref())
     }
 
     /// Sets or removes the lock-out of the unit at `connection`. If the file could not be
@@ -146,14 +147,14 @@ impl LockOuts {
     ) {
         if let Some(others) = self.others.take() {
             for connection in station {
-                let unit = UnitKey::of(connection);
+                let unit = UnitKey::new(connection);
                 if !self.units.contains_key(&unit) {
                     self.unsaved.insert(unit.clone(), Some(others.clone()));
                     self.put(unit, Some(others.clone()));
                 }
             }
         }
-        let unit = UnitKey::of(connection);
+        let unit = UnitKey::new(connection);
         self.unsaved.insert(unit.clone(), lock_out.clone());
         self.put(unit, lock_out);
     }
@@ -162,27 +163,27 @@ impl LockOuts {
     /// antenna's new address or make is locked out too: the person at work may be at
     /// either. Returns whether that adds anything.
     pub fn stay_with_antennas(&mut self, before: &[Antenna], after: &[Antenna]) -> bool {
-        let known = self.units.len();
+        let previous_count = self.units.len();
         for old in before {
-            let Some(lock_out) = self.units.get(&UnitKey::of(&old.connection)).cloned() else {
+            let Some(lock_out) = self.units.get(&UnitKey::new(&old.connection)).cloned() else {
                 continue;
             };
             let antenna = after.iter().find(|antenna| antenna.id == old.id);
-            let unit = antenna.map(|antenna| UnitKey::of(&antenna.connection));
+            let unit = antenna.map(|antenna| UnitKey::new(&antenna.connection));
             if let Some(unit) = unit.filter(|unit| !self.units.contains_key(unit)) {
                 self.unsaved.insert(unit.clone(), Some(lock_out.clone()));
                 self.put(unit, Some(lock_out));
             }
         }
-        self.units.len() > known
+        self.units.len() > previous_count
     }
 
     /// Content of the file with all lock-outs.
     pub fn text(&self) -> Result<String, toml::ser::Error> {
         let line = |(unit, lock_out): (&UnitKey, &LockOut)| {
-            let (UnitKey { make, address }, LockOut { by, reason, since }) =
+            let (UnitKey { make, address }, LockOut { by: operator, reason, since: start }) =
                 (unit.clone(), lock_out.clone());
-            Entry { make, address, by, reason, since }
+            Entry { make, address, operator, reason, start }
         };
         let lock_outs = self.units.iter().map(line).collect();
         toml::to_string_pretty(&File { version: VERSION, lock_outs })
@@ -219,9 +220,9 @@ mod tests {
 
     #[test]
     fn a_text_of_another_program_is_one_line_without_control_characters() {
-        let told = r#"{"by": "Ada\u001b[2J", "reason": "belts\nMast: stands\u009b1m",
+        let text = r#"{"by": "Ada\u001b[2J", "reason": "belts\nMast: stands\u009b1m",
             "since": "2026-11-22T10:00:00Z"}"#;
-        let read: LockOut = serde_json::from_str(told).unwrap();
+        let read: LockOut = serde_json::from_str(text).unwrap();
         assert_eq!((&*read.by, &*read.reason), ("Ada [2J", "belts Mast: stands 1m"));
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join(LOCK_OUTS_FILE);

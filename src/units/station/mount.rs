@@ -79,19 +79,19 @@ impl Mount {
     /// The end of the azimuth travel beyond which `direction` lies, as an azimuth: the nearer one.
     /// `None` if the azimuth axis turns to it, flipped or not, and for an X/Y mount.
     pub fn azimuth_end_before(&self, direction: AzEl) -> Option<Angle> {
-        let Self::AzEl { azimuth_from_deg: from, azimuth_to_deg: to, .. } = *self else {
+        let Self::AzEl { azimuth_from_deg: start, azimuth_to_deg: last, .. } = *self else {
             return None;
         };
         let is_within = |axes: AzEl| {
             let azimuth_deg = self.axis_azimuth(axes.azimuth, None).degrees();
-            (from..=to).contains(&azimuth_deg)
+            (start..=last).contains(&azimuth_deg)
         };
         if is_within(direction) || (self.can_flip() && is_within(direction.flipped())) {
             return None;
         }
-        let [from, to] = [from, to].map(|end| Angle::from_degrees(end).wrapped_360());
+        let [first, limit] = [start, last].map(|end| Angle::from_degrees(end).wrapped_360());
         let way = |end: Angle| (direction.azimuth - end).wrapped_180().abs();
-        Some(if way(from) < way(to) { from } else { to })
+        Some(if way(first) < way(limit) { first } else { limit })
     }
 
     /// Returns `true` if the elevation axis travels over the zenith to the other side.
@@ -112,15 +112,15 @@ impl Mount {
         if matches!(self, Self::Xy { .. }) {
             return self;
         }
-        let mut both = self.travel_deg();
-        for (travel_deg, ends_deg) in both.iter_mut().zip(ends_deg) {
+        let mut ends = self.travel_deg();
+        for (travel_deg, ends_deg) in ends.iter_mut().zip(ends_deg) {
             let (from_deg, to_deg) = ends_deg.unwrap_or(*travel_deg);
             let drawn_in = (travel_deg.0.max(from_deg), travel_deg.1.min(to_deg));
             if drawn_in.0 < drawn_in.1 {
                 *travel_deg = drawn_in;
             }
         }
-        let [(azimuth_from_deg, azimuth_to_deg), (elevation_from_deg, elevation_to_deg)] = both;
+        let [(azimuth_from_deg, azimuth_to_deg), (elevation_from_deg, elevation_to_deg)] = ends;
         Self::AzEl { azimuth_from_deg, azimuth_to_deg, elevation_from_deg, elevation_to_deg }
     }
 
@@ -128,14 +128,14 @@ impl Mount {
     /// `near_deg`. Where the axis has no such position, and for a mount without such an
     /// axis, `azimuth` itself.
     pub fn axis_azimuth(&self, azimuth: Angle, near_deg: Option<f64>) -> Angle {
-        let Self::AzEl { azimuth_from_deg: from, azimuth_to_deg: to, .. } = *self else {
+        let Self::AzEl { azimuth_from_deg: start, azimuth_to_deg: end, .. } = *self else {
             return azimuth;
         };
-        let lowest = from + (azimuth.degrees() - from).rem_euclid(360.0);
+        let lowest = start + (azimuth.degrees() - start).rem_euclid(360.0);
         let turns = (0..).map(|turn: u32| lowest + 360.0 * f64::from(turn));
         let way = |axis_deg: &f64| near_deg.map_or(0.0, |near| (axis_deg - near).abs());
         turns
-            .take_while(|axis_deg| *axis_deg <= to)
+            .take_while(|axis_deg| *axis_deg <= end)
             .min_by(|a, b| way(a).total_cmp(&way(b)))
             .map_or(azimuth, Angle::from_degrees)
     }
@@ -145,10 +145,10 @@ impl Mount {
 mod tests {
     use super::*;
 
-    fn azel(from: f64, to: f64) -> Mount {
+    fn azel(start: f64, end: f64) -> Mount {
         Mount::AzEl {
-            azimuth_from_deg: from,
-            azimuth_to_deg: to,
+            azimuth_from_deg: start,
+            azimuth_to_deg: end,
             elevation_from_deg: 0.0,
             elevation_to_deg: 90.0,
         }
@@ -186,11 +186,11 @@ mod tests {
 
     #[test]
     fn a_mount_reaches_what_lies_between_its_ends() {
-        let at = AzEl::from_degrees;
+        let direction = AzEl::from_degrees;
         let sector = azel(90.0, 270.0);
-        assert!(sector.reaches(at(180.0, 45.0)));
-        assert!(!sector.reaches(at(20.0, 45.0)) && !sector.reaches(at(180.0, -1.0)));
-        assert!(azel(0.0, 450.0).reaches(at(359.9, 89.0)));
+        assert!(sector.reaches(direction(180.0, 45.0)));
+        assert!(!sector.reaches(direction(20.0, 45.0)) && !sector.reaches(direction(180.0, -1.0)));
+        assert!(azel(0.0, 450.0).reaches(direction(359.9, 89.0)));
     }
 
     #[test]
@@ -201,11 +201,11 @@ mod tests {
             panic!("not crossed")
         };
         let elevation_to_deg = 150.0;
-        let over =
+        let over_zenith =
             Mount::AzEl { azimuth_from_deg, azimuth_to_deg, elevation_from_deg, elevation_to_deg };
-        assert!(over.can_flip() && !azel(90.0, 270.0).can_flip());
-        assert!(over.reaches(AzEl::from_degrees(20.0, 45.0)));
-        assert!(!over.reaches(AzEl::from_degrees(20.0, 25.0)), "beyond 150");
+        assert!(over_zenith.can_flip() && !azel(90.0, 270.0).can_flip());
+        assert!(over_zenith.reaches(AzEl::from_degrees(20.0, 45.0)));
+        assert!(!over_zenith.reaches(AzEl::from_degrees(20.0, 25.0)), "beyond 150");
     }
 
     #[test]

@@ -66,7 +66,7 @@ pub(super) struct Read {
 
 #[expect(clippy::redundant_closure_for_method_calls, reason = "a path names one lifetime")]
 pub(super) fn read(mut table: Table, specs: &[&'static ControllerSpec]) -> Read {
-    let mut fields = Fields::of(&mut table, String::new());
+    let mut fields = Fields::new(&mut table, String::new());
     let default = Station::default();
     // Checked in `file`, which refuses files of a newer program.
     fields.table.remove("version");
@@ -126,7 +126,7 @@ struct Fields<'a> {
 }
 
 impl<'a> Fields<'a> {
-    fn of(table: &'a mut Table, path: String) -> Self {
+    fn new(table: &'a mut Table, path: String) -> Self {
         let (notes, left_out, antenna_places) = (Vec::new(), Vec::new(), Vec::new());
         Self { table, path, notes, left_out, antenna_places }
     }
@@ -147,8 +147,8 @@ impl Fields<'_> {
         self.left_out.append(&mut part.left_out);
     }
 
-    fn invalid(&mut self, key: &str, why: impl Into<String>) {
-        self.note(key, NoteReason::Invalid(why.into()));
+    fn invalid(&mut self, key: &str, reason: impl Into<String>) {
+        self.note(key, NoteReason::Invalid(reason.into()));
     }
 
     fn text(&mut self, key: &str, default: &str) -> String {
@@ -196,16 +196,16 @@ impl Fields<'_> {
             Value::String(text) => HorizonMask::parse(&text).map_err(|error| error.to_string()),
             _ => Err("must be a text with an azimuth and an elevation a line".to_owned()),
         };
-        read.map_err(|why| self.invalid("horizon_mask", why)).ok()
+        read.map_err(|reason| self.invalid("horizon_mask", reason)).ok()
     }
 
     fn on_close(&mut self) -> Option<OnClose> {
-        let known = [
+        let actions = [
             ("hold", Some(OnClose::Hold)),
             ("park", Some(OnClose::Park)),
             ("leave", Some(OnClose::Leave)),
         ];
-        self.one_of("close", &known, None)
+        self.one_of("close", &actions, None)
     }
 
     fn catalog_numbers<T: DeserializeOwned>(&mut self, key: &str, default: T) -> T {
@@ -279,7 +279,7 @@ impl Fields<'_> {
         read: impl FnOnce(&mut Fields<'_>) -> T,
     ) -> T {
         let path = format!("{}{place}.", self.path);
-        let mut fields = Fields::of(&mut table, path);
+        let mut fields = Fields::new(&mut table, path);
         let value = read(&mut fields);
         fields.name_the_unknown();
         self.note_all_of(fields);
@@ -295,7 +295,7 @@ impl Fields<'_> {
                 return Vec::new();
             }
         };
-        let given: Vec<Option<AntennaId>> = tables.iter().map(given_id).collect();
+        let ids: Vec<Option<AntennaId>> = tables.iter().map(given_id).collect();
         let mut antennas: Vec<Antenna> = Vec::new();
         for (index, value) in tables.into_iter().enumerate() {
             let place = format!("antenna[{index}]");
@@ -305,17 +305,17 @@ impl Fields<'_> {
                 continue;
             };
             let path = format!("{place}.");
-            let mut fields = Fields::of(&mut table, path.clone());
+            let mut fields = Fields::new(&mut table, path.clone());
             // Ids given later in the file are taken before a missing one is filled in.
-            let later = given.iter().skip(index + 1).flatten().copied();
-            let taken: Vec<AntennaId> =
+            let later = ids.iter().skip(index + 1).flatten().copied();
+            let used_ids: Vec<AntennaId> =
                 antennas.iter().map(|other| other.id).chain(later).collect();
-            if let Some(mut antenna) = fields.antenna(specs, &antennas, &taken) {
+            if let Some(mut antenna) = fields.antenna(specs, &antennas, &used_ids) {
                 let others: Vec<&str> = antennas.iter().map(|other| &*other.name).collect();
                 let name = Antenna::free_name(&antenna.name, &others);
                 if name != antenna.name {
-                    let why = format!("another antenna has it too, this one is called {name}");
-                    fields.invalid("name", why);
+                    let reason = format!("another antenna has it too, this one is called {name}");
+                    fields.invalid("name", reason);
                     antenna.name = name;
                 }
                 self.antenna_places.push((path, antenna.id));
@@ -410,7 +410,7 @@ mod tests {
 
     #[test]
     fn refraction_that_cannot_be_used_says_why_and_forbids_motion() {
-        for (lines, why) in [
+        for (lines, reason) in [
             ("pressure_hpa = 101.3", "refraction.pressure_hpa 101.3 is not between 300 and 1100"),
             ("humidity_percent = 100\ntemperature_c = 60", "refractivity"),
             ("presure_hpa = 1000", "unknown field `presure_hpa`"),
@@ -421,10 +421,10 @@ mod tests {
                  [site.refraction]\n{lines}"
             ));
             let (station, notes) = from_toml(table.unwrap(), &[]);
-            let [Note { place, reason: NoteReason::Invalid(said), .. }] = &notes[..] else {
+            let [Note { place, reason: NoteReason::Invalid(text), .. }] = &notes[..] else {
                 panic!("{notes:?}")
             };
-            assert!(place == "site" && said.contains(why), "{said}");
+            assert!(place == "site" && text.contains(reason), "{text}");
             assert_eq!(station.unread.len(), 1);
         }
     }

@@ -32,7 +32,7 @@ pub(super) struct UnreadTree {
 
 impl UnreadTree {
     /// The entries at places such as `antenna[0].limits`, and those that were left out of a list.
-    pub(super) fn at<'a>(
+    pub(super) fn find<'a>(
         places: impl IntoIterator<Item = &'a str>,
         left_out: impl IntoIterator<Item = &'a str>,
     ) -> Self {
@@ -82,9 +82,9 @@ pub(super) fn rewritten_with(
     unread: &UnreadTree,
     is_valid: impl Fn(&str) -> bool,
 ) -> Option<String> {
-    let [mut text, wanted] = [old.parse::<DocumentMut>().ok()?, new.parse::<DocumentMut>().ok()?];
+    let [mut text, target] = [old.parse::<DocumentMut>().ok()?, new.parse::<DocumentMut>().ok()?];
     let read = read.parse::<DocumentMut>().ok()?;
-    merge(text.as_table_mut(), Some(read.as_table()), wanted.into_table(), unread);
+    merge(text.as_table_mut(), Some(read.as_table()), target.into_table(), unread);
     unplace(text.as_table_mut());
     let text = text.to_string();
     is_valid(&text).then_some(text)
@@ -97,9 +97,9 @@ fn is_same_text(one: &str, other: &str) -> bool {
 
 /// `read`: what was read of `old`.
 fn merge(old: &mut dyn TableLike, read: Option<&dyn TableLike>, new: Table, unread: &UnreadTree) {
-    let gone: Vec<String> =
+    let removed: Vec<String> =
         old.iter().map(|(key, _)| key.to_owned()).filter(|key| !new.contains_key(key)).collect();
-    for key in gone {
+    for key in removed {
         let unread = unread.keys.get(&key).unwrap_or(&ALL_READ);
         let was_read = read.is_some_and(|read| read.contains_key(&key));
         if unread.is_whole && !was_read {
@@ -145,11 +145,12 @@ fn merge_item(old: &mut Item, read: Option<&Item>, new: Item, unread: &UnreadTre
         match std::mem::take(old).into_array_of_tables() {
             Ok(tables) if new.is_array_of_tables() => *old = Item::ArrayOfTables(tables),
             Ok(tables) => {
-                *old = Item::ArrayOfTables(tables).into_value().map_or_else(|it| it, Item::Value);
+                *old =
+                    Item::ArrayOfTables(tables).into_value().map_or_else(|item| item, Item::Value);
             }
             Err(unchanged) => {
                 *old = unchanged;
-                new = new.into_value().map_or_else(|it| it, Item::Value);
+                new = new.into_value().map_or_else(|item| item, Item::Value);
             }
         }
     }
@@ -206,7 +207,8 @@ fn merge_array(old: &mut Array, new: Array) {
     let mut rest: Vec<Option<Value>> = old.iter().cloned().map(Some).collect();
     old.clear();
     for new in new {
-        let same = rest.iter_mut().find(|rest| rest.as_ref().is_some_and(|it| is_same(it, &new)));
+        let same =
+            rest.iter_mut().find(|rest| rest.as_ref().is_some_and(|item| is_same(item, &new)));
         old.push_formatted(same.and_then(Option::take).unwrap_or(new));
     }
 }
@@ -243,22 +245,24 @@ fn merge_tables(
             rest.push(Some(OldTable { table, read: read.next(), unread }));
         }
     }
-    let mut known: Vec<Option<OldTable<'_>>> = new.iter().map(|_| None).collect();
+    let mut old_tables: Vec<Option<OldTable<'_>>> = new.iter().map(|_| None).collect();
     // Sure matches take their tables before tables that only stand in the same place.
     for is_known in [is_of_same_id, is_unchanged, is_of_same_name] {
-        for (known, new) in known.iter_mut().zip(new.iter()).filter(|(known, _)| known.is_none()) {
+        for (previous, new) in
+            old_tables.iter_mut().zip(new.iter()).filter(|(previous, _)| previous.is_none())
+        {
             let found = rest
                 .iter_mut()
                 .find(|rest| rest.as_ref().is_some_and(|old| old.matches(is_known, new)));
-            *known = found.and_then(Option::take);
+            *previous = found.and_then(Option::take);
         }
     }
     let mut tables = Vec::new();
-    for (index, (known, new)) in known.into_iter().zip(new).enumerate() {
+    for (index, (previous, new)) in old_tables.into_iter().zip(new).enumerate() {
         let has_id = new.contains_key(ID);
         let mut take_same_index = || rest.get_mut(index).filter(|_| !has_id).and_then(Option::take);
         let OldTable { mut table, read, unread } =
-            known.or_else(&mut take_same_index).unwrap_or_default();
+            previous.or_else(&mut take_same_index).unwrap_or_default();
         let read = read.map(|read| read as &dyn TableLike);
         merge(&mut table, read, new, unread.unwrap_or(&ALL_READ));
         tables.push(table);
@@ -373,10 +377,10 @@ name = "Mast"
 # end
 "#;
 
-    fn is_table_of(text: &str, wanted: &str) {
-        let [text, wanted] =
-            [text, wanted].map(|text| toml::from_str::<toml::Table>(text).unwrap());
-        assert_eq!(text, wanted);
+    fn is_table_of(text: &str, expected: &str) {
+        let [text, expected] =
+            [text, expected].map(|text| toml::from_str::<toml::Table>(text).unwrap());
+        assert_eq!(text, expected);
     }
 
     #[test]
@@ -407,7 +411,7 @@ maximum_rate_deg_s = 6
 "#;
         let text = rewritten(OLD, new);
         is_table_of(&text, new);
-        for kept in [
+        for phrase in [
             "# Written by hand.",
             "name = \"Tower\" # as on the door",
             "# weather",
@@ -417,7 +421,7 @@ maximum_rate_deg_s = 6
             "maximum_rate_deg_s = 3 # the gear takes no more",
             "# The new one.\n[[antenna]]\nid = 2",
         ] {
-            assert!(text.contains(kept), "{kept:?} is lost:\n{text}");
+            assert!(text.contains(phrase), "{phrase:?} is lost:\n{text}");
         }
         assert_eq!(rewritten(&text, new), text, "a second time changes nothing");
     }
@@ -474,13 +478,13 @@ to = "06:00"
 "#;
         let text = rewritten(old, new);
         is_table_of(&text, new);
-        for kept in [
+        for phrase in [
             "# Clouds.\n[[group]]\nname = \"Weather\" # for the desk",
             "# the two NOAA",
             "# The school.\n[[rule]]\nsatellite = 25544 # ISS",
             "# The dish sleeps.\n[[rule]]\nantenna = 1\nhours = { from",
         ] {
-            assert!(text.contains(kept), "{kept:?} is lost:\n{text}");
+            assert!(text.contains(phrase), "{phrase:?} is lost:\n{text}");
         }
         assert_eq!(rewritten(&text, new), text, "a second time changes nothing");
     }

@@ -65,7 +65,8 @@ impl Setting {
             (_, toml::Value::String(text)) if !text.trim().is_empty() => kind.read(&text)?,
             _ => return Err(self.unfit()),
         };
-        kind.check(&read).map_err(|why| if has_own_spelling(kind) { self.unfit() } else { why })?;
+        kind.check(&read)
+            .map_err(|unfit| if has_own_spelling(kind) { self.unfit() } else { unfit })?;
         Ok(read)
     }
 

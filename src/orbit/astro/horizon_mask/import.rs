@@ -142,8 +142,9 @@ fn table(lines: &[(usize, &str)]) -> Result<Vec<Point>, MaskImportError> {
     let Some(((line, head), rows)) = lines.split_first() else { return Ok(Vec::new()) };
     let separator = [';', '\t', ','].into_iter().find(|mark| head.contains(*mark)).unwrap_or(',');
     let names: Vec<String> = cells(head, separator).iter().map(|name| plain_name(name)).collect();
-    let place = |known: &[&str], column| {
-        let found = known.iter().find_map(|name| names.iter().position(|of| of == name));
+    let place = |aliases: &[&str], column| {
+        let found =
+            aliases.iter().find_map(|name| names.iter().position(|heading| heading == name));
         found.ok_or(MaskImportError::Column { line: *line, column })
     };
     let azimuth = place(&AZIMUTH, "azimuth")?;

@@ -21,21 +21,21 @@ impl Cap {
     /// A cap that contains all `edges` and their inside. It is the whole sphere where the edges
     /// span a hemisphere or the cap would contain the nadir, because then the inside may be the
     /// side of the edges that a smaller cap leaves out.
-    pub(super) fn around(edges: &[Edge]) -> Self {
+    pub(super) fn enclosing(edges: &[Edge]) -> Self {
         let whole = Self { centre: DVec3::Z, radius: PI };
         let points = || edges.iter().flat_map(|edge| edge.points(STEP)).map(AzEl::to_enu);
         let Some(centre) = points().sum::<DVec3>().try_normalize() else { return whole };
-        let away = |point: DVec3| centre.cross(point).length().atan2(centre.dot(point));
+        let distance = |point: DVec3| centre.cross(point).length().atan2(centre.dot(point));
         // Between two points an edge is no further away than the nearer of them plus half a step.
-        let furthest = points().map(away).fold(0.0, f64::max);
+        let furthest = points().map(distance).fold(0.0, f64::max);
         let radius = furthest + STEP;
-        let is_small = radius < FRAC_PI_2 && away(DVec3::NEG_Z) > radius;
+        let is_small = radius < FRAC_PI_2 && distance(DVec3::NEG_Z) > radius;
         if is_small { Self { centre, radius } } else { whole }
     }
 
-    /// The least angle between the unit vector `at` and the zone, radians; zero or negative within
+    /// The smallest angle between the unit vector `point` and the zone, radians; zero or negative within
     /// the cap.
-    pub(super) fn clearance(self, at: DVec3) -> f64 {
-        self.centre.dot(at).clamp(-1.0, 1.0).acos() - self.radius
+    pub(super) fn clearance(self, point: DVec3) -> f64 {
+        self.centre.dot(point).clamp(-1.0, 1.0).acos() - self.radius
     }
 }

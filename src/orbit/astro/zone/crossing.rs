@@ -18,9 +18,9 @@ pub(super) fn check(edges: &[Edge]) -> Result<(), ZoneError> {
             let is_next = second == first + 1 || (first == 1 && second == edges.len());
             let is_shared = |point: DVec3| {
                 is_next
-                    && [one.from, one.to].iter().any(|end| {
+                    && [one.start, one.end].iter().any(|end| {
                         is_near(*end, point)
-                            && (is_same(*end, other.from) || is_same(*end, other.to))
+                            && (is_same(*end, other.start) || is_same(*end, other.end))
                     })
             };
             if common_points(one, other).into_iter().flatten().any(|point| !is_shared(point)) {
@@ -67,25 +67,25 @@ fn common_points(one: &Edge, other: &Edge) -> [Option<DVec3>; 4] {
 /// For edges on one circle: every end that lies inside the other edge, and the middle of an edge
 /// whose ends are both ends of the other.
 fn common_stretch(one: &Edge, other: &Edge) -> [Option<DVec3>; 4] {
-    let within = |edge: &Edge, point: DVec3| {
+    let on_edge = |edge: &Edge, point: DVec3| {
         Some(point).filter(|point| {
-            is_on(edge, *point) && !is_same(*point, edge.from) && !is_same(*point, edge.to)
+            is_on(edge, *point) && !is_same(*point, edge.start) && !is_same(*point, edge.end)
         })
     };
     let ends = [
-        within(other, one.from),
-        within(other, one.to),
-        within(one, other.from),
-        within(one, other.to),
+        on_edge(other, one.start),
+        on_edge(other, one.end),
+        on_edge(one, other.start),
+        on_edge(one, other.end),
     ];
     if ends.iter().any(Option::is_some) {
         return ends;
     }
     // If no end of one lies inside the other, the edges are the same stretch, touch at
     // corners, or are apart.
-    let touching = [one.from, one.to]
-        .map(|end| Some(end).filter(|end| is_same(*end, other.from) || is_same(*end, other.to)));
-    [within(other, one.at(0.5)), within(one, other.at(0.5)), touching[0], touching[1]]
+    let touching = [one.start, one.end]
+        .map(|end| Some(end).filter(|end| is_same(*end, other.start) || is_same(*end, other.end)));
+    [on_edge(other, one.point_at(0.5)), on_edge(one, other.point_at(0.5)), touching[0], touching[1]]
 }
 
 /// The points of a great circle at an elevation that lie on both edges.
@@ -103,18 +103,18 @@ fn at_elevation(circle: &Edge, normal: DVec3, arc: &Edge, elevation: f64) -> [Op
     let sin = sin.clamp(-1.0, 1.0);
     let level = level.normalize();
     let cos = (1.0 - sin * sin).sqrt();
-    let at = |cos: f64| {
+    let point_at = |cos: f64| {
         let point = level * cos + normal.cross(level) * sin;
         Some(point).filter(|point| is_on(circle, *point) && is_on(arc, *point))
     };
-    [at(cos), at(-cos), None, None]
+    [point_at(cos), point_at(-cos), None, None]
 }
 
 /// Returns `true` if `point`, which is on the circle of `edge`, lies between its ends,
 /// both included.
 fn is_on(edge: &Edge, point: DVec3) -> bool {
-    is_same(point, edge.from)
-        || is_same(point, edge.to)
+    is_same(point, edge.start)
+        || is_same(point, edge.end)
         || match edge.shape {
             Shape::GreatCircle { normal } => edge.spans(point, normal),
             Shape::Arc { .. } => edge.turns_past(point.x.atan2(point.y)),
@@ -128,5 +128,5 @@ fn is_on_line_of(line: &Edge, edge: &Edge) -> bool {
         Shape::Arc { elevation } => point.z - elevation.sin(),
     };
     let is_full = line.turn().is_some_and(|turn| turn.abs() > TAU - SAME);
-    !is_full && [0.0, 0.3, 0.6, 1.0].iter().all(|share| plane(edge.at(*share)).abs() < SAME)
+    !is_full && [0.0, 0.3, 0.6, 1.0].iter().all(|share| plane(edge.point_at(*share)).abs() < SAME)
 }

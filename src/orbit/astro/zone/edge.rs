@@ -9,8 +9,8 @@ use crate::astro::{Angle, AzEl};
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Edge {
-    pub(super) from: DVec3,
-    pub(super) to: DVec3,
+    pub(super) start: DVec3,
+    pub(super) end: DVec3,
     pub(super) from_azimuth: f64,
     to_azimuth: f64,
     /// Change of azimuth from one end to the other, radians, signed.
@@ -27,19 +27,19 @@ pub(super) enum Shape {
 }
 
 impl Edge {
-    pub(super) fn new(from: AzEl, to: AzEl, edge: usize) -> Result<Self, ZoneError> {
-        let (a, b) = (from.to_enu(), to.to_enu());
-        let is_level = (from.elevation - to.elevation).abs().radians() < SAME;
-        let counted = (to.azimuth - from.azimuth).radians();
+    pub(super) fn new(start: AzEl, end: AzEl, edge: usize) -> Result<Self, ZoneError> {
+        let (a, b) = (start.to_enu(), end.to_enu());
+        let is_level = (start.elevation - end.elevation).abs().radians() < SAME;
+        let counted = (end.azimuth - start.azimuth).radians();
         let is_full_turn = is_level && counted.abs() > PI;
         if is_same(a, b) && !is_full_turn {
             return Err(ZoneError::NoLength { edge });
         }
         let made = |turn, shape| Self {
-            from: a,
-            to: b,
-            from_azimuth: from.azimuth.radians(),
-            to_azimuth: to.azimuth.radians(),
+            start: a,
+            end: b,
+            from_azimuth: start.azimuth.radians(),
+            to_azimuth: end.azimuth.radians(),
             turn,
             shape,
         };
@@ -47,10 +47,10 @@ impl Edge {
             if counted.abs() > TAU + SAME {
                 return Err(ZoneError::MoreThanATurn { edge });
             }
-            if from.elevation.radians() < SAME - FRAC_PI_2 {
+            if start.elevation.radians() < SAME - FRAC_PI_2 {
                 return Err(ZoneError::Nadir { edge });
             }
-            let elevation = from.elevation.radians();
+            let elevation = start.elevation.radians();
             return Ok(made(counted, Shape::Arc { elevation }));
         }
         let across = a.cross(b);
@@ -70,12 +70,12 @@ impl Edge {
         matches!(self.shape, Shape::Arc { .. }).then_some(self.turn)
     }
 
-    /// The square of the straight-line distance from the direction `at` to the nearest
+    /// The square of the straight-line distance from the direction `point` to the nearest
     /// point of the edge.
-    pub(super) fn chord_squared(&self, at: DVec3, azimuth: f64, elevation: f64) -> f64 {
-        let beside = match self.shape {
-            Shape::GreatCircle { normal } if self.spans(at, normal) => {
-                let off_squared = normal.dot(at).powi(2).min(1.0);
+    pub(super) fn chord_squared(&self, point: DVec3, azimuth: f64, elevation: f64) -> f64 {
+        let along_edge = match self.shape {
+            Shape::GreatCircle { normal } if self.spans(point, normal) => {
+                let off_squared = normal.dot(point).powi(2).min(1.0);
                 // The squared chord of an angle, from the square of its sine.
                 2.0 * off_squared / (1.0 + (1.0 - off_squared).sqrt())
             }
@@ -84,12 +84,12 @@ impl Edge {
             }
             Shape::GreatCircle { .. } | Shape::Arc { .. } => f64::INFINITY,
         };
-        beside.min(at.distance_squared(self.from)).min(at.distance_squared(self.to))
+        along_edge.min(point.distance_squared(self.start)).min(point.distance_squared(self.end))
     }
 
-    /// Returns `true` if the point of the great circle nearest to `at` lies between the ends.
-    pub(super) fn spans(&self, at: DVec3, normal: DVec3) -> bool {
-        normal.cross(self.from).dot(at) >= 0.0 && self.to.cross(normal).dot(at) >= 0.0
+    /// Returns `true` if the point of the great circle nearest to `point` lies between the ends.
+    pub(super) fn spans(&self, point: DVec3, normal: DVec3) -> bool {
+        normal.cross(self.start).dot(point) >= 0.0 && self.end.cross(normal).dot(point) >= 0.0
     }
 
     /// Returns `true` if the azimuth lies between the ends of an arc of constant elevation.
@@ -98,14 +98,14 @@ impl Edge {
         (azimuth - start).rem_euclid(TAU) <= self.turn.abs()
     }
 
-    /// How often the edge crosses the vertical line from the direction `at` down to the nadir;
+    /// How often the edge crosses the vertical line from the direction `point` down to the nadir;
     /// crossings in the opposite sense count as negative.
-    pub(super) fn crossings_below(&self, at: DVec3, azimuth: f64, elevation: f64) -> i64 {
+    pub(super) fn crossings_below(&self, point: DVec3, azimuth: f64, elevation: f64) -> i64 {
         // The position of a corner relative to the line is computed in the same way for both of its
         // edges, so that a line through a corner is crossed once or not at all.
-        let beside = |corner: f64| (corner - azimuth).rem_euclid(TAU);
-        let (from, to) = (beside(self.from_azimuth), beside(self.to_azimuth));
-        let crossings = ((from + self.turn - to) / TAU).round() as i64;
+        let turn_to = |corner: f64| (corner - azimuth).rem_euclid(TAU);
+        let (start, end) = (turn_to(self.from_azimuth), turn_to(self.to_azimuth));
+        let crossings = ((start + self.turn - end) / TAU).round() as i64;
         if crossings == 0 {
             return 0;
         }
@@ -114,22 +114,25 @@ impl Edge {
             Shape::GreatCircle { .. } => {
                 let (sin, cos) = azimuth.sin_cos();
                 let side = DVec3::new(cos, -sin, 0.0);
-                let (from, to) = (side.dot(self.from).abs(), side.dot(self.to).abs());
-                let crossing =
-                    if from + to > 0.0 { self.from * to + self.to * from } else { self.from };
+                let (first, last) = (side.dot(self.start).abs(), side.dot(self.end).abs());
+                let crossing = if first + last > 0.0 {
+                    self.start * last + self.end * first
+                } else {
+                    self.start
+                };
                 let outward = crossing.x * sin + crossing.y * cos;
-                outward > 0.0 && crossing.z * at.x.hypot(at.y) < at.z * outward
+                outward > 0.0 && crossing.z * point.x.hypot(point.y) < point.z * outward
             }
         };
         if is_below { crossings } else { 0 }
     }
 
     /// The point at `share` (0 to 1) of the length.
-    pub(super) fn at(&self, share: f64) -> DVec3 {
+    pub(super) fn point_at(&self, share: f64) -> DVec3 {
         match self.shape {
             Shape::GreatCircle { normal } => {
                 let (sin, cos) = (self.length() * share).sin_cos();
-                self.from * cos + normal.cross(self.from) * sin
+                self.start * cos + normal.cross(self.start) * sin
             }
             Shape::Arc { elevation } => AzEl {
                 azimuth: Angle::from_radians(self.from_azimuth + self.turn * share),
@@ -155,7 +158,7 @@ impl Edge {
     pub(super) fn length(&self) -> f64 {
         match self.shape {
             Shape::GreatCircle { .. } => {
-                self.from.cross(self.to).length().atan2(self.from.dot(self.to))
+                self.start.cross(self.end).length().atan2(self.start.dot(self.end))
             }
             Shape::Arc { elevation } => self.turn.abs() * elevation.cos(),
         }
@@ -164,6 +167,7 @@ impl Edge {
     /// Points from the start onwards, no more than `step` (radians) apart, without the end.
     pub(super) fn points(self, step: f64) -> impl Iterator<Item = AzEl> {
         let count = (self.length() / step).ceil().max(1.0) as u32;
-        (0..count).map(move |index| AzEl::from_enu(self.at(f64::from(index) / f64::from(count))))
+        (0..count)
+            .map(move |index| AzEl::from_enu(self.point_at(f64::from(index) / f64::from(count))))
     }
 }

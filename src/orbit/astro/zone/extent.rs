@@ -16,14 +16,15 @@ pub(super) struct Extent {
 
 impl Extent {
     /// `None` for a zone that contains the zenith or is wider than half a turn.
-    pub(super) fn around(edges: &[Edge]) -> Option<Self> {
+    pub(super) fn enclosing(edges: &[Edge]) -> Option<Self> {
         let start = edges.first()?.from_azimuth;
         let mut azimuth = start;
         let (mut azimuths, mut elevations) = ((start, start), (FRAC_PI_2, -FRAC_PI_2));
         for edge in edges {
             azimuth += edge.turn;
             azimuths = (azimuths.0.min(azimuth), azimuths.1.max(azimuth));
-            for elevation in [edge.from, edge.to].into_iter().chain(furthest(edge)).map(elevation) {
+            for elevation in [edge.start, edge.end].into_iter().chain(furthest(edge)).map(elevation)
+            {
                 elevations = (elevations.0.min(elevation), elevations.1.max(elevation));
             }
         }
@@ -52,8 +53,8 @@ impl Extent {
     }
 }
 
-fn elevation(at: DVec3) -> f64 {
-    at.z.atan2(at.x.hypot(at.y))
+fn elevation(point: DVec3) -> f64 {
+    point.z.atan2(point.x.hypot(point.y))
 }
 
 /// The highest and the lowest point of a great circle where they lie on the edge.
@@ -62,7 +63,7 @@ fn furthest(edge: &Edge) -> impl Iterator<Item = DVec3> {
         Shape::GreatCircle { normal } => {
             let top = (DVec3::Z - normal * normal.z).try_normalize();
             let points = [top, top.map(|top| -top)].into_iter().flatten();
-            Some(points.filter(move |at| edge.spans(*at, normal)))
+            Some(points.filter(move |point| edge.spans(*point, normal)))
         }
         Shape::Arc { .. } => None,
     };

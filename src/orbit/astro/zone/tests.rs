@@ -21,8 +21,9 @@ fn expect(zone: &Zone, cases: &[(f64, f64, f64)]) {
 #[test]
 fn a_box_on_the_horizon_is_measured_from_its_nearest_edge() {
     let mast = zone(&[(100.0, 0.0), (100.0, 30.0), (140.0, 30.0), (140.0, 0.0)]).unwrap();
-    let over_the_side =
-        |off: f64, el: f64| (el.to_radians().cos() * off.to_radians().sin()).asin().to_degrees();
+    let over_the_side = |deviation: f64, el: f64| {
+        (el.to_radians().cos() * deviation.to_radians().sin()).asin().to_degrees()
+    };
     expect(
         &mast,
         &[
@@ -86,8 +87,8 @@ fn a_corner_at_the_zenith_and_an_edge_over_it_are_no_exception() {
     expect(&wedge, &[(120.0, 90.0, 0.0), (300.0, 80.0, 10.0), (120.0, 25.0, 5.0)]);
     assert!(clearance_deg(&wedge, 120.0, 60.0) < -5.0);
     assert!(clearance_deg(&wedge, 90.0, 60.0) > 4.0);
-    let over = zone(&[(0.0, 70.0), (180.0, 70.0), (180.0, 80.0)]);
-    assert!(over.is_ok(), "an arc back to where a great circle runs: {over:?}");
+    let over_zenith = zone(&[(0.0, 70.0), (180.0, 70.0), (180.0, 80.0)]);
+    assert!(over_zenith.is_ok(), "an arc back to where a great circle runs: {over_zenith:?}");
     let half = zone(&[(0.0, 50.0), (180.0, 51.0), (90.0, 50.0)]).unwrap();
     expect(&half, &[(0.0, 90.0, 0.0), (90.0, 80.0, -10.0), (270.0, 80.0, 10.0)]);
 }
@@ -179,18 +180,18 @@ fn star() -> impl Strategy<Value = (AzEl, Vec<AzEl>)> {
         let middle = AzEl::from_degrees(azimuth, elevation);
         let whole: f64 = corners.iter().map(|(part, _)| part).sum();
         let mut bearing = 0.0;
-        let corners = corners.iter().map(|(part, away)| {
+        let corners = corners.iter().map(|(part, distance)| {
             bearing += part / whole * std::f64::consts::TAU;
-            beside(middle, bearing, away.to_radians())
+            destination(middle, bearing, distance.to_radians())
         });
         (middle, corners.collect())
     })
 }
 
-fn beside(middle: AzEl, bearing: f64, away: f64) -> AzEl {
+fn destination(middle: AzEl, bearing: f64, distance: f64) -> AzEl {
     let (up, east) = frame(middle);
-    let towards = up * bearing.cos() + east * bearing.sin();
-    AzEl::from_enu(middle.to_enu() * away.cos() + towards * away.sin())
+    let tangent = up * bearing.cos() + east * bearing.sin();
+    AzEl::from_enu(middle.to_enu() * distance.cos() + tangent * distance.sin())
 }
 
 fn frame(middle: AzEl) -> (DVec3, DVec3) {
@@ -200,25 +201,25 @@ fn frame(middle: AzEl) -> (DVec3, DVec3) {
 
 /// Even-odd rule in the plane that touches the sphere at `middle`, where great
 /// circles are straight.
-fn is_inside_in_the_plane(middle: AzEl, corners: &[AzEl], at: AzEl) -> bool {
+fn is_inside_in_the_plane(middle: AzEl, corners: &[AzEl], direction: AzEl) -> bool {
     let (up, east) = frame(middle);
     let ahead = middle.to_enu();
-    let flat = |at: &AzEl| {
-        let at = at.to_enu();
-        (at.dot(east) / at.dot(ahead), at.dot(up) / at.dot(ahead))
+    let flat = |position: &AzEl| {
+        let vector = position.to_enu();
+        (vector.dot(east) / vector.dot(ahead), vector.dot(up) / vector.dot(ahead))
     };
-    if at.to_enu().dot(ahead) <= 0.0 {
+    if direction.to_enu().dot(ahead) <= 0.0 {
         return false;
     }
-    let (x, y) = flat(&at);
-    let mut inside = false;
+    let (x, y) = flat(&direction);
+    let mut is_inside = false;
     for (a, b) in corners.iter().zip(corners.iter().cycle().skip(1)) {
-        let ((ax, ay), (bx, by)) = (flat(a), flat(b));
-        if (ay > y) != (by > y) && x < ax + (y - ay) / (by - ay) * (bx - ax) {
-            inside = !inside;
+        let ((a_x, a_y), (b_x, b_y)) = (flat(a), flat(b));
+        if (a_y > y) != (b_y > y) && x < a_x + (y - a_y) / (b_y - a_y) * (b_x - a_x) {
+            is_inside = !is_inside;
         }
     }
-    inside
+    is_inside
 }
 
 fn any_direction() -> impl Strategy<Value = AzEl> {
@@ -229,46 +230,46 @@ fn any_direction() -> impl Strategy<Value = AzEl> {
 /// A box whose corners are whole degrees, as operators type them.
 fn any_box() -> impl Strategy<Value = (i32, i32, i32, i32)> {
     (-20..380_i32, 1..360_i32, -10..80_i32, 1..100_i32)
-        .prop_map(|(from, turn, low, high)| (from, from + turn, low, (low + high).min(90)))
+        .prop_map(|(start, turn, low, high)| (start, start + turn, low, (low + high).min(90)))
 }
 
 #[test]
 fn a_zone_that_is_far_away_is_known_to_be_far_at_once() {
     let mast = zone(&[(100.0, 0.0), (100.0, 30.0), (140.0, 30.0), (140.0, 0.0)]).unwrap();
-    let at_least = |azimuth_deg, elevation_deg| {
-        let at = AzEl::from_degrees(azimuth_deg, elevation_deg).to_enu();
-        mast.clearance_is_at_least(at).degrees()
+    let bound_deg = |azimuth_deg, elevation_deg| {
+        let point = AzEl::from_degrees(azimuth_deg, elevation_deg).to_enu();
+        mast.clearance_lower_bound(point).degrees()
     };
-    assert!((120.0..160.0).contains(&at_least(300.0, 15.0)), "{}", at_least(300.0, 15.0));
-    assert!(at_least(120.0, 15.0) < -90.0, "within the cap it says nothing");
+    assert!((120.0..160.0).contains(&bound_deg(300.0, 15.0)), "{}", bound_deg(300.0, 15.0));
+    assert!(bound_deg(120.0, 15.0) < -90.0, "within the cap it says nothing");
     // The inside is the side without the nadir, so nothing is far from this one.
     let all_above = zone(&[(0.0, -80.0), (120.0, -80.0), (240.0, -80.0), (360.0, -80.0)]).unwrap();
-    let at = AzEl::from_degrees(0.0, 90.0).to_enu();
-    assert!(all_above.clearance_is_at_least(at).degrees() < -90.0);
+    let vector = AzEl::from_degrees(0.0, 90.0).to_enu();
+    assert!(all_above.clearance_lower_bound(vector).degrees() < -90.0);
 }
 
 #[test]
 fn a_box_above_or_beside_a_zone_is_known_to_be_so_far_away() {
     let mast = zone(&[(350.0, 0.0), (350.0, 30.0), (370.0, 30.0), (370.0, 0.0)]).unwrap();
-    let at_least = |az: [f64; 2], el: [f64; 2]| {
+    let min = |az: [f64; 2], el: [f64; 2]| {
         let [azimuths, elevations] =
-            [az, el].map(|[from, to]| (Angle::from_degrees(from), Angle::from_degrees(to)));
-        mast.clearance_of_box_is_at_least(azimuths, elevations).degrees()
+            [az, el].map(|[start, end]| (Angle::from_degrees(start), Angle::from_degrees(end)));
+        mast.box_clearance_lower_bound(azimuths, elevations).degrees()
     };
-    let above = at_least([0.0, 360.0], [32.0, 90.0]);
+    let above = min([0.0, 360.0], [32.0, 90.0]);
     assert!((above - 2.0).abs() < 1e-9, "{above}");
-    let east = at_least([12.0, 100.0], [0.0, 60.0]);
+    let east = min([12.0, 100.0], [0.0, 60.0]);
     assert!((east - (0.5 * 2.0_f64.to_radians().sin()).asin().to_degrees()).abs() < 1e-9, "{east}");
-    let west = at_least([-100.0, -12.0], [0.0, 0.0]);
+    let west = min([-100.0, -12.0], [0.0, 0.0]);
     assert!((west - 2.0).abs() < 1e-9, "{west}");
-    assert!(at_least([5.0, 100.0], [0.0, 60.0]) < -90.0, "it reaches into the zone");
-    assert!(at_least([12.0, 200.0], [0.0, 60.0]) < -90.0, "it goes round more than a half");
+    assert!(min([5.0, 100.0], [0.0, 60.0]) < -90.0, "it reaches into the zone");
+    assert!(min([12.0, 200.0], [0.0, 60.0]) < -90.0, "it goes round more than a half");
 }
 
 proptest! {
     #[test]
     fn great_circles_around_a_middle_agree_with_the_plane_and_with_their_points(
-        (middle, corners) in star(), at in any_direction(), close in 0.0..60.0_f64,
+        (middle, corners) in star(), direction in any_direction(), close in 0.0..60.0_f64,
         bearing in 0.0..7.0_f64,
     ) {
         let built = Zone::new(corners.clone());
@@ -276,20 +277,20 @@ proptest! {
         // passes the middle.
         prop_assume!(built.is_ok());
         let zone = built.unwrap();
-        for at in [at, beside(middle, bearing, close.to_radians())] {
-            let clearance = zone.clearance(at).degrees();
+        for position in [direction, destination(middle, bearing, close.to_radians())] {
+            let clearance = zone.clearance(position).degrees();
             let step = 0.5;
             let sampled = zone
                 .edges_sampled(Angle::from_degrees(step))
-                .map(|point| point.separation(at).degrees())
+                .map(|point| point.separation(position).degrees())
                 .fold(f64::INFINITY, f64::min);
             prop_assert!(clearance.abs() <= sampled + 1e-9);
-            let at_least = zone.clearance_is_at_least(at.to_enu()).degrees();
-            prop_assert!(at_least <= clearance, "{at_least} {clearance}");
+            let min = zone.clearance_lower_bound(position.to_enu()).degrees();
+            prop_assert!(min <= clearance, "{min} {clearance}");
             prop_assert!(sampled <= clearance.abs() + step / 2.0 + 1e-9);
             if clearance.abs() > 1e-6 {
-                let inside = is_inside_in_the_plane(middle, &corners, at);
-                prop_assert_eq!(clearance < 0.0, inside, "{}", clearance);
+                let expected = is_inside_in_the_plane(middle, &corners, position);
+                prop_assert_eq!(clearance < 0.0, expected, "{}", clearance);
             }
         }
     }
@@ -297,46 +298,46 @@ proptest! {
     #[test]
     fn a_box_is_no_nearer_than_any_of_its_directions(
         (_, corners) in star(), (az, el) in (-360.0..720.0_f64, -89.0..89.0_f64),
-        (width, height) in (0.0..90.0_f64, 0.0..60.0_f64), beside in any_box(),
-        inside in proptest::collection::vec((0.0..1.0_f64, 0.0..1.0_f64), 20),
+        (width, height) in (0.0..90.0_f64, 0.0..60.0_f64), box_sides in any_box(),
+        shares in proptest::collection::vec((0.0..1.0_f64, 0.0..1.0_f64), 20),
     ) {
-        let (from, to, low, high) = beside;
-        let [from, to, low, high] = [from, to, low, high].map(f64::from);
-        let boxed = zone(&[(from, low), (from, high), (to, high), (to, low)]);
+        let (start, end, low, high) = box_sides;
+        let [first, last, low, high] = [start, end, low, high].map(f64::from);
+        let boxed = zone(&[(first, low), (first, high), (last, high), (last, low)]);
         let top = (el + height).min(90.0);
-        let ends = |from, to| (Angle::from_degrees(from), Angle::from_degrees(to));
+        let ends = |west, east| (Angle::from_degrees(west), Angle::from_degrees(east));
         for zone in [Zone::new(corners), boxed].into_iter().flatten() {
-            let at_least =
-                zone.clearance_of_box_is_at_least(ends(az, az + width), ends(el, top)).degrees();
-            for (across, up) in &inside {
+            let min =
+                zone.box_clearance_lower_bound(ends(az, az + width), ends(el, top)).degrees();
+            for (across, up) in &shares {
                 let clearance = clearance_deg(&zone, az + across * width, el + up * (top - el));
-                prop_assert!(at_least <= clearance + 1e-9, "{at_least} {clearance}");
+                prop_assert!(min <= clearance + 1e-9, "{min} {clearance}");
             }
         }
     }
 
     #[test]
     fn a_box_holds_what_lies_between_its_ends(
-        (from, to, low, high) in any_box(), azimuth in -360..720_i32, elevation in -90..=90_i32,
+        (start, end, low, high) in any_box(), azimuth in -360..720_i32, elevation in -90..=90_i32,
         (share_a, share_b) in (-0.1..1.1_f64, -0.1..1.1_f64),
     ) {
-        let [from, to, low, high] = [from, to, low, high].map(f64::from);
+        let [first, last, low, high] = [start, end, low, high].map(f64::from);
         prop_assume!(high > low);
-        let corners = [(from, low), (from, high), (to, high), (to, low)];
+        let corners = [(first, low), (first, high), (last, high), (last, low)];
         let built = zone(&corners);
         // A box that reaches the zenith has two corners in the same direction.
         prop_assume!(high < 90.0 || built.is_ok());
         let zone = built.unwrap();
-        let near = (from + share_a * (to - from), low + share_b * (high - low));
+        let near = (first + share_a * (last - first), low + share_b * (high - low));
         for (azimuth, elevation) in [(f64::from(azimuth), f64::from(elevation)), near] {
             if elevation > 90.0 {
                 continue;
             }
             let clearance = clearance_deg(&zone, azimuth, elevation);
-            let past = (azimuth - from).rem_euclid(360.0);
-            let inside = past <= to - from && (low..=high).contains(&elevation);
+            let past = (azimuth - first).rem_euclid(360.0);
+            let is_inside = past <= last - first && (low..=high).contains(&elevation);
             if clearance.abs() > 1e-9 {
-                prop_assert_eq!(clearance < 0.0, inside, "{} {}: {}", azimuth, elevation, clearance);
+                prop_assert_eq!(clearance < 0.0, is_inside, "{} {}: {}", azimuth, elevation, clearance);
             }
         }
     }
@@ -344,15 +345,15 @@ proptest! {
     #[test]
     fn clearance_changes_no_faster_than_the_direction(
         (middle, corners) in star(), a in any_direction(), b in any_direction(),
-        (bearing, away, step) in (0.0..7.0_f64, 0.0..1.0_f64, -9.0..-0.5_f64),
-        (from, to, low, high) in any_box(),
+        (bearing, distance, step) in (0.0..7.0_f64, 0.0..1.0_f64, -9.0..-0.5_f64),
+        (start, end, low, high) in any_box(),
     ) {
-        let [from, to, low, high] = [from, to, low, high].map(f64::from);
-        let boxed = zone(&[(from, low), (from, high), (to, high), (to, low)]);
+        let [first, last, low, high] = [start, end, low, high].map(f64::from);
+        let boxed = zone(&[(first, low), (first, high), (last, high), (last, low)]);
         for zone in [Zone::new(corners), boxed].into_iter().flatten() {
-            let c = beside(middle, bearing, away);
-            let d = beside(c, bearing * 3.0, 10_f64.powf(step));
-            for (a, b) in [(a, b), (a, c), (c, d), (a, beside(a, bearing, 10_f64.powf(step)))] {
+            let c = destination(middle, bearing, distance);
+            let d = destination(c, bearing * 3.0, 10_f64.powf(step));
+            for (a, b) in [(a, b), (a, c), (c, d), (a, destination(a, bearing, 10_f64.powf(step)))] {
                 let change = (zone.clearance(a) - zone.clearance(b)).abs().radians();
                 prop_assert!(change <= a.separation(b).radians() + 1e-9);
             }

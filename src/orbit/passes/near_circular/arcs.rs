@@ -42,9 +42,9 @@ impl Arcs {
         Self { arcs, count }
     }
 
-    /// All pieces from `from` onwards, turn after turn, without end.
-    pub(super) fn from(self, from: f64) -> impl Iterator<Item = (f64, f64)> {
-        let first_turn = ((from - FRAC_PI_2) / TAU).floor() - 1.0;
+    /// All pieces from `start` onwards, turn after turn, without end.
+    pub(super) fn starting_at(self, start: f64) -> impl Iterator<Item = (f64, f64)> {
+        let first_turn = ((start - FRAC_PI_2) / TAU).floor() - 1.0;
         let turns = (0..).map(move |turn: u32| TAU * (first_turn + f64::from(turn)));
         let none = self.count == 0;
         turns
@@ -53,7 +53,7 @@ impl Arcs {
                 self.arcs.into_iter().take(self.count).map(move |(a, b)| (a + turn, b + turn))
             })
             .flat_map(pieces)
-            .skip_while(move |(_, end)| *end < from)
+            .skip_while(move |(_, end)| *end < start)
     }
 }
 
@@ -78,19 +78,19 @@ mod tests {
             latitude in -FRAC_PI_2..=FRAC_PI_2,
             inclination in 0.0..=PI,
             reach in 0.01..1.5,
-            from in -50.0..50.0,
+            start in -50.0..50.0,
         ) {
             let (middle, width) =
                 (latitude.sin() * inclination.cos(), latitude.cos() * inclination.sin());
             let arcs: Vec<_> =
-                Arcs::new(middle, width, reach).from(from).take_while(|(a, _)| *a < from + TAU).collect();
+                Arcs::new(middle, width, reach).starting_at(start).take_while(|(a, _)| *a < start + TAU).collect();
             prop_assert!(arcs.iter().all(|(a, b)| b >= a && b - a <= LONGEST_RAD + 1e-9));
             prop_assert!(arcs.windows(2).all(|pair| pair[0].1 <= pair[1].0 + 1e-9));
             for step in 0..720 {
-                let beta = from + TAU * f64::from(step) / 720.0;
-                let off = (middle - width * beta.sin()).abs() - reach.sin();
-                let held = arcs.iter().any(|(a, b)| (*a..=*b).contains(&beta));
-                prop_assert!(held == (off <= 0.0) || off.abs() < 1e-6, "{beta} {off}");
+                let beta = start + TAU * f64::from(step) / 720.0;
+                let deviation = (middle - width * beta.sin()).abs() - reach.sin();
+                let is_covered = arcs.iter().any(|(a, b)| (*a..=*b).contains(&beta));
+                prop_assert!(is_covered == (deviation <= 0.0) || deviation.abs() < 1e-6, "{beta} {deviation}");
             }
         }
     }

@@ -84,13 +84,13 @@ fn guess<'a>(ends: &[SatelliteAt<'a>], in_plane: &InPlane, guesses: &mut Vec<Sat
     for ((ends, satellite), site) in
         ends.chunks_exact(2).zip(satellite.chunks_exact(2)).zip(site.chunks_exact(2))
     {
-        let ([start, end], [from, to], [site_from, site_to]) = (ends, satellite, site) else {
+        let ([start, end], [begin, last], [site_from, site_to]) = (ends, satellite, site) else {
             return;
         };
         // A piece is at most a quarter of a turn of the Earth, so the site moves by less
         // than half a turn.
-        let growth = to - from - wrapped(site_to - site_from);
-        let first = from - site_from;
+        let growth = last - begin - wrapped(site_to - site_from);
+        let first = begin - site_from;
         let turn = (first / TAU).ceil();
         let count = ((first + growth) / TAU).floor() - turn + 1.0;
         guesses.extend((0..(count as u32).min(MAX_IN_PIECE)).map(|index| {
@@ -146,8 +146,8 @@ impl Batch {
         let [_, argument_rate, half_acceleration, ..] = *argument;
         let mean_rate = (minutes * half_acceleration * 2.0 + argument_rate) * (1.0 / 60.0);
         let rate = mean_rate * (e_cos * 2.0 + 1.0) - site_rate;
-        let toward = cos_beta * sin_inclination * beta_rate * cos_latitude;
-        let lead = normal * toward / (in_plane2 * rate);
+        let approach = cos_beta * sin_inclination * beta_rate * cos_latitude;
+        let lead = normal * approach / (in_plane2 * rate);
         InPlane {
             satellite: latitude + e_sin * 2.0 * (e_cos * 1.25 + 1.0) - lead,
             site: Number::atan2(across, along),

@@ -94,12 +94,12 @@ fn passes_at(
     let tops = Sighting::new(&crests);
     let is_crest =
         crests.turns(Bend::Crest) & batch.exactness.is_crest(crests.at_s - series.at_s, &crests);
-    let is_low = is_crest & crests.height.sine.is_less(Lanes::of(window.sin_floor));
+    let is_low = is_crest & crests.height.sine.is_less(Lanes::splat(window.sin_floor));
     let is_settled = is_crest
         & rising.are_settled
         & setting.are_settled
-        & Lanes::of(0.0).is_less(rising.places.at_s)
-        & setting.places.at_s.is_less(Lanes::of(window.length_s));
+        & Lanes::splat(0.0).is_less(rising.places.at_s)
+        & setting.places.at_s.is_less(Lanes::splat(window.length_s));
     let before = iter::once(last).chain(fly_bys.iter().copied().map(Some));
     for (lane, (fly_by, before)) in fly_bys.iter().zip(before).enumerate() {
         if before.is_some_and(|before| fly_by.is_same(&before)) {
@@ -151,7 +151,7 @@ fn is_beside<N: Number>(
     side: f64,
 ) -> N::Answer {
     let from_crest_s = (place.at_s - crest.at_s) * side;
-    N::of(0.0).is_less(from_crest_s) & from_crest_s.is_less(half_pass_s * MAX_HALF_PASSES)
+    N::splat(0.0).is_less(from_crest_s) & from_crest_s.is_less(half_pass_s * MAX_HALF_PASSES)
 }
 
 /// The pass of one lane by itself. Its crest and edges may have converged already.

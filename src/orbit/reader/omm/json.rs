@@ -183,7 +183,7 @@ mod tests {
     }
 
     /// The message with one field changed; null removes the field.
-    fn with(key: &str, value: Json) -> Json {
+    fn message_with(key: &str, value: Json) -> Json {
         let mut message = celestrak();
         let fields = message.as_object_mut().unwrap();
         if value.is_null() {
@@ -197,7 +197,9 @@ mod tests {
     #[test]
     fn one_object_and_a_list_are_read() {
         let one = read(&celestrak().to_string());
-        let two = read(&json!([celestrak(), with("NORAD_CAT_ID", json!(999_999_999))]).to_string());
+        let two = read(
+            &json!([celestrak(), message_with("NORAD_CAT_ID", json!(999_999_999))]).to_string(),
+        );
         assert_eq!((&one.refused, &two.refused), (&vec![], &vec![]));
         assert_eq!(one.elements[0], two.elements[0]);
         assert_eq!(one.elements[0].catalog_number(), 100_123);
@@ -220,14 +222,14 @@ mod tests {
         dialect["DECAY_DATE"] = Json::Null;
         assert_eq!(read(&dialect.to_string()).elements, plain);
         for key in ["EPHEMERIS_TYPE", "CLASSIFICATION_TYPE"] {
-            let report = read(&with(key, Json::Null).to_string());
+            let report = read(&message_with(key, Json::Null).to_string());
             assert_eq!(report.elements, plain, "{key}");
         }
     }
 
     #[test]
     fn epochs_before_1970_keep_their_fraction() {
-        let report = read(&with("EPOCH", json!("1959-02-17T16:05:00.25")).to_string());
+        let report = read(&message_with("EPOCH", json!("1959-02-17T16:05:00.25")).to_string());
         assert_eq!(report.elements[0].epoch(), "1959-02-17T16:05:00.25Z".parse().unwrap());
     }
 
@@ -252,7 +254,7 @@ mod tests {
             ("EPHEMERIS_TYPE", json!(256), Why::Field("EPHEMERIS_TYPE")),
             ("MEAN_ELEMENT_THEORY", json!("SGP4-XP"), Why::Field("MEAN_ELEMENT_THEORY")),
         ] {
-            let report = read(&json!([with(key, value), celestrak()]).to_string());
+            let report = read(&json!([message_with(key, value), celestrak()]).to_string());
             assert_eq!(report.elements.len(), 1, "{key}");
             let object = Some("NEW OBJECT".to_owned());
             assert_eq!(report.refused, [Refusal { line: 1, object, reason }]);
@@ -265,23 +267,24 @@ mod tests {
         for end in ["", ",", ",\n"] {
             let report = read(&format!("{list}{end}"));
             assert_eq!(report.elements.len(), 2);
-            let why = RefusalReason::BreaksOff;
-            assert_eq!(report.refused, [Refusal { line: 3, object: None, reason: why }]);
+            let refusal_reason = RefusalReason::BreaksOff;
+            assert_eq!(report.refused, [Refusal { line: 3, object: None, reason: refusal_reason }]);
         }
         assert_eq!(read(&format!("{list}\n]\n")).refused, []);
     }
 
     #[test]
     fn lists_within_an_object_and_an_object_around_the_list_are_read() {
-        let nested = with("extra", json!({"a": {"b": [1, {"c": 3}]}, "d": [{"e": 1}, {"f": 2}]}));
+        let nested =
+            message_with("extra", json!({"a": {"b": [1, {"c": 3}]}, "d": [{"e": 1}, {"f": 2}]}));
         let report = read(&json!([nested, celestrak()]).to_string());
         assert_eq!((report.elements.len(), report.refused.len()), (2, 0), "{:?}", report.refused);
-        for around in [
+        for wrapper in [
             json!({"data": [nested, celestrak()]}),
             json!({"count": 2, "data": [celestrak(), nested], "next": null}),
         ] {
-            let report = read(&around.to_string());
-            assert_eq!((report.elements.len(), report.refused.len()), (2, 0), "{around}");
+            let report = read(&wrapper.to_string());
+            assert_eq!((report.elements.len(), report.refused.len()), (2, 0), "{wrapper}");
         }
     }
 
@@ -301,9 +304,9 @@ mod tests {
         let mut bare = satnogs();
         bare["norad_cat_id"] = Json::Null;
         bare["tle0"] = json!("TESTSAT A");
-        for around in [json!([satnogs(), bare]), json!({"results": [satnogs(), bare]})] {
-            let report = read(&around.to_string());
-            assert_eq!((report.elements.len(), &report.refused), (2, &vec![]), "{around}");
+        for wrapper in [json!([satnogs(), bare]), json!({"results": [satnogs(), bare]})] {
+            let report = read(&wrapper.to_string());
+            assert_eq!((report.elements.len(), &report.refused), (2, &vec![]), "{wrapper}");
             assert_eq!(report.elements[0], report.elements[1]);
             let read = &report.elements[0];
             assert_eq!((read.catalog_number(), read.name()), (90_001, "TESTSAT A"));

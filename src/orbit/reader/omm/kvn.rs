@@ -134,8 +134,8 @@ USER_DEFINED_EARTH_MODEL = WGS-72
             ("TIME_SYSTEM = GPS", "TIME_SYSTEM"),
             ("MEAN_ELEMENT_THEORY = DSST", "MEAN_ELEMENT_THEORY"),
         ] {
-            let kept = MESSAGE.lines().filter(|kept| !kept.starts_with(field));
-            let text = kept.chain([line]).collect::<Vec<_>>().join("\n");
+            let lines = MESSAGE.lines().filter(|row| !row.starts_with(field));
+            let text = lines.chain([line]).collect::<Vec<_>>().join("\n");
             assert_eq!(read(&text).refused[0].reason, RefusalReason::Field(field));
         }
     }

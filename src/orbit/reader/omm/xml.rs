@@ -33,8 +33,10 @@ pub(in crate::reader) fn read(text: &str) -> ReadReport {
 /// The messages of `text`, each from its start tag to the next one, with the line on
 /// which it starts.
 fn messages(text: &str) -> impl Iterator<Item = (usize, &str)> {
-    let mut tags =
-        text.match_indices('<').map(|(at, _)| at).filter(|at| is_start(text, *at, *b"omm"));
+    let mut tags = text
+        .match_indices('<')
+        .map(|(index, _)| index)
+        .filter(|position| is_start(text, *position, *b"omm"));
     let mut next = tags.next();
     let (mut line, mut counted) = (1, 0);
     std::iter::from_fn(move || {
@@ -46,10 +48,10 @@ fn messages(text: &str) -> impl Iterator<Item = (usize, &str)> {
     })
 }
 
-/// Returns `true` if the tag at `at` is a start tag called `called`, with or without a prefix.
-fn is_start(text: &str, at: usize, called: [u8; 3]) -> bool {
+/// Returns `true` if the tag at `index` is a start tag called `called`, with or without a prefix.
+fn is_start(text: &str, index: usize, called: [u8; 3]) -> bool {
     // A tag that never ends must not be searched again for every `<` in it.
-    let bytes = text.as_bytes().get(at + 1..).unwrap_or_default();
+    let bytes = text.as_bytes().get(index + 1..).unwrap_or_default();
     let bytes = bytes.get(..MAX_NAME).unwrap_or(bytes);
     let end = bytes
         .iter()

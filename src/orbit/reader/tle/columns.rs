@@ -32,12 +32,12 @@ pub(super) struct Columns<'a> {
 
 impl<'a> Columns<'a> {
     /// Checks line `line` (1 or 2) of a set.
-    pub(super) fn new(line: u8, given: &'a str) -> Result<Self, RefusalReason> {
-        if given.len() < COLUMNS - 1 {
-            return Err(RefusalReason::TooShort { line, columns: given.len() });
+    pub(super) fn new(line: u8, source: &'a str) -> Result<Self, RefusalReason> {
+        if source.len() < COLUMNS - 1 {
+            return Err(RefusalReason::TooShort { line, columns: source.len() });
         }
         // Not at a boundary of letters, it is not ASCII.
-        let Some(text) = given.get(..COLUMNS.min(given.len())).filter(|text| text.is_ascii())
+        let Some(text) = source.get(..COLUMNS.min(source.len())).filter(|text| text.is_ascii())
         else {
             return Err(RefusalReason::NotAscii { line });
         };

@@ -117,7 +117,7 @@ impl Session {
         let held = self.held_offsets().ok_or(Refusal::OffsetsUnknown)?;
         let shifted = self.owed.debts.shifted(&self.owed.unit);
         let before = shifted.map_or(held, |shifted| shifted.before);
-        let after = before.and(wanted).ok_or(Refusal::NotOffered)?;
+        let after = before.checked_add(wanted).ok_or(Refusal::NotOffered)?;
         let with = |offsets| OnBoard {
             offsets: unit.offsets.map(|unit| unit.with_axes_of(offsets)),
             ..unit.clone()
@@ -150,7 +150,7 @@ impl Session {
             is_found: false,
         };
         let mut shifted = known.unwrap_or(new);
-        let Some(after) = shifted.before.and(wanted) else { return self.forget_wanted() };
+        let Some(after) = shifted.before.checked_add(wanted) else { return self.forget_wanted() };
         shifted.track = self.told_track();
         if self.unit_offsets.unsure_until.is_none() {
             // The unit holds what was read back, and nothing older.
@@ -195,7 +195,7 @@ impl Session {
         let Some(wanted) = self.unit_offsets.wanted else { return Ok(None) };
         let held = self.held_offsets().ok_or(Refusal::OffsetsUnknown)?;
         let Some(shifted) = self.owed.debts.shifted(&self.owed.unit) else { return Ok(None) };
-        let after = shifted.before.and(wanted).ok_or(Refusal::NotOffered)?;
+        let after = shifted.before.checked_add(wanted).ok_or(Refusal::NotOffered)?;
         let values = fields.values(held, after);
         if values.is_empty() {
             return Ok(None);

@@ -112,12 +112,12 @@ pub(super) const ACTIONS: &[Action] = &[
     still(READ_LIST, "Read the list", "Reads the names of the stored satellites again."),
 ];
 
-const fn still(key: &'static str, label: &'static str, about: &'static str) -> Action {
-    Action { key, label, about, fields: &[], moves: false, question: None }
+const fn still(key: &'static str, label: &'static str, subject: &'static str) -> Action {
+    Action { key, label, about: subject, fields: &[], moves: false, question: None }
 }
 
-const fn moving(key: &'static str, label: &'static str, about: &'static str) -> Action {
-    Action { moves: true, ..still(key, label, about) }
+const fn moving(key: &'static str, label: &'static str, subject: &'static str) -> Action {
+    Action { moves: true, ..still(key, label, subject) }
 }
 
 /// An alarm forbids motion, so clearing it cannot count as one. A stop goes first, lest
@@ -139,31 +139,32 @@ fn check_name(typed: &str) -> Result<(), Unfit> {
 
 impl Rc2000c {
     pub(super) fn act_on(&mut self, act: &Act) {
-        let asked = Asked::Action(act.action);
+        let origin = Asked::Action(act.action);
         if self.motion_under_way() {
             let reason = "another command is under way".to_owned();
-            return self.events.push_back(ControllerEvent::Refused(asked, reason));
+            return self.events.push_back(ControllerEvent::Refused(origin, reason));
         }
         match act.action {
             READ_LIST => self.names = super::Names::default(),
-            RESET_AZIMUTH => self.reset(DriveReset::Azimuth, asked),
-            RESET_ELEVATION => self.reset(DriveReset::Elevation, asked),
-            RESET_POLARIZATION => self.reset(DriveReset::Polarization, asked),
+            RESET_AZIMUTH => self.reset(DriveReset::Azimuth, origin),
+            RESET_ELEVATION => self.reset(DriveReset::Elevation, origin),
+            RESET_POLARIZATION => self.reset(DriveReset::Polarization, origin),
             _ => {
                 let request = self.request_of(act);
-                self.order(asked, request);
+                self.order(origin, request);
             }
         }
     }
 
-    fn reset(&mut self, drive: DriveReset, asked: Asked) {
+    fn reset(&mut self, drive: DriveReset, origin: Asked) {
         let reset = Request::Motion(UnitMotion::ResetDrive(drive));
-        let asked = Some(asked);
-        self.orders.extend([Request::Stop, reset].map(|request| Order { request, asked }));
+        let origin = Some(origin);
+        self.orders.extend([Request::Stop, reset].map(|request| Order { request, origin: origin }));
     }
 
     fn request_of(&self, act: &Act) -> Result<Request, String> {
-        let polarization = |wanted| Request::Motion(UnitMotion::Polarization(wanted));
+        let polarization =
+            |polarization_move| Request::Motion(UnitMotion::Polarization(polarization_move));
         let in_track = |request| {
             let tracks = self.status.as_ref().is_some_and(is_tracking);
             if tracks { Ok(request) } else { Err("TRACK is not active".to_owned()) }
@@ -191,11 +192,12 @@ impl Rc2000c {
 
     /// The reason for which the unit would refuse to turn the polarization now. It accepts H and
     /// V in every phase of TRACK.
-    pub(super) fn objection_to(&self, asked: &Asked) -> Option<&'static str> {
-        let Asked::Action(TO_POLARIZATION | POLARIZATION_CW | POLARIZATION_CCW) = asked else {
+    pub(super) fn objection_to(&self, origin: &Asked) -> Option<&'static str> {
+        let Asked::Action(TO_POLARIZATION | POLARIZATION_CW | POLARIZATION_CCW) = origin else {
             return None;
         };
-        let status = self.status.as_ref().filter(|it| it.allows_polarization() == Some(false))?;
+        let status =
+            self.status.as_ref().filter(|status| status.allows_polarization() == Some(false))?;
         let is_automatic = status.polarization_mode.is_some_and(|mode| mode.is_automatic);
         Some(if is_automatic { AUTOMATIC } else { NOT_NOW })
     }

@@ -35,23 +35,23 @@ impl Axes {
     /// Azimuth and elevation in `status`. An axis whose position differs from `before` is
     /// moving: the unit does not report one that runs out.
     pub(super) fn read(&self, status: &Status, before: Option<&Status>) -> [Axis; 2] {
-        let both = |status: &Status| [status.azimuth, status.elevation];
-        let before = before.map(both);
+        let angle_axes = |status: &Status| [status.azimuth, status.elevation];
+        let before = before.map(angle_axes);
         let drives = [status.azimuth_drive, status.elevation_drive];
-        let [azimuth, elevation] = both(status);
+        let [azimuth, elevation] = angle_axes(status);
         let axis = |position, line: Option<CountLine>, drive, before: Option<Position>| {
             let is_reversed = line.is_some_and(|line| line.is_reversed());
             let end = match position {
                 Position::Limit(end) => Some(sense_of(end)),
                 _ => None,
             };
-            let at = |sense| end.is_some_and(|end| (end == sense) != is_reversed);
+            let is_at_end = |sense| end.is_some_and(|end| (end == sense) != is_reversed);
             Axis {
                 angle_deg: angle_deg(position, line),
                 motion: motion(drive, position, before, is_reversed),
                 drive: drive_state(drive),
-                plus_limit: at(Sense::Positive),
-                minus_limit: at(Sense::Negative),
+                plus_limit: is_at_end(Sense::Positive),
+                minus_limit: is_at_end(Sense::Negative),
             }
         };
         let [az_line, el_line] = self.lines;
@@ -146,8 +146,8 @@ impl Axes {
         let [az_line, el_line] = self.lines;
         let [az_travel_deg, el_travel_deg] = mount.travel_deg();
         let counts =
-            |name, angle: Option<Angle>, line: Option<CountLine>, at, (from_deg, to_deg)| {
-                let degrees = match (angle, at) {
+            |name, angle: Option<Angle>, line: Option<CountLine>, position, (from_deg, to_deg)| {
+                let degrees = match (angle, position) {
                     (Some(angle), _) => angle.degrees(),
                     (None, Some(Position::Counts(counts))) => {
                         let at_deg = line.map(|line| line.degrees(counts));

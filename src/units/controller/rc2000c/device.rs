@@ -77,7 +77,7 @@ impl Device for Rc2000c {
     }
 
     fn poll(&mut self, now: Moment) -> Option<Vec<u8>> {
-        if self.silent_at().is_some_and(|at| now.steady >= at) {
+        if self.silent_at().is_some_and(|instant| now.steady >= instant) {
             for frame in self.decoder.line_is_quiet() {
                 self.take_frame(frame, now);
             }
@@ -87,10 +87,10 @@ impl Device for Rc2000c {
         if let Some(again) = self.expire(now) {
             return Some(again);
         }
-        if self.drain_until.take_if(|until| now.steady >= *until).is_some() {
+        if self.drain_until.take_if(|end| now.steady >= *end).is_some() {
             self.missing.clear();
         }
-        if !self.is_free() || self.quiet_until().is_some_and(|until| now.steady < until) {
+        if !self.is_free() || self.quiet_until().is_some_and(|deadline| now.steady < deadline) {
             return None;
         }
         let (request, purpose) = self.next_request(now)?;
@@ -184,7 +184,7 @@ impl Rc2000c {
 
     /// When an unfinished frame is given up.
     fn silent_at(&self) -> Option<Instant> {
-        self.heard_at.map(|at| at + self.line.silence())
+        self.heard_at.map(|instant| instant + self.line.silence())
     }
 
     /// When there is something to send, with nothing outstanding.
@@ -194,19 +194,19 @@ impl Rc2000c {
             || self.is_status_asked
             || self.may_ask_device()
             || self.next_name().is_some();
-        let at = match self.jog {
+        let instant = match self.jog {
             _ if !self.orders.is_empty() => now.steady,
             Some(jog) => jog.sent.map_or(now.steady, |sent| sent + RENEWAL),
             None if is_asked => now.steady,
             None => poll_at,
         };
-        Some(at.max(self.quiet_until().unwrap_or(at)))
+        Some(instant.max(self.quiet_until().unwrap_or(instant)))
     }
 }
 
 impl Controller for Rc2000c {
-    fn objection(&self, asked: &Asked, _now: Moment) -> Option<&'static str> {
-        self.objection_to(asked)
+    fn objection(&self, origin: &Asked, _now: Moment) -> Option<&'static str> {
+        self.objection_to(origin)
     }
 
     fn lead_of(&self, act: &Act) -> Lead {

@@ -110,7 +110,7 @@ impl Rc2000c {
                 self.miss(&lost, false, now);
             }
         }
-        let asked = self.asked(&answered);
+        let moment = self.question_time(&answered);
         let has_surplus = match answered.purpose {
             Purpose::Poll => !self.missing.is_empty(),
             _ => answered.clock.is_repeated(),
@@ -118,18 +118,18 @@ impl Rc2000c {
         if has_surplus {
             self.drain_until = Some(now.steady + self.line.longest_wait());
         }
-        self.take_reply(&answered, reply, asked, now);
+        self.take_reply(&answered, reply, moment, now);
         self.refresh_panel();
     }
 
     /// Takes a reply that no open request waits for: a status may answer a missing question.
     fn take_surplus(&mut self, reply: &Reply, now: Moment) {
         if let Reply::Status { command: Command::Status, status } = reply
-            && let Some(asked) = self.missing.pop_front()
+            && let Some(moment) = self.missing.pop_front()
         {
             self.count_reply(now);
             self.end_drain();
-            self.take_status(*status, asked, asked, now);
+            self.take_status(*status, moment, moment, now);
             return self.refresh_panel();
         }
         self.state.traffic.unsolicited += 1;
@@ -145,7 +145,7 @@ impl Rc2000c {
     /// When the question went out that `answered` answers at the earliest. The unit answers each
     /// question at most once and in order, so a status is at least as young as the oldest
     /// question that may still be unanswered.
-    fn asked(&mut self, answered: &Outstanding) -> Moment {
+    fn question_time(&mut self, answered: &Outstanding) -> Moment {
         let sent = answered.clock.sent;
         if answered.purpose != Purpose::Poll {
             // The unit answers in order: the answers to earlier questions have come or are lost.
@@ -170,7 +170,7 @@ impl Rc2000c {
         self.gap_until.max(drain)
     }
 
-    fn take_reply(&mut self, answered: &Outstanding, reply: &Reply, asked: Moment, now: Moment) {
+    fn take_reply(&mut self, answered: &Outstanding, reply: &Reply, moment: Moment, now: Moment) {
         match reply {
             Reply::Offline { .. } => {
                 self.is_offline = true;
@@ -189,12 +189,12 @@ impl Rc2000c {
             }
             Reply::SatelliteName(entry) => self.names.take(entry),
             Reply::Status { status, .. } => {
-                self.take_status(*status, asked, answered.clock.sent, now);
+                self.take_status(*status, moment, answered.clock.sent, now);
                 // From question to question, so that a slow line is not made slower.
                 let period = self.rates.period(self.moving());
                 self.poll_at = Some(answered.clock.sent.steady + period);
-                if let Purpose::Order(asked) = answered.purpose {
-                    self.events.extend(asked.map(ControllerEvent::Accepted));
+                if let Purpose::Order(origin) = answered.purpose {
+                    self.events.extend(origin.map(ControllerEvent::Accepted));
                 }
                 let is_jog = matches!(answered.request, Request::Motion(UnitMotion::Jog(_)));
                 if answered.purpose != Purpose::Poll && !is_jog {
@@ -206,7 +206,7 @@ impl Rc2000c {
 
     /// Takes a status. `asked`: when its question went out at the earliest; `sent`: at the
     /// latest.
-    fn take_status(&mut self, status: Status, asked: Moment, sent: Moment, now: Moment) {
+    fn take_status(&mut self, status: Status, moment: Moment, sent: Moment, now: Moment) {
         // A unit that was not allowed to answer is asked for its type once it is.
         self.wants_device |= std::mem::take(&mut self.is_offline) && self.device.is_none();
         let axes = self.axes.read(&status, self.past.before(now.steady));
@@ -224,7 +224,7 @@ impl Rc2000c {
         let way = now.steady.saturating_duration_since(sent.steady) / 2;
         self.state.measured = Some(Measured {
             at: now.utc.checked_sub(way).unwrap_or(now.utc),
-            asked: asked.steady,
+            asked: moment.steady,
             received: now.steady,
             pointing,
             axes: [azimuth, elevation],
@@ -251,18 +251,18 @@ impl Rc2000c {
         let units = status.feed.units().filter(|_| is_under_way && !is_automatic);
         if let Some(here) = units.and_then(|units| PolarizationUnits::new(units).ok()) {
             let request = Request::Motion(UnitMotion::AutoMove(AutoMove::polarization(here)));
-            self.orders.push_back(Order { request, asked: None });
+            self.orders.push_back(Order { request, origin: None });
         }
     }
 
     /// The unit refused.
     fn fail(&mut self, answered: &Outstanding, reason: String, now: Moment) {
-        self.end_jog(answered, |asked| ControllerEvent::Refused(asked, reason.clone()));
+        self.end_jog(answered, |origin| ControllerEvent::Refused(origin, reason.clone()));
         match answered.purpose {
             Purpose::Poll | Purpose::Question => self.question_failed(&answered.request, now),
-            Purpose::Order(Some(asked)) => {
+            Purpose::Order(Some(origin)) => {
                 self.orders.clear();
-                self.events.push_back(ControllerEvent::Refused(asked, reason));
+                self.events.push_back(ControllerEvent::Refused(origin, reason));
                 self.look_soon(now);
             }
             Purpose::Halt | Purpose::Order(None) => {
@@ -301,7 +301,10 @@ impl Rc2000c {
         if self.halt.is_some() {
             return None;
         }
-        let is_late = self.outstanding.as_ref().is_some_and(|it| now.steady >= self.deadline(it));
+        let is_late = self
+            .outstanding
+            .as_ref()
+            .is_some_and(|outstanding| now.steady >= self.deadline(outstanding));
         let mut late = self.outstanding.take_if(|_| is_late)?;
         let tries = match late.purpose {
             Purpose::Poll => {
@@ -321,9 +324,9 @@ impl Rc2000c {
         }
         match late.purpose {
             Purpose::Poll | Purpose::Question => self.question_failed(&late.request, now),
-            Purpose::Order(asked) => {
+            Purpose::Order(origin) => {
                 self.orders.clear();
-                self.events.extend(asked.map(ControllerEvent::Unanswered));
+                self.events.extend(origin.map(ControllerEvent::Unanswered));
                 self.look_soon(now);
             }
             Purpose::Halt | Purpose::Disowned => self.look_soon(now),

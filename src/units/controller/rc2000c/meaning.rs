@@ -24,9 +24,9 @@ pub(super) fn of_sent(bytes: &[u8], address: Address, axes: &Axes) -> Option<Mea
             format!("Asks for the name of stored satellite {}", index.number()).into()
         }
         Request::Stop => "Stops azimuth and elevation".into(),
-        Request::Motion(Motion::AutoMove(to)) => auto_move(&to, axes).into(),
+        Request::Motion(Motion::AutoMove(target)) => auto_move(&target, axes).into(),
         Request::Motion(Motion::Jog(jog)) => jogged(jog).into(),
-        Request::Motion(Motion::Polarization(to)) => polarization(to).into(),
+        Request::Motion(Motion::Polarization(step)) => polarization(step).into(),
         Request::Motion(Motion::ResetDrive(drive)) => match drive {
             DriveReset::Azimuth => "Clears the alarm of the azimuth drive",
             DriveReset::Elevation => "Clears the alarm of the elevation drive",
@@ -46,16 +46,16 @@ pub(super) fn of_sent(bytes: &[u8], address: Address, axes: &Axes) -> Option<Mea
     Some(Meaning { tone: Tone::Plain, text })
 }
 
-fn auto_move(to: &AutoMove, axes: &Axes) -> String {
-    if let Some((name, polarity)) = to.to_satellite() {
-        let with = match polarity {
+fn auto_move(target: &AutoMove, axes: &Axes) -> String {
+    if let Some((name, polarity)) = target.to_satellite() {
+        let suffix = match polarity {
             Some(Polarity::Horizontal) => ", horizontal polarization",
             Some(Polarity::Vertical) => ", vertical polarization",
             None => "",
         };
-        return format!("Goes to {}{with}", name.as_str());
+        return format!("Goes to {}{suffix}", name.as_str());
     }
-    if let Some((az_counts, el_counts)) = to.to_position() {
+    if let Some((az_counts, el_counts)) = target.to_position() {
         let counts = format!("counts {az_counts}, {el_counts}");
         return match axes.degrees([az_counts, el_counts]) {
             Some([Some(az_deg), Some(el_deg)]) => {
@@ -64,7 +64,7 @@ fn auto_move(to: &AutoMove, axes: &Axes) -> String {
             _ => format!("Goes to {counts}"),
         };
     }
-    let position = to.to_polarization().map_or(0, PolarizationUnits::units);
+    let position = target.to_polarization().map_or(0, PolarizationUnits::units);
     format!("Turns the polarization to {position}")
 }
 
@@ -82,8 +82,8 @@ fn jogged(jog: Jog) -> String {
     format!("Turns {way} {speed} for {:.2} s", jog.duration().as_secs_f64())
 }
 
-const fn polarization(to: PolarizationMove) -> &'static str {
-    match to {
+const fn polarization(step: PolarizationMove) -> &'static str {
+    match step {
         PolarizationMove::JogClockwise => "Turns the polarization clockwise for a moment",
         PolarizationMove::JogCounterClockwise => {
             "Turns the polarization counter-clockwise for a moment"
@@ -151,7 +151,7 @@ mod tests {
     fn without_a_calibration_a_target_is_told_in_counts() {
         let address = Address::new(0x31).unwrap();
         let bytes = Request::Motion(Motion::AutoMove(AutoMove::position(7, 9))).to_bytes(address);
-        let said = of_sent(&bytes, address, &Axes::new(&Calibration::default())).unwrap();
-        assert_eq!(said.text, "Goes to counts 7, 9");
+        let meaning = of_sent(&bytes, address, &Axes::new(&Calibration::default())).unwrap();
+        assert_eq!(meaning.text, "Goes to counts 7, 9");
     }
 }

@@ -16,7 +16,7 @@ pub(super) struct Past(VecDeque<(Instant, Status)>);
 impl Past {
     pub(super) fn push(&mut self, status: Status, now: Instant) {
         // The second one is old enough, so nobody needs the first any more.
-        while self.0.get(1).is_some_and(|(at, _)| is_old(*at, now)) {
+        while self.0.get(1).is_some_and(|(instant, _)| is_old(*instant, now)) {
             self.0.pop_front();
         }
         self.0.push_back((now, status));
@@ -24,13 +24,13 @@ impl Past {
 
     /// The newest status that is old enough to compare with, or else the oldest.
     pub(super) fn before(&self, now: Instant) -> Option<&Status> {
-        let old = self.0.iter().rev().find(|(at, _)| is_old(*at, now));
+        let old = self.0.iter().rev().find(|(instant, _)| is_old(*instant, now));
         old.or(self.0.front()).map(|(_, status)| status)
     }
 }
 
-fn is_old(at: Instant, now: Instant) -> bool {
-    now.saturating_duration_since(at) >= LONG_ENOUGH
+fn is_old(instant: Instant, now: Instant) -> bool {
+    now.saturating_duration_since(instant) >= LONG_ENOUGH
 }
 
 #[cfg(test)]
@@ -44,14 +44,14 @@ mod tests {
     #[test]
     fn a_status_is_compared_with_one_that_is_old_enough() {
         let start = Instant::now();
-        let at = |ms| start + Duration::from_millis(ms);
+        let time = |ms| start + Duration::from_millis(ms);
         let idle = status(IDLE);
         let mut past = Past::default();
         assert_eq!(past.before(start), None);
         for ms in (0..1000).step_by(60) {
-            past.push(Status { azimuth: Position::Counts(ms), ..idle }, at(ms.into()));
+            past.push(Status { azimuth: Position::Counts(ms), ..idle }, time(ms.into()));
         }
-        let counts = |ms| past.before(at(ms)).map(|status| status.azimuth);
+        let counts = |ms| past.before(time(ms)).map(|status| status.azimuth);
         assert_eq!(counts(1020), Some(Position::Counts(720)));
         assert_eq!(counts(5000), Some(Position::Counts(960)));
         assert!(past.0.len() < 8, "{}", past.0.len());

@@ -66,7 +66,7 @@ fn polarization(feed: FeedReading, motion: PolarizationMotion) -> Reading {
         PolarizationDevice::RotatingFeed => "rotating feed",
         PolarizationDevice::Unknown(_) => "unknown device",
     };
-    let at = match (feed.position, feed.units()) {
+    let reading = match (feed.position, feed.units()) {
         (FeedPosition::ClockwiseLimit, _) => "at the limit CW".to_owned(),
         (FeedPosition::CounterClockwiseLimit, _) => "at the limit CCW".to_owned(),
         (_, Some(units)) => units.to_string(),
@@ -80,7 +80,7 @@ fn polarization(feed: FeedReading, motion: PolarizationMotion) -> Reading {
         PolarizationMotion::Unknown(_) => ", may be turning",
     };
     let tone = if turns.is_empty() { Tone::Plain } else { Tone::Caution };
-    Reading::new("Polarization", format!("{at} ({device}){turns}")).in_tone(tone)
+    Reading::new("Polarization", format!("{reading} ({device}){turns}")).in_tone(tone)
 }
 
 fn polarity(code: PolarizationCode) -> &'static str {

@@ -53,5 +53,5 @@ fn auto_move(target: &AutoMove, is_automatic: bool) -> &'static str {
 }
 
 fn is_at_limit(status: &Status) -> bool {
-    [status.azimuth, status.elevation].iter().any(|at| matches!(at, Position::Limit(_)))
+    [status.azimuth, status.elevation].iter().any(|position| matches!(position, Position::Limit(_)))
 }

@@ -52,7 +52,7 @@ pub static SPEC: ControllerSpec = ControllerSpec {
     why_no_question: None,
     variants: &[&VARIANT],
     variant: |_| &VARIANT,
-    open: |antenna| Box::new(Rc2000c::of(antenna)),
+    open: |antenna| Box::new(Rc2000c::new(antenna)),
 };
 
 /// All units of this make have the same abilities.

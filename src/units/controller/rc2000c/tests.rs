@@ -22,7 +22,7 @@ impl Bench {
     /// Asked for its type, not answered yet.
     fn new() -> Self {
         let antenna = Antenna::rc2000c("Dish", "/dev/ttyUSB0");
-        let unit = Rc2000c::of(&antenna);
+        let unit = Rc2000c::new(&antenna);
         let mut bench =
             Self { unit, now: Moment { steady: Instant::now(), utc: Timestamp::UNIX_EPOCH } };
         assert_eq!(bench.poll(), None, "silent without a link");
@@ -95,11 +95,11 @@ fn a_question_goes_out_three_times_and_then_no_more() {
 fn after_a_repeated_question_the_surplus_answer_is_waited_for() {
     let mut bench = Bench::idle();
     assert_eq!(bench.poll_after(500).as_deref(), Some(STATUS));
-    let asked = bench.now.steady;
+    let question_time = bench.now.steady;
     assert_eq!(bench.poll_after(1045).as_deref(), Some(STATUS));
     bench.hear(IDLE);
     let measured = bench.unit.state().measured.unwrap();
-    assert_eq!(measured.asked, asked, "it may answer the first of the two");
+    assert_eq!(measured.asked, question_time, "it may answer the first of the two");
     assert_eq!(bench.poll_after(800), None);
     bench.hear(IDLE);
     assert_eq!(bench.poll_after(400).as_deref(), Some(STATUS));
@@ -118,11 +118,11 @@ fn a_lost_status_leaves_the_position_of_a_moving_antenna_young() {
     assert_eq!(bench.poll_after(700).as_deref(), Some(STATUS));
     let repeated = bench.now.steady;
     bench.hear(IDLE);
-    let asked = |bench: &Bench| bench.unit.state().measured.unwrap().asked;
-    assert_eq!(asked(&bench), lost, "it may answer either question");
+    let measured_at = |bench: &Bench| bench.unit.state().measured.unwrap().asked;
+    assert_eq!(measured_at(&bench), lost, "it may answer either question");
     assert_eq!(bench.poll_after(500).as_deref(), Some(STATUS), "without a pause");
     bench.hear(IDLE);
-    assert_eq!(asked(&bench), repeated);
+    assert_eq!(measured_at(&bench), repeated);
 }
 
 #[test]
@@ -166,9 +166,9 @@ fn answers_that_come_late_and_together_are_taken_for_no_younger_than_they_are() 
         assert_eq!(bench.poll_after(wait_ms).as_deref(), Some(STATUS));
         questions.push(bench.now.steady);
     }
-    for asked in questions {
+    for question_time in questions {
         bench.hear(IDLE);
-        assert_eq!(bench.unit.state().measured.unwrap().asked, asked);
+        assert_eq!(bench.unit.state().measured.unwrap().asked, question_time);
     }
 }
 

@@ -58,14 +58,14 @@ impl Genius {
         let Some(status) = &self.status else { return };
         self.changes.advance(&mut self.state, now, |settings_write| {
             let Some(number) = rotator_of(settings_write.group.key) else { return Ok(()) };
-            let held = values(status, number);
+            let unit_values = values(status, number);
             match settings_write.step() {
-                Step::Look => settings_write.looked(held),
+                Step::Look => settings_write.looked(unit_values),
                 Step::ReadBack => {
                     let mut sent = settings_write.before().clone();
                     sent.extend(settings_write.change.values.clone());
-                    let differing = differing(settings_write.group, &sent, &held);
-                    settings_write.read_back(&held, differing);
+                    let differing = differing(settings_write.group, &sent, &unit_values);
+                    settings_write.read_back(&unit_values, differing);
                     Ok(())
                 }
                 Step::Send | Step::Done => Ok(()),

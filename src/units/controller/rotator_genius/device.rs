@@ -61,7 +61,7 @@ impl Device for Genius {
     }
 
     fn poll(&mut self, now: Moment) -> Option<Vec<u8>> {
-        self.halts.retain(|until| *until > now.steady);
+        self.halts.retain(|end| *end > now.steady);
         self.end_unfinished(now);
         if std::mem::take(&mut self.is_rescue_wanted) {
             self.rescue_until = Some(now.steady + ARMED);
@@ -70,7 +70,7 @@ impl Device for Genius {
         if let Some(stop) = self.expire(now) {
             return Some(stop);
         }
-        if self.drain_until.take_if(|until| now.steady >= *until).is_some() {
+        if self.drain_until.take_if(|deadline| now.steady >= *deadline).is_some() {
             self.missing.clear();
         }
         if self.outstanding.is_some() || self.drains_until().is_some() {
@@ -91,7 +91,7 @@ impl Device for Genius {
     fn due(&self, now: Moment) -> Instant {
         let next = match (&self.outstanding, self.drains_until()) {
             (Some(outstanding), _) => Some(self.deadline(outstanding)),
-            (None, Some(until)) => Some(until),
+            (None, Some(end)) => Some(end),
             (None, None) if self.has_something_to_send() => Some(now.steady),
             (None, None) => self.next_poll,
         };
@@ -116,8 +116,8 @@ impl Device for Genius {
         self.is_watched = is_watched;
     }
 
-    fn refuse_change(&mut self, change: Change, why: WriteError, now: Moment) {
-        self.changes.refuse(change, why, &mut self.state, now);
+    fn refuse_change(&mut self, change: Change, write_error: WriteError, now: Moment) {
+        self.changes.refuse(change, write_error, &mut self.state, now);
     }
 
     fn lock_changes(&mut self, are_locked: bool) {
@@ -171,17 +171,17 @@ impl Controller for Genius {
         self.changes.push(change, &mut self.state);
     }
 
-    fn objection(&self, asked: &Asked, now: Moment) -> Option<&'static str> {
-        self.objection_to(asked, now)
+    fn objection(&self, origin: &Asked, now: Moment) -> Option<&'static str> {
+        self.objection_to(origin, now)
     }
 
     fn start(&mut self, motion: Motion) {
         // A newer request replaces one that has not gone out yet.
-        self.orders.retain(|order| matches!(order.asked, Asked::Action(_)));
+        self.orders.retain(|order| matches!(order.origin, Asked::Action(_)));
         match self.orders_for(motion) {
             Ok(orders) => self.orders.extend(orders),
-            Err(why) => {
-                self.events.push_back(ControllerEvent::Refused(motion.into(), why.to_owned()));
+            Err(reason) => {
+                self.events.push_back(ControllerEvent::Refused(motion.into(), reason.to_owned()));
             }
         }
     }
@@ -190,12 +190,12 @@ impl Controller for Genius {
         match act.action {
             RESCUE => self.is_rescue_wanted = true,
             OTHER => {
-                let asked = Asked::Action(OTHER);
-                self.orders.retain(|order| order.asked != asked);
+                let origin = Asked::Action(OTHER);
+                self.orders.retain(|order| order.origin != origin);
                 match self.order_for(&act) {
                     Ok(order) => self.orders.push_back(order),
-                    Err(why) => {
-                        self.events.push_back(ControllerEvent::Refused(asked, why.to_owned()));
+                    Err(reason) => {
+                        self.events.push_back(ControllerEvent::Refused(origin, reason.to_owned()));
                     }
                 }
             }

@@ -70,12 +70,12 @@ impl Outstanding {
     }
 
     /// Returns `true` if `to` acknowledges it; acknowledgements never name the rotator.
-    pub(super) fn is_acknowledged_by(&self, to: Acknowledgement) -> bool {
-        match (&self.request, to) {
+    pub(super) fn is_acknowledged_by(&self, acknowledgement: Acknowledgement) -> bool {
+        match (&self.request, acknowledgement) {
             (
                 Request::Motion(unit::Motion::GoTo { target, .. }),
-                Acknowledgement::GoTo { target: told },
-            ) => told.is_none_or(|told| told == *target),
+                Acknowledgement::GoTo { target: acknowledged },
+            ) => acknowledged.is_none_or(|whole_degrees| whole_degrees == *target),
             (
                 Request::Motion(unit::Motion::Rotate { direction, .. }),
                 Acknowledgement::RotateClockwise,
@@ -121,8 +121,8 @@ impl Genius {
             Received::Reply(Reply::Acknowledgement { to: Acknowledgement::Stop, is_accepted }) => {
                 self.take_halt_answer(is_accepted, now);
             }
-            Received::Reply(Reply::Acknowledgement { to, is_accepted }) => {
-                let is_expected = |sent: &mut Outstanding| sent.is_acknowledged_by(to);
+            Received::Reply(Reply::Acknowledgement { to: acknowledgement, is_accepted }) => {
+                let is_expected = |sent: &mut Outstanding| sent.is_acknowledged_by(acknowledgement);
                 match self.outstanding.take_if(is_expected) {
                     Some(outstanding) => self.take_verdict(&outstanding, is_accepted, now),
                     None => self.state.traffic.unsolicited += 1,
@@ -160,15 +160,15 @@ impl Genius {
     fn take_answer(&mut self, status: Status, now: Moment) {
         let read = self.outstanding.take_if(|sent| sent.is_read());
         self.missing.extend(read.as_ref().map(Outstanding::sent));
-        let Some(asked) = self.missing.pop_front() else {
+        let Some(question_time) = self.missing.pop_front() else {
             self.state.traffic.unsolicited += 1;
             return;
         };
         self.count_reply(now);
         let is_behind = self.drain_until.is_some();
         self.drain_until = (!self.missing.is_empty()).then(|| now.steady + DRAIN);
-        let sent = read.as_ref().map_or(asked, Outstanding::sent);
-        self.take_status(status, asked, sent, now);
+        let sent = read.as_ref().map_or(question_time, Outstanding::sent);
+        self.take_status(status, question_time, sent, now);
         let next = sent + self.period(now.steady);
         self.next_poll = self.next_poll.map(|due| due.min(next));
         if self.drain_until.is_some() && !is_behind {
@@ -202,29 +202,32 @@ impl Genius {
         if outstanding.purpose == Purpose::WriteSettings {
             return self.change_judged(is_accepted, now);
         }
-        let Purpose::Motion(asked) = outstanding.purpose else { return };
+        let Purpose::Motion(origin) = outstanding.purpose else { return };
         if is_accepted {
-            if !self.orders.iter().any(|order| order.asked == asked) {
-                self.events.push_back(ControllerEvent::Accepted(asked));
+            if !self.orders.iter().any(|order| order.origin == origin) {
+                self.events.push_back(ControllerEvent::Accepted(origin));
             }
             return;
         }
-        self.forget_orders(asked);
+        self.forget_orders(origin);
         if let Request::Motion(request) = outstanding.request {
             let refusal = self.refusal(request);
-            self.events.push_back(ControllerEvent::Refused(asked, refusal));
+            self.events.push_back(ControllerEvent::Refused(origin, refusal));
         }
     }
 
     /// Drops the rest of a motion: half of one is useless.
-    fn forget_orders(&mut self, asked: Asked) {
-        self.orders.retain(|order| order.asked != asked);
+    fn forget_orders(&mut self, origin: Asked) {
+        self.orders.retain(|order| order.origin != origin);
     }
 
     /// A status is asked for again; other requests never, because the status shows whether
     /// they arrived. Returns the bytes to send at once.
     pub(super) fn expire(&mut self, now: Moment) -> Option<Vec<u8>> {
-        let is_late = self.outstanding.as_ref().is_some_and(|it| now.steady >= self.deadline(it));
+        let is_late = self
+            .outstanding
+            .as_ref()
+            .is_some_and(|outstanding| now.steady >= self.deadline(outstanding));
         let late = self.outstanding.take_if(|_| is_late)?;
         self.state.traffic.unanswered += 1;
         self.wire.no_reply(late.clock.waited(now), late.is_read(), now);
@@ -235,9 +238,9 @@ impl Genius {
             }
         }
         match late.purpose {
-            Purpose::Motion(asked) => {
-                self.forget_orders(asked);
-                self.events.push_back(ControllerEvent::Unanswered(asked));
+            Purpose::Motion(origin) => {
+                self.forget_orders(origin);
+                self.events.push_back(ControllerEvent::Unanswered(origin));
             }
             Purpose::WriteSettings => self.change_unanswered(now),
             Purpose::Poll | Purpose::Asked | Purpose::Disowned => {}

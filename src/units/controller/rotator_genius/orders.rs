@@ -19,7 +19,7 @@ use crate::{
 pub(super) struct Order {
     pub(super) request: unit::Motion,
     /// The request it is a part of.
-    pub(super) asked: Asked,
+    pub(super) origin: Asked,
 }
 
 const NOT_READ: &str = "the rotators were not read yet";
@@ -31,19 +31,19 @@ const OUTSIDE: &str = "the rotator is outside its limits, where nothing ends a j
                        direction, or allow jogs outside limits";
 const OUTSIDE_UNKNOWN: &str = "whether the rotator is outside its limits is not known, and there \
                                nothing ends a jog: send it to a direction, or allow jogs outside limits";
-const BEYOND: &str = "the device takes azimuths from 0 to 360 degrees";
+const OUT_OF_RANGE: &str = "the device takes azimuths from 0 to 360 degrees";
 const NO_MOTION: &str = "the device has no such motion";
 
 impl Genius {
     pub(super) fn roles(&self) -> Option<Roles> {
-        self.status.as_ref().map(|status| Roles::of(self.rotators, status))
+        self.status.as_ref().map(|status| Roles::new(self.rotators, status))
     }
 
     /// The make's own reason not to send `asked`.
-    pub(super) fn objection_to(&self, asked: &Asked, now: Moment) -> Option<&'static str> {
+    pub(super) fn objection_to(&self, origin: &Asked, now: Moment) -> Option<&'static str> {
         let Some(status) = &self.status else { return Some(NOT_READ) };
-        let Roles { axes: [first, second], is_clear, is_pair } = Roles::of(self.rotators, status);
-        match *asked {
+        let Roles { axes: [first, second], is_clear, is_pair } = Roles::new(self.rotators, status);
+        match *origin {
             Asked::Motion(Motion::Jog { x_deg_s, .. }) => {
                 let (number, other) =
                     if x_deg_s == 0.0 { (second, first) } else { (first, second) };
@@ -66,10 +66,11 @@ impl Genius {
                     return Some(KINDS);
                 }
                 if azimuth.is_some_and(|azimuth| whole_azimuth(azimuth).is_none()) {
-                    return Some(BEYOND);
+                    return Some(OUT_OF_RANGE);
                 }
-                let asked = [azimuth.map(|_| first), elevation.map(|_| second)];
-                let mut rotators = asked.into_iter().flatten().map(|number| status.rotator(number));
+                let numbers = [azimuth.map(|_| first), elevation.map(|_| second)];
+                let mut rotators =
+                    numbers.into_iter().flatten().map(|number| status.rotator(number));
                 rotators.find_map(without_position)
             }
             Asked::Action(OTHER) => without_position(status.rotator(second)),
@@ -99,8 +100,9 @@ impl Genius {
                 vec![unit::Motion::Rotate { rotator, direction }]
             }
             Motion::Position { azimuth, elevation } if is_pair || elevation.is_none() => {
-                let azimuth =
-                    azimuth.map(|azimuth| whole_azimuth(azimuth).ok_or(BEYOND)).transpose()?;
+                let azimuth = azimuth
+                    .map(|azimuth| whole_azimuth(azimuth).ok_or(OUT_OF_RANGE))
+                    .transpose()?;
                 let elevation = elevation.map(whole_elevation);
                 let parts = [(first, azimuth), (second, elevation)].into_iter();
                 let go_to = |(rotator, target): (_, Option<_>)| {
@@ -110,15 +112,16 @@ impl Genius {
             }
             _ => return Err(NO_MOTION),
         };
-        Ok(requests.into_iter().map(|request| Order { request, asked: motion.into() }).collect())
+        Ok(requests.into_iter().map(|request| Order { request, origin: motion.into() }).collect())
     }
 
     pub(super) fn order_for(&self, act: &Act) -> Result<Order, &'static str> {
         let degrees = DIRECTION.of(&act.values).and_then(|degrees| u16::try_from(degrees).ok());
-        let target = degrees.and_then(|degrees| WholeDegrees::new(degrees).ok()).ok_or(BEYOND)?;
+        let target =
+            degrees.and_then(|degrees| WholeDegrees::new(degrees).ok()).ok_or(OUT_OF_RANGE)?;
         let Roles { axes: [_, rotator], .. } = self.roles().ok_or(NOT_READ)?;
         let request = unit::Motion::GoTo { rotator, target };
-        Ok(Order { request, asked: Asked::Action(act.action) })
+        Ok(Order { request, origin: Asked::Action(act.action) })
     }
 
     /// Meaning of an `F`, as far as the last status shows: the unit never says.
@@ -127,7 +130,7 @@ impl Genius {
         let number = rotator_of(request);
         let rotator = status.rotator(number);
         let limits = |limit: Option<WholeDegrees>| limit.map_or("?".to_owned(), |l| l.to_string());
-        let why = match (&rotator.position, rotator.is_outside_limits) {
+        let reason = match (&rotator.position, rotator.is_outside_limits) {
             (Err(NoPosition::NoSensor), _) => "its sensor is not connected".to_owned(),
             (Err(problem), _) => problem.to_string(),
             (Ok(_), Some(true)) => "it is outside its limits".to_owned(),
@@ -138,7 +141,7 @@ impl Genius {
                 limits(rotator.limit_cw)
             ),
         };
-        format!("F for rotator {}: {why}", number.number())
+        format!("F for rotator {}: {reason}", number.number())
     }
 }
 
@@ -191,7 +194,7 @@ mod tests {
     fn north_is_rounded_to_the_side_on_which_it_was_asked_for() {
         let azimuth =
             |degrees| whole_azimuth(Angle::from_degrees(degrees)).map(WholeDegrees::degrees);
-        for (asked, sent) in [
+        for (requested_deg, sent) in [
             (0.0, Some(0)),
             (0.4, Some(0)),
             (0.6, Some(1)),
@@ -204,7 +207,7 @@ mod tests {
             (-10.0, None),
             (f64::NAN, None),
         ] {
-            assert_eq!(azimuth(asked), sent, "{asked}");
+            assert_eq!(azimuth(requested_deg), sent, "{requested_deg}");
         }
     }
 

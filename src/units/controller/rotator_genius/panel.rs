@@ -85,7 +85,7 @@ pub(super) fn readings(
 
 fn of_rotator(status: &Status, roles: Roles, number: RotatorNumber) -> Vec<Reading> {
     let rotator = status.rotator(number);
-    let label = |what: &str| format!("{what} {}", number.number());
+    let label = |axis_name: &str| format!("{axis_name} {}", number.number());
     let kind = match rotator.kind {
         RotatorKind::Azimuth => "azimuth",
         RotatorKind::Elevation => "elevation",
@@ -150,11 +150,11 @@ fn progress(rotator: &Rotator) -> Option<f64> {
     let degrees = |angle: WholeDegrees| f64::from(angle.degrees());
     let (start, target) = (degrees(rotator.start?), degrees(rotator.target?));
     let here = degrees(rotator.position.ok()?);
-    let gone = |from: f64, to: f64| match rotator.moving {
-        Moving::CounterClockwise => (from - to).rem_euclid(360.0),
-        Moving::Clockwise | Moving::Stopped => (to - from).rem_euclid(360.0),
+    let share_done = |first: f64, end: f64| match rotator.moving {
+        Moving::CounterClockwise => (first - end).rem_euclid(360.0),
+        Moving::Clockwise | Moving::Stopped => (end - first).rem_euclid(360.0),
     };
-    let (whole, part) = (gone(start, target), gone(start, here));
+    let (whole, part) = (share_done(start, target), share_done(start, here));
     if whole == 0.0 {
         return Some(1.0);
     }

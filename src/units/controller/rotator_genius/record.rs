@@ -17,10 +17,10 @@ impl Genius {
 
     /// Records something that was received and not acted upon yet.
     pub(super) fn record_received(&mut self, received: &Received, now: Moment) {
-        let asked = |is_it: &dyn Fn(&Outstanding) -> bool| {
+        let sent_at = |is_it: &dyn Fn(&Outstanding) -> bool| {
             self.outstanding.as_ref().filter(|sent| is_it(sent)).map(Outstanding::sent)
         };
-        let (meaning, asked, is_poll) = match received {
+        let (meaning, question_time, is_poll) = match received {
             Received::Noise(bytes) => {
                 self.unfinished.drain(..bytes.len().min(self.unfinished.len()));
                 let line = line(Direction::Received, bytes, now);
@@ -30,23 +30,25 @@ impl Genius {
             Received::LayoutChanged(_) | Received::OtherProtocol => return,
             Received::Reply(Reply::Status(_)) => {
                 let is_poll = self.outstanding.as_ref().is_some_and(Outstanding::is_poll);
-                let asked = self.missing.front().copied().or_else(|| asked(&Outstanding::is_read));
-                (Meaning::plain("Status"), asked, is_poll)
+                let question_time =
+                    self.missing.front().copied().or_else(|| sent_at(&Outstanding::is_read));
+                (Meaning::plain("Status"), question_time, is_poll)
             }
-            Received::Reply(Reply::Acknowledgement { to, is_accepted }) => {
-                let asked = if *to == Acknowledgement::Stop {
-                    self.halts.front().map(|until| *until - REPLY)
+            Received::Reply(Reply::Acknowledgement { to: acknowledgement, is_accepted }) => {
+                let question_time = if *acknowledgement == Acknowledgement::Stop {
+                    self.halts.front().map(|end| *end - REPLY)
                 } else {
-                    asked(&|sent| sent.is_acknowledged_by(*to))
+                    sent_at(&|sent| sent.is_acknowledged_by(*acknowledgement))
                 };
                 let (tone, text) =
                     if *is_accepted { (Tone::Good, "Accepted") } else { (Tone::Bad, "Refused") };
-                (Meaning { tone, ..Meaning::plain(text) }, asked, false)
+                (Meaning { tone, ..Meaning::plain(text) }, question_time, false)
             }
         };
         let count = self.unfinished.len().saturating_sub(self.decoder.unfinished_bytes());
         let bytes: Vec<u8> = self.unfinished.drain(..count).collect();
-        let reply_after = asked.map(|asked| now.steady.saturating_duration_since(asked));
+        let reply_after =
+            question_time.map(|sent_at| now.steady.saturating_duration_since(sent_at));
         let line = line(Direction::Received, &bytes, now);
         let meaning = Some(meaning);
         self.wire.push(WireLine { meaning, reply_after, is_poll, ..line });

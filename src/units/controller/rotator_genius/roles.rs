@@ -18,7 +18,7 @@ pub(super) struct Roles {
 
 impl Roles {
     /// With a pair, the kinds decide, whatever the numbers.
-    pub(super) fn of(rotators: Rotators, status: &Status) -> Self {
+    pub(super) fn new(rotators: Rotators, status: &Status) -> Self {
         let [one, two] = status.rotators.each_ref().map(|rotator| rotator.kind);
         let (first, second) = (RotatorNumber::One, RotatorNumber::Two);
         match rotators {
@@ -64,15 +64,18 @@ impl Roles {
         let (ccw, cw) = (ccw.degrees(), cw.degrees());
         let ends_at_north = (ccw == 0 && cw >= 359) || (cw == 0 && ccw >= 359);
         // Inside both arcs between the limits, a position does not tell which one is meant.
-        let is_between = rotator.position.is_ok_and(|at| (ccw..=cw).contains(&at.degrees()));
+        let is_between =
+            rotator.position.is_ok_and(|position| (ccw..=cw).contains(&position.degrees()));
         let is_ruled_out = is_between && rotator.is_outside_limits == Some(false);
         !ends_at_north && !is_ruled_out
     }
 
     /// Limits of the azimuth rotator, degrees. One that may be beyond a limit goes back across it.
     pub(super) fn azimuth_limits_deg(self, status: &Status) -> [Option<f64>; 2] {
-        let inside = |rotator: &&Rotator| rotator.is_outside_limits == Some(false);
-        let Some(rotator) = self.azimuth_rotator(status).filter(inside) else { return [None; 2] };
+        let is_inside = |rotator: &&Rotator| rotator.is_outside_limits == Some(false);
+        let Some(rotator) = self.azimuth_rotator(status).filter(is_inside) else {
+            return [None; 2];
+        };
         [rotator.limit_ccw, rotator.limit_cw].map(|limit| Some(f64::from(limit?.degrees())))
     }
 
@@ -128,7 +131,7 @@ mod tests {
         else {
             panic!("no status")
         };
-        Roles::of(Rotators::Pair, &status).travel_deg(&status)
+        Roles::new(Rotators::Pair, &status).travel_deg(&status)
     }
 
     #[test]

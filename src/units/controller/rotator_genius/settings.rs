@@ -75,9 +75,9 @@ pub(super) fn values(status: &Status, number: RotatorNumber) -> Values {
 pub(super) fn configuration(
     number: RotatorNumber,
     new: &Values,
-    held: &Values,
+    unit_values: &Values,
 ) -> Result<Configuration, WriteError> {
-    let integer = |key: &Key<i64>| key.of(new).or_else(|| key.of(held));
+    let integer = |key: &Key<i64>| key.of(new).or_else(|| key.of(unit_values));
     let limit = |key: &Key<i64>| {
         let degrees = integer(key).and_then(|degrees| u16::try_from(degrees).ok());
         WholeDegrees::new(degrees.ok_or_else(|| missing(key.name))?)
@@ -90,7 +90,7 @@ pub(super) fn configuration(
     };
     let offset = integer(&STOP_OFFSET).and_then(|offset| u8::try_from(offset).ok());
     let offset = offset.ok_or_else(|| missing(STOP_OFFSET.name))?;
-    let text = NAME.of(new).or_else(|| NAME.of(held)).ok_or_else(|| missing(NAME.name))?;
+    let text = NAME.of(new).or_else(|| NAME.of(unit_values)).ok_or_else(|| missing(NAME.name))?;
     // A name that would be cut short is not sent unasked.
     let name = RotatorName::new(&text)
         .map_err(|problem| cannot(NAME.name, format!("{text:?} {problem}, give another one")))?;
@@ -100,10 +100,10 @@ pub(super) fn configuration(
 }
 
 /// The fields in which `held` differs from `sent`. All are sent, so all are compared.
-pub(super) fn differing(group: &Group, sent: &Values, held: &Values) -> Vec<&'static str> {
-    let differs = |field: &&Field| match (sent.get(field.key), held.get(field.key)) {
-        (Some(sent), Some(held)) => !field.kind.same(sent, held),
-        (sent, held) => field.key != STOP_OFFSET.name && sent.is_some() != held.is_some(),
+pub(super) fn differing(group: &Group, sent: &Values, unit_values: &Values) -> Vec<&'static str> {
+    let differs = |field: &&Field| match (sent.get(field.key), unit_values.get(field.key)) {
+        (Some(sent), Some(current)) => !field.kind.same(sent, current),
+        (sent, current) => field.key != STOP_OFFSET.name && sent.is_some() != current.is_some(),
     };
     group.fields.iter().filter(differs).map(|field| field.key).collect()
 }

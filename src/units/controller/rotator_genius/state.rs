@@ -14,12 +14,12 @@ impl Genius {
     pub(super) fn take_status(
         &mut self,
         status: Status,
-        asked: Instant,
+        question_time: Instant,
         sent: Instant,
         now: Moment,
     ) {
         let way = now.steady.saturating_duration_since(sent) / 2;
-        let roles = Roles::of(self.rotators, &status);
+        let roles = Roles::new(self.rotators, &status);
         let axes = roles.axes.map(|number| {
             let rotator = status.rotator(number);
             let is_told = roles.is_clear || !roles.is_ours(number);
@@ -38,7 +38,7 @@ impl Genius {
         });
         self.state.measured = Some(Measured {
             at: now.utc.checked_sub(way).unwrap_or(now.utc),
-            asked,
+            asked: question_time,
             received: now.steady,
             pointing: pointing(axes, roles.is_pair),
             axes,
@@ -54,8 +54,7 @@ impl Genius {
             let values = settings::values(&status, number);
             state.held = Some(HeldGroup { values, read_at: now.utc });
         }
-        let rescue_left =
-            self.rescue_until.map(|until| until.saturating_duration_since(now.steady));
+        let rescue_left = self.rescue_until.map(|end| end.saturating_duration_since(now.steady));
         self.state.show_readings(panel::readings(&status, roles, rescue_left));
         self.state.show_checks(panel::checks(&status, roles));
         self.state.checked_at = Some(now.utc);

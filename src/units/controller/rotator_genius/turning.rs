@@ -28,7 +28,7 @@ struct Coast {
     is_clockwise: bool,
     furthest_deg: i32,
     /// When the reading last went on.
-    at: Instant,
+    advanced_at: Instant,
 }
 
 impl Turning {
@@ -41,8 +41,11 @@ impl Turning {
             Moving::CounterClockwise => Some(false),
         };
         if let Some(is_clockwise) = driven {
-            self.coast =
-                angle_deg.map(|furthest_deg| Coast { is_clockwise, furthest_deg, at: now });
+            self.coast = angle_deg.map(|furthest_deg| Coast {
+                is_clockwise,
+                furthest_deg,
+                advanced_at: now,
+            });
             return motion(is_clockwise);
         }
         let Some(angle_deg) = angle_deg else {
@@ -53,9 +56,9 @@ impl Turning {
             // A reading that flickers between two degrees goes nowhere.
             let onward = turned_deg(coast.furthest_deg, angle_deg);
             if (onward > 0) == coast.is_clockwise && onward != 0 {
-                (coast.furthest_deg, coast.at) = (angle_deg, now);
+                (coast.furthest_deg, coast.advanced_at) = (angle_deg, now);
             }
-            if now.saturating_duration_since(coast.at) < SETTLED {
+            if now.saturating_duration_since(coast.advanced_at) < SETTLED {
                 return motion(coast.is_clockwise);
             }
             *self = Self { rest_deg: Some(angle_deg), coast: None };
@@ -67,7 +70,7 @@ impl Turning {
             return AxisMotion::Still;
         }
         let is_clockwise = turned > 0;
-        self.coast = Some(Coast { is_clockwise, furthest_deg: angle_deg, at: now });
+        self.coast = Some(Coast { is_clockwise, furthest_deg: angle_deg, advanced_at: now });
         motion(is_clockwise)
     }
 }
@@ -102,10 +105,15 @@ mod tests {
     }
 
     /// Returns the motions for readings that come every 250 ms.
-    fn seen(turning: &mut Turning, start: Instant, readings: &[(u16, Moving)]) -> Vec<AxisMotion> {
-        let at = (0_u32..).map(|tick| start + tick * Duration::from_millis(250));
-        let look = |((angle_deg, moving), at)| turning.look(&rotator(angle_deg, moving), at);
-        readings.iter().copied().zip(at).map(look).collect()
+    fn motions_after(
+        turning: &mut Turning,
+        start: Instant,
+        readings: &[(u16, Moving)],
+    ) -> Vec<AxisMotion> {
+        let times = (0_u32..).map(|tick| start + tick * Duration::from_millis(250));
+        let look =
+            |((angle_deg, moving), instant)| turning.look(&rotator(angle_deg, moving), instant);
+        readings.iter().copied().zip(times).map(look).collect()
     }
 
     #[test]
@@ -121,8 +129,8 @@ mod tests {
             (1, Stopped),
             (2, Stopped),
         ];
-        let said = seen(&mut Turning::default(), Instant::now(), &readings);
-        assert_eq!(said, [Still, Plus, Plus, Plus, Plus, Still, Still]);
+        let motions = motions_after(&mut Turning::default(), Instant::now(), &readings);
+        assert_eq!(motions, [Still, Plus, Plus, Plus, Plus, Still, Still]);
     }
 
     #[test]
@@ -137,8 +145,8 @@ mod tests {
             (43, Stopped),
             (42, Stopped),
         ];
-        let said = seen(&mut Turning::default(), Instant::now(), &readings);
-        assert_eq!(said, [Minus, Minus, Minus, Still, Still, Still]);
+        let motions = motions_after(&mut Turning::default(), Instant::now(), &readings);
+        assert_eq!(motions, [Minus, Minus, Minus, Still, Still, Still]);
     }
 
     #[test]
@@ -146,8 +154,8 @@ mod tests {
         use AxisMotion::{Minus, Still};
         use Moving::Stopped;
         let readings = [100, 99, 98, 97, 97, 97].map(|angle_deg| (angle_deg, Stopped));
-        let said = seen(&mut Turning::default(), Instant::now(), &readings);
-        assert_eq!(said, [Still, Still, Minus, Minus, Minus, Still]);
+        let motions = motions_after(&mut Turning::default(), Instant::now(), &readings);
+        assert_eq!(motions, [Still, Still, Minus, Minus, Minus, Still]);
     }
 
     #[test]

@@ -24,7 +24,7 @@ impl Satrak {
     /// still works on a setting.
     fn next_of_change(&self, now: Moment) -> Option<Next> {
         let settings_write = self.changes.under_way().filter(|_| self.slow.is_none())?;
-        Some(match Plan::of(settings_write.group.key) {
+        Some(match Plan::for_key(settings_write.group.key) {
             Some(plan) => plan.next(settings_write, self.doing(), now),
             None => Next::Over(Err(WriteError::NoSuchSetting)),
         })
@@ -60,7 +60,7 @@ impl Satrak {
 
     pub(super) fn change_answered(&mut self, reply: &Reply, now: Moment) {
         let ahead_s = self.reported.clock.map(|clock| clock.ahead_s);
-        self.advance_change(now, |settings_write| match Plan::of(settings_write.group.key) {
+        self.advance_change(now, |settings_write| match Plan::for_key(settings_write.group.key) {
             Some(plan) => plan.answered(settings_write, reply, ahead_s),
             None => Err(WriteError::NoSuchSetting),
         });

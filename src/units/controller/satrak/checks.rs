@@ -14,20 +14,25 @@ pub(super) const FILE_CHECKS: [&str; 2] =
 /// The checks in the order of the document, also for a unit that has not reported any.
 pub fn checks(faults: Option<&Faults>) -> Vec<Check> {
     let check = |kind: FaultKind| {
-        let told = faults.and_then(|faults| faults.state(kind));
-        let state = match told {
+        let fault_state = faults.and_then(|faults| faults.state(kind));
+        let state = match fault_state {
             None => CheckState::Unknown,
             Some(FaultState::Clear) => CheckState::Good,
             Some(_) if kind.is_warning() => CheckState::Caution,
             Some(_) => CheckState::Fault,
         };
-        let told = match told {
+        let shown = match fault_state {
             Some(FaultState::Disconnected) => Cow::Borrowed("Not connected"),
             Some(FaultState::Unknown(code)) => Cow::Owned(format!("Unknown ({code})")),
             None | Some(FaultState::Clear | FaultState::Set) => Cow::Borrowed(""),
         };
         let (when_good, locks_motion) = (when_good(kind), kind.locks_motion());
-        Check { when_good, told, locks_motion, ..Check::new(name(kind), state, advice(kind)) }
+        Check {
+            when_good,
+            told: shown,
+            locks_motion,
+            ..Check::new(name(kind), state, advice(kind))
+        }
     };
     FaultKind::ALL.into_iter().map(check).collect()
 }

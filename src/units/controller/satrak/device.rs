@@ -48,7 +48,7 @@ impl Device for Satrak {
         self.motion = None;
         self.calm.clear();
         self.fail_preparation(PrepareError::Unanswered);
-        self.wanted.clear();
+        self.pending.clear();
         self.slow = None;
         self.changes.abandon(&mut self.state, now);
     }
@@ -71,7 +71,7 @@ impl Device for Satrak {
     }
 
     fn poll(&mut self, now: Moment) -> Option<Vec<u8>> {
-        self.halts.retain(|(_, until)| *until > now.steady);
+        self.halts.retain(|(_, end)| *end > now.steady);
         if let Some(again) = self.expire(now) {
             return Some(again);
         }
@@ -80,7 +80,7 @@ impl Device for Satrak {
         if let Some(probe) = self.begin_probe(now) {
             return Some(probe);
         }
-        if self.is_waiting() || self.drain_until.is_some_and(|until| now.steady < until) {
+        if self.is_waiting() || self.drain_until.is_some_and(|deadline| now.steady < deadline) {
             return None;
         }
         if self.drain_until.take().is_some() {
@@ -96,15 +96,15 @@ impl Device for Satrak {
         if let Some(deadline) = self.reply_due() {
             return deadline;
         }
-        if let Some(until) = self.drain_until {
-            return until;
+        if let Some(end) = self.drain_until {
+            return end;
         }
         let slow = self.slow.as_ref().map(Outstanding::deadline);
         let far = now.steady + Duration::from_hours(1);
         let Some(schedule) = &self.schedule else { return far };
         let waits = self.motion.is_some()
             || !self.calm.is_empty()
-            || !self.wanted.is_empty()
+            || !self.pending.is_empty()
             || self.preparation.is_some();
         if waits {
             return now.steady;
@@ -126,14 +126,14 @@ impl Device for Satrak {
                 outstanding.disown_look();
             }
         }
-        self.halts.retain(|(_, until)| *until > now.steady);
+        self.halts.retain(|(_, end)| *end > now.steady);
         // STOP alone may leave the tracking switched on, and auto-track may switch it on again:
         // the antenna would start again by itself.
         let track = [Halt::TrackOff].into_iter().filter(|_| ends_track);
         let auto_track = [Halt::AutoTrackOff].into_iter().filter(|_| ends_auto_track);
         let halts = [Halt::Stop].into_iter().chain(track).chain(auto_track);
-        let until = now.steady + REPLY;
-        self.halts.extend(halts.clone().map(|halt| (halt, until)));
+        let deadline = now.steady + REPLY;
+        self.halts.extend(halts.clone().map(|halt| (halt, deadline)));
         self.look_soon(now);
         halts.flat_map(|halt| Request::Halt(halt).to_bytes()).collect()
     }
@@ -147,13 +147,13 @@ impl Device for Satrak {
     }
 
     fn read_group(&mut self, group: &str) {
-        if let Some(plan) = Plan::of(group) {
+        if let Some(plan) = Plan::for_key(group) {
             self.want(plan.query);
         }
     }
 
-    fn refuse_change(&mut self, change: Change, why: WriteError, now: Moment) {
-        self.changes.refuse(change, why, &mut self.state, now);
+    fn refuse_change(&mut self, change: Change, write_error: WriteError, now: Moment) {
+        self.changes.refuse(change, write_error, &mut self.state, now);
     }
 
     fn lock_changes(&mut self, are_locked: bool) {

@@ -18,8 +18,8 @@ pub static ELEMENT_FILES: ElementFiles = ElementFiles {
     folder: "/svs/satrak/tle",
     factory_user: "sftpsatr",
     factory_digest: "1cbcd885a8bcd187c65f4bbefba29967dd520511f5887bd5f4ae1011ebca100c",
-    check_name: |what, name| {
-        TextValue::new(what, name).map(|_| ()).map_err(|problem| problem.to_string())
+    check_name: |field, name| {
+        TextValue::new(field, name).map(|_| ()).map_err(|problem| problem.to_string())
     },
     setting: ELEMENT_FILE.field.key,
     group: FILE.key,

@@ -98,7 +98,7 @@ impl Outstanding {
     }
 
     /// Returns `true` for a poll that is not the repetition of one.
-    pub(super) fn is_usual_poll(&self) -> bool {
+    pub(super) fn is_regular_poll(&self) -> bool {
         !self.clock.is_repeated() && matches!(self.purpose, Purpose::Poll(_))
     }
 
@@ -136,11 +136,11 @@ impl Satrak {
                 self.take_reply(&outstanding, Reply::parse(&frame), now);
             }
         } else if let Some(slow) =
-            self.slow.take_if(|slow| command.is_some_and(|it| slow.answers(it)))
+            self.slow.take_if(|slow| command.is_some_and(|word| slow.answers(word)))
         {
             self.take_reply(&slow, Reply::parse(&frame), now);
         } else if let Some(mut probe) =
-            self.probe.take_if(|probe| command.is_some_and(|it| probe.answers(it)))
+            self.probe.take_if(|probe| command.is_some_and(|pair| probe.answers(pair)))
         {
             self.date(&mut probe);
             self.take_reply(&probe, Reply::parse(&frame), now);
@@ -404,7 +404,7 @@ impl Satrak {
         } else {
             answered.clock.is_repeated()
         };
-        let are_late = self.late_until.is_some_and(|until| now.steady < until);
+        let are_late = self.late_until.is_some_and(|end| now.steady < end);
         let took = now.steady.saturating_duration_since(answered.first_sent());
         let pause = if self.is_watched { DRAIN } else { took.clamp(DRAIN, LONGEST_DRAIN) };
         let asks_on = self.is_watched && are_late;
@@ -413,8 +413,8 @@ impl Satrak {
 
     /// During a motion a slow reply must not delay the next position question.
     pub(super) fn begin_probe(&mut self, now: Moment) -> Option<Vec<u8>> {
-        let waits = self.probe_due().is_some_and(|at| now.steady >= at);
-        let drains = self.drain_until.is_some_and(|until| now.steady < until);
+        let waits = self.probe_due().is_some_and(|instant| now.steady >= instant);
+        let drains = self.drain_until.is_some_and(|end| now.steady < end);
         if !waits || drains || self.probe.is_some() {
             return None;
         }
@@ -444,7 +444,9 @@ impl Satrak {
         let deadline = self.outstanding.as_ref().map(|sent| self.deadline(sent));
         let probe = match &self.probe {
             Some(probe) => Some(probe.prompt_deadline()),
-            None => self.probe_due().map(|at| self.drain_until.map_or(at, |until| at.max(until))),
+            None => self
+                .probe_due()
+                .map(|instant| self.drain_until.map_or(instant, |end| instant.max(end))),
         };
         deadline.into_iter().chain(probe).min()
     }

@@ -20,10 +20,12 @@ impl Reported {
             minimum_elevation_deg: settings.minimum_elevation_deg,
             lead_s: settings.lead_ms as f64 / 1000.0,
         });
-        let satellite = self.satellite.as_ref().map(|held| HeldSatellite {
-            catalog_number: held.catalog_number,
-            name: held.name.clone(),
-            maximum_elevation_deg: self.height_is_of_window.then_some(held.maximum_elevation_deg),
+        let satellite = self.satellite.as_ref().map(|current| HeldSatellite {
+            catalog_number: current.catalog_number,
+            name: current.name.clone(),
+            maximum_elevation_deg: self
+                .height_is_of_window
+                .then_some(current.maximum_elevation_deg),
         });
         OnBoard {
             place: self.place().map(|place| Place {

@@ -13,7 +13,7 @@ pub(super) struct Preparation {
     pub(super) target: TrackTarget,
     step: PrepareStep,
     /// The satellite in the unit's last answer.
-    held: Option<Satellite>,
+    stored: Option<Satellite>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -37,7 +37,7 @@ pub(super) enum Outcome {
 
 impl Preparation {
     pub(super) fn new(target: TrackTarget) -> Self {
-        Self { target, step: PrepareStep::AskSatellite, held: None }
+        Self { target, step: PrepareStep::AskSatellite, stored: None }
     }
 
     /// The request of the present step. Satellites are chosen from the element file of the target, else
@@ -51,20 +51,20 @@ impl Preparation {
             PrepareStep::ReadWindow => Request::Query(Query::StartStopTime),
             PrepareStep::SetWindow => Request::Setting(Setting::StartStopTime(self.window()?)),
             PrepareStep::SetSatellite => {
-                let held = self.held.as_ref().ok_or(PrepareError::Unanswered)?;
+                let satellite = self.stored.as_ref().ok_or(PrepareError::Unanswered)?;
                 let file = self.target.element_file.as_deref().unwrap_or(element_file);
-                let file = if file.is_empty() { &held.file } else { file };
+                let file = if file.is_empty() { &satellite.file } else { file };
                 if file.is_empty() {
                     return Err(PrepareError::NoElementFile);
                 }
-                let text = |what, text: &str| {
-                    TextValue::new(what, text)
+                let text = |field, text: &str| {
+                    TextValue::new(field, text)
                         .map_err(|error| PrepareError::CannotBeSent(error.to_string()))
                 };
                 Request::Setting(Setting::Satellite(SatelliteChoice {
                     file: text("element file", file)?,
                     name: text("satellite name", &self.target.name)?,
-                    period: u16::try_from(held.period).unwrap_or(1),
+                    period: u16::try_from(satellite.period).unwrap_or(1),
                     // The unit must not swing over to another satellite before the gate allows
                     // it.
                     continue_tracking: false,
@@ -80,8 +80,9 @@ impl Preparation {
 
     /// Returns `true` if the unit has confirmed the target in this preparation.
     fn holds_target(&self) -> bool {
-        self.held.as_ref().is_some_and(|held| {
-            held.catalog_number == self.target.catalog_number && held.name == self.target.name
+        self.stored.as_ref().is_some_and(|satellite| {
+            satellite.catalog_number == self.target.catalog_number
+                && satellite.name == self.target.name
         })
     }
 
@@ -89,8 +90,8 @@ impl Preparation {
     /// another satellite.
     pub(super) fn answered(&mut self, reply: &Reply) -> Result<Outcome, PrepareError> {
         self.step = match (self.step, reply) {
-            (PrepareStep::AskSatellite, Reply::Satellite(held)) => {
-                self.held = Some(held.clone());
+            (PrepareStep::AskSatellite, Reply::Satellite(satellite)) => {
+                self.stored = Some(satellite.clone());
                 // The file may have new elements, and the unit reads it only when `SATELLITE=` names it.
                 let is_from_file = self.target.element_file.is_some();
                 if !is_from_file && self.holds_target() {
@@ -100,21 +101,22 @@ impl Preparation {
                 }
             }
             (PrepareStep::SetSatellite, Reply::Done) => PrepareStep::ReadSatellite,
-            (PrepareStep::ReadSatellite, Reply::Satellite(held)) => {
-                self.held = Some(held.clone());
+            (PrepareStep::ReadSatellite, Reply::Satellite(current)) => {
+                self.stored = Some(current.clone());
                 // The name may be right although the elements are missing.
                 PrepareStep::AskFaults
             }
             (PrepareStep::AskFaults, Reply::Faults(faults)) => {
                 let missing = [FaultKind::TleMissing, FaultKind::SatelliteMissing];
-                let held = self.held.clone();
+                let previous = self.stored.clone();
                 if faults.active().any(|kind| missing.contains(&kind)) {
-                    let file = held.map(|held| held.file).unwrap_or_default();
+                    let file = previous.map(|satellite| satellite.file).unwrap_or_default();
                     return Err(PrepareError::NotOnDevice { file });
                 }
                 if !self.holds_target() {
-                    let held = held.map(|held| held.name).unwrap_or_default();
-                    return Err(PrepareError::Differs { held });
+                    let previous_name =
+                        previous.map(|satellite| satellite.name).unwrap_or_default();
+                    return Err(PrepareError::Differs { held: previous_name });
                 }
                 PrepareStep::SetWindow
             }

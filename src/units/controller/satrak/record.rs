@@ -17,7 +17,7 @@ impl Satrak {
         while let Some(line) = decoder.next_line() {
             let is_poll = self.polls(&line);
             let shown = line.without_secrets(false);
-            let meaning = said(&line, Direction::Sent, &shown.bytes);
+            let meaning = meaning_of(&line, Direction::Sent, &shown.bytes);
             self.wire.push(WireLine {
                 direction: Direction::Sent,
                 is_shortened: !shown.is_whole,
@@ -33,7 +33,7 @@ impl Satrak {
     pub(super) fn record_received(&mut self, line: &Line, now: Moment) {
         let shown = line.without_secrets(!self.has_heard_frame);
         self.has_heard_frame |= !matches!(line.frame, Err(FrameError::NoHeader { .. }));
-        let meaning = said(line, Direction::Received, &shown.bytes);
+        let meaning = meaning_of(line, Direction::Received, &shown.bytes);
         self.wire.push(WireLine {
             is_shortened: !shown.is_whole,
             bytes: shown.bytes.into(),
@@ -55,22 +55,22 @@ impl Satrak {
     fn polls(&self, line: &Line) -> bool {
         let Some(command) = command(line) else { return false };
         let outstanding = self.outstanding.as_ref();
-        outstanding.is_some_and(|sent| sent.answers(command) && sent.is_usual_poll())
+        outstanding.is_some_and(|sent| sent.answers(command) && sent.is_regular_poll())
     }
 
     fn reply_after(&self, line: &Line, now: Moment) -> Option<Duration> {
         let command = command(line)?;
         let requests = [&self.outstanding, &self.slow, &self.probe].into_iter().flatten();
         let request = requests.into_iter().find(|sent| sent.answers(command));
-        let asked = request.map(Outstanding::first_sent).or_else(|| self.halted(command))?;
-        Some(now.steady.saturating_duration_since(asked))
+        let sent_at = request.map(Outstanding::first_sent).or_else(|| self.halted(command))?;
+        Some(now.steady.saturating_duration_since(sent_at))
     }
 
     /// When the halt went out that this answers.
     fn halted(&self, (word, verb): (Word, Verb)) -> Option<Instant> {
         let is_answered = |halt: &&(Halt, Instant)| halt.0.word() == word && verb == Verb::Set;
-        let (_, until) = self.halts.iter().find(is_answered)?;
-        Some(*until - REPLY)
+        let (_, end) = self.halts.iter().find(is_answered)?;
+        Some(*end - REPLY)
     }
 }
 
@@ -85,7 +85,7 @@ fn blank(line: &Line, now: Moment) -> WireLine {
 }
 
 /// Meaning of a good line, by the bytes that are kept; secrets are not among them.
-fn said(line: &Line, direction: Direction, shown: &[u8]) -> Option<Meaning> {
+fn meaning_of(line: &Line, direction: Direction, shown: &[u8]) -> Option<Meaning> {
     line.frame.is_ok().then(|| words::meaning(direction, shown))
 }
 

@@ -59,7 +59,7 @@ impl Schedule {
     /// Asks the question before all others, even those that have been due longer.
     pub(super) fn hurry(&mut self, query: Query, now: Instant) {
         let first = self.due().map_or(now, |due| due.min(now));
-        if let Some(place) = self.due.iter().position(|(known, _)| *known == query) {
+        if let Some(place) = self.due.iter().position(|(candidate, _)| *candidate == query) {
             // The first of several questions that are due at the same time comes first.
             self.due.remove(place);
             self.due.insert(0, (query, first));
@@ -73,8 +73,8 @@ impl Schedule {
             Query::Status => status,
             Query::Faults if fault => FAULTS_WHILE_SET,
             // The version does not change while the link is up.
-            Query::Version => return self.due.retain(|(known, _)| *known != Query::Version),
-            _ => match SLOW.iter().find(|(known, _)| *known == query) {
+            Query::Version => return self.due.retain(|(query, _)| *query != Query::Version),
+            _ => match SLOW.iter().find(|(candidate, _)| *candidate == query) {
                 Some((_, period)) => *period,
                 None => return,
             },
@@ -101,7 +101,7 @@ impl Schedule {
     }
 
     fn set(&mut self, query: Query, due: Instant) {
-        if let Some(entry) = self.due.iter_mut().find(|(known, _)| *known == query) {
+        if let Some(entry) = self.due.iter_mut().find(|(candidate, _)| *candidate == query) {
             entry.1 = due;
         }
     }

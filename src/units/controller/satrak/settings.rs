@@ -116,7 +116,7 @@ impl Plan {
         Self { write: Some(write), ..self }
     }
 
-    pub(super) fn of(key: &str) -> Option<&'static Self> {
+    pub(super) fn for_key(key: &str) -> Option<&'static Self> {
         PLANS.iter().find(|plan| plan.group.key == key)
     }
 }
@@ -143,7 +143,7 @@ fn url(text: &str) -> Result<(), Unfit> {
 fn unfit(error: ValueError) -> Unfit {
     match error {
         ValueError::Text { problem, .. } => Unfit::Text(problem.to_string()),
-        ValueError::Range { least, most, .. } => Unfit::Number { min: least, max: most },
+        ValueError::Range { min, max, .. } => Unfit::Number { min, max },
         other => Unfit::Text(other.to_string()),
     }
 }

@@ -71,7 +71,7 @@ impl Plan {
         let Some(write) = self.write else { return Next::Over(Err(WriteError::NoSuchSetting)) };
         let desired = Desired {
             new: &settings_write.change.values,
-            held: settings_write.before(),
+            unit_values: settings_write.before(),
             utc: now.utc,
         };
         match write(&desired) {
@@ -92,10 +92,11 @@ impl Plan {
             Step::Look => settings_write.looked(values()?)?,
             Step::Send => settings_write.accepted(),
             Step::ReadBack => {
-                let (group, held) = (self.group, values()?);
+                let (group, current) = (self.group, values()?);
                 let new = &settings_write.change.values;
-                let differing = (self.differing)(&Proof { group, new, held: &held, ahead_s });
-                settings_write.read_back(&held, differing);
+                let differing =
+                    (self.differing)(&Proof { group, new, unit_values: &current, ahead_s });
+                settings_write.read_back(&current, differing);
             }
             Step::Done => settings_write.judge(match reply {
                 Reply::Faults(faults) => self.judged(*faults),
@@ -108,6 +109,6 @@ impl Plan {
     /// Fails if the faults object to the values that the unit holds.
     fn judged(&self, faults: Faults) -> Result<(), WriteError> {
         let objection = (self.judge)(faults);
-        objection.map_or(Ok(()), |why| Err(WriteError::Useless(why.to_owned())))
+        objection.map_or(Ok(()), |reason| Err(WriteError::Useless(reason.to_owned())))
     }
 }

@@ -21,8 +21,8 @@ pub(super) const DECIMAL_COMMAS: &str = "The unit seems to write decimal commas.
 
 impl Satrak {
     /// Takes a reply. `asked`: when the question went out.
-    pub(super) fn take_report(&mut self, reply: Reply, asked: Moment, now: Moment) {
-        let way = now.steady.saturating_duration_since(asked.steady) / 2;
+    pub(super) fn take_report(&mut self, reply: Reply, moment: Moment, now: Moment) {
+        let way = now.steady.saturating_duration_since(moment.steady) / 2;
         let measured_at = now.utc.checked_sub(way).unwrap_or(now.utc);
         if let Reply::Clock(clock) = &reply {
             self.reported.clock = Some(UnitClock {
@@ -42,7 +42,7 @@ impl Satrak {
                 state.identity = Some(words.join(", "));
                 state.unit_name = Some(version.control_unit);
             }
-            Reply::Status(status) => self.take_status(&status, measured_at, asked, now),
+            Reply::Status(status) => self.take_status(&status, measured_at, moment, now),
             Reply::Faults(faults) => {
                 state.show_checks(checks(Some(&faults)));
                 state.checked_at = Some(now.utc);
@@ -87,10 +87,10 @@ impl Satrak {
             let Some((key, value)) = entry else { continue };
             let shown = self.state.held.get(group).and_then(|state| state.held.as_ref());
             // An unchanged group stays shared.
-            if shown.is_some_and(|held| held.values.get(key) != Some(&value))
-                && let Some(held) = &mut self.state.group(group).held
+            if shown.is_some_and(|held_group| held_group.values.get(key) != Some(&value))
+                && let Some(read_group) = &mut self.state.group(group).held
             {
-                held.values.insert(key, value);
+                read_group.values.insert(key, value);
             }
         }
     }
@@ -102,12 +102,12 @@ impl Satrak {
         }
     }
 
-    fn take_status(&mut self, status: &Status, at: Timestamp, asked: Moment, now: Moment) {
+    fn take_status(&mut self, status: &Status, time: Timestamp, moment: Moment, now: Moment) {
         let limits = status.limits;
         self.state.unreadable = None;
         self.state.measured = Some(Measured {
-            at,
-            asked: asked.steady,
+            at: time,
+            asked: moment.steady,
             received: now.steady,
             pointing: AzEl::from_degrees(status.az_deg, status.el_deg).into(),
             axes: [

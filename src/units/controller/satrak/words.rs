@@ -24,7 +24,7 @@ pub(super) fn questions() -> Vec<Question> {
 
 pub(super) fn query(key: &str) -> Option<Query> {
     let word = Word::from_name(key.strip_suffix('?')?)?;
-    Query::ALL.into_iter().find(|(_, known)| *known == word).map(|(query, _)| query)
+    Query::ALL.into_iter().find(|(_, candidate)| *candidate == word).map(|(query, _)| query)
 }
 
 /// Why a typed word, in capitals, is not sent.
@@ -38,7 +38,7 @@ pub(super) fn why_no_question(text: &str) -> String {
         return "Not a word of the Satrak document.".to_owned();
     };
     let is_question = rest.trim().starts_with('?');
-    match Query::ALL.into_iter().any(|(_, known)| known == word) {
+    match Query::ALL.into_iter().any(|(_, candidate)| candidate == word) {
         true if is_question => format!("{name}? takes no values: it only asks."),
         false if is_question => format!("Nobody can ask for {name}."),
         _ => refusal(word).to_owned(),
@@ -71,11 +71,11 @@ const fn refusal(word: Word) -> &'static str {
 
 /// Meaning of a good line with these bytes.
 pub fn meaning(direction: Direction, bytes: &[u8]) -> Meaning {
-    let said = frame(bytes).map(|frame| match direction {
+    let outcome = frame(bytes).map(|frame| match direction {
         Direction::Sent => unit::Meaning::of_request(&frame),
         Direction::Received => unit::Meaning::of_reply(&frame),
     });
-    let Some(unit::Meaning { tone, text }) = said else {
+    let Some(unit::Meaning { tone, text }) = outcome else {
         return Meaning { tone: Tone::Caution, text: "Not in the document".into() };
     };
     let tone = match tone {
@@ -126,8 +126,8 @@ mod tests {
 
     #[test]
     fn every_query_is_a_question() {
-        for (question, (wanted, word)) in questions().into_iter().zip(Query::ALL) {
-            assert_eq!(query(&question.key), Some(wanted));
+        for (question, (expected, word)) in questions().into_iter().zip(Query::ALL) {
+            assert_eq!(query(&question.key), Some(expected));
             assert_eq!(question.key, format!("{word}?"));
         }
         assert_eq!(query("STATUS"), None);
@@ -156,9 +156,9 @@ mod tests {
             ("$STATUS?*2B", "Type the word alone"),
         ] {
             assert_eq!(query(text), None, "{text}");
-            let said = why_no_question(text);
-            assert!(said.starts_with(reason), "{text}: {said}");
-            assert!(!said.contains("HUNTER2"), "{said}");
+            let refusal = why_no_question(text);
+            assert!(refusal.starts_with(reason), "{text}: {refusal}");
+            assert!(!refusal.contains("HUNTER2"), "{refusal}");
         }
     }
 
@@ -174,7 +174,7 @@ mod tests {
 
     #[test]
     fn a_frame_without_its_values_is_still_named() {
-        let said = meaning(Direction::Received, b"$SATELLITE_FTP?(hidden)\r\n");
-        assert_eq!(said.text, "FTP source of the elements, values hidden");
+        let known_meaning = meaning(Direction::Received, b"$SATELLITE_FTP?(hidden)\r\n");
+        assert_eq!(known_meaning.text, "FTP source of the elements, values hidden");
     }
 }

@@ -88,12 +88,12 @@ pub enum CopyError {
     #[error("it has version {0}, this program knows {VERSION}; use the newer program")]
     Newer(i64),
     /// The copy is of another make.
-    #[error("it holds settings of a {found}, not of a {wanted}")]
+    #[error("it holds settings of a {found}, not of a {expected}")]
     OtherController {
         /// Make in the file.
         found: String,
         /// Make of the antenna.
-        wanted: String,
+        expected: String,
     },
 }
 
@@ -105,7 +105,7 @@ fn is_copied(field: &Field) -> bool {
 impl SettingsCopy {
     /// Text of a copy with the values of `groups` in `held`. A group that was not read is
     /// named in a comment with the reason.
-    pub fn text(head: &CopyHead, groups: &[&'static Group], held: &Held) -> String {
+    pub fn text(head: &CopyHead, groups: &[&'static Group], unit_settings: &Held) -> String {
         let text = |text: &str| toml::Value::String(text.to_owned());
         let mut lines = format!(
             "# Settings of an antenna controller, saved by Azel. Passwords are left out.\n\
@@ -116,19 +116,19 @@ impl SettingsCopy {
             text(&head.saved_at.strftime("%Y-%m-%dT%H:%M:%SZ").to_string()),
         );
         for group in groups.iter().filter(|group| group.fields.iter().any(is_copied)) {
-            let state = held.get(group.key);
+            let state = unit_settings.get(group.key);
             let Some(read) = state.and_then(|state| state.held.as_ref()) else {
-                let why = state.and_then(|state| state.failure.as_ref());
-                let why = why.map_or("nobody asked".to_owned(), ToString::to_string);
-                let _ = write!(lines, "\n# {}: not read, {why}\n", group.key);
+                let failure = state.and_then(|state| state.failure.as_ref());
+                let reason = failure.map_or("nobody asked".to_owned(), ToString::to_string);
+                let _ = write!(lines, "\n# {}: not read, {reason}\n", group.key);
                 continue;
             };
             let _ = write!(lines, "\n[{}]\n", group.key);
             for field in group.fields.iter().filter(|field| is_copied(field)) {
                 let Some(value) = read.values.get(field.key) else { continue };
                 let gap = if field.unit.is_empty() { "" } else { ", " };
-                let about = format!("{}{gap}{}", field.label, field.unit);
-                let _ = writeln!(lines, "{} = {} # {about}", field.key, as_toml(field, value));
+                let comment = format!("{}{gap}{}", field.label, field.unit);
+                let _ = writeln!(lines, "{} = {} # {comment}", field.key, as_toml(field, value));
             }
         }
         lines
@@ -159,8 +159,8 @@ impl SettingsCopy {
             saved_at: word("saved_at")?.parse().map_err(|_| CopyError::NoCopy("saved_at"))?,
         };
         if head.controller != controller {
-            let wanted = controller.to_owned();
-            return Err(CopyError::OtherController { found: head.controller, wanted });
+            let expected = controller.to_owned();
+            return Err(CopyError::OtherController { found: head.controller, expected });
         }
         let mut values = Vec::new();
         for group in groups {
@@ -176,18 +176,18 @@ impl SettingsCopy {
     }
 
     /// The settings that differ on the unit.
-    pub fn differences(&self, groups: &[&'static Group], held: &Held) -> Vec<Difference> {
+    pub fn differences(&self, groups: &[&'static Group], unit_settings: &Held) -> Vec<Difference> {
         let difference = |copied: &CopiedValue| {
             let group = *groups.iter().find(|group| group.key == copied.group)?;
             let field = group.field(copied.field)?;
-            let of_group = held.get(group.key).and_then(|state| state.held.as_ref());
-            let held = of_group.and_then(|read| read.values.get(field.key)).cloned();
+            let of_group = unit_settings.get(group.key).and_then(|state| state.held.as_ref());
+            let current = of_group.and_then(|read| read.values.get(field.key)).cloned();
             // A value that cannot be sent, such as an empty text, may still be on the unit.
-            let is_held = |held: &Value| match &copied.value {
-                Ok(value) => field.kind.same(value, held),
-                Err(_) => as_toml(field, held) == copied.written,
+            let is_held = |current: &Value| match &copied.value {
+                Ok(value) => field.kind.same(value, current),
+                Err(_) => as_toml(field, current) == copied.written,
             };
-            if held.as_ref().is_some_and(is_held) {
+            if current.as_ref().is_some_and(is_held) {
                 return None;
             }
             let verdict = match &copied.value {
@@ -197,7 +197,7 @@ impl SettingsCopy {
                 Ok(_) if of_group.is_none() => Verdict::NotRead,
                 Ok(_) => Verdict::Free,
             };
-            Some(Difference { group, field, copied: copied.value.clone(), held, verdict })
+            Some(Difference { group, field, copied: copied.value.clone(), held: current, verdict })
         };
         self.values.iter().filter_map(difference).collect()
     }

@@ -134,8 +134,8 @@ impl Field {
 
     /// With what it does.
     #[must_use]
-    pub const fn about(self, about: &'static str) -> Self {
-        Self { about, ..self }
+    pub const fn about(self, text: &'static str) -> Self {
+        Self { about: text, ..self }
     }
 
     /// With the care that its values take.

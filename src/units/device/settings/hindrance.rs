@@ -34,10 +34,10 @@ pub enum Hindrance {
 impl Hindrance {
     /// The reason, by the state of a unit, not to send such a setting at `now`.
     pub fn of(state: &AntennaState, can: Capabilities, now: Instant) -> Option<Self> {
-        let since = state.link_since;
+        let link_since = state.link_since;
         let measured = state
             .measured
-            .filter(|measured| since.is_some_and(|since| measured.asked >= since))
+            .filter(|measured| link_since.is_some_and(|start| measured.asked >= start))
             .filter(|measured| now.saturating_duration_since(measured.asked) < RECENT);
         let Some(measured) = measured else { return Some(Self::Unknown) };
         match state.program {

@@ -56,8 +56,8 @@ mod tests {
     #[test]
     fn a_wrong_line_is_named() {
         for (text, line) in [("1 2\n\nx 4", 3), ("1", 1), ("1 2\n3 4 5", 2), ("70000 1", 1)] {
-            let why = read(text).unwrap_err().to_string();
-            assert!(why.starts_with(&format!("line {line} ")), "{text}: {why}");
+            let message = read(text).unwrap_err().to_string();
+            assert!(message.starts_with(&format!("line {line} ")), "{text}: {message}");
         }
         assert!(read("1 2").is_err() && read("1 2\n1 3").is_err());
     }

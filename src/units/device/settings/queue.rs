@@ -132,11 +132,11 @@ impl ChangeQueue {
     pub(crate) fn refuse(
         &self,
         change: Change,
-        why: WriteError,
+        write_error: WriteError,
         state: &mut AntennaState,
         now: Moment,
     ) {
-        self.written(change, Err(why), state, now);
+        self.written(change, Err(write_error), state, now);
     }
 
     /// Ends all changes because the link is gone. A change that was sent may be on the

@@ -96,8 +96,8 @@ impl SettingsWrite {
 
     /// Takes the present values. They end the change if they are not those the operator
     /// saw.
-    pub(crate) fn looked(&mut self, held: Values) -> Result<(), WriteError> {
-        self.before = held;
+    pub(crate) fn looked(&mut self, unit_values: Values) -> Result<(), WriteError> {
+        self.before = unit_values;
         if self.has_changed_meanwhile() {
             return Err(WriteError::ChangedMeanwhile);
         }
@@ -112,11 +112,11 @@ impl SettingsWrite {
 
     /// Takes the values read back. `differing` are the keys of the fields that do not hold
     /// the requested values.
-    pub(crate) fn read_back(&mut self, held: &Values, differing: Vec<&'static str>) {
+    pub(crate) fn read_back(&mut self, unit_values: &Values, differing: Vec<&'static str>) {
         self.result = match std::mem::replace(&mut self.result, Ok(())) {
             Ok(()) | Err(WriteError::Unanswered) if differing.is_empty() => Ok(()),
             Ok(()) => Err(WriteError::Differs(differing)),
-            Err(WriteError::Unanswered) if *held != self.before => {
+            Err(WriteError::Unanswered) if *unit_values != self.before => {
                 Err(WriteError::Differs(differing))
             }
             Err(error) => Err(error),
@@ -179,11 +179,11 @@ impl SettingsWrite {
 
     /// Compares the editable fields only: reported values may change at any time.
     fn has_changed_meanwhile(&self) -> bool {
-        let Some(seen) = &self.change.seen else { return false };
+        let Some(previous) = &self.change.seen else { return false };
         let is_editable = |field: &&Field| field.access == Access::Edit;
-        let changed = |field: &Field| match (seen.get(field.key), self.before.get(field.key)) {
-            (Some(seen), Some(now)) => !field.kind.same(seen, now),
-            (seen, now) => seen.is_some() != now.is_some(),
+        let changed = |field: &Field| match (previous.get(field.key), self.before.get(field.key)) {
+            (Some(before), Some(now)) => !field.kind.same(before, now),
+            (before, now) => before.is_some() != now.is_some(),
         };
         self.group.fields.iter().filter(is_editable).any(changed)
     }

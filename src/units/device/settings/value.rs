@@ -9,7 +9,7 @@ use super::{Kind, points};
 use crate::{device::CountPoint, name::Name, secret::Secret};
 
 const ON: &str = "On";
-const OFF: &str = "Off";
+const DISABLED_WORD: &str = "Off";
 
 /// Values of a group by the keys of their fields.
 pub type Values = BTreeMap<Name, Value>;
@@ -87,7 +87,7 @@ impl Kind {
             Self::Points => return points::read(text).map(Value::Points),
             Self::Flag => match trimmed {
                 ON => Some(Value::Flag(true)),
-                OFF => Some(Value::Flag(false)),
+                DISABLED_WORD => Some(Value::Flag(false)),
                 _ => None,
             },
             Self::Choice(choices) => {
@@ -141,7 +141,7 @@ impl Kind {
     /// The names that can be chosen; `None` where anything can be typed.
     pub fn choices(&self) -> Option<Vec<&'static str>> {
         match self {
-            Self::Flag => Some(vec![OFF, ON]),
+            Self::Flag => Some(vec![DISABLED_WORD, ON]),
             Self::Choice(choices) => Some(choices.iter().map(|(_, name)| *name).collect()),
             Self::Word(choices) => Some(choices.iter().map(|(_, name)| *name).collect()),
             _ => None,
@@ -157,14 +157,14 @@ impl Kind {
     /// The value as the operator reads and types it. A password is nothing.
     pub fn text(&self, value: &Value) -> String {
         match (self, value) {
-            (_, Value::Flag(on)) => if *on { ON } else { OFF }.to_owned(),
+            (_, Value::Flag(on)) => if *on { ON } else { DISABLED_WORD }.to_owned(),
             (Self::Choice(choices), Value::Choice(code)) => choices
                 .iter()
-                .find(|(known, _)| known == code)
+                .find(|(code_here, _)| code_here == code)
                 .map_or_else(|| format!("unknown ({code})"), |(_, name)| (*name).to_owned()),
             (Self::Word(choices), Value::Text(word)) => {
-                let known = choices.iter().find(|(known, _)| known == word);
-                known.map_or_else(|| format!("unknown ({word})"), |(_, name)| (*name).to_owned())
+                let choice = choices.iter().find(|(candidate, _)| candidate == word);
+                choice.map_or_else(|| format!("unknown ({word})"), |(_, name)| (*name).to_owned())
             }
             (Self::Decimal { places, .. }, Value::Decimal(number)) => decimals(*number, *places),
             (Self::Place { letters: [plus, minus], .. }, Value::Decimal(angle)) => {

@@ -50,9 +50,9 @@ pub(super) fn azimuths_deg(samples: &[Sample], flipped: &[bool]) -> Vec<f64> {
     let azimuth = |(sample, is_flipped): (&Sample, &bool)| {
         let side = Angle::from_degrees(if *is_flipped { 180.0 } else { 0.0 });
         let azimuth = sample.direction.azimuth + side;
-        let at = before.map_or(azimuth, |before| before + (azimuth - before).wrapped_180());
-        before = Some(at);
-        at.degrees()
+        let unwrapped = before.map_or(azimuth, |before| before + (azimuth - before).wrapped_180());
+        before = Some(unwrapped);
+        unwrapped.degrees()
     };
     samples.iter().zip(flipped).map(azimuth).collect()
 }

@@ -72,7 +72,7 @@ fn the_axes_keep_to_their_rates_and_ends() {
                     let ends_deg = [axes.azimuth_deg, axes.elevation_deg.unwrap()];
                     for (axis, (from_deg, to_deg)) in planned.axes_deg.iter().zip(ends_deg) {
                         assert_eq!(axis.len(), samples.len());
-                        assert!(axis.iter().all(|at| (from_deg..=to_deg).contains(at)));
+                        assert!(axis.iter().all(|degrees| (from_deg..=to_deg).contains(degrees)));
                         let fastest = axis.windows(2).map(|two| (two[1] - two[0]).abs());
                         assert!(fastest.fold(0.0, f64::max) < 3.0 + 1e-6);
                     }
@@ -91,11 +91,11 @@ fn in_the_middle_of_a_pass_the_axes_stay_on_their_side() {
     let over_there = (azimuth_deg + 180.0).rem_euclid(360.0);
     let start =
         |axes_deg: [f64; 2]| Start { axes_deg: axes_deg.map(Some), lead_s: 0.0, sets_out: false };
-    let usual = pass(600.0, 120.0);
+    let plain = pass(600.0, 120.0);
     let (flip, _) = best(late, axes(360.0, 180.0, 4.0), start([over_there, 180.0 - elevation_deg]));
     assert_eq!(flip, Flip::Whole);
     // Plain is as good in the end, but the axes need a minute to get there.
-    let late = &usual[600..];
+    let late = &plain[600..];
     let first = late[0].direction;
     let flipped = [(first.azimuth_deg() + 180.0).rem_euclid(360.0), 180.0 - first.elevation_deg()];
     assert_eq!(best(late, axes(360.0, 180.0, 2.0), start(flipped)).0, Flip::Whole);
@@ -147,15 +147,17 @@ fn the_best_elevation_costs_least() {
             for to_deg in [90.0, 110.0, 180.0] {
                 let direction = AzEl::from_degrees(123.0, elevation_deg);
                 let ends = Some(Ends::new((10.0, to_deg)));
-                let seen = Seen::new(direction, false, ends);
+                let view = View::new(direction, false, ends);
                 let azimuth_deg = f64::from(azimuth_deg);
                 let azimuth = sin_cos(azimuth_deg);
-                let best_deg = Seen::elevation_deg((direction, false), ends, azimuth_deg);
-                let best = seen.cost(azimuth, sin_cos(best_deg));
-                assert!((best - seen.azimuth_cost(azimuth)).abs() < 1e-12);
-                let others = (10..=180).map(f64::from).filter(|at| *at <= to_deg);
-                let least = others.map(|at| seen.cost(azimuth, sin_cos(at))).fold(9.0, f64::min);
-                assert!(best < least + 1e-12, "{azimuth_deg} {elevation_deg} {to_deg}");
+                let best_deg = View::elevation_deg((direction, false), ends, azimuth_deg);
+                let best = view.cost(azimuth, sin_cos(best_deg));
+                assert!((best - view.azimuth_cost(azimuth)).abs() < 1e-12);
+                let others = (10..=180).map(f64::from).filter(|degrees| *degrees <= to_deg);
+                let min = others
+                    .map(|min_cost| view.cost(azimuth, sin_cos(min_cost)))
+                    .fold(9.0, f64::min);
+                assert!(best < min + 1e-12, "{azimuth_deg} {elevation_deg} {to_deg}");
             }
         }
     }

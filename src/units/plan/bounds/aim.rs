@@ -18,25 +18,25 @@ pub(super) struct Aim {
 }
 
 impl Aim {
-    pub(super) fn each(self) -> impl Iterator<Item = AzEl> {
+    pub(super) fn directions(self) -> impl Iterator<Item = AzEl> {
         std::iter::once(self.axes).chain(self.sky)
     }
 
-    pub(super) fn to_enu(self) -> Towards {
-        Towards { axes: self.axes.to_enu(), sky: self.sky.map(AzEl::to_enu) }
+    pub(super) fn to_enu(self) -> AimVectors {
+        AimVectors { axes: self.axes.to_enu(), sky: self.sky.map(AzEl::to_enu) }
     }
 }
 
 /// An [`Aim`] as unit vectors.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Towards {
+pub(super) struct AimVectors {
     axes: DVec3,
     sky: Option<DVec3>,
 }
 
-impl Towards {
+impl AimVectors {
     /// The lesser clearance of both directions.
-    pub(super) fn least(self, clearance: impl Fn(DVec3) -> Angle) -> Angle {
+    pub(super) fn min_clearance(self, clearance: impl Fn(DVec3) -> Angle) -> Angle {
         let by_axes = clearance(self.axes);
         self.sky.map(clearance).filter(|on_sky| *on_sky < by_axes).unwrap_or(by_axes)
     }

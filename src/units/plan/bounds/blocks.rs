@@ -56,7 +56,7 @@ impl Budget {
 pub(super) struct Reached {
     pub(super) barrier: Barrier,
     /// A direction inside it.
-    pub(super) at: AzEl,
+    pub(super) direction: AzEl,
     /// `false` if the work ended first, so the barrier only counts as reached.
     pub(super) is_settled: bool,
 }
@@ -72,18 +72,18 @@ impl BoundsAt<'_> {
             let lowest = self.lowest(sweep);
             if lowest.elevation.degrees() < minimum.degrees() - FINEST_DEG {
                 let barrier = Barrier::MinimumElevation;
-                return Some(Reached { barrier, at: lowest, is_settled: true });
+                return Some(Reached { barrier, direction: lowest, is_settled: true });
             }
         }
         let all = self.barriers(self.aim(sweep.middle())).enumerate();
-        let asked = all.filter(|(at, barrier)| {
+        let barriers = all.filter(|(position, barrier)| {
             let is_floor = matches!(barrier.name, Named::MinimumElevation);
-            !is_floor && index.map_or(!barrier.warns_only, |index| *at == index)
+            !is_floor && index.map_or(!barrier.warns_only, |index| *position == index)
         });
-        let asked: Rc<[usize]> = asked.map(|(at, _)| at).collect();
+        let barriers: Rc<[usize]> = barriers.map(|(index, _)| index).collect();
         let allowed = self.budget.map_or(MAX_EDGES, Budget::of_one_look);
         let mut used = 0;
-        let reached = self.first_reached(sweep, asked, allowed, &mut used);
+        let reached = self.first_reached(sweep, barriers, allowed, &mut used);
         if let Some(budget) = self.budget {
             budget.spend(used);
         }
@@ -95,15 +95,15 @@ impl BoundsAt<'_> {
     fn first_reached(
         &self,
         sweep: Sweep,
-        asked: Rc<[usize]>,
+        candidates: Rc<[usize]>,
         allowed: usize,
         used: &mut usize,
     ) -> Option<Reached> {
-        let mut open = vec![(sweep, asked)];
+        let mut open = vec![(sweep, candidates)];
         while let Some((part, barriers)) = open.pop() {
             *used += EDGES_OF_PART;
             let aim = self.aim(part.middle());
-            let at = aim.to_enu();
+            let vectors = aim.to_enu();
             let radius_deg = part.radius_deg() * self.max_beam_turn();
             // Positions on the edge are free, even where the edge is a whole side of the sweep.
             let limit = Angle::from_degrees(radius_deg - FINEST_DEG);
@@ -111,23 +111,23 @@ impl BoundsAt<'_> {
             let mut near = Vec::new();
             let mut nearest: Option<(usize, Named<'_>, Angle)> = None;
             for index in barriers.iter().copied() {
-                let Some(barrier) = self.barrier(index, aim, at) else { continue };
+                let Some(barrier) = self.barrier(index, aim, vectors) else { continue };
                 let Some(angle) = barrier.angle_below(limit) else { continue };
                 *used += barrier.cost();
-                let of_box = as_box.and_then(|(az, el)| barrier.of_box_at_least(az, el));
+                let of_box = as_box.and_then(|(az, el)| barrier.lower_bound_in_box(az, el));
                 if of_box.is_some_and(|of_box| of_box.degrees() >= -FINEST_DEG) {
                     continue;
                 }
                 near.push(index);
-                if nearest.is_none_or(|(_, _, least)| angle < least) {
+                if nearest.is_none_or(|(_, _, min)| angle < min) {
                     nearest = Some((index, barrier.name, angle));
                 }
             }
             let Some((index, name, angle)) = nearest else { continue };
             let is_settled = angle.degrees() < -FINEST_DEG || radius_deg < SMALLEST_PART_DEG;
             if is_settled || *used >= allowed {
-                let at = self.nearest_of(aim, index, angle);
-                return Some(Reached { barrier: name.clone_of(), at, is_settled });
+                let direction = self.nearest_of(aim, index, angle);
+                return Some(Reached { barrier: name.clone_of(), direction, is_settled });
             }
             let near: Rc<[usize]> = near.into();
             open.extend(part.halves().map(|half| (half, Rc::clone(&near))));
@@ -140,17 +140,18 @@ impl BoundsAt<'_> {
     fn box_of(&self, part: Sweep) -> Option<((Angle, Angle), (Angle, Angle))> {
         let Sweep([azimuths, elevations]) = part;
         let is_plain = matches!(self.bounds.mount, Mount::AzEl { .. }) && elevations.1 <= 90.0;
-        let angles = |(from, to): (f64, f64)| (Angle::from_degrees(from), Angle::from_degrees(to));
+        let angles =
+            |(start, end): (f64, f64)| (Angle::from_degrees(start), Angle::from_degrees(end));
         is_plain.then(|| (angles(azimuths), angles(elevations)))
     }
 
     /// The direction of `aim` whose clearance from the barrier at `index` is `least`.
-    fn nearest_of(&self, aim: Aim, index: usize, least: Angle) -> AzEl {
-        let is_nearest = |at: &AzEl| {
-            let only = Aim { axes: *at, sky: None };
-            self.barrier(index, only, only.to_enu()).is_some_and(|own| own.angle() <= least)
+    fn nearest_of(&self, aim: Aim, index: usize, min: Angle) -> AzEl {
+        let is_nearest = |direction: &AzEl| {
+            let only = Aim { axes: *direction, sky: None };
+            self.barrier(index, only, only.to_enu()).is_some_and(|own| own.angle() <= min)
         };
-        aim.each().find(is_nearest).unwrap_or(aim.axes)
+        aim.directions().find(is_nearest).unwrap_or(aim.axes)
     }
 }
 

@@ -1,6 +1,6 @@
 //! Clearances from barriers, computed no further than a check needs them.
 
-use super::{Angle, Barrier, aim::Towards, sun::SunAhead};
+use super::{Angle, Barrier, aim::AimVectors, sun::SunAhead};
 use crate::astro::Zone;
 
 /// A barrier, and how near it is to where the antenna points.
@@ -14,16 +14,18 @@ pub(super) struct Near<'a> {
 /// demand.
 pub(super) enum Clear<'a> {
     Known(Angle),
-    OfZone { zone: &'a Zone, margin: Angle, at: Towards },
-    OfSun { sun: &'a SunAhead, at: Towards },
+    OfZone { zone: &'a Zone, margin: Angle, vectors: AimVectors },
+    OfSun { sun: &'a SunAhead, vectors: AimVectors },
 }
 
 impl Near<'_> {
     pub(super) fn angle(&self) -> Angle {
         match self.angle {
             Clear::Known(angle) => angle,
-            Clear::OfZone { zone, margin, at } => at.least(|at| zone.clearance_of(at)) - margin,
-            Clear::OfSun { sun, at } => at.least(|at| sun.clearance_of(at)),
+            Clear::OfZone { zone, margin, vectors } => {
+                vectors.min_clearance(|point| zone.clearance_of(point)) - margin
+            }
+            Clear::OfSun { sun, vectors } => vectors.min_clearance(|point| sun.clearance_of(point)),
         }
     }
 
@@ -31,19 +33,19 @@ impl Near<'_> {
     pub(super) fn angle_unless_from(&self, limit: Angle) -> Angle {
         match self.angle {
             Clear::Known(angle) => angle,
-            Clear::OfZone { zone, margin, at } => at.least(|at| {
-                let at_least = zone.clearance_is_at_least(at) - margin;
-                if at_least >= limit { at_least } else { zone.clearance_of(at) - margin }
+            Clear::OfZone { zone, margin, vectors } => vectors.min_clearance(|point| {
+                let min = zone.clearance_lower_bound(point) - margin;
+                if min >= limit { min } else { zone.clearance_of(point) - margin }
             }),
-            Clear::OfSun { sun, at } => at.least(|at| {
-                let at_least = sun.clearance_is_at_least(at);
-                if at_least >= limit { at_least } else { sun.clearance_of(at) }
+            Clear::OfSun { sun, vectors } => vectors.min_clearance(|point| {
+                let bound = sun.clearance_lower_bound(point);
+                if bound >= limit { bound } else { sun.clearance_of(point) }
             }),
         }
     }
 
     /// A clearance that no direction in a box falls below, as far as that is known at once.
-    pub(super) fn of_box_at_least(
+    pub(super) fn lower_bound_in_box(
         &self,
         azimuths: (Angle, Angle),
         elevations: (Angle, Angle),
@@ -51,7 +53,7 @@ impl Near<'_> {
         match self.angle {
             Clear::Known(_) | Clear::OfSun { .. } => None,
             Clear::OfZone { zone, margin, .. } => {
-                Some(zone.clearance_of_box_is_at_least(azimuths, elevations) - margin)
+                Some(zone.box_clearance_lower_bound(azimuths, elevations) - margin)
             }
         }
     }

@@ -35,10 +35,11 @@ impl Bounds {
     /// The bounds for a way out of the surroundings of the Sun that leads no nearer to the Sun than
     /// the antenna is with its axes at `start_deg`; `None` if it is outside. Of its directions by
     /// the axes and on the sky, the one nearer to the Sun counts.
-    pub fn away_from_the_sun(&self, start_deg: [f64; 2], at: Timestamp) -> Option<Self> {
+    pub fn away_from_the_sun(&self, start_deg: [f64; 2], time: Timestamp) -> Option<Self> {
         let sun = self.sun?;
-        let ahead = SunAhead::new(self.site, sun, at);
-        let clearances = self.aim(start_deg).each().map(|start| ahead.clearance_of(start.to_enu()));
+        let ahead = SunAhead::new(self.site, sun, time);
+        let clearances =
+            self.aim(start_deg).directions().map(|start| ahead.clearance_of(start.to_enu()));
         let clearance_deg = clearances.map(Angle::degrees).min_by(f64::total_cmp)?;
         let radius_deg = sun.radius_deg + clearance_deg;
         let closer = SunAvoidance { radius_deg, ..sun };
@@ -47,26 +48,26 @@ impl Bounds {
 
     /// Returns `true` if an antenna with axes that count `direction` is clear of all barriers, and of
     /// the Sun throughout the time ahead.
-    pub fn stays_clear(&self, direction: AzEl, at: Timestamp) -> bool {
-        are_clear(&self.now_and_later(at), direction)
+    pub fn stays_clear(&self, direction: AzEl, time: Timestamp) -> bool {
+        are_clear(&self.now_and_later(time), direction)
     }
 
-    fn now_and_later(&self, at: Timestamp) -> Vec<BoundsAt<'_>> {
+    fn now_and_later(&self, time: Timestamp) -> Vec<BoundsAt<'_>> {
         let ahead_min = self.sun.map_or(0.0, |sun| sun.ahead_min);
-        let later = at.checked_add(seconds(ahead_min * 60.0));
-        std::iter::once(at).chain(later).map(|at| self.at(at)).collect()
+        let later = time.checked_add(seconds(ahead_min * 60.0));
+        std::iter::once(time).chain(later).map(|utc| self.at(utc)).collect()
     }
 
     /// Directions of the axes that stay clear, the nearest to `from` first.
-    pub fn refuges(&self, from: AzEl, at: Timestamp) -> impl Iterator<Item = AzEl> + '_ {
+    pub fn refuges(&self, start: AzEl, time: Timestamp) -> impl Iterator<Item = AzEl> + '_ {
         let furthest_deg = self.sun.map_or(0.0, |sun| 2.0 * sun.radius_deg + BEYOND_DEG);
         let rings = (1..).map(f64::from).take_while(move |ring| ring * RING_DEG <= furthest_deg);
-        let around = rings.flat_map(move |ring| {
+        let ring_points = rings.flat_map(move |ring| {
             let bearings = (0..BEARINGS).map(|part| f64::from(part) / f64::from(BEARINGS) * 360.0);
-            bearings.map(move |bearing_deg| from.towards(bearing_deg, ring * RING_DEG))
+            bearings.map(move |bearing_deg| start.towards(bearing_deg, ring * RING_DEG))
         });
-        let all = self.now_and_later(at);
-        around.filter(move |direction| are_clear(&all, *direction))
+        let all = self.now_and_later(time);
+        ring_points.filter(move |direction| are_clear(&all, *direction))
     }
 }
 
@@ -75,7 +76,7 @@ impl Bounds {
 pub(super) struct SunAhead {
     site: Site,
     sun: SunAvoidance,
-    at: Timestamp,
+    computed_at: Timestamp,
     /// Unit vector to the Sun at first.
     first: DVec3,
     /// Unit vectors to the Sun, the first one included.
@@ -83,9 +84,9 @@ pub(super) struct SunAhead {
 }
 
 impl SunAhead {
-    pub(super) fn new(site: Site, sun: SunAvoidance, at: Timestamp) -> Self {
-        let first = sun_moon::sun(site, at).to_enu();
-        Self { site, sun, at, first, all: OnceCell::new() }
+    pub(super) fn new(site: Site, sun: SunAvoidance, time: Timestamp) -> Self {
+        let first = sun_moon::sun(site, time).to_enu();
+        Self { site, sun, computed_at: time, first, all: OnceCell::new() }
     }
 
     /// The least clearance of a direction from the surroundings of the Sun.
@@ -96,10 +97,10 @@ impl SunAhead {
     }
 
     /// A lower bound of [`Self::clearance_of`], from the first position alone.
-    pub(super) fn clearance_is_at_least(&self, direction: DVec3) -> Angle {
+    pub(super) fn clearance_lower_bound(&self, direction: DVec3) -> Angle {
         let moved_deg = SUN_DEG_S * self.sun.ahead_min * 60.0 * MAX_STRETCH;
-        let around = Angle::from_degrees(around_each_deg(self.sun) + moved_deg);
-        across(self.first.distance_squared(direction)) - around
+        let radius = Angle::from_degrees(around_each_deg(self.sun) + moved_deg);
+        across(self.first.distance_squared(direction)) - radius
     }
 
     fn all(&self) -> &[DVec3] {
@@ -107,8 +108,10 @@ impl SunAhead {
             let step_s = sun_step_s(self.sun);
             let steps = (self.sun.ahead_min * 60.0 / step_s).ceil() as u32;
             let later = (1..=steps)
-                .filter_map(|step| self.at.checked_add(seconds(f64::from(step) * step_s)).ok())
-                .map(|at| sun_moon::sun(self.site, at).to_enu());
+                .filter_map(|step| {
+                    self.computed_at.checked_add(seconds(f64::from(step) * step_s)).ok()
+                })
+                .map(|time| sun_moon::sun(self.site, time).to_enu());
             std::iter::once(self.first).chain(later).collect()
         })
     }
@@ -164,14 +167,14 @@ mod tests {
         let later = noon() + SignedDuration::from_mins(50);
         let ahead = sun_moon::sun(station.site, later);
         let place_deg = [ahead.azimuth_deg(), ahead.elevation_deg()];
-        let there = Sweep::between(place_deg, place_deg);
+        let sweep = Sweep::between(place_deg, place_deg);
         assert_eq!(
-            bounds.at(noon()).blocks(there, high()).map(|(barrier, _)| barrier),
+            bounds.at(noon()).blocks(sweep, high()).map(|(barrier, _)| barrier),
             Some(Barrier::Sun)
         );
         station.sun_avoidance = None;
         let bounds = Bounds::of(&station, &Antenna::genius("Yagi", "memory:1"));
-        assert_eq!(bounds.at(noon()).blocks(there, high()), None);
+        assert_eq!(bounds.at(noon()).blocks(sweep, high()), None);
     }
 
     #[test]
@@ -191,12 +194,12 @@ mod tests {
             for (minutes, ahead_min) in
                 (0..1440).step_by(7).zip([0.0, 10.0, 30.0, 120.0].into_iter().cycle())
             {
-                let at = noon() + SignedDuration::from_mins(minutes);
-                let sun = SunAhead::new(site, SunAvoidance { radius_deg: 5.0, ahead_min }, at);
+                let time = noon() + SignedDuration::from_mins(minutes);
+                let sun = SunAhead::new(site, SunAvoidance { radius_deg: 5.0, ahead_min }, time);
                 for later in sun.all() {
                     assert!(
-                        sun.clearance_is_at_least(*later) <= sun.clearance_of(*later),
-                        "{latitude_deg} {at} {ahead_min}"
+                        sun.clearance_lower_bound(*later) <= sun.clearance_of(*later),
+                        "{latitude_deg} {time} {ahead_min}"
                     );
                 }
             }
@@ -216,9 +219,9 @@ mod tests {
                 let later = noon() + SignedDuration::from_secs(second);
                 let sun = sun_moon::sun(station.site, later);
                 for bearing_deg in [0.0, 45.0, 90.0, 180.0, 300.0] {
-                    let beside = sun.towards(bearing_deg, radius_deg * 0.999);
+                    let near_edge = sun.towards(bearing_deg, radius_deg * 0.999);
                     assert!(
-                        !are_clear(std::slice::from_ref(&bounds), beside),
+                        !are_clear(std::slice::from_ref(&bounds), near_edge),
                         "{radius_deg} {second} {bearing_deg}"
                     );
                 }

@@ -40,7 +40,7 @@ impl Sweep {
     }
 
     pub fn middle(self) -> [f64; 2] {
-        self.0.map(|(from, to)| f64::midpoint(from, to))
+        self.0.map(|(start, end)| f64::midpoint(start, end))
     }
 
     pub(super) fn corners(self) -> [[f64; 2]; 4] {
@@ -50,15 +50,15 @@ impl Sweep {
 
     /// Number of steps in which each axis is sampled.
     fn steps(self) -> [f64; 2] {
-        let is_range = self.0.map(|(from, to)| from < to);
-        let most = if is_range == [true; 2] { STEPS_OF_BOTH } else { STEPS_OF_ONE };
-        self.0.map(|(from, to)| ((to - from) / SAMPLE_DEG).ceil().clamp(0.0, most))
+        let is_range = self.0.map(|(start, end)| start < end);
+        let max = if is_range == [true; 2] { STEPS_OF_BOTH } else { STEPS_OF_ONE };
+        self.0.map(|(first, last)| ((last - first) / SAMPLE_DEG).ceil().clamp(0.0, max))
     }
 
     /// Largest angle between a direction of the axes in the sweep and that of its nearest sample,
     /// degrees.
     pub(super) fn sampled_within_deg(self) -> f64 {
-        let widths = self.0.iter().map(|(from, to)| to - from);
+        let widths = self.0.iter().map(|(start, end)| end - start);
         widths.zip(self.steps()).map(|(width, steps)| width / steps.max(1.0) / 2.0).sum()
     }
 
@@ -70,12 +70,14 @@ impl Sweep {
     pub(super) fn samples(self) -> impl Iterator<Item = [f64; 2]> {
         let samples = self.sampled();
         let [first, second] = samples.steps.map(|steps| 0..=steps);
-        first.flat_map(move |first| second.clone().map(move |second| samples.at([first, second])))
+        first.flat_map(move |first| {
+            second.clone().map(move |second| samples.sample([first, second]))
+        })
     }
 
     /// Largest angle between a direction of the axes in the sweep and that of its middle, degrees.
     pub(super) fn radius_deg(self) -> f64 {
-        self.0.iter().map(|(from, to)| (to - from) / 2.0).sum()
+        self.0.iter().map(|(start, end)| (end - start) / 2.0).sum()
     }
 
     /// The sweep, cut in half across its longer side.
@@ -101,10 +103,10 @@ pub(super) struct Samples {
 
 impl Samples {
     /// The sample after this number of steps along each axis.
-    pub(super) fn at(self, [first, second]: [usize; 2]) -> [f64; 2] {
+    pub(super) fn sample(self, [first, second]: [usize; 2]) -> [f64; 2] {
         let (Sweep([firsts, seconds]), [all_first, all_second]) = (self.sweep, self.steps);
-        let place = |(from, to): (f64, f64), step: usize, all: usize| {
-            (to - from).mul_add(step as f64 / (all.max(1) as f64), from)
+        let place = |(start, end): (f64, f64), step: usize, all: usize| {
+            (end - start).mul_add(step as f64 / (all.max(1) as f64), start)
         };
         [place(firsts, first, all_first), place(seconds, second, all_second)]
     }

@@ -81,8 +81,8 @@ impl BoundsAt<'_> {
     /// degrees; zero outside.
     pub fn depths_deg(&self, place: Sweep) -> (f64, Vec<f64>) {
         let (mut below_deg, mut inside_deg) = (0.0, Vec::new());
-        let each = self.each_in(place);
-        for (barrier, angle, _) in each.into_iter().filter(|(_, _, warns_only)| !warns_only) {
+        let clearances = self.each_in(place);
+        for (barrier, angle, _) in clearances.into_iter().filter(|(_, _, warns_only)| !warns_only) {
             let deep_deg = (-angle.degrees()).max(0.0);
             if let Named::MinimumElevation = barrier {
                 below_deg = deep_deg;
@@ -95,8 +95,8 @@ impl BoundsAt<'_> {
 
     /// For each barrier, in order, whether a position in `place` is inside it.
     fn entered(&self, place: Sweep) -> Vec<bool> {
-        let each = self.each_in(place).into_iter();
-        each.map(|(_, angle, warns_only)| !warns_only && angle.degrees() < 0.0).collect()
+        let clearances = self.each_in(place).into_iter();
+        clearances.map(|(_, angle, warns_only)| !warns_only && angle.degrees() < 0.0).collect()
     }
 
     fn turn(&self, place: Sweep, axis: usize, way: f64) -> Turn {
@@ -107,9 +107,9 @@ impl BoundsAt<'_> {
             if axis == 0 { (first, axes_deg[0]) } else { (second, axes_deg[1]) };
         let end_deg = if way > 0.0 { to_deg - at_deg } else { at_deg - from_deg };
         let stretched = Turn::turned(place, axis, STRETCH_DEG);
-        let [here, on] = [place, stretched].map(|at| self.aim(at.middle()));
+        let [here, on] = [place, stretched].map(|sweep| self.aim(sweep.middle()));
         let speed = |here: AzEl, on: AzEl| here.separation(on).degrees() / STRETCH_DEG;
-        let fastest = here.each().zip(on.each()).map(|(here, on)| speed(here, on));
+        let fastest = here.directions().zip(on.directions()).map(|(here, on)| speed(here, on));
         Turn {
             start: place,
             axis,
@@ -123,8 +123,8 @@ impl BoundsAt<'_> {
 
     fn spot(&self, turn: &Turn, turn_deg: f64, left: &[bool]) -> Spot {
         let place = Turn::turned(turn.start, turn.axis, turn.way * turn_deg);
-        let each = self.barriers(self.aim(place.middle())).zip(left);
-        let groups: Vec<_> = each
+        let pairs = self.barriers(self.aim(place.middle())).zip(left);
+        let groups: Vec<_> = pairs
             .map(|(barrier, is_left)| {
                 // A turn that keeps the elevation never reaches the edge of the minimum elevation.
                 let is_level =
@@ -138,13 +138,13 @@ impl BoundsAt<'_> {
                 (!barrier.warns_only).then_some(group)
             })
             .collect();
-        let least = self.least_in_groups::<4>(place, &groups).map(Angle::degrees);
-        if least[OTHERS].min(least[ABOVE]) < 0.0 {
+        let minima = self.min_in_groups::<4>(place, &groups).map(Angle::degrees);
+        if minima[OTHERS].min(minima[ABOVE]) < 0.0 {
             Spot::Barred
-        } else if least[LEFT_BELOW] < 0.0 {
-            Spot::Inside(least[OTHERS])
-        } else if least[LEFT] < 0.0 {
-            Spot::Inside((-least[LEFT]).min(least[OTHERS]))
+        } else if minima[LEFT_BELOW] < 0.0 {
+            Spot::Inside(minima[OTHERS])
+        } else if minima[LEFT] < 0.0 {
+            Spot::Inside((-minima[LEFT]).min(minima[OTHERS]))
         } else {
             Spot::Free
         }
@@ -191,18 +191,18 @@ impl Turn {
                     turn_deg = f64::min(turn_deg + step_deg, last_deg);
                 }
                 // The edge may also lie just before another barrier.
-                beyond @ (Spot::Free | Spot::Barred) => {
-                    let (mut beyond, mut beyond_deg) = (beyond, turn_deg);
+                next_spot @ (Spot::Free | Spot::Barred) => {
+                    let (mut next_spot, mut beyond_deg) = (next_spot, turn_deg);
                     while beyond_deg - inside_deg > edge_deg {
                         let middle_deg = f64::midpoint(inside_deg, beyond_deg);
                         match spot(middle_deg) {
                             Spot::Inside(_) => inside_deg = middle_deg,
-                            nearer => (beyond, beyond_deg) = (nearer, middle_deg),
+                            nearer => (next_spot, beyond_deg) = (nearer, middle_deg),
                         }
                     }
                     let far_deg = beyond_deg + GAP_DEG;
                     let has_room = far_deg <= self.end_deg && matches!(spot(far_deg), Spot::Free);
-                    return (matches!(beyond, Spot::Free) && has_room).then_some(beyond_deg);
+                    return (matches!(next_spot, Spot::Free) && has_room).then_some(beyond_deg);
                 }
             }
         }

@@ -75,8 +75,8 @@ const MADE_SHARE: f64 = 0.7;
 impl Ranked {
     /// Returns `true` if this cause can make an error of `off`, by far the most of it. A cause whose
     /// error is unknown can.
-    pub fn can_make(&self, off: Angle) -> bool {
-        self.off.is_none_or(|own| own.degrees() >= MADE_SHARE * off.degrees())
+    pub fn can_make(&self, deviation: Angle) -> bool {
+        self.off.is_none_or(|own| own.degrees() >= MADE_SHARE * deviation.degrees())
     }
 }
 
@@ -90,58 +90,59 @@ pub enum Unknown {
     Elements,
 }
 
-pub(super) fn unknown(told: &OnBoard) -> Vec<Unknown> {
+pub(super) fn unknown(on_board: &OnBoard) -> Vec<Unknown> {
     let open = [
-        (told.place.is_none(), Unknown::Place),
-        (told.clock.is_none(), Unknown::Clock),
-        (told.offsets.is_none(), Unknown::Offsets),
+        (on_board.place.is_none(), Unknown::Place),
+        (on_board.clock.is_none(), Unknown::Clock),
+        (on_board.offsets.is_none(), Unknown::Offsets),
         (true, Unknown::Elements),
     ];
-    open.into_iter().filter_map(|(is_open, what)| is_open.then_some(what)).collect()
+    open.into_iter().filter_map(|(is_open, problem)| is_open.then_some(problem)).collect()
 }
 
 /// All causes: first those whose error is unknown, then the others, the largest error first.
-pub(super) fn ranked(judge: &Judge, told: &OnBoard, holds_target: bool) -> Vec<Ranked> {
+pub(super) fn ranked(judge: &Judge, on_board: &OnBoard, holds_target: bool) -> Vec<Ranked> {
     let right = UnitPath::right(judge);
     let alone = |unit: UnitPath<'_>| {
         let errors = unit.either_way().map(|unit| judge.worst(&unit).off);
-        errors.fold(Angle::ZERO, |worst, off| if off > worst { off } else { worst })
+        errors
+            .fold(Angle::ZERO, |worst, deviation| if deviation > worst { deviation } else { worst })
     };
     let mut ranked = Vec::new();
     let mut add = |cause, unit: UnitPath<'_>| {
-        let off = alone(unit);
-        if off.degrees() >= WORTH_NAMING_DEG {
-            ranked.push(Ranked { cause, off: Some(off) });
+        let difference = alone(unit);
+        if difference.degrees() >= WORTH_NAMING_DEG {
+            ranked.push(Ranked { cause, off: Some(difference) });
         }
     };
     add(Cause::Refraction, UnitPath { refracts: false, ..right });
     let ours = judge.pass.site;
-    if let (Some(place), Some(site)) = (told.place, site(told, ours))
+    if let (Some(place), Some(site)) = (on_board.place, site(on_board, ours))
         && site != ours
     {
         let away_km = frames::site_ecef_km(site).distance(frames::site_ecef_km(ours));
         add(Cause::Place { place, away_km }, UnitPath { site, ..right });
     }
-    if let Some(clock) = told.clock {
+    if let Some(clock) = on_board.clock {
         let unit = UnitPath { ahead_s: clock.surely_ahead_s(), ..right };
         add(Cause::Clock { ahead_s: clock.ahead_s }, unit);
     }
-    if let Some(offsets) = told.offsets {
-        let with = |offsets| UnitPath { offsets, ..right };
+    if let Some(offsets) = on_board.offsets {
+        let shifted = |offsets| UnitPath { offsets, ..right };
         let none = right.offsets;
         let Offsets { time_s, azimuth_deg, elevation_deg, .. } = offsets;
-        add(Cause::TimeOffset { offset_s: time_s }, with(Offsets { time_s, ..none }));
-        add(Cause::AzimuthOffset(azimuth_deg), with(Offsets { azimuth_deg, ..none }));
-        add(Cause::ElevationOffset(elevation_deg), with(Offsets { elevation_deg, ..none }));
+        add(Cause::TimeOffset { offset_s: time_s }, shifted(Offsets { time_s, ..none }));
+        add(Cause::AzimuthOffset(azimuth_deg), shifted(Offsets { azimuth_deg, ..none }));
+        add(Cause::ElevationOffset(elevation_deg), shifted(Offsets { elevation_deg, ..none }));
         let minimum_elevation_deg = offsets.minimum_elevation_deg;
-        let raised = with(Offsets { minimum_elevation_deg, ..none });
+        let raised = shifted(Offsets { minimum_elevation_deg, ..none });
         add(Cause::MinimumElevation(minimum_elevation_deg), raised);
         let turned = turned(offsets.north_deg, judge.ability.mount);
         let (offset_deg, off_deg) = (offsets.north_deg, turned.degrees());
         add(Cause::NorthOffset { offset_deg, off_deg }, UnitPath { turned, ..right });
     }
     if holds_target {
-        ranked.extend(satellite(judge, told));
+        ranked.extend(satellite(judge, on_board));
     }
     ranked.sort_by(|a, b| {
         let weight = |ranked: &Ranked| ranked.off.map_or(f64::INFINITY, Angle::degrees);
@@ -151,18 +152,18 @@ pub(super) fn ranked(judge: &Judge, told: &OnBoard, holds_target: bool) -> Vec<R
 }
 
 /// Another satellite, or other elements of the same one.
-fn satellite(judge: &Judge, told: &OnBoard) -> Option<Ranked> {
-    let held = told.satellite.as_ref()?;
+fn satellite(judge: &Judge, on_board: &OnBoard) -> Option<Ranked> {
+    let held_satellite = on_board.satellite.as_ref()?;
     let target = &judge.pass.target;
-    if held.catalog_number != target.catalog_number {
-        let (catalog_number, name) = (held.catalog_number, held.name.clone());
+    if held_satellite.catalog_number != target.catalog_number {
+        let (catalog_number, name) = (held_satellite.catalog_number, held_satellite.name.clone());
         return Some(Ranked { cause: Cause::OtherSatellite { catalog_number, name }, off: None });
     }
-    let told_deg = held.maximum_elevation_deg?;
-    let (start, stop) = told.window?;
+    let told_deg = held_satellite.maximum_elevation_deg?;
+    let (start, stop) = on_board.window?;
     let is_this = start.as_second() == target.from.as_second()
         && stop.as_second() == target.until.as_second();
-    let site = site(told, judge.pass.site)?;
+    let site = site(on_board, judge.pass.site)?;
     let unit = UnitPath { site, refracts: false, ..UnitPath::right(judge) };
     let expected_deg = judge.highest(&unit).filter(|_| is_this && judge.span_s() > 0.0)?.degrees();
     let differs_deg = (told_deg - expected_deg).abs();

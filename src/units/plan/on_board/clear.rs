@@ -49,7 +49,7 @@ pub(super) fn path_is_clear(
 ) -> Result<(), NotClear> {
     path.try_for_each(|sample| {
         let Sample { time, direction } =
-            sample.map_err(|NoDirection(at)| NotClear::NoDirection(at))?;
+            sample.map_err(|NoDirection(utc)| NotClear::NoDirection(utc))?;
         let forbidden = || bounds.at(time).forbids(direction).map(OffLimits::Forbidden);
         let limit = off_limits(direction, ability).or_else(forbidden);
         let leads = |limit| NotClear::Leads(Trespass { at: time, direction, limit });

@@ -24,11 +24,11 @@ const STEP_DEG: f64 = 0.5;
 const LONGEST_STEP_S: f64 = 60.0;
 
 /// Equal steps from `from` to `to`, both included.
-pub(super) fn spread(from: Timestamp, to: Timestamp) -> impl Iterator<Item = Timestamp> {
-    let span_s = seconds_between(from, to).max(0.0);
+pub(super) fn spread(start: Timestamp, end: Timestamp) -> impl Iterator<Item = Timestamp> {
+    let span_s = seconds_between(start, end).max(0.0);
     let step_s = (span_s / LOOKS).max(STEP_S);
     let count = (span_s / step_s).ceil() as u32;
-    (0..=count).map(move |index| add_seconds(from, (f64::from(index) * step_s).min(span_s)))
+    (0..=count).map(move |index| add_seconds(start, (f64::from(index) * step_s).min(span_s)))
 }
 
 /// The data by which a unit tracks.
@@ -61,12 +61,12 @@ impl<'a> UnitPath<'a> {
     }
 
     /// A unit with the report `told`. Values that it does not report are taken as right.
-    pub(super) fn of(told: &OnBoard, judge: &'a Judge) -> Self {
+    pub(super) fn new(on_board: &OnBoard, judge: &'a Judge) -> Self {
         let right = Self::right(judge);
-        let offsets = told.offsets.unwrap_or(right.offsets);
+        let offsets = on_board.offsets.unwrap_or(right.offsets);
         Self {
-            site: site(told, judge.pass.site).unwrap_or(right.site),
-            ahead_s: told.clock.map_or(0.0, |clock| clock.ahead_s),
+            site: site(on_board, judge.pass.site).unwrap_or(right.site),
+            ahead_s: on_board.clock.map_or(0.0, |clock| clock.ahead_s),
             offsets,
             turned: turned(offsets.north_deg, judge.ability.mount),
             refracts: false,
@@ -76,32 +76,32 @@ impl<'a> UnitPath<'a> {
 
     /// The unit with a clock that is off only by what is certain: late replies make no error of
     /// pointing.
-    pub(super) fn surely(told: &OnBoard, judge: &'a Judge) -> Self {
-        let ahead_s = told.clock.map_or(0.0, UnitClock::surely_ahead_s);
-        Self { ahead_s, ..Self::of(told, judge) }
+    pub(super) fn surely(on_board: &OnBoard, judge: &'a Judge) -> Self {
+        let ahead_s = on_board.clock.map_or(0.0, UnitClock::surely_ahead_s);
+        Self { ahead_s, ..Self::new(on_board, judge) }
     }
 
     /// The unit with either sign of the time offset, since it is not known which way the
     /// unit applies it.
     pub(super) fn either_way(self) -> impl Iterator<Item = Self> {
-        let behind = Offsets { time_s: -self.offsets.time_s, ..self.offsets };
-        let other = (self.offsets.time_s != 0.0).then_some(Self { offsets: behind, ..self });
+        let negated = Offsets { time_s: -self.offsets.time_s, ..self.offsets };
+        let other = (self.offsets.time_s != 0.0).then_some(Self { offsets: negated, ..self });
         std::iter::once(self).chain(other)
     }
 
     /// Direction of the satellite as the unit computes it at `at` by Azel's clock.
     /// Outside its window, the direction at the nearer end of the window.
-    pub(super) fn computed(&self, at: Timestamp) -> Option<AzEl> {
+    pub(super) fn computed(&self, time: Timestamp) -> Option<AzEl> {
         let (start, stop) = self.window;
-        let own = add_seconds(at, self.ahead_s).clamp(start, stop.max(start));
+        let own = add_seconds(time, self.ahead_s).clamp(start, stop.max(start));
         let shifted = add_seconds(own, self.offsets.time_s);
         let site = if self.refracts { self.site } else { self.site.airless() };
         Some(self.propagator.look_from(site, shifted).ok()?.direction)
     }
 
     /// Real direction of the antenna at `at` by Azel's clock.
-    pub(super) fn direction(&self, at: Timestamp) -> Option<AzEl> {
-        let AzEl { azimuth, elevation } = self.computed(at)?;
+    pub(super) fn direction(&self, time: Timestamp) -> Option<AzEl> {
+        let AzEl { azimuth, elevation } = self.computed(time)?;
         let lowest = Angle::from_degrees(self.offsets.minimum_elevation_deg);
         let raised = elevation + Angle::from_degrees(self.offsets.elevation_deg);
         let raised = if raised < lowest { lowest } else { raised };
@@ -115,18 +115,19 @@ impl<'a> UnitPath<'a> {
 
 /// The location that a unit reports, at the altitude of `ours`. A location that equals `ours` to
 /// its resolution is `ours`.
-pub(super) fn site(told: &OnBoard, ours: Site) -> Option<Site> {
-    told.place?.as_site(ours)
+pub(super) fn site(on_board: &OnBoard, ours: Site) -> Option<Site> {
+    on_board.place?.as_site(ours)
 }
 
 /// Error of the azimuth that a north offset makes. The zero of the offset is that of the mount,
 /// which the station may know as the azimuth of the lower axis.
 pub(super) fn turned(north_deg: f64, mount: Mount) -> Angle {
-    let told = Angle::from_degrees(north_deg).wrapped_180();
-    let Mount::Xy { lower_axis_azimuth_deg, .. } = mount else { return told };
-    let beside = |axis_deg: f64| (told - Angle::from_degrees(axis_deg)).wrapped_180();
-    let ends = [lower_axis_azimuth_deg, lower_axis_azimuth_deg + 180.0].map(beside);
-    ends.into_iter().fold(told, |least, off| if off.abs() < least.abs() { off } else { least })
+    let north = Angle::from_degrees(north_deg).wrapped_180();
+    let Mount::Xy { lower_axis_azimuth_deg, .. } = mount else { return north };
+    let turn_to = |axis_deg: f64| (north - Angle::from_degrees(axis_deg)).wrapped_180();
+    let ends = [lower_axis_azimuth_deg, lower_axis_azimuth_deg + 180.0].map(turn_to);
+    ends.into_iter()
+        .fold(north, |min, deviation| if deviation.abs() < min.abs() { deviation } else { min })
 }
 
 /// Time at which the elements yield no direction.
@@ -140,10 +141,10 @@ pub(super) fn samples(
     (start, stop): (Timestamp, Timestamp),
 ) -> impl Iterator<Item = Result<Sample, NoDirection>> + '_ {
     let ours = |own: Timestamp| add_seconds(own, -unit.ahead_s);
-    let (from, to) = (ours(start), ours(stop));
-    let span_s = seconds_between(from, to).max(0.0);
-    let at = move |after_s: f64| {
-        let time = add_seconds(from, after_s);
+    let (begin, end) = (ours(start), ours(stop));
+    let span_s = seconds_between(begin, end).max(0.0);
+    let sample_at = move |after_s: f64| {
+        let time = add_seconds(begin, after_s);
         let direction = unit.direction(time).ok_or(NoDirection(time))?;
         Ok(Sample { time, direction })
     };
@@ -151,7 +152,7 @@ pub(super) fn samples(
     std::iter::from_fn(move || {
         let before = match last {
             None => {
-                last = Some(at(0.0));
+                last = Some(sample_at(0.0));
                 return last;
             }
             Some(Ok(before)) if after_s < span_s => before,
@@ -159,7 +160,7 @@ pub(super) fn samples(
         };
         loop {
             let next_s = (after_s + step_s).min(span_s);
-            let next = at(next_s);
+            let next = sample_at(next_s);
             let way_deg =
                 next.map_or(0.0, |next| before.direction.separation(next.direction).degrees());
             if way_deg > STEP_DEG && step_s > STEP_S {

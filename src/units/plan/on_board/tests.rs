@@ -24,11 +24,11 @@ fn pass() -> Pass {
 
 /// A high pass that begins and ends at 10 degrees.
 fn find_pass() -> Pass {
-    let from: Timestamp = "2026-08-12T00:00:00Z".parse().unwrap();
+    let start: Timestamp = "2026-08-12T00:00:00Z".parse().unwrap();
     let aos_elevation = Angle::from_degrees(10.0);
     let search = PassSearch {
         aos_elevation,
-        ..PassSearch::new(site(), from, add_seconds(from, 5.0 * 86_400.0))
+        ..PassSearch::new(site(), start, add_seconds(start, 5.0 * 86_400.0))
     };
     let found = passes(&PROPAGATOR, &search, &|| false);
     found.into_iter().find(|pass| (50.0..80.0).contains(&pass.max_elevation().degrees())).unwrap()
@@ -70,7 +70,7 @@ fn right() -> OnBoard {
     }
 }
 
-fn with(change: impl FnOnce(&mut Offsets)) -> OnBoard {
+fn report_with(change: impl FnOnce(&mut Offsets)) -> OnBoard {
     let mut unit = right();
     change(unit.offsets.as_mut().unwrap());
     unit
@@ -78,27 +78,27 @@ fn with(change: impl FnOnce(&mut Offsets)) -> OnBoard {
 
 /// The largest separation from the satellite over the pass, checked every second, of an antenna
 /// that points in the direction that `at` gives for a time.
-fn worst_deg(at: impl Fn(Timestamp) -> AzEl) -> f64 {
+fn worst_deg(direction_at: impl Fn(Timestamp) -> AzEl) -> f64 {
     let seconds = pass().duration_s() as u32;
     (0..=seconds)
         .map(|second| {
             let time = add_seconds(pass().aos.time, f64::from(second));
             let truth = PROPAGATOR.look_from(site(), time).unwrap().direction;
-            at(time).separation(truth).degrees()
+            direction_at(time).separation(truth).degrees()
         })
         .fold(0.0, f64::max)
 }
 
-fn look(from: Site, at: Timestamp) -> AzEl {
-    PROPAGATOR.look_from(from, at).unwrap().direction
+fn look(place: Site, time: Timestamp) -> AzEl {
+    PROPAGATOR.look_from(place, time).unwrap().direction
 }
 
 /// The only cause and its error, which must be the whole error.
 fn only(unit: &OnBoard) -> (Cause, f64) {
     let found = judge().supervise(unit, true);
-    let [Ranked { cause, off: Some(off) }] = &found.causes[..] else { panic!("{found:#?}") };
-    assert!((found.worst.off.degrees() - off.degrees()).abs() < 1e-9, "{found:#?}");
-    (cause.clone(), off.degrees())
+    let [Ranked { cause, off: Some(deviation) }] = &found.causes[..] else { panic!("{found:#?}") };
+    assert!((found.worst.off.degrees() - deviation.degrees()).abs() < 1e-9, "{found:#?}");
+    (cause.clone(), deviation.degrees())
 }
 
 fn assert_near(found: f64, expected: f64) {
@@ -125,18 +125,18 @@ fn a_unit_that_goes_by_the_same_follows() {
 #[test]
 fn a_place_elsewhere_is_told_with_its_distance() {
     let place = Place { latitude_deg: 30.0, longitude_deg: 40.1, step_deg: 0.01 };
-    let there = Site::new(30.0, 40.1, 100.0).unwrap().airless();
-    let away = frames::site_ecef_km(there).distance(frames::site_ecef_km(site()));
-    assert!((1500.0..1700.0).contains(&away));
+    let other_site = Site::new(30.0, 40.1, 100.0).unwrap().airless();
+    let distance = frames::site_ecef_km(other_site).distance(frames::site_ecef_km(site()));
+    assert!((1500.0..1700.0).contains(&distance));
     let found = judge().supervise(&OnBoard { place: Some(place), ..right() }, true);
-    let [Ranked { cause, off: Some(off) }] = &found.causes[..] else { panic!("{found:#?}") };
-    assert_eq!(*cause, Cause::Place { place, away_km: away });
-    assert_near(off.degrees(), worst_deg(|at| look(there, at)));
+    let [Ranked { cause, off: Some(deviation) }] = &found.causes[..] else { panic!("{found:#?}") };
+    assert_eq!(*cause, Cause::Place { place, away_km: distance });
+    assert_near(deviation.degrees(), worst_deg(|time| look(other_site, time)));
     // The unit does not point below its minimum elevation of 5 degrees.
-    let least = Angle::from_degrees(5.0);
-    let clamped = worst_deg(|at| {
-        let AzEl { azimuth, elevation } = look(there, at);
-        AzEl { azimuth, elevation: if elevation < least { least } else { elevation } }
+    let min = Angle::from_degrees(5.0);
+    let clamped = worst_deg(|utc| {
+        let AzEl { azimuth, elevation } = look(other_site, utc);
+        AzEl { azimuth, elevation: if elevation < min { min } else { elevation } }
     });
     assert_near(found.worst.off.degrees(), clamped);
     assert!(!found.is_within_beam && clamped > 15.0, "{clamped}");
@@ -144,15 +144,15 @@ fn a_place_elsewhere_is_told_with_its_distance() {
 
 #[test]
 fn a_clock_ahead_and_a_time_offset_are_so_much_along_the_track() {
-    let ahead = worst_deg(|at| look(site(), add_seconds(at, 5.0).min(pass().los.time)));
+    let ahead = worst_deg(|time| look(site(), add_seconds(time, 5.0).min(pass().los.time)));
     let (cause, off_deg) = only(&OnBoard { clock: Some(clock(5.0)), ..right() });
     assert_eq!(cause, Cause::Clock { ahead_s: 5.0 });
     assert_near(off_deg, ahead);
 
-    let both = [3.0, -3.0].map(|by_s| worst_deg(|at| look(site(), add_seconds(at, by_s))));
-    let (cause, off_deg) = only(&with(|offsets| offsets.time_s = 3.0));
+    let errors_deg = [3.0, -3.0].map(|by_s| worst_deg(|utc| look(site(), add_seconds(utc, by_s))));
+    let (cause, off_deg) = only(&report_with(|offsets| offsets.time_s = 3.0));
     assert_eq!(cause, Cause::TimeOffset { offset_s: 3.0 });
-    assert_near(off_deg, both[0].max(both[1]));
+    assert_near(off_deg, errors_deg[0].max(errors_deg[1]));
 }
 
 #[test]
@@ -176,19 +176,19 @@ fn offsets_turn_the_beam_by_hand_computed_angles() {
         let half = (azimuth_deg / 2.0).to_radians().sin();
         (2.0 * (10.0_f64.to_radians().cos() * half).asin()).to_degrees()
     };
-    let (cause, off_deg) = only(&with(|offsets| offsets.azimuth_deg = 2.0));
+    let (cause, off_deg) = only(&report_with(|offsets| offsets.azimuth_deg = 2.0));
     assert_eq!(cause, Cause::AzimuthOffset(2.0));
     assert_near(off_deg, across(2.0));
 
-    let (cause, off_deg) = only(&with(|offsets| offsets.elevation_deg = -1.5));
+    let (cause, off_deg) = only(&report_with(|offsets| offsets.elevation_deg = -1.5));
     assert_eq!(cause, Cause::ElevationOffset(-1.5));
     assert_near(off_deg, 1.5);
 
-    let (cause, off_deg) = only(&with(|offsets| offsets.north_deg = 6.0));
+    let (cause, off_deg) = only(&report_with(|offsets| offsets.north_deg = 6.0));
     assert!(matches!(cause, Cause::NorthOffset { offset_deg: 6.0, .. }), "{cause:?}");
     assert_near(off_deg, across(6.0));
 
-    let (cause, off_deg) = only(&with(|offsets| offsets.minimum_elevation_deg = 25.0));
+    let (cause, off_deg) = only(&report_with(|offsets| offsets.minimum_elevation_deg = 25.0));
     assert_eq!(cause, Cause::MinimumElevation(25.0));
     assert_near(off_deg, 15.0);
 }
@@ -235,7 +235,7 @@ fn another_satellite_and_other_elements_are_told_once_the_target_is_on_the_unit(
 
 #[test]
 fn the_greatest_error_comes_first_and_what_is_not_told_is_named() {
-    let mut unit = with(|offsets| offsets.elevation_deg = 3.0);
+    let mut unit = report_with(|offsets| offsets.elevation_deg = 3.0);
     unit.clock = Some(clock(0.5));
     let found = judge().supervise(&unit, true);
     assert!(matches!(found.causes[0].cause, Cause::ElevationOffset(_)), "{found:?}");
@@ -247,14 +247,15 @@ fn the_greatest_error_comes_first_and_what_is_not_told_is_named() {
 
 #[test]
 fn a_lower_minimum_of_the_unit_is_told_beside() {
-    let found = judge().supervise(&with(|offsets| offsets.minimum_elevation_deg = 3.0), true);
+    let found =
+        judge().supervise(&report_with(|offsets| offsets.minimum_elevation_deg = 3.0), true);
     assert_eq!((found.lower_minimum_deg, found.causes), (Some(3.0), vec![]));
 }
 
 #[test]
 fn a_path_is_finely_sampled_to_its_end() {
     let judge = judge();
-    let unit = UnitPath::of(&OnBoard { clock: Some(clock(7.0)), ..right() }, &judge);
+    let unit = UnitPath::new(&OnBoard { clock: Some(clock(7.0)), ..right() }, &judge);
     let path: Vec<Sample> = judge.path(unit).collect::<Result<_, _>>().unwrap();
     let first = path.first().unwrap();
     assert!((seconds_between(first.time, pass().aos.time) - 7.0).abs() < 1e-6);
@@ -268,15 +269,15 @@ fn a_path_is_finely_sampled_to_its_end() {
 
 #[test]
 fn a_path_that_nobody_knows_is_not_clear() {
-    let gone = |days: u32| {
-        let at = add_seconds(ELEMENTS.epoch(), f64::from(days) * 86_400.0);
-        PROPAGATOR.look_from(site(), at).is_err().then_some(at)
+    let gone_time = |days: u32| {
+        let time = add_seconds(ELEMENTS.epoch(), f64::from(days) * 86_400.0);
+        PROPAGATOR.look_from(site(), time).is_err().then_some(time)
     };
-    let gone = (0..100_000).step_by(50).find_map(gone).expect("elements that end");
+    let gone_time = (0..100_000).step_by(50).find_map(gone_time).expect("elements that end");
     let mut judge = judge();
     for until_s in [0.0, 3600.0] {
-        judge.pass.target.from = add_seconds(gone, until_s - 3600.0);
-        judge.pass.target.until = add_seconds(gone, until_s);
+        judge.pass.target.from = add_seconds(gone_time, until_s - 3600.0);
+        judge.pass.target.until = add_seconds(gone_time, until_s);
         // The rest of the path may be clear.
         judge.ability.minimum_elevation = Angle::from_degrees(-90.0);
         assert!(judge.is_clear(&right(), &open_sky()).is_err(), "{until_s}");
@@ -296,14 +297,14 @@ fn a_path_below_the_limit_or_beyond_the_travel_says_where_first() {
     // With an offset that lowers the path, the end of the pass is as low as its beginning.
     let sunk = leads(
         &judge_above(10.0),
-        &with(|offsets| {
+        &report_with(|offsets| {
             offsets.elevation_deg = -3.0;
             offsets.minimum_elevation_deg = 0.0;
         }),
     );
     assert!(matches!(sunk.limit, OffLimits::Elevation { .. }));
     // Late by the time offset, whichever way the unit applies it.
-    let late = with(|offsets| {
+    let late = report_with(|offsets| {
         (offsets.time_s, offsets.minimum_elevation_deg) = (120.0, 0.0);
     });
     assert!(judge_above(10.0).is_clear(&late, &open_sky()).is_err());
@@ -324,15 +325,15 @@ fn a_unit_that_leaves_refraction_out_is_told_apart_and_still_takes_the_pass() {
     assert!((0.08..0.1).contains(&off_deg) && lifted.elevation > aos.direction.elevation);
     let found = judge.supervise(&right(), true);
     assert_near(100.0 * found.worst.off.degrees(), 100.0 * off_deg);
-    let [Ranked { cause: Cause::Refraction, off: Some(off) }] = &found.causes[..] else {
+    let [Ranked { cause: Cause::Refraction, off: Some(deviation) }] = &found.causes[..] else {
         panic!("{found:#?}")
     };
-    assert_eq!(*off, found.worst.off);
+    assert_eq!(*deviation, found.worst.off);
     // A beam narrower than that loses the ends of the pass, which no setting of the unit saves.
     let narrow = Ability { half_beam: Angle::from_degrees(0.05), ..judge.ability() };
     let narrow = Judge::new(judge.pass().clone(), narrow).unwrap();
     assert!(narrow.supervise(&right(), true).is_within_beam);
-    assert!(!narrow.supervise(&with(|unit| unit.azimuth_deg = 1.0), true).is_within_beam);
+    assert!(!narrow.supervise(&report_with(|unit| unit.azimuth_deg = 1.0), true).is_within_beam);
     // The gate judges the path that the unit takes.
     assert!(judge.start(&right(), aos.time).unwrap().separation(aos.direction).degrees() < 1e-6);
 }

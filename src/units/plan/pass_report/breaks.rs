@@ -27,8 +27,8 @@ impl Breaks {
     /// some seconds before that was noticed.
     pub fn note_link(&mut self, now: Timestamp, lost_since: Option<Timestamp>) {
         match (self.lost.last_mut().filter(|_| self.is_lost), lost_since) {
-            (Some((_, until)), _) => *until = now,
-            (None, Some(since)) => self.lost.push((since, now)),
+            (Some((_, end)), _) => *end = now,
+            (None, Some(start)) => self.lost.push((start, now)),
             (None, None) => {}
         }
         self.is_lost = lost_since.is_some();
@@ -36,15 +36,15 @@ impl Breaks {
 
     /// Takes a STOP that was pressed at `now`, or that Azel sent. `why`: the cause of what is lost from
     /// then on.
-    pub fn note_stop(&mut self, now: Timestamp, why: LossCause) {
-        self.stops.push((now, why));
+    pub fn note_stop(&mut self, now: Timestamp, loss_cause: LossCause) {
+        self.stops.push((now, loss_cause));
     }
 
     /// Notes at `now`, again and again, if the antenna has the command to track this pass.
     pub fn note_commanded(&mut self, now: Timestamp, is_commanded: bool) {
         let spans = self.commanded.get_or_insert_default();
         match spans.last_mut().filter(|_| is_commanded && self.is_commanded) {
-            Some((_, until)) => *until = now,
+            Some((_, end)) => *end = now,
             None if is_commanded => spans.push((now, now)),
             None => {}
         }
@@ -52,8 +52,8 @@ impl Breaks {
     }
 
     /// Returns `true` if the antenna had the command to track this pass at `at`.
-    pub fn was_commanded(&self, at: Timestamp) -> bool {
-        let holds = |(from, until): &(Timestamp, Timestamp)| *from <= at && at <= *until;
+    pub fn was_commanded(&self, time: Timestamp) -> bool {
+        let holds = |(start, end): &(Timestamp, Timestamp)| *start <= time && time <= *end;
         self.commanded.as_ref().is_none_or(|spans| spans.iter().any(holds))
     }
 
@@ -61,41 +61,44 @@ impl Breaks {
     /// the time between two positions do not count: a unit ends its window at a whole second.
     pub(super) fn commanded(
         &self,
-        from: Timestamp,
-        until: Timestamp,
+        start: Timestamp,
+        stop_time: Timestamp,
     ) -> Vec<(Timestamp, Timestamp)> {
-        let Some(spans) = &self.commanded else { return vec![(from, until)] };
+        let Some(spans) = &self.commanded else { return vec![(start, stop_time)] };
         let is_near = |a: Timestamp, b: Timestamp| seconds_between(a, b) <= APART_S;
         let mut merged: Vec<(Timestamp, Timestamp)> = Vec::new();
-        for (since, to) in spans.iter().filter(|(since, to)| *since < until && from < *to) {
-            let since = if is_near(from, *since) { from } else { *since };
-            let to = if is_near(*to, until) { until } else { *to };
-            match merged.last_mut().filter(|(_, end)| is_near(*end, since)) {
-                Some((_, end)) => *end = to,
-                None => merged.push((since, to)),
+        for (begin, finish) in
+            spans.iter().filter(|(first, end)| *first < stop_time && start < *end)
+        {
+            let begin_time = if is_near(start, *begin) { start } else { *begin };
+            let last = if is_near(*finish, stop_time) { stop_time } else { *finish };
+            match merged.last_mut().filter(|(_, end)| is_near(*end, begin_time)) {
+                Some((_, end)) => *end = last,
+                None => merged.push((begin_time, last)),
             }
         }
         merged
     }
 
-    pub(super) fn lost_link(&self, from: Timestamp, until: Timestamp) -> bool {
-        self.lost.iter().any(|(since, to)| *since <= until && from <= *to)
+    pub(super) fn lost_link(&self, start: Timestamp, end: Timestamp) -> bool {
+        self.lost.iter().any(|(begin, finish)| *begin <= end && start <= *finish)
     }
 
     /// Returns `true` if the link was lost at `at`, or came back just before.
-    pub(super) fn is_link_lost_at(&self, at: Timestamp) -> bool {
-        self.lost_link(add_seconds(at, -APART_S), add_seconds(at, APART_S))
+    pub(super) fn is_link_lost_at(&self, time: Timestamp) -> bool {
+        self.lost_link(add_seconds(time, -APART_S), add_seconds(time, APART_S))
     }
 
     /// From when on a stretch is put down to a STOP, and why there was one.
     pub(super) fn stopped(
         &self,
-        from: Timestamp,
-        until: Timestamp,
+        start: Timestamp,
+        end: Timestamp,
     ) -> Option<(Timestamp, LossCause)> {
-        let earliest = add_seconds(from, -MOVES_ON_S);
-        let (stop, why) = *self.stops.iter().find(|(at, _)| (earliest..=until).contains(at))?;
-        let is_at_its_begin = stop <= add_seconds(from, MOVES_ON_S);
-        Some((if is_at_its_begin { from } else { stop }, why))
+        let earliest = add_seconds(start, -MOVES_ON_S);
+        let (stop, loss_cause) =
+            *self.stops.iter().find(|(time, _)| (earliest..=end).contains(time))?;
+        let is_at_its_begin = stop <= add_seconds(start, MOVES_ON_S);
+        Some((if is_at_its_begin { start } else { stop }, loss_cause))
     }
 }

@@ -165,9 +165,11 @@ const COMPARABLE_SHARE: f64 = 0.7;
 impl Explained {
     /// Returns `true` if this explains an error of `off`. What explained the smaller error of the time
     /// before need not, but the error of an axis that stands grows.
-    pub fn can_make(&self, off: Angle) -> bool {
-        let stands = |of: &Explanation| of.causes().any(|of| matches!(of, Cause::Stuck { .. }));
-        self.error_deg >= COMPARABLE_SHARE * off.degrees() || self.causes.iter().any(stands)
+    pub fn can_make(&self, deviation: Angle) -> bool {
+        let stands = |explanation: &Explanation| {
+            explanation.causes().any(|cause| matches!(cause, Cause::Stuck { .. }))
+        };
+        self.error_deg >= COMPARABLE_SHARE * deviation.degrees() || self.causes.iter().any(stands)
     }
 }
 
@@ -175,7 +177,7 @@ impl Explained {
 #[derive(Debug, Clone, Copy)]
 struct Found {
     cause: Cause,
-    with: Option<Cause>,
+    partner: Option<Cause>,
     fit: Fit,
 }
 
@@ -193,7 +195,7 @@ struct Fit {
 
 impl Found {
     fn is_possible(&self) -> bool {
-        self.cause.is_possible() && self.with.is_none_or(|with| with.is_possible())
+        self.cause.is_possible() && self.partner.is_none_or(|partner| partner.is_possible())
     }
 }
 
@@ -207,12 +209,12 @@ impl Evidence<'_> {
         if self.points().count() < MIN_POSITIONS || whole.left <= 0.0 {
             return Vec::new();
         }
-        let known = self.fit_of(|point| Some(point.followed));
+        let fit = self.fit_of(|point| Some(point.followed));
         if !self.only_drives
-            && self.is_explained(known, whole.left)
-            && let Some(cause) = self.known_cause(known, whole.left)
+            && self.is_explained(fit, whole.left)
+            && let Some(cause) = self.known_cause(fit, whole.left)
         {
-            let found = Found { cause, with: None, fit: known };
+            let found = Found { cause, partner: None, fit };
             return self.shown(&[found], whole.left);
         }
         let mut singles = if self.only_drives { Vec::new() } else { self.singles(others) };
@@ -293,15 +295,15 @@ impl Evidence<'_> {
         let pairs = singles.iter().enumerate().flat_map(|(place, first)| {
             singles.iter().skip(place + 1).map(move |second| (*first, *second))
         });
-        let both =
+        let fitted_pair =
             |((first, alone), (second, other)): (&(Family<'_>, Found), &(Family<'_>, Found))| {
                 let found = self.fitted(*first, Some(*second));
-                let without = alone.fit.left.min(other.fit.left);
-                let is_needed = without - found.fit.left > SURE * found.fit.variance;
+                let alone_left = alone.fit.left.min(other.fit.left);
+                let is_needed = alone_left - found.fit.left > SURE * found.fit.variance;
                 let is_named = is_needed && self.is_explained(found.fit, whole);
                 (is_named && found.is_possible()).then_some(found)
             };
-        pairs.filter_map(both).collect()
+        pairs.filter_map(fitted_pair).collect()
     }
 
     /// `found` with what is known of the unit, where that makes a part of the error.
@@ -311,23 +313,25 @@ impl Evidence<'_> {
             (Some(Cause::Late { late_s: known_s }), Cause::Late { late_s }) => {
                 Found { cause: Cause::Late { late_s: known_s + late_s }, ..found }
             }
-            (Some(known), cause) => Found { cause: known, with: Some(cause), ..found },
+            (Some(known_cause), cause) => {
+                Found { cause: known_cause, partner: Some(cause), ..found }
+            }
         }
     }
 
     fn shown(&self, found: &[Found], whole: f64) -> Vec<Explanation> {
         let mut shown: Vec<Explanation> = Vec::new();
-        for Found { cause, with, fit } in found.iter().copied() {
+        for Found { cause, partner, fit } in found.iter().copied() {
             let explanation = Explanation {
                 cause,
-                with,
+                with: partner,
                 left_deg: self.rms_deg(fit.left),
                 share: self.share(fit.left, whole),
             };
             // Only the best of several other sets counts.
             let is_same = |shown: &Explanation| {
                 shown.cause.is_same_kind(&cause)
-                    && matches!((shown.with, with), (None, None))
+                    && matches!((shown.with, partner), (None, None))
                     && matches!(cause, Cause::OtherElements { .. })
             };
             if shown.len() < MAX_CANDIDATES && !shown.iter().any(is_same) {

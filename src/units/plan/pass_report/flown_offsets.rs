@@ -19,7 +19,7 @@ pub struct FlownOffsets(Vec<(Timestamp, TrackOffsets)>);
 impl FlownOffsets {
     /// Notes the offsets that are on at `now`.
     pub fn note(&mut self, now: Timestamp, offsets: TrackOffsets) {
-        if self.at(now) != offsets {
+        if self.offsets_at(now) != offsets {
             self.0.push((now, offsets));
         }
     }
@@ -29,8 +29,8 @@ impl FlownOffsets {
         &self.0
     }
 
-    fn at(&self, time: Timestamp) -> TrackOffsets {
-        let before = self.0.iter().take_while(|(from, _)| *from <= time);
+    fn offsets_at(&self, time: Timestamp) -> TrackOffsets {
+        let before = self.0.iter().take_while(|(start, _)| *start <= time);
         before.last().map_or(TrackOffsets::NONE, |(_, offsets)| *offsets)
     }
 
@@ -54,8 +54,8 @@ impl FlownOffsets {
         site: Site,
         MeasuredPosition { time, pointing }: MeasuredPosition,
     ) -> Option<Pointing> {
-        let offsets = Some(self.at(time)).filter(|offsets| !offsets.is_none())?;
-        let satellite = |at| Some(propagator.look_from(site, at).ok()?.direction);
+        let offsets = Some(self.offsets_at(time)).filter(|offsets| !offsets.is_none())?;
+        let satellite = |utc| Some(propagator.look_from(site, utc).ok()?.direction);
         let demanded = offsets.demanded(time, satellite)?;
         let back = DQuat::from_rotation_arc(demanded.to_enu(), satellite(time)?.to_enu());
         let elevation = pointing.elevation.unwrap_or(demanded.elevation);

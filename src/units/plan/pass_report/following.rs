@@ -21,8 +21,8 @@ const MAX_S: f64 = 120.0;
 /// One that did so from the first position on, or to the last, has no such time of its own.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Following {
-    pub(super) since: Option<Timestamp>,
-    pub(super) until: Option<Timestamp>,
+    pub(super) start: Option<Timestamp>,
+    pub(super) end: Option<Timestamp>,
 }
 
 impl TrackedPass<'_> {
@@ -30,8 +30,8 @@ impl TrackedPass<'_> {
     pub(super) fn following(&self, points: &[&TrackPoint]) -> Following {
         let backwards: Vec<&TrackPoint> = points.iter().rev().copied().collect();
         Following {
-            since: self.first_on_track(points, Timestamp::MIN),
-            until: self.first_on_track(&backwards, Timestamp::MAX),
+            start: self.first_on_track(points, Timestamp::MIN),
+            end: self.first_on_track(&backwards, Timestamp::MAX),
         }
     }
 

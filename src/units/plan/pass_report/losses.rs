@@ -120,10 +120,10 @@ impl TrackedPass<'_> {
         let end = self.ended.unwrap_or(self.until);
         let commanded = self.breaks.commanded(self.from, end).into_iter();
         let followed: Vec<(Timestamp, Following)> = commanded
-            .map(|(since, until)| {
-                let near = add_seconds(since, -APART_S)..=add_seconds(until, APART_S);
+            .map(|(start, stop_time)| {
+                let near = add_seconds(start, -APART_S)..=add_seconds(stop_time, APART_S);
                 let own = points.iter().filter(|point| near.contains(&point.time));
-                (until, self.following(&own.collect::<Vec<_>>()))
+                (stop_time, self.following(&own.collect::<Vec<_>>()))
             })
             .collect();
         let lost = stretches.iter().flat_map(|stretch| match stretch.state {
@@ -131,12 +131,13 @@ impl TrackedPass<'_> {
             State::NotMeasured => self.not_measured(stretch),
             State::NotCommanded => self.not_commanded(stretch),
             State::Outside => {
-                let own = followed.iter().find(|(until, _)| stretch.from < *until);
+                let own = followed.iter().find(|(end, _)| stretch.start < *end);
                 self.outside(stretch, own.map(|(_, following)| *following).unwrap_or_default())
             }
         });
         let ended = self.ended.into_iter();
-        let ended = ended.flat_map(|from| self.in_parts(from, self.until, LossCause::ProgramEnded));
+        let ended =
+            ended.flat_map(|begin| self.in_parts(begin, self.until, LossCause::ProgramEnded));
         let mut losses: Vec<LostStretch> = Vec::new();
         for lost in lost.chain(ended) {
             match losses.last_mut() {
@@ -150,72 +151,73 @@ impl TrackedPass<'_> {
     }
 
     fn not_measured(&self, stretch: &Stretch) -> Vec<LostStretch> {
-        let Stretch { from, until, .. } = *stretch;
-        let is_lost = self.breaks.lost_link(from, until);
-        let why = if is_lost { LossCause::LinkLost } else { LossCause::NotMeasured };
-        self.in_parts(from, until, why)
+        let Stretch { start, end, .. } = *stretch;
+        let is_lost = self.breaks.lost_link(start, end);
+        let loss_cause = if is_lost { LossCause::LinkLost } else { LossCause::NotMeasured };
+        self.in_parts(start, end, loss_cause)
     }
 
     /// A stretch in which the antenna had no command to track this pass.
     fn not_commanded(&self, stretch: &Stretch) -> Vec<LostStretch> {
-        let Stretch { from, until, .. } = *stretch;
-        if let Some((stop, why)) = self.breaks.stopped(from, until) {
-            let mut lost = self.in_parts(from, stop, LossCause::NotCommanded);
-            lost.extend(self.in_parts(stop, until, why));
+        let Stretch { start, end, .. } = *stretch;
+        if let Some((stop, loss_cause)) = self.breaks.stopped(start, end) {
+            let mut lost = self.in_parts(start, stop, LossCause::NotCommanded);
+            lost.extend(self.in_parts(stop, end, loss_cause));
             return lost;
         }
         // A track that ended with its link goes on only once the operator agrees.
-        let why = if self.breaks.is_link_lost_at(from) {
+        let reason = if self.breaks.is_link_lost_at(start) {
             LossCause::LinkLost
         } else {
             LossCause::NotCommanded
         };
-        self.in_parts(from, until, why)
+        self.in_parts(start, end, reason)
     }
 
     /// A stretch beyond half the beamwidth.
     fn outside(&self, stretch: &Stretch, following: Following) -> Vec<LostStretch> {
-        let Stretch { from, until, .. } = *stretch;
-        let stop = self.breaks.stopped(from, until);
-        let before = stop.map_or(until, |(stop, _)| stop);
-        let mut lost = if let Some(cause) = self.loss_of_mount(from, before) {
-            self.in_parts(from, before, cause)
+        let Stretch { start, end, .. } = *stretch;
+        let stop = self.breaks.stopped(start, end);
+        let before = stop.map_or(end, |(stop, _)| stop);
+        let mut lost = if let Some(cause) = self.loss_of_mount(start, before) {
+            self.in_parts(start, before, cause)
         } else {
-            let arrived = following.since.unwrap_or(before).clamp(from, before);
-            let left = following.until.unwrap_or(before).clamp(arrived, before);
-            let mut lost = self.in_parts(from, arrived, LossCause::LateStart);
+            let arrived = following.start.unwrap_or(before).clamp(start, before);
+            let left = following.end.unwrap_or(before).clamp(arrived, before);
+            let mut lost = self.in_parts(start, arrived, LossCause::LateStart);
             lost.extend(self.in_parts(arrived, left, LossCause::OutsideBeam));
             lost.extend(self.in_parts(left, before, LossCause::EarlyEnd));
             lost
         };
-        if let Some((stop, why)) = stop {
-            lost.extend(self.in_parts(stop, until, why));
+        if let Some((stop, loss_cause)) = stop {
+            lost.extend(self.in_parts(stop, end, loss_cause));
         }
         lost
     }
 
     /// The loss of the mount between two times, if that is where it had to lose something, and no
     /// more than it had to.
-    fn loss_of_mount(&self, from: Timestamp, until: Timestamp) -> Option<LossCause> {
-        let Trackability::Loses { at, from: first, until: last, .. } = self.trackability else {
+    fn loss_of_mount(&self, start: Timestamp, end: Timestamp) -> Option<LossCause> {
+        let Trackability::Loses { at: loss, from: first, until: last, .. } = self.trackability
+        else {
             return None;
         };
-        let is_there = from <= add_seconds(last, COMES_BACK_S)
-            && add_seconds(first, -COMES_BACK_S) <= until
-            && seconds_between(from, until) <= self.allowed_s();
-        match at {
+        let is_there = start <= add_seconds(last, COMES_BACK_S)
+            && add_seconds(first, -COMES_BACK_S) <= end
+            && seconds_between(start, end) <= self.allowed_s();
+        match loss {
             _ if !is_there => None,
             Loss::Keyhole(_) => Some(LossCause::Keyhole),
             Loss::Overhead => Some(LossCause::RateOfMount),
             Loss::Slew => Some(LossCause::Slew),
             Loss::BeyondAzimuth(_) | Loss::OutOfReach
-                if self.reached_s(from, until) <= COMES_BACK_S =>
+                if self.reached_s(start, end) <= COMES_BACK_S =>
             {
                 Some(LossCause::OutOfReach)
             }
             // An axis is too slow, or on its way back to what it reaches.
             Loss::BeyondAzimuth(_) | Loss::OutOfReach
-                if self.is_reached() || !self.is_in_reach(add_seconds(from, 1.0)) =>
+                if self.is_reached() || !self.is_in_reach(add_seconds(start, 1.0)) =>
             {
                 Some(LossCause::RateOfMount)
             }
@@ -229,23 +231,29 @@ impl TrackedPass<'_> {
     }
 
     /// Seconds in which the satellite was within reach of the mount.
-    fn reached_s(&self, from: Timestamp, until: Timestamp) -> f64 {
-        let seconds = 0..seconds_between(from, until).ceil().max(0.0) as u32;
-        let at = |second: &u32| add_seconds(from, f64::from(*second));
-        seconds.filter(|second| self.is_in_reach(at(second))).count() as f64
+    fn reached_s(&self, start: Timestamp, end: Timestamp) -> f64 {
+        let seconds = 0..seconds_between(start, end).ceil().max(0.0) as u32;
+        let time = |second: &u32| add_seconds(start, f64::from(*second));
+        seconds.filter(|second| self.is_in_reach(time(second))).count() as f64
     }
 
     /// A stretch that is lost for this reason, but where the satellite was out of reach of the mount:
     /// that is lost whatever was measured, since an axis at its limit may tell no angle.
-    fn in_parts(&self, from: Timestamp, until: Timestamp, why: LossCause) -> Vec<LostStretch> {
+    fn in_parts(
+        &self,
+        start: Timestamp,
+        end: Timestamp,
+        loss_cause: LossCause,
+    ) -> Vec<LostStretch> {
         let mut found: Vec<LostStretch> = Vec::new();
-        let seconds = seconds_between(from, until).ceil().max(0.0) as u32;
+        let seconds = seconds_between(start, end).ceil().max(0.0) as u32;
         for second in 0..seconds {
-            let at = |second: u32| add_seconds(from, f64::from(second)).min(until);
-            let cause = if self.is_in_reach(at(second)) { why } else { LossCause::OutOfReach };
+            let time = |second: u32| add_seconds(start, f64::from(second)).min(end);
+            let cause =
+                if self.is_in_reach(time(second)) { loss_cause } else { LossCause::OutOfReach };
             match found.last_mut() {
-                Some(last) if last.cause == cause => last.until = at(second + 1),
-                _ => found.push(LostStretch { from: at(second), until: at(second + 1), cause }),
+                Some(last) if last.cause == cause => last.until = time(second + 1),
+                _ => found.push(LostStretch { from: time(second), until: time(second + 1), cause }),
             }
         }
         if found.len() > 1 {

@@ -8,8 +8,8 @@ use crate::astro::time::{add_seconds, seconds_between};
 /// A stretch of a pass.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Stretch {
-    pub(super) from: Timestamp,
-    pub(super) until: Timestamp,
+    pub(super) start: Timestamp,
+    pub(super) end: Timestamp,
     pub(super) state: State,
 }
 
@@ -24,7 +24,7 @@ pub(super) enum State {
 
 impl Stretch {
     pub(super) fn seconds(&self) -> f64 {
-        seconds_between(self.from, self.until)
+        seconds_between(self.start, self.end)
     }
 }
 
@@ -33,34 +33,34 @@ impl TrackedPass<'_> {
     /// two positions the error is taken to change evenly.
     pub(super) fn stretches(&self, points: &[TrackPoint]) -> Vec<Stretch> {
         let end = self.ended.unwrap_or(self.until);
-        let (mut found, mut at) = (Stretches(Vec::new()), self.from);
-        for (since, until) in self.breaks.commanded(self.from, end) {
-            found.add(at, since, State::NotCommanded);
-            self.measured(since, until, points, &mut found);
-            at = until;
+        let (mut found, mut time) = (Stretches(Vec::new()), self.from);
+        for (start, stop_time) in self.breaks.commanded(self.from, end) {
+            found.add(time, start, State::NotCommanded);
+            self.measured(start, stop_time, points, &mut found);
+            time = stop_time;
         }
-        found.add(at, end, State::NotCommanded);
+        found.add(time, end, State::NotCommanded);
         found.0
     }
 
     /// Adds what was measured from `since` until `to`.
     fn measured(
         &self,
-        since: Timestamp,
-        to: Timestamp,
+        start: Timestamp,
+        end: Timestamp,
         points: &[TrackPoint],
         found: &mut Stretches,
     ) {
-        let mut add = |from: Timestamp, until: Timestamp, state| {
-            found.add(from.max(since), until.min(to), state);
+        let mut add = |begin: Timestamp, stop_time: Timestamp, state| {
+            found.add(begin.max(start), stop_time.min(end), state);
         };
-        let near = add_seconds(since, -APART_S)..=add_seconds(to, APART_S);
+        let near = add_seconds(start, -APART_S)..=add_seconds(end, APART_S);
         let mut points = points.iter().filter(|point| near.contains(&point.time));
-        let Some(mut before) = points.next() else { return add(since, to, State::NotMeasured) };
+        let Some(mut before) = points.next() else { return add(start, end, State::NotMeasured) };
         // Before the first and after the last position the pass is as it was measured there.
         let is_near = |a: Timestamp, b: Timestamp| seconds_between(a, b) <= APART_S;
-        let at_first = is_near(since, before.time);
-        add(since, before.time, if at_first { self.state(before) } else { State::NotMeasured });
+        let at_first = is_near(start, before.time);
+        add(start, before.time, if at_first { self.state(before) } else { State::NotMeasured });
         for point in points {
             let states = (self.state(before), self.state(point));
             if !is_near(before.time, point.time) {
@@ -74,8 +74,8 @@ impl TrackedPass<'_> {
             }
             before = point;
         }
-        let at_last = is_near(before.time, to);
-        add(before.time, to, if at_last { self.state(before) } else { State::NotMeasured });
+        let at_last = is_near(before.time, end);
+        add(before.time, end, if at_last { self.state(before) } else { State::NotMeasured });
     }
 
     fn state(&self, point: &TrackPoint) -> State {
@@ -94,13 +94,13 @@ impl TrackedPass<'_> {
 struct Stretches(Vec<Stretch>);
 
 impl Stretches {
-    fn add(&mut self, from: Timestamp, until: Timestamp, state: State) {
-        if from >= until {
+    fn add(&mut self, start: Timestamp, end: Timestamp, state: State) {
+        if start >= end {
             return;
         }
         match self.0.last_mut() {
-            Some(last) if last.state == state => last.until = until,
-            _ => self.0.push(Stretch { from, until, state }),
+            Some(last) if last.state == state => last.end = end,
+            _ => self.0.push(Stretch { start, end, state }),
         }
     }
 }

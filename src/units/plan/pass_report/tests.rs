@@ -65,29 +65,29 @@ impl Scene {
         }
     }
 
-    fn at(&self, second: f64) -> Timestamp {
+    fn time(&self, second: f64) -> Timestamp {
         add_seconds(self.pass.aos.time, second)
     }
 
     /// Directions of an antenna beside its satellite by so many degrees of azimuth.
-    fn beside(&self, at: Timestamp, azimuth_deg: f64) -> AzEl {
-        let direction = self.direction(at);
+    fn shifted(&self, time: Timestamp, azimuth_deg: f64) -> AzEl {
+        let direction = self.direction(time);
         AzEl { azimuth: direction.azimuth + Angle::from_degrees(azimuth_deg), ..direction }
     }
 
-    fn direction(&self, at: Timestamp) -> AzEl {
-        self.propagator.look_from(self.site, at).unwrap().direction
+    fn direction(&self, time: Timestamp) -> AzEl {
+        self.propagator.look_from(self.site, time).unwrap().direction
     }
 
     /// Positions all through the pass: at each second of it, the direction at which the antenna
     /// points, if it tells one.
     fn flown(&self, points: impl Fn(f64, Timestamp) -> Option<AzEl>) -> Vec<MeasuredPosition> {
-        let (from, until) = (self.pass.aos.time, self.pass.los.time);
-        let count = (seconds_between(from, until) / STEP_S) as u32;
-        let at = |step: u32| add_seconds(from, f64::from(step) * STEP_S);
+        let (start, end) = (self.pass.aos.time, self.pass.los.time);
+        let count = (seconds_between(start, end) / STEP_S) as u32;
+        let time = |step: u32| add_seconds(start, f64::from(step) * STEP_S);
         let flown = (0..=count).filter_map(|step| {
-            let direction = points(f64::from(step) * STEP_S, at(step))?;
-            Some(MeasuredPosition { time: at(step), pointing: direction.into() })
+            let direction = points(f64::from(step) * STEP_S, time(step))?;
+            Some(MeasuredPosition { time: time(step), pointing: direction.into() })
         });
         flown.collect()
     }
@@ -105,14 +105,14 @@ fn causes(report: &PassReport) -> Vec<LossCause> {
     report.losses.iter().map(|loss| loss.cause).collect()
 }
 
-fn is_close(a: f64, b: f64, by: f64) -> bool {
-    (a - b).abs() <= by
+fn is_close(a: f64, b: f64, tolerance: f64) -> bool {
+    (a - b).abs() <= tolerance
 }
 
 #[test]
 fn an_antenna_on_its_satellite_has_a_good_pass_without_losses() {
     let scene = Scene::new();
-    let report = scene.report(|_, at| Some(scene.direction(at)));
+    let report = scene.report(|_, time| Some(scene.direction(time)));
     assert_eq!((report.verdict, &*report.losses), (PassVerdict::Good, &[][..]));
     let whole_s = scene.duration_s();
     for seconds in [report.counted_s, report.known_s, report.in_beam_s] {
@@ -124,7 +124,7 @@ fn an_antenna_on_its_satellite_has_a_good_pass_without_losses() {
 #[test]
 fn a_late_antenna_is_behind_along_the_way_and_not_across_it() {
     let scene = Scene::new();
-    let report = scene.report(|_, at| Some(scene.direction(add_seconds(at, -0.5))));
+    let report = scene.report(|_, time| Some(scene.direction(add_seconds(time, -0.5))));
     let rms = report.rms.unwrap();
     assert!(is_close(rms.along_deg, rms.off_deg, 1e-3), "{rms:?}");
     assert!(rms.across_deg < 0.01 * rms.along_deg, "{rms:?}");
@@ -137,8 +137,8 @@ fn a_late_antenna_is_behind_along_the_way_and_not_across_it() {
 #[test]
 fn an_error_of_elevation_is_told_as_one() {
     let scene = Scene::new();
-    let report = scene.report(|_, at| {
-        let mut direction = scene.direction(at);
+    let report = scene.report(|_, time| {
+        let mut direction = scene.direction(time);
         direction.elevation = direction.elevation + Angle::from_degrees(0.3);
         Some(direction)
     });
@@ -153,31 +153,32 @@ fn an_error_of_elevation_is_told_as_one() {
 fn a_stretch_without_positions_is_not_known_and_makes_a_pass_poor() {
     let scene = Scene::new();
     let gap = |second: f64| (100.0..112.0).contains(&second);
-    let report = scene.report(|second, at| (!gap(second)).then(|| scene.direction(at)));
+    let report = scene.report(|second, time| (!gap(second)).then(|| scene.direction(time)));
     assert_eq!(causes(&report), [LossCause::NotMeasured]);
     assert!(is_close(report.losses[0].seconds(), 12.0, 2.0 * STEP_S));
     assert!(is_close(report.counted_s - report.known_s, 12.0, 2.0 * STEP_S));
     assert_eq!(report.verdict, PassVerdict::Poor);
     let short = |second: f64| (100.0..103.0).contains(&second);
-    let report = scene.report(|second, at| (!short(second)).then(|| scene.direction(at)));
+    let report = scene.report(|second, utc| (!short(second)).then(|| scene.direction(utc)));
     assert_eq!(report.verdict, PassVerdict::Fair, "3 s of it are not known");
 }
 
 #[test]
 fn what_the_mount_had_to_lose_is_no_fault_and_no_excuse_for_more() {
     let scene = Scene::new();
-    let aside = |at: Timestamp| {
-        let mut direction = scene.direction(at);
+    let shifted_after = |time: Timestamp| {
+        let mut direction = scene.direction(time);
         direction.elevation = direction.elevation + Angle::from_degrees(20.0);
         direction
     };
     let report = |lost: std::ops::Range<f64>| {
-        let seen = scene.flown(|second, at| {
-            Some(if lost.contains(&second) { aside(at) } else { scene.direction(at) })
+        let measured = scene.flown(|second, utc| {
+            Some(if lost.contains(&second) { shifted_after(utc) } else { scene.direction(utc) })
         });
-        let [from, until] = [150.0, 158.0].map(|second| scene.at(second));
-        let trackability = Trackability::Loses { seconds: 8.0, at: Loss::Overhead, from, until };
-        TrackedPass { trackability, ..scene.flown_pass() }.report(&seen)
+        let [start, end] = [150.0, 158.0].map(|second| scene.time(second));
+        let trackability =
+            Trackability::Loses { seconds: 8.0, at: Loss::Overhead, from: start, until: end };
+        TrackedPass { trackability, ..scene.flown_pass() }.report(&measured)
     };
     let planned = report(150.0..158.0);
     assert_eq!(
@@ -212,14 +213,19 @@ fn what_is_out_of_reach_is_no_fault_whatever_was_measured_there() {
     };
     let tracked = scene.flown_pass();
     let lost_s = scene.duration_s() - middle_s;
-    let (from, until) = (scene.at(middle_s), scene.pass.los.time);
-    let trackability = Trackability::Loses { seconds: lost_s, at: Loss::OutOfReach, from, until };
+    let (start, stop_time) = (scene.time(middle_s), scene.pass.los.time);
+    let trackability = Trackability::Loses {
+        seconds: lost_s,
+        at: Loss::OutOfReach,
+        from: start,
+        until: stop_time,
+    };
     let limits = MountLimits { mount, ..tracked.limits };
     let tracked = TrackedPass { limits, trackability, ..tracked };
     let at_its_end = scene.direction(add_seconds(scene.pass.aos.time, middle_s));
     for stays_in_sight in [false, true] {
-        let flown = scene.flown(|second, at| match second {
-            second if second < middle_s => Some(scene.direction(at)),
+        let flown = scene.flown(|second, time| match second {
+            second if second < middle_s => Some(scene.direction(time)),
             _ => stays_in_sight.then_some(at_its_end),
         });
         let report = tracked.report(&flown);
@@ -230,10 +236,10 @@ fn what_is_out_of_reach_is_no_fault_whatever_was_measured_there() {
         assert!(worst < 0.1, "{worst}: what is out of reach says nothing of the pointing");
     }
     // The mount does not explain a pointing error that goes on to the end of the reach.
-    let wanders = tracked.report(&scene.flown(|second, at| match second {
-        second if second < middle_s - 60.0 => Some(scene.direction(at)),
+    let wanders = tracked.report(&scene.flown(|second, utc| match second {
+        second if second < middle_s - 60.0 => Some(scene.direction(utc)),
         second if second < middle_s => {
-            let mut direction = scene.direction(at);
+            let mut direction = scene.direction(utc);
             direction.elevation = direction.elevation + Angle::from_degrees(20.0);
             Some(direction)
         }
@@ -242,8 +248,9 @@ fn what_is_out_of_reach_is_no_fault_whatever_was_measured_there() {
     assert_eq!(wanders.verdict, PassVerdict::Poor);
     assert_eq!(causes(&wanders), [LossCause::OutsideBeam, LossCause::OutOfReach]);
     // A position that is missing within the reach is a loss as ever.
-    let idle = tracked
-        .report(&scene.flown(|second, at| (second < middle_s / 2.0).then(|| scene.direction(at))));
+    let idle = tracked.report(
+        &scene.flown(|second, time| (second < middle_s / 2.0).then(|| scene.direction(time))),
+    );
     assert_eq!(idle.verdict, PassVerdict::Poor);
     assert_eq!(causes(&idle), [LossCause::NotMeasured, LossCause::OutOfReach]);
 }
@@ -251,14 +258,14 @@ fn what_is_out_of_reach_is_no_fault_whatever_was_measured_there() {
 #[test]
 fn seconds_are_lost_once_also_where_positions_come_back_outside_of_the_beam() {
     let scene = Scene::new();
-    let report = scene.report(|second, at| match second {
+    let report = scene.report(|second, time| match second {
         _ if (100.0..106.0).contains(&second) => None,
         _ if (106.0..110.0).contains(&second) => {
-            let mut direction = scene.direction(at);
+            let mut direction = scene.direction(time);
             direction.elevation = direction.elevation + Angle::from_degrees(20.0);
             Some(direction)
         }
-        _ => Some(scene.direction(at)),
+        _ => Some(scene.direction(time)),
     });
     assert_eq!(causes(&report), [LossCause::NotMeasured, LossCause::OutsideBeam]);
     let lost_s: f64 = report.losses.iter().map(LostStretch::seconds).sum();
@@ -270,14 +277,14 @@ fn what_came_after_the_end_of_the_program_is_not_known_and_nobody_s_fault() {
     let scene = Scene::new();
     let ended = Some(add_seconds(scene.pass.aos.time, 100.0));
     let report = |is_off: fn(f64) -> bool| {
-        let seen = scene.flown(|second, at| {
-            let mut direction = scene.direction(at);
+        let measured = scene.flown(|second, time| {
+            let mut direction = scene.direction(time);
             if is_off(second) {
                 direction.elevation = direction.elevation + Angle::from_degrees(20.0);
             }
             (second <= 100.0).then_some(direction)
         });
-        TrackedPass { ended, ..scene.flown_pass() }.report(&seen)
+        TrackedPass { ended, ..scene.flown_pass() }.report(&measured)
     };
     let on = report(|_| false);
     assert_eq!((on.verdict, causes(&on)), (PassVerdict::Poor, vec![LossCause::ProgramEnded]));
@@ -293,22 +300,27 @@ fn what_comes_late_leaves_early_or_wanders_is_told_apart() {
     let scene = Scene::new();
     let end_s = scene.duration_s();
     // It turns by 5 degrees a second, and is there after 20 s.
-    let late = scene.report(|second, at| Some(scene.beside(at, -5.0 * (20.0 - second).max(0.0))));
+    let late =
+        scene.report(|second, time| Some(scene.shifted(time, -5.0 * (20.0 - second).max(0.0))));
     assert_eq!(causes(&late), [LossCause::LateStart]);
     assert!((19.0..20.0).contains(&late.losses[0].seconds()), "{:?}", late.losses);
-    let early =
-        scene.report(|second, at| Some(scene.beside(at, 5.0 * (second - end_s + 20.0).max(0.0))));
+    let early = scene
+        .report(|second, utc| Some(scene.shifted(utc, 5.0 * (second - end_s + 20.0).max(0.0))));
     assert_eq!(causes(&early), [LossCause::EarlyEnd]);
     assert!((19.0..20.0).contains(&early.losses[0].seconds()), "{:?}", early.losses);
-    let off = |when: std::ops::Range<f64>| {
-        scene.report(|second, at| {
-            Some(if when.contains(&second) { scene.beside(at, 40.0) } else { scene.direction(at) })
+    let report_off = |when: std::ops::Range<f64>| {
+        scene.report(|second, moment| {
+            Some(if when.contains(&second) {
+                scene.shifted(moment, 40.0)
+            } else {
+                scene.direction(moment)
+            })
         })
     };
-    let wanders = off(100.0..104.0);
+    let wanders = report_off(100.0..104.0);
     assert_eq!(causes(&wanders), [LossCause::OutsideBeam]);
     assert_eq!(wanders.verdict, PassVerdict::Fair);
-    assert_eq!(off(100.0..200.0).verdict, PassVerdict::Poor);
+    assert_eq!(report_off(100.0..200.0).verdict, PassVerdict::Poor);
     let unmeasured = scene.report(|_, _| None);
     assert_eq!((unmeasured.verdict, unmeasured.known_s), (PassVerdict::Poor, 0.0));
     assert_eq!(causes(&unmeasured), [LossCause::NotMeasured]);
@@ -319,12 +331,12 @@ fn what_comes_late_leaves_early_or_wanders_is_told_apart() {
 fn an_antenna_beside_its_satellite_has_a_pointing_error_and_is_not_late() {
     let scene = Scene::new();
     for azimuth_deg in [4.0, -15.0] {
-        let beside = scene.report(|_, at| Some(scene.beside(at, azimuth_deg)));
-        assert_eq!(causes(&beside), [LossCause::OutsideBeam], "{azimuth_deg}");
-        assert!(is_close(beside.losses[0].seconds(), scene.duration_s(), 1e-3));
+        let pass_report = scene.report(|_, time| Some(scene.shifted(time, azimuth_deg)));
+        assert_eq!(causes(&pass_report), [LossCause::OutsideBeam], "{azimuth_deg}");
+        assert!(is_close(pass_report.losses[0].seconds(), scene.duration_s(), 1e-3));
         // With the resolution of a position sensor.
-        let coarse = scene.report(|_, at| {
-            let AzEl { azimuth, elevation } = scene.beside(at, azimuth_deg);
+        let coarse = scene.report(|_, utc| {
+            let AzEl { azimuth, elevation } = scene.shifted(utc, azimuth_deg);
             let round = |angle: Angle| Angle::from_degrees((angle.degrees() * 10.0).round() / 10.0);
             Some(AzEl { azimuth: round(azimuth), elevation: round(elevation) })
         });
@@ -332,7 +344,7 @@ fn an_antenna_beside_its_satellite_has_a_pointing_error_and_is_not_late() {
     }
     // It comes from afar, and stays beside.
     let way_deg = |second: f64| 4.0 + 3.0 * (30.0 - second).max(0.0);
-    let late = scene.report(|second, at| Some(scene.beside(at, way_deg(second))));
+    let late = scene.report(|second, time| Some(scene.shifted(time, way_deg(second))));
     assert_eq!(causes(&late), [LossCause::LateStart, LossCause::OutsideBeam]);
     assert!(is_close(late.losses[0].seconds(), 30.0, 1.0), "{:?}", late.losses);
 }
@@ -340,16 +352,16 @@ fn an_antenna_beside_its_satellite_has_a_pointing_error_and_is_not_late() {
 #[test]
 fn an_antenna_that_never_reached_its_satellite_was_late_all_the_time() {
     let scene = Scene::new();
-    let behind = scene.beside(scene.pass.tca.time, 180.0);
-    let stands = scene.report(|_, _| Some(behind));
+    let opposite = scene.shifted(scene.pass.tca.time, 180.0);
+    let stands = scene.report(|_, _| Some(opposite));
     assert_eq!((stands.verdict, stands.in_beam_s), (PassVerdict::Poor, 0.0));
     assert_eq!(causes(&stands), [LossCause::LateStart]);
     // It turns away from where the satellite goes to.
-    let [before, after] = [0.0, 60.0].map(|second| scene.direction(scene.at(second)).azimuth);
+    let [before, after] = [0.0, 60.0].map(|second| scene.direction(scene.time(second)).azimuth);
     let rate_deg_s = -0.1 * (after - before).wrapped_180().degrees().signum();
-    let turns = scene.report(|second, at| {
-        let azimuth = behind.azimuth + Angle::from_degrees(rate_deg_s * second);
-        Some(AzEl { azimuth, ..scene.direction(at) })
+    let turns = scene.report(|second, time| {
+        let azimuth = opposite.azimuth + Angle::from_degrees(rate_deg_s * second);
+        Some(AzEl { azimuth, ..scene.direction(time) })
     });
     assert_eq!(causes(&turns), [LossCause::LateStart]);
 }
@@ -360,12 +372,13 @@ fn what_the_mount_had_to_lose_at_an_end_of_the_pass_is_no_fault() {
     let scene = Scene::new();
     let end_s = scene.duration_s();
     for (first_s, last_s) in [(0.0, 20.0), (end_s - 20.0, end_s)] {
-        let (from, until) = (scene.at(first_s), scene.at(last_s));
-        let trackability = Trackability::Loses { seconds: 20.0, at: Loss::Slew, from, until };
-        let turns = scene.flown(|second, at| {
+        let (start, end) = (scene.time(first_s), scene.time(last_s));
+        let trackability =
+            Trackability::Loses { seconds: 20.0, at: Loss::Slew, from: start, until: end };
+        let turns = scene.flown(|second, time| {
             let away_s = (second - first_s).min(last_s - second).max(0.0);
             let away_s = if first_s == 0.0 { (last_s - second).max(0.0) } else { away_s };
-            Some(scene.beside(at, 12.0 * away_s))
+            Some(scene.shifted(time, 12.0 * away_s))
         });
         let report = TrackedPass { trackability, ..scene.flown_pass() }.report(&turns);
         assert_eq!((report.verdict, causes(&report)), (PassVerdict::Good, vec![LossCause::Slew]));
@@ -377,12 +390,12 @@ fn only_what_was_commanded_is_judged_and_the_rest_is_told() {
     let mut scene = Scene::new();
     for second in 0..400 {
         let is_commanded = (100..200).contains(&second) || (250..390).contains(&second);
-        scene.breaks.note_commanded(scene.at(f64::from(second)), is_commanded);
+        scene.breaks.note_commanded(scene.time(f64::from(second)), is_commanded);
     }
     let tracked = scene.flown_pass();
-    let flown = scene.flown(|second, at| {
+    let flown = scene.flown(|second, time| {
         let way_deg = 6.0 * (260.0 - second).max(0.0);
-        Some(if second < 200.0 { scene.direction(at) } else { scene.beside(at, way_deg) })
+        Some(if second < 200.0 { scene.direction(time) } else { scene.shifted(time, way_deg) })
     });
     let commanded: Vec<MeasuredPosition> =
         flown.into_iter().filter(|flown| scene.breaks.was_commanded(flown.time)).collect();
@@ -408,11 +421,11 @@ fn between_two_positions_the_beam_ends_where_the_error_crosses_it() {
     let flown: Vec<MeasuredPosition> = (0..400)
         .map(|step| {
             let second = 1.9 * f64::from(step);
-            let at = scene.at(second);
-            let mut direction = scene.direction(at);
+            let time = scene.time(second);
+            let mut direction = scene.direction(time);
             let off_deg = (1.0 + 0.2 * (20.0 - second)).max(0.0);
             direction.elevation = direction.elevation + Angle::from_degrees(off_deg);
-            MeasuredPosition { time: at, pointing: direction.into() }
+            MeasuredPosition { time, pointing: direction.into() }
         })
         .take_while(|flown| flown.time <= scene.pass.los.time)
         .collect();
@@ -425,34 +438,38 @@ fn between_two_positions_the_beam_ends_where_the_error_crosses_it() {
 #[test]
 fn a_lost_link_and_a_stop_are_told_as_what_they_are() {
     let mut scene = Scene::new();
-    let at = |scene: &Scene, second: u32| add_seconds(scene.pass.aos.time, f64::from(second));
+    let time = |scene: &Scene, second: u32| add_seconds(scene.pass.aos.time, f64::from(second));
     let flown = |scene: &Scene| {
         let left = scene.direction(add_seconds(scene.pass.aos.time, 201.0));
-        scene.report(|second, at| match second {
+        scene.report(|second, utc| match second {
             _ if (100.0..130.0).contains(&second) => None,
             _ if second >= 201.0 => Some(left),
-            _ => Some(scene.direction(at)),
+            _ => Some(scene.direction(utc)),
         })
     };
     let unknown = flown(&scene);
     assert_eq!(causes(&unknown), [LossCause::NotMeasured, LossCause::EarlyEnd]);
     for second in 0..400 {
-        let since = (103..130).contains(&second).then(|| at(&scene, 103));
-        scene.breaks.note_link(at(&scene, second), since);
+        let lost_since = (103..130).contains(&second).then(|| time(&scene, 103));
+        scene.breaks.note_link(time(&scene, second), lost_since);
     }
     let mut late = scene.breaks.clone();
-    scene.breaks.note_stop(at(&scene, 200), LossCause::Stopped);
-    let told = flown(&scene);
-    assert_eq!(causes(&told), [LossCause::LinkLost, LossCause::Stopped]);
-    assert!(is_close(told.losses[0].seconds(), 30.0, 2.0 * STEP_S), "{:?}", told.losses);
-    assert_eq!(told.verdict, PassVerdict::Poor);
+    scene.breaks.note_stop(time(&scene, 200), LossCause::Stopped);
+    let pass_report = flown(&scene);
+    assert_eq!(causes(&pass_report), [LossCause::LinkLost, LossCause::Stopped]);
+    assert!(
+        is_close(pass_report.losses[0].seconds(), 30.0, 2.0 * STEP_S),
+        "{:?}",
+        pass_report.losses
+    );
+    assert_eq!(pass_report.verdict, PassVerdict::Poor);
     // STOP does not explain a loss before it.
-    late.note_stop(at(&scene, 260), LossCause::Stopped);
+    late.note_stop(time(&scene, 260), LossCause::Stopped);
     scene.breaks = late;
-    let told = flown(&scene);
+    let flown_report = flown(&scene);
     let all = [LossCause::LinkLost, LossCause::EarlyEnd, LossCause::Stopped];
-    assert_eq!(causes(&told), all);
-    assert!(is_close(told.losses[1].seconds(), 58.0, 2.0), "{:?}", told.losses);
+    assert_eq!(causes(&flown_report), all);
+    assert!(is_close(flown_report.losses[1].seconds(), 58.0, 2.0), "{:?}", flown_report.losses);
 }
 
 #[test]
@@ -461,16 +478,16 @@ fn what_an_outage_ended_is_lost_to_the_link_until_the_end() {
     let left = scene.direction(add_seconds(scene.pass.aos.time, 100.0));
     for second in 0..400 {
         let now = add_seconds(scene.pass.aos.time, f64::from(second));
-        let since = (103..130).contains(&second);
-        let since = since.then(|| add_seconds(scene.pass.aos.time, 100.0));
-        scene.breaks.note_link(now, since);
+        let is_lost = (103..130).contains(&second);
+        let lost_since = is_lost.then(|| add_seconds(scene.pass.aos.time, 100.0));
+        scene.breaks.note_link(now, lost_since);
         // The operator is asked once the link is back.
         scene.breaks.note_commanded(now, second <= 131);
     }
-    let report = scene.report(|second, at| match second {
+    let report = scene.report(|second, time| match second {
         _ if (100.0..130.0).contains(&second) => None,
         _ if second >= 130.0 => Some(left),
-        _ => Some(scene.direction(at)),
+        _ => Some(scene.direction(time)),
     });
     let lost_s: f64 = report.losses.iter().map(LostStretch::seconds).sum();
     let to_link = report.losses.iter().filter(|lost| lost.cause == LossCause::LinkLost);
@@ -481,7 +498,7 @@ fn what_an_outage_ended_is_lost_to_the_link_until_the_end() {
 #[test]
 fn what_the_watch_stopped_an_antenna_for_is_the_cause_of_what_follows() {
     use LossCause::{Forbidden, ForeignHands, GivenUp, NoEffect};
-    for why in [NoEffect, GivenUp, ForeignHands, Forbidden] {
+    for loss_cause in [NoEffect, GivenUp, ForeignHands, Forbidden] {
         let mut scene = Scene::new();
         let stop = add_seconds(scene.pass.aos.time, 200.0);
         let left = scene.direction(stop);
@@ -489,11 +506,11 @@ fn what_the_watch_stopped_an_antenna_for_is_the_cause_of_what_follows() {
             let now = add_seconds(scene.pass.aos.time, f64::from(second));
             scene.breaks.note_commanded(now, true);
         }
-        scene.breaks.note_stop(stop, why);
+        scene.breaks.note_stop(stop, loss_cause);
         scene.breaks.note_commanded(add_seconds(stop, 1.0), false);
         let report = scene
-            .report(|second, at| Some(if second < 200.0 { scene.direction(at) } else { left }));
-        assert_eq!(causes(&report), [why]);
+            .report(|second, time| Some(if second < 200.0 { scene.direction(time) } else { left }));
+        assert_eq!(causes(&report), [loss_cause]);
     }
 }
 
@@ -516,15 +533,15 @@ fn an_offset_is_no_error_and_what_the_antenna_misses_beside_it_is() {
         offsets.note(scene.pass.tca.time, offset(second));
         offsets.note(scene.pass.los.time, offset(second));
         assert_eq!(offsets.changes().len(), 2);
-        let demanded = |at| {
-            let now = offset(if at < changed_at { first } else { second });
-            now.demanded(at, |at| Some(scene.direction(at))).unwrap()
+        let demanded = |time| {
+            let now = offset(if time < changed_at { first } else { second });
+            now.demanded(time, |utc| Some(scene.direction(utc))).unwrap()
         };
         let flown = |by_deg: f64| {
-            let flown = scene.flown(|_, at| Some(demanded(at).towards(30.0, by_deg)));
-            let of =
+            let flown = scene.flown(|_, time| Some(demanded(time).towards(30.0, by_deg)));
+            let shifted =
                 |flown: MeasuredPosition| offsets.taken_off(&scene.propagator, scene.site, flown);
-            flown.into_iter().map(of).collect::<Vec<_>>()
+            flown.into_iter().map(shifted).collect::<Vec<_>>()
         };
         let report = scene.flown_pass().report(&flown(0.0));
         assert!(report.rms.unwrap().off_deg < 1e-6, "{:?}", report.rms);

@@ -40,14 +40,14 @@ impl Draws {
         ((self.0 >> 75) as f64) / 2.0_f64.powi(53)
     }
 
-    fn between(&mut self, from: f64, to: f64) -> f64 {
-        from + (to - from) * self.share()
+    fn uniform(&mut self, start: f64, end: f64) -> f64 {
+        start + (end - start) * self.share()
     }
 
     /// A number from the normal distribution, by the polar method.
     fn normal(&mut self) -> f64 {
         loop {
-            let (a, b) = (self.between(-1.0, 1.0), self.between(-1.0, 1.0));
+            let (a, b) = (self.uniform(-1.0, 1.0), self.uniform(-1.0, 1.0));
             let square = a * a + b * b;
             if square > 0.0 && square < 1.0 {
                 return a * (-2.0 * square.ln() / square).sqrt();
@@ -68,10 +68,10 @@ struct Orbit {
 impl Orbit {
     fn any(draws: &mut Draws) -> Self {
         Self {
-            radius_km: draws.between(6_850.0, 7_250.0),
-            inclination: draws.between(50.0, 100.0) * DEG,
-            node: draws.between(0.0, TAU),
-            start: draws.between(0.0, TAU),
+            radius_km: draws.uniform(6_850.0, 7_250.0),
+            inclination: draws.uniform(50.0, 100.0) * DEG,
+            node: draws.uniform(0.0, TAU),
+            start: draws.uniform(0.0, TAU),
         }
     }
 
@@ -82,13 +82,13 @@ impl Orbit {
         let (sin_i, cos_i) = self.inclination.sin_cos();
         // The sky turns backwards over the site, which lies in the plane of x and z.
         let (sin_n, cos_n) = (self.node - TAU / 86_164.0 * at_s).sin_cos();
-        let at = [
+        let position = [
             self.radius_km * (cos_u * cos_n - sin_u * cos_i * sin_n),
             self.radius_km * (cos_u * sin_n + sin_u * cos_i * cos_n),
             self.radius_km * sin_u * sin_i,
         ];
         let (sin_l, cos_l) = LATITUDE.sin_cos();
-        let [x, y, z] = [at[0] - 6_371.0 * cos_l, at[1], at[2] - 6_371.0 * sin_l];
+        let [x, y, z] = [position[0] - 6_371.0 * cos_l, position[1], position[2] - 6_371.0 * sin_l];
         let (north, up) = (z * cos_l - x * sin_l, x * cos_l + z * sin_l);
         [y.atan2(north).rem_euclid(TAU), up.atan2(y.hypot(north))]
     }
@@ -136,7 +136,7 @@ impl Errors {
     fn any(draws: &mut Draws) -> Self {
         Self(Term::ALL.map(|term| {
             let size = if term == Term::ElevationScale { 0.004 } else { 0.5 };
-            draws.between(-size, size)
+            draws.uniform(-size, size)
         }))
     }
 
@@ -157,8 +157,8 @@ impl Errors {
         let mut axes = sky;
         for _ in 0..40 {
             let beam = self.beam(axes);
-            let off = (sky[0] - beam[0] + TAU / 2.0).rem_euclid(TAU) - TAU / 2.0;
-            axes = [axes[0] + off, axes[1] + sky[1] - beam[1]];
+            let deviation = (sky[0] - beam[0] + TAU / 2.0).rem_euclid(TAU) - TAU / 2.0;
+            axes = [axes[0] + deviation, axes[1] + sky[1] - beam[1]];
         }
         let [azimuth_offset, elevation_offset, .., scale, sag] = self.0;
         let [azimuth, elevation] = axes;
@@ -206,7 +206,7 @@ fn any_points(mount: &Errors, errs: Errs, draws: &mut Draws) -> Vec<Point> {
     let constant = [0; 2].map(|_| constant * draws.normal());
     let mut slow = [0; 2].map(|_| draws.normal());
     let mut points = Vec::new();
-    let mut at = Timestamp::UNIX_EPOCH;
+    let mut time = Timestamp::UNIX_EPOCH;
     for at_s in times_s {
         let sky = orbit.look(at_s);
         let read = mount.reading(orbit.look(at_s + late_s));
@@ -217,13 +217,13 @@ fn any_points(mount: &Errors, errs: Errs, draws: &mut Draws) -> Vec<Point> {
         };
         points.push(Point {
             kind: Kind::Satellite,
-            at,
+            at: time,
             wanted: degrees(sky),
             measured: degrees([read[0] + noise[0] / sky[1].cos(), read[1] + noise[1]]),
             weight: 1.0,
         });
         slow = slow.map(|old| keeps * old + (1.0 - keeps * keeps).sqrt() * draws.normal());
-        at += SignedDuration::from_secs(10);
+        time += SignedDuration::from_secs(10);
     }
     points
 }
@@ -239,25 +239,25 @@ fn intervals_hold_the_terms_whatever_the_noise_of_the_passes() {
     let mut short = Vec::new();
     for (passes, errs) in [1, 2, 5, 20].into_iter().flat_map(|n| Errs::ALL.map(|errs| (n, errs))) {
         let draws = &mut Draws::new(seed);
-        let (mut given, mut held, mut halves) = (0_u32, 0_u32, 0.0);
+        let (mut inside_count, mut sufficient, mut halves) = (0_u32, 0_u32, 0.0);
         for _ in 0..cases {
             let mount = Errors::any(draws);
             let runs: Vec<_> = (0..passes).map(|_| any_points(&mount, errs, draws)).collect();
             let fit = fit(runs.iter().map(Vec::as_slice), &Term::ALL).unwrap();
             for (term, truth) in Term::ALL.into_iter().zip(mount.0) {
                 let Some(interval) = fit.interval(term) else { continue };
-                given += 1;
-                held += u32::from((interval.value - truth).abs() <= interval.half);
+                inside_count += 1;
+                sufficient += u32::from((interval.value - truth).abs() <= interval.half);
                 halves += if term == Term::AzimuthOffset { interval.half } else { 0.0 };
             }
         }
-        let share = f64::from(held) / f64::from(given.max(1));
+        let share = f64::from(sufficient) / f64::from(inside_count.max(1));
         let half_deg = halves / cases as f64;
         println!(
-            "seed {seed}, {cases} fits to {passes} passes, {errs:?}: {share:.3} of {given} intervals \
+            "seed {seed}, {cases} fits to {passes} passes, {errs:?}: {share:.3} of {inside_count} intervals \
              hold, azimuth offset ±{half_deg:.3}°"
         );
-        assert!(given > 0);
+        assert!(inside_count > 0);
         if share < enough {
             short.push((passes, errs, share));
         }
@@ -274,10 +274,10 @@ fn the_mount_of_this_test_errs_as_the_terms_say() {
         for (term, value) in Term::ALL.into_iter().zip(mount.0) {
             *model.place(term) = value;
         }
-        let sky = [draws.between(0.0, TAU), draws.between(5.0, 85.0) * DEG];
+        let sky = [draws.uniform(0.0, TAU), draws.uniform(5.0, 85.0) * DEG];
         let [azimuth, elevation] = mount.reading(sky).map(|angle| angle / DEG);
-        let told = model.reading(AzEl::from_degrees(sky[0] / DEG, sky[1] / DEG)).unwrap();
-        let off_deg = told.separation(AzEl::from_degrees(azimuth, elevation)).degrees();
+        let reading = model.reading(AzEl::from_degrees(sky[0] / DEG, sky[1] / DEG)).unwrap();
+        let off_deg = reading.separation(AzEl::from_degrees(azimuth, elevation)).degrees();
         assert!(off_deg < 1e-6, "{:?}: {off_deg}", mount.0);
     }
 }

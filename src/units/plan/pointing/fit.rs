@@ -16,11 +16,11 @@ use crate::astro::{AzEl, PointingModel, Site, Term, sun_moon};
 /// found to a millionth.
 const ROUNDS: usize = 12;
 /// Fewer points tell nothing of the noise beside eight terms.
-const FEWEST: usize = 8;
+const MIN_POINTS: usize = 8;
 /// Points nearer to the zenith tell nothing of the azimuth, degrees.
 const HIGHEST_DEG: f64 = 88.0;
 /// No point is more exact, degrees: more would be lost in the arithmetic.
-const LEAST_NOISE_DEG: f64 = 1e-7;
+const MIN_NOISE_DEG: f64 = 1e-7;
 /// Share of its standard deviation by which a term that is left out may change another, and the
 /// interval of that one still holds.
 const HIDDEN: f64 = 0.3;
@@ -57,13 +57,13 @@ pub struct Point {
 
 impl Point {
     /// The peak of the Sun at this time.
-    pub fn of_sun(site: Site, at: Timestamp, measured: AzEl, weight: f64) -> Self {
-        Self { kind: Kind::Sun, at, wanted: sun_moon::sun(site, at), measured, weight }
+    pub fn of_sun(site: Site, time: Timestamp, measured: AzEl, weight: f64) -> Self {
+        Self { kind: Kind::Sun, at: time, wanted: sun_moon::sun(site, time), measured, weight }
     }
 
     /// The peak of the Moon at this time.
-    pub fn of_moon(site: Site, at: Timestamp, measured: AzEl, weight: f64) -> Self {
-        Self { kind: Kind::Moon, at, wanted: sun_moon::moon(site, at), measured, weight }
+    pub fn of_moon(site: Site, time: Timestamp, measured: AzEl, weight: f64) -> Self {
+        Self { kind: Kind::Moon, at: time, wanted: sun_moon::moon(site, time), measured, weight }
     }
 
     /// Measured minus modelled, of the azimuth on the sky and of the elevation, degrees.
@@ -76,7 +76,8 @@ impl Point {
 
     pub(super) fn is_usable(&self) -> bool {
         let weighs = self.weight.is_finite() && self.weight > 0.0;
-        let angles = [self.wanted, self.measured].map(|at| [at.azimuth, at.elevation]);
+        let angles =
+            [self.wanted, self.measured].map(|direction| [direction.azimuth, direction.elevation]);
         let is_known = angles.as_flattened().iter().all(|angle| angle.is_finite());
         weighs && is_known && self.wanted.elevation_deg().abs() <= HIGHEST_DEG
     }
@@ -116,9 +117,9 @@ pub struct Found {
 
 impl Found {
     /// No point counts for more exact, degrees. A few peaks tell nothing of their noise.
-    fn least_deg(&self) -> f64 {
+    fn min_deg(&self) -> f64 {
         let are_few_peaks = self.kind != Kind::Satellite && self.points < FEW;
-        if are_few_peaks { BY_HAND_DEG } else { LEAST_NOISE_DEG }
+        if are_few_peaks { BY_HAND_DEG } else { MIN_NOISE_DEG }
     }
 }
 
@@ -169,17 +170,17 @@ pub fn fit<'a>(
     terms: &[Term],
 ) -> Result<Fit, CannotFit> {
     let is_wanted = |term: &Term| terms.contains(term);
-    let wanted: Vec<usize> =
+    let unknowns: Vec<usize> =
         (0..).zip(&Term::ALL).filter(|(_, term)| is_wanted(term)).map(|(place, _)| place).collect();
     let runs: Vec<Run> = runs.into_iter().map(Run::new).collect();
     let points = runs.iter().map(Run::len).sum();
-    if points < FEWEST {
+    if points < MIN_POINTS {
         return Err(CannotFit::TooFew(points));
     }
     // A peak that is far off counts little from the start, or it would lead the model away.
     let noise = noise_of(&runs, &PointingModel::default(), 0);
     let start = Solved { noise, ..Solved::default() };
-    let white = solve(&runs, Noise::WHITE, start, |normal| normal.told_apart(&wanted));
+    let white = solve(&runs, Noise::WHITE, start, |normal| normal.told_apart(&unknowns));
     if !white.is_finite() {
         return Err(CannotFit::Diverges);
     }
@@ -203,20 +204,21 @@ pub fn fit<'a>(
     });
     let covariance = likeliest.scaled_covariance(unit);
     let solved =
-        solve(&runs, *noise, white.clone(), |_| (white.kept.clone(), white.left_out.clone()));
+        solve(&runs, *noise, white.clone(), |_| (white.retained.clone(), white.left_out.clone()));
     let solved = if solved.is_finite() { solved } else { white.clone() };
     let solved = Solved { covariance, ..solved };
-    let Solved { model, kept, left_out, noise, freedom, .. } = &solved;
+    let Solved { model, retained, left_out, noise, freedom, .. } = &solved;
     let named = |places: &[usize]| -> Vec<Term> {
         places.iter().filter_map(|place| Term::ALL.get(*place).copied()).collect()
     };
     let alike = left_out.iter().filter_map(|out| {
         Some(Alike { term: *Term::ALL.get(out.unknown)?, with: named(&out.named) })
     });
-    let shared: Vec<usize> = kept.iter().copied().filter(|it| solved.shares(*it)).collect();
+    let shared: Vec<usize> =
+        retained.iter().copied().filter(|unknown| solved.shares(*unknown)).collect();
     Ok(Fit {
         model: *model,
-        kept: named(kept),
+        kept: named(retained),
         alike: alike.collect(),
         shared: named(&shared),
         noise: noise.clone(),
@@ -235,21 +237,22 @@ fn solve(
 ) -> Solved {
     for _ in 0..ROUNDS {
         let (normal, log_scale) = solved.normal(runs, noise);
-        let (kept, left_out) = select(&normal);
-        let solution = normal.solve(&kept, log_scale);
+        let (retained, left_out) = select(&normal);
+        let solution = normal.solve(&retained, log_scale);
         for (index, (term, step)) in Term::ALL.into_iter().zip(solution.values).enumerate() {
             let place = solved.model.place(term);
-            *place = if kept.contains(&index) { *place + step } else { 0.0 };
+            *place = if retained.contains(&index) { *place + step } else { 0.0 };
         }
-        solved.noise = noise_of(runs, &solved.model, kept.len());
-        solved.freedom = normal.freedom(kept.len());
-        let usual = |out: &LeftOut| Term::ALL.get(out.unknown).map_or(0.0, |term| usual(*term));
+        solved.noise = noise_of(runs, &solved.model, retained.len());
+        solved.freedom = normal.freedom(retained.len());
+        let typical_change =
+            |out: &LeftOut| Term::ALL.get(out.unknown).map_or(0.0, |term| typical_size(*term));
         let moves = |out: &LeftOut| {
-            let moves = normal.moves(&kept, out).into_iter();
-            moves.map(|(unknown, share)| (unknown, share * usual(out))).collect::<Vec<_>>()
+            let moves = normal.moves(&retained, out).into_iter();
+            moves.map(|(unknown, share)| (unknown, share * typical_change(out))).collect::<Vec<_>>()
         };
         solved.moves = left_out.iter().flat_map(moves).collect();
-        (solved.kept, solved.left_out) = (kept, left_out);
+        (solved.retained, solved.left_out) = (retained, left_out);
     }
     solved
 }
@@ -257,7 +260,7 @@ fn solve(
 #[derive(Debug, Clone, Default)]
 struct Solved {
     model: PointingModel,
-    kept: Vec<usize>,
+    retained: Vec<usize>,
     left_out: Vec<LeftOut>,
     /// Each unknown that is kept, and by how much a term that is left out may well change it.
     moves: Vec<(usize, f64)>,
@@ -276,7 +279,7 @@ impl Solved {
     fn normal(&self, runs: &[Run], noise: Noise) -> (Normal<{ Term::COUNT }>, f64) {
         let deviation_deg = |kind: Kind| {
             let found = self.noise.iter().find(|found| found.kind == kind);
-            found.map_or(1.0, |found| found.noise_deg.max(found.least_deg()))
+            found.map_or(1.0, |found| found.noise_deg.max(found.min_deg()))
         };
         let mut normal = Normal::new();
         let add = |run: &Run| run.add_to(&mut normal, &self.model, noise, deviation_deg);
@@ -287,20 +290,20 @@ impl Solved {
     /// One more round with another noise.
     fn solution(&self, runs: &[Run], noise: Noise) -> Solution<{ Term::COUNT }> {
         let (normal, log_scale) = self.normal(runs, noise);
-        normal.solve(&self.kept, log_scale)
+        normal.solve(&self.retained, log_scale)
     }
 
     /// Returns `true` if a term that is left out may well change the unknown `of` by more than
     /// noise hides.
-    fn shares(&self, of: usize) -> bool {
-        let variance = self.covariance.get(of).and_then(|row| row.get(of)).copied();
+    fn shares(&self, index: usize) -> bool {
+        let variance = self.covariance.get(index).and_then(|row| row.get(index)).copied();
         let hidden = HIDDEN * variance.unwrap_or_default().sqrt();
-        self.moves.iter().any(|(unknown, moved)| *unknown == of && moved.abs() > hidden)
+        self.moves.iter().any(|(unknown, moved)| *unknown == index && moved.abs() > hidden)
     }
 }
 
 /// Size of a term that is not unusual, in its unit.
-fn usual(term: Term) -> f64 {
+fn typical_size(term: Term) -> f64 {
     if term == Term::ElevationScale { 0.005 } else { 0.5 }
 }
 
@@ -309,7 +312,7 @@ fn noise_of(runs: &[Run], model: &PointingModel, unknowns: usize) -> Vec<Found> 
     let points: usize = runs.iter().map(Run::len).sum();
     let free_share = 1.0 - unknowns as f64 / (2 * points) as f64;
     let residuals: Vec<_> = runs.iter().map(|run| run.residuals_deg(model)).collect();
-    let of = |kind: Kind| {
+    let noise_of_kind = |kind: Kind| {
         let (mut count, mut times, mut sum) = (0, 0, 0.0);
         for (points, is_timed) in &residuals {
             let own = || points.iter().filter(|(other, ..)| *other == kind);
@@ -323,7 +326,7 @@ fn noise_of(runs: &[Run], model: &PointingModel, unknowns: usize) -> Vec<Found> 
         let noise_deg = (sum / free.max(1.0)).sqrt();
         (count > 0).then_some(Found { kind, points: count, noise_deg })
     };
-    [Kind::Satellite, Kind::Sun, Kind::Moon].into_iter().filter_map(of).collect()
+    [Kind::Satellite, Kind::Sun, Kind::Moon].into_iter().filter_map(noise_of_kind).collect()
 }
 
 /// Quantile of Student's distribution that holds 95 % on both sides, by its expansion for many

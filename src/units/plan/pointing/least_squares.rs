@@ -105,8 +105,8 @@ impl<const N: usize> Normal<N> {
     }
 
     /// Equations beyond the unknowns, `kept` of the common ones.
-    pub(super) fn freedom(&self, kept: usize) -> usize {
-        self.equations.saturating_sub(self.eliminated + kept).max(1)
+    pub(super) fn freedom(&self, count: usize) -> usize {
+        self.equations.saturating_sub(self.eliminated + count).max(1)
     }
 
     fn product(&self, a: usize, b: usize) -> f64 {
@@ -114,54 +114,54 @@ impl<const N: usize> Normal<N> {
     }
 
     /// Those of `wanted` that can be told apart, the first ones first, and the others.
-    pub(super) fn told_apart(&self, wanted: &[usize]) -> (Vec<usize>, Vec<LeftOut>) {
-        let (mut kept, mut left_out): (Vec<usize>, Vec<LeftOut>) = (Vec::new(), Vec::new());
-        for unknown in wanted.iter().copied() {
+    pub(super) fn told_apart(&self, candidates: &[usize]) -> (Vec<usize>, Vec<LeftOut>) {
+        let (mut retained, mut left_out): (Vec<usize>, Vec<LeftOut>) = (Vec::new(), Vec::new());
+        for unknown in candidates.iter().copied() {
             let own = self.product(unknown, unknown);
             let square = self.squares.get(unknown).copied().unwrap_or_default();
-            let shares = self.factor(&kept).solve(|other| self.product(other, unknown));
+            let shares = self.factor(&retained).solve(|other| self.product(other, unknown));
             let made: f64 =
-                kept.iter().zip(&shares).map(|(k, s)| s * self.product(*k, unknown)).sum();
+                retained.iter().zip(&shares).map(|(k, s)| s * self.product(*k, unknown)).sum();
             if own > 0.0 && own - made > square / MAX_INFLATION {
-                kept.push(unknown);
+                retained.push(unknown);
                 continue;
             }
             let is_large = |(other, share): &(&usize, &f64)| {
                 share.powi(2) * self.product(**other, **other) > NAMED_SHARE.powi(2) * own
             };
-            let named = kept.iter().zip(&shares).filter(is_large).map(|(other, _)| *other);
+            let named = retained.iter().zip(&shares).filter(is_large).map(|(other, _)| *other);
             let named = if own > 0.0 { named.collect() } else { Vec::new() };
             left_out.push(LeftOut { unknown, named });
         }
-        (kept, left_out)
+        (retained, left_out)
     }
 
     /// By how much one unit of what is left out changes each of the unknowns `kept`.
-    pub(super) fn moves(&self, kept: &[usize], left_out: &LeftOut) -> Vec<(usize, f64)> {
-        let shares = self.factor(kept).solve(|other| self.product(other, left_out.unknown));
-        kept.iter().copied().zip(shares).collect()
+    pub(super) fn moves(&self, retained: &[usize], left_out: &LeftOut) -> Vec<(usize, f64)> {
+        let shares = self.factor(retained).solve(|other| self.product(other, left_out.unknown));
+        retained.iter().copied().zip(shares).collect()
     }
 
     /// The unknowns `kept`. `log_scale`: logarithm of the determinant by which the equations were scaled.
-    pub(super) fn solve(&self, kept: &[usize], log_scale: f64) -> Solution<N> {
-        let factor = self.factor(kept);
+    pub(super) fn solve(&self, retained: &[usize], log_scale: f64) -> Solution<N> {
+        let factor = self.factor(retained);
         let right = |unknown: usize| self.right.get(unknown).copied().unwrap_or_default();
         let found = factor.solve(right);
-        let explained: f64 = kept.iter().zip(&found).map(|(k, value)| right(*k) * value).sum();
+        let explained: f64 = retained.iter().zip(&found).map(|(k, value)| right(*k) * value).sum();
         let (mut values, mut covariance) = ([0.0; N], [[0.0; N]; N]);
-        for (unknown, value) in kept.iter().zip(found) {
+        for (unknown, value) in retained.iter().zip(found) {
             if let Some(place) = values.get_mut(*unknown) {
                 *place = value;
             }
             let column = factor.solve(|other| f64::from(u8::from(other == *unknown)));
-            for (other, value) in kept.iter().zip(column) {
+            for (other, value) in retained.iter().zip(column) {
                 let place = covariance.get_mut(*other).and_then(|row| row.get_mut(*unknown));
                 if let Some(place) = place {
                     *place = value;
                 }
             }
         }
-        let freedom = self.freedom(kept.len()) as f64;
+        let freedom = self.freedom(retained.len()) as f64;
         let variance = ((self.value - explained) / freedom).max(f64::MIN_POSITIVE);
         let log_determinant = log_scale + self.log_eliminated + factor.log_determinant();
         let log_likelihood = -0.5 * (freedom * variance.ln() + log_determinant);
@@ -169,12 +169,12 @@ impl<const N: usize> Normal<N> {
     }
 
     /// Factors the equations of `kept`, by Cholesky with columns of length one.
-    fn factor(&self, kept: &[usize]) -> Factor {
-        let lengths: Vec<f64> = kept.iter().map(|k| self.product(*k, *k).sqrt()).collect();
+    fn factor(&self, retained: &[usize]) -> Factor {
+        let lengths: Vec<f64> = retained.iter().map(|k| self.product(*k, *k).sqrt()).collect();
         let mut rows: Vec<Vec<f64>> = Vec::new();
-        for (a, length) in kept.iter().zip(&lengths) {
+        for (a, length) in retained.iter().zip(&lengths) {
             let mut row: Vec<f64> = Vec::new();
-            for ((b, other_length), other) in kept.iter().zip(&lengths).zip(&rows) {
+            for ((b, other_length), other) in retained.iter().zip(&lengths).zip(&rows) {
                 let product = self.product(*a, *b) / (length * other_length);
                 let (before, own) = (dot(&row, other), other.last().copied().unwrap_or(1.0));
                 row.push((product - before) / own);
@@ -183,13 +183,13 @@ impl<const N: usize> Normal<N> {
             row.push(own);
             rows.push(row);
         }
-        Factor { kept: kept.to_vec(), lengths, rows }
+        Factor { retained: retained.to_vec(), lengths, rows }
     }
 }
 
 /// Cholesky factor of the equations of some unknowns.
 struct Factor {
-    kept: Vec<usize>,
+    retained: Vec<usize>,
     /// Lengths of the columns.
     lengths: Vec<f64>,
     /// Lower triangle, for columns of length one.
@@ -205,7 +205,7 @@ impl Factor {
     /// Solves the equations for a right side.
     fn solve(&self, right: impl Fn(usize) -> f64) -> Vec<f64> {
         let mut found: Vec<f64> = Vec::new();
-        for ((unknown, length), row) in self.kept.iter().zip(&self.lengths).zip(&self.rows) {
+        for ((unknown, length), row) in self.retained.iter().zip(&self.lengths).zip(&self.rows) {
             let rest = right(*unknown) / length - dot(row, &found);
             found.push(rest / row.last().copied().unwrap_or(1.0));
         }

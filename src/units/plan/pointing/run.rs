@@ -121,14 +121,14 @@ impl Run {
 }
 
 /// Rate of the direction `at` between two points, azimuth on the sky and elevation, degrees a second.
-fn rate_deg_s(at: AzEl, before: &Point, after: &Point) -> [f64; 2] {
+fn rate_deg_s(direction: AzEl, before: &Point, after: &Point) -> [f64; 2] {
     let span_s = seconds_between(before.at, after.at);
     if span_s <= 0.0 {
         return [0.0; 2];
     }
     let turned = (after.wanted.to_enu() - before.wanted.to_enu()) / span_s;
-    let (sin_az, cos_az) = at.azimuth.radians().sin_cos();
-    let (sin_el, cos_el) = at.elevation.radians().sin_cos();
+    let (sin_az, cos_az) = direction.azimuth.radians().sin_cos();
+    let (sin_el, cos_el) = direction.elevation.radians().sin_cos();
     let clockwise = DVec3::new(cos_az, -sin_az, 0.0);
     let up = DVec3::new(-sin_az * sin_el, -cos_az * sin_el, cos_el);
     [clockwise, up].map(|side| turned.dot(side).to_degrees())
@@ -159,9 +159,9 @@ impl Filter {
     fn take(&mut self, at_s: f64, columns: [f64; COLUMNS]) -> Equation<{ Term::COUNT }> {
         let Noise { share, time_s } = self.noise;
         if let Some(last_s) = self.last_s.replace(at_s) {
-            let kept = (-(at_s - last_s).abs() / time_s).exp();
-            self.expected = self.expected.map(|value| value * kept);
-            self.variance = share + kept * kept * (self.variance - share);
+            let decay = (-(at_s - last_s).abs() / time_s).exp();
+            self.expected = self.expected.map(|value| value * decay);
+            self.variance = share + decay * decay * (self.variance - share);
         }
         let total = self.variance + 1.0 - share;
         let gain = self.variance / total;

@@ -12,25 +12,25 @@ use crate::{
 const SEED: u64 = 2_026;
 const CASES: u32 = 200;
 
-fn between(random: &mut Random, from: f64, to: f64) -> f64 {
-    from + (to - from) * f64::from(random.below(1_000_000)) / 1e6
+fn uniform(random: &mut Random, start: f64, end: f64) -> f64 {
+    start + (end - start) * f64::from(random.below(1_000_000)) / 1e6
 }
 
 /// Returns a value of the normal distribution, by Box and Muller.
 fn normal(random: &mut Random) -> f64 {
-    let (a, b) = (between(random, 1e-9, 1.0), between(random, 0.0, std::f64::consts::TAU));
+    let (a, b) = (uniform(random, 1e-9, 1.0), uniform(random, 0.0, std::f64::consts::TAU));
     (-2.0 * a.ln()).sqrt() * b.cos()
 }
 
 fn any_model(random: &mut Random) -> PointingModel {
     let mut model = PointingModel::default();
     for term in Term::ALL {
-        let most = match term {
+        let max = match term {
             Term::AzimuthOffset | Term::ElevationOffset => 5.0,
             Term::ElevationScale => 0.01,
             _ => 1.0,
         };
-        *model.place(term) = between(random, -most, most);
+        *model.place(term) = uniform(random, -max, max);
     }
     model
 }
@@ -42,22 +42,22 @@ fn fit_scattered(points: &[Point], terms: &[Term]) -> Result<Fit, CannotFit> {
 
 fn any_direction(random: &mut Random, elevations_deg: (f64, f64)) -> AzEl {
     let (from_deg, to_deg) = elevations_deg;
-    AzEl::from_degrees(between(random, 0.0, 360.0), between(random, from_deg, to_deg))
+    AzEl::from_degrees(uniform(random, 0.0, 360.0), uniform(random, from_deg, to_deg))
 }
 
 /// A point that is read with this noise.
 fn point(
     kind: Kind,
-    wanted: AzEl,
+    target: AzEl,
     model: &PointingModel,
     noise_deg: f64,
     random: &mut Random,
 ) -> Point {
-    let mut measured = model.reading(wanted).unwrap();
-    let aside_deg = noise_deg * normal(random) / wanted.elevation.radians().cos();
+    let mut measured = model.reading(target).unwrap();
+    let aside_deg = noise_deg * normal(random) / target.elevation.radians().cos();
     measured.azimuth = measured.azimuth + Angle::from_degrees(aside_deg);
     measured.elevation = measured.elevation + Angle::from_degrees(noise_deg * normal(random));
-    Point { kind, at: Timestamp::UNIX_EPOCH, wanted, measured, weight: 1.0 }
+    Point { kind, at: Timestamp::UNIX_EPOCH, wanted: target, measured, weight: 1.0 }
 }
 
 fn points(
@@ -67,8 +67,8 @@ fn points(
     random: &mut Random,
 ) -> Vec<Point> {
     let one = |_| {
-        let wanted = any_direction(random, elevations_deg);
-        point(Kind::Satellite, wanted, model, noise_deg, random)
+        let target = any_direction(random, elevations_deg);
+        point(Kind::Satellite, target, model, noise_deg, random)
     };
     (0..count).map(one).collect()
 }
@@ -123,12 +123,12 @@ fn each_term_acts_as_its_name_says() {
 #[test]
 fn intervals_hold_the_terms_and_are_as_small_as_they_can_be() {
     let mut random = Random::new(SEED);
-    let mut held = 0;
+    let mut sufficient = 0;
     let mut squares = [0.0; Term::COUNT];
     let mut noises = 0.0;
     for case in 0..CASES {
         let model = any_model(&mut random);
-        let noise_deg = between(&mut random, 0.01, 0.1);
+        let noise_deg = uniform(&mut random, 0.01, 0.1);
         let points = points(&model, (80, noise_deg), (8.0, 82.0), &mut random);
         let fit = fit_scattered(&points, &Term::ALL).unwrap();
         assert_eq!(fit.kept, Term::ALL, "seed {SEED}, case {case}");
@@ -137,14 +137,14 @@ fn intervals_hold_the_terms_and_are_as_small_as_they_can_be() {
         noises += found.noise_deg / noise_deg / f64::from(CASES);
         for (term, square) in Term::ALL.into_iter().zip(&mut squares) {
             let interval = fit.interval(term).unwrap();
-            let off = interval.value - model.term(term);
-            held += u32::from(off.abs() <= interval.half);
+            let deviation = interval.value - model.term(term);
+            sufficient += u32::from(deviation.abs() <= interval.half);
             // The bound of Cramer and Rao: the covariance by the noise that there is.
             let bound = fit.covariance(term, term) * (noise_deg / found.noise_deg).powi(2);
-            *square += off * off / bound / f64::from(CASES);
+            *square += deviation * deviation / bound / f64::from(CASES);
         }
     }
-    let share = f64::from(held) / f64::from(CASES) / Term::COUNT as f64;
+    let share = f64::from(sufficient) / f64::from(CASES) / Term::COUNT as f64;
     let ratios = squares.map(f64::sqrt);
     println!("seed {SEED}: {share:.4} held, {ratios:.3?} times the bound, noise {noises:.3}");
     assert!((0.93..=0.97).contains(&share), "{share}");
@@ -161,11 +161,11 @@ fn of_passes(
 ) -> Vec<Vec<Point>> {
     let catalog = bundled().unwrap();
     let site = Site::new(41.0, 29.0, 100.0).unwrap();
-    let from: Timestamp = "2026-08-12T05:00:00Z".parse().unwrap();
+    let start: Timestamp = "2026-08-12T05:00:00Z".parse().unwrap();
     let search = PassSearch {
         aos_elevation: Angle::from_degrees(5.0),
         floor: Angle::from_degrees(20.0),
-        ..PassSearch::new(site, from, add_seconds(from, 86_400.0))
+        ..PassSearch::new(site, start, add_seconds(start, 86_400.0))
     };
     let mut points = Vec::new();
     for _ in 0..count {
@@ -175,9 +175,9 @@ fn of_passes(
         let found = passes(&propagator, &search, &|| false);
         let pass = found[random.below(found.len() as u32) as usize];
         let read = |step: u32| {
-            let at = add_seconds(pass.aos.time, pass.duration_s() * f64::from(step) / 50.0);
-            let wanted = propagator.look_from(site, at).unwrap().direction;
-            Point { at, ..point(Kind::Satellite, wanted, model, noise_deg, random) }
+            let time = add_seconds(pass.aos.time, pass.duration_s() * f64::from(step) / 50.0);
+            let target = propagator.look_from(site, time).unwrap().direction;
+            Point { at: time, ..point(Kind::Satellite, target, model, noise_deg, random) }
         };
         points.push((0..50).map(read).collect());
     }
@@ -187,7 +187,7 @@ fn of_passes(
 #[test]
 fn over_few_passes_an_interval_holds_its_term_or_is_not_given() {
     let mut random = Random::new(SEED);
-    let (mut given, mut held, mut shared) = (0, 0, 0);
+    let (mut inside_count, mut sufficient, mut shared) = (0, 0, 0);
     for case in 0..CASES {
         let mut model = any_model(&mut random);
         model.elevation_scale /= 2.0;
@@ -198,15 +198,15 @@ fn over_few_passes_an_interval_holds_its_term_or_is_not_given() {
         shared += fit.shared.len();
         for term in Term::ALL {
             let Some(interval) = fit.interval(term) else { continue };
-            given += 1;
-            held += u32::from((interval.value - model.term(term)).abs() <= interval.half);
+            inside_count += 1;
+            sufficient += u32::from((interval.value - model.term(term)).abs() <= interval.half);
         }
     }
-    let share = f64::from(held) / f64::from(given);
-    println!("seed {SEED}: {share:.4} of {given} held, {shared} not given");
+    let share = f64::from(sufficient) / f64::from(inside_count);
+    println!("seed {SEED}: {share:.4} of {inside_count} held, {shared} not given");
     assert!(
-        (0.93..=0.995).contains(&share) && given > 300 && shared > 100,
-        "{share} {given} {shared}"
+        (0.93..=0.995).contains(&share) && inside_count > 300 && shared > 100,
+        "{share} {inside_count} {shared}"
     );
 }
 
@@ -217,16 +217,16 @@ fn one_peak_of_the_sun_does_not_count_for_exact() {
     for case in 0..CASES {
         let model = any_model(&mut random);
         let mut all = points(&model, (20, 0.02), (8.0, 82.0), &mut random);
-        let at: Timestamp = "2026-08-12T09:00:00Z".parse().unwrap();
-        let wanted = sun_moon::sun(site, at);
-        let measured = point(Kind::Sun, wanted, &model, 0.3, &mut random).measured;
-        all.push(Point::of_sun(site, at, measured, 1.0));
-        let with = fit_scattered(&all, &Term::ALL).unwrap();
-        let without = fit_scattered(&all[..20], &Term::ALL).unwrap();
+        let time: Timestamp = "2026-08-12T09:00:00Z".parse().unwrap();
+        let target = sun_moon::sun(site, time);
+        let measured = point(Kind::Sun, target, &model, 0.3, &mut random).measured;
+        all.push(Point::of_sun(site, time, measured, 1.0));
+        let with_sun = fit_scattered(&all, &Term::ALL).unwrap();
+        let short = fit_scattered(&all[..20], &Term::ALL).unwrap();
         for term in Term::ALL {
-            let half = |of: &Fit| of.interval(term).map(|it| it.half);
-            let [Some(with), Some(without)] = [&with, &without].map(half) else { continue };
-            assert!(with > 0.9 * without, "case {case}, {term:?}: {with} {without}");
+            let half = |fit: &Fit| fit.interval(term).map(|interval| interval.half);
+            let [Some(full), Some(partial)] = [&with_sun, &short].map(half) else { continue };
+            assert!(full > 0.9 * partial, "case {case}, {term:?}: {full} {partial}");
         }
     }
 }
@@ -250,7 +250,8 @@ fn terms_that_the_points_do_not_tell_apart_are_named_and_left_out() {
     let model = any_model(&mut random);
     let level = points(&model, (60, 0.02), (30.0, 30.0), &mut random);
     let fit = fit_scattered(&level, &Term::ALL).unwrap();
-    let alike = |term: Term| fit.alike.iter().find(|alike| alike.term == term).map(|it| &*it.with);
+    let alike =
+        |term: Term| fit.alike.iter().find(|alike| alike.term == term).map(|pair| &*pair.with);
     assert_eq!(alike(Term::Collimation), Some(&[Term::AzimuthOffset][..]));
     assert_eq!(alike(Term::NonPerpendicularity), Some(&[Term::AzimuthOffset][..]));
     assert_eq!(alike(Term::ElevationScale), Some(&[Term::ElevationOffset][..]));
@@ -271,15 +272,15 @@ fn peaks_of_sun_and_moon_have_a_noise_of_their_own() {
     let mut all = points(&model, (60, 0.02), (8.0, 82.0), &mut random);
     let times =
         (0..100).map(|step| crate::astro::time::add_seconds(start, 360.0 * f64::from(step)));
-    for at in times {
-        let (sun, moon) = (sun_moon::sun(site, at), sun_moon::moon(site, at));
+    for time in times {
+        let (sun, moon) = (sun_moon::sun(site, time), sun_moon::moon(site, time));
         if sun.elevation_deg() > 5.0 {
             let measured = point(Kind::Sun, sun, &model, 0.3, &mut random).measured;
-            all.push(Point::of_sun(site, at, measured, 1.0));
+            all.push(Point::of_sun(site, time, measured, 1.0));
         }
         if moon.elevation_deg() > 5.0 {
             let measured = point(Kind::Moon, moon, &model, 0.1, &mut random).measured;
-            all.push(Point::of_moon(site, at, measured, 1.0));
+            all.push(Point::of_moon(site, time, measured, 1.0));
         }
     }
     let fit = fit_scattered(&all, &Term::ALL).unwrap();
@@ -316,12 +317,12 @@ fn a_term_that_is_not_wanted_is_zero_and_the_others_are_fitted() {
         ..PointingModel::default()
     };
     let points = points(&model, (200, 0.02), (8.0, 82.0), &mut random);
-    let wanted = [Term::AzimuthOffset, Term::ElevationOffset];
-    let fit = fit_scattered(&points, &wanted).unwrap();
-    assert_eq!((&fit.kept[..], fit.alike.len()), (&wanted[..], 0));
+    let terms = [Term::AzimuthOffset, Term::ElevationOffset];
+    let fit = fit_scattered(&points, &terms).unwrap();
+    assert_eq!((&fit.kept[..], fit.alike.len()), (&terms[..], 0));
     for term in Term::ALL {
         let Some(found) = fit.interval(term) else {
-            assert_eq!((fit.model.term(term), wanted.contains(&term)), (0.0, false), "{term:?}");
+            assert_eq!((fit.model.term(term), terms.contains(&term)), (0.0, false), "{term:?}");
             continue;
         };
         assert!((found.value - model.term(term)).abs() < 2.0 * found.half, "{term:?}");

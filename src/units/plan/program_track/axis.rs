@@ -74,8 +74,8 @@ impl Axis {
 
     /// Takes a measured position. Returns the full rate of the axis, degrees per second, if the
     /// position ends a long slew.
-    pub(super) fn watch(&mut self, at: Instant, position_deg: Option<f64>) -> Option<f64> {
-        self.slew_rate.take(at, position_deg, self.last_command.to_deg)
+    pub(super) fn watch(&mut self, instant: Instant, position_deg: Option<f64>) -> Option<f64> {
+        self.slew_rate.take(instant, position_deg, self.last_command.to_deg)
     }
 
     /// Learns the shortest distance for which the axis sets out: a drive that stops some degrees
@@ -116,14 +116,14 @@ impl Axis {
             // A slew is one command.
             let wanted_deg = path.slew_end_deg(self.index, from_s).unwrap_or_else(|| {
                 let to_s = from_s + period_s;
-                let (least, most) = path.longest_span_deg(self.index, from_s, to_s, 2.0 * lead_deg);
-                f64::midpoint(least, most)
+                let (min, max) = path.longest_span_deg(self.index, from_s, to_s, 2.0 * lead_deg);
+                f64::midpoint(min, max)
             });
             position_deg = self.far_enough_deg(wanted_deg, now);
             let way_deg = now.position_deg.map_or(0.0, |at_deg| (position_deg - at_deg).abs());
             way_s = way_deg / self.rate_deg_s();
         }
-        let (least, most) = path.span_deg(self.index, from_s, from_s + period_s);
+        let (low_deg, high_deg) = path.span_deg(self.index, from_s, from_s + period_s);
         // A rest position near the commanded one is within the rounding of the sensor.
         let (rest_deg, commanded_deg) = (now.rest_deg(), self.last_command.to_deg);
         let rounding_deg = (self.settings.dead_band_deg / 2.0).max(self.half_step_deg());
@@ -137,7 +137,8 @@ impl Axis {
         // close to the keep-out.
         let waits = self.ignored_deg > 0.0 && !path.goes_round();
         let later = waits.then(|| path.span_deg(self.index, from_s, from_s + MAX_WAIT_S));
-        let is_off = stays_deg.is_none_or(|at_deg| self.is_left(at_deg, (least, most), later));
+        let is_off =
+            stays_deg.is_none_or(|at_deg| self.is_left(at_deg, (low_deg, high_deg), later));
         // The same command is not repeated to an axis that rests elsewhere.
         let is_new = commanded_deg.is_none_or(|commanded_deg| {
             let change_deg = (position_deg - commanded_deg).abs();
@@ -185,8 +186,8 @@ impl Axis {
 
     /// The state of the axis once it is commanded to `position_deg`.
     pub(super) fn commanded(&self, position_deg: Option<f64>, now: AxisNow) -> LastCommand {
-        let told = |to_deg| LastCommand { to_deg: Some(to_deg), from_deg: now.rest_deg() };
-        position_deg.map_or(self.last_command, told)
+        let sent = |to_deg| LastCommand { to_deg: Some(to_deg), from_deg: now.rest_deg() };
+        position_deg.map_or(self.last_command, sent)
     }
 
     /// The error at which the axis is commanded again, degrees. The command leads the target by as

@@ -17,7 +17,7 @@ const AHEAD_S: u32 = 600;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Chase {
     axes_deg: [f64; 2],
-    at: Timestamp,
+    updated_at: Timestamp,
 }
 
 impl Chase {
@@ -26,31 +26,31 @@ impl Chase {
         previous: Option<Self>,
         path: &Path,
         rates_deg_s: [f64; 2],
-        (at, measured_deg): (Timestamp, [f64; 2]),
+        (time, measured_deg): (Timestamp, [f64; 2]),
     ) -> Self {
-        let elapsed_s = previous.map(|previous| seconds_between(previous.at, at));
+        let elapsed_s = previous.map(|previous| seconds_between(previous.updated_at, time));
         match (previous, elapsed_s) {
             (Some(previous), Some(elapsed_s)) if (0.0..=MAX_GAP_S).contains(&elapsed_s) => {
                 previous.after(path, rates_deg_s, elapsed_s)
             }
-            _ => Self { axes_deg: measured_deg, at },
+            _ => Self { axes_deg: measured_deg, updated_at: time },
         }
     }
 
     fn after(self, path: &Path, rates_deg_s: [f64; 2], elapsed_s: f64) -> Self {
-        let at = add_seconds(self.at, elapsed_s);
-        let path_deg = path.positions_deg(at);
+        let time = add_seconds(self.updated_at, elapsed_s);
+        let path_deg = path.positions_deg(time);
         let mut axes_deg = self.axes_deg;
         for ((deg, to_deg), rate_deg_s) in axes_deg.iter_mut().zip(path_deg).zip(rates_deg_s) {
             let max_deg = rate_deg_s.abs() * elapsed_s;
             *deg += (to_deg - *deg).clamp(-max_deg, max_deg);
         }
-        Self { axes_deg, at }
+        Self { axes_deg, updated_at: time }
     }
 
     /// Both axes are on the path.
     pub(super) fn has_arrived(&self, path: &Path) -> bool {
-        let path_deg = path.positions_deg(self.at);
+        let path_deg = path.positions_deg(self.updated_at);
         self.axes_deg.iter().zip(path_deg).all(|(deg, to_deg)| (to_deg - deg).abs() < ARRIVED_DEG)
     }
 
@@ -64,11 +64,11 @@ impl Chase {
     ) -> Option<Timestamp> {
         let mut chase = self;
         for _ in 0..AHEAD_S {
-            if chase.at > path.to() {
+            if chase.updated_at > path.end() {
                 return None;
             }
-            if is_on_target(chase.at, chase.axes_deg) {
-                return Some(chase.at);
+            if is_on_target(chase.updated_at, chase.axes_deg) {
+                return Some(chase.updated_at);
             }
             chase = chase.after(path, rates_deg_s, 1.0);
         }

@@ -87,22 +87,23 @@ impl Drives {
         let (lower, upper): (Vec<f64>, Vec<f64>) =
             axes.map(|[lower, upper]| (lower, upper)).unzip();
         let turned = |deg: f64| deg.to_radians().sin_cos();
-        let wanted = |axis: &[f64], index: usize| turned(axis.get(index).copied().unwrap_or(90.0));
-        let off = |(to_sin, to_cos): (f64, f64), (sin, cos): (f64, f64)| {
+        let target_at =
+            |axis: &[f64], index: usize| turned(axis.get(index).copied().unwrap_or(90.0));
+        let cost_of = |(to_sin, to_cos): (f64, f64), (sin, cos): (f64, f64)| {
             1.0 - (cos * to_cos + sin * to_sin)
         };
         let [lower_max_deg, upper_max_deg] = self.rates_deg_s.map(|rate| rate * step_s);
         let lower_cost = |index: usize| {
             // The farther the upper axis is tipped, the less the lower one matters.
-            let ((sin, _), to) = (wanted(&upper, index), wanted(&lower, index));
-            move |at: &(f64, f64)| sin.powi(2) * off(to, *at)
+            let ((sin, _), target) = (target_at(&upper, index), target_at(&lower, index));
+            move |position: &(f64, f64)| sin.powi(2) * cost_of(target, *position)
         };
         let upper_cost = |index: usize| {
-            let to = wanted(&upper, index);
-            move |at: &(f64, f64)| off(to, *at)
+            let aim = target_at(&upper, index);
+            move |position: &(f64, f64)| cost_of(aim, *position)
         };
         let departure =
-            |index: usize, wanted: &[f64]| start.departure(index, wanted, self.rates_deg_s);
+            |index: usize, targets: &[f64]| start.departure(index, targets, self.rates_deg_s);
         let axes_deg = [
             rate_limited(&lower, lower_max_deg, departure(0, &lower), turned, lower_cost),
             rate_limited(&upper, upper_max_deg, departure(1, &upper), turned, upper_cost),
@@ -226,11 +227,11 @@ mod tests {
         let drives = drives(&antenna, 0.0);
         let thousandths = |angle: Angle| (angle.degrees() * 1000.0).round() / 1000.0;
         for azimuth_deg in 0..360 {
-            let axes_deg = positions(&drives, at(f64::from(azimuth_deg), 5.0));
+            let axes_deg = positions(&drives, sample_of(f64::from(azimuth_deg), 5.0));
             let told_deg = [0, 1].map(|axis| drives.tellable_deg(axis, axes_deg[axis]));
             let point = drives.set_point(told_deg.map(Some));
             let [azimuth, elevation] = [point.azimuth, point.elevation].map(Option::unwrap);
-            let sent = at(thousandths(azimuth), thousandths(elevation));
+            let sent = sample_of(thousandths(azimuth), thousandths(elevation));
             assert!(sent.direction.elevation_deg() >= 5.964_4, "at {azimuth_deg}");
             let Mount::Xy { lower_axis_azimuth_deg, .. } = antenna.mount else { panic!() };
             let lower_axis = Angle::from_degrees(lower_axis_azimuth_deg);
@@ -252,7 +253,7 @@ mod tests {
         }
     }
 
-    fn at(azimuth_deg: f64, elevation_deg: f64) -> Sample {
+    fn sample_of(azimuth_deg: f64, elevation_deg: f64) -> Sample {
         let direction = AzEl::from_degrees(azimuth_deg, elevation_deg);
         Sample { time: jiff::Timestamp::UNIX_EPOCH, direction }
     }
@@ -266,7 +267,7 @@ mod tests {
     fn a_set_point_points_where_the_axes_do_on_either_mount() {
         for antenna in [Antenna::satrak("", ""), Antenna::rc2000c("", "")] {
             let drives = drives(&antenna, 0.0);
-            let sample = at(213.0, 41.0);
+            let sample = sample_of(213.0, 41.0);
             let [first, second] = positions(&drives, sample);
             let point = drives.set_point([Some(first), Some(second)]);
             let direction =
@@ -279,7 +280,7 @@ mod tests {
     fn below_the_floor_the_elevation_waits_at_it() {
         for antenna in [Antenna::satrak("", ""), Antenna::rc2000c("", "")] {
             let drives = drives(&antenna, 0.0);
-            let [first, second] = positions(&drives, at(90.0, 1.0));
+            let [first, second] = positions(&drives, sample_of(90.0, 1.0));
             let point = drives.set_point([Some(first), Some(second)]);
             // A crossed axis keeps off its end, and off the floor.
             assert!((0.0..0.02).contains(&(point.elevation.unwrap().degrees() - 5.0)));

@@ -27,8 +27,8 @@ const FULL_RATE: f64 = 0.999;
 /// before the beginning and after the end.
 #[derive(Debug, Clone)]
 pub(super) struct Path {
-    from: Timestamp,
-    to: Timestamp,
+    start: Timestamp,
+    end: Timestamp,
     step_s: f64,
     /// Turn of each axis in one step at full rate, degrees.
     max_deg: [f64; 2],
@@ -45,34 +45,34 @@ impl Path {
         (course, offsets): (&Course, TrackOffsets),
         drives: &Drives,
         bounds: &Bounds,
-        (from, to): (Timestamp, Timestamp),
+        (begin, end): (Timestamp, Timestamp),
         start: Start,
         choice: Choice,
     ) -> Option<Self> {
-        let span_s = seconds_between(from, to).max(0.0);
+        let span_s = seconds_between(begin, end).max(0.0);
         let step_s = (span_s / MAX_POINTS).max(MIN_STEP_S);
         let steps = (span_s / step_s).ceil() as u32;
         let samples: Vec<Sample> = (0..=steps)
             .map_while(|step| {
-                let time = add_seconds(from, f64::from(step) * step_s);
+                let time = add_seconds(begin, f64::from(step) * step_s);
                 course.demanded(time, offsets).map(|direction| Sample { time, direction })
             })
             .collect();
         let max_deg = drives.rates_deg_s.map(|rate_deg_s| rate_deg_s * step_s);
         let Planned { flip, axes_deg: axes, goes_round, .. } =
             drives.along_within(bounds, &samples, step_s, start, choice);
-        let to = samples.last()?.time;
-        Some(Self { from, to, step_s, max_deg, axes, flip, goes_round })
+        let end_time = samples.last()?.time;
+        Some(Self { start: begin, end: end_time, step_s, max_deg, axes, flip, goes_round })
     }
 
-    pub(super) fn to(&self) -> Timestamp {
-        self.to
+    pub(super) fn end(&self) -> Timestamp {
+        self.end
     }
 
     /// Returns `true` if the path was planned for these rates.
     pub(super) fn is_for(&self, rates_deg_s: [f64; 2]) -> bool {
-        let mut both = self.max_deg.into_iter().zip(rates_deg_s);
-        both.all(|(max_deg, rate_deg_s)| {
+        let mut axes = self.max_deg.into_iter().zip(rates_deg_s);
+        axes.all(|(max_deg, rate_deg_s)| {
             (rate_deg_s * self.step_s / max_deg - 1.0).abs() < SAME_RATE
         })
     }
@@ -87,16 +87,16 @@ impl Path {
     }
 
     /// Seconds from the beginning of the path to `at`.
-    pub(super) fn seconds(&self, at: Timestamp) -> f64 {
-        seconds_between(self.from, at)
+    pub(super) fn seconds(&self, time: Timestamp) -> f64 {
+        seconds_between(self.start, time)
     }
 
     /// The lowest and highest position of an axis between two times, which are in seconds from the
     /// beginning of the path, the earlier first.
     pub(super) fn span_deg(&self, axis: usize, from_s: f64, to_s: f64) -> (f64, f64) {
         let [start, end] = [from_s, to_s].map(|at_s| self.position_deg(axis, at_s));
-        let between = self.between(axis, from_s, to_s);
-        between.fold((start.min(end), start.max(end)), widened)
+        let inner = self.positions_between(axis, from_s, to_s);
+        inner.fold((start.min(end), start.max(end)), widened)
     }
 
     /// Like [`Path::span_deg`], but continued for as long as the span stays within `within_deg`.
@@ -108,8 +108,8 @@ impl Path {
         within_deg: f64,
     ) -> (f64, f64) {
         let mut span = self.span_deg(axis, from_s, to_s);
-        for at in self.between(axis, to_s, f64::INFINITY) {
-            let wider = widened(span, at);
+        for position in self.positions_between(axis, to_s, f64::INFINITY) {
+            let wider = widened(span, position);
             if wider.1 - wider.0 > within_deg {
                 break;
             }
@@ -137,8 +137,8 @@ impl Path {
     }
 
     /// Positions of both axes at `at`, degrees as the mount counts.
-    pub(super) fn positions_deg(&self, at: Timestamp) -> [f64; 2] {
-        let at_s = self.seconds(at);
+    pub(super) fn positions_deg(&self, time: Timestamp) -> [f64; 2] {
+        let at_s = self.seconds(time);
         [0, 1].map(|axis| self.position_deg(axis, at_s))
     }
 
@@ -152,7 +152,7 @@ impl Path {
     }
 
     /// The points strictly between two times.
-    fn between(&self, axis: usize, from_s: f64, to_s: f64) -> impl Iterator<Item = f64> {
+    fn positions_between(&self, axis: usize, from_s: f64, to_s: f64) -> impl Iterator<Item = f64> {
         let points = self.axes.get(axis).map(Vec::as_slice).unwrap_or_default();
         let first = (from_s / self.step_s).floor().max(-1.0) + 1.0;
         let after = (to_s / self.step_s).ceil().clamp(0.0, points.len() as f64);
@@ -188,8 +188,8 @@ impl Drives {
     }
 }
 
-fn widened((least, most): (f64, f64), at: f64) -> (f64, f64) {
-    (least.min(at), most.max(at))
+fn widened((min, max): (f64, f64), position: f64) -> (f64, f64) {
+    (min.min(position), max.max(position))
 }
 
 #[cfg(test)]
@@ -202,10 +202,10 @@ mod tests {
         let up = (0..=20).map(|step| f64::from(step) * 0.5);
         let down = (1..=8).map(|step| 10.0 - 2.5 * f64::from(step));
         let axis: Vec<f64> = up.chain(down).chain([-10.0; 4]).collect();
-        let from = Timestamp::UNIX_EPOCH;
+        let start = Timestamp::UNIX_EPOCH;
         Path {
-            from,
-            to: add_seconds(from, 16.0),
+            start,
+            end: add_seconds(start, 16.0),
             step_s: 0.5,
             max_deg: [2.5; 2],
             axes: [axis.clone(), axis],
@@ -217,9 +217,9 @@ mod tests {
     #[test]
     fn between_its_points_it_is_straight_and_beyond_its_ends_it_stands() {
         let path = path();
-        for (at_s, wanted) in [(-9.0, 0.0), (0.25, 0.25), (10.1, 9.5), (99.0, -10.0)] {
-            let at = path.position_deg(0, at_s);
-            assert!((at - wanted).abs() < 1e-9, "{at_s} {at}");
+        for (at_s, expected) in [(-9.0, 0.0), (0.25, 0.25), (10.1, 9.5), (99.0, -10.0)] {
+            let position = path.position_deg(0, at_s);
+            assert!((position - expected).abs() < 1e-9, "{at_s} {position}");
         }
     }
 

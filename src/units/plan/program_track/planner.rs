@@ -47,8 +47,8 @@ pub struct PathOrder {
     offsets: TrackOffsets,
     drives: Drives,
     bounds: Bounds,
-    from: Timestamp,
-    to: Timestamp,
+    begin: Timestamp,
+    end: Timestamp,
     /// End of the pass.
     ends: Timestamp,
     start: Start,
@@ -67,7 +67,7 @@ impl PathOrder {
             (&self.course, self.offsets),
             &self.drives,
             &self.bounds,
-            (self.from, self.to),
+            (self.begin, self.end),
             self.start,
             self.choice,
         );
@@ -110,16 +110,16 @@ struct Approach {
 impl Approach {
     /// Takes an error. Returns `true` while the antenna makes progress: its drives may be slower than
     /// known.
-    fn comes_nearer(&mut self, off_deg: f64, at: Timestamp) -> bool {
+    fn comes_nearer(&mut self, off_deg: f64, time: Timestamp) -> bool {
         let is_recent =
-            |since: &Timestamp| (0.0..=COMES_NEARER_S).contains(&seconds_between(*since, at));
-        let (from_deg, from) = *self.anchor.get_or_insert((off_deg, at));
+            |start: &Timestamp| (0.0..=COMES_NEARER_S).contains(&seconds_between(*start, time));
+        let (from_deg, begin) = *self.anchor.get_or_insert((off_deg, time));
         let has_progressed = from_deg - off_deg >= COMES_NEARER_DEG;
         if has_progressed {
-            self.progress_at = Some(at);
+            self.progress_at = Some(time);
         }
-        if has_progressed || off_deg > from_deg || !is_recent(&from) {
-            self.anchor = Some((off_deg, at));
+        if has_progressed || off_deg > from_deg || !is_recent(&begin) {
+            self.anchor = Some((off_deg, time));
         }
         self.progress_at.as_ref().is_some_and(is_recent)
     }
@@ -207,32 +207,32 @@ impl Planner {
 
     /// Returns the readings that the axes need at `at` with these offsets; `None` once the target
     /// has decayed.
-    pub fn demanded(&self, at: Timestamp, offsets: TrackOffsets) -> Option<AzEl> {
-        self.course.demanded(at, offsets)
+    pub fn demanded(&self, time: Timestamp, offsets: TrackOffsets) -> Option<AzEl> {
+        self.course.demanded(time, offsets)
     }
 
     /// Returns the direction on the sky at `at` with these offsets; `None` once the target has
     /// decayed.
-    pub fn on_the_sky(&self, at: Timestamp, offsets: TrackOffsets) -> Option<AzEl> {
-        self.course.on_the_sky(at, offsets)
+    pub fn on_the_sky(&self, time: Timestamp, offsets: TrackOffsets) -> Option<AzEl> {
+        self.course.on_the_sky(time, offsets)
     }
 
     /// From where the pointing model has the beam with these offsets at `at` to where that is on the
     /// sky, if the offsets of the axes make up for further errors of the mount; `None` without such
     /// offsets.
-    pub fn to_sky(&self, at: Timestamp, offsets: TrackOffsets) -> Option<DQuat> {
+    pub fn to_sky(&self, time: Timestamp, offsets: TrackOffsets) -> Option<DQuat> {
         if offsets.on_the_sky() == offsets {
             return None;
         }
-        let beam = self.course.beam(self.demanded(at, offsets)?);
-        let sky = self.on_the_sky(at, offsets)?;
+        let beam = self.course.beam(self.demanded(time, offsets)?);
+        let sky = self.on_the_sky(time, offsets)?;
         Some(DQuat::from_rotation_arc(beam.to_enu(), sky.to_enu()))
     }
 
     /// Returns the readings that the axes need at `at`, offsets included, unless the elevation is
     /// below the minimum or the target has decayed.
-    pub fn reachable(&self, at: Timestamp) -> Option<AzEl> {
-        self.demanded(at, self.offsets).filter(|direction| self.drives.may_reach(*direction))
+    pub fn reachable(&self, time: Timestamp) -> Option<AzEl> {
+        self.demanded(time, self.offsets).filter(|direction| self.drives.may_reach(*direction))
     }
 
     /// Returns the command at `now` that has the antenna on the target by the next look; `None`
@@ -271,10 +271,10 @@ impl Planner {
 
     /// Takes measured positions, degrees as the mount counts, and learns the rates of the axes from
     /// long slews. `at` is of the steady clock, since UTC may be corrected in the middle of a slew.
-    pub fn watch(&mut self, at: Instant, positions_deg: [Option<f64>; 2]) {
-        let each = self.axes.iter_mut().zip(positions_deg).zip(&mut self.drives.rates_deg_s);
-        for ((axis, position_deg), rate_deg_s) in each {
-            if let Some(found_deg_s) = axis.watch(at, position_deg) {
+    pub fn watch(&mut self, instant: Instant, positions_deg: [Option<f64>; 2]) {
+        let axes = self.axes.iter_mut().zip(positions_deg).zip(&mut self.drives.rates_deg_s);
+        for ((axis, position_deg), rate_deg_s) in axes {
+            if let Some(found_deg_s) = axis.watch(instant, position_deg) {
                 tracing::info!(found_deg_s, before_deg_s = *rate_deg_s, "rate of an axis");
                 *rate_deg_s = found_deg_s;
             }
@@ -289,7 +289,7 @@ impl Planner {
     /// Returns `None` without a path, or for an angle that is not known.
     pub fn compare(
         &mut self,
-        at: Timestamp,
+        time: Timestamp,
         positions_deg: [Option<f64>; 2],
         reported: [Option<Angle>; 2],
         half_beam: Angle,
@@ -299,7 +299,7 @@ impl Planner {
             return None;
         };
         // Without an elevation axis there is no error in elevation.
-        let [_, elevation_deg] = path.positions_deg(at);
+        let [_, elevation_deg] = path.positions_deg(time);
         let [first, second] = positions_deg;
         let second = if self.drives.has_elevation { second } else { Some(elevation_deg) };
         let Some(measured_deg) = first.zip(second) else {
@@ -308,47 +308,47 @@ impl Planner {
         };
         let measured_deg = <[f64; 2]>::from(measured_deg);
         let rates_deg_s = self.drives.rates_deg_s;
-        let chase = Chase::follow(self.chase, path, rates_deg_s, (at, measured_deg));
+        let chase = Chase::follow(self.chase, path, rates_deg_s, (time, measured_deg));
         self.chase = Some(chase);
         let mount = self.drives.mount;
         let separation = |one_deg, other: AzEl| mount.direction(one_deg).separation(other);
-        let is_met = |at, axes_deg| {
-            let target = self.demanded(at, self.offsets);
+        let is_met = |utc, axes_deg| {
+            let target = self.demanded(utc, self.offsets);
             target.is_some_and(|target| separation(axes_deg, target) <= half_beam)
         };
-        if !chase.has_arrived(path) || !is_met(at, path.positions_deg(at)) {
+        if !chase.has_arrived(path) || !is_met(time, path.positions_deg(time)) {
             // A prediction takes hundreds of propagations.
             let is_recent = |(_, at_then): &(Option<Timestamp>, Timestamp)| {
-                (0.0..PREDICTED_EVERY_S).contains(&seconds_between(*at_then, at))
+                (0.0..PREDICTED_EVERY_S).contains(&seconds_between(*at_then, time))
             };
-            let known = self.arrival.filter(is_recent);
-            let (until, _) =
-                known.unwrap_or_else(|| (chase.reaches(path, rates_deg_s, is_met), at));
-            self.arrival = known.or(Some((until, at)));
-            return Some(OnPath::OnItsWay { until });
+            let recent = self.arrival.filter(is_recent);
+            let (arrival, _) =
+                recent.unwrap_or_else(|| (chase.reaches(path, rates_deg_s, is_met), time));
+            self.arrival = recent.or(Some((arrival, time)));
+            return Some(OnPath::OnItsWay { until: arrival });
         }
         self.arrival = None;
         let [azimuth, elevation] = reported;
-        let on_path = mount.direction(path.positions_deg(at));
+        let on_path = mount.direction(path.positions_deg(time));
         let elevation = if self.drives.has_elevation { elevation } else { Some(on_path.elevation) };
         let measured = AzEl { azimuth: azimuth?, elevation: elevation? };
         let off_deg = SHOWN_LATE_S.map(|late_s| {
-            let on_path = path.positions_deg(add_seconds(at, -late_s));
+            let on_path = path.positions_deg(add_seconds(time, -late_s));
             separation(on_path, measured).degrees()
         });
         let off_deg = off_deg.into_iter().fold(f64::INFINITY, f64::min);
-        if self.approach.comes_nearer(off_deg, at) {
+        if self.approach.comes_nearer(off_deg, time) {
             return Some(OnPath::OnItsWay { until: None });
         }
         Some(OnPath::Due { off: Angle::from_degrees(off_deg) })
     }
 
     /// Largest error that the settings of program track allow at `at`.
-    pub fn allowed(&self, at: Timestamp) -> Angle {
+    pub fn allowed(&self, time: Timestamp) -> Angle {
         let Some((path, _)) = &self.path else { return Angle::ZERO };
         let period_s = self.settings.period().as_secs_f64() + self.settings.latency_s;
         let [now, later] = [0.0, period_s]
-            .map(|s| self.drives.mount.direction(path.positions_deg(add_seconds(at, s))));
+            .map(|s| self.drives.mount.direction(path.positions_deg(add_seconds(time, s))));
         let bands_deg = self.axes.iter().map(Axis::band_deg).fold(0.0, f64::hypot);
         now.separation(later) + Angle::from_degrees(bands_deg)
     }
@@ -366,8 +366,8 @@ impl Planner {
 
     /// Notes that `next` was sent.
     pub fn sent(&mut self, next: Next) {
-        for (axis, told) in self.axes.iter_mut().zip(next.last_command) {
-            axis.last_command = told;
+        for (axis, last_command) in self.axes.iter_mut().zip(next.last_command) {
+            axis.last_command = last_command;
         }
     }
 
@@ -392,7 +392,7 @@ impl Planner {
     fn reaches_on(&self, now: Timestamp) -> bool {
         let Some((path, ends)) = &self.path else { return false };
         let ahead_s = self.settings.latency_s + self.settings.period().as_secs_f64() + MARGIN_S;
-        let is_short = path.to() < *ends && seconds_between(now, path.to()) < ahead_s;
+        let is_short = path.end() < *ends && seconds_between(now, path.end()) < ahead_s;
         now < *ends && !is_short
     }
 
@@ -420,7 +420,7 @@ impl Planner {
         }
         let always = (now, Timestamp::MAX);
         let (aos, los) = self.follow.pass(now).unwrap_or(always);
-        let from = aos.max(now);
+        let begin = aos.max(now);
         let axes_deg = axes.map(|axis| axis.position_deg);
         Some(PathOrder {
             follow: self.follow.clone(),
@@ -428,12 +428,12 @@ impl Planner {
             offsets: self.offsets,
             drives: self.drives,
             bounds: self.bounds.clone(),
-            from,
-            to: los.min(add_seconds(from, PATH_S)),
+            begin,
+            end: los.min(add_seconds(begin, PATH_S)),
             ends: los,
             start: Start {
                 axes_deg,
-                lead_s: seconds_between(now, from),
+                lead_s: seconds_between(now, begin),
                 sets_out: self.is_under_way(now),
             },
             choice: self.choice(now),

@@ -50,20 +50,21 @@ pub(super) fn round(
     let mut index = 0;
     let places_deg: Vec<[f64; 2]> = places_deg().collect();
     while let Some(place_deg) = places_deg.get(index) {
-        let behind = is_behind.iter().skip(index).take_while(|behind| **behind).count();
-        if behind == 0 {
+        let count = is_behind.iter().skip(index).take_while(|is_hidden| **is_hidden).count();
+        if count == 0 {
             line.go_to(*place_deg);
             wanted_s.push(line.end_s());
             index += 1;
             continue;
         }
-        let stretch = index..index + behind;
+        let stretch = index..index + count;
         let targets = samples.get(stretch.clone()).unwrap_or_default();
         let comes_out = places_deg.get(stretch.end).copied();
         let detour = match (line.end_deg(), comes_out) {
-            (Some(from), Some(to)) => {
-                let at = targets.get(behind / 2).map(|sample| sample.time);
-                at.and_then(|at| detour::between(&bounds.at(at), &limits, from, to))
+            (Some(entry_deg), Some(end)) => {
+                let middle_time = targets.get(count / 2).map(|sample| sample.time);
+                middle_time
+                    .and_then(|time| detour::between(&bounds.at(time), &limits, entry_deg, end))
             }
             // The target rises or sets behind the keep-out.
             (Some(one), None) | (None, Some(one)) => Some(vec![one]),
@@ -82,10 +83,10 @@ pub(super) fn round(
     let line = &line;
     let cost = |index: usize| {
         let target = samples.get(index).map(|sample| sample.direction);
-        move |at_s: &f64| target.map_or(0.0, |target| line.off(target, *at_s, bounds))
+        move |at_s: &f64| target.map_or(0.0, |target| line.cost(target, *at_s, bounds))
     };
     let way_s = rate_limited(&wanted_s, step_s * SHARE_OF_RATE, None, |at_s| at_s, cost);
-    let places = way_s.into_iter().map(|at_s| line.at(at_s));
+    let places = way_s.into_iter().map(|at_s| line.position_deg(at_s));
     let (first, second) = places.map(|[first, second]| (first, second)).unzip();
     Some([first, second])
 }
@@ -138,8 +139,10 @@ impl Polyline {
             self.points.iter().map(|(_, at_deg)| bounds.direction(*at_deg)).collect();
         let nearest = |sample: &Sample| {
             let rest = directions.iter().enumerate().skip(first);
-            let off = rest.map(|(index, at)| (index, at.separation(sample.direction).degrees()));
-            let found = off.min_by(|a, b| a.1.total_cmp(&b.1));
+            let separations = rest.map(|(index, direction)| {
+                (index, direction.separation(sample.direction).degrees())
+            });
+            let found = separations.min_by(|a, b| a.1.total_cmp(&b.1));
             first = found.map_or(first, |(index, _)| index);
             self.points.get(first).map_or(0.0, |(at_s, _)| *at_s)
         };
@@ -147,7 +150,7 @@ impl Polyline {
     }
 
     /// Degrees as the mount counts.
-    fn at(&self, at_s: f64) -> [f64; 2] {
+    fn position_deg(&self, at_s: f64) -> [f64; 2] {
         let after = self.points.partition_point(|(point_s, _)| *point_s < at_s);
         let end = self.points.get(after).or(self.points.last());
         let Some((end_s, end_deg)) = end.copied() else { return [0.0; 2] };
@@ -162,7 +165,7 @@ impl Polyline {
     }
 
     /// Cost of a position on the line.
-    fn off(&self, target: AzEl, at_s: f64, bounds: &Bounds) -> f64 {
-        1.0 - bounds.direction(self.at(at_s)).separation(target).radians().cos()
+    fn cost(&self, target: AzEl, at_s: f64, bounds: &Bounds) -> f64 {
+        1.0 - bounds.direction(self.position_deg(at_s)).separation(target).radians().cos()
     }
 }

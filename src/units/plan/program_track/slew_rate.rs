@@ -31,7 +31,7 @@ impl SlewRate {
     /// Returns the full rate, degrees per second, if a long slew has just ended.
     pub(super) fn take(
         &mut self,
-        at: Instant,
+        instant: Instant,
         position_deg: Option<f64>,
         to_deg: Option<f64>,
     ) -> Option<f64> {
@@ -39,7 +39,9 @@ impl SlewRate {
             return self.slew.take().and_then(|slew| slew.rate_deg_s());
         };
         match &mut self.slew {
-            Some(slew) if slew.to_deg.to_bits() == to_deg.to_bits() => slew.take(at, position_deg),
+            Some(slew) if slew.to_deg.to_bits() == to_deg.to_bits() => {
+                slew.take(instant, position_deg)
+            }
             slew => {
                 let next = Slew { from_deg: position_deg, to_deg, readings: Vec::new() };
                 slew.replace(next).and_then(|ended| ended.rate_deg_s())
@@ -49,14 +51,14 @@ impl SlewRate {
 }
 
 impl Slew {
-    fn take(&mut self, at: Instant, position_deg: f64) -> Option<f64> {
+    fn take(&mut self, instant: Instant, position_deg: f64) -> Option<f64> {
         let way = (self.to_deg - self.from_deg).signum();
         if (position_deg - self.from_deg) * way < RAMP_DEG {
             return None;
         }
         if (self.to_deg - position_deg) * way >= RAMP_DEG {
             if self.readings.len() < MAX_READINGS {
-                self.readings.push((at, position_deg));
+                self.readings.push((instant, position_deg));
             }
             return None;
         }
@@ -76,8 +78,8 @@ impl Slew {
         }
         let after = self.readings.iter().skip(self.readings.len() / 4);
         let pairs = self.readings.iter().zip(after);
-        let rate = |((from, from_deg), (to, to_deg)): (&(Instant, f64), &(Instant, f64))| {
-            (to_deg - from_deg).abs() / to.saturating_duration_since(*from).as_secs_f64()
+        let rate = |((start, from_deg), (end, to_deg)): (&(Instant, f64), &(Instant, f64))| {
+            (to_deg - from_deg).abs() / end.saturating_duration_since(*start).as_secs_f64()
         };
         let mut rates: Vec<f64> = pairs.map(rate).collect();
         rates.sort_by(f64::total_cmp);
@@ -99,7 +101,7 @@ mod tests {
         to_deg: f64,
         rate_deg_s: f64,
         each_s: f64,
-        seen: impl Fn(f64, f64) -> f64,
+        reported: impl Fn(f64, f64) -> f64,
     ) -> Option<f64> {
         let mut rate = SlewRate::default();
         let start = Instant::now();
@@ -109,7 +111,7 @@ mod tests {
             let second = f64::from(reading) * each_s;
             // The axis sets out after a second.
             let turned_deg = (rate_deg_s * (second - 1.0).max(0.0)).min(way_deg.abs());
-            let position_deg = seen(second, 10.0 + turned_deg.copysign(way_deg));
+            let position_deg = reported(second, 10.0 + turned_deg.copysign(way_deg));
             rate.take(
                 start + Duration::try_from_secs_f64(second).unwrap(),
                 Some(position_deg),
@@ -122,15 +124,19 @@ mod tests {
     }
 
     fn assert_near(found: Option<f64>, rate_deg_s: f64, share: f64) {
-        let off = found.map(|found| (found / rate_deg_s - 1.0).abs());
-        assert!(off.is_some_and(|off| off < share), "{found:?} for {rate_deg_s}");
+        let error = found.map(|found| (found / rate_deg_s - 1.0).abs());
+        assert!(error.is_some_and(|deviation| deviation < share), "{found:?} for {rate_deg_s}");
     }
 
     #[test]
     fn the_rate_of_a_long_slew_is_learned_either_way_round() {
         for rate_deg_s in [0.3, 2.0, 6.0] {
             for to_deg in [70.0, -200.0] {
-                assert_near(learned(to_deg, rate_deg_s, 0.25, |_, at| at), rate_deg_s, 1e-6);
+                assert_near(
+                    learned(to_deg, rate_deg_s, 0.25, |_, degrees| degrees),
+                    rate_deg_s,
+                    1e-6,
+                );
             }
         }
     }
@@ -139,7 +145,7 @@ mod tests {
     fn whole_degrees_are_enough() {
         for rate_deg_s in [0.7, 1.9, 3.3, 4.0, 5.7] {
             for to_deg in [45.0, 100.0] {
-                let found = learned(to_deg, rate_deg_s, 0.25, |_, at| at.round());
+                let found = learned(to_deg, rate_deg_s, 0.25, |_, degrees| degrees.round());
                 assert_near(found, rate_deg_s, 0.04);
             }
         }
@@ -147,17 +153,18 @@ mod tests {
 
     #[test]
     fn a_few_late_positions_do_no_harm() {
-        let late = |second: f64, at: f64| {
-            if (second / 0.25).round() as i64 % 9 == 0 { at - 3.0 } else { at }
+        let late = |second: f64, degrees: f64| {
+            if (second / 0.25).round() as i64 % 9 == 0 { degrees - 3.0 } else { degrees }
         };
         assert_near(learned(100.0, 4.0, 0.25, late), 4.0, 0.02);
     }
 
     #[test]
     fn a_short_slew_and_one_that_is_slowed_down_near_its_end_teach_nothing_wrong() {
-        assert_eq!(learned(35.0, 4.0, 0.25, |_, at| at), None);
-        assert_eq!(learned(100.0, 25.0, 0.5, |_, at| at), None, "too few positions");
-        let slow = |second: f64, at: f64| if at > 96.0 { 96.0 + second / 99.0 } else { at };
+        assert_eq!(learned(35.0, 4.0, 0.25, |_, degrees| degrees), None);
+        assert_eq!(learned(100.0, 25.0, 0.5, |_, degrees| degrees), None, "too few positions");
+        let slow =
+            |second: f64, degrees: f64| if degrees > 96.0 { 96.0 + second / 99.0 } else { degrees };
         assert_near(learned(100.0, 4.0, 0.25, slow), 4.0, 1e-6);
     }
 
@@ -165,11 +172,11 @@ mod tests {
     fn a_slew_that_is_called_off_counts_as_far_as_it_went() {
         let mut rate = SlewRate::default();
         let start = Instant::now();
-        let at = |second: u32| start + Duration::from_secs(second.into());
+        let time = |second: u32| start + Duration::from_secs(second.into());
         for second in 0..20 {
-            assert_eq!(rate.take(at(second), Some(f64::from(second) * 2.0), Some(180.0)), None);
+            assert_eq!(rate.take(time(second), Some(f64::from(second) * 2.0), Some(180.0)), None);
         }
-        assert_eq!(rate.take(at(20), Some(40.0), Some(30.0)), Some(2.0));
-        assert_eq!(rate.take(at(21), None, Some(30.0)), None);
+        assert_eq!(rate.take(time(20), Some(40.0), Some(30.0)), Some(2.0));
+        assert_eq!(rate.take(time(21), None, Some(30.0)), None);
     }
 }

@@ -16,8 +16,8 @@ pub struct TrackStats {
 
 impl TrackStats {
     /// Takes the angle between target and measured direction.
-    pub fn take(&mut self, off: Angle) {
-        let off_deg = off.degrees().abs();
+    pub fn take(&mut self, deviation: Angle) {
+        let off_deg = deviation.degrees().abs();
         self.samples += 1;
         self.sum_of_squares_deg2 += off_deg * off_deg;
         self.worst_deg = self.worst_deg.max(off_deg);

@@ -80,21 +80,21 @@ impl Course {
     }
 
     /// Direction into which the antenna has to point at `at`; `None` once the target has decayed.
-    pub fn direction(&self, at: Timestamp) -> Option<AzEl> {
+    pub fn direction(&self, time: Timestamp) -> Option<AzEl> {
         match &self.body {
             Body::Satellite(propagator) => {
-                propagator.look_from(self.site, at).ok().map(|look| look.direction)
+                propagator.look_from(self.site, time).ok().map(|look| look.direction)
             }
-            Body::Sun => Some(sun_moon::sun(self.site, at)),
-            Body::Moon => Some(sun_moon::moon(self.site, at)),
+            Body::Sun => Some(sun_moon::sun(self.site, time)),
+            Body::Moon => Some(sun_moon::moon(self.site, time)),
             Body::Fixed(direction) => Some(*direction),
         }
     }
 
     /// Returns the readings that the axes need at `at` with these offsets; `None` once the target
     /// has decayed.
-    pub fn demanded(&self, at: Timestamp, offsets: TrackOffsets) -> Option<AzEl> {
-        let direction = offsets.demanded(at, |at| self.direction(at))?;
+    pub fn demanded(&self, time: Timestamp, offsets: TrackOffsets) -> Option<AzEl> {
+        let direction = offsets.demanded(time, |utc| self.direction(utc))?;
         if self.model.is_none() {
             return Some(direction);
         }
@@ -104,8 +104,8 @@ impl Course {
 
     /// Direction on the sky at `at` with these offsets, if those of the axes and the pointing model
     /// make up for errors of the mount; `None` once the target has decayed.
-    pub fn on_the_sky(&self, at: Timestamp, offsets: TrackOffsets) -> Option<AzEl> {
-        offsets.on_the_sky().demanded(at, |at| self.direction(at))
+    pub fn on_the_sky(&self, time: Timestamp, offsets: TrackOffsets) -> Option<AzEl> {
+        offsets.on_the_sky().demanded(time, |utc| self.direction(utc))
     }
 
     /// Direction of the beam by the pointing model when the axes read `reading`.
@@ -124,7 +124,7 @@ mod tests {
         orbit::{PassSearch, bundled, passes},
     };
 
-    fn with(step: Offset) -> TrackOffsets {
+    fn offsets(step: Offset) -> TrackOffsets {
         TrackOffsets::NONE.plus(step).unwrap()
     }
 
@@ -133,20 +133,20 @@ mod tests {
         let elements = bundled().unwrap().get(25_544).unwrap().clone();
         let site = Site::new(41.01, 29.17, 100.0).unwrap();
         let propagator = Propagator::new(&elements).unwrap();
-        let from = elements.epoch();
-        let search = PassSearch::new(site, from, add_seconds(from, 86_400.0));
+        let start = elements.epoch();
+        let search = PassSearch::new(site, start, add_seconds(start, 86_400.0));
         let pass = passes(&propagator, &search, &|| false)[0];
         let course = Course::new(&Target::Satellite(Box::new(elements)), site).unwrap();
         for share in [0.1, 0.5, 0.9] {
-            let at = add_seconds(pass.aos.time, pass.duration_s() * share);
-            let plain = course.demanded(at, TrackOffsets::NONE).unwrap();
-            assert_eq!(Some(plain), course.direction(at));
-            let time = with(Offset::Time(SignedDuration::from_secs(2)));
-            let later = course.demanded(at, time).unwrap();
-            assert_eq!(Some(later), course.direction(add_seconds(at, 2.0)));
+            let utc = add_seconds(pass.aos.time, pass.duration_s() * share);
+            let plain = course.demanded(utc, TrackOffsets::NONE).unwrap();
+            assert_eq!(Some(plain), course.direction(utc));
+            let time = offsets(Offset::Time(SignedDuration::from_secs(2)));
+            let later = course.demanded(utc, time).unwrap();
+            assert_eq!(Some(later), course.direction(add_seconds(utc, 2.0)));
             let ahead_deg = plain.separation(later).degrees();
-            let along = with(Offset::Along(Angle::from_degrees(ahead_deg)));
-            let along = course.demanded(at, along).unwrap();
+            let along = offsets(Offset::Along(Angle::from_degrees(ahead_deg)));
+            let along = course.demanded(utc, along).unwrap();
             assert!(along.separation(later).degrees() < 0.02 * ahead_deg, "{along:?} {later:?}");
         }
     }
@@ -155,9 +155,9 @@ mod tests {
     fn a_direction_that_stands_has_no_way() {
         let target = Target::Fixed(AzEl::from_degrees(180.0, 30.0));
         let course = Course::new(&target, Site::new(0.0, 0.0, 0.0).unwrap()).unwrap();
-        let along = with(Offset::Along(Angle::from_degrees(1.0)));
-        let at = Timestamp::UNIX_EPOCH;
-        assert_eq!(course.demanded(at, along), course.direction(at));
+        let along = offsets(Offset::Along(Angle::from_degrees(1.0)));
+        let time = Timestamp::UNIX_EPOCH;
+        assert_eq!(course.demanded(time, along), course.direction(time));
         assert!(!target.moves() && Target::Sun.moves());
     }
 }

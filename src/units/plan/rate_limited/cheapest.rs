@@ -3,7 +3,7 @@
 
 use std::ops::Range;
 
-use super::{Envelope, at};
+use super::{Envelope, position_at};
 
 /// Maximum number of positions of the grid.
 const MAX_PLACES: f64 = 240.0;
@@ -25,7 +25,7 @@ pub(super) struct Rough {
 
 /// The cheapest path through `slew` of an axis that stands at `before_deg` one interval before the
 /// slew and turns by at most `max_deg` per interval.
-pub(super) fn between<P, C: Fn(&P) -> f64>(
+pub(super) fn find<P, C: Fn(&P) -> f64>(
     bounds: &Envelope,
     slew: &Range<usize>,
     before_deg: f64,
@@ -35,8 +35,8 @@ pub(super) fn between<P, C: Fn(&P) -> f64>(
 ) -> Rough {
     let low = bounds.low.get(slew.clone()).unwrap_or_default().iter();
     let high = bounds.high.get(slew.clone()).unwrap_or_default().iter();
-    let min_deg = low.fold(before_deg, |least, at| least.min(*at));
-    let greatest_deg = high.fold(before_deg, |greatest, at| greatest.max(*at));
+    let min_deg = low.fold(before_deg, |min, degrees| min.min(*degrees));
+    let greatest_deg = high.fold(before_deg, |greatest, degrees| greatest.max(*degrees));
     let finest_deg = (greatest_deg - min_deg) / MAX_PLACES;
     let stride = (finest_deg * FULL as f64 / max_deg).ceil().max(1.0) as usize;
     let cell_deg = max_deg * stride as f64 / FULL as f64;
@@ -61,8 +61,8 @@ pub(super) fn between<P, C: Fn(&P) -> f64>(
         let index = index.saturating_sub(1);
         // The places between the bounds, widened by a cell.
         let place = |deg: f64| (deg - lowest_deg) / cell_deg;
-        let first = (place(at(&bounds.low, index)) - 1.0).ceil().max(0.0) as usize;
-        let after = (place(at(&bounds.high, index)) + 2.0).floor().max(0.0) as usize;
+        let first = (place(position_at(&bounds.low, index)) - 1.0).ceil().max(0.0) as usize;
+        let after = (place(position_at(&bounds.high, index)) + 2.0).floor().max(0.0) as usize;
         let reach = first.min(places)..after.min(places);
         if let (Some(sums), Some(prepared)) =
             (row.get_mut(reach.start + FULL..reach.end + FULL), prepared.get(reach.clone()))
@@ -92,7 +92,7 @@ pub(super) fn between<P, C: Fn(&P) -> f64>(
     at_looks.reverse();
     let place_at = |interval: usize| {
         let (look, share) = (interval / stride, (interval % stride) as f64 / stride as f64);
-        let before = at(&at_looks, look);
+        let before = position_at(&at_looks, look);
         before + (at_looks.get(look + 1).copied().unwrap_or(before) - before) * share
     };
     Rough { places_deg: (1..=slew.len()).map(place_at).collect(), cell_deg }
@@ -102,5 +102,5 @@ pub(super) fn between<P, C: Fn(&P) -> f64>(
 /// of them, and the sum with the turn.
 fn cheapest_turn(near: &[f64; TURN_COSTS.len()]) -> (usize, f64) {
     let turns = near.iter().zip(TURN_COSTS).map(|(sum, cost)| sum + cost).enumerate();
-    turns.fold((FULL, f64::INFINITY), |least, turn| if turn.1 < least.1 { turn } else { least })
+    turns.fold((FULL, f64::INFINITY), |best, turn| if turn.1 < best.1 { turn } else { best })
 }

@@ -54,20 +54,20 @@ struct Whole<'a> {
 impl<'a> Board<'a> {
     pub(super) fn new(request: &'a Request<'a>) -> Self {
         let fixed_as = |entry: &Entry| {
-            let is_it = |it: &Candidate| {
-                it.key.satellite == entry.pass.satellite
-                    && it.key.aos < entry.to
-                    && entry.from < it.los
+            let is_it = |candidate: &Candidate| {
+                candidate.key.satellite == entry.pass.satellite
+                    && candidate.key.aos < entry.to
+                    && entry.from < candidate.los
             };
             request.candidates.iter().position(is_it)
         };
         let fixed: Vec<Option<usize>> = request.fixed.iter().map(fixed_as).collect();
-        let limits = Limits::of(request);
+        let limits = Limits::new(request);
         let mut board = Self {
             request,
             takes: Vec::new(),
             facts: Vec::new(),
-            limits: limits.most.clone(),
+            limits: limits.maxima.clone(),
             legs: Legs::new(request.antennas, std::iter::empty()),
             passes: request.candidates.len() + request.fixed.len(),
         };
@@ -84,30 +84,31 @@ impl<'a> Board<'a> {
             let own = pairs.filter(|(_, pass)| **pass == Some(whole.pass));
             own.map(|(entry, _)| entry).collect::<Vec<_>>()
         };
-        let kept = Kept::of(request);
-        let crowd = Crowd::of(request, &wholes);
+        let previous = PreviousPlan::new(request);
+        let crowd = Crowd::new(request, &wholes);
         for whole in &wholes {
             let limit = limits.of_pass.get(whole.pass).copied().flatten();
-            let beside = fixed_beside(whole);
+            let fixed_entries = fixed_beside(whole);
             let id = request.antennas.get(whole.antenna).map(|antenna| antenna.id);
             let is_free = |span: Span| {
-                beside.iter().all(|entry| {
+                fixed_entries.iter().all(|entry| {
                     let is_apart = span.from_ms >= ms(entry.to) || span.to_ms <= ms(entry.from);
                     entry.shared_with.is_some() && id != Some(entry.antenna) && is_apart
                 })
             };
             for (span, part) in board.parts(whole, &crowd) {
-                if beside.is_empty() {
-                    board.add(whole, (span, part), limit, &kept);
+                if fixed_entries.is_empty() {
+                    board.add(whole, (span, part), limit, &previous);
                 } else if part != Part::Alone && is_free(span) {
-                    board.add(whole, (span, Part::Alone), limit, &kept);
+                    board.add(whole, (span, Part::Alone), limit, &previous);
                 }
             }
         }
         let mut order: Vec<usize> = (0..board.takes.len()).collect();
-        order.sort_by_key(|index| board.takes.get(*index).map(|it| (it.antenna, it.from_ms)));
-        board.takes = order.iter().filter_map(|at| board.takes.get(*at).copied()).collect();
-        board.facts = order.iter().filter_map(|at| board.facts.get(*at).copied()).collect();
+        order.sort_by_key(|index| board.takes.get(*index).map(|take| (take.antenna, take.from_ms)));
+        board.takes =
+            order.iter().filter_map(|position| board.takes.get(*position).copied()).collect();
+        board.facts = order.iter().filter_map(|index| board.facts.get(*index).copied()).collect();
         let stops = board.takes.iter().zip(&board.facts);
         let stops = stops.map(|(take, fact)| (*take, fact.ends_deg, fact.is_fixed));
         board.legs = Legs::new(request.antennas, stops);
@@ -142,7 +143,7 @@ impl<'a> Board<'a> {
             share: 1000,
             is_whole: true,
             height_mdeg: 0,
-            row: Row::of(Class::Fixed, 1) + Row::of(entry.class, entry.worth),
+            row: Row::new(Class::Fixed, 1) + Row::new(entry.class, entry.worth),
         });
         self.facts.push(Fact {
             pass: entry.pass,
@@ -164,12 +165,12 @@ impl<'a> Board<'a> {
         let mut parts = vec![(span, Part::Alone)];
         let Some(partial) = self.request.partial else { return parts };
         let counted_ms = way.counted_ms(span);
-        let least_ms = (counted_ms as f64 * partial.min_share).max(partial.min_s * 1000.0) as i64;
-        let is_enough = |part: Span| way.counted_ms(part) >= least_ms.max(1);
+        let min_ms = (counted_ms as f64 * partial.min_share).max(partial.min_s * 1000.0) as i64;
+        let is_enough = |part: Span| way.counted_ms(part) >= min_ms.max(1);
         let step_ms = ((partial.step_s * 1000.0) as i64).max(1_000);
         let cuts = |room_ms: i64| (0..=room_ms / step_ms).map(move |step| step * step_ms);
-        let room_ms = (span.length_ms() - least_ms).max(0);
-        let (is_late, is_early) = crowd.around(whole, span, room_ms);
+        let room_ms = (span.length_ms() - min_ms).max(0);
+        let (is_late, is_early) = crowd.overlaps(whole, span, room_ms);
         let (late, early) = (if is_late { room_ms } else { 0 }, if is_early { room_ms } else { 0 });
         for late_ms in cuts(late) {
             let part =
@@ -193,7 +194,7 @@ impl<'a> Board<'a> {
         whole: &Whole<'_>,
         (span, part): (Span, Part),
         limit: Option<u32>,
-        kept: &Kept,
+        previous: &PreviousPlan,
     ) {
         let Some(antenna) = self.request.antennas.get(whole.antenna) else { return };
         let (candidate, way, all) = (whole.candidate, whole.way, whole.way.span());
@@ -201,16 +202,17 @@ impl<'a> Board<'a> {
         let counted_ms = way.counted_ms(span);
         let worth = candidate.worth(choose_by, counted_ms, part);
         let class = candidate.class(choose_by);
-        let mut row =
-            Row::of(class, worth).counting(counted_ms).risen(ms(candidate.key.aos) - kept.epoch_ms);
-        if kept.holds(whole.pass, antenna.id) {
+        let mut row = Row::new(class, worth)
+            .counting(counted_ms)
+            .risen(ms(candidate.key.aos) - previous.epoch_ms);
+        if previous.holds(whole.pass, antenna.id) {
             let steadiness = self.request.steadiness;
             let seconds = match choose_by {
                 ChooseBy::MostPasses => 0,
                 _ => i64::from(steadiness.seconds) * 1000,
             };
             let bonus = worth * i64::from(steadiness.percent) / 100 + seconds;
-            row = row + Row::of(class, bonus) + Row::of(Class::Kept, 1);
+            row = row + Row::new(class, bonus) + Row::new(Class::Kept, 1);
         }
         self.takes.push(Take {
             pass: whole.pass as u32,
@@ -264,12 +266,14 @@ impl Candidate {
 
 /// All that an antenna can take as a whole.
 fn wholes<'a>(request: &'a Request<'a>, antenna: usize) -> Vec<Whole<'a>> {
-    let Some(planned) = request.antennas.get(antenna).filter(|it| it.off.is_none()) else {
+    let Some(planned) =
+        request.antennas.get(antenna).filter(|planned_antenna| planned_antenna.off.is_none())
+    else {
         return Vec::new();
     };
     let mut found = Vec::new();
     let candidates = request.candidates.iter().enumerate();
-    for (pass, candidate) in candidates.filter(|(_, it)| it.refusal.is_none()) {
+    for (pass, candidate) in candidates.filter(|(_, other)| other.refusal.is_none()) {
         let option = candidate.options.iter().find(|(id, _)| *id == planned.id);
         let Some((_, Choice::Judged(Verdict::Possible(ways)))) = option else { continue };
         let sight_ms = (ms(candidate.los) - ms(candidate.key.aos)).max(1);
@@ -289,7 +293,7 @@ struct Crowd {
 }
 
 impl Crowd {
-    fn of(request: &Request<'_>, wholes: &[Whole<'_>]) -> Self {
+    fn new(request: &Request<'_>, wholes: &[Whole<'_>]) -> Self {
         let mut spans = vec![Vec::new(); request.antennas.len()];
         for whole in wholes {
             if let Some(spans) = spans.get_mut(whole.antenna) {
@@ -316,21 +320,23 @@ impl Crowd {
                 height_mdeg: 0,
                 row: Row::ZERO,
             };
-            (take, [span.from_ms, span.to_ms].map(|at| whole.way.axes_deg(at)), false)
+            (take, [span.from_ms, span.to_ms].map(|at_ms| whole.way.axes_deg(at_ms)), false)
         });
         let legs = Legs::new(request.antennas, stops);
         let antennas = 0..request.antennas.len();
         Self {
             longest_pass_ms: spans.iter().map(longest).collect(),
             spans,
-            reach_ms: antennas.map(|it| super::solve::Slews::longest_ms(&legs, it)).collect(),
+            reach_ms: antennas
+                .map(|antenna| super::solve::Slews::longest_ms(&legs, antenna))
+                .collect(),
             free_ms: request.antennas.iter().map(|antenna| ms(antenna.free_from)).collect(),
         }
     }
 
     /// Returns whether another pass may need the first part of `span`, and the last one, of which
     /// `room_ms` may be given up.
-    fn around(&self, whole: &Whole<'_>, span: Span, room_ms: i64) -> (bool, bool) {
+    fn overlaps(&self, whole: &Whole<'_>, span: Span, room_ms: i64) -> (bool, bool) {
         let own = |list: &[i64]| list.get(whole.antenna).copied().unwrap_or_default();
         let reach_ms = own(&self.reach_ms);
         let Some(spans) = self.spans.get(whole.antenna) else { return (false, false) };
@@ -352,20 +358,23 @@ impl Crowd {
 
 /// Limits of passes a day that can be reached at all.
 struct Limits {
-    most: Vec<u32>,
+    maxima: Vec<u32>,
     of_pass: Vec<Option<u32>>,
 }
 
 impl Limits {
-    fn of(request: &Request<'_>) -> Self {
-        let day = |it: &Candidate| (it.key.satellite, it.key.aos.to_zoned(TimeZone::UTC).date());
+    fn new(request: &Request<'_>) -> Self {
+        let day = |candidate: &Candidate| {
+            (candidate.key.satellite, candidate.key.aos.to_zoned(TimeZone::UTC).date())
+        };
         let mut counts = HashMap::new();
-        let limited = |it: &&Candidate| it.refusal.is_none() && it.max_per_day.is_some();
+        let limited =
+            |candidate: &&Candidate| candidate.refusal.is_none() && candidate.max_per_day.is_some();
         for candidate in request.candidates.iter().filter(limited) {
             *counts.entry(day(candidate)).or_insert(0_u32) += 1;
         }
         let mut indices = HashMap::new();
-        let mut most = Vec::new();
+        let mut maxima = Vec::new();
         let of_pass = request.candidates.iter().map(|candidate| {
             let max = candidate.max_per_day.filter(|_| candidate.refusal.is_none())?;
             let day = day(candidate);
@@ -373,43 +382,45 @@ impl Limits {
                 return None;
             }
             let index = indices.entry(day).or_insert_with(|| {
-                most.push(max);
-                most.len() as u32 - 1
+                maxima.push(max);
+                maxima.len() as u32 - 1
             });
             Some(*index)
         });
         let of_pass = of_pass.collect();
-        Self { most, of_pass }
+        Self { maxima, of_pass }
     }
 }
 
 /// Passes that the previous schedule took.
-struct Kept {
+struct PreviousPlan {
     /// Index of the pass, and the antenna.
-    taken: Vec<(usize, AntennaId)>,
+    takes: Vec<(usize, AntennaId)>,
     /// Start from which the times of AOS are counted.
     epoch_ms: i64,
 }
 
-impl Kept {
-    fn of(request: &Request<'_>) -> Self {
+impl PreviousPlan {
+    fn new(request: &Request<'_>) -> Self {
         let mut by_satellite: HashMap<u32, Vec<(usize, &Candidate)>> = HashMap::new();
         for (index, candidate) in request.candidates.iter().enumerate() {
             by_satellite.entry(candidate.key.satellite).or_default().push((index, candidate));
         }
         let previous = request.previous.iter().flat_map(|schedule| &schedule.entries);
-        let taken = previous.filter_map(|entry| {
+        let takes = previous.filter_map(|entry| {
             let own = by_satellite.get(&entry.pass.satellite)?;
-            let same = own.iter().find(|(_, it)| it.key.aos < entry.to && entry.from < it.los)?;
+            let same = own.iter().find(|(_, candidate)| {
+                candidate.key.aos < entry.to && entry.from < candidate.los
+            })?;
             Some((same.0, entry.antenna))
         });
-        let mut taken: Vec<_> = taken.collect();
-        taken.sort_unstable();
+        let mut previous_takes: Vec<_> = takes.collect();
+        previous_takes.sort_unstable();
         let first = request.candidates.iter().map(|candidate| ms(candidate.key.aos)).min();
-        Self { taken, epoch_ms: first.unwrap_or_default() }
+        Self { takes: previous_takes, epoch_ms: first.unwrap_or_default() }
     }
 
     fn holds(&self, pass: usize, antenna: AntennaId) -> bool {
-        self.taken.binary_search(&(pass, antenna)).is_ok()
+        self.takes.binary_search(&(pass, antenna)).is_ok()
     }
 }

@@ -56,36 +56,40 @@ pub enum Cause {
 
 /// Returns the changes from `before` to `after`, from `from` on, in the order of `after`, then of
 /// `before`. Two passes are the same if they are of the same satellite and their spans overlap.
-pub fn changes(before: &Schedule, after: &Schedule, from: Timestamp) -> Vec<Change> {
-    let ahead = |entry: &&Entry| entry.to > from;
+pub fn changes(before: &Schedule, after: &Schedule, start: Timestamp) -> Vec<Change> {
+    let ahead = |entry: &&Entry| entry.to > start;
     let old: Vec<&Entry> = before.entries.iter().filter(ahead).collect();
     let new: Vec<&Entry> = after.entries.iter().filter(ahead).collect();
     let mut found = Vec::new();
     for entry in &new {
-        let same: Vec<&&Entry> = old.iter().filter(|it| is_same(it, entry)).collect();
+        let same: Vec<&&Entry> = old.iter().filter(|other| is_same(other, entry)).collect();
         let changed = if same.is_empty() {
             Some(Changed::Added { antenna: entry.antenna })
-        } else if let Some(it) = same.iter().find(|it| it.antenna == entry.antenna) {
-            let (late_s, early_s) = (entry.late_s - it.late_s, entry.early_s - it.early_s);
+        } else if let Some(previous) =
+            same.iter().find(|previous| previous.antenna == entry.antenna)
+        {
+            let (late_s, early_s) =
+                (entry.late_s - previous.late_s, entry.early_s - previous.early_s);
             let is_cut = late_s.abs() > SAME_S || early_s.abs() > SAME_S;
             is_cut.then_some(Changed::Cut { late_s, early_s })
         } else {
-            let (from, to) = (same.first().map(|it| it.antenna), entry.antenna);
-            from.map(|from| Changed::Moved { from, to })
+            let (source, destination) =
+                (same.first().map(|earlier| earlier.antenna), entry.antenna);
+            source.map(|source| Changed::Moved { from: source, to: destination })
         };
-        let was_known = before.left_out.iter().any(|it| is_near(it.pass, entry));
+        let was_known = before.left_out.iter().any(|left_out| is_near(left_out.pass, entry));
         let is_new = same.is_empty() && !was_known;
         let cause = if is_new { Cause::NewPass } else { Cause::Better };
-        let of = |changed| Change { pass: entry.pass, changed, cause };
-        found.extend(changed.map(of));
+        let change = |changed| Change { pass: entry.pass, changed, cause };
+        found.extend(changed.map(change));
     }
     for entry in &old {
-        if new.iter().any(|it| is_same(it, entry)) {
+        if new.iter().any(|next| is_same(next, entry)) {
             continue;
         }
-        let left_out = after.left_out.iter().find(|it| is_near(it.pass, entry));
-        let cause = left_out.map_or(Cause::Gone, |it| Cause::LeftOut(it.why.clone()));
-        let pass = left_out.map_or(entry.pass, |it| it.pass);
+        let left_out = after.left_out.iter().find(|left_out| is_near(left_out.pass, entry));
+        let cause = left_out.map_or(Cause::Gone, |omission| Cause::LeftOut(omission.why.clone()));
+        let pass = left_out.map_or(entry.pass, |reason| reason.pass);
         let changed = Changed::Dropped { antenna: entry.antenna };
         found.push(Change { pass, changed, cause });
     }

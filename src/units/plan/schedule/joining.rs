@@ -95,8 +95,9 @@ mod tests {
     fn pass(from_deg: (f64, f64), to_deg: (f64, f64)) -> Vec<Sample> {
         let sample = |step: i32| {
             let share = f64::from(step) / 100.0;
-            let at = |from: f64, to: f64| from + (to - from) * share;
-            let direction = AzEl::from_degrees(at(from_deg.0, to_deg.0), at(from_deg.1, to_deg.1));
+            let mixed = |start: f64, end: f64| start + (end - start) * share;
+            let direction =
+                AzEl::from_degrees(mixed(from_deg.0, to_deg.0), mixed(from_deg.1, to_deg.1));
             Sample { time: add_seconds(AOS, f64::from(step) * 2.0), direction }
         };
         (0..=100).map(sample).collect()
@@ -124,8 +125,8 @@ mod tests {
     /// The antenna in a station with these keep-outs, free so many seconds after AOS.
     fn planned(antenna: &Antenna, keep_outs: Vec<KeepOut>, free_s: f64) -> PlannedAntenna {
         let station = Station { keep_outs, ..Station::default() };
-        let of = PlannedAntenna::of(&station, antenna, add_seconds(AOS, free_s));
-        PlannedAntenna { set_up_s: 0.0, between: BetweenPasses::Wait, ..of }
+        let planned_antenna = PlannedAntenna::of(&station, antenna, add_seconds(AOS, free_s));
+        PlannedAntenna { set_up_s: 0.0, between: BetweenPasses::Wait, ..planned_antenna }
     }
 
     fn join(
@@ -191,9 +192,9 @@ mod tests {
         let warned = planned(&dish((0.0, 360.0), 90.0), vec![mast(Entered::Warn)], 0.0);
         assert_eq!(join(&warned, [50.0, 45.0], &in_the_east()), Some((40, 160)));
         // Time within the keep-out does not count.
-        let through = pass((50.0, 30.0), (100.0, 30.0));
+        let southern = pass((50.0, 30.0), (100.0, 30.0));
         let hard = planned(&dish((0.0, 360.0), 90.0), vec![mast(Entered::Hard)], 0.0);
-        let (late_s, left_s) = join(&hard, [50.0, 30.0], &through).unwrap();
+        let (late_s, left_s) = join(&hard, [50.0, 30.0], &southern).unwrap();
         assert!(late_s == 0 && left_s < 170, "{late_s} {left_s}");
     }
 

@@ -66,41 +66,41 @@ impl<'a> Legs<'a> {
 
     /// Least time between two takes of one antenna, with the set-up; `None` where no way leads from
     /// one to the other within the longest time that a leg may take.
-    pub(super) fn needs_ms(&self, from: usize, to: usize) -> Option<i64> {
-        let (before, after) = (self.takes.get(from)?, self.takes.get(to)?);
+    pub(super) fn needs_ms(&self, start: usize, end: usize) -> Option<i64> {
+        let (before, after) = (self.takes.get(start)?, self.takes.get(end)?);
         let antenna = self.antennas.get(before.antenna)?;
         if before.is_fixed && after.is_fixed {
             return Some(0);
         }
         let set_up_ms = set_up_ms(antenna);
-        let most_ms = self.longest_ms(before.antenna) - set_up_ms;
-        Some(search_ms(antenna, before, after, most_ms)? + set_up_ms)
+        let max_ms = self.longest_ms(before.antenna) - set_up_ms;
+        Some(search_ms(antenna, before, after, max_ms)? + set_up_ms)
     }
 
     /// How long the axes turn between two takes that follow each other, milliseconds.
-    pub(super) fn turning_ms(&self, from: usize, to: usize) -> i64 {
-        let known = self.known_ms(from, to, i64::MAX);
-        known.or_else(|| self.slew_ms(from, to)).unwrap_or_default()
+    pub(super) fn turning_ms(&self, start: usize, end: usize) -> i64 {
+        let cached = self.known_ms(start, end, i64::MAX);
+        cached.or_else(|| self.slew_ms(start, end)).unwrap_or_default()
     }
 
     /// As [`search_ms`], once for each two takes past barriers.
-    fn known_ms(&self, from: usize, to: usize, most_ms: i64) -> Option<i64> {
-        let (before, after) = (self.takes.get(from)?, self.takes.get(to)?);
+    fn known_ms(&self, start: usize, end: usize, max_ms: i64) -> Option<i64> {
+        let (before, after) = (self.takes.get(start)?, self.takes.get(end)?);
         let antenna = self.antennas.get(before.antenna)?;
         if !antenna.reach.has_barriers() {
-            return search_ms(antenna, before, after, most_ms);
+            return search_ms(antenna, before, after, max_ms);
         }
-        if let Some(known) = self.found.borrow().get(&(from, to, most_ms)) {
-            return *known;
+        if let Some(cached) = self.found.borrow().get(&(start, end, max_ms)) {
+            return *cached;
         }
-        let found = search_ms(antenna, before, after, most_ms);
-        self.found.borrow_mut().insert((from, to, most_ms), found);
+        let found = search_ms(antenna, before, after, max_ms);
+        self.found.borrow_mut().insert((start, end, max_ms), found);
         found
     }
 
     /// Returns `true` where a way leads from where the antenna stands at first to a take.
-    pub(super) fn is_in_reach(&self, to: usize) -> bool {
-        let Some(take) = self.takes.get(to) else { return false };
+    pub(super) fn is_in_reach(&self, end: usize) -> bool {
+        let Some(take) = self.takes.get(end) else { return false };
         let antenna = self.antennas.get(take.antenna);
         let [start_deg, _] = take.ends_deg;
         antenna.is_some_and(|antenna| {
@@ -113,9 +113,9 @@ impl<'a> Legs<'a> {
 
 /// How long the axes turn from one take to another as the antenna is told to wait, if that is no
 /// longer than `most_ms`.
-fn search_ms(antenna: &PlannedAntenna, before: &Stop, after: &Stop, most_ms: i64) -> Option<i64> {
-    let by_park = || by_park_ms(antenna, before, after).filter(|ms| *ms <= most_ms);
-    let direct = || direct_ms(antenna, before, after, most_ms);
+fn search_ms(antenna: &PlannedAntenna, before: &Stop, after: &Stop, max_ms: i64) -> Option<i64> {
+    let by_park = || by_park_ms(antenna, before, after).filter(|ms| *ms <= max_ms);
+    let direct = || direct_ms(antenna, before, after, max_ms);
     if antenna.between == BetweenPasses::Park && !(before.is_fixed && after.is_fixed) {
         let gap_ms = after.from_ms - before.to_ms - set_up_ms(antenna);
         by_park().filter(|ms| *ms <= gap_ms).or_else(direct)
@@ -128,9 +128,9 @@ fn search_ms(antenna: &PlannedAntenna, before: &Stop, after: &Stop, most_ms: i64
 
 /// The way from one take to another that does not go by the park position, if it takes no longer
 /// than `most_ms`.
-fn direct_ms(antenna: &PlannedAntenna, before: &Stop, after: &Stop, most_ms: i64) -> Option<i64> {
+fn direct_ms(antenna: &PlannedAntenna, before: &Stop, after: &Stop, max_ms: i64) -> Option<i64> {
     let ([_, end_deg], [start_deg, _]) = (before.ends_deg, after.ends_deg);
-    antenna.reach.leg_within_ms(end_deg, start_deg, before.to_ms, most_ms)
+    antenna.reach.leg_within_ms(end_deg, start_deg, before.to_ms, max_ms)
 }
 
 fn by_park_ms(antenna: &PlannedAntenna, before: &Stop, after: &Stop) -> Option<i64> {
@@ -148,8 +148,8 @@ pub(super) fn set_up_ms(antenna: &PlannedAntenna) -> i64 {
 }
 
 impl Slews for Legs<'_> {
-    fn first_ms(&self, to: usize) -> Option<i64> {
-        let take = self.takes.get(to)?;
+    fn first_ms(&self, end: usize) -> Option<i64> {
+        let take = self.takes.get(end)?;
         if take.is_fixed {
             return Some(0);
         }
@@ -161,11 +161,11 @@ impl Slews for Legs<'_> {
         antenna.reach.leg_within_ms(stands_deg, start_deg, free_ms, gap_ms)
     }
 
-    fn slew_ms(&self, from: usize, to: usize) -> Option<i64> {
-        let (before, after) = (self.takes.get(from)?, self.takes.get(to)?);
+    fn slew_ms(&self, start: usize, end: usize) -> Option<i64> {
+        let (before, after) = (self.takes.get(start)?, self.takes.get(end)?);
         let antenna = self.antennas.get(before.antenna)?;
         if before.is_fixed && after.is_fixed {
-            return Some(self.known_ms(from, to, i64::MAX).unwrap_or_default());
+            return Some(self.known_ms(start, end, i64::MAX).unwrap_or_default());
         }
         let gap_ms = after.from_ms - before.to_ms - set_up_ms(antenna);
         let longest_ms = self.longest_ms(before.antenna) - set_up_ms(antenna);
@@ -175,7 +175,7 @@ impl Slews for Legs<'_> {
             let [[_, end_deg], [start_deg, _]] = [before.ends_deg, after.ends_deg];
             return Some(antenna.reach.straight_ms(end_deg, start_deg));
         }
-        self.known_ms(from, to, if parks { gap_ms } else { gap_ms.min(longest_ms) })
+        self.known_ms(start, end, if parks { gap_ms } else { gap_ms.min(longest_ms) })
     }
 
     fn longest_ms(&self, antenna: usize) -> i64 {

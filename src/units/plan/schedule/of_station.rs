@@ -38,7 +38,7 @@ impl Candidate {
     ) -> Self {
         let number = elements.catalog_number();
         let choice = station.pass_choice(number, (pass.aos.time, pass.los.time));
-        let wanted = Wanted {
+        let wanted_pass = Wanted {
             priority: station.priority(number).unwrap_or_default(),
             take: choice.map(|choice| choice.take),
             limits: &station.pass_limits(number),
@@ -47,7 +47,7 @@ impl Candidate {
         let mask = station.horizon_mask.as_ref();
         let mut sight = Sight::new(propagator, station.site, mask, pass).named(elements.name());
         let age_s = elements.epoch_distance_s(pass.aos.time);
-        Self::new(number, age_s, (pass, propagator), wanted, &mut sight, common)
+        Self::new(number, age_s, (pass, propagator), wanted_pass, &mut sight, common)
     }
 }
 
@@ -65,9 +65,9 @@ impl Partial {
 }
 
 /// Returns the action of the first automation rule that fits a satellite and an antenna at a time.
-fn by_rule(station: &Station, satellite: u32, at: Timestamp, antenna: AntennaId) -> Option<Then> {
+fn by_rule(station: &Station, satellite: u32, time: Timestamp, antenna: AntennaId) -> Option<Then> {
     station.rules.iter().find(|rule| rule.is_for(antenna))?;
-    let place = deciding_rule(station, satellite, (at, sun_is(station, at)), antenna)?;
+    let place = deciding_rule(station, satellite, (time, sun_is(station, time)), antenna)?;
     station.rules.get(place).map(|rule| rule.then)
 }
 
@@ -76,21 +76,21 @@ fn by_rule(station: &Station, satellite: u32, at: Timestamp, antenna: AntennaId)
 pub fn deciding_rule(
     station: &Station,
     satellite: u32,
-    (at, sun): (Timestamp, SunIs),
+    (time, sun): (Timestamp, SunIs),
     antenna: AntennaId,
 ) -> Option<usize> {
-    let is_of = |of: &RuleOf| match of {
+    let is_of = |rule_of: &RuleOf| match rule_of {
         RuleOf::Satellite(number) => *number == satellite,
         RuleOf::Group(name) => station.groups_of(satellite).any(|group| group.name == *name),
     };
     station.rules.iter().position(|rule| {
-        rule.is_for(antenna) && rule.of.as_ref().is_none_or(is_of) && rule.holds_at(at, sun)
+        rule.is_for(antenna) && rule.of.as_ref().is_none_or(is_of) && rule.holds_at(time, sun)
     })
 }
 
 /// Returns whether the Sun is up or down at the site of a station.
-pub fn sun_is(station: &Station, at: Timestamp) -> SunIs {
-    let is_up = sun_moon::sun(station.site.airless(), at).elevation_deg() > 0.0;
+pub fn sun_is(station: &Station, time: Timestamp) -> SunIs {
+    let is_up = sun_moon::sun(station.site.airless(), time).elevation_deg() > 0.0;
     if is_up { SunIs::Up } else { SunIs::Down }
 }
 
@@ -113,15 +113,18 @@ mod tests {
         let catalog = bundled().unwrap();
         let elements = catalog.get(ISS).unwrap();
         let propagator = Propagator::new(elements).unwrap();
-        let from: Timestamp = "2026-08-12T00:00:00Z".parse().unwrap();
+        let start: Timestamp = "2026-08-12T00:00:00Z".parse().unwrap();
         let search = PassSearch {
             aos_elevation: station.aos_elevation(),
             floor: station.elevation_floor(),
-            ..PassSearch::new(station.site, from, crate::astro::time::add_seconds(from, 86_400.0))
+            ..PassSearch::new(station.site, start, crate::astro::time::add_seconds(start, 86_400.0))
         };
         let pass = passes(&propagator, &search, &|| false)[0];
-        let planned: Vec<PlannedAntenna> =
-            station.antennas.iter().map(|of| PlannedAntenna::of(&station, of, from)).collect();
+        let planned: Vec<PlannedAntenna> = station
+            .antennas
+            .iter()
+            .map(|antenna| PlannedAntenna::of(&station, antenna, start))
+            .collect();
         let common = Common {
             site: station.site,
             floor: station.elevation_floor(),
@@ -139,54 +142,57 @@ mod tests {
         numbers.iter().copied().map(AntennaId).collect()
     }
 
-    fn rule(antenna: Option<u32>, of: Option<RuleOf>, then: Then) -> AutomationRule {
+    fn rule(antenna: Option<u32>, subject: Option<RuleOf>, action: Then) -> AutomationRule {
         let antenna = antenna.map(AntennaId);
-        AutomationRule { is_on: true, antenna, of, sun: None, hours: None, then }
+        AutomationRule { is_on: true, antenna, of: subject, sun: None, hours: None, then: action }
     }
 
     #[test]
     fn the_first_rule_that_fits_decides() {
         assert_eq!(judged(|_| ()).1, ids(&[1, 2, 3]));
         let leave = rule(Some(2), None, Then::Leave);
-        assert_eq!(judged(|of| of.rules = vec![leave.clone()]).1, ids(&[1, 3]));
+        assert_eq!(judged(|station| station.rules = vec![leave.clone()]).1, ids(&[1, 3]));
         let take = rule(Some(2), Some(RuleOf::Satellite(ISS)), Then::Take);
-        assert_eq!(judged(|of| of.rules = vec![take.clone(), leave.clone()]).1, ids(&[1, 2, 3]));
-        assert_eq!(judged(|of| of.rules = vec![leave, take]).1, ids(&[1, 3]));
+        assert_eq!(
+            judged(|station| station.rules = vec![take.clone(), leave.clone()]).1,
+            ids(&[1, 2, 3])
+        );
+        assert_eq!(judged(|station| station.rules = vec![leave, take]).1, ids(&[1, 3]));
         let group = || RuleOf::Group("Stations".to_owned());
         let of_group = rule(None, Some(group()), Then::Park);
-        assert_eq!(judged(|of| of.rules = vec![of_group.clone()]).1, ids(&[1, 2, 3]));
-        let with_group = |of: &mut Station| {
-            of.groups = vec![SatelliteGroup {
+        assert_eq!(judged(|station| station.rules = vec![of_group.clone()]).1, ids(&[1, 2, 3]));
+        let with_group = |changed: &mut Station| {
+            changed.groups = vec![SatelliteGroup {
                 name: "Stations".to_owned(),
                 satellites: vec![ISS],
                 priority: None,
                 limits: PassLimits::default(),
             }];
-            of.rules = vec![of_group];
+            changed.rules = vec![of_group];
         };
         assert_eq!(judged(with_group).1, []);
     }
 
     #[test]
     fn limits_leave_a_pass_out_unless_a_rule_takes_it() {
-        let limit = |of: &mut Station| {
+        let limit = |station: &mut Station| {
             let limits = PassLimits { min_max_elevation_deg: Some(89.9), ..PassLimits::default() };
-            of.favourites.set_limits(ISS, limits);
+            station.favourites.set_limits(ISS, limits);
         };
         let (candidate, _) = judged(limit);
         assert!(matches!(candidate.refusal, Some(Refusal::Rule(_))), "{:?}", candidate.refusal);
-        let (candidate, allowed) = judged(|of| {
-            limit(of);
-            of.rules = vec![rule(Some(2), None, Then::Take)];
+        let (candidate, allowed) = judged(|other| {
+            limit(other);
+            other.rules = vec![rule(Some(2), None, Then::Take)];
         });
         assert_eq!((candidate.refusal, allowed), (None, ids(&[2])));
     }
 
     #[test]
     fn the_antennas_of_a_satellite_are_those_of_its_limits() {
-        let (_, allowed) = judged(|of| {
+        let (_, allowed) = judged(|station| {
             let limits = PassLimits { antennas: Some(ids(&[3])), ..PassLimits::default() };
-            of.favourites.set_limits(ISS, limits);
+            station.favourites.set_limits(ISS, limits);
         });
         assert_eq!(allowed, ids(&[3]));
     }

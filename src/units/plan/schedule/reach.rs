@@ -92,7 +92,8 @@ impl Reach {
             slews: whole.axis_limits(),
             drives,
             bounds,
-            model: Some(antenna.track_model()).filter(|it| !it.is_none() && !can.has_program),
+            model: Some(antenna.track_model())
+                .filter(|pointing_model| !pointing_model.is_none() && !can.has_program),
             half_beam: antenna.beam_width() * 0.5,
             park,
             park_deg: parked.map(|axis| axis.first().copied().unwrap_or_default()),
@@ -102,19 +103,19 @@ impl Reach {
     }
 
     /// Returns `true` if the antenna can stand at its park position at `at`.
-    pub fn can_park(&self, at: Timestamp) -> bool {
+    pub fn can_park(&self, time: Timestamp) -> bool {
         let reached = self.bounds.direction(self.park_deg);
-        let off = if self.drives.has_elevation {
+        let deviation = if self.drives.has_elevation {
             self.park.separation(reached)
         } else {
             (self.park.azimuth - reached.azimuth).wrapped_180().abs()
         };
-        off.degrees() < SAME_DEG && self.bounds.at(at).forbids(reached).is_none()
+        deviation.degrees() < SAME_DEG && self.bounds.at(time).forbids(reached).is_none()
     }
 
     /// A direction outside of all barriers at `at`; `None` where none is found.
-    pub fn open_sky(&self, at: Timestamp) -> Option<AzEl> {
-        self.open_sky_deg(&self.bounds.at(at)).map(|axes_deg| self.bounds.direction(axes_deg))
+    pub fn open_sky(&self, time: Timestamp) -> Option<AzEl> {
+        self.open_sky_deg(&self.bounds.at(time)).map(|axes_deg| self.bounds.direction(axes_deg))
     }
 
     /// Where the axes stand at the park position, or as near to it as they travel, degrees as the
@@ -159,9 +160,9 @@ impl Reach {
         let last = samples.iter().rposition(|sample| is_ahead(&sample))?;
         let list = samples.get(first..=last).unwrap_or_default();
         let list: Vec<_> = list.iter().map(|sample| self.as_read(*sample)).collect();
-        let [from, second, ..] = list.as_slice() else { return None };
-        let step_s = seconds_between(from.time, second.time);
-        let span = Span { from_ms: ms(from.time), to_ms: ms(list.last()?.time) };
+        let [first_sample, second, ..] = list.as_slice() else { return None };
+        let step_s = seconds_between(first_sample.time, second.time);
+        let span = Span { from_ms: ms(first_sample.time), to_ms: ms(list.last()?.time) };
         let lead_s = ((span.from_ms - ready_ms) as f64 / 1000.0).max(0.0);
         let start = Start { axes_deg: stands_deg.map(Some), lead_s, ..Start::default() };
         let choice = Choice::Prefer(Flip::None);
@@ -218,7 +219,8 @@ impl Reach {
         if self.has_barriers() {
             return None;
         }
-        let ways: Vec<_> = self.planned(samples).into_iter().map(|it| it.axes_deg).collect();
+        let ways: Vec<_> =
+            self.planned(samples).into_iter().map(|planned| planned.axes_deg).collect();
         let follows = |axes_deg: &[Vec<f64>; 2]| {
             let slow = axes_deg.iter().zip(self.drives.rates_deg_s).all(|(axis, rate)| {
                 let max_deg = SLOW * rate * samples.step_s;
@@ -227,7 +229,7 @@ impl Reach {
             let places = axes_deg[0].iter().zip(&axes_deg[1]).map(|(a, b)| [*a, *b]);
             let mut pairs = samples.list.iter().zip(places);
             slow && axes_deg[1].iter().all(|deg| self.is_clear(*deg))
-                && pairs.all(|(it, axes_deg)| self.is_in_beam(it.direction, axes_deg))
+                && pairs.all(|(sample, axes_deg)| self.is_in_beam(sample.direction, axes_deg))
         };
         ways.iter().all(follows).then(|| {
             let ways = ways.into_iter();
@@ -249,16 +251,16 @@ impl Reach {
         let planned = self.planned(samples).into_iter();
         let judged: Vec<Judged> =
             planned.map(|planned| self.judged(samples, planned, clear)).collect();
-        let entered = judged.iter().find_map(|it| it.entered.clone());
-        let lost_at = judged.iter().find_map(|it| it.lost_at);
-        let mut ways: Vec<Way> = judged.into_iter().filter_map(|it| it.way).collect();
+        let entered = judged.iter().find_map(|judged| judged.entered.clone());
+        let lost_at = judged.iter().find_map(|judged| judged.lost_at);
+        let mut ways: Vec<Way> = judged.into_iter().filter_map(|judged| judged.way).collect();
         if let Some(barrier) = entered.filter(|_| self.on_board || ways.is_empty()) {
             return Verdict::Impossible(Impossible::KeepOut(barrier));
         }
         if ways.is_empty() {
             let seconds = Span::total_ms(clear) as f64 / 1000.0;
-            let at = lost_at.unwrap_or(Loss::OutOfReach);
-            return Verdict::Impossible(Impossible::Lost(Lost { seconds, at }));
+            let loss = lost_at.unwrap_or(Loss::OutOfReach);
+            return Verdict::Impossible(Impossible::Lost(Lost { seconds, at: loss }));
         }
         ways.retain(|way| self.is_within_reach(way));
         if ways.is_empty() {
@@ -275,16 +277,16 @@ impl Reach {
         let places = first.iter().zip(second).map(|(first, second)| [*first, *second]);
         let slews = slews.iter().filter_map(|slew| samples.list.get(*slew));
         let slews: Vec<Timestamp> = slews.map(|sample| sample.time).collect();
-        let (mut held, mut entered): (Vec<Span>, _) = (Vec::new(), None);
+        let (mut visible, mut entered): (Vec<Span>, _) = (Vec::new(), None);
         let [is_late, is_early] = samples.leave_out(clear);
-        let beyond = |index| Loss::beyond(self.drives.mount, &samples.list, index);
-        let mut lost_at = is_late.then(|| beyond(0));
+        let loss_beyond = |index| Loss::beyond_travel(self.drives.mount, &samples.list, index);
+        let mut lost_at = is_late.then(|| loss_beyond(0));
         // The Sun stays where it is for so long.
         let mut bounds = None;
         // As in trackability, the time between two samples counts only if both are in the beam.
         let mut before: Option<Timestamp> = None;
         for (index, (sample, axes_deg)) in samples.list.iter().zip(places).enumerate() {
-            let since = before.take();
+            let lost_from = before.take();
             if self.has_barriers() {
                 let direction = self.bounds.direction(axes_deg);
                 let step_ms = ms(sample.time).div_euclid(SUN_STAYS_MS) * SUN_STAYS_MS;
@@ -304,19 +306,19 @@ impl Reach {
                 continue;
             }
             before = Some(sample.time);
-            let Some(since) = since else { continue };
-            let span = Span { from_ms: ms(since), to_ms: ms(sample.time) };
-            match held.last_mut() {
+            let Some(start) = lost_from else { continue };
+            let span = Span { from_ms: ms(start), to_ms: ms(sample.time) };
+            match visible.last_mut() {
                 Some(last) if last.to_ms == span.from_ms => last.to_ms = span.to_ms,
-                _ => held.push(span),
+                _ => visible.push(span),
             }
         }
         let lost_at =
-            lost_at.or_else(|| is_early.then(|| beyond(samples.list.len().saturating_sub(1))));
-        let counted = Span::both(&held, clear);
+            lost_at.or_else(|| is_early.then(|| loss_beyond(samples.list.len().saturating_sub(1))));
+        let counted = Span::intersections(&visible, clear);
         let lost_ms = Span::total_ms(clear) - Span::total_ms(&counted);
         let lost = lost_at.filter(|_| lost_ms > 0);
-        let lost = lost.map(|at| Lost { seconds: lost_ms as f64 / 1000.0, at });
+        let lost = lost.map(|loss| Lost { seconds: lost_ms as f64 / 1000.0, at: loss });
         let way = (!counted.is_empty()).then(|| Way::new(samples, axes_deg, counted, lost));
         Judged { way, entered, lost_at }
     }
@@ -347,10 +349,10 @@ impl Reach {
     /// the ends of the travel, where some units report no angle.
     fn open_sky_deg(&self, now: &BoundsAt<'_>) -> Option<[f64; 2]> {
         let ends = self.park_deg.into_iter().zip(self.slews.travel_deg);
-        let mut off_ends = ends.map(|(at_deg, (least_deg, most_deg))| {
-            let off_deg = OFF_ENDS_DEG.min((most_deg - least_deg) / 2.0);
-            let (least_deg, most_deg) = (least_deg + off_deg, most_deg - off_deg);
-            (at_deg.max(least_deg).min(most_deg), least_deg, most_deg)
+        let mut off_ends = ends.map(|(at_deg, (min_deg, max_deg))| {
+            let off_deg = OFF_ENDS_DEG.min((max_deg - min_deg) / 2.0);
+            let (low_deg, high_deg) = (min_deg + off_deg, max_deg - off_deg);
+            (at_deg.max(low_deg).min(high_deg), low_deg, high_deg)
         });
         let (first, second) = (off_ends.next()?, off_ends.next()?);
         let zenith_deg = match self.drives.mount {
@@ -379,7 +381,7 @@ impl Reach {
                 let near_s = TURN_DEG / self.drives.rates_deg_s[0];
                 let is_near =
                     |slew: &Timestamp| seconds_between(*slew, sample.time).abs() <= near_s;
-                Loss::at(self.drives.mount, samples, index, slews.iter().any(is_near))
+                Loss::at_sample(self.drives.mount, samples, index, slews.iter().any(is_near))
             }
         }
     }
@@ -428,7 +430,7 @@ impl Reach {
     }
 
     fn is_in_beam(&self, direction: AzEl, axes_deg: [f64; 2]) -> bool {
-        let off = if self.drives.has_elevation {
+        let deviation = if self.drives.has_elevation {
             let points = self.bounds.direction(axes_deg);
             let [azimuth, elevation] = [
                 (points.azimuth - direction.azimuth).wrapped_180().abs(),
@@ -443,7 +445,7 @@ impl Reach {
         } else {
             (Angle::from_degrees(axes_deg[0]) - direction.azimuth).wrapped_180().abs()
         };
-        off <= self.half_beam
+        deviation <= self.half_beam
     }
 
     /// The longest leg between any two of these places, without keep-outs, milliseconds.
@@ -482,27 +484,27 @@ impl Reach {
     /// least in a corner, and in one of the two corners no less than at one of the ends.
     fn may_dip(&self, from_deg: [f64; 2], to_deg: [f64; 2]) -> bool {
         let Mount::Xy { .. } = self.drives.mount else { return false };
-        let [from, to] = [from_deg, to_deg].map(|axes| axes.map(|deg| (deg - ZENITH_DEG).abs()));
+        let [start, last] = [from_deg, to_deg].map(|axes| axes.map(|deg| (deg - ZENITH_DEG).abs()));
         // In one corner, each axis is as far from the zenith as at the farther end: where that is
         // one end for both axes, it is no corner.
-        if (from[0] >= to[0]) == (from[1] >= to[1]) {
+        if (start[0] >= last[0]) == (start[1] >= last[1]) {
             return false;
         }
         let sine = |off_deg: [f64; 2]| off_deg.map(|deg| deg.to_radians().cos()).iter().product();
-        let corner: f64 = sine([from[0].max(to[0]), from[1].max(to[1])]);
+        let corner: f64 = sine([start[0].max(last[0]), start[1].max(last[1])]);
         let minimum = self.min_elevation().radians().sin();
         if corner >= minimum {
             return false;
         }
-        let end: f64 = minimum.min(sine(from)).min(sine(to));
+        let end: f64 = minimum.min(sine(start)).min(sine(last));
         let along_deg = if self.on_board { ALONG_DEG } else { FINEST_DEG };
         (end.asin() - corner.asin()).to_degrees() > along_deg
     }
 
     /// Time from one place of the axes to another at `at_ms`, round what must not be entered;
     /// `None` where no way leads.
-    pub(super) fn leg_ms(&self, from_deg: [f64; 2], to_deg: [f64; 2], at: i64) -> Option<i64> {
-        self.leg_within_ms(from_deg, to_deg, at, i64::MAX)
+    pub(super) fn leg_ms(&self, from_deg: [f64; 2], to_deg: [f64; 2], at_ms: i64) -> Option<i64> {
+        self.leg_within_ms(from_deg, to_deg, at_ms, i64::MAX)
     }
 
     /// As [`Self::leg_ms`]; also `None` for a leg that takes longer than `most_ms`.
@@ -510,34 +512,40 @@ impl Reach {
         &self,
         from_deg: [f64; 2],
         to_deg: [f64; 2],
-        at: i64,
-        most_ms: i64,
+        at_ms: i64,
+        max_ms: i64,
     ) -> Option<i64> {
         let straight_ms = self.straight_ms(from_deg, to_deg);
         // A search costs more than all else.
-        if straight_ms > most_ms {
+        if straight_ms > max_ms {
             return None;
         }
         let leg_ms = if self.has_barriers() {
-            self.round_ms(from_deg, to_deg, at, most_ms)?.max(straight_ms)
+            self.round_ms(from_deg, to_deg, at_ms, max_ms)?.max(straight_ms)
         } else if self.may_dip(from_deg, to_deg) {
             self.by_corner_ms(from_deg, to_deg)
         } else {
             straight_ms
         };
-        (leg_ms <= most_ms).then_some(leg_ms)
+        (leg_ms <= max_ms).then_some(leg_ms)
     }
 
-    fn round_ms(&self, from_deg: [f64; 2], to_deg: [f64; 2], at: i64, most_ms: i64) -> Option<i64> {
-        let (now, sweep) = (self.bounds.at(at_ms(at)), Sweep::between(from_deg, to_deg));
+    fn round_ms(
+        &self,
+        from_deg: [f64; 2],
+        to_deg: [f64; 2],
+        time_ms: i64,
+        max_ms: i64,
+    ) -> Option<i64> {
+        let (now, sweep) = (self.bounds.at(at_ms(time_ms)), Sweep::between(from_deg, to_deg));
         if now.blocks(sweep, Sweep::at(from_deg)).is_none() {
             return Some(0);
         }
         let limits = &self.slews;
-        let most_s = most_ms as f64 / 1000.0;
-        let route = detour::between_within(&now, limits, (from_deg, to_deg), most_s)?;
+        let max_s = max_ms as f64 / 1000.0;
+        let route = detour::between_within(&now, limits, (from_deg, to_deg), max_s)?;
         let legs = route.iter().zip(route.iter().skip(1));
-        let seconds: f64 = legs.map(|(from, to)| limits.seconds(*from, *to)).sum();
+        let seconds: f64 = legs.map(|(start, end)| limits.seconds(*start, *end)).sum();
         Some((seconds * 1000.0).ceil() as i64)
     }
 }
@@ -547,9 +555,9 @@ fn along(from_deg: [f64; 2], to_deg: [f64; 2]) -> impl Iterator<Item = [f64; 2]>
     (0..=STEPS).map(move |step| {
         let share = f64::from(step) / f64::from(STEPS);
         [0, 1].map(|axis: usize| {
-            let [from, to] = [from_deg, to_deg].map(|axes| axes.get(axis).copied());
-            let (from, to) = (from.unwrap_or_default(), to.unwrap_or_default());
-            from + (to - from) * share
+            let [start_deg, end_deg] = [from_deg, to_deg].map(|axes| axes.get(axis).copied());
+            let (start, end) = (start_deg.unwrap_or_default(), end_deg.unwrap_or_default());
+            start + (end - start) * share
         })
     })
 }

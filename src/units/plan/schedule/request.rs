@@ -115,11 +115,11 @@ impl Candidate {
         satellite: u32,
         age_s: f64,
         (pass, propagator): (&Pass, &Propagator),
-        wanted: Wanted<'_>,
+        limits_of_pass: Wanted<'_>,
         sight: &mut Sight<'_>,
         common: Common<'_>,
     ) -> Self {
-        let Wanted { priority, take, limits, by_rule } = wanted;
+        let Wanted { priority, take, limits, by_rule } = limits_of_pass;
         let always = take == Some(Take::Always);
         let max_elevation = pass.max_elevation();
         let too_old = common.max_age_s.filter(|max_s| age_s > *max_s);
@@ -176,15 +176,15 @@ fn broken(limits: &PassLimits, pass: &Pass, propagator: &Propagator, site: Site)
     if let Some(degrees) = too_low.filter(|deg| pass.max_elevation().degrees() < *deg) {
         return Some(Rule::MinElevation { degrees });
     }
-    if let Some(seconds) = limits.min_duration_s.filter(|least| pass.duration_s() < *least) {
+    if let Some(seconds) = limits.min_duration_s.filter(|min| pass.duration_s() < *min) {
         return Some(Rule::MinDuration { seconds });
     }
-    let at = pass.tca.time;
-    let is_day = || sun_moon::sun(site.airless(), at).elevation > Angle::ZERO;
+    let time = pass.tca.time;
+    let is_day = || sun_moon::sun(site.airless(), time).elevation > Angle::ZERO;
     let is_right = |light: &Light| match light {
         Light::Day => is_day(),
         Light::Night => !is_day(),
-        Light::Sunlit => propagator.state_at(at).is_ok_and(|state| is_sunlit(&state, at)),
+        Light::Sunlit => propagator.state_at(time).is_ok_and(|state| is_sunlit(&state, time)),
     };
     limits.light.filter(|light| !is_right(light)).map(Rule::Light)
 }

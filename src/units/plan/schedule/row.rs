@@ -40,12 +40,12 @@ impl Row {
     const AOS: usize = Self::CLASSES + 2;
 
     /// A row with one number.
-    pub(super) fn of(class: Class, number: i64) -> Self {
-        Self::at(class.index(), number)
+    pub(super) fn new(class: Class, number: i64) -> Self {
+        Self::single(class.index(), number)
     }
 
     /// A row with one number, by the index of its class.
-    pub(super) fn at(class: usize, number: i64) -> Self {
+    pub(super) fn single(class: usize, number: i64) -> Self {
         let mut row = Self::ZERO;
         if let Some(cell) = row.0.get_mut(class) {
             *cell = number;

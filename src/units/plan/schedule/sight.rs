@@ -35,8 +35,8 @@ pub(super) struct Samples {
 impl Samples {
     /// Returns whether they begin after the first of `spans`, and whether they end before the last.
     pub(super) fn leave_out(&self, spans: &[Span]) -> [bool; 2] {
-        let [first, last] =
-            [self.list.first(), self.list.last()].map(|it| it.map(|it| ms(it.time)));
+        let [first, last] = [self.list.first(), self.list.last()]
+            .map(|end_sample| end_sample.map(|sample| ms(sample.time)));
         let is_late = spans.first().zip(first).is_some_and(|(span, first)| span.from_ms < first);
         let is_early = spans.last().zip(last).is_some_and(|(span, last)| last < span.to_ms);
         [is_late, is_early]
@@ -105,8 +105,8 @@ impl<'a> Sight<'a> {
             return None;
         }
         let top_ms = ms(tca.time);
-        let end = |end_ms: i64, at: Angle| {
-            if at >= elevation { end_ms } else { self.crossing(end_ms, top_ms, elevation) }
+        let end = |end_ms: i64, level: Angle| {
+            if level >= elevation { end_ms } else { self.crossing(end_ms, top_ms, elevation) }
         };
         let from_ms = end(ms(aos.time), pointed(aos));
         let to_ms = end(ms(los.time), pointed(los));
@@ -137,10 +137,10 @@ impl<'a> Sight<'a> {
         let (propagator, site, pass) = (self.propagator, self.site, self.pass);
         let clear = self.clear.get_or_insert_with(|| {
             let stretches = clear_stretches(propagator, site, mask, pass);
-            let span = |it: &Pass| Span { from_ms: ms(it.aos.time), to_ms: ms(it.los.time) };
+            let span = |pass: &Pass| Span { from_ms: ms(pass.aos.time), to_ms: ms(pass.los.time) };
             stretches.iter().map(span).filter(|span| span.from_ms < span.to_ms).collect()
         });
-        Span::both(clear, &[span])
+        Span::intersections(clear, &[span])
     }
 
     /// Few samples.
@@ -150,8 +150,8 @@ impl<'a> Sight<'a> {
 
     /// Samples as close as positions are judged, of a part of `span`.
     pub(super) fn fine(&mut self, span: Span, part: Span) -> &Samples {
-        let kept = self.fine.take().filter(|(of, _)| *of == [span, part]);
-        let (_, samples) = kept.unwrap_or_else(|| {
+        let cached = self.fine.take().filter(|(spans, _)| *spans == [span, part]);
+        let (_, samples) = cached.unwrap_or_else(|| {
             let (propagator, frame) = (self.propagator, self.frame);
             ([span, part], self.nodes(span).fine(propagator, &frame, part))
         });
@@ -162,16 +162,16 @@ impl<'a> Sight<'a> {
     #[cfg(test)]
     pub(super) fn exact(&self, span: Span) -> Samples {
         let (times, step_s) = times(span, FINE_S, MAX_FINE);
-        let sample = |at: i64| {
-            let look = self.propagator.look_from(self.site, at_ms(at)).ok()?;
-            Some(Sample { time: at_ms(at), direction: look.direction })
+        let sample = |time_ms: i64| {
+            let look = self.propagator.look_from(self.site, at_ms(time_ms)).ok()?;
+            Some(Sample { time: at_ms(time_ms), direction: look.direction })
         };
         Samples { list: times.filter_map(sample).collect(), step_s }
     }
 
     fn nodes(&mut self, span: Span) -> &Nodes {
-        let kept = self.coarse.take().filter(|nodes| nodes.span == span);
-        let nodes = kept.unwrap_or_else(|| Nodes::new(self.propagator, &self.frame, span));
+        let cached = self.coarse.take().filter(|nodes| nodes.span == span);
+        let nodes = cached.unwrap_or_else(|| Nodes::new(self.propagator, &self.frame, span));
         self.coarse.insert(nodes)
     }
 }
@@ -180,45 +180,48 @@ impl Nodes {
     fn new(propagator: &Propagator, site: &SiteFrame, span: Span) -> Self {
         let (times, step_s) = times(span, COARSE_S, MAX_COARSE);
         let times: Vec<i64> = times.collect();
-        let stamps: Vec<Timestamp> = times.iter().map(|at| at_ms(*at)).collect();
+        let stamps: Vec<Timestamp> = times.iter().map(|time_ms| at_ms(*time_ms)).collect();
         let states = times.iter().zip(&stamps).zip(propagator.states_at(&stamps));
-        let place = |((at, time), state): ((&i64, &Timestamp), Option<State>)| {
-            Some((*at, state?.local(site, *time)))
+        let place = |((time_ms, time), state): ((&i64, &Timestamp), Option<State>)| {
+            Some((*time_ms, state?.local(site, *time)))
         };
         let places: Vec<(i64, Local)> = states.filter_map(place).collect();
-        let list = places.iter().map(|(at, place)| sample(site, *at, place.position_km)).collect();
+        let list = places
+            .iter()
+            .map(|(time_ms, place)| sample(site, *time_ms, place.position_km))
+            .collect();
         Self { span, places, samples: Samples { list, step_s } }
     }
 
     fn fine(&self, propagator: &Propagator, site: &SiteFrame, part: Span) -> Samples {
         let (times, step_s) = times(self.span, FINE_S, MAX_FINE);
-        let times = times.filter(|at| (part.from_ms..=part.to_ms).contains(at));
+        let times = times.filter(|at_ms| (part.from_ms..=part.to_ms).contains(at_ms));
         let centre_km = site.to_enu * site.ecef_km;
         let pairs = self.places.iter().zip(self.places.iter().skip(1));
-        let mut cubics = pairs.map(|(from, to)| Cubic::new(*from, *to, centre_km)).peekable();
-        let list = times.filter_map(|at| {
-            while cubics.next_if(|cubic| cubic.to_ms < at).is_some() {}
-            let between = cubics.peek().and_then(|cubic| cubic.position_km(at));
-            let known = || place(propagator, site, at).map(|place| place.position_km);
-            Some(sample(site, at, between.or_else(known)?))
+        let mut cubics = pairs.map(|(start, end)| Cubic::new(*start, *end, centre_km)).peekable();
+        let list = times.filter_map(|time_ms| {
+            while cubics.next_if(|cubic| cubic.to_ms < time_ms).is_some() {}
+            let interpolated = cubics.peek().and_then(|cubic| cubic.position_km(time_ms));
+            let exact = || place(propagator, site, time_ms).map(|place| place.position_km);
+            Some(sample(site, time_ms, interpolated.or_else(exact)?))
         });
         Samples { list: list.collect(), step_s }
     }
 }
 
-fn place(propagator: &Propagator, site: &SiteFrame, at: i64) -> Option<Local> {
-    let time = at_ms(at);
+fn place(propagator: &Propagator, site: &SiteFrame, time_ms: i64) -> Option<Local> {
+    let time = at_ms(time_ms);
     Some(propagator.state_at(time).ok()?.local(site, time))
 }
 
-fn sample(site: &SiteFrame, at: i64, position_km: DVec3) -> Sample {
-    Sample { time: at_ms(at), direction: site.direction(position_km) }
+fn sample(site: &SiteFrame, time_ms: i64, position_km: DVec3) -> Sample {
+    Sample { time: at_ms(time_ms), direction: site.direction(position_km) }
 }
 
 /// Times of samples and the seconds between them.
-fn times(span: Span, least_s: f64, most: f64) -> (impl Iterator<Item = i64>, f64) {
+fn times(span: Span, min_s: f64, max: f64) -> (impl Iterator<Item = i64>, f64) {
     let seconds = span.length_ms() as f64 / 1000.0;
-    let steps = (seconds / least_s.max(seconds / most)).ceil().max(1.0);
+    let steps = (seconds / min_s.max(seconds / max)).ceil().max(1.0);
     let step_s = seconds / steps;
     let time = move |step: i64| span.from_ms + (step as f64 * step_s * 1000.0).round() as i64;
     ((0..=steps as i64).map(time), step_s)
@@ -237,7 +240,7 @@ impl Cubic {
     /// Seen from a site at `centre_km` from the centre of the Earth.
     fn new((from_ms, a): (i64, Local), (to_ms, b): (i64, Local), centre_km: DVec3) -> Self {
         let ends = [a, b];
-        let radius_km = ends.map(|it| (it.position_km + centre_km).length());
+        let radius_km = ends.map(|local| (local.position_km + centre_km).length());
         let radius_km = radius_km[0].min(radius_km[1]);
         // A cubic is off by a part of the fourth derivative, here that of a circular orbit over
         // ground that turns the other way.
@@ -248,13 +251,13 @@ impl Cubic {
         Self { from_ms, to_ms, ends, is_exact: off_km <= SAME_RAD * near_km }
     }
 
-    fn position_km(&self, at: i64) -> Option<DVec3> {
-        if !self.is_exact || !(self.from_ms..=self.to_ms).contains(&at) {
+    fn position_km(&self, at_ms: i64) -> Option<DVec3> {
+        if !self.is_exact || !(self.from_ms..=self.to_ms).contains(&at_ms) {
             return None;
         }
         let [a, b] = self.ends;
         let span_s = (self.to_ms - self.from_ms) as f64 / 1000.0;
-        let share = (at - self.from_ms) as f64 / 1000.0 / span_s;
+        let share = (at_ms - self.from_ms) as f64 / 1000.0 / span_s;
         let rest = 1.0 - share;
         let position_km = a.position_km * (rest * rest * (1.0 + 2.0 * share))
             + b.position_km * (share * share * (1.0 + 2.0 * rest))

@@ -55,11 +55,11 @@ pub(super) struct Take {
 /// The slews of all antennas.
 pub(super) trait Slews {
     /// From where the antenna stands at first, milliseconds; `None` if it cannot be at `to` in time.
-    fn first_ms(&self, to: usize) -> Option<i64>;
+    fn first_ms(&self, end: usize) -> Option<i64>;
 
     /// Between two takes of one antenna of which the second begins later, milliseconds; `None` if
     /// it cannot be at the second in time.
-    fn slew_ms(&self, from: usize, to: usize) -> Option<i64>;
+    fn slew_ms(&self, start: usize, end: usize) -> Option<i64>;
 
     /// No slew between takes takes longer, with the set-up. Where two takes are that far apart, the
     /// second can follow, if a way leads there at all.
@@ -134,7 +134,8 @@ impl Problem<'_> {
     }
 
     fn row_of_one(&self, takes: &[u32]) -> Row {
-        let worth: Row = takes.iter().filter_map(|take| self.take(*take)).map(|it| it.row).sum();
+        let worth: Row =
+            takes.iter().filter_map(|take| self.take(*take)).map(|entry| entry.row).sum();
         let first = takes.first().and_then(|first| self.slews.first_ms(*first as usize));
         let pairs = takes.iter().zip(takes.iter().skip(1));
         let slews = pairs.filter_map(|(a, b)| self.slews.slew_ms(*a as usize, *b as usize));
@@ -158,14 +159,14 @@ impl Problem<'_> {
 
     fn keeps_limits(&self, takes: &[Vec<u32>]) -> bool {
         let used = self.used(takes.iter().flatten());
-        used.iter().zip(self.limits).all(|(used, most)| used <= most)
+        used.iter().zip(self.limits).all(|(used, max)| used <= max)
     }
 
     fn takes_none_twice(&self, takes: &[Vec<u32>]) -> bool {
         let mut is_taken = vec![false; self.passes];
         takes.iter().flatten().filter_map(|take| self.take(*take)).all(|take| {
-            let taken = is_taken.get_mut(take.pass as usize);
-            taken.is_none_or(|taken| !std::mem::replace(taken, true))
+            let flag = is_taken.get_mut(take.pass as usize);
+            flag.is_none_or(|flag| !std::mem::replace(flag, true))
         })
     }
 

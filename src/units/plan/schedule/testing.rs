@@ -15,16 +15,16 @@ use crate::{
 pub(in crate::plan) use days::*;
 
 /// A pass that an antenna is to track from AOS to LOS.
-pub fn entry(antenna: AntennaId, pass: PassKey, to: Timestamp) -> Entry {
+pub fn entry(antenna: AntennaId, pass: PassKey, end: Timestamp) -> Entry {
     Entry {
         pass,
         antenna,
         class: Class::Priority(Priority::default()),
         from: pass.aos,
-        to,
+        to: end,
         late_s: 0.0,
         early_s: 0.0,
-        counted_s: seconds_between(pass.aos, to),
+        counted_s: seconds_between(pass.aos, end),
         worth: 1,
         lost: None,
         axes_deg: [[0.0; 2]; 2],

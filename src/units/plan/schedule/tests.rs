@@ -29,16 +29,16 @@ fn each_day(days: u64, check: impl Fn(&Request<'_>)) {
     let station = three_antennas();
     let mut random = Random::new(SEED);
     for day in 0..days {
-        let from = add_seconds(noon(), day as f64 * 86_400.0);
+        let start = add_seconds(noon(), day as f64 * 86_400.0);
         let mut satellites = low_satellites(&mut random, 30);
         for satellite in satellites.iter_mut().step_by(4) {
             satellite.limits.max_per_day = Some(1);
         }
-        let mut antennas = planned(&station, from);
-        let list = candidates(&station, &antennas, &satellites, from, 5.0);
-        for (partial, between, choose_by) in kinds() {
+        let mut antennas = planned(&station, start);
+        let list = candidates(&station, &antennas, &satellites, start, 5.0);
+        for (partial, rest, choose_by) in kinds() {
             for antenna in &mut antennas {
-                antenna.between = between;
+                antenna.between = rest;
             }
             check(&Request { choose_by, partial, ..request(&antennas, &list) });
         }
@@ -56,16 +56,16 @@ fn behind_keep_outs(
     for day in 0..days {
         let mut station = any_three_antennas(&mut random);
         add_barriers(&mut station, &mut random);
-        let from = add_seconds(noon(), f64::from(day) * 86_400.0);
+        let start = add_seconds(noon(), f64::from(day) * 86_400.0);
         let satellites = low_satellites(&mut random, satellites);
-        let mut antennas = planned(&station, from);
+        let mut antennas = planned(&station, start);
         for antenna in &mut antennas {
             antenna.stands_deg = Some(antenna.reach.park_deg());
         }
-        let list = candidates(&station, &antennas, &satellites, from, hours);
-        for (partial, between, choose_by) in kinds.iter().copied() {
+        let list = candidates(&station, &antennas, &satellites, start, hours);
+        for (partial, rest, choose_by) in kinds.iter().copied() {
             for antenna in &mut antennas {
-                antenna.between = between;
+                antenna.between = rest;
             }
             let schedule = plan(&Request { choose_by, partial, ..request(&antennas, &list) });
             for entry in &schedule.entries {
@@ -82,14 +82,14 @@ fn behind_keep_outs(
                     let (end_deg, start_deg) = (a.axes_deg[1], b.axes_deg[0]);
                     let direct = reach.leg_ms(end_deg, start_deg, way::ms(a.to));
                     let back = reach.leg_ms(end_deg, reach.park_deg(), way::ms(a.to));
-                    let there = reach.leg_ms(reach.park_deg(), start_deg, way::ms(b.from));
-                    let by_park = back.zip(there).map(|(back, there)| back + there);
+                    let back_ms = reach.leg_ms(reach.park_deg(), start_deg, way::ms(b.from));
+                    let by_park = back.zip(back_ms).map(|(back, outward)| back + outward);
                     let way_ms = direct.into_iter().chain(by_park).min();
-                    let what = || format!("seed {SEED}, day {day}: {a:?} {b:?}");
+                    let label = || format!("seed {SEED}, day {day}: {a:?} {b:?}");
                     let needs_s =
-                        way_ms.unwrap_or_else(|| panic!("no way, {}", what())) as f64 / 1e3;
+                        way_ms.unwrap_or_else(|| panic!("no way, {}", label())) as f64 / 1e3;
                     let gap_s = seconds_between(a.to, b.from);
-                    assert!(gap_s + 1e-3 >= needs_s + antenna.set_up_s, "{needs_s} {}", what());
+                    assert!(gap_s + 1e-3 >= needs_s + antenna.set_up_s, "{needs_s} {}", label());
                     pairs += 1;
                     detours += usize::from(way_ms > Some(reach.straight_ms(end_deg, start_deg)));
                 }
@@ -212,8 +212,8 @@ fn worth_in(request: &Request<'_>, schedule: &Schedule) -> Vec<i64> {
         let found = request.candidates.iter().find(|candidate| candidate.key == entry.pass);
         found.map(|candidate| candidate.class(request.choose_by))
     };
-    let worth = |of: Class| {
-        let own = schedule.entries.iter().filter(|entry| class(entry) == Some(of));
+    let worth = |row_class: Class| {
+        let own = schedule.entries.iter().filter(|entry| class(entry) == Some(row_class));
         own.map(|entry| entry.worth).sum()
     };
     Class::shown(request.choose_by).into_iter().map(worth).collect()
@@ -265,8 +265,8 @@ fn every_reason_holds_when_the_pass_is_always_taken() {
                     if schedule.is_proved() && !matches!(left.why, Why::MaxPerDay(_)) {
                         assert!(worth_in(request, &swapped) <= worth(&schedule), "{left:?}");
                     }
-                    let from = request.antennas[0].free_from;
-                    let changes = changes(&schedule, &swapped, from);
+                    let start = request.antennas[0].free_from;
+                    let changes = changes(&schedule, &swapped, start);
                     assert!(changes.iter().any(|change| change.pass == left.pass));
                     // Something has made room for it.
                     let has_room = matches!(left.why, Why::MaxPerDay(_));
@@ -309,8 +309,8 @@ fn a_pass_that_its_only_antenna_cannot_take_is_impossible() {
     let mut count = 0;
     for left in &schedule.left_out {
         let own = left.by_antenna.iter().find(|(antenna, _)| *antenna == narrow);
-        if let Some((_, why @ Why::Impossible(_))) = own {
-            assert_eq!(left.why, *why);
+        if let Some((_, reason @ Why::Impossible(_))) = own {
+            assert_eq!(left.why, *reason);
             count += 1;
         }
     }
@@ -323,8 +323,8 @@ fn conflicts_name_entries_that_are_really_in_the_way() {
     each_day(2, |request| {
         let schedule = plan(request);
         let conflicts = schedule.left_out.iter().flat_map(|left| &left.by_antenna);
-        for (antenna, why) in conflicts {
-            let (Why::Overlaps(conflict) | Why::SlewTooShort(conflict)) = why else { continue };
+        for (antenna, reason) in conflicts {
+            let (Why::Overlaps(conflict) | Why::SlewTooShort(conflict)) = reason else { continue };
             let mut entries = schedule.entries_of(conflict.with);
             assert!(entries.any(|entry| entry.antenna == *antenna), "{conflict:?}");
             assert!(conflict.missing_s > 0.0);
@@ -345,26 +345,29 @@ fn what_is_fixed_stays_and_what_the_operator_says_is_done() {
     let is_lost = |left: &&LeftOut| matches!(left.why, Why::Overlaps(_) | Why::SlewTooShort(_));
     let later = |left: &&LeftOut| left.pass.aos > add_seconds(entry.to, 3_600.0);
     let lost = left.filter(is_lost).find(later).unwrap().pass;
-    let taken = first.entries[5].pass;
+    let taken_pass = first.entries[5].pass;
     for candidate in &mut list {
         if candidate.key == lost {
             candidate.take = Some(Take::Always);
-        } else if candidate.key == taken {
+        } else if candidate.key == taken_pass {
             candidate.take = Some(Take::Never);
             candidate.refusal = Some(Refusal::Never);
         }
     }
     let fixed = [entry.clone()];
     let new = plan(&Request { fixed: &fixed, ..request(&antennas, &list) });
-    let kept = new.entries_of(entry.pass).next().unwrap();
-    assert_eq!((kept.antenna, kept.from, kept.to), (entry.antenna, entry.from, entry.to));
-    assert!(kept.is_fixed);
+    let expected = new.entries_of(entry.pass).next().unwrap();
+    assert_eq!(
+        (expected.antenna, expected.from, expected.to),
+        (entry.antenna, entry.from, entry.to)
+    );
+    assert!(expected.is_fixed);
     let always = new.entries_of(lost).next().unwrap();
     assert_eq!(always.class, Class::Always);
-    let never = new.left_out.iter().find(|left| left.pass == taken).unwrap();
+    let never = new.left_out.iter().find(|left| left.pass == taken_pass).unwrap();
     assert_eq!(never.why, Why::Refused(Refusal::Never));
     assert!(changes(&first, &new, noon()).iter().any(|change| {
-        change.pass == taken && change.cause == Cause::LeftOut(never.why.clone())
+        change.pass == taken_pass && change.cause == Cause::LeftOut(never.why.clone())
     }));
 }
 
@@ -390,15 +393,15 @@ fn an_antenna_resumes_a_pass_from_where_it_stands() {
         assert!(rest.counted_s <= entry.counted_s - 30.0 + 1.0, "{rest:?}");
         let lost = PlannedAntenna { stands_deg: None, ..parked.clone() };
         assert_eq!(candidate.resumed(&lost, choose_by), None, "it may stand anywhere");
-        let over = PlannedAntenna { free_from: candidate.los, ..parked };
-        assert_eq!(candidate.resumed(&over, choose_by), None);
+        let blocked = PlannedAntenna { free_from: candidate.los, ..parked };
+        assert_eq!(candidate.resumed(&blocked, choose_by), None);
     }
     let entry = &first.entries[3];
     let candidate = list.iter().find(|candidate| candidate.key == entry.pass).unwrap();
     let antenna = antennas.iter().find(|antenna| antenna.id == entry.antenna).unwrap();
     let stands_deg = Some(entry.axes_deg[0]);
-    let there = PlannedAntenna { free_from: entry.from, stands_deg, ..antenna.clone() };
-    let rest = candidate.resumed(&there, choose_by).unwrap();
+    let planned_antenna = PlannedAntenna { free_from: entry.from, stands_deg, ..antenna.clone() };
+    let rest = candidate.resumed(&planned_antenna, choose_by).unwrap();
     assert!(rest.counted_s > entry.counted_s - 60.0, "{rest:?}");
 }
 
@@ -426,12 +429,12 @@ fn a_pass_that_is_tracked_already_or_waited_for_stays_until_its_end() {
     for antenna in &mut later {
         antenna.free_from = now;
     }
-    let without = plan(&request(&later, &list));
-    assert!(without.entries_of(entry.pass).all(|found| found.antenna != entry.antenna));
+    let free_plan = plan(&request(&later, &list));
+    assert!(free_plan.entries_of(entry.pass).all(|found| found.antenna != entry.antenna));
     let fixed = [rest];
-    let with = plan(&Request { fixed: &fixed, ..request(&later, &list) });
-    let kept = with.entries_of(entry.pass).next().unwrap();
-    assert_eq!((kept.antenna, kept.to, kept.is_fixed), (entry.antenna, entry.to, true));
+    let fixed_plan = plan(&Request { fixed: &fixed, ..request(&later, &list) });
+    let expected = fixed_plan.entries_of(entry.pass).next().unwrap();
+    assert_eq!((expected.antenna, expected.to, expected.is_fixed), (entry.antenna, entry.to, true));
 }
 
 #[test]
@@ -443,7 +446,7 @@ fn the_other_part_of_a_pass_that_is_handed_over_stays_when_one_is_fixed() {
     let partial = Some(Partial { min_share: 0.2, min_s: 60.0, step_s: 60.0, hand_over: true });
     let request = Request { partial, ..request(&antennas, &list) };
     let first = plan(&request);
-    let shared = first.entries.iter().filter(|it| it.shared_with.is_some());
+    let shared = first.entries.iter().filter(|entry| entry.shared_with.is_some());
     let shared: Vec<_> = shared.take(2).collect();
     assert_eq!(shared.len(), 2, "nothing is handed over");
     for entry in shared {
@@ -464,7 +467,8 @@ fn passes_far_from_what_changed_stay_as_they_are() {
     let before = candidates(&station, &antennas, &satellites, noon(), 10.0);
     let schedule = plan(&request(&antennas, &before));
     let changed = schedule.entries[4].pass.satellite;
-    let satellite = satellites.iter_mut().find(|it| it.elements.catalog_number() == changed);
+    let satellite =
+        satellites.iter_mut().find(|satellite| satellite.elements.catalog_number() == changed);
     satellite.unwrap().limits.min_max_elevation_deg = Some(89.0);
     let after = candidates(&station, &antennas, &satellites, noon(), 10.0);
     let steadiness = Steadiness { percent: 5, seconds: 10 };
@@ -472,8 +476,11 @@ fn passes_far_from_what_changed_stay_as_they_are() {
         plan(&Request { previous: Some(&schedule), steadiness, ..request(&antennas, &after) });
     let found = changes(&schedule, &new, noon());
     assert!(!found.is_empty());
-    let own: Vec<_> =
-        before.iter().map(|it| it.key).filter(|key| key.satellite == changed).collect();
+    let own: Vec<_> = before
+        .iter()
+        .map(|candidate| candidate.key)
+        .filter(|key| key.satellite == changed)
+        .collect();
     for change in &found {
         let near = own.iter().any(|key| seconds_between(key.aos, change.pass.aos).abs() < 5_400.0);
         assert!(near, "{change:?}");

@@ -25,7 +25,7 @@ impl Candidate {
         let away_deg = |way: &&Way| {
             antenna.stands_deg.map_or(0.0, |stands_deg| {
                 let pairs = stands_deg.into_iter().zip(way.axes_deg(now_ms));
-                pairs.map(|(stands, wanted)| (stands - wanted).abs()).fold(0.0, f64::max)
+                pairs.map(|(stands, target)| (stands - target).abs()).fold(0.0, f64::max)
             })
         };
         let way = ways.iter().min_by(|a, b| away_deg(a).total_cmp(&away_deg(b)))?;

@@ -33,15 +33,15 @@ impl Span {
     }
 
     /// Returns the time that both have in common, if any.
-    pub(super) fn and(self, other: Self) -> Option<Self> {
-        let both =
+    pub(super) fn intersection(self, other: Self) -> Option<Self> {
+        let spans =
             Self { from_ms: self.from_ms.max(other.from_ms), to_ms: self.to_ms.min(other.to_ms) };
-        (both.from_ms < both.to_ms).then_some(both)
+        (spans.from_ms < spans.to_ms).then_some(spans)
     }
 
     /// Returns the times that two lists have in common, each in the order of time.
-    pub(super) fn both(a: &[Self], b: &[Self]) -> Vec<Self> {
-        a.iter().flat_map(|a| b.iter().filter_map(|b| a.and(*b))).collect()
+    pub(super) fn intersections(a: &[Self], b: &[Self]) -> Vec<Self> {
+        a.iter().flat_map(|a| b.iter().filter_map(|b| a.intersection(*b))).collect()
     }
 }
 
@@ -112,23 +112,23 @@ impl Way {
 
     /// Milliseconds that count within `span`.
     pub(super) fn counted_ms(&self, span: Span) -> i64 {
-        Span::total_ms(&Span::both(&self.counted, &[span]))
+        Span::total_ms(&Span::intersections(&self.counted, &[span]))
     }
 
     /// The first millisecond from `at` on that counts.
-    pub(super) fn next_counted_ms(&self, at: i64) -> Option<i64> {
-        let span = self.counted.iter().find(|span| at < span.to_ms)?;
-        Some(span.from_ms.max(at))
+    pub(super) fn next_counted_ms(&self, at_ms: i64) -> Option<i64> {
+        let span = self.counted.iter().find(|span| at_ms < span.to_ms)?;
+        Some(span.from_ms.max(at_ms))
     }
 
     /// When the stretch begins that counts after the one at `at`.
-    pub(super) fn next_stretch_ms(&self, at: i64) -> Option<i64> {
-        self.counted.iter().map(|span| span.from_ms).find(|from_ms| at < *from_ms)
+    pub(super) fn next_stretch_ms(&self, at_ms: i64) -> Option<i64> {
+        self.counted.iter().map(|span| span.from_ms).find(|from_ms| at_ms < *from_ms)
     }
 
     /// Where the axes stand at a time, degrees as the mount counts.
-    pub(super) fn axes_deg(&self, at: i64) -> [f64; 2] {
-        let steps = ((at - self.first_ms) as f64 / 1000.0 / self.step_s).max(0.0);
+    pub(super) fn axes_deg(&self, at_ms: i64) -> [f64; 2] {
+        let steps = ((at_ms - self.first_ms) as f64 / 1000.0 / self.step_s).max(0.0);
         let (index, share) = (steps.floor() as usize, steps.fract());
         [0, 1].map(|axis: usize| {
             let axis = self.axes_deg.get(axis).map(Vec::as_slice).unwrap_or_default();

@@ -28,10 +28,10 @@ pub(super) fn trackability(samples: &[Sample], limits: MountLimits) -> Trackabil
         return Trackability::Whole;
     }
     let all = std::iter::once(plain).chain(axes.others(samples).map(along));
-    let (lost, at) = all.min_by(|a, b| a.0.seconds.total_cmp(&b.0.seconds)).unwrap_or(plain);
+    let (lost, loss) = all.min_by(|a, b| a.0.seconds.total_cmp(&b.0.seconds)).unwrap_or(plain);
     let whole_s = samples.first().zip(samples.last());
     let whole_s = whole_s.map_or(0.0, |(first, last)| seconds_between(first.time, last.time));
-    Trackability::new(lost, whole_s, at)
+    Trackability::new(lost, whole_s, loss)
 }
 
 /// Time outside the beam, and where it begins.
@@ -43,10 +43,11 @@ fn lost(
 ) -> (Outside, Loss) {
     let [azimuths, elevations] = &planned.axes_deg;
     let (mut lost, mut first) = (Outside::default(), None);
-    let axes_deg = azimuths.iter().zip(elevations).map(|(azimuth, at)| [*azimuth, *at]);
+    let axes_deg =
+        azimuths.iter().zip(elevations).map(|(azimuth, elevation)| [*azimuth, *elevation]);
     let mut before: Option<(&Sample, bool)> = None;
     for (index, (sample, axes_deg)) in samples.iter().zip(axes_deg).enumerate() {
-        let is_off = axes.off(sample.direction, axes_deg) > limits.half_beam;
+        let is_off = axes.misalignment(sample.direction, axes_deg) > limits.half_beam;
         // The time between two samples counts only if both are in the beam.
         if let Some((before, was_off)) = before.replace((sample, is_off))
             && (is_off || was_off)
@@ -55,12 +56,12 @@ fn lost(
         }
         first = first.or(is_off.then_some((index, sample.time)));
     }
-    let Some((index, from)) = first else { return (lost, Loss::OutOfReach) };
+    let Some((index, start)) = first else { return (lost, Loss::OutOfReach) };
     let near_s = TURN_DEG / limits.maximum_rate_deg_s;
-    let is_near = |slew: &Sample| seconds_between(slew.time, from).abs() <= near_s;
+    let is_near = |slew: &Sample| seconds_between(slew.time, start).abs() <= near_s;
     let is_slewing = planned.slews.iter().filter_map(|index| samples.get(*index)).any(is_near);
-    let at = Loss::at(limits.mount, samples, index, is_slewing);
-    (lost, at)
+    let loss = Loss::at_sample(limits.mount, samples, index, is_slewing);
+    (lost, loss)
 }
 
 #[cfg(test)]
@@ -150,23 +151,23 @@ mod tests {
     #[test]
     fn beyond_the_travel_a_high_satellite_is_out_of_reach() {
         let lost = super::trackability(&pass(150.0, 75.0), limits(120.0, 30.0));
-        let Trackability::Loses { at, seconds, .. } = lost else { panic!("{lost:?}") };
-        assert_eq!(at, Loss::BeyondAzimuth(Angle::from_degrees(120.0)));
+        let Trackability::Loses { at: loss, seconds, .. } = lost else { panic!("{lost:?}") };
+        assert_eq!(loss, Loss::BeyondAzimuth(Angle::from_degrees(120.0)));
         assert!(seconds > 60.0, "{seconds}");
     }
 
     #[test]
     fn over_the_zenith_neither_costs_anything() {
-        let over = |mut limits: MountLimits| {
+        let over_travel = |mut limits: MountLimits| {
             if let Mount::AzEl { elevation_to_deg, .. } = &mut limits.mount {
                 *elevation_to_deg = 180.0;
             }
             limits
         };
         let through_north = pass(600.0, 275.0);
-        let whole = super::trackability(&through_north, over(limits(360.0, 3.0)));
+        let whole = super::trackability(&through_north, over_travel(limits(360.0, 3.0)));
         assert_eq!(whole, Trackability::Whole);
-        let whole = super::trackability(&pass(8.0, 90.0), over(limits(450.0, 3.0)));
+        let whole = super::trackability(&pass(8.0, 90.0), over_travel(limits(450.0, 3.0)));
         assert_eq!(whole, Trackability::Whole);
         let lost = super::trackability(&pass(8.0, 90.0), limits(450.0, 3.0));
         assert!(matches!(lost, Trackability::Loses { at: Loss::Overhead, .. }), "{lost:?}");

@@ -20,27 +20,27 @@ pub(super) fn trackability(samples: &[Sample], limits: MountLimits) -> Trackabil
     let mut whole_s = 0.0;
     let mut lost_towards = Angle::ZERO;
     for pair in samples.windows(2) {
-        let [from, to] = pair else { continue };
-        let span_s = seconds_between(from.time, to.time);
+        let [start, end] = pair else { continue };
+        let span_s = seconds_between(start.time, end.time);
         if span_s <= 0.0 {
             continue;
         }
         whole_s += span_s;
         // The time between two samples counts only if both are within the travel.
-        let reachable = [from, to].into_iter().flat_map(axes);
+        let reachable = [start, end].into_iter().flat_map(axes);
         let reachable =
             reachable.into_iter().all(|angle| (travel_from_deg..=travel_to_deg).contains(&angle));
-        let keeps_up = axes(from)
+        let keeps_up = axes(start)
             .iter()
-            .zip(axes(to))
+            .zip(axes(end))
             .all(|(before, after)| (after - before).abs() <= limits.maximum_rate_deg_s * span_s);
         if !reachable || !keeps_up {
-            lost.add(from.time, to.time);
-            lost_towards = to.direction.azimuth;
+            lost.add(start.time, end.time);
+            lost_towards = end.direction.azimuth;
         }
     }
-    let off = (lost_towards - lower_axis).wrapped_180().abs();
-    let far_end = off.degrees() > 90.0;
+    let deviation = (lost_towards - lower_axis).wrapped_180().abs();
+    let far_end = deviation.degrees() > 90.0;
     let keyhole = if far_end { lower_axis + Angle::from_degrees(180.0) } else { lower_axis };
     Trackability::new(lost, whole_s, Loss::Keyhole(keyhole.wrapped_360()))
 }

@@ -74,23 +74,23 @@ pub enum MountKind {
 }
 
 impl MountKind {
-    const KNOWN: [(Self, [u8; 4]); 3] = [
+    const NAMES: [(Self, [u8; 4]); 3] = [
         (Self::ElevationOverAzimuth, *b"2KCA"),
         (Self::Polar, *b"2KCP"),
         (Self::AzimuthOverElevation, *b"2KCE"),
     ];
 
     fn from_name(name: [u8; 4]) -> Self {
-        let known = Self::KNOWN.into_iter().find(|(_, known)| *known == name);
-        known.map_or(Self::Other(name), |(mount, _)| mount)
+        let entry = Self::NAMES.into_iter().find(|(_, bytes)| *bytes == name);
+        entry.map_or(Self::Other(name), |(mount, _)| mount)
     }
 
     fn name(self) -> [u8; 4] {
         if let Self::Other(name) = self {
             return name;
         }
-        let known = Self::KNOWN.into_iter().find(|(mount, _)| *mount == self);
-        known.map_or(*b"    ", |(_, name)| name)
+        let entry = Self::NAMES.into_iter().find(|(mount, _)| *mount == self);
+        entry.map_or(*b"    ", |(_, name)| name)
     }
 }
 

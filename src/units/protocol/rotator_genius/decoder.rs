@@ -89,19 +89,19 @@ impl Decoder {
     /// A status that lacks only the end of the last name is completed with blanks. Everything
     /// else is noise, so that no reply is made of two halves.
     pub fn idle(&mut self) -> Vec<Received> {
-        let mut seen: Vec<_> = self.by_ref().collect();
+        let mut items: Vec<_> = self.by_ref().collect();
         if let Front::Unfinished { missing_of_name: Some(missing) } = self.front() {
             self.pending.extend(std::iter::repeat_n(b' ', missing));
         }
-        seen.extend(self.by_ref());
+        items.extend(self.by_ref());
         while !self.pending.is_empty() {
             self.give_up_one();
-            seen.extend(self.by_ref());
+            items.extend(self.by_ref());
         }
         if !self.noise.is_empty() {
-            seen.push(self.take_noise());
+            items.push(self.take_noise());
         }
-        seen
+        items
     }
 
     fn front(&mut self) -> Front {

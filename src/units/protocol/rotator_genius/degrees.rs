@@ -59,9 +59,9 @@ impl fmt::Display for WholeDegrees {
 /// Strips the blanks on either side of `field`.
 pub(super) fn without_blanks(field: &[u8]) -> &[u8] {
     let is_blank = |byte: &u8| *byte == b' ';
-    let from = field.iter().position(|byte| !is_blank(byte)).unwrap_or(field.len());
-    let until = field.iter().rposition(|byte| !is_blank(byte)).map_or(from, |last| last + 1);
-    field.get(from..until).unwrap_or_default()
+    let start = field.iter().position(|byte| !is_blank(byte)).unwrap_or(field.len());
+    let end = field.iter().rposition(|byte| !is_blank(byte)).map_or(start, |last| last + 1);
+    field.get(start..end).unwrap_or_default()
 }
 
 /// Reads at most four digits with blanks on either side.
@@ -87,8 +87,8 @@ mod tests {
 
     #[test]
     fn only_angles_of_the_protocol_are_built() {
-        for (given, kept) in [(0.0, 0), (-0.0, 0), (41.6, 42), (359.5, 360), (360.0, 360)] {
-            assert_eq!(WholeDegrees::nearest(given).unwrap().degrees(), kept, "{given}");
+        for (value, rounded) in [(0.0, 0), (-0.0, 0), (41.6, 42), (359.5, 360), (360.0, 360)] {
+            assert_eq!(WholeDegrees::nearest(value).unwrap().degrees(), rounded, "{value}");
         }
         for bad in [-1.0, -0.1, 360.1, 361.0, 999.0, f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
             assert!(WholeDegrees::nearest(bad).is_err(), "{bad}");

@@ -90,8 +90,8 @@ impl Shape {
 
 /// Returns `true` if the kind and the motion of a rotator are in their places with its fields at
 /// `at`; `None` if too few bytes have come to tell.
-fn has_rotator(bytes: &[u8], at: usize) -> Option<bool> {
-    let kind = bytes.get(at + KIND_AT)?;
-    let moving = bytes.get(at + KIND_AT + 1)?;
+fn has_rotator(bytes: &[u8], index: usize) -> Option<bool> {
+    let kind = bytes.get(index + KIND_AT)?;
+    let moving = bytes.get(index + KIND_AT + 1)?;
     Some(RotatorKind::from_letter(*kind).is_some() && matches!(moving, b'0'..=b'2'))
 }

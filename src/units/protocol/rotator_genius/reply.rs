@@ -75,14 +75,14 @@ fn go_to(bytes: &[u8]) -> Start<Reply> {
     }
 }
 
-fn ended_by(last: Option<&u8>, to: Acknowledgement, length: usize) -> Start<Reply> {
+fn ended_by(last: Option<&u8>, acknowledgement: Acknowledgement, length: usize) -> Start<Reply> {
     let is_accepted = match last {
         None => return Start::Unfinished,
         Some(b'K') => true,
         Some(b'F') => false,
         Some(_) => return Start::Unknown,
     };
-    Start::Whole(Reply::Acknowledgement { to, is_accepted }, length)
+    Start::Whole(Reply::Acknowledgement { to: acknowledgement, is_accepted }, length)
 }
 
 #[cfg(test)]
@@ -91,8 +91,9 @@ mod tests {
 
     #[test]
     fn an_acknowledgement_ends_with_its_verdict() {
-        let accepted =
-            |to, length| Start::Whole(Reply::Acknowledgement { to, is_accepted: true }, length);
+        let accepted = |request, length| {
+            Start::Whole(Reply::Acknowledgement { to: request, is_accepted: true }, length)
+        };
         let target = |degrees| WholeDegrees::new(degrees).ok();
         let go_to = |target| Acknowledgement::GoTo { target };
         for (bytes, expected) in [

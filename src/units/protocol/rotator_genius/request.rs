@@ -41,8 +41,8 @@ impl RotatorNumber {
 
     /// Rotator 1 or 2.
     pub fn new(number: u8) -> Result<Self, ValueError> {
-        let known = Self::ALL.into_iter().find(|known| known.number() == number);
-        known.ok_or(ValueError::Rotator(number))
+        let found = Self::ALL.into_iter().find(|rotator_number| rotator_number.number() == number);
+        found.ok_or(ValueError::Rotator(number))
     }
 
     pub const fn number(self) -> u8 {

@@ -54,7 +54,7 @@ impl ClockTime {
 fn whole_second(time: Timestamp) -> Result<Timestamp, ValueError> {
     let year = TimeZone::UTC.to_datetime(time).year();
     let out_of_range =
-        ValueError::Range { what: "year", value: f64::from(year), least: 2000.0, most: 2099.0 };
+        ValueError::Range { name: "year", value: f64::from(year), min: 2000.0, max: 2099.0 };
     if !(2000..=2099).contains(&year) {
         return Err(out_of_range);
     }
@@ -140,9 +140,9 @@ mod tests {
 
     #[test]
     fn a_window_must_have_a_length() {
-        let at = |second: i64| Timestamp::from_second(1_500_000_000 + second).unwrap();
-        assert_eq!(TrackWindow::new(at(5), at(5)), Err(ValueError::StopBeforeStart));
-        assert!(TrackWindow::new(at(5), at(6)).is_ok());
+        let time = |second: i64| Timestamp::from_second(1_500_000_000 + second).unwrap();
+        assert_eq!(TrackWindow::new(time(5), time(5)), Err(ValueError::StopBeforeStart));
+        assert!(TrackWindow::new(time(5), time(6)).is_ok());
         assert!(ClockTime::new(Timestamp::from_second(0).unwrap()).is_err());
         assert!(ClockTime::new(Timestamp::MAX).is_err());
     }

@@ -43,7 +43,10 @@ pub fn explain_reply(frame: &Frame) -> Vec<Value> {
 /// Name of fault `number` in the answer to `ERRSTATUS?`, counted from 1.
 pub(super) fn fault_name(number: usize) -> &'static str {
     let named = names::of_reply(Word::ErrStatus).named;
-    number.checked_sub(1).and_then(|at| named.get(at)).map_or(names::UNKNOWN, |named| named.name)
+    number
+        .checked_sub(1)
+        .and_then(|index| named.get(index))
+        .map_or(names::UNKNOWN, |named| named.name)
 }
 
 /// Placeholder for all values of a frame that holds a password.
@@ -58,12 +61,12 @@ fn explain(frame: &Frame, names: Names) -> Vec<Value> {
     raw.into_iter()
         .zip(named)
         .enumerate()
-        .map(|(at, (raw, named))| {
+        .map(|(index, (raw, named))| {
             let unknown = Named::new(names::UNKNOWN);
             let named = named.unwrap_or(&unknown);
             let code = named.codes.iter().find(|(code, _)| *code == raw);
             Value {
-                number: at + 1,
+                number: index + 1,
                 name: named.name,
                 unit: if code.is_some() { "" } else { named.unit },
                 stands_for: code.map_or("", |(_, word)| word),

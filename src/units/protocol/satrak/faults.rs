@@ -111,7 +111,7 @@ impl Faults {
             let code = fields.integer(kind.index())?;
             *state = Some(match FaultState::from_code(code) {
                 FaultState::Disconnected if !kind.is_sensor() => FaultState::Unknown(code),
-                known => known,
+                fault_state => fault_state,
             });
         }
         Ok(Self { states })
@@ -143,7 +143,7 @@ mod tests {
     use crate::protocol::satrak::Frame;
 
     fn read(payload: &str) -> Faults {
-        Faults::read(Fields::of(&Frame::from_payload(payload))).unwrap()
+        Faults::read(Fields::new(&Frame::from_payload(payload))).unwrap()
     }
 
     #[test]

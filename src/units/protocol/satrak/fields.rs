@@ -43,7 +43,7 @@ pub(super) struct Fields<'a> {
 }
 
 impl<'a> Fields<'a> {
-    pub(super) fn of(frame: &'a Frame) -> Self {
+    pub(super) fn new(frame: &'a Frame) -> Self {
         Self { frame }
     }
 
@@ -54,7 +54,7 @@ impl<'a> Fields<'a> {
     pub(super) fn text(self, field: usize) -> Result<&'a str, FieldError> {
         field
             .checked_sub(1)
-            .and_then(|at| self.frame.fields().get(at))
+            .and_then(|index| self.frame.fields().get(index))
             .map(String::as_str)
             .ok_or(FieldError { field, problem: FieldProblem::Missing })
     }
@@ -127,7 +127,7 @@ mod tests {
     use super::*;
 
     fn time_of(payload: &str) -> Result<Timestamp, FieldError> {
-        Fields::of(&Frame::from_payload(payload)).time(1, 0)
+        Fields::new(&Frame::from_payload(payload)).time(1, 0)
     }
 
     #[test]
@@ -143,7 +143,7 @@ mod tests {
         ] {
             assert!(time_of(payload).is_err(), "{payload}");
         }
-        assert!(Fields::of(&Frame::from_payload("T?,0,0,0,1,1,32767")).time(1, 2000).is_err());
+        assert!(Fields::new(&Frame::from_payload("T?,0,0,0,1,1,32767")).time(1, 2000).is_err());
     }
 
     #[test]

@@ -41,13 +41,13 @@ impl Frame {
     /// Splits a payload (without `$`, checksum and line end) into its parts.
     pub fn from_payload(payload: &str) -> Self {
         let line = payload.to_owned();
-        let (name, sign, rest_at) = if let Some(at) = line.find(['?', '=']) {
-            let tail = line.get(at..).unwrap_or_default();
+        let (name, sign, rest_at) = if let Some(index) = line.find(['?', '=']) {
+            let tail = line.get(index..).unwrap_or_default();
             let sign = if tail.starts_with("?=") { "?=" } else { tail.get(..1).unwrap_or("") };
-            (line.get(..at).unwrap_or_default(), sign, at + sign.len())
+            (line.get(..index).unwrap_or_default(), sign, index + sign.len())
         } else {
-            let at = line.find(',').unwrap_or(line.len());
-            (line.get(..at).unwrap_or_default(), "", at)
+            let position = line.find(',').unwrap_or(line.len());
+            (line.get(..position).unwrap_or_default(), "", position)
         };
         let trimmed = name.trim_end_matches(' ');
         let oddities =
@@ -108,7 +108,7 @@ impl Frame {
     }
 
     fn raw_fields(&self) -> impl Iterator<Item = &str> {
-        let values = self.values_at.and_then(|at| self.line.get(at..));
+        let values = self.values_at.and_then(|index| self.line.get(index..));
         values.into_iter().flat_map(|values| values.split(','))
     }
 
@@ -131,8 +131,8 @@ impl fmt::Debug for Frame {
 pub fn redact(payload: &str) -> Cow<'_, str> {
     let name = Word::SatelliteFtp.name();
     match payload.find(name) {
-        Some(at) => {
-            let shown = payload.get(..at + name.len()).unwrap_or(name);
+        Some(index) => {
+            let shown = payload.get(..index + name.len()).unwrap_or(name);
             Cow::Owned(format!("{shown} (values hidden)"))
         }
         None => Cow::Borrowed(payload),

@@ -138,7 +138,7 @@ mod tests {
     use crate::protocol::satrak::Frame;
 
     fn gps(payload: &str) -> Result<GpsData, FieldError> {
-        GpsData::read(Fields::of(&Frame::from_payload(payload)))
+        GpsData::read(Fields::new(&Frame::from_payload(payload)))
     }
 
     #[test]

@@ -6,19 +6,19 @@ use super::text::TextProblem;
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum ValueError {
     /// Outside the range, or not finite.
-    #[error("{what} {value} is not between {least} and {most}")]
+    #[error("{name} {value} is not between {min} and {max}")]
     Range {
         /// Meaning of the number, with its unit.
-        what: &'static str,
+        name: &'static str,
         value: f64,
-        least: f64,
-        most: f64,
+        min: f64,
+        max: f64,
     },
     /// A number without a meaning in the document.
-    #[error("{what} has no choice {code}")]
+    #[error("{name} has no choice {code}")]
     Choice {
         /// Subject of the choice.
-        what: &'static str,
+        name: &'static str,
         code: i64,
     },
     /// No axis would move. To stand still is the stop command's job.
@@ -31,10 +31,10 @@ pub enum ValueError {
     #[error("the stop time is not after the start time")]
     StopBeforeStart,
     /// A text that the protocol cannot carry.
-    #[error("{what} {problem}")]
+    #[error("{name} {problem}")]
     Text {
         /// Meaning of the text.
-        what: &'static str,
+        name: &'static str,
         /// Problem with the text; never holds the text itself.
         problem: TextProblem,
     },
@@ -42,17 +42,17 @@ pub enum ValueError {
 
 /// Rounds `value` to a thousandth if it is between `least` and `most`.
 pub(super) fn checked(
-    what: &'static str,
+    name: &'static str,
     value: f64,
-    least: f64,
-    most: f64,
+    min: f64,
+    max: f64,
 ) -> Result<f64, ValueError> {
     let rounded = (value * 1000.0).round() / 1000.0;
     // This form refuses NaN too. Adding zero removes a minus zero.
-    if (least..=most).contains(&rounded) {
+    if (min..=max).contains(&rounded) {
         Ok(rounded + 0.0)
     } else {
-        Err(ValueError::Range { what, value, least, most })
+        Err(ValueError::Range { name, value, min, max })
     }
 }
 
@@ -72,8 +72,8 @@ pub(super) fn pointed(value: f64) -> String {
 /// Reads a finite number with a decimal point.
 pub(super) fn parse_decimal(text: &str) -> Option<f64> {
     // Rust also reads `inf`, `nan` and exponents, which the protocol does not have.
-    let known = |byte: u8| byte.is_ascii_digit() || b"+-.".contains(&byte);
-    let number: Option<f64> = text.bytes().all(known).then(|| text.parse().ok()).flatten();
+    let is_number_byte = |byte: u8| byte.is_ascii_digit() || b"+-.".contains(&byte);
+    let number: Option<f64> = text.bytes().all(is_number_byte).then(|| text.parse().ok()).flatten();
     // Too many digits overflow to infinity.
     number.filter(|number| number.is_finite())
 }

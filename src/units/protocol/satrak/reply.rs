@@ -110,17 +110,17 @@ pub enum ReplyError {
 /// Number of values of a reply: fewest readable, listed in the document, most readable,
 /// and how many of them are decimals.
 struct Shape {
-    least: usize,
+    min: usize,
     listed: usize,
-    most: usize,
+    max: usize,
     decimals: usize,
 }
 
 impl Shape {
-    const fn of(word: Word) -> Option<Self> {
+    const fn for_word(word: Word) -> Option<Self> {
         /// Most values of a reply that ends in a text, which may hold commas.
         const ANY: usize = usize::MAX;
-        let (least, listed, most, decimals) = match word {
+        let (min, listed, max, decimals) = match word {
             Word::Version => (1, 2, ANY, 0),
             Word::Status => (Status::MIN_FIELDS, Status::FIELDS, Status::MAX_FIELDS, 4),
             Word::ErrStatus => (Faults::MIN_FIELDS, Faults::FIELDS, ANY, 0),
@@ -145,17 +145,17 @@ impl Shape {
             | Word::TrackAutoEnable
             | Word::RtcReupdate => return None,
         };
-        Some(Self { least, listed, most, decimals })
+        Some(Self { min, listed, max, decimals })
     }
 
     fn check(&self, word: Word, found: usize) -> Result<(), ReplyError> {
-        if (self.least..=self.most).contains(&found) {
+        if (self.min..=self.max).contains(&found) {
             return Ok(());
         }
         // Either every decimal falls apart at its comma, or only those that are not whole.
-        let looks_like_decimal_commas = found > self.most && self.decimals > 0;
-        let Self { least, most, .. } = *self;
-        Err(ReplyError::Count { word, found, least, most, looks_like_decimal_commas })
+        let looks_like_decimal_commas = found > self.max && self.decimals > 0;
+        let Self { min, max, .. } = *self;
+        Err(ReplyError::Count { word, found, least: min, most: max, looks_like_decimal_commas })
     }
 
     fn note(&self, word: Word, found: usize) -> Option<Note> {
@@ -174,13 +174,14 @@ impl Reply {
         let (word, verb) =
             frame.command().ok_or_else(|| ReplyError::UnknownWord(bounded(frame.word())))?;
         let mut notes: Vec<Note> = frame.oddities().iter().copied().map(Note::Oddity).collect();
-        let fields = Fields::of(frame);
+        let fields = Fields::new(frame);
         let reply = match (frame.fields().first().map(String::as_str), verb) {
             (Some("ERR"), _) => Self::Refused { code: fields.joined(1, 0).unwrap_or_default() },
             (Some("OK"), Verb::Set) => Self::Done,
             (_, Verb::Set) => return Err(ReplyError::NeitherOkNorErr(word)),
             (_, Verb::Query) => {
-                let shape = Shape::of(word).ok_or(ReplyError::NoSuchRequest { word, verb })?;
+                let shape =
+                    Shape::for_word(word).ok_or(ReplyError::NoSuchRequest { word, verb })?;
                 shape.check(word, fields.count())?;
                 notes.extend(shape.note(word, fields.count()));
                 read(word, fields).map_err(|error| ReplyError::Field { word, error })?

@@ -60,8 +60,8 @@ impl Query {
     ];
 
     pub fn word(self) -> Word {
-        let known = Self::ALL.into_iter().find(|(query, _)| *query == self);
-        known.map_or(Word::Version, |(_, word)| word)
+        let entry = Self::ALL.into_iter().find(|(query, _)| *query == self);
+        entry.map_or(Word::Version, |(_, word)| word)
     }
 }
 

@@ -34,11 +34,11 @@ impl Request {
     /// Reads a frame from a client.
     pub fn parse(frame: &Frame) -> Result<Self, RequestError> {
         let (word, verb) = frame.command().ok_or(RequestError::Unknown)?;
-        let fields = Fields::of(frame);
+        let fields = Fields::new(frame);
         match verb {
             Verb::Query => {
-                let mut known = Query::ALL.into_iter().filter(|(_, name)| *name == word);
-                let (query, _) = known.next().ok_or(RequestError::Unknown)?;
+                let mut matching = Query::ALL.into_iter().filter(|(_, name)| *name == word);
+                let (query, _) = matching.next().ok_or(RequestError::Unknown)?;
                 exactly(fields, 0)?;
                 Ok(Self::Query(query))
             }
@@ -203,7 +203,7 @@ mod tests {
 
     #[test]
     fn odd_forms_of_the_document_are_taken() {
-        for (odd, usual) in [
+        for (odd, plain) in [
             ("TRACK_AUTO_ENABLE =,1", "TRACK_AUTO_ENABLE=,1"),
             ("ANGLE_SETTINGS=0,39049,160.0,36838,40.0", "ANGLE_SETTINGS=,0,39049,160.0,36838,40.0"),
             ("STEP=,+2,0", "STEP=,2,0"),
@@ -212,7 +212,7 @@ mod tests {
                 "SATELLITE_FTP=,10.0.1.2,username,password,22,1,1",
             ),
         ] {
-            assert_eq!(parse(odd).unwrap().payload(), usual);
+            assert_eq!(parse(odd).unwrap().payload(), plain);
         }
     }
 

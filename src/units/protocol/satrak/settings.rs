@@ -155,7 +155,7 @@ impl SettingsRequest {
         if let Some(ms) = change.lead_ms {
             checked("lead time in ms", ms as f64, 0.0, MAX_TIME_MS)?;
         }
-        for (what, unknown) in [
+        for (name, unknown) in [
             ("position base", change.position_base.map(|base| (base.code(), 1))),
             ("power amplifier", change.sspa.map(|mode| (mode.code(), 2))),
             ("power amplifier rule", change.sspa_auto.map(|rule| (rule.code(), 3))),
@@ -163,11 +163,11 @@ impl SettingsRequest {
             if let Some((code, last)) = unknown
                 && !(0..=last).contains(&code)
             {
-                return Err(ValueError::Choice { what, code });
+                return Err(ValueError::Choice { name, code });
             }
         }
-        let angle = |what, value: Option<f64>, least, most| {
-            value.map(|value| checked(what, value, least, most)).transpose()
+        let angle = |field, value: Option<f64>, min, max| {
+            value.map(|value| checked(field, value, min, max)).transpose()
         };
         let offset = MAX_OFFSET_DEG;
         let north = MAX_NORTH_OFFSET_DEG;
@@ -226,14 +226,14 @@ mod tests {
     #[test]
     fn the_threshold_stands_at_different_places() {
         let payload = "SETTINGS?,1,100,1.0,2.0,60000,1,3.0,6.0,1,1,2,2.5";
-        let now = Settings::read(Fields::of(&Frame::from_payload(payload))).unwrap();
+        let now = Settings::read(Fields::new(&Frame::from_payload(payload))).unwrap();
         assert_eq!((now.tle_mode, now.elevation_threshold_deg), (TleMode::Ftp, 2.5));
         let change = SettingsChange { elevation_threshold_deg: Some(4.0), ..Default::default() };
         let request = SettingsRequest::new(&change).unwrap();
         assert_eq!(request.values().last().map(String::as_str), Some("4.0"));
         assert_eq!(request.values().len(), 11);
-        let then = now.after(request.change());
-        assert_eq!(then, Settings { elevation_threshold_deg: 4.0, ..now });
+        let changed = now.after(request.change());
+        assert_eq!(changed, Settings { elevation_threshold_deg: 4.0, ..now });
     }
 
     #[test]

@@ -125,7 +125,7 @@ mod tests {
     #[test]
     fn unexplained_numbers_lean_to_the_safe_side() {
         let frame = Frame::from_payload("STATUS?,7,1.5,2,2,0,0,-1,0,9,5,12,4,-1,80,90,3");
-        let status = Status::read(Fields::of(&frame)).unwrap();
+        let status = Status::read(Fields::new(&frame)).unwrap();
         assert!(status.fault);
         let limits = Limits { x_plus: true, x_minus: false, y_plus: false, y_minus: true };
         assert_eq!(status.limits, limits);

@@ -55,8 +55,8 @@ pub struct TextValue(String);
 
 impl TextValue {
     /// Checks `text`; `what` names it in the error.
-    pub fn new(what: &'static str, text: &str) -> Result<Self, ValueError> {
-        check(text, MAX_TEXT_BYTES).map_err(|problem| ValueError::Text { what, problem })?;
+    pub fn new(name: &'static str, text: &str) -> Result<Self, ValueError> {
+        check(text, MAX_TEXT_BYTES).map_err(|problem| ValueError::Text { name, problem })?;
         Ok(Self(text.to_owned()))
     }
 
@@ -73,8 +73,8 @@ impl UrlValue {
     /// Takes `url` as typed.
     pub fn new(url: &str) -> Result<Self, ValueError> {
         let url = url.replace(',', "%2C");
-        let what = "web address";
-        check(&url, MAX_URL_BYTES).map_err(|problem| ValueError::Text { what, problem })?;
+        let name = "web address";
+        check(&url, MAX_URL_BYTES).map_err(|problem| ValueError::Text { name, problem })?;
         Ok(Self(url))
     }
 
@@ -91,8 +91,8 @@ pub struct Password(String);
 
 impl Password {
     pub fn new(text: &str) -> Result<Self, ValueError> {
-        let what = "password";
-        check(text, MAX_TEXT_BYTES).map_err(|problem| ValueError::Text { what, problem })?;
+        let name = "password";
+        check(text, MAX_TEXT_BYTES).map_err(|problem| ValueError::Text { name, problem })?;
         Ok(Self(text.to_owned()))
     }
 
@@ -133,7 +133,7 @@ mod tests {
             (" a", TextProblem::OuterBlank),
             ("?", TextProblem::KeepSign),
         ] {
-            let refused = ValueError::Text { what: "name", problem };
+            let refused = ValueError::Text { name: "name", problem };
             assert_eq!(TextValue::new("name", text), Err(refused), "{text:?}");
         }
         assert!(TextValue::new("name", "IRIDIUM 70 [+]").is_ok());

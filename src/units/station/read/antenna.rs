@@ -19,12 +19,12 @@ impl Fields<'_> {
         &mut self,
         specs: &[&'static ControllerSpec],
         before: &[Antenna],
-        taken: &[AntennaId],
+        used_ids: &[AntennaId],
     ) -> Option<Antenna> {
         let default = self.inner("connection", |connection| connection.connected(specs))?;
         let name = self.text("name", &default.name);
         Some(Antenna {
-            id: self.antenna_id(before, taken),
+            id: self.antenna_id(before, used_ids),
             name,
             connects_at_start: self.flag("connects_at_start", false),
             mount: self.inner("mount", |mount| mount.mount(default.mount)),
@@ -58,8 +58,8 @@ impl Fields<'_> {
     }
 
     /// The id in the file, unless another antenna has it; else a free one.
-    fn antenna_id(&mut self, before: &[Antenna], taken: &[AntennaId]) -> AntennaId {
-        let free = AntennaId::free(AntennaId::FIRST, taken);
+    fn antenna_id(&mut self, before: &[Antenna], used_ids: &[AntennaId]) -> AntennaId {
+        let free = AntennaId::free(AntennaId::FIRST, used_ids);
         let Some(value) = self.table.remove("id") else { return free };
         let id = value.as_integer().and_then(|id| u32::try_from(id).ok()).map(AntennaId);
         let is_free = |id: &AntennaId| before.iter().all(|antenna| antenna.id != *id);
@@ -85,8 +85,8 @@ impl Fields<'_> {
                 None => self.settings(settings, connection),
             }
         }
-        if let Err(why) = spec.check_address(&address) {
-            self.invalid("address", why);
+        if let Err(reason) = spec.check_address(&address) {
+            self.invalid("address", reason);
             return None;
         }
         Some(antenna)
@@ -96,8 +96,8 @@ impl Fields<'_> {
         for setting in settings {
             let Some(value) = self.table.remove(setting.field.key) else { continue };
             let put = setting.read(value).and_then(|value| connection.put(setting, value));
-            if let Err(why) = put {
-                self.invalid(setting.field.key, why.to_string());
+            if let Err(unfit) = put {
+                self.invalid(setting.field.key, unfit.to_string());
             }
         }
     }
@@ -183,13 +183,13 @@ impl Fields<'_> {
         }
     }
 
-    pub(super) fn one_of<T: Copy>(&mut self, key: &str, known: &[(&str, T)], default: T) -> T {
+    pub(super) fn one_of<T: Copy>(&mut self, key: &str, choices: &[(&str, T)], default: T) -> T {
         let Some(value) = self.table.remove(key) else { return default };
-        let found = known.iter().find(|(name, _)| value.as_str() == Some(name));
+        let found = choices.iter().find(|(name, _)| value.as_str() == Some(name));
         found.map_or_else(
             || {
                 let names: Vec<String> =
-                    known.iter().map(|(name, _)| format!("{name:?}")).collect();
+                    choices.iter().map(|(name, _)| format!("{name:?}")).collect();
                 self.invalid(key, format!("must be one of {}", names.join(", ")));
                 default
             },
@@ -220,20 +220,20 @@ impl Fields<'_> {
                 }
             }
             Mount::AzEl {
-                azimuth_from_deg: from,
-                azimuth_to_deg: to,
+                azimuth_from_deg: start,
+                azimuth_to_deg: end,
                 elevation_from_deg: low,
                 elevation_to_deg: high,
             } => {
                 self.mount_type("azel");
-                let from = self.number("azimuth_from_deg", &ranges::AZIMUTH_FROM_DEG, from);
+                let first = self.number("azimuth_from_deg", &ranges::AZIMUTH_FROM_DEG, start);
                 let low = self.number("elevation_from_deg", &ranges::ELEVATION_FROM_DEG, low);
                 Mount::AzEl {
-                    azimuth_from_deg: from,
+                    azimuth_from_deg: first,
                     azimuth_to_deg: self.number(
                         "azimuth_to_deg",
-                        &above(from, &ranges::AZIMUTH_SPAN_DEG, &ranges::AZIMUTH_TO_DEG),
-                        to.max(from + ranges::AZIMUTH_SPAN_DEG.start()),
+                        &above(first, &ranges::AZIMUTH_SPAN_DEG, &ranges::AZIMUTH_TO_DEG),
+                        end.max(first + ranges::AZIMUTH_SPAN_DEG.start()),
                     ),
                     elevation_from_deg: low,
                     elevation_to_deg: self.number(
@@ -258,11 +258,11 @@ impl Fields<'_> {
 
 /// Range of the upper end of an axis whose lower end is `from`.
 fn above(
-    from: f64,
+    start: f64,
     span: &RangeInclusive<f64>,
     range: &RangeInclusive<f64>,
 ) -> RangeInclusive<f64> {
-    (from + span.start()).max(*range.start())..=(from + span.end()).min(*range.end())
+    (start + span.start()).max(*range.start())..=(start + span.end()).min(*range.end())
 }
 
 /// Error text that names the known makes.

@@ -51,12 +51,12 @@ impl Fields<'_> {
     fn sources(&mut self) -> Vec<String> {
         const KEY: &str = "sources";
         let Some(value) = self.table.remove(KEY) else { return Vec::new() };
-        let Ok(given) = value.try_into::<Vec<String>>() else {
+        let Ok(entries) = value.try_into::<Vec<String>>() else {
             self.invalid(KEY, "must be a list of names of element sources");
             return Vec::new();
         };
         let mut names: Vec<String> = Vec::new();
-        for name in given {
+        for name in entries {
             if !names.contains(&name) {
                 names.push(name);
             }
@@ -80,7 +80,9 @@ impl Fields<'_> {
 
     fn priority(&mut self) -> Option<Priority> {
         let number = self.table.remove("priority")?.as_integer().unwrap_or_default();
-        Priority::try_from(number).map_err(|why| self.invalid("priority", why.to_string())).ok()
+        Priority::try_from(number)
+            .map_err(|no_priority| self.invalid("priority", no_priority.to_string()))
+            .ok()
     }
 
     fn pass_limits(&mut self, antennas: &[AntennaId]) -> PassLimits {
@@ -104,16 +106,16 @@ impl Fields<'_> {
     /// antenna may take the passes: a limit is not widened.
     fn antennas_of_limits(&mut self, antennas: &[AntennaId]) -> Option<Vec<AntennaId>> {
         const KEY: &str = "antennas";
-        let given: Result<Vec<u32>, toml::de::Error> = self.table.remove(KEY)?.try_into();
-        let Ok(given) = given else {
+        let ids: Result<Vec<u32>, toml::de::Error> = self.table.remove(KEY)?.try_into();
+        let Ok(ids) = ids else {
             self.invalid(KEY, "must be a list of ids of antennas");
             return None;
         };
-        let (known, unknown): (Vec<_>, Vec<_>) =
-            given.into_iter().map(AntennaId).partition(|id| antennas.contains(id));
+        let (valid, unknown): (Vec<_>, Vec<_>) =
+            ids.into_iter().map(AntennaId).partition(|id| antennas.contains(id));
         if !unknown.is_empty() {
             self.invalid(KEY, "names an antenna that the station does not have");
         }
-        Some(known)
+        Some(valid)
     }
 }

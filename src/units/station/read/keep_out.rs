@@ -27,7 +27,7 @@ impl Fields<'_> {
                 continue;
             };
             let path = format!("{place}.");
-            let mut fields = Fields::of(&mut table, path);
+            let mut fields = Fields::new(&mut table, path);
             let others: Vec<&str> = keep_outs.iter().map(|other| &*other.name).collect();
             let name = fields.keep_out_name(index + 1, &others);
             let keep_out = fields.keep_out(name.clone(), antennas);
@@ -40,8 +40,8 @@ impl Fields<'_> {
             });
             match keep_out {
                 Ok(keep_out) => keep_outs.push(keep_out),
-                Err(why) => {
-                    self.does_not_hold(&place, &name, why);
+                Err(reason) => {
+                    self.does_not_hold(&place, &name, reason);
                     self.leave_out(&place);
                 }
             }
@@ -49,16 +49,16 @@ impl Fields<'_> {
         keep_outs
     }
 
-    fn does_not_hold(&mut self, place: &str, name: &str, why: impl Into<String>) {
-        self.note(place, NoteReason::DoesNotHold { name: name.to_owned(), why: why.into() });
+    fn does_not_hold(&mut self, place: &str, name: &str, reason: impl Into<String>) {
+        self.note(place, NoteReason::DoesNotHold { name: name.to_owned(), why: reason.into() });
     }
 
     fn keep_out_name(&mut self, number: usize, others: &[&str]) -> String {
-        let given = self.text("name", &format!("Keep-out {number}"));
-        let name = Antenna::free_name(&given, others);
-        if name != given {
-            let why = format!("another keep-out has it too, this one is called {name}");
-            self.invalid("name", why);
+        let typed = self.text("name", &format!("Keep-out {number}"));
+        let name = Antenna::free_name(&typed, others);
+        if name != typed {
+            let reason = format!("another keep-out has it too, this one is called {name}");
+            self.invalid("name", reason);
         }
         name
     }
@@ -92,9 +92,9 @@ impl Fields<'_> {
     /// A keep-out of an unknown antenna holds for the whole site.
     fn antenna_of_keep_out(&mut self, antennas: &[Antenna]) -> Option<String> {
         let value = self.table.remove("antenna")?;
-        let found = value
-            .as_str()
-            .and_then(|name| antennas.iter().find(|of| Antenna::same_name(&of.name, name)));
+        let found = value.as_str().and_then(|name| {
+            antennas.iter().find(|antenna| Antenna::same_name(&antenna.name, name))
+        });
         if found.is_none() {
             self.invalid("antenna", "no antenna has this name, the keep-out holds for all");
         }
@@ -111,8 +111,8 @@ impl Fields<'_> {
         }
         let (radius_deg, ahead_min) = self.inner(KEY, |sun| {
             let radius_deg = sun.number("radius_deg", &ranges::SUN_RADIUS_DEG, f64::NAN);
-            let usual = SunAvoidance::DEFAULT_AHEAD_MIN;
-            (radius_deg, sun.number("ahead_min", &ranges::SUN_AHEAD_MIN, usual))
+            let default = SunAvoidance::DEFAULT_AHEAD_MIN;
+            (radius_deg, sun.number("ahead_min", &ranges::SUN_AHEAD_MIN, default))
         });
         if radius_deg.is_nan() {
             self.does_not_hold(KEY, NAME, "it has no radius that can be used");

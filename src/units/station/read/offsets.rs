@@ -21,7 +21,7 @@ impl Fields<'_> {
         let offsets = offsets.map_err(|error| self.invalid("", error.message())).ok()?;
         let satellite = self.table.remove("satellite");
         let antenna = self.table.remove("antenna");
-        let of = match (satellite, antenna) {
+        let subject = match (satellite, antenna) {
             (Some(number), None) => catalog_number(&number).map(OffsetsOf::Satellite),
             (None, Some(id)) => catalog_number(&id)
                 .map(AntennaId)
@@ -29,9 +29,9 @@ impl Fields<'_> {
                 .map(OffsetsOf::Antenna),
             _ => None,
         };
-        if of.is_none() {
+        if subject.is_none() {
             self.invalid("satellite", "must be a catalogue number, or antenna the id of one");
         }
-        Some(KeptOffsets { of: of?, offsets })
+        Some(KeptOffsets { of: subject?, offsets })
     }
 }

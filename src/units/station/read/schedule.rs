@@ -47,7 +47,7 @@ impl Fields<'_> {
 
     /// The settings of an antenna for automatic operation.
     pub(super) fn automatic(&mut self) -> Automatic {
-        let between = [
+        let choices = [
             ("stay", BetweenPasses::Stay),
             ("wait", BetweenPasses::Wait),
             ("park", BetweenPasses::Park),
@@ -55,7 +55,7 @@ impl Fields<'_> {
         Automatic {
             is_on_at_start: self.flag("automatic_operation_at_start", false),
             resumes_after_crash: self.flag("automatic_operation_after_crash", false),
-            between: self.one_of("between_passes", &between, BetweenPasses::default()),
+            between: self.one_of("between_passes", &choices, BetweenPasses::default()),
             uses_auto_track: self.flag("uses_auto_track", false),
             set_up_s: self.optional("set_up_s", &ranges::SET_UP_S),
         }
@@ -113,7 +113,7 @@ impl Fields<'_> {
         groups: &[&str],
     ) -> Option<AutomationRule> {
         let before = self.notes.len();
-        let then =
+        let choices =
             [("take", Some(Then::Take)), ("leave", Some(Then::Leave)), ("park", Some(Then::Park))];
         let sun = [("up", Some(SunIs::Up)), ("down", Some(SunIs::Down))];
         if !self.table.contains_key("then") {
@@ -125,7 +125,7 @@ impl Fields<'_> {
             of: self.satellites_of_rule(groups),
             sun: self.one_of("sun", &sun, None),
             hours: self.hours("hours"),
-            then: self.one_of("then", &then, None)?,
+            then: self.one_of("then", &choices, None)?,
         };
         (self.notes.len() == before).then_some(rule)
     }
@@ -133,11 +133,11 @@ impl Fields<'_> {
     fn antenna_of_rule(&mut self, antennas: &[AntennaId]) -> Option<AntennaId> {
         let number = self.table.remove("antenna")?.as_integer();
         let id = number.and_then(|number| u32::try_from(number).ok()).map(AntennaId);
-        let known = id.filter(|id| antennas.contains(id));
-        if known.is_none() {
+        let valid = id.filter(|id| antennas.contains(id));
+        if valid.is_none() {
             self.invalid("antenna", "must be the id of an antenna of the station");
         }
-        known
+        valid
     }
 
     fn satellites_of_rule(&mut self, groups: &[&str]) -> Option<RuleOf> {
@@ -145,11 +145,11 @@ impl Fields<'_> {
             return self.satellite().map(RuleOf::Satellite);
         }
         let name = self.table.remove("group")?;
-        let known = name.as_str().filter(|name| groups.contains(name)).map(str::to_owned);
-        if known.is_none() {
+        let valid = name.as_str().filter(|name| groups.contains(name)).map(str::to_owned);
+        if valid.is_none() {
             self.invalid("group", "must be the name of a group");
         }
-        known.map(RuleOf::Group)
+        valid.map(RuleOf::Group)
     }
 
     /// Hours of which one end cannot be read are none: they are not guessed.
@@ -158,12 +158,12 @@ impl Fields<'_> {
             return None;
         }
         let ends = self.inner(key, |fields| (fields.time_of_day("from"), fields.time_of_day("to")));
-        let (Some(from), Some(to)) = ends else { return None };
-        if from == to {
+        let (Some(start), Some(end)) = ends else { return None };
+        if start == end {
             self.invalid(key, "must end at another time than they begin");
             return None;
         }
-        Some(HoursOfDay { from, to })
+        Some(HoursOfDay { from: start, to: end })
     }
 
     fn time_of_day(&mut self, key: &str) -> Option<jiff::civil::Time> {

@@ -20,17 +20,18 @@ pub(super) struct Part<'a> {
 /// The objects of `text`, and whatever else stands between them. Every byte is examined a fixed
 /// number of times.
 pub(super) fn parts(text: &str) -> impl Iterator<Item = Part<'_>> {
-    let between = |letter: char| letter.is_whitespace() || matches!(letter, ',' | '[' | ']' | '}');
+    let is_separator =
+        |letter: char| letter.is_whitespace() || matches!(letter, ',' | '[' | ']' | '}');
     let (mut rest, mut line) = (text, 1);
     std::iter::from_fn(move || {
-        let start = rest.find(|letter| !between(letter))?;
+        let start = rest.find(|letter| !is_separator(letter))?;
         let (skipped, entry) = rest.split_at(start);
         line += newlines(skipped);
         let is_object = entry.starts_with('{');
         let end =
             if is_object { object_end(entry) } else { entry.find('{').unwrap_or(entry.len()) };
         let (entry, after) = entry.split_at(end);
-        let text = if is_object { entry } else { entry.trim_end_matches(between) };
+        let text = if is_object { entry } else { entry.trim_end_matches(is_separator) };
         let part = Part { line, text };
         line += newlines(entry);
         rest = after;

@@ -68,8 +68,8 @@ fn beyond_north_the_axis_counts_on_and_the_pointing_does_not() {
 
 #[test]
 fn over_the_zenith_the_antenna_points_to_the_other_side() {
-    let over = Status { elevation: Position::Counts(2430), ..status(IDLE) };
-    let axes = calibrated().read(&over, None);
+    let past_zenith = Status { elevation: Position::Counts(2430), ..status(IDLE) };
+    let axes = calibrated().read(&past_zenith, None);
     assert_eq!(axes[1].angle_deg, Some(120.0));
     let direction = Axes::pointing(axes, &mount(180.0)).direction().unwrap();
     let [azimuth, _] = axes;
@@ -106,7 +106,7 @@ fn a_shown_azimuth_has_no_angle_until_its_turn_is_known() {
         (*azimuth_from_deg, *azimuth_to_deg) = (0.0, 450.0);
     }
     let nowhere = Axis { angle_deg: None, ..calibrated().read(&status(IDLE), None)[0] };
-    let at = |angle_deg| Axis { angle_deg: Some(angle_deg), ..nowhere };
+    let axis_at = |angle_deg| Axis { angle_deg: Some(angle_deg), ..nowhere };
     let lower_end = Axis { minus_limit: true, ..nowhere };
     let upper_end = Axis { plus_limit: true, ..nowhere };
     for (tenths, before, expected_deg) in [
@@ -116,18 +116,18 @@ fn a_shown_azimuth_has_no_angle_until_its_turn_is_known() {
         // Both ends of the travel have it.
         (450, None, None),
         (450, Some(nowhere), None),
-        (450, Some(at(44.0)), Some(45.0)),
-        (450, Some(at(404.0)), Some(405.0)),
+        (450, Some(axis_at(44.0)), Some(45.0)),
+        (450, Some(axis_at(404.0)), Some(405.0)),
         // Through north.
-        (5, Some(at(359.8)), Some(360.5)),
-        (3598, Some(at(360.5)), Some(359.8)),
-        (3600, Some(at(0.2)), Some(0.0)),
+        (5, Some(axis_at(359.8)), Some(360.5)),
+        (3598, Some(axis_at(360.5)), Some(359.8)),
+        (3600, Some(axis_at(0.2)), Some(0.0)),
         // At the end that it comes from.
         (3, Some(lower_end), Some(0.3)),
         (895, Some(upper_end), Some(449.5)),
         // Noise, and an overrun.
-        (3595, Some(at(0.1)), Some(-0.5)),
-        (920, Some(at(449.0)), Some(452.0)),
+        (3595, Some(axis_at(0.1)), Some(-0.5)),
+        (920, Some(axis_at(449.0)), Some(452.0)),
         // A display that does not wrap.
         (4000, None, Some(400.0)),
     ] {
@@ -160,12 +160,12 @@ fn a_display_that_wraps_at_north_shows_no_turn_of_a_standing_axis() {
 fn an_axis_that_stays_is_sent_to_its_present_counts() {
     let axes = calibrated();
     let angle = |degrees| Some(Angle::from_degrees(degrees));
-    let both = axes.counts(angle(390.0), angle(45.0), None, &mount(90.0)).unwrap();
-    assert_eq!(both, [6030, 930]);
+    let counts = axes.counts(angle(390.0), angle(45.0), None, &mount(90.0)).unwrap();
+    assert_eq!(counts, [6030, 930]);
     let one = axes.counts(None, angle(45.0), Some(&status(IDLE)), &mount(90.0)).unwrap();
     assert_eq!(one, [1525, 930]);
-    let beyond = axes.counts(angle(88.0), angle(45.0), None, &mount(90.0)).unwrap_err();
-    assert!(beyond.contains("no counts"), "{beyond}");
+    let refusal = axes.counts(angle(88.0), angle(45.0), None, &mount(90.0)).unwrap_err();
+    assert!(refusal.contains("no counts"), "{refusal}");
 }
 
 #[test]

@@ -17,11 +17,11 @@ fn head() -> CopyHead {
 
 fn state<const N: usize>(values: [(&'static str, Value); N]) -> GroupState {
     let read_at = head().saved_at;
-    let held = Some(HeldGroup { values: Values::from(values), read_at });
-    GroupState { held, ..GroupState::default() }
+    let group = Some(HeldGroup { values: Values::from(values), read_at });
+    GroupState { held: group, ..GroupState::default() }
 }
 
-fn held() -> Held {
+fn unit_settings() -> Held {
     let text = |text: &str| Value::Text(text.to_owned());
     let failed = GroupState {
         failure: Some(ReadFailure::Refused("ERR,1".to_owned())),
@@ -55,7 +55,7 @@ fn held() -> Held {
 
 #[test]
 fn a_copy_of_a_unit_differs_from_it_in_nothing() {
-    let written = SettingsCopy::text(&head(), GROUPS, &held());
+    let written = SettingsCopy::text(&head(), GROUPS, &unit_settings());
     assert!(!written.contains("hunter2"), "{written}");
     assert!(written.contains("# web: not read, the unit answered ERR,1"), "{written}");
     let copy = SettingsCopy::read(&written, "satrak", GROUPS).unwrap();
@@ -63,7 +63,7 @@ fn a_copy_of_a_unit_differs_from_it_in_nothing() {
     assert_eq!(copy.unknown, Vec::<String>::new());
     let names: Vec<_> = copy.values.iter().map(|value| value.field).collect();
     assert!(!names.contains(&"tle_source") && !names.contains(&"password"), "{names:?}");
-    assert_eq!(copy.differences(GROUPS, &held()).len(), 0);
+    assert_eq!(copy.differences(GROUPS, &unit_settings()).len(), 0);
 }
 
 #[test]
@@ -75,7 +75,7 @@ fn what_differs_is_told_and_service_is_only_shown() {
     let copy = SettingsCopy::read(text, "satrak", GROUPS).unwrap();
     assert_eq!(copy.unknown, ["general.minimum", "other.z"]);
     let found: Vec<_> = copy
-        .differences(GROUPS, &held())
+        .differences(GROUPS, &unit_settings())
         .into_iter()
         .map(|one| (one.field.key, one.verdict))
         .collect();
@@ -104,7 +104,7 @@ fn another_file_is_refused_with_the_reason() {
     let other = SettingsCopy::text(
         &CopyHead { controller: "genius".to_owned(), ..head() },
         GROUPS,
-        &held(),
+        &unit_settings(),
     );
     assert!(matches!(read(&other), CopyError::OtherController { .. }));
 }

@@ -11,14 +11,14 @@ use crate::{
 pub(in crate::controller::satrak) struct Desired<'a> {
     pub new: &'a Values,
     /// Values that the unit holds.
-    pub(in crate::controller::satrak) held: &'a Values,
+    pub(in crate::controller::satrak) unit_values: &'a Values,
     /// The computer's UTC.
     pub(in crate::controller::satrak) utc: Timestamp,
 }
 
 impl Desired<'_> {
     fn find<T>(&self, key: &Key<T>) -> Option<T> {
-        key.of(self.new).or_else(|| key.of(self.held))
+        key.of(self.new).or_else(|| key.of(self.unit_values))
     }
 
     /// A flag; off if it is unknown.

@@ -11,7 +11,7 @@ pub(in crate::controller::satrak) struct Proof<'a> {
     /// Requested values.
     pub new: &'a Values,
     /// Values that the unit holds.
-    pub(in crate::controller::satrak) held: &'a Values,
+    pub(in crate::controller::satrak) unit_values: &'a Values,
     /// How far the unit's clock is ahead of the computer's, seconds.
     pub(in crate::controller::satrak) ahead_s: Option<f64>,
 }
@@ -30,7 +30,7 @@ impl Proof<'_> {
     ) -> Vec<&'static str> {
         let differs = |field: &&Field| {
             let Some(new) = self.new.get(field.key) else { return false };
-            !self.held.get(field.key).is_some_and(|held| is_held(field, new, held))
+            !self.unit_values.get(field.key).is_some_and(|current| is_held(field, new, current))
         };
         let fields = self.group.fields.iter().filter(|field| field.access == Access::Edit);
         fields.filter(differs).map(|field| field.key).collect()
@@ -39,7 +39,7 @@ impl Proof<'_> {
 
 /// The held values must equal the new ones.
 pub(super) fn plain(proof: &Proof<'_>) -> Vec<&'static str> {
-    proof.differing(|field, new, held| field.kind.same(new, held))
+    proof.differing(|field, new, current| field.kind.same(new, current))
 }
 
 /// No fault speaks against it.

@@ -11,11 +11,11 @@ use crate::{
     protocol::satrak::{AngleChange, Reduction, Reply, SensorAngles, Setting},
 };
 
-const GIVEN: i64 = 0;
+const FIXED_ADDRESS: i64 = 0;
 const PRESENT: i64 = 1;
 
 const REFERENCE: Key<i64> =
-    Key::choice("reference", &[(GIVEN, "As entered below"), (PRESENT, "Present position")]);
+    Key::choice("reference", &[(FIXED_ADDRESS, "As entered below"), (PRESENT, "Present position")]);
 const X_SENSOR: Key<i64> = Key::integer("x_sensor", 0, 65_535);
 const X_DEG: Key<f64> = Key::decimal("x_deg", -360.0, 360.0, 1);
 const Y_SENSOR: Key<i64> = Key::integer("y_sensor", 0, 65_535);
@@ -89,7 +89,7 @@ pub(super) fn image(reply: &Reply) -> Option<Values> {
 pub(super) fn write_angles(desired: &Desired<'_>) -> Result<Setting, WriteError> {
     let angles = SensorAngles::new(desired.get(&X_DEG)?, desired.get(&Y_DEG)?)
         .map_err(cannot(X_DEG.name))?;
-    let change = if desired.get(&REFERENCE).unwrap_or(GIVEN) == PRESENT {
+    let change = if desired.get(&REFERENCE).unwrap_or(FIXED_ADDRESS) == PRESENT {
         AngleChange::PresentPosition(angles)
     } else {
         AngleChange::Given {
@@ -113,8 +113,8 @@ pub(super) fn write_image(desired: &Desired<'_>) -> Result<Setting, WriteError> 
 /// Where the references are taken from the present position, they are not known before.
 pub(super) fn angles_differing(proof: &Proof<'_>) -> Vec<&'static str> {
     let takes_present = REFERENCE.of(proof.new) == Some(PRESENT);
-    proof.differing(|field, new, held| {
+    proof.differing(|field, new, current| {
         let is_measured = takes_present && matches!(field.kind, Kind::Integer { .. });
-        is_measured || field.kind.same(new, held)
+        is_measured || field.kind.same(new, current)
     })
 }

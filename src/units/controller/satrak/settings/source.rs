@@ -180,11 +180,11 @@ pub(super) fn write_ftp(desired: &Desired<'_>) -> Result<Setting, WriteError> {
 
 /// An address is on the unit as it was sent: with its commas encoded.
 pub(super) fn web_differing(proof: &Proof<'_>) -> Vec<&'static str> {
-    proof.differing(|field, new, held| match new {
+    proof.differing(|field, new, current| match new {
         Value::Text(url) => {
-            UrlValue::new(url).is_ok_and(|url| *held == Value::Text(url.as_str().to_owned()))
+            UrlValue::new(url).is_ok_and(|url| *current == Value::Text(url.as_str().to_owned()))
         }
-        _ => field.kind.same(new, held),
+        _ => field.kind.same(new, current),
     })
 }
 
@@ -205,7 +205,7 @@ mod tests {
 
     #[test]
     fn all_eight_values_of_the_ftp_source_go_out() {
-        let held = [
+        let stored = [
             ("address", Value::Text("10.0.1.2".to_owned())),
             ("user", Value::Text("username".to_owned())),
             ("password", Value::Secret(Secret::new("password"))),
@@ -216,7 +216,8 @@ mod tests {
             ("on_error", Value::Choice(1)),
         ];
         let new = [("port", Value::Integer(22))].into();
-        let desired = Desired { new: &new, held: &held.into(), utc: jiff::Timestamp::UNIX_EPOCH };
+        let desired =
+            Desired { new: &new, unit_values: &stored.into(), utc: jiff::Timestamp::UNIX_EPOCH };
         let sent = Request::Setting(write_ftp(&desired).unwrap()).to_bytes();
         let documented: &[u8] = b"$SATELLITE_FTP=,10.0.1.2,username,password,22,iridium.txt,\
             IRIDIUM 70 [+],1,1*32\r\n";

@@ -18,7 +18,7 @@ const SEARCHES: usize = 3;
 #[derive(Debug, Clone, Copy)]
 struct Axes([bool; 2]);
 
-const BOTH: Axes = Axes([true, true]);
+const BOTH_AXES: Axes = Axes([true, true]);
 const SINGLE: [Axes; 2] = [Axes([true, false]), Axes([false, true])];
 
 impl Evidence<'_> {
@@ -37,40 +37,48 @@ impl Evidence<'_> {
         let axes = if self.has_elevation { &SINGLE[..] } else { &SINGLE[..1] };
         let single = axes.iter().filter_map(|axes| found(*axes));
         let single = single.min_by(|a, b| a.fit.left.total_cmp(&b.fit.left));
-        let both = if self.has_elevation { found(BOTH) } else { None };
-        let (Some(single), Some(both)) = (single, both) else { return single.or(both) };
-        let needs_both = single.fit.left - both.fit.left > ALIKE * both.fit.variance;
-        Some(if needs_both { both } else { single })
+        let found_both = if self.has_elevation { found(BOTH_AXES) } else { None };
+        let (Some(single), Some(double)) = (single, found_both) else {
+            return single.or(found_both);
+        };
+        let needs_both = single.fit.left - double.fit.left > ALIKE * double.fit.variance;
+        Some(if needs_both { double } else { single })
     }
 
     fn slow(&self, axes: Axes) -> Option<Found> {
         let (low, high) = (RATES_DEG_S.0.ln(), RATES_DEG_S.1.ln());
-        let rate = |at: f64| (low + (high - low) * at).exp();
-        let fit = |at: f64| self.fit_of_axes(|points| slow(points, self.mount, axes, rate(at)));
-        let (at, fit) = searched(fit)?;
-        let cause = Cause::SlowDrives { rate_deg_s: rate(at), axis: self.axis(axes) };
-        Some(Found { cause, with: None, fit })
+        let rate = |share: f64| (low + (high - low) * share).exp();
+        let fit =
+            |share: f64| self.fit_of_axes(|points| slow(points, self.mount, axes, rate(share)));
+        let (best_share, fit) = searched(fit)?;
+        let cause = Cause::SlowDrives { rate_deg_s: rate(best_share), axis: self.axis(axes) };
+        Some(Found { cause, partner: None, fit })
     }
 
     fn stuck_axes(&self, axes: Axes) -> Option<Found> {
         // Axes that stand in one pass need not stand in another.
         let [points] = &self.passes[..] else { return None };
-        let place = |at: f64| (points.len() as f64 * at) as usize;
-        let fit = |at: f64| self.fit_of_axes(|points| stuck(points, self.mount, axes, place(at)));
-        let (at, fit) = searched(fit)?;
-        let since = points.get(place(at))?.time;
-        Some(Found { cause: Cause::Stuck { since, axis: self.axis(axes) }, with: None, fit })
+        let place = |share: f64| (points.len() as f64 * share) as usize;
+        let fit =
+            |share: f64| self.fit_of_axes(|points| stuck(points, self.mount, axes, place(share)));
+        let (best_share, fit) = searched(fit)?;
+        let start = points.get(place(best_share))?.time;
+        Some(Found {
+            cause: Cause::Stuck { since: start, axis: self.axis(axes) },
+            partner: None,
+            fit,
+        })
     }
 
     fn fit_of_axes(&self, axes_deg: impl Fn(&[Point<'_>]) -> Vec<[f64; 2]>) -> Fit {
         let left = self.passes.iter().map(|points| {
             let pairs = points.iter().zip(axes_deg(points));
             let left = pairs.map(|(point, axes_deg)| {
-                let mut at = self.mount.direction(axes_deg);
+                let mut direction = self.mount.direction(axes_deg);
                 if !self.has_elevation {
-                    at.elevation = point.satellite.elevation;
+                    direction.elevation = point.satellite.elevation;
                 }
-                point.error - (at.to_enu() - point.satellite.to_enu())
+                point.error - (direction.to_enu() - point.satellite.to_enu())
             });
             left.collect()
         });
@@ -92,14 +100,15 @@ impl Evidence<'_> {
 
 /// The place from 0 to 1 that leaves least. Coarse at first, because the sum has flat parts.
 fn searched(fit: impl Fn(f64) -> Fit) -> Option<(f64, Fit)> {
-    let (mut from, mut to) = (0.0, 1.0);
+    let (mut start, mut end) = (0.0, 1.0);
     let mut best: Option<(f64, Fit)> = None;
     for _ in 0..SEARCHES {
-        let step = (to - from) / STEPS as f64;
-        let tried = (0..=STEPS).map(|count| from + step * count as f64).map(|at| (at, fit(at)));
+        let step = (end - start) / STEPS as f64;
+        let tried =
+            (0..=STEPS).map(|count| start + step * count as f64).map(|place| (place, fit(place)));
         best = tried.chain(best).min_by(|(_, a), (_, b)| a.left.total_cmp(&b.left));
-        let (at, _) = best?;
-        (from, to) = ((at - step).max(0.0), (at + step).min(1.0));
+        let (best_place, _) = best?;
+        (start, end) = ((best_place - step).max(0.0), (best_place + step).min(1.0));
     }
     best
 }
@@ -122,8 +131,8 @@ fn followed_deg(point: &Point<'_>, mount: Mount) -> [f64; 2] {
 }
 
 fn measured_deg(point: &Point<'_>, mount: Mount) -> [f64; 2] {
-    let off = (point.measured.azimuth - point.followed.azimuth).wrapped_180();
-    axes_deg(mount, point.measured, point.azimuth_deg + off.degrees())
+    let deviation = (point.measured.azimuth - point.followed.azimuth).wrapped_180();
+    axes_deg(mount, point.measured, point.azimuth_deg + deviation.degrees())
 }
 
 /// Angles of axes that follow the satellite from where they were first, those of `axes` at no
@@ -131,7 +140,7 @@ fn measured_deg(point: &Point<'_>, mount: Mount) -> [f64; 2] {
 fn slow(points: &[Point<'_>], mount: Mount, axes: Axes, rate_deg_s: f64) -> Vec<[f64; 2]> {
     let mut before: Option<&Point<'_>> = None;
     let mut at_deg = [0.0; 2];
-    let each = points.iter().map(|point| {
+    let errors = points.iter().map(|point| {
         let followed = followed_deg(point, mount);
         let (start, turns_deg) = match before {
             None => (measured_deg(point, mount), 0.0),
@@ -143,7 +152,7 @@ fn slow(points: &[Point<'_>], mount: Mount, axes: Axes, rate_deg_s: f64) -> Vec<
         });
         at_deg
     });
-    each.collect()
+    errors.collect()
 }
 
 /// Angles of axes that follow the satellite, those of `axes` until the point at `place`, and stand
@@ -157,14 +166,14 @@ fn stuck(points: &[Point<'_>], mount: Mount, axes: Axes, place: usize) -> Vec<[f
         [first + measured_first, second + measured_second]
     });
     let stands = sum.map(|sum| sum / count);
-    let each = points.iter().enumerate().map(|(at, point)| {
+    let errors = points.iter().enumerate().map(|(index, point)| {
         let followed = followed_deg(point, mount);
-        if at < place {
+        if index < place {
             return followed;
         }
         each_axis(axes, followed, stands, |_, stands| stands)
     });
-    each.collect()
+    errors.collect()
 }
 
 /// The angle of each of `axes` by `turned`; the others follow.

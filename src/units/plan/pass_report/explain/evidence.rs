@@ -117,9 +117,9 @@ impl<'a> Evidence<'a> {
             }
         };
         let measured: Vec<(Timestamp, AzEl)> = apart(measured, STEP_S, |(time, _)| *time).collect();
-        let each = measured.len() / MAX_POSITIONS + 1;
+        let stride = measured.len() / MAX_POSITIONS + 1;
         let mut points: Vec<Point<'a>> = Vec::new();
-        for (time, mut measured) in measured.into_iter().step_by(each) {
+        for (time, mut measured) in measured.into_iter().step_by(stride) {
             let Ok(look) = propagator.look_from(site, time) else { continue };
             let followed = propagator.look_from(place, add_seconds(time, -clock_late_s));
             let (satellite, Ok(followed)) = (look.direction, followed) else { continue };
@@ -222,16 +222,16 @@ impl<'a> Evidence<'a> {
         let late_s = first.clock_late_s;
         let [north_km, east_km] = apart_km(site, first.place);
         let place = moved(site, north_km, east_km)?;
-        let known = [
+        let causes = [
             (Cause::Late { late_s }, site, late_s),
             (Cause::OtherSite { north_km, east_km }, place, 0.0),
             (Cause::Refraction, if first.is_airless { site.airless() } else { site }, 0.0),
         ];
-        let parts = known.map(|(cause, from, late_s)| {
+        let parts = causes.map(|(cause, true_place, late_s)| {
             let moved = points.iter().filter_map(|point| {
                 let time = add_seconds(point.time, -late_s);
-                let at = point.propagator.look_from(from, time).ok()?.direction;
-                Some((at.to_enu() - point.satellite.to_enu()).length_squared())
+                let direction = point.propagator.look_from(true_place, time).ok()?.direction;
+                Some((direction.to_enu() - point.satellite.to_enu()).length_squared())
             });
             (cause, moved.sum::<f64>())
         });

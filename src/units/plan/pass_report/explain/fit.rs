@@ -71,8 +71,8 @@ impl Family<'_> {
     }
 
     /// Where an antenna points that would point at `at` without this cause.
-    fn turns(self, at: AzEl, point: &Point<'_>, sizes: &[f64]) -> AzEl {
-        let AzEl { azimuth, elevation } = at;
+    fn turns(self, direction: AzEl, point: &Point<'_>, sizes: &[f64]) -> AzEl {
+        let AzEl { azimuth, elevation } = direction;
         let deg = Angle::from_degrees;
         match self.cause(sizes) {
             Cause::AzimuthOffset { offset_deg } => {
@@ -85,7 +85,7 @@ impl Family<'_> {
                 // A point towards which the axis leans is nearer to the axis, and so the elevation
                 // reads higher.
                 let lean = DVec3::new(deg(north_deg).radians(), -deg(east_deg).radians(), 0.0);
-                AzEl::from_enu(at.to_enu() + lean.cross(at.to_enu()))
+                AzEl::from_enu(direction.to_enu() + lean.cross(direction.to_enu()))
             }
             Cause::AzimuthScale { per_mille } => {
                 AzEl { azimuth: azimuth + deg(point.azimuth_deg * per_mille / 1000.0), elevation }
@@ -100,7 +100,7 @@ impl Family<'_> {
             | Cause::OtherSite { .. }
             | Cause::Refraction
             | Cause::SlowDrives { .. }
-            | Cause::Stuck { .. } => at,
+            | Cause::Stuck { .. } => direction,
         }
     }
 }
@@ -135,11 +135,12 @@ fn modelled(families: &[Family<'_>], sizes: DVec4, point: &Point<'_>) -> Option<
         }
         is_moved = true;
     }
-    let mut at = point.followed;
+    let mut direction = point.followed;
     if is_moved {
-        at = propagator.look_from(place, add_seconds(point.time, -late_s)).ok()?.direction;
+        direction = propagator.look_from(place, add_seconds(point.time, -late_s)).ok()?.direction;
     }
-    let turned = sized(families, &sizes).fold(at, |at, (family, own)| family.turns(at, point, own));
+    let turned = sized(families, &sizes)
+        .fold(direction, |position, (family, own)| family.turns(position, point, own));
     Some(turned)
 }
 
@@ -152,7 +153,7 @@ impl Evidence<'_> {
         let fit = self.fit_of(|point| modelled(&families, sizes, point));
         let sizes = sizes.to_array();
         let (own, others) = sizes.split_at(first.steps().len());
-        Found { cause: first.cause(own), with: second.map(|second| second.cause(others)), fit }
+        Found { cause: first.cause(own), partner: second.map(|second| second.cause(others)), fit }
     }
 
     /// The sizes from which a fit begins.
@@ -165,8 +166,8 @@ impl Evidence<'_> {
         let sum = |start_s: f64| {
             self.points()
                 .filter_map(|point| {
-                    let at = modelled(families, *late * start_s, point)?;
-                    let model = at.to_enu() - point.satellite.to_enu();
+                    let direction = modelled(families, *late * start_s, point)?;
+                    let model = direction.to_enu() - point.satellite.to_enu();
                     Some((point.error - model).length_squared())
                 })
                 .sum::<f64>()
@@ -179,8 +180,8 @@ impl Evidence<'_> {
     /// The sizes that leave least (Gauss-Newton).
     fn sizes(&self, families: &[Family<'_>], start: DVec4) -> DVec4 {
         let mut steps = DVec4::ZERO;
-        let each = families.iter().flat_map(|family| family.steps()).zip(DVec4::AXES);
-        each.for_each(|(step, axis)| steps += axis * *step);
+        let all_sizes = families.iter().flat_map(|family| family.steps()).zip(DVec4::AXES);
+        all_sizes.for_each(|(step, axis)| steps += axis * *step);
         let is_unused = steps.cmpeq(DVec4::ZERO);
         let unused = DMat4::from_diagonal(DVec4::select(is_unused, DVec4::ONE, DVec4::ZERO));
         let mut sizes = start;

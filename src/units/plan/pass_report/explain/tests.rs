@@ -70,14 +70,14 @@ fn flights() -> Vec<Flight> {
 }
 
 impl Flight {
-    fn at(&self, time: Timestamp) -> AzEl {
+    fn direction_at(&self, time: Timestamp) -> AzEl {
         self.propagator.look_from(self.site, time).unwrap().direction
     }
 
     fn times(&self) -> impl Iterator<Item = Timestamp> {
-        let from = self.pass.aos.time;
+        let start = self.pass.aos.time;
         let count = (self.pass.duration_s() / STEP_S) as u32;
-        (0..=count).map(move |step| add_seconds(from, f64::from(step) * STEP_S))
+        (0..=count).map(move |step| add_seconds(start, f64::from(step) * STEP_S))
     }
 
     /// Elements whose satellite is a little further on.
@@ -99,19 +99,20 @@ fn deg(deg: f64) -> Angle {
 /// With noise on both angles of the sky.
 fn noisy(exact: &[(Timestamp, AzEl)], random: &mut Random) -> Vec<(Timestamp, AzEl)> {
     let shakes = |random: &mut Random| NOISE_DEG * normal(random);
-    let each = exact.iter().map(|(time, at)| {
+    let shifted = exact.iter().map(|(time, direction)| {
         let (right_deg, up_deg) = (shakes(random), shakes(random));
-        (*time, shaken(*at, right_deg, up_deg))
+        (*time, shaken(*direction, right_deg, up_deg))
     });
-    each.collect()
+    shifted.collect()
 }
 
 /// Slow drives of a flight fail where the azimuth is quickest, and come back.
 fn sized_for(flight: &Flight, cause: Cause) -> Cause {
     let Cause::SlowDrives { axis, .. } = cause else { return cause };
     let rates = flight.times().map(|time| {
-        let (from, to) = (flight.at(time), flight.at(add_seconds(time, STEP_S)));
-        (to.azimuth - from.azimuth).wrapped_180().degrees().abs() / STEP_S
+        let (start, end) =
+            (flight.direction_at(time), flight.direction_at(add_seconds(time, STEP_S)));
+        (end.azimuth - start.azimuth).wrapped_180().degrees().abs() / STEP_S
     });
     Cause::SlowDrives { rate_deg_s: 0.85 * rates.fold(0.0, f64::max), axis }
 }
@@ -142,7 +143,8 @@ fn noise_of_size(flight: &Flight, cause: &Cause, exact: &[(Timestamp, AzEl)]) ->
         return 0.01;
     }
     let used = exact.iter().step_by((1.0 / STEP_S) as usize);
-    let off_deg = used.map(|(time, at)| at.separation(flight.at(*time)).degrees());
+    let off_deg =
+        used.map(|(time, direction)| direction.separation(flight.direction_at(*time)).degrees());
     let whole: f64 = off_deg.map(|off_deg| off_deg * off_deg).sum();
     let size = sizes(cause).iter().map(|size| size * size).sum::<f64>().sqrt();
     // Each of two sizes is known less well than one of them alone.
@@ -185,22 +187,22 @@ fn the_true_cause_of_an_error_is_named_first_or_with_those_that_look_alike() {
         let other = flight.shifted(0.3 * signed(&mut random));
         let other = Propagator::new(&other).unwrap();
         let exact = measured(flight, AZ_EL, &cause, &other);
-        let seen = noisy(&exact, &mut random);
+        let noisy_track = noisy(&exact, &mut random);
         let evidence = Evidence::new(AZ_EL, true, deg(HALF_BEAM_DEG)).with_pass(
             &flight.propagator,
             flight.site,
             UNIT,
-            seen.into_iter(),
+            noisy_track.into_iter(),
         );
         let others = [(flight.elements.epoch(), other)];
         let found = evidence.explanations(&others);
         let line: Vec<&Explanation> = found.iter().collect();
-        let named = line.iter().find(|it| is_same_kind(&it.cause, &cause));
+        let named = line.iter().find(|explanation| is_same_kind(&explanation.cause, &cause));
         let noise = noise_of_size(flight, &cause, &exact);
-        let is_right = |it: &&&Explanation| {
-            let mut pairs = sizes(&it.cause).into_iter().zip(sizes(&cause));
-            pairs.all(|(got, true_size)| {
-                (got - true_size).abs() <= (0.1 * true_size.abs()).max(noise)
+        let is_right = |line_item: &&&Explanation| {
+            let mut pairs = sizes(&line_item.cause).into_iter().zip(sizes(&cause));
+            pairs.all(|(size, true_size)| {
+                (size - true_size).abs() <= (0.1 * true_size.abs()).max(noise)
             })
         };
         let exact = Evidence::new(AZ_EL, true, deg(HALF_BEAM_DEG)).with_pass(
@@ -209,7 +211,7 @@ fn the_true_cause_of_an_error_is_named_first_or_with_those_that_look_alike() {
             UNIT,
             exact.iter().copied(),
         );
-        for wrong in line.iter().filter(|it| !is_same_kind(&it.cause, &cause)) {
+        for wrong in line.iter().filter(|explanation| !is_same_kind(&explanation.cause, &cause)) {
             let is_excluded = is_excluded(&wrong.cause, &exact, &others);
             assert!(!is_excluded, "case {case}, {cause:?}: {wrong:?} is in the line");
         }
@@ -249,10 +251,10 @@ fn a_line_of_several_holds_the_true_cause_and_none_that_the_positions_exclude() 
         let other = flight.shifted(0.3 * signed(&mut random));
         let others = [(flight.elements.epoch(), Propagator::new(&other).unwrap())];
         let mut exact = measured(flight, AZ_EL, &cause, &others[0].1);
-        let from = random.below(exact.len() as u32 - 120) as usize;
-        exact = exact[from..from + 120].to_vec();
-        let seen = noisy(&exact, &mut random);
-        let of = |directions: Vec<(Timestamp, AzEl)>| {
+        let start = random.below(exact.len() as u32 - 120) as usize;
+        exact = exact[start..start + 120].to_vec();
+        let noisy_track = noisy(&exact, &mut random);
+        let evidence_of = |directions: Vec<(Timestamp, AzEl)>| {
             Evidence::new(AZ_EL, true, deg(HALF_BEAM_DEG)).with_pass(
                 &flight.propagator,
                 flight.site,
@@ -260,19 +262,23 @@ fn a_line_of_several_holds_the_true_cause_and_none_that_the_positions_exclude() 
                 directions.into_iter(),
             )
         };
-        let found = of(seen).explanations(&others);
+        let found = evidence_of(noisy_track).explanations(&others);
         let line: Vec<&Explanation> = found.iter().collect();
         if line.is_empty() {
             continue;
         }
         explained += 1;
         several += u32::from(line.len() > 1);
-        named += u32::from(line.iter().any(|it| it.causes().any(|it| is_same_kind(it, &cause))));
-        let exact = of(exact);
-        for it in line.iter().filter(|it| it.with.is_none() && !is_same_kind(&it.cause, &cause)) {
+        named += u32::from(line.iter().any(|explanation| {
+            explanation.causes().any(|drawn_cause| is_same_kind(drawn_cause, &cause))
+        }));
+        let exact = evidence_of(exact);
+        for line_item in line.iter().filter(|explanation| {
+            explanation.with.is_none() && !is_same_kind(&explanation.cause, &cause)
+        }) {
             wrong += 1;
-            let is_excluded = is_excluded(&it.cause, &exact, &others);
-            assert!(!is_excluded, "case {case}, {cause:?}: {it:?} is in the line");
+            let is_excluded = is_excluded(&line_item.cause, &exact, &others);
+            assert!(!is_excluded, "case {case}, {cause:?}: {line_item:?} is in the line");
         }
     }
     println!(
@@ -290,9 +296,9 @@ fn two_causes_that_act_together_are_named_together_with_their_sizes() {
     let mut random = Random::new(SEED);
     // Cases, those that no single cause explains, of them named, of the right size, alone.
     let mut row = [0_u32; 5];
-    let is_of_drives = |it: &Cause| matches!(it, Cause::SlowDrives { .. });
+    let is_of_drives = |cause: &Cause| matches!(cause, Cause::SlowDrives { .. });
     // Only one of both can be, and comes first.
-    let moves = |it: &Cause| matches!(it, Cause::Late { .. } | Cause::OtherElements { .. });
+    let moves = |cause: &Cause| matches!(cause, Cause::Late { .. } | Cause::OtherElements { .. });
     for case in 0..cases {
         let flight = &flights[random.below(flights.len() as u32) as usize];
         let (first, second) = loop {
@@ -306,37 +312,40 @@ fn two_causes_that_act_together_are_named_together_with_their_sizes() {
         let other = Propagator::new(&flight.shifted(0.3 * signed(&mut random))).unwrap();
         let once = measured(flight, AZ_EL, &first, &other);
         let exact = measured_of(flight, AZ_EL, &once, &second, &other);
-        let seen = noisy(&exact, &mut random);
+        let noisy_track = noisy(&exact, &mut random);
         let evidence = Evidence::new(AZ_EL, true, deg(HALF_BEAM_DEG)).with_pass(
             &flight.propagator,
             flight.site,
             UNIT,
-            seen.into_iter(),
+            noisy_track.into_iter(),
         );
         let found = evidence.explanations(&[(flight.elements.epoch(), other)]);
         row[0] += 1;
-        let by_one = found.iter().find(|it| it.with.is_none());
-        let squares =
-            exact.iter().map(|(time, at)| at.separation(flight.at(*time)).degrees().powi(2));
+        let by_one = found.iter().find(|explanation| explanation.with.is_none());
+        let squares = exact.iter().map(|(time, direction)| {
+            direction.separation(flight.direction_at(*time)).degrees().powi(2)
+        });
         let error_deg = (squares.sum::<f64>() / exact.len() as f64).sqrt();
         // Noise is left, and a trifle that the second cause does.
         let trifle_deg = NOISE_DEG * 2_f64.sqrt() + 0.035 * error_deg;
-        if by_one.is_some_and(|it| it.left_deg < trifle_deg) {
+        if by_one.is_some_and(|explanation| explanation.left_deg < trifle_deg) {
             continue;
         }
         row[1] += 1;
         let line: Vec<&Explanation> = found.iter().collect();
-        let is_named = |it: &&&Explanation| {
-            [&first, &second].iter().all(|of| it.causes().any(|cause| is_same_kind(cause, of)))
+        let is_named = |line_item: &&&Explanation| {
+            [&first, &second]
+                .iter()
+                .all(|part| line_item.causes().any(|cause| is_same_kind(cause, part)))
         };
         let named = line.iter().find(is_named);
         row[2] += u32::from(named.is_some());
         let is_right = named.is_some_and(|named| {
-            named.causes().all(|got| {
-                let of = if is_same_kind(got, &first) { &first } else { &second };
-                let noise = noise_of_one_of_two(of);
-                sizes(got).into_iter().zip(sizes(of)).all(|(got, true_size)| {
-                    (got - true_size).abs() <= (0.1 * true_size.abs()).max(noise)
+            named.causes().all(|found_cause| {
+                let one = if is_same_kind(found_cause, &first) { &first } else { &second };
+                let noise = noise_of_one_of_two(one);
+                sizes(found_cause).into_iter().zip(sizes(one)).all(|(size, true_size)| {
+                    (size - true_size).abs() <= (0.1 * true_size.abs()).max(noise)
                 })
             })
         });
@@ -360,7 +369,8 @@ fn several_passes_tell_apart_what_one_does_not() {
     for flights in flights.chunks_exact(4) {
         let late_s = 0.3 + f64::from(random.below(1000)) / 1000.0;
         let flown = flights.iter().map(|flight| {
-            let exact = flight.times().map(|time| (time, flight.at(add_seconds(time, -late_s))));
+            let exact =
+                flight.times().map(|time| (time, flight.direction_at(add_seconds(time, -late_s))));
             // Half a minute of each.
             noisy(&exact.take(60).collect::<Vec<_>>(), &mut random)
         });
@@ -394,20 +404,21 @@ fn the_way_to_a_pass_under_way_is_not_taken_for_slow_drives() {
         // 9 deg away at first, and on its way at 1.5 deg/s.
         let begun = flight.pass.aos.time;
         let exact = flight.times().map(|time| {
-            let AzEl { azimuth, elevation } = flight.at(time);
+            let AzEl { azimuth, elevation } = flight.direction_at(time);
             let gone_s = crate::astro::time::seconds_between(begun, time);
-            let away = deg((9.0 - 1.5 * gone_s).max(0.0));
-            (time, AzEl { azimuth: azimuth + away, elevation })
+            let angle_away = deg((9.0 - 1.5 * gone_s).max(0.0));
+            (time, AzEl { azimuth: azimuth + angle_away, elevation })
         });
-        let seen = noisy(&exact.collect::<Vec<_>>(), &mut random);
+        let measured = noisy(&exact.collect::<Vec<_>>(), &mut random);
         let evidence = Evidence::new(AZ_EL, true, deg(HALF_BEAM_DEG)).with_pass(
             &flight.propagator,
             flight.site,
             UNIT,
-            seen.into_iter(),
+            measured.into_iter(),
         );
         let found = evidence.explanations(&[]);
-        let is_of_drives = |it: &Explanation| matches!(it.cause, Cause::SlowDrives { .. });
+        let is_of_drives =
+            |explanation: &Explanation| matches!(explanation.cause, Cause::SlowDrives { .. });
         assert!(!found.iter().any(is_of_drives), "{found:?}");
     }
 }
@@ -417,19 +428,22 @@ fn an_error_of_noise_alone_is_not_explained() {
     let flights = flights();
     let mut random = Random::new(SEED);
     for flight in &flights {
-        let exact: Vec<_> = flight.times().map(|time| (time, flight.at(time))).collect();
-        let seen = noisy(&exact, &mut random);
+        let exact: Vec<_> = flight.times().map(|time| (time, flight.direction_at(time))).collect();
+        let measured = noisy(&exact, &mut random);
         let evidence = Evidence::new(AZ_EL, true, deg(HALF_BEAM_DEG)).with_pass(
             &flight.propagator,
             flight.site,
             UNIT,
-            seen.into_iter(),
+            measured.into_iter(),
         );
         let found = evidence.explanations(&[]);
-        assert!(found.iter().all(|it| it.left_deg > 0.9 * NOISE_DEG), "{found:?}");
+        assert!(
+            found.iter().all(|explanation| explanation.left_deg > 0.9 * NOISE_DEG),
+            "{found:?}"
+        );
     }
     let flight = &flights[0];
-    let few = flight.times().take(10).map(|time| (time, flight.at(time)));
+    let few = flight.times().take(10).map(|time| (time, flight.direction_at(time)));
     assert_eq!(
         Evidence::new(AZ_EL, true, deg(HALF_BEAM_DEG))
             .with_pass(&flight.propagator, flight.site, UNIT, few)
@@ -443,13 +457,14 @@ fn a_late_antenna_is_explained_while_its_pass_goes_on_and_a_small_error_is_not()
     let flight = &flights()[0];
     let mut random = Random::new(SEED);
     for late_s in [0.5, 0.0] {
-        let exact = flight.times().map(|time| (time, flight.at(add_seconds(time, -late_s))));
-        let seen = noisy(&exact.collect::<Vec<_>>(), &mut random);
+        let exact =
+            flight.times().map(|time| (time, flight.direction_at(add_seconds(time, -late_s))));
+        let measured = noisy(&exact.collect::<Vec<_>>(), &mut random);
         let evidence = Evidence::new(AZ_EL, true, deg(HALF_BEAM_DEG)).with_pass(
             &flight.propagator,
             flight.site,
             UNIT,
-            seen.into_iter(),
+            measured.into_iter(),
         );
         let found = evidence.explained(0.05, &[]);
         if late_s < 0.1 {
@@ -467,24 +482,24 @@ fn a_late_antenna_is_explained_while_its_pass_goes_on_and_a_small_error_is_not()
 fn a_rotator_of_azimuth_alone_has_no_error_of_its_elevation() {
     let flights = flights();
     let flight = &flights[0];
-    let seen = flight.times().map(|time| {
-        let mut at = flight.at(time);
-        at.azimuth = (at.azimuth + deg(0.5)).wrapped_360();
-        at.elevation = Angle::ZERO;
-        (time, at)
+    let measured = flight.times().map(|time| {
+        let mut direction = flight.direction_at(time);
+        direction.azimuth = (direction.azimuth + deg(0.5)).wrapped_360();
+        direction.elevation = Angle::ZERO;
+        (time, direction)
     });
     let evidence = Evidence::new(AZ_EL, false, deg(HALF_BEAM_DEG)).with_pass(
         &flight.propagator,
         flight.site,
         UNIT,
-        seen,
+        measured,
     );
     let found = evidence.explanations(&[]);
     let Cause::AzimuthOffset { offset_deg } = found[0].cause else { panic!("{found:?}") };
     assert!((offset_deg - 0.5).abs() < 1e-6);
-    let of_elevation = |it: &Explanation| {
+    let of_elevation = |explanation: &Explanation| {
         matches!(
-            it.cause,
+            explanation.cause,
             Cause::ElevationOffset { .. } | Cause::ElevationScale { .. } | Cause::Tilt { .. }
         )
     };
@@ -498,25 +513,31 @@ fn slow_drives_of_crossed_axes_are_told_by_the_rate_of_those_axes() {
     let lower_axis = Angle::ZERO;
     let mut named = 0;
     for flight in &flights {
-        let axes = |time| xy_mount::axes_from_azel(flight.at(time), lower_axis);
+        let axes = |time| xy_mount::axes_from_azel(flight.direction_at(time), lower_axis);
         let turned = |time: Timestamp| {
-            let (from, to) = (axes(time), axes(add_seconds(time, 1.0)));
-            (to.lower - from.lower).degrees().abs().max((to.upper - from.upper).degrees().abs())
+            let (start_axes, end_axes) = (axes(time), axes(add_seconds(time, 1.0)));
+            (end_axes.lower - start_axes.lower)
+                .degrees()
+                .abs()
+                .max((end_axes.upper - start_axes.upper).degrees().abs())
         };
         let rate_deg_s = 0.85 * flight.times().map(turned).fold(0.0, f64::max);
-        let most = rate_deg_s * STEP_S;
-        let mut at = axes(flight.pass.aos.time);
+        let max = rate_deg_s * STEP_S;
+        let mut axes_now = axes(flight.pass.aos.time);
         let mut off_deg = 0.0_f64;
         let exact = flight.times().map(|time| {
-            let to = axes(time);
+            let goal = axes(time);
             let step =
-                |from: Angle, to: Angle| from + deg((to - from).degrees().clamp(-most, most));
-            at = AxisAngles { lower: step(at.lower, to.lower), upper: step(at.upper, to.upper) };
-            let direction = xy_mount::azel_from_axes(at, lower_axis);
-            off_deg = off_deg.max(direction.separation(flight.at(time)).degrees());
+                |start: Angle, end: Angle| start + deg((end - start).degrees().clamp(-max, max));
+            axes_now = AxisAngles {
+                lower: step(axes_now.lower, goal.lower),
+                upper: step(axes_now.upper, goal.upper),
+            };
+            let direction = xy_mount::azel_from_axes(axes_now, lower_axis);
+            off_deg = off_deg.max(direction.separation(flight.direction_at(time)).degrees());
             (time, direction)
         });
-        let seen = noisy(&exact.collect::<Vec<_>>(), &mut random);
+        let measured = noisy(&exact.collect::<Vec<_>>(), &mut random);
         if off_deg < 20.0 * NOISE_DEG {
             continue;
         }
@@ -525,13 +546,16 @@ fn slow_drives_of_crossed_axes_are_told_by_the_rate_of_those_axes() {
             &flight.propagator,
             flight.site,
             UNIT,
-            seen.into_iter(),
+            measured.into_iter(),
         );
         let found = evidence.explanations(&[]);
-        let Cause::SlowDrives { rate_deg_s: told, .. } = found[0].cause else {
+        let Cause::SlowDrives { rate_deg_s: rate_found, .. } = found[0].cause else {
             panic!("{found:?}")
         };
-        assert!((told - rate_deg_s).abs() < 0.02 * rate_deg_s, "{told} for {rate_deg_s}");
+        assert!(
+            (rate_found - rate_deg_s).abs() < 0.02 * rate_deg_s,
+            "{rate_found} for {rate_deg_s}"
+        );
     }
     assert!(named > 10, "{named}");
 }
@@ -544,17 +568,17 @@ fn the_clock_that_a_unit_tells_is_named_beside_what_is_left() {
         let other = Propagator::new(&flight.elements).unwrap();
         let once = measured(flight, AZ_EL, &Cause::Late { late_s: 0.7 }, &other);
         let offset = Cause::AzimuthOffset { offset_deg: 1.3 };
-        let both = noisy(&measured_of(flight, AZ_EL, &once, &offset, &other), &mut random);
+        let measured_both = noisy(&measured_of(flight, AZ_EL, &once, &offset, &other), &mut random);
         let late = noisy(&once, &mut random);
-        let told = PathSource::Unit { clock_ahead_s: Some(-0.69), place: None };
-        let found = |seen: &[(Timestamp, AzEl)]| {
+        let path_source = PathSource::Unit { clock_ahead_s: Some(-0.69), place: None };
+        let found = |track: &[(Timestamp, AzEl)]| {
             Evidence::new(AZ_EL, true, deg(HALF_BEAM_DEG))
-                .with_pass(&flight.propagator, flight.site, told, seen.iter().copied())
+                .with_pass(&flight.propagator, flight.site, path_source, track.iter().copied())
                 .explanations(&[])
         };
         let [only] = found(&late)[..] else { panic!("{:?}", found(&late)) };
         assert_eq!((only.cause, only.with), (Cause::Late { late_s: 0.69 }, None));
-        let [pair] = found(&both)[..] else { panic!("{:?}", found(&both)) };
+        let [pair] = found(&measured_both)[..] else { panic!("{:?}", found(&measured_both)) };
         assert_eq!(pair.cause, Cause::Late { late_s: 0.69 });
         let Some(Cause::AzimuthOffset { offset_deg }) = pair.with else { panic!("{pair:?}") };
         assert!((offset_deg - 1.3).abs() < 0.05, "{pair:?}");
@@ -568,20 +592,22 @@ fn the_place_that_a_unit_tells_is_the_cause_and_a_right_one_rules_the_site_out()
     let other = Propagator::new(&flight.elements).unwrap();
     let wrong = Cause::OtherSite { north_km: 5.0, east_km: -4.0 };
     let exact = measured(flight, AZ_EL, &wrong, &other);
-    let seen = noisy(&exact, &mut Random::new(SEED));
+    let noisy_track = noisy(&exact, &mut Random::new(SEED));
     let found = |place: Option<Site>| {
         let source = PathSource::Unit { clock_ahead_s: Some(0.0), place };
         Evidence::new(AZ_EL, true, deg(HALF_BEAM_DEG))
-            .with_pass(&flight.propagator, flight.site, source, seen.iter().copied())
+            .with_pass(&flight.propagator, flight.site, source, noisy_track.iter().copied())
             .explanations(&[])
     };
-    let is_of_site = |found: &[Explanation]| found.iter().any(|it| is_same_kind(&it.cause, &wrong));
+    let is_of_site = |found: &[Explanation]| {
+        found.iter().any(|explanation| is_same_kind(&explanation.cause, &wrong))
+    };
     let latitude_deg = flight.site.latitude().degrees() + 5.0 / 111.2;
     let east_deg = -4.0 / (111.2 * flight.site.latitude().radians().cos());
     let longitude_deg = flight.site.longitude().degrees() + east_deg;
-    let there = Site::new(latitude_deg, longitude_deg, flight.site.altitude_m()).unwrap();
-    let told = found(Some(there));
-    assert!(told.len() == 1 && is_of_site(&told), "{told:?}");
+    let site = Site::new(latitude_deg, longitude_deg, flight.site.altitude_m()).unwrap();
+    let explained = found(Some(site));
+    assert!(explained.len() == 1 && is_of_site(&explained), "{explained:?}");
     assert!(is_of_site(&found(None)), "{:?}", found(None));
     assert!(!is_of_site(&found(Some(flight.site))), "{:?}", found(Some(flight.site)));
 }
@@ -594,13 +620,13 @@ fn what_azel_computes_itself_is_no_cause_of_a_track_by_positions() {
         let other = Propagator::new(&flight.shifted(0.3)).unwrap();
         let elements = Cause::OtherElements { epoch: flight.elements.epoch() };
         let exact = measured(flight, AZ_EL, &elements, &other);
-        let seen = noisy(&exact, &mut Random::new(SEED));
+        let noisy_track = noisy(&exact, &mut Random::new(SEED));
         let found = Evidence::new(AZ_EL, true, deg(HALF_BEAM_DEG))
-            .with_pass(&flight.propagator, flight.site, PathSource::Azel, seen.into_iter())
+            .with_pass(&flight.propagator, flight.site, PathSource::Azel, noisy_track.into_iter())
             .explanations(&[(flight.elements.epoch(), other)]);
         let is_of_unit =
-            |it: &Cause| matches!(it, Cause::OtherElements { .. } | Cause::OtherSite { .. });
-        assert!(!found.iter().any(|it| it.causes().any(is_of_unit)), "{found:?}");
+            |cause: &Cause| matches!(cause, Cause::OtherElements { .. } | Cause::OtherSite { .. });
+        assert!(!found.iter().any(|explanation| explanation.causes().any(is_of_unit)), "{found:?}");
     }
 }
 
@@ -611,19 +637,19 @@ fn a_stuck_axis_is_named_with_the_time_since_when_it_stands() {
     let mut random = Random::new(SEED);
     for flight in flights.iter().take(8) {
         let other = Propagator::new(&flight.elements).unwrap();
-        let since = add_seconds(flight.pass.aos.time, 0.3 * flight.pass.duration_s());
+        let start = add_seconds(flight.pass.aos.time, 0.3 * flight.pass.duration_s());
         for axis in [Some(Axis::Azimuth), None] {
-            let exact = measured(flight, AZ_EL, &Cause::Stuck { since, axis }, &other);
-            let seen = noisy(&exact, &mut random);
+            let exact = measured(flight, AZ_EL, &Cause::Stuck { since: start, axis }, &other);
+            let noisy_track = noisy(&exact, &mut random);
             let found = Evidence::new(AZ_EL, true, deg(HALF_BEAM_DEG))
-                .with_pass(&flight.propagator, flight.site, UNIT, seen.into_iter())
+                .with_pass(&flight.propagator, flight.site, UNIT, noisy_track.into_iter())
                 .explanations(&[]);
-            let Some(Cause::Stuck { since: told, axis: named }) =
+            let Some(Cause::Stuck { since: found_since, axis: named }) =
                 found.first().map(|best| best.cause)
             else {
                 panic!("{found:?}")
             };
-            let off_s = crate::astro::time::seconds_between(since, told).abs();
+            let off_s = crate::astro::time::seconds_between(start, found_since).abs();
             assert!(off_s < 15.0 && named == axis, "{off_s} {named:?} for {axis:?}");
         }
     }
@@ -633,18 +659,18 @@ fn a_stuck_axis_is_named_with_the_time_since_when_it_stands() {
 fn after_an_axis_did_not_turn_as_commanded_only_drives_explain_an_error() {
     let flight = &flights()[0];
     let mut random = Random::new(SEED);
-    let since = add_seconds(flight.pass.aos.time, 0.3 * flight.pass.duration_s());
-    let stuck = Cause::Stuck { since, axis: Some(Axis::Azimuth) };
+    let start = add_seconds(flight.pass.aos.time, 0.3 * flight.pass.duration_s());
+    let stuck = Cause::Stuck { since: start, axis: Some(Axis::Azimuth) };
     let late = Cause::Late { late_s: 20.0 };
     for (cause, is_named) in [(stuck, true), (late, false)] {
         let exact = measured(flight, AZ_EL, &cause, &flight.propagator);
-        let seen = noisy(&exact, &mut random);
+        let noisy_track = noisy(&exact, &mut random);
         let evidence = || {
             Evidence::new(AZ_EL, true, deg(HALF_BEAM_DEG)).with_pass(
                 &flight.propagator,
                 flight.site,
                 UNIT,
-                seen.iter().copied(),
+                noisy_track.iter().copied(),
             )
         };
         let names = |found: &[Explanation]| {
@@ -666,9 +692,9 @@ fn the_refraction_that_a_unit_leaves_out_is_named_beside_any_other_cause() {
     for flight in flights.iter().filter(low) {
         let site = Station::default().site;
         let found = |exact: &[(Timestamp, AzEl)], source, random: &mut Random| {
-            let seen = noisy(exact, random);
+            let noisy_track = noisy(exact, random);
             Evidence::new(AZ_EL, true, deg(HALF_BEAM_DEG))
-                .with_pass(&flight.propagator, site, source, seen.into_iter())
+                .with_pass(&flight.propagator, site, source, noisy_track.into_iter())
                 .explanations(&[])
         };
         let alone = measured(flight, AZ_EL, &Cause::Refraction, &flight.propagator);
@@ -676,18 +702,22 @@ fn the_refraction_that_a_unit_leaves_out_is_named_beside_any_other_cause() {
         let [only] = named[..] else { panic!("{named:?}") };
         assert_eq!((only.cause, only.with), (Cause::Refraction, None));
         let offset = Cause::AzimuthOffset { offset_deg: 0.4 };
-        let both = measured_of(flight, AZ_EL, &alone, &offset, &flight.propagator);
-        let named = found(&both, UNIT, &mut random);
+        let measured_both = measured_of(flight, AZ_EL, &alone, &offset, &flight.propagator);
+        let named = found(&measured_both, UNIT, &mut random);
         let best = named.first().unwrap();
         let Some(Cause::AzimuthOffset { offset_deg }) =
-            best.causes().find(|it| is_same_kind(it, &offset))
+            best.causes().find(|cause| is_same_kind(cause, &offset))
         else {
             panic!("{named:?}")
         };
         assert!((offset_deg - 0.4).abs() < 0.02, "{named:?}");
         // Azel leads by refraction, and has none to leave out.
-        let named = found(&both, PathSource::Azel, &mut random);
-        assert!(!named.iter().any(|it| it.causes().any(|it| *it == Cause::Refraction)));
+        let named = found(&measured_both, PathSource::Azel, &mut random);
+        assert!(
+            !named
+                .iter()
+                .any(|explanation| explanation.causes().any(|cause| *cause == Cause::Refraction))
+        );
     }
 }
 
@@ -700,7 +730,11 @@ fn what_explains_a_small_error_does_not_explain_a_large_one() {
     let late = explained(Cause::Late { late_s: 0.4 });
     let stuck = explained(Cause::Stuck { since: Timestamp::UNIX_EPOCH, axis: Some(Axis::X) });
     for (off_deg, late_can, stuck_can) in [(0.6, true, true), (6.0, false, true)] {
-        let off = Angle::from_degrees(off_deg);
-        assert_eq!((late.can_make(off), stuck.can_make(off)), (late_can, stuck_can), "{off_deg}");
+        let deviation = Angle::from_degrees(off_deg);
+        assert_eq!(
+            (late.can_make(deviation), stuck.can_make(deviation)),
+            (late_can, stuck_can),
+            "{off_deg}"
+        );
     }
 }

@@ -33,11 +33,13 @@ impl Metal {
 
     fn advance(&mut self, now_s: f64) {
         while let Some((_, axes)) = self.orders.pop_front_if(|(at_s, _)| *at_s <= now_s) {
-            let each = self.goals_deg.iter_mut().zip(axes).zip(self.axes_deg);
-            for ((goal, told), at) in each {
-                let is_reached = (*goal - at).abs() < 1e-9;
-                let told = told.filter(|told| !is_reached || (told - at).abs() > self.ignored_deg);
-                *goal = told.unwrap_or(*goal);
+            let goals = self.goals_deg.iter_mut().zip(axes).zip(self.axes_deg);
+            for ((goal, goal_deg), position) in goals {
+                let is_reached = (*goal - position).abs() < 1e-9;
+                let new_goal = goal_deg.filter(|new_goal| {
+                    !is_reached || (new_goal - position).abs() > self.ignored_deg
+                });
+                *goal = new_goal.unwrap_or(*goal);
             }
         }
         for (axis, goal) in self.axes_deg.iter_mut().zip(self.goals_deg) {
@@ -96,8 +98,8 @@ fn pass_where(is_it: impl Fn(&Propagator, &Pass) -> bool) -> (Target, Pass) {
     for number in [43013, 25544, 37849, 25994, 27424, 49260] {
         let elements = catalog.get(number).unwrap();
         let propagator = Propagator::new(elements).unwrap();
-        let from = elements.epoch();
-        let search = PassSearch::new(site(), from, add_seconds(from, 10.0 * 86_400.0));
+        let start = elements.epoch();
+        let search = PassSearch::new(site(), start, add_seconds(start, 10.0 * 86_400.0));
         for pass in passes(&propagator, &search, &|| false) {
             if !pass.starts_before && is_it(&propagator, &pass) {
                 return (Target::Satellite(Box::new(elements.clone())), pass);
@@ -109,12 +111,12 @@ fn pass_where(is_it: impl Fn(&Propagator, &Pass) -> bool) -> (Target, Pass) {
 
 fn goes_through_north(propagator: &Propagator, pass: &Pass) -> bool {
     let look = |share: f64| {
-        let at = add_seconds(pass.aos.time, pass.duration_s() * share);
-        propagator.look_from(site(), at).unwrap().direction.azimuth_deg()
+        let time = add_seconds(pass.aos.time, pass.duration_s() * share);
+        propagator.look_from(site(), time).unwrap().direction.azimuth_deg()
     };
     let azimuths: Vec<f64> = (0..=50).map(|step| look(f64::from(step) / 50.0)).collect();
     let crossing = azimuths.windows(2).position(|two| (two[1] - two[0]).abs() > 180.0);
-    crossing.is_some_and(|at| (15..35).contains(&at))
+    crossing.is_some_and(|index| (15..35).contains(&index))
 }
 
 fn max_deg(pass: &Pass) -> f64 {
@@ -201,9 +203,9 @@ fn run_planner(
         look(now, metal.axes_deg);
         if now >= pass.aos.time {
             let [azimuth, elevation] = metal.axes_deg;
-            let at = AzEl::from_degrees(azimuth, elevation);
+            let position = AzEl::from_degrees(azimuth, elevation);
             if let Some(direction) = planner.reachable(now) {
-                run.stats.take(direction.separation(at));
+                run.stats.take(direction.separation(position));
             }
             run.azimuths_deg.push(azimuth);
         }
@@ -211,9 +213,9 @@ fn run_planner(
     run
 }
 
-fn shown(what: &str, stats: TrackStats) -> (f64, f64, u32) {
-    let [rms, worst] = [stats.rms(), stats.worst()].map(|off| off.unwrap().degrees());
-    println!("{what:40} rms {rms:6.3} worst {worst:7.3} commands {}", stats.commands);
+fn shown(label: &str, stats: TrackStats) -> (f64, f64, u32) {
+    let [rms, worst] = [stats.rms(), stats.worst()].map(|error| error.unwrap().degrees());
+    println!("{label:40} rms {rms:6.3} worst {worst:7.3} commands {}", stats.commands);
     (rms, worst, stats.commands)
 }
 
@@ -221,10 +223,10 @@ fn shown(what: &str, stats: TrackStats) -> (f64, f64, u32) {
 fn a_usual_pass_is_followed_within_the_dead_band() {
     let (target, pass) = pass_where(|_, pass| (35.0..50.0).contains(&max_deg(pass)));
     let drives = azel((0.0, 360.0), 4.0, 0.0);
-    for (dead_band_deg, most) in [(0.0, 0.06), (0.2, 0.2), (1.0, 0.9)] {
+    for (dead_band_deg, max) in [(0.0, 0.06), (0.2, 0.2), (1.0, 0.9)] {
         let run = run(target.clone(), &pass, drives, settings(1.0, dead_band_deg));
         let (rms, ..) = shown(&format!("usual, dead band {dead_band_deg}"), run.stats);
-        assert!(rms < most, "{rms}");
+        assert!(rms < max, "{rms}");
     }
 }
 
@@ -256,8 +258,8 @@ fn through_north_an_overlap_needs_no_slew() {
     let plain = run(target.clone(), &pass, azel((0.0, 360.0), 4.0, 0.0), settings(1.0, 0.2));
     let overlap = run(target, &pass, azel((0.0, 450.0), 4.0, 0.0), settings(1.0, 0.2));
     let (_, lost, _) = shown("north, 0 to 360", plain.stats);
-    let (rms, kept, _) = shown("north, 0 to 450", overlap.stats);
-    assert!(lost > 45.0 && kept < 0.5 && rms < 0.2, "{lost} {kept} {rms}");
+    let (rms, sharp_turn, _) = shown("north, 0 to 450", overlap.stats);
+    assert!(lost > 45.0 && sharp_turn < 0.5 && rms < 0.2, "{lost} {sharp_turn} {rms}");
     let turned =
         |run: &Run| run.azimuths_deg.windows(2).map(|two| (two[1] - two[0]).abs()).sum::<f64>();
     assert!(turned(&plain) > turned(&overlap) + 100.0);
@@ -269,20 +271,20 @@ fn an_unwrap_is_on_its_way_until_the_predicted_time_and_else_the_antenna_is_on_i
         max_deg(pass) > 20.0 && max_deg(pass) < 60.0 && goes_through_north(propagator, pass)
     });
     let run = run(target, &pass, azel((0.0, 360.0), 4.0, 0.0), settings(1.0, 0.2));
-    let turns = |of: &&(f64, OnPath)| matches!(of.1, OnPath::OnItsWay { .. });
-    let first = run.on_path.iter().position(|of| turns(&of)).unwrap();
-    let (_, OnPath::OnItsWay { until: Some(until) }) = run.on_path[first] else {
+    let turns = |entry: &&(f64, OnPath)| matches!(entry.1, OnPath::OnItsWay { .. });
+    let first = run.on_path.iter().position(|entry| turns(&entry)).unwrap();
+    let (_, OnPath::OnItsWay { until: Some(end) }) = run.on_path[first] else {
         panic!("{:?}", run.on_path[first]);
     };
-    let back_s = run.on_path[first..].iter().find(|of| !turns(of)).unwrap().0;
-    let until_s = seconds_between(pass.aos.time, until);
+    let back_s = run.on_path[first..].iter().find(|entry| !turns(entry)).unwrap().0;
+    let until_s = seconds_between(pass.aos.time, end);
     assert!((until_s - back_s).abs() < 2.0, "{until_s} {back_s}");
     let turning = run.on_path.iter().filter(turns).count();
     // 360 degrees at 4 degrees a second, four times a second.
     assert!((200..500).contains(&turning), "{turning}");
     for (at_s, compared) in &run.on_path {
-        if let OnPath::Due { off } = compared {
-            assert!(off.degrees() < 0.7, "{off:?} at {at_s}");
+        if let OnPath::Due { off: deviation } = compared {
+            assert!(deviation.degrees() < 0.7, "{deviation:?} at {at_s}");
         }
     }
 }
@@ -293,27 +295,26 @@ fn an_antenna_that_stands_is_off_its_path_once_it_should_have_arrived() {
     let (drives, settings) = (azel((0.0, 360.0), 4.0, 0.0), settings(1.0, 0.2));
     let stuck = Metal { rate_deg_s: 0.0, ..metal(drives, settings) };
     let run = run_on(target, &pass, drives, settings, &stuck);
-    let due = run
-        .on_path
-        .iter()
-        .filter(|(_, compared)| matches!(compared, OnPath::Due { off } if off.degrees() > 10.0));
+    let due = run.on_path.iter().filter(
+        |(_, compared)| matches!(compared, OnPath::Due { off: deviation } if deviation.degrees() > 10.0),
+    );
     assert!(due.count() > run.on_path.len() / 2);
 }
 
 #[test]
 fn an_antenna_whose_drives_are_slower_than_known_is_on_its_way_while_it_comes_nearer() {
     let mut approach = Approach::default();
-    let at = |second: i64| Timestamp::from_second(second).unwrap();
+    let time = |second: i64| Timestamp::from_second(second).unwrap();
     // 0.4 degrees a second, and then stuck.
     let off_deg = |second: i64| 60.0 - 0.4 * second.min(60) as f64;
     let nearer: Vec<bool> =
-        (0..120).map(|second| approach.comes_nearer(off_deg(second), at(second))).collect();
+        (0..120).map(|second| approach.comes_nearer(off_deg(second), time(second))).collect();
     assert!(nearer[5..60].iter().all(|nearer| *nearer) && !nearer[70..].contains(&true));
     // An error that grows, or shrinks by 0.1 degrees a second, is no approach.
     for rate_deg_s in [1.0, -0.1] {
         let mut approach = Approach::default();
         let off_deg = |second: i64| 40.0 + rate_deg_s * second as f64;
-        assert!(!(0..120).any(|second| approach.comes_nearer(off_deg(second), at(second))));
+        assert!(!(0..120).any(|second| approach.comes_nearer(off_deg(second), time(second))));
     }
 }
 
@@ -328,7 +329,7 @@ fn near_the_zenith_the_axis_turns_early_and_catches_up() {
     }
 }
 
-fn over(mut drives: Drives) -> Drives {
+fn overtravel(mut drives: Drives) -> Drives {
     if let Mount::AzEl { elevation_to_deg, .. } = &mut drives.mount {
         *elevation_to_deg = 180.0;
     }
@@ -340,7 +341,7 @@ fn over_the_zenith_a_pass_through_north_needs_no_slew() {
     let (target, pass) = pass_where(|propagator, pass| {
         max_deg(pass) > 20.0 && max_deg(pass) < 60.0 && goes_through_north(propagator, pass)
     });
-    let run = run(target, &pass, over(azel((0.0, 360.0), 4.0, 0.0)), settings(1.0, 0.2));
+    let run = run(target, &pass, overtravel(azel((0.0, 360.0), 4.0, 0.0)), settings(1.0, 0.2));
     let (rms, worst, _) = shown("north, 0 to 360 and 180", run.stats);
     assert!(worst < 0.5 && rms < 0.2, "{rms} {worst}");
 }
@@ -349,7 +350,7 @@ fn over_the_zenith_a_pass_through_north_needs_no_slew() {
 fn over_the_zenith_no_pass_needs_a_fast_axis() {
     let (target, pass) = pass_where(|_, pass| (87.5..88.5).contains(&max_deg(pass)));
     for rate_deg_s in [2.0, 6.0] {
-        let drives = over(azel((0.0, 360.0), rate_deg_s, 0.0));
+        let drives = overtravel(azel((0.0, 360.0), rate_deg_s, 0.0));
         let run = run(target.clone(), &pass, drives, settings(1.0, 0.2));
         let (rms, worst, _) = shown(&format!("zenith at {rate_deg_s} and to 180"), run.stats);
         assert!(rms < 0.5 && worst < 2.3, "{rms} {worst}");
@@ -361,7 +362,7 @@ fn a_rate_is_learned_on_the_way_to_a_pass() {
     let (target, pass) = pass_where(|_, pass| (87.5..88.5).contains(&max_deg(pass)));
     let settings = settings(1.0, 0.2);
     for mount in
-        [azel, |range_deg, rate_deg_s, step_deg| over(azel(range_deg, rate_deg_s, step_deg))]
+        [azel, |range_deg, rate_deg_s, step_deg| overtravel(azel(range_deg, rate_deg_s, step_deg))]
     {
         let right = mount((0.0, 360.0), 4.0, 0.0);
         let (known_deg, ..) =
@@ -384,12 +385,13 @@ fn a_planner_keeps_the_side_for_the_pass() {
         max_deg(pass) > 20.0 && max_deg(pass) < 60.0 && goes_through_north(propagator, pass)
     });
     let follow = ProgramTrack::new(target, site(), vec![(pass.aos.time, pass.los.time)]);
-    let drives = over(azel((0.0, 360.0), 4.0, 0.0));
+    let drives = overtravel(azel((0.0, 360.0), 4.0, 0.0));
     let mut planner = Planner::new(follow, drives, settings(1.0, 0.2), free()).unwrap();
     let mut axes_deg = [20.0, 10.0];
-    let mut elevation_deg = |at: Timestamp| {
-        let axes = axes_deg.map(|at| AxisNow { position_deg: Some(at), stands: true });
-        let SetPoint { azimuth, elevation } = planner.update(at, axes).unwrap().unwrap().set_point;
+    let mut elevation_deg = |time: Timestamp| {
+        let axes = axes_deg.map(|position| AxisNow { position_deg: Some(position), stands: true });
+        let SetPoint { azimuth, elevation } =
+            planner.update(time, axes).unwrap().unwrap().set_point;
         planner.drives.rates_deg_s[0] *= 2.0;
         axes_deg = [azimuth, elevation].map(|angle| angle.unwrap().degrees());
         axes_deg[1]
@@ -418,17 +420,18 @@ fn with_a_pointing_model_the_axes_are_sent_to_what_they_have_to_read() {
     let now = pass.tca.time;
     let course = Course::new(&target, site()).unwrap();
     // It stands on the satellite itself, as if there were no model.
-    let at = course.direction(now).unwrap();
-    let axes = [at.azimuth_deg(), at.elevation_deg()]
-        .map(|at| AxisNow { position_deg: Some(at), stands: true });
+    let direction = course.direction(now).unwrap();
+    let axes = [direction.azimuth_deg(), direction.elevation_deg()]
+        .map(|position| AxisNow { position_deg: Some(position), stands: true });
     let sent = planner.update(now, axes).unwrap().unwrap().set_point;
     let reading = AzEl { azimuth: sent.azimuth.unwrap(), elevation: sent.elevation.unwrap() };
     let directions =
         (0..40).map(|tenth| course.direction(add_seconds(now, f64::from(tenth) * 0.1)));
     let off_deg = |reading: AzEl| {
         let beam = model.direction(reading);
-        let each = directions.clone().flatten().map(|it| it.separation(beam).degrees());
-        each.fold(f64::INFINITY, f64::min)
+        let separations =
+            directions.clone().flatten().map(|other| other.separation(beam).degrees());
+        separations.fold(f64::INFINITY, f64::min)
     };
     // A command leads over the time to the next look.
     assert!(off_deg(reading) < 0.3, "{} beside {reading:?}", off_deg(reading));
@@ -437,9 +440,9 @@ fn with_a_pointing_model_the_axes_are_sent_to_what_they_have_to_read() {
     assert!(beam.separation(on_satellite).degrees() < 1e-6);
     assert_eq!(planner.to_sky(now, TrackOffsets::NONE), None, "the model alone tells it");
     let step = Offset::Azimuth(Angle::from_degrees(2.0));
-    let aside = TrackOffsets::NONE.plus(step).unwrap();
-    let beam = model.direction(planner.demanded(now, aside).unwrap());
-    let sky = AzEl::from_enu(planner.to_sky(now, aside).unwrap() * beam.to_enu());
+    let offsets = TrackOffsets::NONE.plus(step).unwrap();
+    let beam = model.direction(planner.demanded(now, offsets).unwrap());
+    let sky = AzEl::from_enu(planner.to_sky(now, offsets).unwrap() * beam.to_enu());
     assert!(sky.separation(on_satellite).degrees() < 1e-6);
     assert!(beam.separation(sky).degrees() > 1.0);
 }
@@ -453,7 +456,7 @@ fn with_an_offset_the_antenna_is_sent_beside_its_target_and_without_it_back() {
     let drives = azel((0.0, 360.0), 4.0, 0.0);
     let mut planner = Planner::new(follow, drives, settings(1.0, 0.2), free()).unwrap();
     let on_course = [pass.tca.direction.azimuth_deg(), pass.tca.direction.elevation_deg()];
-    let axes = on_course.map(|at| AxisNow { position_deg: Some(at), stands: true });
+    let axes = on_course.map(|position| AxisNow { position_deg: Some(position), stands: true });
     let now = pass.tca.time;
     let sent = |planner: &mut Planner| {
         planner.forget_sent();
@@ -462,12 +465,12 @@ fn with_an_offset_the_antenna_is_sent_beside_its_target_and_without_it_back() {
     let plain = sent(&mut planner);
     let step = Offset::Azimuth(Angle::from_degrees(3.0));
     planner.set_offsets(TrackOffsets::NONE.plus(step).unwrap());
-    let beside = sent(&mut planner);
-    let turned = (beside.azimuth.unwrap() - plain.azimuth.unwrap()).wrapped_180().degrees();
+    let set_point = sent(&mut planner);
+    let turned = (set_point.azimuth.unwrap() - plain.azimuth.unwrap()).wrapped_180().degrees();
     // The way is longer, so the target is met at another time.
-    assert!((2.5..3.5).contains(&turned), "{plain:?} {beside:?}");
-    let at = pass.tca.time;
-    let demanded = planner.reachable(at).unwrap();
+    assert!((2.5..3.5).contains(&turned), "{plain:?} {set_point:?}");
+    let time = pass.tca.time;
+    let demanded = planner.reachable(time).unwrap();
     assert!((demanded.azimuth - pass.tca.direction.azimuth).wrapped_180().degrees() > 2.9);
     planner.set_offsets(TrackOffsets::NONE);
     assert_eq!(sent(&mut planner), plain);
@@ -509,13 +512,14 @@ fn a_mast_in_the_middle_of_a_pass_is_gone_round_along_its_margin() {
         let planner = Planner::new(follow, drives, settings, bounds.clone()).unwrap();
         let (mut nearest_deg, mut behind_s, mut worst_deg) = (f64::MAX, 0.0, 0.0_f64);
         run_planner(planner, &pass, settings, &metal(drives, settings), |now, axes_deg| {
-            let at = bounds.direction(axes_deg);
+            let direction = bounds.direction(axes_deg);
             if now < pass.aos.time {
                 return;
             }
-            nearest_deg = nearest_deg.min(bounds.at(now).nearest(at).unwrap().angle.degrees());
+            nearest_deg =
+                nearest_deg.min(bounds.at(now).nearest(direction).unwrap().angle.degrees());
             let target = course.direction(now).unwrap();
-            let off_deg = target.separation(at).degrees();
+            let off_deg = target.separation(direction).degrees();
             if mast.zone.clearance(target) < Angle::from_degrees(8.0) {
                 behind_s += TICK_S;
                 // The margin, half a beam and the room add up to no more than four degrees.
@@ -534,7 +538,7 @@ fn a_mast_in_the_middle_of_a_pass_is_gone_round_along_its_margin() {
 fn what_sets_behind_a_mast_is_waited_for_at_its_edge() {
     let (target, pass) = pass_where(|_, pass| max_deg(pass) > 20.0 && max_deg(pass) < 50.0);
     let sets = AzEl { elevation: Angle::from_degrees(0.0), ..pass.los.direction };
-    let corners = [-6.0, 6.0].map(|by| sets.azimuth_deg() + by);
+    let corners = [-6.0, 6.0].map(|change| sets.azimuth_deg() + change);
     let corners = [(corners[0], -2.0), (corners[1], -2.0), (corners[1], 8.0), (corners[0], 8.0)];
     let (_, mast) = mast(&target, &pass, 8.0);
     let mast = KeepOut { zone: KeepOut::zone_of(&corners).unwrap(), ..mast };

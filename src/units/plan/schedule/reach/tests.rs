@@ -50,19 +50,19 @@ fn by_few(reach: &Reach, sight: &mut Sight<'_>) -> Option<Vec<Way>> {
     reach.easy_ways(sight.coarse(span), &clear)
 }
 
-fn assert_alike(few: &[Way], many: &Verdict, what: &str) {
-    let Verdict::Possible(many) = many else { panic!("{what}: {many:?}") };
-    assert_eq!(few.len(), many.len(), "{what}");
+fn assert_alike(few: &[Way], many: &Verdict, label: &str) {
+    let Verdict::Possible(many) = many else { panic!("{label}: {many:?}") };
+    assert_eq!(few.len(), many.len(), "{label}");
     for (few, many) in few.iter().zip(many) {
         let (a, b) = (few.span(), many.span());
         assert!(
             (few.counted_ms(a) - many.counted_ms(b)).abs() <= 4_000,
-            "{what}: {few:?} {many:?}"
+            "{label}: {few:?} {many:?}"
         );
         for (from_ms, to_ms) in [(a.from_ms, b.from_ms), (a.to_ms, b.to_ms)] {
             let pairs = few.axes_deg(from_ms).into_iter().zip(many.axes_deg(to_ms));
             let apart = pairs.map(|(few, many)| (few - many).abs());
-            assert!(apart.fold(0.0, f64::max) < 2.0, "{what}: {few:?} {many:?}");
+            assert!(apart.fold(0.0, f64::max) < 2.0, "{label}: {few:?} {many:?}");
         }
     }
 }
@@ -100,16 +100,16 @@ fn directions_between_few_states_are_judged_as_those_of_the_orbit() {
             let exact = sight.exact(span);
             let [of_states, of_orbit] =
                 [reach.ways(sight.fine(span, span), &clear), reach.ways(&exact, &clear)];
-            let what = format!("seed {SEED}, case {case}, antenna {place}");
+            let label = format!("seed {SEED}, case {case}, antenna {place}");
             match (of_states, of_orbit) {
                 (Verdict::Possible(of_states), Verdict::Possible(of_orbit)) => {
-                    assert_eq!(of_states.len(), of_orbit.len(), "{what}");
+                    assert_eq!(of_states.len(), of_orbit.len(), "{label}");
                     for (one, other) in of_states.iter().zip(&of_orbit) {
-                        assert_eq!((one.span(), one.lost), (other.span(), other.lost), "{what}");
-                        assert_eq!(one.counted_ms(span), other.counted_ms(span), "{what}");
+                        assert_eq!((one.span(), one.lost), (other.span(), other.lost), "{label}");
+                        assert_eq!(one.counted_ms(span), other.counted_ms(span), "{label}");
                     }
                 }
-                (of_states, of_orbit) => assert_eq!(of_states, of_orbit, "{what}"),
+                (of_states, of_orbit) => assert_eq!(of_states, of_orbit, "{label}"),
             }
             judged += 1;
         });
@@ -118,11 +118,11 @@ fn directions_between_few_states_are_judged_as_those_of_the_orbit() {
 }
 
 /// A part that is out of reach is that, and no slew, even if the axis changes ends meanwhile.
-fn assert_same_loss(judged: Option<Lost>, many: Option<Lost>, what: &str) {
-    assert_eq!(judged.map(|lost| lost.seconds), many.map(|lost| lost.seconds), "{what}");
+fn assert_same_loss(judged: Option<Lost>, many: Option<Lost>, label: &str) {
+    assert_eq!(judged.map(|lost| lost.seconds), many.map(|lost| lost.seconds), "{label}");
     let [judged, many] = [judged, many].map(|lost| lost.map(|lost| lost.at));
     let changes_ends = matches!((judged, many), (Some(Loss::BeyondAzimuth(_)), Some(Loss::Slew)));
-    assert!(judged == many || changes_ends, "{what}: {judged:?} {many:?}");
+    assert!(judged == many || changes_ends, "{label}: {judged:?} {many:?}");
 }
 
 #[test]
@@ -139,7 +139,7 @@ fn what_lies_beyond_the_travel_of_an_axis_needs_no_closer_look() {
         }
         each_pass(&station, &mut random, 6, |place, reach, sight| {
             let Some(many) = by_many(reach, sight) else { return };
-            let what = format!("seed {}, case {case}, antenna {place}", SEED + 3);
+            let label = format!("seed {}, case {case}, antenna {place}", SEED + 3);
             let span = sight.above(reach.min_elevation()).unwrap();
             let part = reach.within_travel(sight.coarse(span), span);
             cut += usize::from(part.is_some_and(|part| part != span));
@@ -149,24 +149,25 @@ fn what_lies_beyond_the_travel_of_an_axis_needs_no_closer_look() {
             }
             match (reach.judge(sight), many) {
                 (Verdict::Possible(judged), Verdict::Possible(many)) => {
-                    assert_eq!(judged.len(), many.len(), "{what}");
+                    assert_eq!(judged.len(), many.len(), "{label}");
                     for (one, other) in judged.iter().zip(&many) {
-                        assert_eq!(one.span(), other.span(), "{what}");
-                        assert_eq!(one.counted_ms(span), other.counted_ms(span), "{what}");
-                        assert_same_loss(one.lost, other.lost, &what);
+                        assert_eq!(one.span(), other.span(), "{label}");
+                        assert_eq!(one.counted_ms(span), other.counted_ms(span), "{label}");
+                        assert_same_loss(one.lost, other.lost, &label);
                         let Span { from_ms, to_ms } = one.span();
-                        for at in [from_ms, to_ms] {
-                            let pairs = one.axes_deg(at).into_iter().zip(other.axes_deg(at));
+                        for time_ms in [from_ms, to_ms] {
+                            let pairs =
+                                one.axes_deg(time_ms).into_iter().zip(other.axes_deg(time_ms));
                             let apart = pairs.map(|(one, other)| (one - other).abs());
-                            assert!(apart.fold(0.0, f64::max) < 0.01, "{what}");
+                            assert!(apart.fold(0.0, f64::max) < 0.01, "{label}");
                         }
                     }
                 }
                 (
                     Verdict::Impossible(Impossible::Lost(judged)),
                     Verdict::Impossible(Impossible::Lost(many)),
-                ) => assert_same_loss(Some(judged), Some(many), &what),
-                (judged, many) => assert_eq!(judged, many, "{what}"),
+                ) => assert_same_loss(Some(judged), Some(many), &label),
+                (judged, many) => assert_eq!(judged, many, "{label}"),
             }
         });
     }
@@ -183,12 +184,12 @@ fn with_keep_outs_or_the_sun_few_samples_decide_nothing() {
         add_barriers(&mut station, &mut random);
         each_pass(&station, &mut random, 3, |place, reach, sight| {
             let Some(many) = by_many(reach, sight) else { return };
-            let what = format!("seed {SEED}, case {case}, antenna {place}");
-            assert_eq!(reach.judge(sight), many, "{what}");
+            let label = format!("seed {SEED}, case {case}, antenna {place}");
+            assert_eq!(reach.judge(sight), many, "{label}");
             entered += usize::from(matches!(many, Verdict::Impossible(Impossible::KeepOut(_))));
             let Verdict::Possible(ways) = many else { return };
             for way in ways {
-                assert_outside(reach, &way, &what);
+                assert_outside(reach, &way, &label);
             }
             judged[place] += 1;
         });
@@ -215,24 +216,27 @@ fn with_a_pointing_model_a_way_has_the_beam_on_the_satellite_and_both_directions
         }
         each_pass(&station, &mut random, 2, |place, reach, sight| {
             let Verdict::Possible(ways) = reach.judge(sight) else { return };
-            let what = format!("seed {}, case {case}, antenna {place}", SEED + 4);
+            let label = format!("seed {}, case {case}, antenna {place}", SEED + 4);
             let samples = sight.above(reach.min_elevation()).map(|span| sight.fine(span, span));
             for way in ways {
-                assert_outside(reach, &way, &what);
+                assert_outside(reach, &way, &label);
                 let model = station.antennas[place].track_model();
                 if reach.on_board || !reach.drives.has_elevation || model.is_none() {
                     continue;
                 }
                 for sample in samples.iter().flat_map(|samples| &samples.list) {
-                    let at = ms(sample.time);
-                    let around = Span { from_ms: at - 2_000, to_ms: at + 2_000 };
-                    if way.counted_ms(around) < around.length_ms() {
+                    let time_ms = ms(sample.time);
+                    let nearby = Span { from_ms: time_ms - 2_000, to_ms: time_ms + 2_000 };
+                    if way.counted_ms(nearby) < nearby.length_ms() {
                         continue;
                     }
-                    let [azimuth_deg, elevation_deg] = way.axes_deg(at);
+                    let [azimuth_deg, elevation_deg] = way.axes_deg(time_ms);
                     let beam = model.direction(AzEl::from_degrees(azimuth_deg, elevation_deg));
-                    let off = beam.separation(sample.direction);
-                    assert!(off < reach.half_beam + Angle::from_degrees(0.3), "{what}: {off:?}");
+                    let deviation = beam.separation(sample.direction);
+                    assert!(
+                        deviation < reach.half_beam + Angle::from_degrees(0.3),
+                        "{label}: {deviation:?}"
+                    );
                     looks[place] += 1;
                 }
             }
@@ -244,20 +248,20 @@ fn with_a_pointing_model_a_way_has_the_beam_on_the_satellite_and_both_directions
 
 /// The seconds of a way that count lie in no barrier, and both ends can be reached from the open
 /// sky.
-fn assert_outside(reach: &Reach, way: &Way, what: &str) {
+fn assert_outside(reach: &Reach, way: &Way, label: &str) {
     let Span { from_ms, to_ms } = way.span();
-    for at in (from_ms + 2_000..to_ms).step_by(5_000) {
-        let around = Span { from_ms: at - 2_000, to_ms: at + 2_000 };
-        if way.counted_ms(around) < around.length_ms() {
+    for time_ms in (from_ms + 2_000..to_ms).step_by(5_000) {
+        let span = Span { from_ms: time_ms - 2_000, to_ms: time_ms + 2_000 };
+        if way.counted_ms(span) < span.length_ms() {
             continue;
         }
-        let bounds = reach.bounds.at(at_ms(at));
-        let nearest = bounds.nearest(reach.bounds.direction(way.axes_deg(at)));
+        let bounds = reach.bounds.at(at_ms(time_ms));
+        let nearest = bounds.nearest(reach.bounds.direction(way.axes_deg(time_ms)));
         // Between two samples the axes may cut a corner.
         let inside_deg = nearest.map_or(0.0, |nearest| -nearest.angle.degrees());
-        assert!(inside_deg < 0.3, "{what}: {inside_deg} at {at}");
+        assert!(inside_deg < 0.3, "{label}: {inside_deg} at {time_ms}");
     }
-    assert!(reach.is_within_reach(way), "{what}");
+    assert!(reach.is_within_reach(way), "{label}");
 }
 
 /// An antenna never has to go to its park position, so a keep-out over it costs no pass.
@@ -310,10 +314,10 @@ fn a_park_position_out_of_reach_costs_no_pass() {
 fn ways_lead_to_the_open_sky_beside_any_park_position() {
     let mut random = Random::new(SEED + 77);
     for case in 0..200 {
-        let mut between =
-            |from: f64, to: f64| from + (to - from) * f64::from(random.below(10_000)) / 1e4;
+        let mut uniform =
+            |start: f64, end: f64| start + (end - start) * f64::from(random.below(10_000)) / 1e4;
         let park =
-            Direction { azimuth_deg: between(20.0, 340.0), elevation_deg: between(0.0, 15.0) };
+            Direction { azimuth_deg: uniform(20.0, 340.0), elevation_deg: uniform(0.0, 15.0) };
         let (left_deg, right_deg) = (park.azimuth_deg - 5.0, park.azimuth_deg + 5.0);
         let top_deg = park.elevation_deg + 3.0;
         let corners =
@@ -324,7 +328,7 @@ fn ways_lead_to_the_open_sky_beside_any_park_position() {
             reason: String::new(),
             entered: Entered::Hard,
             antenna: None,
-            margin_deg: between(1.0, 8.0),
+            margin_deg: uniform(1.0, 8.0),
             zone: KeepOut::zone_of(&corners).unwrap(),
         });
         for antenna in &mut station.antennas {
@@ -338,8 +342,8 @@ fn ways_lead_to_the_open_sky_beside_any_park_position() {
             for first_deg in [from_deg + 30.0, to_deg - 30.0] {
                 let place_deg = [first_deg, 60.0];
                 if now.has_room(place_deg, 3.0) {
-                    let what = format!("seed {}, case {case}: {place_deg:?}", SEED + 77);
-                    assert!(reach.is_way(place_deg, open_deg, &now), "{what} to {open_deg:?}");
+                    let label = format!("seed {}, case {case}: {place_deg:?}", SEED + 77);
+                    assert!(reach.is_way(place_deg, open_deg, &now), "{label} to {open_deg:?}");
                 }
             }
         }
@@ -356,16 +360,20 @@ fn what_counts_of_a_pass_with_a_loss_begins_and_ends_in_the_beam() {
             let Verdict::Possible(ways) = reach.judge(sight) else { return };
             for way in ways.iter().filter(|way| way.lost.is_some()) {
                 let Span { from_ms, to_ms } = way.span();
-                for at in [from_ms, to_ms] {
-                    let sample = sight.exact(Span { from_ms: at, to_ms: at + 2_000 }).list[0];
-                    let beam = reach.bounds.direction(way.axes_deg(at));
-                    let off = if reach.drives.has_elevation {
+                for time_ms in [from_ms, to_ms] {
+                    let sample =
+                        sight.exact(Span { from_ms: time_ms, to_ms: time_ms + 2_000 }).list[0];
+                    let beam = reach.bounds.direction(way.axes_deg(time_ms));
+                    let deviation = if reach.drives.has_elevation {
                         beam.separation(sample.direction)
                     } else {
                         (beam.azimuth - sample.direction.azimuth).wrapped_180().abs()
                     };
-                    let what = format!("seed {}, case {case}, antenna {place}", SEED + 6);
-                    assert!(off.degrees() <= reach.half_beam.degrees() + 0.01, "{what}: {off:?}");
+                    let label = format!("seed {}, case {case}, antenna {place}", SEED + 6);
+                    assert!(
+                        deviation.degrees() <= reach.half_beam.degrees() + 0.01,
+                        "{label}: {deviation:?}"
+                    );
                     edges += 1;
                 }
             }

@@ -27,9 +27,9 @@ impl Reach {
             return Some(span);
         };
         let pairs = samples.list.iter().zip(samples.list.iter().skip(1));
-        let touched = pairs.filter(|(from, to)| touches(from, to));
+        let touched = pairs.filter(|(start, end)| touches(start, end));
         touched
-            .map(|(from, to)| Span { from_ms: ms(from.time), to_ms: ms(to.time) })
+            .map(|(start, end)| Span { from_ms: ms(start.time), to_ms: ms(end.time) })
             .reduce(|first, last| Span { to_ms: last.to_ms, ..first })
     }
 
@@ -48,10 +48,11 @@ impl Reach {
         let middle = Angle::from_degrees(f64::midpoint(azimuth_from_deg, azimuth_to_deg));
         let off_deg = |a: Angle, b: Angle| (a - b).wrapped_180().abs().degrees();
         (half_deg < TURN_DEG / 2.0 && elevation_to_deg <= 90.0).then_some(
-            move |from: &Sample, to: &Sample| {
-                let [from, to] = [from.direction, to.direction];
-                from.elevation_deg().max(to.elevation_deg()) > HIGH_DEG
-                    || off_deg(from.azimuth, middle) <= half_deg + off_deg(from.azimuth, to.azimuth)
+            move |start: &Sample, end: &Sample| {
+                let [first, last] = [start.direction, end.direction];
+                first.elevation_deg().max(last.elevation_deg()) > HIGH_DEG
+                    || off_deg(first.azimuth, middle)
+                        <= half_deg + off_deg(first.azimuth, last.azimuth)
             },
         )
     }

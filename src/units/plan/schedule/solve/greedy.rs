@@ -31,8 +31,8 @@ impl Problem<'_> {
         let mut is_taken = vec![false; self.passes];
         let mut left = self.limits.to_vec();
         for take in takes.iter().flatten().filter_map(|take| self.take(*take)) {
-            if let Some(taken) = is_taken.get_mut(take.pass as usize) {
-                *taken = true;
+            if let Some(flag) = is_taken.get_mut(take.pass as usize) {
+                *flag = true;
             }
             if let Some(left) = take.limit.and_then(|limit| left.get_mut(limit as usize)) {
                 *left = left.saturating_sub(1);
@@ -58,8 +58,8 @@ impl Problem<'_> {
                 continue;
             }
             own.insert(place, index);
-            if let Some(taken) = is_taken.get_mut(take.pass as usize) {
-                *taken = true;
+            if let Some(is_first) = is_taken.get_mut(take.pass as usize) {
+                *is_first = true;
             }
             if let Some(left) = limit {
                 *left -= 1;

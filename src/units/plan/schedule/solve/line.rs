@@ -46,8 +46,8 @@ impl Line {
         let longest_ms = problem.slews.longest_ms(antenna);
         let ended = |take: &u32| {
             let (from_ms, _) = span(take);
-            let until = |ms: i64| by_end.partition_point(|before| end(before) <= ms) as u32;
-            (until(from_ms - longest_ms), until(from_ms))
+            let count_until = |ms: i64| by_end.partition_point(|before| end(before) <= ms) as u32;
+            (count_until(from_ms - longest_ms), count_until(from_ms))
         };
         let ended = by_start.iter().map(ended).collect();
         Self { antenna, by_start, by_end, ended }
@@ -69,10 +69,11 @@ impl Line {
                 }
             }
             passed = *far as usize;
-            let own = problem.take(*take).and_then(|it| worth(*take, it));
+            let own = problem.take(*take).and_then(|entry| worth(*take, entry));
             let found = own.and_then(|own| {
                 let first = problem.slews.first_ms(*take as usize);
-                let mut most = first.map(|ms| Best { row: Row::ZERO.slewed(ms), before: None });
+                let mut best_before =
+                    first.map(|ms| Best { row: Row::ZERO.slewed(ms), before: None });
                 let near = self.by_end.get(passed..*near as usize).unwrap_or_default();
                 // The latest are likely to be worth most.
                 let near = near.iter().rev().filter_map(|before| {
@@ -80,18 +81,18 @@ impl Line {
                 });
                 for (before, row) in ahead.best.iter().copied().chain(near) {
                     // A slew only makes it less, so that few legs need be known.
-                    if most.is_some_and(|most| row <= most.row) {
+                    if best_before.is_some_and(|best| row <= best.row) {
                         continue;
                     }
                     let earlier = self.by_start.get(before as usize)?;
                     let Some(slew_ms) = problem.slew_ms(*earlier, *take) else { continue };
                     let row = row.slewed(slew_ms);
-                    if most.is_none_or(|most| row > most.row) {
-                        most = Some(Best { row, before: Some(before) });
+                    if best_before.is_none_or(|best| row > best.row) {
+                        best_before = Some(Best { row, before: Some(before) });
                     }
                 }
-                let most = most?;
-                Some(Best { row: most.row + own, ..most })
+                let best_so_far = best_before?;
+                Some(Best { row: best_so_far.row + own, ..best_so_far })
             });
             best.push(found);
         }
@@ -102,15 +103,15 @@ impl Line {
         let mut last: Option<(u32, Best)> = None;
         for (position, found) in (0..).zip(best) {
             let Some(found) = found else { continue };
-            let least = last.map_or(Row::ZERO, |(_, best)| best.row);
-            if found.row > least {
+            let row_so_far = last.map_or(Row::ZERO, |(_, best)| best.row);
+            if found.row > row_so_far {
                 last = Some((position, *found));
             }
         }
         let row = last.map_or(Row::ZERO, |(_, best)| best.row);
-        let at = |position: u32| best.get(position as usize).copied().flatten();
+        let step_at = |position: u32| best.get(position as usize).copied().flatten();
         let back = std::iter::successors(last.map(|(position, _)| position), |position| {
-            at(*position)?.before
+            step_at(*position)?.before
         });
         let mut takes: Vec<u32> =
             back.filter_map(|position| self.by_start.get(position as usize).copied()).collect();
@@ -145,9 +146,9 @@ impl Ahead {
             std::cmp::Ordering::Equal => {
                 self.best.push((position, row));
                 let slews = self.best.iter().map(|(_, row)| row.slew_ms());
-                let least_ms = slews.min().unwrap_or_default();
-                let most_ms = least_ms + self.longest_ms;
-                self.best.retain(|(_, row)| row.slew_ms() <= most_ms);
+                let min_ms = slews.min().unwrap_or_default();
+                let max_ms = min_ms + self.longest_ms;
+                self.best.retain(|(_, row)| row.slew_ms() <= max_ms);
             }
         }
     }

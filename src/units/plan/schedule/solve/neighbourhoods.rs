@@ -59,41 +59,44 @@ impl Problem<'_> {
             }
         }
         let stays = |take: &&u32| {
-            self.take(**take).is_some_and(|it| is_free.get(it.pass as usize) != Some(&true))
+            self.take(**take).is_some_and(|entry| is_free.get(entry.pass as usize) != Some(&true))
         };
-        let kept = schedule.1.iter().map(|own| own.iter().filter(stays).copied().collect());
-        let kept: Vec<Vec<u32>> = kept.collect();
+        let fixed_takes = schedule.1.iter().map(|own| own.iter().filter(stays).copied().collect());
+        let fixed_takes: Vec<Vec<u32>> = fixed_takes.collect();
         // Only the takes that stay within the neighbourhood, and the first one after it, affect the
         // choice.
-        let within = kept.iter().map(|own| {
+        let ranges = fixed_takes.iter().map(|own| {
             let begun = |at_ms: i64| {
-                own.partition_point(|take| self.take(*take).is_some_and(|it| it.from_ms < at_ms))
+                own.partition_point(|take| {
+                    self.take(*take).is_some_and(|of_take| of_take.from_ms < at_ms)
+                })
             };
             begun(from_ms)..own.len().min(begun(to_ms) + 1)
         });
-        let within: Vec<_> = within.collect();
-        let beside = kept.iter().zip(&within);
-        let beside = beside.flat_map(|(own, within)| own.get(within.clone()).unwrap_or_default());
-        let before = kept.iter().zip(&within);
-        let before = before.map(|(own, within)| own.get(within.start.checked_sub(1)?).copied());
-        let used = self.used(kept.iter().flatten());
-        let left = self.limits.iter().zip(used).map(|(most, used)| most.saturating_sub(used));
+        let ranges: Vec<_> = ranges.collect();
+        let neighbours = fixed_takes.iter().zip(&ranges);
+        let neighbours =
+            neighbours.flat_map(|(own, range)| own.get(range.clone()).unwrap_or_default());
+        let before = fixed_takes.iter().zip(&ranges);
+        let before = before.map(|(own, range)| own.get(range.start.checked_sub(1)?).copied());
+        let used = self.used(fixed_takes.iter().flatten());
+        let left = self.limits.iter().zip(used).map(|(max, used)| max.saturating_sub(used));
         let scope = Scope {
             takes: free
                 .iter()
                 .map(|take| (*take, false))
-                .chain(beside.map(|take| (*take, true)))
+                .chain(neighbours.map(|take| (*take, true)))
                 .collect(),
             left: left.collect(),
             before: before.collect(),
         };
         match vector::best(self, scope, effort) {
             Some(found) => {
-                let all = kept.iter().zip(&within).zip(found);
+                let all = fixed_takes.iter().zip(&ranges).zip(found);
                 let takes: Vec<Vec<u32>> = all
-                    .map(|((own, within), found)| {
-                        let before = own.get(..within.start).unwrap_or_default();
-                        let after = own.get(within.end..).unwrap_or_default();
+                    .map(|((own, range), found)| {
+                        let before = own.get(..range.start).unwrap_or_default();
+                        let after = own.get(range.end..).unwrap_or_default();
                         [before, &found, after].concat()
                     })
                     .collect();
@@ -137,8 +140,9 @@ impl Problem<'_> {
                         && take.from_ms < other.to_ms + margin_ms
             })
         };
-        let beside = self.takes.iter().filter(|take| is_beside(take));
-        let mut passes: Vec<(i64, u32)> = beside.map(|take| (take.from_ms, take.pass)).collect();
+        let overlapping = self.takes.iter().filter(|take| is_beside(take));
+        let mut passes: Vec<(i64, u32)> =
+            overlapping.map(|take| (take.from_ms, take.pass)).collect();
         passes.sort_unstable();
         let mut found = Vec::new();
         for (_, pass) in passes {

@@ -34,7 +34,7 @@ struct Bounded<'a> {
     /// The schedule that was found.
     row: &'a Row,
     /// The worth of the most valuable take of each class before.
-    most: Vec<i64>,
+    maxima: Vec<i64>,
 }
 
 /// Result for the takes of all antennas at some prices.
@@ -44,17 +44,18 @@ struct Round {
     /// In thousandths: how much more than once each pass is taken, how much more than its limit
     /// each limit is used, and how many of its most valuable takes are missing in each class
     /// before.
-    over: Vec<i64>,
+    excess: Vec<i64>,
 }
 
 /// At most this much is in `class` of any schedule that is worth no less than `row` in the classes
 /// before.
 pub(super) fn bound(problem: &Problem<'_>, lines: &[Line], row: &Row, class: usize) -> i64 {
-    let most = |class| {
+    let max_worth = |class| {
         let numbers = problem.takes.iter().map(|take| take.row.number(class));
         numbers.max().unwrap_or_default().max(1)
     };
-    let bounded = Bounded { problem, lines, class, row, most: (0..class).map(most).collect() };
+    let bounded =
+        Bounded { problem, lines, class, row, maxima: (0..class).map(max_worth).collect() };
     let mut prices = Prices {
         passes: vec![0; problem.passes],
         limits: vec![0; problem.limits.len()],
@@ -88,47 +89,47 @@ impl Bounded<'_> {
     fn paid(&self, prices: &Prices, take: &Take) -> i64 {
         let of_pass = prices.passes.get(take.pass as usize).copied().unwrap_or_default();
         let of_limit = take.limit.and_then(|limit| prices.limits.get(limit as usize));
-        let before = prices.classes.iter().zip(&self.most).enumerate();
-        let before = before
-            .map(|(class, (price, most))| -(-price * take.row.number(class)).div_euclid(*most));
+        let before = prices.classes.iter().zip(&self.maxima).enumerate();
+        let before =
+            before.map(|(class, (price, max))| -(-price * take.row.number(class)).div_euclid(*max));
         take.row.number(self.class) * ONE + before.sum::<i64>()
             - (of_pass * take.share).div_euclid(ONE)
             - of_limit.copied().unwrap_or_default()
     }
 
     fn round(&self, prices: &Prices) -> Round {
-        let Self { problem, lines, class, row, most } = self;
-        let paid = |_, take: &Take| Some(Row::at(CELL, self.paid(prices, take)));
+        let Self { problem, lines, class, row, maxima } = self;
+        let paid = |_, take: &Take| Some(Row::single(CELL, self.paid(prices, take)));
         let found: Vec<_> = lines.iter().map(|line| line.best(problem, &paid)).collect();
         let mut over_pass = vec![-ONE; problem.passes];
-        let limits = problem.limits.iter().map(|most| -ONE * i64::from(*most));
+        let limits = problem.limits.iter().map(|max| -ONE * i64::from(*max));
         let mut over_limit: Vec<i64> = limits.collect();
         let mut missing: Vec<i64> = (0..*class).map(|class| row.number(class)).collect();
         let all = found.iter().flat_map(|sequence| &sequence.takes);
         for take in all.filter_map(|take| problem.take(*take)) {
-            if let Some(over) = over_pass.get_mut(take.pass as usize) {
-                *over += take.share;
+            if let Some(excess) = over_pass.get_mut(take.pass as usize) {
+                *excess += take.share;
             }
             let limit = take.limit.and_then(|limit| over_limit.get_mut(limit as usize));
-            if let Some(over) = limit {
-                *over += ONE;
+            if let Some(used) = limit {
+                *used += ONE;
             }
             for (class, missing) in missing.iter_mut().enumerate() {
                 *missing -= take.row.number(class);
             }
         }
         let of_limits = prices.limits.iter().zip(problem.limits);
-        let of_limits: i64 = of_limits.map(|(price, most)| price * i64::from(*most)).sum();
-        let of_classes = prices.classes.iter().zip(most).enumerate();
+        let of_limits: i64 = of_limits.map(|(price, max)| price * i64::from(*max)).sum();
+        let of_classes = prices.classes.iter().zip(maxima).enumerate();
         let of_classes =
-            of_classes.map(|(class, (price, most))| (price * row.number(class)).div_euclid(*most));
+            of_classes.map(|(class, (price, max))| (price * row.number(class)).div_euclid(*max));
         let bound = found.iter().map(|sequence| sequence.row.number(CELL)).sum::<i64>()
             + prices.passes.iter().sum::<i64>()
             + of_limits
             - of_classes.sum::<i64>();
-        let missing = missing.into_iter().zip(most).map(|(missing, most)| missing * ONE / most);
-        let over = over_pass.into_iter().chain(over_limit).chain(missing).collect();
-        Round { bound, over }
+        let missing = missing.into_iter().zip(maxima).map(|(missing, max)| missing * ONE / max);
+        let excess = over_pass.into_iter().chain(over_limit).chain(missing).collect();
+        Round { bound, excess }
     }
 }
 
@@ -137,16 +138,16 @@ impl Prices {
     /// to move.
     fn step(&mut self, round: &Round, gap: f64) -> bool {
         let prices = || self.passes.iter().chain(&self.limits).chain(&self.classes);
-        let moving = round.over.iter().zip(prices());
-        let moving = moving.filter(|(over, price)| **over > 0 || **price > 0);
-        let length: f64 = moving.map(|(over, _)| (*over as f64 / ONE as f64).powi(2)).sum();
+        let moving = round.excess.iter().zip(prices());
+        let moving = moving.filter(|(excess, price)| **excess > 0 || **price > 0);
+        let length: f64 = moving.map(|(excess, _)| (*excess as f64 / ONE as f64).powi(2)).sum();
         if length <= 0.0 {
             return false;
         }
         let step = gap / length;
         let prices = self.passes.iter_mut().chain(&mut self.limits).chain(&mut self.classes);
-        for (over, price) in round.over.iter().zip(prices) {
-            let moved = (step * *over as f64 / ONE as f64).round() as i64;
+        for (excess, price) in round.excess.iter().zip(prices) {
+            let moved = (step * *excess as f64 / ONE as f64).round() as i64;
             *price = price.saturating_add(moved).max(0);
         }
         true

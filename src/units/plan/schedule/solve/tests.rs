@@ -26,19 +26,19 @@ struct Table {
 }
 
 impl Table {
-    fn leg(&self, from: usize, to: usize) -> Leg {
-        self.legs[from * self.spans_ms.len() + to]
+    fn leg(&self, start: usize, end: usize) -> Leg {
+        self.legs[start * self.spans_ms.len() + end]
     }
 }
 
 impl Slews for Table {
-    fn first_ms(&self, to: usize) -> Option<i64> {
-        self.first_ms[to]
+    fn first_ms(&self, end: usize) -> Option<i64> {
+        self.first_ms[end]
     }
 
-    fn slew_ms(&self, from: usize, to: usize) -> Option<i64> {
-        let Leg { needs_ms, slew_ms } = self.leg(from, to);
-        (self.spans_ms[from].1 + needs_ms <= self.spans_ms[to].0).then_some(slew_ms)
+    fn slew_ms(&self, start: usize, end: usize) -> Option<i64> {
+        let Leg { needs_ms, slew_ms } = self.leg(start, end);
+        (self.spans_ms[start].1 + needs_ms <= self.spans_ms[end].0).then_some(slew_ms)
     }
 
     fn longest_ms(&self, _: usize) -> i64 {
@@ -70,7 +70,7 @@ impl Case {
                 for _ in 0..random.below(3) {
                     let from_ms = at_ms + random.below(30) as i64;
                     let length_ms = 1 + random.below(90) as i64;
-                    let row = Row::of(class, random.below(5) as i64).risen(at_ms);
+                    let row = Row::new(class, random.below(5) as i64).risen(at_ms);
                     let (to_ms, part) = (from_ms + length_ms, Part::Alone);
                     let (share, is_whole) = (1000, random.below(2) == 0);
                     takes.push(Take {
@@ -88,7 +88,7 @@ impl Case {
                 }
                 if antennas > 1 && random.below(4) == 0 {
                     let middle_ms = at_ms + 15 + random.below(5) as i64;
-                    let row = Row::of(class, 1 + random.below(5) as i64);
+                    let row = Row::new(class, 1 + random.below(5) as i64);
                     for (part, from_ms, to_ms) in
                         [(Part::First, at_ms, middle_ms), (Part::Second, middle_ms, middle_ms + 20)]
                     {
@@ -204,7 +204,7 @@ fn cases() -> u64 {
 #[test]
 fn one_antenna_does_as_well_as_brute_force() {
     let mut random = Random::new(SEED);
-    let mut taken = 0;
+    let mut take_count = 0;
     for case in 0..cases() {
         let passes = 1 + random.below(6) as usize;
         let case_ = Case::random(&mut random, 1, passes);
@@ -216,10 +216,10 @@ fn one_antenna_does_as_well_as_brute_force() {
         }
         assert_eq!(solution.row.classes(), best.classes(), "case {case}");
         assert_eq!(solution.bound.classes(), best.classes(), "case {case}");
-        taken += solution.takes[0].len();
+        take_count += solution.takes[0].len();
     }
-    println!("{} cases of seed {SEED}, {taken} takes", cases());
-    assert!(taken as u64 > cases());
+    println!("{} cases of seed {SEED}, {take_count} takes", cases());
+    assert!(take_count as u64 > cases());
 }
 
 #[test]
@@ -260,7 +260,8 @@ fn where_not_all_is_tried_bounds_hold_and_the_best_is_often_reached() {
         let best = case_.brute_force();
         assert!(solution.row.classes() <= best.classes(), "case {case}");
         for class in 0..Row::CLASSES {
-            let is_as_good = (0..class).all(|it| best.number(it) >= solution.row.number(it));
+            let is_as_good =
+                (0..class).all(|index| best.number(index) >= solution.row.number(index));
             let bound = solution.bound.number(class);
             assert!(!is_as_good || best.number(class) <= bound, "case {case}, class {class}");
         }

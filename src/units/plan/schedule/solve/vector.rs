@@ -54,21 +54,22 @@ pub(super) struct Scope {
 /// more than is left of `effort`, from which it is taken.
 pub(super) fn best(problem: &Problem<'_>, scope: Scope, effort: &mut u64) -> Option<Vec<Vec<u32>>> {
     let Scope { takes: mut order, left, before } = scope;
-    let key = |take: u32| problem.take(take).map(|it| (it.from_ms, it.to_ms, it.antenna));
+    let key =
+        |take: u32| problem.take(take).map(|entry| (entry.from_ms, entry.to_ms, entry.antenna));
     order.sort_by_key(|(take, _)| (key(*take), *take));
     let closes = closes(problem, &order);
 
     let last = before.into_iter().map(|take| take.unwrap_or(NONE)).collect();
     let start = State { row: Row::ZERO, last, open: Vec::new(), used: Vec::new(), step: NONE };
     let mut search = Search { problem, left, trail: Vec::new(), effort: 0 };
-    let found = search.through(start, &order, &closes, *effort);
+    let found = search.run(start, &order, &closes, *effort);
     *effort = effort.saturating_sub(search.effort);
     Some(search.traced(found?))
 }
 
 impl Search<'_> {
     /// The last step of the best trail.
-    fn through(
+    fn run(
         &mut self,
         start: State,
         order: &[(u32, bool)],
@@ -78,7 +79,7 @@ impl Search<'_> {
         let mut states = vec![start];
         let mut after_pruning = 1;
         for ((take, stays), closes) in order.iter().zip(closes) {
-            let it = self.problem.take(*take)?;
+            let entry = self.problem.take(*take)?;
             let extended: Vec<State> =
                 states.iter().filter_map(|state| self.extended(state, *take, *stays)).collect();
             if *stays {
@@ -89,20 +90,20 @@ impl Search<'_> {
             self.effort += 1 + states.len() as u64;
             if closes.pass {
                 let waits = |state: &State| {
-                    state.open.iter().any(|open| open.pass == it.pass && open.first.is_some())
+                    state.open.iter().any(|open| open.pass == entry.pass && open.first.is_some())
                 };
                 states.retain(|state| !waits(state));
                 for state in &mut states {
-                    state.open.retain(|open| open.pass != it.pass);
+                    state.open.retain(|open| open.pass != entry.pass);
                 }
             }
-            if let Some(limit) = it.limit.filter(|_| closes.limit) {
+            if let Some(limit) = entry.limit.filter(|_| closes.limit) {
                 for state in &mut states {
                     state.used.retain(|(used, _)| *used != limit);
                 }
             }
             if states.len() > FEW_STATES.max(2 * after_pruning) {
-                self.prune(&mut states, it.from_ms);
+                self.prune(&mut states, entry.from_ms);
                 after_pruning = states.len();
             }
             if states.len() > MAX_STATES || self.effort > effort {
@@ -117,17 +118,17 @@ impl Search<'_> {
 fn closes(problem: &Problem<'_>, order: &[(u32, bool)]) -> Vec<Closes> {
     let mut pass_seen = vec![false; problem.passes];
     let mut limit_seen = vec![false; problem.limits.len()];
-    let first = |seen: &mut Vec<bool>, index: u32| {
-        seen.get_mut(index as usize).is_some_and(|seen| !std::mem::replace(seen, true))
+    let first = |flags: &mut Vec<bool>, index: u32| {
+        flags.get_mut(index as usize).is_some_and(|flag| !std::mem::replace(flag, true))
     };
     let mut closes: Vec<Closes> = order
         .iter()
         .rev()
         .map(|(take, stays)| {
-            let Some(it) = problem.take(*take) else { return Closes::default() };
-            let limit = it.limit.filter(|_| !stays);
+            let Some(entry) = problem.take(*take) else { return Closes::default() };
+            let limit = entry.limit.filter(|_| !stays);
             Closes {
-                pass: first(&mut pass_seen, it.pass),
+                pass: first(&mut pass_seen, entry.pass),
                 limit: limit.is_some_and(|limit| first(&mut limit_seen, limit)),
             }
         })
@@ -149,21 +150,21 @@ impl Search<'_> {
     /// `state` with one more take; `None` where it does not fit. One that stays counts towards no
     /// limit, and its pass is taken as it is.
     fn extended(&mut self, state: &State, take: u32, stays: bool) -> Option<State> {
-        let it = self.problem.take(take)?;
-        let antenna = it.antenna as usize;
-        let open = state.open.iter().position(|open| open.pass == it.pass);
-        match (it.part, open.and_then(|open| state.open.get(open))) {
+        let entry = self.problem.take(take)?;
+        let antenna = entry.antenna as usize;
+        let open = state.open.iter().position(|open| open.pass == entry.pass);
+        match (entry.part, open.and_then(|open| state.open.get(open))) {
             _ if stays => {}
             (Part::Alone | Part::First, None) => {}
             (Part::Second, Some(open)) => {
                 let first = self.problem.take(open.first?)?;
-                if first.antenna == it.antenna || first.to_ms > it.from_ms {
+                if first.antenna == entry.antenna || first.to_ms > entry.from_ms {
                     return None;
                 }
             }
             _ => return None,
         }
-        let used = it.limit.filter(|_| !stays).map(|limit| {
+        let used = entry.limit.filter(|_| !stays).map(|limit| {
             let used = state.used.iter().find(|(used, _)| *used == limit);
             (limit, used.map_or(0, |(_, count)| *count) + 1)
         });
@@ -177,13 +178,13 @@ impl Search<'_> {
             last => self.problem.slew_ms(last, take)?,
         };
         let mut new = state.clone();
-        new.row = state.row + it.row.slewed(slew_ms);
+        new.row = state.row + entry.row.slewed(slew_ms);
         *new.last.get_mut(antenna)? = take;
         if let Some(open) = open {
             new.open.get_mut(open)?.first = None;
         } else if !stays {
-            let first = (it.part == Part::First).then_some(take);
-            new.open.push(Open { pass: it.pass, first });
+            let first = (entry.part == Part::First).then_some(take);
+            new.open.push(Open { pass: entry.pass, first });
             new.open.sort_by_key(|open| open.pass);
         }
         if let Some((limit, count)) = used {
@@ -213,9 +214,9 @@ impl Search<'_> {
             })
             .collect();
         sorted.sort_by_key(|(state, _)| std::cmp::Reverse(state.row));
-        let mut kept: Vec<(State, Vec<Option<u32>>)> = Vec::new();
+        let mut retained: Vec<(State, Vec<Option<u32>>)> = Vec::new();
         for (state, busy) in sorted {
-            let beaten = kept.iter().position(|(better, freer)| {
+            let beaten = retained.iter().position(|(better, freer)| {
                 let is_freer =
                     |(own, other): (&Option<u32>, &Option<u32>)| own.is_none() || own == other;
                 freer.iter().zip(&busy).all(is_freer)
@@ -228,12 +229,12 @@ impl Search<'_> {
                         state.used.iter().any(|(used, other)| used == limit && other >= count)
                     })
             });
-            self.effort += beaten.unwrap_or(kept.len()) as u64 / 8;
+            self.effort += beaten.unwrap_or(retained.len()) as u64 / 8;
             if beaten.is_none() {
-                kept.push((state, busy));
+                retained.push((state, busy));
             }
         }
-        states.extend(kept.into_iter().map(|(state, _)| state));
+        states.extend(retained.into_iter().map(|(state, _)| state));
     }
 
     fn traced(&self, step: u32) -> Vec<Vec<u32>> {

@@ -69,20 +69,20 @@ pub(in crate::plan) fn three_antennas() -> Station {
 /// The same antennas with other travels, rates and beams.
 pub(in crate::plan) fn any_three_antennas(random: &mut Random) -> Station {
     let mut station = three_antennas();
-    let mut between =
-        |from: f64, to: f64| from + (to - from) * f64::from(random.below(1_000)) / 1e3;
+    let mut uniform =
+        |start: f64, end: f64| start + (end - start) * f64::from(random.below(1_000)) / 1e3;
     for antenna in &mut station.antennas {
-        antenna.limits.maximum_rate_deg_s = between(1.0, 8.0);
-        antenna.beam_width_deg = between(1.0, 12.0);
+        antenna.limits.maximum_rate_deg_s = uniform(1.0, 8.0);
+        antenna.beam_width_deg = uniform(1.0, 12.0);
         match &mut antenna.mount {
             Mount::Xy { lower_axis_azimuth_deg, .. } => {
-                *lower_axis_azimuth_deg = between(0.0, 180.0);
+                *lower_axis_azimuth_deg = uniform(0.0, 180.0);
             }
             Mount::AzEl { azimuth_from_deg, azimuth_to_deg, .. } => {
                 let travel_deg = *azimuth_to_deg - *azimuth_from_deg;
-                *azimuth_from_deg = between(-180.0, 180.0);
+                *azimuth_from_deg = uniform(-180.0, 180.0);
                 // An axis that turns all round reaches some directions twice.
-                let more_deg = if travel_deg < 360.0 { 0.0 } else { between(0.0, 300.0) };
+                let more_deg = if travel_deg < 360.0 { 0.0 } else { uniform(0.0, 300.0) };
                 *azimuth_to_deg = *azimuth_from_deg + travel_deg + more_deg;
             }
         }
@@ -110,17 +110,17 @@ pub(in crate::plan) fn add_barriers(station: &mut Station, random: &mut Random) 
     station.sun_avoidance = Some(SunAvoidance { radius_deg, ahead_min: 10.0 });
 }
 
-pub(in crate::plan) fn planned(station: &Station, from: Timestamp) -> Vec<PlannedAntenna> {
-    let of = |antenna: &Antenna| PlannedAntenna {
+pub(in crate::plan) fn planned(station: &Station, start: Timestamp) -> Vec<PlannedAntenna> {
+    let planned_antenna = |antenna: &Antenna| PlannedAntenna {
         id: antenna.id,
         reach: Reach::of(station, antenna, None),
         set_up_s: if antenna.name == "Satrak" { 20.0 } else { 2.0 },
         between: BetweenPasses::Wait,
-        free_from: from,
+        free_from: start,
         stands_deg: Some([180.0, 45.0]),
         off: None,
     };
-    station.antennas.iter().map(of).collect()
+    station.antennas.iter().map(planned_antenna).collect()
 }
 
 /// Satellites with a priority and what is wanted of them.
@@ -135,16 +135,18 @@ pub(in crate::plan) struct Satellite {
 /// So many satellites in low orbits, each with a priority.
 pub(in crate::plan) fn low_satellites(random: &mut Random, count: usize) -> Vec<Satellite> {
     let catalog: Catalog = bundled().unwrap();
-    let low: Vec<&Elements> =
-        catalog.iter().filter(|it| (5_400.0..6_900.0).contains(&it.period_s())).collect();
+    let low: Vec<&Elements> = catalog
+        .iter()
+        .filter(|elements| (5_400.0..6_900.0).contains(&elements.period_s()))
+        .collect();
     let mut chosen = Vec::new();
     while chosen.len() < count {
-        let it = low[random.below(low.len() as u32) as usize];
-        let number = it.catalog_number();
+        let set = low[random.below(low.len() as u32) as usize];
+        let number = set.catalog_number();
         if chosen.iter().all(|other: &Satellite| other.elements.catalog_number() != number) {
             let priority = Priority::try_from(1 + random.below(5) as i64).unwrap();
             chosen.push(Satellite {
-                elements: it.clone(),
+                elements: set.clone(),
                 priority,
                 limits: PassLimits::default(),
                 take: None,
@@ -158,7 +160,7 @@ pub(in crate::plan) fn candidates(
     station: &Station,
     antennas: &[PlannedAntenna],
     satellites: &[Satellite],
-    from: Timestamp,
+    start: Timestamp,
     hours: f64,
 ) -> Vec<Candidate> {
     let common =
@@ -166,7 +168,7 @@ pub(in crate::plan) fn candidates(
     let search = PassSearch {
         aos_elevation: station.aos_elevation(),
         floor: station.elevation_floor(),
-        ..PassSearch::new(station.site, from, add_seconds(from, hours * 3600.0))
+        ..PassSearch::new(station.site, start, add_seconds(start, hours * 3600.0))
     };
     let mut found = Vec::new();
     for satellite in satellites {
@@ -188,10 +190,10 @@ fn candidate(
     let mask = station.horizon_mask.as_ref();
     let mut sight = Sight::new(propagator, station.site, mask, pass);
     let Satellite { priority, limits, take, .. } = satellite;
-    let wanted = Wanted { priority: *priority, take: *take, limits, by_rule: &|_| None };
+    let pass_wishes = Wanted { priority: *priority, take: *take, limits, by_rule: &|_| None };
     let number = satellite.elements.catalog_number();
     let age_s = satellite.elements.epoch_distance_s(pass.aos.time);
-    Candidate::new(number, age_s, (pass, propagator), wanted, &mut sight, common)
+    Candidate::new(number, age_s, (pass, propagator), pass_wishes, &mut sight, common)
 }
 
 pub(in crate::plan) fn request<'a>(

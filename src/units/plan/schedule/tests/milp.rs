@@ -32,17 +32,17 @@ fn day_with_limits(day: u64, check: impl FnOnce(&Request<'_>)) {
         more.id = crate::station::AntennaId(4);
         station.antennas.push(more);
     }
-    let from = add_seconds(noon(), day as f64 * 86_400.0);
+    let start = add_seconds(noon(), day as f64 * 86_400.0);
     let mut satellites = low_satellites(&mut random, 30);
     for satellite in &mut satellites {
-        let most = 1 + random.below(3);
-        satellite.limits.max_per_day = (random.below(4) == 0).then_some(most);
+        let max = 1 + random.below(3);
+        satellite.limits.max_per_day = (random.below(4) == 0).then_some(max);
     }
     let rules =
         [ChooseBy::Elevation, ChooseBy::Duration, ChooseBy::MostPasses, ChooseBy::MostMinutes];
     let choose_by = rules[random.below(4) as usize];
-    let antennas = planned(&station, from);
-    let list = candidates(&station, &antennas, &satellites, from, 24.0);
+    let antennas = planned(&station, start);
+    let list = candidates(&station, &antennas, &satellites, start, 24.0);
     check(&Request { choose_by, ..request(&antennas, &list) });
 }
 
@@ -54,15 +54,15 @@ fn day(day: u64, check: impl FnOnce(&Request<'_>)) {
     }
     let station = three_antennas();
     let mut random = Random::new(SEED + 100 + day);
-    let from = add_seconds(noon(), day as f64 * 86_400.0);
+    let start = add_seconds(noon(), day as f64 * 86_400.0);
     let in_parts = day >= DAYS;
     let (count, hours) = if in_parts { (14, 4.0) } else { (45, 24.0) };
     let mut satellites = low_satellites(&mut random, count);
     for satellite in satellites.iter_mut().step_by(9).filter(|_| day.is_multiple_of(5)) {
         satellite.limits.max_per_day = Some(if in_parts { 1 } else { 3 });
     }
-    let antennas = planned(&station, from);
-    let list = candidates(&station, &antennas, &satellites, from, hours);
+    let antennas = planned(&station, start);
+    let list = candidates(&station, &antennas, &satellites, start, hours);
     let partial = Partial { min_share: 0.4, min_s: 90.0, step_s: 120.0, hand_over: true };
     check(&Request { partial: in_parts.then_some(partial), ..request(&antennas, &list) });
 }

@@ -28,11 +28,11 @@ pub enum FrameError {
     },
     /// A byte that belongs in no code and no data: a control byte, or one with the eighth bit
     /// set.
-    #[error("byte {byte:02X} at place {at}")]
+    #[error("byte {byte:02X} at place {index}")]
     BadByte {
         byte: u8,
         /// Index of the byte, counted from 0 at the header.
-        at: usize,
+        index: usize,
     },
     /// More than [`MAX_FRAME_BYTES`] without an end.
     #[error("frame longer than {MAX_FRAME_BYTES} bytes")]
@@ -85,23 +85,23 @@ impl Decoder {
     /// Takes bytes of the stream. Bytes that do not fit while nobody takes frames are dropped.
     pub fn push(&mut self, bytes: &[u8]) {
         let room = MAX_PENDING_BYTES.saturating_sub(self.pending.len());
-        let (kept, lost) = bytes.split_at_checked(room).unwrap_or((bytes, &[]));
-        self.pending.extend_from_slice(kept);
+        let (fitting, lost) = bytes.split_at_checked(room).unwrap_or((bytes, &[]));
+        self.pending.extend_from_slice(fitting);
         self.skipped_bytes += lost.len() as u64;
     }
 
     /// Gives up an incomplete frame, and reads the bytes behind its header.
     pub fn line_is_quiet(&mut self) -> Vec<Result<Frame, FrameError>> {
-        let mut seen = Vec::new();
+        let mut results = Vec::new();
         loop {
-            seen.extend(self.by_ref());
+            results.extend(self.by_ref());
             let bytes = self.pending.len();
             if bytes == 0 {
-                return seen;
+                return results;
             }
             // A lone header is noise; with the address after it, it was a frame.
             if bytes > 1 {
-                seen.push(Err(FrameError::Incomplete { bytes }));
+                results.push(Err(FrameError::Incomplete { bytes }));
             }
             self.skip(1);
         }
@@ -131,12 +131,12 @@ impl Decoder {
             Some(byte) if *byte != self.address.number() => return FrameVerdict::Foreign,
             Some(_) => {}
         }
-        for (at, byte) in self.pending.iter().copied().enumerate().skip(2) {
+        for (index, byte) in self.pending.iter().copied().enumerate().skip(2) {
             match byte {
-                ETX if at > 2 => return self.judge_whole(header, at),
-                0x20..0x80 if at + 2 < MAX_FRAME_BYTES => {}
+                ETX if index > 2 => return self.judge_whole(header, index),
+                0x20..0x80 if index + 2 < MAX_FRAME_BYTES => {}
                 0x20..0x80 => return FrameVerdict::Broken(FrameError::TooLong),
-                _ => return FrameVerdict::Broken(FrameError::BadByte { byte, at }),
+                _ => return FrameVerdict::Broken(FrameError::BadByte { byte, index }),
             }
         }
         FrameVerdict::Open
@@ -194,8 +194,8 @@ fn is_known_form(header: Header, code: u8, data: &[u8]) -> bool {
         Header::Command => true,
         Header::Nak => data.is_empty(),
         Header::Ack => {
-            let usual = Command::from_code(code).map(Command::reply_bytes);
-            data == OFFLINE || usual == Some(data.len() + ENVELOPE_BYTES) || is_device_type(data)
+            let expected = Command::from_code(code).map(Command::reply_bytes);
+            data == OFFLINE || expected == Some(data.len() + ENVELOPE_BYTES) || is_device_type(data)
         }
     }
 }

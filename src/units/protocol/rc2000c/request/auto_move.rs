@@ -82,9 +82,9 @@ mod tests {
 
     #[test]
     fn a_name_that_means_a_position_is_refused() {
-        let to = |name| AutoMove::satellite(SatelliteName::new(name).unwrap(), None);
-        assert_eq!(to("0152500750"), Err(ValueError::NameIsPosition));
-        assert!(to("015250075").is_ok());
+        let satellite = |name| AutoMove::satellite(SatelliteName::new(name).unwrap(), None);
+        assert_eq!(satellite("0152500750"), Err(ValueError::NameIsPosition));
+        assert!(satellite("015250075").is_ok());
         assert_eq!(AutoMove::satellite(SatelliteName::BLANK, None), Err(ValueError::NoName));
     }
 }

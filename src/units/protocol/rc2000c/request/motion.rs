@@ -90,7 +90,7 @@ impl Jog {
     }
 
     fn data(self) -> Vec<u8> {
-        let found = Direction::ALL.into_iter().find(|(known, _)| *known == self.direction);
+        let found = Direction::ALL.into_iter().find(|(direction, _)| *direction == self.direction);
         let letter = char::from(found.map_or(b'X', |(_, letter)| letter));
         let speed = match self.speed {
             Speed::Slow => 'S',
@@ -123,9 +123,9 @@ impl Motion {
         match self {
             Self::AutoMove(auto_move) => auto_move.data(),
             Self::Jog(jog) => jog.data(),
-            Self::Polarization(wanted) => PolarizationMove::ALL
+            Self::Polarization(step) => PolarizationMove::ALL
                 .into_iter()
-                .filter(|(known, _)| *known == wanted)
+                .filter(|(polarization_move, _)| *polarization_move == step)
                 .map(|(_, letter)| letter)
                 .collect(),
             Self::ResetDrive(DriveReset::Azimuth) => b"RA".to_vec(),

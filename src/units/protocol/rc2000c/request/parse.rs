@@ -93,15 +93,15 @@ fn jog(data: &[u8]) -> Option<Request> {
     if STOP.first() == Some(letter) {
         return Some(Request::Stop);
     }
-    let (direction, _) = Direction::ALL.into_iter().find(|(_, known)| known == letter)?;
+    let (direction, _) = Direction::ALL.into_iter().find(|(_, code)| code == letter)?;
     let jog = Jog::new(direction, speed, duration.max(MIN_JOG)).ok()?;
     Some(Request::Motion(Motion::Jog(jog)))
 }
 
 fn polarization(data: &[u8]) -> Option<Motion> {
     let [letter] = data else { return None };
-    let (wanted, _) = PolarizationMove::ALL.into_iter().find(|(_, known)| known == letter)?;
-    Some(Motion::Polarization(wanted))
+    let (step, _) = PolarizationMove::ALL.into_iter().find(|(_, code)| code == letter)?;
+    Some(Motion::Polarization(step))
 }
 
 fn miscellaneous(data: &[u8]) -> Option<Request> {

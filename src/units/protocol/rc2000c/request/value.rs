@@ -3,13 +3,13 @@
 /// Reason why a value cannot be sent.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum ValueError {
-    #[error("{what} {value} is not between {least} and {most}")]
+    #[error("{name} {value} is not between {min} and {max}")]
     Range {
         /// Meaning of the number, with its unit.
-        what: &'static str,
+        name: &'static str,
         value: u64,
-        least: u64,
-        most: u64,
+        min: u64,
+        max: u64,
     },
     /// The name is ten digits, which a unit would read as a position.
     #[error("a name of ten digits means a position")]
@@ -21,14 +21,14 @@ pub enum ValueError {
 
 /// Returns `value` if it is between `least` and `most`.
 pub(super) fn checked(
-    what: &'static str,
+    name: &'static str,
     value: u64,
-    least: u64,
-    most: u64,
+    min: u64,
+    max: u64,
 ) -> Result<u64, ValueError> {
-    if (least..=most).contains(&value) {
+    if (min..=max).contains(&value) {
         Ok(value)
     } else {
-        Err(ValueError::Range { what, value, least, most })
+        Err(ValueError::Range { name, value, min, max })
     }
 }

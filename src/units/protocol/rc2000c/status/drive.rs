@@ -32,7 +32,7 @@ pub enum AxisDrive {
 }
 
 impl AxisDrive {
-    const KNOWN: [(Self, u8); 10] = [
+    const CODES: [(Self, u8); 10] = [
         (Self::Still, 0),
         (Self::Pending(Sense::Negative), 2),
         (Self::Pending(Sense::Positive), 3),
@@ -46,16 +46,16 @@ impl AxisDrive {
     ];
 
     pub(super) fn from_byte(byte: u8) -> Self {
-        let known = Self::KNOWN.into_iter().find(|(_, code)| BASE + code == byte);
-        known.map_or(Self::Unknown(byte), |(drive, _)| drive)
+        let entry = Self::CODES.into_iter().find(|(_, code)| BASE + code == byte);
+        entry.map_or(Self::Unknown(byte), |(drive, _)| drive)
     }
 
     pub(super) fn byte(self) -> u8 {
         if let Self::Unknown(byte) = self {
             return byte;
         }
-        let known = Self::KNOWN.into_iter().find(|(drive, _)| *drive == self);
-        known.map_or(BASE, |(_, code)| BASE + code)
+        let entry = Self::CODES.into_iter().find(|(drive, _)| *drive == self);
+        entry.map_or(BASE, |(_, code)| BASE + code)
     }
 
     /// Returns `true` if the axis turns or is about to. An unknown state counts as moving.
@@ -119,7 +119,7 @@ mod tests {
 
     #[test]
     fn standing_still_is_known_and_free_of_motion() {
-        for (drive, code) in AxisDrive::KNOWN {
+        for (drive, code) in AxisDrive::CODES {
             assert_eq!(drive.is_moving(), matches!(code, 2..=5 | 7 | 8), "{drive:?}");
             assert_eq!(drive.is_alarm(), code >= 8, "{drive:?}");
         }

@@ -9,7 +9,7 @@ const POLAROTOR_SHOWN: u16 = 99;
 /// Steps of a rotating feed in one shown value.
 const FEED_STEPS: u16 = 11;
 /// The highest value of a rotating feed that is shown.
-const FEED_MOST_SHOWN: u8 = 92;
+const FEED_MAX_SHOWN: u8 = 92;
 
 /// Device that turns the polarization.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -67,7 +67,7 @@ impl FeedReading {
     pub fn rotating_feed(units: u16) -> Self {
         Self {
             device: PolarizationDevice::RotatingFeed,
-            position: FeedPosition::Shown((units / FEED_STEPS).min(FEED_MOST_SHOWN.into()) as u8),
+            position: FeedPosition::Shown((units / FEED_STEPS).min(FEED_MAX_SHOWN.into()) as u8),
             fine_steps: (units % FEED_STEPS) as u8,
         }
     }
@@ -209,12 +209,12 @@ mod tests {
 
     #[test]
     fn at_a_limit_only_a_polarotor_has_a_number() {
-        let at = |text: &[u8; 2], device| FeedReading::parse(*text, device).units();
-        assert_eq!(at(b"CC", 0x20), Some(661));
-        assert_eq!(at(b"CW", 0x20), Some(0));
-        assert_eq!(at(b"CC", 0x35), None);
-        assert_eq!(at(b"39", 0x45), None);
-        assert_eq!(at(b"  ", 0x20), None);
+        let reading = |text: &[u8; 2], device| FeedReading::parse(*text, device).units();
+        assert_eq!(reading(b"CC", 0x20), Some(661));
+        assert_eq!(reading(b"CW", 0x20), Some(0));
+        assert_eq!(reading(b"CC", 0x35), None);
+        assert_eq!(reading(b"39", 0x45), None);
+        assert_eq!(reading(b"  ", 0x20), None);
     }
 
     #[test]

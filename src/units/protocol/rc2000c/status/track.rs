@@ -42,7 +42,7 @@ pub enum Submode {
 }
 
 impl Submode {
-    const KNOWN: [(Self, u8); 14] = [
+    const CODES: [(Self, u8); 14] = [
         (Self::Off, 0),
         (Self::Setup, 1),
         (Self::AutoEntry, 2),
@@ -60,16 +60,16 @@ impl Submode {
     ];
 
     fn from_code(code: u8) -> Self {
-        let known = Self::KNOWN.into_iter().find(|(_, known)| *known == code);
-        known.map_or(Self::Unknown(code), |(submode, _)| submode)
+        let entry = Self::CODES.into_iter().find(|(_, number)| *number == code);
+        entry.map_or(Self::Unknown(code), |(submode, _)| submode)
     }
 
     fn code(self) -> u8 {
         if let Self::Unknown(code) = self {
             return code & 0x0f;
         }
-        let known = Self::KNOWN.into_iter().find(|(submode, _)| *submode == self);
-        known.map_or(0, |(_, code)| code)
+        let entry = Self::CODES.into_iter().find(|(submode, _)| *submode == self);
+        entry.map_or(0, |(_, code)| code)
     }
 
     /// Returns `true` if the track mode is on, with or without an error. An unknown submode counts

@@ -30,21 +30,21 @@ fn names_may_hold_anything() {
     let mut bytes = WIDE.to_vec();
     bytes[26..38].copy_from_slice(b"|h2\0|SKA0|A1");
     bytes[60..72].copy_from_slice(b"|h|SK|cF\0E0V");
-    let seen = take(&mut Decoder::new(), &bytes);
-    assert_eq!(seen.len(), 1);
-    assert_eq!(status(&seen[0]).rotators[0].name, "|h2\0|SKA0|A1");
-    assert_eq!(status(&seen[0]).rotators[1].name, "|h|SK|cF\0E0V");
+    let items = take(&mut Decoder::new(), &bytes);
+    assert_eq!(items.len(), 1);
+    assert_eq!(status(&items[0]).rotators[0].name, "|h2\0|SKA0|A1");
+    assert_eq!(status(&items[0]).rotators[1].name, "|h|SK|cF\0E0V");
 }
 
 #[test]
 fn a_swallowed_panic_byte_moves_everything_by_one() {
     for (layout, whole) in [(Layout::Wide, WIDE), (Layout::Narrow, NARROW)] {
         let bytes: Vec<u8> = [&whole[..3], &whole[4..]].concat();
-        let seen = take(&mut Decoder::new(), &bytes);
-        assert_eq!(seen.len(), 1);
-        assert_eq!((status(&seen[0]).layout, status(&seen[0]).panic), (layout, None));
+        let items = take(&mut Decoder::new(), &bytes);
+        assert_eq!(items.len(), 1);
+        assert_eq!((status(&items[0]).layout, status(&items[0]).panic), (layout, None));
         let with_it = take(&mut Decoder::new(), whole);
-        assert_eq!(status(&seen[0]).rotators, status(&with_it[0]).rotators);
+        assert_eq!(status(&items[0]).rotators, status(&with_it[0]).rotators);
     }
 }
 
@@ -52,13 +52,13 @@ fn a_swallowed_panic_byte_moves_everything_by_one() {
 fn another_form_is_announced_and_taken_from_the_second_on() {
     let mut decoder = Decoder::new();
     assert_eq!(status(&take(&mut decoder, WIDE)[0]).layout, Layout::Wide);
-    let seen = take(&mut decoder, &NARROW.repeat(2));
+    let items = take(&mut decoder, &NARROW.repeat(2));
     assert_eq!(
-        seen[..2],
+        items[..2],
         [Received::LayoutChanged(Layout::Narrow), Received::Noise(NARROW.to_vec())]
     );
-    assert_eq!(status(&seen[2]).layout, Layout::Narrow);
-    assert_eq!(seen.len(), 3);
+    assert_eq!(status(&items[2]).layout, Layout::Narrow);
+    assert_eq!(items.len(), 3);
 }
 
 #[test]
@@ -69,8 +69,8 @@ fn silence_ends_what_is_unfinished() {
     assert_eq!(decoder.unfinished_bytes(), 59);
     assert_eq!(decoder.idle(), [Received::Noise(WIDE[..59].to_vec())]);
     assert_eq!(decoder.idle(), []);
-    let seen = take(&mut decoder, &WIDE[..61]);
-    assert_eq!(seen, []);
+    let items = take(&mut decoder, &WIDE[..61]);
+    assert_eq!(items, []);
     assert_eq!(status(&decoder.idle()[0]).rotators[1].name, "R");
     assert_eq!(decoder.unfinished_bytes(), 0);
     // The reply hidden behind a piece of a status is found.
@@ -80,9 +80,9 @@ fn silence_ends_what_is_unfinished() {
 
 #[test]
 fn a_piece_of_a_status_does_not_spoil_the_next_one() {
-    let seen = take(&mut Decoder::new(), &[&WIDE[..9], WIDE].concat());
-    assert_eq!(seen[0], Received::Noise(WIDE[..9].to_vec()));
-    assert_eq!(status(&seen[1]).rotators[1].name, "Rotator 2");
+    let items = take(&mut Decoder::new(), &[&WIDE[..9], WIDE].concat());
+    assert_eq!(items[0], Received::Noise(WIDE[..9].to_vec()));
+    assert_eq!(status(&items[1]).rotators[1].name, "Rotator 2");
 }
 
 #[test]
@@ -92,8 +92,8 @@ fn the_greeting_of_another_product_is_recognised_at_the_start_only() {
     assert_eq!(take(&mut decoder, b"1.2 AUTH\n"), [Received::OtherProtocol]);
     assert_eq!(decoder.idle(), [Received::Noise(b"V1.2 AUTH\n".to_vec())]);
     for other in [&b"|SKV1"[..], b"\nV1", b"VK"] {
-        let seen = take(&mut Decoder::new(), other);
-        assert!(!seen.contains(&Received::OtherProtocol), "{other:?}");
+        let items = take(&mut Decoder::new(), other);
+        assert!(!items.contains(&Received::OtherProtocol), "{other:?}");
     }
 }
 
@@ -107,12 +107,12 @@ fn a_stream_that_nobody_reads_fills_no_memory() {
     assert!(decoder.next().is_some());
     // There is room again, but not behind a gap.
     decoder.push(WIDE);
-    let seen: Vec<_> = decoder.by_ref().collect();
-    assert_eq!(seen.len(), MAX_PENDING_BYTES / WIDE.len() - 1);
+    let items: Vec<_> = decoder.by_ref().collect();
+    assert_eq!(items.len(), MAX_PENDING_BYTES / WIDE.len() - 1);
     // The cut status is not joined to the next one.
-    let seen = take(&mut decoder, WIDE);
-    assert!(matches!(seen[0], Received::Noise(_)));
-    assert_eq!(status(&seen[1]).rotators[1].name, "Rotator 2");
+    let rest = take(&mut decoder, WIDE);
+    assert!(matches!(rest[0], Received::Noise(_)));
+    assert_eq!(status(&rest[1]).rotators[1].name, "Rotator 2");
     let noise = take(&mut Decoder::new(), &[b'|'; 2 * MAX_NOISE_BYTES + 2]);
     assert_eq!(noise, vec![Received::Noise(vec![b'|'; MAX_NOISE_BYTES]); 2]);
 }

@@ -30,14 +30,14 @@ pub(super) struct Names {
 }
 
 impl Names {
-    pub(super) const NONE: Self = Self::of(&[]);
+    pub(super) const NONE: Self = Self::new(&[]);
 
-    const fn of(named: &'static [Named]) -> Self {
+    const fn new(named: &'static [Named]) -> Self {
         Self { named, text_at: None }
     }
 
-    const fn with_text(named: &'static [Named], at: usize) -> Self {
-        Self { named, text_at: Some(at) }
+    const fn with_text(named: &'static [Named], index: usize) -> Self {
+        Self { named, text_at: Some(index) }
     }
 }
 
@@ -54,7 +54,7 @@ const fn code(name: &'static str, codes: &'static [(&'static str, &'static str)]
 }
 
 /// Marks a value of a setting that a `?` leaves unchanged.
-const fn kept(named: Named) -> Named {
+const fn retained(named: Named) -> Named {
     if named.codes.is_empty() { Named { codes: KEEP, ..named } } else { named }
 }
 
@@ -88,11 +88,11 @@ const ON_ERROR: Codes = &[("0", "stops tracking"), ("1", "goes on with the last 
 const NONE: Codes = &[("NONE", "stays as it is")];
 
 pub(super) const ANSWER: Names =
-    Names::of(&[code("answer", &[("OK", "accepted"), ("ERR", "refused")])]);
+    Names::new(&[code("answer", &[("OK", "accepted"), ("ERR", "refused")])]);
 pub(super) const REFUSAL: Names =
     Names::with_text(&[code("answer", &[("ERR", "refused")]), text("code")], 1);
 
-const STATUS: Names = Names::of(&[
+const STATUS: Names = Names::new(&[
     code("fault or warning", FAULT),
     number("azimuth", "°"),
     number("elevation", "°"),
@@ -110,7 +110,7 @@ const STATUS: Names = Names::of(&[
     number("angle of Y", "°"),
     code("auto-track", OFF_ON),
 ]);
-const FAULTS: Names = Names::of(&[
+const FAULTS: Names = Names::new(&[
     code("link between control and drive unit", FAULT),
     code("elements out of date", FAULT),
     code("element file missing", FAULT),
@@ -124,7 +124,7 @@ const FAULTS: Names = Names::of(&[
     code("sensor of Y", SENSOR),
     code("link to the GPS receiver", FAULT),
 ]);
-const TIME: Names = Names::of(&[
+const TIME: Names = Names::new(&[
     text("hour"),
     text("minute"),
     text("second"),
@@ -133,7 +133,7 @@ const TIME: Names = Names::of(&[
     text("year"),
     number("milliseconds", " ms"),
 ]);
-const WINDOW: Names = Names::of(&[
+const WINDOW: Names = Names::new(&[
     text("start, hour"),
     text("start, minute"),
     text("start, second"),
@@ -148,17 +148,17 @@ const WINDOW: Names = Names::of(&[
     text("stop, year"),
 ]);
 const FROM_GPS: Named = code("clock from GPS", NO_YES);
-const TIME_OFFSET: Named = kept(number("tracking time offset", " ms"));
-const AZ_OFFSET: Named = kept(number("azimuth offset", "°"));
-const EL_OFFSET: Named = kept(number("elevation offset", "°"));
-const LEAD: Named = kept(number("go to start before", " ms"));
+const TIME_OFFSET: Named = retained(number("tracking time offset", " ms"));
+const AZ_OFFSET: Named = retained(number("azimuth offset", "°"));
+const EL_OFFSET: Named = retained(number("elevation offset", "°"));
+const LEAD: Named = retained(number("go to start before", " ms"));
 const POSITION_BASE: Named = code("position base", BASE);
-const MINIMUM: Named = kept(number("minimum elevation", "°"));
-const NORTH: Named = kept(number("north offset", "°"));
+const MINIMUM: Named = retained(number("minimum elevation", "°"));
+const NORTH: Named = retained(number("north offset", "°"));
 const AMPLIFIER: Named = code("SSPA", SSPA);
 const RULE: Named = code("SSPA rule", SSPA_RULE);
-const THRESHOLD: Named = kept(number("elevation threshold", "°"));
-const SETTINGS: Names = Names::of(&[
+const THRESHOLD: Named = retained(number("elevation threshold", "°"));
+const SETTINGS: Names = Names::new(&[
     FROM_GPS,
     TIME_OFFSET,
     AZ_OFFSET,
@@ -172,7 +172,7 @@ const SETTINGS: Names = Names::of(&[
     code("source of the elements", TLE_MODE),
     THRESHOLD,
 ]);
-const SET_SETTINGS: Names = Names::of(&[
+const SET_SETTINGS: Names = Names::new(&[
     FROM_GPS,
     TIME_OFFSET,
     AZ_OFFSET,
@@ -185,20 +185,20 @@ const SET_SETTINGS: Names = Names::of(&[
     RULE,
     THRESHOLD,
 ]);
-const ANGLES: Names = Names::of(&[
+const ANGLES: Names = Names::new(&[
     number("sensor of X", " counts"),
     number("angle of X there", "°"),
     number("sensor of Y", " counts"),
     number("angle of Y there", "°"),
 ]);
-const SET_ANGLES: Names = Names::of(&[
+const SET_ANGLES: Names = Names::new(&[
     code("present position", NO_YES),
     number("sensor of X", " counts"),
     number("angle of X there", "°"),
     number("sensor of Y", " counts"),
     number("angle of Y there", "°"),
 ]);
-const GPS: Names = Names::of(&[
+const GPS: Names = Names::new(&[
     text("latitude"),
     text("longitude"),
     code("fix", NO_YES),
@@ -209,7 +209,7 @@ const GPS: Names = Names::of(&[
     text("month"),
     text("year of the century"),
 ]);
-const POSITION: Names = Names::of(&[
+const POSITION: Names = Names::new(&[
     number("first angle", "°"),
     number("second angle", "°"),
     text("hour"),
@@ -221,7 +221,7 @@ const POSITION: Names = Names::of(&[
     number("milliseconds", " ms"),
 ]);
 const PLACE: Names =
-    Names::of(&[code("place from GPS", NO_YES), text("latitude"), text("longitude")]);
+    Names::new(&[code("place from GPS", NO_YES), text("latitude"), text("longitude")]);
 const SATELLITE: Names = Names::with_text(
     &[
         text("element file"),
@@ -232,7 +232,7 @@ const SATELLITE: Names = Names::with_text(
     ],
     1,
 );
-const SET_SATELLITE: Names = Names::of(&[
+const SET_SATELLITE: Names = Names::new(&[
     text("element file"),
     text("satellite"),
     text("update period"),
@@ -242,24 +242,24 @@ const WEB: Names = Names::with_text(
     &[text("address"), number("update period", " d"), code("when an update fails", ON_ERROR)],
     0,
 );
-const SET_WEB: Names = Names::of(&[
+const SET_WEB: Names = Names::new(&[
     text("address"),
     number("update period", " d"),
     code("when an update fails", ON_ERROR),
     code("present track goes on", NO_YES),
 ]);
-const VERSION: Names = Names::of(&[text("control unit"), text("drive unit")]);
-const SCALES: Names = Names::of(&[number("scale of X", ""), number("scale of Y", "")]);
+const VERSION: Names = Names::new(&[text("control unit"), text("drive unit")]);
+const SCALES: Names = Names::new(&[number("scale of X", ""), number("scale of Y", "")]);
 const IMAGE_STATE: Names = Names::with_text(&[text("state")], 0);
-const IMAGE_FILE: Names = Names::of(&[text("image file")]);
-const MOVE: Names = Names::of(&[number("rate of X", " °/s"), number("rate of Y", " °/s")]);
-const STEP: Names = Names::of(&[number("step of X", "°"), number("step of Y", "°")]);
-const GOTO: Names = Names::of(&[
+const IMAGE_FILE: Names = Names::new(&[text("image file")]);
+const MOVE: Names = Names::new(&[number("rate of X", " °/s"), number("rate of Y", " °/s")]);
+const STEP: Names = Names::new(&[number("step of X", "°"), number("step of Y", "°")]);
+const GOTO: Names = Names::new(&[
     Named { unit: "°", ..code("azimuth", NONE) },
     Named { unit: "°", ..code("elevation", NONE) },
 ]);
-const TRACK: Names = Names::of(&[code("tracking", OFF_ON)]);
-const AUTO_TRACK: Names = Names::of(&[code("auto-track", OFF_ON)]);
+const TRACK: Names = Names::new(&[code("tracking", OFF_ON)]);
+const AUTO_TRACK: Names = Names::new(&[code("auto-track", OFF_ON)]);
 
 /// Names of the values after `word?` in a reply.
 pub(super) const fn of_reply(word: Word) -> Names {

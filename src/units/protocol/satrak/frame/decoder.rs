@@ -177,7 +177,8 @@ fn without_cr(mut line: &[u8]) -> &[u8] {
 
 /// Reads one line, given without its end.
 fn read_line(line: &[u8], ended_with_cr: bool) -> Result<Frame, FrameError> {
-    let mut headers = line.iter().enumerate().filter(|(_, byte)| **byte == b'$').map(|(at, _)| at);
+    let mut headers =
+        line.iter().enumerate().filter(|(_, byte)| **byte == b'$').map(|(index, _)| index);
     let Some(first) = headers.next() else {
         return Err(FrameError::NoHeader { length: line.len(), excerpt: headless_excerpt(line) });
     };
@@ -188,9 +189,9 @@ fn read_line(line: &[u8], ended_with_cr: bool) -> Result<Frame, FrameError> {
     // A piece of a cut frame may be glued to a whole one: try each header.
     let payload = std::iter::once(first)
         .chain(headers)
-        .filter_map(|at| Some((at, body.get(at + 1..)?)))
+        .filter_map(|position| Some((position, body.get(position + 1..)?)))
         .find(|(_, payload)| checksum(payload) == received);
-    let Some((at, payload)) = payload else {
+    let Some((offset, payload)) = payload else {
         let computed = checksum(body.get(first + 1..).unwrap_or_default());
         return Err(FrameError::BadChecksum { received, computed, excerpt: excerpt(line) });
     };
@@ -199,13 +200,13 @@ fn read_line(line: &[u8], ended_with_cr: bool) -> Result<Frame, FrameError> {
         .filter(|text| text.bytes().all(|byte| (0x20..0x7f).contains(&byte)))
         .ok_or_else(|| FrameError::NotText { excerpt: excerpt(line) })?;
     let mut frame = Frame::from_payload(text);
-    for (seen, oddity) in [
+    for (is_present, oddity) in [
         (digits.iter().any(u8::is_ascii_lowercase), Oddity::LowerCaseChecksum),
         (digits.len() == 1, Oddity::OneDigitChecksum),
         (!ended_with_cr, Oddity::LineFeedOnly),
-        (at > 0, Oddity::NoiseBeforeHeader),
+        (offset > 0, Oddity::NoiseBeforeHeader),
     ] {
-        if seen {
+        if is_present {
             frame.note(oddity);
         }
     }
@@ -228,8 +229,8 @@ fn hex_value(digit: u8) -> Option<u8> {
 
 /// First header and the word after it.
 fn excerpt(line: &[u8]) -> String {
-    let from = line.iter().position(|byte| *byte == b'$').unwrap_or(line.len());
-    let word = line.get(from..).unwrap_or_default();
+    let start = line.iter().position(|byte| *byte == b'$').unwrap_or(line.len());
+    let word = line.get(start..).unwrap_or_default();
     let end = word.iter().position(|byte| b",?=".contains(byte)).unwrap_or(word.len());
     printable(word.get(..end).unwrap_or_default())
 }
@@ -303,16 +304,16 @@ mod tests {
     #[test]
     fn an_over_long_line_is_reported_once_and_the_next_is_read() {
         let mut decoder = Decoder::new();
-        let mut seen = Vec::new();
+        let mut frames = Vec::new();
         for _ in 0..100 {
             decoder.push(&[b'x'; 100]);
-            seen.extend(decoder.by_ref());
+            frames.extend(decoder.by_ref());
         }
         decoder.push(b"\n$STOP=*25\r\n");
-        seen.extend(decoder.by_ref());
-        assert_eq!(seen.len(), 2, "{seen:?}");
-        assert!(matches!(seen[0], Err(FrameError::TooLong { .. })));
-        assert_eq!(seen[1].as_ref().unwrap().word(), "STOP=");
+        frames.extend(decoder.by_ref());
+        assert_eq!(frames.len(), 2, "{frames:?}");
+        assert!(matches!(frames[0], Err(FrameError::TooLong { .. })));
+        assert_eq!(frames[1].as_ref().unwrap().word(), "STOP=");
     }
 
     #[test]
@@ -322,8 +323,8 @@ mod tests {
             decoder.push(&encode("STOP="));
         }
         assert!(decoder.pending.len() <= MAX_PENDING_BYTES);
-        let taken: Vec<_> = decoder.by_ref().collect();
-        assert!(matches!(taken.last(), Some(Err(FrameError::TooLong { .. }))));
+        let drained: Vec<_> = decoder.by_ref().collect();
+        assert!(matches!(drained.last(), Some(Err(FrameError::TooLong { .. }))));
         decoder.push(b"\r\n$STATUS?*2B\r\n");
         assert_eq!(decoder.next().unwrap().unwrap().word(), "STATUS?");
     }

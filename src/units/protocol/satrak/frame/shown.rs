@@ -164,11 +164,11 @@ fn names_ftp(bytes: &[u8]) -> bool {
 /// Splits off the star and digits of a checksum at the end, if they are there.
 fn split_sum(values: &[u8]) -> (&[u8], &[u8]) {
     let star = values.iter().rposition(|byte| *byte == b'*');
-    let at = star.filter(|at| {
-        let digits = values.get(at + 1..).unwrap_or_default();
+    let star_index = star.filter(|index| {
+        let digits = values.get(index + 1..).unwrap_or_default();
         digits.len() <= 2 && digits.iter().all(u8::is_ascii_hexdigit)
     });
-    values.split_at(at.unwrap_or(values.len()))
+    values.split_at(star_index.unwrap_or(values.len()))
 }
 
 /// Returns `true` if the value is a number, a coordinate with its letter, or one of the fixed
@@ -264,7 +264,8 @@ mod tests {
 
     /// Returns `true` if any four letters of the password, or its digits, are in `lines`.
     fn leaks(lines: &[String], password: &str) -> bool {
-        let pieces: Vec<_> = (0..password.len() - 3).map(|at| &password[at..at + 4]).collect();
+        let pieces: Vec<_> =
+            (0..password.len() - 3).map(|index| &password[index..index + 4]).collect();
         lines.iter().any(|line| pieces.iter().any(|piece| line.contains(piece)))
     }
 
@@ -272,28 +273,28 @@ mod tests {
     fn no_single_fault_lets_a_piece_of_the_password_through() {
         for password in ["hunter2", "98431765", "N5.75E31"] {
             let good = encode(&ANSWER.replace("hunter2", password));
-            for at in 0..good.len() {
+            for index in 0..good.len() {
                 for byte in [b'\n', b'\r', b'$', b'*', b',', b'?', b'x', b'0', 0, 0xff] {
                     let mut replaced = good.clone();
-                    replaced[at] = byte;
+                    replaced[index] = byte;
                     let mut inserted = good.clone();
-                    inserted.insert(at, byte);
+                    inserted.insert(index, byte);
                     let mut removed = good.clone();
-                    removed.remove(at);
-                    let mut behind = b"$STATUS?,0,2".to_vec();
-                    behind.extend(&good[at..]);
-                    let mut before = good[..at].to_vec();
+                    removed.remove(index);
+                    let mut overrun = b"$STATUS?,0,2".to_vec();
+                    overrun.extend(&good[index..]);
+                    let mut before = good[..index].to_vec();
                     before.extend(encode("STOP=,OK"));
-                    let cut = good[..at].to_vec();
+                    let cut = good[..index].to_vec();
                     for bytes in [replaced, inserted, removed, before, cut] {
                         let lines = shown(&bytes, false);
-                        assert!(!leaks(&lines, password), "{at} {byte}: {lines:?}");
+                        assert!(!leaks(&lines, password), "{index} {byte}: {lines:?}");
                     }
                     // Digits glued to digits cannot be told from a number.
                     let is_glued = password.starts_with(|c: char| c.is_ascii_digit());
                     if !is_glued {
-                        let lines = shown(&behind, false);
-                        assert!(!leaks(&lines, password), "{at} {byte}: {lines:?}");
+                        let lines = shown(&overrun, false);
+                        assert!(!leaks(&lines, password), "{index} {byte}: {lines:?}");
                     }
                 }
             }

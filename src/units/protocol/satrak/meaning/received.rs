@@ -18,14 +18,20 @@ pub(super) fn meaning(frame: &Frame) -> Meaning {
             Meaning::new(Tone::Caution, "Not in the document")
         }
         Err(ReplyError::NeitherOkNorErr(_)) => Meaning::new(Tone::Bad, "Neither OK nor ERR"),
-        Err(ReplyError::Count { found, least, most, looks_like_decimal_commas, .. }) => {
-            let why = if looks_like_decimal_commas { ", decimal commas by the look" } else { "" };
-            let wanted = match most {
-                _ if most == least => format!("{least}"),
-                usize::MAX => format!("at least {least}"),
-                _ => format!("{least} to {most}"),
+        Err(ReplyError::Count {
+            found, least: min, most: max, looks_like_decimal_commas, ..
+        }) => {
+            let reason =
+                if looks_like_decimal_commas { ", decimal commas by the look" } else { "" };
+            let expected = match max {
+                _ if max == min => format!("{min}"),
+                usize::MAX => format!("at least {min}"),
+                _ => format!("{min} to {max}"),
             };
-            Meaning::new(Tone::Bad, format!("Not read: {found} values instead of {wanted}{why}"))
+            Meaning::new(
+                Tone::Bad,
+                format!("Not read: {found} values instead of {expected}{reason}"),
+            )
         }
         Err(ReplyError::Field { error, .. }) => {
             Meaning::new(Tone::Bad, format!("Not read: {error}"))

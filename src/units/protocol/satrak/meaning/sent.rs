@@ -101,8 +101,8 @@ fn set(setting: &Setting, frame: &Frame) -> String {
         ),
         Setting::RtcReupdate => "Sets the clock from GPS".to_owned(),
         Setting::GpsSettings(change) => {
-            let from = if change.automatic { "from GPS" } else { "by hand" };
-            format!("Sets the place {from}: {}", place(change.position))
+            let origin = if change.automatic { "from GPS" } else { "by hand" };
+            format!("Sets the place {origin}: {}", place(change.position))
         }
         Setting::Satellite(choice) => {
             format!("Chooses {} from {}", choice.name.as_str(), choice.file.as_str())

@@ -45,12 +45,12 @@ pub(super) fn drawn(random: &mut Random, flight: &Flight) -> (&'static str, Caus
 }
 
 /// Angles of the axes of a mount that points at `at`; `azimuth_deg` goes on over north.
-pub(super) fn axes_deg(mount: Mount, at: AzEl, azimuth_deg: f64) -> [f64; 2] {
+pub(super) fn axes_deg(mount: Mount, direction: AzEl, azimuth_deg: f64) -> [f64; 2] {
     match mount {
-        Mount::AzEl { .. } => [azimuth_deg, at.elevation.degrees()],
+        Mount::AzEl { .. } => [azimuth_deg, direction.elevation.degrees()],
         Mount::Xy { .. } => {
-            let (sin_az, cos_az) = at.azimuth.radians().sin_cos();
-            let (sin_el, cos_el) = at.elevation.radians().sin_cos();
+            let (sin_az, cos_az) = direction.azimuth.radians().sin_cos();
+            let (sin_el, cos_el) = direction.elevation.radians().sin_cos();
             let x = (cos_el * sin_az).atan2(sin_el);
             [x.to_degrees(), (cos_el * cos_az).asin().to_degrees()]
         }
@@ -79,7 +79,7 @@ pub(super) fn measured(
     other: &Propagator,
 ) -> Vec<(Timestamp, AzEl)> {
     let directions: Vec<(Timestamp, AzEl)> =
-        flight.times().map(|time| (time, flight.at(time))).collect();
+        flight.times().map(|time| (time, flight.direction_at(time))).collect();
     measured_of(flight, mount, &directions, cause, other)
 }
 
@@ -99,13 +99,13 @@ pub(super) fn measured_of(
         Some(Axis::Azimuth | Axis::X) => place == 0,
         Some(Axis::Elevation | Axis::Y) => place == 1,
     };
-    let each = directions.iter().map(|(time, at)| {
-        azimuth_deg += (at.azimuth - before).wrapped_180().degrees();
-        before = at.azimuth;
-        let AzEl { azimuth, elevation } = *at;
-        let to = axes_deg(mount, *at, azimuth_deg);
+    let shifted = directions.iter().map(|(time, position)| {
+        azimuth_deg += (position.azimuth - before).wrapped_180().degrees();
+        before = position.azimuth;
+        let AzEl { azimuth, elevation } = *position;
+        let end = axes_deg(mount, *position, azimuth_deg);
         let direction = match *cause {
-            Cause::Late { late_s } => flight.at(add_seconds(*time, -late_s)),
+            Cause::Late { late_s } => flight.direction_at(add_seconds(*time, -late_s)),
             Cause::AzimuthOffset { offset_deg } => {
                 AzEl { azimuth: azimuth + deg(offset_deg), elevation }
             }
@@ -114,7 +114,7 @@ pub(super) fn measured_of(
             }
             Cause::Tilt { north_deg, east_deg } => {
                 let lean = DVec3::new(deg(north_deg).radians(), -deg(east_deg).radians(), 0.0);
-                AzEl::from_enu(DQuat::from_scaled_axis(lean) * at.to_enu())
+                AzEl::from_enu(DQuat::from_scaled_axis(lean) * position.to_enu())
             }
             Cause::AzimuthScale { per_mille } => {
                 AzEl { azimuth: azimuth + deg(azimuth_deg * per_mille / 1000.0), elevation }
@@ -123,8 +123,8 @@ pub(super) fn measured_of(
                 AzEl { azimuth, elevation: deg(elevation.degrees() * (1.0 + per_mille / 1000.0)) }
             }
             Cause::OtherSite { north_km, east_km } => {
-                let there = elsewhere(flight.site, north_km, east_km);
-                flight.propagator.look_from(there, *time).unwrap().direction
+                let site = elsewhere(flight.site, north_km, east_km);
+                flight.propagator.look_from(site, *time).unwrap().direction
             }
             Cause::OtherElements { .. } => other.look_from(flight.site, *time).unwrap().direction,
             Cause::Refraction => {
@@ -132,26 +132,26 @@ pub(super) fn measured_of(
             }
             Cause::SlowDrives { rate_deg_s, axis } => {
                 let turns = rate_deg_s * STEP_S;
-                let from = axes.unwrap_or(to);
+                let start = axes.unwrap_or(end);
                 let now = [0, 1].map(|place| {
-                    let change = to[place] - from[place];
-                    let slow = from[place] + change.clamp(-turns, turns);
-                    if is_of(axis, place) { slow } else { to[place] }
+                    let change = end[place] - start[place];
+                    let slow = start[place] + change.clamp(-turns, turns);
+                    if is_of(axis, place) { slow } else { end[place] }
                 });
                 axes = Some(now);
                 pointed(mount, now)
             }
-            Cause::Stuck { since, axis } => {
-                let stood = axes.filter(|_| *time >= since).unwrap_or(to);
+            Cause::Stuck { since: begin, axis } => {
+                let stood = axes.filter(|_| *time >= begin).unwrap_or(end);
                 let now =
-                    [0, 1].map(|place| if is_of(axis, place) { stood[place] } else { to[place] });
-                axes = Some(if *time < since { to } else { stood });
+                    [0, 1].map(|place| if is_of(axis, place) { stood[place] } else { end[place] });
+                axes = Some(if *time < begin { end } else { stood });
                 pointed(mount, now)
             }
         };
         (*time, direction)
     });
-    each.collect()
+    shifted.collect()
 }
 
 fn elsewhere(site: Site, north_km: f64, east_km: f64) -> Site {
@@ -163,7 +163,8 @@ fn elsewhere(site: Site, north_km: f64, east_km: f64) -> Site {
 }
 
 /// Directions with this much turned on the sky, degrees: to the right and up.
-pub(super) fn shaken(at: AzEl, right_deg: f64, up_deg: f64) -> AzEl {
-    let azimuth = at.azimuth + deg(right_deg / at.elevation.radians().cos().max(0.02));
-    AzEl { azimuth: azimuth.wrapped_360(), elevation: at.elevation + deg(up_deg) }
+pub(super) fn shaken(direction: AzEl, right_deg: f64, up_deg: f64) -> AzEl {
+    let azimuth =
+        direction.azimuth + deg(right_deg / direction.elevation.radians().cos().max(0.02));
+    AzEl { azimuth: azimuth.wrapped_360(), elevation: direction.elevation + deg(up_deg) }
 }

@@ -52,12 +52,12 @@ impl Noise {
         let keeps = (-super::STEP_S / self.lasts_s).exp();
         let gust = self.wind_deg * (1.0 - keeps * keeps).sqrt();
         let mut wind = [0, 1].map(|_| self.wind_deg * normal(random));
-        let each = exact.iter().map(|(time, at)| {
+        let shifted = exact.iter().map(|(time, direction)| {
             wind = wind.map(|wind| keeps * wind + gust * normal(random));
             let [right, up] = wind.map(|wind| wind + self.white_deg * normal(random));
-            (*time, shaken(*at, right, up))
+            (*time, shaken(*direction, right, up))
         });
-        each.collect()
+        shifted.collect()
     }
 }
 
@@ -107,16 +107,16 @@ fn cause(kind: &str, flight: &Flight, mount: Mount, random: &mut Random) -> Caus
 
 /// The rate that one axis needs, or the faster one of both.
 fn needed_deg_s(flight: &Flight, mount: Mount, axis: Option<usize>) -> f64 {
-    let mut azimuth_deg = flight.at(flight.pass.aos.time).azimuth.degrees();
+    let mut azimuth_deg = flight.direction_at(flight.pass.aos.time).azimuth.degrees();
     let mut before: Option<(AzEl, [f64; 2])> = None;
     let rates = flight.times().map(|time| {
-        let at = flight.at(time);
+        let direction = flight.direction_at(time);
         if let Some((last, _)) = before {
-            azimuth_deg += (at.azimuth - last.azimuth).wrapped_180().degrees();
+            azimuth_deg += (direction.azimuth - last.azimuth).wrapped_180().degrees();
         }
-        let to = axes_deg(mount, at, azimuth_deg);
-        let from = before.replace((at, to)).map_or(to, |(_, from)| from);
-        let rate = |place: usize| (to[place] - from[place]).abs() / super::STEP_S;
+        let end = axes_deg(mount, direction, azimuth_deg);
+        let start = before.replace((direction, end)).map_or(end, |(_, first)| first);
+        let rate = |place: usize| (end[place] - start[place]).abs() / super::STEP_S;
         axis.map_or_else(|| rate(0).max(rate(1)), rate)
     });
     rates.fold(0.0, f64::max)
@@ -126,14 +126,14 @@ fn explained(
     flight: &Flight,
     mount: Mount,
     half_beam_deg: f64,
-    seen: &[(Timestamp, AzEl)],
+    measured: &[(Timestamp, AzEl)],
     others: &[(Timestamp, Propagator)],
 ) -> Vec<Explanation> {
     let evidence = Evidence::new(mount, true, deg(half_beam_deg)).with_pass(
         &flight.propagator,
         flight.site,
         UNIT,
-        seen.iter().copied(),
+        measured.iter().copied(),
     );
     evidence.explanations(others)
 }
@@ -150,13 +150,13 @@ fn no_cause_is_named_without_one() {
         let flight = &flights[random.below(flights.len() as u32) as usize];
         let mount = if random.below(2) == 0 { AZ_EL } else { XY };
         let noise = Noise::drawn(&mut random);
-        let exact: Vec<_> = flight.times().map(|time| (time, flight.at(time))).collect();
-        let seen = noise.on(&exact, &mut random);
+        let exact: Vec<_> = flight.times().map(|time| (time, flight.direction_at(time))).collect();
+        let measured = noise.on(&exact, &mut random);
         let other = flight.shifted(0.3 * signed(&mut random));
         let others = [(flight.elements.epoch(), Propagator::new(&other).unwrap())];
         // The narrowest beams lose the satellite in this noise.
         let half_beam_deg = noise.rms_deg() * (0.5 + 4.0 * share(&mut random));
-        let found = explained(flight, mount, half_beam_deg, &seen, &others);
+        let found = explained(flight, mount, half_beam_deg, &measured, &others);
         if !found.is_empty() {
             named += 1;
             println!("case {case}: {found:?}");
@@ -186,19 +186,21 @@ fn a_single_cause_is_named_or_among_three() {
             let other = flight.shifted(0.3 * signed(&mut random));
             let other = Propagator::new(&other).unwrap();
             let exact = measured(flight, mount, &cause, &other);
-            let squares = exact.iter().map(|(time, at)| at.separation(flight.at(*time)).degrees());
+            let squares = exact.iter().map(|(time, direction)| {
+                direction.separation(flight.direction_at(*time)).degrees()
+            });
             let square: f64 = squares.map(|off_deg| off_deg * off_deg).sum();
             let effect_deg = (square / exact.len() as f64).sqrt();
             if effect_deg > 3.0 * noise.rms_deg() && effect_deg < 30.0 {
                 break (flight, mount, cause, other, exact, effect_deg);
             }
         };
-        let seen = noise.on(&exact, &mut random);
+        let noisy_track = noise.on(&exact, &mut random);
         let others = [(flight.elements.epoch(), other)];
         // The error spoils the pass, the noise does not.
         let half_beam_deg =
             (effect_deg * (0.4 + 0.6 * share(&mut random))).max(2.0 * noise.rms_deg());
-        let found = explained(flight, mount, half_beam_deg, &seen, &others);
+        let found = explained(flight, mount, half_beam_deg, &noisy_track, &others);
         let is_right = found.iter().any(|found| {
             found.with.is_none() && is_same_kind(&found.cause, &cause) && is_of_axis(found, &cause)
         });

@@ -18,8 +18,8 @@ fn headers(decoder: &mut Decoder) -> Vec<Header> {
 fn frames_follow_each_other_without_gap() {
     let stream = [POLL, OFFLINE_REPLY, POLL, REFUSED].concat();
     let mut decoder = decoder(&stream);
-    let seen = headers(&mut decoder);
-    assert_eq!(seen, [Header::Command, Header::Ack, Header::Command, Header::Nak]);
+    let headers_found = headers(&mut decoder);
+    assert_eq!(headers_found, [Header::Command, Header::Ack, Header::Command, Header::Nak]);
     assert_eq!(decoder.skipped_bytes(), 0);
 }
 
@@ -64,11 +64,11 @@ fn a_refusal_with_data_is_none() {
 fn bytes_that_no_frame_holds_are_named() {
     for byte in [0x00, 0x1f, 0x06, 0x80, 0xff] {
         let mut decoder = decoder(&[b"\x06\x32\x31AB".as_slice(), &[byte]].concat());
-        assert_eq!(decoder.next(), Some(Err(FrameError::BadByte { byte, at: 5 })));
+        assert_eq!(decoder.next(), Some(Err(FrameError::BadByte { byte, index: 5 })));
     }
     assert_eq!(
         decoder(b"\x02\x32\x03\x33").next(),
-        Some(Err(FrameError::BadByte { byte: 3, at: 2 }))
+        Some(Err(FrameError::BadByte { byte: 3, index: 2 }))
     );
 }
 
@@ -90,8 +90,8 @@ fn a_quiet_line_ends_a_frame_and_frees_what_it_held_back() {
     // The checksum is missing, and the next frame's header is no replacement.
     decoder.push(b"\x15\x32\x32\x03");
     decoder.push(REFUSED);
-    let seen: Vec<_> = decoder.by_ref().collect();
-    assert!(matches!(seen[..], [Err(FrameError::BadChecksum { .. }), Ok(_)]), "{seen:?}");
+    let frames: Vec<_> = decoder.by_ref().collect();
+    assert!(matches!(frames[..], [Err(FrameError::BadChecksum { .. }), Ok(_)]), "{frames:?}");
 }
 
 #[test]

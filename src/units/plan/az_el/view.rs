@@ -33,7 +33,7 @@ impl Ends {
 }
 
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Seen {
+pub(super) struct View {
     azimuth: SinCos,
     height: SinCos,
     elevation: Elevation,
@@ -48,14 +48,14 @@ enum Elevation {
 }
 
 /// Position of the elevation axis where it does not make up for the azimuth, degrees.
-fn usual_deg(direction: AzEl, is_flipped: bool, ends: Option<Ends>) -> f64 {
+fn nominal_deg(direction: AzEl, is_flipped: bool, ends: Option<Ends>) -> f64 {
     let elevation_deg = direction.elevation_deg();
     let side_deg = if is_flipped { 180.0 - elevation_deg } else { elevation_deg };
     let (from_deg, to_deg) = ends.map_or((-90.0, 90.0), |ends| ends.deg);
     side_deg.min(to_deg).max(from_deg)
 }
 
-impl Seen {
+impl View {
     /// Prepares `direction` for an elevation axis between `ends`, flipped or not.
     pub(super) fn new(direction: AzEl, is_flipped: bool, ends: Option<Ends>) -> Self {
         let helps = ends.filter(|_| is_overhead(direction));
@@ -63,7 +63,7 @@ impl Seen {
             azimuth: direction.azimuth.radians().sin_cos(),
             height: direction.elevation.radians().sin_cos(),
             elevation: helps.map_or_else(
-                || Elevation::Stays(sin_cos(usual_deg(direction, is_flipped, ends))),
+                || Elevation::Stays(sin_cos(nominal_deg(direction, is_flipped, ends))),
                 |ends| Elevation::Helps(ends.sin_cos),
             ),
         }
@@ -77,7 +77,7 @@ impl Seen {
     ) -> f64 {
         let Some(Ends { deg: (from_deg, to_deg), .. }) = ends.filter(|_| is_overhead(direction))
         else {
-            return usual_deg(direction, is_flipped, ends);
+            return nominal_deg(direction, is_flipped, ends);
         };
         let (up, along) = Self::new(direction, is_flipped, ends).in_plane(sin_cos(azimuth_deg));
         up.atan2(along).to_degrees().min(to_deg).max(from_deg)
@@ -93,19 +93,19 @@ impl Seen {
     /// Cost of a position of the azimuth axis, with the elevation axis where it points best.
     pub(super) fn azimuth_cost(&self, azimuth: SinCos) -> f64 {
         let (up, along) = self.in_plane(azimuth);
-        let towards = |(sin, cos): SinCos| up * sin + along * cos;
-        let [from, to] = match self.elevation {
+        let projection = |(sin, cos): SinCos| up * sin + along * cos;
+        let [start, end] = match self.elevation {
             Elevation::Helps(ends) => ends,
-            Elevation::Stays(usual) => return 1.0 - towards(usual),
+            Elevation::Stays(nominal) => return 1.0 - projection(nominal),
         };
         // The sign of the cross product tells on which side of an end the direction lies.
         let is_beyond = |(sin, cos): SinCos| up * cos - along * sin > 0.0;
-        if is_beyond(to) {
-            1.0 - towards(to)
-        } else if is_beyond(from) {
+        if is_beyond(end) {
+            1.0 - projection(end)
+        } else if is_beyond(start) {
             1.0 - (up * up + along * along).sqrt()
         } else {
-            1.0 - towards(from)
+            1.0 - projection(start)
         }
     }
 

@@ -11,21 +11,21 @@ type Part = [(usize, usize); 2];
 impl BoundsAt<'_> {
     /// The least clearance, among the samples of `place`, from each group of barriers. `groups` has
     /// the group of each barrier in order; `None` for one that does not matter.
-    pub(super) fn least_in_groups<const GROUPS: usize>(
+    pub(super) fn min_in_groups<const GROUPS: usize>(
         &self,
         place: Sweep,
         groups: &[Option<usize>],
     ) -> [Angle; GROUPS] {
-        let mut least = [Angle::from_degrees(f64::INFINITY); GROUPS];
-        self.lower_to_least(place, groups, &mut least);
-        least
+        let mut minima = [Angle::from_degrees(f64::INFINITY); GROUPS];
+        self.lower_to_min(place, groups, &mut minima);
+        minima
     }
 
-    pub(super) fn lower_to_least(
+    pub(super) fn lower_to_min(
         &self,
         place: Sweep,
         groups: &[Option<usize>],
-        least: &mut [Angle],
+        minima: &mut [Angle],
     ) {
         let samples = place.sampled();
         let whole: Part = samples.steps.map(|steps| (0, steps));
@@ -33,29 +33,29 @@ impl BoundsAt<'_> {
         let mut open = vec![(whole, all)];
         while let Some((part, barriers)) = open.pop() {
             let middle = part.map(|(first, last)| usize::midpoint(first, last));
-            let here_deg = samples.at(middle);
+            let here_deg = samples.sample(middle);
             let ends_deg = [0, 1].map(|end| {
-                samples.at(part.map(|(first, last)| if end == 0 { first } else { last }))
+                samples.sample(part.map(|(first, last)| if end == 0 { first } else { last }))
             });
             let off_deg = ends_deg
                 .map(|end_deg| (end_deg[0] - here_deg[0]).abs() + (end_deg[1] - here_deg[1]).abs());
             let radius = Angle::from_degrees(off_deg[0].max(off_deg[1]) * self.max_beam_turn());
             let aim = self.aim(here_deg);
             let mut near = Vec::new();
-            let mut wanted = barriers.iter().copied().peekable();
+            let mut pending = barriers.iter().copied().peekable();
             for (index, barrier) in self.barriers(aim).enumerate() {
-                if wanted.next_if_eq(&index).is_none() {
+                if pending.next_if_eq(&index).is_none() {
                     continue;
                 }
-                let Some(least) =
-                    groups.get(index).copied().flatten().and_then(|group| least.get_mut(group))
+                let Some(min) =
+                    groups.get(index).copied().flatten().and_then(|group| minima.get_mut(group))
                 else {
                     continue;
                 };
-                let limit = *least + radius;
+                let limit = *min + radius;
                 let angle = barrier.angle_unless_from(limit);
-                if angle < *least {
-                    *least = angle;
+                if angle < *min {
+                    *min = angle;
                 }
                 if angle < limit {
                     near.push(index);
@@ -71,13 +71,13 @@ impl BoundsAt<'_> {
 /// Both halves of a part of more than one sample.
 fn halves(part: Part) -> Option<[Part; 2]> {
     let [first, second] = part;
-    let span = |(from, to): (usize, usize)| to - from;
+    let span = |(start, end): (usize, usize)| end - start;
     if span(first).max(span(second)) == 0 {
         return None;
     }
-    let cut = |(from, to): (usize, usize)| {
-        let middle = usize::midpoint(from, to);
-        [(from, middle), (middle + 1, to)]
+    let cut = |(first, last): (usize, usize)| {
+        let middle = usize::midpoint(first, last);
+        [(first, middle), (middle + 1, last)]
     };
     Some(if span(first) >= span(second) {
         cut(first).map(|half| [half, second])
@@ -133,21 +133,21 @@ mod tests {
             }
             let keep_outs = zones.into_iter().enumerate();
             let station = Station {
-                keep_outs: keep_outs.map(|(index, (at, size))| keep_out(index, at, size)).collect(),
+                keep_outs: keep_outs.map(|(index, (corner, size))| keep_out(index, corner, size)).collect(),
                 sun_avoidance: Some(SunAvoidance { radius_deg: 5.0, ahead_min: 0.0 }),
                 ..Station::default()
             };
             let bounds = Bounds::of(&station, &antenna);
             let now = bounds.at("2026-08-12T10:00:00Z".parse().unwrap());
             let ends_deg = [(from_deg.0, widths_deg.0), (from_deg.1, widths_deg.1)];
-            let place = Sweep(ends_deg.map(|(from, width)| (from, from + width)));
-            let each = now.each_in(place);
-            for (index, (_, least, _)) in each.iter().enumerate() {
+            let place = Sweep(ends_deg.map(|(start, width)| (start, start + width)));
+            let clearances = now.each_in(place);
+            for (index, (_, min, _)) in clearances.iter().enumerate() {
                 let clear_deg = place.samples().map(|sample| {
                     now.barriers(now.aim(sample)).nth(index).unwrap().angle().degrees()
                 });
                 let wanted_deg = clear_deg.fold(f64::INFINITY, f64::min);
-                prop_assert!((least.degrees() - wanted_deg).abs() < 1e-9, "{least:?} {wanted_deg}");
+                prop_assert!((min.degrees() - wanted_deg).abs() < 1e-9, "{min:?} {wanted_deg}");
             }
         }
     }

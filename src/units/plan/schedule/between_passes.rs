@@ -12,13 +12,13 @@ use crate::{
 pub const LEAD_S: f64 = 60.0;
 
 /// Where the antenna is between passes at `at`, by its settings and by the rules of the station.
-pub fn between(station: &Station, antenna: &Antenna, at: Timestamp) -> BetweenPasses {
+pub fn between(station: &Station, antenna: &Antenna, time: Timestamp) -> BetweenPasses {
     let mut rules = station.rules.iter().filter(|rule| rule.is_for(antenna.id)).peekable();
     if rules.peek().is_none() {
         return antenna.automatic.between;
     }
-    let sun = sun_is(station, at);
-    let mut holding = rules.filter(|rule| rule.of.is_none() && rule.holds_at(at, sun));
+    let sun = sun_is(station, time);
+    let mut holding = rules.filter(|rule| rule.of.is_none() && rule.holds_at(time, sun));
     match holding.next() {
         Some(AutomationRule { then: Then::Park, .. }) => BetweenPasses::Park,
         _ => antenna.automatic.between,
@@ -32,8 +32,8 @@ pub fn parks_within_s(antenna: &Antenna) -> f64 {
 }
 
 /// When an antenna is sent to an entry, at the latest.
-pub fn sets_out(entry: &Entry, between: BetweenPasses) -> Timestamp {
-    let before_s = match between {
+pub fn sets_out(entry: &Entry, plan: BetweenPasses) -> Timestamp {
+    let before_s = match plan {
         // As soon as the pass before is over.
         BetweenPasses::Wait => entry.slew_s + entry.set_up_s + entry.spare_s.unwrap_or_default(),
         BetweenPasses::Stay | BetweenPasses::Park => {

@@ -21,8 +21,9 @@ impl Board<'_> {
         let wholes = self.wholes();
         let left = self.request.candidates.iter().zip(&is_taken).zip(&wholes);
         let left = left.filter(|((_, is_taken), _)| !**is_taken);
-        let mut left: Vec<LeftOut> =
-            left.map(|((candidate, _), own)| self.why(candidate, own, solution)).collect();
+        let mut left: Vec<LeftOut> = left
+            .map(|((candidate, _), own)| self.left_out_pass(candidate, own, solution))
+            .collect();
         left.sort_by_key(|left| left.pass);
         left.sort_by_key(|left| left.pass.aos);
         left
@@ -40,7 +41,7 @@ impl Board<'_> {
         wholes
     }
 
-    fn why(&self, candidate: &Candidate, wholes: &[u32], solution: &Solution) -> LeftOut {
+    fn left_out_pass(&self, candidate: &Candidate, wholes: &[u32], solution: &Solution) -> LeftOut {
         let on = |(index, antenna): (usize, &PlannedAntenna)| {
             (antenna.id, self.why_not_on(index, antenna, candidate, wholes, solution))
         };
@@ -49,16 +50,18 @@ impl Board<'_> {
         } else {
             self.request.antennas.iter().enumerate().map(on).collect()
         };
-        let all_impossible = by_antenna.iter().all(|(_, why)| matches!(why, Why::Impossible(_)));
-        let nearest = by_antenna.iter().map(|(_, why)| why).min_by_key(|why| distance(why));
-        let why = match (candidate.refusal, nearest) {
+        let all_impossible =
+            by_antenna.iter().all(|(_, reason)| matches!(reason, Why::Impossible(_)));
+        let nearest =
+            by_antenna.iter().map(|(_, reason)| reason).min_by_key(|reason| distance(reason));
+        let chosen = match (candidate.refusal, nearest) {
             // The limits of the mounts come before the age of the elements and the rules.
             (Some(_), Some(nearest)) if all_impossible => nearest.clone(),
             (Some(refusal), _) => Why::Refused(refusal),
             (None, Some(nearest)) => nearest.clone(),
             (None, None) => Why::NotFound,
         };
-        LeftOut { pass: candidate.key, why, by_antenna }
+        LeftOut { pass: candidate.key, why: chosen, by_antenna }
     }
 
     fn why_not_on(
@@ -71,8 +74,8 @@ impl Board<'_> {
     ) -> Why {
         let option = candidate.options.iter().find(|(id, _)| *id == antenna.id);
         match option {
-            Some((_, Choice::Judged(Verdict::Impossible(why)))) => {
-                return Why::Impossible(why.clone());
+            Some((_, Choice::Judged(Verdict::Impossible(impossible)))) => {
+                return Why::Impossible(impossible.clone());
             }
             Some((_, Choice::AgainstRule)) | None => {
                 let allowed = candidate.options.iter().filter(|(_, choice)| match choice {
@@ -83,8 +86,8 @@ impl Board<'_> {
             }
             Some((_, Choice::Judged(Verdict::Possible(_)))) => {}
         }
-        if let Some(off) = antenna.off {
-            return Why::Off(off);
+        if let Some(off_reason) = antenna.off {
+            return Why::Off(off_reason);
         }
         if let Some(refusal) = candidate.refusal {
             return Why::Refused(refusal);
@@ -92,13 +95,13 @@ impl Board<'_> {
         let own = wholes.iter().filter(|take| self.is_on(**take, index));
         let entries = solution.takes.get(index).map(Vec::as_slice).unwrap_or_default();
         let whys = own.map(|take| self.in_the_way(*take, entries));
-        let in_the_way = whys.min_by_key(|why| why.as_ref().map_or((0, 0), distance));
+        let in_the_way = whys.min_by_key(|reason| reason.as_ref().map_or((0, 0), distance));
         if let Some(Some(in_the_way)) = in_the_way {
             return in_the_way;
         }
         let limit = wholes.iter().find_map(|take| self.takes.get(*take as usize)?.limit);
-        let most = limit.and_then(|limit| self.limits.get(limit as usize));
-        most.map_or(Why::NotFound, |most| Why::MaxPerDay(*most))
+        let day_limit = limit.and_then(|limit| self.limits.get(limit as usize));
+        day_limit.map_or(Why::NotFound, |max| Why::MaxPerDay(*max))
     }
 
     fn is_on(&self, take: u32, antenna: usize) -> bool {
@@ -107,21 +110,22 @@ impl Board<'_> {
 
     /// Returns the reason that hinders one more take among `entries`.
     fn in_the_way(&self, take: u32, entries: &[u32]) -> Option<Why> {
-        let (it, _) = self.at(take)?;
+        let (taken_entry, _) = self.with_fact(take)?;
         let mut overlaps: Vec<(i64, Fact)> = Vec::new();
         let mut too_short: Vec<(i64, Fact)> = Vec::new();
         for entry in entries {
-            let Some((other, fact)) = self.at(*entry) else { continue };
-            let common_ms = other.to_ms.min(it.to_ms) - other.from_ms.max(it.from_ms);
+            let Some((other, fact)) = self.with_fact(*entry) else { continue };
+            let common_ms =
+                other.to_ms.min(taken_entry.to_ms) - other.from_ms.max(taken_entry.from_ms);
             if common_ms > 0 {
                 overlaps.push((common_ms, *fact));
                 continue;
             }
             // So far apart, any leg fits.
-            if common_ms <= -self.legs.longest_ms(it.antenna as usize) {
+            if common_ms <= -self.legs.longest_ms(taken_entry.antenna as usize) {
                 continue;
             }
-            let Some(missing_ms) = self.missing_ms((*entry, other), (take, it)) else {
+            let Some(missing_ms) = self.missing_ms((*entry, other), (take, taken_entry)) else {
                 return Some(Why::Impossible(Impossible::NoWay));
             };
             if missing_ms > 0 {
@@ -135,15 +139,15 @@ impl Board<'_> {
             return Some(Why::SlewTooShort(conflict));
         }
         let is_first = entries.iter().filter_map(|entry| self.takes.get(*entry as usize));
-        let is_first = is_first.into_iter().all(|other| other.from_ms >= it.to_ms);
+        let is_first = is_first.into_iter().all(|other| other.from_ms >= taken_entry.to_ms);
         if !is_first || self.legs.first_ms(take as usize).is_some() {
             return None;
         }
         if !self.legs.is_in_reach(take as usize) {
             return Some(Why::Impossible(Impossible::NoWay));
         }
-        let antenna = self.request.antennas.get(it.antenna as usize);
-        let has_begun = antenna.is_some_and(|antenna| it.from_ms < ms(antenna.free_from));
+        let antenna = self.request.antennas.get(taken_entry.antenna as usize);
+        let has_begun = antenna.is_some_and(|antenna| taken_entry.from_ms < ms(antenna.free_from));
         Some(if has_begun { Why::UnderWay } else { Why::TooFar })
     }
 
@@ -156,22 +160,22 @@ impl Board<'_> {
 }
 
 /// Returns the conflict with the entry of the highest class that is in the way by the most seconds.
-fn conflict(mut found: Vec<(i64, Fact)>, besides: &[(i64, Fact)]) -> Option<Conflict> {
+fn conflict(mut found: Vec<(i64, Fact)>, more: &[(i64, Fact)]) -> Option<Conflict> {
     found.sort_by_key(|(missing_ms, fact)| (fact.class, -missing_ms));
-    let (missing_ms, with) = found.first()?;
-    let others = found.iter().skip(1).chain(besides).map(|(_, fact)| fact.pass);
+    let (missing_ms, rival) = found.first()?;
+    let others = found.iter().skip(1).chain(more).map(|(_, fact)| fact.pass);
     Some(Conflict {
-        with: with.pass,
-        class: with.class,
+        with: rival.pass,
+        class: rival.class,
         missing_s: *missing_ms as f64 / 1000.0,
         others: others.collect(),
     })
 }
 
 /// How far a pass was from being taken.
-fn distance(why: &Why) -> (u8, i64) {
+fn distance(reason: &Why) -> (u8, i64) {
     let ms = |conflict: &Conflict| (conflict.missing_s * 1000.0) as i64;
-    match why {
+    match reason {
         Why::NotFound => (0, 0),
         Why::MaxPerDay(_) => (1, 0),
         Why::SlewTooShort(conflict) => (2, ms(conflict)),
