@@ -251,10 +251,10 @@ fn faults_of_the_documents_example() {
 #[test]
 fn clocks_and_positions_with_time() {
     let Reply::Clock(clock) = parsed("S33").reply else { panic!("no clock") };
-    assert_eq!(clock, Clock { time: time("2000-01-01T04:35:43Z"), has_milliseconds: false });
+    assert_eq!(clock, UnitTime { time: time("2000-01-01T04:35:43Z"), has_milliseconds: false });
     assert!(!clock.is_set());
     let Reply::Clock(clock) = parsed("S34").reply else { panic!("no clock") };
-    assert_eq!(clock, Clock { time: time("2017-03-17T16:43:00.250Z"), has_milliseconds: true });
+    assert_eq!(clock, UnitTime { time: time("2017-03-17T16:43:00.250Z"), has_milliseconds: true });
     assert!(clock.is_set());
     let position =
         TimedPosition { x_deg: 306.0, y_deg: 48.74, time: time("2017-10-17T15:33:41.818Z") };

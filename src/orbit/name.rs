@@ -93,7 +93,7 @@ mod tests {
     use super::*;
 
     #[derive(Debug, PartialEq, serde::Serialize, Deserialize)]
-    struct Written {
+    struct WrittenName {
         #[serde(deserialize_with = "one")]
         one: Name,
         #[serde(deserialize_with = "option")]
@@ -106,14 +106,14 @@ mod tests {
 
     #[test]
     fn names_come_back_and_are_kept_once() {
-        let written = Written {
+        let written = WrittenName {
             one: "azimuth",
             option: Some("a sentence, with \"quotes\""),
             list: vec!["a", "b"],
             map: [("azimuth", 1)].into(),
         };
         let text = serde_json::to_string(&written).unwrap();
-        let read: Written = serde_json::from_str(&text).unwrap();
+        let read: WrittenName = serde_json::from_str(&text).unwrap();
         assert_eq!(read, written);
         assert!(std::ptr::eq(keep("azimuth").unwrap(), read.one));
     }

@@ -85,7 +85,7 @@ pub struct PassSearch {
 }
 
 impl PassSearch {
-    /// All passes over the horizon of `site` from `from` to `to`.
+    /// All passes over the horizon of `site` from `start` to `end`.
     pub fn new(site: Site, start: Timestamp, end: Timestamp) -> Self {
         Self { site, from: start, to: end, aos_elevation: Angle::ZERO, floor: Angle::ZERO }
     }
@@ -140,6 +140,7 @@ pub fn found_passes<P: Borrow<Propagator> + Sync>(
 ) -> FoundPasses {
     let done = AtomicUsize::new(0);
     let of_batch = |window: &Window, batch: usize, propagators: &[P]| {
+        // An index takes less memory in each found pass than a reference would.
         let first = (batch * BATCH) as u32;
         let propagators: Vec<&Propagator> = propagators.iter().map(Borrow::borrow).collect();
         let (found, _) = passes_in(window, &propagators, first, cancelled);
@@ -171,6 +172,7 @@ fn passes_in(
         tracks.iter().map(NearCircular::new).collect();
     let mut found = near_circular::passes(window, near_circular.iter().flatten(), cancelled);
     for (track, near_circular) in tracks.iter().zip(&near_circular) {
+        // Geosynchronous satellites below the horizon are ruled out without a search.
         if near_circular.is_none() && !cancelled() && !geosynchronous::never_rises(track) {
             sampled::passes(track, cancelled, &mut found);
         }

@@ -230,7 +230,7 @@ impl Propagator {
             match propagator.near_circular_at(*time) {
                 Some((secular, minutes)) => near_circular.push((secular, minutes, *time, place)),
                 None => {
-                    *place = propagator.state_at(*time).ok().map(|state| state.over_ground(*time))
+                    *place = propagator.state_at(*time).ok().map(|state| state.over_ground(*time));
                 }
             }
         }

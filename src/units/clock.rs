@@ -145,7 +145,7 @@ impl Clock {
         Moment { steady: Self::scaled(self.speed), utc: self.utc() }
     }
 
-    /// Waits until the steady clock shows `until`.
+    /// Waits until the steady clock shows `end`.
     pub async fn sleep_until(&self, end: Instant) {
         let left = end.saturating_duration_since(Self::scaled(self.speed));
         self.sleep(left).await;

@@ -69,7 +69,7 @@ impl Neg for Offset {
 
 /// All offsets of a track: the time in whole milliseconds, angles in thousandths of a degree.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
-#[serde(try_from = "Written", into = "Written")]
+#[serde(try_from = "WrittenOffsets", into = "WrittenOffsets")]
 pub struct TrackOffsets {
     time: SignedDuration,
     along: Angle,
@@ -220,7 +220,7 @@ impl TrackOffsets {
 /// The form in files and messages.
 #[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
 #[serde(default)]
-struct Written {
+struct WrittenOffsets {
     #[serde(skip_serializing_if = "is_zero")]
     time_s: f64,
     #[serde(skip_serializing_if = "is_zero")]
@@ -244,7 +244,7 @@ fn rounded_deg(angle: Angle) -> f64 {
     (angle.degrees() * 1000.0).round() / 1000.0
 }
 
-impl From<TrackOffsets> for Written {
+impl From<TrackOffsets> for WrittenOffsets {
     fn from(offsets: TrackOffsets) -> Self {
         Self {
             time_s: offsets.time.as_secs_f64(),
@@ -260,10 +260,10 @@ impl From<TrackOffsets> for Written {
 #[error("an offset of the time is at most 300 s, one of an angle at most 10 degrees")]
 struct TooLarge;
 
-impl TryFrom<Written> for TrackOffsets {
+impl TryFrom<WrittenOffsets> for TrackOffsets {
     type Error = TooLarge;
 
-    fn try_from(written: Written) -> Result<Self, TooLarge> {
+    fn try_from(written: WrittenOffsets) -> Result<Self, TooLarge> {
         let time = SignedDuration::try_from_secs_f64(written.time_s).map_err(|_| TooLarge)?;
         let steps = [
             Offset::Time(time),

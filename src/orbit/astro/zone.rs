@@ -9,7 +9,7 @@ use std::f64::consts::PI;
 
 use glam::DVec3;
 
-use self::{cap::Cap, edge::Edge, extent::Extent};
+use self::{cap::ZoneCap, edge::Edge, extent::Extent};
 use super::{Angle, AzEl};
 
 pub const MIN_CORNERS: usize = 3;
@@ -29,7 +29,7 @@ const SAME: f64 = 1e-9;
 pub struct Zone {
     corners: Vec<AzEl>,
     edges: Vec<Edge>,
-    cap: Cap,
+    cap: ZoneCap,
     extent: Option<Extent>,
 }
 
@@ -93,7 +93,7 @@ impl Zone {
             }
         }
         crossing::check(&edges)?;
-        let cap = Cap::enclosing(&edges);
+        let cap = ZoneCap::enclosing(&edges);
         let extent = Extent::enclosing(&edges);
         Ok(Self { corners, edges, cap, extent })
     }

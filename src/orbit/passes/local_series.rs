@@ -132,6 +132,7 @@ impl<N: Number> Height<N> {
     /// acceleration `a`.
     #[inline(always)]
     pub(super) fn new(q: Vector<N>, range: N, v: Vector<N>, a: Vector<N>) -> Self {
+        // One division serves for all, because division is the slowest operation here.
         let inverse_range = N::splat(1.0) / range;
         let range_rate = q.dot(v) * inverse_range;
         let range_curve = (v.length_squared() + q.dot(a) - range_rate * range_rate) * inverse_range;
@@ -147,6 +148,7 @@ impl<N: Number> LocalSeries<N> {
     #[inline(always)]
     pub(super) fn new(window: &Window, at_s: N, state: EarthFixed<N>) -> Self {
         let EarthFixed { position_km, velocity_km_s } = state;
+        // The frame turns, so the Coriolis and centrifugal accelerations appear.
         let over_ground = velocity_km_s + turned(position_km);
         let (pull, pull_change) = gravity(position_km, over_ground);
         let acceleration = pull + turned(over_ground + over_ground - turned(position_km));
@@ -175,6 +177,7 @@ impl<N: Number> LocalSeries<N> {
         let half = tau * 0.5;
         let acceleration = self.acceleration + self.jerk * tau;
         let velocity = self.velocity + (self.acceleration + acceleration) * half;
+        // Horner's form: the cubic needs no powers of `tau`.
         let change = self.velocity + (self.acceleration + self.jerk * (tau * (1.0 / 3.0))) * half;
         let enu_km = self.position + change * tau;
         let range_km = enu_km.length();
@@ -189,6 +192,7 @@ impl<N: Number> LocalSeries<N> {
         let mut place = self.place(N::splat(0.0));
         for _ in 0..MAX_STEPS {
             let step_s = -place.height.rate / place.height.curve;
+            // All lanes go on until the slowest has converged; more steps do no harm to the others.
             if !step_s.abs().any_reaches(LAST_STEP_S) {
                 return place.moved(step_s);
             }
@@ -205,6 +209,7 @@ impl<N: Number> LocalSeries<N> {
         for _ in 0..MAX_STEPS {
             let Height { sine: height, rate, curve } = place.height;
             let newton_s = (-height + sine) / rate;
+            // Near a crest, Newton's method overshoots; the curve tells by how much.
             let share = newton_s * curve / rate;
             let step_s = newton_s / (share * 0.5 + 1.0);
             if !share.abs().any_reaches(LAST_SHARE) {

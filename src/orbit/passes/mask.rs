@@ -59,14 +59,14 @@ pub fn clear_stretches(
 
 /// One look at the sky.
 #[derive(Clone, Copy)]
-struct Look {
+struct MaskLook {
     place: LocalState,
     azimuth: f64,
     elevation: f64,
     clearance: f64,
 }
 
-impl Look {
+impl MaskLook {
     fn is_clear(&self) -> bool {
         self.clearance >= -LEVEL
     }
@@ -87,12 +87,17 @@ struct Follower<'a> {
 }
 
 impl Follower<'_> {
-    fn look(&self, at_s: f64) -> Option<Look> {
+    fn look(&self, at_s: f64) -> Option<MaskLook> {
         let place = self.track.place(at_s)?;
         let geometric = Sighting::new(&place).direction();
         let AzEl { azimuth, elevation } = self.track.window.pass_direction(geometric);
         let clearance = (elevation - self.mask.elevation_at(azimuth)).radians();
-        Some(Look { place, azimuth: azimuth.radians(), elevation: elevation.radians(), clearance })
+        Some(MaskLook {
+            place,
+            azimuth: azimuth.radians(),
+            elevation: elevation.radians(),
+            clearance,
+        })
     }
 
     fn follow(&self, stretches: &mut Stretches<'_>) {
@@ -112,15 +117,15 @@ impl Follower<'_> {
         }
     }
 
-    fn step_s(&self, here: &Look) -> f64 {
+    fn step_s(&self, here: &MaskLook) -> f64 {
         let spare = (here.elevation - self.highest).max(self.lowest - here.elevation);
         let step = (0.5 * spare).clamp(FINE_STEP, COARSE_STEP);
         (step / here.place.angular_rate()).min(LONGEST_STEP_S)
     }
 
     /// Moves from one look to the next, via every point of the mask between them.
-    fn step(&self, start: Look, end: Look, stretches: &mut Stretches<'_>) {
-        let side = |look: &Look| {
+    fn step(&self, start: MaskLook, end: MaskLook, stretches: &mut Stretches<'_>) {
+        let side = |look: &MaskLook| {
             if look.elevation > self.highest + LEVEL {
                 1
             } else {
@@ -173,12 +178,12 @@ impl Follower<'_> {
     }
 
     /// The look between two others at which the azimuth is `azimuth`.
-    fn look_at_azimuth(&self, start: Look, end: Look, azimuth: f64) -> Option<Look> {
+    fn look_at_azimuth(&self, start: MaskLook, end: MaskLook, azimuth: f64) -> Option<MaskLook> {
         self.settle(start, end, |look| look.turn_to(azimuth)).map(|(_, look)| look)
     }
 
     /// Records where the clearance changes its sign between two looks.
-    fn cross(&self, start: Look, end: Look, stretches: &mut Stretches<'_>) {
+    fn cross(&self, start: MaskLook, end: MaskLook, stretches: &mut Stretches<'_>) {
         if start.is_clear() == end.is_clear() {
             stretches.pass_by(start.place, end.place);
         } else if let Some((_, crossing)) = self.settle(start, end, |look| look.clearance + LEVEL) {
@@ -194,7 +199,12 @@ impl Follower<'_> {
 
     /// The last look before and the first look after `value` changes its sign, as close together as
     /// the tolerance; by the Illinois method of false position.
-    fn settle(&self, start: Look, end: Look, value: impl Fn(&Look) -> f64) -> Option<(Look, Look)> {
+    fn settle(
+        &self,
+        start: MaskLook,
+        end: MaskLook,
+        value: impl Fn(&MaskLook) -> f64,
+    ) -> Option<(MaskLook, MaskLook)> {
         let (mut a, mut b) = ((start, value(&start)), (end, value(&end)));
         if (a.1 > 0.0) == (b.1 > 0.0) {
             return None;
@@ -225,12 +235,12 @@ impl Follower<'_> {
 struct Stretches<'a> {
     pass: &'a Pass,
     track: &'a Track<'a>,
-    open: Option<Open>,
+    open: Option<OpenStretch>,
     found: Vec<Pass>,
 }
 
 /// A stretch whose end has not been found yet.
-struct Open {
+struct OpenStretch {
     aos: LocalState,
     highest: LocalState,
     /// Duration of the step to the highest look, in seconds.
@@ -240,7 +250,7 @@ struct Open {
 
 impl Stretches<'_> {
     fn open(&mut self, aos: LocalState, starts_before: bool) {
-        self.open = Some(Open { aos, highest: aos, around_s: 0.0, starts_before });
+        self.open = Some(OpenStretch { aos, highest: aos, around_s: 0.0, starts_before });
     }
 
     fn pass_by(&mut self, start: LocalState, end: LocalState) {

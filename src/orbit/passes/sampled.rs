@@ -65,7 +65,7 @@ struct Finder<'a> {
     last: Option<Extreme>,
     /// Where the polynomial has crossed the horizon since then.
     guess_s: Option<f64>,
-    open: Option<Open>,
+    open: Option<OpenPass>,
     found: &'a mut Vec<CompactPass>,
 }
 
@@ -76,7 +76,7 @@ struct Extreme {
 }
 
 /// A pass whose end has not been found yet.
-struct Open {
+struct OpenPass {
     aos: LocalState,
     highest: LocalState,
     starts_before: bool,
@@ -126,7 +126,7 @@ impl Finder<'_> {
         let is_up = self.is_up(first.height.sine);
         self.last = Some(Extreme { at_s: first.at_s, is_up });
         self.guess_s = None;
-        self.open = is_up.then_some(Open { aos: first, highest: first, starts_before: true });
+        self.open = is_up.then_some(OpenPass { aos: first, highest: first, starts_before: true });
     }
 
     /// Looks for extremes between two states.
@@ -164,7 +164,7 @@ impl Finder<'_> {
         }
     }
 
-    fn advance(&mut self, curve: &Quintic, a: Look, b: Look) {
+    fn advance(&mut self, curve: &Quintic, a: HeightLook, b: HeightLook) {
         if (a.height.rate > 0.0) == (b.height.rate > 0.0) {
             self.note_crossing(a, b);
         } else {
@@ -176,12 +176,12 @@ impl Finder<'_> {
     }
 
     /// How far the satellite may be from a place of the polynomial.
-    fn off_km(&self, look: &Look) -> f64 {
+    fn off_km(&self, look: &HeightLook) -> f64 {
         look.place_margin * self.track.window.radius_of_place_km(look.enu_km)
     }
 
-    fn note_crossing(&mut self, a: Look, b: Look) {
-        let spare = |look: &Look| look.height.sine - self.track.window.sin_aos_elevation;
+    fn note_crossing(&mut self, a: HeightLook, b: HeightLook) {
+        let spare = |look: &HeightLook| look.height.sine - self.track.window.sin_aos_elevation;
         let (before, after) = (spare(&a), spare(&b));
         if (before >= 0.0) != (after >= 0.0) {
             self.guess_s = Some(a.at_s + (b.at_s - a.at_s) * before / (before - after));
@@ -189,7 +189,7 @@ impl Finder<'_> {
     }
 
     /// Processes an extreme of the polynomial.
-    fn turn(&mut self, look: Look, bend: Bend) {
+    fn turn(&mut self, look: HeightLook, bend: Bend) {
         let spare = look.height.sine - self.track.window.sin_aos_elevation;
         // A satellite that passes close by may stand anywhere else in the sky.
         let is_far = spare.abs() * look.range_km > self.off_km(&look);
@@ -234,7 +234,7 @@ impl Finder<'_> {
             return;
         };
         if next.is_up {
-            self.open = Some(Open { aos: crossing, highest: crossing, starts_before: false });
+            self.open = Some(OpenPass { aos: crossing, highest: crossing, starts_before: false });
         } else if let Some(open) = self.open.take() {
             self.close(&open, &crossing, false);
         }
@@ -248,8 +248,8 @@ impl Finder<'_> {
         }
     }
 
-    fn close(&mut self, open: &Open, los: &LocalState, ends_after: bool) {
-        let Open { aos, highest, starts_before } = open;
+    fn close(&mut self, open: &OpenPass, los: &LocalState, ends_after: bool) {
+        let OpenPass { aos, highest, starts_before } = open;
         if highest.height.sine >= self.track.window.sin_floor {
             let sightings = [aos, highest, los].map(Sighting::new);
             self.found.push(self.track.pass(sightings.each_ref(), [*starts_before, ends_after]));
@@ -284,7 +284,7 @@ struct Quintic {
 
 /// The height of the polynomial at one instant.
 #[derive(Clone, Copy)]
-struct Look {
+struct HeightLook {
     share: f64,
     at_s: f64,
     enu_km: Vector<f64>,
@@ -317,13 +317,13 @@ impl Quintic {
     }
 
     /// The look at a `share` of the step, 0 to 1.
-    fn look(&self, share: f64) -> Look {
+    fn look(&self, share: f64) -> HeightLook {
         let zero = [Vector::new(0.0, 0.0, 0.0); 3];
         let [q, v, a] = self.coefficients.iter().rev().fold(zero, |[q, v, a], coefficient| {
             [q * share + *coefficient, v * share + q, a * share + v]
         });
         let (inverse_s, range_km) = (1.0 / self.span_s, q.length());
-        Look {
+        HeightLook {
             share,
             at_s: self.from_s + share * self.span_s,
             enu_km: q,
@@ -335,7 +335,7 @@ impl Quintic {
     }
 
     /// The extreme between two looks whose rates differ in sign.
-    fn extreme(&self, a: Look, b: Look) -> Look {
+    fn extreme(&self, a: HeightLook, b: HeightLook) -> HeightLook {
         let (mut a, mut b) = (a, b);
         let mut middle = a;
         for round in 0..8 {

@@ -104,6 +104,7 @@ impl<'a> Track<'a> {
     /// The series around an exact state; `None` if there is no state.
     pub(super) fn series(&self, at_s: f64) -> Option<LocalSeries> {
         self.count(1);
+        // SDP4 integrates from the last state on, so near instants are much cheaper in a row.
         let mut resumable = self.resumable.take();
         let state = self.propagator.state_after(self.start_since_epoch_s + at_s, &mut resumable);
         self.resumable.set(resumable);
@@ -163,9 +164,11 @@ impl<'a> Track<'a> {
             }
             let tau = (place.at_s - series.at_s).abs();
             let is_exact = self.exactness.is_crest(tau, &place);
+            // A mended series is as good as two states can make it.
             if is_exact || (is_mended && tau <= 2.0 * LONGEST_STEP_S) {
                 return Some((series, place));
             }
+            // Beyond this, the terms that the series leaves out matter.
             if tau > LONGEST_STEP_S {
                 series = self.series(place.at_s)?;
             } else {
@@ -190,6 +193,7 @@ impl<'a> Track<'a> {
     ) -> Option<LocalState> {
         let sine = |at_s: f64| Some(self.place(at_s)?.height.sine);
         let rises = |at_s: f64| {
+            // The height itself is flat at its crest, but its difference has a sign.
             let beside_s = 0.5 * CREST_TIME_TOLERANCE_S;
             Some((sine(at_s + beside_s)? > sine(at_s - beside_s)?) == (bend == Bend::Crest))
         };

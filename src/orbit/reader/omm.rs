@@ -98,13 +98,13 @@ enum Value<'a> {
 
 /// The fields of one message that have a value.
 #[derive(Debug, Default)]
-struct Message<'a> {
+struct MessageFields<'a> {
     values: [Option<Value<'a>>; FIELDS.len()],
     /// Lines of a TLE have a place in the message, even if they are empty.
     has_tle: bool,
 }
 
-impl<'a> Message<'a> {
+impl<'a> MessageFields<'a> {
     /// Sets a field. Empty text does not count as a value.
     fn set(&mut self, field: Field, value: Value<'a>) {
         if let Value::Text(text) = &value

@@ -80,7 +80,7 @@ fn fitted(passes: usize, fit: &Fit, without: Vec<Term>) -> PointingFit {
             not_told_from: alike.map(|alike| alike.with.clone()).unwrap_or_default(),
         }
     };
-    let noise = |found: &pointing::Found| NoiseOf {
+    let noise = |found: &pointing::KindNoise| NoiseOf {
         of: found.kind,
         points: found.points,
         noise_deg: found.noise_deg,

@@ -31,7 +31,7 @@ use crate::{
 use axes::Axes;
 use exchange::{Outstanding, Purpose};
 use line::Line;
-use names::Names;
+use names::SatelliteNames;
 use past::Past;
 pub use spec::{AZIMUTH_POINTS, BAUD, BUS_ADDRESS, Calibration, ELEVATION_POINTS, SPEC, VARIANT};
 
@@ -64,7 +64,7 @@ pub struct Rc2000c {
     device: Option<DeviceType>,
     /// The unit's configuration takes no commands.
     is_offline: bool,
-    names: Names,
+    names: SatelliteNames,
     /// When the next status is due; `None` without a link.
     poll_at: Option<Instant>,
     /// End of the gap after a reply, in which only a halt may go out.
@@ -79,7 +79,7 @@ pub struct Rc2000c {
     /// A halt sent past the queue and not answered yet.
     halt: Option<Outstanding>,
     /// Requests not sent yet.
-    orders: VecDeque<Order>,
+    orders: VecDeque<QueuedRequest>,
     jog: Option<HeldJog>,
     /// STOP was pressed while the polarization may be turning.
     holds_polarization: bool,
@@ -91,7 +91,7 @@ pub struct Rc2000c {
 }
 
 #[derive(Debug, Clone, Copy)]
-struct Order {
+struct QueuedRequest {
     request: Request,
     /// The request it belongs to; `None` for a part of a halt.
     origin: Option<Asked>,
@@ -145,7 +145,7 @@ impl Rc2000c {
             is_device_asked: false,
             device: None,
             is_offline: false,
-            names: Names::default(),
+            names: SatelliteNames::default(),
             poll_at: None,
             gap_until: None,
             outstanding: None,
@@ -174,7 +174,7 @@ impl Rc2000c {
 
     /// Returns the next request to send, the most urgent first.
     fn next_request(&mut self, now: Moment) -> Option<(Request, Purpose)> {
-        if let Some(Order { request, origin }) = self.orders.pop_front() {
+        if let Some(QueuedRequest { request, origin }) = self.orders.pop_front() {
             return Some((request, Purpose::Order(origin)));
         }
         if let Some(jog) = self.next_jog(now) {
@@ -233,10 +233,10 @@ impl Rc2000c {
         Some((Request::Motion(unit::Motion::Jog(jog)), Purpose::Order(Some(motion.into()))))
     }
 
-    /// Queues the command for `asked`, or says why there is none.
+    /// Queues the command for `origin`, or says why there is none.
     fn order(&mut self, origin: Asked, request: Result<Request, String>) {
         match request {
-            Ok(request) => self.orders.push_back(Order { request, origin: Some(origin) }),
+            Ok(request) => self.orders.push_back(QueuedRequest { request, origin: Some(origin) }),
             Err(reason) => self.events.push_back(ControllerEvent::Refused(origin, reason)),
         }
     }

@@ -28,7 +28,7 @@ use crate::{
 };
 pub use actions::{OTHER, RESCUE};
 use exchange::{Outstanding, Purpose};
-use orders::Order;
+use orders::QueuedMotion;
 pub use settings::GROUPS;
 pub use spec::{ALONE, PAIR, ROTATORS, Rotators, SPEC};
 use turning::Turning;
@@ -75,7 +75,7 @@ pub struct Genius {
     is_watched: bool,
     /// For each STOP sent, until when an answer is expected.
     halts: VecDeque<Instant>,
-    orders: VecDeque<Order>,
+    orders: VecDeque<QueuedMotion>,
     /// To be armed with the next look at the clock.
     is_rescue_wanted: bool,
     /// The operator has asked for the status.
@@ -137,7 +137,7 @@ impl Genius {
         // However fast requests come, the position must not grow old.
         let is_overdue =
             self.next_poll.is_some_and(|due| due + self.rates.period(true) <= now.steady);
-        if !is_overdue && let Some(Order { request, origin }) = self.orders.pop_front() {
+        if !is_overdue && let Some(QueuedMotion { request, origin }) = self.orders.pop_front() {
             return Some((Request::Motion(request), Purpose::Motion(origin)));
         }
         if self.next_poll.is_some() && std::mem::take(&mut self.is_asked) {

@@ -35,7 +35,7 @@ use crate::{
 use exchange::{Outstanding, Purpose};
 use prepare::Preparation;
 use reported::Reported;
-use schedule::Schedule;
+use schedule::QuerySchedule;
 use waiting_motion::WaitingMotion;
 
 /// Time limit for an answer.
@@ -59,7 +59,7 @@ pub struct Satrak {
     decoder: Decoder,
     state: AntennaState,
     reported: Reported,
-    schedule: Option<Schedule>,
+    schedule: Option<QuerySchedule>,
     outstanding: Option<Outstanding>,
     drain_until: Option<Instant>,
     /// Asks for the position while another request waits for its reply.

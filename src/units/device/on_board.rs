@@ -152,8 +152,8 @@ pub struct TrackOffsetFields {
 }
 
 impl TrackOffsetFields {
-    /// Values that make the offsets in azimuth and elevation `to`, where those in force are
-    /// `from`.
+    /// Values that make the offsets in azimuth and elevation `new`, where those in force are
+    /// `previous`.
     pub fn values(&self, previous: TrackOffsets, new: TrackOffsets) -> Values {
         let rows = [
             (self.azimuth_deg, previous.azimuth(), new.azimuth()),

@@ -18,6 +18,6 @@ pub use held::{Change, GroupState, Held, HeldGroup, ReadFailure, WriteError, Wri
 pub use hindrance::Hindrance;
 pub use key::Key;
 pub(crate) use queue::ChangeQueue;
-pub(crate) use settings_write::{SettingsWrite, Step};
+pub(crate) use settings_write::{SettingsWrite, WriteAction};
 pub use value::number;
 pub use value::{Unfit, Value, Values};

@@ -14,8 +14,8 @@ use super::{
     rate_limited::{Departure, rate_limited},
 };
 use crate::astro::{Angle, AzEl};
-pub(super) use flip::{Choice, Flip};
-use view::{Ends, SinCos, View, sin_cos};
+pub(super) use flip::{Flip, FlipChoice};
+use view::{ElevationEnds, SinCos, View, sin_cos};
 
 /// Smallest improvement in pointing, degrees, for which a flip other than the preferred one is
 /// taken: it is not worth moving the elevation over the zenith for less.
@@ -46,7 +46,7 @@ pub(super) struct Start {
 }
 
 impl Start {
-    /// The departure of axis 0 or 1; `None` if the axis is on its course `wanted` from the beginning.
+    /// The departure of axis 0 or 1; `None` if the axis is on its course `targets` from the beginning.
     pub(super) fn departure(
         self,
         index: usize,
@@ -123,7 +123,7 @@ impl AzElAxes {
     ) -> Planned {
         let [azimuth_max_deg, elevation_max_deg] = self.rates_deg_s.map(|rate| rate * step_s);
         let flipped = flip.flipped(samples);
-        let ends = self.elevation_deg.map(Ends::new);
+        let ends = self.elevation_deg.map(ElevationEnds::new);
         // The sines and cosines are needed only where an axis does not keep up.
         let view_at = |index: usize| {
             let (sample, is_flipped) = samples.get(index).zip(flipped.get(index))?;

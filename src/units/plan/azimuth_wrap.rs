@@ -117,7 +117,7 @@ mod tests {
         AzimuthWrap::along(azimuths_deg, AzimuthRange::new(ends_deg).unwrap(), now)
     }
 
-    /// Degrees from `from` to `to`, both included.
+    /// Degrees from `start` to `end`, both included.
     fn sweep(start: i32, end: i32) -> Vec<f64> {
         let step = if start < end { 1 } else { -1 };
         (0..=(end - start).abs()).map(|count| f64::from(start + step * count)).collect()

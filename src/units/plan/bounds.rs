@@ -27,7 +27,7 @@ use crate::{
 use aim::{Aim, AimVectors};
 pub use blocks::Budget;
 use blocks::Reached;
-use near::{Clear, Named, Near};
+use near::{BarrierName, Clear, Near};
 use sun::SunAhead;
 pub use sweep::Sweep;
 
@@ -239,7 +239,7 @@ impl<'a> BoundsAt<'a> {
     /// The nearest barrier that refuses motion, of axes that count `direction`; `None` if there is
     /// none.
     pub fn nearest(&self, direction: AzEl) -> Option<Clearance> {
-        let mut nearest: Option<(Named<'_>, Angle)> = None;
+        let mut nearest: Option<(BarrierName<'_>, Angle)> = None;
         for barrier in self.barriers(self.aim_at(direction)).filter(|barrier| !barrier.warns_only) {
             let min = nearest.map_or(Angle::from_degrees(f64::INFINITY), |(_, min)| min);
             if let Some(angle) = barrier.angle_below(min) {
@@ -393,15 +393,15 @@ impl<'a> BoundsAt<'a> {
     fn has_room_at(&self, aim: Aim, room_deg: f64) -> bool {
         self.barriers(aim).all(|barrier| {
             let room_deg = match barrier.name {
-                Named::MinimumElevation => -FINEST_DEG,
-                Named::KeepOut(_) | Named::Sun => room_deg,
+                BarrierName::MinimumElevation => -FINEST_DEG,
+                BarrierName::KeepOut(_) | BarrierName::Sun => room_deg,
             };
             barrier.warns_only || barrier.angle_below(Angle::from_degrees(room_deg)).is_none()
         })
     }
 
     /// As [`Self::each`], with the least clearance among the positions in `place`, from samples.
-    fn each_in(&self, place: Sweep) -> Vec<(Named<'_>, Angle, bool)> {
+    fn each_in(&self, place: Sweep) -> Vec<(BarrierName<'_>, Angle, bool)> {
         let barriers: Vec<_> = self.barriers(self.aim(place.middle())).collect();
         let groups: Vec<_> = (0..barriers.len()).map(Some).collect();
         let mut minima = vec![Angle::from_degrees(f64::INFINITY); barriers.len()];
@@ -410,7 +410,7 @@ impl<'a> BoundsAt<'a> {
         pairs.map(|(barrier, min)| (barrier.name, min, barrier.warns_only)).collect()
     }
 
-    fn named_clearances(&self, aim: Aim) -> impl Iterator<Item = (Named<'_>, Angle, bool)> {
+    fn named_clearances(&self, aim: Aim) -> impl Iterator<Item = (BarrierName<'_>, Angle, bool)> {
         self.barriers(aim).map(|barrier| (barrier.name, barrier.angle(), barrier.warns_only))
     }
 
@@ -430,20 +430,28 @@ impl<'a> BoundsAt<'a> {
         let zone_index = match self.minimum_elevation {
             Some(minimum) if index == 0 => {
                 let angle = Clear::Known(aim.axes.elevation - minimum);
-                return Some(Near { name: Named::MinimumElevation, warns_only: false, angle });
+                return Some(Near {
+                    name: BarrierName::MinimumElevation,
+                    warns_only: false,
+                    angle,
+                });
             }
             Some(_) => index - 1,
             None => index,
         };
         if let Some((zone, margin)) = self.bounds.keep_outs.get(zone_index) {
             return Some(Near {
-                name: Named::KeepOut(&zone.name),
+                name: BarrierName::KeepOut(&zone.name),
                 warns_only: zone.entered == Entered::Warn,
                 angle: Clear::OfZone { zone: &zone.zone, margin: *margin, vectors },
             });
         }
         let sun = self.sun.as_ref().filter(|_| index < self.number())?;
-        Some(Near { name: Named::Sun, warns_only: false, angle: Clear::OfSun { sun, vectors } })
+        Some(Near {
+            name: BarrierName::Sun,
+            warns_only: false,
+            angle: Clear::OfSun { sun, vectors },
+        })
     }
 }
 

@@ -66,14 +66,14 @@ pub fn between(
     between_within(now, limits, (from_deg, to_deg), f64::INFINITY)
 }
 
-/// As [`between`]; a route that takes much more than `most_s` seconds is not looked for.
+/// As [`between`]; a route that takes much more than `max_s` seconds is not looked for.
 pub fn between_within(
     now: &BoundsAt<'_>,
     limits: &AxisLimits,
     (from_deg, to_deg): ([f64; 2], [f64; 2]),
     max_s: f64,
 ) -> Option<Vec<[f64; 2]>> {
-    let search = Search::new(now, limits, (from_deg, to_deg));
+    let search = RouteSearch::new(now, limits, (from_deg, to_deg));
     // The cost counts the length of a route too.
     let max = (max_s * 1.1 + 1.0) * 1e6;
     let way = search.way(max as u64, 1)?;
@@ -87,7 +87,7 @@ pub fn leads(
     from_deg: [f64; 2],
     to_deg: [f64; 2],
 ) -> bool {
-    Search::new(now, limits, (from_deg, to_deg)).way(u64::MAX, GREED).is_some()
+    RouteSearch::new(now, limits, (from_deg, to_deg)).way(u64::MAX, GREED).is_some()
 }
 
 /// The positions of the route through `turns_deg` in steps of at most `step_deg` on either axis,
@@ -160,7 +160,7 @@ impl Grid {
     }
 }
 
-struct Search<'a> {
+struct RouteSearch<'a> {
     now: &'a BoundsAt<'a>,
     limits: &'a AxisLimits,
     /// Distance from all margins, degrees, also of a beam that turns by more than the axes.
@@ -169,7 +169,7 @@ struct Search<'a> {
     to_deg: [f64; 2],
 }
 
-impl<'a> Search<'a> {
+impl<'a> RouteSearch<'a> {
     fn new(
         now: &'a BoundsAt<'a>,
         limits: &'a AxisLimits,
@@ -194,7 +194,7 @@ impl<'a> Search<'a> {
         (self.limits.seconds(from_deg, to_deg) * 1e6 + straight_deg * STRAIGHT) as u64
     }
 
-    /// A route that costs at most `most`: the cheapest one with a `greed` of 1.
+    /// A route that costs at most `max`: the cheapest one with a `greed` of 1.
     fn way(&self, max: u64, greed: u64) -> Option<Vec<[f64; 2]>> {
         let room_deg = self.room_deg;
         // Both ends may touch the edge of the room.

@@ -42,7 +42,7 @@ pub struct KnownOrbit {
 }
 
 impl KnownOrbit {
-    /// The pass that a unit with the report `told` tracks, in its own window; `None` if the unit
+    /// The pass that a unit with the report `on_board` tracks, in its own window; `None` if the unit
     /// holds another satellite or reports no window.
     pub fn pass_of(&self, on_board: &OnBoard) -> Option<OnBoardPass> {
         let held_satellite = on_board.satellite.as_ref()?;
@@ -102,7 +102,7 @@ pub struct Supervision {
 }
 
 impl Supervision {
-    /// The likeliest cause that makes an error of `off`. A small known error is no cause of a large
+    /// The likeliest cause that makes an error of `deviation`. A small known error is no cause of a large
     /// one.
     pub fn cause_of(&self, deviation: Angle) -> Option<&Ranked> {
         self.causes.iter().find(|cause| cause.can_make(deviation))
@@ -148,7 +148,7 @@ impl Judge {
         self.ability
     }
 
-    /// Direction in which the satellite appears at `at`: the one to point at.
+    /// Direction in which the satellite appears at `time`: the one to point at.
     pub fn direction(&self, time: Timestamp) -> Option<AzEl> {
         Some(self.propagator.look_from(self.pass.site, time).ok()?.direction)
     }
@@ -181,7 +181,7 @@ impl Judge {
         unit.either_way().try_for_each(|unit| path_is_clear(self.path(unit), &self.ability, bounds))
     }
 
-    /// Where the unit goes if it is started at `at`: to where it waits for the window, or to the
+    /// Where the unit goes if it is started at `time`: to where it waits for the window, or to the
     /// satellite within it.
     pub fn start(&self, unit: &OnBoard, time: Timestamp) -> Option<AzEl> {
         UnitPath::new(unit, self).direction(time)

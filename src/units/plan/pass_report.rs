@@ -13,7 +13,7 @@ pub use breaks::Breaks;
 pub use explain::{Axis, Cause, Evidence, Explained, Explanation, PathSource};
 pub use flown_offsets::FlownOffsets;
 pub use losses::{LossCause, LostStretch};
-use stretches::{State, Stretch};
+use stretches::{Stretch, StretchState};
 
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
@@ -202,13 +202,14 @@ impl TrackedPass<'_> {
         let near = flown.iter().filter(|flown| near.contains(&flown.time));
         let points: Vec<TrackPoint> = near.filter_map(|flown| self.compare(*flown)).collect();
         let stretches = self.stretches(&points);
-        let seconds = |is_meant: fn(State) -> bool| {
+        let seconds = |is_meant: fn(StretchState) -> bool| {
             let tracked_stretches = stretches.iter().filter(|stretch| is_meant(stretch.state));
             // The sum of nothing is a negative zero.
             tracked_stretches.map(Stretch::seconds).sum::<f64>().abs()
         };
-        let known_s = seconds(|state| matches!(state, State::InBeam | State::Outside));
-        let in_beam_s = seconds(|state| state == State::InBeam);
+        let known_s =
+            seconds(|state| matches!(state, StretchState::InBeam | StretchState::Outside));
+        let in_beam_s = seconds(|state| state == StretchState::InBeam);
         let losses = self.losses(&stretches, &points);
         let is_planned = |loss: &&LostStretch| loss.cause.is_of_mount();
         let planned_s: f64 = losses.iter().filter(is_planned).map(LostStretch::seconds).sum();

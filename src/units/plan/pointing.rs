@@ -9,4 +9,4 @@ mod run;
 #[cfg(test)]
 mod tests;
 
-pub use fit::{Alike, CannotFit, Fit, Found, Interval, Kind, Point, fit};
+pub use fit::{Alike, CannotFit, Fit, Interval, Kind, KindNoise, Point, fit};

@@ -93,7 +93,7 @@ mod tests {
         Timestamp::from_second(second).unwrap()
     }
 
-    fn follow(passes: &[(i64, i64)]) -> ProgramTrack {
+    fn track(passes: &[(i64, i64)]) -> ProgramTrack {
         ProgramTrack::new(
             Target::Sun,
             Site::new(41.0, 29.0, 100.0).unwrap(),
@@ -103,25 +103,25 @@ mod tests {
 
     #[test]
     fn a_target_waits_is_followed_and_is_over() {
-        let follow = follow(&[(10, 20), (50, 60)]);
-        assert_eq!(follow.phase(time(9)), TrackPhase::Waiting { aos: time(10) });
-        assert_eq!(follow.phase(time(10)), TrackPhase::Tracking);
-        assert_eq!(follow.phase(time(20)), TrackPhase::Waiting { aos: time(50) });
-        assert_eq!(follow.phase(time(60)), TrackPhase::Over);
+        let two_passes = track(&[(10, 20), (50, 60)]);
+        assert_eq!(two_passes.phase(time(9)), TrackPhase::Waiting { aos: time(10) });
+        assert_eq!(two_passes.phase(time(10)), TrackPhase::Tracking);
+        assert_eq!(two_passes.phase(time(20)), TrackPhase::Waiting { aos: time(50) });
+        assert_eq!(two_passes.phase(time(60)), TrackPhase::Over);
     }
 
     #[test]
     fn without_passes_a_target_is_always_followed() {
-        assert_eq!(follow(&[]).phase(time(9)), TrackPhase::Tracking);
-        assert_eq!(follow(&[]).one_pass(time(9)).phase(time(9)), TrackPhase::Tracking);
+        assert_eq!(track(&[]).phase(time(9)), TrackPhase::Tracking);
+        assert_eq!(track(&[]).one_pass(time(9)).phase(time(9)), TrackPhase::Tracking);
     }
 
     #[test]
     fn one_pass_is_the_one_under_way_or_the_next() {
         let passes = [(10, 20), (50, 60), (90, 99)];
-        assert_eq!(follow(&passes).one_pass(time(0)).phase(time(20)), TrackPhase::Over);
-        assert_eq!(follow(&passes).one_pass(time(20)).phase(time(59)), TrackPhase::Tracking);
-        assert_eq!(follow(&passes).one_pass(time(55)).phase(time(60)), TrackPhase::Over);
-        assert_eq!(follow(&passes).one_pass(time(99)).phase(time(99)), TrackPhase::Over);
+        assert_eq!(track(&passes).one_pass(time(0)).phase(time(20)), TrackPhase::Over);
+        assert_eq!(track(&passes).one_pass(time(20)).phase(time(59)), TrackPhase::Tracking);
+        assert_eq!(track(&passes).one_pass(time(55)).phase(time(60)), TrackPhase::Over);
+        assert_eq!(track(&passes).one_pass(time(99)).phase(time(99)), TrackPhase::Over);
     }
 }

@@ -18,7 +18,7 @@ pub(super) struct Departure {
     pub(super) reach_deg: f64,
 }
 
-/// Positions along `wanted` (degrees at equal intervals) that never differ by more than `max_deg`
+/// Positions along `targets` (degrees at equal intervals) that never differ by more than `max_deg`
 /// from one interval to the next, and are within the reach of an axis that sets out from `departure`.
 /// Where the course is slow enough, they are the course itself; elsewhere they minimise the sum of
 /// `cost(interval)(position)`, with each position as `prepare` makes it once for all intervals.
@@ -33,7 +33,7 @@ pub(super) fn rate_limited<P, C: Fn(&P) -> f64>(
     if departure.is_none() && steps.all(|(start, end)| (end - start).abs() <= max_deg) {
         return targets.to_vec();
     }
-    let mut bounds = Envelope::envelope_of(targets, max_deg);
+    let mut bounds = Envelope::new(targets, max_deg);
     if let Some(departure) = departure {
         bounds.keep_within_reach(departure, max_deg);
     }
@@ -68,7 +68,7 @@ struct Envelope {
 }
 
 impl Envelope {
-    fn envelope_of(targets: &[f64], max_deg: f64) -> Self {
+    fn new(targets: &[f64], max_deg: f64) -> Self {
         let mut high = lowest(targets.iter().map(|place| -place).collect(), max_deg);
         for place in &mut high {
             *place = -*place;
@@ -129,7 +129,7 @@ mod tests {
         way.windows(2).map(|two| (two[1] - two[0]).abs()).fold(0.0, f64::max)
     }
 
-    /// Positions along `wanted`, with errors weighted by `weight`.
+    /// Positions along `targets`, with errors weighted by `weight`.
     fn weighted(targets: &[f64], weight: &[f64], max_deg: f64) -> Vec<f64> {
         let cost = |index: usize| {
             move |place: &f64| weight[index] * (1.0 - (place - targets[index]).to_radians().cos())

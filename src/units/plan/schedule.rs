@@ -28,7 +28,7 @@ mod way;
 
 pub use between_passes::{LEAD_S, between, parks_within_s, sets_out};
 use board::{Board, Fact};
-pub use changes::{Cause, Change, Changed, changes};
+pub use changes::{Change, ChangeCause, Changed, changes};
 pub use joining::Joining;
 pub use of_station::{deciding_rule, sun_is};
 pub use outcome::{ClassWorth, Conflict, Entry, LeftOut, Proof, Schedule, Why};

@@ -29,13 +29,13 @@ mod status;
 mod text;
 mod word;
 
-pub use clock::{Clock, ClockTime, StartStopTime, TimedPosition, TrackWindow};
+pub use clock::{ClockTime, StartStopTime, TimedPosition, TrackWindow, UnitTime};
 pub use explain::{Value, explain_reply, explain_request};
 pub use faults::{FaultKind, FaultState, Faults};
 pub use fields::{FieldError, FieldProblem};
 pub use frame::{
-    Decoder, Frame, FrameError, HIDDEN, Line, MAX_LINE_BYTES, Oddity, Shown, checksum, encode,
-    redact,
+    Decoder, Frame, FrameError, HIDDEN, MAX_LINE_BYTES, Oddity, ReceivedLine, Shown, checksum,
+    encode, redact,
 };
 pub use gps::{GpsData, GpsSettings, GpsSettingsChange, Position};
 pub use meaning::{Meaning, Tone};

@@ -28,7 +28,7 @@ impl AntennaId {
     /// Id of a station's first antenna.
     pub const FIRST: Self = Self(1);
 
-    /// The first id from `from` on that is not in `taken`.
+    /// The first id from `first` on that is not in `used`.
     #[must_use]
     pub fn free(first: Self, used: &[Self]) -> Self {
         let mut id = first;

@@ -102,7 +102,8 @@ impl Connection {
 
 impl Serialize for Connection {
     fn serialize<S: Serializer>(&self, out: S) -> Result<S::Ok, S::Error> {
-        let all: Vec<Entry<'_>> = self.spec.settings.iter().copied().zip(&self.values).collect();
+        let all: Vec<SettingEntry<'_>> =
+            self.spec.settings.iter().copied().zip(&self.values).collect();
         let mut map = out.serialize_map(None)?;
         map.serialize_entry("controller", self.spec.key)?;
         map.serialize_entry("address", &self.address)?;
@@ -116,10 +117,10 @@ impl Serialize for Connection {
     }
 }
 
-type Entry<'a> = (&'static Setting, &'a Value);
+type SettingEntry<'a> = (&'static Setting, &'a Value);
 
 /// The settings of one table and their values.
-struct OfTable<'a>(&'a [Entry<'a>]);
+struct OfTable<'a>(&'a [SettingEntry<'a>]);
 
 impl Serialize for OfTable<'_> {
     fn serialize<S: Serializer>(&self, out: S) -> Result<S::Ok, S::Error> {
@@ -129,7 +130,7 @@ impl Serialize for OfTable<'_> {
     }
 }
 
-fn write<M: SerializeMap>(values: &[Entry<'_>], map: &mut M) -> Result<(), M::Error> {
+fn write<M: SerializeMap>(values: &[SettingEntry<'_>], map: &mut M) -> Result<(), M::Error> {
     values.iter().filter(|(_, value)| !is_empty(value)).try_for_each(|(setting, value)| {
         map.serialize_entry(setting.field.key, &Spelled(setting, value))
     })

@@ -62,12 +62,12 @@ pub struct LockOuts {
 struct File {
     version: i64,
     #[serde(default, rename = "lock_out")]
-    lock_outs: Vec<Entry>,
+    lock_outs: Vec<LockOutEntry>,
 }
 
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Entry {
+struct LockOutEntry {
     make: String,
     address: String,
     #[serde(rename = "by", deserialize_with = "one_line")]
@@ -125,8 +125,8 @@ impl LockOuts {
         if file.version != VERSION {
             return Err(format!("it has version {}, this program knows {VERSION}", file.version));
         }
-        let unit = |line: Entry| {
-            let Entry { make, address, operator, reason, start } = line;
+        let unit = |line: LockOutEntry| {
+            let LockOutEntry { make, address, operator, reason, start } = line;
             (UnitKey { make, address }, LockOut { by: operator, reason, since: start })
         };
         Ok(file.lock_outs.into_iter().map(unit).collect())
@@ -183,7 +183,7 @@ impl LockOuts {
         let line = |(unit, lock_out): (&UnitKey, &LockOut)| {
             let (UnitKey { make, address }, LockOut { by: operator, reason, since: start }) =
                 (unit.clone(), lock_out.clone());
-            Entry { make, address, operator, reason, start }
+            LockOutEntry { make, address, operator, reason, start }
         };
         let lock_outs = self.units.iter().map(line).collect();
         toml::to_string_pretty(&File { version: VERSION, lock_outs })

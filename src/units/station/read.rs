@@ -66,7 +66,7 @@ pub(super) struct Read {
 
 #[expect(clippy::redundant_closure_for_method_calls, reason = "a path names one lifetime")]
 pub(super) fn read(mut table: Table, specs: &[&'static ControllerSpec]) -> Read {
-    let mut fields = Fields::new(&mut table, String::new());
+    let mut fields = TableFields::new(&mut table, String::new());
     let default = Station::default();
     // Checked in `file`, which refuses files of a newer program.
     fields.table.remove("version");
@@ -111,12 +111,12 @@ pub(super) fn read(mut table: Table, specs: &[&'static ControllerSpec]) -> Read 
     let groups: Vec<&str> = station.groups.iter().map(|group| &*group.name).collect();
     station.rules = fields.list("rule", |rule| rule.automation_rule(&antennas, &groups));
     fields.name_the_unknown();
-    let Fields { notes, left_out, antenna_places, .. } = fields;
+    let TableFields { notes, left_out, antenna_places, .. } = fields;
     station.unread = unread::safety_entries(&notes, &antenna_places);
     Read { station, notes, left_out }
 }
 
-struct Fields<'a> {
+struct TableFields<'a> {
     table: &'a mut Table,
     path: String,
     notes: Vec<Note>,
@@ -125,14 +125,14 @@ struct Fields<'a> {
     antenna_places: Vec<(String, AntennaId)>,
 }
 
-impl<'a> Fields<'a> {
+impl<'a> TableFields<'a> {
     fn new(table: &'a mut Table, path: String) -> Self {
         let (notes, left_out, antenna_places) = (Vec::new(), Vec::new(), Vec::new());
         Self { table, path, notes, left_out, antenna_places }
     }
 }
 
-impl Fields<'_> {
+impl TableFields<'_> {
     fn note(&mut self, key: &str, reason: NoteReason) {
         self.notes.push(Note { place: format!("{}{key}", self.path), line: None, reason });
     }
@@ -142,7 +142,7 @@ impl Fields<'_> {
     }
 
     /// Adds the notes of a nested table.
-    fn note_all_of(&mut self, mut part: Fields<'_>) {
+    fn note_all_of(&mut self, mut part: TableFields<'_>) {
         self.notes.append(&mut part.notes);
         self.left_out.append(&mut part.left_out);
     }
@@ -245,7 +245,11 @@ impl Fields<'_> {
     }
 
     /// Reads the tables of the list `key`. Those that cannot be used are left out with a note.
-    fn list<T>(&mut self, key: &str, mut read: impl FnMut(&mut Fields<'_>) -> Option<T>) -> Vec<T> {
+    fn list<T>(
+        &mut self,
+        key: &str,
+        mut read: impl FnMut(&mut TableFields<'_>) -> Option<T>,
+    ) -> Vec<T> {
         let tables = match self.table.remove(key) {
             None => return Vec::new(),
             Some(Value::Array(tables)) => tables,
@@ -276,10 +280,10 @@ impl Fields<'_> {
         &mut self,
         place: &str,
         mut table: Table,
-        read: impl FnOnce(&mut Fields<'_>) -> T,
+        read: impl FnOnce(&mut TableFields<'_>) -> T,
     ) -> T {
         let path = format!("{}{place}.", self.path);
-        let mut fields = Fields::new(&mut table, path);
+        let mut fields = TableFields::new(&mut table, path);
         let value = read(&mut fields);
         fields.name_the_unknown();
         self.note_all_of(fields);
@@ -305,7 +309,7 @@ impl Fields<'_> {
                 continue;
             };
             let path = format!("{place}.");
-            let mut fields = Fields::new(&mut table, path.clone());
+            let mut fields = TableFields::new(&mut table, path.clone());
             // Ids given later in the file are taken before a missing one is filled in.
             let later = ids.iter().skip(index + 1).flatten().copied();
             let used_ids: Vec<AntennaId> =
@@ -330,7 +334,7 @@ impl Fields<'_> {
     }
 
     /// Reads the fields of the table `key`; a missing table counts as empty.
-    fn inner<T>(&mut self, key: &str, read: impl FnOnce(&mut Fields<'_>) -> T) -> T {
+    fn inner<T>(&mut self, key: &str, read: impl FnOnce(&mut TableFields<'_>) -> T) -> T {
         let table = match self.table.remove(key) {
             None => Table::new(),
             Some(Value::Table(table)) => table,

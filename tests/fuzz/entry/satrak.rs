@@ -2,8 +2,8 @@
 //! frame.
 
 use azel::protocol::satrak::{
-    Decoder, Frame, Line, MAX_LINE_BYTES, Meaning, Reply, Request, Setting, encode, explain_reply,
-    explain_request,
+    Decoder, Frame, MAX_LINE_BYTES, Meaning, ReceivedLine, Reply, Request, Setting, encode,
+    explain_reply, explain_request,
 };
 
 use super::no_infinity::is_finite;
@@ -18,7 +18,7 @@ pub(crate) fn run(bytes: &[u8]) {
     }
 }
 
-fn lines(bytes: &[u8], piece: usize) -> Vec<Line> {
+fn lines(bytes: &[u8], piece: usize) -> Vec<ReceivedLine> {
     let mut decoder = Decoder::new();
     let mut seen = Vec::new();
     for piece in bytes.chunks(piece) {
@@ -31,7 +31,7 @@ fn lines(bytes: &[u8], piece: usize) -> Vec<Line> {
 
 fn stream(bytes: &[u8]) {
     let whole = lines(bytes, MAX_LINE_BYTES);
-    let total: usize = whole.iter().map(Line::length).sum();
+    let total: usize = whole.iter().map(ReceivedLine::length).sum();
     assert!(total <= bytes.len());
     // An over-long line is given up where the piece ends.
     if whole.iter().all(|line| line.length() <= MAX_LINE_BYTES) {

@@ -11,13 +11,13 @@ const STEP: f64 = 0.02;
 
 /// A spherical cap that contains the zone.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Cap {
+pub(super) struct ZoneCap {
     centre: DVec3,
     /// Radians.
     radius: f64,
 }
 
-impl Cap {
+impl ZoneCap {
     /// A cap that contains all `edges` and their inside. It is the whole sphere where the edges
     /// span a hemisphere or the cap would contain the nadir, because then the inside may be the
     /// side of the edges that a smaller cap leaves out.

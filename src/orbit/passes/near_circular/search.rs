@@ -65,6 +65,7 @@ fn passes_of<'a>(
             break;
         }
         let guesses_s = batch.take(fly_bys);
+        // The guesses come from the orbit plane alone; refined ones need fewer exact states.
         let at_s = batch.refined(window, guesses_s);
         for (fly_by, at_s) in fly_bys.iter_mut().zip(at_s.as_array()) {
             fly_by.at_s = *at_s;
@@ -102,12 +103,14 @@ fn passes_at(
         & setting.places.at_s.is_less(Lanes::splat(window.length_s));
     let before = iter::once(last).chain(fly_bys.iter().copied().map(Some));
     for (lane, (fly_by, before)) in fly_bys.iter().zip(before).enumerate() {
+        // Two guesses may lead to the same fly-by; the pass must be found once.
         if before.is_some_and(|before| fly_by.is_same(&before)) {
             continue;
         }
         let satellite = fly_by.satellite;
         let track = satellite.track;
         track.count(1);
+        // Most fly-bys stay below the floor, and need no AOS and LOS.
         if is_low.holds_in(lane) {
             continue;
         }
@@ -118,6 +121,7 @@ fn passes_at(
             Some(track.pass(points.each_ref(), [false, false]))
         } else {
             let crest = is_crest.holds_in(lane).then(|| crests.lane(lane));
+            // Cut at the window, or not converged: rare enough to be handled one by one.
             alone(satellite, &series, crest, [&rising, &setting], lane)
         };
         found.extend(pass);
@@ -194,6 +198,7 @@ fn edge_alone(
     let near = places.lane(lane);
     let is_near = is_beside(half_pass_s, crest, &near, *side);
     track.count(usize::from(is_near));
+    // A step that led away from the pass may have found the edge of another one.
     let guess_s = if is_near { near.at_s } else { series.at_s + guess_tau.lane(lane) };
     let outside_s = crest.at_s + side * MAX_HALF_PASSES * half_pass_s;
     track.crossing(outside_s, guess_s, crest.at_s)

@@ -3,7 +3,7 @@
 
 use csv_core::{ReadRecordResult, Reader, ReaderBuilder};
 
-use super::{Field, Message, Value};
+use super::{Field, MessageFields, Value};
 use crate::reader::{ReadReport, RefusalReason};
 
 /// Maximum number of fields of a row that are read; real rows have some forty. A line without an
@@ -58,7 +58,7 @@ pub(in crate::reader) fn read(text: &str) -> ReadReport {
         if header.is_empty() {
             continue;
         }
-        let mut message = Message::default();
+        let mut message = MessageFields::default();
         for (field, text) in header.iter().zip(row.fields()) {
             if let Some(field) = *field {
                 let has_comma = row.separator != b',' && field.is_number() && text.contains(',');

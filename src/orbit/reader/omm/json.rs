@@ -7,7 +7,7 @@ use std::{borrow::Cow, fmt};
 use serde::de::{DeserializeSeed, Deserializer, IgnoredAny, MapAccess, SeqAccess, Visitor};
 
 use self::split::{Part, parts};
-use super::{Field, Message, Value};
+use super::{Field, MessageFields, Value};
 use crate::reader::{ReadReport, RefusalReason};
 
 pub(in crate::reader) fn read(text: &str) -> ReadReport {
@@ -23,7 +23,7 @@ pub(in crate::reader) fn read(text: &str) -> ReadReport {
             }
             continue;
         }
-        let mut message = Message::default();
+        let mut message = MessageFields::default();
         let mut json = serde_json::Deserializer::from_str(text);
         let filled = Fill(&mut message).deserialize(&mut json).and_then(|()| json.end());
         if filled.is_err() && message.is_empty() && text.trim_end().ends_with('[') {
@@ -53,7 +53,7 @@ pub(in crate::reader) fn read(text: &str) -> ReadReport {
 }
 
 /// Fills a message from a JSON object, as far as it can be read.
-struct Fill<'m, 'a>(&'m mut Message<'a>);
+struct Fill<'m, 'a>(&'m mut MessageFields<'a>);
 
 impl<'de> DeserializeSeed<'de> for Fill<'_, 'de> {
     type Value = ();

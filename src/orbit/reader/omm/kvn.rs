@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use super::{Field, Message, Value};
+use super::{Field, MessageFields, Value};
 use crate::reader::ReadReport;
 
 /// Starts every message; a source that omits it is also read.
@@ -25,7 +25,7 @@ pub(in crate::reader) fn is_comment(line: &str) -> bool {
 
 pub(in crate::reader) fn read(text: &str) -> ReadReport {
     let mut report = ReadReport::default();
-    let (mut message, mut start) = (Message::default(), 1);
+    let (mut message, mut start) = (MessageFields::default(), 1);
     for (index, line) in text.lines().enumerate() {
         let Some((key, value)) = line.split_once('=').filter(|_| !is_comment(line)) else {
             continue;

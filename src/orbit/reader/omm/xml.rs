@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use quick_xml::{Reader, escape::resolve_predefined_entity, events::Event};
 
-use super::{Field, Message, Value};
+use super::{Field, MessageFields, Value};
 use crate::reader::{ReadReport, RefusalReason};
 
 /// Maximum number of bytes examined to find the name of a tag and its prefix.
@@ -21,7 +21,7 @@ pub(in crate::reader) fn is_first(line: &str) -> bool {
 pub(in crate::reader) fn read(text: &str) -> ReadReport {
     let mut report = ReadReport::default();
     for (line, text) in messages(text) {
-        let mut message = Message::default();
+        let mut message = MessageFields::default();
         match fill(&mut message, text) {
             Some(()) => message.finish(line, &mut report),
             None => report.refuse(line, message.object().as_deref(), RefusalReason::Xml),
@@ -65,7 +65,7 @@ fn is_start(text: &str, index: usize, called: [u8; 3]) -> bool {
 }
 
 /// Reads the fields of one message; `None` if the message is not valid XML to its end.
-fn fill<'a>(message: &mut Message<'a>, text: &'a str) -> Option<()> {
+fn fill<'a>(message: &mut MessageFields<'a>, text: &'a str) -> Option<()> {
     let mut reader = Reader::from_str(text);
     reader.config_mut().allow_dangling_amp = true;
     let mut field = None;

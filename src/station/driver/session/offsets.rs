@@ -92,7 +92,7 @@ impl Session {
     fn offers(&self, step: Offset, track: &Tracking) -> Result<(), Refusal> {
         let has_elevation = self.variant.capabilities.has_elevation();
         match step {
-            Offset::Along(_) | Offset::Across(_) if !track.planner.follow().target.moves() => {
+            Offset::Along(_) | Offset::Across(_) if !track.planner.track().target.moves() => {
                 Err(Refusal::TargetStands)
             }
             Offset::Elevation(_) if !has_elevation => Err(Refusal::NotOffered),

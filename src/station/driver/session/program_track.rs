@@ -143,7 +143,7 @@ impl Session {
                 return self.give_up(Event::CannotProgramTrack(name, TrackProblem::NoAngle), now);
             }
         }
-        let phase = track.planner.follow().phase(now.utc);
+        let phase = track.planner.track().phase(now.utc);
         if phase != track.phase {
             self.enter_phase(phase, now);
         }
@@ -159,7 +159,7 @@ impl Session {
             (track.predicted, track.on_path) = (None, None);
             track.off_target = OffTarget::default();
             // They were for the pass.
-            let begins_with = track.planner.follow().offsets;
+            let begins_with = track.planner.track().offsets;
             track.planner.set_offsets(begins_with);
             track.earlier.clear();
             let stats = std::mem::take(&mut track.stats);

@@ -1,6 +1,6 @@
 //! The actions that only an RC2000C has, and their commands.
 
-use super::{Order, Rc2000c, refusal::is_tracking};
+use super::{QueuedRequest, Rc2000c, refusal::is_tracking};
 use crate::{
     device::{
         Asked, ControllerEvent, Device,
@@ -145,7 +145,7 @@ impl Rc2000c {
             return self.events.push_back(ControllerEvent::Refused(origin, reason));
         }
         match act.action {
-            READ_LIST => self.names = super::Names::default(),
+            READ_LIST => self.names = super::SatelliteNames::default(),
             RESET_AZIMUTH => self.reset(DriveReset::Azimuth, origin),
             RESET_ELEVATION => self.reset(DriveReset::Elevation, origin),
             RESET_POLARIZATION => self.reset(DriveReset::Polarization, origin),
@@ -159,7 +159,9 @@ impl Rc2000c {
     fn reset(&mut self, drive: DriveReset, origin: Asked) {
         let reset = Request::Motion(UnitMotion::ResetDrive(drive));
         let origin = Some(origin);
-        self.orders.extend([Request::Stop, reset].map(|request| Order { request, origin: origin }));
+        self.orders.extend(
+            [Request::Stop, reset].map(|request| QueuedRequest { request, origin: origin }),
+        );
     }
 
     fn request_of(&self, act: &Act) -> Result<Request, String> {

@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use super::{
-    DEVICE_TYPE, HeldJog, Names, Past, RENEWAL, Rc2000c, STATUS, VARIANT,
+    DEVICE_TYPE, HeldJog, Past, RENEWAL, Rc2000c, STATUS, SatelliteNames, VARIANT,
     exchange::{Outstanding, Purpose},
     refusal::is_tracking,
 };
@@ -34,7 +34,7 @@ impl Device for Rc2000c {
         self.device = None;
         self.is_offline = false;
         self.wants_device = true;
-        self.names = Names::default();
+        self.names = SatelliteNames::default();
         self.poll_at = Some(now.steady);
         self.refresh_panel();
     }

@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use super::{Order, Rc2000c, axes::Axes, checks, line::GAP, line::Line, readings, refusal};
+use super::{QueuedRequest, Rc2000c, axes::Axes, checks, line::GAP, line::Line, readings, refusal};
 use crate::{
     clock::{Instant, Moment},
     controller::reply_clock::ReplyClock,
@@ -204,7 +204,7 @@ impl Rc2000c {
         }
     }
 
-    /// Takes a status. `asked`: when its question went out at the earliest; `sent`: at the
+    /// Takes a status. `moment`: when its question went out at the earliest; `sent`: at the
     /// latest.
     fn take_status(&mut self, status: Status, moment: Moment, sent: Moment, now: Moment) {
         // A unit that was not allowed to answer is asked for its type once it is.
@@ -251,7 +251,7 @@ impl Rc2000c {
         let units = status.feed.units().filter(|_| is_under_way && !is_automatic);
         if let Some(here) = units.and_then(|units| PolarizationUnits::new(units).ok()) {
             let request = Request::Motion(UnitMotion::AutoMove(AutoMove::polarization(here)));
-            self.orders.push_back(Order { request, origin: None });
+            self.orders.push_back(QueuedRequest { request, origin: None });
         }
     }
 

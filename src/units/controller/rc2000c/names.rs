@@ -4,13 +4,13 @@ use crate::protocol::rc2000c::{NameEntry, NameIndex, SatelliteName};
 
 /// The list, as far as it was read on this link.
 #[derive(Debug, Default)]
-pub(super) struct Names {
+pub(super) struct SatelliteNames {
     read: Vec<SatelliteName>,
     /// Number of entries, once an entry or a refusal has shown it.
     count: Option<u8>,
 }
 
-impl Names {
+impl SatelliteNames {
     /// The next entry to ask for; `None` when all were read.
     pub(super) fn next(&self) -> Option<NameIndex> {
         if self.is_complete() {
@@ -60,7 +60,7 @@ mod tests {
 
     #[test]
     fn entries_are_asked_for_one_by_one() {
-        let mut names = Names::default();
+        let mut names = SatelliteNames::default();
         assert_eq!(names.next().map(NameIndex::number), Some(1));
         names.take(&entry(1, 2, "SBS 6"));
         assert!(!names.is_complete());
@@ -72,10 +72,10 @@ mod tests {
 
     #[test]
     fn a_refusal_and_a_wrong_entry_end_the_list_where_it_is() {
-        let mut names = Names::default();
+        let mut names = SatelliteNames::default();
         names.end();
         assert!(names.is_complete() && names.read().is_empty());
-        let mut names = Names::default();
+        let mut names = SatelliteNames::default();
         names.take(&entry(1, 3, "SBS 6"));
         names.take(&entry(1, 3, "SBS 6"));
         assert!(names.is_complete() && names.read().len() == 1);

@@ -1,6 +1,6 @@
 //! The readings of the front panel, line by line.
 
-use super::{checks, names::Names};
+use super::{checks, names::SatelliteNames};
 use crate::{
     device::panel::{Reading, Tone},
     protocol::rc2000c::{
@@ -13,7 +13,11 @@ use crate::{
 /// Maximum level of the receiver.
 const MAX_AGC: f64 = 1023.0;
 
-pub(super) fn readings(status: &Status, device: Option<DeviceType>, names: &Names) -> Vec<Reading> {
+pub(super) fn readings(
+    status: &Status,
+    device: Option<DeviceType>,
+    names: &SatelliteNames,
+) -> Vec<Reading> {
     let mut lines = Vec::new();
     lines.extend(device.map(|device| Reading::new("Unit", device.to_string())));
     lines.push(Reading::new("Satellite", satellite(status)));
@@ -142,7 +146,7 @@ fn polarization_commands(are_allowed: bool) -> Reading {
     Reading::new("Polarization commands", text).in_tone(tone)
 }
 
-fn stored(names: &Names) -> Option<Reading> {
+fn stored(names: &SatelliteNames) -> Option<Reading> {
     let listed: Vec<&str> = names.read().iter().map(|name| name.as_str().trim()).collect();
     let text = match (listed.is_empty(), names.is_complete()) {
         (true, true) => "none".to_owned(),

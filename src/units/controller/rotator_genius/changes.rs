@@ -7,12 +7,12 @@ use super::{
 };
 use crate::{
     clock::Moment,
-    device::settings::{SettingsWrite, Step, WriteError},
+    device::settings::{SettingsWrite, WriteAction, WriteError},
     protocol::rotator_genius::Request,
 };
 
 /// The next step of a change.
-enum Next {
+enum NextChange {
     Send(Request),
     Over(Result<(), WriteError>),
 }
@@ -23,31 +23,31 @@ impl Genius {
         loop {
             self.changes.begin(&mut self.state, now);
             match self.next_step(self.changes.under_way()?) {
-                Next::Send(Request::Configure(_)) if self.changes.are_locked() => {
+                NextChange::Send(Request::Configure(_)) if self.changes.are_locked() => {
                     self.changes.end(Err(WriteError::LockedOut), &mut self.state, now);
                 }
-                Next::Send(request) => return Some((request, Purpose::WriteSettings)),
-                Next::Over(result) => self.changes.end(result, &mut self.state, now),
+                NextChange::Send(request) => return Some((request, Purpose::WriteSettings)),
+                NextChange::Over(result) => self.changes.end(result, &mut self.state, now),
             }
         }
     }
 
-    fn next_step(&self, settings_write: &SettingsWrite) -> Next {
+    fn next_step(&self, settings_write: &SettingsWrite) -> NextChange {
         match settings_write.step() {
-            Step::Look | Step::ReadBack => Next::Send(Request::Read),
-            Step::Done => Next::Over(settings_write.result()),
+            WriteAction::Look | WriteAction::ReadBack => NextChange::Send(Request::Read),
+            WriteAction::Done => NextChange::Over(settings_write.result()),
             // A unit that is being configured lets go of what it turns.
-            Step::Send if self.moving() || self.motion_waits() => {
-                Next::Over(Err(WriteError::Moving))
+            WriteAction::Send if self.moving() || self.motion_waits() => {
+                NextChange::Over(Err(WriteError::Moving))
             }
-            Step::Send => {
+            WriteAction::Send => {
                 let number = rotator_of(settings_write.group.key).ok_or(WriteError::NoSuchSetting);
                 let sent = number.and_then(|number| {
                     configuration(number, &settings_write.change.values, settings_write.before())
                 });
                 sent.map_or_else(
-                    |error| Next::Over(Err(error)),
-                    |sent| Next::Send(Request::Configure(sent)),
+                    |error| NextChange::Over(Err(error)),
+                    |sent| NextChange::Send(Request::Configure(sent)),
                 )
             }
         }
@@ -60,15 +60,15 @@ impl Genius {
             let Some(number) = rotator_of(settings_write.group.key) else { return Ok(()) };
             let unit_values = values(status, number);
             match settings_write.step() {
-                Step::Look => settings_write.looked(unit_values),
-                Step::ReadBack => {
+                WriteAction::Look => settings_write.looked(unit_values),
+                WriteAction::ReadBack => {
                     let mut sent = settings_write.before().clone();
                     sent.extend(settings_write.change.values.clone());
                     let differing = differing(settings_write.group, &sent, &unit_values);
                     settings_write.read_back(&unit_values, differing);
                     Ok(())
                 }
-                Step::Send | Step::Done => Ok(()),
+                WriteAction::Send | WriteAction::Done => Ok(()),
             }
         });
     }

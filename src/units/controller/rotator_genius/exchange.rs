@@ -69,7 +69,7 @@ impl Outstanding {
         }
     }
 
-    /// Returns `true` if `to` acknowledges it; acknowledgements never name the rotator.
+    /// Returns `true` if `acknowledgement` acknowledges it; acknowledgements never name the rotator.
     pub(super) fn is_acknowledged_by(&self, acknowledgement: Acknowledgement) -> bool {
         match (&self.request, acknowledgement) {
             (

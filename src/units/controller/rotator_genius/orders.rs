@@ -16,7 +16,7 @@ use crate::{
 
 /// One command to one rotator. A motion of both axes is two of them.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Order {
+pub(super) struct QueuedMotion {
     pub(super) request: unit::Motion,
     /// The request it is a part of.
     pub(super) origin: Asked,
@@ -39,7 +39,7 @@ impl Genius {
         self.status.as_ref().map(|status| Roles::new(self.rotators, status))
     }
 
-    /// The make's own reason not to send `asked`.
+    /// The make's own reason not to send `origin`.
     pub(super) fn objection_to(&self, origin: &Asked, now: Moment) -> Option<&'static str> {
         let Some(status) = &self.status else { return Some(NOT_READ) };
         let Roles { axes: [first, second], is_clear, is_pair } = Roles::new(self.rotators, status);
@@ -89,7 +89,7 @@ impl Genius {
     }
 
     /// The commands of `motion`, or the reason why there are none.
-    pub(super) fn orders_for(&self, motion: Motion) -> Result<Vec<Order>, &'static str> {
+    pub(super) fn orders_for(&self, motion: Motion) -> Result<Vec<QueuedMotion>, &'static str> {
         let Roles { axes: [first, second], is_pair, .. } = self.roles().ok_or(NOT_READ)?;
         let requests = match motion {
             Motion::Jog { x_deg_s, y_deg_s } if x_deg_s == 0.0 || y_deg_s == 0.0 => {
@@ -112,16 +112,19 @@ impl Genius {
             }
             _ => return Err(NO_MOTION),
         };
-        Ok(requests.into_iter().map(|request| Order { request, origin: motion.into() }).collect())
+        Ok(requests
+            .into_iter()
+            .map(|request| QueuedMotion { request, origin: motion.into() })
+            .collect())
     }
 
-    pub(super) fn order_for(&self, act: &Act) -> Result<Order, &'static str> {
+    pub(super) fn order_for(&self, act: &Act) -> Result<QueuedMotion, &'static str> {
         let degrees = DIRECTION.of(&act.values).and_then(|degrees| u16::try_from(degrees).ok());
         let target =
             degrees.and_then(|degrees| WholeDegrees::new(degrees).ok()).ok_or(OUT_OF_RANGE)?;
         let Roles { axes: [_, rotator], .. } = self.roles().ok_or(NOT_READ)?;
         let request = unit::Motion::GoTo { rotator, target };
-        Ok(Order { request, origin: Asked::Action(act.action) })
+        Ok(QueuedMotion { request, origin: Asked::Action(act.action) })
     }
 
     /// Meaning of an `F`, as far as the last status shows: the unit never says.

@@ -8,14 +8,14 @@ use crate::{
     protocol::rotator_genius::{Moving, Rotator, RotatorKind, RotatorNumber, Status, WholeDegrees},
 };
 
-struct Names {
+struct RotatorNames {
     sensor: &'static str,
     limits: &'static str,
 }
 
-const NAMES: [Names; 2] = [
-    Names { sensor: "Sensor of rotator 1", limits: "Limits of rotator 1" },
-    Names { sensor: "Sensor of rotator 2", limits: "Limits of rotator 2" },
+const NAMES: [RotatorNames; 2] = [
+    RotatorNames { sensor: "Sensor of rotator 1", limits: "Limits of rotator 1" },
+    RotatorNames { sensor: "Sensor of rotator 2", limits: "Limits of rotator 2" },
 ];
 
 /// Faults and warnings of the rotators that turn this antenna.

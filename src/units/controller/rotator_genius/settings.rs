@@ -99,7 +99,7 @@ pub(super) fn configuration(
         .map_err(|error| cannot(STOP_OFFSET.name, error.to_string()))
 }
 
-/// The fields in which `held` differs from `sent`. All are sent, so all are compared.
+/// The fields in which `unit_values` differs from `sent`. All are sent, so all are compared.
 pub(super) fn differing(group: &Group, sent: &Values, unit_values: &Values) -> Vec<&'static str> {
     let differs = |field: &&Field| match (sent.get(field.key), unit_values.get(field.key)) {
         (Some(sent), Some(current)) => !field.kind.same(sent, current),

@@ -9,7 +9,7 @@ use crate::{
 };
 
 impl Genius {
-    /// Takes a status. `asked`: when the question went out that it answers; `sent`: when the
+    /// Takes a status. `question_time`: when the question went out that it answers; `sent`: when the
     /// last one did.
     pub(super) fn take_status(
         &mut self,

@@ -18,7 +18,7 @@ const STATUS: &[u8] =
 
 /// Something that happens to a device.
 #[derive(Debug, Clone)]
-enum Step {
+enum ScriptStep {
     Wait(u64),
     Receive(Vec<u8>),
     Start(Motion),
@@ -50,17 +50,17 @@ fn motion() -> impl Strategy<Value = Motion> {
     ]
 }
 
-fn step() -> impl Strategy<Value = Step> {
+fn step() -> impl Strategy<Value = ScriptStep> {
     prop_oneof![
-        6 => (0_u64..1500).prop_map(Step::Wait),
-        6 => bytes().prop_map(Step::Receive),
-        3 => motion().prop_map(Step::Start),
+        6 => (0_u64..1500).prop_map(ScriptStep::Wait),
+        6 => bytes().prop_map(ScriptStep::Receive),
+        3 => motion().prop_map(ScriptStep::Start),
         1 => (prop::sample::select(vec![OTHER, RESCUE, "none"]), -10_i64..400)
-            .prop_map(|(action, degrees)| Step::Act(action, degrees)),
-        1 => Just(Step::WriteSettings),
-        1 => Just(Step::Halt),
-        1 => Just(Step::LinkUp),
-        1 => Just(Step::LinkDown),
+            .prop_map(|(action, degrees)| ScriptStep::Act(action, degrees)),
+        1 => Just(ScriptStep::WriteSettings),
+        1 => Just(ScriptStep::Halt),
+        1 => Just(ScriptStep::LinkUp),
+        1 => Just(ScriptStep::LinkDown),
     ]
 }
 
@@ -81,20 +81,20 @@ proptest! {
         genius.link_up(now);
         for step in steps {
             match step {
-                Step::Wait(ms) => now.steady += Duration::from_millis(ms),
-                Step::Receive(bytes) => genius.receive(&bytes, now),
-                Step::Start(motion) => {
+                ScriptStep::Wait(ms) => now.steady += Duration::from_millis(ms),
+                ScriptStep::Receive(bytes) => genius.receive(&bytes, now),
+                ScriptStep::Start(motion) => {
                     let _ = genius.objection(&motion.into(), now);
                     genius.start(motion);
                 }
-                Step::Act(action, degrees) => {
+                ScriptStep::Act(action, degrees) => {
                     let values: Values = [actions::DIRECTION.with(degrees)].into();
                     genius.act(Act { action, values });
                 }
-                Step::WriteSettings => genius.write_settings(settings_write(), now),
-                Step::Halt => prop_assert_eq!(genius.halt(Extent::Motion, now), b"|S"),
-                Step::LinkUp => genius.link_up(now),
-                Step::LinkDown => genius.link_down(now),
+                ScriptStep::WriteSettings => genius.write_settings(settings_write(), now),
+                ScriptStep::Halt => prop_assert_eq!(genius.halt(Extent::Motion, now), b"|S"),
+                ScriptStep::LinkUp => genius.link_up(now),
+                ScriptStep::LinkDown => genius.link_down(now),
             }
             let mut sent = 0;
             while let Some(bytes) = genius.poll(now) {

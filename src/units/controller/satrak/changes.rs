@@ -3,7 +3,7 @@
 use super::{
     Satrak,
     settings::Plan,
-    settings_plan::{Doing, Next},
+    settings_plan::{Doing, NextRequest},
 };
 use crate::{
     clock::{Instant, Moment},
@@ -22,11 +22,11 @@ impl Satrak {
 
     /// The next step of the present change; `None` while there is none, or while the unit
     /// still works on a setting.
-    fn next_of_change(&self, now: Moment) -> Option<Next> {
+    fn next_of_change(&self, now: Moment) -> Option<NextRequest> {
         let settings_write = self.changes.under_way().filter(|_| self.slow.is_none())?;
         Some(match Plan::for_key(settings_write.group.key) {
             Some(plan) => plan.next(settings_write, self.doing(), now),
-            None => Next::Over(Err(WriteError::NoSuchSetting)),
+            None => NextRequest::Over(Err(WriteError::NoSuchSetting)),
         })
     }
 
@@ -34,13 +34,13 @@ impl Satrak {
     /// nothing to wait for.
     pub(super) fn write_request(&mut self, now: Moment) -> Option<Request> {
         match self.next_of_change(now)? {
-            Next::Send(Request::Setting(_)) if self.changes.are_locked() => {
+            NextRequest::Send(Request::Setting(_)) if self.changes.are_locked() => {
                 self.end_change(Err(WriteError::LockedOut), now);
                 None
             }
-            Next::Send(request) => Some(request),
-            Next::At(_) => None,
-            Next::Over(result) => {
+            NextRequest::Send(request) => Some(request),
+            NextRequest::At(_) => None,
+            NextRequest::Over(result) => {
                 self.end_change(result, now);
                 None
             }
@@ -53,8 +53,8 @@ impl Satrak {
             return None;
         }
         Some(match self.next_of_change(now) {
-            Some(Next::At(time)) => time,
-            Some(Next::Send(_) | Next::Over(_)) | None => now.steady,
+            Some(NextRequest::At(time)) => time,
+            Some(NextRequest::Send(_) | NextRequest::Over(_)) | None => now.steady,
         })
     }
 

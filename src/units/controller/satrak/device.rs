@@ -3,8 +3,8 @@
 use std::time::Duration;
 
 use super::{
-    DRAIN, REPLY, Satrak, checks, exchange::Outstanding, prepare::Preparation, schedule::Schedule,
-    settings::Plan, waiting_motion::WaitingMotion, words,
+    DRAIN, REPLY, Satrak, checks, exchange::Outstanding, prepare::Preparation,
+    schedule::QuerySchedule, settings::Plan, waiting_motion::WaitingMotion, words,
 };
 use crate::{
     clock::{Instant, Moment},
@@ -31,7 +31,7 @@ impl Device for Satrak {
         (unit.clock_is_from_gps, unit.gps_lock_delay_s) = (None, None);
         (unit.settings, unit.satellite, unit.window) = (None, None, None);
         self.state.on_board = unit.on_board();
-        self.schedule = Some(Schedule::new(now.steady));
+        self.schedule = Some(QuerySchedule::new(now.steady));
     }
 
     fn link_down(&mut self, now: Moment) {

@@ -6,7 +6,7 @@ use super::{REPLY, Satrak, exchange::Outstanding, words};
 use crate::{
     clock::{Instant, Moment},
     device::{Direction, Finding, Meaning, WireLine},
-    protocol::satrak::{Decoder, FrameError, Halt, Line, Verb, Word},
+    protocol::satrak::{Decoder, FrameError, Halt, ReceivedLine, Verb, Word},
 };
 
 impl Satrak {
@@ -30,7 +30,7 @@ impl Satrak {
     }
 
     /// Records a line that was received and not acted upon yet.
-    pub(super) fn record_received(&mut self, line: &Line, now: Moment) {
+    pub(super) fn record_received(&mut self, line: &ReceivedLine, now: Moment) {
         let shown = line.without_secrets(!self.has_heard_frame);
         self.has_heard_frame |= !matches!(line.frame, Err(FrameError::NoHeader { .. }));
         let meaning = meaning_of(line, Direction::Received, &shown.bytes);
@@ -52,13 +52,13 @@ impl Satrak {
     }
 
     /// Returns `true` for a poll or its answer.
-    fn polls(&self, line: &Line) -> bool {
+    fn polls(&self, line: &ReceivedLine) -> bool {
         let Some(command) = command(line) else { return false };
         let outstanding = self.outstanding.as_ref();
         outstanding.is_some_and(|sent| sent.answers(command) && sent.is_regular_poll())
     }
 
-    fn reply_after(&self, line: &Line, now: Moment) -> Option<Duration> {
+    fn reply_after(&self, line: &ReceivedLine, now: Moment) -> Option<Duration> {
         let command = command(line)?;
         let requests = [&self.outstanding, &self.slow, &self.probe].into_iter().flatten();
         let request = requests.into_iter().find(|sent| sent.answers(command));
@@ -74,22 +74,22 @@ impl Satrak {
     }
 }
 
-fn command(line: &Line) -> Option<(Word, Verb)> {
+fn command(line: &ReceivedLine) -> Option<(Word, Verb)> {
     line.frame.as_ref().ok()?.command()
 }
 
 /// A received line whose bytes are not shown.
-fn blank(line: &Line, now: Moment) -> WireLine {
+fn blank(line: &ReceivedLine, now: Moment) -> WireLine {
     let length = line.length();
     WireLine { length, ..WireLine::new(Direction::Received, &[], finding(line), now.utc) }
 }
 
 /// Meaning of a good line, by the bytes that are kept; secrets are not among them.
-fn meaning_of(line: &Line, direction: Direction, shown: &[u8]) -> Option<Meaning> {
+fn meaning_of(line: &ReceivedLine, direction: Direction, shown: &[u8]) -> Option<Meaning> {
     line.frame.is_ok().then(|| words::meaning(direction, shown))
 }
 
-fn finding(line: &Line) -> Finding {
+fn finding(line: &ReceivedLine) -> Finding {
     match &line.frame {
         Ok(_) => Finding::Good,
         Err(FrameError::BadChecksum { received, computed, .. }) => {

@@ -26,13 +26,13 @@ const FAULTS_RETRY: Duration = Duration::from_secs(10);
 
 /// The questions, each with the time at which it is due.
 #[derive(Debug)]
-pub(super) struct Schedule {
+pub(super) struct QuerySchedule {
     due: Vec<(Query, Instant)>,
     /// The questions that the unit did not answer the last time.
     missed: Vec<Query>,
 }
 
-impl Schedule {
+impl QuerySchedule {
     /// All questions, due at once, in the order in which a new link is probed.
     pub(super) fn new(now: Instant) -> Self {
         let probe = [Query::Version, Query::Status];
@@ -115,7 +115,7 @@ mod tests {
     fn a_hurried_question_comes_before_those_that_are_overdue() {
         let start = Instant::now();
         let now = start + Duration::from_secs(1);
-        let mut schedule = Schedule::new(start);
+        let mut schedule = QuerySchedule::new(start);
         assert_eq!(schedule.next(now), Some(Query::Version));
         schedule.hurry(Query::Faults, now);
         assert_eq!(schedule.next(now), Some(Query::Faults));
@@ -131,8 +131,8 @@ mod tests {
     fn a_question_without_an_answer_comes_again_soon_and_then_seldom() {
         let start = Instant::now();
         let period = Duration::from_millis(500);
-        let mut schedule = Schedule::new(start);
-        let due = |schedule: &Schedule| {
+        let mut schedule = QuerySchedule::new(start);
+        let due = |schedule: &QuerySchedule| {
             schedule.due.iter().find(|(query, _)| *query == Query::Version).unwrap().1
         };
         schedule.unknown(Query::Version, start, period, false);
@@ -148,7 +148,7 @@ mod tests {
     fn the_position_comes_before_whatever_else_is_due() {
         let start = Instant::now();
         let period = Duration::from_millis(200);
-        let mut schedule = Schedule::new(start);
+        let mut schedule = QuerySchedule::new(start);
         schedule.done(Query::Version, start, period, false);
         schedule.done(Query::Status, start, period, false);
         let now = start + Duration::from_mins(2);
@@ -163,7 +163,7 @@ mod tests {
     #[test]
     fn a_hurry_while_nothing_is_due_is_due_now() {
         let now = Instant::now();
-        let mut schedule = Schedule::new(now);
+        let mut schedule = QuerySchedule::new(now);
         while let Some(query) = schedule.next(now) {
             schedule.done(query, now, Duration::from_millis(500), false);
         }

@@ -4,7 +4,7 @@
 use super::settings::{Desired, Plan, Proof};
 use crate::{
     clock::Moment,
-    device::settings::{Hindrance, ReadFailure, SettingsWrite, Step, WriteError},
+    device::settings::{Hindrance, ReadFailure, SettingsWrite, WriteAction, WriteError},
     protocol::satrak::{Faults, Reply, Request},
 };
 
@@ -12,7 +12,7 @@ use crate::{
 const FULL_SECOND_NS: i32 = 60_000_000;
 
 /// The next step of a change.
-pub(super) enum Next {
+pub(super) enum NextRequest {
     Send(Request),
     /// Wait until then.
     At(crate::clock::Instant),
@@ -43,40 +43,49 @@ impl Doing {
 
 impl Plan {
     /// The next step of a change of this group.
-    pub(super) fn next(&self, settings_write: &SettingsWrite, doing: Doing, now: Moment) -> Next {
+    pub(super) fn next(
+        &self,
+        settings_write: &SettingsWrite,
+        doing: Doing,
+        now: Moment,
+    ) -> NextRequest {
         match settings_write.step() {
-            Step::Look | Step::ReadBack => Next::Send(Request::Query(self.query)),
-            Step::Done => match self.also.get(settings_write.checked()) {
-                Some(query) => Next::Send(Request::Query(*query)),
-                None => Next::Over(settings_write.result()),
+            WriteAction::Look | WriteAction::ReadBack => {
+                NextRequest::Send(Request::Query(self.query))
+            }
+            WriteAction::Done => match self.also.get(settings_write.checked()) {
+                Some(query) => NextRequest::Send(Request::Query(*query)),
+                None => NextRequest::Over(settings_write.result()),
             },
-            Step::Send => self.command(settings_write, doing, now),
+            WriteAction::Send => self.command(settings_write, doing, now),
         }
     }
 
-    fn command(&self, settings_write: &SettingsWrite, doing: Doing, now: Moment) -> Next {
+    fn command(&self, settings_write: &SettingsWrite, doing: Doing, now: Moment) -> NextRequest {
         if settings_write.needs_standstill() && doing.moves {
-            return Next::Over(Err(WriteError::Moving));
+            return NextRequest::Over(Err(WriteError::Moving));
         }
         if let Some((field, hindrance)) = settings_write.moving_field().zip(doing.hindrance()) {
-            return Next::Over(Err(WriteError::Hindered { field, hindrance }));
+            return NextRequest::Over(Err(WriteError::Hindered { field, hindrance }));
         }
         if self.is_clock {
             let after = now.utc.subsec_nanosecond().rem_euclid(1_000_000_000);
             if after > FULL_SECOND_NS {
                 let wait = 1_000_000_000_u32.saturating_sub(after.unsigned_abs());
-                return Next::At(now.steady + std::time::Duration::from_nanos(wait.into()));
+                return NextRequest::At(now.steady + std::time::Duration::from_nanos(wait.into()));
             }
         }
-        let Some(write) = self.write else { return Next::Over(Err(WriteError::NoSuchSetting)) };
+        let Some(write) = self.write else {
+            return NextRequest::Over(Err(WriteError::NoSuchSetting));
+        };
         let desired = Desired {
             new: &settings_write.change.values,
             unit_values: settings_write.before(),
             utc: now.utc,
         };
         match write(&desired) {
-            Ok(setting) => Next::Send(Request::Setting(setting)),
-            Err(error) => Next::Over(Err(error)),
+            Ok(setting) => NextRequest::Send(Request::Setting(setting)),
+            Err(error) => NextRequest::Over(Err(error)),
         }
     }
 
@@ -89,16 +98,16 @@ impl Plan {
     ) -> Result<(), WriteError> {
         let values = || (self.values)(reply).ok_or(WriteError::Unread(ReadFailure::Unanswered));
         match settings_write.step() {
-            Step::Look => settings_write.looked(values()?)?,
-            Step::Send => settings_write.accepted(),
-            Step::ReadBack => {
+            WriteAction::Look => settings_write.looked(values()?)?,
+            WriteAction::Send => settings_write.accepted(),
+            WriteAction::ReadBack => {
                 let (group, current) = (self.group, values()?);
                 let new = &settings_write.change.values;
                 let differing =
                     (self.differing)(&Proof { group, new, unit_values: &current, ahead_s });
                 settings_write.read_back(&current, differing);
             }
-            Step::Done => settings_write.judge(match reply {
+            WriteAction::Done => settings_write.judge(match reply {
                 Reply::Faults(faults) => self.judged(*faults),
                 _ => Ok(()),
             }),

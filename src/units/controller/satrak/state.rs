@@ -20,7 +20,7 @@ use crate::{
 pub(super) const DECIMAL_COMMAS: &str = "The unit seems to write decimal commas. Set it to points.";
 
 impl Satrak {
-    /// Takes a reply. `asked`: when the question went out.
+    /// Takes a reply. `moment`: when the question went out.
     pub(super) fn take_report(&mut self, reply: Reply, moment: Moment, now: Moment) {
         let way = now.steady.saturating_duration_since(moment.steady) / 2;
         let measured_at = now.utc.checked_sub(way).unwrap_or(now.utc);

@@ -103,7 +103,7 @@ fn is_copied(field: &Field) -> bool {
 }
 
 impl SettingsCopy {
-    /// Text of a copy with the values of `groups` in `held`. A group that was not read is
+    /// Text of a copy with the values of `groups` in `unit_settings`. A group that was not read is
     /// named in a comment with the reason.
     pub fn text(head: &CopyHead, groups: &[&'static Group], unit_settings: &Held) -> String {
         let text = |text: &str| toml::Value::String(text.to_owned());

@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 
-use super::{Change, Group, SettingsWrite, Step, WriteError, WriteStep};
+use super::{Change, Group, SettingsWrite, WriteAction, WriteError, WriteStep};
 use crate::{clock::Moment, device::AntennaState};
 
 /// The changes of one unit. [`AntennaState::held`] shows the step of each.
@@ -69,7 +69,7 @@ impl ChangeQueue {
         now: Moment,
     ) -> bool {
         let is_void = |write: &mut SettingsWrite| {
-            let waits = write.step() == Step::Send && !is_sent;
+            let waits = write.step() == WriteAction::Send && !is_sent;
             write.is_judged() && (waits || !write.may_be_sent())
         };
         let begun = self.under_way.take_if(is_void).map(|write| write.change);

@@ -8,7 +8,7 @@ use super::{Access, Change, Field, Group, Guard, ReadFailure, Values, WriteError
 pub(crate) struct SettingsWrite {
     pub(crate) change: Change,
     pub(crate) group: &'static Group,
-    step: Step,
+    step: WriteAction,
     /// Values read before anything was sent.
     before: Values,
     /// Outcome of sending and reading back so far.
@@ -21,7 +21,7 @@ pub(crate) struct SettingsWrite {
 
 /// The answer that a change waits for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Step {
+pub(crate) enum WriteAction {
     /// The present values.
     Look,
     /// The answer to the command.
@@ -49,21 +49,21 @@ impl SettingsWrite {
         if group.guard(&change.values) == Guard::Service && !change.is_unlocked {
             return Err(WriteError::Locked);
         }
-        let (before, step) = (Values::new(), Step::Look);
+        let (before, step) = (Values::new(), WriteAction::Look);
         let change = change.clone();
         Ok(Self { change, group, step, before, result: Ok(()), checked: 0, is_judged })
     }
 
-    pub(crate) fn step(&self) -> Step {
+    pub(crate) fn step(&self) -> WriteAction {
         self.step
     }
 
     /// Progress for the operator.
     pub(crate) fn shown(&self) -> WriteStep {
         match self.step {
-            Step::Look => WriteStep::Looking,
-            Step::Send => WriteStep::Sending,
-            Step::ReadBack | Step::Done => WriteStep::ReadingBack,
+            WriteAction::Look => WriteStep::Looking,
+            WriteAction::Send => WriteStep::Sending,
+            WriteAction::ReadBack | WriteAction::Done => WriteStep::ReadingBack,
         }
     }
 
@@ -86,7 +86,7 @@ impl SettingsWrite {
 
     /// Returns `true` if the unit may have taken any of the change.
     pub(crate) fn may_be_sent(&self) -> bool {
-        self.step != Step::Look
+        self.step != WriteAction::Look
     }
 
     /// Values that the unit held before the change.
@@ -101,13 +101,13 @@ impl SettingsWrite {
         if self.has_changed_meanwhile() {
             return Err(WriteError::ChangedMeanwhile);
         }
-        self.step = Step::Send;
+        self.step = WriteAction::Send;
         Ok(())
     }
 
     /// The unit accepted the command.
     pub(crate) fn accepted(&mut self) {
-        self.step = Step::ReadBack;
+        self.step = WriteAction::ReadBack;
     }
 
     /// Takes the values read back. `differing` are the keys of the fields that do not hold
@@ -121,19 +121,19 @@ impl SettingsWrite {
             }
             Err(error) => Err(error),
         };
-        self.step = Step::Done;
+        self.step = WriteAction::Done;
     }
 
     /// The unit refused the question or command of the present step.
     pub(crate) fn refused(&mut self, code: String) -> Result<(), WriteError> {
         match self.step {
-            Step::Look => return Err(WriteError::Unread(ReadFailure::Refused(code))),
-            Step::Send => {
+            WriteAction::Look => return Err(WriteError::Unread(ReadFailure::Refused(code))),
+            WriteAction::Send => {
                 self.result = Err(WriteError::Refused(code));
-                self.step = Step::ReadBack;
+                self.step = WriteAction::ReadBack;
             }
-            Step::ReadBack => return self.not_read_back(ReadFailure::Refused(code)),
-            Step::Done => self.checked += 1,
+            WriteAction::ReadBack => return self.not_read_back(ReadFailure::Refused(code)),
+            WriteAction::Done => self.checked += 1,
         }
         Ok(())
     }
@@ -141,13 +141,13 @@ impl SettingsWrite {
     /// No readable answer came to the question or command of the present step.
     pub(crate) fn unanswered(&mut self) -> Result<(), WriteError> {
         match self.step {
-            Step::Look => return Err(WriteError::Unread(ReadFailure::Unanswered)),
-            Step::Send => {
+            WriteAction::Look => return Err(WriteError::Unread(ReadFailure::Unanswered)),
+            WriteAction::Send => {
                 self.result = Err(WriteError::Unanswered);
-                self.step = Step::ReadBack;
+                self.step = WriteAction::ReadBack;
             }
-            Step::ReadBack => return self.not_read_back(ReadFailure::Unanswered),
-            Step::Done => self.checked += 1,
+            WriteAction::ReadBack => return self.not_read_back(ReadFailure::Unanswered),
+            WriteAction::Done => self.checked += 1,
         }
         Ok(())
     }

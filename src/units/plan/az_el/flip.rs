@@ -18,7 +18,7 @@ pub(in crate::plan) enum Flip {
 
 /// How free the choice of a flip is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(in crate::plan) enum Choice {
+pub(in crate::plan) enum FlipChoice {
     /// This flip unless another is clearly better.
     Prefer(Flip),
     /// Only this flip.

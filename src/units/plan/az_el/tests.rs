@@ -146,7 +146,7 @@ fn the_best_elevation_costs_least() {
         for elevation_deg in [62.0, 75.0, 89.0] {
             for to_deg in [90.0, 110.0, 180.0] {
                 let direction = AzEl::from_degrees(123.0, elevation_deg);
-                let ends = Some(Ends::new((10.0, to_deg)));
+                let ends = Some(ElevationEnds::new((10.0, to_deg)));
                 let view = View::new(direction, false, ends);
                 let azimuth_deg = f64::from(azimuth_deg);
                 let azimuth = sin_cos(azimuth_deg);

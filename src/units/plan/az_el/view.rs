@@ -21,12 +21,12 @@ pub(super) fn sin_cos(deg: f64) -> SinCos {
 
 /// Ends of an elevation axis.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Ends {
+pub(super) struct ElevationEnds {
     deg: (f64, f64),
     sin_cos: [SinCos; 2],
 }
 
-impl Ends {
+impl ElevationEnds {
     pub(super) fn new(deg: (f64, f64)) -> Self {
         Self { deg, sin_cos: [deg.0, deg.1].map(sin_cos) }
     }
@@ -48,7 +48,7 @@ enum Elevation {
 }
 
 /// Position of the elevation axis where it does not make up for the azimuth, degrees.
-fn nominal_deg(direction: AzEl, is_flipped: bool, ends: Option<Ends>) -> f64 {
+fn nominal_deg(direction: AzEl, is_flipped: bool, ends: Option<ElevationEnds>) -> f64 {
     let elevation_deg = direction.elevation_deg();
     let side_deg = if is_flipped { 180.0 - elevation_deg } else { elevation_deg };
     let (from_deg, to_deg) = ends.map_or((-90.0, 90.0), |ends| ends.deg);
@@ -57,7 +57,7 @@ fn nominal_deg(direction: AzEl, is_flipped: bool, ends: Option<Ends>) -> f64 {
 
 impl View {
     /// Prepares `direction` for an elevation axis between `ends`, flipped or not.
-    pub(super) fn new(direction: AzEl, is_flipped: bool, ends: Option<Ends>) -> Self {
+    pub(super) fn new(direction: AzEl, is_flipped: bool, ends: Option<ElevationEnds>) -> Self {
         let helps = ends.filter(|_| is_overhead(direction));
         Self {
             azimuth: direction.azimuth.radians().sin_cos(),
@@ -72,10 +72,11 @@ impl View {
     /// The best position of the elevation axis for a position of the azimuth axis, in degrees.
     pub(super) fn elevation_deg(
         (direction, is_flipped): (AzEl, bool),
-        ends: Option<Ends>,
+        ends: Option<ElevationEnds>,
         azimuth_deg: f64,
     ) -> f64 {
-        let Some(Ends { deg: (from_deg, to_deg), .. }) = ends.filter(|_| is_overhead(direction))
+        let Some(ElevationEnds { deg: (from_deg, to_deg), .. }) =
+            ends.filter(|_| is_overhead(direction))
         else {
             return nominal_deg(direction, is_flipped, ends);
         };

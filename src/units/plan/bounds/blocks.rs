@@ -5,7 +5,9 @@
 
 use std::{cell::Cell, rc::Rc};
 
-use super::{Angle, AzEl, Barrier, BoundsAt, FINEST_DEG, Mount, Sweep, aim::Aim, near::Named};
+use super::{
+    Angle, AzEl, Barrier, BoundsAt, FINEST_DEG, Mount, Sweep, aim::Aim, near::BarrierName,
+};
 
 /// A part of a range that is smaller than this counts as inside a barrier that may reach into it,
 /// degrees. A motion that goes no further than half of [`FINEST_DEG`] beyond an edge is free.
@@ -77,7 +79,7 @@ impl BoundsAt<'_> {
         }
         let all = self.barriers(self.aim(sweep.middle())).enumerate();
         let barriers = all.filter(|(position, barrier)| {
-            let is_floor = matches!(barrier.name, Named::MinimumElevation);
+            let is_floor = matches!(barrier.name, BarrierName::MinimumElevation);
             !is_floor && index.map_or(!barrier.warns_only, |index| *position == index)
         });
         let barriers: Rc<[usize]> = barriers.map(|(index, _)| index).collect();
@@ -109,7 +111,7 @@ impl BoundsAt<'_> {
             let limit = Angle::from_degrees(radius_deg - FINEST_DEG);
             let as_box = self.box_of(part).filter(|_| aim.sky.is_none());
             let mut near = Vec::new();
-            let mut nearest: Option<(usize, Named<'_>, Angle)> = None;
+            let mut nearest: Option<(usize, BarrierName<'_>, Angle)> = None;
             for index in barriers.iter().copied() {
                 let Some(barrier) = self.barrier(index, aim, vectors) else { continue };
                 let Some(angle) = barrier.angle_below(limit) else { continue };
@@ -145,7 +147,7 @@ impl BoundsAt<'_> {
         is_plain.then(|| (angles(azimuths), angles(elevations)))
     }
 
-    /// The direction of `aim` whose clearance from the barrier at `index` is `least`.
+    /// The direction of `aim` whose clearance from the barrier at `index` is `min`.
     fn nearest_of(&self, aim: Aim, index: usize, min: Angle) -> AzEl {
         let is_nearest = |direction: &AzEl| {
             let only = Aim { axes: *direction, sky: None };

@@ -6,7 +6,7 @@
 use super::{Angle, BoundsAt, Sweep};
 
 /// Samples of both axes, from the first to the last of each.
-type Part = [(usize, usize); 2];
+type SampleRange = [(usize, usize); 2];
 
 impl BoundsAt<'_> {
     /// The least clearance, among the samples of `place`, from each group of barriers. `groups` has
@@ -28,7 +28,7 @@ impl BoundsAt<'_> {
         minima: &mut [Angle],
     ) {
         let samples = place.sampled();
-        let whole: Part = samples.steps.map(|steps| (0, steps));
+        let whole: SampleRange = samples.steps.map(|steps| (0, steps));
         let all: Vec<usize> = (0..groups.len()).collect();
         let mut open = vec![(whole, all)];
         while let Some((part, barriers)) = open.pop() {
@@ -69,7 +69,7 @@ impl BoundsAt<'_> {
 }
 
 /// Both halves of a part of more than one sample.
-fn halves(part: Part) -> Option<[Part; 2]> {
+fn halves(part: SampleRange) -> Option<[SampleRange; 2]> {
     let [first, second] = part;
     let span = |(start, end): (usize, usize)| end - start;
     if span(first).max(span(second)) == 0 {

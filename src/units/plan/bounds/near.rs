@@ -5,7 +5,7 @@ use crate::astro::Zone;
 
 /// A barrier, and how near it is to where the antenna points.
 pub(super) struct Near<'a> {
-    pub(super) name: Named<'a>,
+    pub(super) name: BarrierName<'a>,
     pub(super) warns_only: bool,
     pub(super) angle: Clear<'a>,
 }
@@ -74,13 +74,13 @@ impl Near<'_> {
 
 /// A barrier with a borrowed name.
 #[derive(Debug, Clone, Copy)]
-pub(super) enum Named<'a> {
+pub(super) enum BarrierName<'a> {
     MinimumElevation,
     KeepOut(&'a str),
     Sun,
 }
 
-impl Named<'_> {
+impl BarrierName<'_> {
     pub(super) fn clone_of(self) -> Barrier {
         match self {
             Self::MinimumElevation => Barrier::MinimumElevation,

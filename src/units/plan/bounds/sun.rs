@@ -58,7 +58,7 @@ impl Bounds {
         std::iter::once(time).chain(later).map(|utc| self.at(utc)).collect()
     }
 
-    /// Directions of the axes that stay clear, the nearest to `from` first.
+    /// Directions of the axes that stay clear, the nearest to `start` first.
     pub fn refuges(&self, start: AzEl, time: Timestamp) -> impl Iterator<Item = AzEl> + '_ {
         let furthest_deg = self.sun.map_or(0.0, |sun| 2.0 * sun.radius_deg + BEYOND_DEG);
         let rings = (1..).map(f64::from).take_while(move |ring| ring * RING_DEG <= furthest_deg);

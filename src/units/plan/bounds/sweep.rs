@@ -63,8 +63,8 @@ impl Sweep {
     }
 
     /// Evenly spaced positions, with both ends of each axis.
-    pub(super) fn sampled(self) -> Samples {
-        Samples { sweep: self, steps: self.steps().map(|steps| steps as usize) }
+    pub(super) fn sampled(self) -> SweepSamples {
+        SweepSamples { sweep: self, steps: self.steps().map(|steps| steps as usize) }
     }
 
     pub(super) fn samples(self) -> impl Iterator<Item = [f64; 2]> {
@@ -95,13 +95,13 @@ impl Sweep {
 
 /// Evenly spaced positions of a sweep.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Samples {
+pub(super) struct SweepSamples {
     sweep: Sweep,
     /// Number of steps along each axis.
     pub(super) steps: [usize; 2],
 }
 
-impl Samples {
+impl SweepSamples {
     /// The sample after this number of steps along each axis.
     pub(super) fn sample(self, [first, second]: [usize; 2]) -> [f64; 2] {
         let (Sweep([firsts, seconds]), [all_first, all_second]) = (self.sweep, self.steps);

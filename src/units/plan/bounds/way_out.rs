@@ -4,7 +4,7 @@
 //! barrier lies behind it. Depth is therefore measured along what an axis can really do: turn one
 //! way until the antenna points in an allowed direction.
 
-use super::{AzEl, Bounds, BoundsAt, Named, Sweep};
+use super::{AzEl, BarrierName, Bounds, BoundsAt, Sweep};
 use crate::{astro::Angle, station::Mount};
 
 /// Finest step along a turn, degrees.
@@ -84,7 +84,7 @@ impl BoundsAt<'_> {
         let clearances = self.each_in(place);
         for (barrier, angle, _) in clearances.into_iter().filter(|(_, _, warns_only)| !warns_only) {
             let deep_deg = (-angle.degrees()).max(0.0);
-            if let Named::MinimumElevation = barrier {
+            if let BarrierName::MinimumElevation = barrier {
                 below_deg = deep_deg;
             } else {
                 inside_deg.push(deep_deg);
@@ -128,7 +128,7 @@ impl BoundsAt<'_> {
             .map(|(barrier, is_left)| {
                 // A turn that keeps the elevation never reaches the edge of the minimum elevation.
                 let is_level =
-                    turn.keeps_elevation && matches!(barrier.name, Named::MinimumElevation);
+                    turn.keeps_elevation && matches!(barrier.name, BarrierName::MinimumElevation);
                 let group = match (is_left, is_level) {
                     (true, false) => LEFT,
                     (true, true) => LEFT_BELOW,

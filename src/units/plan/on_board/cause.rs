@@ -73,7 +73,7 @@ pub struct Ranked {
 const MADE_SHARE: f64 = 0.7;
 
 impl Ranked {
-    /// Returns `true` if this cause can make an error of `off`, by far the most of it. A cause whose
+    /// Returns `true` if this cause can make an error of `deviation`, by far the most of it. A cause whose
     /// error is unknown can.
     pub fn can_make(&self, deviation: Angle) -> bool {
         self.off.is_none_or(|own| own.degrees() >= MADE_SHARE * deviation.degrees())

@@ -23,7 +23,7 @@ const STEP_DEG: f64 = 0.5;
 /// Longest step for a target that hardly moves, seconds.
 const LONGEST_STEP_S: f64 = 60.0;
 
-/// Equal steps from `from` to `to`, both included.
+/// Equal steps from `start` to `end`, both included.
 pub(super) fn spread(start: Timestamp, end: Timestamp) -> impl Iterator<Item = Timestamp> {
     let span_s = seconds_between(start, end).max(0.0);
     let step_s = (span_s / LOOKS).max(STEP_S);
@@ -60,7 +60,7 @@ impl<'a> UnitPath<'a> {
         }
     }
 
-    /// A unit with the report `told`. Values that it does not report are taken as right.
+    /// A unit with the report `on_board`. Values that it does not report are taken as right.
     pub(super) fn new(on_board: &OnBoard, judge: &'a Judge) -> Self {
         let right = Self::right(judge);
         let offsets = on_board.offsets.unwrap_or(right.offsets);
@@ -89,7 +89,7 @@ impl<'a> UnitPath<'a> {
         std::iter::once(self).chain(other)
     }
 
-    /// Direction of the satellite as the unit computes it at `at` by Azel's clock.
+    /// Direction of the satellite as the unit computes it at `time` by Azel's clock.
     /// Outside its window, the direction at the nearer end of the window.
     pub(super) fn computed(&self, time: Timestamp) -> Option<AzEl> {
         let (start, stop) = self.window;
@@ -99,7 +99,7 @@ impl<'a> UnitPath<'a> {
         Some(self.propagator.look_from(site, shifted).ok()?.direction)
     }
 
-    /// Real direction of the antenna at `at` by Azel's clock.
+    /// Real direction of the antenna at `time` by Azel's clock.
     pub(super) fn direction(&self, time: Timestamp) -> Option<AzEl> {
         let AzEl { azimuth, elevation } = self.computed(time)?;
         let lowest = Angle::from_degrees(self.offsets.minimum_elevation_deg);

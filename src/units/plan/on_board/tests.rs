@@ -77,7 +77,7 @@ fn report_with(change: impl FnOnce(&mut Offsets)) -> OnBoard {
 }
 
 /// The largest separation from the satellite over the pass, checked every second, of an antenna
-/// that points in the direction that `at` gives for a time.
+/// that points in the direction that `direction_at` gives for a time.
 fn worst_deg(direction_at: impl Fn(Timestamp) -> AzEl) -> f64 {
     let seconds = pass().duration_s() as u32;
     (0..=seconds)

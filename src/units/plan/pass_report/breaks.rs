@@ -34,7 +34,7 @@ impl Breaks {
         self.is_lost = lost_since.is_some();
     }
 
-    /// Takes a STOP that was pressed at `now`, or that Azel sent. `why`: the cause of what is lost from
+    /// Takes a STOP that was pressed at `now`, or that Azel sent. `loss_cause`: the cause of what is lost from
     /// then on.
     pub fn note_stop(&mut self, now: Timestamp, loss_cause: LossCause) {
         self.stops.push((now, loss_cause));
@@ -51,7 +51,7 @@ impl Breaks {
         self.is_commanded = is_commanded;
     }
 
-    /// Returns `true` if the antenna had the command to track this pass at `at`.
+    /// Returns `true` if the antenna had the command to track this pass at `time`.
     pub fn was_commanded(&self, time: Timestamp) -> bool {
         let holds = |(start, end): &(Timestamp, Timestamp)| *start <= time && time <= *end;
         self.commanded.as_ref().is_none_or(|spans| spans.iter().any(holds))
@@ -84,7 +84,7 @@ impl Breaks {
         self.lost.iter().any(|(begin, finish)| *begin <= end && start <= *finish)
     }
 
-    /// Returns `true` if the link was lost at `at`, or came back just before.
+    /// Returns `true` if the link was lost at `time`, or came back just before.
     pub(super) fn is_link_lost_at(&self, time: Timestamp) -> bool {
         self.lost_link(add_seconds(time, -APART_S), add_seconds(time, APART_S))
     }

@@ -14,7 +14,7 @@ use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
 pub use self::evidence::{Evidence, PathSource};
-use self::{evidence::Point, fit::Family};
+use self::{evidence::EvidencePoint, fit::Family};
 use crate::{astro::Angle, orbit::Propagator};
 
 /// Fewer positions explain nothing.
@@ -163,7 +163,7 @@ pub struct Explained {
 const COMPARABLE_SHARE: f64 = 0.7;
 
 impl Explained {
-    /// Returns `true` if this explains an error of `off`. What explained the smaller error of the time
+    /// Returns `true` if this explains an error of `deviation`. What explained the smaller error of the time
     /// before need not, but the error of an axis that stands grows.
     pub fn can_make(&self, deviation: Angle) -> bool {
         let stands = |explanation: &Explanation| {
@@ -175,15 +175,15 @@ impl Explained {
 
 /// One or two causes with the sizes that fit best.
 #[derive(Debug, Clone, Copy)]
-struct Found {
+struct FoundCause {
     cause: Cause,
     partner: Option<Cause>,
-    fit: Fit,
+    fit: CauseFit,
 }
 
 /// The error that a model of the antenna leaves.
 #[derive(Debug, Clone, Copy)]
-struct Fit {
+struct CauseFit {
     /// Sum of the squares that are left.
     left: f64,
     /// Variance of what is left of one of the two angles of a position, times the number of
@@ -193,7 +193,7 @@ struct Fit {
     outside: f64,
 }
 
-impl Found {
+impl FoundCause {
     fn is_possible(&self) -> bool {
         self.cause.is_possible() && self.partner.is_none_or(|partner| partner.is_possible())
     }
@@ -214,12 +214,12 @@ impl Evidence<'_> {
             && self.is_explained(fit, whole.left)
             && let Some(cause) = self.known_cause(fit, whole.left)
         {
-            let found = Found { cause, partner: None, fit };
+            let found = FoundCause { cause, partner: None, fit };
             return self.shown(&[found], whole.left);
         }
         let mut singles = if self.only_drives { Vec::new() } else { self.singles(others) };
         singles.sort_by(|(_, a), (_, b)| a.fit.left.total_cmp(&b.fit.left));
-        let mut found: Vec<Found> = singles.iter().map(|(_, found)| *found).collect();
+        let mut found: Vec<FoundCause> = singles.iter().map(|(_, found)| *found).collect();
         found.extend(self.slow_drives());
         found.extend(self.stuck());
         found.retain(|found| found.is_possible() && self.is_explained(found.fit, whole.left));
@@ -258,7 +258,7 @@ impl Evidence<'_> {
 
     /// The antenna would have kept the satellite in its beam but for what `fit` takes away, which
     /// is more than chance.
-    fn is_explained(&self, fit: Fit, whole: f64) -> bool {
+    fn is_explained(&self, fit: CauseFit, whole: f64) -> bool {
         whole - fit.left > SURE * fit.variance
             && self.share(fit.left, whole) >= MIN_SHARE
             && fit.left <= MAX_LEFT * whole
@@ -271,7 +271,7 @@ impl Evidence<'_> {
     }
 
     /// The best sizes of each cause that may act alone.
-    fn singles<'b>(&self, others: &'b [(Timestamp, Propagator)]) -> Vec<(Family<'b>, Found)> {
+    fn singles<'b>(&self, others: &'b [(Timestamp, Propagator)]) -> Vec<(Family<'b>, FoundCause)> {
         let is_open = |family: &Family<'_>| {
             let is_of_unit = matches!(family, Family::Site | Family::Elements(_));
             let is_site_open = !matches!(family, Family::Site) || self.is_site_open();
@@ -285,43 +285,45 @@ impl Evidence<'_> {
     }
 
     /// Pairs of causes each of which does its part. `singles`: what each explains, the best first.
-    fn pairs(&self, singles: &[(Family<'_>, Found)], whole: f64) -> Vec<Found> {
+    fn pairs(&self, singles: &[(Family<'_>, FoundCause)], whole: f64) -> Vec<FoundCause> {
         let is_set = |family: &Family<'_>| matches!(family, Family::Elements(_));
         // An antenna follows one set of elements, so only the set that explains most alone is
         // paired.
         let set = singles.iter().find(|(family, _)| is_set(family));
         let rest = singles.iter().filter(|(family, _)| !is_set(family));
-        let singles: Vec<&(Family<'_>, Found)> = set.into_iter().chain(rest).collect();
+        let singles: Vec<&(Family<'_>, FoundCause)> = set.into_iter().chain(rest).collect();
         let pairs = singles.iter().enumerate().flat_map(|(place, first)| {
             singles.iter().skip(place + 1).map(move |second| (*first, *second))
         });
-        let fitted_pair =
-            |((first, alone), (second, other)): (&(Family<'_>, Found), &(Family<'_>, Found))| {
-                let found = self.fitted(*first, Some(*second));
-                let alone_left = alone.fit.left.min(other.fit.left);
-                let is_needed = alone_left - found.fit.left > SURE * found.fit.variance;
-                let is_named = is_needed && self.is_explained(found.fit, whole);
-                (is_named && found.is_possible()).then_some(found)
-            };
+        let fitted_pair = |((first, alone), (second, other)): (
+            &(Family<'_>, FoundCause),
+            &(Family<'_>, FoundCause),
+        )| {
+            let found = self.fitted(*first, Some(*second));
+            let alone_left = alone.fit.left.min(other.fit.left);
+            let is_needed = alone_left - found.fit.left > SURE * found.fit.variance;
+            let is_named = is_needed && self.is_explained(found.fit, whole);
+            (is_named && found.is_possible()).then_some(found)
+        };
         pairs.filter_map(fitted_pair).collect()
     }
 
     /// `found` with what is known of the unit, where that makes a part of the error.
-    fn beside_known(&self, found: Found, whole: f64) -> Found {
+    fn beside_known(&self, found: FoundCause, whole: f64) -> FoundCause {
         match (self.known_cause(found.fit, whole), found.cause) {
             (None, _) => found,
             (Some(Cause::Late { late_s: known_s }), Cause::Late { late_s }) => {
-                Found { cause: Cause::Late { late_s: known_s + late_s }, ..found }
+                FoundCause { cause: Cause::Late { late_s: known_s + late_s }, ..found }
             }
             (Some(known_cause), cause) => {
-                Found { cause: known_cause, partner: Some(cause), ..found }
+                FoundCause { cause: known_cause, partner: Some(cause), ..found }
             }
         }
     }
 
-    fn shown(&self, found: &[Found], whole: f64) -> Vec<Explanation> {
+    fn shown(&self, found: &[FoundCause], whole: f64) -> Vec<Explanation> {
         let mut shown: Vec<Explanation> = Vec::new();
-        for Found { cause, partner, fit } in found.iter().copied() {
+        for FoundCause { cause, partner, fit } in found.iter().copied() {
             let explanation = Explanation {
                 cause,
                 with: partner,

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::{
     APART_S, COMES_BACK_S, TrackPoint, TrackedPass,
     following::Following,
-    stretches::{State, Stretch},
+    stretches::{Stretch, StretchState},
 };
 use crate::{
     astro::time::{add_seconds, seconds_between},
@@ -127,10 +127,10 @@ impl TrackedPass<'_> {
             })
             .collect();
         let lost = stretches.iter().flat_map(|stretch| match stretch.state {
-            State::InBeam => Vec::new(),
-            State::NotMeasured => self.not_measured(stretch),
-            State::NotCommanded => self.not_commanded(stretch),
-            State::Outside => {
+            StretchState::InBeam => Vec::new(),
+            StretchState::NotMeasured => self.not_measured(stretch),
+            StretchState::NotCommanded => self.not_commanded(stretch),
+            StretchState::Outside => {
                 let own = followed.iter().find(|(end, _)| stretch.start < *end);
                 self.outside(stretch, own.map(|(_, following)| *following).unwrap_or_default())
             }

@@ -10,11 +10,11 @@ use crate::astro::time::{add_seconds, seconds_between};
 pub(super) struct Stretch {
     pub(super) start: Timestamp,
     pub(super) end: Timestamp,
-    pub(super) state: State,
+    pub(super) state: StretchState,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum State {
+pub(super) enum StretchState {
     /// Within half the beamwidth.
     InBeam,
     Outside,
@@ -35,15 +35,15 @@ impl TrackedPass<'_> {
         let end = self.ended.unwrap_or(self.until);
         let (mut found, mut time) = (Stretches(Vec::new()), self.from);
         for (start, stop_time) in self.breaks.commanded(self.from, end) {
-            found.add(time, start, State::NotCommanded);
+            found.add(time, start, StretchState::NotCommanded);
             self.measured(start, stop_time, points, &mut found);
             time = stop_time;
         }
-        found.add(time, end, State::NotCommanded);
+        found.add(time, end, StretchState::NotCommanded);
         found.0
     }
 
-    /// Adds what was measured from `since` until `to`.
+    /// Adds what was measured from `start` until `end`.
     fn measured(
         &self,
         start: Timestamp,
@@ -56,15 +56,21 @@ impl TrackedPass<'_> {
         };
         let near = add_seconds(start, -APART_S)..=add_seconds(end, APART_S);
         let mut points = points.iter().filter(|point| near.contains(&point.time));
-        let Some(mut before) = points.next() else { return add(start, end, State::NotMeasured) };
+        let Some(mut before) = points.next() else {
+            return add(start, end, StretchState::NotMeasured);
+        };
         // Before the first and after the last position the pass is as it was measured there.
         let is_near = |a: Timestamp, b: Timestamp| seconds_between(a, b) <= APART_S;
         let at_first = is_near(start, before.time);
-        add(start, before.time, if at_first { self.state(before) } else { State::NotMeasured });
+        add(
+            start,
+            before.time,
+            if at_first { self.state(before) } else { StretchState::NotMeasured },
+        );
         for point in points {
             let states = (self.state(before), self.state(point));
             if !is_near(before.time, point.time) {
-                add(before.time, point.time, State::NotMeasured);
+                add(before.time, point.time, StretchState::NotMeasured);
             } else if states.0 == states.1 {
                 add(before.time, point.time, states.0);
             } else {
@@ -75,11 +81,11 @@ impl TrackedPass<'_> {
             before = point;
         }
         let at_last = is_near(before.time, end);
-        add(before.time, end, if at_last { self.state(before) } else { State::NotMeasured });
+        add(before.time, end, if at_last { self.state(before) } else { StretchState::NotMeasured });
     }
 
-    fn state(&self, point: &TrackPoint) -> State {
-        if self.is_in_beam(point) { State::InBeam } else { State::Outside }
+    fn state(&self, point: &TrackPoint) -> StretchState {
+        if self.is_in_beam(point) { StretchState::InBeam } else { StretchState::Outside }
     }
 
     /// When the satellite crosses half the beamwidth between two positions.
@@ -94,7 +100,7 @@ impl TrackedPass<'_> {
 struct Stretches(Vec<Stretch>);
 
 impl Stretches {
-    fn add(&mut self, start: Timestamp, end: Timestamp, state: State) {
+    fn add(&mut self, start: Timestamp, end: Timestamp, state: StretchState) {
         if start >= end {
             return;
         }

@@ -7,8 +7,8 @@ use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
 use super::{
-    least_squares::{LeftOut, Normal, Solution, Square},
-    run::{Noise, Run},
+    least_squares::{Estimate, LeftOutTerm, Normal, Square},
+    run::{Noise, PointRun},
 };
 use crate::astro::{AzEl, PointingModel, Site, Term, sun_moon};
 
@@ -108,14 +108,14 @@ pub struct Alike {
 
 /// The noise of the points of a kind.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Found {
+pub struct KindNoise {
     pub kind: Kind,
     pub points: usize,
     /// Standard deviation of one axis at the weight 1, degrees, without the time error of each pass.
     pub noise_deg: f64,
 }
 
-impl Found {
+impl KindNoise {
     /// No point counts for more exact, degrees. A few peaks tell nothing of their noise.
     fn min_deg(&self) -> f64 {
         let are_few_peaks = self.kind != Kind::Satellite && self.points < FEW;
@@ -130,10 +130,10 @@ pub struct Fit {
     /// Terms that were fitted.
     pub kept: Vec<Term>,
     pub alike: Vec<Alike>,
-    /// Terms of `kept` that a term of `alike`, of any size that is usual, would change by more than
+    /// Terms of `kept` that a term of `alike`, of any typical size, would change by more than
     /// a part of what the noise does: nothing tells how well they are known.
     pub shared: Vec<Term>,
-    pub noise: Vec<Found>,
+    pub noise: Vec<KindNoise>,
     covariance: Square<{ Term::COUNT }>,
     /// The largest variance of each term by any plausible noise.
     variances: [f64; Term::COUNT],
@@ -172,8 +172,8 @@ pub fn fit<'a>(
     let is_wanted = |term: &Term| terms.contains(term);
     let unknowns: Vec<usize> =
         (0..).zip(&Term::ALL).filter(|(_, term)| is_wanted(term)).map(|(place, _)| place).collect();
-    let runs: Vec<Run> = runs.into_iter().map(Run::new).collect();
-    let points = runs.iter().map(Run::len).sum();
+    let runs: Vec<PointRun> = runs.into_iter().map(PointRun::new).collect();
+    let points = runs.iter().map(PointRun::len).sum();
     if points < MIN_POINTS {
         return Err(CannotFit::TooFew(points));
     }
@@ -184,11 +184,11 @@ pub fn fit<'a>(
     if !white.is_finite() {
         return Err(CannotFit::Diverges);
     }
-    let tried: Vec<(Noise, Solution<{ Term::COUNT }>)> =
+    let tried: Vec<(Noise, Estimate<{ Term::COUNT }>)> =
         Noise::all().map(|noise| (noise, white.solution(&runs, noise))).collect();
     // The weights already are those of the noise that independent points would have.
     let unit = tried.first().map_or(1.0, |(_, independent)| independent.variance);
-    let is_less = |one: &Solution<_>, other: &Solution<_>| {
+    let is_less = |one: &Estimate<_>, other: &Estimate<_>| {
         one.log_likelihood.total_cmp(&other.log_likelihood)
     };
     let likeliest = tried.iter().max_by(|(_, one), (_, other)| is_less(one, other));
@@ -230,10 +230,10 @@ pub fn fit<'a>(
 
 /// Fits the terms that `select` keeps to points with this noise, from `solved` on.
 fn solve(
-    runs: &[Run],
+    runs: &[PointRun],
     noise: Noise,
     mut solved: Solved,
-    select: impl Fn(&Normal<{ Term::COUNT }>) -> (Vec<usize>, Vec<LeftOut>),
+    select: impl Fn(&Normal<{ Term::COUNT }>) -> (Vec<usize>, Vec<LeftOutTerm>),
 ) -> Solved {
     for _ in 0..ROUNDS {
         let (normal, log_scale) = solved.normal(runs, noise);
@@ -246,8 +246,8 @@ fn solve(
         solved.noise = noise_of(runs, &solved.model, retained.len());
         solved.freedom = normal.freedom(retained.len());
         let typical_change =
-            |out: &LeftOut| Term::ALL.get(out.unknown).map_or(0.0, |term| typical_size(*term));
-        let moves = |out: &LeftOut| {
+            |out: &LeftOutTerm| Term::ALL.get(out.unknown).map_or(0.0, |term| typical_size(*term));
+        let moves = |out: &LeftOutTerm| {
             let moves = normal.moves(&retained, out).into_iter();
             moves.map(|(unknown, share)| (unknown, share * typical_change(out))).collect::<Vec<_>>()
         };
@@ -261,10 +261,10 @@ fn solve(
 struct Solved {
     model: PointingModel,
     retained: Vec<usize>,
-    left_out: Vec<LeftOut>,
+    left_out: Vec<LeftOutTerm>,
     /// Each unknown that is kept, and by how much a term that is left out may well change it.
     moves: Vec<(usize, f64)>,
-    noise: Vec<Found>,
+    noise: Vec<KindNoise>,
     covariance: Square<{ Term::COUNT }>,
     freedom: usize,
 }
@@ -276,24 +276,24 @@ impl Solved {
     }
 
     /// The equations at the present model, and the logarithm of the determinant of their scale.
-    fn normal(&self, runs: &[Run], noise: Noise) -> (Normal<{ Term::COUNT }>, f64) {
+    fn normal(&self, runs: &[PointRun], noise: Noise) -> (Normal<{ Term::COUNT }>, f64) {
         let deviation_deg = |kind: Kind| {
             let found = self.noise.iter().find(|found| found.kind == kind);
             found.map_or(1.0, |found| found.noise_deg.max(found.min_deg()))
         };
         let mut normal = Normal::new();
-        let add = |run: &Run| run.add_to(&mut normal, &self.model, noise, deviation_deg);
+        let add = |run: &PointRun| run.add_to(&mut normal, &self.model, noise, deviation_deg);
         let log_scale = runs.iter().map(add).sum();
         (normal, log_scale)
     }
 
     /// One more round with another noise.
-    fn solution(&self, runs: &[Run], noise: Noise) -> Solution<{ Term::COUNT }> {
+    fn solution(&self, runs: &[PointRun], noise: Noise) -> Estimate<{ Term::COUNT }> {
         let (normal, log_scale) = self.normal(runs, noise);
         normal.solve(&self.retained, log_scale)
     }
 
-    /// Returns `true` if a term that is left out may well change the unknown `of` by more than
+    /// Returns `true` if a term that is left out may well change the unknown `index` by more than
     /// noise hides.
     fn shares(&self, index: usize) -> bool {
         let variance = self.covariance.get(index).and_then(|row| row.get(index)).copied();
@@ -308,8 +308,8 @@ fn typical_size(term: Term) -> f64 {
 }
 
 /// The noise of each kind, with its part of the unknowns.
-fn noise_of(runs: &[Run], model: &PointingModel, unknowns: usize) -> Vec<Found> {
-    let points: usize = runs.iter().map(Run::len).sum();
+fn noise_of(runs: &[PointRun], model: &PointingModel, unknowns: usize) -> Vec<KindNoise> {
+    let points: usize = runs.iter().map(PointRun::len).sum();
     let free_share = 1.0 - unknowns as f64 / (2 * points) as f64;
     let residuals: Vec<_> = runs.iter().map(|run| run.residuals_deg(model)).collect();
     let noise_of_kind = |kind: Kind| {
@@ -324,7 +324,7 @@ fn noise_of(runs: &[Run], model: &PointingModel, unknowns: usize) -> Vec<Found> 
         }
         let free = 2.0 * count as f64 * free_share - times as f64;
         let noise_deg = (sum / free.max(1.0)).sqrt();
-        (count > 0).then_some(Found { kind, points: count, noise_deg })
+        (count > 0).then_some(KindNoise { kind, points: count, noise_deg })
     };
     [Kind::Satellite, Kind::Sun, Kind::Moon].into_iter().filter_map(noise_of_kind).collect()
 }

@@ -34,7 +34,7 @@ pub(super) struct Normal<const N: usize> {
 
 /// An unknown that is left out.
 #[derive(Debug, Clone, Default)]
-pub(super) struct LeftOut {
+pub(super) struct LeftOutTerm {
     pub(super) unknown: usize,
     /// Unknowns that largely make it up.
     pub(super) named: Vec<usize>,
@@ -42,7 +42,7 @@ pub(super) struct LeftOut {
 
 /// The values of the unknowns.
 #[derive(Debug, Clone)]
-pub(super) struct Solution<const N: usize> {
+pub(super) struct Estimate<const N: usize> {
     pub(super) values: [f64; N],
     /// Their covariance for equations of unit variance.
     pub(super) covariance: Square<N>,
@@ -52,7 +52,7 @@ pub(super) struct Solution<const N: usize> {
     pub(super) log_likelihood: f64,
 }
 
-impl<const N: usize> Solution<N> {
+impl<const N: usize> Estimate<N> {
     /// The covariance by the variance of an equation, in units of `unit`.
     pub(super) fn scaled_covariance(&self, unit: f64) -> Square<N> {
         self.covariance.map(|row| row.map(|value| value * self.variance / unit))
@@ -104,7 +104,7 @@ impl<const N: usize> Normal<N> {
         self.value += weight * value * value;
     }
 
-    /// Equations beyond the unknowns, `kept` of the common ones.
+    /// Equations beyond the unknowns, `count` of the common ones.
     pub(super) fn freedom(&self, count: usize) -> usize {
         self.equations.saturating_sub(self.eliminated + count).max(1)
     }
@@ -113,9 +113,9 @@ impl<const N: usize> Normal<N> {
         self.products.get(a).and_then(|row| row.get(b)).copied().unwrap_or_default()
     }
 
-    /// Those of `wanted` that can be told apart, the first ones first, and the others.
-    pub(super) fn told_apart(&self, candidates: &[usize]) -> (Vec<usize>, Vec<LeftOut>) {
-        let (mut retained, mut left_out): (Vec<usize>, Vec<LeftOut>) = (Vec::new(), Vec::new());
+    /// Those of `candidates` that can be told apart, the first ones first, and the others.
+    pub(super) fn told_apart(&self, candidates: &[usize]) -> (Vec<usize>, Vec<LeftOutTerm>) {
+        let (mut retained, mut left_out): (Vec<usize>, Vec<LeftOutTerm>) = (Vec::new(), Vec::new());
         for unknown in candidates.iter().copied() {
             let own = self.product(unknown, unknown);
             let square = self.squares.get(unknown).copied().unwrap_or_default();
@@ -131,19 +131,19 @@ impl<const N: usize> Normal<N> {
             };
             let named = retained.iter().zip(&shares).filter(is_large).map(|(other, _)| *other);
             let named = if own > 0.0 { named.collect() } else { Vec::new() };
-            left_out.push(LeftOut { unknown, named });
+            left_out.push(LeftOutTerm { unknown, named });
         }
         (retained, left_out)
     }
 
-    /// By how much one unit of what is left out changes each of the unknowns `kept`.
-    pub(super) fn moves(&self, retained: &[usize], left_out: &LeftOut) -> Vec<(usize, f64)> {
+    /// By how much one unit of what is left out changes each of the unknowns `retained`.
+    pub(super) fn moves(&self, retained: &[usize], left_out: &LeftOutTerm) -> Vec<(usize, f64)> {
         let shares = self.factor(retained).solve(|other| self.product(other, left_out.unknown));
         retained.iter().copied().zip(shares).collect()
     }
 
-    /// The unknowns `kept`. `log_scale`: logarithm of the determinant by which the equations were scaled.
-    pub(super) fn solve(&self, retained: &[usize], log_scale: f64) -> Solution<N> {
+    /// The unknowns `retained`. `log_scale`: logarithm of the determinant by which the equations were scaled.
+    pub(super) fn solve(&self, retained: &[usize], log_scale: f64) -> Estimate<N> {
         let factor = self.factor(retained);
         let right = |unknown: usize| self.right.get(unknown).copied().unwrap_or_default();
         let found = factor.solve(right);
@@ -165,10 +165,10 @@ impl<const N: usize> Normal<N> {
         let variance = ((self.value - explained) / freedom).max(f64::MIN_POSITIVE);
         let log_determinant = log_scale + self.log_eliminated + factor.log_determinant();
         let log_likelihood = -0.5 * (freedom * variance.ln() + log_determinant);
-        Solution { values, covariance, variance, log_likelihood }
+        Estimate { values, covariance, variance, log_likelihood }
     }
 
-    /// Factors the equations of `kept`, by Cholesky with columns of length one.
+    /// Factors the equations of `retained`, by Cholesky with columns of length one.
     fn factor(&self, retained: &[usize]) -> Factor {
         let lengths: Vec<f64> = retained.iter().map(|k| self.product(*k, *k).sqrt()).collect();
         let mut rows: Vec<Vec<f64>> = Vec::new();

@@ -38,7 +38,7 @@ impl Noise {
 
 /// The usable points of one pass in order of time, or one peak.
 #[derive(Debug)]
-pub(super) struct Run(Vec<Timed>);
+pub(super) struct PointRun(Vec<Timed>);
 
 #[derive(Debug)]
 struct Timed {
@@ -49,7 +49,7 @@ struct Timed {
     rate_deg_s: [f64; 2],
 }
 
-impl Run {
+impl PointRun {
     pub(super) fn new(points: &[Point]) -> Self {
         let usable: Vec<Point> = points.iter().copied().filter(Point::is_usable).collect();
         let last = usable.len().saturating_sub(1);
@@ -99,7 +99,7 @@ impl Run {
         noise: Noise,
         deviation_deg: impl Fn(Kind) -> f64,
     ) -> f64 {
-        let mut filters = [Filter::new(noise), Filter::new(noise)];
+        let mut filters = [NoiseFilter::new(noise), NoiseFilter::new(noise)];
         let mut equations = Vec::with_capacity(2 * self.0.len());
         for Timed { point, at_s, rate_deg_s } in &self.0 {
             let Some(rest_deg) = point.rest_deg(model) else { continue };
@@ -120,7 +120,7 @@ impl Run {
     }
 }
 
-/// Rate of the direction `at` between two points, azimuth on the sky and elevation, degrees a second.
+/// Rate of the direction `direction` between two points, azimuth on the sky and elevation, degrees a second.
 fn rate_deg_s(direction: AzEl, before: &Point, after: &Point) -> [f64; 2] {
     let span_s = seconds_between(before.at, after.at);
     if span_s <= 0.0 {
@@ -136,7 +136,7 @@ fn rate_deg_s(direction: AzEl, before: &Point, after: &Point) -> [f64; 2] {
 
 /// Makes the successive values of an axis independent: a Kalman filter whose state is the correlated
 /// part of the noise. It takes all columns alike.
-struct Filter {
+struct NoiseFilter {
     noise: Noise,
     expected: [f64; COLUMNS],
     /// Variance of the expected value.
@@ -145,7 +145,7 @@ struct Filter {
     log_scale: f64,
 }
 
-impl Filter {
+impl NoiseFilter {
     fn new(noise: Noise) -> Self {
         Self {
             noise,

@@ -46,7 +46,7 @@ pub(super) struct Demand {
 
 /// One axis of an antenna that tracks.
 #[derive(Debug)]
-pub(super) struct Axis {
+pub(super) struct TrackedAxis {
     /// 0 or 1.
     index: usize,
     pub(super) drives: Drives,
@@ -59,7 +59,7 @@ pub(super) struct Axis {
     slew_rate: SlewRate,
 }
 
-impl Axis {
+impl TrackedAxis {
     pub(super) fn new(index: usize, drives: Drives, settings: TrackSettings) -> Self {
         Self {
             index,

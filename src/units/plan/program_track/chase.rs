@@ -21,8 +21,8 @@ pub(super) struct Chase {
 }
 
 impl Chase {
-    /// Advances `previous` to `at`. Restarts at the measured positions if there is none or it is too old.
-    pub(super) fn follow(
+    /// Advances `previous` to `time`. Restarts at the measured positions if there is none or it is too old.
+    pub(super) fn advanced(
         previous: Option<Self>,
         path: &Path,
         rates_deg_s: [f64; 2],
@@ -30,6 +30,7 @@ impl Chase {
     ) -> Self {
         let elapsed_s = previous.map(|previous| seconds_between(previous.updated_at, time));
         match (previous, elapsed_s) {
+            // Over a longer gap, nobody knows whether the antenna was free to move.
             (Some(previous), Some(elapsed_s)) if (0.0..=MAX_GAP_S).contains(&elapsed_s) => {
                 previous.after(path, rates_deg_s, elapsed_s)
             }
@@ -64,6 +65,7 @@ impl Chase {
     ) -> Option<Timestamp> {
         let mut chase = self;
         for _ in 0..AHEAD_S {
+            // The axes stand after the end of the path, and the target moves away.
             if chase.updated_at > path.end() {
                 return None;
             }

@@ -8,7 +8,7 @@ use crate::{
     },
     plan::{
         Sample,
-        az_el::{AzElAxes, Choice, Flip, Planned, Start},
+        az_el::{AzElAxes, Flip, FlipChoice, Planned, Start},
         detour::AxisLimits,
         rate_limited::rate_limited,
     },
@@ -54,17 +54,17 @@ impl Drives {
         samples: &[Sample],
         step_s: f64,
         start: Start,
-        choice: Choice,
+        choice: FlipChoice,
     ) -> Planned {
         match (self.mount, choice) {
             (Mount::Xy { lower_axis_azimuth_deg, .. }, _) => {
                 let lower_axis = Angle::from_degrees(lower_axis_azimuth_deg);
                 self.along_crossed(samples, step_s, start, lower_axis)
             }
-            (Mount::AzEl { .. }, Choice::Keep(flip)) => {
+            (Mount::AzEl { .. }, FlipChoice::Keep(flip)) => {
                 self.az_el().along(samples, step_s, start, flip)
             }
-            (Mount::AzEl { .. }, Choice::Prefer(flip)) => {
+            (Mount::AzEl { .. }, FlipChoice::Prefer(flip)) => {
                 self.az_el().best(samples, step_s, start, flip)
             }
         }
@@ -79,6 +79,7 @@ impl Drives {
     ) -> Planned {
         let (lowest_deg, highest_deg) = self.elevations_deg();
         let axes = samples.iter().map(|Sample { direction, .. }| {
+            // Clipped first as a direction: the minimum elevation lies askew to both axes.
             let elevation_deg = direction.elevation_deg().min(highest_deg).max(lowest_deg);
             let reachable = AzEl { elevation: Angle::from_degrees(elevation_deg), ..*direction };
             let axes = xy_mount::axes_from_azel(reachable, lower_axis);
@@ -137,6 +138,7 @@ impl Drives {
             return position_deg.clamp(from_deg, to_deg);
         }
         let (first, last) = ((from_deg / self.step_deg).ceil(), (to_deg / self.step_deg).floor());
+        // The travel is shorter than one step, so no step lies within it.
         if first > last {
             return position_deg.clamp(from_deg, to_deg);
         }
@@ -259,7 +261,7 @@ mod tests {
     }
 
     fn positions(drives: &Drives, sample: Sample) -> [f64; 2] {
-        let planned = drives.along(&[sample], 1.0, Start::default(), Choice::Keep(Flip::None));
+        let planned = drives.along(&[sample], 1.0, Start::default(), FlipChoice::Keep(Flip::None));
         planned.axes_deg.map(|axis| axis[0])
     }
 

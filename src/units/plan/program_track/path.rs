@@ -10,7 +10,7 @@ use crate::{
     },
     plan::{
         Bounds, Sample,
-        az_el::{Choice, Flip, Planned, Start},
+        az_el::{Flip, FlipChoice, Planned, Start},
     },
 };
 
@@ -38,7 +38,7 @@ pub(super) struct Path {
 }
 
 impl Path {
-    /// The path of [`Drives::along`] along `course` with `offsets` between `from` and `to`, with
+    /// The path of [`Drives::along`] along `course` with `offsets` from `begin` to `end`, with
     /// detours round the keep-outs of `bounds`. The path ends early if the target decays; `None`
     /// if it has decayed already.
     pub(super) fn along(
@@ -47,9 +47,10 @@ impl Path {
         bounds: &Bounds,
         (begin, end): (Timestamp, Timestamp),
         start: Start,
-        choice: Choice,
+        choice: FlipChoice,
     ) -> Option<Self> {
         let span_s = seconds_between(begin, end).max(0.0);
+        // A pass of many hours moves slowly, so its points may be farther apart.
         let step_s = (span_s / MAX_POINTS).max(MIN_STEP_S);
         let steps = (span_s / step_s).ceil() as u32;
         let samples: Vec<Sample> = (0..=steps)
@@ -73,6 +74,7 @@ impl Path {
     pub(super) fn is_for(&self, rates_deg_s: [f64; 2]) -> bool {
         let mut axes = self.max_deg.into_iter().zip(rates_deg_s);
         axes.all(|(max_deg, rate_deg_s)| {
+            // A measured rate varies a little, and a new path for each reading would never settle.
             (rate_deg_s * self.step_s / max_deg - 1.0).abs() < SAME_RATE
         })
     }
@@ -86,7 +88,7 @@ impl Path {
         self.flip
     }
 
-    /// Seconds from the beginning of the path to `at`.
+    /// Seconds from the beginning of the path to `time`.
     pub(super) fn seconds(&self, time: Timestamp) -> f64 {
         seconds_between(self.start, time)
     }
@@ -110,6 +112,7 @@ impl Path {
         let mut span = self.span_deg(axis, from_s, to_s);
         for position in self.positions_between(axis, to_s, f64::INFINITY) {
             let wider = widened(span, position);
+            // One command serves as long as the path stays within the tolerance of the axis.
             if wider.1 - wider.0 > within_deg {
                 break;
             }
@@ -132,11 +135,12 @@ impl Path {
         };
         let begun = rest.windows(2).next().filter(slews)?;
         let steps = rest.windows(2).take_while(slews);
+        // A slew that reverses ends there: one command would skip the turn.
         let steps = steps.take_while(|pair| grows(pair) == grows(begun)).count();
         rest.get(steps).copied()
     }
 
-    /// Positions of both axes at `at`, degrees as the mount counts.
+    /// Positions of both axes at `time`, degrees as the mount counts.
     pub(super) fn positions_deg(&self, time: Timestamp) -> [f64; 2] {
         let at_s = self.seconds(time);
         [0, 1].map(|axis| self.position_deg(axis, at_s))
@@ -174,9 +178,10 @@ impl Drives {
         samples: &[Sample],
         step_s: f64,
         start: Start,
-        choice: Choice,
+        choice: FlipChoice,
     ) -> Planned {
         let mut planned = self.along(samples, step_s, start, choice);
+        // A rotator of azimuth only cannot go over or under a keep-out.
         if bounds.has_way_round() && self.has_elevation {
             let limits = self.axis_limits();
             let detoured = round(&planned.axes_deg, samples, step_s, start, limits, bounds);

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{
     ProgramTrack,
-    axis::{Axis, AxisNow, LastCommand},
+    axis::{AxisNow, LastCommand, TrackedAxis},
     chase::Chase,
     drives::{Drives, SetPoint},
     path::Path,
@@ -21,7 +21,7 @@ use crate::{
     orbit::PropagationError,
     plan::{
         Bounds,
-        az_el::{Choice, Flip, Start},
+        az_el::{Flip, FlipChoice, Start},
     },
     station::TrackSettings,
 };
@@ -42,7 +42,7 @@ const MARGIN_S: f64 = 60.0;
 /// A path that a target needs, with all that it depends on.
 #[derive(Debug, Clone)]
 pub struct PathOrder {
-    follow: ProgramTrack,
+    track: ProgramTrack,
     course: Course,
     offsets: TrackOffsets,
     drives: Drives,
@@ -52,7 +52,7 @@ pub struct PathOrder {
     /// End of the pass.
     ends: Timestamp,
     start: Start,
-    choice: Choice,
+    choice: FlipChoice,
 }
 
 impl PathOrder {
@@ -118,6 +118,7 @@ impl Approach {
         if has_progressed {
             self.progress_at = Some(time);
         }
+        // The anchor moves on, so that progress is measured over the last moments only.
         if has_progressed || off_deg > from_deg || !is_recent(&begin) {
             self.anchor = Some((off_deg, time));
         }
@@ -128,7 +129,7 @@ impl Approach {
 /// Plans the commands for one target.
 #[derive(Debug)]
 pub struct Planner {
-    follow: ProgramTrack,
+    track: ProgramTrack,
     course: Course,
     offsets: TrackOffsets,
     drives: Drives,
@@ -142,22 +143,22 @@ pub struct Planner {
     approach: Approach,
     /// The predicted arrival, and when it was predicted.
     arrival: Option<(Option<Timestamp>, Timestamp)>,
-    axes: [Axis; 2],
+    axes: [TrackedAxis; 2],
 }
 
 impl Planner {
     /// Fails if the elements do not describe an orbit. Paths lead round the keep-outs of `bounds`.
     pub fn new(
-        follow: ProgramTrack,
+        track: ProgramTrack,
         drives: Drives,
         settings: TrackSettings,
         bounds: Bounds,
     ) -> Result<Self, PropagationError> {
-        let course = Course::new(&follow.target, follow.site)?;
-        let axes = [0, 1].map(|index| Axis::new(index, drives, settings));
-        let offsets = follow.offsets;
+        let course = Course::new(&track.target, track.site)?;
+        let axes = [0, 1].map(|index| TrackedAxis::new(index, drives, settings));
+        let offsets = track.offsets;
         Ok(Self {
-            follow,
+            track,
             course,
             offsets,
             drives,
@@ -180,7 +181,7 @@ impl Planner {
 
     /// The next passes begin with these offsets.
     pub fn begin_with(&mut self, offsets: TrackOffsets) {
-        self.follow.offsets = offsets;
+        self.track.offsets = offsets;
     }
 
     pub fn offsets(&self) -> TrackOffsets {
@@ -201,23 +202,23 @@ impl Planner {
         }
     }
 
-    pub fn follow(&self) -> &ProgramTrack {
-        &self.follow
+    pub fn track(&self) -> &ProgramTrack {
+        &self.track
     }
 
-    /// Returns the readings that the axes need at `at` with these offsets; `None` once the target
+    /// Returns the readings that the axes need at `time` with these offsets; `None` once the target
     /// has decayed.
     pub fn demanded(&self, time: Timestamp, offsets: TrackOffsets) -> Option<AzEl> {
         self.course.demanded(time, offsets)
     }
 
-    /// Returns the direction on the sky at `at` with these offsets; `None` once the target has
+    /// Returns the direction on the sky at `time` with these offsets; `None` once the target has
     /// decayed.
     pub fn on_the_sky(&self, time: Timestamp, offsets: TrackOffsets) -> Option<AzEl> {
         self.course.on_the_sky(time, offsets)
     }
 
-    /// From where the pointing model has the beam with these offsets at `at` to where that is on the
+    /// From where the pointing model has the beam with these offsets at `time` to where that is on the
     /// sky, if the offsets of the axes make up for further errors of the mount; `None` without such
     /// offsets.
     pub fn to_sky(&self, time: Timestamp, offsets: TrackOffsets) -> Option<DQuat> {
@@ -229,7 +230,7 @@ impl Planner {
         Some(DQuat::from_rotation_arc(beam.to_enu(), sky.to_enu()))
     }
 
-    /// Returns the readings that the axes need at `at`, offsets included, unless the elevation is
+    /// Returns the readings that the axes need at `time`, offsets included, unless the elevation is
     /// below the minimum or the target has decayed.
     pub fn reachable(&self, time: Timestamp) -> Option<AzEl> {
         self.demanded(time, self.offsets).filter(|direction| self.drives.may_reach(*direction))
@@ -244,6 +245,7 @@ impl Planner {
         axes: [AxisNow; 2],
     ) -> Result<Option<Next>, PropagationError> {
         let [first_now, second_now] = axes;
+        // A worker plans paths with detours. Any other is planned quickly enough right here.
         if let Some(order) = self.path_order(now, axes) {
             self.take_path(order.plan())?;
         }
@@ -270,7 +272,7 @@ impl Planner {
     }
 
     /// Takes measured positions, degrees as the mount counts, and learns the rates of the axes from
-    /// long slews. `at` is of the steady clock, since UTC may be corrected in the middle of a slew.
+    /// long slews. `instant` is of the steady clock, since UTC may be corrected in the middle of a slew.
     pub fn watch(&mut self, instant: Instant, positions_deg: [Option<f64>; 2]) {
         let axes = self.axes.iter_mut().zip(positions_deg).zip(&mut self.drives.rates_deg_s);
         for ((axis, position_deg), rate_deg_s) in axes {
@@ -280,6 +282,7 @@ impl Planner {
             }
         }
         for axis in &mut self.axes {
+            // Both axes need both rates, because either one can hold the path up.
             axis.drives = self.drives;
         }
     }
@@ -308,7 +311,7 @@ impl Planner {
         };
         let measured_deg = <[f64; 2]>::from(measured_deg);
         let rates_deg_s = self.drives.rates_deg_s;
-        let chase = Chase::follow(self.chase, path, rates_deg_s, (time, measured_deg));
+        let chase = Chase::advanced(self.chase, path, rates_deg_s, (time, measured_deg));
         self.chase = Some(chase);
         let mount = self.drives.mount;
         let separation = |one_deg, other: AzEl| mount.direction(one_deg).separation(other);
@@ -336,6 +339,7 @@ impl Planner {
             let on_path = path.positions_deg(add_seconds(time, -late_s));
             separation(on_path, measured).degrees()
         });
+        // A unit may report a position that is already old; the age that fits best is assumed.
         let off_deg = off_deg.into_iter().fold(f64::INFINITY, f64::min);
         if self.approach.comes_nearer(off_deg, time) {
             return Some(OnPath::OnItsWay { until: None });
@@ -343,13 +347,14 @@ impl Planner {
         Some(OnPath::Due { off: Angle::from_degrees(off_deg) })
     }
 
-    /// Largest error that the settings of program track allow at `at`.
+    /// Largest error that the settings of program track allow at `time`.
     pub fn allowed(&self, time: Timestamp) -> Angle {
         let Some((path, _)) = &self.path else { return Angle::ZERO };
         let period_s = self.settings.period().as_secs_f64() + self.settings.latency_s;
         let [now, later] = [0.0, period_s]
             .map(|s| self.drives.mount.direction(path.positions_deg(add_seconds(time, s))));
-        let bands_deg = self.axes.iter().map(Axis::band_deg).fold(0.0, f64::hypot);
+        let bands_deg = self.axes.iter().map(TrackedAxis::band_deg).fold(0.0, f64::hypot);
+        // The antenna may lag by one period, and each axis may rest anywhere in its band.
         now.separation(later) + Angle::from_degrees(bands_deg)
     }
 
@@ -392,6 +397,7 @@ impl Planner {
     fn reaches_on(&self, now: Timestamp) -> bool {
         let Some((path, ends)) = &self.path else { return false };
         let ahead_s = self.settings.latency_s + self.settings.period().as_secs_f64() + MARGIN_S;
+        // Very long passes are planned piece by piece; the next piece must be ready in time.
         let is_short = path.end() < *ends && seconds_between(now, path.end()) < ahead_s;
         now < *ends && !is_short
     }
@@ -399,11 +405,11 @@ impl Planner {
     /// A path that is planned again for other rates keeps its flip once the pass has begun.
     /// Before, another flip is taken only if it is clearly better, so that the antenna does not go
     /// back and forth.
-    fn choice(&self, now: Timestamp) -> Choice {
+    fn choice(&self, now: Timestamp) -> FlipChoice {
         match self.path.as_ref().filter(|_| self.reaches_on(now)) {
-            Some((path, _)) if self.is_under_way(now) => Choice::Keep(path.flip()),
-            Some((path, _)) => Choice::Prefer(path.flip()),
-            None => Choice::Prefer(Flip::None),
+            Some((path, _)) if self.is_under_way(now) => FlipChoice::Keep(path.flip()),
+            Some((path, _)) => FlipChoice::Prefer(path.flip()),
+            None => FlipChoice::Prefer(Flip::None),
         }
     }
 
@@ -419,11 +425,11 @@ impl Planner {
             return None;
         }
         let always = (now, Timestamp::MAX);
-        let (aos, los) = self.follow.pass(now).unwrap_or(always);
+        let (aos, los) = self.track.pass(now).unwrap_or(always);
         let begin = aos.max(now);
         let axes_deg = axes.map(|axis| axis.position_deg);
         Some(PathOrder {
-            follow: self.follow.clone(),
+            track: self.track.clone(),
             course: self.course.clone(),
             offsets: self.offsets,
             drives: self.drives,
@@ -444,7 +450,8 @@ impl Planner {
     /// the order has changed since. Fails if the target has decayed.
     pub fn take_path(&mut self, planned: PlannedPath) -> Result<(), PropagationError> {
         let PlannedPath { order, path } = planned;
-        let is_up_to_date = order.follow == self.follow
+        // The offsets or bounds may have changed while a worker was planning.
+        let is_up_to_date = order.track == self.track
             && order.course.model == self.course.model
             && order.offsets == self.offsets
             && order.drives.mount == self.drives.mount

@@ -27,7 +27,7 @@ struct Slew {
 }
 
 impl SlewRate {
-    /// Takes the position of the axis at `at` on its way to `to_deg`, degrees as the mount counts.
+    /// Takes the position of the axis at `instant` on its way to `to_deg`, degrees as the mount counts.
     /// Returns the full rate, degrees per second, if a long slew has just ended.
     pub(super) fn take(
         &mut self,
@@ -39,6 +39,7 @@ impl SlewRate {
             return self.slew.take().and_then(|slew| slew.rate_deg_s());
         };
         match &mut self.slew {
+            // Bits, because a new command is told by any change of the target, however small.
             Some(slew) if slew.to_deg.to_bits() == to_deg.to_bits() => {
                 slew.take(instant, position_deg)
             }
@@ -53,6 +54,7 @@ impl SlewRate {
 impl Slew {
     fn take(&mut self, instant: Instant, position_deg: f64) -> Option<f64> {
         let way = (self.to_deg - self.from_deg).signum();
+        // An axis ramps up and down; only the stretch at full rate counts.
         if (position_deg - self.from_deg) * way < RAMP_DEG {
             return None;
         }
@@ -85,6 +87,7 @@ impl Slew {
         rates.sort_by(f64::total_cmp);
         let middle = rates.get(rates.len() / 4..rates.len() - rates.len() / 4)?;
         let rate_deg_s = middle.iter().sum::<f64>() / middle.len() as f64;
+        // A faulty sensor must not teach a rate that the station file would refuse.
         ranges::MAXIMUM_RATE_DEG_S.contains(&rate_deg_s).then_some(rate_deg_s)
     }
 }
@@ -96,7 +99,7 @@ mod tests {
     use super::*;
 
     /// The rate learned from an axis that turns from 10 to `to_deg` at `rate_deg_s`. Its position
-    /// is measured every `each_s` and reported as `seen` makes it from the second and the position.
+    /// is measured every `each_s` and reported as `reported` makes it from the second and the position.
     fn learned(
         to_deg: f64,
         rate_deg_s: f64,

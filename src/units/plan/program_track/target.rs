@@ -79,7 +79,7 @@ impl Course {
         Self { model, ..self }
     }
 
-    /// Direction into which the antenna has to point at `at`; `None` once the target has decayed.
+    /// Direction into which the antenna has to point at `time`; `None` once the target has decayed.
     pub fn direction(&self, time: Timestamp) -> Option<AzEl> {
         match &self.body {
             Body::Satellite(propagator) => {
@@ -91,7 +91,7 @@ impl Course {
         }
     }
 
-    /// Returns the readings that the axes need at `at` with these offsets; `None` once the target
+    /// Returns the readings that the axes need at `time` with these offsets; `None` once the target
     /// has decayed.
     pub fn demanded(&self, time: Timestamp, offsets: TrackOffsets) -> Option<AzEl> {
         let direction = offsets.demanded(time, |utc| self.direction(utc))?;
@@ -102,7 +102,7 @@ impl Course {
         Some(self.model.reading(direction).unwrap_or(direction))
     }
 
-    /// Direction on the sky at `at` with these offsets, if those of the axes and the pointing model
+    /// Direction on the sky at `time` with these offsets, if those of the axes and the pointing model
     /// make up for errors of the mount; `None` once the target has decayed.
     pub fn on_the_sky(&self, time: Timestamp, offsets: TrackOffsets) -> Option<AzEl> {
         offsets.on_the_sky().demanded(time, |utc| self.direction(utc))

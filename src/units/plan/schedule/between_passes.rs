@@ -11,7 +11,7 @@ use crate::{
 /// Longest time by which Azel sends an antenna to a pass earlier than necessary, seconds.
 pub const LEAD_S: f64 = 60.0;
 
-/// Where the antenna is between passes at `at`, by its settings and by the rules of the station.
+/// Where the antenna is between passes at `time`, by its settings and by the rules of the station.
 pub fn between(station: &Station, antenna: &Antenna, time: Timestamp) -> BetweenPasses {
     let mut rules = station.rules.iter().filter(|rule| rule.is_for(antenna.id)).peekable();
     if rules.peek().is_none() {

@@ -5,11 +5,11 @@ use std::collections::HashMap;
 use jiff::tz::TimeZone;
 
 use super::{
-    legs::{Ends, Legs},
+    legs::{LegEnds, Legs},
     outcome::Entry,
     request::{Candidate, Choice, PassKey, Request},
     row::{Class, Row},
-    solve::{Part, Problem, Solution, Take},
+    solve::{PassPart, Problem, Solution, Take},
     way::{Lost, Span, Verdict, Way, ms},
 };
 use crate::station::{AntennaId, ChooseBy, Take as Chosen};
@@ -28,7 +28,7 @@ pub(super) struct Fact {
     pub(super) late_ms: i64,
     pub(super) early_ms: i64,
     pub(super) lost: Option<Lost>,
-    pub(super) ends_deg: Ends,
+    pub(super) ends_deg: LegEnds,
     pub(super) is_fixed: bool,
 }
 
@@ -62,7 +62,7 @@ impl<'a> Board<'a> {
             request.candidates.iter().position(is_it)
         };
         let fixed: Vec<Option<usize>> = request.fixed.iter().map(fixed_as).collect();
-        let limits = Limits::new(request);
+        let limits = DayLimits::new(request);
         let mut board = Self {
             request,
             takes: Vec::new(),
@@ -99,8 +99,8 @@ impl<'a> Board<'a> {
             for (span, part) in board.parts(whole, &crowd) {
                 if fixed_entries.is_empty() {
                     board.add(whole, (span, part), limit, &previous);
-                } else if part != Part::Alone && is_free(span) {
-                    board.add(whole, (span, Part::Alone), limit, &previous);
+                } else if part != PassPart::Alone && is_free(span) {
+                    board.add(whole, (span, PassPart::Alone), limit, &previous);
                 }
             }
         }
@@ -137,7 +137,7 @@ impl<'a> Board<'a> {
             pass: pass as u32,
             antenna: antenna as u32,
             limit,
-            part: Part::Alone,
+            part: PassPart::Alone,
             from_ms: ms(entry.from),
             to_ms: ms(entry.to),
             share: 1000,
@@ -160,9 +160,9 @@ impl<'a> Board<'a> {
     }
 
     /// The whole way, and what remains of it with a later start or an earlier end.
-    fn parts(&self, whole: &Whole<'_>, crowd: &Crowd) -> Vec<(Span, Part)> {
+    fn parts(&self, whole: &Whole<'_>, crowd: &Crowd) -> Vec<(Span, PassPart)> {
         let (way, span) = (whole.way, whole.way.span());
-        let mut parts = vec![(span, Part::Alone)];
+        let mut parts = vec![(span, PassPart::Alone)];
         let Some(partial) = self.request.partial else { return parts };
         let counted_ms = way.counted_ms(span);
         let min_ms = (counted_ms as f64 * partial.min_share).max(partial.min_s * 1000.0) as i64;
@@ -176,13 +176,13 @@ impl<'a> Board<'a> {
             let part =
                 |early_ms| Span { from_ms: span.from_ms + late_ms, to_ms: span.to_ms - early_ms };
             let cut = cuts(early).map(part).take_while(|part| is_enough(*part));
-            parts.extend(cut.filter(|part| *part != span).map(|part| (part, Part::Alone)));
+            parts.extend(cut.filter(|part| *part != span).map(|part| (part, PassPart::Alone)));
         }
         if partial.hand_over && self.request.antennas.len() > 1 {
             for cut_ms in cuts(span.length_ms() - 1).skip(1) {
                 let middle_ms = span.from_ms + cut_ms;
-                let first = (Span { to_ms: middle_ms, ..span }, Part::First);
-                let second = (Span { from_ms: middle_ms, ..span }, Part::Second);
+                let first = (Span { to_ms: middle_ms, ..span }, PassPart::First);
+                let second = (Span { from_ms: middle_ms, ..span }, PassPart::Second);
                 parts.extend([first, second].into_iter().filter(|(part, _)| is_enough(*part)));
             }
         }
@@ -192,7 +192,7 @@ impl<'a> Board<'a> {
     fn add(
         &mut self,
         whole: &Whole<'_>,
-        (span, part): (Span, Part),
+        (span, part): (Span, PassPart),
         limit: Option<u32>,
         previous: &PreviousPlan,
     ) {
@@ -217,13 +217,13 @@ impl<'a> Board<'a> {
         self.takes.push(Take {
             pass: whole.pass as u32,
             antenna: whole.antenna as u32,
-            limit: limit.filter(|_| part != Part::Second),
+            limit: limit.filter(|_| part != PassPart::Second),
             part,
             from_ms: span.from_ms,
             to_ms: span.to_ms,
             share: match part {
-                Part::Alone => 1000,
-                Part::First | Part::Second => span.length_ms() * 1000 / whole.sight_ms,
+                PassPart::Alone => 1000,
+                PassPart::First | PassPart::Second => span.length_ms() * 1000 / whole.sight_ms,
             },
             is_whole: span == all,
             height_mdeg: (candidate.max_elevation.degrees() * 1000.0) as i64,
@@ -253,13 +253,13 @@ impl Candidate {
     }
 
     /// Returns the worth of counted milliseconds in its class.
-    pub(super) fn worth(&self, choose_by: ChooseBy, counted_ms: i64, part: Part) -> i64 {
+    pub(super) fn worth(&self, choose_by: ChooseBy, counted_ms: i64, part: PassPart) -> i64 {
         match choose_by {
             ChooseBy::Elevation => {
                 (counted_ms as f64 * self.max_elevation.radians().sin()).round() as i64
             }
             ChooseBy::Duration | ChooseBy::MostMinutes => counted_ms,
-            ChooseBy::MostPasses => i64::from(part != Part::Second),
+            ChooseBy::MostPasses => i64::from(part != PassPart::Second),
         }
     }
 }
@@ -312,7 +312,7 @@ impl Crowd {
                 pass: 0,
                 antenna: whole.antenna as u32,
                 limit: None,
-                part: Part::Alone,
+                part: PassPart::Alone,
                 from_ms: span.from_ms,
                 to_ms: span.to_ms,
                 share: 1000,
@@ -357,12 +357,12 @@ impl Crowd {
 }
 
 /// Limits of passes a day that can be reached at all.
-struct Limits {
+struct DayLimits {
     maxima: Vec<u32>,
     of_pass: Vec<Option<u32>>,
 }
 
-impl Limits {
+impl DayLimits {
     fn new(request: &Request<'_>) -> Self {
         let day = |candidate: &Candidate| {
             (candidate.key.satellite, candidate.key.aos.to_zoned(TimeZone::UTC).date())

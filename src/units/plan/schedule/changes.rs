@@ -18,7 +18,7 @@ pub struct Change {
     /// As in the new schedule, where it is still there.
     pub pass: PassKey,
     pub changed: Changed,
-    pub cause: Cause,
+    pub cause: ChangeCause,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -43,7 +43,7 @@ pub enum Changed {
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Cause {
+pub enum ChangeCause {
     /// The pass was not there before.
     NewPass,
     /// The pass is not predicted any more.
@@ -54,7 +54,7 @@ pub enum Cause {
     Better,
 }
 
-/// Returns the changes from `before` to `after`, from `from` on, in the order of `after`, then of
+/// Returns the changes from `before` to `after`, from `start` on, in the order of `after`, then of
 /// `before`. Two passes are the same if they are of the same satellite and their spans overlap.
 pub fn changes(before: &Schedule, after: &Schedule, start: Timestamp) -> Vec<Change> {
     let ahead = |entry: &&Entry| entry.to > start;
@@ -79,7 +79,7 @@ pub fn changes(before: &Schedule, after: &Schedule, start: Timestamp) -> Vec<Cha
         };
         let was_known = before.left_out.iter().any(|left_out| is_near(left_out.pass, entry));
         let is_new = same.is_empty() && !was_known;
-        let cause = if is_new { Cause::NewPass } else { Cause::Better };
+        let cause = if is_new { ChangeCause::NewPass } else { ChangeCause::Better };
         let change = |changed| Change { pass: entry.pass, changed, cause };
         found.extend(changed.map(change));
     }
@@ -88,7 +88,8 @@ pub fn changes(before: &Schedule, after: &Schedule, start: Timestamp) -> Vec<Cha
             continue;
         }
         let left_out = after.left_out.iter().find(|left_out| is_near(left_out.pass, entry));
-        let cause = left_out.map_or(Cause::Gone, |omission| Cause::LeftOut(omission.why.clone()));
+        let cause = left_out
+            .map_or(ChangeCause::Gone, |omission| ChangeCause::LeftOut(omission.why.clone()));
         let pass = left_out.map_or(entry.pass, |reason| reason.pass);
         let changed = Changed::Dropped { antenna: entry.antenna };
         found.push(Change { pass, changed, cause });

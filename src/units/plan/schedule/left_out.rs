@@ -4,7 +4,7 @@ use super::{
     board::{Board, Fact},
     outcome::{Conflict, LeftOut, Why},
     request::{Candidate, Choice, PlannedAntenna},
-    solve::{Part, Slews as _, Solution, Take},
+    solve::{PassPart, Slews as _, Solution, Take},
     way::{Impossible, Verdict, ms},
 };
 
@@ -33,7 +33,7 @@ impl Board<'_> {
     fn wholes(&self) -> Vec<Vec<u32>> {
         let mut wholes = vec![Vec::new(); self.request.candidates.len()];
         for ((take, fact), index) in self.takes.iter().zip(&self.facts).zip(0..) {
-            let is_whole = take.part == Part::Alone && fact.late_ms == 0 && fact.early_ms == 0;
+            let is_whole = take.part == PassPart::Alone && fact.late_ms == 0 && fact.early_ms == 0;
             if let Some(own) = wholes.get_mut(take.pass as usize).filter(|_| is_whole) {
                 own.push(index);
             }

@@ -13,7 +13,7 @@ use super::{
 use crate::station::BetweenPasses;
 
 /// Where the axes stand at both ends of a take, degrees as the mount counts.
-pub(super) type Ends = [[f64; 2]; 2];
+pub(super) type LegEnds = [[f64; 2]; 2];
 
 /// The takes of a schedule with the ways between them. Ways round what must not be entered are
 /// searched for where they decide, once each.
@@ -28,7 +28,7 @@ struct Stop {
     antenna: usize,
     from_ms: i64,
     to_ms: i64,
-    ends_deg: Ends,
+    ends_deg: LegEnds,
     is_fixed: bool,
     /// From the park position to its start, and from its end back, milliseconds; `None` where no
     /// way leads.
@@ -40,7 +40,7 @@ impl<'a> Legs<'a> {
     /// `takes` with the places of the axes at both ends, and whether they are fixed.
     pub(super) fn new(
         antennas: &'a [PlannedAntenna],
-        takes: impl Iterator<Item = (Take, Ends, bool)>,
+        takes: impl Iterator<Item = (Take, LegEnds, bool)>,
     ) -> Self {
         let stops = takes.map(|(take, ends_deg, is_fixed)| Stop {
             antenna: take.antenna as usize,

@@ -16,7 +16,7 @@ use crate::{
     device::Pointing,
     plan::{
         Barrier, Bounds, BoundsAt, Loss, Sample, Sweep,
-        az_el::{Choice, Flip, Planned, Start},
+        az_el::{Flip, FlipChoice, Planned, Start},
         bounds::FINEST_DEG,
         detour::{self, AxisLimits},
         on_board::ALONG_DEG,
@@ -83,7 +83,7 @@ impl Reach {
         };
         let park = antenna.park_direction();
         let sample = Sample { time: Timestamp::UNIX_EPOCH, direction: park };
-        let choice = Choice::Keep(Flip::None);
+        let choice = FlipChoice::Keep(Flip::None);
         let bounds = Bounds::of(station, antenna);
         let start = Start::default();
         let whole = Drives { mount: antenna.mount, ..drives };
@@ -102,7 +102,7 @@ impl Reach {
         }
     }
 
-    /// Returns `true` if the antenna can stand at its park position at `at`.
+    /// Returns `true` if the antenna can stand at its park position at `time`.
     pub fn can_park(&self, time: Timestamp) -> bool {
         let reached = self.bounds.direction(self.park_deg);
         let deviation = if self.drives.has_elevation {
@@ -113,7 +113,7 @@ impl Reach {
         deviation.degrees() < SAME_DEG && self.bounds.at(time).forbids(reached).is_none()
     }
 
-    /// A direction outside of all barriers at `at`; `None` where none is found.
+    /// A direction outside of all barriers at `time`; `None` where none is found.
     pub fn open_sky(&self, time: Timestamp) -> Option<AzEl> {
         self.open_sky_deg(&self.bounds.at(time)).map(|axes_deg| self.bounds.direction(axes_deg))
     }
@@ -165,7 +165,7 @@ impl Reach {
         let span = Span { from_ms: ms(first_sample.time), to_ms: ms(list.last()?.time) };
         let lead_s = ((span.from_ms - ready_ms) as f64 / 1000.0).max(0.0);
         let start = Start { axes_deg: stands_deg.map(Some), lead_s, ..Start::default() };
-        let choice = Choice::Prefer(Flip::None);
+        let choice = FlipChoice::Prefer(Flip::None);
         let planned = self.drives.along_within(&self.bounds, &list, step_s, start, choice);
         let samples = Samples { list, step_s };
         let Judged { way, entered, .. } = self.judged(&samples, planned, &[span]);
@@ -391,7 +391,7 @@ impl Reach {
     fn planned(&self, samples: &Samples) -> Vec<Planned> {
         let mut found: Vec<Planned> = Vec::new();
         for start in self.starts(samples.list.first()) {
-            let choice = Choice::Prefer(Flip::None);
+            let choice = FlipChoice::Prefer(Flip::None);
             let planned = self.drives.along_within(
                 &self.bounds,
                 &samples.list,

@@ -15,12 +15,12 @@ mod tests;
 mod vector;
 
 use super::row::Row;
-use line::Line;
+use line::AntennaLine;
 use vector::Scope;
 
 /// How a take shares its pass with others.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Part {
+pub(super) enum PassPart {
     /// It excludes all other takes of its pass.
     Alone,
     /// It counts only together with a [`Part::Second`] of its pass on another antenna, which
@@ -38,7 +38,7 @@ pub(super) struct Take {
     pub(super) antenna: u32,
     /// Index of the limit that it counts towards; `None` for the second part of a pass.
     pub(super) limit: Option<u32>,
-    pub(super) part: Part,
+    pub(super) part: PassPart,
     pub(super) from_ms: i64,
     /// Later than `from_ms`.
     pub(super) to_ms: i64,
@@ -54,7 +54,7 @@ pub(super) struct Take {
 
 /// The slews of all antennas.
 pub(super) trait Slews {
-    /// From where the antenna stands at first, milliseconds; `None` if it cannot be at `to` in time.
+    /// From where the antenna stands at first, milliseconds; `None` if it cannot be at `end` in time.
     fn first_ms(&self, end: usize) -> Option<i64>;
 
     /// Between two takes of one antenna of which the second begins later, milliseconds; `None` if
@@ -95,7 +95,8 @@ impl Problem<'_> {
     }
 
     pub(super) fn solve(&self) -> Solution {
-        let lines: Vec<Line> = (0..self.antennas).map(|antenna| Line::new(self, antenna)).collect();
+        let lines: Vec<AntennaLine> =
+            (0..self.antennas).map(|antenna| AntennaLine::new(self, antenna)).collect();
         if let [line] = &lines[..] {
             let takes = vec![line.best(self, &|_, take| Some(take.row)).takes];
             let row = self.row(&takes);
@@ -118,7 +119,7 @@ impl Problem<'_> {
     }
 
     /// The best schedule that is found, for where there are too many states to try them all.
-    fn solve_in_part(&self, lines: &[Line]) -> Solution {
+    fn solve_in_part(&self, lines: &[AntennaLine]) -> Solution {
         let start = self.greedy().into_iter().max_by_key(|takes| self.row(takes));
         let takes = self.refined(start.unwrap_or_default(), &mut self.effort.clone());
         let row = self.row(&takes);

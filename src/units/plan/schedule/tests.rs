@@ -367,7 +367,7 @@ fn what_is_fixed_stays_and_what_the_operator_says_is_done() {
     let never = new.left_out.iter().find(|left| left.pass == taken_pass).unwrap();
     assert_eq!(never.why, Why::Refused(Refusal::Never));
     assert!(changes(&first, &new, noon()).iter().any(|change| {
-        change.pass == taken_pass && change.cause == Cause::LeftOut(never.why.clone())
+        change.pass == taken_pass && change.cause == ChangeCause::LeftOut(never.why.clone())
     }));
 }
 

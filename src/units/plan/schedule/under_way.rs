@@ -4,7 +4,7 @@ use jiff::Timestamp;
 
 use super::{
     Candidate, Choice, Entry, PlannedAntenna,
-    solve::Part,
+    solve::PassPart,
     way::{Span, Verdict, Way, at_ms, ms},
 };
 use crate::station::ChooseBy;
@@ -66,7 +66,7 @@ impl Candidate {
             late_s: (rest.from_ms - way.span().from_ms) as f64 / 1000.0,
             early_s: 0.0,
             counted_s: counted_ms as f64 / 1000.0,
-            worth: self.worth(choose_by, counted_ms, Part::Alone),
+            worth: self.worth(choose_by, counted_ms, PassPart::Alone),
             lost: way.lost,
             axes_deg: [way.axes_deg(rest.from_ms), way.axes_deg(rest.to_ms)],
             after: None,

@@ -115,13 +115,13 @@ impl Way {
         Span::total_ms(&Span::intersections(&self.counted, &[span]))
     }
 
-    /// The first millisecond from `at` on that counts.
+    /// The first millisecond from `at_ms` on that counts.
     pub(super) fn next_counted_ms(&self, at_ms: i64) -> Option<i64> {
         let span = self.counted.iter().find(|span| at_ms < span.to_ms)?;
         Some(span.from_ms.max(at_ms))
     }
 
-    /// When the stretch begins that counts after the one at `at`.
+    /// When the stretch begins that counts after the one at `at_ms`.
     pub(super) fn next_stretch_ms(&self, at_ms: i64) -> Option<i64> {
         self.counted.iter().map(|span| span.from_ms).find(|from_ms| at_ms < *from_ms)
     }

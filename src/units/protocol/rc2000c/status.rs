@@ -13,7 +13,7 @@ pub use position::{LimitEnd, Position};
 pub use track::{Receiver, ReceiverChannel, Submode, Track, TrackBand};
 
 use super::SatelliteName;
-use position::Axis;
+use position::PositionAxis;
 
 /// Characters of a status in its frame.
 pub(super) const STATUS_BYTES: usize = 33;
@@ -110,8 +110,8 @@ impl Status {
         Some(Self {
             satellite: SatelliteName::from_field(name)?,
             name_display: NameDisplay::from_byte(*display),
-            azimuth: Position::parse(Axis::Azimuth, *azimuth),
-            elevation: Position::parse(Axis::Elevation, *elevation),
+            azimuth: Position::parse(PositionAxis::Azimuth, *azimuth),
+            elevation: Position::parse(PositionAxis::Elevation, *elevation),
             feed: FeedReading::parse(*feed, device),
             polarization_mode: PolarizationMode::from_byte(mode),
             azimuth_drive: AxisDrive::from_byte(azimuth_drive),

@@ -2,8 +2,8 @@
 
 use std::collections::VecDeque;
 
-use super::layout::Shape;
-use super::reply::{Start, acknowledgement};
+use super::layout::LayoutShape;
+use super::reply::{ReplyStart, acknowledgement};
 use super::{Layout, Reply, Status};
 
 /// Maximum length of noise that is reported in one piece.
@@ -111,15 +111,15 @@ impl Decoder {
         match bytes {
             [b'V'] if is_first => UNFINISHED,
             [b'V', digit, ..] if is_first && digit.is_ascii_digit() => Front::OtherProtocol,
-            [b'|', b'h', ..] => match Shape::decide(bytes) {
-                Start::Unfinished => UNFINISHED,
-                Start::Unknown => Front::Noise,
-                Start::Whole(shape, length) => status(shape, bytes, length, self.layout),
+            [b'|', b'h', ..] => match LayoutShape::decide(bytes) {
+                ReplyStart::Unfinished => UNFINISHED,
+                ReplyStart::Unknown => Front::Noise,
+                ReplyStart::Whole(shape, length) => status(shape, bytes, length, self.layout),
             },
             _ => match acknowledgement(bytes) {
-                Start::Unfinished => UNFINISHED,
-                Start::Unknown => Front::Noise,
-                Start::Whole(reply, length) => Front::Reply(reply, length),
+                ReplyStart::Unfinished => UNFINISHED,
+                ReplyStart::Unknown => Front::Noise,
+                ReplyStart::Whole(reply, length) => Front::Reply(reply, length),
             },
         }
     }
@@ -134,7 +134,7 @@ impl Decoder {
     }
 }
 
-fn status(shape: Shape, bytes: &[u8], length: usize, before: Option<Layout>) -> Front {
+fn status(shape: LayoutShape, bytes: &[u8], length: usize, before: Option<Layout>) -> Front {
     if before.is_some_and(|before| before != shape.layout) {
         return Front::LayoutChanged(shape.layout);
     }

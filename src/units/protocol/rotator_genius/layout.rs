@@ -1,7 +1,7 @@
 //! Places of the fields in a status.
 
 use super::RotatorKind;
-use super::reply::Start;
+use super::reply::ReplyStart;
 
 /// Form of a status: there are two.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -43,12 +43,12 @@ const KIND_AT: usize = 9;
 
 /// Form of a status and length of its header.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Shape {
+pub(super) struct LayoutShape {
     pub(super) layout: Layout,
     pub(super) has_panic_byte: bool,
 }
 
-impl Shape {
+impl LayoutShape {
     /// Bytes in front of the first rotator.
     pub(super) const fn header_length(self) -> usize {
         if self.has_panic_byte { HEADER_LENGTH } else { HEADER_LENGTH - 1 }
@@ -65,31 +65,31 @@ impl Shape {
     /// decide: in the other form digits and blanks stand at their places, and never names. A
     /// text layer on the way may have swallowed the zero byte of "Panic", which moves all
     /// places down by one.
-    pub(super) fn decide(bytes: &[u8]) -> Start<Self> {
+    pub(super) fn decide(bytes: &[u8]) -> ReplyStart<Self> {
         for has_panic_byte in [true, false] {
             let start = |layout| Self { layout, has_panic_byte }.header_length();
             match has_rotator(bytes, start(Layout::Wide)) {
-                None => return Start::Unfinished,
+                None => return ReplyStart::Unfinished,
                 Some(false) => continue,
                 Some(true) => {}
             }
             for layout in [Layout::Narrow, Layout::Wide] {
                 match has_rotator(bytes, start(layout) + layout.rotator_length()) {
-                    None => return Start::Unfinished,
+                    None => return ReplyStart::Unfinished,
                     Some(false) => {}
                     Some(true) => {
                         let shape = Self { layout, has_panic_byte };
-                        return Start::Whole(shape, shape.length());
+                        return ReplyStart::Whole(shape, shape.length());
                     }
                 }
             }
         }
-        Start::Unknown
+        ReplyStart::Unknown
     }
 }
 
 /// Returns `true` if the kind and the motion of a rotator are in their places with its fields at
-/// `at`; `None` if too few bytes have come to tell.
+/// `index`; `None` if too few bytes have come to tell.
 fn has_rotator(bytes: &[u8], index: usize) -> Option<bool> {
     let kind = bytes.get(index + KIND_AT)?;
     let moving = bytes.get(index + KIND_AT + 1)?;

@@ -36,7 +36,7 @@ pub enum Acknowledgement {
 
 /// Result of reading the beginning of a stream.
 #[derive(Debug, PartialEq, Eq)]
-pub(super) enum Start<T> {
+pub(super) enum ReplyStart<T> {
     /// An item, and its number of bytes.
     Whole(T, usize),
     Unknown,
@@ -45,29 +45,29 @@ pub(super) enum Start<T> {
 }
 
 /// Reads the acknowledgement at the beginning of `bytes`.
-pub(super) fn acknowledgement(bytes: &[u8]) -> Start<Reply> {
+pub(super) fn acknowledgement(bytes: &[u8]) -> ReplyStart<Reply> {
     let short = match bytes {
-        [] | [b'|'] => return Start::Unfinished,
+        [] | [b'|'] => return ReplyStart::Unfinished,
         [b'|', b'A', ..] => return go_to(bytes),
         [b'|', b'P', ..] => Acknowledgement::RotateClockwise,
         [b'|', b'M', ..] => Acknowledgement::RotateCounterClockwise,
         [b'|', b'S', ..] => Acknowledgement::Stop,
         [b'|', b'c', ..] => Acknowledgement::Configure,
-        _ => return Start::Unknown,
+        _ => return ReplyStart::Unknown,
     };
     ended_by(bytes.get(2), short, 3)
 }
 
 /// Reads both forms: the document's list has 6 bytes, its example 3.
-fn go_to(bytes: &[u8]) -> Start<Reply> {
+fn go_to(bytes: &[u8]) -> ReplyStart<Reply> {
     let is_filler = |byte: &u8| byte.is_ascii_digit() || *byte == b' ';
     let field = bytes.get(2..5.min(bytes.len())).unwrap_or_default();
     match field {
-        [] => Start::Unfinished,
+        [] => ReplyStart::Unfinished,
         [first, ..] if !is_filler(first) => {
             ended_by(Some(first), Acknowledgement::GoTo { target: None }, 3)
         }
-        _ if !field.iter().all(is_filler) => Start::Unknown,
+        _ if !field.iter().all(is_filler) => ReplyStart::Unknown,
         _ => {
             let target = WholeDegrees::parse(field);
             ended_by(bytes.get(5), Acknowledgement::GoTo { target }, 6)
@@ -75,14 +75,18 @@ fn go_to(bytes: &[u8]) -> Start<Reply> {
     }
 }
 
-fn ended_by(last: Option<&u8>, acknowledgement: Acknowledgement, length: usize) -> Start<Reply> {
+fn ended_by(
+    last: Option<&u8>,
+    acknowledgement: Acknowledgement,
+    length: usize,
+) -> ReplyStart<Reply> {
     let is_accepted = match last {
-        None => return Start::Unfinished,
+        None => return ReplyStart::Unfinished,
         Some(b'K') => true,
         Some(b'F') => false,
-        Some(_) => return Start::Unknown,
+        Some(_) => return ReplyStart::Unknown,
     };
-    Start::Whole(Reply::Acknowledgement { to: acknowledgement, is_accepted }, length)
+    ReplyStart::Whole(Reply::Acknowledgement { to: acknowledgement, is_accepted }, length)
 }
 
 #[cfg(test)]
@@ -92,7 +96,7 @@ mod tests {
     #[test]
     fn an_acknowledgement_ends_with_its_verdict() {
         let accepted = |request, length| {
-            Start::Whole(Reply::Acknowledgement { to: request, is_accepted: true }, length)
+            ReplyStart::Whole(Reply::Acknowledgement { to: request, is_accepted: true }, length)
         };
         let target = |degrees| WholeDegrees::new(degrees).ok();
         let go_to = |target| Acknowledgement::GoTo { target };
@@ -102,14 +106,14 @@ mod tests {
             (b"|A158K", accepted(go_to(target(158)), 6)),
             (b"|A   K", accepted(go_to(None), 6)),
             (b"|A999K", accepted(go_to(None), 6)),
-            (b"|A15", Start::Unfinished),
-            (b"|A", Start::Unfinished),
-            (b"|", Start::Unfinished),
-            (b"|M", Start::Unfinished),
-            (b"|A1K", Start::Unknown),
-            (b"|A158X", Start::Unknown),
-            (b"|M1", Start::Unknown),
-            (b"|XK", Start::Unknown),
+            (b"|A15", ReplyStart::Unfinished),
+            (b"|A", ReplyStart::Unfinished),
+            (b"|", ReplyStart::Unfinished),
+            (b"|M", ReplyStart::Unfinished),
+            (b"|A1K", ReplyStart::Unknown),
+            (b"|A158X", ReplyStart::Unknown),
+            (b"|M1", ReplyStart::Unknown),
+            (b"|XK", ReplyStart::Unknown),
         ] {
             assert_eq!(acknowledgement(bytes), expected, "{bytes:?}");
         }

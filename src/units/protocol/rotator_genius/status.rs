@@ -1,7 +1,7 @@
 //! Status of both rotators (section 1.0).
 
 use super::degrees::{signed_number, without_blanks};
-use super::layout::Shape;
+use super::layout::LayoutShape;
 use super::{Layout, RotatorNumber, WholeDegrees, name};
 
 /// Status reply of the unit.
@@ -101,7 +101,7 @@ impl Status {
     }
 
     /// Reads a status of this shape; `None` unless `bytes` have its length.
-    pub(super) fn read(shape: Shape, bytes: &[u8]) -> Option<Self> {
+    pub(super) fn read(shape: LayoutShape, bytes: &[u8]) -> Option<Self> {
         let (header, rotators) = bytes.split_at_checked(shape.header_length())?;
         let (one, two) = rotators.split_at_checked(shape.layout.rotator_length())?;
         Some(Self {

@@ -4,22 +4,22 @@ use jiff::Timestamp;
 use jiff::tz::TimeZone;
 
 use super::ValueError;
-use super::fields::{FieldError, Fields, time_values};
+use super::fields::{FieldError, FrameFields, time_values};
 
 /// A clock that shows an earlier year was never set: the unit starts in 2000.
 const FIRST_PLAUSIBLE_YEAR: i16 = 2010;
 
 /// Reply to `TIME?`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Clock {
+pub struct UnitTime {
     /// Time of the unit's clock, UTC.
     pub time: Timestamp,
     /// The reply had milliseconds. The document lists them but leaves them out of its example.
     pub has_milliseconds: bool,
 }
 
-impl Clock {
-    pub(super) fn read(fields: Fields<'_>) -> Result<Self, FieldError> {
+impl UnitTime {
+    pub(super) fn read(fields: FrameFields<'_>) -> Result<Self, FieldError> {
         let has_milliseconds = fields.count() > 6;
         let time = if has_milliseconds { fields.time_with_ms(1) } else { fields.time(1, 0) }?;
         Ok(Self { time, has_milliseconds })
@@ -71,7 +71,7 @@ pub struct StartStopTime {
 }
 
 impl StartStopTime {
-    pub(super) fn read(fields: Fields<'_>) -> Result<Self, FieldError> {
+    pub(super) fn read(fields: FrameFields<'_>) -> Result<Self, FieldError> {
         Ok(Self { start: fields.time(1, 0)?, stop: fields.time(7, 0)? })
     }
 
@@ -125,7 +125,7 @@ pub struct TimedPosition {
 }
 
 impl TimedPosition {
-    pub(super) fn read(fields: Fields<'_>) -> Result<Self, FieldError> {
+    pub(super) fn read(fields: FrameFields<'_>) -> Result<Self, FieldError> {
         Ok(Self {
             x_deg: fields.decimal(1)?,
             y_deg: fields.decimal(2)?,

@@ -3,7 +3,7 @@
 mod names;
 
 use super::{Frame, HIDDEN, Verb, Word};
-use names::{Named, Names};
+use names::{Named, NamedFields};
 
 /// One value of a frame.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -24,7 +24,7 @@ pub fn explain_request(frame: &Frame) -> Vec<Value> {
     match frame.command() {
         Some((Word::SatelliteFtp, Verb::Set)) => vec![hidden()],
         Some((word, Verb::Set)) => explain(frame, names::of_setting(word)),
-        _ => explain(frame, Names::NONE),
+        _ => explain(frame, NamedFields::NONE),
     }
 }
 
@@ -36,7 +36,7 @@ pub fn explain_reply(frame: &Frame) -> Vec<Value> {
         Some((_, Verb::Set)) => explain(frame, names::ANSWER),
         Some((Word::SatelliteFtp, Verb::Query)) => vec![hidden()],
         Some((word, Verb::Query)) => explain(frame, names::of_reply(word)),
-        None => explain(frame, Names::NONE),
+        None => explain(frame, NamedFields::NONE),
     }
 }
 
@@ -55,7 +55,7 @@ fn hidden() -> Value {
     Value { number: 1, name: "values with a password", raw, unit: "", stands_for: "" }
 }
 
-fn explain(frame: &Frame, names: Names) -> Vec<Value> {
+fn explain(frame: &Frame, names: NamedFields) -> Vec<Value> {
     let raw = raw_values(frame, names);
     let named = names.named.iter().map(Some).chain(std::iter::repeat(None));
     raw.into_iter()
@@ -77,7 +77,7 @@ fn explain(frame: &Frame, names: Names) -> Vec<Value> {
 }
 
 /// Texts of the values; one that may hold commas stays in one piece.
-fn raw_values(frame: &Frame, names: Names) -> Vec<String> {
+fn raw_values(frame: &Frame, names: NamedFields) -> Vec<String> {
     let fields = frame.fields();
     let whole = names.text_at.and_then(|before| {
         let after = names.named.len().checked_sub(before + 1)?;

@@ -1,7 +1,7 @@
 //! Reply to `ERRSTATUS?` (section 7).
 
 use super::coded::coded;
-use super::fields::{FieldError, Fields};
+use super::fields::{FieldError, FrameFields};
 
 /// One of the twelve faults and warnings, in the order of the document.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -102,7 +102,7 @@ impl Faults {
     pub(super) const MIN_FIELDS: usize = 11;
     pub(super) const FIELDS: usize = 12;
 
-    pub(super) fn read(fields: Fields<'_>) -> Result<Self, FieldError> {
+    pub(super) fn read(fields: FrameFields<'_>) -> Result<Self, FieldError> {
         let mut states = [None; 12];
         for (state, kind) in states.iter_mut().zip(FaultKind::ALL) {
             if kind.index() > fields.count().max(Self::MIN_FIELDS) {
@@ -143,7 +143,7 @@ mod tests {
     use crate::protocol::satrak::Frame;
 
     fn read(payload: &str) -> Faults {
-        Faults::read(Fields::new(&Frame::from_payload(payload))).unwrap()
+        Faults::read(FrameFields::new(&Frame::from_payload(payload))).unwrap()
     }
 
     #[test]

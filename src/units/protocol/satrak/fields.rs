@@ -38,11 +38,11 @@ pub struct FieldError {
 
 /// The values of a frame, numbered from 1 as in the document.
 #[derive(Clone, Copy)]
-pub(super) struct Fields<'a> {
+pub(super) struct FrameFields<'a> {
     frame: &'a Frame,
 }
 
-impl<'a> Fields<'a> {
+impl<'a> FrameFields<'a> {
     pub(super) fn new(frame: &'a Frame) -> Self {
         Self { frame }
     }
@@ -127,7 +127,7 @@ mod tests {
     use super::*;
 
     fn time_of(payload: &str) -> Result<Timestamp, FieldError> {
-        Fields::new(&Frame::from_payload(payload)).time(1, 0)
+        FrameFields::new(&Frame::from_payload(payload)).time(1, 0)
     }
 
     #[test]
@@ -143,7 +143,9 @@ mod tests {
         ] {
             assert!(time_of(payload).is_err(), "{payload}");
         }
-        assert!(Fields::new(&Frame::from_payload("T?,0,0,0,1,1,32767")).time(1, 2000).is_err());
+        assert!(
+            FrameFields::new(&Frame::from_payload("T?,0,0,0,1,1,32767")).time(1, 2000).is_err()
+        );
     }
 
     #[test]

@@ -6,7 +6,7 @@ mod shown;
 use std::borrow::Cow;
 use std::fmt;
 
-pub use decoder::{Decoder, FrameError, Line, MAX_LINE_BYTES};
+pub use decoder::{Decoder, FrameError, MAX_LINE_BYTES, ReceivedLine};
 pub use shown::{HIDDEN, Shown};
 
 use super::{Verb, Word};

@@ -3,7 +3,7 @@
 use jiff::Timestamp;
 
 use super::ValueError;
-use super::fields::{FieldError, FieldProblem, Fields};
+use super::fields::{FieldError, FieldProblem, FrameFields};
 use super::number::{checked, parse_decimal};
 
 /// Added to the year: the receiver reports two digits of it.
@@ -39,7 +39,7 @@ impl Position {
     }
 
     /// Reads two values from `first` on: latitude and longitude.
-    pub(super) fn read(fields: Fields<'_>, first: usize) -> Result<Self, FieldError> {
+    pub(super) fn read(fields: FrameFields<'_>, first: usize) -> Result<Self, FieldError> {
         let angle = |field, plus, minus| {
             lettered(fields.text(field)?, plus, minus)
                 .ok_or(FieldError { field, problem: FieldProblem::NotPlace })
@@ -85,7 +85,7 @@ pub struct GpsData {
 }
 
 impl GpsData {
-    pub(super) fn read(fields: Fields<'_>) -> Result<Self, FieldError> {
+    pub(super) fn read(fields: FrameFields<'_>) -> Result<Self, FieldError> {
         let valid = fields.integer::<i64>(3)? == 1;
         let position = Position::read(fields, 1);
         let time = fields.time(4, CENTURY);
@@ -107,7 +107,7 @@ pub struct GpsSettings {
 }
 
 impl GpsSettings {
-    pub(super) fn read(fields: Fields<'_>) -> Result<Self, FieldError> {
+    pub(super) fn read(fields: FrameFields<'_>) -> Result<Self, FieldError> {
         let automatic = fields.flag(1)?;
         let position = Position::read(fields, 2);
         let position = if automatic { position.ok() } else { Some(position?) };
@@ -138,7 +138,7 @@ mod tests {
     use crate::protocol::satrak::Frame;
 
     fn gps(payload: &str) -> Result<GpsData, FieldError> {
-        GpsData::read(Fields::new(&Frame::from_payload(payload)))
+        GpsData::read(FrameFields::new(&Frame::from_payload(payload)))
     }
 
     #[test]

@@ -40,7 +40,7 @@ pub enum ValueError {
     },
 }
 
-/// Rounds `value` to a thousandth if it is between `least` and `most`.
+/// Rounds `value` to a thousandth if it is between `min` and `max`.
 pub(super) fn checked(
     name: &'static str,
     value: f64,

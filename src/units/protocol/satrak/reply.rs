@@ -1,9 +1,9 @@
 //! Typed replies, read from frames.
 
-use super::fields::{FieldError, Fields};
+use super::fields::{FieldError, FrameFields};
 use super::{
-    AngleSettings, Clock, Faults, Frame, GpsData, GpsSettings, ImageStatus, Oddity, Reduction,
-    Satellite, SatelliteFtp, SatelliteHttp, Settings, StartStopTime, Status, TimedPosition, Verb,
+    AngleSettings, Faults, Frame, GpsData, GpsSettings, ImageStatus, Oddity, Reduction, Satellite,
+    SatelliteFtp, SatelliteHttp, Settings, StartStopTime, Status, TimedPosition, UnitTime, Verb,
     Word,
 };
 
@@ -12,7 +12,7 @@ pub enum Reply {
     Version(Version),
     Status(Status),
     Faults(Faults),
-    Clock(Clock),
+    Clock(UnitTime),
     StartStopTime(StartStopTime),
     Settings(Settings),
     AngleSettings(AngleSettings),
@@ -44,7 +44,7 @@ pub struct Version {
 }
 
 impl Version {
-    fn read(fields: Fields<'_>) -> Result<Self, FieldError> {
+    fn read(fields: FrameFields<'_>) -> Result<Self, FieldError> {
         let text = |field| fields.text(field).map(str::to_owned);
         Ok(Self {
             control_unit: text(1)?,
@@ -109,14 +109,14 @@ pub enum ReplyError {
 
 /// Number of values of a reply: fewest readable, listed in the document, most readable,
 /// and how many of them are decimals.
-struct Shape {
+struct ReplyShape {
     min: usize,
     listed: usize,
     max: usize,
     decimals: usize,
 }
 
-impl Shape {
+impl ReplyShape {
     const fn for_word(word: Word) -> Option<Self> {
         /// Most values of a reply that ends in a text, which may hold commas.
         const ANY: usize = usize::MAX;
@@ -174,14 +174,14 @@ impl Reply {
         let (word, verb) =
             frame.command().ok_or_else(|| ReplyError::UnknownWord(bounded(frame.word())))?;
         let mut notes: Vec<Note> = frame.oddities().iter().copied().map(Note::Oddity).collect();
-        let fields = Fields::new(frame);
+        let fields = FrameFields::new(frame);
         let reply = match (frame.fields().first().map(String::as_str), verb) {
             (Some("ERR"), _) => Self::Refused { code: fields.joined(1, 0).unwrap_or_default() },
             (Some("OK"), Verb::Set) => Self::Done,
             (_, Verb::Set) => return Err(ReplyError::NeitherOkNorErr(word)),
             (_, Verb::Query) => {
                 let shape =
-                    Shape::for_word(word).ok_or(ReplyError::NoSuchRequest { word, verb })?;
+                    ReplyShape::for_word(word).ok_or(ReplyError::NoSuchRequest { word, verb })?;
                 shape.check(word, fields.count())?;
                 notes.extend(shape.note(word, fields.count()));
                 read(word, fields).map_err(|error| ReplyError::Field { word, error })?
@@ -191,11 +191,11 @@ impl Reply {
     }
 }
 
-fn read(word: Word, fields: Fields<'_>) -> Result<Reply, FieldError> {
+fn read(word: Word, fields: FrameFields<'_>) -> Result<Reply, FieldError> {
     Ok(match word {
         Word::Status => Reply::Status(Status::read(fields)?),
         Word::ErrStatus => Reply::Faults(Faults::read(fields)?),
-        Word::Time => Reply::Clock(Clock::read(fields)?),
+        Word::Time => Reply::Clock(UnitTime::read(fields)?),
         Word::StartStopTime => Reply::StartStopTime(StartStopTime::read(fields)?),
         Word::Settings => Reply::Settings(Settings::read(fields)?),
         Word::AngleSettings => Reply::AngleSettings(AngleSettings::read(fields)?),

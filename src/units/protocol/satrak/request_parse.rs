@@ -1,7 +1,7 @@
 //! Requests read from frames, as a unit or its simulator does. The odd forms of the
 //! document's examples are accepted too.
 
-use super::fields::{FieldError, FieldProblem, Fields};
+use super::fields::{FieldError, FieldProblem, FrameFields};
 use super::{
     AngleChange, ClockTime, Frame, FtpTle, Goto, GpsSettingsChange, Halt, HttpTle, Motion, Move,
     Password, Position, PositionBase, Query, Reduction, Request, SatelliteChoice, SensorAngles,
@@ -34,7 +34,7 @@ impl Request {
     /// Reads a frame from a client.
     pub fn parse(frame: &Frame) -> Result<Self, RequestError> {
         let (word, verb) = frame.command().ok_or(RequestError::Unknown)?;
-        let fields = Fields::new(frame);
+        let fields = FrameFields::new(frame);
         match verb {
             Verb::Query => {
                 let mut matching = Query::ALL.into_iter().filter(|(_, name)| *name == word);
@@ -47,7 +47,7 @@ impl Request {
     }
 }
 
-fn exactly(fields: Fields<'_>, expected: usize) -> Result<(), RequestError> {
+fn exactly(fields: FrameFields<'_>, expected: usize) -> Result<(), RequestError> {
     let found = fields.count();
     if found == expected { Ok(()) } else { Err(RequestError::Count { found, expected }) }
 }
@@ -68,7 +68,7 @@ const fn value_count(word: Word) -> usize {
     }
 }
 
-fn parse_set(word: Word, fields: Fields<'_>) -> Result<Request, RequestError> {
+fn parse_set(word: Word, fields: FrameFields<'_>) -> Result<Request, RequestError> {
     // The document's example of SATELLITE_FTP= leaves file and satellite out.
     let is_short_ftp = word == Word::SatelliteFtp && fields.count() == 6;
     if !is_short_ftp {
@@ -124,7 +124,7 @@ fn parse_set(word: Word, fields: Fields<'_>) -> Result<Request, RequestError> {
 }
 
 /// Reads exactly 0 or 1: an unexplained number must not switch anything.
-fn switch(fields: Fields<'_>, field: usize) -> Result<bool, FieldError> {
+fn switch(fields: FrameFields<'_>, field: usize) -> Result<bool, FieldError> {
     match fields.integer::<i64>(field)? {
         0 => Ok(false),
         1 => Ok(true),
@@ -132,11 +132,11 @@ fn switch(fields: Fields<'_>, field: usize) -> Result<bool, FieldError> {
     }
 }
 
-fn text(fields: Fields<'_>, field: usize) -> Result<TextValue, RequestError> {
+fn text(fields: FrameFields<'_>, field: usize) -> Result<TextValue, RequestError> {
     Ok(TextValue::new("text", fields.text(field)?)?)
 }
 
-fn parse_goto(fields: Fields<'_>) -> Result<Goto, RequestError> {
+fn parse_goto(fields: FrameFields<'_>) -> Result<Goto, RequestError> {
     let angle = |field| match fields.text(field)? {
         "NONE" => Ok(None),
         _ => fields.decimal(field).map(Some),
@@ -144,7 +144,7 @@ fn parse_goto(fields: Fields<'_>) -> Result<Goto, RequestError> {
     Ok(Goto::new(angle(1)?, angle(2)?)?)
 }
 
-fn parse_settings(fields: Fields<'_>) -> Result<SettingsRequest, RequestError> {
+fn parse_settings(fields: FrameFields<'_>) -> Result<SettingsRequest, RequestError> {
     let keeps = |field| fields.text(field).map(|text| text == "?");
     let integer = |field| {
         if keeps(field)? { Ok(None) } else { fields.integer::<i64>(field).map(Some) }
@@ -166,7 +166,7 @@ fn parse_settings(fields: Fields<'_>) -> Result<SettingsRequest, RequestError> {
     Ok(SettingsRequest::new(&change)?)
 }
 
-fn parse_angles(fields: Fields<'_>) -> Result<AngleChange, RequestError> {
+fn parse_angles(fields: FrameFields<'_>) -> Result<AngleChange, RequestError> {
     let angles = SensorAngles::new(fields.decimal(3)?, fields.decimal(5)?)?;
     if switch(fields, 1)? {
         return Ok(AngleChange::PresentPosition(angles));
@@ -175,7 +175,7 @@ fn parse_angles(fields: Fields<'_>) -> Result<AngleChange, RequestError> {
     Ok(AngleChange::Given { x_sensor, y_sensor, angles })
 }
 
-fn parse_ftp(fields: Fields<'_>, is_short: bool) -> Result<FtpTle, RequestError> {
+fn parse_ftp(fields: FrameFields<'_>, is_short: bool) -> Result<FtpTle, RequestError> {
     let selection = if is_short {
         None
     } else {

@@ -1,7 +1,7 @@
 //! Choice of the satellite and the source of its elements (sections 23 to 28).
 
 use super::coded::coded;
-use super::fields::{FieldError, Fields};
+use super::fields::{FieldError, FrameFields};
 use super::text::{Password, TextValue, UrlValue};
 
 coded! {
@@ -30,7 +30,7 @@ pub struct Satellite {
 impl Satellite {
     pub(super) const FIELDS: usize = 5;
 
-    pub(super) fn read(fields: Fields<'_>) -> Result<Self, FieldError> {
+    pub(super) fn read(fields: FrameFields<'_>) -> Result<Self, FieldError> {
         // The name is the only value that may hold commas.
         let last = fields.count().max(Self::FIELDS);
         Ok(Self {
@@ -80,7 +80,7 @@ pub struct SatelliteHttp {
 impl SatelliteHttp {
     pub(super) const FIELDS: usize = 3;
 
-    pub(super) fn read(fields: Fields<'_>) -> Result<Self, FieldError> {
+    pub(super) fn read(fields: FrameFields<'_>) -> Result<Self, FieldError> {
         let last = fields.count().max(Self::FIELDS);
         Ok(Self {
             url: fields.joined(0, 2)?,
@@ -135,7 +135,7 @@ impl SatelliteFtp {
     /// Number of values. With more, one of four texts holds a comma and nobody can tell which.
     pub(super) const FIELDS: usize = 8;
 
-    pub(super) fn read(fields: Fields<'_>) -> Result<Self, FieldError> {
+    pub(super) fn read(fields: FrameFields<'_>) -> Result<Self, FieldError> {
         Ok(Self {
             address: fields.text(1)?.to_owned(),
             user: fields.text(2)?.to_owned(),

@@ -2,7 +2,7 @@
 //! and 29 to 32).
 
 use super::ValueError;
-use super::fields::{FieldError, Fields};
+use super::fields::{FieldError, FrameFields};
 use super::number::{checked, plain, pointed};
 
 /// Azel's own sanity bound; the document gives neither unit nor range.
@@ -49,7 +49,7 @@ pub struct AngleSettings {
 }
 
 impl AngleSettings {
-    pub(super) fn read(fields: Fields<'_>) -> Result<Self, FieldError> {
+    pub(super) fn read(fields: FrameFields<'_>) -> Result<Self, FieldError> {
         Ok(Self {
             x_sensor: fields.integer(1)?,
             x_deg: fields.decimal(2)?,
@@ -115,7 +115,7 @@ impl Reduction {
         self.y
     }
 
-    pub(super) fn read(fields: Fields<'_>) -> Result<Self, FieldError> {
+    pub(super) fn read(fields: FrameFields<'_>) -> Result<Self, FieldError> {
         Ok(Self { x: fields.decimal(1)?, y: fields.decimal(2)? })
     }
 

@@ -3,7 +3,7 @@
 
 use super::ValueError;
 use super::coded::coded;
-use super::fields::{FieldError, Fields};
+use super::fields::{FieldError, FrameFields};
 use super::number::{checked, pointed};
 
 coded! {
@@ -75,7 +75,7 @@ pub struct Settings {
 impl Settings {
     pub(super) const FIELDS: usize = 12;
 
-    pub(super) fn read(fields: Fields<'_>) -> Result<Self, FieldError> {
+    pub(super) fn read(fields: FrameFields<'_>) -> Result<Self, FieldError> {
         Ok(Self {
             rtc_from_gps: fields.flag(1)?,
             time_offset_ms: fields.integer(2)?,
@@ -226,7 +226,7 @@ mod tests {
     #[test]
     fn the_threshold_stands_at_different_places() {
         let payload = "SETTINGS?,1,100,1.0,2.0,60000,1,3.0,6.0,1,1,2,2.5";
-        let now = Settings::read(Fields::new(&Frame::from_payload(payload))).unwrap();
+        let now = Settings::read(FrameFields::new(&Frame::from_payload(payload))).unwrap();
         assert_eq!((now.tle_mode, now.elevation_threshold_deg), (TleMode::Ftp, 2.5));
         let change = SettingsChange { elevation_threshold_deg: Some(4.0), ..Default::default() };
         let request = SettingsRequest::new(&change).unwrap();

@@ -1,7 +1,7 @@
 //! Reply to `STATUS?` (section 6).
 
 use super::coded::coded;
-use super::fields::{FieldError, Fields};
+use super::fields::{FieldError, FrameFields};
 
 coded! {
     /// Phase of the unit in its tracking window (field 9).
@@ -89,7 +89,7 @@ impl Status {
     /// additions.
     pub(super) const MAX_FIELDS: usize = 18;
 
-    pub(super) fn read(fields: Fields<'_>) -> Result<Self, FieldError> {
+    pub(super) fn read(fields: FrameFields<'_>) -> Result<Self, FieldError> {
         Ok(Self {
             fault: fields.flag(1)?,
             az_deg: fields.decimal(2)?,
@@ -125,7 +125,7 @@ mod tests {
     #[test]
     fn unexplained_numbers_lean_to_the_safe_side() {
         let frame = Frame::from_payload("STATUS?,7,1.5,2,2,0,0,-1,0,9,5,12,4,-1,80,90,3");
-        let status = Status::read(Fields::new(&frame)).unwrap();
+        let status = Status::read(FrameFields::new(&frame)).unwrap();
         assert!(status.fault);
         let limits = Limits { x_plus: true, x_minus: false, y_plus: false, y_minus: true };
         assert_eq!(status.limits, limits);

@@ -54,7 +54,7 @@ fn check(text: &str, max_bytes: usize) -> Result<(), TextProblem> {
 pub struct TextValue(String);
 
 impl TextValue {
-    /// Checks `text`; `what` names it in the error.
+    /// Checks `text`; `name` names it in the error.
     pub fn new(name: &'static str, text: &str) -> Result<Self, ValueError> {
         check(text, MAX_TEXT_BYTES).map_err(|problem| ValueError::Text { name, problem })?;
         Ok(Self(text.to_owned()))

@@ -4,7 +4,7 @@ use std::ops::RangeInclusive;
 
 use toml::Value;
 
-use super::Fields;
+use super::TableFields;
 use crate::{
     astro::PointingModel,
     station::{
@@ -13,7 +13,7 @@ use crate::{
     },
 };
 
-impl Fields<'_> {
+impl TableFields<'_> {
     /// Reads an antenna. Controller and address are required; they have no default.
     pub(super) fn antenna(
         &mut self,
@@ -256,7 +256,7 @@ impl Fields<'_> {
     }
 }
 
-/// Range of the upper end of an axis whose lower end is `from`.
+/// Range of the upper end of an axis whose lower end is `start`.
 fn above(
     start: f64,
     span: &RangeInclusive<f64>,

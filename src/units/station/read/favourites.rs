@@ -2,12 +2,12 @@
 
 use toml::Value;
 
-use super::{Fields, catalog_number};
+use super::{TableFields, catalog_number};
 use crate::station::{
     AntennaId, Favourite, Favourites, Light, PassLimits, Priority, SatelliteGroup, ranges,
 };
 
-impl Fields<'_> {
+impl TableFields<'_> {
     pub(super) fn favourites(&mut self, default: Favourites, antennas: &[AntennaId]) -> Favourites {
         let entries = match self.table.remove("favourites") {
             None => return default,

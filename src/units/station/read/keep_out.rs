@@ -3,10 +3,10 @@
 
 use toml::Value;
 
-use super::{Fields, NoteReason};
+use super::{NoteReason, TableFields};
 use crate::station::{Antenna, Entered, KeepOut, SunAvoidance, ranges};
 
-impl Fields<'_> {
+impl TableFields<'_> {
     /// Reads the keep-outs. A wrong value is replaced by the stricter one; a keep-out
     /// without usable corners is left out with a note.
     pub(super) fn keep_outs(&mut self, antennas: &[Antenna]) -> Vec<KeepOut> {
@@ -27,7 +27,7 @@ impl Fields<'_> {
                 continue;
             };
             let path = format!("{place}.");
-            let mut fields = Fields::new(&mut table, path);
+            let mut fields = TableFields::new(&mut table, path);
             let others: Vec<&str> = keep_outs.iter().map(|other| &*other.name).collect();
             let name = fields.keep_out_name(index + 1, &others);
             let keep_out = fields.keep_out(name.clone(), antennas);

@@ -1,9 +1,9 @@
 //! Reads how long the record is kept.
 
-use super::Fields;
+use super::TableFields;
 use crate::station::{Retention, ranges};
 
-impl Fields<'_> {
+impl TableFields<'_> {
     pub(super) fn keeping(&mut self) -> Retention {
         let default = Retention::default();
         self.inner("record", |fields| Retention {

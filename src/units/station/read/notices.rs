@@ -1,9 +1,9 @@
 //! Reads the settings for notices.
 
-use super::Fields;
+use super::TableFields;
 use crate::station::{Notices, Tones, ranges};
 
-impl Fields<'_> {
+impl TableFields<'_> {
     pub(super) fn notices(&mut self) -> Notices {
         let default = Notices::default();
         self.inner("notices", |fields| Notices {

@@ -3,7 +3,7 @@
 
 use toml::{Table, Value};
 
-use super::{Fields, catalog_number};
+use super::{TableFields, catalog_number};
 use crate::{
     astro::TrackOffsets,
     station::{AntennaId, KeptOffsets, OffsetsOf},
@@ -11,7 +11,7 @@ use crate::{
 
 const KINDS: [&str; 5] = ["time_s", "along_deg", "across_deg", "azimuth_deg", "elevation_deg"];
 
-impl Fields<'_> {
+impl TableFields<'_> {
     pub(super) fn kept_offsets(&mut self, antennas: &[AntennaId]) -> Option<KeptOffsets> {
         let mut table = Table::new();
         for kind in KINDS {

@@ -5,13 +5,13 @@ use std::ops::RangeInclusive;
 use jiff::Timestamp;
 use toml::Value;
 
-use super::Fields;
+use super::TableFields;
 use crate::station::{
     AntennaId, Automatic, AutomationRule, BetweenPasses, ChooseBy, HoursOfDay, Partly, PassChoice,
     RuleOf, Scheduling, SunIs, Take, Then, Upkeep, ranges,
 };
 
-impl Fields<'_> {
+impl TableFields<'_> {
     pub(super) fn scheduling(&mut self) -> Scheduling {
         let default = Scheduling::default();
         let choose_by = [

@@ -109,7 +109,7 @@ impl Tracking {
     }
 
     pub(in crate::driver::session) fn view(&self) -> TrackView {
-        let target = &self.planner.follow().target;
+        let target = &self.planner.track().target;
         TrackView {
             name: target.name().into_owned(),
             catalog_number: target.catalog_number(),
@@ -133,7 +133,7 @@ impl Tracking {
     }
 
     pub(super) fn name(&self) -> String {
-        self.planner.follow().target.name().into_owned()
+        self.planner.track().target.name().into_owned()
     }
 
     /// Takes the pointing error and the rates of a measurement, once each.

@@ -16,7 +16,7 @@ use super::*;
 use crate::astro::{Angle, AzEl, Site, time};
 use crate::orbit::{Elements, Pass, PassSearch, Propagator, passes, read_elements};
 use crate::protocol::satrak::{
-    Clock, FaultKind, Frame, GpsData, Oddity, Reply as Said, ReplyError, Status, TrackState,
+    FaultKind, Frame, GpsData, Oddity, Reply as Said, ReplyError, Status, TrackState, UnitTime,
 };
 use crate::sim::harness::testing;
 use crate::sim::satrak::Options;

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::{ALIKE, Axis, Cause, Evidence, Fit, Found, Point};
+use super::{ALIKE, Axis, Cause, CauseFit, Evidence, EvidencePoint, FoundCause};
 use crate::{
     astro::{Angle, AzEl, time::seconds_between, xy_mount},
     station::Mount,
@@ -16,24 +16,24 @@ const SEARCHES: usize = 3;
 
 /// The axes that a cause acts on.
 #[derive(Debug, Clone, Copy)]
-struct Axes([bool; 2]);
+struct ChosenAxes([bool; 2]);
 
-const BOTH_AXES: Axes = Axes([true, true]);
-const SINGLE: [Axes; 2] = [Axes([true, false]), Axes([false, true])];
+const BOTH_AXES: ChosenAxes = ChosenAxes([true, true]);
+const SINGLE: [ChosenAxes; 2] = [ChosenAxes([true, false]), ChosenAxes([false, true])];
 
 impl Evidence<'_> {
     /// The rate of slow drives that explains the error best: that of one axis, or of both where
     /// the positions need both.
-    pub(super) fn slow_drives(&self) -> Option<Found> {
+    pub(super) fn slow_drives(&self) -> Option<FoundCause> {
         self.narrowest(|axes| self.slow(axes))
     }
 
     /// When an axis, or both, came to stand.
-    pub(super) fn stuck(&self) -> Option<Found> {
+    pub(super) fn stuck(&self) -> Option<FoundCause> {
         self.narrowest(|axes| self.stuck_axes(axes))
     }
 
-    fn narrowest(&self, found: impl Fn(Axes) -> Option<Found>) -> Option<Found> {
+    fn narrowest(&self, found: impl Fn(ChosenAxes) -> Option<FoundCause>) -> Option<FoundCause> {
         let axes = if self.has_elevation { &SINGLE[..] } else { &SINGLE[..1] };
         let single = axes.iter().filter_map(|axes| found(*axes));
         let single = single.min_by(|a, b| a.fit.left.total_cmp(&b.fit.left));
@@ -45,17 +45,17 @@ impl Evidence<'_> {
         Some(if needs_both { double } else { single })
     }
 
-    fn slow(&self, axes: Axes) -> Option<Found> {
+    fn slow(&self, axes: ChosenAxes) -> Option<FoundCause> {
         let (low, high) = (RATES_DEG_S.0.ln(), RATES_DEG_S.1.ln());
         let rate = |share: f64| (low + (high - low) * share).exp();
         let fit =
             |share: f64| self.fit_of_axes(|points| slow(points, self.mount, axes, rate(share)));
         let (best_share, fit) = searched(fit)?;
         let cause = Cause::SlowDrives { rate_deg_s: rate(best_share), axis: self.axis(axes) };
-        Some(Found { cause, partner: None, fit })
+        Some(FoundCause { cause, partner: None, fit })
     }
 
-    fn stuck_axes(&self, axes: Axes) -> Option<Found> {
+    fn stuck_axes(&self, axes: ChosenAxes) -> Option<FoundCause> {
         // Axes that stand in one pass need not stand in another.
         let [points] = &self.passes[..] else { return None };
         let place = |share: f64| (points.len() as f64 * share) as usize;
@@ -63,14 +63,14 @@ impl Evidence<'_> {
             |share: f64| self.fit_of_axes(|points| stuck(points, self.mount, axes, place(share)));
         let (best_share, fit) = searched(fit)?;
         let start = points.get(place(best_share))?.time;
-        Some(Found {
+        Some(FoundCause {
             cause: Cause::Stuck { since: start, axis: self.axis(axes) },
             partner: None,
             fit,
         })
     }
 
-    fn fit_of_axes(&self, axes_deg: impl Fn(&[Point<'_>]) -> Vec<[f64; 2]>) -> Fit {
+    fn fit_of_axes(&self, axes_deg: impl Fn(&[EvidencePoint<'_>]) -> Vec<[f64; 2]>) -> CauseFit {
         let left = self.passes.iter().map(|points| {
             let pairs = points.iter().zip(axes_deg(points));
             let left = pairs.map(|(point, axes_deg)| {
@@ -85,7 +85,7 @@ impl Evidence<'_> {
         self.fit_of_residuals(&left.collect::<Vec<Vec<DVec3>>>())
     }
 
-    fn axis(&self, Axes(axes): Axes) -> Option<Axis> {
+    fn axis(&self, ChosenAxes(axes): ChosenAxes) -> Option<Axis> {
         let names = match self.mount {
             Mount::AzEl { .. } => [Axis::Azimuth, Axis::Elevation],
             Mount::Xy { .. } => [Axis::X, Axis::Y],
@@ -99,9 +99,9 @@ impl Evidence<'_> {
 }
 
 /// The place from 0 to 1 that leaves least. Coarse at first, because the sum has flat parts.
-fn searched(fit: impl Fn(f64) -> Fit) -> Option<(f64, Fit)> {
+fn searched(fit: impl Fn(f64) -> CauseFit) -> Option<(f64, CauseFit)> {
     let (mut start, mut end) = (0.0, 1.0);
-    let mut best: Option<(f64, Fit)> = None;
+    let mut best: Option<(f64, CauseFit)> = None;
     for _ in 0..SEARCHES {
         let step = (end - start) / STEPS as f64;
         let tried =
@@ -126,19 +126,24 @@ fn axes_deg(mount: Mount, direction: AzEl, azimuth_deg: f64) -> [f64; 2] {
     }
 }
 
-fn followed_deg(point: &Point<'_>, mount: Mount) -> [f64; 2] {
+fn followed_deg(point: &EvidencePoint<'_>, mount: Mount) -> [f64; 2] {
     axes_deg(mount, point.followed, point.azimuth_deg)
 }
 
-fn measured_deg(point: &Point<'_>, mount: Mount) -> [f64; 2] {
+fn measured_deg(point: &EvidencePoint<'_>, mount: Mount) -> [f64; 2] {
     let deviation = (point.measured.azimuth - point.followed.azimuth).wrapped_180();
     axes_deg(mount, point.measured, point.azimuth_deg + deviation.degrees())
 }
 
 /// Angles of axes that follow the satellite from where they were first, those of `axes` at no
 /// more than this rate.
-fn slow(points: &[Point<'_>], mount: Mount, axes: Axes, rate_deg_s: f64) -> Vec<[f64; 2]> {
-    let mut before: Option<&Point<'_>> = None;
+fn slow(
+    points: &[EvidencePoint<'_>],
+    mount: Mount,
+    axes: ChosenAxes,
+    rate_deg_s: f64,
+) -> Vec<[f64; 2]> {
+    let mut before: Option<&EvidencePoint<'_>> = None;
     let mut at_deg = [0.0; 2];
     let errors = points.iter().map(|point| {
         let followed = followed_deg(point, mount);
@@ -157,7 +162,12 @@ fn slow(points: &[Point<'_>], mount: Mount, axes: Axes, rate_deg_s: f64) -> Vec<
 
 /// Angles of axes that follow the satellite, those of `axes` until the point at `place`, and stand
 /// from then on.
-fn stuck(points: &[Point<'_>], mount: Mount, axes: Axes, place: usize) -> Vec<[f64; 2]> {
+fn stuck(
+    points: &[EvidencePoint<'_>],
+    mount: Mount,
+    axes: ChosenAxes,
+    place: usize,
+) -> Vec<[f64; 2]> {
     // Where it stands is measured: it may never have been on its satellite.
     let standing = points.get(place..).unwrap_or_default();
     let count = standing.len().max(1) as f64;
@@ -178,7 +188,7 @@ fn stuck(points: &[Point<'_>], mount: Mount, axes: Axes, place: usize) -> Vec<[f
 
 /// The angle of each of `axes` by `turned`; the others follow.
 fn each_axis(
-    Axes([first, second]): Axes,
+    ChosenAxes([first, second]): ChosenAxes,
     [followed_first, followed_second]: [f64; 2],
     [at_first, at_second]: [f64; 2],
     turned: impl Fn(f64, f64) -> f64,

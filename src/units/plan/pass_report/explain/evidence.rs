@@ -3,7 +3,7 @@
 use glam::DVec3;
 use jiff::Timestamp;
 
-use super::{Cause, Fit, MIN_KNOWN, SURE};
+use super::{Cause, CauseFit, MIN_KNOWN, SURE};
 use crate::{
     astro::{
         Angle, AzEl, Site,
@@ -42,7 +42,7 @@ pub enum PathSource {
 
 /// A position with its satellite.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Point<'a> {
+pub(super) struct EvidencePoint<'a> {
     pub(super) propagator: &'a Propagator,
     pub(super) time: Timestamp,
     pub(super) satellite: AzEl,
@@ -62,7 +62,7 @@ pub(super) struct Point<'a> {
 /// The positions of passes, and what their satellites did.
 pub struct Evidence<'a> {
     /// Each in the order of time.
-    pub(super) passes: Vec<Vec<Point<'a>>>,
+    pub(super) passes: Vec<Vec<EvidencePoint<'a>>>,
     sources: Vec<PathSource>,
     site: Option<Site>,
     pub(super) mount: Mount,
@@ -118,7 +118,7 @@ impl<'a> Evidence<'a> {
         };
         let measured: Vec<(Timestamp, AzEl)> = apart(measured, STEP_S, |(time, _)| *time).collect();
         let stride = measured.len() / MAX_POSITIONS + 1;
-        let mut points: Vec<Point<'a>> = Vec::new();
+        let mut points: Vec<EvidencePoint<'a>> = Vec::new();
         for (time, mut measured) in measured.into_iter().step_by(stride) {
             let Ok(look) = propagator.look_from(site, time) else { continue };
             let followed = propagator.look_from(place, add_seconds(time, -clock_late_s));
@@ -135,7 +135,7 @@ impl<'a> Evidence<'a> {
                 }
             };
             let error = measured.to_enu() - satellite.to_enu();
-            let point = Point {
+            let point = EvidencePoint {
                 propagator,
                 time,
                 satellite,
@@ -149,7 +149,7 @@ impl<'a> Evidence<'a> {
             };
             points.push(point);
         }
-        let arrives = |pair: &&[Point<'_>]| {
+        let arrives = |pair: &&[EvidencePoint<'_>]| {
             let [before, after] = pair else { return false };
             let closer = before.error.length() - after.error.length();
             closer.to_degrees() > ARRIVES_DEG_S * seconds_between(before.time, after.time)
@@ -168,7 +168,7 @@ impl<'a> Evidence<'a> {
         self
     }
 
-    pub(super) fn points(&self) -> impl Iterator<Item = &Point<'a>> {
+    pub(super) fn points(&self) -> impl Iterator<Item = &EvidencePoint<'a>> {
         self.passes.iter().flatten()
     }
 
@@ -193,7 +193,7 @@ impl<'a> Evidence<'a> {
     }
 
     /// The fit of a model: where it says that the antenna pointed.
-    pub(super) fn fit_of(&self, model: impl Fn(&Point<'_>) -> Option<AzEl>) -> Fit {
+    pub(super) fn fit_of(&self, model: impl Fn(&EvidencePoint<'_>) -> Option<AzEl>) -> CauseFit {
         let left = self.passes.iter().map(|points| {
             let left = points.iter().map(|point| {
                 let model = model(point).unwrap_or(point.satellite);
@@ -205,17 +205,17 @@ impl<'a> Evidence<'a> {
     }
 
     /// The same for what is left of each position.
-    pub(super) fn fit_of_residuals(&self, left: &[Vec<DVec3>]) -> Fit {
+    pub(super) fn fit_of_residuals(&self, left: &[Vec<DVec3>]) -> CauseFit {
         let all = || left.iter().flatten();
         let count = all().count().max(1) as f64;
         let sum: f64 = all().map(|left| left.length_squared()).sum();
         let beam = self.half_beam.radians();
         let outside = all().filter(|left| left.length() > beam).count() as f64 / count;
-        Fit { left: sum, variance: sum / (2.0 * count) * lasting(left), outside }
+        CauseFit { left: sum, variance: sum / (2.0 * count) * lasting(left), outside }
     }
 
     /// The greatest known part of the error beside what `fit` takes away.
-    pub(super) fn known_cause(&self, fit: Fit, whole: f64) -> Option<Cause> {
+    pub(super) fn known_cause(&self, fit: CauseFit, whole: f64) -> Option<Cause> {
         // Several passes have a clock each.
         let [points] = &self.passes[..] else { return None };
         let (first, site) = (points.first()?, self.site?);

@@ -4,7 +4,7 @@
 use glam::{DMat4, DVec3, DVec4};
 use jiff::Timestamp;
 
-use super::{Cause, Evidence, Found, Point, evidence::moved};
+use super::{Cause, Evidence, EvidencePoint, FoundCause, evidence::moved};
 use crate::{
     astro::{Angle, AzEl, time::add_seconds},
     orbit::Propagator,
@@ -70,8 +70,8 @@ impl Family<'_> {
         }
     }
 
-    /// Where an antenna points that would point at `at` without this cause.
-    fn turns(self, direction: AzEl, point: &Point<'_>, sizes: &[f64]) -> AzEl {
+    /// Where an antenna points that would point at `direction` without this cause.
+    fn turns(self, direction: AzEl, point: &EvidencePoint<'_>, sizes: &[f64]) -> AzEl {
         let AzEl { azimuth, elevation } = direction;
         let deg = Angle::from_degrees;
         match self.cause(sizes) {
@@ -118,7 +118,7 @@ fn sized<'a>(
 }
 
 /// Direction in which an antenna with these causes points.
-fn modelled(families: &[Family<'_>], sizes: DVec4, point: &Point<'_>) -> Option<AzEl> {
+fn modelled(families: &[Family<'_>], sizes: DVec4, point: &EvidencePoint<'_>) -> Option<AzEl> {
     let sizes = sizes.to_array();
     let (mut propagator, mut late_s) = (point.propagator, point.clock_late_s);
     let (mut place, mut is_moved) = (point.place, false);
@@ -147,13 +147,17 @@ fn modelled(families: &[Family<'_>], sizes: DVec4, point: &Point<'_>) -> Option<
 impl Evidence<'_> {
     /// Fits the sizes of one or two causes by least squares. A tilt and a site have two sizes,
     /// another set of elements none, every other cause one.
-    pub(super) fn fitted(&self, first: Family<'_>, second: Option<Family<'_>>) -> Found {
+    pub(super) fn fitted(&self, first: Family<'_>, second: Option<Family<'_>>) -> FoundCause {
         let families: Vec<Family<'_>> = std::iter::once(first).chain(second).collect();
         let sizes = self.sizes(&families, self.start(&families));
         let fit = self.fit_of(|point| modelled(&families, sizes, point));
         let sizes = sizes.to_array();
         let (own, others) = sizes.split_at(first.steps().len());
-        Found { cause: first.cause(own), partner: second.map(|second| second.cause(others)), fit }
+        FoundCause {
+            cause: first.cause(own),
+            partner: second.map(|second| second.cause(others)),
+            fit,
+        }
     }
 
     /// The sizes from which a fit begins.

@@ -56,7 +56,7 @@ impl Metal {
     }
 }
 
-struct Run {
+struct TrackRun {
     stats: TrackStats,
     azimuths_deg: Vec<f64>,
     /// Seconds since AOS, and the comparison with the planned path.
@@ -123,7 +123,7 @@ fn max_deg(pass: &Pass) -> f64 {
     pass.max_elevation().degrees()
 }
 
-fn run(target: Target, pass: &Pass, drives: Drives, settings: TrackSettings) -> Run {
+fn run(target: Target, pass: &Pass, drives: Drives, settings: TrackSettings) -> TrackRun {
     run_on(target, pass, drives, settings, &metal(drives, settings))
 }
 
@@ -152,10 +152,10 @@ fn run_on(
     drives: Drives,
     settings: TrackSettings,
     metal: &Metal,
-) -> Run {
+) -> TrackRun {
     let passes = vec![(pass.aos.time, pass.los.time)];
-    let follow = ProgramTrack::new(target, site(), passes);
-    let planner = Planner::new(follow, drives, settings, free()).unwrap();
+    let track = ProgramTrack::new(target, site(), passes);
+    let planner = Planner::new(track, drives, settings, free()).unwrap();
     run_planner(planner, pass, settings, metal, |_, _| {})
 }
 
@@ -170,12 +170,12 @@ fn run_planner(
     settings: TrackSettings,
     metal: &Metal,
     mut look: impl FnMut(Timestamp, [f64; 2]),
-) -> Run {
+) -> TrackRun {
     let mut metal = metal.clone();
     let begin = add_seconds(pass.aos.time, -240.0);
     let started = Instant::now();
     let mut run =
-        Run { stats: TrackStats::default(), azimuths_deg: Vec::new(), on_path: Vec::new() };
+        TrackRun { stats: TrackStats::default(), azimuths_deg: Vec::new(), on_path: Vec::new() };
     let ticks = ((pass.duration_s() + 240.0) / TICK_S) as u32;
     let mut next_look_s = 0.0;
     for tick in 0..ticks {
@@ -260,8 +260,9 @@ fn through_north_an_overlap_needs_no_slew() {
     let (_, lost, _) = shown("north, 0 to 360", plain.stats);
     let (rms, sharp_turn, _) = shown("north, 0 to 450", overlap.stats);
     assert!(lost > 45.0 && sharp_turn < 0.5 && rms < 0.2, "{lost} {sharp_turn} {rms}");
-    let turned =
-        |run: &Run| run.azimuths_deg.windows(2).map(|two| (two[1] - two[0]).abs()).sum::<f64>();
+    let turned = |run: &TrackRun| {
+        run.azimuths_deg.windows(2).map(|two| (two[1] - two[0]).abs()).sum::<f64>()
+    };
     assert!(turned(&plain) > turned(&overlap) + 100.0);
 }
 
@@ -384,9 +385,9 @@ fn a_planner_keeps_the_side_for_the_pass() {
     let (target, pass) = pass_where(|propagator, pass| {
         max_deg(pass) > 20.0 && max_deg(pass) < 60.0 && goes_through_north(propagator, pass)
     });
-    let follow = ProgramTrack::new(target, site(), vec![(pass.aos.time, pass.los.time)]);
+    let track = ProgramTrack::new(target, site(), vec![(pass.aos.time, pass.los.time)]);
     let drives = overtravel(azel((0.0, 360.0), 4.0, 0.0));
-    let mut planner = Planner::new(follow, drives, settings(1.0, 0.2), free()).unwrap();
+    let mut planner = Planner::new(track, drives, settings(1.0, 0.2), free()).unwrap();
     let mut axes_deg = [20.0, 10.0];
     let mut elevation_deg = |time: Timestamp| {
         let axes = axes_deg.map(|position| AxisNow { position_deg: Some(position), stands: true });
@@ -406,7 +407,7 @@ fn with_a_pointing_model_the_axes_are_sent_to_what_they_have_to_read() {
     let (target, pass) = pass_where(|propagator, pass| {
         max_deg(pass) > 20.0 && max_deg(pass) < 60.0 && !goes_through_north(propagator, pass)
     });
-    let follow = ProgramTrack::new(target.clone(), site(), vec![(pass.aos.time, pass.los.time)]);
+    let track = ProgramTrack::new(target.clone(), site(), vec![(pass.aos.time, pass.los.time)]);
     let model = PointingModel {
         azimuth_offset_deg: 3.0,
         elevation_offset_deg: -1.0,
@@ -415,7 +416,7 @@ fn with_a_pointing_model_the_axes_are_sent_to_what_they_have_to_read() {
         ..PointingModel::default()
     };
     let drives = azel((0.0, 360.0), 4.0, 0.0);
-    let planner = Planner::new(follow, drives, settings(1.0, 0.2), free()).unwrap();
+    let planner = Planner::new(track, drives, settings(1.0, 0.2), free()).unwrap();
     let mut planner = planner.with_model(model);
     let now = pass.tca.time;
     let course = Course::new(&target, site()).unwrap();
@@ -452,9 +453,9 @@ fn with_an_offset_the_antenna_is_sent_beside_its_target_and_without_it_back() {
     let (target, pass) = pass_where(|propagator, pass| {
         max_deg(pass) > 20.0 && max_deg(pass) < 60.0 && !goes_through_north(propagator, pass)
     });
-    let follow = ProgramTrack::new(target, site(), vec![(pass.aos.time, pass.los.time)]);
+    let track = ProgramTrack::new(target, site(), vec![(pass.aos.time, pass.los.time)]);
     let drives = azel((0.0, 360.0), 4.0, 0.0);
-    let mut planner = Planner::new(follow, drives, settings(1.0, 0.2), free()).unwrap();
+    let mut planner = Planner::new(track, drives, settings(1.0, 0.2), free()).unwrap();
     let on_course = [pass.tca.direction.azimuth_deg(), pass.tca.direction.elevation_deg()];
     let axes = on_course.map(|position| AxisNow { position_deg: Some(position), stands: true });
     let now = pass.tca.time;
@@ -508,8 +509,8 @@ fn a_mast_in_the_middle_of_a_pass_is_gone_round_along_its_margin() {
         let course = Course::new(&target, site()).unwrap();
         let drives = azel((-180.0, 540.0), rate_deg_s, step_deg);
         let settings = settings(0.5, 0.2);
-        let follow = ProgramTrack::new(target, site(), vec![(pass.aos.time, pass.los.time)]);
-        let planner = Planner::new(follow, drives, settings, bounds.clone()).unwrap();
+        let track = ProgramTrack::new(target, site(), vec![(pass.aos.time, pass.los.time)]);
+        let planner = Planner::new(track, drives, settings, bounds.clone()).unwrap();
         let (mut nearest_deg, mut behind_s, mut worst_deg) = (f64::MAX, 0.0, 0.0_f64);
         run_planner(planner, &pass, settings, &metal(drives, settings), |now, axes_deg| {
             let direction = bounds.direction(axes_deg);
@@ -548,8 +549,8 @@ fn what_sets_behind_a_mast_is_waited_for_at_its_edge() {
     let bounds = Bounds::of(&station, &antenna);
     let drives = azel((-180.0, 540.0), 6.0, 0.0);
     let settings = settings(0.5, 0.2);
-    let follow = ProgramTrack::new(target, site(), vec![(pass.aos.time, pass.los.time)]);
-    let planner = Planner::new(follow, drives, settings, bounds.clone()).unwrap();
+    let track = ProgramTrack::new(target, site(), vec![(pass.aos.time, pass.los.time)]);
+    let planner = Planner::new(track, drives, settings, bounds.clone()).unwrap();
     let mut last_deg = f64::MAX;
     run_planner(planner, &pass, settings, &metal(drives, settings), |now, axes_deg| {
         if now >= pass.aos.time {

@@ -1,6 +1,6 @@
 //! Schedules that are made by taking one pass after the other, in some order.
 
-use super::{Part, Problem, Take};
+use super::{PassPart, Problem, Take};
 
 impl Problem<'_> {
     /// The schedules of greedy planners: the passes that are worth most come first, or the highest
@@ -8,6 +8,7 @@ impl Problem<'_> {
     pub(super) fn greedy(&self) -> [Vec<Vec<u32>>; 2] {
         let sorted = |compare: &dyn Fn(&Take, &Take) -> std::cmp::Ordering| {
             let mut order: Vec<u32> = (0..self.takes.len() as u32).collect();
+            // Equal takes keep the order of their indices, so that two runs give the same schedule.
             order.sort_by(|a, b| match (self.take(*a), self.take(*b)) {
                 (Some(one), Some(other)) => compare(one, other).then(a.cmp(b)),
                 _ => a.cmp(b),
@@ -30,6 +31,7 @@ impl Problem<'_> {
     ) -> Vec<Vec<u32>> {
         let mut is_taken = vec![false; self.passes];
         let mut left = self.limits.to_vec();
+        // Takes that are there already use up their passes and limits.
         for take in takes.iter().flatten().filter_map(|take| self.take(*take)) {
             if let Some(flag) = is_taken.get_mut(take.pass as usize) {
                 *flag = true;
@@ -39,7 +41,8 @@ impl Problem<'_> {
             }
         }
         for index in order {
-            let Some(take) = self.take(index).filter(|take| take.part == Part::Alone) else {
+            // A part of a pass is worth nothing until its second part is found, so whole ones only.
+            let Some(take) = self.take(index).filter(|take| take.part == PassPart::Alone) else {
                 continue;
             };
             let limit = take.limit.and_then(|limit| left.get_mut(limit as usize));
@@ -52,6 +55,7 @@ impl Problem<'_> {
             let place = own.partition_point(starts_before);
             let fits_after = match place.checked_sub(1).and_then(|before| own.get(before)) {
                 Some(before) => self.fits(*before, index),
+                // The antenna may stand too far away to reach its first take in time.
                 None => self.slews.first_ms(index as usize).is_some(),
             };
             if !fits_after || own.get(place).is_some_and(|after| !self.fits(index, *after)) {

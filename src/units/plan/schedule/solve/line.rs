@@ -6,7 +6,7 @@
 use super::{Problem, Row, Take};
 
 /// The takes of one antenna, prepared for repeated solution.
-pub(super) struct Line {
+pub(super) struct AntennaLine {
     antenna: usize,
     /// Takes by start.
     by_start: Vec<u32>,
@@ -30,19 +30,21 @@ struct Best {
     before: Option<u32>,
 }
 
-impl Line {
+impl AntennaLine {
     pub(super) fn new(problem: &Problem<'_>, antenna: usize) -> Self {
         let indexed = problem.takes.iter().zip(0_u32..);
         let own = indexed.filter(|(take, _)| take.antenna as usize == antenna);
         let mut by_start: Vec<u32> = own.map(|(_, index)| index).collect();
         let span =
             |take: &u32| problem.take(*take).map_or((0, 0), |take| (take.from_ms, take.to_ms));
+        // The index breaks ties, so that the result does not depend on the order of the input.
         by_start.sort_by_key(|take| (span(take), *take));
         let ends: Vec<i64> = by_start.iter().map(|take| span(take).1).collect();
         let end = |position: &u32| ends.get(*position as usize).copied().unwrap_or_default();
         let mut by_end: Vec<u32> = (0..by_start.len() as u32).collect();
         by_end.sort_by_key(|position| (end(position), *position));
 
+        // A leg is costly to compute. Where any leg fits, none has to be known.
         let longest_ms = problem.slews.longest_ms(antenna);
         let ended = |take: &u32| {
             let (from_ms, _) = span(take);
@@ -68,6 +70,7 @@ impl Line {
                     ahead.add(*before, of_before.row);
                 }
             }
+            // `far` never falls, because the takes are sorted by start: nothing is added twice.
             passed = *far as usize;
             let own = problem.take(*take).and_then(|entry| worth(*take, entry));
             let found = own.and_then(|own| {
@@ -103,6 +106,7 @@ impl Line {
         let mut last: Option<(u32, Best)> = None;
         for (position, found) in (0..).zip(best) {
             let Some(found) = found else { continue };
+            // No take at all is worth zero, so a sequence worth less than that is not taken.
             let row_so_far = last.map_or(Row::ZERO, |(_, best)| best.row);
             if found.row > row_so_far {
                 last = Some((position, *found));
@@ -138,6 +142,7 @@ impl Ahead {
             return;
         };
         match row.before_slews().cmp(top.before_slews()) {
+            // Slews are compared last: no slew makes up for a lower row.
             std::cmp::Ordering::Less => {}
             std::cmp::Ordering::Greater => {
                 self.best.clear();
@@ -147,6 +152,7 @@ impl Ahead {
                 self.best.push((position, row));
                 let slews = self.best.iter().map(|(_, row)| row.slew_ms());
                 let min_ms = slews.min().unwrap_or_default();
+                // The next leg adds at most `longest_ms`, so sequences within that may still win.
                 let max_ms = min_ms + self.longest_ms;
                 self.best.retain(|(_, row)| row.slew_ms() <= max_ms);
             }

@@ -16,6 +16,7 @@ impl Problem<'_> {
     /// Improves a schedule until no neighbourhood does, or no `effort` is left.
     pub(super) fn refined(&self, takes: Vec<Vec<u32>>, effort: &mut u64) -> Vec<Vec<u32>> {
         let in_a_row = self.passes_by_start();
+        // Neighbourhoods overlap by half, so that passes on both sides of a border meet in one.
         let rows = (0..in_a_row.len()).step_by(AT_ONCE / 2);
         let rows = rows.filter_map(|start| {
             in_a_row.get(start..in_a_row.len().min(start + AT_ONCE)).map(<[u32]>::to_vec)
@@ -30,6 +31,8 @@ impl Problem<'_> {
         }
         let mut schedule = (self.row(&takes), takes);
         loop {
+            // An improvement may make room for another one in a neighbourhood that was tried
+            // before.
             let before = schedule.0;
             for passes in &neighbourhoods {
                 self.choose_again(&by_pass, passes, &mut schedule, effort);
@@ -101,10 +104,12 @@ impl Problem<'_> {
                     })
                     .collect();
                 let row = self.row(&takes);
+                // Equal schedules are left alone, because the search would never end.
                 if row > schedule.0 {
                     *schedule = (row, takes);
                 }
             }
+            // Too many states for all passes at once; each half may still improve.
             None if *effort > 0 && passes.len() > FEW => {
                 let (first, second) = passes.split_at(passes.len() / 2);
                 self.choose_again(by_pass, first, schedule, effort);
@@ -132,6 +137,7 @@ impl Problem<'_> {
     fn around_limit(&self, limit: u32) -> Vec<u32> {
         let own: Vec<&Take> = self.takes.iter().filter(|take| take.limit == Some(limit)).collect();
         let is_beside = |take: &Take| {
+            // Takes farther apart than the longest slew do not compete for the antenna.
             let margin_ms = self.slews.longest_ms(take.antenna as usize);
             own.iter().any(|other| {
                 other.pass == take.pass

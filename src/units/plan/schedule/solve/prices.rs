@@ -7,7 +7,7 @@
 //! One class is bounded at a time, over the schedules that are worth no less in the classes before:
 //! a round that is worth less there pays for what is missing.
 
-use super::{Line, Problem, Row, Take};
+use super::{AntennaLine, Problem, Row, Take};
 
 /// The share of a whole pass, and the smallest step of a price.
 const ONE: i64 = 1000;
@@ -29,7 +29,7 @@ struct Prices {
 /// The class to be bounded, and what it stands behind.
 struct Bounded<'a> {
     problem: &'a Problem<'a>,
-    lines: &'a [Line],
+    lines: &'a [AntennaLine],
     class: usize,
     /// The schedule that was found.
     row: &'a Row,
@@ -49,13 +49,15 @@ struct Round {
 
 /// At most this much is in `class` of any schedule that is worth no less than `row` in the classes
 /// before.
-pub(super) fn bound(problem: &Problem<'_>, lines: &[Line], row: &Row, class: usize) -> i64 {
+pub(super) fn bound(problem: &Problem<'_>, lines: &[AntennaLine], row: &Row, class: usize) -> i64 {
     let max_worth = |class| {
         let numbers = problem.takes.iter().map(|take| take.row.number(class));
+        // At least 1, because prices are divided by it.
         numbers.max().unwrap_or_default().max(1)
     };
     let bounded =
         Bounded { problem, lines, class, row, maxima: (0..class).map(max_worth).collect() };
+    // Without prices, the bound is what the antennas could do if they shared nothing.
     let mut prices = Prices {
         passes: vec![0; problem.passes],
         limits: vec![0; problem.limits.len()],
@@ -66,6 +68,7 @@ pub(super) fn bound(problem: &Problem<'_>, lines: &[Line], row: &Row, class: usi
     let mut best = now.bound;
     let (mut share, mut patience) = (1.0_f64, PATIENCE);
     for _ in 0..ROUNDS {
+        // The step is Polyak's: the gap over the square of the subgradient's length.
         let gap = now.bound - reached * ONE;
         if best.div_euclid(ONE) <= reached || !prices.step(&now, gap as f64 * share) {
             break;
@@ -74,12 +77,14 @@ pub(super) fn bound(problem: &Problem<'_>, lines: &[Line], row: &Row, class: usi
         if now.bound < best {
             (best, patience) = (now.bound, PATIENCE);
         } else {
+            // Near the optimum the steps overshoot, and the bound stands still until they shrink.
             patience -= 1;
             if patience == 0 {
                 (share, patience) = (share / 2.0, PATIENCE);
             }
         }
     }
+    // A schedule with `reached` exists, so no smaller bound is right.
     best.div_euclid(ONE).max(reached)
 }
 
@@ -101,6 +106,7 @@ impl Bounded<'_> {
         let Self { problem, lines, class, row, maxima } = self;
         let paid = |_, take: &Take| Some(Row::single(CELL, self.paid(prices, take)));
         let found: Vec<_> = lines.iter().map(|line| line.best(problem, &paid)).collect();
+        // Each pass may be taken once without being over.
         let mut over_pass = vec![-ONE; problem.passes];
         let limits = problem.limits.iter().map(|max| -ONE * i64::from(*max));
         let mut over_limit: Vec<i64> = limits.collect();
@@ -139,6 +145,7 @@ impl Prices {
     fn step(&mut self, round: &Round, gap: f64) -> bool {
         let prices = || self.passes.iter().chain(&self.limits).chain(&self.classes);
         let moving = round.excess.iter().zip(prices());
+        // A price of zero cannot fall, so it must not shorten the step of the others.
         let moving = moving.filter(|(excess, price)| **excess > 0 || **price > 0);
         let length: f64 = moving.map(|(excess, _)| (*excess as f64 / ONE as f64).powi(2)).sum();
         if length <= 0.0 {

@@ -18,20 +18,20 @@ struct Leg {
 }
 
 /// Slews by table: they follow no geometry, so a way over a third place may be shorter.
-struct Table {
+struct SlewTable {
     legs: Vec<Leg>,
     first_ms: Vec<Option<i64>>,
     /// When each take begins and ends.
     spans_ms: Vec<(i64, i64)>,
 }
 
-impl Table {
+impl SlewTable {
     fn leg(&self, start: usize, end: usize) -> Leg {
         self.legs[start * self.spans_ms.len() + end]
     }
 }
 
-impl Slews for Table {
+impl Slews for SlewTable {
     fn first_ms(&self, end: usize) -> Option<i64> {
         self.first_ms[end]
     }
@@ -51,7 +51,7 @@ struct Case {
     passes: usize,
     takes: Vec<Take>,
     limits: Vec<u32>,
-    slews: Table,
+    slews: SlewTable,
 }
 
 impl Case {
@@ -71,7 +71,7 @@ impl Case {
                     let from_ms = at_ms + random.below(30) as i64;
                     let length_ms = 1 + random.below(90) as i64;
                     let row = Row::new(class, random.below(5) as i64).risen(at_ms);
-                    let (to_ms, part) = (from_ms + length_ms, Part::Alone);
+                    let (to_ms, part) = (from_ms + length_ms, PassPart::Alone);
                     let (share, is_whole) = (1000, random.below(2) == 0);
                     takes.push(Take {
                         pass,
@@ -89,10 +89,11 @@ impl Case {
                 if antennas > 1 && random.below(4) == 0 {
                     let middle_ms = at_ms + 15 + random.below(5) as i64;
                     let row = Row::new(class, 1 + random.below(5) as i64);
-                    for (part, from_ms, to_ms) in
-                        [(Part::First, at_ms, middle_ms), (Part::Second, middle_ms, middle_ms + 20)]
-                    {
-                        let limit = limit.filter(|_| part == Part::First);
+                    for (part, from_ms, to_ms) in [
+                        (PassPart::First, at_ms, middle_ms),
+                        (PassPart::Second, middle_ms, middle_ms + 20),
+                    ] {
+                        let limit = limit.filter(|_| part == PassPart::First);
                         let (share, is_whole) = (500, false);
                         takes.push(Take {
                             pass,
@@ -120,7 +121,7 @@ impl Case {
         let first = |random: &mut Random| (random.below(9) > 0).then(|| random.below(30) as i64);
         let first_ms = (0..count).map(|_| first(random)).collect();
         let spans_ms = takes.iter().map(|take| (take.from_ms, take.to_ms)).collect();
-        let slews = Table { legs, first_ms, spans_ms };
+        let slews = SlewTable { legs, first_ms, spans_ms };
         Self { antennas, passes, takes, limits, slews }
     }
 
@@ -156,9 +157,9 @@ impl Case {
             of_pass.sort_by_key(|take| take.from_ms);
             let is_right = match &of_pass[..] {
                 [] => true,
-                [only] => only.part == Part::Alone,
+                [only] => only.part == PassPart::Alone,
                 [a, b] => {
-                    (a.part, b.part) == (Part::First, Part::Second)
+                    (a.part, b.part) == (PassPart::First, PassPart::Second)
                         && a.antenna != b.antenna
                         && a.to_ms <= b.from_ms
                 }
@@ -235,7 +236,7 @@ fn several_antennas_do_as_well_as_brute_force() {
         let best = case_.brute_force();
         assert_eq!(solution.row.classes(), best.classes(), "case {case}");
         let parts = solution.takes.iter().flatten().map(|take| case_.takes[*take as usize].part);
-        handed_over += parts.filter(|part| *part == Part::First).count();
+        handed_over += parts.filter(|part| *part == PassPart::First).count();
     }
     println!("{} cases of seed {}, {handed_over} handed over", cases() / 4, SEED + 1);
     assert!(handed_over as u64 > cases() / 100);
@@ -251,7 +252,8 @@ fn where_not_all_is_tried_bounds_hold_and_the_best_is_often_reached() {
         let case_ = Case::random(&mut random, antennas, passes);
         // Sometimes too little effort is left for every neighbourhood.
         let problem = case_.problem(u64::from(random.below(400)));
-        let lines: Vec<Line> = (0..antennas).map(|antenna| Line::new(&problem, antenna)).collect();
+        let lines: Vec<AntennaLine> =
+            (0..antennas).map(|antenna| AntennaLine::new(&problem, antenna)).collect();
         let solution = problem.solve_in_part(&lines);
         assert_eq!(case_.worth(&solution.takes), Some(solution.row), "case {case}");
         for greedy in problem.greedy() {

@@ -4,7 +4,7 @@
 //! The classes of the row that is found are the best; the slews decide between equal ones only as
 //! far as the states that are kept allow.
 
-use super::{Part, Problem, Row};
+use super::{PassPart, Problem, Row};
 
 /// States beyond which the search is given up.
 const MAX_STATES: usize = 4_000;
@@ -22,7 +22,7 @@ struct Open {
 }
 
 #[derive(Debug, Clone)]
-struct State {
+struct SearchState {
     row: Row,
     /// By antenna; [`NONE`] before its first take.
     last: Vec<u32>,
@@ -56,22 +56,24 @@ pub(super) fn best(problem: &Problem<'_>, scope: Scope, effort: &mut u64) -> Opt
     let Scope { takes: mut order, left, before } = scope;
     let key =
         |take: u32| problem.take(take).map(|entry| (entry.from_ms, entry.to_ms, entry.antenna));
+    // A state knows only the last take of each antenna, so takes must come by their start.
     order.sort_by_key(|(take, _)| (key(*take), *take));
     let closes = closes(problem, &order);
 
     let last = before.into_iter().map(|take| take.unwrap_or(NONE)).collect();
-    let start = State { row: Row::ZERO, last, open: Vec::new(), used: Vec::new(), step: NONE };
-    let mut search = Search { problem, left, trail: Vec::new(), effort: 0 };
+    let start =
+        SearchState { row: Row::ZERO, last, open: Vec::new(), used: Vec::new(), step: NONE };
+    let mut search = StateSearch { problem, left, trail: Vec::new(), effort: 0 };
     let found = search.run(start, &order, &closes, *effort);
     *effort = effort.saturating_sub(search.effort);
     Some(search.traced(found?))
 }
 
-impl Search<'_> {
+impl StateSearch<'_> {
     /// The last step of the best trail.
     fn run(
         &mut self,
-        start: State,
+        start: SearchState,
         order: &[(u32, bool)],
         closes: &[Closes],
         effort: u64,
@@ -80,7 +82,7 @@ impl Search<'_> {
         let mut after_pruning = 1;
         for ((take, stays), closes) in order.iter().zip(closes) {
             let entry = self.problem.take(*take)?;
-            let extended: Vec<State> =
+            let extended: Vec<SearchState> =
                 states.iter().filter_map(|state| self.extended(state, *take, *stays)).collect();
             if *stays {
                 states = extended;
@@ -89,7 +91,8 @@ impl Search<'_> {
             }
             self.effort += 1 + states.len() as u64;
             if closes.pass {
-                let waits = |state: &State| {
+                // A first part whose second part can no longer come is worth nothing.
+                let waits = |state: &SearchState| {
                     state.open.iter().any(|open| open.pass == entry.pass && open.first.is_some())
                 };
                 states.retain(|state| !waits(state));
@@ -97,11 +100,13 @@ impl Search<'_> {
                     state.open.retain(|open| open.pass != entry.pass);
                 }
             }
+            // States that differ only in a limit that no longer matters become equal.
             if let Some(limit) = entry.limit.filter(|_| closes.limit) {
                 for state in &mut states {
                     state.used.retain(|(used, _)| *used != limit);
                 }
             }
+            // Pruning compares all pairs, so it waits until the states have doubled.
             if states.len() > FEW_STATES.max(2 * after_pruning) {
                 self.prune(&mut states, entry.from_ms);
                 after_pruning = states.len();
@@ -110,6 +115,7 @@ impl Search<'_> {
                 return None;
             }
         }
+        // The first of equal states wins, so that two runs give the same schedule.
         let best = states.into_iter().reduce(|a, b| if b.row > a.row { b } else { a })?;
         Some(best.step)
     }
@@ -137,7 +143,7 @@ fn closes(problem: &Problem<'_>, order: &[(u32, bool)]) -> Vec<Closes> {
     closes
 }
 
-struct Search<'a> {
+struct StateSearch<'a> {
     problem: &'a Problem<'a>,
     /// How many takes that are free may count towards each limit.
     left: Vec<u32>,
@@ -146,18 +152,19 @@ struct Search<'a> {
     effort: u64,
 }
 
-impl Search<'_> {
+impl StateSearch<'_> {
     /// `state` with one more take; `None` where it does not fit. One that stays counts towards no
     /// limit, and its pass is taken as it is.
-    fn extended(&mut self, state: &State, take: u32, stays: bool) -> Option<State> {
+    fn extended(&mut self, state: &SearchState, take: u32, stays: bool) -> Option<SearchState> {
         let entry = self.problem.take(take)?;
         let antenna = entry.antenna as usize;
         let open = state.open.iter().position(|open| open.pass == entry.pass);
         match (entry.part, open.and_then(|open| state.open.get(open))) {
             _ if stays => {}
-            (Part::Alone | Part::First, None) => {}
-            (Part::Second, Some(open)) => {
+            (PassPart::Alone | PassPart::First, None) => {}
+            (PassPart::Second, Some(open)) => {
                 let first = self.problem.take(open.first?)?;
+                // A hand-over needs a second antenna that starts once the first has ended.
                 if first.antenna == entry.antenna || first.to_ms > entry.from_ms {
                     return None;
                 }
@@ -183,7 +190,7 @@ impl Search<'_> {
         if let Some(open) = open {
             new.open.get_mut(open)?.first = None;
         } else if !stays {
-            let first = (entry.part == Part::First).then_some(take);
+            let first = (entry.part == PassPart::First).then_some(take);
             new.open.push(Open { pass: entry.pass, first });
             new.open.sort_by_key(|open| open.pass);
         }
@@ -197,7 +204,7 @@ impl Search<'_> {
     }
 
     /// Drops each state that another one can follow wherever it goes, and is worth as much.
-    fn prune(&mut self, states: &mut Vec<State>, now_ms: i64) {
+    fn prune(&mut self, states: &mut Vec<SearchState>, now_ms: i64) {
         let problem = self.problem;
         let free = |(antenna, last): (usize, &u32)| {
             let longest_ms = problem.slews.longest_ms(antenna);
@@ -206,15 +213,16 @@ impl Search<'_> {
             let is_free = *last != NONE && ended(*last) + longest_ms <= now_ms;
             if is_free { None } else { Some(*last) }
         };
-        let mut sorted: Vec<(State, Vec<Option<u32>>)> = states
+        let mut sorted: Vec<(SearchState, Vec<Option<u32>>)> = states
             .drain(..)
             .map(|state| {
                 let busy = state.last.iter().enumerate().map(free).collect();
                 (state, busy)
             })
             .collect();
+        // The best come first: a state can only be beaten by one that is worth as much.
         sorted.sort_by_key(|(state, _)| std::cmp::Reverse(state.row));
-        let mut retained: Vec<(State, Vec<Option<u32>>)> = Vec::new();
+        let mut retained: Vec<(SearchState, Vec<Option<u32>>)> = Vec::new();
         for (state, busy) in sorted {
             let beaten = retained.iter().position(|(better, freer)| {
                 let is_freer =

@@ -124,7 +124,7 @@ pub(in crate::plan) fn planned(station: &Station, start: Timestamp) -> Vec<Plann
 }
 
 /// Satellites with a priority and what is wanted of them.
-pub(in crate::plan) struct Satellite {
+pub(in crate::plan) struct DrawnSatellite {
     pub(in crate::plan) elements: Elements,
     pub(in crate::plan) priority: Priority,
     pub(in crate::plan) limits: PassLimits,
@@ -133,7 +133,7 @@ pub(in crate::plan) struct Satellite {
 }
 
 /// So many satellites in low orbits, each with a priority.
-pub(in crate::plan) fn low_satellites(random: &mut Random, count: usize) -> Vec<Satellite> {
+pub(in crate::plan) fn low_satellites(random: &mut Random, count: usize) -> Vec<DrawnSatellite> {
     let catalog: Catalog = bundled().unwrap();
     let low: Vec<&Elements> = catalog
         .iter()
@@ -143,9 +143,9 @@ pub(in crate::plan) fn low_satellites(random: &mut Random, count: usize) -> Vec<
     while chosen.len() < count {
         let set = low[random.below(low.len() as u32) as usize];
         let number = set.catalog_number();
-        if chosen.iter().all(|other: &Satellite| other.elements.catalog_number() != number) {
+        if chosen.iter().all(|other: &DrawnSatellite| other.elements.catalog_number() != number) {
             let priority = Priority::try_from(1 + random.below(5) as i64).unwrap();
-            chosen.push(Satellite {
+            chosen.push(DrawnSatellite {
                 elements: set.clone(),
                 priority,
                 limits: PassLimits::default(),
@@ -159,7 +159,7 @@ pub(in crate::plan) fn low_satellites(random: &mut Random, count: usize) -> Vec<
 pub(in crate::plan) fn candidates(
     station: &Station,
     antennas: &[PlannedAntenna],
-    satellites: &[Satellite],
+    satellites: &[DrawnSatellite],
     start: Timestamp,
     hours: f64,
 ) -> Vec<Candidate> {
@@ -182,14 +182,14 @@ pub(in crate::plan) fn candidates(
 
 fn candidate(
     station: &Station,
-    satellite: &Satellite,
+    satellite: &DrawnSatellite,
     propagator: &Propagator,
     pass: &Pass,
     common: Common<'_>,
 ) -> Candidate {
     let mask = station.horizon_mask.as_ref();
     let mut sight = Sight::new(propagator, station.site, mask, pass);
-    let Satellite { priority, limits, take, .. } = satellite;
+    let DrawnSatellite { priority, limits, take, .. } = satellite;
     let pass_wishes = Wanted { priority: *priority, take: *take, limits, by_rule: &|_| None };
     let number = satellite.elements.catalog_number();
     let age_s = satellite.elements.epoch_distance_s(pass.aos.time);

@@ -15,7 +15,7 @@
 use super::*;
 use crate::plan::schedule::{
     board::Board,
-    solve::{Part, Slews as _},
+    solve::{PassPart, Slews as _},
 };
 
 const DAYS: u64 = 50;
@@ -81,8 +81,8 @@ fn written(day: u64, request: &Request<'_>) -> serde_json::Value {
     let excludes = |a: usize, b: usize| {
         let (one, other) = (&board.takes[a], &board.takes[b]);
         match (one.part, other.part) {
-            (Part::First, Part::Second) if one.pass == other.pass => !go_on(a, b),
-            (Part::Second, Part::First) if one.pass == other.pass => !go_on(b, a),
+            (PassPart::First, PassPart::Second) if one.pass == other.pass => !go_on(a, b),
+            (PassPart::Second, PassPart::First) if one.pass == other.pass => !go_on(b, a),
             _ => one.antenna == other.antenna && !fits(a, b) && !fits(b, a),
         }
     };
@@ -94,9 +94,9 @@ fn written(day: u64, request: &Request<'_>) -> serde_json::Value {
             serde_json::json!({
                 "pass": take.pass,
                 "part": match take.part {
-                    Part::Alone => "alone",
-                    Part::First => "first",
-                    Part::Second => "second",
+                    PassPart::Alone => "alone",
+                    PassPart::First => "first",
+                    PassPart::Second => "second",
                 },
                 "limit": take.limit,
                 "class": fact.class.index(),

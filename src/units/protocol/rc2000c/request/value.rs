@@ -19,7 +19,7 @@ pub enum ValueError {
     NoName,
 }
 
-/// Returns `value` if it is between `least` and `most`.
+/// Returns `value` if it is between `min` and `max`.
 pub(super) fn checked(
     name: &'static str,
     value: u64,

@@ -5,7 +5,7 @@ const POSITION_BYTES: usize = 5;
 
 /// Axis of a field.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Axis {
+pub(super) enum PositionAxis {
     Azimuth,
     Elevation,
 }
@@ -49,11 +49,11 @@ impl LimitEnd {
 
 impl Position {
     /// Reads a field. The manuals pad the words for limits on either side.
-    pub(super) fn parse(axis: Axis, field: [u8; POSITION_BYTES]) -> Self {
+    pub(super) fn parse(axis: PositionAxis, field: [u8; POSITION_BYTES]) -> Self {
         let text = std::str::from_utf8(&field).unwrap_or_default().trim_matches(' ');
         let ends = match axis {
-            Axis::Azimuth => [LimitEnd::CounterClockwise, LimitEnd::Clockwise],
-            Axis::Elevation => [LimitEnd::Down, LimitEnd::Up],
+            PositionAxis::Azimuth => [LimitEnd::CounterClockwise, LimitEnd::Clockwise],
+            PositionAxis::Elevation => [LimitEnd::Down, LimitEnd::Up],
         };
         if let Some(end) = ends.into_iter().find(|end| end.word() == text) {
             return Self::Limit(end);
@@ -103,8 +103,8 @@ mod tests {
 
     #[test]
     fn numbers_and_words_are_read_as_the_panel_shows_them() {
-        let azimuth = |text: &[u8; 5]| Position::parse(Axis::Azimuth, *text);
-        let elevation = |text: &[u8; 5]| Position::parse(Axis::Elevation, *text);
+        let azimuth = |text: &[u8; 5]| Position::parse(PositionAxis::Azimuth, *text);
+        let elevation = |text: &[u8; 5]| Position::parse(PositionAxis::Elevation, *text);
         assert_eq!(azimuth(b" 1525"), Position::Counts(1525));
         assert_eq!(azimuth(b"65535"), Position::Counts(65535));
         assert_eq!(azimuth(b"178.4"), Position::TenthsOfDegree(1784));
@@ -124,9 +124,12 @@ mod tests {
             b"     ", b"*****", b"65536", b"1 525", b" 1.25", b"1..25", b"   UP", b"  +15",
             b"  .  ",
         ] {
-            assert_eq!(Position::parse(Axis::Azimuth, *text), Position::Unknown(*text));
+            assert_eq!(Position::parse(PositionAxis::Azimuth, *text), Position::Unknown(*text));
         }
-        assert_eq!(Position::parse(Axis::Elevation, *b"  CCW"), Position::Unknown(*b"  CCW"));
+        assert_eq!(
+            Position::parse(PositionAxis::Elevation, *b"  CCW"),
+            Position::Unknown(*b"  CCW")
+        );
     }
 
     #[test]

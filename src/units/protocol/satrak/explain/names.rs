@@ -23,13 +23,13 @@ impl Named {
 
 /// Named values of one kind of frame.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Names {
+pub(super) struct NamedFields {
     pub(super) named: &'static [Named],
     /// Index of the one value that may hold commas, counted from 0.
     pub(super) text_at: Option<usize>,
 }
 
-impl Names {
+impl NamedFields {
     pub(super) const NONE: Self = Self::new(&[]);
 
     const fn new(named: &'static [Named]) -> Self {
@@ -87,12 +87,12 @@ const TLE_MODE: Codes = &[("0", "file"), ("1", "web"), ("2", "FTP")];
 const ON_ERROR: Codes = &[("0", "stops tracking"), ("1", "goes on with the last elements")];
 const NONE: Codes = &[("NONE", "stays as it is")];
 
-pub(super) const ANSWER: Names =
-    Names::new(&[code("answer", &[("OK", "accepted"), ("ERR", "refused")])]);
-pub(super) const REFUSAL: Names =
-    Names::with_text(&[code("answer", &[("ERR", "refused")]), text("code")], 1);
+pub(super) const ANSWER: NamedFields =
+    NamedFields::new(&[code("answer", &[("OK", "accepted"), ("ERR", "refused")])]);
+pub(super) const REFUSAL: NamedFields =
+    NamedFields::with_text(&[code("answer", &[("ERR", "refused")]), text("code")], 1);
 
-const STATUS: Names = Names::new(&[
+const STATUS: NamedFields = NamedFields::new(&[
     code("fault or warning", FAULT),
     number("azimuth", "°"),
     number("elevation", "°"),
@@ -110,7 +110,7 @@ const STATUS: Names = Names::new(&[
     number("angle of Y", "°"),
     code("auto-track", OFF_ON),
 ]);
-const FAULTS: Names = Names::new(&[
+const FAULTS: NamedFields = NamedFields::new(&[
     code("link between control and drive unit", FAULT),
     code("elements out of date", FAULT),
     code("element file missing", FAULT),
@@ -124,7 +124,7 @@ const FAULTS: Names = Names::new(&[
     code("sensor of Y", SENSOR),
     code("link to the GPS receiver", FAULT),
 ]);
-const TIME: Names = Names::new(&[
+const TIME: NamedFields = NamedFields::new(&[
     text("hour"),
     text("minute"),
     text("second"),
@@ -133,7 +133,7 @@ const TIME: Names = Names::new(&[
     text("year"),
     number("milliseconds", " ms"),
 ]);
-const WINDOW: Names = Names::new(&[
+const WINDOW: NamedFields = NamedFields::new(&[
     text("start, hour"),
     text("start, minute"),
     text("start, second"),
@@ -158,7 +158,7 @@ const NORTH: Named = retained(number("north offset", "°"));
 const AMPLIFIER: Named = code("SSPA", SSPA);
 const RULE: Named = code("SSPA rule", SSPA_RULE);
 const THRESHOLD: Named = retained(number("elevation threshold", "°"));
-const SETTINGS: Names = Names::new(&[
+const SETTINGS: NamedFields = NamedFields::new(&[
     FROM_GPS,
     TIME_OFFSET,
     AZ_OFFSET,
@@ -172,7 +172,7 @@ const SETTINGS: Names = Names::new(&[
     code("source of the elements", TLE_MODE),
     THRESHOLD,
 ]);
-const SET_SETTINGS: Names = Names::new(&[
+const SET_SETTINGS: NamedFields = NamedFields::new(&[
     FROM_GPS,
     TIME_OFFSET,
     AZ_OFFSET,
@@ -185,20 +185,20 @@ const SET_SETTINGS: Names = Names::new(&[
     RULE,
     THRESHOLD,
 ]);
-const ANGLES: Names = Names::new(&[
+const ANGLES: NamedFields = NamedFields::new(&[
     number("sensor of X", " counts"),
     number("angle of X there", "°"),
     number("sensor of Y", " counts"),
     number("angle of Y there", "°"),
 ]);
-const SET_ANGLES: Names = Names::new(&[
+const SET_ANGLES: NamedFields = NamedFields::new(&[
     code("present position", NO_YES),
     number("sensor of X", " counts"),
     number("angle of X there", "°"),
     number("sensor of Y", " counts"),
     number("angle of Y there", "°"),
 ]);
-const GPS: Names = Names::new(&[
+const GPS: NamedFields = NamedFields::new(&[
     text("latitude"),
     text("longitude"),
     code("fix", NO_YES),
@@ -209,7 +209,7 @@ const GPS: Names = Names::new(&[
     text("month"),
     text("year of the century"),
 ]);
-const POSITION: Names = Names::new(&[
+const POSITION: NamedFields = NamedFields::new(&[
     number("first angle", "°"),
     number("second angle", "°"),
     text("hour"),
@@ -220,9 +220,9 @@ const POSITION: Names = Names::new(&[
     text("year"),
     number("milliseconds", " ms"),
 ]);
-const PLACE: Names =
-    Names::new(&[code("place from GPS", NO_YES), text("latitude"), text("longitude")]);
-const SATELLITE: Names = Names::with_text(
+const PLACE: NamedFields =
+    NamedFields::new(&[code("place from GPS", NO_YES), text("latitude"), text("longitude")]);
+const SATELLITE: NamedFields = NamedFields::with_text(
     &[
         text("element file"),
         text("satellite"),
@@ -232,37 +232,38 @@ const SATELLITE: Names = Names::with_text(
     ],
     1,
 );
-const SET_SATELLITE: Names = Names::new(&[
+const SET_SATELLITE: NamedFields = NamedFields::new(&[
     text("element file"),
     text("satellite"),
     text("update period"),
     code("present track goes on", NO_YES),
 ]);
-const WEB: Names = Names::with_text(
+const WEB: NamedFields = NamedFields::with_text(
     &[text("address"), number("update period", " d"), code("when an update fails", ON_ERROR)],
     0,
 );
-const SET_WEB: Names = Names::new(&[
+const SET_WEB: NamedFields = NamedFields::new(&[
     text("address"),
     number("update period", " d"),
     code("when an update fails", ON_ERROR),
     code("present track goes on", NO_YES),
 ]);
-const VERSION: Names = Names::new(&[text("control unit"), text("drive unit")]);
-const SCALES: Names = Names::new(&[number("scale of X", ""), number("scale of Y", "")]);
-const IMAGE_STATE: Names = Names::with_text(&[text("state")], 0);
-const IMAGE_FILE: Names = Names::new(&[text("image file")]);
-const MOVE: Names = Names::new(&[number("rate of X", " °/s"), number("rate of Y", " °/s")]);
-const STEP: Names = Names::new(&[number("step of X", "°"), number("step of Y", "°")]);
-const GOTO: Names = Names::new(&[
+const VERSION: NamedFields = NamedFields::new(&[text("control unit"), text("drive unit")]);
+const SCALES: NamedFields = NamedFields::new(&[number("scale of X", ""), number("scale of Y", "")]);
+const IMAGE_STATE: NamedFields = NamedFields::with_text(&[text("state")], 0);
+const IMAGE_FILE: NamedFields = NamedFields::new(&[text("image file")]);
+const MOVE: NamedFields =
+    NamedFields::new(&[number("rate of X", " °/s"), number("rate of Y", " °/s")]);
+const STEP: NamedFields = NamedFields::new(&[number("step of X", "°"), number("step of Y", "°")]);
+const GOTO: NamedFields = NamedFields::new(&[
     Named { unit: "°", ..code("azimuth", NONE) },
     Named { unit: "°", ..code("elevation", NONE) },
 ]);
-const TRACK: Names = Names::new(&[code("tracking", OFF_ON)]);
-const AUTO_TRACK: Names = Names::new(&[code("auto-track", OFF_ON)]);
+const TRACK: NamedFields = NamedFields::new(&[code("tracking", OFF_ON)]);
+const AUTO_TRACK: NamedFields = NamedFields::new(&[code("auto-track", OFF_ON)]);
 
 /// Names of the values after `word?` in a reply.
-pub(super) const fn of_reply(word: Word) -> Names {
+pub(super) const fn of_reply(word: Word) -> NamedFields {
     match word {
         Word::Version => VERSION,
         Word::Status => STATUS,
@@ -286,12 +287,12 @@ pub(super) const fn of_reply(word: Word) -> Names {
         | Word::Stop
         | Word::Track
         | Word::TrackAutoEnable
-        | Word::RtcReupdate => Names::NONE,
+        | Word::RtcReupdate => NamedFields::NONE,
     }
 }
 
 /// Names of the values after `word=` in a request.
-pub(super) const fn of_setting(word: Word) -> Names {
+pub(super) const fn of_setting(word: Word) -> NamedFields {
     match word {
         Word::Move => MOVE,
         Word::Step => STEP,
@@ -315,6 +316,6 @@ pub(super) const fn of_setting(word: Word) -> Names {
         | Word::ErrStatus
         | Word::GpsData
         | Word::Tpos
-        | Word::RtcReupdate => Names::NONE,
+        | Word::RtcReupdate => NamedFields::NONE,
     }
 }

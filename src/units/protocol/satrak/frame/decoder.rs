@@ -61,14 +61,14 @@ pub enum FrameError {
 
 /// One line of the stream.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Line {
+pub struct ReceivedLine {
     /// Bytes as received, with the line end; of an over-long line, those that were there when
     /// it was given up. May hold the FTP password: show [`Self::without_secrets`].
     pub(super) bytes: Vec<u8>,
     pub frame: Result<Frame, FrameError>,
 }
 
-impl Line {
+impl ReceivedLine {
     pub fn length(&self) -> usize {
         self.bytes.len()
     }
@@ -104,7 +104,7 @@ impl Decoder {
     }
 
     /// Next line, good or not; empty lines are left out.
-    pub fn next_line(&mut self) -> Option<Line> {
+    pub fn next_line(&mut self) -> Option<ReceivedLine> {
         loop {
             let Some(end) = self.pending.iter().position(|byte| *byte == b'\n') else {
                 return self.give_up_unfinished();
@@ -116,13 +116,13 @@ impl Decoder {
             let line = bytes.strip_suffix(b"\n").unwrap_or(&bytes);
             if line.len() > MAX_LINE_BYTES {
                 let error = FrameError::TooLong { excerpt: excerpt(line) };
-                return Some(Line { bytes, frame: Err(error) });
+                return Some(ReceivedLine { bytes, frame: Err(error) });
             }
             let ended_with_cr = line.last() == Some(&b'\r');
             let content = without_cr(line);
             if !content.is_empty() {
                 let frame = read_line(content, ended_with_cr);
-                return Some(Line { bytes, frame });
+                return Some(ReceivedLine { bytes, frame });
             }
         }
     }
@@ -133,16 +133,16 @@ impl Decoder {
     }
 
     /// Takes the beginning of a line whose end will not come any more.
-    pub fn take_unfinished(&mut self) -> Option<Line> {
+    pub fn take_unfinished(&mut self) -> Option<ReceivedLine> {
         let bytes: Vec<u8> = self.pending.drain(..).collect();
         let is_skipped = std::mem::take(&mut self.skipping);
         let excerpt = excerpt(&bytes);
         (!bytes.is_empty() && !is_skipped)
-            .then_some(Line { bytes, frame: Err(FrameError::Unfinished { excerpt }) })
+            .then_some(ReceivedLine { bytes, frame: Err(FrameError::Unfinished { excerpt }) })
     }
 
     /// Ends an unfinished line that cannot become a frame any more.
-    fn give_up_unfinished(&mut self) -> Option<Line> {
+    fn give_up_unfinished(&mut self) -> Option<ReceivedLine> {
         if self.skipping {
             self.pending.clear();
             self.overflowed = false;
@@ -155,7 +155,7 @@ impl Decoder {
         self.skipping = true;
         self.overflowed = false;
         let error = FrameError::TooLong { excerpt: excerpt(&bytes) };
-        Some(Line { bytes, frame: Err(error) })
+        Some(ReceivedLine { bytes, frame: Err(error) })
     }
 }
 

@@ -2,7 +2,7 @@
 //! holds a password in clear, and the line may be cut or spoiled anywhere, so only bytes
 //! that cannot be a piece of it are let through.
 
-use super::{Frame, Line, MAX_LINE_BYTES};
+use super::{Frame, MAX_LINE_BYTES, ReceivedLine};
 use crate::protocol::satrak::Word;
 
 /// Placeholder for bytes that are left out.
@@ -17,7 +17,7 @@ pub struct Shown {
     pub is_whole: bool,
 }
 
-impl Line {
+impl ReceivedLine {
     /// The line without any bytes that may be the FTP password or a piece of it.
     ///
     /// A good frame with a word of the document other than `SATELLITE_FTP` stays whole. Any other
@@ -25,7 +25,7 @@ impl Line {
     /// says that no `$` has come over the link yet, so that plain text is no piece of a frame.
     pub fn without_secrets(&self, is_greeting: bool) -> Shown {
         let bytes = self.bytes.get(..MAX_LINE_BYTES).unwrap_or(&self.bytes);
-        let mut filter = Filter { shown: Vec::with_capacity(bytes.len()), is_whole: true };
+        let mut filter = SecretFilter { shown: Vec::with_capacity(bytes.len()), is_whole: true };
         let (content, end) = split_end(bytes);
         match &self.frame {
             Ok(frame) => {
@@ -60,12 +60,12 @@ fn is_plain_text(content: &[u8]) -> bool {
 }
 
 /// Collects the bytes that may be shown.
-struct Filter {
+struct SecretFilter {
     shown: Vec<u8>,
     is_whole: bool,
 }
 
-impl Filter {
+impl SecretFilter {
     fn show(&mut self, bytes: &[u8]) {
         self.shown.extend_from_slice(bytes);
     }
@@ -200,7 +200,7 @@ mod tests {
         decoder.push(bytes);
         let mut lines: Vec<_> = std::iter::from_fn(|| decoder.next_line()).collect();
         lines.extend(decoder.take_unfinished());
-        let text = |line: &Line| {
+        let text = |line: &ReceivedLine| {
             let shown = line.without_secrets(is_greeting);
             assert_eq!(shown.is_whole, shown.bytes == line.bytes);
             String::from_utf8_lossy(&shown.bytes).into_owned()

@@ -121,7 +121,7 @@ async fn gps_locks_late_and_sets_an_unset_clock() {
     let Said::GpsData(gps) = client.reply("GPS_DATA?").await else { panic!("no GPS") };
     assert!(!gps.valid && !client.status().await.rtc_from_gps);
     seconds(8).await;
-    let Said::Clock(Clock { time: shown, .. }) = client.reply("TIME?").await else {
+    let Said::Clock(UnitTime { time: shown, .. }) = client.reply("TIME?").await else {
         panic!("no clock")
     };
     let age = time::seconds_between(some_day(), shown);

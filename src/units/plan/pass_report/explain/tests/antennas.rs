@@ -44,7 +44,7 @@ pub(super) fn drawn(random: &mut Random, flight: &Flight) -> (&'static str, Caus
     }
 }
 
-/// Angles of the axes of a mount that points at `at`; `azimuth_deg` goes on over north.
+/// Angles of the axes of a mount that points at `direction`; `azimuth_deg` goes on over north.
 pub(super) fn axes_deg(mount: Mount, direction: AzEl, azimuth_deg: f64) -> [f64; 2] {
     match mount {
         Mount::AzEl { .. } => [azimuth_deg, direction.elevation.degrees()],

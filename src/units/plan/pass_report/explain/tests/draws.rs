@@ -29,14 +29,14 @@ fn share(random: &mut Random) -> f64 {
 }
 
 /// Noise of a sensor, and of an antenna in the wind.
-struct Noise {
+struct TrackNoise {
     white_deg: f64,
     wind_deg: f64,
     /// Time in which the wind is forgotten, seconds.
     lasts_s: f64,
 }
 
-impl Noise {
+impl TrackNoise {
     fn drawn(random: &mut Random) -> Self {
         let white_deg = 0.002 + 0.05 * share(random).powi(2);
         let wind_deg = if random.below(2) == 0 { 0.0 } else { 0.05 * share(random) };
@@ -149,7 +149,7 @@ fn no_cause_is_named_without_one() {
         let mut random = Random::new(case);
         let flight = &flights[random.below(flights.len() as u32) as usize];
         let mount = if random.below(2) == 0 { AZ_EL } else { XY };
-        let noise = Noise::drawn(&mut random);
+        let noise = TrackNoise::drawn(&mut random);
         let exact: Vec<_> = flight.times().map(|time| (time, flight.direction_at(time))).collect();
         let measured = noise.on(&exact, &mut random);
         let other = flight.shifted(0.3 * signed(&mut random));
@@ -174,7 +174,7 @@ fn a_single_cause_is_named_or_among_three() {
     let mut table = BTreeMap::<&str, [u32; 3]>::new();
     for case in seed..seed + cases {
         let mut random = Random::new(case);
-        let noise = Noise::drawn(&mut random);
+        let noise = TrackNoise::drawn(&mut random);
         let kind = KINDS[(case % KINDS.len() as u64) as usize];
         let mut tries = 0;
         let (flight, mount, cause, other, exact, effect_deg) = loop {
