@@ -37,7 +37,7 @@ impl CatalogWork {
         if !is_known && self.rows.as_ref().is_none_or(|(begun, _)| *begun != inputs) {
             let (asked, now) = (inputs.clone(), model.now);
             let job = Job::start("azel-catalog", Arc::clone(wake), move |_| arrange(asked, now));
-            self.rows = Some((inputs, started(job)));
+            self.rows = Some((inputs, Some(job)));
         }
         let key = NextKey::new(catalog, &model.station);
         let is_young = |next: &Arc<NextPasses>| {
@@ -49,7 +49,7 @@ impl CatalogWork {
             let job = Job::start("azel-next-passes", Arc::clone(wake), move |cancelled| {
                 NextPasses::search(asked, now, cancelled)
             });
-            self.next = Some((key, started(job)));
+            self.next = Some((key, Some(job)));
         }
         let inspected = model.catalog_table.inspected.and_then(|number| catalog.get(number));
         let Some(elements) = inspected else { return };
@@ -61,7 +61,7 @@ impl CatalogWork {
             let job = Job::start("azel-object", Arc::clone(wake), move |cancelled| {
                 ObjectDetail::new(asked, now, cancelled)
             });
-            self.detail = Some((key, started(job)));
+            self.detail = Some((key, Some(job)));
         }
     }
 
@@ -87,8 +87,4 @@ impl CatalogWork {
             self.detail = None;
         }
     }
-}
-
-fn started<T>(job: std::io::Result<Job<T>>) -> Option<Job<T>> {
-    job.inspect_err(|error| tracing::error!(%error, "no thread for the table of the catalog")).ok()
 }

@@ -64,17 +64,15 @@ impl App {
         }
         let (settings, folder) = (self.settings.clone(), self.stations_folder.clone());
         let work = move |_: &(dyn Fn() -> bool + Sync)| look(next, settings, folder.as_deref());
-        match Job::start("azel-station-look", Arc::clone(&self.wake), work) {
-            Ok(job) => self.change = Some(Change::Looking(job)),
-            Err(error) => tracing::error!(%error, "no thread to look at the station"),
-        }
+        self.change =
+            Some(Change::Looking(Job::start("azel-station-look", Arc::clone(&self.wake), work)));
     }
 
     /// Takes the change as far as it goes by itself.
     pub(super) fn work_on_change(&mut self) {
         self.change = match self.change.take() {
             Some(Change::Looking(job)) => self.take_look(job),
-            Some(Change::Ending(target)) if self.station.has_ended() => self.start(target),
+            Some(Change::Ending(target)) if self.station.has_ended() => Some(self.start(target)),
             Some(Change::Starting { job, settings, opens_set_up }) => {
                 let mut job = Some(job);
                 match Job::take(&mut job) {
@@ -162,7 +160,7 @@ impl App {
         Change::Ending(target)
     }
 
-    fn start(&mut self, target: Target) -> Option<Change> {
+    fn start(&mut self, target: Target) -> Change {
         let Target { settings, opens_set_up, .. } = target;
         let (of_station, outside) = (settings.clone(), self.outside.clone());
         let wake = Arc::clone(&self.wake);
@@ -172,10 +170,8 @@ impl App {
             let keeper = Keeper::beside(of_station.station_path().as_deref());
             Ok((Handle::start(of_station, outside, wake)?, keeper))
         };
-        match Job::start("azel-station-start", Arc::clone(&self.wake), work) {
-            Ok(job) => Some(Change::Starting { job, settings, opens_set_up }),
-            Err(error) => broke_down(&error.to_string()),
-        }
+        let job = Job::start("azel-station-start", Arc::clone(&self.wake), work);
+        Change::Starting { job, settings, opens_set_up }
     }
 
     /// Puts a station that has begun into the window.

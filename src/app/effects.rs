@@ -78,9 +78,6 @@ fn work<Q: Compare>(
         let ways = known.unwrap_or_else(|| ways::<Q>(&passes, cancelled));
         Effect::of(asked, &ways, revision)
     };
-    match Job::start("azel-effects", Arc::clone(wake), job) {
-        // Replacing the job of an older question cancels it.
-        Ok(job) => *begun = Some((question.clone(), revision, job)),
-        Err(error) => tracing::error!(%error, "no thread for the effects"),
-    }
+    // Replacing the job of an older question cancels it.
+    *begun = Some((question.clone(), revision, Job::start("azel-effects", Arc::clone(wake), job)));
 }

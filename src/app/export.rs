@@ -119,10 +119,7 @@ impl App {
             Some(typed) => order.save_as(typed),
             None => order.save(dialog, folder::documents),
         };
-        match Job::start("azel-export", Arc::clone(&self.wake), work) {
-            Ok(job) => self.export_work.job = Some(job),
-            Err(error) => self.views.file_saved(Err(format!("no thread for the file: {error}"))),
-        }
+        self.export_work.job = Some(Job::start("azel-export", Arc::clone(&self.wake), work));
     }
 
     /// Takes the result of the thread.

@@ -17,10 +17,7 @@ pub(super) struct FolderWork {
 impl App {
     pub(super) fn open_folder(&mut self, path: PathBuf) {
         let work = move |_: &(dyn Fn() -> bool + Sync)| folder::open(&path);
-        match Job::start("azel-folder", Arc::clone(&self.wake), work) {
-            Ok(job) => self.folder_work.job = Some(job),
-            Err(error) => self.views.folder_not_opened(&error.to_string()),
-        }
+        self.folder_work.job = Some(Job::start("azel-folder", Arc::clone(&self.wake), work));
     }
 
     /// Takes the result of the thread.

@@ -28,21 +28,20 @@ impl App {
             CatalogState::Loading | CatalogState::Failed => None,
         };
         let asked = offers.clone();
-        let job = Job::start("azel-intake", Arc::clone(&self.wake), move |cancelled| {
-            let wanted = asked.iter().take_while(|_| !cancelled());
-            let judge = |bytes: &[u8]| Judged::of(bytes, catalog.as_deref());
-            wanted
-                .map(|offer| match offer {
-                    Offer::Text(text) => judge(text.as_bytes()),
-                    Offer::File(path) => match read_element_file(path) {
-                        Ok(bytes) => judge(&bytes),
-                        Err(error) => Judged::Unreadable(error.to_string()),
-                    },
-                })
-                .collect()
-        });
-        let job = job.inspect_err(|error| tracing::error!(%error, "no thread for the files"));
-        self.intake_work.judging = job.ok();
+        self.intake_work.judging =
+            Some(Job::start("azel-intake", Arc::clone(&self.wake), move |cancelled| {
+                let wanted = asked.iter().take_while(|_| !cancelled());
+                let judge = |bytes: &[u8]| Judged::of(bytes, catalog.as_deref());
+                wanted
+                    .map(|offer| match offer {
+                        Offer::Text(text) => judge(text.as_bytes()),
+                        Offer::File(path) => match read_element_file(path) {
+                            Ok(bytes) => judge(&bytes),
+                            Err(error) => Judged::Unreadable(error.to_string()),
+                        },
+                    })
+                    .collect()
+            }));
         self.model.intake = Some(Intake { offers, is_dropped, judged: None });
     }
 

@@ -66,15 +66,14 @@ impl KnownWork {
     ) {
         let Some(path) = self.path.clone() else { return };
         let before = self.job.take();
-        let job = Job::start("azel-stations-file", Wake::clone(wake), move |_| {
+        self.job = Some(Job::start("azel-stations-file", Wake::clone(wake), move |_| {
             if let Some(before) = before {
                 before.wait(WAIT);
             }
             let mut known = read(&path);
             change(&mut known);
             write(&known, &path);
-        });
-        self.job = job.inspect_err(|error| tracing::warn!(%error, "no thread for the file")).ok();
+        }));
     }
 }
 

@@ -39,10 +39,7 @@ impl App {
                 Err(error) => Err(format!("{error}: {}", path.display())),
             }
         };
-        match Job::start("azel-log-file", Arc::clone(&self.wake), write) {
-            Ok(job) => self.log_work.job = Some(job),
-            Err(error) => self.views.log_saved(Err(format!("no thread for the file: {error}"))),
-        }
+        self.log_work.job = Some(Job::start("azel-log-file", Arc::clone(&self.wake), write));
     }
 
     /// Takes the result of the thread.

@@ -55,12 +55,7 @@ impl App {
         &mut self,
         work: impl FnOnce(&(dyn Fn() -> bool + Sync)) -> MaskNews + Send + 'static,
     ) {
-        match Job::start("azel-mask-file", Arc::clone(&self.wake), work) {
-            Ok(job) => self.mask_work.job = Some(job),
-            Err(error) => {
-                self.views.mask_news(MaskNews::Failed(format!("no thread for the file: {error}")));
-            }
-        }
+        self.mask_work.job = Some(Job::start("azel-mask-file", Arc::clone(&self.wake), work));
     }
 
     /// Takes the result of the thread.

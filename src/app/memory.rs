@@ -287,13 +287,9 @@ impl Keeper {
         // Not tried again before the next change.
         self.written = self.memory.clone();
         let (memory, file) = (self.memory.clone(), Arc::clone(&self.file));
-        let work = Job::start("azel-window-file", Wake::clone(wake), move |_| {
+        self.job = Some(Job::start("azel-window-file", Wake::clone(wake), move |_| {
             write(&memory, &file, &path);
-        });
-        match work {
-            Ok(job) => self.job = Some(job),
-            Err(error) => tracing::warn!(%error, "no thread to keep the window"),
-        }
+        }));
     }
 
     /// Writes the last change before the end, for a limited time.

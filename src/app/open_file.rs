@@ -70,10 +70,7 @@ impl App {
             let why = "Another file is being opened; its dialog may be behind this window.";
             return self.views.not_opened(why);
         }
-        match Job::start("azel-open", Arc::clone(&self.wake), move |_| work()) {
-            Ok(job) => self.open_work.job = Some(job),
-            Err(error) => self.views.not_opened(&format!("No thread for the file: {error}.")),
-        }
+        self.open_work.job = Some(Job::start("azel-open", Arc::clone(&self.wake), move |_| work()));
     }
 
     /// Takes the files or the path that is to be typed.

@@ -73,16 +73,9 @@ impl App {
             };
             run(&what, &tell, is_cancelled)
         };
-        match Job::start("azel-rehearsal", Arc::clone(&self.wake), work) {
-            Ok(job) => {
-                self.rehearsal_work = RehearsalWork { job: Some(job), share };
-                self.model.rehearsal = RehearsalState::UnderWay(0.0);
-            }
-            Err(error) => {
-                let why = format!("no thread for the rehearsal: {error}");
-                self.model.rehearsal = RehearsalState::Failed(why);
-            }
-        }
+        let job = Some(Job::start("azel-rehearsal", Arc::clone(&self.wake), work));
+        self.rehearsal_work = RehearsalWork { job, share };
+        self.model.rehearsal = RehearsalState::UnderWay(0.0);
     }
 
     /// Cancels the rehearsal, or forgets the last one.

@@ -8,7 +8,7 @@ mod room;
 #[cfg(test)]
 mod tests;
 
-use std::{io, path::PathBuf, sync::Arc};
+use std::{path::PathBuf, sync::Arc};
 
 use jiff::Timestamp;
 
@@ -175,10 +175,7 @@ impl Replay {
     /// Ends it. The file is closed elsewhere: that takes a disk.
     fn end(self) {
         if let Some(room) = self.room {
-            let closed = Job::start("azel-replay", self.wake, move |_| drop(room));
-            if let Err(error) = closed {
-                tracing::error!(%error, "no thread to close the film");
-            }
+            drop(Job::start("azel-replay", self.wake, move |_| drop(room)));
         }
     }
 
@@ -395,17 +392,9 @@ impl Replay {
         self.marked = unmarked.clone().or(self.marked.take());
         let asked = Asked { wanted: self.wanted.take(), look, unmarked };
         let site = self.model.station.site;
-        let job = Job::start("azel-replay", Arc::clone(&self.wake), move |_| {
+        self.job = Some(Job::start("azel-replay", Arc::clone(&self.wake), move |_| {
             let answer = room.answer(asked, site);
             (room, answer)
-        });
-        self.take_job(job);
-    }
-
-    fn take_job(&mut self, job: io::Result<Job<(Box<Room>, Answer)>>) {
-        match job {
-            Ok(job) => self.job = Some(job),
-            Err(error) => self.tell(ReplayProblem::NotRead(error.to_string())),
-        }
+        }));
     }
 }

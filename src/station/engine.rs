@@ -269,18 +269,18 @@ impl Engine {
         let driver = Driver::start(outside.clone(), wake_of(&woken))?
             .guarded_by(settings.dead_man.clone())
             .marking_in(settings.marks.clone());
-        Self::over(driver, woken, settings, outside, outbox, requests)
+        Ok(Self::driving(driver, woken, settings, outside, outbox, requests))
     }
 
     /// A station whose antennas `driver` drives; its wake notifies `woken`.
-    fn over(
+    fn driving(
         driver: Driver,
         woken: Arc<Notify>,
         settings: &Settings,
         outside: Outside,
         outbox: Outbox,
         requests: mpsc::WeakSender<Request>,
-    ) -> io::Result<(Self, Client)> {
+    ) -> (Self, Client) {
         let settings_path = settings.station_path();
         let wake = wake_of(&woken);
         let clock = outside.clock.clone();
@@ -375,12 +375,12 @@ impl Engine {
         engine.load_lock_outs();
         engine.load_station();
         if !has_given_elements {
-            engine.start_elements(Task::default())?;
+            engine.start_elements(Task::default());
         }
         engine.has_started = true;
         engine.start_automatic();
         engine.publish();
-        Ok((engine, client))
+        (engine, client)
     }
 
     /// Runs until the last sender of requests is gone.

@@ -3,7 +3,6 @@
 
 use std::{
     cell::Cell,
-    io,
     marker::PhantomData,
     panic::{self, AssertUnwindSafe},
     sync::{
@@ -18,7 +17,7 @@ use std::{
 /// Called from any thread when there is something new to take.
 pub type Wake = Arc<dyn Fn() + Send + Sync>;
 
-/// The work panicked; the log has the reason.
+/// The work panicked, or had no thread; the log has the reason.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[error("the work failed inside Azel")]
 pub struct BrokeOff;
@@ -56,16 +55,16 @@ pub struct Job<T> {
 }
 
 impl<T: Send + 'static> Job<T> {
-    /// Starts `work` on a thread called `name`. It is given a question that
-    /// turns true when nobody wants the result any more.
+    /// Starts `work` on a thread called `name`. It is given a question that turns true when nobody
+    /// wants the result any more. Work for which there is no thread breaks off.
     pub fn start(
         name: &str,
         wake: Wake,
         work: impl FnOnce(&(dyn Fn() -> bool + Sync)) -> T + Send + 'static,
-    ) -> io::Result<Self> {
+    ) -> Self {
         let (send, result) = mpsc::sync_channel(1);
         let cancelled = Arc::new(AtomicBool::new(false));
-        let asked = Arc::clone(&cancelled);
+        let (asked, wake_without) = (Arc::clone(&cancelled), Arc::clone(&wake));
         let whole = move || {
             // Dropped in the order result, wake, also where the work panics: whoever is
             // woken finds the end of the work.
@@ -78,10 +77,11 @@ impl<T: Send + 'static> Job<T> {
         if is_in_place() {
             // The caller that asks for the result learns that the work broke off.
             panic::catch_unwind(AssertUnwindSafe(whole)).ok();
-        } else {
-            thread::Builder::new().name(name.to_owned()).spawn(whole)?;
+        } else if let Err(error) = thread::Builder::new().name(name.to_owned()).spawn(whole) {
+            tracing::error!(%error, name, "there is no thread for this work");
+            wake_without();
         }
-        Ok(Self { result, cancelled })
+        Self { result, cancelled }
     }
 
     /// Waits for the end of the work, at most this long.
@@ -129,7 +129,7 @@ mod tests {
     ) -> (Option<Job<T>>, mpsc::Receiver<()>) {
         let (woken, wakes) = mpsc::sync_channel(1);
         let wake: Wake = Arc::new(move || woken.send(()).unwrap());
-        (Some(Job::start("job", wake, move |_| work()).unwrap()), wakes)
+        (Some(Job::start("job", wake, move |_| work())), wakes)
     }
 
     #[test]

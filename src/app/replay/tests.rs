@@ -37,17 +37,9 @@ fn a_replay_whose_thread_broke_off_says_so_and_stands() {
     let _in_place = InPlace::begin();
     replay.room = None;
     let job = Job::start("azel-replay", Arc::new(|| {}), |_| panic!("on purpose"));
-    replay.take_job(job);
+    replay.job = Some(job);
     replay.take_answer();
     is_not_read(replay, "the work failed inside Azel");
-}
-
-#[test]
-fn a_replay_whose_thread_cannot_be_started_says_so_and_stands() {
-    let mut replay = replay();
-    replay.room = None;
-    replay.take_job(Err(io::Error::other("no thread is left")));
-    is_not_read(replay, "no thread is left");
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! Carries out the commands of clients.
 
-use std::{io, sync::Arc};
+use std::sync::Arc;
 
 use jiff::Timestamp;
 
@@ -396,9 +396,7 @@ impl Engine {
         if self.elements_job.is_some() || self.sources.is_locked {
             return;
         }
-        if let Err(error) = self.start_elements(task) {
-            tracing::error!(%error, "no thread for the elements");
-        }
+        self.start_elements(task);
     }
 
     /// Reads the elements again if other sets of them count by now, such as after a clock step.
@@ -411,7 +409,7 @@ impl Engine {
     }
 
     /// Starts reading the elements while nothing else does.
-    pub(super) fn start_elements(&mut self, task: Task) -> io::Result<()> {
+    pub(super) fn start_elements(&mut self, task: Task) {
         let task = Task {
             orders: self.station.favourites.source_orders(),
             favourites: self.station.favourites.numbers(),
@@ -424,10 +422,9 @@ impl Engine {
             CatalogState::Ready(catalog) => Some(Arc::clone(catalog)),
             CatalogState::Loading | CatalogState::Failed => None,
         };
-        let job = sources::start(&self.places, task, in_use, self.now, Arc::clone(&self.wake))?;
+        let job = sources::start(&self.places, task, in_use, self.now, Arc::clone(&self.wake));
         self.elements_job = Some(job);
         self.sources.work = work;
-        Ok(())
     }
 
     /// Changes what the station knows of satellites. The change lasts only as long as the program for the

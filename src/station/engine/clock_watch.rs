@@ -52,10 +52,8 @@ impl ClockWatch {
         let due = self.asked.is_none_or(|asked| now.saturating_duration_since(asked) >= PERIOD);
         if due && self.job.is_none() {
             self.asked = Some(now);
-            match Job::start("azel-clock-watch", Wake::clone(wake), move |_| time_sync()) {
-                Ok(job) => self.job = Some(job),
-                Err(error) => tracing::warn!(%error, "no thread to watch the clock"),
-            }
+            let ask = move |_: &(dyn Fn() -> bool + Sync)| time_sync();
+            self.job = Some(Job::start("azel-clock-watch", Wake::clone(wake), ask));
         }
         answer
     }

@@ -44,7 +44,8 @@ pub(super) struct Waiting {
 pub(super) struct CopyWork {
     folder: Option<PathBuf>,
     job: Option<Job<Outcome>>,
-    /// Outcome to report if the job breaks off.
+    /// Outcome to report if the job breaks off: changes that wait for a copy must learn that there is
+    /// none.
     if_broken: Option<Outcome>,
     queue: Vec<Task>,
     pub(super) waiting: Option<Waiting>,
@@ -99,19 +100,9 @@ impl CopyWork {
         if self.job.is_none() && !self.queue.is_empty() {
             let task = self.queue.remove(0);
             let folder = self.folder.clone();
-            let of =
-                if let Task::Save { antenna, .. } = &task { Some(antenna.clone()) } else { None };
             self.if_broken = Some(broken(&task));
             let work = move |_: &(dyn Fn() -> bool + Sync)| carry_out(task, folder.as_deref());
-            match Job::start("azel-copies", Wake::clone(wake), work) {
-                Ok(job) => self.job = Some(job),
-                Err(error) => {
-                    let why = format!("no thread for the copies of settings: {error}");
-                    tracing::error!("{why}");
-                    // Changes that wait for a copy must learn that there is none.
-                    return of.map(|antenna| Outcome::Saved { antenna, result: Err(why) });
-                }
-            }
+            self.job = Some(Job::start("azel-copies", Wake::clone(wake), work));
         }
         None
     }

@@ -1,7 +1,5 @@
 //! Host keys that need a decision of the operator, and the decision itself.
 
-use std::io;
-
 use crate::{
     contract::{host_keys::DoubtfulKey, transfer::Peer},
     job::{Job, Wake},
@@ -43,7 +41,7 @@ pub(super) fn decide(
     known: &KnownHosts,
     decision: Decision,
     wake: Wake,
-) -> io::Result<Job<Result<(), String>>> {
+) -> Job<Result<(), String>> {
     let known = known.clone();
     Job::start("azel-known-hosts", wake, move |_| {
         let done = match &decision {

@@ -38,7 +38,7 @@ impl InPlace {
             .marking_in(settings.marks.clone());
         let outbox = Outbox { events: tell, wake: Arc::new(|| {}) };
         let weak = requests.downgrade();
-        let (engine, client) = Engine::over(driver, woken, settings, outside, outbox, weak)?;
+        let (engine, client) = Engine::driving(driver, woken, settings, outside, outbox, weak);
         let station = Self { client, _requests: requests };
         Ok((station, engine.run(inbox)))
     }

@@ -29,7 +29,7 @@ impl Runner {
     }
 
     /// Starts a test; `lock` keeps other programs off the unit until it ends.
-    fn begin(&mut self, antenna: &Antenna, lock: Arc<dyn UnitLock>) -> LinkTestStage {
+    fn begin(&mut self, antenna: &Antenna, lock: Arc<dyn UnitLock>) {
         let (of, outside) = (antenna.clone(), self.outside.clone());
         let work = move |_: &(dyn Fn() -> bool + Sync)| {
             let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build();
@@ -39,16 +39,8 @@ impl Runner {
             runtime.shutdown_background();
             finding
         };
-        match Job::start("azel-link-test", Arc::clone(&self.wake), work) {
-            Ok(job) => {
-                self.under_way.push((antenna.id, Some(job)));
-                LinkTestStage::Working
-            }
-            Err(error) => {
-                tracing::error!(%error, "no thread for the test of a link");
-                LinkTestStage::Done { finding: not_begun(), at: self.outside.clock.utc() }
-            }
-        }
+        let job = Job::start("azel-link-test", Arc::clone(&self.wake), work);
+        self.under_way.push((antenna.id, Some(job)));
     }
 
     /// Takes the outcomes that have come in.
@@ -91,7 +83,10 @@ impl Engine {
             LinkTestStage::InUse
         } else {
             match self.claim_unit(&antenna, None) {
-                Ok(claim) => self.link_test_runner.begin(&antenna, Arc::new(claim)),
+                Ok(claim) => {
+                    self.link_test_runner.begin(&antenna, Arc::new(claim));
+                    LinkTestStage::Working
+                }
                 Err(elsewhere) => LinkTestStage::Elsewhere(elsewhere.by),
             }
         };

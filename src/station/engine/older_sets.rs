@@ -29,12 +29,11 @@ impl Engine {
         let Some(catalog_number) = self.older_reading.wanted else { return };
         let Some(folder) = self.places.library() else { return };
         let history = History::beside(folder);
-        let job = Job::start("azel-older-sets", Arc::clone(&self.wake), move |_| OlderSets {
+        let read = move |_: &(dyn Fn() -> bool + Sync)| OlderSets {
             catalog_number,
             sets: history.of(catalog_number),
-        });
-        self.older_reading.job =
-            job.inspect_err(|error| tracing::error!(%error, "no thread for older sets")).ok();
+        };
+        self.older_reading.job = Some(Job::start("azel-older-sets", Arc::clone(&self.wake), read));
     }
 
     pub(super) fn take_older_sets(&mut self) {

@@ -1,6 +1,6 @@
 //! The fit of a pointing model that a client asked for, and the peaks that count in it.
 
-use std::{io, path::PathBuf, sync::Arc, time::Duration};
+use std::{path::PathBuf, sync::Arc, time::Duration};
 
 use jiff::Timestamp;
 
@@ -68,13 +68,6 @@ impl PointingWork {
         }
     }
 
-    fn read_by(&mut self, job: io::Result<Job<Result<Peaks, RecordError>>>, again: Instant) {
-        self.peaks_state = match job {
-            Ok(job) => PeaksState::Reading(job),
-            Err(error) => PeaksState::Unread { again, why: error.to_string() },
-        };
-    }
-
     fn take_peaks(&mut self, again: Instant) {
         let PeaksState::Reading(job) = &self.peaks_state else { return };
         let why = match job.end() {
@@ -98,7 +91,6 @@ impl Engine {
     /// Reads the peaks of the record in use, where that is another one.
     pub(super) fn read_peaks(&mut self) {
         let path = self.record_file();
-        let again = self.steady + AGAIN;
         let work = &mut self.pointing_work;
         let is_due =
             matches!(&work.peaks_state, PeaksState::Unread { again, .. } if *again <= self.steady);
@@ -111,8 +103,10 @@ impl Engine {
         work.peaks_state = PeaksState::None;
         work.peaks_of.clone_from(&path);
         let Some(path) = path else { return };
-        let job = Job::start("azel-peaks", Arc::clone(&self.wake), move |_| read_peaks(&path));
-        work.read_by(job, again);
+        work.peaks_state =
+            PeaksState::Reading(Job::start("azel-peaks", Arc::clone(&self.wake), move |_| {
+                read_peaks(&path)
+            }));
     }
 
     /// Records a change of the peaks, from which on clients and fits see it.
@@ -149,9 +143,8 @@ impl Engine {
             let fit = record::fit_pointing(&path, antenna, site, &all, &peaks, without);
             PointingFitted { antenna, found: Some(fit.map_err(|error| error.to_string())) }
         });
-        let found = job.as_ref().err().map(|error| Err(error.to_string()));
-        work.job = job.ok();
-        work.tell(antenna, found);
+        work.job = Some(job);
+        work.tell(antenna, None);
     }
 
     pub(super) fn take_pointing_fit(&mut self) {
@@ -182,7 +175,7 @@ mod tests {
     use std::sync::mpsc;
 
     use super::*;
-    use crate::{clock::Clock, contract::record::PeakOf};
+    use crate::{clock::Clock, contract::record::PeakOf, job::BrokeOff};
 
     const ANTENNA: AntennaId = AntennaId(3);
 
@@ -207,7 +200,7 @@ mod tests {
             waits.recv().unwrap();
             Ok(peaks)
         });
-        work.read_by(job, again);
+        work.peaks_state = PeaksState::Reading(job);
         work.take_peaks(again);
         assert_eq!(work.counting(ANTENNA), Counting::NotYet);
         go_on.send(()).unwrap();
@@ -217,11 +210,15 @@ mod tests {
     }
 
     #[test]
-    fn peaks_without_a_thread_to_read_them_are_unread() {
+    fn peaks_whose_reading_breaks_off_are_unread() {
         let again = Clock::new(Timestamp::now).now().steady;
-        let mut work = PointingWork::default();
-        work.read_by(Err(io::Error::other("no thread")), again);
+        let (woken, wakes) = mpsc::sync_channel(1);
+        let wake: crate::job::Wake = Arc::new(move || woken.send(()).unwrap());
+        let job = Job::start("peaks", wake, |_| panic!("on purpose"));
+        let mut work =
+            PointingWork { peaks_state: PeaksState::Reading(job), ..PointingWork::default() };
+        wakes.recv().unwrap();
         work.take_peaks(again);
-        assert_eq!(work.counting(ANTENNA), Counting::Unread("no thread".to_owned()));
+        assert_eq!(work.counting(ANTENNA), Counting::Unread(BrokeOff.to_string()));
     }
 }

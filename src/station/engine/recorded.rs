@@ -80,8 +80,7 @@ impl Engine {
         let job = Job::start("azel-look-back", Arc::clone(&self.wake), move |_| {
             read_record(&path, look, site)
         });
-        self.record_reading.job =
-            job.inspect_err(|error| tracing::error!(%error, "no thread to read the record")).ok();
+        self.record_reading.job = Some(job);
     }
 
     pub(super) fn take_recorded(&mut self) {
@@ -119,8 +118,7 @@ impl Engine {
                 record::explain_passes(&path, antenna, mount, site, &(Timestamp::MIN..=until));
             explained.inspect_err(|error| tracing::error!(%error, "passes not explained")).ok()
         });
-        self.record_reading.explaining =
-            job.inspect_err(|error| tracing::error!(%error, "no thread to explain passes")).ok();
+        self.record_reading.explaining = Some(job);
     }
 }
 

@@ -112,10 +112,7 @@ impl Engine {
         let job = Job::start("azel-schedule", Arc::clone(&self.wake), move |_| {
             make(&wanted, &antennas, &previous.schedule, &kept, now)
         });
-        match job {
-            Ok(job) => self.scheduler.running = Some(job),
-            Err(error) => tracing::error!(%error, "no thread for the schedule"),
-        }
+        self.scheduler.running = Some(job);
         self.scheduler.begun = Some(Begun { inputs, at: now, fixed });
     }
 
@@ -178,10 +175,7 @@ impl Engine {
             let changes = is_taken.then(|| changes(&planned.schedule, &made, now));
             Swap { pass, revision: planned.revision, changes }
         });
-        match job {
-            Ok(job) => self.scheduler.swap_running = Some(job),
-            Err(error) => tracing::error!(%error, "no thread for the price of a pass"),
-        }
+        self.scheduler.swap_running = Some(job);
     }
 
     fn take_schedule(&mut self) {

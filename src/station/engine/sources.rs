@@ -104,7 +104,7 @@ pub(super) fn start(
     in_use: Option<Arc<Catalog>>,
     now: Timestamp,
     wake: Wake,
-) -> std::io::Result<Job<Outcome>> {
+) -> Job<Outcome> {
     let places = places.clone();
     Job::start("azel-elements", wake, move |cancelled| {
         let mut outcome = carry_out(&places, &task, in_use.as_ref(), now, cancelled);
@@ -595,7 +595,7 @@ mod tests {
         fs::write(fixture.folder.path().join("config"), "").unwrap();
         let problems = |set: Option<SetChoice>| {
             let task = Task { list: Some(vec![own.clone()]), set, ..Task::default() };
-            let job = start(&fixture.places, task, None, own_epoch(), Arc::new(|| {})).unwrap();
+            let job = start(&fixture.places, task, None, own_epoch(), Arc::new(|| {}));
             job.wait(std::time::Duration::from_mins(1)).unwrap().sources.problems
         };
         let of_list = problems(None);

@@ -100,16 +100,7 @@ impl Search {
         let job = Job::start("azel-passes", Arc::clone(wake), move |cancelled| {
             search(&wanted, prepared, now, &told, &shown, cancelled)
         });
-        match job {
-            Ok(job) => {
-                let job = Some(job);
-                self.running = Some(Running { key: key.clone(), at: now, progress, job });
-            }
-            Err(error) => {
-                tracing::error!(%error, "no thread for the passes");
-                self.halted = Some(key.clone());
-            }
-        }
+        self.running = Some(Running { key: key.clone(), at: now, progress, job: Some(job) });
     }
 
     fn take_finished(&mut self) {

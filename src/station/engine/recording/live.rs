@@ -84,7 +84,7 @@ impl Followed {
         let from = since.max(self.from);
         let (elements, others) = (self.elements.clone(), self.live.others.take());
         let history = library.map(History::beside);
-        let started = Job::start("azel-explain", Wake::clone(wake), move |_| {
+        self.live.job = Some(Job::start("azel-explain", Wake::clone(wake), move |_| {
             for flown in &mut young {
                 *flown = about.compared(&propagator, site, *flown);
             }
@@ -108,8 +108,6 @@ impl Followed {
             );
             let others = others.unwrap_or_else(|| others_of(&elements, history.as_ref()));
             (evidence.explained(MIN_SHARE * half_beam.degrees(), &others), others)
-        });
-        self.live.job =
-            started.inspect_err(|error| tracing::error!(%error, "an error is not explained")).ok();
+        }));
     }
 }

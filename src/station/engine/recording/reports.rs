@@ -200,7 +200,7 @@ impl Engine {
         for pass in followed.extract_if(.., |pass| is_ready(pass)) {
             told.push((pass.antenna, pass.elements.catalog_number(), pass.until));
             let history = self.places.library().map(History::beside);
-            reports.extend(pass.report(history, wants_reports, &self.wake).map(Some));
+            reports.push(Some(pass.report(history, wants_reports, &self.wake)));
         }
     }
 
@@ -413,17 +413,11 @@ impl Followed {
         self.flown.extend(own.map(|own| MeasuredPosition { time: own.at, pointing: own.pointing }));
     }
 
-    /// Starts the work on the report; `None` where there is no thread for it.
-    fn report(
-        self,
-        history: Option<History>,
-        wants_note: bool,
-        wake: &Wake,
-    ) -> Option<Job<Finished>> {
-        let job = Job::start("azel-report", Wake::clone(wake), move |_| {
+    /// Starts the work on the report.
+    fn report(self, history: Option<History>, wants_note: bool, wake: &Wake) -> Job<Finished> {
+        Job::start("azel-report", Wake::clone(wake), move |_| {
             self.finish(history.as_ref(), wants_note)
-        });
-        job.inspect_err(|error| tracing::error!(%error, "a pass without a report")).ok()
+        })
     }
 
     fn finish(mut self, history: Option<&History>, wants_note: bool) -> Finished {

@@ -114,13 +114,9 @@ impl Runner {
 
     fn decide(&mut self, decision: Decision, shown: &mut SourceTests) {
         let Some(places) = &self.places else { return };
-        match host_keys::decide(&places.known_hosts, decision, Arc::clone(&self.wake)) {
-            Ok(job) => {
-                self.deciding = Some(job);
-                shown.stage = TestStage::Working;
-            }
-            Err(error) => shown.stage = failed(format!("no thread for the test: {error}")),
-        }
+        let wake = Arc::clone(&self.wake);
+        self.deciding = Some(host_keys::decide(&places.known_hosts, decision, wake));
+        shown.stage = TestStage::Working;
     }
 }
 

@@ -211,7 +211,7 @@ pub(super) fn keep_secret(
     account: Account,
     secret: Secret,
     wake: Wake,
-) -> io::Result<Job<Result<(), String>>> {
+) -> Job<Result<(), String>> {
     let keyring = Arc::clone(&places.keyring);
     Job::start("azel-keyring", wake, move |_| {
         keyring.set(&account, secret.inner()).map_err(|error| error.to_string())

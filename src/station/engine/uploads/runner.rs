@@ -1,6 +1,6 @@
 //! Carries out the steps of an order on threads of their own, and shows its progress.
 
-use std::{io, sync::Arc, time::Duration};
+use std::{sync::Arc, time::Duration};
 
 use super::{
     Places,
@@ -149,7 +149,7 @@ impl Runner {
             && let Some((places, order)) = self.places.as_ref().zip(self.flow.order())
         {
             let wake = Arc::clone(&self.wake);
-            self.keeping = logged(errand::keep_secret(places, account(order), secret, wake));
+            self.keeping = Some(errand::keep_secret(places, account(order), secret, wake));
         }
         let next = self.flow.reported(report, unit, shown);
         let kept = shown.kept.of.clone();
@@ -184,18 +184,20 @@ impl Runner {
             return self.end_early(text, shown);
         };
         let wake = Arc::clone(&self.wake);
-        let started = match next {
+        match next {
             Next::Rest => return Some(SessionRequest::Rest),
             Next::Select(selection) => return Some(SessionRequest::Use(selection)),
-            Next::Run(errand) => errand::start(*errand, places, &self.clock, wake)
-                .map(|transfer| self.transfer = Some(transfer)),
-            Next::Decide(decision) => host_keys::decide(&places.known_hosts, decision, wake)
-                .map(|job| self.deciding = Some(job)),
-        };
-        match started {
-            Ok(()) => None,
-            Err(error) => self.end_early(format!("no thread for the upload: {error}"), shown),
+            Next::Run(errand) => match errand::start(*errand, places, &self.clock, wake) {
+                Ok(transfer) => self.transfer = Some(transfer),
+                Err(error) => {
+                    return self.end_early(format!("no thread for the upload: {error}"), shown);
+                }
+            },
+            Next::Decide(decision) => {
+                self.deciding = Some(host_keys::decide(&places.known_hosts, decision, wake));
+            }
         }
+        None
     }
 
     fn end_early(&mut self, text: String, shown: &mut Uploads) -> Option<SessionRequest> {
@@ -212,7 +214,7 @@ impl Runner {
         }
         let Some(places) = &self.places else { return };
         let kept = places.kept.clone();
-        let job = Job::start("azel-kept-uploads", Arc::clone(&self.wake), move |_| {
+        self.listing = Some(Job::start("azel-kept-uploads", Arc::clone(&self.wake), move |_| {
             let (unit, file) = &of;
             let list = kept.list(unit, file).map_err(|error| error.to_string());
             let entry = |file| {
@@ -221,16 +223,11 @@ impl Runner {
             };
             let list = list.map(|files| files.into_iter().map(entry).collect());
             Kept { of, list: Some(list) }
-        });
-        self.listing = logged(job);
+        }));
     }
 }
 
 /// Takes the result of `job`.
 fn take(job: &mut Option<Job<Result<(), String>>>) -> Option<Result<(), String>> {
     Job::take(job).map(|end| end.unwrap_or_else(|broke_off| Err(broke_off.to_string())))
-}
-
-fn logged<T>(started: io::Result<T>) -> Option<T> {
-    started.inspect_err(|error| tracing::error!(%error, "no thread beside an upload")).ok()
 }

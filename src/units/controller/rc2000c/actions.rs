@@ -159,9 +159,7 @@ impl Rc2000c {
     fn reset(&mut self, drive: DriveReset, origin: Asked) {
         let reset = Request::Motion(UnitMotion::ResetDrive(drive));
         let origin = Some(origin);
-        self.orders.extend(
-            [Request::Stop, reset].map(|request| QueuedRequest { request, origin: origin }),
-        );
+        self.orders.extend([Request::Stop, reset].map(|request| QueuedRequest { request, origin }));
     }
 
     fn request_of(&self, act: &Act) -> Result<Request, String> {
