@@ -376,8 +376,8 @@ fn a_missing_or_refused_password_is_told_and_entered_in_a_dialog() {
         assert!(says(&window, "Azel does not try again by itself"));
         assert!(!is_disabled(&window, "Fetch Space-Track"));
         let query = |after_s| {
-            let at = add_seconds(rig::now(), after_s);
-            vec![RequestLimit { time: at, pause: SignedDuration::from_hours(1) }]
+            let time = add_seconds(rig::now(), after_s);
+            vec![RequestLimit { time, pause: SignedDuration::from_hours(1) }]
         };
         set(&mut window, None, query(-0.5 * HOUR_S));
         assert!(is_disabled(&window, "Fetch Space-Track"));

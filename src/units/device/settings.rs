@@ -3,7 +3,7 @@
 
 mod copy;
 mod field;
-mod held;
+mod group_state;
 mod hindrance;
 mod key;
 mod points;
@@ -14,7 +14,9 @@ mod value;
 pub use crate::secret::Secret;
 pub use copy::{CopiedValue, CopyError, CopyHead, Difference, SettingsCopy, Verdict};
 pub use field::{Access, Field, Group, Guard, Kind};
-pub use held::{Change, GroupState, Held, HeldGroup, ReadFailure, WriteError, WriteStep, Written};
+pub use group_state::{
+    Change, GroupState, Held, HeldGroup, ReadFailure, WriteError, WriteStep, Written,
+};
 pub use hindrance::Hindrance;
 pub use key::Key;
 pub(crate) use queue::ChangeQueue;

@@ -57,7 +57,7 @@ const NEIGHBOURS: [Cell; 8] =
 
 /// The quickest route of the axes between two positions that stays outside all barriers of `now`,
 /// ends included. `None` if there is no such route, or if an end is not outside.
-pub fn between(
+pub fn route(
     now: &BoundsAt<'_>,
     limits: &AxisLimits,
     from_deg: [f64; 2],
@@ -66,7 +66,7 @@ pub fn between(
     between_within(now, limits, (from_deg, to_deg), f64::INFINITY)
 }
 
-/// As [`between`]; a route that takes much more than `max_s` seconds is not looked for.
+/// As [`route`]; a route that takes much more than `max_s` seconds is not looked for.
 pub fn between_within(
     now: &BoundsAt<'_>,
     limits: &AxisLimits,
@@ -80,7 +80,7 @@ pub fn between_within(
     Some(search.pulled_straight(&way))
 }
 
-/// Returns `true` where a route as [`between`] finds leads from one position to the other.
+/// Returns `true` where a route as [`route`] finds leads from one position to the other.
 pub fn leads(
     now: &BoundsAt<'_>,
     limits: &AxisLimits,
@@ -362,7 +362,7 @@ mod tests {
     #[test]
     fn it_leads_over_a_mast_and_stays_outside_of_its_margin() {
         let bounds = bounds(vec![mast(40.0)], None);
-        let way = between(&bounds.at(noon()), &limits(), [80.0, 20.0], [140.0, 20.0]).unwrap();
+        let way = route(&bounds.at(noon()), &limits(), [80.0, 20.0], [140.0, 20.0]).unwrap();
         assert_eq!((way.first(), way.last()), (Some(&[80.0, 20.0]), Some(&[140.0, 20.0])));
         assert_outside(&bounds, &way);
         let highest_deg = way.iter().map(|axes| axes[1]).fold(0.0, f64::max);
@@ -385,7 +385,7 @@ mod tests {
                 let (first, second) = (f64::from(part % 10) / 10.0, f64::from(part / 10) / 10.0);
                 let from_deg = [80.0 + first, 20.0 + second];
                 assert!(leads(&now, &limits(), from_deg, to_deg), "{from_deg:?} {to_deg:?}");
-                let way = between(&now, &limits(), from_deg, to_deg).unwrap();
+                let way = route(&now, &limits(), from_deg, to_deg).unwrap();
                 assert_outside(&bounds, &way);
             }
         }
@@ -394,27 +394,27 @@ mod tests {
     #[test]
     fn where_nothing_is_in_the_way_it_is_straight() {
         let bounds = bounds(vec![mast(40.0)], None);
-        let way = between(&bounds.at(noon()), &limits(), [200.0, 20.0], [240.2, 61.7]);
+        let way = route(&bounds.at(noon()), &limits(), [200.0, 20.0], [240.2, 61.7]);
         assert_eq!(way, Some(vec![[200.0, 20.0], [240.2, 61.7]]));
     }
 
     #[test]
     fn a_wall_up_to_the_zenith_is_gone_round_the_other_way_or_not_at_all() {
         let wall = bounds(vec![mast(89.0)], None);
-        let way = between(&wall.at(noon()), &limits(), [80.0, 20.0], [140.0, 20.0]);
+        let way = route(&wall.at(noon()), &limits(), [80.0, 20.0], [140.0, 20.0]);
         // The azimuth axis ends in the north.
         assert_eq!(way, None);
         let wide_limits = AxisLimits::new([(-300.0, 360.0), (0.0, 90.0)], [4.0, 4.0], 0.0);
         let way =
-            between(&wall.at(noon()), &wide_limits, [80.0, 20.0], [140.0 - 360.0, 20.0]).unwrap();
+            route(&wall.at(noon()), &wide_limits, [80.0, 20.0], [140.0 - 360.0, 20.0]).unwrap();
         assert_outside(&wall, &way);
     }
 
     #[test]
     fn no_way_begins_or_ends_inside() {
         let bounds = bounds(vec![mast(40.0)], None);
-        assert_eq!(between(&bounds.at(noon()), &limits(), [110.0, 20.0], [140.0, 20.0]), None);
-        assert_eq!(between(&bounds.at(noon()), &limits(), [80.0, 20.0], [110.0, 20.0]), None);
+        assert_eq!(route(&bounds.at(noon()), &limits(), [110.0, 20.0], [140.0, 20.0]), None);
+        assert_eq!(route(&bounds.at(noon()), &limits(), [80.0, 20.0], [110.0, 20.0]), None);
     }
 
     #[test]
@@ -425,7 +425,7 @@ mod tests {
         let [azimuth, elevation] = [sun.azimuth_deg(), sun.elevation_deg()];
         assert!(elevation > 20.0 && (30.0..330.0).contains(&azimuth), "{sun:?}");
         let ends = [azimuth - 25.0, azimuth + 25.0].map(|azimuth| [azimuth, elevation]);
-        let way = between(&bounds.at(noon()), &limits(), ends[0], ends[1]).unwrap();
+        let way = route(&bounds.at(noon()), &limits(), ends[0], ends[1]).unwrap();
         assert_outside(&bounds, &way);
         assert!(way.len() > 2, "{way:?}");
         assert!(bounds.direction(ends[0]).separation(sun) > Angle::from_degrees(8.0));

@@ -64,7 +64,7 @@ pub(super) fn round(
             (Some(entry_deg), Some(end)) => {
                 let middle_time = targets.get(count / 2).map(|sample| sample.time);
                 middle_time
-                    .and_then(|time| detour::between(&bounds.at(time), &limits, entry_deg, end))
+                    .and_then(|time| detour::route(&bounds.at(time), &limits, entry_deg, end))
             }
             // The target rises or sets behind the keep-out.
             (Some(one), None) | (None, Some(one)) => Some(vec![one]),
