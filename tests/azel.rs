@@ -28,6 +28,7 @@ mod orbit_reference;
 mod pass_brute_force;
 mod pass_event_ids;
 mod pass_search;
+mod plain_names;
 mod rc2000c_any;
 mod rc2000c_session;
 mod rc2000c_simulator;
