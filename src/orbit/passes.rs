@@ -177,6 +177,7 @@ fn passes_in(
             sampled::passes(track, cancelled, &mut found);
         }
     }
+    // The two searches added their passes one after the other.
     found.sort_by_key(|pass| pass.satellite);
     found.shrink_to_fit();
     (found, tracks.iter().map(Track::propagations).sum())

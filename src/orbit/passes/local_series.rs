@@ -166,6 +166,7 @@ impl<N: Number> LocalSeries<N> {
     /// The same series, with the velocity that leads to a second series.
     pub(super) fn mended(&self, second: &Self) -> Self {
         let span_s = second.at_s - self.at_s;
+        // SGP4's velocity is not quite the change of its position; a second position shows it.
         let missed_km = second.position - self.place(span_s).enu_km;
         let per_second = N::splat(1.0) / span_s;
         Self { velocity: self.velocity + missed_km * per_second, ..*self }
@@ -281,6 +282,7 @@ fn gravity<N: Number>(r: Vector<N>, v: Vector<N>) -> (Vector<N>, Vector<N>) {
     let bulge = inverse2 * (1.5 * J2 * WGS72_RADIUS_KM * WGS72_RADIUS_KM);
     let rise2 = r.z * r.z * inverse2 * 5.0;
     let across = mass * (bulge * (-rise2 + 1.0) + 1.0);
+    // The bulge pulls towards the equator, so the polar component has another factor.
     let along = mass * (bulge * (-rise2 + 3.0) + 1.0);
     let pull = Vector::new(across * r.x, across * r.y, along * r.z);
     (pull, (v - r * (r.dot(v) * inverse2 * 3.0)) * mass)

@@ -81,6 +81,7 @@ impl<'a> Track<'a> {
             propagator,
             start_since_epoch_s,
             exactness: Exactness {
+                // The drift changes over the window, so its worse end counts.
                 drift_km_s: f64::max(
                     propagator.drift_km_s(start_since_epoch_s),
                     propagator.drift_km_s(start_since_epoch_s + window.length_s),
@@ -117,6 +118,7 @@ impl<'a> Track<'a> {
             Vector::new(cos_turn * v.x + sin_turn * v.y, cos_turn * v.y - sin_turn * v.x, v.z)
         };
         EarthFixed {
+            // The velocity stays inertial and only gets new axes; the series adds the turn.
             position_km: fixed(teme.position_km),
             velocity_km_s: fixed(teme.velocity_km_s),
         }

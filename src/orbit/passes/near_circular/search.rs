@@ -44,6 +44,7 @@ pub(in crate::passes) fn passes<'a>(
     satellites: impl Iterator<Item = &'a NearCircular<'a>>,
     cancelled: &dyn Fn() -> bool,
 ) -> Vec<CompactPass> {
+    // Everything below is compiled once for each width of registers; the processor decides.
     widest(
         #[inline(always)]
         || passes_of(window, satellites, cancelled),
@@ -101,6 +102,7 @@ fn passes_at(
         & setting.are_settled
         & Lanes::splat(0.0).is_less(rising.places.at_s)
         & setting.places.at_s.is_less(Lanes::splat(window.length_s));
+    // The last fly-by of the previous batch may be the first one of this batch again.
     let before = iter::once(last).chain(fly_bys.iter().copied().map(Some));
     for (lane, (fly_by, before)) in fly_bys.iter().zip(before).enumerate() {
         // Two guesses may lead to the same fly-by; the pass must be found once.

@@ -109,6 +109,7 @@ impl Decoder {
         let is_first = !self.has_begun;
         let bytes: &[u8] = self.pending.make_contiguous();
         match bytes {
+            // Later on, the same letters can only be noise.
             [b'V'] if is_first => UNFINISHED,
             [b'V', digit, ..] if is_first && digit.is_ascii_digit() => Front::OtherProtocol,
             [b'|', b'h', ..] => match LayoutShape::decide(bytes) {
@@ -156,6 +157,7 @@ impl Iterator for Decoder {
                 return Some(self.take_noise());
             }
             let front = self.front();
+            // Noise goes out first, so that items keep the order of the stream.
             if !self.noise.is_empty() && !matches!(front, Front::Noise | Front::Unfinished { .. }) {
                 return Some(self.take_noise());
             }
@@ -163,6 +165,7 @@ impl Iterator for Decoder {
                 Front::Reply(reply, length) => {
                     self.has_begun = true;
                     self.pending.drain(..length);
+                    // A status of another form may be a shifted one, so the form is remembered.
                     if let Reply::Status(status) = &reply {
                         self.layout = Some(status.layout);
                     }

@@ -128,6 +128,7 @@ impl Decoder {
         };
         match self.pending.get(1) {
             None => return FrameVerdict::Open,
+            // Other units may share the line.
             Some(byte) if *byte != self.address.number() => return FrameVerdict::Foreign,
             Some(_) => {}
         }
@@ -174,6 +175,7 @@ impl Iterator for Decoder {
             match self.judge() {
                 FrameVerdict::Open => return None,
                 FrameVerdict::Foreign => self.skip(1),
+                // Only the header goes, because a whole frame may begin right behind it.
                 FrameVerdict::Broken(error) => {
                     self.skip(1);
                     return Some(Err(error));

@@ -95,6 +95,7 @@ impl Decoder {
     /// Takes bytes of the stream. Bytes that do not fit while nobody takes frames are dropped
     /// and reported as one over-long line.
     pub fn push(&mut self, bytes: &[u8]) {
+        // After a gap, the rest of the line is worthless too.
         if self.overflowed {
             return;
         }
@@ -110,6 +111,7 @@ impl Decoder {
                 return self.give_up_unfinished();
             };
             let bytes: Vec<u8> = self.pending.drain(..=end).collect();
+            // This is the tail of a line that was reported as too long.
             if std::mem::take(&mut self.skipping) {
                 continue;
             }
@@ -216,6 +218,7 @@ fn read_line(line: &[u8], ended_with_cr: bool) -> Result<Frame, FrameError> {
 /// Splits a line at the checksum's star into payload and digits. The star is looked for at
 /// its fixed place only, for values may hold stars too.
 fn split_checksum(line: &[u8]) -> Option<(&[u8], &[u8])> {
+    // One digit is accepted too, with a note, where the leading zero is missing.
     [2, 1].into_iter().find_map(|count| {
         let (front, digits) = line.split_at_checked(line.len().checked_sub(count)?)?;
         let front = front.strip_suffix(b"*")?;
@@ -236,6 +239,7 @@ fn excerpt(line: &[u8]) -> String {
 }
 
 fn headless_excerpt(line: &[u8]) -> String {
+    // Such a tail may hold a value, and the value may be a password.
     let is_tail_of_frame = line.iter().any(|byte| b",*".contains(byte));
     if is_tail_of_frame { String::new() } else { printable(line) }
 }
