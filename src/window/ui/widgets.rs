@@ -14,6 +14,7 @@ pub mod context_menu;
 pub mod copy_menu;
 pub mod drop_down;
 pub mod fold;
+pub mod form;
 pub mod go_to;
 pub mod hold_button;
 pub mod input;

@@ -8,13 +8,14 @@ use super::{CardAction, Cursor};
 use crate::{
     device::{
         panel::{Act, Action},
-        settings::{Field, Kind, Values},
+        settings::{Field, Values},
     },
     ui::{
         icons::{self, Icon},
         text, theme,
         widgets::{
             button::{Button, SMALL_HEIGHT},
+            form::Mark,
             input::Input,
             paint,
         },
@@ -53,19 +54,13 @@ pub(super) struct MoreState {
 }
 
 impl MoreState {
-    fn text(&self, action: &Action, field: &Field) -> String {
-        let typed = self.typed.get(&(action.key, field.key)).cloned();
-        typed.unwrap_or_else(|| field.kind.untouched())
-    }
-
-    fn type_in(&mut self, action: &'static Action, field: &'static Field, text: String) {
-        self.refused = None;
-        self.typed.insert((action.key, field.key), text);
+    fn text(&mut self, action: &Action, field: &Field) -> &mut String {
+        self.typed.entry((action.key, field.key)).or_insert_with(|| field.kind.untouched())
     }
 
     /// The action with its input; a sentence if the input is invalid.
-    fn read(&self, action: &'static Action) -> Result<Act, String> {
-        let read = |field: &'static Field| match field.kind.read(&self.text(action, field)) {
+    fn read(&mut self, action: &'static Action) -> Result<Act, String> {
+        let read = |field: &'static Field| match field.kind.read(self.text(action, field)) {
             Ok(value) => Ok((field.key, value)),
             Err(unfit) => Err(format!("{} {}.", field.label, words::unfit(&unfit, field.unit))),
         };
@@ -177,17 +172,12 @@ fn field_row(
     paint::text_in(ui, unit, Align2::LEFT_CENTER, field.unit, text::small(), t.t3);
     let name = format!("{}: {}", action.label, field.label);
     let refused = state.refused.as_ref().is_some_and(|(key, _)| *key == action.key);
-    let unfit = refused && field.kind.read(&state.text(action, field)).is_err();
-    let input = Input { rect, name: &name, border: unfit.then_some(t.bad) };
-    let mut typed = state.text(action, field);
-    let new = if let Some(choices) = field.kind.choices() {
-        input.choice(ui, &typed, &choices)
-    } else {
-        let is_password = matches!(field.kind, Kind::Password(_));
-        input.text(ui, &mut typed, is_password).then_some(typed)
-    };
-    if let Some(new) = new {
-        state.type_in(action, field, new);
+    let typed = state.text(action, field);
+    let is_invalid = refused && field.kind.read(typed).is_err();
+    let mark = if is_invalid { Mark::Invalid } else { Mark::Plain };
+    let input = Input { rect, name: &name, border: mark.border(t) };
+    if input.value(ui, &field.kind, typed) {
+        state.refused = None;
     }
 }
 

@@ -17,7 +17,7 @@ pub(super) struct Draft {
     /// Values shown as on the unit when the first edit began.
     seen: Option<Values>,
     sent: Option<Sent>,
-    marks: BTreeMap<&'static str, Mark>,
+    outcomes: BTreeMap<&'static str, Outcome>,
     /// Values of the unit when an edit was proved.
     proved: Values,
 }
@@ -38,7 +38,7 @@ pub(super) struct Sent {
 
 /// Result of the last change of a field.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Mark {
+pub(super) enum Outcome {
     /// Read back and found right.
     Verified(Timestamp),
     /// Accepted by the unit, which never reports the value.
@@ -72,7 +72,7 @@ impl Draft {
 
     /// Takes `text` as typed by the operator.
     pub(super) fn type_in(&mut self, field: &'static Field, text: String, held: Option<&Values>) {
-        self.marks.remove(field.key);
+        self.outcomes.remove(field.key);
         if text == default_text(field, held) {
             self.edits.remove(field.key);
         } else {
@@ -119,14 +119,14 @@ impl Draft {
 
     /// Result of the last change of the field. A proof is void when the unit has another value
     /// by now.
-    pub(super) fn mark(&self, field: &Field, held: Option<&Values>) -> Option<Mark> {
-        let mark = self.marks.get(field.key).copied()?;
+    pub(super) fn outcome(&self, field: &Field, held: Option<&Values>) -> Option<Outcome> {
+        let outcome = self.outcomes.get(field.key).copied()?;
         let now = held.and_then(|held| held.get(field.key));
         let still = match (self.proved.get(field.key), now) {
             (Some(proved), Some(now)) => field.kind.same(proved, now),
             _ => false,
         };
-        (still || !matches!(mark, Mark::Verified(_))).then_some(mark)
+        (still || !matches!(outcome, Outcome::Verified(_))).then_some(outcome)
     }
 
     pub(super) fn seen(&self) -> Option<&Values> {
@@ -151,16 +151,16 @@ impl Draft {
         let Some(sent) = self.sent.take() else { return };
         for (key, value) in &sent.values {
             let Some(field) = fields.iter().find(|field| field.key == *key) else { continue };
-            let mark = match (&written.result, field.access) {
-                (Err(_), _) => Mark::Rejected,
-                (Ok(()), Access::Write) => Mark::Taken(written.at),
-                (Ok(()), _) => Mark::Verified(written.at),
+            let outcome = match (&written.result, field.access) {
+                (Err(_), _) => Outcome::Rejected,
+                (Ok(()), Access::Write) => Outcome::Taken(written.at),
+                (Ok(()), _) => Outcome::Verified(written.at),
             };
-            self.marks.insert(field.key, mark);
+            self.outcomes.insert(field.key, outcome);
             let proved = held.and_then(|held| held.get(field.key)).cloned();
             self.proved.extend(proved.map(|value| (field.key, value)));
             let still = self.edits.get(key).map(|edit| field.kind.read(&edit.text));
-            if mark != Mark::Rejected && still == Some(Ok(value.clone())) {
+            if outcome != Outcome::Rejected && still == Some(Ok(value.clone())) {
                 self.edits.remove(key);
             }
         }
@@ -175,7 +175,7 @@ impl Draft {
     /// Drops the edits. A change on its way goes on.
     pub(super) fn revert(&mut self) {
         self.edits.clear();
-        self.marks.retain(|_, mark| *mark != Mark::Rejected);
+        self.outcomes.retain(|_, outcome| *outcome != Outcome::Rejected);
     }
 }
 
@@ -237,16 +237,16 @@ mod tests {
         send(&mut draft);
         assert!(draft.is_sending("low"));
         draft.end(&written(Err(WriteError::NoLink)), &FIELDS, Some(&held(3.0)));
-        assert_eq!(draft.mark(&FIELDS[0], Some(&held(3.0))), Some(Mark::Rejected));
+        assert_eq!(draft.outcome(&FIELDS[0], Some(&held(3.0))), Some(Outcome::Rejected));
         assert_eq!(draft.text(&FIELDS[0], Some(&held(3.0))), "5");
         send(&mut draft);
         draft.end(&written(Ok(())), &FIELDS, Some(&held(5.0)));
-        let verified = Some(Mark::Verified(Timestamp::UNIX_EPOCH));
-        assert_eq!(draft.mark(&FIELDS[0], Some(&held(5.0))), verified);
-        assert_eq!(draft.mark(&FIELDS[0], Some(&held(7.5))), None, "changed by another");
+        let verified = Some(Outcome::Verified(Timestamp::UNIX_EPOCH));
+        assert_eq!(draft.outcome(&FIELDS[0], Some(&held(5.0))), verified);
+        assert_eq!(draft.outcome(&FIELDS[0], Some(&held(7.5))), None, "changed by another");
         assert_eq!(draft.reading(&FIELDS[0], Some(&held(5.0))), Reading::Same);
         draft.type_in(&FIELDS[0], "6".to_owned(), Some(&held(5.0)));
-        assert_eq!(draft.mark(&FIELDS[0], Some(&held(5.0))), None, "until it is edited again");
+        assert_eq!(draft.outcome(&FIELDS[0], Some(&held(5.0))), None, "until it is edited again");
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! Line of a setting, drawn from its description. Every setting of every group is shown
 //! this way.
 
-use egui::{Color32, Rect, Role, Sense, Ui, pos2, vec2};
+use egui::{Rect, Role, Sense, Ui, pos2, vec2};
 
 use super::{
     draft::Draft,
@@ -17,7 +17,6 @@ use crate::{
         format,
         icons::{self, Icon},
         text, theme,
-        tokens::Tokens,
         widgets::{axes_table::UNKNOWN, hold_button, input::Input, paint},
         words,
     },
@@ -86,7 +85,7 @@ fn show(
         }
         edit(ui, unit, group, field, draft, is_revealed, (&state, place));
     }
-    let (icon, colour) = look(&state, t);
+    let (icon, colour) = state.mark().look(t);
     let word = state.word(unit.model.now);
     // Painted beside each field, it would hide the few that differ.
     let painted = if state == FieldState::Unchanged { "" } else { &word };
@@ -153,7 +152,7 @@ fn edit(
 ) {
     let held = unit.values(group.key);
     let name = format!("{}, new value", field.label);
-    let border = border(state, theme::tokens(ui));
+    let border = state.mark().border(theme::tokens(ui));
     let input = Input { rect: place, name: &name, border };
     let mut typed = draft.text(field, held);
     let is_password = matches!(field.kind, Kind::Password(_));
@@ -166,15 +165,9 @@ fn edit(
         };
         return input.inert(ui, words);
     }
-    if let Some(choices) = field.kind.choices() {
-        if let Some(chosen) = input.choice(ui, &typed, &choices) {
-            draft.type_in(field, chosen, held);
-        }
-        return;
-    }
     let eye = place.with_min_x(place.right() - 24.0);
     let rect = if is_password { place.with_max_x(eye.left() - 2.0) } else { place };
-    if (Input { rect, ..input }).text(ui, &mut typed, is_password) {
+    if (Input { rect, ..input }).value(ui, &field.kind, &mut typed) {
         draft.type_in(field, typed, held);
     }
     if is_password {
@@ -237,31 +230,5 @@ fn below(ui: &mut Ui, field: &'static Field, draft: &mut Draft, state: &FieldSta
             }
         }
         _ => {}
-    }
-}
-
-fn border(state: &FieldState, t: &Tokens) -> Option<Color32> {
-    match state {
-        FieldState::Edited => Some(t.sat),
-        FieldState::ConfirmFirst | FieldState::NeedsService | FieldState::HeldBackBy(_) => {
-            Some(t.warn)
-        }
-        FieldState::Verified(_) | FieldState::Taken(_) => Some(t.ok),
-        FieldState::Rejected | FieldState::Invalid(_) => Some(t.bad),
-        _ => None,
-    }
-}
-
-fn look(state: &FieldState, t: &Tokens) -> (Option<Icon>, Color32) {
-    match state {
-        FieldState::Edited => (Some(Icon::Pencil), t.sat),
-        FieldState::ConfirmFirst | FieldState::HeldBackBy(_) => (Some(Icon::Warning), t.warn),
-        FieldState::NeedsService => (Some(Icon::Lock), t.warn),
-        FieldState::Sending => (Some(Icon::HalfDisc), t.cmd),
-        FieldState::Verified(_) | FieldState::Taken(_) => (Some(Icon::Check), t.ok),
-        FieldState::Rejected | FieldState::Invalid(_) => (Some(Icon::Cross), t.bad),
-        FieldState::Unknown => (Some(Icon::Dash), t.t3),
-        FieldState::Locked => (Some(Icon::Lock), t.t3),
-        FieldState::Unchanged | FieldState::ReadOnly | FieldState::Read(_) => (None, t.t3),
     }
 }

@@ -3,13 +3,13 @@
 use jiff::Timestamp;
 
 use super::{
-    draft::{Draft, Mark, Reading},
+    draft::{Draft, Outcome, Reading},
     unit::ShownUnit,
 };
 use crate::{
     astro::time::seconds_between,
     device::settings::{Access, Field, Group, Guard, Kind, Unfit, Value},
-    ui::format,
+    ui::{format, widgets::form::Mark},
 };
 
 #[derive(Debug, Clone, PartialEq)]
@@ -54,6 +54,20 @@ impl FieldState {
             Self::ReadOnly => "Read only".to_owned(),
             Self::Read(at) => format!("Read {} ago", format::age(seconds_between(*at, now))),
             Self::Locked => "Locked".to_owned(),
+        }
+    }
+
+    pub(super) fn mark(&self) -> Mark {
+        match self {
+            Self::Unchanged | Self::ReadOnly | Self::Read(_) => Mark::Plain,
+            Self::Edited => Mark::Edited,
+            Self::ConfirmFirst | Self::HeldBackBy(_) => Mark::Pending,
+            Self::NeedsService => Mark::NeedsUnlock,
+            Self::Sending => Mark::Sending,
+            Self::Verified(_) | Self::Taken(_) => Mark::Good,
+            Self::Rejected | Self::Invalid(_) => Mark::Refused,
+            Self::Unknown => Mark::Unknown,
+            Self::Locked => Mark::Locked,
         }
     }
 
@@ -129,10 +143,10 @@ fn alone(
     }
     let state = match draft.reading(field, held) {
         Reading::Unfit(unfit) => FieldState::Invalid(unfit),
-        Reading::Same => match draft.mark(field, held) {
-            Some(Mark::Verified(at)) => FieldState::Verified(at),
-            Some(Mark::Taken(at)) => FieldState::Taken(at),
-            Some(Mark::Rejected) | None => FieldState::Unchanged,
+        Reading::Same => match draft.outcome(field, held) {
+            Some(Outcome::Verified(at)) => FieldState::Verified(at),
+            Some(Outcome::Taken(at)) => FieldState::Taken(at),
+            Some(Outcome::Rejected) | None => FieldState::Unchanged,
         },
         Reading::New(value) => return edited(unit, group, field, draft, value),
     };
@@ -151,7 +165,7 @@ fn edited(
         (FieldState::NeedsService, None)
     } else if guard != Guard::Free && !draft.is_confirmed(field.key) {
         (FieldState::ConfirmFirst, None)
-    } else if draft.mark(field, unit.values(group.key)) == Some(Mark::Rejected) {
+    } else if draft.outcome(field, unit.values(group.key)) == Some(Outcome::Rejected) {
         (FieldState::Rejected, Some(value))
     } else {
         (FieldState::Edited, Some(value))

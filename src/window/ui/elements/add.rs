@@ -5,9 +5,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use egui::{
-    Align, Button, Key, Layout, Response, RichText, Role, Sense, TextEdit, Ui, WidgetInfo, vec2,
-};
+use egui::{Button, Key, Response, RichText, Role, Sense, Ui, WidgetInfo, vec2};
 
 use crate::{
     contract,
@@ -17,7 +15,7 @@ use crate::{
     ui::{
         text, theme,
         widgets::{
-            input::select_when_tabbed,
+            form::{ROW, text_field},
             segmented::{self, Segment},
         },
         words::sentence,
@@ -25,7 +23,8 @@ use crate::{
 };
 
 const LABEL: f32 = 72.0;
-const ROW: f32 = 24.0;
+/// Width beside a label that its field leaves free.
+const MARGIN: f32 = 24.0;
 const NAME: f32 = 240.0;
 const KINDS: f32 = 320.0;
 /// Commonly used groups of `CelesTrak`.
@@ -168,9 +167,10 @@ pub(in crate::ui) fn show(
         let suggested = state.suggested_name();
         let name_hint =
             if suggested.is_empty() { "also the name of the group" } else { suggested.as_str() };
+        let room = ui.available_width() - LABEL - MARGIN;
         let fields = [
-            field(ui, ("Name", name_hint), NAME, &mut state.name),
-            field(ui, place, f32::INFINITY, &mut state.place),
+            text_field(ui, ("Name", name_hint), [LABEL, room.min(NAME)], &mut state.name),
+            text_field(ui, place, [LABEL, room], &mut state.place),
         ];
         if state.kind == Kind::SpaceTrack {
             let words =
@@ -241,27 +241,6 @@ fn suggestion(
             state.place = url;
         }
     }
-}
-
-fn field(ui: &mut Ui, (label, hint): (&str, &str), width: f32, typed: &mut String) -> Response {
-    let t = theme::tokens(ui);
-    ui.horizontal(|ui| {
-        let words = RichText::new(label).font(text::body()).color(t.t2);
-        let layout = Layout::left_to_right(Align::Center);
-        let label_id = ui
-            .allocate_ui_with_layout(vec2(LABEL, ROW), layout, |ui| {
-                ui.set_min_width(LABEL);
-                ui.label(words).id
-            })
-            .inner;
-        let hint = RichText::new(hint).color(t.t3);
-        let width = width.min(ui.available_width() - 16.0);
-        let edit = TextEdit::singleline(typed).id_salt(label).hint_text(hint).desired_width(width);
-        let response = ui.add(edit).labelled_by(label_id);
-        select_when_tabbed(ui, &response, typed);
-        response
-    })
-    .inner
 }
 
 /// Shows a button with a longer accessible name; returns `true` when it was clicked.

@@ -29,7 +29,10 @@ use crate::{
     },
     station::{Antenna, AntennaId},
     ui::{
-        widgets::told::{self, Tone},
+        widgets::{
+            form::{LABEL, labelled},
+            told::{self, Tone},
+        },
         words,
     },
 };
@@ -130,7 +133,7 @@ fn learned_drives(ui: &mut Ui, antenna: &AntennaModel, commands: &mut Vec<UiComm
         form::told(ui, &format!("{name} drive"), &words::drive(lessons));
     }
     let is_known = antenna.snapshot.learned != <[AxisLessons; 2]>::default();
-    form::labelled(ui, "", |ui, _| {
+    labelled(ui, "", LABEL, |ui, _| {
         let forget = ui.add_enabled(is_known, egui::Button::new("Reset learned figures"));
         let forget = forget.on_hover_text(
             "After work on the drives, Azel would otherwise take a changed motion for that of \

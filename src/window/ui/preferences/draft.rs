@@ -308,7 +308,7 @@ fn typed(antenna: Antenna) -> Typed<Antenna> {
 
 /// Name as typed; it is the first field.
 fn name(antenna: &Typed<Antenna>) -> String {
-    antenna.fields.first().map(|field| field.text.clone()).unwrap_or_default()
+    antenna.fields.first().map(|field| field.entry.text.clone()).unwrap_or_default()
 }
 
 #[cfg(test)]
@@ -333,7 +333,7 @@ mod tests {
 
     fn write<'a>(fields: &'a mut Typed<Antenna>, label: &str) -> &'a mut String {
         let found = fields.fields.iter_mut().find(|field| field.description.label == label);
-        &mut found.unwrap_or_else(|| panic!("no field {label}")).text
+        &mut found.unwrap_or_else(|| panic!("no field {label}")).entry.text
     }
 
     #[test]
@@ -404,7 +404,7 @@ mod tests {
             let mut draft = Draft::of(&station());
             let fields = &mut draft.ground.fields;
             let field = fields.iter_mut().find(|field| field.description.label == label).unwrap();
-            typed.clone_into(&mut field.text);
+            typed.clone_into(&mut field.entry.text);
             assert_eq!(draft.read(), None, "{label}");
         }
     }
@@ -442,7 +442,7 @@ mod tests {
     #[test]
     fn a_decimal_comma_is_understood() {
         let mut draft = Draft::of(&Station::default());
-        "41,5".clone_into(&mut draft.ground.fields[1].text);
+        "41,5".clone_into(&mut draft.ground.fields[1].entry.text);
         let site = draft.read().unwrap().site;
         assert!((site.latitude().degrees() - 41.5).abs() < 1e-9);
     }

@@ -8,7 +8,7 @@ use jiff::civil::Time;
 use crate::{
     device::settings::{Kind, Unfit, Value, number},
     station::HoursOfDay,
-    ui::words,
+    ui::{widgets::form::Entry, words},
 };
 
 /// Access to a value in a `T`; `None` if that `T` does not have it.
@@ -219,26 +219,13 @@ pub(in crate::ui) struct Field<T: 'static> {
     /// The section of the field and its neighbours, which is a card of the page.
     pub(in crate::ui) section: &'static str,
     pub(in crate::ui) description: Description<T>,
-    pub(in crate::ui) text: String,
-    /// Text before anything was typed.
-    before: String,
+    pub(in crate::ui) entry: Entry,
 }
 
 impl<T> Field<T> {
-    /// Text before anything was typed.
-    pub(super) fn before(&self) -> &str {
-        &self.before
-    }
-
-    /// Returns `true` if the typed text differs from the previous text.
-    pub(in crate::ui) fn is_edited(&self) -> bool {
-        self.text != self.before
-    }
-
     /// Empties the field, as if there had been no value.
     pub(in crate::ui) fn empty(&mut self) {
-        self.before.clear();
-        self.text.clear();
+        self.entry = Entry::saved(String::new());
     }
 }
 
@@ -274,7 +261,7 @@ impl Counts {
     ) -> Self {
         let mut counts = Self::default();
         for (field, standing) in fields {
-            counts.edited += usize::from(field.is_edited());
+            counts.edited += usize::from(field.entry.is_edited());
             counts.wrong += usize::from(standing.problem.is_some());
         }
         counts
@@ -314,8 +301,8 @@ impl<T: Clone> Typed<T> {
         let fields = fields
             .into_iter()
             .filter_map(|(section, description)| {
-                let before = description.write(&mut whole)?;
-                Some(Field { section, description, text: before.clone(), before })
+                let entry = Entry::saved(description.write(&mut whole)?);
+                Some(Field { section, description, entry })
             })
             .collect();
         Self { base, is_new: false, fields }
@@ -325,7 +312,7 @@ impl<T: Clone> Typed<T> {
     pub(in crate::ui) fn write(&mut self, label: &str, text: String) {
         let mut fields = self.fields.iter_mut();
         if let Some(field) = fields.find(|field| field.description.label == label) {
-            field.text = text;
+            field.entry.text = text;
         }
     }
 
@@ -333,8 +320,7 @@ impl<T: Clone> Typed<T> {
     pub(in crate::ui) fn reset(&mut self, count: usize) {
         let mut whole = self.base.clone();
         for field in self.fields.iter_mut().take(count) {
-            field.before = field.description.write(&mut whole).unwrap_or_default();
-            field.text.clone_from(&field.before);
+            field.entry = Entry::saved(field.description.write(&mut whole).unwrap_or_default());
         }
     }
 
@@ -358,7 +344,7 @@ impl<T: Clone> Typed<T> {
 
     /// The typed value with every usable field, and the state of each field.
     pub(in crate::ui) fn read(&self) -> (T, Vec<Standing>) {
-        let texts: Vec<&str> = self.fields.iter().map(|field| field.text.as_str()).collect();
+        let texts: Vec<&str> = self.fields.iter().map(|field| field.entry.text.as_str()).collect();
         let (whole, mut standings) = self.read_as(&texts);
         for (index, standing) in standings.iter_mut().enumerate() {
             if let Some(problem) = &mut standing.problem {
@@ -372,7 +358,8 @@ impl<T: Clone> Typed<T> {
     /// to the typed one, or the text before.
     fn would_do(&self, index: usize, texts: &[&str]) -> Option<String> {
         let field = self.fields.get(index)?;
-        let candidates = [field.description.nearest(&field.text), Some(field.before.clone())];
+        let candidates =
+            [field.description.nearest(&field.entry.text), Some(field.entry.before().to_owned())];
         candidates.into_iter().flatten().find(|candidate| {
             let mut texts = texts.to_vec();
             if let Some(text) = texts.get_mut(index) {
@@ -409,7 +396,7 @@ impl<T: Clone> Typed<T> {
 
 impl<T: PartialEq> PartialEq for Typed<T> {
     fn eq(&self, other: &Self) -> bool {
-        let texts = self.fields.iter().map(|field| &field.text);
-        self.base == other.base && texts.eq(other.fields.iter().map(|field| &field.text))
+        let texts = self.fields.iter().map(|field| &field.entry.text);
+        self.base == other.base && texts.eq(other.fields.iter().map(|field| &field.entry.text))
     }
 }

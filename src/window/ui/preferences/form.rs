@@ -3,21 +3,20 @@
 use std::borrow::Cow;
 
 use egui::{
-    Align, Align2, Color32, Frame, Label, Layout, Margin, Rect, Response, RichText, Role,
-    ScrollArea, Sense, Stroke, StrokeKind, TextEdit, Tooltip, Ui, UiBuilder, accesskit::Action,
-    pos2, vec2,
+    Align, Color32, Frame, Label, Layout, Margin, Rect, Response, RichText, Role, ScrollArea,
+    Sense, Stroke, StrokeKind, TextEdit, Tooltip, Ui, UiBuilder, accesskit::Action, pos2, vec2,
 };
 
 use super::fields::{Field, Standing, TextShape, Typed};
 use crate::{
     device::settings::Kind,
     ui::{
-        icons::{self, Icon},
         text::{self, Weight},
         theme,
         widgets::{
             button::RADIUS,
             card as card_frame,
+            form::{self as parts, GAP, LABEL, Mark, ROW, labelled},
             input::{focus_to_replace, select_when_tabbed},
             paint,
             segmented::{self, Segment},
@@ -25,18 +24,12 @@ use crate::{
     },
 };
 
-pub(in crate::ui) const LABEL: f32 = 176.0;
-pub(in crate::ui) const ROW: f32 = 24.0;
-/// Gap between label, field and state.
-pub(super) const GAP: f32 = 8.0;
 /// Width of a number with its unit.
 const NUMBER: f32 = 108.0;
 /// Width of a name or an address beside its state, and in the set-up.
 const WORDS: [f32; 2] = [160.0, 240.0];
 /// Left end of the state, from that of the label.
 const STATE: f32 = 360.0;
-/// Width below which the state of a field is its mark alone.
-const LEAST_STATE: f32 = 64.0;
 /// Width that a segment of a choice needs besides its word.
 const SEGMENT: f32 = 20.0;
 /// Height beyond which a long text is scrolled.
@@ -103,7 +96,7 @@ pub(super) fn rows<T: Clone>(
         if standing.is_used && field.section == section {
             let response = row(ui, group, field, standing, Beside::State);
             if sought.takes(&field.description.label) {
-                focus_to_replace(ui, &response, &field.text);
+                focus_to_replace(ui, &response, &field.entry.text);
                 response.scroll_to_me(Some(Align::Center));
             }
         }
@@ -122,39 +115,22 @@ pub(in crate::ui) fn fields<T>(
     used.map(|(field, standing)| row(ui, group, field, standing, Beside::Reason)).collect()
 }
 
-/// A row of a form; returns what `content` returns and the place of the whole row.
-pub(super) fn labelled<R>(
-    ui: &mut Ui,
-    label: &str,
-    content: impl FnOnce(&mut Ui, egui::Id) -> R,
-) -> (R, Rect) {
-    let t = theme::tokens(ui);
-    let response = ui.horizontal_top(|ui| {
-        let words = RichText::new(label).font(text::body()).color(t.t2);
-        let left = Layout::left_to_right(Align::Center);
-        let name = ui.allocate_ui_with_layout(vec2(LABEL, ROW), left, |ui| {
-            ui.set_min_width(LABEL);
-            ui.label(words).id
-        });
-        content(ui, name.inner)
-    });
-    (response.inner, response.response.rect)
-}
-
 /// A note in the column of the fields.
 pub(super) fn note(ui: &mut Ui, words: &str) {
     let colour = theme::tokens(ui).t3;
-    ui.horizontal_top(|ui| {
-        ui.add_space(LABEL + GAP);
-        let words = RichText::new(words).font(text::small()).color(colour);
-        ui.add(Label::new(words).wrap());
-    });
+    parts::note(ui, words, colour);
+}
+
+/// A sentence over the whole width of a card.
+pub(super) fn remark(ui: &mut Ui, words: &str) {
+    let colour = theme::tokens(ui).t3;
+    ui.add(Label::new(RichText::new(words).font(text::small()).color(colour)).wrap());
 }
 
 /// A value that cannot be typed.
 pub(super) fn told(ui: &mut Ui, label: &str, words: &str) {
     let t = theme::tokens(ui);
-    labelled(ui, label, |ui, _| {
+    labelled(ui, label, LABEL, |ui, _| {
         let words = RichText::new(words).font(text::small()).color(t.t3);
         ui.vertical(|ui| {
             // Align with the label.
@@ -173,7 +149,8 @@ pub(super) fn choice<T: Copy + PartialEq>(
 ) {
     let state = |of: T| if of == *value { Segment::Chosen } else { Segment::Free };
     let segments: Vec<_> = choices.iter().map(|(word, of)| (*word, state(*of))).collect();
-    let (clicked, _) = labelled(ui, label, |ui, _| segments_of(ui, (label, label), &segments).0);
+    let (clicked, _) =
+        labelled(ui, label, LABEL, |ui, _| segments_of(ui, (label, label), &segments).0);
     if let Some((_, of)) = clicked.and_then(|index| choices.get(index)) {
         *value = *of;
     }
@@ -187,13 +164,9 @@ fn row<T>(
     beside: Beside,
 ) -> Response {
     let t = theme::tokens(ui);
-    let border = match standing {
-        Standing { problem: Some(_), .. } => Some(t.bad),
-        Standing { proved: Some(_), .. } => Some(t.ok),
-        _ => field.is_edited().then_some(t.sat),
-    };
+    let border = state(field, standing).0.border(t);
     let (label, unit) = (field.description.label.clone(), field.description.unit);
-    let ((response, end), place) = labelled(ui, &label, |ui, name| {
+    let ((response, end), place) = labelled(ui, &label, LABEL, |ui, name| {
         let response =
             ui.scope(|ui| edit(ui, group, field, border, beside).labelled_by(name)).inner;
         let end = response.rect.right();
@@ -206,13 +179,13 @@ fn row<T>(
         (response, unit.response.rect.right())
     });
     if beside == Beside::State || standing.problem.is_some() {
-        let left = (place.left() + STATE).max(end + GAP);
-        let right = ui.max_rect().right();
-        let room = Rect::from_min_max(
-            pos2(left.min(right - 14.0), place.top()),
-            pos2(right, place.top() + ROW),
-        );
-        state(ui, (group, &*label), room, field, standing);
+        let (mark, words) = match state(field, standing) {
+            (Mark::Plain | Mark::Edited, _) if standing.is_new => (Mark::Plain, "New".to_owned()),
+            state => state,
+        };
+        let problem = standing.problem.as_ref();
+        let name = problem.map_or_else(|| words.clone(), |of| format!("{label} {}.", of.why));
+        parts::state(ui, (group, &*label), state_room(ui, place, end), mark, [&words, &name]);
     }
     if let Some(problem) = standing.problem.as_ref().filter(|_| response.has_focus()) {
         // The cure may be the previous value, which a new station does not have.
@@ -223,6 +196,17 @@ fn row<T>(
         note(ui, words);
     }
     response
+}
+
+/// State of a field, with the words beside it.
+fn state<T>(field: &Field<T>, standing: &Standing) -> (Mark, String) {
+    match (&standing.problem, &standing.proved) {
+        (None, Some(proved)) => (Mark::Good, proved.clone()),
+        (problem, _) => {
+            let problem = problem.as_ref().map(|problem| problem.short.clone());
+            parts::standing(problem, field.entry.was())
+        }
+    }
 }
 
 /// Says below a field that has the focus why it cannot be used. It lies over the rows, so that
@@ -238,48 +222,11 @@ fn why_below(response: &Response, label: &str, why: &str, cure: Option<&String>)
     });
 }
 
-/// The state of a field: unchanged, edited, or why it cannot be used.
-fn state<T>(ui: &Ui, salt: (&str, &str), room: Rect, field: &Field<T>, standing: &Standing) {
-    let t = theme::tokens(ui);
-    let label = &field.description.label;
-    let (mark, short, whole, colour) = match (&standing.problem, &standing.proved) {
-        (Some(problem), _) => {
-            let whole = format!("{label} {}.", problem.why);
-            (Some(Icon::Warning), problem.short.clone(), whole, t.bad)
-        }
-        (None, Some(proved)) => (Some(Icon::Check), proved.clone(), proved.clone(), t.ok),
-        (None, None) if standing.is_new => (None, "New".to_owned(), "New".to_owned(), t.t3),
-        (None, None) if field.is_edited() => {
-            let was = if field.before().is_empty() { "empty" } else { field.before() };
-            let short = format!("Edited, was {was}").replace('-', "−");
-            (Some(Icon::Pencil), short.clone(), short, t.sat)
-        }
-        // Sixty times the same word would hide the few fields that differ.
-        (None, None) => return,
-    };
-    paint_state(ui, salt, room, mark, [&short, &whole], colour);
-}
-
-fn paint_state(
-    ui: &Ui,
-    salt: (&str, &str),
-    room: Rect,
-    mark: Option<Icon>,
-    [short, whole]: [&str; 2],
-    colour: Color32,
-) {
-    let mut words = room;
-    if let Some(mark) = mark {
-        let at = paint::square(room.left_center() + vec2(6.0, 0.0), 12.0);
-        icons::paint(ui.painter(), at, mark, colour);
-        words = room.with_min_x(room.left() + 18.0);
-    }
-    if room.width() >= LEAST_STATE {
-        paint::text_in(ui, words, Align2::LEFT_CENTER, short, text::small(), colour);
-    }
-    if mark.is_some() {
-        paint::name_text(ui, ("state", salt), room, whole).on_hover_text(whole);
-    }
+/// Room for the state in the row at `place`, whose field ends at `end`.
+fn state_room(ui: &Ui, place: Rect, end: f32) -> Rect {
+    let right = ui.max_rect().right();
+    let left = (place.left() + STATE).max(end + GAP).min(right - 14.0);
+    Rect::from_min_max(pos2(left, place.top()), pos2(right, place.top() + ROW))
 }
 
 /// A row whose field `content` shows, with its state beside it: why it cannot be used, or that it
@@ -291,17 +238,14 @@ pub(super) fn row_of<R>(
     is_edited: bool,
     content: impl FnOnce(&mut Ui) -> R,
 ) -> R {
-    let t = theme::tokens(ui);
-    let (result, place) = labelled(ui, label, |ui, _| content(ui));
-    let right = ui.max_rect().right();
-    let left = (place.left() + STATE).max(place.right() + GAP).min(right - 14.0);
-    let room = Rect::from_min_max(pos2(left, place.top()), pos2(right, place.top() + ROW));
-    let (mark, words, colour) = match wrong {
-        Some(why) => (Some(Icon::Warning), why, t.bad),
-        None if is_edited => (Some(Icon::Pencil), "Edited", t.sat),
+    let (result, place) = labelled(ui, label, LABEL, |ui, _| content(ui));
+    let room = state_room(ui, place, place.right());
+    let (mark, words) = match wrong {
+        Some(why) => (Mark::Invalid, why),
+        None if is_edited => (Mark::Edited, "Edited"),
         None => return result,
     };
-    paint_state(ui, (group, label), room, mark, [words, &format!("{label}: {words}")], colour);
+    parts::state(ui, (group, label), room, mark, [words, &format!("{label}: {words}")]);
     result
 }
 
@@ -321,11 +265,11 @@ fn edit<T>(
         .stroke(stroke)
         .corner_radius(4)
         .inner_margin(Margin::symmetric(margin.0, margin.1));
-    let is_edited = field.is_edited();
+    let is_edited = field.entry.is_edited();
     let [narrow, wide] = WORDS;
     let width = if beside == Beside::State { narrow } else { wide };
     let label = &*field.description.label;
-    let text = &mut field.text;
+    let text = &mut field.entry.text;
     if let Some(words) = field.description.kind.choices() {
         return words_choice(ui, (group, label), text, &words, border);
     }
@@ -349,7 +293,7 @@ fn edit<T>(
     let edit = edit.frame(frame).font(text::sized(13.0, weight));
     let response = ui.add(edit.id_salt((group, label)));
     paint::focus_ring(ui, &response, 4);
-    select_when_tabbed(ui, &response, &field.text);
+    select_when_tabbed(ui, &response, &field.entry.text);
     response
 }
 

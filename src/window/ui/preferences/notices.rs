@@ -3,7 +3,7 @@
 
 use std::{borrow::Cow, collections::BTreeSet};
 
-use egui::{Label, RichText, Ui};
+use egui::Ui;
 
 use super::{
     draft::{self, Draft, Finding},
@@ -18,7 +18,7 @@ use crate::{
     orbit::Elements,
     station::{HoursOfDay, Notices, Tones, ranges},
     ui::{
-        format, text, theme,
+        format,
         widgets::{
             check_box::CheckBox,
             told::{self, Tone},
@@ -248,7 +248,7 @@ fn telling(
 
 fn never_silenced(ui: &mut Ui) {
     form::card(ui, "Never silenced", |ui| {
-        note(
+        form::remark(
             ui,
             "Top-priority alarms are shown and sounded at any hour, whatever is set here: a STOP \
              that is not confirmed or not yet sent, an antenna that points where it must not, a \
@@ -263,7 +263,7 @@ fn reminders(ui: &mut Ui, model: &Model, draft: &mut Draft, sought: &mut Sought)
     let NoticesDraft { reminding, reminders, .. } = &mut draft.notices;
     let standings = reminding.read().1;
     form::section(ui, "reminding", (reminding, &standings), REMINDING, sought, |ui| {
-        note(
+        form::remark(
             ui,
             "For the passes of the favourites marked here. An alarm is raised if no antenna is on \
              its way 30 s before AOS.",
@@ -280,11 +280,11 @@ fn reminders(ui: &mut Ui, model: &Model, draft: &mut Draft, sought: &mut Sought)
                         reminders.remove(number);
                     }
                 }
-                note(ui, &next_aos(model, *number));
+                form::remark(ui, &next_aos(model, *number));
             });
         }
         if ground.favourites().is_empty() {
-            note(ui, "There are no favourites. Add some in Satellites and priorities.");
+            form::remark(ui, "There are no favourites. Add some in Satellites and priorities.");
         }
     });
 }
@@ -312,9 +312,4 @@ fn next_aos(model: &Model, number: u32) -> String {
         || "no pass is listed".to_owned(),
         |predicted| format!("next AOS {}", format::moment(predicted.pass.aos.time, model.now)),
     )
-}
-
-fn note(ui: &mut Ui, words: &str) {
-    let t = theme::tokens(ui);
-    ui.add(Label::new(RichText::new(words).font(text::small()).color(t.t3)).wrap());
 }

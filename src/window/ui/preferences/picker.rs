@@ -2,14 +2,13 @@
 
 use egui::{Key, Role, TextEdit, Ui, WidgetInfo, vec2};
 
-use super::form::ROW;
 use crate::{
     contract::CatalogState,
     model::Model,
     ui::{
         object_search::ObjectSearch,
         theme,
-        widgets::{button::Button, drop_down::DropDown},
+        widgets::{button::Button, drop_down::DropDown, form::ROW},
         words,
     },
 };

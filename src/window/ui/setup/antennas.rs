@@ -23,6 +23,7 @@ use crate::{
         widgets::{
             button::Button,
             card,
+            form::{GAP, LABEL},
             input::focus_to_replace,
             told::{Tone, line},
         },
@@ -126,12 +127,12 @@ fn one(
     if let (Some(response), Some(field)) = (responses.first(), fields.first())
         && std::mem::take(wants_focus)
     {
-        focus_to_replace(ui, response, &field.text);
+        focus_to_replace(ui, response, &field.entry.text);
     }
     if draft.wants_address == Some(id)
         && let (Some(response), Some(field)) = (responses.get(ADDRESS), fields.get(ADDRESS))
     {
-        focus_to_replace(ui, response, &field.text);
+        focus_to_replace(ui, response, &field.entry.text);
         draft.wants_address = None;
     }
     if responses.get(ADDRESS).is_some_and(Response::has_focus) {
@@ -140,7 +141,7 @@ fn one(
     ui.add_space(4.0);
     let is_removed = ui
         .horizontal(|ui| {
-            ui.add_space(form::LABEL + 8.0);
+            ui.add_space(LABEL + GAP);
             let word = if test.is_some() { "Test again" } else { "Test link" };
             let can = antenna.is_some();
             let (button, spoken) = (Button::normal(word).locked(!can), format!("{word} of {name}"));

@@ -10,7 +10,7 @@ use crate::{
     station::{AntennaId, Favourites, Station},
     ui::preferences::{
         draft::Draft,
-        fields::{Field, Standing},
+        fields::Standing,
         station_fields::{LATITUDE, LONGITUDE},
     },
 };
@@ -52,7 +52,7 @@ impl SetupDraft {
 
     pub(super) fn is_edited(&self) -> bool {
         let fields = &self.form.ground.fields;
-        let is_edited = fields.iter().take(UNKNOWN_FIELDS).any(Field::is_edited);
+        let is_edited = fields.iter().take(UNKNOWN_FIELDS).any(|field| field.entry.is_edited());
         is_edited || !self.form.antennas.is_empty() || self.favourites != self.proposed
     }
 
@@ -73,7 +73,7 @@ impl SetupDraft {
         let mut standings = self.form.ground_standings();
         standings.truncate(SITE_FIELDS);
         for (standing, field) in standings.iter_mut().zip(&self.form.ground.fields) {
-            if field.text.trim().is_empty() {
+            if field.entry.text.trim().is_empty() {
                 standing.problem = None;
             }
         }
@@ -176,7 +176,7 @@ impl SetupDraft {
 
     fn site_hindrance(&self) -> Option<String> {
         let fields = self.form.ground.fields.iter().take(SITE_FIELDS);
-        let missing = fields.filter(|field| field.text.trim().is_empty());
+        let missing = fields.filter(|field| field.entry.text.trim().is_empty());
         let missing: Vec<&str> = missing.map(|field| &*field.description.label).collect();
         if !missing.is_empty() {
             return Some(super::words::missing(&missing));

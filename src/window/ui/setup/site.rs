@@ -1,6 +1,6 @@
 //! The step about the site.
 
-use egui::{Align, Label, Layout, Response, RichText, TextEdit, Ui, vec2};
+use egui::{Response, RichText, Ui};
 
 use super::{draft::SetupDraft, words};
 use crate::{
@@ -11,13 +11,16 @@ use crate::{
         text, theme,
         widgets::{
             card,
-            input::{focus_to_replace, select_when_tabbed},
+            form::{LABEL, note, text_field},
+            input::focus_to_replace,
             told::{Tone, line},
         },
     },
 };
 
 const CARD: f32 = 638.0;
+/// Width of the field of the locator.
+const LOCATOR: f32 = 240.0;
 /// Decimals of a degree that a locator and a unit give.
 const OF_LOCATOR: usize = 4;
 const OF_UNIT: usize = 5;
@@ -28,7 +31,7 @@ pub(super) fn show(ui: &mut Ui, model: &Model, draft: &mut SetupDraft, wants_foc
         if let Some(name) = name.first()
             && std::mem::take(wants_focus)
         {
-            let typed = draft.form.ground.fields.first().map_or("", |field| &field.text);
+            let typed = draft.form.ground.fields.first().map_or("", |field| &field.entry.text);
             focus_to_replace(ui, name, typed);
         }
         locator(ui, draft, model.appearance.distances);
@@ -65,25 +68,14 @@ fn fields(ui: &mut Ui, draft: &mut SetupDraft, which: std::ops::Range<usize>) ->
 /// The locator as a field, which fills latitude and longitude.
 fn locator(ui: &mut Ui, draft: &mut SetupDraft, unit: DistanceUnit) {
     let t = theme::tokens(ui);
-    ui.horizontal_top(|ui| {
-        let left = Layout::left_to_right(Align::Center);
-        let label = ui
-            .allocate_ui_with_layout(vec2(form::LABEL, form::ROW), left, |ui| {
-                ui.set_min_width(form::LABEL);
-                ui.label(RichText::new("Locator").font(text::body()).color(t.t2)).id
-            })
-            .inner;
-        let hint = RichText::new("such as KN41ob, or type degrees").color(t.t3);
-        let edit = TextEdit::singleline(&mut draft.locator).id_salt("locator").hint_text(hint);
-        let response = ui.add(edit.desired_width(240.0)).labelled_by(label);
-        select_when_tabbed(ui, &response, &draft.locator);
-        if response.changed()
-            && let Ok(square) = read_locator(&draft.locator)
-        {
-            let (latitude, longitude) = (square.centre.latitude, square.centre.longitude);
-            draft.put_place(latitude.degrees(), longitude.degrees(), OF_LOCATOR);
-        }
-    });
+    let hint = "such as KN41ob, or type degrees";
+    let response = text_field(ui, ("Locator", hint), [LABEL, LOCATOR], &mut draft.locator);
+    if response.changed()
+        && let Ok(square) = read_locator(&draft.locator)
+    {
+        let (latitude, longitude) = (square.centre.latitude, square.centre.longitude);
+        draft.put_place(latitude.degrees(), longitude.degrees(), OF_LOCATOR);
+    }
     let (words, colour) = match read_locator(&draft.locator) {
         // The line stays, so that no field moves under the pointer.
         _ if draft.locator.trim().is_empty() => {
@@ -92,8 +84,5 @@ fn locator(ui: &mut Ui, draft: &mut SetupDraft, unit: DistanceUnit) {
         Ok(square) => (words::square(square, unit), t.t3),
         Err(why) => (format!("Locator {why}."), t.bad),
     };
-    ui.horizontal_top(|ui| {
-        ui.add_space(form::LABEL + 8.0);
-        ui.add(Label::new(RichText::new(words).font(text::small()).color(colour)).wrap());
-    });
+    note(ui, &words, colour);
 }

@@ -2,7 +2,7 @@
 
 use std::{net::SocketAddr, path::PathBuf, sync::Arc};
 
-use egui::{Align, Button, Layout, RichText, Role, Sense, TextEdit, Ui, WidgetInfo, vec2};
+use egui::{Button, RichText, Role, Sense, Ui, WidgetInfo, vec2};
 
 use super::Choice;
 use crate::{
@@ -17,16 +17,14 @@ use crate::{
         text, theme,
         widgets::{
             card,
-            input::select_when_tabbed,
+            form::{ROW, text_field},
             segmented::{self, Segment},
         },
     },
 };
 
-const LABEL: f32 = 72.0;
-const ROW: f32 = 24.0;
-/// Maximum width of a field.
-const MAX: f32 = 360.0;
+/// Widths of a label and, where there is room, of its field.
+const WIDTHS: [f32; 2] = [72.0, 360.0];
 const LOG_IN: f32 = 168.0;
 const SSH: &str = "22";
 
@@ -180,11 +178,11 @@ fn host(address: &str) -> String {
 pub(super) fn show(ui: &mut Ui, form: &mut Form) {
     card::show(ui, f32::INFINITY, |ui| {
         ui.label(RichText::new("On the unit").font(text::value()));
-        field(ui, ("File", "such as weather.txt"), &mut form.file);
-        field(ui, ("Folder", "on the unit"), &mut form.folder);
-        field(ui, ("Host", "name or IP address"), &mut form.host);
-        field(ui, ("Port", SSH), &mut form.port);
-        field(ui, ("User", "on the unit"), &mut form.user);
+        text_field(ui, ("File", "such as weather.txt"), WIDTHS, &mut form.file);
+        text_field(ui, ("Folder", "on the unit"), WIDTHS, &mut form.folder);
+        text_field(ui, ("Host", "name or IP address"), WIDTHS, &mut form.host);
+        text_field(ui, ("Port", SSH), WIDTHS, &mut form.port);
+        text_field(ui, ("User", "on the unit"), WIDTHS, &mut form.user);
         ui.horizontal_wrapped(|ui| {
             let factory_user = form.takes.factory_user;
             let offered = form.user != factory_user;
@@ -204,32 +202,12 @@ pub(super) fn show(ui: &mut Ui, form: &mut Form) {
             }
         });
         if form.uses_key {
-            field(ui, ("Key file", "/home/…/.ssh/id_ed25519"), &mut form.key_file);
+            text_field(ui, ("Key file", "/home/…/.ssh/id_ed25519"), WIDTHS, &mut form.key_file);
         } else {
             let t = theme::tokens(ui);
             let words = "Azel asks for the password after it has checked the host.";
             ui.label(RichText::new(words).font(text::small()).color(t.t3));
         }
-    });
-}
-
-/// A field with its label beside it.
-pub(super) fn field(ui: &mut Ui, (label, hint): (&str, &str), typed: &mut String) {
-    let t = theme::tokens(ui);
-    ui.horizontal(|ui| {
-        let words = RichText::new(label).font(text::body()).color(t.t2);
-        let layout = Layout::left_to_right(Align::Center);
-        let label_id = ui
-            .allocate_ui_with_layout(vec2(LABEL, ROW), layout, |ui| {
-                ui.set_min_width(LABEL);
-                ui.label(words).id
-            })
-            .inner;
-        let hint = RichText::new(hint).color(t.t3);
-        let width = ui.available_width().min(MAX);
-        let edit = TextEdit::singleline(typed).id_salt(label).hint_text(hint).desired_width(width);
-        let response = ui.add(edit).labelled_by(label_id);
-        select_when_tabbed(ui, &response, typed);
     });
 }
 

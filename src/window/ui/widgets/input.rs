@@ -6,10 +6,13 @@ use egui::{
 };
 
 use super::{menu, paint};
-use crate::ui::{
-    icons::{self, Icon},
-    text::{self, Weight},
-    theme,
+use crate::{
+    device::settings::Kind,
+    ui::{
+        icons::{self, Icon},
+        text::{self, Weight},
+        theme,
+    },
 };
 
 const RADIUS: u8 = 4;
@@ -64,6 +67,17 @@ impl Input<'_> {
             forget_typing(ui, response.id);
         }
         response.changed()
+    }
+
+    /// Shows the field for a value of this kind; returns `true` when the text was changed.
+    pub fn value(&self, ui: &mut Ui, kind: &Kind, typed: &mut String) -> bool {
+        let Some(choices) = kind.choices() else {
+            return self.text(ui, typed, matches!(kind, Kind::Password(_)));
+        };
+        let other = self.choice(ui, typed, &choices);
+        let is_changed = other.is_some();
+        *typed = other.unwrap_or_else(|| std::mem::take(typed));
+        is_changed
     }
 
     /// Shows a choice from a few; returns a newly chosen one.

@@ -8,7 +8,10 @@ use crate::{
     astro::{HorizonMask, Zone},
     device::settings::number,
     station::{Antenna, Entered, KeepOut, Station, SunAvoidance, ranges},
-    ui::words,
+    ui::{
+        widgets::form::{Entry, Mark, standing},
+        words,
+    },
 };
 
 /// Range for the azimuth of a corner: one turn, and one more either way.
@@ -44,11 +47,9 @@ pub(super) struct Corner {
 /// A number field.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Cell {
-    pub(super) text: String,
+    pub(super) entry: Entry,
     /// Last valid value.
     kept: f64,
-    /// Saved value; `None` for a new cell.
-    was: Option<f64>,
     range: (f64, f64),
 }
 
@@ -61,8 +62,10 @@ pub(super) struct SunDraft {
 }
 
 impl Cell {
-    fn new(value: f64, was: Option<f64>, range: &RangeInclusive<f64>) -> Self {
-        Self { text: written(value), kept: value, was, range: (*range.start(), *range.end()) }
+    fn new(value: f64, is_saved: bool, range: &RangeInclusive<f64>) -> Self {
+        let entry = if is_saved { Entry::saved } else { Entry::added };
+        let range = (*range.start(), *range.end());
+        Self { entry: entry(written(value)), kept: value, range }
     }
 
     /// Last valid value.
@@ -72,7 +75,7 @@ impl Cell {
 
     fn typed(&self) -> Option<f64> {
         let (low, high) = self.range;
-        number(self.text.trim()).filter(|value| (low..=high).contains(value))
+        number(self.entry.text.trim()).filter(|value| (low..=high).contains(value))
     }
 
     /// Adopts the typed text if it is valid.
@@ -84,7 +87,7 @@ impl Cell {
     pub(super) fn set(&mut self, value: f64) {
         let (low, high) = self.range;
         self.kept = value.clamp(low, high);
-        self.text = written(self.kept);
+        self.entry.text = written(self.kept);
     }
 
     /// Problem of the typed text, and the value used instead.
@@ -96,15 +99,13 @@ impl Cell {
         })
     }
 
-    /// Saved value, if it differs.
-    pub(super) fn edited(&self) -> Option<String> {
-        let was = self.was?;
-        let is_same = self.typed().is_some_and(|value| value.total_cmp(&was).is_eq());
-        (!is_same).then(|| written(was).replace('-', "−"))
+    /// State of the field, with the words beside it.
+    pub(super) fn state(&self) -> (Mark, String) {
+        standing(self.problem(), self.entry.was())
     }
 
     fn is_edited(&self) -> bool {
-        self.was.is_none() || self.edited().is_some()
+        self.entry.is_new() || self.entry.is_edited()
     }
 }
 
@@ -116,16 +117,16 @@ fn written(value: f64) -> String {
 }
 
 impl Corner {
-    fn new(at: (f64, f64), was: Option<(f64, f64)>) -> Self {
+    fn new(at: (f64, f64), is_saved: bool) -> Self {
         Self {
-            azimuth: Cell::new(at.0, was.map(|was| was.0), &AZIMUTH),
-            elevation: Cell::new(at.1, was.map(|was| was.1), &ranges::CORNER_ELEVATION_DEG),
+            azimuth: Cell::new(at.0, is_saved, &AZIMUTH),
+            elevation: Cell::new(at.1, is_saved, &ranges::CORNER_ELEVATION_DEG),
         }
     }
 
     /// A new corner.
     pub(super) fn added(azimuth_deg: f64, elevation_deg: f64) -> Self {
-        Self::new((azimuth_deg, elevation_deg), None)
+        Self::new((azimuth_deg, elevation_deg), false)
     }
 
     pub(super) fn at(&self) -> (f64, f64) {
@@ -136,17 +137,13 @@ impl Corner {
         self.azimuth.problem().or_else(|| self.elevation.problem())
     }
 
-    pub(super) fn is_new(&self) -> bool {
-        self.azimuth.was.is_none()
-    }
-
-    /// Saved position, if it differs.
-    pub(super) fn edited(&self) -> Option<String> {
-        match (self.azimuth.edited(), self.elevation.edited()) {
-            (None, None) => None,
-            (Some(azimuth), None) => Some(azimuth),
-            (None, Some(elevation)) => Some(elevation),
-            (Some(azimuth), Some(elevation)) => Some(format!("{azimuth}, {elevation}")),
+    /// State of both fields, with the words beside them.
+    pub(super) fn state(&self) -> (Mark, String) {
+        let was: Vec<&str> =
+            [&self.azimuth, &self.elevation].into_iter().filter_map(|of| of.entry.was()).collect();
+        match standing(self.problem(), (!was.is_empty()).then(|| was.join(", ")).as_deref()) {
+            (Mark::Plain, _) if self.azimuth.entry.is_new() => (Mark::Edited, "New".to_owned()),
+            state => state,
         }
     }
 }
@@ -160,8 +157,8 @@ impl ZoneDraft {
             reason: keep_out.reason.clone(),
             antenna: keep_out.antenna.clone(),
             entered: keep_out.entered,
-            margin: Cell::new(margin_deg, Some(margin_deg), &ranges::MARGIN_DEG),
-            corners: corners.into_iter().map(|at| Corner::new(at, Some(at))).collect(),
+            margin: Cell::new(margin_deg, true, &ranges::MARGIN_DEG),
+            corners: corners.into_iter().map(|at| Corner::new(at, true)).collect(),
             was: Some(Box::new(keep_out.clone())),
         }
     }
@@ -173,8 +170,8 @@ impl ZoneDraft {
             reason: String::new(),
             antenna: None,
             entered: Entered::Hard,
-            margin: Cell::new(KeepOut::DEFAULT_MARGIN_DEG, None, &ranges::MARGIN_DEG),
-            corners: corners.iter().map(|at| Corner::new(*at, None)).collect(),
+            margin: Cell::new(KeepOut::DEFAULT_MARGIN_DEG, false, &ranges::MARGIN_DEG),
+            corners: corners.iter().map(|at| Corner::new(*at, false)).collect(),
             was: None,
         }
     }
@@ -236,8 +233,8 @@ impl SunDraft {
         let ahead = sun.map_or(SunAvoidance::DEFAULT_AHEAD_MIN, |sun| sun.ahead_min);
         Self {
             is_on: sun.is_some(),
-            radius: Cell::new(radius, sun.map(|_| radius), &ranges::SUN_RADIUS_DEG),
-            ahead: Cell::new(ahead, sun.map(|_| ahead), &ranges::SUN_AHEAD_MIN),
+            radius: Cell::new(radius, sun.is_some(), &ranges::SUN_RADIUS_DEG),
+            ahead: Cell::new(ahead, sun.is_some(), &ranges::SUN_AHEAD_MIN),
         }
     }
 
@@ -414,16 +411,16 @@ mod tests {
     fn a_wrong_cell_keeps_its_text_and_the_plot_its_value() {
         let mut skies = Skies::of(&station());
         let cell = &mut skies.zones[0].corners[1].elevation;
-        "97".clone_into(&mut cell.text);
+        "97".clone_into(&mut cell.entry.text);
         cell.take();
         assert!((cell.kept() - 16.0).abs() < 1e-12);
         assert_eq!(cell.problem().unwrap(), "−90 to 90. The plot keeps 16.0°.");
         assert_eq!(skies.problems(&[]), ["mast, corner 2"]);
         assert_eq!(skies.put_into(&mut Station::default(), &[]), None);
         let cell = &mut skies.zones[0].corners[1].elevation;
-        "17,5".clone_into(&mut cell.text);
+        "17,5".clone_into(&mut cell.entry.text);
         cell.take();
-        assert_eq!((cell.problem(), cell.edited()), (None, Some("16.0".to_owned())));
+        assert_eq!(cell.state(), (Mark::Edited, "Edited, was 16.0".to_owned()));
         assert_eq!(skies.edits(&Skies::of(&station())), 1);
     }
 

@@ -20,8 +20,9 @@ use crate::{
         text, theme,
         tokens::Tokens,
         widgets::{
-            button::{Button, SMALL_HEIGHT},
+            button::{self, Button, SMALL_HEIGHT},
             check_box::CheckBox,
+            form::{self, Mark},
             input::Input,
             list, paint,
             segmented::{self, Segment},
@@ -80,11 +81,8 @@ fn table(ui: &mut Ui, model: &Model, skies: &mut Skies, state: &mut HorizonState
     let head = row(ui, 32.0);
     paint::text_in(ui, head, Align2::LEFT_CENTER, "Zones", text::value(), t.t1);
     let add = Button::normal("Add zone");
-    let width = add.width(ui);
-    let place = Rect::from_min_size(
-        head.right_center() - vec2(width, SMALL_HEIGHT / 2.0),
-        vec2(width, SMALL_HEIGHT),
-    );
+    let widths = [add.width(ui)];
+    let [place] = button::row_before(&mut head.right_center(), SMALL_HEIGHT, widths);
     if add.show(ui, "add zone", place).clicked() {
         let name = skies.free_name("Keep-out");
         skies.zones.push(ZoneDraft::added(name, &edit::FIRST_BOX));
@@ -210,12 +208,8 @@ fn labelled(ui: &mut Ui, label: &str, field: impl FnOnce(&mut Ui, Rect)) {
 
 /// A number field with the border of its state; adopts the number if it is valid.
 fn cell(ui: &mut Ui, rect: Rect, name: &str, cell: &mut Cell, t: &Tokens) -> bool {
-    let border = match (cell.problem(), cell.edited()) {
-        (Some(_), _) => Some(t.bad),
-        (None, Some(_)) => Some(t.sat),
-        (None, None) => None,
-    };
-    let changed = Input { rect, name, border }.text(ui, &mut cell.text, false);
+    let border = cell.state().0.border(t);
+    let changed = Input { rect, name, border }.text(ui, &mut cell.entry.text, false);
     if changed {
         cell.take();
     }
@@ -239,34 +233,6 @@ fn margin_sum(antenna: Option<&AntennaModel>, own_deg: f64) -> (String, String) 
         words::stopping_way(stopping_way)
     );
     (words, about)
-}
-
-/// State of a value.
-enum Standing {
-    Unchanged,
-    New,
-    Edited(String),
-    Wrong(String),
-}
-
-fn standing(ui: &Ui, rect: Rect, salt: impl egui::AsIdSalt, standing: &Standing, t: &Tokens) {
-    let (icon, words, colour) = match standing {
-        Standing::Unchanged => return,
-        Standing::New => (Some(Icon::Pencil), "New".to_owned(), t.sat),
-        Standing::Edited(was) => (Some(Icon::Pencil), format!("Edited, was {was}"), t.sat),
-        Standing::Wrong(why) => (Some(Icon::Warning), why.clone(), t.bad),
-    };
-    let mut room = rect;
-    if let Some(icon) = icon {
-        let at = paint::square(rect.left_center() + vec2(6.0, 0.0), 12.0);
-        icons::paint(ui.painter(), at, icon, colour);
-        room = rect.with_min_x(rect.left() + 18.0);
-    }
-    paint::text_in(ui, room, Align2::LEFT_CENTER, &words, text::small(), colour);
-    let named = paint::name_text(ui, salt, rect, &words);
-    if !paint::fits(ui, &words, text::small(), room) {
-        named.on_hover_text(&words);
-    }
 }
 
 fn zone(
@@ -304,12 +270,8 @@ fn zone(
     let beside = place.right_center() + vec2(12.0, 0.0);
     paint::text(ui, beside, Align2::LEFT_CENTER, tag, text::caption(), t.sat);
     let (delete, copy) = (Button::quiet("Delete"), Button::normal("Copy"));
-    let button = |right: f32, width: f32| {
-        let min = egui::pos2(right - width, head.center().y - SMALL_HEIGHT / 2.0);
-        Rect::from_min_size(min, vec2(width, SMALL_HEIGHT))
-    };
-    let deleting = button(head.right(), delete.width(ui));
-    let copying = button(deleting.left() - 8.0, copy.width(ui));
+    let widths = [copy.width(ui), delete.width(ui)];
+    let [copying, deleting] = button::row_before(&mut head.right_center(), SMALL_HEIGHT, widths);
     let is_copied = copy.show(ui, "copy zone", copying).clicked();
     let is_deleted = delete.show(ui, "delete zone", deleting).clicked();
 
@@ -337,8 +299,7 @@ fn zone(
         cell(ui, rect, "Safety margin", &mut zone.margin, t);
         let behind = place.with_min_x(rect.right() + 8.0);
         if let Some(why) = zone.margin.problem() {
-            standing(ui, behind, "margin", &Standing::Wrong(why), t);
-            return;
+            return form::state(ui, "margin", behind, Mark::Invalid, [&why, &why]);
         }
         let (words, about) = margin_sum(state.shown(model), zone.margin.kept());
         paint::text_in(ui, behind, Align2::LEFT_CENTER, &words, text::small(), t.t3);
@@ -361,7 +322,7 @@ fn zone(
     });
     if let Some(problem) = problem {
         let rect = row(ui, FIELD);
-        standing(ui, rect, "zone problem", &Standing::Wrong(problem), t);
+        form::state(ui, "zone problem", rect, Mark::Invalid, [&problem, &problem]);
     }
     points(ui, zone, state, t);
     if is_copied && let Some(copy) = copy_name.map(|name| zone.copied(name)) {
@@ -380,12 +341,8 @@ fn points(ui: &mut Ui, zone: &mut ZoneDraft, state: &mut HorizonState, t: &Token
     let (add, remove) = (Button::normal("Add"), Button::quiet("Remove"));
     let can_remove = state.corner.is_some() && zone.corners.len() > edit::FEWEST;
     let remove = remove.locked(!can_remove);
-    let button = |right: f32, width: f32| {
-        let min = egui::pos2(right - width, head.center().y - SMALL_HEIGHT / 2.0);
-        Rect::from_min_size(min, vec2(width, SMALL_HEIGHT))
-    };
-    let removing = button(head.right(), remove.width(ui));
-    let adding = button(removing.left() - 8.0, add.width(ui));
+    let widths = [add.width(ui), remove.width(ui)];
+    let [adding, removing] = button::row_before(&mut head.right_center(), SMALL_HEIGHT, widths);
     let is_added = add.show(ui, "add corner", adding).clicked();
     let is_removed = remove.show(ui, "remove corner", removing).clicked();
     let names = row(ui, 20.0);
@@ -426,13 +383,8 @@ fn points(ui: &mut Ui, zone: &mut ZoneDraft, state: &mut HorizonState, t: &Token
         if one || other || choosing.clicked() {
             state.corner = Some(index);
         }
-        let state = match (corner.problem(), corner.edited()) {
-            (Some(why), _) => Standing::Wrong(why),
-            (None, _) if corner.is_new() => Standing::New,
-            (None, Some(was)) => Standing::Edited(was),
-            (None, None) => Standing::Unchanged,
-        };
-        standing(ui, behind, ("corner state", index), &state, t);
+        let (mark, words) = corner.state();
+        form::state(ui, ("corner", index), behind, mark, [&words, &words]);
     }
     let corner = state.corner.unwrap_or(zone.corners.len().saturating_sub(1));
     if is_added {
@@ -462,11 +414,8 @@ fn sun(ui: &mut Ui, skies: &mut Skies) {
             let unit_place = behind.with_max_x(behind.left() + 28.0);
             paint::text_in(ui, unit_place, Align2::LEFT_CENTER, unit, text::small(), t.t3);
             let behind = behind.with_min_x(behind.left() + 36.0);
-            match (field.problem(), field.edited()) {
-                (Some(why), _) => standing(ui, behind, label, &Standing::Wrong(why), t),
-                (None, Some(was)) => standing(ui, behind, label, &Standing::Edited(was), t),
-                (None, None) => {}
-            }
+            let (mark, words) = field.state();
+            form::state(ui, label, behind, mark, [&words, &words]);
         });
     }
 }

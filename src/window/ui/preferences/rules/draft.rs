@@ -88,7 +88,7 @@ impl RuleDraft {
         if self.is_removed {
             return 1;
         }
-        let fields = self.typed.fields.iter().filter(|field| field.is_edited()).count();
+        let fields = self.typed.fields.iter().filter(|field| field.entry.is_edited()).count();
         fields
             + usize::from(was.is_on != self.is_on)
             + usize::from(was.antenna != self.antenna)

@@ -12,15 +12,12 @@ use crate::{
     ui::{
         format,
         object_search::ObjectSearch,
-        preferences::{
-            FormState,
-            form::{self, ROW},
-            picker,
-        },
+        preferences::{FormState, form, picker},
         text, theme,
         widgets::{
             button::Button,
             drop_down::DropDown,
+            form::ROW,
             paint,
             segmented::{self, Segment},
             told::{self, Tone},

@@ -78,7 +78,7 @@ impl GroupDraft {
     }
 
     fn typed_name(&self) -> &str {
-        self.named.fields.first().map_or("", |field| field.text.as_str())
+        self.named.fields.first().map_or("", |field| field.entry.text.as_str())
     }
 
     pub(super) fn priority(&self) -> Option<Priority> {
@@ -100,7 +100,7 @@ impl GroupDraft {
         if self.is_removed {
             return 1;
         }
-        let fields = self.named.fields.iter().filter(|field| field.is_edited()).count();
+        let fields = self.named.fields.iter().filter(|field| field.entry.is_edited()).count();
         fields + usize::from(self.has_other_satellites()) + usize::from(was.limits != self.limits)
     }
 }

@@ -1,6 +1,6 @@
 //! The table of the favourites with their priorities and limits.
 
-use egui::{Align2, Label, Rect, RichText, Sense, Stroke, StrokeKind, Ui, vec2};
+use egui::{Align2, Rect, Sense, Stroke, StrokeKind, Ui, vec2};
 
 use super::{Around, SatellitesState, draft::SatellitesDraft};
 use crate::{
@@ -11,6 +11,7 @@ use crate::{
         text, theme,
         widgets::{
             button::{Button, RADIUS, SMALL_HEIGHT},
+            form::{GAP, LABEL},
             paint,
             segmented::{self, Segment},
         },
@@ -27,7 +28,6 @@ const USUAL: f32 = 76.0;
 /// Width of the limits, and in a wide row.
 const LIMITS: [f32; 2] = [112.0, 240.0];
 const WIDE: f32 = 640.0;
-const GAP: f32 = 8.0;
 
 pub(super) fn show(
     ui: &mut Ui,
@@ -36,7 +36,10 @@ pub(super) fn show(
     state: &mut SatellitesState,
 ) {
     form::card(ui, TITLE, |ui| {
-        note(ui, "1 is taken first. A favourite without its own priority has its group's, else 3.");
+        form::remark(
+            ui,
+            "1 is taken first. A favourite without its own priority has its group's, else 3.",
+        );
         if !around.favourites.is_empty() {
             head(ui);
         }
@@ -44,7 +47,7 @@ pub(super) fn show(
             ui.push_id(number, |ui| row(ui, around, *number, (draft, before), state));
         }
         if around.favourites.is_empty() {
-            note(
+            form::remark(
                 ui,
                 "There are no favourites. Mark some in Elements, or name them by number here.",
             );
@@ -143,7 +146,7 @@ fn row(
 pub(super) fn limits_form<'a>(ui: &Ui, around: &'a Around<'_>) -> LimitsForm<'a> {
     LimitsForm {
         width: ui.available_width(),
-        label_width: form::LABEL + form::GAP,
+        label_width: LABEL + GAP,
         antennas: &around.antennas,
         lock: None,
     }
@@ -161,9 +164,4 @@ fn choose_priority(ui: &Ui, place: Rect, name: &str, priority: &mut Option<Prior
     if let Some((chosen, _)) = clicked.and_then(|index| choices.get(index)) {
         *priority = *chosen;
     }
-}
-
-pub(super) fn note(ui: &mut Ui, words: &str) {
-    let t = theme::tokens(ui);
-    ui.add(Label::new(RichText::new(words).font(text::small()).color(t.t3)).wrap());
 }

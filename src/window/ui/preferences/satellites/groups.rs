@@ -5,7 +5,7 @@ use egui::{Align2, Rect, Sense, Ui, pos2, vec2};
 use super::{
     Around,
     draft::{GROUP, GroupDraft, SatellitesDraft},
-    favourites::{limits_form, note},
+    favourites::limits_form,
 };
 use crate::ui::{
     icons::{self, Icon},
@@ -29,7 +29,10 @@ pub(super) fn show(
     state: &mut FormState,
 ) {
     form::card(ui, TITLE, |ui| {
-        note(ui, "A group gives priority and limits to those of its satellites that have none.");
+        form::remark(
+            ui,
+            "A group gives priority and limits to those of its satellites that have none.",
+        );
         for index in 0..draft.groups().len() {
             ui.push_id(index, |ui| {
                 row(ui, around, index, draft, state);

@@ -13,7 +13,7 @@ use crate::{
     ui::{
         antennas::{
             cards::{fields, is_reported},
-            draft::Mark,
+            draft::Outcome,
             form::Form,
             row,
             unit::ShownUnit,
@@ -117,13 +117,14 @@ fn set(ui: &mut Ui, unit: &ShownUnit<'_>, form: &mut Form, commands: &mut Vec<Ui
             form.send(unit, &CLOCK, values, commands);
         }
     }
-    let mark = CLOCK.field(SET_FROM.name).and_then(|field| form.draft(CLOCK.key).mark(field, None));
-    let said = match (refusal, mark) {
+    let outcome =
+        CLOCK.field(SET_FROM.name).and_then(|field| form.draft(CLOCK.key).outcome(field, None));
+    let said = match (refusal, outcome) {
         (Some(refusal), _) => refusal.to_owned(),
-        (None, Some(Mark::Taken(at) | Mark::Verified(at))) => {
+        (None, Some(Outcome::Taken(at) | Outcome::Verified(at))) => {
             format!("Set and read back {}", format::moment(at, unit.model.now))
         }
-        (None, Some(Mark::Rejected)) => "Not set. See below.".to_owned(),
+        (None, Some(Outcome::Rejected)) => "Not set. See below.".to_owned(),
         (None, None) => String::new(),
     };
     if !said.is_empty() {
