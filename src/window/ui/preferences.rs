@@ -22,6 +22,7 @@ mod rules;
 mod satellites;
 mod save_bar;
 mod search;
+mod section;
 mod site;
 pub(super) mod station_fields;
 

@@ -83,7 +83,7 @@ pub(super) fn show(
                     let known = model.antennas.iter().find(|of| *of.config == config);
                     if let Some(known) = known.filter(|_| *section == WATCH) {
                         let words = words::stopping_way(known.snapshot.stopping_way);
-                        form::told(ui, "Coasting after STOP", &words);
+                        form::read_only_row(ui, "Coasting after STOP", &words);
                         learned_drives(ui, known, commands);
                     }
                     if *section == POINTING && !is_new {
@@ -130,7 +130,7 @@ fn learned_drives(ui: &mut Ui, antenna: &AntennaModel, commands: &mut Vec<UiComm
     let can = antenna.config.connection.variant().capabilities;
     let axes = can.axes.iter().zip(&antenna.snapshot.learned).take(can.axis_count());
     for (name, lessons) in axes {
-        form::told(ui, &format!("{name} drive"), &words::drive(lessons));
+        form::read_only_row(ui, &format!("{name} drive"), &words::drive(lessons));
     }
     let is_known = antenna.snapshot.learned != <[AxisLessons; 2]>::default();
     labelled(ui, "", LABEL, |ui, _| {

@@ -1,21 +1,29 @@
 //! The page of how the window looks. It is used at once and belongs to this window, not to the
 //! station file.
 
+use std::borrow::Cow;
+
 use egui::{Ui, Vec2};
 
-use super::form::{self, choice, note};
+use super::{
+    form::{self, choice, note},
+    search::{self, Spot},
+};
 use crate::model::{Appearance, DistanceUnit, Model, ThemeName, UiCommand};
 
 /// Cards of the page with the numbers of their rows.
 pub(super) const CARDS: [usize; 3] = [6, 3, 6];
-/// Labels of the choices.
-pub(super) const LABELS: [&str; 6] = [THEME, SUN, SCALE, CLOCK, DECIMALS, DISTANCES];
 const THEME: &str = "Theme";
 const SUN: &str = "Follow the Sun";
 const SCALE: &str = "Scale";
 const CLOCK: &str = "Local time";
 const DECIMALS: &str = "Decimals of angles";
 const DISTANCES: &str = "Distances";
+
+/// The choices, for the search.
+pub(super) fn labels() -> Vec<(Cow<'static, str>, Spot)> {
+    search::on_page(&[THEME, SUN, SCALE, CLOCK, DECIMALS, DISTANCES])
+}
 
 pub(super) fn card_of(ui: &mut Ui, card: usize, model: &Model, commands: &mut Vec<UiCommand>) {
     let mut wanted = model.appearance;

@@ -1,18 +1,20 @@
 //! Draft of the station: a typing error loses nothing, and nothing is used before all of
 //! it is right.
 
-use std::collections::BTreeSet;
+use std::borrow::Cow;
 
 use jiff::Timestamp;
 
 use super::{
     antenna_fields,
-    fields::{Counts, Field, Problem, Standing, Typed},
+    fields::{Standing, Typed},
     horizon::draft::Skies,
     notices::NoticesDraft,
     page::Page,
     rules::{cannot_act::Around, draft::RulesDraft},
     satellites::draft::SatellitesDraft,
+    search::Spot,
+    section::{DraftSection, Finding},
     station_fields::{self, Ground, LATITUDE, LONGITUDE},
 };
 use crate::{
@@ -27,8 +29,6 @@ use crate::{
 pub(in crate::ui) struct Draft {
     pub(in crate::ui) ground: Typed<Ground>,
     pub(in crate::ui) antennas: Vec<Typed<Antenna>>,
-    /// Indices of antennas that saving removes; until then each can be taken back.
-    removed: BTreeSet<usize>,
     pub(super) notices: NoticesDraft,
     pub(super) skies: Skies,
     pub(super) satellites: SatellitesDraft,
@@ -40,7 +40,6 @@ impl Draft {
         Self {
             ground: Typed::of(Ground::of(station), station_fields::all()),
             antennas: station.antennas.iter().cloned().map(typed).collect(),
-            removed: BTreeSet::new(),
             notices: NoticesDraft::of(&station.notices),
             skies: Skies::of(station),
             satellites: SatellitesDraft::of(station),
@@ -68,8 +67,7 @@ impl Draft {
     }
 
     fn add(&mut self, antenna: Antenna, now: Timestamp) -> AntennaId {
-        let taken: Vec<String> = self.antennas.iter().map(name).collect();
-        let taken: Vec<&str> = taken.iter().map(String::as_str).collect();
+        let taken: Vec<&str> = self.antennas.iter().map(Typed::name).collect();
         let name = Antenna::free_name(&antenna.name, &taken);
         let ids: Vec<AntennaId> = self.antennas.iter().map(|of| of.before().id).collect();
         let second = u32::try_from(now.as_second()).unwrap_or(AntennaId::FIRST.0);
@@ -90,85 +88,64 @@ impl Draft {
         let Some(antenna) = self.index(id).and_then(|index| self.antennas.get(index)) else {
             return String::new();
         };
-        let name = name(antenna).trim().to_owned();
-        if name.is_empty() {
-            antenna.before().connection.spec().short_name.to_owned()
-        } else {
-            name
-        }
+        let name = match antenna.name().trim() {
+            "" => antenna.before().connection.spec().short_name,
+            name => name,
+        };
+        name.to_owned()
     }
 
-    /// Edits of an antenna, its removal counted as one, and its unusable fields.
-    pub(super) fn antenna_counts(&self, id: AntennaId) -> Counts {
-        let found = self.index(id).and_then(|index| Some((index, self.antennas.get(index)?)));
-        let Some((index, antenna)) = found else { return Counts::default() };
-        if self.is_removed(index) {
-            return Counts { edited: usize::from(!antenna.is_new), wrong: 0 };
-        }
-        let standings = self.antenna_standings(index);
-        let added = Counts { edited: usize::from(antenna.is_new), wrong: 0 };
-        Counts::of(antenna.fields.iter().zip(&standings)).and(added)
+    /// The section that this page edits; none where choices take effect at once.
+    pub(super) fn section(&self, page: Page) -> Option<&dyn DraftSection> {
+        Some(match page {
+            Page::Site => &self.ground,
+            Page::Horizon => &self.skies,
+            Page::Antenna(id) => self.antennas.get(self.index(id)?)?,
+            Page::Satellites => &self.satellites,
+            Page::Rules => &self.rules,
+            Page::Notices => &self.notices,
+            Page::Appearance => return None,
+        })
+    }
+
+    fn section_mut(&mut self, page: Page) -> Option<&mut dyn DraftSection> {
+        Some(match page {
+            Page::Site => &mut self.ground,
+            Page::Horizon => &mut self.skies,
+            Page::Antenna(id) => self.index(id).and_then(|index| self.antennas.get_mut(index))?,
+            Page::Satellites => &mut self.satellites,
+            Page::Rules => &mut self.rules,
+            Page::Notices => &mut self.notices,
+            Page::Appearance => return None,
+        })
     }
 
     /// The fields of a page that cannot be used.
     pub(super) fn findings(&self, page: Page) -> Vec<Finding> {
-        let of_ground = |field: &Field<Ground>| Page::of_section(field.section) == page;
-        match page {
-            Page::Site => findings(&self.ground.fields, &self.ground_standings(), of_ground),
-            Page::Satellites => {
-                let mut all = findings(&self.ground.fields, &self.ground_standings(), of_ground);
-                all.extend(self.satellites.findings());
-                all
-            }
-            Page::Rules => self.rules.findings(&self.around_rules()),
-            Page::Antenna(id) => {
-                let index = self.index(id).filter(|index| !self.is_removed(*index));
-                let antenna = index.and_then(|index| Some((index, self.antennas.get(index)?)));
-                let of = |(index, antenna): (usize, &Typed<Antenna>)| {
-                    findings(&antenna.fields, &self.antenna_standings(index), |_| true)
-                };
-                antenna.map(of).unwrap_or_default()
-            }
-            Page::Horizon => {
-                let problems = self.skies.problems(&self.antenna_names()).into_iter();
-                problems
-                    .map(|label| Finding { label, problem: Problem::of("is not valid") })
-                    .collect()
-            }
-            Page::Notices => self.notices.findings(),
-            Page::Appearance => Vec::new(),
-        }
+        self.section(page).map(|section| section.findings(self)).unwrap_or_default()
     }
 
     /// Types `text` into a field of this page.
     pub(super) fn write(&mut self, page: Page, label: &str, text: String) {
-        match page {
-            Page::Site | Page::Satellites => self.ground.write(label, text),
-            Page::Antenna(id) => {
-                let index = self.index(id);
-                if let Some(antenna) = index.and_then(|index| self.antennas.get_mut(index)) {
-                    antenna.write(label, text);
-                }
-            }
-            Page::Notices => self.notices.write(label, text),
-            Page::Rules | Page::Horizon | Page::Appearance => {}
+        if let Some(section) = self.section_mut(page) {
+            section.write(label, text);
         }
     }
 
     pub(super) fn is_removed(&self, index: usize) -> bool {
-        self.removed.contains(&index)
+        self.antennas.get(index).is_some_and(|antenna| antenna.is_removed)
     }
 
     /// Removes an antenna, or takes its removal back.
     pub(super) fn toggle_removed(&mut self, index: usize) {
-        if !self.removed.remove(&index) {
-            self.removed.insert(index);
+        if let Some(antenna) = self.antennas.get_mut(index) {
+            antenna.is_removed = !antenna.is_removed;
         }
     }
 
     /// The antennas that stay, by their indices.
     fn kept(&self) -> impl Iterator<Item = (usize, &Typed<Antenna>)> {
-        self.antennas.iter().enumerate().filter(|(index, _)| !self.is_removed(*index))
+        self.antennas.iter().enumerate().filter(|(_, antenna)| !antenna.is_removed)
     }
 
     /// The antennas that stay, with their names as typed.
@@ -181,16 +158,9 @@ impl Draft {
     pub(super) fn around_rules(&self) -> Around<'_> {
         Around {
             antennas: self.antenna_titles(),
-            favourites: self.ground.read().0.favourites(),
+            favourites: self.satellites.favourites(),
             satellites: &self.satellites,
         }
-    }
-
-    /// Edits and unusable fields of the station on this page.
-    pub(super) fn ground_counts(&self, page: Page) -> Counts {
-        let standings = self.ground_standings();
-        let fields = self.ground.fields.iter().zip(&standings);
-        Counts::of(fields.filter(|(field, _)| Page::of_section(field.section) == page))
     }
 
     /// Names of the antennas before anything was typed.
@@ -206,7 +176,7 @@ impl Draft {
             let is_of_place = [LATITUDE, LONGITUDE].contains(&&*field.description.label);
             is_of_place && standing.problem.is_some()
         });
-        if is_wrong { None } else { ground.with(Vec::new()).map(|station| station.site) }
+        if is_wrong { None } else { ground.site() }
     }
 
     /// Standings of the fields of the site.
@@ -217,17 +187,10 @@ impl Draft {
     /// Standings of the fields of an antenna.
     pub(in crate::ui) fn antenna_standings(&self, index: usize) -> Vec<Standing> {
         let Some(antenna) = self.antennas.get(index) else { return Vec::new() };
-        let (_, mut standings) = antenna.read();
-        if let Some(Standing { problem: problem @ None, .. }) = standings.first_mut()
-            && self.has_twin(index)
-        {
-            let taken: Vec<String> = self.antennas.iter().map(name).collect();
-            let taken: Vec<&str> = taken.iter().map(String::as_str).collect();
-            let free = Antenna::free_name(name(antenna).trim(), &taken);
-            let why = "must differ from those of the other antennas";
-            *problem = Some(Problem { would_do: Some(free), ..Problem::of(why) });
-        }
-        standings
+        let others = self.kept().filter(|(other, _)| *other != index);
+        let taken: Vec<&str> = self.antennas.iter().map(Typed::name).collect();
+        let why = "must differ from those of the other antennas";
+        antenna.standings_among(others.map(|(_, other)| other.name()), &taken, why)
     }
 
     /// The antenna as it is typed now, if every field is right.
@@ -246,69 +209,57 @@ impl Draft {
         model.link_tests.iter().find(is_it)
     }
 
-    /// Returns `true` if another antenna has the same name.
-    fn has_twin(&self, index: usize) -> bool {
-        let Some(own) = self.antennas.get(index).map(name) else { return false };
-        let mut kept = self.kept();
-        kept.any(|(other, antenna)| other != index && Antenna::same_name(&name(antenna), &own))
+    /// The antennas that stay, by their names before anything was typed and as typed.
+    pub(super) fn renamed_antennas(&self) -> Vec<(String, String)> {
+        let names = |antenna: &Typed<Antenna>| {
+            (antenna.before().name.clone(), antenna.name().trim().to_owned())
+        };
+        self.kept().map(|(_, antenna)| names(antenna)).collect()
     }
 
     /// The station, if every field is right.
     pub(in crate::ui) fn read(&self) -> Option<Station> {
-        let is_right = |standings: &[Standing]| standings.iter().all(|of| of.problem.is_none());
-        let (ground, standings) = self.ground.read();
-        let mut kept = self.kept().map(|(index, _)| index);
-        if !is_right(&standings) || !kept.all(|of| is_right(&self.antenna_standings(of))) {
-            return None;
+        let mut station = Station::default();
+        for section in Page::all(self).into_iter().filter_map(|page| self.section(page)) {
+            section.put_into(self, &mut station)?;
         }
-        let mut station =
-            ground.with(self.kept().map(|(_, antenna)| antenna.read().0).collect())?;
-        let renamed: Vec<(String, String)> = self
-            .kept()
-            .map(|(_, antenna)| (antenna.before().name.clone(), name(antenna).trim().to_owned()))
-            .collect();
-        station.notices = self.notices.read()?;
-        self.skies.put_into(&mut station, &renamed)?;
-        self.satellites.put_into(&mut station)?;
-        station.rules = self.rules.read(&self.around_rules())?;
         Some(station)
     }
 }
 
-/// A field that cannot be used, and why.
-pub(super) struct Finding {
-    pub(super) label: String,
-    pub(super) problem: Problem,
-}
-
-impl Finding {
-    pub(super) fn sentence(&self) -> String {
-        format!("{} {}.", self.label, self.problem.why)
+impl DraftSection for Typed<Antenna> {
+    /// The removal is one, and so is the addition.
+    fn edits(&self, _: &Draft) -> usize {
+        if self.is_removed {
+            return usize::from(!self.is_new);
+        }
+        self.edited() + usize::from(self.is_new)
     }
-}
 
-/// The unusable ones of the fields that `is_of_page`.
-pub(super) fn findings<T>(
-    fields: &[Field<T>],
-    standings: &[Standing],
-    is_of_page: impl Fn(&Field<T>) -> bool,
-) -> Vec<Finding> {
-    let of_page = fields.iter().zip(standings).filter(|(field, _)| is_of_page(field));
-    let found = of_page.filter_map(|(field, standing)| {
-        let label = field.description.label.to_string();
-        Some(Finding { label, problem: standing.problem.clone()? })
-    });
-    found.collect()
+    fn findings(&self, draft: &Draft) -> Vec<Finding> {
+        let index = draft.index(self.before().id).filter(|_| !self.is_removed);
+        index.map(|index| self.findings_in(&draft.antenna_standings(index))).unwrap_or_default()
+    }
+
+    fn labels(&self) -> Vec<(Cow<'static, str>, Spot)> {
+        self.used_labels()
+    }
+
+    fn write(&mut self, label: &str, text: String) {
+        self.type_in(label, text);
+    }
+
+    fn put_into(&self, draft: &Draft, station: &mut Station) -> Option<()> {
+        if !self.is_removed {
+            station.antennas.push(draft.antenna(draft.index(self.before().id)?)?);
+        }
+        Some(())
+    }
 }
 
 fn typed(antenna: Antenna) -> Typed<Antenna> {
     let fields = antenna_fields::all(antenna.connection.spec());
     Typed::of(antenna, fields)
-}
-
-/// Name as typed; it is the first field.
-fn name(antenna: &Typed<Antenna>) -> String {
-    antenna.fields.first().map(|field| field.entry.text.clone()).unwrap_or_default()
 }
 
 #[cfg(test)]
@@ -399,12 +350,13 @@ mod tests {
             assert_eq!(draft.read(), None);
             assert_eq!(write(&mut draft.antennas[antenna], label), typed);
         }
-        for (label, typed) in [("Latitude", "91"), ("Altitude", ""), ("Satellites", "25544, NOAA")]
-        {
+        for (page, label, typed) in [
+            (Page::Site, "Latitude", "91"),
+            (Page::Site, "Altitude", ""),
+            (Page::Satellites, "Satellites", "25544, NOAA"),
+        ] {
             let mut draft = Draft::of(&station());
-            let fields = &mut draft.ground.fields;
-            let field = fields.iter_mut().find(|field| field.description.label == label).unwrap();
-            typed.clone_into(&mut field.entry.text);
+            draft.write(page, label, typed.to_owned());
             assert_eq!(draft.read(), None, "{label}");
         }
     }

@@ -5,9 +5,10 @@ use std::{borrow::Cow, ops::RangeInclusive};
 
 use jiff::civil::Time;
 
+use super::{search::Spot, section::Finding};
 use crate::{
     device::settings::{Kind, Unfit, Value, number},
-    station::HoursOfDay,
+    station::{Antenna, HoursOfDay},
     ui::{widgets::form::Entry, words},
 };
 
@@ -254,25 +255,6 @@ pub(super) struct Counts {
     pub(super) wrong: usize,
 }
 
-impl Counts {
-    /// Counts the fields of one section, or of all of them.
-    pub(super) fn of<'a, T: 'static>(
-        fields: impl IntoIterator<Item = (&'a Field<T>, &'a Standing)>,
-    ) -> Self {
-        let mut counts = Self::default();
-        for (field, standing) in fields {
-            counts.edited += usize::from(field.entry.is_edited());
-            counts.wrong += usize::from(standing.problem.is_some());
-        }
-        counts
-    }
-
-    #[must_use]
-    pub(super) fn and(self, other: Self) -> Self {
-        Self { edited: self.edited + other.edited, wrong: self.wrong + other.wrong }
-    }
-}
-
 /// State of a field.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(in crate::ui) struct Standing {
@@ -291,6 +273,8 @@ pub(in crate::ui) struct Typed<T: 'static> {
     base: T,
     /// The station does not have it yet.
     pub(super) is_new: bool,
+    /// Saving removes it from the station; until then it can be taken back.
+    pub(super) is_removed: bool,
     pub(in crate::ui) fields: Vec<Field<T>>,
 }
 
@@ -305,11 +289,11 @@ impl<T: Clone> Typed<T> {
                 Some(Field { section, description, entry })
             })
             .collect();
-        Self { base, is_new: false, fields }
+        Self { base, is_new: false, is_removed: false, fields }
     }
 
     /// Types `text` into the field with this label.
-    pub(in crate::ui) fn write(&mut self, label: &str, text: String) {
+    pub(in crate::ui) fn type_in(&mut self, label: &str, text: String) {
         let mut fields = self.fields.iter_mut();
         if let Some(field) = fields.find(|field| field.description.label == label) {
             field.entry.text = text;
@@ -325,10 +309,53 @@ impl<T: Clone> Typed<T> {
     }
 
     /// Labels of the fields that are used.
-    pub(super) fn labels(&self) -> Vec<Cow<'static, str>> {
+    pub(super) fn used_labels(&self) -> Vec<(Cow<'static, str>, Spot)> {
         let standings = self.read().1;
         let used = self.fields.iter().zip(&standings).filter(|(_, standing)| standing.is_used);
-        used.map(|(field, _)| field.description.label.clone()).collect()
+        used.map(|(field, _)| (field.description.label.clone(), Spot::Field)).collect()
+    }
+
+    /// Number of edited fields.
+    pub(super) fn edited(&self) -> usize {
+        self.fields.iter().filter(|field| field.entry.is_edited()).count()
+    }
+
+    /// The fields that cannot be used.
+    pub(super) fn findings_in(&self, standings: &[Standing]) -> Vec<Finding> {
+        let finding = |(field, standing): (&Field<T>, &Standing)| {
+            let label = field.description.label.to_string();
+            Some(Finding { label, problem: standing.problem.clone()? })
+        };
+        self.fields.iter().zip(standings).filter_map(finding).collect()
+    }
+
+    /// The typed value, if every field can be used.
+    pub(in crate::ui) fn valid(&self) -> Option<T> {
+        let (whole, standings) = self.read();
+        standings.iter().all(|standing| standing.problem.is_none()).then_some(whole)
+    }
+
+    /// The text of the first field, where that is a name.
+    pub(super) fn name(&self) -> &str {
+        self.fields.first().map_or("", |field| &field.entry.text)
+    }
+
+    /// State of each field. The name must differ from the `others`, or else, `why`; a name that
+    /// would do is none of the `taken`.
+    pub(super) fn standings_among<'a>(
+        &self,
+        mut others: impl Iterator<Item = &'a str>,
+        taken: &[&str],
+        why: &str,
+    ) -> Vec<Standing> {
+        let (own, mut standings) = (self.name(), self.read().1);
+        if let Some(Standing { problem: problem @ None, .. }) = standings.first_mut()
+            && others.any(|other| Antenna::same_name(other, own))
+        {
+            let free = Antenna::free_name(own.trim(), taken);
+            *problem = Some(Problem { would_do: Some(free), ..Problem::of(why) });
+        }
+        standings
     }
 
     /// The sections with the numbers of their fields, in order.
@@ -397,6 +424,8 @@ impl<T: Clone> Typed<T> {
 impl<T: PartialEq> PartialEq for Typed<T> {
     fn eq(&self, other: &Self) -> bool {
         let texts = self.fields.iter().map(|field| &field.entry.text);
-        self.base == other.base && texts.eq(other.fields.iter().map(|field| &field.entry.text))
+        self.base == other.base
+            && self.is_removed == other.is_removed
+            && texts.eq(other.fields.iter().map(|field| &field.entry.text))
     }
 }

@@ -37,7 +37,7 @@ const LINES: f32 = 140.0;
 
 /// Content beside a field. No row moves when it appears or disappears.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Beside {
+enum RowAnnotation {
     /// Its state: unchanged, edited, or why it cannot be used.
     State,
     /// Why it cannot be used, and nothing while it can.
@@ -94,7 +94,7 @@ pub(super) fn rows<T: Clone>(
 ) {
     for (field, standing) in typed.fields.iter_mut().zip(standings) {
         if standing.is_used && field.section == section {
-            let response = row(ui, group, field, standing, Beside::State);
+            let response = row(ui, group, field, standing, RowAnnotation::State);
             if sought.takes(&field.description.label) {
                 focus_to_replace(ui, &response, &field.entry.text);
                 response.scroll_to_me(Some(Align::Center));
@@ -112,7 +112,7 @@ pub(in crate::ui) fn fields<T>(
     standings: &[Standing],
 ) -> Vec<Response> {
     let used = fields.iter_mut().zip(standings).filter(|(_, standing)| standing.is_used);
-    used.map(|(field, standing)| row(ui, group, field, standing, Beside::Reason)).collect()
+    used.map(|(field, standing)| row(ui, group, field, standing, RowAnnotation::Reason)).collect()
 }
 
 /// A note in the column of the fields.
@@ -128,7 +128,7 @@ pub(super) fn remark(ui: &mut Ui, words: &str) {
 }
 
 /// A value that cannot be typed.
-pub(super) fn told(ui: &mut Ui, label: &str, words: &str) {
+pub(super) fn read_only_row(ui: &mut Ui, label: &str, words: &str) {
     let t = theme::tokens(ui);
     labelled(ui, label, LABEL, |ui, _| {
         let words = RichText::new(words).font(text::small()).color(t.t3);
@@ -161,14 +161,14 @@ fn row<T>(
     group: &str,
     field: &mut Field<T>,
     standing: &Standing,
-    beside: Beside,
+    annotation: RowAnnotation,
 ) -> Response {
     let t = theme::tokens(ui);
     let border = state(field, standing).0.border(t);
     let (label, unit) = (field.description.label.clone(), field.description.unit);
     let ((response, end), place) = labelled(ui, &label, LABEL, |ui, name| {
         let response =
-            ui.scope(|ui| edit(ui, group, field, border, beside).labelled_by(name)).inner;
+            ui.scope(|ui| edit(ui, group, field, border, annotation).labelled_by(name)).inner;
         let end = response.rect.right();
         if unit.is_empty() {
             return (response, end);
@@ -178,7 +178,7 @@ fn row<T>(
         let unit = ui.allocate_ui_with_layout(vec2(0.0, ROW), left, |ui| ui.label(words));
         (response, unit.response.rect.right())
     });
-    if beside == Beside::State || standing.problem.is_some() {
+    if annotation == RowAnnotation::State || standing.problem.is_some() {
         let (mark, words) = match state(field, standing) {
             (Mark::Plain | Mark::Edited, _) if standing.is_new => (Mark::Plain, "New".to_owned()),
             state => state,
@@ -189,7 +189,7 @@ fn row<T>(
     }
     if let Some(problem) = standing.problem.as_ref().filter(|_| response.has_focus()) {
         // The cure may be the previous value, which a new station does not have.
-        let cure = problem.would_do.as_ref().filter(|_| beside == Beside::State);
+        let cure = problem.would_do.as_ref().filter(|_| annotation == RowAnnotation::State);
         why_below(&response, &label, &problem.why, cure);
     }
     if let Some(words) = &standing.note {
@@ -231,7 +231,7 @@ fn state_room(ui: &Ui, place: Rect, end: f32) -> Rect {
 
 /// A row whose field `content` shows, with its state beside it: why it cannot be used, or that it
 /// is edited.
-pub(super) fn row_of<R>(
+pub(super) fn custom_row<R>(
     ui: &mut Ui,
     (group, label): (&str, &str),
     wrong: Option<&str>,
@@ -254,7 +254,7 @@ fn edit<T>(
     group: &str,
     field: &mut Field<T>,
     border: Option<Color32>,
-    beside: Beside,
+    annotation: RowAnnotation,
 ) -> Response {
     let t = theme::tokens(ui);
     let (stroke, margin) =
@@ -267,7 +267,7 @@ fn edit<T>(
         .inner_margin(Margin::symmetric(margin.0, margin.1));
     let is_edited = field.entry.is_edited();
     let [narrow, wide] = WORDS;
-    let width = if beside == Beside::State { narrow } else { wide };
+    let width = if annotation == RowAnnotation::State { narrow } else { wide };
     let label = &*field.description.label;
     let text = &mut field.entry.text;
     if let Some(words) = field.description.kind.choices() {

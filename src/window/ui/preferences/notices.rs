@@ -6,9 +6,11 @@ use std::{borrow::Cow, collections::BTreeSet};
 use egui::Ui;
 
 use super::{
-    draft::{self, Draft, Finding},
-    fields::{Counts, Description, Placed, Typed, placed},
+    draft::Draft,
+    fields::{Description, Placed, Typed, placed},
     form::{self, Sought},
+    search::Spot,
+    section::{DraftSection, Finding},
 };
 use crate::{
     contract::CatalogState,
@@ -16,7 +18,7 @@ use crate::{
     device::settings::{Kind, Value},
     model::{Model, UiCommand},
     orbit::Elements,
-    station::{HoursOfDay, Notices, Tones, ranges},
+    station::{HoursOfDay, Notices, Station, Tones, ranges},
     ui::{
         format,
         widgets::{
@@ -41,106 +43,70 @@ const BEFORE_PASSES: &str = "Reminders before passes";
 #[derive(PartialEq)]
 pub(super) struct NoticesDraft {
     telling: Typed<Telling>,
-    reminding: Typed<Reminding>,
     reminders: BTreeSet<u32>,
 }
 
-/// How alarms and reminders are told, with hours that wait while none are quiet.
+/// The notices, with hours that wait while none are quiet.
 #[derive(Debug, Clone, PartialEq)]
 struct Telling {
-    notifications: bool,
-    sounds: bool,
-    warning: Tones,
-    caution: Tones,
-    reminder: Tones,
+    notices: Notices,
     is_quiet: bool,
     hours: HoursOfDay,
-}
-
-#[derive(Debug, Clone, PartialEq)]
-struct Reminding {
-    before_min: f64,
 }
 
 impl NoticesDraft {
     pub(super) fn of(notices: &Notices) -> Self {
         let telling = Telling {
-            notifications: notices.notifications,
-            sounds: notices.sounds,
-            warning: notices.warning_tones,
-            caution: notices.caution_tones,
-            reminder: notices.reminder_tones,
+            notices: notices.clone(),
             is_quiet: notices.quiet.is_some(),
             hours: notices.quiet.unwrap_or(HoursOfDay::NIGHT),
         };
-        let reminding = Reminding { before_min: notices.reminder_min };
-        Self {
-            telling: Typed::of(telling, telling_fields()),
-            reminding: Typed::of(reminding, reminding_fields()),
-            reminders: notices.reminders.clone(),
-        }
-    }
-
-    /// The notices, if every field is right.
-    pub(super) fn read(&self) -> Option<Notices> {
-        let (telling, first) = self.telling.read();
-        let (reminding, second) = self.reminding.read();
-        let is_right = first.iter().chain(&second).all(|standing| standing.problem.is_none());
-        is_right.then(|| Notices {
-            notifications: telling.notifications,
-            sounds: telling.sounds,
-            warning_tones: telling.warning,
-            caution_tones: telling.caution,
-            reminder_tones: telling.reminder,
-            quiet: telling.is_quiet.then_some(telling.hours),
-            reminder_min: reminding.before_min,
-            reminders: self.reminders.clone(),
-        })
-    }
-
-    /// Edits, of which each mark for a reminder is one, and unusable fields.
-    pub(super) fn counts(&self, before: &Self) -> Counts {
-        let telling = Counts::of(self.telling.fields.iter().zip(&self.telling.read().1));
-        let reminding = Counts::of(self.reminding.fields.iter().zip(&self.reminding.read().1));
-        let marked = self.reminders.symmetric_difference(&before.reminders).count();
-        telling.and(reminding).and(Counts { edited: marked, wrong: 0 })
-    }
-
-    pub(super) fn findings(&self) -> Vec<Finding> {
-        let mut all = draft::findings(&self.telling.fields, &self.telling.read().1, |_| true);
-        all.extend(draft::findings(&self.reminding.fields, &self.reminding.read().1, |_| true));
-        all
-    }
-
-    /// Types `text` into the field with this label.
-    pub(super) fn write(&mut self, label: &str, text: String) {
-        self.telling.write(label, text.clone());
-        self.reminding.write(label, text);
-    }
-
-    /// Labels of the fields that are used.
-    pub(super) fn labels(&self) -> Vec<Cow<'static, str>> {
-        let mut labels = self.telling.labels();
-        labels.extend(self.reminding.labels());
-        labels
+        Self { telling: Typed::of(telling, fields()), reminders: notices.reminders.clone() }
     }
 }
 
-fn telling_fields() -> Vec<Placed<Telling>> {
-    let fields = [
-        flag("Notifications", |telling| &mut telling.notifications).noted(|_| {
+impl DraftSection for NoticesDraft {
+    /// Each mark for a reminder is one.
+    fn edits(&self, before: &Draft) -> usize {
+        let marked = self.reminders.symmetric_difference(&before.notices.reminders);
+        self.telling.edited() + marked.count()
+    }
+
+    fn findings(&self, _: &Draft) -> Vec<Finding> {
+        self.telling.findings_in(&self.telling.read().1)
+    }
+
+    fn labels(&self) -> Vec<(Cow<'static, str>, Spot)> {
+        self.telling.used_labels()
+    }
+
+    fn write(&mut self, label: &str, text: String) {
+        self.telling.type_in(label, text);
+    }
+
+    fn put_into(&self, _: &Draft, station: &mut Station) -> Option<()> {
+        let Telling { notices, is_quiet, hours } = self.telling.valid()?;
+        let quiet = is_quiet.then_some(hours);
+        station.notices = Notices { quiet, reminders: self.reminders.clone(), ..notices };
+        Some(())
+    }
+}
+
+fn fields() -> Vec<Placed<Telling>> {
+    let telling = [
+        flag("Notifications", |telling| &mut telling.notices.notifications).noted(|_| {
             let words = "The desktop shows new alarms and reminders, and top-priority alarms \
                          even if this is off.";
             Some(words.to_owned())
         }),
-        flag("Sounds", |telling| &mut telling.sounds)
+        flag("Sounds", |telling| &mut telling.notices.sounds)
             .noted(|_| Some("Top-priority alarms sound even if this is off.".to_owned())),
-        tones(WARNINGS, |telling| &mut telling.warning)
+        tones(WARNINGS, |telling| &mut telling.notices.warning_tones)
             .noted(|_| Some("Alarms about something that is wrong now.".to_owned())),
-        tones(CAUTIONS, |telling| &mut telling.caution).noted(|_| {
+        tones(CAUTIONS, |telling| &mut telling.notices.caution_tones).noted(|_| {
             Some("Alarms about something that was not done or will go wrong.".to_owned())
         }),
-        tones(BEFORE_PASSES, |telling| &mut telling.reminder),
+        tones(BEFORE_PASSES, |telling| &mut telling.notices.reminder_tones),
         flag("Quiet hours", |telling| &mut telling.is_quiet).noted(|_| {
             let words = "No notifications or sounds then, except for top-priority alarms. The \
                          window shows all alarms.";
@@ -156,21 +122,22 @@ fn telling_fields() -> Vec<Placed<Telling>> {
             })
             .noted(|_| Some("By the local time of this computer.".to_owned())),
     ];
-    placed(TELLING, fields)
-}
-
-fn reminding_fields() -> Vec<Placed<Reminding>> {
-    let before = Description::number("Remind before AOS", ranges::REMINDER_MIN, "min", |of| {
-        let Reminding { before_min } = of;
-        Some(before_min)
-    });
-    placed(REMINDING, [before])
+    let before = Description::number(
+        "Remind before AOS",
+        ranges::REMINDER_MIN,
+        "min",
+        |telling: &mut Telling| Some(&mut telling.notices.reminder_min),
+    );
+    let mut fields = placed(TELLING, telling);
+    fields.extend(placed(REMINDING, [before]));
+    fields
 }
 
 fn tones(label: &'static str, place: fn(&mut Telling) -> &mut Tones) -> Description<Telling> {
     const WORDS: [(i64, &str); 3] = [(0, "Falling"), (1, "Rising"), (2, "None")];
     const VALUES: [Tones; 3] = [Tones::Falling, Tones::Rising, Tones::None];
-    Description::choice(label, &WORDS, &VALUES, place).when(|telling: &Telling| telling.sounds)
+    Description::choice(label, &WORDS, &VALUES, place)
+        .when(|telling: &Telling| telling.notices.sounds)
 }
 
 fn flag(label: &'static str, place: fn(&mut Telling) -> &mut bool) -> Description<Telling> {
@@ -259,17 +226,17 @@ fn never_silenced(ui: &mut Ui) {
 }
 
 fn reminders(ui: &mut Ui, model: &Model, draft: &mut Draft, sought: &mut Sought) {
-    let (ground, _) = draft.ground.read();
-    let NoticesDraft { reminding, reminders, .. } = &mut draft.notices;
-    let standings = reminding.read().1;
-    form::section(ui, "reminding", (reminding, &standings), REMINDING, sought, |ui| {
+    let favourites = draft.satellites.favourites();
+    let NoticesDraft { telling, reminders } = &mut draft.notices;
+    let standings = telling.read().1;
+    form::section(ui, "reminding", (telling, &standings), REMINDING, sought, |ui| {
         form::remark(
             ui,
             "For the passes of the favourites marked here. An alarm is raised if no antenna is on \
              its way 30 s before AOS.",
         );
         ui.add_space(4.0);
-        for number in &ground.favourites() {
+        for number in &favourites {
             let mut is_marked = reminders.contains(number);
             ui.horizontal(|ui| {
                 let name = name(model, *number);
@@ -283,7 +250,7 @@ fn reminders(ui: &mut Ui, model: &Model, draft: &mut Draft, sought: &mut Sought)
                 form::remark(ui, &next_aos(model, *number));
             });
         }
-        if ground.favourites().is_empty() {
+        if favourites.is_empty() {
             form::remark(ui, "There are no favourites. Add some in Satellites and priorities.");
         }
     });

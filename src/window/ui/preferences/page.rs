@@ -1,6 +1,6 @@
 //! The pages of the preferences, in the order of their list.
 
-use super::{draft::Draft, fields::Counts, station_fields};
+use super::{draft::Draft, fields::Counts};
 use crate::station::AntennaId;
 
 /// A page of the preferences.
@@ -45,14 +45,6 @@ impl Page {
         next.copied().unwrap_or_default()
     }
 
-    /// The page with the fields of this section of the station.
-    pub(super) fn of_section(section: &str) -> Self {
-        match section {
-            station_fields::SATELLITES | station_fields::FREQUENCIES => Self::Satellites,
-            _ => Self::Site,
-        }
-    }
-
     pub(super) fn title(self, draft: &Draft) -> String {
         let title = match self {
             Self::Site => "Site",
@@ -69,20 +61,9 @@ impl Page {
     /// Edits of the page that are not saved, and its fields that cannot be used. `before` is the
     /// draft of the station as saved.
     pub(super) fn counts(self, draft: &Draft, before: &Draft) -> Counts {
-        match self {
-            Self::Site => draft.ground_counts(self),
-            Self::Satellites => {
-                let of_ground = draft.ground_counts(self);
-                of_ground.and(draft.satellites.counts(&before.satellites))
-            }
-            Self::Rules => draft.rules.counts(&before.rules, &draft.around_rules()),
-            Self::Horizon => Counts {
-                edited: draft.skies.edits(&before.skies),
-                wrong: draft.skies.problems(&draft.antenna_names()).len(),
-            },
-            Self::Antenna(id) => draft.antenna_counts(id),
-            Self::Notices => draft.notices.counts(&before.notices),
-            Self::Appearance => Counts::default(),
-        }
+        draft.section(self).map_or_else(Counts::default, |section| Counts {
+            edited: section.edits(before),
+            wrong: section.findings(draft).len(),
+        })
     }
 }

@@ -26,7 +26,7 @@ use decided::{Decided, DecidedPass};
 use draft::RulesDraft;
 
 /// Settings of the page that are no fields of the station.
-pub(super) const LABELS: [&str; 3] =
+const LABELS: [&str; 3] =
     ["Order of the rules", "Rules by satellite or group", "Rules by Sun and hours"];
 /// Most of the page that the table takes.
 const TABLE_SHARE: f32 = 0.45;
@@ -100,7 +100,7 @@ pub(super) fn show(
     state: &mut FormState,
 ) {
     state.rules.work_out(draft.read(), model);
-    let (antennas, favourites) = (draft.antenna_titles(), draft.ground.read().0.favourites());
+    let (antennas, favourites) = (draft.antenna_titles(), draft.satellites.favourites());
     // Borrowed apart from the rules, which change.
     let Draft { satellites, rules, .. } = draft;
     let around = Around { antennas, favourites, satellites };

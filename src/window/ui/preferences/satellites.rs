@@ -2,6 +2,7 @@
 
 pub(super) mod draft;
 mod favourites;
+mod followed;
 mod groups;
 
 use egui::{Rect, Ui};
@@ -11,7 +12,6 @@ use super::{
     columns::{self, Part},
     draft::Draft,
     form,
-    page::Page,
 };
 use crate::{model::Model, station::AntennaId, ui::object_search::ObjectSearch};
 
@@ -33,7 +33,7 @@ struct Around<'a> {
 }
 
 /// Settings of the page that are no fields.
-pub(super) const LABELS: [&str; 3] = [favourites::TITLE, "Limits of passes", groups::TITLE];
+const LABELS: [&str; 3] = [favourites::TITLE, "Limits of passes", groups::TITLE];
 
 pub(super) fn show(
     ui: &mut Ui,
@@ -44,17 +44,13 @@ pub(super) fn show(
 ) {
     let around = Around {
         model,
-        favourites: draft.ground.read().0.favourites(),
+        favourites: draft.satellites.favourites(),
         antennas: draft.antenna_titles(),
     };
-    let sections = draft.ground.sections();
-    let sections: Vec<(&str, usize)> = sections
-        .into_iter()
-        .filter(|(section, _)| Page::of_section(section) == Page::Satellites)
-        .collect();
+    let sections = draft.satellites.followed.sections();
     let mut rows = vec![around.favourites.len() + 2, draft.satellites.groups().len() + 2];
     rows.extend(sections.iter().map(|(_, rows)| *rows));
-    let standings = draft.ground_standings();
+    let standings = draft.satellites.followed.read().1;
     columns::show(ui, rect, "satellites", &rows, false, |ui, part| {
         let Part::Card(card) = part else { return };
         let satellites = &mut draft.satellites;
@@ -66,7 +62,7 @@ pub(super) fn show(
             1 => groups::show(ui, &around, satellites, state),
             card => {
                 let Some((section, _)) = sections.get(card - 2) else { return };
-                let typed = (&mut draft.ground, &*standings);
+                let typed = (&mut satellites.followed, &*standings);
                 form::section(ui, "satellites", typed, section, &mut state.sought, |_| {});
             }
         }

@@ -2,9 +2,7 @@
 
 use std::borrow::Cow;
 
-use super::{
-    appearance, draft::Draft, fields::Typed, horizon::Chosen, page::Page, rules, satellites,
-};
+use super::{appearance, draft::Draft, horizon::Chosen, page::Page, section::DraftSection};
 
 /// Most results that are listed.
 const MOST: usize = 12;
@@ -27,6 +25,11 @@ pub(super) enum Spot {
     Horizon(Chosen),
     /// The page as it is.
     Page,
+}
+
+/// Labels of settings that are no fields, which lead to their page.
+pub(super) fn on_page(labels: &[&'static str]) -> Vec<(Cow<'static, str>, Spot)> {
+    labels.iter().map(|label| (Cow::Borrowed(*label), Spot::Page)).collect()
 }
 
 /// A setting that was found.
@@ -58,40 +61,9 @@ pub(super) fn find(text: &str, draft: &Draft) -> Vec<Found> {
 
 /// All settings, in the order of the pages.
 fn all(draft: &Draft) -> Vec<Found> {
-    let mut all = Vec::new();
-    for page in Page::all(draft) {
-        let field = |label| Found { page, label, spot: Spot::Field };
-        let on_page = |label| Found { page, label, spot: Spot::Page };
-        match page {
-            Page::Site | Page::Satellites => {
-                let fields = draft.ground.fields.iter();
-                let of_page = fields.filter(|of| Page::of_section(of.section) == page);
-                all.extend(of_page.map(|of| field(of.description.label.clone())));
-                if page == Page::Satellites {
-                    all.extend(satellites::LABELS.map(|label| on_page(label.into())));
-                    let groups = draft.satellites.kept();
-                    all.extend(groups.map(|(_, group)| on_page(group.title().into())));
-                }
-            }
-            Page::Rules => all.extend(rules::LABELS.map(|label| on_page(label.into()))),
-            Page::Horizon => {
-                let spots = draft.skies.spots().into_iter();
-                all.extend(spots.map(|(label, chosen)| Found {
-                    page,
-                    label: label.into(),
-                    spot: Spot::Horizon(chosen),
-                }));
-            }
-            Page::Antenna(id) => {
-                let antenna = draft.index(id).and_then(|index| draft.antennas.get(index));
-                let labels = antenna.map(Typed::labels).unwrap_or_default();
-                all.extend(labels.into_iter().map(field));
-            }
-            Page::Notices => all.extend(draft.notices.labels().into_iter().map(field)),
-            Page::Appearance => {
-                all.extend(appearance::LABELS.map(|label| on_page(label.into())));
-            }
-        }
-    }
-    all
+    let of_page = |page: Page| {
+        let labels = draft.section(page).map_or_else(appearance::labels, DraftSection::labels);
+        labels.into_iter().map(move |(label, spot)| Found { page, label, spot })
+    };
+    Page::all(draft).into_iter().flat_map(of_page).collect()
 }

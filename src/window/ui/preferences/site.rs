@@ -40,8 +40,6 @@ pub(super) fn show(
 ) {
     let page = Page::Site;
     let sections = draft.ground.sections();
-    let sections: Vec<(&str, usize)> =
-        sections.into_iter().filter(|(section, _)| Page::of_section(section) == page).collect();
     // The record has three lines more.
     let rows_of = |(section, rows): &(&str, usize)| {
         if *section == RECORD && !model.demo { rows + 3 } else { *rows }
@@ -95,7 +93,7 @@ fn question(model: &Model, draft: &Draft, before: &Draft) -> Option<Question> {
     let favourites = &model.pass_lists.favourites;
     let station = |draft: &Draft| {
         draft.place()?;
-        draft.ground.read().0.with(Vec::new())
+        draft.ground.read().0.station()
     };
     Some(Question {
         satellites: Arc::clone(&favourites.satellites),

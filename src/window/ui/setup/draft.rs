@@ -64,7 +64,7 @@ impl SetupDraft {
 
     pub(super) fn put_place(&mut self, latitude_deg: f64, longitude_deg: f64, decimals: usize) {
         for (label, degrees) in [(LATITUDE, latitude_deg), (LONGITUDE, longitude_deg)] {
-            self.form.ground.write(label, format!("{degrees:.decimals$}"));
+            self.form.ground.type_in(label, format!("{degrees:.decimals$}"));
         }
     }
 
@@ -86,7 +86,7 @@ impl SetupDraft {
         if standings.iter().take(SITE_FIELDS).any(|of| of.problem.is_some()) {
             return None;
         }
-        let station = ground.with(Vec::new())?;
+        let station = ground.station()?;
         Some((station.name, station.site))
     }
 

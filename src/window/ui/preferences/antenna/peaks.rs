@@ -7,6 +7,7 @@ use jiff::Timestamp;
 use crate::{
     contract,
     contract::record::{Peak, PeakChange, PeakOf},
+    device::settings::number,
     model::{Model, UiCommand},
     station::AntennaId,
     ui::{
@@ -74,7 +75,7 @@ fn angle(
     let read = match (typed.trim(), measured) {
         ("", Some(measured)) => Some(measured),
         ("", None) => return Err(format!("Type the {name} that the antenna showed at the peak.")),
-        (typed, _) => typed.parse().ok(),
+        (typed, _) => number(typed),
     };
     read.filter(|deg| range.contains(deg)).ok_or_else(|| {
         let (from, to) = (format::degrees(*range.start(), 0), format::degrees(*range.end(), 0));

@@ -165,7 +165,7 @@ fn not_told(of: &FittedTerm) -> Option<String> {
 pub(super) fn fill_in(antenna: &mut Typed<Antenna>, fit: &PointingFit) {
     for of in &fit.terms {
         let value = of.value.unwrap_or_default();
-        antenna.write(pointing_term(of.term), number(of.term, value));
+        antenna.type_in(pointing_term(of.term), number(of.term, value));
     }
 }
 

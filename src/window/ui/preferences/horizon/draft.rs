@@ -1,7 +1,7 @@
 //! Draft of the mask, the keep-outs and the avoidance of the Sun: a typing error loses
 //! nothing, and the plot keeps the last valid value.
 
-use std::ops::RangeInclusive;
+use std::{borrow::Cow, ops::RangeInclusive};
 
 use super::Chosen;
 use crate::{
@@ -9,6 +9,12 @@ use crate::{
     device::settings::number,
     station::{Antenna, Entered, KeepOut, Station, SunAvoidance, ranges},
     ui::{
+        preferences::{
+            draft::Draft,
+            fields::Problem,
+            search::Spot,
+            section::{DraftSection, Finding},
+        },
         widgets::form::{Entry, Mark, standing},
         words,
     },
@@ -296,7 +302,7 @@ impl Skies {
     }
 
     /// All problems with their places, for the message beside Save.
-    pub(in crate::ui::preferences) fn problems(&self, antennas: &[String]) -> Vec<String> {
+    fn problems(&self, antennas: &[String]) -> Vec<String> {
         let mut problems = Vec::new();
         if self.read_mask().is_err() {
             problems.push("skyline".to_owned());
@@ -326,7 +332,7 @@ impl Skies {
     }
 
     /// Number of values that differ from `before`.
-    pub(in crate::ui::preferences) fn edits(&self, before: &Self) -> usize {
+    fn edited(&self, before: &Self) -> usize {
         let gone = before
             .zones
             .iter()
@@ -337,21 +343,9 @@ impl Skies {
             + usize::from(self.sun != before.sun)
     }
 
-    /// The items of the page by their names.
-    pub(in crate::ui::preferences) fn spots(&self) -> Vec<(String, Chosen)> {
-        let zones = self.zones.iter().enumerate();
-        let zones = zones.map(|(index, zone)| (zone.name.trim().to_owned(), Chosen::Zone(index)));
-        let fixed = [("Skyline", Chosen::Skyline), ("Sun avoidance", Chosen::Sun)];
-        fixed.map(|(name, of)| (name.to_owned(), of)).into_iter().chain(zones).collect()
-    }
-
     /// Puts the draft into `station` once there are no problems left. `renamed` holds old and
-    /// new names of antennas.
-    pub(in crate::ui::preferences) fn put_into(
-        &self,
-        station: &mut Station,
-        renamed: &[(String, String)],
-    ) -> Option<()> {
+    /// new names of its antennas.
+    fn put_renamed_into(&self, station: &mut Station, renamed: &[(String, String)]) -> Option<()> {
         let mut moved = self.clone();
         for zone in &mut moved.zones {
             let named = zone.antenna.as_ref();
@@ -362,7 +356,7 @@ impl Skies {
                 zone.antenna = Some(now.clone());
             }
         }
-        let antennas: Vec<String> = station.antennas.iter().map(|of| of.name.clone()).collect();
+        let antennas: Vec<String> = renamed.iter().map(|(_, now)| now.clone()).collect();
         if !moved.problems(&antennas).is_empty() {
             return None;
         }
@@ -370,6 +364,31 @@ impl Skies {
         station.keep_outs = moved.zones.iter().map(ZoneDraft::keep_out).collect::<Option<_>>()?;
         station.sun_avoidance = moved.sun.kept();
         Some(())
+    }
+}
+
+impl DraftSection for Skies {
+    fn edits(&self, before: &Draft) -> usize {
+        self.edited(&before.skies)
+    }
+
+    fn findings(&self, draft: &Draft) -> Vec<Finding> {
+        let problems = self.problems(&draft.antenna_names()).into_iter();
+        problems.map(|label| Finding { label, problem: Problem::of("is not valid") }).collect()
+    }
+
+    /// The items of the page by their names.
+    fn labels(&self) -> Vec<(Cow<'static, str>, Spot)> {
+        let fixed = [("Skyline", Chosen::Skyline), ("Sun avoidance", Chosen::Sun)];
+        let zones = self.zones.iter().enumerate();
+        let zones =
+            zones.map(|(index, zone)| (zone.name.trim().to_owned().into(), Chosen::Zone(index)));
+        let all = fixed.map(|(name, of)| (name.into(), of)).into_iter().chain(zones);
+        all.map(|(name, of)| (name, Spot::Horizon(of))).collect()
+    }
+
+    fn put_into(&self, draft: &Draft, station: &mut Station) -> Option<()> {
+        self.put_renamed_into(station, &draft.renamed_antennas())
     }
 }
 
@@ -402,9 +421,9 @@ mod tests {
     fn what_was_not_touched_is_put_back_as_it_was() {
         let skies = Skies::of(&station());
         let mut empty = Station::default();
-        assert_eq!(skies.put_into(&mut empty, &[]), Some(()));
+        assert_eq!(skies.put_renamed_into(&mut empty, &[]), Some(()));
         assert_eq!(empty, station());
-        assert_eq!(skies.edits(&Skies::of(&station())), 0);
+        assert_eq!(skies.edited(&Skies::of(&station())), 0);
     }
 
     #[test]
@@ -416,12 +435,12 @@ mod tests {
         assert!((cell.kept() - 16.0).abs() < 1e-12);
         assert_eq!(cell.problem().unwrap(), "−90 to 90. The plot keeps 16.0°.");
         assert_eq!(skies.problems(&[]), ["mast, corner 2"]);
-        assert_eq!(skies.put_into(&mut Station::default(), &[]), None);
+        assert_eq!(skies.put_renamed_into(&mut Station::default(), &[]), None);
         let cell = &mut skies.zones[0].corners[1].elevation;
         "17,5".clone_into(&mut cell.entry.text);
         cell.take();
         assert_eq!(cell.state(), (Mark::Edited, "Edited, was 16.0".to_owned()));
-        assert_eq!(skies.edits(&Skies::of(&station())), 1);
+        assert_eq!(skies.edited(&Skies::of(&station())), 1);
     }
 
     #[test]
@@ -431,9 +450,9 @@ mod tests {
         let mut renamed =
             Station { antennas: vec![Antenna::satrak("Big dish", "h:4001")], ..Station::default() };
         let names = [("Satrak".to_owned(), "Big dish".to_owned())];
-        assert_eq!(skies.put_into(&mut renamed, &names), Some(()));
+        assert_eq!(skies.put_renamed_into(&mut renamed, &names), Some(()));
         assert_eq!(renamed.keep_outs[0].antenna.as_deref(), Some("Big dish"));
-        assert_eq!(skies.put_into(&mut renamed, &[]), None);
+        assert_eq!(skies.put_renamed_into(&mut renamed, &[]), None);
         assert_eq!(skies.problems(&["Big dish".to_owned()]), ["mast"]);
     }
 
@@ -474,8 +493,8 @@ mod tests {
         assert_eq!(skies.problems(&[]), ["mast", "MAST"]);
         " ".clone_into(&mut skies.zones[1].name);
         assert_eq!(skies.problems(&[]), ["keep-out"]);
-        assert_eq!(skies.edits(&Skies::of(&station())), 1, "a new one");
+        assert_eq!(skies.edited(&Skies::of(&station())), 1, "a new one");
         skies.zones.clear();
-        assert_eq!(skies.edits(&Skies::of(&station())), 1, "one is gone");
+        assert_eq!(skies.edited(&Skies::of(&station())), 1, "one is gone");
     }
 }

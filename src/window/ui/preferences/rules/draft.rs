@@ -1,11 +1,15 @@
 //! Draft of the automation rules.
 
+use std::borrow::Cow;
+
 use super::cannot_act::{self, Around};
 use crate::{
     station::{AntennaId, AutomationRule, HoursOfDay, RuleOf, Station, SunIs, Then},
     ui::preferences::{
-        draft::Finding,
-        fields::{Counts, Description, Placed, Problem, Typed, placed},
+        draft::Draft,
+        fields::{Description, Placed, Problem, Typed, placed},
+        search::{self, Spot},
+        section::{DraftSection, Finding},
     },
 };
 
@@ -88,8 +92,7 @@ impl RuleDraft {
         if self.is_removed {
             return 1;
         }
-        let fields = self.typed.fields.iter().filter(|field| field.entry.is_edited()).count();
-        fields
+        self.typed.edited()
             + usize::from(was.is_on != self.is_on)
             + usize::from(was.antenna != self.antenna)
             + usize::from(was.of != self.of)
@@ -181,17 +184,14 @@ impl RulesDraft {
         !self.0.iter().filter_map(|rule| rule.was).is_sorted()
     }
 
-    /// Edits, of which another order is one, and rules that cannot be saved.
-    pub(in crate::ui::preferences) fn counts(&self, before: &Self, around: &Around<'_>) -> Counts {
+    /// Edits, of which another order is one.
+    pub(super) fn edited(&self, before: &Self) -> usize {
         let edited = self.0.iter().map(|rule| rule.edits(before)).sum::<usize>();
-        Counts {
-            edited: edited + usize::from(self.is_reordered()),
-            wrong: self.findings(around).len(),
-        }
+        edited + usize::from(self.is_reordered())
     }
 
     /// The rules that would not be read back from the station file.
-    pub(in crate::ui::preferences) fn findings(&self, around: &Around<'_>) -> Vec<Finding> {
+    pub(super) fn wrong(&self, around: &Around<'_>) -> Vec<Finding> {
         let of = |index: usize| {
             let number = self.number(index)?;
             let why = cannot_act::wrong(self.0.get(index)?, around)?;
@@ -202,15 +202,31 @@ impl RulesDraft {
     }
 
     /// The rules, if all of them are right.
-    pub(in crate::ui::preferences) fn read(
-        &self,
-        around: &Around<'_>,
-    ) -> Option<Vec<AutomationRule>> {
-        if !self.findings(around).is_empty() {
+    pub(super) fn read(&self, around: &Around<'_>) -> Option<Vec<AutomationRule>> {
+        if !self.wrong(around).is_empty() {
             return None;
         }
         let kept = self.0.iter().filter(|rule| !rule.is_removed);
         kept.map(|rule| rule.read(around)).collect()
+    }
+}
+
+impl DraftSection for RulesDraft {
+    fn edits(&self, before: &Draft) -> usize {
+        self.edited(&before.rules)
+    }
+
+    fn findings(&self, draft: &Draft) -> Vec<Finding> {
+        self.wrong(&draft.around_rules())
+    }
+
+    fn labels(&self) -> Vec<(Cow<'static, str>, Spot)> {
+        search::on_page(&super::LABELS)
+    }
+
+    fn put_into(&self, draft: &Draft, station: &mut Station) -> Option<()> {
+        station.rules = self.read(&draft.around_rules())?;
+        Some(())
     }
 }
 

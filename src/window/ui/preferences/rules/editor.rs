@@ -97,7 +97,7 @@ fn antenna(
     (why, is_edited): (Option<CannotAct>, bool),
 ) {
     let wrong = (why == Some(CannotAct::NoAntenna)).then_some("Is removed");
-    form::row_of(ui, ("rule", "Antenna"), wrong, is_edited, |ui| {
+    form::custom_row(ui, ("rule", "Antenna"), wrong, is_edited, |ui| {
         let chosen = rule.antenna.map_or("All", |id| around.antenna(id).unwrap_or("Removed"));
         drop_down(ui, "antenna", chosen, &format!("Antenna, {chosen}"), |ui| {
             ui.selectable_value(&mut rule.antenna, None, "All");
@@ -137,7 +137,7 @@ fn satellites(
         Some(CannotAct::NoGroup) => Some("Choose a group"),
         _ => None,
     };
-    form::row_of(ui, ("rule", "Satellites"), wrong, is_edited, |ui| {
+    form::custom_row(ui, ("rule", "Satellites"), wrong, is_edited, |ui| {
         ui.vertical(|ui| {
             let present = match rule.of {
                 Of::All => 0,

@@ -188,7 +188,7 @@ fn a_rule_whose_antenna_or_group_is_removed_cannot_be_saved() {
     assert_eq!(whole.rules, [of_group("Weather"), genius]);
     draft.toggle_removed(1);
     assert_eq!(draft.read(), None);
-    let finding = &draft.rules.findings(&draft.around_rules())[0];
+    let finding = &draft.rules.wrong(&draft.around_rules())[0];
     assert_eq!(finding.sentence(), "Rule 2 cannot be saved: its antenna is removed.");
     draft.rules.get_mut(1).unwrap().is_removed = true;
     assert_eq!(draft.read().unwrap().rules, [of_group("Weather")]);
@@ -216,7 +216,7 @@ fn another_order_is_one_edit_and_duplicates_are_off() {
     let saved = station(vec![of_satellite(ISS), of_group("Weather"), rule()]);
     let before = RulesDraft::of(&saved);
     with(&saved, |rules, around| {
-        let edited = |rules: &RulesDraft| rules.counts(&before, around).edited;
+        let edited = |rules: &RulesDraft| rules.edited(&before);
         assert_eq!(edited(rules), 0);
         rules.reorder(2, 0);
         assert_eq!(edited(rules), 1);

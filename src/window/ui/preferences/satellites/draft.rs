@@ -1,13 +1,18 @@
 //! Draft of the priorities and limits of the favourites, and of the groups.
 
+use std::borrow::Cow;
+
+use super::followed::{self, Followed};
 use crate::{
     station::{
         Antenna, AntennaId, Favourite, Favourites, PassLimits, Priority, SatelliteGroup, Station,
     },
     ui::preferences::{
         connection_fields::not_empty,
-        draft::Finding,
-        fields::{Counts, Description, Placed, Problem, Standing, Typed, placed},
+        draft::Draft,
+        fields::{Description, Placed, Standing, Typed, placed},
+        search::{self, Spot},
+        section::{DraftSection, Finding},
     },
 };
 
@@ -20,6 +25,7 @@ const PRIORITIES: [Option<Priority>; 6] = {
 
 #[derive(PartialEq)]
 pub(in crate::ui::preferences) struct SatellitesDraft {
+    pub(super) followed: Typed<Followed>,
     /// Own settings of each favourite. A field of the station lists the favourites; the settings of
     /// one that left are kept until it is back.
     own: Favourites,
@@ -73,12 +79,8 @@ impl GroupDraft {
 
     /// The name as typed; that of before while there is none.
     pub(in crate::ui::preferences) fn title(&self) -> String {
-        let typed = self.typed_name().trim();
+        let typed = self.named.name().trim();
         if typed.is_empty() { self.named.before().name.clone() } else { typed.to_owned() }
-    }
-
-    fn typed_name(&self) -> &str {
-        self.named.fields.first().map_or("", |field| field.entry.text.as_str())
     }
 
     pub(super) fn priority(&self) -> Option<Priority> {
@@ -92,7 +94,7 @@ impl GroupDraft {
 
     #[cfg(test)]
     pub(in crate::ui::preferences) fn rename(&mut self, name: &str) {
-        self.named.write("Name", name.to_owned());
+        self.named.type_in("Name", name.to_owned());
     }
 
     fn edits(&self) -> usize {
@@ -100,8 +102,9 @@ impl GroupDraft {
         if self.is_removed {
             return 1;
         }
-        let fields = self.named.fields.iter().filter(|field| field.entry.is_edited()).count();
-        fields + usize::from(self.has_other_satellites()) + usize::from(was.limits != self.limits)
+        self.named.edited()
+            + usize::from(self.has_other_satellites())
+            + usize::from(was.limits != self.limits)
     }
 }
 
@@ -122,9 +125,15 @@ fn fields() -> Vec<Placed<Named>> {
 impl SatellitesDraft {
     pub(in crate::ui::preferences) fn of(station: &Station) -> Self {
         Self {
+            followed: Typed::of(Followed::of(station), followed::fields()),
             own: station.favourites.clone(),
             groups: station.groups.iter().map(GroupDraft::of).collect(),
         }
+    }
+
+    /// Catalog numbers of the favourites as typed.
+    pub(in crate::ui::preferences) fn favourites(&self) -> Vec<u32> {
+        self.followed.read().0.favourites.numbers()
     }
 
     /// Returns the own settings of a favourite.
@@ -160,7 +169,7 @@ impl SatellitesDraft {
 
     /// Adds a group without satellites and returns its index.
     pub(super) fn add_group(&mut self) -> usize {
-        let taken: Vec<&str> = self.groups.iter().map(GroupDraft::typed_name).collect();
+        let taken: Vec<&str> = self.names().collect();
         let name = Antenna::free_name("Group", &taken);
         self.groups.push(GroupDraft::added(name));
         self.groups.len() - 1
@@ -177,49 +186,61 @@ impl SatellitesDraft {
         found
     }
 
+    fn names(&self) -> impl Iterator<Item = &str> {
+        self.groups.iter().map(|group| group.named.name())
+    }
+
     /// Standings of the fields of a group: its name differs from those of the others as well.
     pub(super) fn standings(&self, index: usize) -> Vec<Standing> {
         let Some(group) = self.groups.get(index) else { return Vec::new() };
-        let (_, mut standings) = group.named.read();
-        let own = group.typed_name();
-        let has_twin = self
-            .kept()
-            .any(|(other, group)| other != index && Antenna::same_name(group.typed_name(), own));
-        if let Some(Standing { problem: problem @ None, .. }) = standings.first_mut()
-            && has_twin
-        {
-            let taken: Vec<&str> = self.groups.iter().map(GroupDraft::typed_name).collect();
-            let free = Antenna::free_name(own.trim(), &taken);
-            let why = "must differ from those of the other groups";
-            *problem = Some(Problem { would_do: Some(free), ..Problem::of(why) });
-        }
-        standings
+        let others = self.kept().filter(|(other, _)| *other != index);
+        let taken: Vec<&str> = self.names().collect();
+        let why = "must differ from those of the other groups";
+        group.named.standings_among(others.map(|(_, other)| other.named.name()), &taken, why)
     }
 
-    pub(in crate::ui::preferences) fn findings(&self) -> Vec<Finding> {
-        let of = |(index, group): (usize, &GroupDraft)| {
+    /// The groups whose names cannot be used.
+    fn groups_findings(&self) -> impl Iterator<Item = Finding> {
+        self.kept().filter_map(|(index, group)| {
             let problem =
                 self.standings(index).into_iter().find_map(|standing| standing.problem)?;
             Some(Finding { label: format!("Name of the group {}", group.title()), problem })
-        };
-        self.kept().filter_map(of).collect()
+        })
     }
+}
 
-    /// Edits, with each priority and each row of limits counted as one, and unusable names.
-    pub(in crate::ui::preferences) fn counts(&self, before: &Self) -> Counts {
+impl DraftSection for SatellitesDraft {
+    /// Each priority and each row of limits is one.
+    fn edits(&self, before: &Draft) -> usize {
         let of_favourite = |own: &Favourite| {
-            let was = before.own(own.satellite);
+            let was = before.satellites.own(own.satellite);
             usize::from(was.priority != own.priority) + usize::from(was.limits != own.limits)
         };
-        let edited = self.own.iter().map(of_favourite).sum::<usize>()
-            + self.groups.iter().map(GroupDraft::edits).sum::<usize>();
-        Counts { edited, wrong: self.findings().len() }
+        self.followed.edited()
+            + self.own.iter().map(of_favourite).sum::<usize>()
+            + self.groups.iter().map(GroupDraft::edits).sum::<usize>()
     }
 
-    /// Puts the draft into `station`, which has its favourites and antennas already, if every
-    /// field is right. Limits to antennas that are gone do not name them any more.
-    pub(in crate::ui::preferences) fn put_into(&self, station: &mut Station) -> Option<()> {
-        if !self.findings().is_empty() {
+    fn findings(&self, _: &Draft) -> Vec<Finding> {
+        let mut all = self.followed.findings_in(&self.followed.read().1);
+        all.extend(self.groups_findings());
+        all
+    }
+
+    fn labels(&self) -> Vec<(Cow<'static, str>, Spot)> {
+        let mut all = self.followed.used_labels();
+        all.extend(search::on_page(&super::LABELS));
+        all.extend(self.kept().map(|(_, group)| (group.title().into(), Spot::Page)));
+        all
+    }
+
+    fn write(&mut self, label: &str, text: String) {
+        self.followed.type_in(label, text);
+    }
+
+    /// Limits to antennas that are gone do not name them any more.
+    fn put_into(&self, _: &Draft, station: &mut Station) -> Option<()> {
+        if self.groups_findings().next().is_some() {
             return None;
         }
         let ids: Vec<AntennaId> = station.antennas.iter().map(|antenna| antenna.id).collect();
@@ -230,6 +251,8 @@ impl SatellitesDraft {
                 .map(|named| named.iter().copied().filter(|id| ids.contains(id)).collect()),
             ..limits.clone()
         };
+        let Followed { favourites, frequencies } = self.followed.valid()?;
+        (station.favourites, station.frequencies) = (favourites, frequencies);
         for number in station.favourites.numbers() {
             let own = self.own(number);
             station.favourites.put(Favourite { limits: kept(&own.limits), ..own });

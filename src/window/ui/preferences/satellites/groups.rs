@@ -137,7 +137,7 @@ fn edit(
     let Some(group) = draft.group_mut(index).filter(|group| !group.is_removed) else { return };
     ui.add_space(4.0);
     form::rows(ui, "group", (&mut group.named, &standings), GROUP, &mut state.sought);
-    form::row_of(ui, ("group", "Satellites"), None, group.has_other_satellites(), |ui| {
+    form::custom_row(ui, ("group", "Satellites"), None, group.has_other_satellites(), |ui| {
         ui.vertical(|ui| {
             members(ui, around, &group.title(), &mut group.satellites);
             let (favourites, taken) = (&around.favourites, &group.satellites);
