@@ -11,7 +11,7 @@ use crate::{
         icons::{self, Icon},
         replay, text, theme,
         widgets::{
-            button::{Button, HEIGHT as BUTTON},
+            button::{self, Button},
             paint,
         },
         words,
@@ -87,14 +87,10 @@ pub(super) fn show(
         0 => "Apply (Ctrl Enter)".to_owned(),
         ready => format!("Apply {ready} {changes} (Ctrl Enter)"),
     };
-    let place = |right: f32, width: f32| {
-        let min = pos2(right - width, rect.center().y - BUTTON / 2.0);
-        Rect::from_min_size(min, vec2(width, BUTTON))
-    };
     let apply = Button::primary(&words).locked(!can_apply);
-    let applying = place(rect.right() - PADDING, apply.width(ui));
     let revert = Button::normal("Revert").locked(count.edited == 0);
-    let reverting = place(applying.left() - 8.0, revert.width(ui));
+    let right = rect.right_center() - vec2(PADDING, 0.0);
+    let [reverting, applying] = button::row(right, [revert.width(ui), apply.width(ui)]);
     if rect.width() >= NARROW {
         let (said, colour) = pending(ui, unit, form);
         let left = rect.left() + rect.width() * REPORT;

@@ -16,7 +16,7 @@ use crate::{
         text, theme,
         widgets::{
             form::{ROW, text_field},
-            segmented::{self, Segment},
+            segmented,
         },
         words::sentence,
     },
@@ -200,15 +200,9 @@ pub(in crate::ui) fn show(
 /// The choice of the kind of source.
 fn kinds(ui: &mut Ui, state: &mut AddState) {
     let kinds = [Kind::Web, Kind::File, Kind::Folder, Kind::SpaceTrack];
-    let segments = kinds.map(|kind| {
-        let is_chosen = kind == state.kind;
-        (kind.word(), if is_chosen { Segment::Chosen } else { Segment::Free })
-    });
     let (place, _) = ui.allocate_exact_size(vec2(KINDS, ROW), Sense::hover());
-    let clicked = segmented::show(ui, "kind", place, "Kind of source", &segments);
-    if let Some(kind) = clicked.and_then(|index| kinds.get(index)) {
-        state.kind = *kind;
-    }
+    let kinds = kinds.map(|kind| (kind.word(), kind));
+    segmented::choose(ui, "kind", place, "Kind of source", &kinds, &mut state.kind);
 }
 
 fn suggestions(ui: &mut Ui, sources: &Sources, state: &mut AddState) {

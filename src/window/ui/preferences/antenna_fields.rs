@@ -3,7 +3,7 @@
 
 use super::{
     connection_fields,
-    fields::{Description, Place, Placed, placed},
+    fields::{Description, Placed, placed},
 };
 use crate::{
     astro::{PointingModel, Term},
@@ -28,7 +28,7 @@ pub(super) fn all(spec: &'static ControllerSpec) -> Vec<Placed<Antenna>> {
     all.extend(placed(MOUNT, beam()));
     all.extend(placed(MOUNT, limits()));
     all.extend(connection_fields::tables(spec));
-    all.extend(placed(POINTING, pointing()));
+    all.extend(placed(POINTING, Term::ALL.map(pointing)));
     all.extend(placed(FOLLOWING, follow()));
     all.extend(placed(FOLLOWING, outage()));
     all.extend(placed(FOLLOWING, [connects_at_start()]));
@@ -119,7 +119,7 @@ fn limits() -> [Of; 3] {
         Of::number("Minimum elevation", ranges::ELEVATION_DEG, "°", |antenna| {
             Some(&mut antenna.limits.minimum_elevation_deg)
         })
-        .noted(|_| Some("The antenna is never sent below it.".to_owned())),
+        .about("The antenna is never sent below it."),
         Of::number("Maximum rate", ranges::MAXIMUM_RATE_DEG_S, "°/s", |antenna| {
             Some(&mut antenna.limits.maximum_rate_deg_s)
         }),
@@ -141,41 +141,21 @@ fn poll() -> [Of; 2] {
     ]
 }
 
-/// Pointing terms of an az/el mount: the difference between the axes and the direction of the beam.
-fn pointing() -> [Of; 8] {
-    [
-        Of::number(pointing_term(Term::AzimuthOffset), ranges::POINTING_TERM_DEG, "°", |antenna| {
-            Some(&mut model(antenna)?.azimuth_offset_deg)
-        })
-        .noted(|antenna| Some(about_model(antenna).to_owned())),
-        of_elevation(pointing_term(Term::ElevationOffset), |antenna| {
-            Some(&mut model(antenna)?.elevation_offset_deg)
-        }),
-        of_elevation(pointing_term(Term::TiltNorth), |antenna| {
-            Some(&mut model(antenna)?.tilt_north_deg)
-        }),
-        of_elevation(pointing_term(Term::TiltEast), |antenna| {
-            Some(&mut model(antenna)?.tilt_east_deg)
-        }),
-        of_elevation(pointing_term(Term::Collimation), |antenna| {
-            Some(&mut model(antenna)?.collimation_deg)
-        }),
-        of_elevation(pointing_term(Term::NonPerpendicularity), |antenna| {
-            Some(&mut model(antenna)?.non_perpendicularity_deg)
-        }),
-        Of::number(
-            pointing_term(Term::ElevationScale),
-            ranges::POINTING_SCALE,
-            "°/°",
-            |antenna| Some(&mut model(antenna)?.elevation_scale),
-        )
-        .when(has_elevation),
-        of_elevation(pointing_term(Term::Sag), |antenna| Some(&mut model(antenna)?.sag_deg)),
-    ]
-}
-
-fn of_elevation(label: &'static str, term: Place<Antenna, f64>) -> Of {
-    Of::number(label, ranges::POINTING_TERM_DEG, "°", term).when(has_elevation)
+/// A pointing term of an az/el mount: the difference between the axes and the direction of the beam.
+fn pointing(term: Term) -> Of {
+    let (range, unit) = if term == Term::ElevationScale {
+        (ranges::POINTING_SCALE, "°/°")
+    } else {
+        (ranges::POINTING_TERM_DEG, "°")
+    };
+    let field = Of::number(pointing_term(term), range, unit, move |antenna| {
+        Some(model(antenna)?.place(term))
+    });
+    if term == Term::AzimuthOffset {
+        field.noted(|antenna| Some(about_model(antenna).to_owned()))
+    } else {
+        field.when(has_elevation)
+    }
 }
 
 /// The model of an antenna whose tracks Azel leads by an azimuth axis.
@@ -312,19 +292,13 @@ fn watch() -> [Of; 2] {
             &[Monitor::Stop, Monitor::Alarm],
             |antenna| &mut antenna.monitor,
         )
-        .noted(|_| {
-            let words = "Also if they come too close to the Sun. Others are the panel, other \
+        .about(
+            "Also if they come too close to the Sun. Others are the panel, other \
                          programs and the unit's own program; motion commanded by Azel is always \
-                         stopped.";
-            Some(words.to_owned())
-        }),
+                         stopped.",
+        ),
         Of::number("Allowed sway", ranges::SWAY_DEG, "°", |antenna| Some(&mut antenna.sway_deg))
-            .noted(|_| {
-                Some(
-                    "How much the angle may change between two readings of an antenna at rest."
-                        .to_owned(),
-                )
-            }),
+            .about("How much the angle may change between two readings of an antenna at rest."),
     ]
 }
 

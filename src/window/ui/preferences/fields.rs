@@ -82,7 +82,7 @@ impl<T> Description<T> {
         label: &'static str,
         range: RangeInclusive<f64>,
         unit: &'static str,
-        place: Place<T, f64>,
+        place: impl Fn(&mut T) -> Option<&mut f64> + Copy + 'static,
     ) -> Self
     where
         T: 'static,
@@ -186,6 +186,11 @@ impl<T> Description<T> {
     /// Adds a note below the field.
     pub(super) fn noted(self, note: impl Fn(&T) -> Option<String> + 'static) -> Self {
         Self { note: Box::new(note), ..self }
+    }
+
+    /// Adds a note below the field that always holds.
+    pub(super) fn about(self, words: &'static str) -> Self {
+        self.noted(move |_| Some(words.to_owned()))
     }
 
     /// Text of the value, if `whole` has it.

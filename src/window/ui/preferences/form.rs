@@ -18,8 +18,7 @@ use crate::{
             card as card_frame,
             form::{self as parts, GAP, LABEL, Mark, ROW, labelled},
             input::{focus_to_replace, select_when_tabbed},
-            paint,
-            segmented::{self, Segment},
+            paint, segmented,
         },
     },
 };
@@ -147,13 +146,7 @@ pub(super) fn choice<T: Copy + PartialEq>(
     choices: &[(&str, T)],
     value: &mut T,
 ) {
-    let state = |of: T| if of == *value { Segment::Chosen } else { Segment::Free };
-    let segments: Vec<_> = choices.iter().map(|(word, of)| (*word, state(*of))).collect();
-    let (clicked, _) =
-        labelled(ui, label, LABEL, |ui, _| segments_of(ui, (label, label), &segments).0);
-    if let Some((_, of)) = clicked.and_then(|index| choices.get(index)) {
-        *value = *of;
-    }
+    labelled(ui, label, LABEL, |ui, _| segments(ui, (label, label), choices, value));
 }
 
 fn row<T>(
@@ -183,8 +176,10 @@ fn row<T>(
             (Mark::Plain | Mark::Edited, _) if standing.is_new => (Mark::Plain, "New".to_owned()),
             state => state,
         };
-        let problem = standing.problem.as_ref();
-        let name = problem.map_or_else(|| words.clone(), |of| format!("{label} {}.", of.why));
+        let name = match &standing.problem {
+            Some(problem) => format!("{label} {}.", problem.why),
+            None => words.clone(),
+        };
         parts::state(ui, (group, &*label), state_room(ui, place, end), mark, [&words, &name]);
     }
     if let Some(problem) = standing.problem.as_ref().filter(|_| response.has_focus()) {
@@ -340,12 +335,11 @@ fn words_choice(
     words: &[&str],
     border: Option<Color32>,
 ) -> Response {
-    let state = |word: &str| if word == text { Segment::Chosen } else { Segment::Free };
-    let segments: Vec<(&str, Segment)> = words.iter().map(|word| (*word, state(word))).collect();
-    let (clicked, response) = segments_of(ui, salt, &segments);
-    if let Some(word) = clicked.and_then(|index| words.get(index)) {
-        (*word).clone_into(text);
-    }
+    let choices: Vec<(&str, &str)> = words.iter().map(|word| (*word, *word)).collect();
+    let before = text.clone();
+    let mut chosen = before.as_str();
+    let response = segments(ui, salt, &choices, &mut chosen);
+    chosen.clone_into(text);
     if let Some(colour) = border {
         let stroke = Stroke::new(2.0, colour);
         ui.painter().rect_stroke(response.rect, RADIUS, stroke, StrokeKind::Outside);
@@ -354,14 +348,16 @@ fn words_choice(
 }
 
 /// Segments as wide as their words need.
-fn segments_of(
+fn segments<T: Copy + PartialEq>(
     ui: &mut Ui,
     (group, label): (&str, &str),
-    segments: &[(&str, Segment)],
-) -> (Option<usize>, Response) {
+    choices: &[(&str, T)],
+    value: &mut T,
+) -> Response {
     let width = |word: &str| paint::text_width(ui, word, text::body_medium()) + SEGMENT;
-    let width: f32 = segments.iter().map(|(word, _)| width(word)).sum();
+    let width: f32 = choices.iter().map(|(word, _)| width(word)).sum();
     let size = vec2(width.max(WORDS[0]).min(ui.available_width() - ROW), ROW);
     let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
-    (segmented::show(ui, &format!("{group} {label}"), rect, label, segments), response)
+    segmented::choose(ui, &format!("{group} {label}"), rect, label, choices, value);
+    response
 }

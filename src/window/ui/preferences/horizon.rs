@@ -28,8 +28,7 @@ use crate::{
         widgets::{
             button::{self, Button, HEIGHT as BUTTON, SMALL_HEIGHT},
             check_box::{self, CheckBox},
-            paint,
-            segmented::{self, Segment},
+            paint, segmented,
         },
     },
 };
@@ -278,30 +277,23 @@ fn view_bar(
     let tabs_at = (!is_wide).then(|| button::row_before(&mut right, BUTTON, [TABS]));
     let shown = state.antenna.unwrap_or(model.selected_antenna);
     if model.antennas.len() > 1 && !model.demo {
-        let names: Vec<(&str, Segment)> = model
-            .antennas
-            .iter()
-            .enumerate()
-            .map(|(index, antenna)| (antenna.config.name.as_str(), chosen(index == shown)))
-            .collect();
+        let antennas = model.antennas.iter().zip(0..);
+        let names: Vec<(&str, usize)> =
+            antennas.map(|(antenna, index)| (antenna.config.name.as_str(), index)).collect();
         let wanted: f32 = names
             .iter()
             .map(|(name, _)| paint::text_width(ui, name, text::body_medium()) + 28.0)
             .sum();
         let width = wanted.min(right.x - bar.left() - 240.0).max(60.0);
         let [room] = button::row_before(&mut right, BUTTON, [width]);
-        if let Some(index) = segmented::show(ui, "horizon antenna", room, "Antenna", &names) {
+        let mut index = shown;
+        if segmented::choose(ui, "horizon antenna", room, "Antenna", &names, &mut index) {
             state.antenna = Some(index);
         }
     }
     if let Some([place]) = tabs_at {
-        let tabs = [("Plot", state.tab == Tab::Plot), ("Table", state.tab == Tab::Table)];
-        let tabs = tabs.map(|(word, is_on)| (word, chosen(is_on)));
-        match segmented::show(ui, "horizon tab", place, "Shown", &tabs) {
-            Some(0) => state.tab = Tab::Plot,
-            Some(_) => state.tab = Tab::Table,
-            None => {}
-        }
+        let tabs = [("Plot", Tab::Plot), ("Table", Tab::Table)];
+        segmented::choose(ui, "horizon tab", place, "Shown", &tabs, &mut state.tab);
     }
     if record.show(ui, "record", record_at).clicked() && state.recording.is_none() {
         state.recording = Some(Recording::over(&skies.mask));
@@ -335,10 +327,6 @@ fn view_bar(
     paint::text_in(ui, below, Align2::LEFT_CENTER, &what, text::small(), t.t2);
 }
 
-fn chosen(is_on: bool) -> Segment {
-    if is_on { Segment::Chosen } else { Segment::Free }
-}
-
 fn tool_bar(ui: &mut Ui, bar: Rect, skies: &mut Skies, state: &mut HorizonState) {
     let t = theme::tokens(ui);
     ui.painter().rect_filled(bar, 0.0, t.bg2);
@@ -349,11 +337,8 @@ fn tool_bar(ui: &mut Ui, bar: Rect, skies: &mut Skies, state: &mut HorizonState)
         ("Polygon", Tool::Polygon),
         ("Rectangle", Tool::Rectangle),
     ];
-    let segments = tools.map(|(word, tool)| (word, chosen(state.tool == tool)));
     let place = row.with_max_x(row.left() + 304.0_f32.min(row.width() * 0.6));
-    let clicked = segmented::show(ui, "horizon tool", place, "Tool", &segments);
-    if let Some((_, tool)) = clicked.and_then(|index| tools.get(index)) {
-        state.tool = *tool;
+    if segmented::choose(ui, "horizon tool", place, "Tool", &tools, &mut state.tool) {
         state.drawing.clear();
     }
     let undo = Button::normal("Undo").locked(!state.history.can_undo());

@@ -94,24 +94,21 @@ impl DraftSection for NoticesDraft {
 
 fn fields() -> Vec<Placed<Telling>> {
     let telling = [
-        flag("Notifications", |telling| &mut telling.notices.notifications).noted(|_| {
-            let words = "The desktop shows new alarms and reminders, and top-priority alarms \
-                         even if this is off.";
-            Some(words.to_owned())
-        }),
+        flag("Notifications", |telling| &mut telling.notices.notifications).about(
+            "The desktop shows new alarms and reminders, and top-priority alarms \
+                         even if this is off.",
+        ),
         flag("Sounds", |telling| &mut telling.notices.sounds)
-            .noted(|_| Some("Top-priority alarms sound even if this is off.".to_owned())),
+            .about("Top-priority alarms sound even if this is off."),
         tones(WARNINGS, |telling| &mut telling.notices.warning_tones)
-            .noted(|_| Some("Alarms about something that is wrong now.".to_owned())),
-        tones(CAUTIONS, |telling| &mut telling.notices.caution_tones).noted(|_| {
-            Some("Alarms about something that was not done or will go wrong.".to_owned())
-        }),
+            .about("Alarms about something that is wrong now."),
+        tones(CAUTIONS, |telling| &mut telling.notices.caution_tones)
+            .about("Alarms about something that was not done or will go wrong."),
         tones(BEFORE_PASSES, |telling| &mut telling.notices.reminder_tones),
-        flag("Quiet hours", |telling| &mut telling.is_quiet).noted(|_| {
-            let words = "No notifications or sounds then, except for top-priority alarms. The \
-                         window shows all alarms.";
-            Some(words.to_owned())
-        }),
+        flag("Quiet hours", |telling| &mut telling.is_quiet).about(
+            "No notifications or sounds then, except for top-priority alarms. The \
+                         window shows all alarms.",
+        ),
         Description::time("Quiet from", |telling: &mut Telling| &mut telling.hours.from)
             .when(|telling| telling.is_quiet),
         Description::time("Quiet to", |telling: &mut Telling| &mut telling.hours.to)
@@ -120,7 +117,7 @@ fn fields() -> Vec<Placed<Telling>> {
                 let HoursOfDay { from, to } = telling.hours;
                 if from == to { Err("must differ from Quiet from") } else { Ok(()) }
             })
-            .noted(|_| Some("By the local time of this computer.".to_owned())),
+            .about("By the local time of this computer."),
     ];
     let before = Description::number(
         "Remind before AOS",

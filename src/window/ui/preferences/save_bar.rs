@@ -14,7 +14,7 @@ use crate::{
         replay, text, theme,
         tokens::Tokens,
         widgets::{
-            button::{Button, HEIGHT},
+            button::{self, Button},
             hold_button, paint,
             told::Tone,
         },
@@ -63,14 +63,10 @@ pub(super) fn show(
         .locked(!can_save)
         .locked_by(lock);
     let revert = Button::normal("Revert").locked(!is_edited);
-    let place = |right: f32, width: f32| {
-        let min = pos2(right - width, rect.center().y - HEIGHT / 2.0);
-        Rect::from_min_size(min, vec2(width, HEIGHT))
-    };
     // The button keeps its place when the demo ends.
     let width = if holds { HOLD } else { Button::primary(SAVE_IN_DEMO).width(ui) };
-    let saving = place(rect.right() - PADDING, width);
-    let reverting = place(saving.left() - 8.0, revert.width(ui));
+    let right = rect.right_center() - vec2(PADDING, 0.0);
+    let [reverting, saving] = button::row(right, [revert.width(ui), width]);
     let room = rect.with_min_x(rect.left() + PADDING).with_max_x(reverting.left() - PADDING);
     let told = outcome(ui, model, (draft, before), state);
     lines(ui, room, &checks, told, can_save && !holds);

@@ -122,7 +122,7 @@ fn refraction() -> [Of; 5] {
             Some(&mut ground.refraction.pressure_hpa)
         })
         .when(is_measured)
-        .noted(|_| Some("At the height of the site, not reduced to sea level.".to_owned())),
+        .about("At the height of the site, not reduced to sea level."),
         Of::number("Temperature", Refraction::TEMPERATURE_C, "°C", |ground| {
             Some(&mut ground.refraction.temperature_c)
         })
@@ -138,11 +138,10 @@ fn refraction() -> [Of; 5] {
         Of::choice("AOS and LOS", &[(0, "Geometric"), (1, "Apparent")], &IN_PASSES, |ground| {
             &mut ground.refraction.in_passes
         })
-        .noted(|_| {
-            let words = "Geometric times are those of other lists. Apparent ones begin some \
-                         seconds earlier and end as much later.";
-            Some(words.to_owned())
-        }),
+        .about(
+            "Geometric times are those of other lists. Apparent ones begin some \
+                         seconds earlier and end as much later.",
+        ),
     ]
 }
 
@@ -162,15 +161,14 @@ fn passes() -> [Of; 2] {
         Of::number("AOS elevation", ranges::ELEVATION_DEG, "°", |ground| {
             Some(&mut ground.station.aos_elevation_deg)
         })
-        .noted(|_| {
-            let words = "A pass begins and ends there. The mask and an antenna's own minimum \
-                         elevation shorten it.";
-            Some(words.to_owned())
-        }),
+        .about(
+            "A pass begins and ends there. The mask and an antenna's own minimum \
+                         elevation shorten it.",
+        ),
         Of::number("Elevation floor", ranges::ELEVATION_FLOOR_DEG, "°", |ground| {
             Some(&mut ground.station.elevation_floor_deg)
         })
-        .noted(|_| Some("A pass whose maximum stays below it is not listed.".to_owned())),
+        .about("A pass whose maximum stays below it is not listed."),
     ]
 }
 
@@ -189,14 +187,11 @@ fn record() -> [Of; 2] {
         Of::number("Keep positions and traffic", ranges::RAW_DAYS, "days", |ground| {
             Some(&mut ground.station.record.raw_days)
         })
-        .noted(|_| Some("What was measured, and what went over the links.".to_owned())),
+        .about("What was measured, and what went over the links."),
         Of::number("Keep the rest", ranges::RECORD_YEARS, "years", |ground| {
             Some(&mut ground.station.record.years)
         })
-        .noted(|_| {
-            let words = "Reports and tracks of passes, commands, events, alarms, changes.";
-            Some(words.to_owned())
-        }),
+        .about("Reports and tracks of passes, commands, events, alarms, changes."),
     ]
 }
 

@@ -18,7 +18,7 @@ use crate::{
         widgets::{
             card,
             form::{ROW, text_field},
-            segmented::{self, Segment},
+            segmented,
         },
     },
 };
@@ -192,14 +192,9 @@ pub(super) fn show(ui: &mut Ui, form: &mut Form) {
             if response.on_hover_text(name).clicked() {
                 factory_user.clone_into(&mut form.user);
             }
-            let segments = [("Password", false), ("Key file", true)].map(|(word, uses_key)| {
-                let is_chosen = uses_key == form.uses_key;
-                (word, if is_chosen { Segment::Chosen } else { Segment::Free })
-            });
+            let ways = [("Password", false), ("Key file", true)];
             let (place, _) = ui.allocate_exact_size(vec2(LOG_IN, ROW), Sense::hover());
-            if let Some(index) = segmented::show(ui, "log in", place, "Log-in", &segments) {
-                form.uses_key = index == 1;
-            }
+            segmented::choose(ui, "log in", place, "Log-in", &ways, &mut form.uses_key);
         });
         if form.uses_key {
             text_field(ui, ("Key file", "/home/…/.ssh/id_ed25519"), WIDTHS, &mut form.key_file);

@@ -52,6 +52,26 @@ pub fn show(
     show_with(ui, salt, rect, name, segments, Arrows::Choose)
 }
 
+/// Shows a segment for each of these values, of which `value` is chosen. Returns `true` when one was
+/// clicked or chosen by an arrow key.
+pub fn choose<T: Copy + PartialEq>(
+    ui: &Ui,
+    salt: &str,
+    rect: Rect,
+    name: &str,
+    choices: &[(&str, T)],
+    value: &mut T,
+) -> bool {
+    let state = |choice: T| if choice == *value { Segment::Chosen } else { Segment::Free };
+    let segments: Vec<(&str, Segment)> =
+        choices.iter().map(|(word, choice)| (*word, state(*choice))).collect();
+    let chosen = show(ui, salt, rect, name, &segments).and_then(|index| choices.get(index));
+    if let Some((_, choice)) = chosen {
+        *value = *choice;
+    }
+    chosen.is_some()
+}
+
 /// Like [`show`] for choices that are carried out at once and may move an antenna: an arrow key that
 /// passes over a segment must not command it.
 pub fn show_commands(

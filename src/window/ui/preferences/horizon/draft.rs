@@ -145,8 +145,8 @@ impl Corner {
 
     /// State of both fields, with the words beside them.
     pub(super) fn state(&self) -> (Mark, String) {
-        let was: Vec<&str> =
-            [&self.azimuth, &self.elevation].into_iter().filter_map(|of| of.entry.was()).collect();
+        let entries = [&self.azimuth.entry, &self.elevation.entry];
+        let was: Vec<&str> = entries.into_iter().filter_map(Entry::was).collect();
         match standing(self.problem(), (!was.is_empty()).then(|| was.join(", ")).as_deref()) {
             (Mark::Plain, _) if self.azimuth.entry.is_new() => (Mark::Edited, "New".to_owned()),
             state => state,
@@ -383,8 +383,8 @@ impl DraftSection for Skies {
         let zones = self.zones.iter().enumerate();
         let zones =
             zones.map(|(index, zone)| (zone.name.trim().to_owned().into(), Chosen::Zone(index)));
-        let all = fixed.map(|(name, of)| (name.into(), of)).into_iter().chain(zones);
-        all.map(|(name, of)| (name, Spot::Horizon(of))).collect()
+        let all = fixed.map(|(name, chosen)| (name.into(), chosen)).into_iter().chain(zones);
+        all.map(|(name, chosen)| (name, Spot::Horizon(chosen))).collect()
     }
 
     fn put_into(&self, draft: &Draft, station: &mut Station) -> Option<()> {

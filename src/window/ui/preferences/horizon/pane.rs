@@ -24,8 +24,7 @@ use crate::{
             check_box::CheckBox,
             form::{self, Mark},
             input::Input,
-            list, paint,
-            segmented::{self, Segment},
+            list, paint, segmented,
         },
         words,
     },
@@ -311,14 +310,8 @@ fn zone(
             ("Warn only", Entered::Warn),
             ("Go round", Entered::GoRound),
         ];
-        let segments = all.map(|(word, of)| {
-            (word, if of == zone.entered { Segment::Chosen } else { Segment::Free })
-        });
         let rect = place.with_max_x(place.right().min(place.left() + 300.0));
-        let clicked = segmented::show(ui, "when entered", rect, "When entered", &segments);
-        if let Some((_, entered)) = clicked.and_then(|index| all.get(index)) {
-            zone.entered = *entered;
-        }
+        segmented::choose(ui, "when entered", rect, "When entered", &all, &mut zone.entered);
     });
     if let Some(problem) = problem {
         let rect = row(ui, FIELD);

@@ -18,8 +18,7 @@ use crate::{
             button::Button,
             drop_down::DropDown,
             form::ROW,
-            paint,
-            segmented::{self, Segment},
+            paint, segmented,
             told::{self, Tone},
         },
         words,
@@ -130,7 +129,7 @@ fn satellites(
     (why, is_edited): (Option<CannotAct>, bool),
     search: &mut ObjectSearch,
 ) {
-    const KINDS: [&str; 3] = ["All", "One", "Group"];
+    const KINDS: [(&str, u8); 3] = [("All", 0), ("One", 1), ("Group", 2)];
     const WIDTH: f32 = 160.0;
     let wrong = match why {
         Some(CannotAct::NoSatellite) => Some("Choose one"),
@@ -144,16 +143,14 @@ fn satellites(
                 Of::Satellite(_) => 1,
                 Of::Group(_) => 2,
             };
-            let state = |kind| if kind == present { Segment::Chosen } else { Segment::Free };
-            let segments: Vec<_> =
-                (0..).zip(KINDS).map(|(kind, word)| (word, state(kind))).collect();
+            let mut kind = present;
             let (place, _) = ui.allocate_exact_size(vec2(WIDTH, ROW), Sense::hover());
-            let clicked = segmented::show(ui, "of", place, "Satellites", &segments);
-            match clicked.filter(|kind| *kind != present) {
-                Some(0) => rule.of = Of::All,
-                Some(1) => rule.of = Of::Satellite(None),
-                Some(_) => rule.of = Of::Group(None),
-                None => {}
+            segmented::choose(ui, "of", place, "Satellites", &KINDS, &mut kind);
+            match kind {
+                _ if kind == present => {}
+                0 => rule.of = Of::All,
+                1 => rule.of = Of::Satellite(None),
+                _ => rule.of = Of::Group(None),
             }
             match rule.of {
                 Of::All => {}

@@ -117,7 +117,7 @@ fn fields() -> Vec<Placed<Named>> {
             &PRIORITIES,
             |named: &mut Named| &mut named.priority,
         )
-        .noted(|_| Some("For those of its satellites that have none of their own.".to_owned())),
+        .about("For those of its satellites that have none of their own."),
     ];
     placed(GROUP, fields)
 }

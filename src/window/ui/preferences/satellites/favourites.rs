@@ -12,8 +12,7 @@ use crate::{
         widgets::{
             button::{Button, RADIUS, SMALL_HEIGHT},
             form::{GAP, LABEL},
-            paint,
-            segmented::{self, Segment},
+            paint, segmented,
         },
         words,
     },
@@ -156,12 +155,8 @@ fn choose_priority(ui: &Ui, place: Rect, name: &str, priority: &mut Option<Prior
     let choices: Vec<(Option<Priority>, String)> = std::iter::once((None, "Default".to_owned()))
         .chain(Priority::ALL.map(|of| (Some(of), of.number().to_string())))
         .collect();
-    let state = |of| if of == *priority { Segment::Chosen } else { Segment::Free };
-    let segments: Vec<(&str, Segment)> =
-        choices.iter().map(|(of, word)| (word.as_str(), state(*of))).collect();
+    let choices: Vec<(&str, Option<Priority>)> =
+        choices.iter().map(|(priority, word)| (word.as_str(), *priority)).collect();
     let name = format!("Priority of {name}");
-    let clicked = segmented::show(ui, "priority", place, &name, &segments);
-    if let Some((chosen, _)) = clicked.and_then(|index| choices.get(index)) {
-        *priority = *chosen;
-    }
+    segmented::choose(ui, "priority", place, &name, &choices, priority);
 }

@@ -38,7 +38,7 @@ fn satellites() -> Of {
         put_favourites,
     )
     .wrapped()
-    .noted(|_| Some("The favourites, by their catalogue numbers.".to_owned()))
+    .about("The favourites, by their catalogue numbers.")
 }
 
 fn frequencies() -> Of {
@@ -55,7 +55,7 @@ fn frequencies() -> Of {
         },
     )
     .of_lines("Number, MHz, name, one per line")
-    .noted(|_| Some("For the Doppler shift; a satellite may have several.".to_owned()))
+    .about("For the Doppler shift; a satellite may have several.")
 }
 
 /// Catalog numbers, separated by commas.

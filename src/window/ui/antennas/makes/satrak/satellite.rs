@@ -20,8 +20,7 @@ use crate::{
         text, theme,
         widgets::{
             button::{Button, HEIGHT},
-            paint,
-            segmented::{self, Segment},
+            paint, segmented,
         },
         words,
     },
@@ -112,16 +111,16 @@ fn tabs(
     unit: &ShownUnit<'_>,
     form: &Form,
     used: Option<&str>,
-    shown: &str,
+    shown: &'static str,
 ) -> Option<&'static str> {
     let t = theme::tokens(ui);
     ui.add_space(6.0);
     let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), HEIGHT), Sense::hover());
-    let segments = SOURCES.map(|group| {
-        (group.title, if group.key == shown { Segment::Chosen } else { Segment::Free })
-    });
+    let tabs = SOURCES.map(|group| (group.title, group.key));
     let place = rect.with_max_x(rect.left() + TABS);
-    let clicked = segmented::show(ui, "source", place, "Source of the elements", &segments);
+    let mut tab = shown;
+    let name = "Source of the elements";
+    let is_clicked = segmented::choose(ui, "source", place, name, &tabs, &mut tab);
     let word = |of: &str| source(of).map_or("", |group| group.title);
     let elsewhere = SOURCES.iter().filter(|group| group.key != shown);
     let edited: Vec<&str> = elsewhere
@@ -147,7 +146,7 @@ fn tabs(
         colour,
     );
     row::said(ui, room.with_min_x(room.left() + 20.0), &said, text::small(), t.t2, &said);
-    SOURCES.get(clicked?).map(|group| group.key)
+    is_clicked.then_some(tab)
 }
 
 /// Button to use this source. The unit uses the source that was set last, so sending one
