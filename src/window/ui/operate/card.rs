@@ -368,7 +368,7 @@ fn on_board(model: &Model, antenna: &AntennaModel) -> [Option<String>; 2] {
         explained.error_deg > half_beam_deg && off_deg.is_some_and(|off| off <= half_beam_deg)
     };
     let explained = antenna.explained.as_ref().filter(|explained| !is_over(explained));
-    let explained = explained.and_then(words::record::explained);
+    let explained = explained.and_then(|explained| words::record::explained(explained, model.now));
     let Some(found) = antenna.supervision() else { return [None, explained] };
     let name = model.selected_pass().map(|predicted| predicted.satellite.short_name());
     let is_missed = !found.is_within_beam;

@@ -43,11 +43,11 @@ fn cause_of(ranked: &Ranked) -> String {
 }
 
 /// Why an antenna is off its satellite, as a sentence.
-pub fn off_because(cause: &OffTargetCause) -> String {
+pub fn off_because(cause: &OffTargetCause, now: Timestamp) -> String {
     match cause {
         OffTargetCause::Reported(ranked) => super::capitalised(&cause_of(ranked)) + ".",
         OffTargetCause::Measured(explained) => {
-            super::record::explained(explained).unwrap_or_default()
+            super::record::explained(explained, now).unwrap_or_default()
         }
     }
 }
@@ -131,7 +131,7 @@ pub fn alarm(kind: &AlarmKind, antenna: &str, now: Timestamp) -> String {
             let off = format::degrees(off.degrees(), 1);
             match cause {
                 Some(cause) => {
-                    format!("{antenna} is {off} off its satellite. {}", super::off_because(cause))
+                    format!("{antenna} is {off} off its satellite. {}", super::off_because(cause, now))
                 }
                 None => format!(
                     "{antenna} is {off} off its satellite. Neither its positions nor the reports of \

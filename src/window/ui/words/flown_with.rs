@@ -43,7 +43,7 @@ pub fn facts(report: &RecordedReport, now: Timestamp) -> Vec<Fact> {
     if let Some((from, offsets)) = about.offsets.changes().last() {
         let changes = about.offsets.changes().len();
         let and = if changes > 1 { format!("the last of {changes}, ") } else { String::new() };
-        let since = format::second_of_day(*from);
+        let since = format::moment(*from, now);
         facts.push(plain("Offsets", format!("{} ({and}from {since})", super::offsets(*offsets))));
     }
     if !about.pointing_model.is_none() {

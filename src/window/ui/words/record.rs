@@ -175,7 +175,7 @@ pub fn cause(cause: &Cause) -> &'static str {
 
 /// A cause that acts together with the one above it.
 pub fn second_cause(second: &Cause) -> String {
-    format!("with {}", cause(second).to_lowercase())
+    format!("with {}", inside_sentence(cause(second)))
 }
 
 /// The positions that causes were fitted to.
@@ -278,12 +278,22 @@ fn together(causes: impl Iterator<Item = String>) -> String {
         if whole.is_empty() {
             whole = cause;
         } else {
-            let mut letters = cause.chars();
-            let first = letters.next().into_iter().flat_map(char::to_lowercase);
-            whole.extend(" and ".chars().chain(first).chain(letters));
+            whole += " and ";
+            whole += &inside_sentence(&cause);
         }
     }
     whole
+}
+
+/// The begin of a sentence as it reads inside of one. The letter of an axis stays a capital.
+fn inside_sentence(words: &str) -> String {
+    let mut letters = words.chars();
+    let first = letters.next();
+    let is_axis = letters.clone().next().is_none_or(|second| !second.is_alphabetic());
+    match first {
+        Some(first) if !is_axis => first.to_lowercase().chain(letters).collect(),
+        Some(_) | None => words.to_owned(),
+    }
 }
 
 /// Share of the error that these causes explain, after them.
@@ -297,12 +307,12 @@ fn explains(by: &Explanation) -> String {
 }
 
 /// The cause of the error of a pass under way; `None` without one.
-pub fn explained(explained: &Explained) -> Option<String> {
+pub fn explained(explained: &Explained, now: Timestamp) -> Option<String> {
     let error = format::degrees(explained.error_deg, 2);
     match &explained.causes[..] {
         [] => None,
         [only] => {
-            let causes = together(only.causes().map(cause_now));
+            let causes = together(only.causes().map(|of| cause_now(of, now)));
             Some(format!("{causes}: {} of the rms error of {error}.", explains(only)))
         }
         several => Some(format!("The rms error of {error} may come from {}.", one_of(several))),
@@ -311,13 +321,13 @@ pub fn explained(explained: &Explained) -> Option<String> {
 
 /// Causes that the positions do not tell apart.
 fn one_of(alike: &[Explanation]) -> String {
-    let mut names: Vec<String> = alike.iter().map(|of| names(of).to_lowercase()).collect();
+    let mut names: Vec<String> = alike.iter().map(|of| inside_sentence(&names(of))).collect();
     let last = names.pop().unwrap_or_default();
     if names.is_empty() { last } else { format!("{} or {last}", names.join(", ")) }
 }
 
 /// A cause of a pass under way as the subject of a sentence.
-fn cause_now(of: &Cause) -> String {
+fn cause_now(of: &Cause, now: Timestamp) -> String {
     let deg = |value: f64| format!("{}°", format::signed(value, 2));
     match of {
         Cause::Late { late_s } => {
@@ -331,7 +341,7 @@ fn cause_now(of: &Cause) -> String {
             format!("The elevation is off by {}", deg(*offset_deg))
         }
         Cause::Stuck { since, axis } => {
-            let since = format::second_of_day(*since);
+            let since = format::moment(*since, now);
             match axis {
                 None => format!("Both axes stand since {since}"),
                 Some(axis) => format!("{} stands since {since}", axis_as_subject(*axis)),
@@ -515,7 +525,7 @@ pub fn alike(explanations: &[Explanation]) -> Option<String> {
 /// Words after the best explanation where these data leave others open, else nothing.
 fn or_alike(explanations: &[Explanation]) -> String {
     let others = names_alike(explanations).into_iter().skip(1);
-    let others: Vec<String> = others.map(|name| name.to_lowercase()).collect();
+    let others: Vec<String> = others.map(|name| inside_sentence(&name)).collect();
     match &others[..] {
         [] => String::new(),
         [one] if explanations.iter().all(|it| it.with.is_none()) => format!(" or {one}"),
@@ -591,7 +601,8 @@ mod tests {
         assert!(told(&[late, azimuth]).ends_with("A pass in another part of the sky can."));
         assert_eq!(or_alike(&[late, set, azimuth]), " or 2 others");
         let said = |causes: &[Explanation]| {
-            explained(&Explained { causes: causes.to_vec(), error_deg: 0.5 })
+            let causes = causes.to_vec();
+            explained(&Explained { causes, error_deg: 0.5 }, Timestamp::UNIX_EPOCH)
         };
         assert_eq!(said(&[]), None);
         assert_eq!(
@@ -606,5 +617,18 @@ mod tests {
         );
         let y = Cause::Stuck { since: Timestamp::UNIX_EPOCH, axis: Some(Axis::Y) };
         assert_eq!(cause(&y), "Y stuck");
+        assert_eq!(second_cause(&y), "with Y stuck");
+        let both = Explanation { with: Some(y), ..explanation(Cause::Refraction) };
+        assert_eq!(
+            said(&[both]).as_deref(),
+            Some(
+                "The unit left refraction out and Y stands since 00:00:00Z: together they explain 97 % of \
+                 the rms error of 0.50°."
+            )
+        );
+        assert_eq!(
+            said(&[late, explanation(y)]).as_deref(),
+            Some("The rms error of 0.50° may come from time offset or Y stuck.")
+        );
     }
 }

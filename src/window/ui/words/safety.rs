@@ -311,7 +311,7 @@ pub fn safety(matter: &Safety, antenna: &str, now: Timestamp) -> String {
         Safety::OffTarget { off_deg, cause } => {
             let off = format::degrees(*off_deg, 1);
             let why = match cause {
-                Some(cause) => super::off_because(cause),
+                Some(cause) => super::off_because(cause, now),
                 None => "Check its drives, clock and offsets.".to_owned(),
             };
             format!(
