@@ -69,6 +69,21 @@ fn the_clock_is_not_set_while_the_unit_tracks() {
 }
 
 #[test]
+fn the_effect_of_the_clock_is_that_on_the_tracked_satellite() {
+    for (mut snapshot, wanted) in [
+        (states::tracking(0.0), "along the path of NOAA 20"),
+        (states::holding(), "along the path of METEOR-M2 4"),
+    ] {
+        snapshot.state.link_since = read().state.link_since;
+        snapshot.state.held = read().state.held;
+        let values = &mut group(&mut snapshot, "file").held.as_mut().unwrap().values;
+        values.insert("catalog_number", Value::Integer(59_051));
+        let window = opened(LARGE, snapshot);
+        assert!(says(&window, wanted), "{wanted}");
+    }
+}
+
+#[test]
 fn a_place_far_from_the_site_is_a_warning() {
     let mut snapshot = read();
     let mut window = opened(LARGE, snapshot.clone());

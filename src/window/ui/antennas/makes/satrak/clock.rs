@@ -73,11 +73,14 @@ fn effect(ui: &mut Ui, unit: &ShownUnit<'_>) {
     row::plain(ui, LABEL, &value, Some(verdict));
 }
 
-/// Pass of the satellite on the unit, or else the selected pass.
+/// Pass of the satellite that is tracked, else of the one on the unit, else the selected pass.
 fn predicted_pass<'a>(unit: &ShownUnit<'a>) -> Option<&'a PredictedPass> {
     let model = unit.model;
-    let number = unit.values(FILE.key).and_then(|values| CATALOG_NUMBER.of(values));
-    let number = number.and_then(|number| u32::try_from(number).ok());
+    let held = || {
+        let number = unit.values(FILE.key).and_then(|values| CATALOG_NUMBER.of(values))?;
+        u32::try_from(number).ok()
+    };
+    let number = unit.antenna.tracked_number().or_else(held);
     number.and_then(|number| model.pass_of(number)).or_else(|| model.selected_pass())
 }
 
