@@ -99,6 +99,16 @@ fn every_make_is_added_as_it_stands_and_comes_back_from_its_file() {
 }
 
 #[test]
+fn a_section_without_a_field_of_the_make_is_left_out() {
+    let title = "Upkeep between passes";
+    for (button, has_upkeep) in [(SATRAK, true), (GENIUS, false), (RC2000C, false)] {
+        let mut window = bare(rig::LARGE);
+        add(&mut window, button);
+        assert_eq!(says(&window, title), has_upkeep, "{button}");
+    }
+}
+
+#[test]
 fn a_genius_is_set_up() {
     for size in rig::sizes() {
         let mut window = bare(size);

@@ -60,7 +60,11 @@ pub(super) fn show(
         address.proved = Some(words::capitalised(&words));
     }
     let Some(antenna) = draft.antennas.get(index) else { return };
-    let sections = antenna.sections();
+    let is_used = |(section, _): &(&str, usize)| {
+        let mut fields = antenna.fields.iter().zip(&standings);
+        fields.any(|(field, of)| of.is_used && field.section == *section)
+    };
+    let sections: Vec<_> = antenna.sections().into_iter().filter(is_used).collect();
     let rows: Vec<usize> = sections.iter().map(|(_, rows)| *rows).collect();
     let question = mounts::Question {
         antenna: id,
