@@ -239,6 +239,24 @@ fn the_place_of_a_reached_unit_can_be_taken() {
 }
 
 #[test]
+fn a_tested_antenna_stays_tested_when_its_element_file_is_typed() {
+    let mut window = window(rig::LARGE);
+    write_site(&mut window);
+    press(&mut window, NEXT[0]);
+    let none = "or none: Azel then predicts passes only.";
+    assert!(says(&window, none));
+    let antenna = add_and_test(&mut window, "unit.local:4001");
+    assert!(!says(&window, none), "there is one");
+    tell(&mut window, &antenna, reached());
+    let again = "Test again of Satrak";
+    assert!(window.query_by_role_and_label(Role::Button, again).is_some());
+    write(&mut window, "Element file on the unit", "weather.txt");
+    assert!(window.query_by_role_and_label(Role::Button, again).is_some());
+    write(&mut window, "Address of the Satrak", "unit.local:4002");
+    assert!(window.query_by_role_and_label(Role::Button, again).is_none());
+}
+
+#[test]
 fn each_outcome_of_a_test_says_what_to_check() {
     for size in rig::sizes() {
         let mut window = window(size);

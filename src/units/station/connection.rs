@@ -78,6 +78,19 @@ impl Connection {
         self.element_file_setting().map_or(Ok(()), |setting| self.put(setting, file))
     }
 
+    /// Returns `true` if both reach a unit in the same way. The name of the element file is no part of
+    /// that.
+    pub fn is_same_link(&self, other: &Self) -> bool {
+        let mut other = other.clone();
+        let file = self.element_file_setting().and_then(|setting| self.place(setting));
+        if let Some(file) = file
+            && let (Some(own), Some(theirs)) = (self.values.get(file), other.values.get_mut(file))
+        {
+            theirs.clone_from(own);
+        }
+        *self == other
+    }
+
     fn element_file_setting(&self) -> Option<&'static Setting> {
         let key = self.spec.element_files?.setting;
         self.spec.settings.iter().copied().find(|setting| setting.field.key == key)

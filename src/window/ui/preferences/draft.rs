@@ -204,7 +204,8 @@ impl Draft {
     pub(in crate::ui) fn test<'a>(&self, index: usize, model: &'a Model) -> Option<&'a LinkTest> {
         let antenna = self.antenna(index)?;
         let is_it = |test: &&LinkTest| {
-            test.antenna.id == antenna.id && test.antenna.connection == antenna.connection
+            test.antenna.id == antenna.id
+                && test.antenna.connection.is_same_link(&antenna.connection)
         };
         model.link_tests.iter().find(is_it)
     }

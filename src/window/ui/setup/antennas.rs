@@ -65,8 +65,10 @@ pub(super) fn show(
                 draft.wants_address = draft.form.antennas.last().map(|of| of.before().id);
             }
         }
-        let words = "or none: Azel then predicts passes only.";
-        ui.label(RichText::new(words).font(text::small()).color(t.t3));
+        if draft.form.antennas.is_empty() {
+            let words = "or none: Azel then predicts passes only.";
+            ui.label(RichText::new(words).font(text::small()).color(t.t3));
+        }
     });
     let (mut silent, mut faulty) = (Vec::new(), Vec::new());
     for index in 0..draft.form.antennas.len() {
