@@ -288,6 +288,20 @@ fn while_the_only_source_is_unreachable_the_age_of_the_bundled_elements_comes_fi
 }
 
 #[test]
+fn bundled_elements_that_favourites_still_use_are_told_whatever_another_source_holds() {
+    let mut window = view(rig::LARGE, vec![server(3.0)]);
+    let label = |window: &Window| sources_bar(window).accesskit_node().label().unwrap();
+    let in_use = "The elements that come with Azel are in use";
+    assert!(label(&window).ends_with(&format!("{in_use}.")), "{}", label(&window));
+    let model = &mut window.state_mut().model;
+    model.now = add_seconds(model.now, 200.0 * 24.0 * HOUR_S);
+    let all = model.pass_lists.favourites.satellites.len();
+    settle(&mut window);
+    let old = label(&window);
+    assert!(old.contains(&format!("{in_use}: too old for {all} of {all} favourites.")), "{old}");
+}
+
+#[test]
 fn a_known_server_is_filled_in_and_a_plain_address_is_refused() {
     for size in rig::sizes() {
         let mut window = view(size, vec![server(3.0)]);

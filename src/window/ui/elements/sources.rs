@@ -125,12 +125,10 @@ fn show_bar(ui: &Ui, rect: Rect, model: &Model, is_open: bool) -> bool {
     response.clicked()
 }
 
-/// The gravest state of the elements in use. While no source holds any, the bundled ones are.
+/// The gravest state of the sources and of the elements in use.
 fn worst(model: &Model) -> (Tone, String) {
     let sources = &model.sources;
-    let bundled = (sources.reports.iter())
-        .all(|report| report.newest_epoch.is_none())
-        .then(|| state_of_bundled(model));
+    let bundled = state_of_bundled(model);
     let states: Vec<(Tone, &str)> = (sources.list.iter().enumerate())
         .map(|(index, source)| {
             let (tone, _) = words::state(source, sources.reports.get(index), model.now);
@@ -154,19 +152,39 @@ fn worst(model: &Model) -> (Tone, String) {
     bundled.unwrap_or_else(asked)
 }
 
-/// The state of the elements that come with the program, by what they are used for.
-fn state_of_bundled(model: &Model) -> (Tone, String) {
+/// The state of the elements that come with the program, by the favourites that use them; `None` if
+/// none does. Without favourites they are in use while no source holds any.
+fn state_of_bundled(model: &Model) -> Option<(Tone, String)> {
     let in_use = "The elements that come with Azel are in use";
     let favourites = &model.pass_lists.favourites.satellites;
+    if favourites.is_empty() {
+        let is_alone = model.sources.reports.iter().all(|report| report.newest_epoch.is_none());
+        return is_alone.then(|| (Tone::Plain, format!("{in_use}.")));
+    }
+    let CatalogState::Ready(catalog) = &model.catalog else { return None };
+    let is_bundled = |of: &&Arc<ListedSatellite>| {
+        catalog.source_of(of.elements.catalog_number()) == Some(BUNDLED_SOURCE)
+    };
+    let used: Vec<&Arc<ListedSatellite>> = favourites.iter().filter(is_bundled).collect();
+    let all = favourites.len();
+    let (in_use, joint) = match used.len() {
+        0 => return None,
+        some if some < all => (format!("{in_use} for {some} of {all} favourites"), ","),
+        _ => (in_use.to_owned(), ":"),
+    };
     for (tone, word) in [(Tone::Bad, "too old"), (Tone::Caution, "getting old")] {
-        let is_so = |of: &&Arc<ListedSatellite>| words::age_tone(&of.elements, model.now) == tone;
-        let count = favourites.iter().filter(is_so).count();
+        let is_so = |of: &&&Arc<ListedSatellite>| words::age_tone(&of.elements, model.now) == tone;
+        let count = used.iter().filter(is_so).count();
         if count > 0 {
-            let of = favourites.len();
-            return (tone, format!("{in_use}: {word} for {count} of {of} favourites."));
+            let those = if used.len() < all {
+                format!("{count} of them")
+            } else {
+                format!("{count} of {all} favourites")
+            };
+            return Some((tone, format!("{in_use}{joint} {word} for {those}.")));
         }
     }
-    (Tone::Plain, format!("{in_use}."))
+    Some((Tone::Plain, format!("{in_use}.")))
 }
 
 fn look(tone: Tone, ui: &Ui) -> (Icon, Color32) {
