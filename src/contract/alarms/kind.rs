@@ -32,6 +32,16 @@ pub enum Priority {
     First,
 }
 
+impl Priority {
+    /// Returns `true` for an alarm that is red while it stands.
+    pub fn is_red(self) -> bool {
+        match self {
+            Self::First | Self::Warning => true,
+            Self::Caution => false,
+        }
+    }
+}
+
 /// Kind of an alarm. The view puts it into words.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum AlarmKind {

@@ -18,10 +18,11 @@ pub struct Placed<'a> {
 
 impl Alarms {
     /// The alarms as an operator reads them. Those that stand or are new come before those that
-    /// are over and seen. Higher ranks come first, then those that stand, then newer ones; but an alarm that follows
-    /// from another comes directly behind it, in the order in which they came, and lifts it to
-    /// its own rank. One follows from another that stood when it came, and whose kind explains
-    /// its kind; from the first, if there are several or they follow from each other.
+    /// are over and seen. Red ones that stand come first; then higher ranks, then those that stand,
+    /// then newer ones. An alarm that follows from another comes directly behind it, in the order in
+    /// which they came, and lifts it to its own rank. One follows from another that stood when it
+    /// came, and whose kind explains its kind; from the first, if there are several or they follow
+    /// from each other. One that stands follows from none that is over.
     pub fn in_order(&self) -> Vec<Placed<'_>> {
         let cause_of = |effect: &Alarm| {
             let causes = self.list.iter().filter(|cause| is_cause(cause, effect));
@@ -42,8 +43,10 @@ impl Alarms {
         groups.sort_by_key(|group| {
             let open = || group.iter().filter(|placed| !placed.alarm.is_done());
             let rank = open().map(|placed| placed.alarm.priority()).max();
-            let stands = open().any(|placed| !placed.alarm.is_over());
-            Reverse((rank, stands, group.first().map(|placed| placed.alarm.id)))
+            let standing = open().filter(|placed| !placed.alarm.is_over());
+            let standing = standing.map(|placed| placed.alarm.priority()).max();
+            let red = standing.filter(|priority| priority.is_red());
+            Reverse((red, rank, standing.is_some(), group.first().map(|placed| placed.alarm.id)))
         });
         groups.concat()
     }
@@ -54,9 +57,9 @@ fn is_cause(cause: &Alarm, effect: &Alarm) -> bool {
     let is_before = (cause.last, cause.id) < (effect.last, effect.id);
     let stood = cause.over_since.is_none_or(|since| since >= effect.last);
     let is_there = cause.antenna.is_none() || cause.antenna == effect.antenna;
-    // A cause that the operator is done with must not hold down an effect that still needs
-    // attention.
-    let is_open = !cause.is_done() || effect.is_done();
+    // A cause that is over, or that the operator is done with, must not stand above an effect that
+    // still needs attention.
+    let is_open = (!cause.is_done() || effect.is_done()) && (!cause.is_over() || effect.is_over());
     is_before
         && stood
         && is_there

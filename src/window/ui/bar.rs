@@ -6,7 +6,7 @@ use super::{
     format, state_sentence,
     top_bar::{self, ClockHealth, ClockModel, ClockMood, StopLeftOut, TopBarModel},
     widgets::{
-        alarm_list::{self, AlarmModel, AlarmRow, Section},
+        alarm_list::{AlarmModel, AlarmRow, Section},
         link_chip::{AutomaticModel, ChipModel, LinkGlyph},
         stop_button::StopLook,
     },
@@ -145,7 +145,7 @@ pub fn alarm(model: &Model, antenna: &AntennaModel) -> Option<String> {
         }
     };
     let own = model.alarms.list().iter().filter(|alarm| alarm.antenna == Some(antenna.id()));
-    let red = own.filter(stands).filter(|alarm| alarm_list::is_red(alarm.priority()));
+    let red = own.filter(stands).filter(|alarm| alarm.priority().is_red());
     // The list has the newest last, and of equals the last one is taken.
     red.max_by_key(|alarm| alarm.priority()).map(|alarm| alarm_text(model, alarm))
 }

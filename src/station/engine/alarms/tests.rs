@@ -247,9 +247,23 @@ fn an_effect_of_an_effect_belongs_to_the_first_cause() {
     alarms.raise(LOST_OF, LOST, time());
     alarms.clear(None, time(), |_| true);
     alarms.raise(LOST_OF, AlarmKind::TrackingEnded, time() + 1.second());
-    let order = alarms.in_order();
-    let order: Vec<_> = order.iter().map(|placed| (placed.alarm.id, placed.follows)).collect();
-    assert_eq!(order, [(0, None), (1, Some(0)), (2, Some(0))]);
+    let order = |alarms: &Alarms| -> Vec<(u64, Option<u64>)> {
+        alarms.in_order().iter().map(|placed| (placed.alarm.id, placed.follows)).collect()
+    };
+    assert_eq!(order(&alarms), [(1, None), (2, Some(1)), (0, None)], "the first cause is over");
+    alarms.clear(LOST_OF, time() + 2.second(), |_| true);
+    assert_eq!(order(&alarms), [(0, None), (1, Some(0)), (2, Some(0))]);
+}
+
+#[test]
+fn red_alarms_that_stand_come_before_all_that_are_over() {
+    let mut alarms = Alarms::default();
+    alarms.raise(None, AlarmKind::Elements("old".to_owned()), time());
+    alarms.raise(LOST_OF, LOST, time());
+    alarms.raise(Some(AntennaId(2)), AlarmKind::StopNotConfirmed, time() + 1.second());
+    alarms.clear(Some(AntennaId(2)), time() + 2.second(), |_| true);
+    let order: Vec<u64> = alarms.in_order().iter().map(|placed| placed.alarm.id).collect();
+    assert_eq!(order, [1, 2, 0]);
 }
 
 #[test]

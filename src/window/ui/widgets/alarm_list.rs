@@ -5,8 +5,8 @@ mod row;
 use std::time::Duration;
 
 use egui::{
-    Align2, Popup, PopupCloseBehavior, Rect, RectAlign, Response, Role, Sense, Stroke, StrokeKind,
-    Ui, ViewportId, WidgetInfo, pos2, vec2,
+    Align2, Color32, Popup, PopupCloseBehavior, Rect, RectAlign, Response, Role, Sense, Stroke,
+    StrokeKind, Ui, ViewportId, WidgetInfo, pos2, vec2,
 };
 
 use super::{
@@ -22,6 +22,7 @@ use crate::{
         icons::{self, Icon},
         text::{self, Weight},
         theme,
+        tokens::Tokens,
     },
 };
 
@@ -64,14 +65,6 @@ impl Section {
     }
 }
 
-/// Returns `true` for an alarm that is red while it stands.
-pub fn is_red(priority: Priority) -> bool {
-    match priority {
-        Priority::First | Priority::Warning => true,
-        Priority::Caution => false,
-    }
-}
-
 #[derive(Debug, Clone, Copy)]
 pub struct AlarmRow<'a> {
     /// Identifies the alarm in the operator's answer.
@@ -93,6 +86,16 @@ impl AlarmRow<'_> {
         matches!(self.state, AlarmState::New | AlarmState::NewAndOver { .. })
     }
 
+    fn is_standing_red(&self) -> bool {
+        let stands = match self.state {
+            AlarmState::New | AlarmState::Seen => true,
+            AlarmState::NewAndOver { .. }
+            | AlarmState::Over { .. }
+            | AlarmState::Shelved { .. } => false,
+        };
+        stands && self.priority.is_red()
+    }
+
     fn can_be_shelved(&self) -> bool {
         self.state == AlarmState::Seen && self.priority < Priority::First
     }
@@ -109,6 +112,18 @@ pub struct AlarmModel<'a> {
 impl AlarmModel<'_> {
     fn active(&self) -> usize {
         self.rows.iter().filter(|row| Section::of(row.state) == Section::Open).count()
+    }
+
+    /// The colour of the gravest alarm that is not shelved.
+    fn colour(&self, t: &Tokens) -> Color32 {
+        let open = || self.rows.iter().filter(|row| Section::of(row.state) == Section::Open);
+        if open().any(AlarmRow::is_standing_red) {
+            t.bad
+        } else if open().next().is_some() {
+            t.warn
+        } else {
+            t.t2
+        }
     }
 
     fn unacknowledged(&self) -> usize {
@@ -162,8 +177,8 @@ fn button(ui: &Ui, rect: Rect, model: &AlarmModel<'_>, one_line: bool) -> Respon
     let response = ui.interact(rect, ui.make_persistent_id("alarms"), Sense::click());
     let name = format!("{first}, {second}");
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &name));
-    let colour = if new > 0 { t.warn } else { t.t2 };
-    let border = if new > 0 { t.warn } else { t.line };
+    let colour = model.colour(t);
+    let border = if new > 0 { colour } else { t.line };
     let fill = if response.hovered() { t.bg3 } else { t.bg2 };
     ui.painter().rect(rect, RADIUS, fill, Stroke::new(1.0, border), StrokeKind::Inside);
     if bell_is_lit(ui, model.unopened && new > 0) {
@@ -183,7 +198,8 @@ fn button(ui: &Ui, rect: Rect, model: &AlarmModel<'_>, one_line: bool) -> Respon
         paint::text(ui, down, Align2::LEFT_CENTER, second, text::small(), t.t2);
     }
     paint::focus_ring(ui, &response, RADIUS);
-    response
+    // The number alone does not say what it counts.
+    if one_line { response.on_hover_text(name) } else { response }
 }
 
 fn bell_is_lit(ui: &Ui, blinking: bool) -> bool {
@@ -295,6 +311,22 @@ mod tests {
         let (one, more) = (row_height(ROWS[0].text), row_height(long));
         assert!((one - row::HEIGHT).abs() < 0.5, "{one}");
         assert!(more > one + 2.0 * 15.0, "{more}");
+    }
+
+    #[test]
+    fn the_bell_has_the_colour_of_the_gravest_alarm_that_is_not_shelved() {
+        let t = crate::model::ThemeName::Dark.tokens();
+        let colour = |rows: &[AlarmRow<'_>]| AlarmModel { rows, unopened: false }.colour(t);
+        let [red, amber] = ROWS;
+        let now = jiff::Timestamp::UNIX_EPOCH;
+        let shelved = AlarmRow { state: AlarmState::Shelved { until: now }, ..red };
+        let over = AlarmRow { state: AlarmState::NewAndOver { since: now }, ..red };
+        let done = AlarmRow { state: AlarmState::Over { since: now }, ..red };
+        assert_eq!(colour(&[red, amber]), t.bad);
+        assert_eq!(colour(&[AlarmRow { state: AlarmState::Seen, ..red }]), t.bad);
+        assert_eq!(colour(&[amber, shelved, done]), t.warn);
+        assert_eq!(colour(&[over]), t.warn);
+        assert_eq!(colour(&[shelved, done]), t.t2);
     }
 
     #[test]

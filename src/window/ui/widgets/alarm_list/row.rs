@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use egui::{Color32, Galley, Id, Rect, Sense, Ui, pos2, vec2};
 
-use super::{AlarmRow, is_red};
+use super::AlarmRow;
 use crate::{
     contract::{
         self,
@@ -168,9 +168,7 @@ fn icon(row: &AlarmRow<'_>, t: &Tokens) -> (Icon, Color32) {
         (AlarmState::Shelved { .. }, _) => (Icon::Clock, t.t2),
         (AlarmState::NewAndOver { .. }, _) => (Icon::Check, t.warn),
         (AlarmState::Over { .. }, _) => (Icon::Check, t.t3),
-        (AlarmState::New | AlarmState::Seen, priority) if is_red(priority) => {
-            (Icon::Octagon, t.bad)
-        }
+        (AlarmState::New | AlarmState::Seen, _) if row.is_standing_red() => (Icon::Octagon, t.bad),
         (AlarmState::New | AlarmState::Seen, _) => (Icon::Warning, t.warn),
     }
 }
