@@ -109,8 +109,8 @@ pub struct PassListState {
     scroll: Scroll,
     /// The row at the upper edge and its pass.
     top: Option<(usize, PassKey)>,
-    /// The list of the last frame with rows.
-    listed: Option<Scope>,
+    /// The list of the last frame with rows, and what it was filtered by.
+    listed: Option<(Scope, String, Arrangement)>,
 }
 
 impl PassListState {
@@ -127,10 +127,17 @@ impl PassListState {
         }
     }
 
-    /// The row at which a list opens that was not there in the last frame. In the list of all satellites
-    /// hundreds of passes have begun, the first of them hours ago.
+    /// The row at which a list opens that was not there in the last frame, or was filtered in another
+    /// way. In the list of all satellites hundreds of passes have begun, the first of them hours ago.
     fn opens_at(&mut self, model: &PassListModel<'_>) -> Option<usize> {
-        let is_new = self.listed.replace(model.scope) != Some(model.scope);
+        let (text, arrangement) = (self.filter.text(), &self.filter.arrangement);
+        let is_same = |(scope, before, arranged): &(Scope, String, Arrangement)| {
+            (*scope, before.as_str(), arranged) == (model.scope, text, arrangement)
+        };
+        let is_new = !self.listed.as_ref().is_some_and(is_same);
+        if is_new {
+            self.listed = Some((model.scope, text.to_owned(), arrangement.clone()));
+        }
         is_new.then_some(match model.scope {
             Scope::Favourites => 0,
             Scope::All => model.begun.saturating_sub(BEGUN_SHOWN),

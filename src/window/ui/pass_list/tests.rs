@@ -293,6 +293,27 @@ fn what_is_read_stays_where_it_is_when_passes_above_end() {
 }
 
 #[test]
+fn what_is_filtered_begins_at_its_first_hit() {
+    for scope in [Scope::Favourites, Scope::All] {
+        let mut window = window(Fixture { scope, begun: 300, ..Fixture::with(900) });
+        window.state_mut().selected = Some(pass(880, &[]).key);
+        window.run();
+        window.get_by_role_and_label(Role::Button, "Filter the list").click();
+        window.run();
+        window.event(egui::Event::Text("c".to_owned()));
+        // The hits, of which none is the selected pass.
+        (window.state_mut().rows, window.state_mut().begun) = (60, 0);
+        window.run();
+        let first = |window: &Harness<'_, Fixture>| {
+            let rows = window.get_all_by_role(Role::ListBoxOption);
+            let names: Vec<_> = rows.filter_map(|row| row.accesskit_node().label()).collect();
+            names.iter().any(|name| name.starts_with("NOAA 20"))
+        };
+        assert!(first(&window), "{scope:?}");
+    }
+}
+
+#[test]
 fn a_filter_is_opened_typed_and_closed() {
     for thumbnails in [true, false] {
         let mut window = window(Fixture { thumbnails, ..Fixture::with(8) });
