@@ -130,10 +130,10 @@ impl Form {
         self.drafts.iter().any(|(key, draft)| ready(key, draft)).then_some(hindrance)
     }
 
-    /// Requests every group that has not been read on this link, each once.
+    /// Requests every group that has not been read on this link, each once. A replay asks nothing.
     pub(super) fn ask_unread(&mut self, unit: &ShownUnit<'_>, commands: &mut Vec<UiCommand>) {
         let link = unit.antenna.snapshot.state.link_since;
-        if !unit.is_open() || link.is_none() {
+        if !unit.is_open() || link.is_none() || unit.model.replay.is_some() {
             return;
         }
         if self.asked.0 != link {
