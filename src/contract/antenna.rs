@@ -1,10 +1,11 @@
 //! One antenna as a station shows it.
 
+mod answers;
 mod errors;
 mod past_tracks;
 mod stake;
 
-use std::{sync::Arc, time::Duration};
+use std::sync::Arc;
 
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
@@ -22,12 +23,10 @@ use crate::{
     station::{Antenna, AntennaId, ControllerSpec},
     written,
 };
+pub use answers::{Answers, NoMotion};
 pub use errors::{ErrorSample, Errors};
 pub use past_tracks::{PastTrack, PastTracks};
 pub use stake::Stake;
-
-/// Longest time without a reply that is a hiccup of the link.
-const HICCUP: Duration = Duration::from_secs(3);
 
 /// Predicted direction of a target at the time of a measurement.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -258,13 +257,6 @@ impl AntennaModel {
         let is_of_another_link = (state.link_since.zip(state.measured))
             .is_some_and(|(since, measured)| measured.received < since);
         matches!(link, LinkState::Up { .. }) && !is_of_another_link
-    }
-
-    /// Returns `true` if no reply has come for longer than a hiccup of the link lasts.
-    pub fn is_silent(&self, now: Instant) -> bool {
-        let Snapshot { link, state, .. } = &*self.snapshot;
-        let last = state.traffic.last_reply.filter(|_| link.is_open());
-        !self.is_live() && last.is_none_or(|last| now.saturating_duration_since(last) > HICCUP)
     }
 
     /// Error of the last measurement against the prediction for its time; `None` while that

@@ -27,7 +27,8 @@ pub use on_board::{
     HeldSatellite, LONGEST_WINDOW_S, Offsets, OnBoard, Place, TrackOffsetFields, UnitClock,
 };
 pub use state::{
-    AntennaState, Axis, AxisMotion, Drive, Measured, Phase, Pointing, Program, Traffic,
+    AntennaState, Axis, AxisMotion, Drive, LastSatellite, Measured, Phase, Pointing, Program,
+    Traffic,
 };
 pub use variant::{ClockSetting, Variant};
 pub use wire::{Direction, Explained, ExplainedValue, Finding, Meaning, WireLine};

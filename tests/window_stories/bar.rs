@@ -297,13 +297,37 @@ fn a_chip_says_in_words_how_its_link_stands() {
             (LinkState::Off, "Satrak: Not connected, link off"),
             (LinkState::Connecting { since: now }, "Satrak: Connecting, link off"),
             (LinkState::Up { since: now }, "Satrak: Holding, link live"),
-            (LinkState::Stale { as_of: now }, "Satrak: Slow, 0.0 s ago, link late"),
+            (LinkState::Stale { as_of: now }, "Satrak: Late, 0.0 s ago, link late"),
             (lost.clone(), "Satrak: No reply 0.0 s, link lost"),
         ] {
             let mut model = rig::model(Snapshot { link, ..states::holding() });
             model.steady = now;
             rig::window(size, model).get_by_role_and_label(Role::Button, wanted);
         }
+    }
+}
+
+#[test]
+fn tag_sentence_and_chip_judge_a_link_alike() {
+    for (reply_s, position_s, tag, chip, sentence) in [
+        (35, 2, "No reply", "Satrak: No reply 35 s, link silent", "No reply from Satrak for 35 s."),
+        (
+            35,
+            40,
+            "No reply",
+            "Satrak: No reply 35 s, link silent",
+            "No reply from Satrak for 35 s.",
+        ),
+        (1, 5, "Answers late", "Satrak: Late, 5.0 s ago, link late", "Satrak answers late: its"),
+        (2, 2, "Answers late", "Satrak: Late, 2.0 s ago, link late", "Holding"),
+    ] {
+        let mut model = rig::model(states::holding());
+        states::is_late(&mut model, reply_s, position_s);
+        let told = states::sentence(&model);
+        assert!(told.starts_with(sentence), "{told}");
+        let window = rig::window(rig::LARGE, model);
+        window.get_by_role_and_label(Role::Label, tag);
+        window.get_by_role_and_label(Role::Button, chip);
     }
 }
 

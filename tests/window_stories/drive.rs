@@ -1,9 +1,10 @@
 //! Driving the antenna from its card: track, modes, jog, go to.
 
 use azel::{
-    astro::Angle,
+    astro::{Angle, time::add_seconds},
     clock::Instant,
-    contract::driver::{Command, Intent, LinkState, Snapshot},
+    contract::driver::{Command, Intent, LinkState, Snapshot, position_for},
+    device::{Asked, LastSatellite, Motion},
     model::UiCommand,
     station::AntennaId,
 };
@@ -336,10 +337,7 @@ fn without_a_known_fault_the_card_says_why_motion_is_locked() {
         snapshot
     };
     for (link, wanted) in [
-        (
-            LinkState::Stale { as_of: steady },
-            "Locked: the unit answers late and has not named its fault.",
-        ),
+        (LinkState::Stale { as_of: steady }, "Locked: the unit answers late."),
         (LinkState::Up { since: steady }, "Locked: the unit reports a fault without naming it."),
     ] {
         for size in rig::sizes() {
@@ -350,6 +348,84 @@ fn without_a_known_fault_the_card_says_why_motion_is_locked() {
             assert!(!says(&window, "Locked by a fault"), "no fault is known");
         }
     }
+}
+
+#[test]
+fn a_unit_that_answers_late_or_not_at_all_locks_every_motion_with_that_reason() {
+    let silent = "Locked: the unit does not answer.";
+    let late = "Locked: the unit answers late.";
+    for (reply_s, position_s, wanted) in [(9, 9, silent), (47, 47, silent), (1, 4, late)] {
+        for snapshot in [states::manual(), states::holding(), states::tracking(0.0)] {
+            let mut model = rig::model(snapshot);
+            states::is_late(&mut model, reply_s, position_s);
+            let mut window = rig::window(rig::LARGE, model);
+            assert_eq!(window.get_all_by_label(wanted).count(), 1, "{reply_s} s");
+            assert!(!says(&window, "Choose Manual or Position"), "{reply_s} s");
+            window.drag_at(window.get_by_label("Jog X+").rect().center());
+            settle(&mut window);
+            window.drop_at(window.get_by_label("Jog X+").rect().center());
+            for button in ["Track NOAA 20", "Go to"] {
+                if let Some(button) = window.query_by_role_and_label(Role::Button, button) {
+                    button.click();
+                }
+                assert_eq!(asked(&mut window), [], "{button} after {reply_s} s");
+            }
+            window.get_by_label("STOP").click();
+            assert_eq!(asked(&mut window), [UiCommand::Stop]);
+        }
+    }
+}
+
+#[test]
+fn a_control_is_locked_from_the_moment_at_which_the_gate_refuses() {
+    let jog = Asked::Motion(Motion::Jog { x_deg_s: 0.5, y_deg_s: 0.0 });
+    let go_to = Asked::Motion(Motion::Position { azimuth: None, elevation: None });
+    for position_s in 0..12 {
+        let mut model = rig::model(states::manual());
+        states::is_late(&mut model, position_s.min(2), position_s);
+        for asked in [jog, go_to] {
+            let antenna = &model.antennas[0];
+            let is_refused = position_for(&asked, &antenna.snapshot.state, model.steady).is_err();
+            let is_locked = antenna.no_motion(&asked, model.steady).is_some();
+            assert!(is_locked || !is_refused, "{asked:?} after {position_s} s");
+            let is_young = position_s == 0;
+            assert!(!(is_locked && is_young), "{asked:?} after {position_s} s");
+        }
+    }
+}
+
+#[test]
+fn no_motion_is_offered_before_the_position_is_read() {
+    let model = rig::model(Snapshot { intent: Intent::Manual, ..rig::quiet() });
+    let window = rig::window(rig::LARGE, model);
+    window.get_by_label("Locked: the position is not read yet.");
+}
+
+#[test]
+fn what_was_on_the_unit_is_told_with_its_age_while_it_does_not_answer() {
+    let mut snapshot = states::holding();
+    let read_at = add_seconds(rig::now(), -48.0);
+    let name = "NOAA 20 (JPSS-1)".to_owned();
+    snapshot.state.last_satellite = Some(LastSatellite { name, read_at });
+    let mut model = rig::model(snapshot);
+    states::is_late(&mut model, 30, 30);
+    rig::window(rig::LARGE, model).get_by_label("On the unit 48 s ago: NOAA 20");
+}
+
+#[test]
+fn the_checks_of_a_silent_unit_are_not_known() {
+    let mut snapshot = states::holding();
+    states::report(&mut snapshot, &[], rig::now());
+    let mut model = rig::model(snapshot);
+    states::is_late(&mut model, 1, 1);
+    assert!(says(&rig::window(rig::LARGE, model), "No faults. All 12 checks passed"));
+    let mut snapshot = states::holding();
+    states::report(&mut snapshot, &[], rig::now());
+    let mut model = rig::model(snapshot);
+    states::is_late(&mut model, 9, 9);
+    let window = rig::window(rig::LARGE, model);
+    window.get_by_label("Not known. Last report 11:15:30Z: no faults.");
+    assert!(!says(&window, "All 12 checks passed"));
 }
 
 #[test]

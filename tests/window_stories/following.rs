@@ -124,18 +124,21 @@ fn the_sentence_predicts_the_arrival_on_target() {
 fn the_chip_and_the_prediction_are_those_of_the_target() {
     let model = following(TrackPhase::Tracking, 0.4, AxisMotion::Plus);
     let antenna = &model.antennas[0];
-    assert_eq!((activity(antenna), antenna.tracked_number()), ("Tracking", Some(rig::NOAA_20)));
+    assert_eq!(
+        (activity(&model, antenna), antenna.tracked_number()),
+        ("Tracking", Some(rig::NOAA_20))
+    );
     assert_eq!(antenna.prediction.unwrap().direction, WANTED);
     let off_deg = antenna.error().unwrap().off_beam.degrees();
     assert!((off_deg - 0.4).abs() < 1e-9, "{off_deg}");
 
     let waiting = TrackPhase::Waiting { aos: add_seconds(rig::now(), 192.0) };
     let model = following(waiting, 0.0, AxisMotion::Still);
-    assert_eq!(activity(&model.antennas[0]), "Waiting");
+    assert_eq!(activity(&model, &model.antennas[0]), "Waiting");
     assert_eq!(model.antennas[0].prediction, None);
     let model = following(TrackPhase::Over, 0.0, AxisMotion::Still);
     assert_eq!(
-        (model.antennas[0].tracked_number(), activity(&model.antennas[0])),
+        (model.antennas[0].tracked_number(), activity(&model, &model.antennas[0])),
         (None, "Holding")
     );
 }
@@ -161,7 +164,7 @@ fn a_target_beyond_the_travel_is_out_of_reach_and_waited_for() {
     (*azimuth_from_deg, *elevation_to_deg) = (180.0, 90.0);
     let said = states::sentence(&model);
     assert!(said.contains("NOAA 20, which is out of reach. Waiting at 134°"), "{said}");
-    assert_eq!(activity(&model.antennas[0]), "Waiting");
+    assert_eq!(activity(&model, &model.antennas[0]), "Waiting");
 }
 
 #[test]

@@ -59,7 +59,7 @@ fn note(window: &Window) -> Option<String> {
 #[test]
 fn a_click_in_the_sky_is_judged_told_and_only_then_sent() {
     for size in rig::sizes() {
-        for before in [states::holding(), states::manual(), rig::quiet()] {
+        for before in [states::holding(), states::manual()] {
             let mut window = rig::window(size, rig::model(before));
             let to = click_the_south(&mut window);
             assert!(note(&window).unwrap().ends_with("The path is being checked."));
@@ -76,6 +76,16 @@ fn a_click_in_the_sky_is_judged_told_and_only_then_sent() {
             assert_eq!(note(&window), None);
         }
     }
+}
+
+#[test]
+fn before_the_position_is_read_a_click_in_the_sky_sends_nothing() {
+    let mut window = rig::window(LARGE, rig::model(rig::quiet()));
+    let to = click_the_south(&mut window);
+    answer(&mut window, to, Ok(clear()));
+    assert!(note(&window).unwrap().ends_with("Locked: the position is not read yet."));
+    window.get_by_role_and_label(Role::Button, "Point here").click();
+    assert_eq!(asked(&mut window), []);
 }
 
 #[test]

@@ -127,7 +127,10 @@ pub(crate) fn station() -> Station {
 
 /// Snapshot of a new session with its link up.
 pub(crate) fn quiet() -> Snapshot {
-    Snapshot::before_anything(LinkState::Up { since: Instant::now() })
+    let since = Instant::now();
+    let mut snapshot = Snapshot::before_anything(LinkState::Up { since });
+    snapshot.state.link_since = Some(since);
+    snapshot
 }
 
 /// An antenna that shows `snapshot` for ever.

@@ -1,9 +1,11 @@
 //! Possible reports of a Satrak, for the stories.
 
+use std::sync::Arc;
+
 use azel::{
     astro::{AzEl, time::add_seconds},
     clock::Instant,
-    contract::driver::{Intent, Snapshot},
+    contract::driver::{Intent, LinkState, Snapshot},
     controller::satrak::checks,
     device::{Axis, AxisMotion, Drive, HeldSatellite, Measured, Phase, Program, TrackTarget},
     model::Model,
@@ -11,7 +13,7 @@ use azel::{
 };
 use jiff::Timestamp;
 
-use crate::window_stories::rig::{NOAA_20, model, now, quiet};
+use crate::window_stories::rig::{NOAA_20, ago, model, now, quiet};
 
 /// A position that has just come in.
 pub(crate) fn measured(azimuth_deg: f64, elevation_deg: f64, motion: AxisMotion) -> Measured {
@@ -104,6 +106,19 @@ fn hold_noaa_20(snapshot: &mut Snapshot) {
 /// Sentence of the first antenna.
 pub(crate) fn sentence(model: &Model) -> String {
     azel::ui::state_sentence::state_sentence(model, &model.antennas[0]).text()
+}
+
+/// Makes the last reply `reply_s` old and the position `position_s`, over an open link.
+pub(crate) fn is_late(model: &mut Model, reply_s: u64, position_s: u64) {
+    let [reply, asked, up] = [reply_s, position_s, 600].map(|seconds| ago(model, seconds));
+    let antenna = model.shown_mut().antennas.first_mut().expect("an antenna");
+    let snapshot = Arc::make_mut(&mut antenna.snapshot);
+    snapshot.link = LinkState::Stale { as_of: asked.min(reply) };
+    snapshot.state.link_since = Some(up);
+    snapshot.state.traffic.last_reply = Some(reply);
+    if let Some(measured) = &mut snapshot.state.measured {
+        (measured.asked, measured.received) = (asked, reply);
+    }
 }
 
 /// Adds the unit's checks at `at`, with the numbered ones (1 to 12) set.

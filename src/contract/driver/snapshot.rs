@@ -180,6 +180,11 @@ impl Snapshot {
         newer.learned = self.learned;
         newer.state.held = Arc::clone(&self.state.held);
         newer.state.on_board.clock = self.state.on_board.clock;
+        if let (Some(old), Some(new)) =
+            (&self.state.last_satellite, &mut newer.state.last_satellite)
+        {
+            new.read_at = old.read_at;
+        }
         if let (Some(old), Some(new)) = (&self.program_track, &mut newer.program_track) {
             new.next_update = old.next_update;
             new.stats = old.stats;

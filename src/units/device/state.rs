@@ -1,13 +1,13 @@
 //! The state that all antennas have in common, as last read from the unit.
 
-use std::{sync::Arc, time::Duration};
+use std::{borrow::Cow, sync::Arc, time::Duration};
 
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
 use super::{
     OnBoard, Question,
-    panel::{Check, Reading},
+    panel::{Check, CheckState, Reading},
     settings::{Change, GroupState, Held, WriteError, Written},
 };
 use crate::{
@@ -48,6 +48,10 @@ pub struct AntennaState {
     /// Questions that the operator can ask by hand.
     pub questions: Arc<[Question]>,
     pub on_board: OnBoard,
+    /// The satellite that the unit held when it was last read, on this link or an earlier one. Nothing is
+    /// judged by it.
+    #[serde(default)]
+    pub last_satellite: Option<LastSatellite>,
     /// Why the last position could not be read, as far as known, and what to do, in a
     /// sentence or two.
     #[serde(deserialize_with = "name::option")]
@@ -90,6 +94,17 @@ impl AntennaState {
         }
     }
 
+    /// Forgets the results of all checks, not their names.
+    pub(crate) fn forget_checks(&mut self) {
+        self.checked_at = None;
+        let unknown = |check: &Check| Check {
+            state: CheckState::Unknown,
+            told: Cow::Borrowed(""),
+            ..check.clone()
+        };
+        self.show_checks(self.checks.iter().map(unknown).collect());
+    }
+
     /// Records the end of a change. `is_followed`: another change of its group waits.
     pub(crate) fn end_change(
         &mut self,
@@ -107,6 +122,13 @@ impl AntennaState {
         }
         state.written = Some(Arc::new(Written { change, at: now.utc, result }));
     }
+}
+
+/// A satellite that a unit held when it was last read.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct LastSatellite {
+    pub name: String,
+    pub read_at: Timestamp,
 }
 
 /// A position that a unit reported.

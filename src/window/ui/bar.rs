@@ -15,9 +15,9 @@ use super::{
 use crate::{
     contract::{
         alarms::{Alarm, AlarmKind, AlarmState, Placed},
-        antenna::AntennaModel,
+        antenna::{Answers, AntennaModel},
         automatic::Operation,
-        driver::{LinkState, StopState, TimeSync},
+        driver::{StopState, TimeSync},
     },
     device::{Phase, panel::Check},
     model::{Model, UiCommand},
@@ -43,8 +43,8 @@ pub fn show(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand
         .enumerate()
         .map(|(index, (antenna, ((age, words), alarm)))| ChipModel {
             name: &antenna.config.name,
-            link: glyph(antenna),
-            activity: activity(antenna),
+            link: glyph(model, antenna),
+            activity: activity(model, antenna),
             age,
             selected: index == model.selected_antenna,
             maintenance: antenna.snapshot.lock_out.is_some(),
@@ -225,26 +225,25 @@ fn coordinates(latitude_deg: f64, longitude_deg: f64) -> String {
     format!("{}  {}", format::latitude(latitude_deg, 3), format::longitude(longitude_deg, 3))
 }
 
-pub fn glyph(antenna: &AntennaModel) -> LinkGlyph {
-    match antenna.snapshot.link {
-        LinkState::Off | LinkState::Connecting { .. } => LinkGlyph::Off,
-        LinkState::Up { .. } if antenna.is_live() && !antenna.loses_positions => LinkGlyph::Live,
-        LinkState::Up { .. } | LinkState::Stale { .. } => LinkGlyph::Late,
-        LinkState::Lost { .. } => LinkGlyph::Lost,
+pub fn glyph(model: &Model, antenna: &AntennaModel) -> LinkGlyph {
+    match antenna.answers(model.steady) {
+        Answers::Off | Answers::Connecting => LinkGlyph::Off,
+        Answers::InTime if !antenna.loses_positions => LinkGlyph::Live,
+        Answers::InTime | Answers::Late(_) => LinkGlyph::Late,
+        Answers::Silent(_) => LinkGlyph::Silent,
+        Answers::Lost(_) => LinkGlyph::Lost,
     }
 }
 
 /// Age of what the unit reported last, or empty.
 pub fn age(model: &Model, antenna: &AntennaModel) -> String {
-    let last = match antenna.snapshot.link {
-        LinkState::Off | LinkState::Connecting { .. } => return String::new(),
-        LinkState::Lost { since, .. } => Some(since),
-        LinkState::Stale { as_of } => Some(as_of),
-        LinkState::Up { .. } => antenna.snapshot.state.traffic.last_reply,
+    let last_reply = antenna.snapshot.state.traffic.last_reply;
+    let age = match antenna.answers(model.steady) {
+        Answers::Off | Answers::Connecting => None,
+        Answers::InTime => last_reply.map(|last| model.steady.saturating_duration_since(last)),
+        Answers::Late(age) | Answers::Silent(age) | Answers::Lost(age) => Some(age),
     };
-    last.map_or_else(String::new, |last| {
-        format::age(model.steady.saturating_duration_since(last).as_secs_f64())
-    })
+    age.map_or_else(String::new, |age| format::age(age.as_secs_f64()))
 }
 
 /// Automatic operation of an antenna, in these words.
@@ -254,7 +253,7 @@ pub fn automatic_model<'a>(antenna: &AntennaModel, words: &'a str) -> AutomaticM
 }
 
 /// Activity of an antenna in one or two words.
-pub fn activity(antenna: &AntennaModel) -> &'static str {
+pub fn activity(model: &Model, antenna: &AntennaModel) -> &'static str {
     let state = &antenna.snapshot.state;
     let stops = matches!(
         antenna.snapshot.stop,
@@ -263,12 +262,12 @@ pub fn activity(antenna: &AntennaModel) -> &'static str {
     if antenna.snapshot.lock_out.is_some() && !stops {
         return if antenna.snapshot.locking { "Being locked out" } else { "In maintenance" };
     }
-    match antenna.snapshot.link {
-        LinkState::Off => return "Not connected",
-        LinkState::Connecting { .. } => return "Connecting",
-        LinkState::Lost { .. } => return "No reply",
-        LinkState::Up { .. } if antenna.is_live() => {}
-        LinkState::Up { .. } | LinkState::Stale { .. } => return "Slow",
+    match antenna.answers(model.steady) {
+        Answers::Off => return "Not connected",
+        Answers::Connecting => return "Connecting",
+        Answers::Silent(_) | Answers::Lost(_) => return "No reply",
+        Answers::InTime => {}
+        Answers::Late(_) => return "Late",
     }
     let moving = state.measured.is_some_and(|measured| measured.moving());
     let program = state.program.filter(|program| program.enabled);

@@ -1,11 +1,9 @@
 //! The rules of the gate. Each is one reason to refuse.
 
-use std::time::Duration;
-
 use super::{Intervals, Situation, way};
 use crate::{
     astro::{Angle, xy_mount},
-    contract::driver::{Intent, Refusal},
+    contract::driver::{Intent, Refusal, position_for},
     device::{
         Asked, Motion, SecondAxis, aimed,
         panel::{Act, Lead},
@@ -13,11 +11,6 @@ use crate::{
     },
     station::Mount,
 };
-
-/// A jog or step needs a position younger than this.
-const FRESH: Duration = Duration::from_secs(1);
-/// Other motions need a position younger than this.
-const RECENT: Duration = Duration::from_secs(5);
 
 #[derive(Clone, Copy)]
 pub(super) struct Rule {
@@ -130,11 +123,7 @@ fn controller_offers_it(motion: &Motion, situation: &Situation<'_>) -> Result<()
 }
 
 fn position_is_fresh(asked: &Asked, situation: &Situation<'_>) -> Result<(), Refusal> {
-    let measured = situation.state.measured_on_link().ok_or(Refusal::PositionUnknown)?;
-    let age = situation.now.steady.saturating_duration_since(measured.asked);
-    let is_by_hand = matches!(asked, Asked::Motion(Motion::Jog { .. } | Motion::Step { .. }));
-    let allowed = if is_by_hand { FRESH } else { RECENT };
-    if age < allowed { Ok(()) } else { Err(Refusal::PositionOld(age)) }
+    position_for(asked, situation.state, situation.now.steady).map(drop)
 }
 
 fn no_stop_under_way(_: &Asked, situation: &Situation<'_>) -> Result<(), Refusal> {

@@ -24,6 +24,7 @@ impl Device for Genius {
         self.link_down(now);
         self.state.link_since = Some(now.steady);
         self.state.motion_lock = None;
+        self.state.forget_checks();
         self.state.is_other_device = false;
         self.next_poll = Some(now.steady);
     }

@@ -8,7 +8,7 @@ use crate::{
     astro::Angle,
     device::{
         Controller, Device, Extent, Motion,
-        panel::Act,
+        panel::{Act, CheckState},
         settings::{Change, Value, Values},
     },
 };
@@ -120,6 +120,18 @@ fn asked_again(is_watched: bool) -> (Genius, Moment) {
     now.steady += Duration::from_millis(500);
     assert_eq!(unit.poll(now).as_deref(), Some(&b"|h"[..]));
     (unit, now)
+}
+
+#[test]
+fn a_new_link_forgets_what_the_checks_found() {
+    let (mut unit, now) = asked_again(false);
+    let states =
+        |unit: &Genius| unit.state().checks.iter().map(|check| check.state).collect::<Vec<_>>();
+    assert!(!states(&unit).is_empty() && !states(&unit).contains(&CheckState::Unknown));
+    unit.link_up(now);
+    assert!(!states(&unit).is_empty());
+    assert!(states(&unit).iter().all(|state| *state == CheckState::Unknown));
+    assert_eq!(unit.state().checked_at, None);
 }
 
 #[test]

@@ -230,6 +230,7 @@ mod tests {
     use super::{super::exchange::Purpose, *};
     use crate::{
         device::settings::{Value, Values},
+        protocol::satrak::{Reply, Satellite},
         station::Antenna,
     };
 
@@ -244,6 +245,25 @@ mod tests {
         satrak.changes.begin(&mut satrak.state, now);
         satrak.changes.advance(&mut satrak.state, now, |write| write.looked(Values::new()));
         satrak
+    }
+
+    #[test]
+    fn a_new_link_knows_the_last_satellite_only_as_the_last_one() {
+        let now = crate::clock::Clock::system().now();
+        let mut satrak = about_to_shift(now);
+        let satellite = Satellite {
+            file: "stations.txt".to_owned(),
+            name: "ISS (ZARYA)".to_owned(),
+            period: 1,
+            catalog_number: 25_544,
+            maximum_elevation_deg: 60.0,
+        };
+        satrak.take_report(Reply::Satellite(satellite), now, now);
+        assert!(satrak.state.on_board.satellite.is_some());
+        satrak.link_up(now);
+        assert_eq!(satrak.state.on_board.satellite, None);
+        let last = satrak.state.last_satellite.as_ref().map(|last| (&*last.name, last.read_at));
+        assert_eq!(last, Some(("ISS (ZARYA)", now.utc)));
     }
 
     #[test]

@@ -10,7 +10,7 @@ use crate::{
     astro::{AzEl, time::seconds_between},
     clock::Moment,
     device::{
-        Axis, AxisMotion, Drive, Measured, Phase, Program, UnitClock,
+        Axis, AxisMotion, Drive, LastSatellite, Measured, Phase, Program, UnitClock,
         settings::{HeldGroup, ReadFailure},
     },
     protocol::satrak::{AxisMotion as UnitMotion, Query, Reply, Status, TrackState},
@@ -56,6 +56,8 @@ impl Satrak {
             Reply::GpsData(gps) => unit.gps = Some(gps),
             Reply::GpsSettings(settings) => unit.gps_settings = Some(settings),
             Reply::Satellite(satellite) => {
+                let name = satellite.name.clone();
+                state.last_satellite = Some(LastSatellite { name, read_at: now.utc });
                 unit.satellite = Some(satellite);
                 unit.height_is_of_window = unit.window.is_some();
             }

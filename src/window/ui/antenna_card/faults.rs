@@ -41,6 +41,8 @@ fn colour(state: CheckState, t: &Tokens) -> Color32 {
 /// All checks of a unit.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct FaultsModel<'a> {
+    /// The unit answers, so that its last report is true now.
+    pub is_known: bool,
     /// In the order of the list.
     pub checks: &'a [Check],
     /// Time of the unit's last report, formatted.
@@ -52,8 +54,13 @@ impl FaultsModel<'_> {
         self.checks.iter().filter(|check| check.state == state).count()
     }
 
-    /// The worst result. A fault weighs most; unknown weighs more than good.
+    /// The worst result, unknown while the unit does not answer.
     fn worst(&self) -> CheckState {
+        if self.is_known { self.worst_reported() } else { CheckState::Unknown }
+    }
+
+    /// The worst result of the last report. A fault weighs most; unknown weighs more than good.
+    fn worst_reported(&self) -> CheckState {
         [CheckState::Fault, CheckState::Caution, CheckState::Unknown]
             .into_iter()
             .find(|state| self.count(*state) > 0)
@@ -62,7 +69,17 @@ impl FaultsModel<'_> {
 
     /// The result in a few words, and the sentence below it.
     fn summary(&self) -> (String, String) {
-        let (all, worst) = (self.checks.len(), self.worst());
+        if self.is_known || self.checked_at.is_empty() {
+            return self.reported();
+        }
+        let (last, _) = self.reported();
+        let last = format!("Last report {}: {}", self.checked_at, last.to_lowercase());
+        ("Not known".into(), last)
+    }
+
+    /// The same for the last report, as if it were true now.
+    fn reported(&self) -> (String, String) {
+        let (all, worst) = (self.checks.len(), self.worst_reported());
         let named = || {
             let rows = self.checks.iter().filter(|check| check.state == worst);
             rows.map(|check| check.name).collect::<Vec<_>>().join(", ")
@@ -73,10 +90,15 @@ impl FaultsModel<'_> {
             format!(", {}", self.checked_at)
         };
         match (worst, self.count(worst)) {
+            (CheckState::Good, 1) => ("No faults".into(), format!("The only check passed{at}")),
             (CheckState::Good, _) => ("No faults".into(), format!("All {all} checks passed{at}")),
             (CheckState::Unknown, 0) => ("Not known".into(), "The unit reports no checks".into()),
+            (CheckState::Unknown, 1) if all == 1 => {
+                ("Not known".into(), format!("The only check has no answer{at}"))
+            }
             (CheckState::Unknown, count) => {
-                ("Not known".into(), format!("{count} of {all} checks have no answer{at}"))
+                let verb = if count == 1 { "has" } else { "have" };
+                ("Not known".into(), format!("{count} of {all} checks {verb} no answer{at}"))
             }
             (CheckState::Caution, 1) => ("1 caution".into(), named()),
             (CheckState::Caution, count) => (format!("{count} cautions"), named()),
@@ -153,19 +175,23 @@ fn list(ui: &mut Ui, model: &FaultsModel<'_>) {
             ui.painter().hline(row.x_range(), row.top(), (1.0, t.line));
         }
         let y = row.top() + 13.0;
-        let colour = colour(check.state, t);
+        let shown = if model.is_known { check.state } else { CheckState::Unknown };
+        let colour = colour(shown, t);
         let glyph = paint::square(pos2(row.left() + 10.0, y), 14.0);
-        icons::paint(ui.painter(), glyph, verdict_icon(check.state), colour);
+        icons::paint(ui.painter(), glyph, verdict_icon(shown), colour);
+        let was_reported = !model.is_known && check.state != CheckState::Unknown;
+        let last = if was_reported { "last " } else { "" };
+        let result = format!("{last}{}", word(check.state));
         let at = pos2(row.left() + 26.0, y);
         paint::text(ui, at, Align2::LEFT_CENTER, check.name, text::body_medium(), t.t1);
         let at = pos2(row.right() - 4.0, y);
         let font = text::sized(12.0, Weight::Medium);
-        paint::text(ui, at, Align2::RIGHT_CENTER, word(check.state), font, colour);
+        paint::text(ui, at, Align2::RIGHT_CENTER, &result, font, colour);
         if let Some(galley) = galley {
             ui.painter().galley(pos2(row.left() + 26.0, row.top() + 24.0), galley, t.t2);
         }
         let said = advice.unwrap_or_default();
-        let name = format!("{}: {}. {said}", check.name, word(check.state));
+        let name = format!("{}: {result}. {said}", check.name);
         paint::name_text(ui, ("check", check.name), row, name.trim_end());
     }
 }
@@ -183,7 +209,8 @@ mod tests {
         let good = check("Power", CheckState::Good);
         let fault = check("Drive X", CheckState::Fault);
         let unknown = check("Clock", CheckState::Unknown);
-        let of = |checks: &[Check]| FaultsModel { checks, checked_at: "11:06:08Z" }.summary();
+        let checked_at = "11:06:08Z";
+        let of = |checks: &[Check]| FaultsModel { is_known: true, checks, checked_at }.summary();
         assert_eq!(
             of(&[good.clone(), good.clone()]),
             ("No faults".into(), "All 2 checks passed, 11:06:08Z".into())
@@ -192,8 +219,22 @@ mod tests {
             of(&[good.clone(), unknown.clone(), fault]),
             ("1 fault".into(), "Drive X".into())
         );
-        let silent = ("Not known".into(), "1 of 2 checks have no answer, 11:06:08Z".into());
-        assert_eq!(of(&[good.clone(), unknown]), silent);
+        let silent = ("Not known".into(), "1 of 2 checks has no answer, 11:06:08Z".into());
+        assert_eq!(of(&[good.clone(), unknown.clone()]), silent);
+        let alone = ("Not known".into(), "The only check has no answer, 11:06:08Z".into());
+        assert_eq!(of(&[unknown]), alone);
+        assert_eq!(of(&[good]).1, "The only check passed, 11:06:08Z");
         assert_eq!(of(&[]).0, "Not known");
+    }
+
+    #[test]
+    fn without_an_answer_nothing_is_known_and_the_last_report_is_told_as_such() {
+        let checks = [check("Power", CheckState::Good), check("Drive X", CheckState::Fault)];
+        let of = |checks, checked_at| FaultsModel { is_known: false, checks, checked_at };
+        let silent = of(&checks, "11:06:08Z");
+        assert_eq!(silent.summary(), ("Not known".into(), "Last report 11:06:08Z: 1 fault".into()));
+        assert_eq!(silent.worst(), CheckState::Unknown);
+        let good = of(&checks[..1], "11:06:08Z").summary();
+        assert_eq!(good.1, "Last report 11:06:08Z: no faults");
     }
 }

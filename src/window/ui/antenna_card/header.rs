@@ -25,8 +25,8 @@ pub enum LinkStatus {
     Connecting,
     /// Replies are late or missing.
     Late,
-    /// The link is lost.
-    NoAnswer,
+    /// No reply comes.
+    NoReply,
     /// This console has no link and is not trying to connect.
     NotConnected,
     /// Another Azel drives the unit.
@@ -137,7 +137,7 @@ fn status_tag(ui: &Ui, row: Rect, status: LinkStatus) -> f32 {
         LinkStatus::InMaintenance => ("In maintenance", t.warn),
         LinkStatus::Connecting => ("Connecting", t.t3),
         LinkStatus::Late => ("Answers late", t.warn),
-        LinkStatus::NoAnswer => ("No answer", t.warn),
+        LinkStatus::NoReply => ("No reply", t.warn),
         LinkStatus::NotConnected => ("Not connected", t.t3),
         LinkStatus::Elsewhere => ("Driven elsewhere", t.warn),
     };

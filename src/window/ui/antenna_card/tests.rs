@@ -120,7 +120,7 @@ fn model() -> CardModel<'static> {
             stop_note: None,
         },
         readings: &[],
-        faults: Some(FaultsModel { checks: &CHECKS, checked_at: "11:06:08Z" }),
+        faults: Some(FaultsModel { is_known: true, checks: &CHECKS, checked_at: "11:06:08Z" }),
         more: MoreModel::default(),
         lock_out: None,
         asks_standing: None,

@@ -73,12 +73,12 @@ fn antenna_line(
     shown: Option<(&ShownUnit<'_>, &Form)>,
 ) -> bool {
     let t = theme::tokens(ui);
-    let activity = bar::activity(antenna);
+    let activity = bar::activity(model, antenna);
     let name = format!("{}, settings: {activity}", antenna.config.name);
     let id = ("settings of", &antenna.config.name);
     let response = paint::control(ui, id, rect, Role::Button, true, &name);
     paint_ground(ui, rect, shown.is_some(), response.hovered());
-    let (icon, colour) = bar::glyph(antenna).look(t);
+    let (icon, colour) = bar::glyph(model, antenna).look(t);
     let at = paint::square(pos2(rect.left() + 23.0, rect.center().y), 13.0);
     icons::paint(ui.painter(), at, icon, colour);
     let edited = shown.map_or(0, |(unit, form)| form.count_all(unit).edited);
@@ -93,7 +93,7 @@ fn antenna_line(
     paint::text_in(ui, up, Align2::LEFT_CENTER, &antenna.config.name, font, t.t1);
     let down = room.translate(vec2(0.0, 8.0));
     let age = bar::age(model, antenna);
-    let second = link_chip::with_age(activity, &age, bar::glyph(antenna));
+    let second = link_chip::with_age(activity, &age, bar::glyph(model, antenna));
     paint::text_in(ui, down, Align2::LEFT_CENTER, &second, text::small(), t.t2);
     paint::focus_ring(ui, &response, 0);
     response.clicked()

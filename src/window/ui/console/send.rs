@@ -126,7 +126,7 @@ fn antenna(ui: &Ui, rect: Rect, model: &Model) {
         paint::text_in(ui, rect, Align2::LEFT_CENTER, "No antenna", text::body(), t.t3);
         return;
     };
-    let link = glyph(antenna);
+    let link = glyph(model, antenna);
     let (icon, colour) = link.look(t);
     let at = pos2(rect.left() + 7.0, rect.center().y);
     icons::paint(ui.painter(), paint::square(at, 14.0), icon, colour);

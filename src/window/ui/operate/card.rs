@@ -18,10 +18,10 @@ use super::{
     passes,
 };
 use crate::{
-    astro::Angle,
+    astro::{Angle, time::seconds_between},
     contract::{
         CatalogState,
-        antenna::AntennaModel,
+        antenna::{Answers, AntennaModel},
         driver::{Intent, LinkState, Snapshot},
     },
     device::{Capabilities, Pointing},
@@ -92,13 +92,14 @@ pub(super) fn show(
     let go_on = words::automatic::go_on(model, antenna);
     let automatic = words::automatic::in_full(model, antenna);
     let offsets = CardOffsets::of(model, antenna);
+    let held_head = held_head(model, antenna);
     state_sentence(model, antenna).with(|sentence| {
         let card = CardModel {
             header: HeaderModel {
                 second_line: &second_line,
                 alarm: alarm.as_deref(),
                 recorded: recorded.as_deref(),
-                ..header(antenna)
+                ..header(model, antenna)
             },
             sentence: *sentence,
             offer: offer(antenna, offsets.left()),
@@ -130,7 +131,7 @@ pub(super) fn show(
                 nothing_left: nothing_left.as_deref(),
                 note: note.as_deref(),
                 parks_at: &parks_at,
-                ..track(model, antenna, &locks, sun_avoidance.as_deref())
+                ..track(model, antenna, &locks, &held_head, sun_avoidance.as_deref())
             }),
             offsets: offsets.model(antenna, &locks),
             drive: DriveModel {
@@ -140,7 +141,7 @@ pub(super) fn show(
             },
             live,
             readings: &snapshot.state.readings,
-            faults: (!checks.is_empty()).then_some(FaultsModel { checks, checked_at: &checked_at }),
+            faults: faults(model, antenna, &checked_at),
             more: MoreModel {
                 actions: make.actions,
                 locked: locks.link,
@@ -187,6 +188,17 @@ fn offer<'a>(antenna: &'a AntennaModel, left: Option<&'a str>) -> Option<Offer<'
     again.or(taken.map(|name| Offer::TakeOver(short(name))))
 }
 
+/// The checks of a unit that has some, with the time of its last report.
+fn faults<'a>(
+    model: &Model,
+    antenna: &'a AntennaModel,
+    checked_at: &'a str,
+) -> Option<FaultsModel<'a>> {
+    let checks = &antenna.snapshot.state.checks;
+    let is_known = antenna.answers(model.steady).is_current();
+    (!checks.is_empty()).then_some(FaultsModel { is_known, checks, checked_at })
+}
+
 fn lock_out(snapshot: &Snapshot) -> Option<LockOutModel<'_>> {
     let lock_out = snapshot.lock_out.as_ref()?;
     Some(LockOutModel { by: &lock_out.by, locking: snapshot.locking })
@@ -227,12 +239,12 @@ fn second_line(antenna: &AntennaModel) -> String {
 }
 
 /// The head of the card without words that are made for it.
-fn header(antenna: &AntennaModel) -> HeaderModel<'_> {
+fn header<'a>(model: &Model, antenna: &'a AntennaModel) -> HeaderModel<'a> {
     HeaderModel {
         name: &antenna.config.name,
         second_line: "",
-        link: bar::glyph(antenna),
-        status: link_status(antenna),
+        link: bar::glyph(model, antenna),
+        status: link_status(model, antenna),
         takes_panel: antenna.variant().capabilities.waits_for_word,
         in_maintenance: antenna.snapshot.lock_out.is_some(),
         alarm: None,
@@ -246,16 +258,16 @@ fn recorded(model: &Model) -> Option<String> {
     Some(format!("as recorded at {}", format::moment(replay.at, replay.at)))
 }
 
-fn link_status(antenna: &AntennaModel) -> LinkStatus {
+fn link_status(model: &Model, antenna: &AntennaModel) -> LinkStatus {
     let snapshot = &antenna.snapshot;
-    match snapshot.link {
+    match antenna.answers(model.steady) {
         _ if antenna.held_by.is_some() => LinkStatus::Elsewhere,
-        LinkState::Off => LinkStatus::NotConnected,
+        Answers::Off => LinkStatus::NotConnected,
         _ if snapshot.lock_out.is_some() => LinkStatus::InMaintenance,
-        LinkState::Up { .. } if antenna.is_live() => LinkStatus::Connected,
-        LinkState::Connecting { .. } => LinkStatus::Connecting,
-        LinkState::Stale { .. } => LinkStatus::Late,
-        LinkState::Up { .. } | LinkState::Lost { .. } => LinkStatus::NoAnswer,
+        Answers::InTime => LinkStatus::Connected,
+        Answers::Connecting => LinkStatus::Connecting,
+        Answers::Late(_) => LinkStatus::Late,
+        Answers::Silent(_) | Answers::Lost(_) => LinkStatus::NoReply,
     }
 }
 
@@ -270,7 +282,7 @@ fn drive<'a>(
     let is_unguarded = antenna.snapshot.unguarded && antenna.asks_unguarded;
     DriveModel {
         keys: axes::keys(antenna),
-        is_tracking: [locks.jog, locks.go_to] == [Some(locks::TRACKING); 2],
+        is_tracking: locks.is_tracking,
         jog_locked: locks.jog,
         unguarded: is_unguarded.then_some(words::UNGUARDED),
         jog_note,
@@ -304,11 +316,31 @@ fn way_out(antenna: &AntennaModel) -> Option<(String, Option<&'static str>)> {
     Some((words, (!inside.may_leave).then_some(hold)))
 }
 
+/// The caption of the satellite on the left: whose it is, and how long ago it was read, if that is not
+/// what the unit answers now.
+fn held_head(model: &Model, antenna: &AntennaModel) -> String {
+    let snapshot = &antenna.snapshot;
+    if snapshot.program_track.is_some() || !antenna.variant().capabilities.has_program {
+        return "Azel follows".to_owned();
+    }
+    let state = &snapshot.state;
+    let is_read = state.on_board.satellite.is_some();
+    let last = state.last_satellite.as_ref().filter(|_| state.unreadable.is_none());
+    match last {
+        Some(last) if !(is_read && antenna.answers(model.steady).is_current()) => {
+            let age_s = seconds_between(last.read_at, model.now).max(0.0);
+            format!("On the unit {} ago", format::age(age_s))
+        }
+        Some(_) | None => "On the unit".to_owned(),
+    }
+}
+
 /// The tracked and the selected satellite.
 fn track<'a>(
     model: &'a Model,
     antenna: &'a AntennaModel,
     locks: &Locks<'a>,
+    head: &'a str,
     sun_avoidance: Option<&'a str>,
 ) -> TrackModel<'a> {
     let state = &antenna.snapshot.state;
@@ -316,21 +348,23 @@ fn track<'a>(
     let number = selected.map(|predicted| predicted.satellite.elements.catalog_number());
     let followed = antenna.snapshot.program_track.as_ref();
     let is_here = followed.is_some() || !antenna.variant().capabilities.has_program;
-    let (head, held, tracks_selected) = if is_here {
+    let (held, tracks_selected) = if is_here {
         let name = followed.map(|followed| followed.name.as_str());
         let of_it = followed.and_then(|followed| followed.catalog_number);
-        ("Azel follows", name.map_or("nothing", short), of_it.is_some() && of_it == number)
+        (name.map_or("nothing", short), of_it.is_some() && of_it == number)
     } else {
         // An unreadable reply may pass for a name.
         let held = state.on_board.satellite.as_ref().filter(|_| state.unreadable.is_none());
         let of_it = held.map(|held| held.catalog_number);
         let is_tracked = of_it.is_some() && of_it == number && antenna.tracked_number() == number;
-        let name = match held.map(|held| held.name.as_str()) {
+        let last = state.last_satellite.as_ref().filter(|_| state.unreadable.is_none());
+        let read = held.map(|held| &held.name).or(last.map(|last| &last.name));
+        let name = match read.map(String::as_str) {
             None => "not read yet",
             Some("") => "no satellite",
             Some(name) => short(name),
         };
-        ("On the unit", name, is_tracked)
+        (name, is_tracked)
     };
     TrackModel {
         head,
@@ -401,7 +435,7 @@ fn others(model: &Model, on_cards: &[AntennaId]) -> Vec<OtherAntenna> {
         OtherAntenna {
             index,
             name: antenna.config.name.clone(),
-            link: bar::glyph(antenna),
+            link: bar::glyph(model, antenna),
             pointing: match (in_maintenance, is_old) {
                 (true, _) => "in maintenance".to_owned(),
                 (false, true) => format!("last {at}"),

@@ -7,8 +7,7 @@ use super::{OperateState, all_antennas, ghost, sky_time};
 use crate::{
     astro::{Angle, AzEl, time::seconds_between},
     contract::{
-        antenna::AntennaModel,
-        driver::LinkState,
+        antenna::{Answers, AntennaModel},
         passes::{PassKey, PredictedPass},
     },
     model::{Model, Selected, Sky, UiCommand},
@@ -215,17 +214,18 @@ pub(in crate::ui) fn commanded(antenna: &AntennaModel) -> Option<AzEl> {
     snapshot.aim.or_else(|| follows?.commanded)?.direction()
 }
 
-/// Time since the last report of an antenna with a lost link.
+/// Time since the last report of an antenna whose unit does not answer.
 pub(in crate::ui) fn lost_for(model: &Model, antenna: &AntennaModel) -> Option<String> {
-    let since = match antenna.snapshot.link {
-        LinkState::Lost { since, .. } => since,
+    let age = match antenna.answers(model.steady) {
+        Answers::Silent(age) | Answers::Lost(age) => age,
         // The antenna is left to others, who may have turned it since.
-        LinkState::Off => antenna.snapshot.state.measured?.received,
-        LinkState::Connecting { .. } | LinkState::Up { .. } | LinkState::Stale { .. } => {
-            return None;
+        Answers::Off => {
+            let received = antenna.snapshot.state.measured?.received;
+            model.steady.saturating_duration_since(received)
         }
+        Answers::Connecting | Answers::InTime | Answers::Late(_) => return None,
     };
-    Some(format::age(model.steady.saturating_duration_since(since).as_secs_f64()))
+    Some(format::age(age.as_secs_f64()))
 }
 
 /// The keep-outs that hold for the antenna.

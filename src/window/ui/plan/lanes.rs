@@ -181,7 +181,7 @@ fn label(
     list::paint_divider(ui, rect);
     let inner = rect.shrink2(vec2(PADDING, 6.0));
     let (first, second) = inner.split_top_bottom_at_fraction(0.5);
-    let (glyph, colour) = bar::glyph(antenna).look(t);
+    let (glyph, colour) = bar::glyph(model, antenna).look(t);
     let at = paint::square(pos2(first.left() + 6.0, first.center().y), 12.0);
     icons::paint(ui.painter(), at, glyph, colour);
     let room = first.with_min_x(at.right() + 6.0).with_max_x(switch.left() - 70.0);

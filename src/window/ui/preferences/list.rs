@@ -255,7 +255,7 @@ fn page_row(
     let mut colour = t.t1;
     if let Page::Antenna(id) = page {
         let indent = if row.width() < WIDTH - 8.0 { 4.0 } else { 20.0 };
-        let glyph = model.antenna_of(id).map_or(LinkGlyph::Off, bar::glyph);
+        let glyph = model.antenna_of(id).map_or(LinkGlyph::Off, |of| bar::glyph(model, of));
         let (icon, ink) = glyph.look(t);
         let at = pos2(room.left() + indent + 6.0, room.center().y);
         icons::paint(ui.painter(), paint::square(at, 12.0), icon, ink);

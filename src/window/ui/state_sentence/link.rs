@@ -2,18 +2,14 @@
 
 use super::{Spoken, short};
 use crate::{
-    clock::Instant,
     contract::{
-        antenna::AntennaModel,
+        antenna::{Answers, AntennaModel},
         claim::HeldBy,
         driver::{LinkLoss, LinkState, StopState},
     },
     model::Model,
     ui::{format, widgets::sentence::SentenceKind, words},
 };
-
-/// A reply that is later than this is missing and not only slow, seconds.
-const SILENT_FROM_S: f64 = 3.0;
 
 pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> {
     let name = &antenna.config.name;
@@ -23,24 +19,38 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
     if unreadable.is_some() {
         return unreadable;
     }
-    match &antenna.snapshot.link {
-        LinkState::Up { .. } if state.measured.is_none() => Some(
+    match antenna.answers(model.steady) {
+        Answers::InTime if state.measured.is_none() => Some(
             Spoken::new(SentenceKind::Holding)
                 .plain(format!("{name} is connected and is being read.")),
         ),
-        LinkState::Up { .. } if antenna.is_live() => None,
-        // A new link on which the unit has not answered yet tells nothing new of it.
-        LinkState::Up { .. } | LinkState::Stale { .. } => silent(model, antenna),
-        LinkState::Off => Some(Spoken::new(SentenceKind::Holding).plain(off(antenna))),
-        LinkState::Connecting { .. } => Some(
+        Answers::InTime => None,
+        Answers::Off => Some(Spoken::new(SentenceKind::Holding).plain(off(antenna))),
+        Answers::Connecting => Some(
             Spoken::new(SentenceKind::Holding).plain(format!("Connecting to {name} at {address}.")),
         ),
-        LinkState::Lost { since, reason, retry_at } => {
-            let silent_s = model.steady.saturating_duration_since(*since).as_secs_f64();
+        Answers::Late(_) | Answers::Silent(_) if is_stopping(antenna) => None,
+        answers @ Answers::Late(_) => {
+            let age = format::age(answers.overdue()?.as_secs_f64());
+            let words = format!("{name} answers late: its position is {age} old. ");
+            let spoken = Spoken::new(SentenceKind::Caution).plain(words);
+            Some(what_it_did(spoken, antenna).plain("Check its cable and the network."))
+        }
+        // Azel does not know the present state, and so does not state one.
+        Answers::Silent(age) => {
+            let silence = format!("No reply from {name} for {}. ", format::age(age.as_secs_f64()));
+            let spoken = Spoken::new(SentenceKind::Caution).plain(silence);
+            let next = "Azel connects again if it stays silent.";
+            Some(what_it_did(spoken, antenna).plain(next))
+        }
+        Answers::Lost(age) => {
+            let LinkState::Lost { reason, retry_at, .. } = &antenna.snapshot.link else {
+                return None;
+            };
             let retry_s = retry_at.saturating_duration_since(model.steady).as_secs_f64();
             let spoken = Spoken::new(SentenceKind::Fault).plain(format!(
                 "No reply from {name} for {}: {}. ",
-                format::age(silent_s),
+                format::age(age.as_secs_f64()),
                 words::link_loss(reason)
             ));
             // A connection that the unit closes at once may appear as a reset.
@@ -56,34 +66,6 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
             )
         }
     }
-}
-
-/// The sentence for a unit that does not answer over a link that is still open. Azel does not know
-/// its present state, and so does not state one.
-fn silent(model: &Model, antenna: &AntennaModel) -> Option<Spoken> {
-    let state = &antenna.snapshot.state;
-    let silent_s = age_s(model, state.traffic.last_reply?);
-    if is_stopping(antenna) {
-        return None;
-    }
-    if silent_s < SILENT_FROM_S {
-        let old_s = age_s(model, state.measured_on_link()?.asked);
-        return (old_s >= SILENT_FROM_S).then(|| {
-            let name = &antenna.config.name;
-            let words =
-                format!("{name} answers late: its position is {} old. ", format::age(old_s));
-            what_it_did(Spoken::new(SentenceKind::Caution).plain(words), antenna)
-                .plain("Check its cable and the network.")
-        });
-    }
-    let silence = format!("No reply from {} for {}. ", antenna.config.name, format::age(silent_s));
-    let spoken = Spoken::new(SentenceKind::Caution).plain(silence);
-    let next = "Azel connects again if it stays silent.";
-    Some(what_it_did(spoken, antenna).plain(next))
-}
-
-fn age_s(model: &Model, instant: Instant) -> f64 {
-    model.steady.saturating_duration_since(instant).as_secs_f64()
 }
 
 /// An unproved stop is the graver matter.

@@ -127,7 +127,8 @@ fn badness(link: LinkGlyph) -> u8 {
         LinkGlyph::Live => 0,
         LinkGlyph::Off => 1,
         LinkGlyph::Late => 2,
-        LinkGlyph::Lost => 3,
+        LinkGlyph::Silent => 3,
+        LinkGlyph::Lost => 4,
     }
 }
 

@@ -19,14 +19,17 @@ pub const TWO_LINES_WIDTH: f32 = 162.0;
 /// The word of an antenna for which a red alarm stands.
 pub const ALARM: &str = "Alarm";
 
-/// State of the link to a unit. Each has its own shape.
+/// State of the link to a unit. Shapes tell them apart; without a reply it is the same one, whatever the
+/// link does.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum LinkGlyph {
     /// The unit replies in time.
     Live,
     /// The last reply is older than two poll periods.
     Late,
-    /// No reply.
+    /// No reply over an open link.
+    Silent,
+    /// The link is gone.
     Lost,
     /// Switched off.
     #[default]
@@ -39,7 +42,7 @@ impl LinkGlyph {
         match self {
             Self::Live => (Icon::Disc, t.ok),
             Self::Late => (Icon::HalfDisc, t.warn),
-            Self::Lost => (Icon::CrossedRing, t.bad),
+            Self::Silent | Self::Lost => (Icon::CrossedRing, t.bad),
             Self::Off => (Icon::OpenRing, t.t3),
         }
     }
@@ -49,6 +52,7 @@ impl LinkGlyph {
         match self {
             Self::Live => "live",
             Self::Late => "late",
+            Self::Silent => "silent",
             Self::Lost => "lost",
             Self::Off => "off",
         }
@@ -96,7 +100,7 @@ pub struct AutomaticModel<'a> {
 pub fn with_age(activity: &str, age: &str, link: LinkGlyph) -> String {
     match link {
         _ if age.is_empty() => activity.to_owned(),
-        LinkGlyph::Lost => format!("{activity} {age}"),
+        LinkGlyph::Silent | LinkGlyph::Lost => format!("{activity} {age}"),
         LinkGlyph::Live | LinkGlyph::Late | LinkGlyph::Off => format!("{activity}, {}", ago(age)),
     }
 }
@@ -110,6 +114,7 @@ impl ChipModel<'_> {
         let words = match (self.maintenance, self.alarm, self.link) {
             // The age of a live reply leaves its room to the alarm.
             (true, _, _) | (false, Some(_), LinkGlyph::Live) => self.activity.to_owned(),
+            (false, Some(_), LinkGlyph::Late) => format!("{} {}", self.activity, self.age),
             (false, _, _) => with_age(self.activity, self.age, self.link),
         };
         if self.alarm.is_some() { format!("{ALARM}: {words}") } else { words }
@@ -147,7 +152,8 @@ impl ChipModel<'_> {
     fn short_age(&self) -> String {
         match (self.automatic, self.link) {
             (Some(_), LinkGlyph::Live) => String::new(),
-            (None, LinkGlyph::Live) | (_, LinkGlyph::Late | LinkGlyph::Lost | LinkGlyph::Off) => {
+            (None, LinkGlyph::Live)
+            | (_, LinkGlyph::Late | LinkGlyph::Silent | LinkGlyph::Lost | LinkGlyph::Off) => {
                 ago(self.age)
             }
         }
@@ -205,7 +211,11 @@ pub fn show(ui: &Ui, rect: Rect, model: &ChipModel<'_>, form: ChipForm) -> Respo
         let below = room.translate(vec2(0.0, 8.5));
         let (font, colour) =
             if model.alarm.is_some() { (alarm_font(), t.bad) } else { (text::small(), t.t2) };
-        paint::text_in(ui, below, Align2::LEFT_CENTER, &second, font, colour);
+        // The age is the first to give way to an alarm.
+        let in_short = format!("{ALARM}: {}", model.activity);
+        let is_short = model.alarm.is_some() && !paint::fits(ui, &second, font.clone(), below);
+        let painted = if is_short { &in_short } else { &second };
+        paint::text_in(ui, below, Align2::LEFT_CENTER, painted, font, colour);
     } else {
         let glyph = paint::square(pos2(rect.left() + 14.0, centre), 13.0);
         icons::paint(ui.painter(), glyph, icon, colour);
@@ -251,6 +261,40 @@ mod tests {
     use super::*;
     use crate::ui::widgets::testing;
     use egui_kittest::kittest::Queryable as _;
+
+    #[test]
+    fn the_line_of_an_alarm_is_never_cut() {
+        for (link, activity, age) in [
+            (LinkGlyph::Late, "Late", "4.3 s"),
+            (LinkGlyph::Late, "Late", "119 s"),
+            (LinkGlyph::Silent, "No reply", "35 s"),
+            (LinkGlyph::Lost, "No reply", "23 h 59 min"),
+            (LinkGlyph::Off, "Not connected", ""),
+            (LinkGlyph::Live, "Tracking", "0.2 s"),
+        ] {
+            let window = testing::window([300.0, 80.0], (), move |ui, ()| {
+                let rect = Rect::from_min_size(pos2(10.0, 10.0), vec2(TWO_LINES_WIDTH, 40.0));
+                let alarm = Some("RC2000C does not reply");
+                let model = ChipModel {
+                    name: "RC2000C",
+                    link,
+                    activity,
+                    age,
+                    alarm,
+                    ..ChipModel::default()
+                };
+                show(ui, rect, &model, ChipForm::TwoLines);
+            });
+            let texts = window.output().shapes.iter().filter_map(|clipped| match &clipped.shape {
+                egui::Shape::Text(text) => Some(&text.galley),
+                _ => None,
+            });
+            assert!(
+                texts.clone().count() == 2 && texts.clone().all(|galley| !galley.elided),
+                "{age}"
+            );
+        }
+    }
 
     #[test]
     fn the_chip_says_what_its_shape_shows() {

@@ -21,11 +21,11 @@ impl LiveNow {
 }
 
 fn live_antenna(live: &Model, antenna: &AntennaModel) -> LiveAntenna {
-    let link = bar::glyph(antenna);
+    let link = bar::glyph(live, antenna);
     let can = antenna.variant().capabilities;
     let measured = antenna.snapshot.state.measured;
     let at = measured.map(|measured| format!(" at {}", format::pointing(measured.pointing, can)));
-    let activity = format!("{}{}", bar::activity(antenna), at.unwrap_or_default());
+    let activity = format!("{}{}", bar::activity(live, antenna), at.unwrap_or_default());
     LiveAntenna {
         name: antenna.config.name.clone(),
         link,

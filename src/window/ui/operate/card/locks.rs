@@ -2,10 +2,10 @@
 
 use crate::{
     contract::{
-        antenna::AntennaModel,
+        antenna::{AntennaModel, NoMotion},
         driver::{Intent, LinkState},
     },
-    device::panel::Check,
+    device::{Asked, Motion, panel::Check},
     model::Model,
     ui::state_sentence::missing_angle,
 };
@@ -13,6 +13,8 @@ use crate::{
 /// The lock of all controls for moving by hand while a target is tracked.
 pub(in crate::ui::operate) const TRACKING: &str =
     "Locked while tracking. Choose Manual or Position.";
+const LATE: &str = "Locked: the unit answers late.";
+const SILENT: &str = "Locked: the unit does not answer.";
 const STANDBY: &str = "Locked in Standby. Choose Manual or Position.";
 
 /// The reasons why controls are locked, each in a sentence.
@@ -24,6 +26,8 @@ pub(in crate::ui::operate) struct Locks<'a> {
     pub(in crate::ui::operate) track: Option<&'a str>,
     /// For actions of the make that move metal.
     pub(in crate::ui::operate) action: Option<&'a str>,
+    /// A track is all that locks moving by hand, besides late replies.
+    pub(in crate::ui::operate) is_tracking: bool,
 }
 
 impl<'a> Locks<'a> {
@@ -37,7 +41,14 @@ impl<'a> Locks<'a> {
     ) -> Self {
         if model.replay.is_some() {
             let lock = Some(in_replay);
-            return Self { link: lock, jog: lock, go_to: lock, track: lock, action: lock };
+            return Self {
+                link: lock,
+                jog: lock,
+                go_to: lock,
+                track: lock,
+                action: lock,
+                is_tracking: false,
+            };
         }
         let snapshot = &antenna.snapshot;
         let intent = snapshot.intent;
@@ -45,15 +56,16 @@ impl<'a> Locks<'a> {
         let link = match snapshot.link {
             LinkState::Off => Some("Locked: not connected."),
             LinkState::Up { .. } | LinkState::Stale { .. } => None,
-            LinkState::Connecting { .. } | LinkState::Lost { .. } => {
-                Some("Locked: the unit does not answer.")
-            }
+            LinkState::Connecting { .. } | LinkState::Lost { .. } => Some(SILENT),
         };
         let fault = fault(antenna, has_checks);
         let maintenance =
             snapshot.lock_out.is_some().then_some("Locked: the unit is in maintenance.");
         let link = maintenance.or(link);
-        let common = link.or(fault);
+        let to_direction = Motion::Position { azimuth: None, elevation: None };
+        let position_of = |motion| no_motion(model, antenna, motion);
+        let by_hand = link.or(position_of(Motion::Jog { x_deg_s: 0.0, y_deg_s: 0.0 })).or(fault);
+        let other = link.or(position_of(to_direction)).or(fault);
         let jog = match intent {
             _ if program => Some(TRACKING),
             Intent::Manual => None,
@@ -72,14 +84,27 @@ impl<'a> Locks<'a> {
             _ => Some("Motion is locked. Choose Manual or Position."),
         };
         let blind = no_direction(antenna);
+        // A late reply must not change the layout of the card.
+        let is_tracking = link.or(fault).is_none() && [jog, go_to] == [Some(TRACKING); 2];
         Self {
             link,
-            jog: common.or(jog),
-            go_to: common.or(blind).or(go_to),
-            track: common.or(blind),
-            action: common.or(action),
+            jog: by_hand.or(jog),
+            go_to: other.or(blind).or(go_to),
+            track: other.or(blind),
+            action: other.or(action),
+            is_tracking,
         }
     }
+}
+
+/// The reason, by the age of the position, why this motion is not offered.
+fn no_motion(model: &Model, antenna: &AntennaModel, motion: Motion) -> Option<&'static str> {
+    let reason = antenna.no_motion(&Asked::Motion(motion), model.steady)?;
+    Some(match reason {
+        NoMotion::Unread => "Locked: the position is not read yet.",
+        NoMotion::Late => LATE,
+        NoMotion::Silent => SILENT,
+    })
 }
 
 /// The reason why the unit locks motion, if it does.
@@ -94,7 +119,7 @@ fn fault(antenna: &AntennaModel, has_checks: bool) -> Option<&'static str> {
         (false, false) => "Locked by the unit. See what it reports.",
         // It tells that it has a fault, but the list of its faults has not come.
         (false, true) if antenna.is_live() => "Locked: the unit reports a fault without naming it.",
-        (false, true) => "Locked: the unit answers late and has not named its fault.",
+        (false, true) => LATE,
     })
 }
 
