@@ -5,8 +5,8 @@ use egui::{Rect, Role};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 use crate::window_stories::{
-    every_view::{demo, in_view},
-    rig::{self, LARGE, SMALL, Window, settle},
+    every_view::{demo, in_view, painted, scene},
+    rig::{self, LARGE, SIZES, SMALL, Window, settle},
     states,
 };
 
@@ -53,6 +53,56 @@ fn a_tooltip_covers_no_part_of_its_subject() {
     let mut map = in_view(SMALL, View::Map, rig::model(states::holding()));
     let told = point_at_all(&mut operate) + point_at_all(&mut map);
     assert!(told > 20, "{told} tooltips");
+}
+
+/// Number of the controls in sight that paint no text, and the names of those without a tooltip.
+fn unexplained(window: &mut Window) -> (usize, Vec<String>) {
+    let whole = window.ctx.content_rect();
+    let texts: Vec<Rect> = painted::runs(window).into_iter().map(|run| run.rect).collect();
+    let roles = [Role::Button, Role::CheckBox, Role::ComboBox];
+    let nodes = roles.into_iter().flat_map(|role| window.query_all_by_role(role));
+    let marks: Vec<(String, Rect)> = nodes
+        .filter(|node| !node.accesskit_node().is_disabled())
+        .map(|node| (node.accesskit_node().label().unwrap_or_default(), node.rect()))
+        .filter(|(_, of)| {
+            whole.contains_rect(*of) && !texts.iter().any(|text| text.intersects(*of))
+        })
+        .collect();
+    let mut found = Vec::new();
+    let count = marks.len();
+    for (name, mark) in marks {
+        window.hover_at(mark.center());
+        settle(window);
+        if window.query_all_by_role(Role::Tooltip).next().is_none() {
+            found.push(name);
+        }
+    }
+    (count, found)
+}
+
+#[test]
+fn a_control_without_text_has_its_name_under_the_pointer() {
+    let (mut all, mut found) = (0, Vec::new());
+    let scenes = [
+        "Operate, three antennas of the demo",
+        "Operate, tracking",
+        "Map",
+        "Plan",
+        "Elements",
+        "Console",
+        "Record",
+        "Antennas",
+        "Preferences",
+    ];
+    for size in SIZES {
+        for name in scenes {
+            let (count, controls) = unexplained(&mut scene(name, size));
+            all += count;
+            found.extend(controls.into_iter().map(|control| format!("{name}: {control}")));
+        }
+    }
+    assert!(found.is_empty(), "{}", found.join("\n"));
+    assert!(all > 80, "{all} controls without text");
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! The button beside Track, with other targets for program track.
 
-use egui::{Popup, Rect, Role, Ui};
+use egui::{Popup, Rect, Ui};
 
 use super::CardAction;
 use crate::ui::{
@@ -53,7 +53,7 @@ pub(super) fn show(
 ) {
     let t = theme::tokens(ui);
     let name = "Follow something else";
-    let response = paint::control(ui, "follow menu", rect, Role::Button, true, name);
+    let response = paint::icon_control(ui, "follow menu", rect, name);
     if response.hovered() {
         ui.painter().rect_filled(rect, 4.0, t.bg3);
     }

@@ -1,6 +1,6 @@
 //! The head of the card: name, link, and the menu to connect or disconnect.
 
-use egui::{Align2, Color32, Popup, Rect, Role, Stroke, StrokeKind, Ui, pos2, vec2};
+use egui::{Align2, Color32, Popup, Rect, Stroke, StrokeKind, Ui, pos2, vec2};
 
 use super::{CardAction, Cursor};
 use crate::ui::{
@@ -102,14 +102,20 @@ pub(super) fn show(
     let (about, link) = (model.second_line, model.link.word());
     let words = format!("{}{recorded}, {about}, link {link}", model.name);
     let named = paint::name_text(ui, "header", name_room, &words);
-    named.on_hover_text(format!("{}\n{}", model.name, model.second_line));
+    // A short card has no second line.
+    let is_whole = paint::fits(ui, model.name, text::value(), name_room)
+        && !short
+        && paint::fits(ui, model.second_line, text::small(), room);
+    if !is_whole {
+        named.on_hover_text(format!("{}\n{}", model.name, model.second_line));
+    }
 }
 
 /// Shows the button with the link menu.
 fn link_menu(ui: &Ui, rect: Rect, model: &HeaderModel<'_>, actions: &mut Vec<CardAction>) {
     let t = theme::tokens(ui);
     let name = format!("Link of {}", model.name);
-    let response = paint::control(ui, "link menu", rect, Role::Button, true, &name);
+    let response = paint::icon_control(ui, "link menu", rect, &name);
     if response.hovered() {
         ui.painter().rect_filled(rect, 4.0, t.bg3);
     }

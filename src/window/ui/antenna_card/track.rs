@@ -241,7 +241,12 @@ fn two_lines(ui: &Ui, salt: &str, room: Rect, anchor: Align2, head: &str, name: 
     paint::text_in(ui, up, anchor, head, text::caption(), t.t3);
     let down = room.translate(vec2(0.0, 8.0));
     paint::name_in(ui, down, anchor, name, text::body_medium(), t.t1);
-    paint::name_text(ui, salt, room, &format!("{head}: {name}")).on_hover_text(name);
+    let words = format!("{head}: {name}");
+    let named = paint::name_text(ui, salt, room, &words);
+    let fits = |words: &str, font| paint::fits(ui, words, font, room);
+    if !fits(head, text::caption()) || !fits(name, text::body_medium()) {
+        named.on_hover_text(words);
+    }
 }
 
 /// Shows a refusal or a note.

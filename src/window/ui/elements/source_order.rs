@@ -50,7 +50,11 @@ pub(super) fn show(
     }
     paint::focus_ring(ui, &response, 4);
     let hint = lock.map_or_else(|| lags.unwrap_or_else(|| rule(order)), str::to_owned);
-    let response = response.on_hover_text(format!("{spoken}\n{hint}"));
+    let response = if paint::fits(ui, &value, text::small(), room) {
+        response.on_hover_text(hint)
+    } else {
+        response.on_hover_text(format!("{spoken}\n{hint}"))
+    };
     menu::show(&response, Popup::menu(&response).accessible_name("Order of sources"), |ui| {
         let newest = egui::Button::selectable(order.is_empty(), "Newest of all sources");
         if ui.add(newest).clicked() && !order.is_empty() {

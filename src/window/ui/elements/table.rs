@@ -192,9 +192,10 @@ impl Draws<'_> {
             self.list.response.id.with(("mark", number)),
             Sense::CLICK,
         );
-        response.widget_info(|| {
-            let name = format!("Mark {}", row.elements.label());
-            WidgetInfo::selected(Role::CheckBox, true, is_marked, name)
+        let name = || format!("Mark {}", row.elements.label());
+        response.widget_info(|| WidgetInfo::selected(Role::CheckBox, true, is_marked, name()));
+        let response = response.on_hover_ui(|ui| {
+            ui.label(name());
         });
         paint_box(ui, place, is_marked.then_some(Icon::Check));
         if response.clicked() {

@@ -174,7 +174,7 @@ fn label(
     let response = ui.interact(choose, id, Sense::click());
     let standing = words::automatic::in_short(model, antenna);
     let whole = words::automatic::in_full(model, antenna);
-    let spoken = format!("{name}. {standing} {}", whole.unwrap_or_default());
+    let spoken = format!("{name}. {standing} {}", whole.as_deref().unwrap_or_default());
     let spoken = spoken.trim_end();
     response.widget_info(|| WidgetInfo::selected(Role::RadioButton, true, is_chosen, spoken));
     list::paint_ground(ui, rect, is_chosen, false);
@@ -186,7 +186,8 @@ fn label(
     icons::paint(ui.painter(), at, glyph, colour);
     let room = first.with_min_x(at.right() + 6.0).with_max_x(switch.left() - 70.0);
     let font = text::sized(13.0, Weight::SemiBold);
-    paint::text_in(ui, room, Align2::LEFT_CENTER, name, font, t.t1);
+    paint::text_in(ui, room, Align2::LEFT_CENTER, name, font.clone(), t.t1);
+    let is_name_whole = paint::fits(ui, name, font, room);
     let colour = match antenna.operation {
         Operation::Suspended { .. } => t.warn,
         _ => t.t2,
@@ -202,7 +203,10 @@ fn label(
         commands.push(UiCommand::SelectAntenna(index));
     }
     paint::focus_ring(ui, &response, 2);
-    response.on_hover_text(spoken);
+    let is_whole = is_name_whole && paint::fits(ui, &standing, text::small(), room);
+    if whole.is_some() || !is_whole {
+        response.on_hover_text(spoken);
+    }
     if let Some(words) = resume {
         let place = second.with_min_x(room.right() + 8.0);
         let shown = key.show(ui, ("go on", antenna.id().0), place);

@@ -23,7 +23,7 @@ pub(super) const EDGE: f32 = 16.0;
 pub(super) fn upper_right(ui: &Ui, rect: Rect, layers: &mut Layers, t: &Tokens) {
     let corner = rect.right_top() + vec2(-EDGE, 12.0);
     let button = Rect::from_min_size(corner - vec2(28.0, 0.0), vec2(28.0, 24.0));
-    let response = icon_button(ui, "layers", button, "Layers", t);
+    let response = icon_button(ui, "layers", button, "Layers", t).on_hover_text("Layers");
     icons::paint(ui.painter(), paint::square(button.center(), 14.0), Icon::Layers, t.t2);
     Popup::from_toggle_button_response(&response)
         .accessible_name("Layers of the sky plot")

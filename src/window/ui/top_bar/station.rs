@@ -29,12 +29,13 @@ pub(super) fn show(
     let place = rect.shrink2(vec2(0.0, 6.0));
     let name = format!("Station {}", model.station);
     let response = paint::control(ui, "station", place, Role::Button, true, &name);
-    let response = response.on_hover_text(model.station);
     if response.hovered() {
         ui.painter().rect_filled(place, 5.0, t.bg3);
     }
     let room = rect.with_min_x(rect.left() + 12.0).with_max_x(rect.right() - 30.0);
     let strong = text::sized(14.0, Weight::SemiBold);
+    let is_cut = !paint::fits(ui, model.station, strong.clone(), room);
+    let response = if is_cut { response.on_hover_text(model.station) } else { response };
     if two_lines {
         let up = room.translate(vec2(0.0, -8.0));
         paint::text_in(ui, up, Align2::LEFT_CENTER, model.station, strong, t.t1);

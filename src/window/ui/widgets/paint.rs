@@ -229,6 +229,11 @@ pub fn control(
     response
 }
 
+/// Adds a button with an icon and no text, which has its name under the pointer.
+pub fn icon_control(ui: &Ui, salt: impl egui::AsIdSalt, rect: Rect, name: &str) -> Response {
+    control(ui, salt, rect, Role::Button, true, name).on_hover_text(name)
+}
+
 /// Adds a button that acts while it is held down.
 pub fn held_control(
     ui: &Ui,
