@@ -42,6 +42,10 @@ const LEAN_BELOW: f32 = 760.0;
 /// Width from which the column of the slew grows, by at most [`MORE_SLEW`].
 const WIDE_FROM: f32 = 1024.0;
 const MORE_SLEW: f32 = 120.0;
+/// Width of the names of satellites: those of large constellations have 15 characters.
+const NAME: f32 = 138.0;
+/// The same where there is no room but for what cannot be read elsewhere.
+const LEAN_NAME: f32 = 100.0;
 /// Width of the notes, with *Swap*, from which any reason has room in their column.
 const WIDE_NOTES: f32 = 460.0;
 
@@ -75,22 +79,25 @@ impl Columns {
             let of_room = |x: f32| (!is_lean).then_some(x);
             let (aos, los) = (240.0, of_room(354.0));
             let name = los.unwrap_or(aos) + 16.0;
-            let max = of_room(name + 128.0);
-            let text = max.unwrap_or(name + 92.0) + 16.0;
+            let max = of_room(name + NAME + 30.0);
+            let text = max.unwrap_or(name + LEAN_NAME - 8.0) + 16.0;
             let (slew, has_wide_notes) = (None, true);
             let swaps = !is_lean;
             return Self { state: 16.0, aos, los, name, max, slew, text, has_wide_notes, swaps };
         }
         // The names of satellites are shown whole where there is room.
         let more = (width - WIDE_FROM).clamp(0.0, MORE_SLEW);
-        let text = 794.0 + more;
+        let name = 418.0;
+        let max = name + NAME + 30.0;
+        let (slew, spare) = (max + 16.0, max + 216.0 + more);
+        let text = spare + 16.0;
         Self {
             state: 16.0,
             aos: 288.0,
             los: Some(402.0),
-            name: 418.0,
-            max: Some(562.0),
-            slew: Some((578.0, 778.0 + more)),
+            name,
+            max: Some(max),
+            slew: Some((slew, spare)),
             text,
             has_wide_notes: width - text >= WIDE_NOTES,
             swaps: true,
@@ -357,6 +364,7 @@ fn show_row(
     let room = row.with_min_x(at(columns.name)).with_max_x(at(columns.name_end()));
     let (font, name_colour) =
         if is_out { (text::small(), t.t2) } else { (text::sized(13.0, Weight::SemiBold), t.t1) };
+    let is_name_cut = !paint::fits(ui, listed.name, font.clone(), room);
     paint::name_in(ui, room, left, listed.name, font, name_colour);
     let mut text_from = at(columns.text);
     match (columns.slew, listed.entry) {
@@ -402,6 +410,7 @@ fn show_row(
     } else {
         t.t2
     };
+    let is_why_cut = !paint::fits(ui, &why, small.clone(), room);
     paint::text_in(ui, room, left, &why, small, colour);
     if response.clicked() {
         commands.push(UiCommand::SelectPass(listed.key));
@@ -409,7 +418,30 @@ fn show_row(
     if response.double_clicked() {
         commands.push(UiCommand::Show(crate::model::View::Operate));
     }
-    if !why.is_empty() {
-        response.on_hover_text(why);
+    let name = is_name_cut.then_some(listed.name);
+    let cut: Vec<&str> = name.into_iter().chain(is_why_cut.then_some(&*why)).collect();
+    if !cut.is_empty() {
+        response.on_hover_text(cut.join("\n"));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ui::widgets::testing;
+
+    #[test]
+    fn the_satellites_of_a_constellation_are_whole_beside_all_but_the_drawer() {
+        let mut window = testing::window([400.0, 60.0], 0.0, |ui, width| {
+            let font = text::sized(13.0, Weight::SemiBold);
+            *width = paint::text_width(ui, "GLOBALSTAR M094", font);
+        });
+        window.run();
+        let wanted = *window.state();
+        for width in [760.0, 968.0, 999.0, 1000.0, 1384.0, 2000.0] {
+            let columns = Columns::of(width);
+            let room = columns.name_end() - columns.name;
+            assert!(wanted > 0.0 && room >= wanted, "{room} of {wanted} in {width}");
+        }
     }
 }
