@@ -211,10 +211,13 @@ pub fn show(ui: &Ui, rect: Rect, model: &ChipModel<'_>, form: ChipForm) -> Respo
         let below = room.translate(vec2(0.0, 8.5));
         let (font, colour) =
             if model.alarm.is_some() { (alarm_font(), t.bad) } else { (text::small(), t.t2) };
-        // The age is the first to give way to an alarm.
+        // Beside an alarm the age gives way first, then the activity.
         let in_short = format!("{ALARM}: {}", model.activity);
-        let is_short = model.alarm.is_some() && !paint::fits(ui, &second, font.clone(), below);
-        let painted = if is_short { &in_short } else { &second };
+        let shorter = [&*in_short, ALARM].into_iter().filter(|_| model.alarm.is_some());
+        let painted = std::iter::once(&*second)
+            .chain(shorter)
+            .find(|words| paint::fits(ui, words, font.clone(), below))
+            .unwrap_or(&second);
         paint::text_in(ui, below, Align2::LEFT_CENTER, painted, font, colour);
     } else {
         let glyph = paint::square(pos2(rect.left() + 14.0, centre), 13.0);
