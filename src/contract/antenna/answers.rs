@@ -69,7 +69,7 @@ impl AntennaModel {
             LinkState::Connecting { .. } => return Answers::Connecting,
             LinkState::Lost { since, .. } => return Answers::Lost(age(since)),
             LinkState::Up { .. } if self.is_live() => return Answers::InTime,
-            // What is shown came over an earlier link.
+            // The last report came over an earlier link.
             LinkState::Up { since } => since,
             LinkState::Stale { as_of } => as_of,
         };

@@ -49,15 +49,15 @@ impl TimeAxis {
 
     /// The x of a time, which may lie outside the axis.
     pub(super) fn x(&self, time: Timestamp) -> f32 {
-        self.at(seconds_between(self.start, time) / self.seconds)
+        self.x_of_part(seconds_between(self.start, time) / self.seconds)
     }
 
     /// The x of a time; outside the axis that of the nearer end.
     pub(super) fn x_within(&self, time: Timestamp) -> f32 {
-        self.at((seconds_between(self.start, time) / self.seconds).clamp(0.0, 1.0))
+        self.x_of_part((seconds_between(self.start, time) / self.seconds).clamp(0.0, 1.0))
     }
 
-    fn at(&self, part: f64) -> f32 {
+    fn x_of_part(&self, part: f64) -> f32 {
         lerp(self.x.min..=self.x.max, part as f32)
     }
 
@@ -112,7 +112,7 @@ pub(super) fn is_full_hour(time: Timestamp) -> bool {
 mod tests {
     use super::*;
 
-    fn at(text: &str) -> Timestamp {
+    fn time(text: &str) -> Timestamp {
         text.parse().unwrap()
     }
 
@@ -121,50 +121,50 @@ mod tests {
     }
 
     fn half_a_day() -> TimeAxis {
-        TimeAxis::lasting(at("2026-11-14T10:56:00Z"), 43_200.0, Rangef::new(100.0, 820.0))
+        TimeAxis::lasting(time("2026-11-14T10:56:00Z"), 43_200.0, Rangef::new(100.0, 820.0))
     }
 
     #[test]
     fn a_span_of_time_fills_the_width() {
         let axis = half_a_day();
-        assert!(near(axis.x(at("2026-11-14T10:56:00Z")), 100.0));
-        assert!(near(axis.x(at("2026-11-14T11:56:00Z")), 160.0));
-        assert!(near(axis.x(at("2026-11-14T22:56:00Z")), 820.0));
+        assert!(near(axis.x(time("2026-11-14T10:56:00Z")), 100.0));
+        assert!(near(axis.x(time("2026-11-14T11:56:00Z")), 160.0));
+        assert!(near(axis.x(time("2026-11-14T22:56:00Z")), 820.0));
         assert!(near(axis.hour_width(), 60.0));
         assert!((axis.seconds_across(-60.0) + 3600.0).abs() < 1e-3);
-        let later = at("2026-11-15T00:56:00Z");
+        let later = time("2026-11-15T00:56:00Z");
         assert!(near(axis.x(later), 940.0) && near(axis.x_within(later), 820.0));
         assert!(!axis.contains(later) && axis.contains(axis.end()));
-        assert_eq!(axis.time(460.0), at("2026-11-14T16:56:00Z"));
+        assert_eq!(axis.time(460.0), time("2026-11-14T16:56:00Z"));
         assert_eq!((axis.time(0.0), axis.time(900.0)), (axis.start(), axis.end()));
     }
 
     #[test]
     fn no_time_has_no_axis() {
-        let time = at("2026-11-14T11:00:00Z");
+        let time = time("2026-11-14T11:00:00Z");
         assert!(TimeAxis::new(time, time, Rangef::new(0.0, 1.0)).is_none());
     }
 
     #[test]
     fn ranges_are_cut_at_the_axis_and_stay_visible() {
         let axis = half_a_day();
-        let half = axis.range(at("2026-11-14T10:26:00Z"), at("2026-11-14T11:26:00Z")).unwrap();
+        let half = axis.range(time("2026-11-14T10:26:00Z"), time("2026-11-14T11:26:00Z")).unwrap();
         assert!(near(half.min, 100.0) && near(half.max, 130.0), "{half:?}");
-        let short = axis.range(at("2026-11-14T13:00:00Z"), at("2026-11-14T13:00:20Z")).unwrap();
+        let short = axis.range(time("2026-11-14T13:00:00Z"), time("2026-11-14T13:00:20Z")).unwrap();
         assert!(near(short.span(), 3.0), "{short:?}");
-        let last = axis.range(at("2026-11-14T22:55:59Z"), at("2026-11-14T23:10:00Z")).unwrap();
+        let last = axis.range(time("2026-11-14T22:55:59Z"), time("2026-11-14T23:10:00Z")).unwrap();
         assert!(last.max <= 820.001 && last.span() > 2.99, "{last:?}");
-        assert_eq!(axis.range(at("2026-11-14T09:00:00Z"), at("2026-11-14T10:56:00Z")), None);
-        assert_eq!(axis.range(at("2026-11-14T22:56:00Z"), at("2026-11-14T23:00:00Z")), None);
+        assert_eq!(axis.range(time("2026-11-14T09:00:00Z"), time("2026-11-14T10:56:00Z")), None);
+        assert_eq!(axis.range(time("2026-11-14T22:56:00Z"), time("2026-11-14T23:00:00Z")), None);
     }
 
     #[test]
     fn full_hours_on_the_axis() {
         let hours: Vec<_> = half_a_day().multiples(3600).collect();
-        assert_eq!(hours.first(), Some(&at("2026-11-14T11:00:00Z")));
-        assert_eq!(hours.last(), Some(&at("2026-11-14T22:00:00Z")));
+        assert_eq!(hours.first(), Some(&time("2026-11-14T11:00:00Z")));
+        assert_eq!(hours.last(), Some(&time("2026-11-14T22:00:00Z")));
         assert_eq!(hours.len(), 12);
         assert!(hours.iter().all(|hour| is_full_hour(*hour)));
-        assert!(!is_full_hour(at("2026-11-14T11:30:00Z")));
+        assert!(!is_full_hour(time("2026-11-14T11:30:00Z")));
     }
 }

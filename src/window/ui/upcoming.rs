@@ -42,9 +42,9 @@ impl<'a> Upcoming<'a> {
         let words = format!("{}, {}", self.title, self.remark);
         paint::name_text(ui, "next passes", room, words.trim_end_matches(", "));
         if self.passes.is_empty() {
-            let at = body.left_top() + vec2(PADDING, 4.0);
+            let corner = body.left_top() + vec2(PADDING, 4.0);
             let width = body.width() - 2.0 * PADDING;
-            let place = paint::paragraph(ui, at, width, self.empty, text::body(), t.t2);
+            let place = paint::paragraph(ui, corner, width, self.empty, text::body(), t.t2);
             paint::name_text(ui, "no next pass", place, self.empty);
         }
         let mut clicked = None;

@@ -377,22 +377,23 @@ fn step(
     if seconds_between(now, duty.go_at) > lead_s {
         return park(active, Some(duty), seen, wishes, now);
     }
+    let can_be_made = seen.is_live && seen.can_be_sent && seen.not_ready.is_none();
     match &active.doing {
         Doing::Announces { moves_at, pass } if is_same_pass(*pass, duty.pass) => {
             let is_over = now >= *moves_at;
             is_over.then_some(())?;
         }
-        _ if is_announced && !(seen.is_live && seen.can_be_sent && seen.not_ready.is_none()) => {
-            return None;
+        Doing::Rests | Doing::Announces { .. } | Doing::Parks | Doing::Takes(_) => {
+            if is_announced && can_be_made {
+                let moves_at = add_seconds(now, wishes.announced_for_s);
+                active.doing = Doing::Announces { moves_at, pass: duty.pass };
+            }
+            if is_announced {
+                return None;
+            }
         }
-        _ if is_announced => {
-            let moves_at = add_seconds(now, wishes.announced_for_s);
-            active.doing = Doing::Announces { moves_at, pass: duty.pass };
-            return None;
-        }
-        _ => {}
     }
-    (seen.is_live && seen.can_be_sent && seen.not_ready.is_none()).then(|| {
+    can_be_made.then(|| {
         take(active, duty, 1, now);
         Act::Take(duty)
     })

@@ -108,7 +108,7 @@ impl Object<'_> {
         commands: &mut Vec<UiCommand>,
     ) -> Rect {
         let Self { model, .. } = *self;
-        let passes: Vec<&PredictedPass> = detail.iter().flat_map(|of| &of.passes).collect();
+        let passes: Vec<&PredictedPass> = detail.iter().flat_map(|detail| &detail.passes).collect();
         let floor = format::degrees(model.station.elevation_floor_deg, 0);
         let upcoming = Upcoming {
             title: "Next passes",

@@ -53,7 +53,8 @@ fn show_head(
     of: &GlobeSatellite,
     predicted: Option<&PredictedPass>,
 ) {
-    let (event, countdown) = predicted.map_or(("", "no pass".to_owned()), |of| until(of, model));
+    let (event, countdown) =
+        predicted.map_or(("", "no pass".to_owned()), |predicted| until(predicted, model));
     let age = format::age(of.satellite.elements.age_s(model.now));
     let detail = format!("{}, elements {age} old", of.number());
     let name = of.satellite.short_name();
@@ -120,7 +121,9 @@ fn parts(
 pub(super) fn later_passes(model: &Model, number: u32) -> Vec<&PredictedPass> {
     // The satellite may be no favourite.
     let lists = [&model.pass_lists.favourites, &model.pass_lists.all];
-    let is_later = |of: &&PredictedPass| of.number() == number && of.pass.aos.time > model.now;
+    let is_later = |predicted: &&PredictedPass| {
+        predicted.number() == number && predicted.pass.aos.time > model.now
+    };
     let found =
         lists.map(|list| list.passes.iter().filter(is_later).take(PASSES).collect::<Vec<_>>());
     found.into_iter().find(|passes| !passes.is_empty()).unwrap_or_default()

@@ -126,9 +126,9 @@ impl List {
     /// Says why the list has no rows.
     pub fn show_empty(&self, ui: &Ui, salt: &str, words: &str) {
         let rect = self.response.rect;
-        let at = rect.left_top() + vec2(MARGIN, 12.0);
+        let corner = rect.left_top() + vec2(MARGIN, 12.0);
         let (width, colour) = (rect.width() - 2.0 * MARGIN, theme::tokens(ui).t2);
-        let place = paint::paragraph(ui, at, width, words, text::body(), colour);
+        let place = paint::paragraph(ui, corner, width, words, text::body(), colour);
         paint::name_text(ui, salt, place, words);
         self.show_focus(ui);
     }
