@@ -12,7 +12,8 @@ use image::{
 
 use crate::window_stories::{
     every_view::scene,
-    rig::{LARGE, SMALL, settle},
+    replay,
+    rig::{self, LARGE, SMALL, settle},
 };
 
 const FOLDER: &str = "tests/window_stories/images";
@@ -31,14 +32,19 @@ const VIEWS: [&str; 9] = [
 ];
 
 /// States that look unlike those of [`VIEWS`].
-const STATES: [&str; 4] = ["Operate, jog", "Operate, link lost", "Alarms", "Horizon and keep-outs"];
+const STATES: [&str; 5] =
+    ["Operate, jog", "Operate, link lost", REPLAY, "Alarms", "Horizon and keep-outs"];
+
+/// A replay has its own present and states its day once, so it is no scene of every view.
+const REPLAY: &str = "Operate, replay";
 
 fn options() -> SnapshotOptions {
     SnapshotOptions::new().output_path(FOLDER)
 }
 
 fn image(name: &str, size: [f32; 2], theme: ThemeName) -> RgbaImage {
-    let mut window = scene(name, size);
+    let mut window =
+        if name == REPLAY { rig::window(size, replay::model()) } else { scene(name, size) };
     theme::set(&window.ctx, theme);
     settle(&mut window);
     window.render().unwrap()
