@@ -17,6 +17,7 @@ pub struct AddressError {
 }
 
 impl Address {
+    // The source of 50 is a third-party driver for this model, not the manual.
     /// Factory setting.
     pub const FACTORY: Self = Self(50);
 

@@ -91,9 +91,11 @@ impl Command {
 
     /// Length of a good reply in all, bytes.
     pub const fn reply_bytes(self) -> usize {
+        // A frame carries no length: these numbers alone tell where a reply ends (appendix E).
         match self {
             Self::DeviceType => 11,
             Self::SatelliteName => 19,
+            // Any command that acts is answered with the whole status, under its own code.
             Self::Status
             | Self::AutoMove
             | Self::Jog

@@ -82,6 +82,7 @@ impl MountKind {
 
     fn from_name(name: [u8; 4]) -> Self {
         let entry = Self::NAMES.into_iter().find(|(_, bytes)| *bytes == name);
+        // Sister models answer too, such as the RC2000A with `RC2K`, but use other codes in places.
         entry.map_or(Self::Other(name), |(mount, _)| mount)
     }
 
@@ -97,6 +98,7 @@ impl MountKind {
 impl fmt::Display for DeviceType {
     /// Formats as `2KCA 1.4`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        // The reply leaves out the point: 4.31 comes as `43` (appendix E).
         let [whole, tenth] = self.version.map(char::from);
         let name = self.mount.name();
         write!(f, "{} {whole}.{tenth}", String::from_utf8_lossy(&name))
@@ -118,8 +120,10 @@ impl Reply {
     pub fn parse(frame: &Frame) -> Result<Self, ReplyError> {
         let (code, data) = (frame.code(), frame.data());
         match frame.header() {
+            // An RS-422 adapter may return what it sends.
             Header::Command => return Err(ReplyError::Echo { code }),
             Header::Nak => return Ok(Self::Refused { code }),
+            // Tested before the code, because this reply may come to each command.
             Header::Ack if data == OFFLINE => return Ok(Self::Offline { code }),
             Header::Ack => {}
         }
@@ -146,6 +150,7 @@ impl Reply {
             }
             Self::Status { command, status } => (Header::Ack, command.code(), status.data()),
             Self::SatelliteName(entry) => {
+                // Both numbers have two digits on the line (appendix E).
                 let numbers = format!("{:02}{:02}", entry.index.min(99), entry.count.min(99));
                 let data = [numbers.as_bytes(), entry.name.field()].concat();
                 (Header::Ack, Command::SatelliteName.code(), data)
@@ -166,6 +171,7 @@ fn entry(data: &[u8]) -> Option<NameEntry> {
     let (numbers, name) = data.split_at_checked(data.len().checked_sub(NAME_BYTES)?)?;
     let [index, count] = [numbers.get(..2)?, numbers.get(2..)?].map(|digits| {
         let text = std::str::from_utf8(digits).ok()?;
+        // `parse` alone would accept a plus sign.
         text.bytes().all(|byte| byte.is_ascii_digit()).then(|| text.parse().ok()).flatten()
     });
     Some(NameEntry { index: index?, count: count?, name: SatelliteName::from_field(name)? })

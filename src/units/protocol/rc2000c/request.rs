@@ -86,6 +86,7 @@ impl Request {
             Self::Query(Query::DeviceType) => Command::DeviceType,
             Self::Query(Query::Status) => Command::Status,
             Self::Query(Query::SatelliteName(_)) => Command::SatelliteName,
+            // The protocol has no command for STOP: it is a jog with the letter X (appendix E).
             Self::Stop => Command::Jog,
             Self::Motion(motion) => motion.command(),
             Self::Setting(_) => Command::Miscellaneous,
@@ -101,6 +102,8 @@ impl Request {
             }
             Self::Stop => STOP.to_vec(),
             Self::Motion(motion) => motion.data(),
+            // The page of appendix E with these letters could not be read whole. The second letters
+            // are those of the RC1500 and the RC4000, whose protocols derive from this one.
             Self::Setting(Setting::AutoPolarization(true)) => b"PN".to_vec(),
             Self::Setting(Setting::AutoPolarization(false)) => b"PF".to_vec(),
             Self::Setting(Setting::Band(Band::C)) => b"TC".to_vec(),

@@ -34,6 +34,7 @@ impl SatelliteName {
         for character in name.chars() {
             let byte = u8::try_from(character)
                 .ok()
+                // Units store upper case, and a name must match the stored one (appendix E).
                 .filter(|byte| (b' '..0x7f).contains(byte) && !byte.is_ascii_lowercase())
                 .ok_or(NameError::Character(character))?;
             *places.next().ok_or(NameError::TooLong)? = byte;
@@ -43,6 +44,7 @@ impl SatelliteName {
 
     /// Name from a field of a frame: any characters that a frame may hold.
     pub(super) fn from_field(field: &[u8]) -> Option<Self> {
+        // Unchecked: a listed name must go back to the unit as it came.
         field.try_into().ok().map(Self)
     }
 

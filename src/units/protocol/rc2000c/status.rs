@@ -148,6 +148,7 @@ impl Status {
     pub const fn is_moving(&self) -> bool {
         self.azimuth_drive.is_moving()
             || self.elevation_drive.is_moving()
+            // An unknown code counts as motion, as it does for an axis.
             || !matches!(self.polarization_motion, PolarizationMotion::Still)
     }
 }

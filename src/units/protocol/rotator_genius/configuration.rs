@@ -65,6 +65,8 @@ impl Configuration {
     /// Encodes 22 bytes. The document's example has 12: it lacks the name that the document
     /// itself lists.
     pub(super) fn to_bytes(&self) -> Vec<u8> {
+        // The order is that of the input data in section 1.1. The descriptions below it put the
+        // name in another place.
         let front = format!(
             "|c{}{}{}{}{:02}",
             self.rotator.number(),

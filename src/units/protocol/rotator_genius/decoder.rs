@@ -65,6 +65,7 @@ impl Decoder {
     /// Takes bytes of the stream. Bytes that do not fit while nobody takes replies are lost,
     /// together with the reply that they belong to.
     pub fn push(&mut self, bytes: &[u8]) {
+        // Behind a gap, these bytes would be joined to half a reply in front of it.
         if self.has_overflowed {
             return;
         }
@@ -90,6 +91,7 @@ impl Decoder {
     /// else is noise, so that no reply is made of two halves.
     pub fn idle(&mut self) -> Vec<Received> {
         let mut items: Vec<_> = self.by_ref().collect();
+        // The document's example of a status lacks the blanks of its last, empty name.
         if let Front::Unfinished { missing_of_name: Some(missing) } = self.front() {
             self.pending.extend(std::iter::repeat_n(b' ', missing));
         }
@@ -141,6 +143,7 @@ fn status(shape: LayoutShape, bytes: &[u8], length: usize, before: Option<Layout
     }
     let Some(whole) = bytes.get(..length) else {
         let missing = length - bytes.len();
+        // Blanks may stand for a name. Cut any earlier, a status would get invented numbers.
         let is_name = missing <= shape.layout.name_length();
         return Front::Unfinished { missing_of_name: is_name.then_some(missing) };
     };
@@ -182,6 +185,7 @@ impl Iterator for Decoder {
                     return Some(Received::LayoutChanged(layout));
                 }
                 Front::Noise => self.give_up_one(),
+                // The rest of this reply was lost. Waiting would join it to the next reply.
                 Front::Unfinished { .. } if self.has_overflowed && !self.pending.is_empty() => {
                     self.give_up_one();
                 }

@@ -40,12 +40,14 @@ impl WholeDegrees {
 
     /// Three digits with leading zeros, as in the document's examples of commands.
     pub(super) fn digits(self) -> String {
+        // A unit may count bytes: with fewer digits it would take bytes of the next request.
         format!("{:03}", self.0)
     }
 
     /// Reads a field of a message.
     pub(super) fn parse(field: &[u8]) -> Option<Self> {
         let degrees = whole_number(field).and_then(|number| u16::try_from(number).ok())?;
+        // Section 1.0 writes 999 for a missing sensor or target, so it is no angle.
         Self::new(degrees).ok()
     }
 }
@@ -67,6 +69,7 @@ pub(super) fn without_blanks(field: &[u8]) -> &[u8] {
 /// Reads at most four digits with blanks on either side.
 pub(super) fn whole_number(field: &[u8]) -> Option<i16> {
     let digits = without_blanks(field);
+    // The widest number has four characters (section 1.0), and four digits fit in an `i16`.
     if !(1..=4).contains(&digits.len()) || !digits.iter().all(u8::is_ascii_digit) {
         return None;
     }

@@ -68,11 +68,14 @@ impl LayoutShape {
     pub(super) fn decide(bytes: &[u8]) -> ReplyStart<Self> {
         for has_panic_byte in [true, false] {
             let start = |layout| Self { layout, has_panic_byte }.header_length();
+            // The forms differ only behind the first motion, so one test of the first rotator
+            // serves both.
             match has_rotator(bytes, start(Layout::Wide)) {
                 None => return ReplyStart::Unfinished,
                 Some(false) => continue,
                 Some(true) => {}
             }
+            // The narrow form needs fewer bytes to be ruled out: its second rotator begins earlier.
             for layout in [Layout::Narrow, Layout::Wide] {
                 match has_rotator(bytes, start(layout) + layout.rotator_length()) {
                     None => return ReplyStart::Unfinished,

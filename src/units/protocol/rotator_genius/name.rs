@@ -49,6 +49,7 @@ impl RotatorName {
 
 /// Text of a name field without its padding: blanks and zero bytes at the ends.
 pub(super) fn from_field(field: &[u8]) -> String {
+    // The document says "extended ASCII": each byte is a character, and UTF-8 would refuse some.
     let text: String = field.iter().map(|byte| char::from(*byte)).collect();
     text.trim_matches([' ', '\0']).to_owned()
 }

@@ -64,9 +64,11 @@ fn go_to(bytes: &[u8]) -> ReplyStart<Reply> {
     let field = bytes.get(2..5.min(bytes.len())).unwrap_or_default();
     match field {
         [] => ReplyStart::Unfinished,
+        // No length tells the forms apart, but no number begins with `K` or `F`.
         [first, ..] if !is_filler(first) => {
             ended_by(Some(first), Acknowledgement::GoTo { target: None }, 3)
         }
+        // Given up before six bytes have come, so that a cut reply does not swallow the next one.
         _ if !field.iter().all(is_filler) => ReplyStart::Unknown,
         _ => {
             let target = WholeDegrees::parse(field);

@@ -45,6 +45,7 @@ impl Request {
     pub fn parse(bytes: &[u8]) -> Result<Self, RequestError> {
         let [b'|', letter, values @ ..] = bytes else { return Err(RequestError::Unknown) };
         let expected = Self::length(*letter).ok_or(RequestError::Unknown)?;
+        // Even a terminator is one byte too many: the document knows none.
         if bytes.len() != expected {
             return Err(RequestError::Length { found: bytes.len(), expected });
         }
@@ -56,6 +57,7 @@ impl Request {
             b'A' => Self::Motion(Motion::GoTo { rotator, target: angle(values)? }),
             b'c' => Self::Configure(configuration(rotator, values)?),
             b'P' => Self::Motion(Motion::Rotate { rotator, direction: Direction::Clockwise }),
+            // Only `M` is left here, because `length` knows no further letter.
             _ => Self::Motion(Motion::Rotate { rotator, direction: Direction::CounterClockwise }),
         })
     }

@@ -125,6 +125,7 @@ impl Rotator {
             position: position(field(3)?),
             limit_cw: WholeDegrees::parse(field(3)?),
             limit_ccw: WholeDegrees::parse(field(3)?),
+            // The kind and the motion frame the status. Another value means that it is out of step.
             kind: RotatorKind::from_letter(*field(1)?.first()?)?,
             moving: match field(1)? {
                 b"0" => Moving::Stopped,
@@ -139,6 +140,8 @@ impl Rotator {
             is_outside_limits: match field(1)? {
                 [0] | b"0" | b" " => Some(false),
                 [1] | b"1" => Some(true),
+                // Not taken for inside: outside its limits a rotator turns until `|S` comes
+                // (section 1.3).
                 _ => None,
             },
             name: name::from_field(field(layout.name_length())?),
@@ -150,6 +153,7 @@ fn position(field: &[u8]) -> Result<WholeDegrees, NoPosition> {
     WholeDegrees::parse(field).ok_or_else(|| match without_blanks(field) {
         b"999" => NoPosition::NoSensor,
         b"" => NoPosition::Blank,
+        // Only 999 has a meaning over 360, so any other number must not pass for a loose sensor.
         digits if digits.iter().all(u8::is_ascii_digit) => NoPosition::OutOfRange,
         _ => NoPosition::NotANumber,
     })

@@ -58,6 +58,7 @@ fn whole_second(time: Timestamp) -> Result<Timestamp, ValueError> {
     if !(2000..=2099).contains(&year) {
         return Err(out_of_range);
     }
+    // `TIME=` and `START_STOP_TIME=` take no milliseconds (sections 9 and 11).
     Timestamp::from_second(time.as_second()).map_err(|_| out_of_range)
 }
 
@@ -90,6 +91,7 @@ pub struct TrackWindow {
 impl TrackWindow {
     /// Cuts both times to their second. The years must be between 2000 and 2099.
     pub fn new(start: Timestamp, stop: Timestamp) -> Result<Self, ValueError> {
+        // Cut first: two times within one second would make a window without a length.
         let (start, stop) = (whole_second(start)?, whole_second(stop)?);
         if stop <= start {
             return Err(ValueError::StopBeforeStart);
@@ -129,6 +131,7 @@ impl TimedPosition {
         Ok(Self {
             x_deg: fields.decimal(1)?,
             y_deg: fields.decimal(2)?,
+            // Unlike section 8, section 17 has milliseconds in its example too.
             time: fields.time_with_ms(3)?,
         })
     }

@@ -16,6 +16,7 @@ macro_rules! coded {
             pub const fn from_code(code: i64) -> Self {
                 match code {
                     $($code => Self::$variant,)*
+                    // One unexplained number must not cost all other values of a reply.
                     other => Self::Unknown(other),
                 }
             }

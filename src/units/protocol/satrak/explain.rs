@@ -22,6 +22,7 @@ pub struct Value {
 /// Explains a frame that was sent to a unit.
 pub fn explain_request(frame: &Frame) -> Vec<Value> {
     match frame.command() {
+        // Hidden as a whole: a comma in the password would spread it over several values.
         Some((Word::SatelliteFtp, Verb::Set)) => vec![hidden()],
         Some((word, Verb::Set)) => explain(frame, names::of_setting(word)),
         _ => explain(frame, NamedFields::NONE),
@@ -32,6 +33,7 @@ pub fn explain_request(frame: &Frame) -> Vec<Value> {
 pub fn explain_reply(frame: &Frame) -> Vec<Value> {
     let is_error = frame.fields().first().is_some_and(|field| field == "ERR");
     match frame.command() {
+        // The form of a failed query is not stated, so ERR is looked for after any sign.
         _ if is_error => explain(frame, names::REFUSAL),
         Some((_, Verb::Set)) => explain(frame, names::ANSWER),
         Some((Word::SatelliteFtp, Verb::Query)) => vec![hidden()],
@@ -68,6 +70,7 @@ fn explain(frame: &Frame, names: NamedFields) -> Vec<Value> {
             Value {
                 number: index + 1,
                 name: named.name,
+                // `NONE` and `?` stand where an angle could, and a unit behind them would be wrong.
                 unit: if code.is_some() { "" } else { named.unit },
                 stands_for: code.map_or("", |(_, word)| word),
                 raw,

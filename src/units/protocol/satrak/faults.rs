@@ -58,6 +58,7 @@ impl FaultKind {
 
     /// Returns `true` if the fault forbids motion. Azel's own classification.
     pub const fn locks_motion(self) -> bool {
+        // With these faults a drive may not obey, or a measured angle may be wrong.
         matches!(
             self,
             Self::InternalLink
@@ -105,11 +106,13 @@ impl Faults {
     pub(super) fn read(fields: FrameFields<'_>) -> Result<Self, FieldError> {
         let mut states = [None; 12];
         for (state, kind) in states.iter_mut().zip(FaultKind::ALL) {
+            // With fewer than eleven values, the first missing one is an error.
             if kind.index() > fields.count().max(Self::MIN_FIELDS) {
                 break;
             }
             let code = fields.integer(kind.index())?;
             *state = Some(match FaultState::from_code(code) {
+                // Section 7 explains 2 for the two sensors alone.
                 FaultState::Disconnected if !kind.is_sensor() => FaultState::Unknown(code),
                 fault_state => fault_state,
             });

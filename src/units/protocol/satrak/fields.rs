@@ -78,6 +78,7 @@ impl<'a> FrameFields<'a> {
     /// Reads six values from `first` on: hour, minute, second, day, month, year. Adds
     /// `base_year` to the year.
     pub(super) fn time(self, first: usize, base_year: i16) -> Result<Timestamp, FieldError> {
+        // No single value is to blame for a date such as 30 February.
         let impossible = FieldError { field: first, problem: FieldProblem::NotTime };
         let part = |offset| self.integer::<i8>(first + offset);
         let year: i16 = self.integer(first + 5)?;
@@ -93,6 +94,7 @@ impl<'a> FrameFields<'a> {
     pub(super) fn time_with_ms(self, first: usize) -> Result<Timestamp, FieldError> {
         let field = first + 6;
         let milliseconds: u16 = self.integer(field)?;
+        // More would carry over into the second and pass for another time.
         if milliseconds > 999 {
             return Err(FieldError { field, problem: FieldProblem::Range });
         }
@@ -111,8 +113,10 @@ impl<'a> FrameFields<'a> {
 
 /// Values of a time in the order of the document: hour, minute, second, day, month, year.
 pub(super) fn time_values(time: Timestamp) -> [String; 6] {
+    // All times of the unit are UTC (notes in sections 8 to 11).
     let civil = TimeZone::UTC.to_datetime(time);
     [
+        // No leading zeros: section 9 writes `16,43,0,17,3,2017`.
         civil.hour().to_string(),
         civil.minute().to_string(),
         civil.second().to_string(),

@@ -43,12 +43,14 @@ impl Frame {
         let line = payload.to_owned();
         let (name, sign, rest_at) = if let Some(index) = line.find(['?', '=']) {
             let tail = line.get(index..).unwrap_or_default();
+            // Only the document's sample frame has both signs. It must not pass for a known query.
             let sign = if tail.starts_with("?=") { "?=" } else { tail.get(..1).unwrap_or("") };
             (line.get(..index).unwrap_or_default(), sign, index + sign.len())
         } else {
             let position = line.find(',').unwrap_or(line.len());
             (line.get(..position).unwrap_or_default(), "", position)
         };
+        // The examples of section 19 have a blank before `=`, and its request has none.
         let trimmed = name.trim_end_matches(' ');
         let oddities =
             if trimmed.len() < name.len() { vec![Oddity::BlankBeforeSign] } else { Vec::new() };
@@ -61,6 +63,7 @@ impl Frame {
             None => Some(rest_at),
         };
         let mut frame = Self { word, fields: Vec::new(), line, values_at, oddities };
+        // The examples of sections 26 and 28 have a blank after the comma.
         frame.fields = frame.raw_fields().map(|field| field.trim().to_owned()).collect();
         frame
     }
@@ -117,6 +120,7 @@ impl Frame {
     }
 }
 
+// Written by hand, because a derived one would print the FTP password.
 impl fmt::Debug for Frame {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Frame")
@@ -130,6 +134,7 @@ impl fmt::Debug for Frame {
 /// password in clear.
 pub fn redact(payload: &str) -> Cow<'_, str> {
     let name = Word::SatelliteFtp.name();
+    // Searched for everywhere: noise or a cut frame may stand in front of the word.
     match payload.find(name) {
         Some(index) => {
             let shown = payload.get(..index + name.len()).unwrap_or(name);
@@ -146,6 +151,7 @@ pub fn checksum(payload: &[u8]) -> u8 {
 
 /// Frame around `payload`, ready to send.
 pub fn encode(payload: &str) -> Vec<u8> {
+    // Upper case, as the document's sample has it.
     format!("${payload}*{:02X}\r\n", checksum(payload.as_bytes())).into_bytes()
 }
 

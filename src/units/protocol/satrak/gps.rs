@@ -55,6 +55,7 @@ impl Position {
 
     fn values(self) -> [String; 2] {
         let text = |angle: f64, plus, minus| {
+            // Section 22 has two decimals, and nothing shows that a unit takes more.
             format!("{:.2}{}", angle.abs(), if angle < 0.0 { minus } else { plus })
         };
         [text(self.latitude_deg, 'N', 'S'), text(self.longitude_deg, 'E', 'W')]
@@ -64,8 +65,10 @@ impl Position {
 /// Reads a number with its sign given by the letter after it.
 fn lettered(text: &str, plus: char, minus: char) -> Option<f64> {
     let letter = text.chars().next_back()?.to_ascii_uppercase();
+    // `get`, because the last character may be longer than one byte.
     let magnitude = parse_decimal(text.get(..text.len() - 1)?.trim_end())?;
     match letter {
+        // Sign and letter could contradict each other, as in `-41.01S`.
         _ if magnitude < 0.0 => None,
         letter if letter == plus => Some(magnitude),
         letter if letter == minus => Some(-magnitude),
@@ -86,6 +89,7 @@ pub struct GpsData {
 
 impl GpsData {
     pub(super) fn read(fields: FrameFields<'_>) -> Result<Self, FieldError> {
+        // Not read as a flag: an unexplained number must not vouch for place and time.
         let valid = fields.integer::<i64>(3)? == 1;
         let position = Position::read(fields, 1);
         let time = fields.time(4, CENTURY);
@@ -110,6 +114,7 @@ impl GpsSettings {
     pub(super) fn read(fields: FrameFields<'_>) -> Result<Self, FieldError> {
         let automatic = fields.flag(1)?;
         let position = Position::read(fields, 2);
+        // In mode 1 the unit does not use the manual place (section 21), which may be empty.
         let position = if automatic { position.ok() } else { Some(position?) };
         Ok(Self { automatic, position })
     }

@@ -79,6 +79,7 @@ impl Step {
 /// Returns the values unless both are zero.
 #[allow(clippy::float_cmp, reason = "rounded values, and only the exact zero stands still")]
 fn moving(x: f64, y: f64) -> Result<(f64, f64), ValueError> {
+    // The document does not say that `MOVE=,0,0` stops an axis; `STOP=` does (section 5).
     if x == 0.0 && y == 0.0 { Err(ValueError::NoMotion) } else { Ok((x, y)) }
 }
 
@@ -93,6 +94,7 @@ impl Goto {
     /// Azimuth 0 to 360 and elevation -10 to 90 in degrees, rounded to a thousandth; `None`
     /// leaves an angle as it is.
     pub fn new(az_deg: Option<f64>, el_deg: Option<f64>) -> Result<Self, ValueError> {
+        // Section 4 gives no range, so a unit may refuse 360. Zero is the same direction.
         let azimuth = |value| checked("azimuth", value, 0.0, 360.0).map(|az| az % 360.0);
         let elevation = |value| checked("elevation", value, MIN_ELEVATION_DEG, 90.0);
         if az_deg.is_none() && el_deg.is_none() {
@@ -130,6 +132,7 @@ impl Motion {
         let angle = |angle: Option<f64>| angle.map_or_else(|| "NONE".to_owned(), plain);
         match self {
             Self::Move(Move { x_deg_s, y_deg_s }) => vec![plain(x_deg_s), plain(y_deg_s)],
+            // No plus sign: `+2` stands in the examples of section 3 alone.
             Self::Step(Step { x_deg, y_deg }) => vec![plain(x_deg), plain(y_deg)],
             Self::Goto(Goto { az_deg, el_deg }) => vec![angle(az_deg), angle(el_deg)],
             Self::TrackOn | Self::AutoTrackOn => vec!["1".to_owned()],

@@ -47,6 +47,7 @@ pub(super) fn checked(
     min: f64,
     max: f64,
 ) -> Result<f64, ValueError> {
+    // Rounded before the test, because the unit gets the rounded value.
     let rounded = (value * 1000.0).round() / 1000.0;
     // This form refuses NaN too. Adding zero removes a minus zero.
     if (min..=max).contains(&rounded) {
@@ -66,6 +67,7 @@ pub(super) fn plain(value: f64) -> String {
 /// Like [`plain`], but always with a decimal: `5.0`.
 pub(super) fn pointed(value: f64) -> String {
     let text = plain(value);
+    // The examples of sections 13 and 15 have a decimal in each angle: `1.0`, `160.0`.
     if text.contains('.') { text } else { text + ".0" }
 }
 
@@ -81,6 +83,7 @@ pub(super) fn parse_decimal(text: &str) -> Option<f64> {
 /// Reads a whole number; a fraction of zeros is accepted.
 pub(super) fn parse_integer(text: &str) -> Option<i64> {
     let (whole, fraction) = text.split_once('.').unwrap_or((text, ""));
+    // The document does not say how a unit prints a whole number.
     fraction.bytes().all(|byte| byte == b'0').then(|| whole.parse().ok()).flatten()
 }
 

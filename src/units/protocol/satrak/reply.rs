@@ -121,11 +121,15 @@ impl ReplyShape {
         /// Most values of a reply that ends in a text, which may hold commas.
         const ANY: usize = usize::MAX;
         let (min, listed, max, decimals) = match word {
+            // No decision rests on these texts, so their number does not matter.
             Word::Version => (1, 2, ANY, 0),
             Word::Status => (Status::MIN_FIELDS, Status::FIELDS, Status::MAX_FIELDS, 4),
+            // None of these is a decimal, so a further value cannot come from a comma in one.
             Word::ErrStatus => (Faults::MIN_FIELDS, Faults::FIELDS, ANY, 0),
+            // Section 8 lists seven values and has six in its example.
             Word::Time => (6, 7, 7, 0),
             Word::StartStopTime => (12, 12, 12, 0),
+            // With one value more or less, nobody could tell which settings have moved.
             Word::Settings => (Settings::FIELDS, Settings::FIELDS, Settings::FIELDS, 5),
             Word::AngleSettings => (4, 4, 4, 2),
             Word::GpsData | Word::Tpos => (9, 9, 9, 2),
@@ -160,6 +164,7 @@ impl ReplyShape {
 
     fn note(&self, word: Word, found: usize) -> Option<Note> {
         match word {
+            // Further values are commas in the name or the address.
             Word::Satellite | Word::SatelliteHttp => None,
             _ if found > self.listed => Some(Note::ExtraFields(found - self.listed)),
             _ if found < self.listed => Some(Note::MissingFields(self.listed - found)),
@@ -176,6 +181,7 @@ impl Reply {
         let mut notes: Vec<Note> = frame.oddities().iter().copied().map(Note::Oddity).collect();
         let fields = FrameFields::new(frame);
         let reply = match (frame.fields().first().map(String::as_str), verb) {
+            // Looked for before values are counted: the form of a failed query is not stated.
             (Some("ERR"), _) => Self::Refused { code: fields.joined(1, 0).unwrap_or_default() },
             (Some("OK"), Verb::Set) => Self::Done,
             (_, Verb::Set) => return Err(ReplyError::NeitherOkNorErr(word)),

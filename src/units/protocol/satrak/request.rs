@@ -170,6 +170,7 @@ impl Request {
     /// Payload. May hold the FTP password: log it through [`super::redact`].
     pub fn payload(&self) -> String {
         let values = match self {
+            // `STOP=` ends with its sign, without a comma (section 5).
             Self::Query(_) | Self::Halt(Halt::Stop) => Vec::new(),
             Self::Halt(Halt::TrackOff | Halt::AutoTrackOff) => vec!["0".to_owned()],
             Self::Motion(motion) => motion.values(),
@@ -177,6 +178,7 @@ impl Request {
         };
         let mut payload = format!("{}{}", self.word(), self.verb().sign());
         for value in values {
+            // A comma also before the first value: only the examples of section 15 leave it out.
             payload.push(',');
             payload.push_str(&value);
         }

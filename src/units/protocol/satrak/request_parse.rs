@@ -84,6 +84,7 @@ fn parse_set(word: Word, fields: FrameFields<'_>) -> Result<Request, RequestErro
         }
         Word::Goto => return motion(Motion::Goto(parse_goto(fields)?)),
         Word::Stop => return Ok(Request::Halt(Halt::Stop)),
+        // Switching on passes the gate as a motion. Switching off must always be allowed.
         Word::Track if switch(fields, 1)? => return motion(Motion::TrackOn),
         Word::Track => return Ok(Request::Halt(Halt::TrackOff)),
         Word::TrackAutoEnable if switch(fields, 1)? => return motion(Motion::AutoTrackOn),
@@ -145,6 +146,7 @@ fn parse_goto(fields: FrameFields<'_>) -> Result<Goto, RequestError> {
 }
 
 fn parse_settings(fields: FrameFields<'_>) -> Result<SettingsRequest, RequestError> {
+    // Section 13 alone gives `?` the meaning of a value that stays.
     let keeps = |field| fields.text(field).map(|text| text == "?");
     let integer = |field| {
         if keeps(field)? { Ok(None) } else { fields.integer::<i64>(field).map(Some) }
@@ -168,6 +170,7 @@ fn parse_settings(fields: FrameFields<'_>) -> Result<SettingsRequest, RequestErr
 
 fn parse_angles(fields: FrameFields<'_>) -> Result<AngleChange, RequestError> {
     let angles = SensorAngles::new(fields.decimal(3)?, fields.decimal(5)?)?;
+    // A unit ignores the sensor values then (section 15), so they may be anything.
     if switch(fields, 1)? {
         return Ok(AngleChange::PresentPosition(angles));
     }
@@ -181,6 +184,7 @@ fn parse_ftp(fields: FrameFields<'_>, is_short: bool) -> Result<FtpTle, RequestE
     } else {
         Some(TleSelection { file: text(fields, 5)?, satellite: text(fields, 6)? })
     };
+    // Counted from the end, because the short form lacks two values before these.
     let last = fields.count();
     Ok(FtpTle {
         address: text(fields, 1)?,

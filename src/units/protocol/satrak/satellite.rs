@@ -32,6 +32,7 @@ impl Satellite {
 
     pub(super) fn read(fields: FrameFields<'_>) -> Result<Self, FieldError> {
         // The name is the only value that may hold commas.
+        // `max` keeps the subtractions below from falling under zero.
         let last = fields.count().max(Self::FIELDS);
         Ok(Self {
             file: fields.text(1)?.to_owned(),
@@ -83,6 +84,7 @@ impl SatelliteHttp {
     pub(super) fn read(fields: FrameFields<'_>) -> Result<Self, FieldError> {
         let last = fields.count().max(Self::FIELDS);
         Ok(Self {
+            // An address may hold commas, and the two numbers behind it cannot.
             url: fields.joined(0, 2)?,
             period_days: fields.integer(last - 1)?,
             on_error: UpdateErrorAction::from_code(fields.integer(last)?),

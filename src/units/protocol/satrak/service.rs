@@ -64,6 +64,7 @@ impl AngleSettings {
 pub enum AngleChange {
     /// The present position has these angles.
     PresentPosition(SensorAngles),
+    // Section 14 gives no unit, but 39049 and 36838 of its example fit 16 bits.
     /// These sensor readings, in counts of 16 bits, have these angles.
     Given {
         /// Sensor reading of the X axis.
@@ -77,6 +78,7 @@ pub enum AngleChange {
 impl AngleChange {
     pub(super) fn values(self) -> Vec<String> {
         let (automatic, x_sensor, y_sensor, angles) = match self {
+            // The unit ignores these sensor values. Section 15 has zeros in its example.
             Self::PresentPosition(angles) => ("1", 0, 0, angles),
             Self::Given { x_sensor, y_sensor, angles } => ("0", x_sensor, y_sensor, angles),
         };
@@ -101,6 +103,7 @@ pub struct Reduction {
 impl Reduction {
     /// Scales above 0, up to a million, rounded to a thousandth.
     pub fn new(x: f64, y: f64) -> Result<Self, ValueError> {
+        // A thousandth is the smallest scale that does not round to zero.
         let ratio = |value| checked("reduction", value, 0.001, MAX_REDUCTION);
         Ok(Self { x: ratio(x)?, y: ratio(y)? })
     }
@@ -116,6 +119,7 @@ impl Reduction {
     }
 
     pub(super) fn read(fields: FrameFields<'_>) -> Result<Self, FieldError> {
+        // Not checked: the range is Azel's own, and a unit may hold other values.
         Ok(Self { x: fields.decimal(1)?, y: fields.decimal(2)? })
     }
 

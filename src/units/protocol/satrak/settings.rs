@@ -150,9 +150,11 @@ impl SettingsRequest {
             return Err(ValueError::NoChange);
         }
         if let Some(ms) = change.time_offset_ms {
+            // Only the test matters: whole milliseconds need no rounding.
             checked("time offset in ms", ms as f64, -MAX_TIME_MS, MAX_TIME_MS)?;
         }
         if let Some(ms) = change.lead_ms {
+            // Section 12 names it a time before the start, so it has no negative side.
             checked("lead time in ms", ms as f64, 0.0, MAX_TIME_MS)?;
         }
         for (name, unknown) in [
@@ -160,6 +162,8 @@ impl SettingsRequest {
             ("power amplifier", change.sspa.map(|mode| (mode.code(), 2))),
             ("power amplifier rule", change.sspa_auto.map(|rule| (rule.code(), 3))),
         ] {
+            // An unexplained number may be read from a unit, but nobody knows what it would do
+            // there.
             if let Some((code, last)) = unknown
                 && !(0..=last).contains(&code)
             {

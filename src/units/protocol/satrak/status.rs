@@ -102,7 +102,9 @@ impl Status {
             },
             tracking_enabled: fields.flag(8)?,
             track_state: TrackState::from_code(fields.integer(9)?),
+            // Not read as a flag: an unexplained number must not vouch for the clock.
             rtc_from_gps: fields.integer::<i64>(10)? == 1,
+            // Section 6 gives seconds, but not that they are whole.
             gps_lock_delay_s: fields.decimal(11)?,
             x_motion: AxisMotion::from_code(fields.integer(12)?),
             y_motion: AxisMotion::from_code(fields.integer(13)?),

@@ -72,6 +72,7 @@ pub struct UrlValue(String);
 impl UrlValue {
     /// Takes `url` as typed.
     pub fn new(url: &str) -> Result<Self, ValueError> {
+        // A comma would end the value. A server takes the percent form for the same address.
         let url = url.replace(',', "%2C");
         let name = "web address";
         check(&url, MAX_URL_BYTES).map_err(|problem| ValueError::Text { name, problem })?;
@@ -98,6 +99,7 @@ impl Password {
 
     /// A password as a unit reported it.
     pub(super) fn reported(text: &str) -> Self {
+        // Unchecked, because a unit may hold a password that Azel could not send.
         Self(text.to_owned())
     }
 

@@ -132,9 +132,11 @@ impl Decoder {
             Some(byte) if *byte != self.address.number() => return FrameVerdict::Foreign,
             Some(_) => {}
         }
+        // Code and data are printable (appendix D), so the first ETX among them is the real one.
         for (index, byte) in self.pending.iter().copied().enumerate().skip(2) {
             match byte {
                 ETX if index > 2 => return self.judge_whole(header, index),
+                // Two more bytes have to follow: ETX and checksum.
                 0x20..0x80 if index + 2 < MAX_FRAME_BYTES => {}
                 0x20..0x80 => return FrameVerdict::Broken(FrameError::TooLong),
                 _ => return FrameVerdict::Broken(FrameError::BadByte { byte, index }),
@@ -152,6 +154,8 @@ impl Decoder {
         ) else {
             return FrameVerdict::Open;
         };
+        // The length is judged first. A false frame then does not wait for a checksum that never
+        // comes.
         if !is_known_form(header, code, data) {
             return FrameVerdict::Broken(FrameError::BadLength { code, data_bytes: data.len() });
         }
@@ -194,9 +198,11 @@ impl Iterator for Decoder {
 fn is_known_form(header: Header, code: u8, data: &[u8]) -> bool {
     match header {
         Header::Command => true,
+        // A NAK gives no reason (appendix E), so it has no data.
         Header::Nak => data.is_empty(),
         Header::Ack => {
             let expected = Command::from_code(code).map(Command::reply_bytes);
+            // A unit with its remote mode disabled gives the offline reply to any command.
             data == OFFLINE || expected == Some(data.len() + ENVELOPE_BYTES) || is_device_type(data)
         }
     }

@@ -69,8 +69,10 @@ impl AutoMove {
                 data
             }
             Target::Position { az_counts, el_counts } => {
+                // Zeros fill both numbers, because ten digits tell a position from a name.
                 format!(" {az_counts:05}{el_counts:05}").into_bytes()
             }
+            // The five zeros only keep the length: all forms of this command have 16 bytes.
             Target::Polarization(position) => format!("P{:05}00000", position.units()).into_bytes(),
         }
     }

@@ -91,6 +91,7 @@ impl Jog {
 
     fn data(self) -> Vec<u8> {
         let found = Direction::ALL.into_iter().find(|(direction, _)| *direction == self.direction);
+        // X would stop the antenna, should a direction ever be missing in the list.
         let letter = char::from(found.map_or(b'X', |(_, letter)| letter));
         let speed = match self.speed {
             Speed::Slow => 'S',

@@ -44,6 +44,7 @@ impl Request {
             Command::Polarization => 1,
             Command::SatelliteName | Command::Miscellaneous => 2,
         };
+        // The code fixes the length, and a unit answers any other one with NAK (appendix E).
         if data.len() != data_bytes {
             return Err(RequestError::Length { data_bytes: data.len() });
         }
@@ -68,6 +69,7 @@ fn auto_move(data: &[u8]) -> Option<AutoMove> {
     let polarity = match letter {
         b'H' => Some(Polarity::Horizontal),
         b'V' => Some(Polarity::Vertical),
+        // A unit reads ten digits as a position, even if a satellite has such a name.
         b' ' if target.iter().all(u8::is_ascii_digit) => {
             let counts = |digits| u16::try_from(number(digits)?).ok();
             return Some(AutoMove::position(counts(first)?, counts(second)?));
@@ -90,10 +92,12 @@ fn jog(data: &[u8]) -> Option<Request> {
         _ => return None,
     };
     let duration = Duration::from_millis(number(duration)?.into());
+    // X comes last: appendix E wants a valid speed and duration for a stop too.
     if STOP.first() == Some(letter) {
         return Some(Request::Stop);
     }
     let (direction, _) = Direction::ALL.into_iter().find(|(_, code)| code == letter)?;
+    // The timer of a unit runs in steps of about 150 ms (appendix E).
     let jog = Jog::new(direction, speed, duration.max(MIN_JOG)).ok()?;
     Some(Request::Motion(Motion::Jog(jog)))
 }

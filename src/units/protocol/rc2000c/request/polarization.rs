@@ -20,6 +20,7 @@ pub struct PolarizationUnits(u16);
 impl PolarizationUnits {
     /// A position from 0 to 1023.
     pub fn new(units: u16) -> Result<Self, ValueError> {
+        // The command does not name the device, so the wider range of the rotating feed holds.
         checked("polarization", units.into(), 0, MAX_POLARIZATION.into())?;
         Ok(Self(units))
     }
@@ -45,6 +46,7 @@ pub enum PolarizationMove {
 impl PolarizationMove {
     pub(super) const ALL: [(Self, u8); 4] = [
         (Self::JogClockwise, b'C'),
+        // Not a slip: W is clockwise in a jog of the azimuth, and counter-clockwise here.
         (Self::JogCounterClockwise, b'W'),
         (Self::ToStored(Polarity::Horizontal), b'H'),
         (Self::ToStored(Polarity::Vertical), b'V'),

@@ -87,6 +87,7 @@ impl Alarm {
         }
         let number = Self::ALL.into_iter().zip(0_u8..).find(|(alarm, _)| *alarm == self);
         let number = number.map_or(0, |(_, number)| number);
+        // The number takes five bits. Split in two, both characters stay printable.
         [BASE | number & 0x0f, BASE | number >> 4]
     }
 }

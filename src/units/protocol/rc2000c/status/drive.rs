@@ -32,6 +32,7 @@ pub enum AxisDrive {
 }
 
 impl AxisDrive {
+    // Appendix E leaves 1, 6, 11 and 13 to 15 undefined.
     const CODES: [(Self, u8); 10] = [
         (Self::Still, 0),
         (Self::Pending(Sense::Negative), 2),
@@ -46,6 +47,7 @@ impl AxisDrive {
     ];
 
     pub(super) fn from_byte(byte: u8) -> Self {
+        // With other upper bits, the low ones need not be a state at all.
         let entry = Self::CODES.into_iter().find(|(_, code)| BASE + code == byte);
         entry.map_or(Self::Unknown(byte), |(drive, _)| drive)
     }
@@ -62,6 +64,7 @@ impl AxisDrive {
     pub const fn is_moving(self) -> bool {
         matches!(
             self,
+            // A runaway is motion without a command, so no axis with that alarm counts as still.
             Self::Pending(_) | Self::Moving(_) | Self::AutoMove | Self::Runaway | Self::Unknown(_)
         )
     }

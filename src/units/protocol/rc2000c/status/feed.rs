@@ -8,6 +8,7 @@ const POLAROTOR_STEPS: u16 = 661;
 const POLAROTOR_SHOWN: u16 = 99;
 /// Steps of a rotating feed in one shown value.
 const FEED_STEPS: u16 = 11;
+// A feed at 1023 would show 93, but it is beyond any limit and shows CC.
 /// The highest value of a rotating feed that is shown.
 const FEED_MAX_SHOWN: u8 = 92;
 
@@ -49,6 +50,7 @@ impl FeedReading {
     /// Reading of a polarotor at a position of 0 to 661.
     pub fn polarotor(units: u16) -> Self {
         let position = match units {
+            // Both ends of the count are limits, which show as letters instead (appendix E).
             0 => FeedPosition::ClockwiseLimit,
             POLAROTOR_STEPS.. => FeedPosition::CounterClockwiseLimit,
             _ => {
@@ -87,6 +89,7 @@ impl FeedReading {
             (PolarizationDevice::RotatingFeed, FeedPosition::Shown(shown)) => {
                 Some(u16::from(shown) * FEED_STEPS + fine)
             }
+            // The user sets the limits of a rotating feed, so CW and CC stand for no number there.
             _ => None,
         }
     }
@@ -94,6 +97,7 @@ impl FeedReading {
     pub(super) fn parse(text: [u8; 2], device: u8) -> Self {
         let position = match &text {
             b"CW" => FeedPosition::ClockwiseLimit,
+            // Two characters leave no room for the W of CCW.
             b"CC" => FeedPosition::CounterClockwiseLimit,
             [tens @ (b' ' | b'0'..=b'9'), ones @ b'0'..=b'9'] => {
                 let tens = if *tens == b' ' { 0 } else { tens - b'0' };
@@ -130,6 +134,7 @@ impl FeedReading {
 
 /// First step of a shown value of a polarotor.
 fn first_step(shown: u8) -> u16 {
+    // Divided last, and rounded down: the manual's own example makes 260 of 39.
     u16::from(shown) * POLAROTOR_STEPS / POLAROTOR_SHOWN
 }
 

@@ -58,6 +58,7 @@ impl Position {
         if let Some(end) = ends.into_iter().find(|end| end.word() == text) {
             return Self::Limit(end);
         }
+        // Only the point tells degrees from counts: no other field says which of them is displayed.
         let number = match text.split_once('.') {
             Some((whole, tenth)) => tenths(whole, tenth).map(Self::TenthsOfDegree),
             None if is_digits(text) => text.parse().ok().map(Self::Counts),
@@ -90,6 +91,7 @@ fn is_digits(text: &str) -> bool {
 
 /// Tenths of a degree from the texts before and after the point.
 fn tenths(whole: &str, tenth: &str) -> Option<i16> {
+    // The manual does not show an angle below zero, so both `-0.5` and `-.5` are read.
     let digits = whole.strip_prefix('-').unwrap_or(whole);
     if tenth.len() != 1 || !is_digits(tenth) || !(digits.is_empty() || is_digits(digits)) {
         return None;

@@ -42,6 +42,7 @@ pub enum Submode {
 }
 
 impl Submode {
+    // Appendix E leaves 6 and 7 undefined. The RC2500 numbers 12 to 14 differently.
     const CODES: [(Self, u8); 14] = [
         (Self::Off, 0),
         (Self::Setup, 1),
@@ -93,6 +94,7 @@ pub struct Track {
 
 impl Track {
     pub(super) fn from_byte(byte: u8) -> Option<Self> {
+        // An RC2000A sends a blank here, and any track character has bit 6 set.
         if byte & 0xc0 != 0x40 {
             return None;
         }
@@ -144,6 +146,7 @@ impl Receiver {
             0x40 => ReceiverChannel::Two,
             _ => ReceiverChannel::Unknown,
         };
+        // Ten bits, five in each character, so that both stay printable.
         let agc = u16::from(high & 0x1f) << 5 | u16::from(low & 0x1f);
         Some(Self { channel, agc, allows_polarization: high & 0x20 != 0 })
     }

@@ -83,12 +83,14 @@ const SSPA_RULE: Codes = &[
     ("3", "while either"),
     ("?", "stays as it is"),
 ];
+// Without `?`, because no request sets this value (section 13).
 const TLE_MODE: Codes = &[("0", "file"), ("1", "web"), ("2", "FTP")];
 const ON_ERROR: Codes = &[("0", "stops tracking"), ("1", "goes on with the last elements")];
 const NONE: Codes = &[("NONE", "stays as it is")];
 
 pub(super) const ANSWER: NamedFields =
     NamedFields::new(&[code("answer", &[("OK", "accepted"), ("ERR", "refused")])]);
+// The document lists no error codes, so a code may hold commas.
 pub(super) const REFUSAL: NamedFields =
     NamedFields::with_text(&[code("answer", &[("ERR", "refused")]), text("code")], 1);
 
@@ -172,6 +174,7 @@ const SETTINGS: NamedFields = NamedFields::new(&[
     code("source of the elements", TLE_MODE),
     THRESHOLD,
 ]);
+// Section 13 leaves out the source of the elements, so the threshold moves up by one place.
 const SET_SETTINGS: NamedFields = NamedFields::new(&[
     FROM_GPS,
     TIME_OFFSET,
@@ -209,6 +212,7 @@ const GPS: NamedFields = NamedFields::new(&[
     text("month"),
     text("year of the century"),
 ]);
+// Neutral names: section 17 calls them X and Y, but 306.00 of its example fits an azimuth alone.
 const POSITION: NamedFields = NamedFields::new(&[
     number("first angle", "°"),
     number("second angle", "°"),
@@ -226,6 +230,7 @@ const SATELLITE: NamedFields = NamedFields::with_text(
     &[
         text("element file"),
         text("satellite"),
+        // Section 23 gives this period no unit, and sections 25 and 27 give days.
         text("update period"),
         text("catalogue number"),
         number("maximum elevation", "°"),
@@ -249,7 +254,9 @@ const SET_WEB: NamedFields = NamedFields::new(&[
     code("present track goes on", NO_YES),
 ]);
 const VERSION: NamedFields = NamedFields::new(&[text("control unit"), text("drive unit")]);
+// Section 31 gives no unit.
 const SCALES: NamedFields = NamedFields::new(&[number("scale of X", ""), number("scale of Y", "")]);
+// Section 29 does not explain the state, which may hold commas.
 const IMAGE_STATE: NamedFields = NamedFields::with_text(&[text("state")], 0);
 const IMAGE_FILE: NamedFields = NamedFields::new(&[text("image file")]);
 const MOVE: NamedFields =
@@ -279,7 +286,7 @@ pub(super) const fn of_reply(word: Word) -> NamedFields {
         Word::SatelliteHttp => WEB,
         Word::LoadImage => IMAGE_STATE,
         Word::Reduction => SCALES,
-        // Never explained value by value.
+        // SATELLITE_FTP is hidden as a whole, and the document queries none of the others.
         Word::SatelliteFtp
         | Word::Move
         | Word::Step

@@ -116,6 +116,7 @@ impl Decoder {
                 continue;
             }
             let line = bytes.strip_suffix(b"\n").unwrap_or(&bytes);
+            // Such a line may come together with its LF, so it was never given up before.
             if line.len() > MAX_LINE_BYTES {
                 let error = FrameError::TooLong { excerpt: excerpt(line) };
                 return Some(ReceivedLine { bytes, frame: Err(error) });
@@ -137,6 +138,7 @@ impl Decoder {
     /// Takes the beginning of a line whose end will not come any more.
     pub fn take_unfinished(&mut self) -> Option<ReceivedLine> {
         let bytes: Vec<u8> = self.pending.drain(..).collect();
+        // A skipped line was reported when it was given up.
         let is_skipped = std::mem::take(&mut self.skipping);
         let excerpt = excerpt(&bytes);
         (!bytes.is_empty() && !is_skipped)
@@ -145,11 +147,13 @@ impl Decoder {
 
     /// Ends an unfinished line that cannot become a frame any more.
     fn give_up_unfinished(&mut self) -> Option<ReceivedLine> {
+        // Without an LF, all of this belongs to the line that was given up.
         if self.skipping {
             self.pending.clear();
             self.overflowed = false;
             return None;
         }
+        // After an overflow the LF may be among the lost bytes, and waiting for it has no end.
         if self.pending.len() <= MAX_LINE_BYTES && !self.overflowed {
             return None;
         }
@@ -199,6 +203,7 @@ fn read_line(line: &[u8], ended_with_cr: bool) -> Result<Frame, FrameError> {
     };
     let text = std::str::from_utf8(payload)
         .ok()
+        // The document knows ASCII alone, so other bytes mean damage that the checksum missed.
         .filter(|text| text.bytes().all(|byte| (0x20..0x7f).contains(&byte)))
         .ok_or_else(|| FrameError::NotText { excerpt: excerpt(line) })?;
     let mut frame = Frame::from_payload(text);
@@ -234,6 +239,7 @@ fn hex_value(digit: u8) -> Option<u8> {
 fn excerpt(line: &[u8]) -> String {
     let start = line.iter().position(|byte| *byte == b'$').unwrap_or(line.len());
     let word = line.get(start..).unwrap_or_default();
+    // Values begin behind these signs, and one of them may be a password.
     let end = word.iter().position(|byte| b",?=".contains(byte)).unwrap_or(word.len());
     printable(word.get(..end).unwrap_or_default())
 }

@@ -45,6 +45,7 @@ impl ReceivedLine {
 
 /// Index of the header of a good frame in its line.
 fn header_of(frame: &Frame, content: &[u8]) -> usize {
+    // Counted back from the last star: values may hold stars, and noise may hold a `$`.
     let star = content.iter().rposition(|byte| *byte == b'*').unwrap_or(0);
     star.saturating_sub(frame.line().len() + 1)
 }
@@ -82,6 +83,7 @@ impl SecretFilter {
     /// frame; therefore an unknown word behind noise is hidden.
     fn take_frame(&mut self, frame: &Frame, bytes: &[u8], is_behind_noise: bool) {
         match frame.command() {
+            // Without values there is nothing to hide.
             Some((Word::SatelliteFtp, _)) if !is_bare(frame) => {
                 self.show(b"$");
                 self.show(frame.word().as_bytes());
@@ -100,6 +102,7 @@ impl SecretFilter {
     /// Takes bytes that are not a good frame.
     fn take_spoiled(&mut self, bytes: &[u8]) {
         let first = bytes.iter().position(|byte| *byte == b'$').unwrap_or(bytes.len());
+        // These bytes may be the tail of a cut frame.
         if first > 0 {
             self.hide();
         }
@@ -107,11 +110,13 @@ impl SecretFilter {
         for piece in pieces.split(|byte| *byte == b'$').skip(1) {
             let (word, values) = split_word(piece);
             let is_known = std::str::from_utf8(word).is_ok_and(is_plain_word);
+            // The values of a damaged word may be those of the FTP answer.
             if !is_known || names_ftp(piece) {
                 return self.hide();
             }
             self.show(b"$");
             self.show(word);
+            // A byte of a password may have turned into a `$`, so nothing more is shown.
             if !self.take_numbers(values) {
                 return;
             }
@@ -148,6 +153,7 @@ fn split_word(bytes: &[u8]) -> (&[u8], &[u8]) {
 /// Returns `true` if the frame has no values, or only the outcome of a request.
 fn is_bare(frame: &Frame) -> bool {
     let fields: Vec<&str> = frame.fields().iter().map(String::as_str).collect();
+    // At most one code: with more values, ERR may be the address of the server.
     matches!(fields.as_slice(), [] | ["OK" | "ERR"] | ["ERR", _])
 }
 
@@ -158,6 +164,7 @@ fn is_plain_word(word: &str) -> bool {
 
 /// Returns `true` if the letters FTP occur anywhere, in upper or lower case.
 fn names_ftp(bytes: &[u8]) -> bool {
+    // Three letters are enough, because the rest of the word may be damaged.
     bytes.windows(3).any(|three| three.eq_ignore_ascii_case(b"FTP"))
 }
 

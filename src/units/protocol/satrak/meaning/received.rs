@@ -9,6 +9,7 @@ use crate::protocol::satrak::{
 pub(super) fn meaning(frame: &Frame) -> Meaning {
     let is_answer =
         |frame: &Frame| frame.fields().first().is_some_and(|first| first == "OK" || first == "ERR");
+    // An outcome has no values to hide, and the operator needs its code.
     if frame.command() == Some((Word::SatelliteFtp, Verb::Query)) && !is_answer(frame) {
         return Meaning::new(Tone::Plain, "FTP source of the elements, values hidden");
     }
@@ -58,6 +59,7 @@ fn reply(reply: &Reply) -> Meaning {
             let never = if clock.is_set() { "" } else { ", never set" };
             format!("Clock {}{never}", date_time(clock.time))
         }
+        // A unit that was never set may report a stop that is not after its start.
         Reply::StartStopTime(window) if !window.is_ordered() => "No tracking window".to_owned(),
         Reply::StartStopTime(window) => {
             format!("Tracks from {} to {}", date_time(window.start), date_time(window.stop))
