@@ -99,6 +99,7 @@ impl Bounds {
             model: Some(antenna.track_model()).filter(|model| !model.is_none()),
             minimum_elevation: has_elevation.then_some(minimum),
             keep_outs: holds
+                // The edge of the beam has to stay outside, not only its middle.
                 .map(|zone| (zone.clone(), half_beam + zone.margin() + finest))
                 .collect(),
             sun: station.sun_avoidance,
@@ -199,6 +200,7 @@ impl<'a> BoundsAt<'a> {
         let sharing = self.sharing(&shared);
         clearances
             .map(|(index, (barrier, angle, warns_only))| {
+                // Samples may miss a barrier between them, so a near one is searched by halves.
                 let may_hide = (0.0..within_deg).contains(&angle.degrees());
                 let hides = may_hide && sharing.blocks_from(place, Some(index)).is_some();
                 let angle = if hides { Angle::from_degrees(-FINEST_DEG) } else { angle };

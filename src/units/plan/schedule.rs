@@ -117,6 +117,8 @@ impl Board<'_> {
             let own = entries.iter().filter(|entry| entry.class == class);
             let worth = own.map(|entry| entry.worth).sum();
             let bound = solution.bound.number(class.index());
+            // If this class could be better, those after it would change with it and are not
+            // proved.
             is_open |= bound != worth;
             let proof = if is_open { Proof::AtMost(bound) } else { Proof::Best };
             ClassWorth { class, worth, proof }

@@ -109,12 +109,14 @@ impl BoundsAt<'_> {
             let radius_deg = part.radius_deg() * self.max_beam_turn();
             // Positions on the edge are free, even where the edge is a whole side of the sweep.
             let limit = Angle::from_degrees(radius_deg - FINEST_DEG);
+            // A box of the axes says nothing about a beam that points elsewhere.
             let as_box = self.box_of(part).filter(|_| aim.sky.is_none());
             let mut near = Vec::new();
             let mut nearest: Option<(usize, BarrierName<'_>, Angle)> = None;
             for index in barriers.iter().copied() {
                 let Some(barrier) = self.barrier(index, aim, vectors) else { continue };
                 let Some(angle) = barrier.angle_below(limit) else { continue };
+                // A far zone was ruled out by its cap, without a look at its edges.
                 *used += barrier.cost();
                 let of_box = as_box.and_then(|(az, el)| barrier.lower_bound_in_box(az, el));
                 if of_box.is_some_and(|of_box| of_box.degrees() >= -FINEST_DEG) {

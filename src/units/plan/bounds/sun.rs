@@ -93,6 +93,7 @@ impl SunAhead {
     pub(super) fn clearance_of(&self, direction: DVec3) -> Angle {
         let chords = self.all().iter().map(|sun| sun.distance_squared(direction));
         let radius = Angle::from_degrees(around_each_deg(self.sun));
+        // No chord of the unit sphere is longer than 2.
         across(chords.fold(4.0, f64::min)) - radius
     }
 

@@ -139,6 +139,7 @@ impl BoundsAt<'_> {
             })
             .collect();
         let minima = self.min_in_groups::<4>(place, &groups).map(Angle::degrees);
+        // Tested first: another barrier bars the turn even where it overlaps the one to get out of.
         if minima[OTHERS].min(minima[ABOVE]) < 0.0 {
             Spot::Barred
         } else if minima[LEFT_BELOW] < 0.0 {
@@ -186,6 +187,7 @@ impl Turn {
                 Spot::Inside(_) if turn_deg >= last_deg => return None,
                 Spot::Inside(step_deg) => {
                     inside_deg = turn_deg;
+                    // At an edge the clearance is zero, and only a minimum step leads on.
                     let step_deg = (step_deg / self.max_speed).max(STEP_DEG);
                     // The edge may lie just before the end of the travel.
                     turn_deg = f64::min(turn_deg + step_deg, last_deg);

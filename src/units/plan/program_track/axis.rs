@@ -90,11 +90,15 @@ impl TrackedAxis {
         let way_deg = (to_deg - from_deg).abs();
         let run_deg = (at_deg - from_deg).abs();
         if run_deg >= self.half_step_deg() {
+            // A longer way tells nothing about the shortest run.
             if way_deg <= self.min_way_deg() {
                 self.min_run_deg = Some(run_deg.min(way_deg));
             }
         } else if way_deg <= MAX_IGNORED_DEG {
+            // For a longer way, standing still is a fault of the drive and not its habit.
             self.ignored_deg = self.ignored_deg.max(way_deg);
+            // The command had no effect. Compared with it, the next one could count as a
+            // repetition.
             self.last_command.to_deg = Some(from_deg);
             self.min_run_deg = None;
         }

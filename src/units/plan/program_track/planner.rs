@@ -440,6 +440,7 @@ impl Planner {
             start: Start {
                 axes_deg,
                 lead_s: seconds_between(now, begin),
+                // Not earlier: the approach to a pass under way would go in steps.
                 sets_out: self.is_under_way(now),
             },
             choice: self.choice(now),
@@ -451,6 +452,7 @@ impl Planner {
     pub fn take_path(&mut self, planned: PlannedPath) -> Result<(), PropagationError> {
         let PlannedPath { order, path } = planned;
         // The offsets or bounds may have changed while a worker was planning.
+        // Rates are not compared: `has_path` orders again where they have changed too much.
         let is_up_to_date = order.track == self.track
             && order.course.model == self.course.model
             && order.offsets == self.offsets

@@ -62,6 +62,7 @@ pub(super) fn round(
         let comes_out = places_deg.get(stretch.end).copied();
         let detour = match (line.end_deg(), comes_out) {
             (Some(entry_deg), Some(end)) => {
+                // A search takes long, so the bounds of this moment stand for the whole stretch.
                 let middle_time = targets.get(count / 2).map(|sample| sample.time);
                 middle_time
                     .and_then(|time| detour::route(&bounds.at(time), &limits, entry_deg, end))

@@ -65,6 +65,7 @@ impl Slew {
             return None;
         }
         let rate_deg_s = self.rate_deg_s();
+        // One slew gives one rate: without readings, its end gives no second one.
         self.readings.clear();
         rate_deg_s
     }

@@ -14,10 +14,12 @@ pub const LEAD_S: f64 = 60.0;
 /// Where the antenna is between passes at `time`, by its settings and by the rules of the station.
 pub fn between(station: &Station, antenna: &Antenna, time: Timestamp) -> BetweenPasses {
     let mut rules = station.rules.iter().filter(|rule| rule.is_for(antenna.id)).peekable();
+    // The Sun is computed only where a rule may ask for it.
     if rules.peek().is_none() {
         return antenna.automatic.between;
     }
     let sun = sun_is(station, time);
+    // A rule about a satellite or a group says nothing about the time between passes.
     let mut holding = rules.filter(|rule| rule.of.is_none() && rule.holds_at(time, sun));
     match holding.next() {
         Some(AutomationRule { then: Then::Park, .. }) => BetweenPasses::Park,

@@ -54,6 +54,7 @@ struct Whole<'a> {
 impl<'a> Board<'a> {
     pub(super) fn new(request: &'a Request<'a>) -> Self {
         let fixed_as = |entry: &Entry| {
+            // By overlap, because newer elements shift AOS.
             let is_it = |candidate: &Candidate| {
                 candidate.key.satellite == entry.pass.satellite
                     && candidate.key.aos < entry.to
@@ -143,6 +144,7 @@ impl<'a> Board<'a> {
             share: 1000,
             is_whole: true,
             height_mdeg: 0,
+            // The first class of all, so that no plan gives up a pass under way.
             row: Row::new(Class::Fixed, 1) + Row::new(entry.class, entry.worth),
         });
         self.facts.push(Fact {
@@ -166,7 +168,9 @@ impl<'a> Board<'a> {
         let Some(partial) = self.request.partial else { return parts };
         let counted_ms = way.counted_ms(span);
         let min_ms = (counted_ms as f64 * partial.min_share).max(partial.min_s * 1000.0) as i64;
+        // At least one, because limits of zero must not let an empty part pass.
         let is_enough = |part: Span| way.counted_ms(part) >= min_ms.max(1);
+        // Cuts are counted by division, so the step must not be zero.
         let step_ms = ((partial.step_s * 1000.0) as i64).max(1_000);
         let cuts = |room_ms: i64| (0..=room_ms / step_ms).map(move |step| step * step_ms);
         let room_ms = (span.length_ms() - min_ms).max(0);
@@ -179,6 +183,7 @@ impl<'a> Board<'a> {
             parts.extend(cut.filter(|part| *part != span).map(|part| (part, PassPart::Alone)));
         }
         if partial.hand_over && self.request.antennas.len() > 1 {
+            // The first cut would leave a first part without length.
             for cut_ms in cuts(span.length_ms() - 1).skip(1) {
                 let middle_ms = span.from_ms + cut_ms;
                 let first = (Span { to_ms: middle_ms, ..span }, PassPart::First);
@@ -208,6 +213,7 @@ impl<'a> Board<'a> {
         if previous.holds(whole.pass, antenna.id) {
             let steadiness = self.request.steadiness;
             let seconds = match choose_by {
+                // Worth counts passes here, to which no seconds can be added.
                 ChooseBy::MostPasses => 0,
                 _ => i64::from(steadiness.seconds) * 1000,
             };
@@ -217,6 +223,7 @@ impl<'a> Board<'a> {
         self.takes.push(Take {
             pass: whole.pass as u32,
             antenna: whole.antenna as u32,
+            // Both parts are one pass, which counts towards its limit once.
             limit: limit.filter(|_| part != PassPart::Second),
             part,
             from_ms: span.from_ms,
@@ -276,6 +283,7 @@ fn wholes<'a>(request: &'a Request<'a>, antenna: usize) -> Vec<Whole<'a>> {
     for (pass, candidate) in candidates.filter(|(_, other)| other.refusal.is_none()) {
         let option = candidate.options.iter().find(|(id, _)| *id == planned.id);
         let Some((_, Choice::Judged(Verdict::Possible(ways)))) = option else { continue };
+        // Shares are divided by it.
         let sight_ms = (ms(candidate.los) - ms(candidate.key.aos)).max(1);
         found.extend(ways.iter().map(|way| Whole { candidate, pass, antenna, way, sight_ms }));
     }
@@ -378,6 +386,7 @@ impl DayLimits {
         let of_pass = request.candidates.iter().map(|candidate| {
             let max = candidate.max_per_day.filter(|_| candidate.refusal.is_none())?;
             let day = day(candidate);
+            // A limit out of reach would only multiply the states of the search.
             if counts.get(&day).is_none_or(|count| *count <= max) {
                 return None;
             }

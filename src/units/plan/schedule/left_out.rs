@@ -25,6 +25,7 @@ impl Board<'_> {
             .map(|((candidate, _), own)| self.left_out_pass(candidate, own, solution))
             .collect();
         left.sort_by_key(|left| left.pass);
+        // This sort is stable: passes with one AOS stay in the order of their satellites.
         left.sort_by_key(|left| left.pass.aos);
         left
     }
@@ -45,6 +46,7 @@ impl Board<'_> {
         let on = |(index, antenna): (usize, &PlannedAntenna)| {
             (antenna.id, self.why_not_on(index, antenna, candidate, wholes, solution))
         };
+        // No antenna was asked about a pass that is refused from the start.
         let by_antenna: Vec<_> = if candidate.options.is_empty() {
             Vec::new()
         } else {

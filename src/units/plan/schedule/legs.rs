@@ -69,6 +69,7 @@ impl<'a> Legs<'a> {
     pub(super) fn needs_ms(&self, start: usize, end: usize) -> Option<i64> {
         let (before, after) = (self.takes.get(start)?, self.takes.get(end)?);
         let antenna = self.antennas.get(before.antenna)?;
+        // The antenna takes both already, so the leg between them cannot be refused.
         if before.is_fixed && after.is_fixed {
             return Some(0);
         }
@@ -90,6 +91,7 @@ impl<'a> Legs<'a> {
         if !antenna.reach.has_barriers() {
             return search_ms(antenna, before, after, max_ms);
         }
+        // The limit is part of the key: a search that it ended early found no way.
         if let Some(cached) = self.found.borrow().get(&(start, end, max_ms)) {
             return *cached;
         }
@@ -118,6 +120,7 @@ fn search_ms(antenna: &PlannedAntenna, before: &Stop, after: &Stop, max_ms: i64)
     let direct = || direct_ms(antenna, before, after, max_ms);
     if antenna.between == BetweenPasses::Park && !(before.is_fixed && after.is_fixed) {
         let gap_ms = after.from_ms - before.to_ms - set_up_ms(antenna);
+        // Without time for the park position, the antenna goes straight to the next pass.
         by_park().filter(|ms| *ms <= gap_ms).or_else(direct)
     } else if antenna.reach.has_barriers() {
         direct().or_else(by_park)
@@ -157,6 +160,7 @@ impl Slews for Legs<'_> {
         let [start_deg, _] = take.ends_deg;
         let free_ms = ms(antenna.free_from);
         let gap_ms = take.from_ms - free_ms - set_up_ms(antenna);
+        // It is unknown where the antenna stands, so only the set-up can be asked for.
         let Some(stands_deg) = antenna.stands_deg else { return (gap_ms >= 0).then_some(0) };
         antenna.reach.leg_within_ms(stands_deg, start_deg, free_ms, gap_ms)
     }

@@ -216,6 +216,7 @@ impl Reach {
     /// The ways of a pass that the axes follow without effort; `None` for one that has to be
     /// looked at more closely.
     fn easy_ways(&self, samples: &Samples, clear: &[Span]) -> Option<Vec<Way>> {
+        // A keep-out may lie between two of the few samples.
         if self.has_barriers() {
             return None;
         }
@@ -378,6 +379,7 @@ impl Reach {
                 Loss::Keyhole((end + turn).wrapped_360())
             }
             Mount::AzEl { .. } => {
+                // An unwrap takes no longer than a whole turn.
                 let near_s = TURN_DEG / self.drives.rates_deg_s[0];
                 let is_near =
                     |slew: &Timestamp| seconds_between(*slew, sample.time).abs() <= near_s;
@@ -423,6 +425,7 @@ impl Reach {
             .take_while(|axis_deg| *axis_deg <= to_deg)
             .map(|axis_deg| Start {
                 axes_deg: [Some(axis_deg), None],
+                // The slews judge later if the axis can be there in time.
                 lead_s: f64::MAX,
                 sets_out: false,
             })

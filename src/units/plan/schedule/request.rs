@@ -153,6 +153,7 @@ impl Candidate {
             (antenna.id, choice)
         };
         let options = match refusal {
+            // No antenna can change these refusals, and judging costs time.
             Some(Refusal::Never | Refusal::BelowFloor { .. }) => Vec::new(),
             _ => common.antennas.iter().map(judged).collect(),
         };

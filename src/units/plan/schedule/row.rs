@@ -124,6 +124,7 @@ impl Class {
         match self {
             Self::Fixed => 0,
             Self::Always => 1,
+            // The place of the first priority, because no rule uses priorities and `All` together.
             Self::All => 2,
             Self::Priority(priority) => 1 + usize::from(priority.number()),
             Self::Kept => Row::CLASSES - 1,

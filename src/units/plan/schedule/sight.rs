@@ -122,12 +122,14 @@ impl<'a> Sight<'a> {
         for _ in 0..HALVINGS {
             let middle_ms = i64::midpoint(below_ms, above_ms);
             let look = self.propagator.look_from(self.site, at_ms(middle_ms));
+            // A satellite that has decayed counts as below.
             if look.is_ok_and(|look| look.direction.elevation >= elevation) {
                 above_ms = middle_ms;
             } else {
                 below_ms = middle_ms;
             }
         }
+        // The side above, because the span must not begin or end too low.
         above_ms
     }
 

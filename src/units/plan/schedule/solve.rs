@@ -100,6 +100,7 @@ impl Problem<'_> {
         if let [line] = &lines[..] {
             let takes = vec![line.best(self, &|_, take| Some(take.row)).takes];
             let row = self.row(&takes);
+            // A line knows neither limits nor other parts of a pass, so its best may break both.
             if self.keeps_limits(&takes) && self.takes_none_twice(&takes) {
                 return Solution { takes, row, bound: row };
             }
@@ -111,6 +112,8 @@ impl Problem<'_> {
             before: vec![None; self.antennas],
         };
         if let Some(takes) = vector::best(self, all, &mut effort) {
+            // The classes are the best already, but pruning may have dropped states with fewer
+            // slews.
             let takes = self.refined(takes, &mut self.effort.clone());
             let row = self.row(&takes);
             return Solution { takes, row, bound: row };

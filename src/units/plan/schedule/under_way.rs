@@ -28,6 +28,7 @@ impl Candidate {
                 pairs.map(|(stands, target)| (stands - target).abs()).fold(0.0, f64::max)
             })
         };
+        // The axes tell on which turn they follow the pass.
         let way = ways.iter().min_by(|a, b| away_deg(a).total_cmp(&away_deg(b)))?;
         let Span { from_ms, to_ms } = way.span();
         let rest = Span { from_ms: from_ms.max(now_ms), to_ms };
@@ -42,6 +43,7 @@ impl Candidate {
     pub fn resumed(&self, antenna: &PlannedAntenna, choose_by: ChooseBy) -> Option<Entry> {
         let option = self.options.iter().find(|(id, _)| *id == antenna.id);
         let (_, Choice::Judged(Verdict::Possible(ways))) = option? else { return None };
+        // The operator or a rule may have refused the pass in the meantime.
         if antenna.off.is_some() || self.refusal.is_some() {
             return None;
         }

@@ -21,6 +21,7 @@ impl Problem<'_> {
         let rows = rows.filter_map(|start| {
             in_a_row.get(start..in_a_row.len().min(start + AT_ONCE)).map(<[u32]>::to_vec)
         });
+        // Passes that share a limit may be too far apart for one row.
         let of_limits = (0..self.limits.len() as u32).map(|limit| self.around_limit(limit));
         let neighbourhoods: Vec<Vec<u32>> = rows.chain(of_limits).collect();
         let mut by_pass = vec![Vec::new(); self.passes];
