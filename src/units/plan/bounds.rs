@@ -402,7 +402,7 @@ impl<'a> BoundsAt<'a> {
         })
     }
 
-    /// As [`Self::each`], with the least clearance among the positions in `place`, from samples.
+    /// As [`Self::named_clearances`], with the least clearance among the positions in `place`, from samples.
     fn each_in(&self, place: Sweep) -> Vec<(BarrierName<'_>, Angle, bool)> {
         let barriers: Vec<_> = self.barriers(self.aim(place.middle())).collect();
         let groups: Vec<_> = (0..barriers.len()).map(Some).collect();

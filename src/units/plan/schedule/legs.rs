@@ -114,7 +114,7 @@ impl<'a> Legs<'a> {
 }
 
 /// How long the axes turn from one take to another as the antenna is told to wait, if that is no
-/// longer than `most_ms`.
+/// longer than `max_ms`.
 fn search_ms(antenna: &PlannedAntenna, before: &Stop, after: &Stop, max_ms: i64) -> Option<i64> {
     let by_park = || by_park_ms(antenna, before, after).filter(|ms| *ms <= max_ms);
     let direct = || direct_ms(antenna, before, after, max_ms);
@@ -130,7 +130,7 @@ fn search_ms(antenna: &PlannedAntenna, before: &Stop, after: &Stop, max_ms: i64)
 }
 
 /// The way from one take to another that does not go by the park position, if it takes no longer
-/// than `most_ms`.
+/// than `max_ms`.
 fn direct_ms(antenna: &PlannedAntenna, before: &Stop, after: &Stop, max_ms: i64) -> Option<i64> {
     let ([_, end_deg], [start_deg, _]) = (before.ends_deg, after.ends_deg);
     antenna.reach.leg_within_ms(end_deg, start_deg, before.to_ms, max_ms)

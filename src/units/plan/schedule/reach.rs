@@ -510,7 +510,7 @@ impl Reach {
         self.leg_within_ms(from_deg, to_deg, at_ms, i64::MAX)
     }
 
-    /// As [`Self::leg_ms`]; also `None` for a leg that takes longer than `most_ms`.
+    /// As [`Self::leg_ms`]; also `None` for a leg that takes longer than `max_ms`.
     pub(super) fn leg_within_ms(
         &self,
         from_deg: [f64; 2],

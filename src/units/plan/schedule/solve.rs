@@ -23,7 +23,7 @@ use vector::Scope;
 pub(super) enum PassPart {
     /// It excludes all other takes of its pass.
     Alone,
-    /// It counts only together with a [`Part::Second`] of its pass on another antenna, which
+    /// It counts only together with a [`PassPart::Second`] of its pass on another antenna, which
     /// begins when it has ended.
     First,
     Second,

@@ -182,7 +182,9 @@ impl Reply {
         let fields = FrameFields::new(frame);
         let reply = match (frame.fields().first().map(String::as_str), verb) {
             // Looked for before values are counted: the form of a failed query is not stated.
-            (Some("ERR"), _) => Self::Refused { code: fields.joined(1, 0).unwrap_or_default() },
+            (Some("ERR"), _) if is_refusal(word, fields.count()) => {
+                Self::Refused { code: fields.joined(1, 0).unwrap_or_default() }
+            }
             (Some("OK"), Verb::Set) => Self::Done,
             (_, Verb::Set) => return Err(ReplyError::NeitherOkNorErr(word)),
             (_, Verb::Query) => {
@@ -195,6 +197,12 @@ impl Reply {
         };
         Ok(ParsedReply { word, verb, reply, notes })
     }
+}
+
+/// Returns `true` if `ERR` in front of the values of a reply means a refusal.
+fn is_refusal(word: Word, count: usize) -> bool {
+    // It may be the address of the server: then a code would carry the password to the log.
+    word != Word::SatelliteFtp || count <= 2
 }
 
 fn read(word: Word, fields: FrameFields<'_>) -> Result<Reply, FieldError> {
@@ -251,6 +259,14 @@ mod tests {
         assert_eq!(parse("STOP=,ERR"), Ok(Reply::Refused { code: String::new() }));
         assert_eq!(parse("STOP=,HM"), Err(ReplyError::NeitherOkNorErr(Word::Stop)));
         assert_eq!(parse("STOP="), Err(ReplyError::NeitherOkNorErr(Word::Stop)));
+    }
+
+    #[test]
+    fn a_server_called_err_puts_no_password_into_a_code() {
+        let payload = "SATELLITE_FTP?,ERR,user,hunter2,22,f,s,1,1";
+        let reply = parse(payload);
+        assert!(matches!(reply, Ok(Reply::SatelliteFtp(_))), "{reply:?}");
+        assert_eq!(parse("SATELLITE_FTP?,ERR,7"), Ok(Reply::Refused { code: "7".into() }));
     }
 
     #[test]
