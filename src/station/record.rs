@@ -10,6 +10,7 @@ mod causes;
 mod entry;
 mod file;
 mod film;
+mod intake;
 mod keeping;
 mod missed;
 mod pass;
@@ -29,13 +30,14 @@ pub use along::{Beside, neighbour, times_between, times_of_pass};
 pub use causes::explain_passes;
 pub use entry::{Entry, Kind};
 pub use film::{Film, FilmError, Parts, Picture, Shown};
+pub use intake::RecordedSession;
 pub use missed::{MissedEntry, missed};
 pub use pass::PassNote;
 pub use past::{open_pass, passes, passes_within};
 pub use peaks::read_peaks;
 pub use pointing::{CannotFitPointing, fit_pointing};
 pub use read::{Query, Record, RowKind};
-pub use recorder::{RecordedSession, Recorder};
+pub use recorder::Recorder;
 
 /// Why a record cannot be written or read.
 #[derive(Debug, thiserror::Error)]

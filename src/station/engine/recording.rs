@@ -2,6 +2,7 @@
 //! since the last turn. Lines and positions go there from the sessions' own logs.
 
 mod differences;
+mod explain;
 mod live;
 mod plans;
 mod reports;

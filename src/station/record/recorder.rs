@@ -4,7 +4,7 @@ use std::{
     io,
     path::PathBuf,
     sync::{
-        Arc, Mutex, MutexGuard, PoisonError,
+        Arc, Mutex,
         atomic::{AtomicBool, AtomicU64, Ordering},
         mpsc,
     },
@@ -14,61 +14,17 @@ use std::{
 
 use tokio::runtime::Handle;
 
-use super::{Entry, PassNote, Picture, writer::Writer};
-use crate::{
-    clock::{Clock, Moment},
-    contract::{driver::WireLog, record::Status},
-    driver::PositionLog,
-    job,
-    station::{AntennaId, Retention},
+use super::{
+    Entry, PassNote, Picture,
+    intake::{Order, RecordedSession, Shared, locked},
+    writer::Writer,
 };
+use crate::{clock::Clock, contract::record::Status, job, station::Retention};
 
 /// Most orders that wait for the writer. A turn of the station makes some ten at most.
 const ORDERS: usize = 4096;
 /// How long the end of the station waits for the last write.
 const FAREWELL: Duration = Duration::from_secs(2);
-
-pub(super) enum Order {
-    Entry(Box<Entry>),
-    Pass(Box<PassNote>),
-    Picture {
-        picture: Arc<dyn Picture>,
-        /// There was no room for the one before.
-        is_after_cut: bool,
-    },
-    /// Write at once, then answer.
-    Flush(mpsc::SyncSender<()>),
-}
-
-/// A session to be recorded.
-pub struct RecordedSession {
-    /// When it began.
-    pub at: Moment,
-    pub antenna: AntennaId,
-    /// Name of the antenna.
-    pub name: String,
-    /// Key of its make.
-    pub make: &'static str,
-    pub wire: WireLog,
-    pub positions: PositionLog,
-}
-
-/// State that both ends share.
-pub(super) struct Shared {
-    pub(super) status: Mutex<Status>,
-    /// Sessions that the writer does not know of yet.
-    pub(super) begun: Mutex<Vec<RecordedSession>>,
-    pub(super) keeping: Mutex<Retention>,
-    /// Entries for which there was no room.
-    pub(super) turned_away: AtomicU64,
-    /// Pictures for which there was no room.
-    pub(super) not_filmed: AtomicU64,
-}
-
-/// Locks what both ends share. No code panics while it holds the lock.
-pub(super) fn locked<T>(of: &Mutex<T>) -> MutexGuard<'_, T> {
-    of.lock().unwrap_or_else(PoisonError::into_inner)
-}
 
 /// Records a station. Dropping it writes what waits.
 pub struct Recorder {

@@ -7,7 +7,9 @@ use rusqlite::{Transaction, params};
 use serde_json::json;
 
 use super::{
-    Entry, Kind, PassNote, RecordError, file::PER_DEGREE, recorder::RecordedSession, writer::Missed,
+    Entry, Kind, PassNote, RecordError,
+    file::PER_DEGREE,
+    intake::{Missed, RecordedSession},
 };
 use crate::{
     astro::Angle,
@@ -31,10 +33,15 @@ impl Tables<'_> {
         i64::try_from(since.as_micros()).unwrap_or(i64::MAX)
     }
 
-    pub(super) fn antenna(&self, of: &RecordedSession) -> Result<(), RecordError> {
+    pub(super) fn antenna(&self, session: &RecordedSession) -> Result<(), RecordError> {
         self.tx
             .prepare_cached("INSERT OR REPLACE INTO antenna VALUES (?1, ?2, ?3, ?4)")?
-            .execute(params![of.antenna.0, of.at.utc.as_microsecond(), of.name, of.make])?;
+            .execute(params![
+                session.antenna.0,
+                session.at.utc.as_microsecond(),
+                session.name,
+                session.make,
+            ])?;
         Ok(())
     }
 
@@ -190,6 +197,6 @@ fn fault(finding: Finding) -> Option<String> {
 /// Returns the meaning of a line. Omits that of a good line that Azel polls for: most lines are
 /// such, and their bytes say the same.
 fn meaning(line: &WireLine) -> Option<&str> {
-    let is_told = !line.is_poll || !line.finding.is_good();
-    line.meaning.as_ref().filter(|_| is_told).map(|meaning| &*meaning.text)
+    let is_shown = !line.is_poll || !line.finding.is_good();
+    line.meaning.as_ref().filter(|_| is_shown).map(|meaning| &*meaning.text)
 }

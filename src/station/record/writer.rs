@@ -14,8 +14,8 @@ use serde_json::json;
 use super::{
     Entry, Kind, PassNote, RecordError, file,
     film::Camera,
+    intake::{Missed, Order, RecordedSession, Shared, locked},
     keeping,
-    recorder::{Order, RecordedSession, Shared, locked},
     tables::Tables,
 };
 use crate::{
@@ -71,15 +71,6 @@ struct News {
     positions: Vec<Measured>,
     /// The session has ended: there is nothing more to come.
     is_last: bool,
-}
-
-/// Counts of items that could not be recorded since the last write.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(super) struct Missed {
-    pub(super) entries: u64,
-    pub(super) positions: u64,
-    pub(super) frames: u64,
-    pub(super) pictures: u64,
 }
 
 pub(super) struct Writer {

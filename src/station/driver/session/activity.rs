@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use super::{on_board::Watch, program_track::Tracking};
+use super::{on_board::Watch, tracking::Tracking};
 use crate::{
     astro::Angle,
     clock::Instant,

@@ -1,6 +1,6 @@
 //! Ends motions of Azel when somebody else moves the antenna.
 
-use super::{Session, program_track::Tracking};
+use super::{Session, tracking::Tracking};
 use crate::{
     clock::Moment,
     contract::driver::{Event, Safety},

@@ -1,9 +1,6 @@
 //! Offsets of a track, changed while it runs.
 
-use super::{
-    Session,
-    program_track::{Tracking, motion},
-};
+use super::{Session, program_track::motion, tracking::Tracking};
 use crate::{
     astro::{MAX_ANGLE_OFFSET, MAX_TIME_OFFSET, Offset, TrackOffsets},
     clock::Moment,

@@ -5,16 +5,12 @@ use std::{sync::Arc, time::Duration};
 
 use jiff::Timestamp;
 
-use super::{Session, activity::Slew, off_target::OffTarget};
+use super::{off_target::OffTarget, standstill::Figures};
 use crate::{
-    astro::{
-        Angle, AzEl, TrackOffsets,
-        time::{add_seconds, seconds_between},
-    },
-    clock::{Instant, Moment},
-    contract::driver::{Event, Intent, OnBoardView, TrackProblem},
-    device::{LONGEST_WINDOW_S, Measured, OnBoard, Phase},
-    driver::gate::{Held, NoRoute},
+    astro::{Angle, AzEl, TrackOffsets, time::add_seconds},
+    clock::Instant,
+    contract::driver::{Event, OnBoardView},
+    device::{Capabilities, Measured, OnBoard},
     plan::{
         OnBoardPass, Supervision,
         on_board::{Judge, Ranked},
@@ -24,6 +20,16 @@ use crate::{
 /// The unit's clock is reported with the delay of the link: smaller differences are ignored,
 /// seconds.
 const SAME_CLOCK_S: f64 = 0.2;
+
+/// Largest pointing errors of an antenna that works, and its fastest rate.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct PointingLimits {
+    /// More is outside the beam, which raises an alarm.
+    pub(super) in_beam: Angle,
+    /// More stops the antenna: the tolerance of an arrival counts too.
+    pub(super) on_target: Angle,
+    pub(super) max_rate_deg_s: f64,
+}
 
 pub(super) struct Watch {
     judge: Arc<Judge>,
@@ -44,7 +50,7 @@ pub(super) struct Watch {
 }
 
 impl Watch {
-    fn new(judge: Arc<Judge>, unit: &OnBoard) -> Self {
+    pub(super) fn new(judge: Arc<Judge>, unit: &OnBoard) -> Self {
         Self {
             found: Arc::new(judge.supervise(unit, false)),
             judge,
@@ -107,7 +113,7 @@ impl Watch {
     }
 
     /// Judges again if the unit reports something else.
-    fn judge_again(&mut self, unit: &OnBoard, holds_target: bool) {
+    pub(super) fn judge_again(&mut self, unit: &OnBoard, holds_target: bool) {
         let same_clock = match (unit.clock, self.found_by.clock) {
             (Some(now), Some(then)) => {
                 let changes_s =
@@ -127,128 +133,38 @@ impl Watch {
     }
 
     /// The reason not to start the unit on the pass.
-    fn objection(&self) -> Option<Event> {
+    pub(super) fn objection(&self) -> Option<Event> {
         self.would_miss().filter(|_| !self.judge.pass().is_agreed)
     }
 
-    /// The event for a unit that would not point, or does not point, at the satellite.
-    pub(super) fn would_miss(&self) -> Option<Event> {
-        let name = self.judge.pass().target.name.clone();
-        let missed = (!self.found.is_within_beam).then(|| Arc::clone(&self.found));
-        missed.map(|found| Event::WouldMiss { name, found })
-    }
-}
-
-impl Session {
-    /// Checks a pass before the unit is started on it, and finds the way to where it begins if the
-    /// antenna has to be taken there. Returns `None` until the path is judged. The error is the event
-    /// to report.
-    pub(super) fn examine_pass(
-        &mut self,
-        pass: OnBoardPass,
-        now: Moment,
-    ) -> Result<Option<(Watch, Option<Slew>)>, Event> {
-        let name = pass.target.name.clone();
-        let judge = Judge::new(pass, self.setup.ability)
-            .map_err(|error| Event::CannotProgramTrack(name, TrackProblem::Orbit(error)))?;
-        // Azel takes back the offsets of another track before this one begins.
-        let watch = Watch::new(Arc::new(judge), &self.plain_unit());
-        if let Some(event) = watch.objection() {
-            return Err(event);
-        }
-        let unit = self.gate.state().on_board.clone();
-        if !self.is_judged(&watch.judge, &[unit]) {
-            return Ok(None);
-        }
-        let to = match self.gate.way_to_pass(&watch.judge, now) {
-            Ok(to) => to,
-            Err(NoRoute::Refused(refusal)) => return Err(Event::NotSent(refusal)),
-            Err(NoRoute::Open(question)) => {
-                self.look_for(question);
-                return Ok(None);
-            }
-        };
-        let slew = to.map(|to| self.slew(to, Intent::Track, now)).transpose();
-        Ok(Some((watch, slew.map_err(Event::NotSent)?)))
+    pub(super) fn is_over_pass(&self, pass: &OnBoardPass) -> bool {
+        self.judge.pass() == pass
     }
 
-    /// The objection to the pass now that the unit holds it and has been read again.
-    pub(super) fn objection_to_pass(&mut self) -> Option<Event> {
-        let watch = &mut self.activity.on_board_mut()?.watch;
-        watch.judge_again(&self.gate.state().on_board, true);
-        watch.objection()
-    }
-
-    /// Returns the pass that the unit would track on its own from now on.
-    pub(super) fn held(&self, now: Moment) -> Held {
-        let unit = &self.gate.state().on_board;
-        let Some(satellite) = &unit.satellite else { return Held::Unread };
-        if satellite.catalog_number == 0 {
-            return Held::Nothing;
-        }
-        let (Some(clock), Some((start, stop))) = (unit.clock, unit.window) else {
-            return Held::Unread;
-        };
-        let own_now = add_seconds(now.utc, clock.ahead_s);
-        if own_now >= stop {
-            return Held::Nothing;
-        }
-        let start = start.max(own_now);
-        let span_s = seconds_between(start, stop);
-        if span_s > LONGEST_WINDOW_S as f64 {
-            return Held::TooLong { hours: span_s / 3600.0 };
-        }
-        let from_now_on = OnBoard { window: Some((start, stop)), ..unit.clone() };
-        let orbit = self.wires.orbit.borrow().clone();
-        let pass = orbit.and_then(|orbit| orbit.pass_of(&from_now_on));
-        let judge = pass.and_then(|pass| Judge::new(pass, self.setup.ability).ok());
-        judge.map_or_else(
-            || Held::Unknown { name: satellite.name.clone() },
-            |judge| Held::Pass(Arc::new(judge)),
-        )
-    }
-
-    /// The watch over the on-board track, whoever asked for it.
-    pub(super) fn on_board_watch(&self) -> Option<&Watch> {
-        self.activity.on_board().map(|track| &track.watch).or(self.unasked.as_ref())
-    }
-
-    /// Begins or ends the watch over a track that nobody asked for from here.
-    fn watch_unasked(&mut self) {
-        let state = self.gate.state();
-        let is_on = !self.contact.unread && state.program.is_some_and(|program| program.enabled);
-        let orbit = self
-            .wires
-            .orbit
-            .borrow()
-            .clone()
-            .filter(|_| is_on && self.activity.program().is_none());
-        let Some(pass) = orbit.and_then(|orbit| orbit.pass_of(&state.on_board)) else {
-            self.unasked = None;
-            return;
-        };
-        if self.unasked.as_ref().is_some_and(|watch| *watch.judge.pass() == pass) {
-            return;
-        }
-        // Elements that describe no orbit give no direction to compare with.
-        let judge = Judge::new(pass, self.setup.ability).ok();
-        self.unasked = judge.map(|judge| Watch::new(Arc::new(judge), &state.on_board));
+    /// Returns `true`, once for each position, while the satellite is up.
+    pub(super) fn is_due(&mut self, measured: &Measured) -> bool {
+        let target = &self.judge.pass().target;
+        let is_up = (target.from..target.until).contains(&measured.at);
+        is_up && self.compared.replace(measured.received) != Some(measured.received)
     }
 
     /// Returns `true` if neither axis has turned while the path of the unit, at `to` now, went on.
-    fn stands_while_it_should_track(&mut self, measured: &Measured, to: AzEl, now: Moment) -> bool {
-        let (figures, can) = (self.figures(), self.variant.capabilities);
-        let tracks = self.gate.state().program.is_some_and(|it| it.phase == Phase::Tracking);
-        let can_point = tracks && self.gate.reaches(to, now);
-        let Some(track) = self.activity.on_board_mut() else { return false };
-        let turned = &mut track.watch.turned;
-        let known = turned.filter(|(before, _)| {
+    /// `can_point`: the unit tracks, and the antenna reaches `to`.
+    pub(super) fn stands_still(
+        &mut self,
+        measured: &Measured,
+        to: AzEl,
+        can_point: bool,
+        figures: Figures,
+        can: Capabilities,
+    ) -> bool {
+        let resting = self.turned.filter(|(before, _)| {
             can_point
                 && figures.turned(before, measured).is_none()
                 && measured.direction().is_some()
         });
-        let Some((before, from)) = known else {
-            *turned = Some((*measured, to));
+        let Some((before, from)) = resting else {
+            self.turned = Some((*measured, to));
             return false;
         };
         let shows_after = Duration::try_from_secs_f64(can.effect.shows_after_s).unwrap_or_default();
@@ -262,48 +178,34 @@ impl Session {
             && measured.asked.saturating_duration_since(before.asked) >= shows_after
     }
 
-    /// Checks whether the unit points where it should.
-    pub(super) fn watch_on_board(&mut self, now: Moment) {
-        if self.activity.on_board().is_none() {
-            self.watch_unasked();
-        }
-        let state = self.gate.state();
-        let is_on = state.program.is_some_and(|program| program.enabled);
-        if !is_on || self.activity.is_pending() {
-            return;
-        }
-        let (unit, meant, measured) = (self.plain_unit(), self.meant_offsets(), state.measured);
-        // Outside the beam is an alarm; to stop the antenna, the tolerance of an arrival counts too.
-        let (in_beam, on_target) = (self.in_beam(), self.on_target());
-        let asked = self.activity.on_board_mut().map(|track| &mut track.watch);
-        let Some(watch) = asked.or(self.unasked.as_mut()) else { return };
-        watch.judge_again(&unit, true);
-        let Some(measured) = measured else { return };
-        let target = &watch.judge.pass().target;
-        let is_up = (target.from..target.until).contains(&measured.at);
-        if !is_up || watch.compared == Some(measured.received) {
-            return;
-        }
-        watch.compared = Some(measured.received);
-        let predicted = meant.demanded(measured.at, |at| watch.judge.direction(at));
-        // Where this unit goes, by its own minimum elevation, clock and window.
-        let own = watch.judge.start(&unit, measured.at);
-        if own.is_some_and(|to| self.stands_while_it_should_track(&measured, to, now)) {
-            return self.end_without_effect(None, now);
-        }
-        let asked = self.activity.on_board_mut().map(|track| &mut track.watch);
-        let Some(watch) = asked.or(self.unasked.as_mut()) else { return };
+    /// Compares a position with the satellite. `meant`: offsets that are meant to be on.
+    pub(super) fn compare(
+        &mut self,
+        measured: &Measured,
+        unit: &OnBoard,
+        meant: TrackOffsets,
+        limits: PointingLimits,
+        now: Instant,
+    ) {
+        let predicted = meant.demanded(measured.at, |at| self.judge.direction(at));
         let off = predicted.and_then(|predicted| measured.pointing.separation(predicted.into()));
         let Some(off) = off else { return };
         // Both axes may have to turn by more than the beam.
-        let slew_s = 2.0 * off.degrees() / self.setup.ability.maximum_rate_deg_s;
+        let slew_s = 2.0 * off.degrees() / limits.max_rate_deg_s;
         let slew = Duration::try_from_secs_f64(slew_s).unwrap_or_default();
-        let is_off = |off: &Angle| *off > on_target;
-        let by_clock = watch.by_unit_clock(&unit, meant, measured.at);
+        let is_off = |off: &Angle| *off > limits.on_target;
+        let by_clock = self.by_unit_clock(unit, meant, measured.at);
         let by_clock = by_clock.and_then(|to| measured.pointing.separation(to.into()));
         let is_explained = by_clock.is_some_and(|off| !is_off(&off));
         let unexplained = Some(off).filter(|off| is_off(off) && !is_explained);
-        let outside = Some(off).filter(|off| *off > in_beam);
-        watch.take_off(outside, !is_off(&off), unexplained, slew, now.steady);
+        let outside = Some(off).filter(|off| *off > limits.in_beam);
+        self.take_off(outside, !is_off(&off), unexplained, slew, now);
+    }
+
+    /// The event for a unit that would not point, or does not point, at the satellite.
+    pub(super) fn would_miss(&self) -> Option<Event> {
+        let name = self.judge.pass().target.name.clone();
+        let missed = (!self.found.is_within_beam).then(|| Arc::clone(&self.found));
+        missed.map(|found| Event::WouldMiss { name, found })
     }
 }

@@ -1,11 +1,15 @@
 //! Program track: sends one position after another on the session's own clock. It survives a
 //! lost link, and ends with any other command of the operator.
 
-mod tracking;
-
 use std::time::Duration;
 
-use super::{Session, activity::Activity, likeness::Recheck, off_target::OffTarget};
+use super::{
+    Session,
+    activity::Activity,
+    likeness::Recheck,
+    off_target::OffTarget,
+    tracking::{TrackConfig, Tracking},
+};
 use crate::{
     clock::{Instant, Moment},
     contract::driver::{Command, Event, Intent, Refusal, Safety, TrackProblem, Unlike},
@@ -16,7 +20,6 @@ use crate::{
     },
     station::{AfterPass, Antenna, Resume},
 };
-pub(super) use tracking::{TrackConfig, Tracking};
 
 /// Maximum number of commands in a row without an answer and without effect.
 const MAX_LOST: u32 = 3;

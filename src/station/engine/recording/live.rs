@@ -1,113 +1,24 @@
-//! Causes of the error of a pass while an antenna tracks it.
-
-use std::path::Path;
+//! The search for the causes of an error while an antenna tracks a pass.
 
 use jiff::Timestamp;
 
-use super::reports::{Followed, others_of};
 use crate::{
-    astro::time::{add_seconds, seconds_between},
-    engine::Engine,
-    job::{Job, Wake},
-    library::History,
+    job::Job,
     orbit::Propagator,
-    plan::{
-        MountLimits, Trackability,
-        pass_report::{Evidence, Explained, MeasuredPosition, TrackedPass},
-    },
+    plan::{Trackability, pass_report::Explained},
 };
 
-/// Time between two looks, seconds.
-const EVERY_S: f64 = 10.0;
-/// Only positions as young as this count, seconds: what was wrong before them may be mended.
-const SINCE_S: f64 = 180.0;
-/// An error below this share of half the beamwidth needs no cause.
-const MIN_SHARE: f64 = 0.5;
-
 /// Other elements of the satellite, with their epochs.
-type Others = Vec<(Timestamp, Propagator)>;
+pub(super) type Others = Vec<(Timestamp, Propagator)>;
 
 /// The search for a cause, again and again.
 #[derive(Default)]
 pub(super) struct Live {
-    job: Option<Job<(Option<Explained>, Others)>>,
+    pub(super) job: Option<Job<(Option<Explained>, Others)>>,
     /// `None` before the first look, which reads them.
-    others: Option<Others>,
-    begun: Option<Timestamp>,
+    pub(super) others: Option<Others>,
+    pub(super) begun: Option<Timestamp>,
     /// The part of the pass that the mount can track.
-    trackability: Option<Trackability>,
-    found: Option<Explained>,
-}
-
-impl Engine {
-    /// Looks for what explains the errors of the passes under way, and shows it.
-    pub(super) fn explain_passes(&mut self) {
-        // A rehearsal shows nobody a card.
-        if self.recording.recorder.is_none() {
-            return;
-        }
-        let (now, wake) = (self.now, &self.wake);
-        let library = self.places.library();
-        for pass in &mut self.recording.followed {
-            pass.explain(now, library, wake);
-        }
-        for antenna in &mut self.antennas {
-            let shown = &mut antenna.shown;
-            let of = |pass: &&Followed| pass.antenna == shown.id() && now <= pass.until;
-            let pass = self.recording.followed.iter().find(of).filter(|_| shown.tracks());
-            shown.explained = pass.and_then(|pass| pass.live.found.clone());
-        }
-    }
-}
-
-impl Followed {
-    fn explain(&mut self, now: Timestamp, library: Option<&Path>, wake: &Wake) {
-        if let Some(end) = Job::take(&mut self.live.job) {
-            let end = end.ok();
-            let (found, others) = end.unzip();
-            (self.live.found, self.live.others) = (found.flatten(), others);
-        }
-        let is_due = self.live.begun.is_none_or(|at| seconds_between(at, now) >= EVERY_S);
-        if !is_due || self.live.job.is_some() || now > self.until {
-            return;
-        }
-        self.live.begun = Some(now);
-        let since = add_seconds(now, -SINCE_S);
-        let young = self.flown.iter().rev().take_while(|flown| flown.time >= since).copied();
-        let mut young: Vec<MeasuredPosition> = young.collect();
-        young.reverse();
-        let (propagator, site) = (self.propagator.clone(), self.site);
-        let about = self.about.clone();
-        let (limits, breaks) = (self.limits, self.breaks.clone());
-        let trackability = self.live.trackability.unwrap_or_else(|| self.trackability());
-        self.live.trackability = Some(trackability);
-        let from = since.max(self.from);
-        let (elements, others) = (self.elements.clone(), self.live.others.take());
-        let history = library.map(History::beside);
-        self.live.job = Some(Job::start("azel-explain", Wake::clone(wake), move |_| {
-            for flown in &mut young {
-                *flown = about.compared(&propagator, site, *flown);
-            }
-            let tracked = TrackedPass {
-                propagator: &propagator,
-                site,
-                from,
-                until: now,
-                limits,
-                trackability,
-                ended: None,
-                breaks: &breaks,
-            };
-            let report = tracked.report(&young);
-            let MountLimits { has_elevation, mount, half_beam, .. } = limits;
-            let evidence = Evidence::new(mount, has_elevation, half_beam).with_pass(
-                &propagator,
-                site,
-                about.path_source(site),
-                tracked.judged(&report, &young),
-            );
-            let others = others.unwrap_or_else(|| others_of(&elements, history.as_ref()));
-            (evidence.explained(MIN_SHARE * half_beam.degrees(), &others), others)
-        }));
-    }
+    pub(super) trackability: Option<Trackability>,
+    pub(super) found: Option<Explained>,
 }

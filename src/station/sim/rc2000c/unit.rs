@@ -2,6 +2,7 @@
 //! its start is an argument.
 
 mod commands;
+mod peer;
 mod report;
 
 use std::collections::BTreeSet;
@@ -11,12 +12,9 @@ use super::axis::{Axis, Trouble};
 use super::feed::Feed;
 use super::satellites::StoredSatellite;
 use super::tracking::Tracking;
-use super::{AxisOptions, Fault, Options, Quirk, connection::Line};
-use crate::protocol::rc2000c::{Address, AxisDrive, Frame, PolarizationMotion, Submode};
-use crate::sim::{
-    Mechanics,
-    harness::{self, Switches},
-};
+use super::{AxisOptions, Fault, Options, Quirk};
+use crate::protocol::rc2000c::{Address, AxisDrive, Submode};
+use crate::sim::Mechanics;
 
 /// Time between two steps of the mount.
 const STEP: Duration = Duration::from_millis(50);
@@ -204,69 +202,6 @@ fn stand(
         Axis::new(az_counts, azimuth, mechanics, seed, false),
         Axis::new(el_counts, elevation, mechanics, seed ^ 1, true),
     ]
-}
-
-impl harness::Unit for Rc2000c {
-    type Quirk = Quirk;
-    type Fault = Fault;
-    type Request = Frame;
-    type Snapshot = Snapshot;
-    /// Counts.
-    type Place = [u16; 2];
-    type Wire = Line;
-
-    const SILENCE: Fault = Fault::Silence;
-    const NOISE: Fault = Fault::Garbage;
-    const REFUSAL: Fault = Fault::Refuse;
-    const SPLIT: Fault = Fault::Split;
-    const MERGE: Fault = Fault::Merge;
-
-    fn advance(&mut self, elapsed: Duration) {
-        let catch_up_from = elapsed.saturating_sub(LONGEST_CATCH_UP);
-        self.elapsed = self.elapsed.max(catch_up_from);
-        while self.elapsed < elapsed {
-            let step = STEP.min(elapsed.saturating_sub(self.elapsed));
-            self.elapsed += step;
-            self.step(step.as_secs_f64());
-        }
-    }
-
-    fn set_switches(&mut self, switches: &Switches<Quirk, Fault>) {
-        self.quirks.clone_from(&switches.quirks);
-        self.faults.clone_from(&switches.faults);
-        self.suffer();
-    }
-
-    fn set_strength(&mut self, [azimuth, elevation]: [f64; 2]) {
-        self.azimuth.set_strength(azimuth);
-        self.elevation.set_strength(elevation);
-    }
-
-    fn cut_power(&mut self) {
-        self.use_panel();
-    }
-
-    fn place(&mut self, counts: [u16; 2]) {
-        [self.azimuth, self.elevation] = stand(counts, &self.axes, &self.mechanics, self.seed);
-        self.suffer();
-    }
-
-    fn snapshot(&self) -> Snapshot {
-        let is_turning = self.azimuth.is_turning()
-            || self.elevation.is_turning()
-            || self.feed.motion() != PolarizationMotion::Still;
-        Snapshot {
-            az_counts: self.azimuth.counts(),
-            el_counts: self.elevation.counts(),
-            polarization_units: self.feed.units(),
-            mode: self.mode,
-            is_turning,
-        }
-    }
-
-    fn wire(&self) -> Line {
-        Line::new(self.address, self.baud)
-    }
 }
 
 #[cfg(test)]

@@ -1,6 +1,9 @@
 //! The actions that only an RC2000C has, and their commands.
 
-use super::{QueuedRequest, Rc2000c, refusal::is_tracking};
+use super::{
+    QueuedRequest, Rc2000c,
+    refusal::{AUTOMATIC, is_tracking},
+};
 use crate::{
     device::{
         Asked, ControllerEvent, Device,
@@ -50,7 +53,6 @@ const NOT_CALIBRATED: &str = "the meaning of these counts is not known, so nobod
                               elevation in Preferences";
 const NOT_NOW: &str = "the unit takes no such command in this phase of TRACK: choose H or V, which \
                        it carries out later, or wait";
-pub(super) const AUTOMATIC: &str = "automatic polarization is on";
 const UNHEARD_OF: &str = "where this leads is not known";
 
 /// In the order of the panel.

@@ -1,11 +1,12 @@
 //! Why the unit has refused a command. It does not say; its known state and the causes in its
 //! manual make a sentence.
 
-use super::actions::AUTOMATIC;
 use crate::protocol::rc2000c::{
     AutoMove, DriveReset, Motion, PolarizationDevice, PolarizationMove, Position, Request, Setting,
     Status,
 };
+
+pub(super) const AUTOMATIC: &str = "automatic polarization is on";
 
 /// The likely reason, by the last status.
 pub(super) fn likely_reason(request: &Request, status: Option<&Status>) -> String {

@@ -2,12 +2,12 @@
 
 use std::time::Duration;
 
+use super::{likeness::Recheck, off_target::OffTarget};
 use crate::{
     astro::{Angle, PointingModel, TrackOffsets},
     clock::Instant,
     contract::driver::TrackView,
     device::{Axis, AxisMotion, Capabilities, Measured, Pointing},
-    driver::session::{likeness::Recheck, off_target::OffTarget},
     plan::{
         Sample, TrackPhase, TrackStats,
         program_track::{AxisNow, Drives, OnPath, Planner},
@@ -20,19 +20,19 @@ const UNMEASURED: Duration = Duration::from_secs(10);
 
 /// Settings of program track.
 #[derive(Debug, Clone, Copy)]
-pub(in crate::driver::session) struct TrackConfig {
+pub(super) struct TrackConfig {
     pub(super) drives: Drives,
     pub(super) settings: station::TrackSettings,
-    pub(in crate::driver::session) model: PointingModel,
+    pub(super) model: PointingModel,
 }
 
 impl TrackConfig {
     /// Rates of both axes as learned, or as set.
-    pub(in crate::driver::session) fn rates_deg_s(&self) -> [f64; 2] {
+    pub(super) fn rates_deg_s(&self) -> [f64; 2] {
         self.drives.rates_deg_s
     }
 
-    pub(in crate::driver::session) fn of(antenna: &Antenna, can: Capabilities) -> Self {
+    pub(super) fn of(antenna: &Antenna, can: Capabilities) -> Self {
         let drives = Drives {
             mount: antenna.track_mount(),
             limits: antenna.limits,
@@ -45,18 +45,18 @@ impl TrackConfig {
     }
 
     /// The operator's limit, degrees a second.
-    pub(in crate::driver::session) fn fastest_deg_s(&self) -> f64 {
+    pub(super) fn fastest_deg_s(&self) -> f64 {
         self.drives.limits.maximum_rate_deg_s
     }
 }
 
-pub(in crate::driver::session) struct Tracking {
-    pub(in crate::driver::session) planner: Planner,
-    pub(in crate::driver::session) phase: TrackPhase,
+pub(super) struct Tracking {
+    pub(super) planner: Planner,
+    pub(super) phase: TrackPhase,
     /// Offsets before each change of the pass, the oldest first.
-    pub(in crate::driver::session) earlier: Vec<TrackOffsets>,
+    pub(super) earlier: Vec<TrackOffsets>,
     pub(super) stats: TrackStats,
-    pub(in crate::driver::session) next_update: Instant,
+    pub(super) next_update: Instant,
     /// A position is due, but something else must end first, which then brings it.
     pub(super) is_held_up: bool,
     /// When the last command went to the gate.
@@ -68,19 +68,19 @@ pub(in crate::driver::session) struct Tracking {
     pub(super) predicted: Option<Sample>,
     /// The last measurement against the planned path; `None` before the pass.
     pub(super) on_path: Option<OnPath>,
-    pub(in crate::driver::session) off_target: OffTarget,
+    pub(super) off_target: OffTarget,
     /// Start and latest in an unbroken series of readings without the angle of an axis off its limits.
     unmeasured: Option<(Instant, Instant)>,
     /// Waits for the operator.
     pub(super) awaits_operator: bool,
     /// The unit must still prove to be as before.
-    pub(in crate::driver::session) recheck: Option<Recheck>,
+    pub(super) recheck: Option<Recheck>,
     /// The barrier in the way was reported.
     pub(super) barrier_is_told: bool,
     /// Where the last command leads.
     pub(super) commanded: Option<Pointing>,
     /// The same, while the target is not up.
-    pub(in crate::driver::session) aim: Option<Pointing>,
+    pub(super) aim: Option<Pointing>,
 }
 
 impl Tracking {
@@ -108,7 +108,7 @@ impl Tracking {
         }
     }
 
-    pub(in crate::driver::session) fn view(&self) -> TrackView {
+    pub(super) fn view(&self) -> TrackView {
         let target = &self.planner.track().target;
         TrackView {
             name: target.name().into_owned(),
@@ -128,7 +128,7 @@ impl Tracking {
     }
 
     /// It goes on only by the word of the operator, or once the unit has proved to be as before.
-    pub(in crate::driver::session) fn asks(&self) -> bool {
+    pub(super) fn asks(&self) -> bool {
         self.awaits_operator || self.recheck.is_some()
     }
 
@@ -189,7 +189,7 @@ impl Tracking {
     }
 
     /// The axes, of which none is taken for at rest.
-    pub(in crate::driver::session) fn turning(measured: Option<Measured>) -> [AxisNow; 2] {
+    pub(super) fn turning(measured: Option<Measured>) -> [AxisNow; 2] {
         let axes = measured.map(|measured| measured.axes);
         let position_deg = |axis: usize| axes.and_then(|axes| axes.get(axis)?.angle_deg);
         [0, 1].map(|axis| AxisNow { position_deg: position_deg(axis), stands: false })

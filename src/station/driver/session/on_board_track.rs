@@ -1,0 +1,164 @@
+//! Starts and supervises a track that the unit computes.
+
+use std::sync::Arc;
+
+use super::{
+    Session,
+    activity::Slew,
+    on_board::{PointingLimits, Watch},
+};
+use crate::{
+    astro::{
+        AzEl,
+        time::{add_seconds, seconds_between},
+    },
+    clock::Moment,
+    contract::driver::{Event, Intent, TrackProblem},
+    device::{LONGEST_WINDOW_S, Measured, OnBoard, Phase},
+    driver::gate::{Held, NoRoute},
+    plan::{OnBoardPass, on_board::Judge},
+};
+
+impl Session {
+    /// Checks a pass before the unit is started on it, and finds the way to where it begins if the
+    /// antenna has to be taken there. Returns `None` until the path is judged. The error is the event
+    /// to report.
+    pub(super) fn examine_pass(
+        &mut self,
+        pass: OnBoardPass,
+        now: Moment,
+    ) -> Result<Option<(Watch, Option<Slew>)>, Event> {
+        let name = pass.target.name.clone();
+        let judge = Judge::new(pass, self.setup.ability)
+            .map_err(|error| Event::CannotProgramTrack(name, TrackProblem::Orbit(error)))?;
+        // Azel takes back the offsets of another track before this one begins.
+        let watch = Watch::new(Arc::new(judge), &self.plain_unit());
+        if let Some(event) = watch.objection() {
+            return Err(event);
+        }
+        let unit = self.gate.state().on_board.clone();
+        if !self.is_judged(watch.judge(), &[unit]) {
+            return Ok(None);
+        }
+        let to = match self.gate.way_to_pass(watch.judge(), now) {
+            Ok(to) => to,
+            Err(NoRoute::Refused(refusal)) => return Err(Event::NotSent(refusal)),
+            Err(NoRoute::Open(question)) => {
+                self.look_for(question);
+                return Ok(None);
+            }
+        };
+        let slew = to.map(|to| self.slew(to, Intent::Track, now)).transpose();
+        Ok(Some((watch, slew.map_err(Event::NotSent)?)))
+    }
+
+    /// The objection to the pass now that the unit holds it and has been read again.
+    pub(super) fn objection_to_pass(&mut self) -> Option<Event> {
+        let watch = &mut self.activity.on_board_mut()?.watch;
+        watch.judge_again(&self.gate.state().on_board, true);
+        watch.objection()
+    }
+
+    /// Returns the pass that the unit would track on its own from now on.
+    pub(super) fn held(&self, now: Moment) -> Held {
+        let unit = &self.gate.state().on_board;
+        let Some(satellite) = &unit.satellite else { return Held::Unread };
+        if satellite.catalog_number == 0 {
+            return Held::Nothing;
+        }
+        let (Some(clock), Some((start, stop))) = (unit.clock, unit.window) else {
+            return Held::Unread;
+        };
+        let own_now = add_seconds(now.utc, clock.ahead_s);
+        if own_now >= stop {
+            return Held::Nothing;
+        }
+        let start = start.max(own_now);
+        let span_s = seconds_between(start, stop);
+        if span_s > LONGEST_WINDOW_S as f64 {
+            return Held::TooLong { hours: span_s / 3600.0 };
+        }
+        let from_now_on = OnBoard { window: Some((start, stop)), ..unit.clone() };
+        let orbit = self.wires.orbit.borrow().clone();
+        let pass = orbit.and_then(|orbit| orbit.pass_of(&from_now_on));
+        let judge = pass.and_then(|pass| Judge::new(pass, self.setup.ability).ok());
+        judge.map_or_else(
+            || Held::Unknown { name: satellite.name.clone() },
+            |judge| Held::Pass(Arc::new(judge)),
+        )
+    }
+
+    /// The watch over the on-board track, whoever asked for it.
+    pub(super) fn on_board_watch(&self) -> Option<&Watch> {
+        self.activity.on_board().map(|track| &track.watch).or(self.unasked.as_ref())
+    }
+
+    /// Begins or ends the watch over a track that nobody asked for from here.
+    fn watch_unasked(&mut self) {
+        let state = self.gate.state();
+        let is_on = !self.contact.unread && state.program.is_some_and(|program| program.enabled);
+        let orbit = self
+            .wires
+            .orbit
+            .borrow()
+            .clone()
+            .filter(|_| is_on && self.activity.program().is_none());
+        let Some(pass) = orbit.and_then(|orbit| orbit.pass_of(&state.on_board)) else {
+            self.unasked = None;
+            return;
+        };
+        if self.unasked.as_ref().is_some_and(|watch| watch.is_over_pass(&pass)) {
+            return;
+        }
+        // Elements that describe no orbit give no direction to compare with.
+        let judge = Judge::new(pass, self.setup.ability).ok();
+        self.unasked = judge.map(|judge| Watch::new(Arc::new(judge), &state.on_board));
+    }
+
+    /// Returns `true` if the antenna stands while the path of the unit, at `to` now, goes on.
+    fn stands_while_it_should_track(&mut self, measured: &Measured, to: AzEl, now: Moment) -> bool {
+        let (figures, can) = (self.figures(), self.variant.capabilities);
+        let program = self.gate.state().program;
+        let tracks = program.is_some_and(|program| program.phase == Phase::Tracking);
+        let can_point = tracks && self.gate.reaches(to, now);
+        let Some(track) = self.activity.on_board_mut() else { return false };
+        track.watch.stands_still(measured, to, can_point, figures, can)
+    }
+
+    /// The watch over the on-board track, whoever asked for it.
+    fn on_board_watch_mut(&mut self) -> Option<&mut Watch> {
+        self.activity.on_board_mut().map(|track| &mut track.watch).or(self.unasked.as_mut())
+    }
+
+    /// Checks whether the unit points where it should.
+    pub(super) fn watch_on_board(&mut self, now: Moment) {
+        if self.activity.on_board().is_none() {
+            self.watch_unasked();
+        }
+        let state = self.gate.state();
+        let is_on = state.program.is_some_and(|program| program.enabled);
+        if !is_on || self.activity.is_pending() {
+            return;
+        }
+        let (unit, meant, measured) = (self.plain_unit(), self.meant_offsets(), state.measured);
+        let limits = PointingLimits {
+            in_beam: self.in_beam(),
+            on_target: self.on_target(),
+            max_rate_deg_s: self.setup.ability.maximum_rate_deg_s,
+        };
+        let Some(watch) = self.on_board_watch_mut() else { return };
+        watch.judge_again(&unit, true);
+        let Some(measured) = measured else { return };
+        if !watch.is_due(&measured) {
+            return;
+        }
+        // Where this unit goes, by its own minimum elevation, clock and window.
+        let own = watch.judge().start(&unit, measured.at);
+        if own.is_some_and(|to| self.stands_while_it_should_track(&measured, to, now)) {
+            return self.end_without_effect(None, now);
+        }
+        if let Some(watch) = self.on_board_watch_mut() {
+            watch.compare(&measured, &unit, meant, limits, now.steady);
+        }
+    }
+}
