@@ -2,13 +2,7 @@
 
 use std::time::Duration;
 
-use super::{Session, jog::JogKey};
-use crate::{
-    astro::time::seconds_between,
-    clock::Moment,
-    contract::driver::{Event, LinkLoss, Safety},
-    driver::before_sleep::Awake,
-};
+use crate::{astro::time::seconds_between, clock::Moment};
 
 /// Largest change between two looks of a clock that is kept right, seconds.
 const STEP_S: f64 = 0.5;
@@ -16,50 +10,68 @@ const STEP_S: f64 = 0.5;
 const NAP: Duration = Duration::from_secs(1);
 
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Clocks {
+struct Clocks {
     at: Moment,
     asleep: Duration,
 }
 
-impl Session {
-    /// Ends motions by hand: during the sleep nothing would.
-    pub(super) fn before_sleep(&mut self, awake: Awake, now: Moment) {
-        if let Some(jog) = self.key.held() {
-            let rates_deg_s = jog.rates_deg_s;
-            self.halt_quietly(now);
-            self.key = JogKey::Spent(rates_deg_s);
-            self.tell(Event::Safety(Safety::EndedForSleep));
-        }
-        self.awake = Some(awake);
-        self.let_sleep(now);
-    }
+/// The clocks at the last comparison.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct ClockWatch {
+    last: Option<Clocks>,
+}
 
-    /// Lets the computer sleep once no halt is under way.
-    pub(super) fn let_sleep(&mut self, _: Moment) {
-        if !self.stop.is_under_way() {
-            self.awake = None;
-        }
-    }
+/// Difference between two looks at the clocks.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct ClockChange {
+    /// How long the steady clock ran between them.
+    pub(super) steady: Duration,
+    /// By how much UTC was set, seconds.
+    pub(super) stepped_s: Option<f64>,
+    /// How long the computer slept.
+    pub(super) slept: Option<Duration>,
+}
 
-    /// Compares the clocks with each other. After a sleep the link is opened anew: old
-    /// positions look fresh, because the steady clock stood still.
-    pub(super) fn watch_clocks(&mut self, now: Moment) -> Option<LinkLoss> {
-        let look = Clocks { at: now, asleep: self.clock.asleep() };
-        let before = self.contact.clocks.replace(look)?;
-        let lasted = look.asleep.saturating_sub(before.asleep);
+impl ClockWatch {
+    /// Compares the clocks with the last look at them. `asleep`: how long the computer has slept
+    /// in all.
+    pub(super) fn compare(&mut self, now: Moment, asleep: Duration) -> Option<ClockChange> {
+        let before = self.last.replace(Clocks { at: now, asleep })?;
+        let slept = asleep.saturating_sub(before.asleep);
         let steady = now.steady.saturating_duration_since(before.at.steady);
-        let expected_s = (steady + lasted).as_secs_f64();
+        let expected_s = (steady + slept).as_secs_f64();
         let by_s = seconds_between(before.at.utc, now.utc) - expected_s;
-        if by_s.abs() > STEP_S {
-            self.tell(Event::Safety(Safety::ClockStepped { by_s, time: Some(now.utc) }));
-            self.suspend_following(steady, now);
-        }
-        if lasted < NAP {
-            return None;
-        }
-        self.tell(Event::Safety(Safety::Slept { lasted }));
-        self.contact.slept += lasted;
-        self.gate.watch_anew();
-        self.contact.link.is_open().then_some(LinkLoss::Slept)
+        Some(ClockChange {
+            steady,
+            stepped_s: Some(by_s).filter(|by_s| by_s.abs() > STEP_S),
+            slept: Some(slept).filter(|slept| *slept >= NAP),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use jiff::Timestamp;
+
+    use super::*;
+    use crate::{astro::time::add_seconds, clock::Instant};
+
+    #[test]
+    fn a_clock_that_was_set_and_a_sleep_are_told_apart() {
+        let start = Instant::now();
+        let at = |steady_s: f64, utc_s: f64| Moment {
+            steady: start + Duration::from_secs_f64(steady_s),
+            utc: add_seconds(Timestamp::UNIX_EPOCH, utc_s),
+        };
+        let look = |now, asleep_s: u64| {
+            let mut clocks = ClockWatch::default();
+            assert!(clocks.compare(at(0.0, 0.0), Duration::ZERO).is_none(), "the first look");
+            let change = clocks.compare(now, Duration::from_secs(asleep_s)).unwrap();
+            (change.stepped_s.map(f64::round), change.slept)
+        };
+        assert_eq!(look(at(10.0, 10.2), 0), (None, None));
+        assert_eq!(look(at(10.0, 70.0), 0), (Some(60.0), None));
+        assert_eq!(look(at(10.0, 70.0), 60), (None, Some(Duration::from_mins(1))));
+        assert_eq!(look(at(10.0, 10.0), 60), (Some(-60.0), Some(Duration::from_mins(1))));
     }
 }

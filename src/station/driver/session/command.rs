@@ -5,8 +5,8 @@ use std::sync::Arc;
 use super::{
     Session,
     activity::{Activity, GoTo, Leg, OnBoardStage, OnBoardTrack, Queued, Slew, SlewStage},
+    contact::Wanted,
     jog::JogKey,
-    wanted::Wanted,
 };
 use crate::{
     clock::Moment,
@@ -60,11 +60,7 @@ impl Session {
                 self.go_to(Motion::Position { azimuth, elevation }, Intent::Position, now);
             }
             Command::Park => {
-                let has_elevation = self.variant.capabilities.has_elevation();
-                let motion = Motion::Position {
-                    azimuth: self.setup.park.azimuth,
-                    elevation: self.setup.park.elevation.filter(|_| has_elevation),
-                };
+                let motion = self.setup.park_motion();
                 self.go_to(motion, Intent::Park, now);
             }
             Command::Preview(to) => self.previewed = to,
@@ -82,7 +78,7 @@ impl Session {
                 }
                 self.gate.will_hold(held);
                 if self.start(Motion::EnableAuto, now) {
-                    self.allow_auto_track();
+                    self.owed.debts().settle_auto_track();
                 }
             }
             Command::AutoTrack(false) => self.end_auto_track(),
@@ -91,13 +87,13 @@ impl Session {
             Command::Ask(question) => self.gate.device().ask(&question),
             Command::Act(act) => self.act(act, false, now),
             Command::ActUnseen(act) => self.act(act, true, now),
-            Command::Connect => self.contact.wanted = Wanted::Yes,
+            Command::Connect => self.contact.want(Wanted::Yes),
             // Handled by the loop.
             Command::Disconnect => {}
         }
         // Carried out first, so that the action does not wait for its log line.
         if let Some(command) = line {
-            tracing::info!(antenna = self.name, ?command, "command");
+            tracing::info!(antenna = self.setup.name(), ?command, "command");
         }
     }
 
@@ -169,7 +165,7 @@ impl Session {
 
     fn track(&mut self, pass: OnBoardPass, now: Moment) {
         let target = pass.target.clone();
-        tracing::info!(antenna = self.name, ?target, is_agreed = pass.is_agreed, "track");
+        tracing::info!(antenna = self.setup.name(), ?target, is_agreed = pass.is_agreed, "track");
         let (watch, slew) = match self.examine_pass(pass.clone(), now) {
             Ok(Some(examined)) => examined,
             Ok(None) => return self.wait_for_judgement(Command::Track(Box::new(pass))),
@@ -254,7 +250,7 @@ impl Session {
             // that nothing can be asked. The I/O loop handles a disconnect.
             Command::ReadGroup(_) | Command::Ask(_) | Command::Disconnect => {}
             Command::Preview(to) => self.previewed = to,
-            Command::Connect => self.contact.wanted = Wanted::Yes,
+            Command::Connect => self.contact.want(Wanted::Yes),
             Command::LockOut(lock_out) => self.lock_out(lock_out, now),
             Command::Unlock => self.unlock(),
             // The link shows it; the keys are locked anyway.

@@ -127,7 +127,7 @@ impl Session {
             return;
         }
         let figures = self.figures();
-        let can = self.variant.capabilities;
+        let can = self.setup.can();
         let shows_after = Duration::try_from_secs_f64(can.effect.shows_after_s).unwrap_or_default();
         let expected = self.expected(&look, shows_after);
         // Wind or somebody else may have moved the axis, so its angle proves no lack of effect.
@@ -159,7 +159,7 @@ impl Session {
     }
 
     fn expected(&self, look: &Measured, shows_after: Duration) -> [Option<Expected>; 2] {
-        if self.stop.is_under_way() || !self.contact.link.is_open() {
+        if self.stop.is_under_way() || !self.contact.is_open() {
             return [None; 2];
         }
         if let Some(jog) = self.key.started() {
@@ -184,7 +184,7 @@ impl Session {
         if !is_slew && !is_track {
             return [None; 2];
         }
-        let can = self.variant.capabilities;
+        let can = self.setup.can();
         let finest_deg = can.arrives_within_deg
             + 2.0 * can.standstill.resolution_deg
             + self.figures().tolerance_deg();
@@ -195,7 +195,7 @@ impl Session {
                 look.asked.saturating_duration_since(changed) < shows_after
             })
         });
-        let rates_deg_s = self.setup.track_config.rates_deg_s();
+        let rates_deg_s = self.setup.track_config().rates_deg_s();
         let axes = look.axes.iter().zip(self.gate.sent_to_deg()).zip(effects).zip(rates_deg_s);
         let mut expected = [None; 2];
         for (index, (expected, (((axis, to_deg), effect), rate_deg_s))) in
@@ -232,7 +232,7 @@ impl Session {
     /// Returns `true` for each axis that stands at an end of the unit's own travel and is jogged
     /// towards it.
     fn is_at_own_end(&self, look: &Measured, rates_deg_s: [f64; 2]) -> [bool; 2] {
-        let can = self.variant.capabilities;
+        let can = self.setup.can();
         let near_deg = can.arrives_within_deg + 2.0 * can.standstill.resolution_deg;
         let travel_deg = self.gate.state().travel_deg;
         let mut is_at_end = [false; 2];

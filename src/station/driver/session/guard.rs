@@ -97,13 +97,13 @@ fn copy(link: &Duplicate) -> io::Result<Duplicate> {
 impl Session {
     /// Arms the dead-man before a motion that only a STOP would end.
     pub(super) fn arm_dead_man(&mut self, now: Moment) -> Result<(), Refusal> {
-        if self.variant.capabilities.ends_jogs || self.guard.armed.is_some() {
+        if self.setup.can().ends_jogs || self.guard.armed.is_some() {
             return Ok(());
         }
         let armed = self.guard.arm(now.steady);
         self.guard.is_missing = armed.is_err();
         let Err(error) = armed else { return Ok(()) };
-        tracing::error!(antenna = self.name, %error, "no dead-man");
+        tracing::error!(antenna = self.setup.name(), %error, "no dead-man");
         let is_allowed = self.guard.allowed_until.is_some_and(|until| now.steady < until);
         if is_allowed { Ok(()) } else { Err(Refusal::Unguarded) }
     }

@@ -16,7 +16,7 @@ impl Session {
     /// each other.
     pub(super) fn watch_hands(&mut self, now: Moment) {
         let Some(Foreign { axis, evidence }) = self.gate.look_for_hands(now) else { return };
-        let axis = self.variant.capabilities.axes.get(axis).copied().unwrap_or_default();
+        let axis = self.setup.axis_name(axis);
         let event = Event::Safety(Safety::ForeignHands { axis, evidence });
         if self.key.held().is_some() {
             self.key.spend();

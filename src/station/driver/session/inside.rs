@@ -56,7 +56,7 @@ impl Session {
     /// For the snapshot.
     pub(super) fn inside(&self, now: Moment) -> Option<Inside> {
         let barrier = self.seen.place.barrier.clone()?;
-        let axes = self.variant.capabilities.axes;
+        let axes = self.setup.can().axes;
         let unknown_axis = self.seen.place.unknown_axis.and_then(|axis| axes.get(axis)).copied();
         Some(Inside { barrier, unknown_axis, may_leave: self.gate.lets_out(now) })
     }
@@ -103,7 +103,7 @@ impl Session {
     /// Moves away from the Sun the shortest way that stays clear of it for its time ahead, or
     /// to the park position if that is nearer.
     pub(super) fn move_away(&mut self, now: Moment) {
-        let has_elevation = self.variant.capabilities.has_elevation();
+        let has_elevation = self.setup.can().has_elevation();
         let to = |direction: AzEl| Motion::Position {
             azimuth: Some(direction.azimuth),
             elevation: has_elevation.then_some(direction.elevation),
@@ -133,7 +133,7 @@ impl Session {
             })
             .map(|(refuge, _)| refuge)
             .or(round_a_corner);
-        let park = self.setup.park.direction().filter(|park| {
+        let park = self.setup.park().direction().filter(|park| {
             let is_nearer =
                 refuge.is_none_or(|refuge| here.separation(*park) <= here.separation(refuge));
             is_nearer

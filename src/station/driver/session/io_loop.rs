@@ -2,18 +2,14 @@
 
 use std::{io, time::Duration};
 
-use tokio::{
-    io::{AsyncReadExt, AsyncWriteExt, ReadHalf, WriteHalf},
-    sync::{Mutex as AsyncMutex, mpsc, watch},
-};
+use tokio::io::{AsyncReadExt, AsyncWriteExt, ReadHalf, WriteHalf};
 
-use super::{Numbered, Session, Wires, wanted::Wanted};
+use super::{Session, contact::Wanted, wires::Input};
 use crate::{
     clock::{Clock, Moment},
-    contract::driver::{Command, LinkLoss, LinkState},
+    contract::driver::{Command, Event, LinkLoss},
     device::Extent,
-    driver::{Stopper, Stream, before_sleep::Awake},
-    plan::Bounds,
+    driver::Stream,
 };
 
 /// Time limit for a connection to come up.
@@ -33,28 +29,13 @@ const BACK_OFF: [Duration; 5] = [
 pub(super) const STOP_RETRY: Duration = Duration::from_millis(250);
 pub(in crate::driver) const MIN_WAIT: Duration = Duration::from_millis(2);
 
-/// Input that ended a wait.
-pub(super) enum Input {
-    Bytes(usize),
-    Lost(LinkLoss),
-    Command(Command),
-    /// New bounds of the antenna.
-    Bounds(Box<Bounds>),
-    Stop,
-    /// This computer is about to sleep.
-    Sleep(Awake),
-    Time,
-    /// The station is gone: the session ends.
-    Over,
-}
-
 impl Session {
     /// Runs until the handle is dropped; a jog is stopped before the end.
     pub async fn run(mut self) {
         self.look_for_mark().await;
         let mut attempt = 0;
         loop {
-            if self.contact.wanted == Wanted::No && !self.wait_until_wanted().await {
+            if self.contact.wanted() == Wanted::No && !self.wait_until_wanted().await {
                 break;
             }
             if let Some(loss) = self.connect_and_talk(&mut attempt).await {
@@ -65,7 +46,7 @@ impl Session {
                 }
             }
             // The session is over, or the unit was let go: then it waits for the next command.
-            if self.contact.wanted != Wanted::No {
+            if self.contact.wanted() != Wanted::No {
                 break;
             }
         }
@@ -76,7 +57,7 @@ impl Session {
         }
         self.pay_debts().await;
         self.end_marking().await;
-        self.contact.link = LinkState::Off;
+        self.contact.close();
         let now = self.now();
         self.publish(now);
     }
@@ -108,7 +89,7 @@ impl Session {
         if has_replied {
             *attempt = 0;
             // A link that never carried a reply does not count as a new one.
-            self.contact.loss_is_told = false;
+            self.contact.has_replied();
         }
         self.remember_likeness();
         self.lose_shift(now);
@@ -128,7 +109,7 @@ impl Session {
         loop {
             tokio::select! {
                 biased;
-                turn = next_input(&mut self.wires) => {
+                turn = self.wires.next() => {
                     if !self.take_offline(turn) {
                         return Ok(None);
                     }
@@ -136,7 +117,7 @@ impl Session {
                 dialled = &mut dialling => {
                     let stream = dialled.map_err(|error| LinkLoss::Refused(in_words(&error)))?;
                     let now = self.now();
-                    self.contact.link = LinkState::Up { since: now.steady };
+                    self.contact.connected(now.steady);
                     return Ok(Some(stream));
                 }
                 () = clock.sleep_until(until) => return Err(LinkLoss::ConnectTimeout),
@@ -157,15 +138,16 @@ impl Session {
         self.judging.drop_waiting();
         let clock = self.clock.clone();
         let mut retry_at = now.steady + wait;
-        self.lose(loss, retry_at);
+        let last_reply = self.gate.state().traffic.last_reply;
+        if self.contact.lose(loss.clone(), retry_at, last_reply, now.steady) {
+            self.tell(Event::LinkLost(loss));
+        }
         loop {
             let now = self.now();
             // A STOP cannot wait for a polite interval.
             if self.stop.is_under_way() && retry_at > now.steady + STOP_RETRY {
                 retry_at = now.steady + STOP_RETRY;
-                if let LinkState::Lost { retry_at: shown, .. } = &mut self.contact.link {
-                    *shown = retry_at;
-                }
+                self.contact.retry_at(retry_at);
             }
             self.watch_halt(now);
             self.let_sleep(now);
@@ -174,11 +156,11 @@ impl Session {
             if now.steady >= retry_at {
                 return Some(());
             }
-            let due = self.halt_due().into_iter().chain(self.marking_due(now.steady));
+            let due = self.halt_due().into_iter().chain(self.owed.marking_due(now.steady));
             let until = due.chain([retry_at]).min().unwrap_or(retry_at);
             tokio::select! {
                 biased;
-                turn = next_input(&mut self.wires) => {
+                turn = self.wires.next() => {
                     if !self.take_offline(turn) {
                         return None;
                     }
@@ -202,16 +184,15 @@ impl Session {
         }
         self.let_sleep(now);
         // The link was wanted for a STOP only, and none is owed any more.
-        if self.contact.wanted == Wanted::ForStop && self.disconnect_after_stop() {
+        if self.contact.wanted() == Wanted::ForStop && self.disconnect_after_stop() {
             return false;
         }
         self.publish(now);
         true
     }
 
-    /// Commands given before a STOP are void, whoever gave them.
     pub(super) fn stop_and_void(&mut self, now: Moment) {
-        self.wires.stopper.forget();
+        self.wires.void_commands();
         self.halt(now);
     }
 
@@ -232,12 +213,12 @@ impl Session {
         let mut buffer = [0; 4096];
         let start = self.now();
         self.gate.device().link_up(start);
-        self.told_auto_track_off(None);
+        self.owed.auto_track_asked(None);
         self.stop_bytes.clear();
         if let Some(extent) = self.stop.extent() {
             self.queue_halt(extent, start);
         }
-        self.contact.unread = true;
+        self.contact.begin_link();
         let mut hurries = false;
         loop {
             // After a long wait a jog may be over that the controller would renew.
@@ -253,10 +234,12 @@ impl Session {
                 return Some(loss);
             }
             self.supervise(now);
-            if let Some(loss) = self.watch_link(now, start.steady) {
+            let pace = self.pace();
+            let loss = self.contact.follow_age(self.gate.state(), pace, now.steady, start.steady);
+            if let Some(loss) = loss {
                 return Some(loss);
             }
-            if self.contact.wanted == Wanted::ForStop && self.disconnect_after_stop() {
+            if self.contact.wanted() == Wanted::ForStop && self.disconnect_after_stop() {
                 self.publish(now);
                 self.shut_down(&mut reader, &mut writer).await;
                 return None;
@@ -329,12 +312,14 @@ impl Session {
     async fn wait(&mut self, reader: &mut ReadHalf<Box<dyn Stream>>, buffer: &mut [u8]) -> Input {
         let now = self.now();
         let due = self.gate.device().due(now);
+        let pace = self.pace();
+        let link_due = self.contact.due(self.gate.state(), pace);
         let until = self
             .supervise_due()
             .into_iter()
-            .chain(self.marking_due(now.steady))
+            .chain(self.owed.marking_due(now.steady))
             .chain(self.shift_due(now.steady))
-            .chain(self.link_due())
+            .chain(link_due)
             .chain(self.silence_due())
             .chain([due])
             .min();
@@ -343,7 +328,7 @@ impl Session {
         let until = until.unwrap_or(due).max(now.steady + MIN_WAIT);
         tokio::select! {
             biased;
-            turn = next_input(&mut self.wires) => turn,
+            turn = self.wires.next() => turn,
             read = reader.read(buffer) => match read {
                 Ok(0) => Input::Lost(LinkLoss::Closed),
                 Ok(count) => Input::Bytes(count),
@@ -351,51 +336,6 @@ impl Session {
             },
             () = judged.notified() => Input::Time,
             () = clock.sleep_until(until) => Input::Time,
-        }
-    }
-}
-
-/// The next input, a STOP before anything else.
-pub(super) async fn next_input(wires: &mut Wires) -> Input {
-    tokio::select! {
-        biased;
-        () = wires.stopper.stop.notified() => Input::Stop,
-        awake = next_sleep(wires.before_sleep.as_deref()) => Input::Sleep(awake),
-        bounds = next_bounds(&mut wires.bounds) => Input::Bounds(Box::new(bounds)),
-        command = next_command(&wires.commands, &wires.stopper) => command.map_or(Input::Over, Input::Command),
-    }
-}
-
-async fn next_sleep(before_sleep: Option<&AsyncMutex<mpsc::Receiver<Awake>>>) -> Awake {
-    if let Some(before_sleep) = before_sleep
-        && let Some(awake) = before_sleep.lock().await.recv().await
-    {
-        return awake;
-    }
-    std::future::pending().await
-}
-
-async fn next_bounds(bounds: &mut watch::Receiver<Bounds>) -> Bounds {
-    if bounds.changed().await.is_err() {
-        // The end shows as the end of the commands.
-        std::future::pending::<()>().await;
-    }
-    bounds.borrow_and_update().clone()
-}
-
-/// Returns `None` when the station is gone: commands given just before the end are not begun.
-async fn next_command(
-    commands: &AsyncMutex<mpsc::Receiver<Numbered>>,
-    stopper: &Stopper,
-) -> Option<Command> {
-    let mut commands = commands.lock().await;
-    loop {
-        let Numbered { command, number } = commands.recv().await?;
-        if commands.is_closed() {
-            return None;
-        }
-        if !command.row().void_after_stop || !stopper.is_void(number) {
-            return Some(command);
         }
     }
 }

@@ -212,7 +212,7 @@ impl Session {
             Err(oneshot::error::TryRecvError::Empty) => return,
             Ok(answer) => self.take_answer(answer, now),
             Err(oneshot::error::TryRecvError::Closed) => {
-                tracing::error!(antenna = self.name, "the judgement of a way broke down");
+                tracing::error!(antenna = self.setup.name(), "the judgement of a way broke down");
                 self.judging.drop_waiting();
             }
         }

@@ -3,10 +3,9 @@
 
 use std::time::Duration;
 
-use super::Session;
 use crate::{
-    clock::{Instant, Moment},
-    contract::driver::{Event, Safety, Unlike},
+    clock::Instant,
+    contract::driver::Unlike,
     device::{AntennaState, Offsets, Place},
 };
 
@@ -18,7 +17,7 @@ type Ends = Option<(f64, f64)>;
 
 /// Description of a unit, as far as the unit reports it.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(super) struct Likeness {
+struct Likeness {
     identity: Option<String>,
     place: Option<Place>,
     offsets: Option<Offsets>,
@@ -33,8 +32,58 @@ pub(super) struct Recheck {
     pub(super) lost: Duration,
 }
 
+/// Outcome of a comparison.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Compared {
+    /// The unit has not reported everything yet.
+    Pending,
+    AsBefore,
+    Unlike(Unlike),
+}
+
+/// Compares the unit with what it was like over the previous link.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(super) struct Comparison {
+    /// Looks of the unit when it was last read over the previous link.
+    left_as: Likeness,
+    /// The unit must still prove to be as before; a program track keeps this itself.
+    recheck: Option<Recheck>,
+}
+
+impl Comparison {
+    /// Remembers what the unit is like when its link goes.
+    pub(super) fn remember(&mut self, state: &AntennaState) {
+        self.left_as = Likeness::new(state);
+    }
+
+    pub(super) fn pending(&self) -> Option<Recheck> {
+        self.recheck
+    }
+
+    pub(super) fn begin(&mut self, recheck: Recheck) {
+        self.recheck = Some(recheck);
+    }
+
+    pub(super) fn end(&mut self) {
+        self.recheck = None;
+    }
+
+    /// Compares the unit, which reports again `since` that time.
+    pub(super) fn compare(&self, state: &AntennaState, since: Instant, now: Instant) -> Compared {
+        let current = Likeness::new(state);
+        let is_late = now.saturating_duration_since(since) >= READ_AGAIN;
+        match self.left_as.differs(&current) {
+            None if self.left_as.is_whole(&current) => Compared::AsBefore,
+            // A unit that does not report what it did may have lost its memory.
+            None if is_late => Compared::Unlike(Unlike::Unread),
+            None => Compared::Pending,
+            Some(unlike) => Compared::Unlike(unlike),
+        }
+    }
+}
+
 impl Likeness {
-    pub(super) fn of(state: &AntennaState) -> Self {
+    fn new(state: &AntennaState) -> Self {
         Self {
             identity: state.identity.clone(),
             place: state.on_board.place,
@@ -43,7 +92,7 @@ impl Likeness {
         }
     }
 
-    /// Returns how `now` differs. A value that was not known before cannot differ.
+    /// Returns how `now` differs. A value that was not read before cannot differ.
     fn differs(&self, now: &Self) -> Option<Unlike> {
         let moved = |(before, now): (Place, Place)| {
             let step_deg = before.step_deg + 1e-9;
@@ -66,8 +115,8 @@ impl Likeness {
         }
     }
 
-    /// Returns `true` if `now` has everything that was known before.
-    fn is_told(&self, now: &Self) -> bool {
+    /// Returns `true` if `now` has everything that was read before.
+    fn is_whole(&self, now: &Self) -> bool {
         let has = |before: bool, now: bool| !before || now;
         has(self.identity.is_some(), now.identity.is_some())
             && has(self.place.is_some(), now.place.is_some())
@@ -80,49 +129,11 @@ impl Likeness {
     }
 }
 
-impl Session {
-    /// The link goes: remembers what the unit was like, unless a comparison with an earlier
-    /// state is still pending.
-    pub(super) fn remember_likeness(&mut self) {
-        if !self.contact.unread && self.recheck().is_none() {
-            self.contact.left_as = Likeness::of(self.gate.state());
-        }
-    }
-
-    /// The comparison that is pending.
-    pub(super) fn recheck(&self) -> Option<Recheck> {
-        self.activity.program().and_then(|track| track.recheck).or(self.contact.recheck)
-    }
-
-    /// Compares the unit after an outage. A track resumes once it has proved to be as before;
-    /// otherwise the operator is asked.
-    pub(super) fn watch_likeness(&mut self, now: Moment) {
-        let Some(Recheck { since, lost }) = self.recheck().filter(|_| !self.contact.unread) else {
-            return;
-        };
-        let told = Likeness::of(self.gate.state());
-        let is_late = now.steady.saturating_duration_since(since) >= READ_AGAIN;
-        let unlike = match self.contact.left_as.differs(&told) {
-            None if self.contact.left_as.is_told(&told) => None,
-            None if is_late => Some(Unlike::Unread),
-            None => return,
-            Some(unlike) => Some(unlike),
-        };
-        self.contact.recheck = None;
-        let track = self.activity.program_mut().and_then(|track| track.recheck.take());
-        match (unlike, track) {
-            (None, _) => {}
-            (Some(unlike), Some(_)) => self.await_word(lost, Some(unlike)),
-            (Some(unlike), None) => self.tell(Event::Safety(Safety::UnitDiffers { unlike })),
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn known() -> Likeness {
+    fn likeness() -> Likeness {
         let offsets = Offsets { azimuth_deg: 0.5, ..Offsets::default() };
         Likeness {
             identity: Some("CU 1.2".to_owned()),
@@ -135,26 +146,29 @@ mod tests {
     #[test]
     fn a_unit_differs_by_its_identity_limits_place_or_offsets() {
         let identity = Some("CU 1.3".to_owned());
-        let place = known().place.map(|place| Place { latitude_deg: 41.1, ..place });
-        let offsets = known().offsets.map(|offsets| Offsets { azimuth_deg: 0.6, ..offsets });
+        let place = likeness().place.map(|place| Place { latitude_deg: 41.1, ..place });
+        let offsets = likeness().offsets.map(|offsets| Offsets { azimuth_deg: 0.6, ..offsets });
         for (now, unlike) in [
-            (known(), None),
-            (Likeness { identity, ..known() }, Some(Unlike::Identity)),
-            (Likeness { travel_deg: [Some((0.0, 180.0)), None], ..known() }, Some(Unlike::Limits)),
-            (Likeness { place, ..known() }, Some(Unlike::Place)),
-            (Likeness { offsets, ..known() }, Some(Unlike::Offsets)),
+            (likeness(), None),
+            (Likeness { identity, ..likeness() }, Some(Unlike::Identity)),
+            (
+                Likeness { travel_deg: [Some((0.0, 180.0)), None], ..likeness() },
+                Some(Unlike::Limits),
+            ),
+            (Likeness { place, ..likeness() }, Some(Unlike::Place)),
+            (Likeness { offsets, ..likeness() }, Some(Unlike::Offsets)),
         ] {
-            assert_eq!(known().differs(&now), unlike, "{now:?}");
-            assert!(known().is_told(&now), "{now:?}");
+            assert_eq!(likeness().differs(&now), unlike, "{now:?}");
+            assert!(likeness().is_whole(&now), "{now:?}");
         }
         for now in [
-            Likeness { identity: None, ..known() },
-            Likeness { travel_deg: [None; 2], ..known() },
-            Likeness { place: None, ..known() },
-            Likeness { offsets: None, ..known() },
+            Likeness { identity: None, ..likeness() },
+            Likeness { travel_deg: [None; 2], ..likeness() },
+            Likeness { place: None, ..likeness() },
+            Likeness { offsets: None, ..likeness() },
         ] {
-            assert_eq!(known().differs(&now), None, "{now:?}");
-            assert!(!known().is_told(&now), "{now:?}");
+            assert_eq!(likeness().differs(&now), None, "{now:?}");
+            assert!(!likeness().is_whole(&now), "{now:?}");
         }
     }
 }

@@ -13,7 +13,6 @@ use crate::{
     device::{Axis, AxisMotion, Drive, Measured},
     driver::gate::{Interval, Intervals},
     plan::{Barrier, Clearance, Sweep},
-    station::Monitor,
 };
 
 /// Rates are taken between positions no further apart than this.
@@ -111,7 +110,7 @@ impl Session {
     pub(super) fn watch_bounds(&mut self, now: Moment) {
         let Some(look) = self.gate.state().measured else { return };
         let is_old = self.seen.watch.looked.replace(look.received) == Some(look.received);
-        if is_old || self.contact.unread {
+        if is_old || self.contact.is_unread() {
             return;
         }
         let Some(intervals) = self.gate.intervals() else { return };
@@ -180,7 +179,7 @@ impl Session {
         }
         // A second axis other than elevation does not belong to the antenna.
         let [first, second] = rates;
-        let rates = [first, if self.variant.capabilities.has_elevation() { second } else { 0.0 }];
+        let rates = [first, if self.setup.can().has_elevation() { second } else { 0.0 }];
         self.seen.watch.rates_deg_s = rates;
         rates
     }
@@ -206,13 +205,13 @@ impl Session {
         let ahead_deg = rates.map(|rate| rate * ahead_s);
         if let Some(axes_deg) = intervals.angles_deg() {
             let Sweep([first, second]) = Sweep::at(self.gate.ahead_of(axes_deg, ahead_deg));
-            let has_elevation = self.variant.capabilities.has_elevation();
+            let has_elevation = self.setup.can().has_elevation();
             let Sweep([_, column]) = intervals.sweep();
             return Sweep([first, if has_elevation { second } else { column }]);
         }
         let here = intervals.sweep().turned(ahead_deg);
         let unseen_deg =
-            if turns_unseen { self.setup.track_config.fastest_deg_s() * ahead_s } else { 0.0 };
+            if turns_unseen { self.setup.track_config().fastest_deg_s() * ahead_s } else { 0.0 };
         let widen = |(from, to): (f64, f64), axis: Interval| {
             if axis.is_known { (from, to) } else { (from - unseen_deg, to + unseen_deg) }
         };
@@ -229,7 +228,7 @@ impl Session {
         goes_deeper: bool,
         now: Moment,
     ) {
-        let arrives_within_deg = self.variant.capabilities.arrives_within_deg;
+        let arrives_within_deg = self.setup.can().arrives_within_deg;
         let is_floor = here.barrier == Barrier::MinimumElevation;
         let dip_deg = if is_floor { DIP_DEG + arrives_within_deg } else { 0.0 };
         let (here_deg, there_deg) =
@@ -257,7 +256,7 @@ impl Session {
             driver == Mover::Azel || (self.activity.on_board().is_some() && !is_floor);
         let stops = (enters || goes_deeper)
             && !here.warns_only
-            && (is_requested || self.setup.monitor == Monitor::Stop);
+            && (is_requested || self.setup.stops_others());
         if stops && !self.stop.is_under_way() {
             self.halt(now);
         } else if is_told {
@@ -383,7 +382,7 @@ impl Session {
     /// Learns from a STOP that has ended.
     pub(super) fn end_overrun(&mut self) {
         let Some(rest) = self.gate.state().measured else { return };
-        let fastest_deg_s = self.setup.track_config.fastest_deg_s();
+        let fastest_deg_s = self.setup.track_config().fastest_deg_s();
         if let Some(overrun_s) = self.seen.overrun.end(&rest, fastest_deg_s) {
             self.gate.set_overrun(overrun_s);
         }

@@ -87,7 +87,7 @@ impl Session {
 
     /// Checks whether the track can have an offset of this kind.
     fn offers(&self, step: Offset, track: &Tracking) -> Result<(), Refusal> {
-        let has_elevation = self.variant.capabilities.has_elevation();
+        let has_elevation = self.setup.can().has_elevation();
         match step {
             Offset::Along(_) | Offset::Across(_) if !track.planner.track().target.moves() => {
                 Err(Refusal::TargetStands)

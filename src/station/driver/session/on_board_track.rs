@@ -29,7 +29,7 @@ impl Session {
         now: Moment,
     ) -> Result<Option<(Watch, Option<Slew>)>, Event> {
         let name = pass.target.name.clone();
-        let judge = Judge::new(pass, self.setup.ability)
+        let judge = Judge::new(pass, self.setup.ability())
             .map_err(|error| Event::CannotProgramTrack(name, TrackProblem::Orbit(error)))?;
         // Azel takes back the offsets of another track before this one begins.
         let watch = Watch::new(Arc::new(judge), &self.plain_unit());
@@ -79,9 +79,9 @@ impl Session {
             return Held::TooLong { hours: span_s / 3600.0 };
         }
         let from_now_on = OnBoard { window: Some((start, stop)), ..unit.clone() };
-        let orbit = self.wires.orbit.borrow().clone();
+        let orbit = self.wires.orbit();
         let pass = orbit.and_then(|orbit| orbit.pass_of(&from_now_on));
-        let judge = pass.and_then(|pass| Judge::new(pass, self.setup.ability).ok());
+        let judge = pass.and_then(|pass| Judge::new(pass, self.setup.ability()).ok());
         judge.map_or_else(
             || Held::Unknown { name: satellite.name.clone() },
             |judge| Held::Pass(Arc::new(judge)),
@@ -96,13 +96,9 @@ impl Session {
     /// Begins or ends the watch over a track that nobody asked for from here.
     fn watch_unasked(&mut self) {
         let state = self.gate.state();
-        let is_on = !self.contact.unread && state.program.is_some_and(|program| program.enabled);
-        let orbit = self
-            .wires
-            .orbit
-            .borrow()
-            .clone()
-            .filter(|_| is_on && self.activity.program().is_none());
+        let is_on =
+            !self.contact.is_unread() && state.program.is_some_and(|program| program.enabled);
+        let orbit = self.wires.orbit().filter(|_| is_on && self.activity.program().is_none());
         let Some(pass) = orbit.and_then(|orbit| orbit.pass_of(&state.on_board)) else {
             self.unasked = None;
             return;
@@ -111,13 +107,13 @@ impl Session {
             return;
         }
         // Elements that describe no orbit give no direction to compare with.
-        let judge = Judge::new(pass, self.setup.ability).ok();
+        let judge = Judge::new(pass, self.setup.ability()).ok();
         self.unasked = judge.map(|judge| Watch::new(Arc::new(judge), &state.on_board));
     }
 
     /// Returns `true` if the antenna stands while the path of the unit, at `to` now, goes on.
     fn stands_while_it_should_track(&mut self, measured: &Measured, to: AzEl, now: Moment) -> bool {
-        let (figures, can) = (self.figures(), self.variant.capabilities);
+        let (figures, can) = (self.figures(), self.setup.can());
         let program = self.gate.state().program;
         let tracks = program.is_some_and(|program| program.phase == Phase::Tracking);
         let can_point = tracks && self.gate.reaches(to, now);
@@ -141,10 +137,11 @@ impl Session {
             return;
         }
         let (unit, meant, measured) = (self.plain_unit(), self.meant_offsets(), state.measured);
+        let figures = self.figures();
         let limits = PointingLimits {
-            in_beam: self.in_beam(),
-            on_target: self.on_target(),
-            max_rate_deg_s: self.setup.ability.maximum_rate_deg_s,
+            in_beam: self.setup.in_beam(figures),
+            on_target: self.setup.on_target(figures),
+            max_rate_deg_s: self.setup.ability().maximum_rate_deg_s,
         };
         let Some(watch) = self.on_board_watch_mut() else { return };
         watch.judge_again(&unit, true);

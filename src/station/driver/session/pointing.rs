@@ -2,7 +2,6 @@
 
 use super::{Session, activity::Activity};
 use crate::{
-    astro::Angle,
     clock::Moment,
     contract::driver::{Event, OffTargetCause, Safety},
 };
@@ -23,21 +22,5 @@ impl Session {
             let off_deg = off.degrees();
             self.give_up(Event::Safety(Safety::OffTarget { off_deg, cause }), now);
         }
-    }
-
-    /// Largest angle off target of an antenna whose beam holds it: half the beam, and what rounding
-    /// both angles to their resolution makes at most, with the noise.
-    pub(super) fn in_beam(&self) -> Angle {
-        let resolution_deg = self.variant.capabilities.standstill.resolution_deg;
-        let error_deg = resolution_deg + self.figures().tolerance_deg();
-        self.setup.ability.half_beam + Angle::from_degrees(error_deg)
-    }
-
-    /// Largest angle off target of a working antenna: that, the tolerance of an arrival, and as much
-    /// again of rounding, for a unit that cuts its angles off.
-    pub(super) fn on_target(&self) -> Angle {
-        let can = self.variant.capabilities;
-        let more_deg = can.standstill.resolution_deg + can.arrives_within_deg;
-        self.in_beam() + Angle::from_degrees(more_deg)
     }
 }

@@ -18,7 +18,7 @@ use crate::{
         Bounds, ProgramTrack, TrackPhase,
         program_track::{Next, PathOrder, Planner},
     },
-    station::{AfterPass, Antenna, Resume},
+    station::AfterPass,
 };
 
 /// Maximum number of commands in a row without an answer and without effect.
@@ -26,23 +26,6 @@ const MAX_LOST: u32 = 3;
 
 /// Interval between looks while a barrier is in the way.
 const BLOCKED: Duration = Duration::from_secs(2);
-
-/// When program track resumes by itself after the antenna was out of reach.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct ResumeRule {
-    resume: Resume,
-    /// After a shorter time it resumes in any case.
-    after: Duration,
-}
-
-impl ResumeRule {
-    pub(super) fn of(antenna: &Antenna) -> Self {
-        Self {
-            resume: antenna.resume,
-            after: Duration::try_from_secs_f64(antenna.resume_after_s).unwrap_or_default(),
-        }
-    }
-}
 
 /// Why a program track has not begun.
 pub(super) enum NotFollowed {
@@ -55,8 +38,8 @@ impl Session {
     /// Begins program track of a target. Other motions are stopped first. An error is reported already.
     pub(super) fn follow(&mut self, follow: ProgramTrack, now: Moment) -> Result<(), NotFollowed> {
         let name = follow.target.name().into_owned();
-        tracing::info!(antenna = self.name, name, passes = follow.passes.len(), "follow");
-        let TrackConfig { mut drives, settings, model } = self.setup.track_config;
+        tracing::info!(antenna = self.setup.name(), name, passes = follow.passes.len(), "follow");
+        let TrackConfig { mut drives, settings, model } = self.setup.track_config();
         drives.mount = drives.mount.within(self.gate.state().travel_deg);
         let follow =
             if settings.after == AfterPass::Next { follow } else { follow.one_pass(now.utc) };
@@ -134,13 +117,14 @@ impl Session {
     /// Keeps the antenna on its target.
     pub(super) fn watch_follow(&mut self, now: Moment) {
         let measured = self.gate.state().measured;
-        let (half_beam, on_target) = (self.setup.ability.half_beam, self.on_target());
-        let axis_count = self.variant.capabilities.axis_count();
+        let half_beam = self.setup.ability().half_beam;
+        let on_target = self.setup.on_target(self.figures());
+        let axis_count = self.setup.can().axis_count();
         let Some(track) = self.activity.program_mut() else { return };
         if let Some(measured) = measured {
             track.compare(measured, axis_count, half_beam, on_target);
             // Known for the next target, too.
-            self.setup.track_config.drives.rates_deg_s = track.planner.rates_deg_s();
+            self.setup.learn_rates(track.planner.rates_deg_s());
             if track.is_blind() {
                 let name = track.name();
                 return self.give_up(Event::CannotProgramTrack(name, TrackProblem::NoAngle), now);
@@ -188,7 +172,7 @@ impl Session {
             Activity::ProgramTrack(track) => Activity::Hold(Some(track)),
             activity => activity,
         };
-        if self.setup.track_config.settings.after == AfterPass::Park && !awaits {
+        if self.setup.track_config().settings.after == AfterPass::Park && !awaits {
             self.carry_out(Command::Park, now);
         }
     }
@@ -197,7 +181,7 @@ impl Session {
     fn update_program(&mut self, now: Moment) {
         let is_busy = self.stop.is_under_way()
             || self.doubt.is_some()
-            || self.contact.unread
+            || self.contact.is_unread()
             || self.gate.device().motion_under_way();
         let measured = self.gate.state().measured.filter(|_| !is_busy);
         let Some(track) = self.activity.program_mut() else { return };
@@ -205,12 +189,12 @@ impl Session {
             return;
         }
         if track.awaits_operator || track.recheck.is_some() {
-            track.next_update = now.steady + self.setup.track_config.settings.period();
+            track.next_update = now.steady + self.setup.track_config().settings.period();
             return;
         }
         track.is_held_up = measured.is_none();
         let Some(measured) = measured else { return };
-        let TrackConfig { settings, .. } = self.setup.track_config;
+        let TrackConfig { settings, .. } = self.setup.track_config();
         track.next_update = now.steady + settings.period();
         let latency = Duration::try_from_secs_f64(settings.latency_s).unwrap_or_default();
         let axes = track.axes(measured, latency);
@@ -313,14 +297,14 @@ impl Session {
         track.sent = None;
         // A comparison that is pending stays pending.
         let unchecked = track.recheck.take().map(|recheck| recheck.lost);
-        if lost <= self.setup.rule.after && unchecked.is_none() {
+        if self.setup.resumes_at_once(lost) && unchecked.is_none() {
             return;
         }
         let lost = lost + unchecked.unwrap_or_default();
         if !self.gate.explains_position() {
             return self.await_word(lost, Some(Unlike::Position));
         }
-        if self.setup.rule.resume == Resume::Ask {
+        if self.setup.asks_to_resume() {
             return self.await_word(lost, None);
         }
         if let Some(track) = self.activity.program_mut() {

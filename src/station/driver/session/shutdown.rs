@@ -8,7 +8,7 @@ use super::{
     Session,
     io_loop::{CONNECT, MIN_WAIT, STOP_RETRY, WRITE},
 };
-use crate::{clock::Instant, contract::driver::LinkState, driver::Stream};
+use crate::{clock::Instant, driver::Stream};
 
 /// Time limit for standstill at the end of a session, in addition to what its proof takes.
 const STANDSTILL_WITHIN: Duration = Duration::from_millis(1500);
@@ -36,7 +36,7 @@ impl Session {
             self.watch_unit_offsets(now);
             if let Err(loss) = self.send(writer).await {
                 return tracing::error!(
-                    antenna = self.name,
+                    antenna = self.setup.name(),
                     ?loss,
                     "the last STOP was not written"
                 );
@@ -60,7 +60,7 @@ impl Session {
             }
         }
         if self.stop.is_under_way() {
-            tracing::error!(antenna = self.name, "standstill was not proved at the end");
+            tracing::error!(antenna = self.setup.name(), "standstill was not proved at the end");
         }
         // Closed in order, so that the last bytes are not cut off.
         let _ = clock.timeout(WRITE, writer.shutdown()).await;
@@ -76,13 +76,13 @@ impl Session {
     /// The station has let go of this antenna while something is owed to its unit: tries until
     /// that is proved, or another session of the unit takes it over.
     pub(super) async fn pay_debts(&mut self) {
-        while self.is_in_debt() && !self.is_relieved() {
+        while self.is_in_debt() && !self.owed.debts().is_relieved(self.stop.is_under_way()) {
             if let Ok(Ok(stream)) = self.clock.timeout(CONNECT, (self.dial)()).await {
                 let (mut reader, mut writer) = tokio::io::split(stream);
                 let now = self.now();
                 self.gate.device().link_up(now);
-                self.contact.link = LinkState::Up { since: now.steady };
-                self.told_auto_track_off(None);
+                self.contact.connected(now.steady);
+                self.owed.auto_track_asked(None);
                 if self.stop.is_under_way() {
                     self.halt_quietly(now);
                 }
@@ -99,16 +99,6 @@ impl Session {
     }
 
     fn is_in_debt(&self) -> bool {
-        self.stop.is_under_way() || self.owes_auto_track_off()
-    }
-
-    /// Another session of the unit has begun, and takes over what is owed.
-    fn is_relieved(&self) -> bool {
-        let (debts, unit, number) = (&self.owed.debts, &self.owed.unit, self.owed.number);
-        if self.stop.is_under_way() {
-            debts.hand_over(unit, number)
-        } else {
-            debts.is_followed(unit, number)
-        }
+        self.stop.is_under_way() || self.owed.debts().owes_auto_track_off()
     }
 }

@@ -5,11 +5,7 @@
 
 use std::time::Duration;
 
-use super::Session;
-use crate::{
-    clock::{Instant, Moment},
-    contract::driver::{Event, LinkState, Safety},
-};
+use crate::clock::Instant;
 
 /// Maximum time from the first overdue reply to the report.
 const TOLD_WITHIN: Duration = Duration::from_secs(1);
@@ -22,12 +18,14 @@ pub(super) struct Silence {
     second: Option<Instant>,
     /// Azel has metal moving.
     is_watched: bool,
-    /// The operator has been told, and no reply has come since.
-    is_told: bool,
+    /// Azel has reported silence, and no reply has come since.
+    is_reported: bool,
 }
 
 impl Silence {
-    fn wrote(&mut self, now: Instant) {
+    /// Bytes were written when `replies` replies had come.
+    pub(super) fn wrote(&mut self, replies: u64, now: Instant) {
+        self.count(replies);
         if self.first.is_none() {
             self.first = Some(now);
         } else {
@@ -35,14 +33,16 @@ impl Silence {
         }
     }
 
-    fn heard(&mut self, replies: u64) {
+    /// Any reply ends the silence.
+    fn count(&mut self, replies: u64) {
         if replies != self.replies {
             *self = Self { replies, is_watched: self.is_watched, ..Self::default() };
         }
     }
 
     /// Questions asked before the motion count as missing only from now on.
-    fn watch(&mut self, is_watched: bool, now: Instant) {
+    pub(super) fn watch(&mut self, is_watched: bool, replies: u64, now: Instant) {
+        self.count(replies);
         if is_watched && !self.is_watched {
             self.first = self.first.map(|_| now);
             self.second = None;
@@ -51,74 +51,61 @@ impl Silence {
     }
 
     /// When to report silence if nothing that was asked is answered.
-    fn due(&self, prompt: Duration) -> Option<Instant> {
+    pub(super) fn due(&self, prompt: Duration) -> Option<Instant> {
+        if !self.is_watched || self.is_reported {
+            return None;
+        }
         let first = self.first?;
         let latest = first + prompt + TOLD_WITHIN;
         let again = self.second.map(|second| (second + prompt).max(first + prompt * 2));
         Some(again.map_or(latest, |again| again.min(latest)))
     }
-}
 
-impl Session {
-    pub(super) fn wrote(&mut self, now: Moment) {
-        self.contact.silence.heard(self.gate.state().traffic.replies);
-        self.contact.silence.wrote(now.steady);
-    }
-
-    /// Returns `true` while metal moves on Azel's command as far as is known: until STOP is
-    /// proved it may, even if the last position shows it at rest.
-    fn is_in_motion(&mut self) -> bool {
-        self.is_unproved()
-            && (self.follows_now()
-                || self.stop.is_under_way()
-                || self.turns()
-                || self.gate.state().program.is_some_and(|program| program.enabled)
-                || self.activity.is_pending()
-                || self.key.held().is_some()
-                || self.stepping.is_some()
-                || self.gate.device().motion_under_way())
-    }
-
-    /// Reports a unit that does not answer while it moves, once until it answers.
-    pub(super) fn watch_silence(&mut self, now: Moment) {
-        self.contact.silence.heard(self.gate.state().traffic.replies);
-        let is_watched = self.is_in_motion();
-        self.contact.silence.watch(is_watched, now.steady);
-        // A jog that has not begun waits for its position.
-        self.gate.device().watch_closely(is_watched || self.key.held().is_some());
-        if self.silence_due().is_some_and(|at| now.steady >= at) {
-            self.tell_silence();
-        }
-    }
-
-    /// The link was lost in the middle of a motion.
-    pub(super) fn tell_silence_of_lost_link(&mut self) {
-        if self.is_in_motion() {
-            self.tell_silence();
-        }
-    }
-
-    /// The operator has looked at the antenna, or leaves it to others.
-    pub(super) fn forget_silence(&mut self) {
-        self.contact.silence.is_told = false;
-    }
-
-    fn tell_silence(&mut self) {
-        if !std::mem::replace(&mut self.contact.silence.is_told, true) {
-            self.tell(Event::Safety(Safety::SilentInMotion));
-        }
+    /// Returns `true` once until the unit answers.
+    pub(super) fn report(&mut self) -> bool {
+        !std::mem::replace(&mut self.is_reported, true)
     }
 
     /// Returns `true` if silence was reported and no reply has come since.
-    pub(super) fn is_silent(&self) -> bool {
-        self.contact.silence.is_told
+    pub(super) fn is_reported(&self) -> bool {
+        self.is_reported
     }
 
-    /// When silence must be reported.
-    pub(super) fn silence_due(&mut self) -> Option<Instant> {
-        let prompt = self.gate.device().prompt();
-        let is_open = matches!(self.contact.link, LinkState::Up { .. } | LinkState::Stale { .. });
-        let is_watched = self.contact.silence.is_watched && !self.contact.silence.is_told;
-        self.contact.silence.due(prompt).filter(|_| is_open && is_watched)
+    /// The operator has looked at the antenna, or leaves it to others.
+    pub(super) fn forget(&mut self) {
+        self.is_reported = false;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const PROMPT: Duration = Duration::from_millis(600);
+
+    #[test]
+    fn a_second_missing_reply_is_silence_and_any_reply_ends_it() {
+        let start = Instant::now();
+        let mut silence = Silence::default();
+        silence.watch(true, 0, start);
+        assert_eq!(silence.due(PROMPT), None, "nothing was asked");
+        silence.wrote(0, start);
+        assert_eq!(silence.due(PROMPT), Some(start + PROMPT + TOLD_WITHIN));
+        silence.wrote(0, start + PROMPT);
+        assert_eq!(silence.due(PROMPT), Some(start + PROMPT * 2));
+        assert!(silence.report() && !silence.report(), "once");
+        silence.watch(true, 1, start + PROMPT);
+        assert!(!silence.is_reported());
+    }
+
+    #[test]
+    fn a_question_from_before_the_motion_is_missing_only_from_the_motion_on() {
+        let start = Instant::now();
+        let later = start + Duration::from_secs(30);
+        let mut silence = Silence::default();
+        silence.wrote(0, start);
+        assert_eq!(silence.due(PROMPT), None, "nothing moves");
+        silence.watch(true, 0, later);
+        assert_eq!(silence.due(PROMPT), Some(later + PROMPT + TOLD_WITHIN));
     }
 }

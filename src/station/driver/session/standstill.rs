@@ -2,14 +2,10 @@
 
 use std::time::Duration;
 
-use super::Session;
 use crate::{
     clock::Instant,
     device::{Capabilities, Measured},
 };
-
-/// Assumed sway of a standing axis before it is measured, degrees.
-const MAX_SWAY_DEG: f64 = 1.0;
 
 /// When two positions count as the same.
 #[derive(Debug, Clone, Copy)]
@@ -22,24 +18,6 @@ pub(super) struct Figures {
     gap: Duration,
     /// Number of axes that belong to the antenna.
     axes: usize,
-}
-
-impl Session {
-    /// Returns the figures for standstill with the larger of the configured and the measured sway.
-    pub(super) fn figures(&self) -> Figures {
-        self.figures_with(self.gate.measured_sway_deg().unwrap_or_default())
-    }
-
-    /// Returns the figures for alarms: assumes [`MAX_SWAY_DEG`] until the sway is measured, to avoid false
-    /// alarms.
-    pub(super) fn alarm_figures(&self) -> Figures {
-        self.figures_with(self.gate.measured_sway_deg().unwrap_or(MAX_SWAY_DEG))
-    }
-
-    fn figures_with(&self, measured_sway_deg: f64) -> Figures {
-        let sway_deg = self.setup.sway_deg.max(measured_sway_deg);
-        Figures::of(self.variant.capabilities, sway_deg)
-    }
 }
 
 impl Figures {

@@ -134,7 +134,7 @@ impl Session {
             self.end_auto_track();
         }
         self.queue_halt(if pressed { Extent::Everything } else { Extent::Motion }, now);
-        self.owed.debts.owe(&self.owed.unit);
+        self.owed.debts().owe_stop();
         let again_at = now.steady + self.gate.device().halt_patience();
         match &mut self.stop {
             // Pressing again does not delay the report that standstill is not proved.
@@ -154,7 +154,7 @@ impl Session {
             }
         }
         // Its bytes go out first, if there is a link.
-        if !self.contact.link.is_open() {
+        if !self.contact.is_open() {
             self.record_debt(now);
         }
     }
@@ -163,13 +163,13 @@ impl Session {
     pub(super) fn queue_halt(&mut self, extent: Extent, now: Moment) {
         self.stop_bytes = self.gate.device().halt(extent, now);
         if extent == Extent::Everything {
-            self.told_auto_track_off(Some(now.steady));
+            self.owed.auto_track_asked(Some(now.steady));
         }
     }
 
     /// Checks whether the antenna stands, and repeats the halt while it does not.
     pub(super) fn watch_halt(&mut self, now: Moment) {
-        if self.stop_bytes.is_empty() || !self.contact.link.is_open() {
+        if self.stop_bytes.is_empty() || !self.contact.is_open() {
             self.record_debt(now);
         }
         let figures = self.figures();
@@ -191,7 +191,7 @@ impl Session {
         let again = now.steady >= halting.again_at && halting.looks.want_stop();
         let looks_again = halting.looks.is_due(figures, now.steady);
         // Without a link, the halt is the first thing sent on the next one.
-        if again && self.contact.link.is_open() {
+        if again && self.contact.is_open() {
             halting.again_at = now.steady + self.gate.device().halt_patience();
             let extent = halting.extent_again();
             self.queue_halt(extent, now);
@@ -207,15 +207,14 @@ impl Session {
     fn end_halt(&mut self, proof: Proof, now: Moment) {
         let is_pressed = self.stop.halting().is_some_and(|halting| halting.pressed);
         self.stop = if is_pressed { Stop::Proved { at: now.steady } } else { Stop::Ready };
-        self.settle_debt();
+        self.owed.settle_stop();
         self.prove_still();
         self.gate.motions_over(now);
         self.end_overrun();
         if is_pressed {
             self.tell(Event::Stopped);
             if let Proof::Flags { axis } = proof {
-                let axes = self.variant.capabilities.axes;
-                let axis = axes.get(axis).copied().unwrap_or_default();
+                let axis = self.setup.axis_name(axis);
                 self.tell(Event::Safety(Safety::StoppedByFlags { axis }));
             }
             if self.gate.state().program.is_some_and(|program| program.auto == Some(true)) {
@@ -226,13 +225,13 @@ impl Session {
 
     /// The operator has seen that it stands.
     pub(super) fn take_word_for_standstill(&mut self) {
-        tracing::warn!(antenna = self.name, "standstill by the operator's word");
+        tracing::warn!(antenna = self.setup.name(), "standstill by the operator's word");
         if self.stop.is_under_way() {
             self.stop = Stop::Ready;
         }
-        self.forget_silence();
+        self.contact.silence.forget();
         self.stop_bytes.clear();
-        self.settle_debt();
+        self.owed.settle_stop();
         self.prove_still();
     }
 
@@ -255,7 +254,7 @@ impl Session {
         let (began, figures) = (self.gate.unproved_since(), self.alarm_figures());
         let turned = self.seen.rest.take(look, is_at_rest, began, figures);
         if let Some((axis, turned_deg)) = turned {
-            let axis = self.variant.capabilities.axes.get(axis).copied().unwrap_or_default();
+            let axis = self.setup.axis_name(axis);
             self.tell(Event::Safety(Safety::FlagsContradict { axis, turned_deg }));
         }
     }
@@ -265,7 +264,7 @@ impl Session {
         if let Some(halting) = self.stop.halting() {
             let told_at = halting.since + halting.told_after(self.figures());
             let proof = (!halting.told).then_some(told_at);
-            let (looks, is_open) = (&halting.looks, self.contact.link.is_open());
+            let (looks, is_open) = (&halting.looks, self.contact.is_open());
             let look = looks.next(self.figures()).filter(|_| looks.awaits_look() && is_open);
             let again = (looks.want_stop() && is_open).then_some(halting.again_at);
             return proof.into_iter().chain(look).chain(again).min();

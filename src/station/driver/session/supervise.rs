@@ -155,7 +155,11 @@ impl Session {
                 self.doubt = Some(Doubt { asked, since: now.steady, before_deg });
             }
             ControllerEvent::HaltRefused(code) => self.tell(Event::StopRefused(code)),
-            ControllerEvent::AutoStaysOn => self.auto_stays_on(),
+            ControllerEvent::AutoStaysOn => {
+                if self.owed.auto_stays_on() {
+                    self.tell(Event::AutoStaysOn);
+                }
+            }
         }
     }
 
@@ -234,14 +238,13 @@ impl Session {
         let state = self.gate.state();
         let tracks = match state.program {
             Some(program) => program.enabled,
-            None if self.variant.capabilities.has_program => return,
+            None if self.setup.can().has_program => return,
             None => false,
         };
-        if !self.contact.unread || state.measured_on_link().is_none() {
+        if !self.contact.is_unread() || state.measured_on_link().is_none() {
             return;
         }
-        self.contact.unread = false;
-        self.contact.program_was_on = tracks;
+        let outage = self.contact.read(tracks);
         let found = if tracks {
             Found::Tracking
         } else if self.turns() {
@@ -249,14 +252,11 @@ impl Session {
         } else {
             Found::Still
         };
-        let away = self
-            .contact
-            .away_since
-            .map_or(Duration::ZERO, |since| now.steady.saturating_duration_since(since));
-        let lost = away + std::mem::take(&mut self.contact.slept);
+        let away = outage.away_since.map(|since| now.steady.saturating_duration_since(since));
+        let lost = away.unwrap_or_default() + outage.slept;
         let is_explained = self.explains(found, now);
-        if self.contact.away_since.is_some() && self.activity.program().is_none() {
-            self.contact.recheck = Some(Recheck { since: now.steady, lost });
+        if away.is_some() && self.activity.program().is_none() {
+            self.contact.comparison.begin(Recheck { since: now.steady, lost });
         }
         self.follow_on(lost, now);
         // A slew is watched further; its outcome is still to be reported.
@@ -274,13 +274,9 @@ impl Session {
                 _ => self.activity = Activity::Standby,
             }
         }
-        let event = match self.contact.away_since.take() {
+        let event = match away {
             None => Event::Connected(found),
-            Some(away_since) => Event::Back {
-                after: now.steady.saturating_duration_since(away_since),
-                found,
-                is_explained,
-            },
+            Some(after) => Event::Back { after, found, is_explained },
         };
         self.tell(event);
     }
@@ -312,11 +308,11 @@ impl Session {
     /// Reports that the unit has started to track on its own, which surprises anyone standing
     /// beside it.
     fn watch_program(&mut self, _: Moment) {
-        let Some(program) = self.gate.state().program.filter(|_| !self.contact.unread) else {
+        let Some(program) = self.gate.state().program.filter(|_| !self.contact.is_unread()) else {
             return;
         };
-        let was_on = std::mem::replace(&mut self.contact.program_was_on, program.enabled);
-        if program.enabled && !was_on && self.activity.intent() != Intent::Track {
+        let has_started = self.contact.program_has_started(program.enabled);
+        if has_started && self.activity.intent() != Intent::Track {
             self.tell(Event::StartedByItself);
         }
     }
@@ -340,7 +336,7 @@ impl Session {
 
     /// Sends the next motion of a slew, or reports how it has ended.
     fn watch_slew(&mut self, now: Moment) {
-        let (turns, within_deg) = (self.turns(), self.variant.capabilities.arrives_within_deg);
+        let (turns, within_deg) = (self.turns(), self.setup.can().arrives_within_deg);
         let turned = self.seen.effects.last_change();
         let Some(measured) = self.gate.state().measured else { return };
         let Some(at) = self.gate.pointing() else { return };

@@ -67,7 +67,7 @@ impl Session {
         change: OffsetChange,
         now: Moment,
     ) -> Result<(), Refusal> {
-        let fields = self.variant.track_offsets.ok_or(Refusal::NoTrack)?;
+        let fields = self.setup.track_offsets().ok_or(Refusal::NoTrack)?;
         let in_force = self.added_offsets();
         let is_running = self.on_board_is_running();
         if !is_running && in_force.is_none_or(TrackOffsets::is_none) {
@@ -100,9 +100,9 @@ impl Session {
         }
         (self.unit_offsets.left, self.unit_offsets.again) = (None, None);
         self.unit_offsets.wanted = Some(wanted);
-        if let Some(shifted) = self.owed.debts.shifted(&self.owed.unit) {
+        if let Some(shifted) = self.owed.debts().shifted() {
             let shifted = ShiftedTrack { is_found: false, ..shifted };
-            self.owed.debts.set_shifted(&self.owed.unit, Some(shifted));
+            self.owed.debts().set_shifted(Some(shifted));
         }
         self.begin_shift(fields, now);
         Ok(())
@@ -115,7 +115,7 @@ impl Session {
         }
         let unit = &self.gate.state().on_board;
         let held = self.held_offsets().ok_or(Refusal::OffsetsUnknown)?;
-        let shifted = self.owed.debts.shifted(&self.owed.unit);
+        let shifted = self.owed.debts().shifted();
         let before = shifted.map_or(held, |shifted| shifted.before);
         let after = before.checked_add(wanted).ok_or(Refusal::NotOffered)?;
         let with = |offsets| OnBoard {
@@ -126,7 +126,7 @@ impl Session {
         let mut pass = OnBoardPass::clone(watch.judge().pass());
         // The unit runs through the window by its own clock.
         pass.target.from = pass.target.from.max(self.unit_time(now)).min(pass.target.until);
-        let judge = Judge::new(pass, self.setup.ability).map_err(|_| Refusal::PassUnknown)?;
+        let judge = Judge::new(pass, self.setup.ability()).map_err(|_| Refusal::PassUnknown)?;
         let judge = Arc::new(judge);
         Ok(Some(Shift { judge, axes: with(after), sky: with(before) }))
     }
@@ -141,7 +141,7 @@ impl Session {
         if wanted.is_none() {
             return self.write_shift(fields, now);
         }
-        let known = self.owed.debts.shifted(&self.owed.unit);
+        let known = self.owed.debts().shifted();
         let new = ShiftedTrack {
             since: now.utc,
             before: held,
@@ -158,8 +158,8 @@ impl Session {
         }
         shifted.may_be(held);
         shifted.may_be(after);
-        self.owed.debts.set_shifted(&self.owed.unit, Some(shifted));
-        if self.owed.debts.has_marks() {
+        self.owed.debts().set_shifted(Some(shifted));
+        if self.owed.debts().has_marks() {
             self.unit_offsets.step = Step::Marking { wanted };
         } else {
             self.write_shift(fields, now);
@@ -194,7 +194,7 @@ impl Session {
     ) -> Result<Option<u64>, Refusal> {
         let Some(wanted) = self.unit_offsets.wanted else { return Ok(None) };
         let held = self.held_offsets().ok_or(Refusal::OffsetsUnknown)?;
-        let Some(shifted) = self.owed.debts.shifted(&self.owed.unit) else { return Ok(None) };
+        let Some(shifted) = self.owed.debts().shifted() else { return Ok(None) };
         let after = shifted.before.checked_add(wanted).ok_or(Refusal::NotOffered)?;
         let values = fields.values(held, after);
         if values.is_empty() {
@@ -212,10 +212,10 @@ impl Session {
 
     /// Follows a change to its end, and takes back what is added once the track is over.
     pub(super) fn watch_unit_offsets(&mut self, now: Moment) {
-        let Some(fields) = self.variant.track_offsets else { return };
+        let Some(fields) = self.setup.track_offsets() else { return };
         match self.unit_offsets.step {
             Step::None => {}
-            Step::Marking { wanted } => match self.owed.debts.shifted_kept(&self.owed.unit) {
+            Step::Marking { wanted } => match self.owed.debts().shifted_kept() {
                 Kept::Pending => return,
                 Kept::Failed(_) => {
                     self.unit_offsets.step = Step::None;
@@ -293,7 +293,7 @@ impl Session {
 
     /// An earlier run may have written offsets just before it ended.
     pub(super) fn doubt_found_offsets(&mut self, now: Moment) {
-        let shifted = self.owed.debts.shifted(&self.owed.unit);
+        let shifted = self.owed.debts().shifted();
         if shifted.is_some_and(|shifted| shifted.is_found) {
             self.unit_offsets.unsure_until = Some(now.steady + APPLIED);
         }
@@ -319,9 +319,8 @@ impl Session {
 
     /// Takes back what is added once the track is over, and forgets what is taken back.
     fn watch_shifted(&mut self, fields: &TrackOffsetFields, now: Moment) {
-        let (debts, unit) = (self.owed.debts.clone(), self.owed.unit.clone());
         let is_over = self.added_track_is_over(now);
-        let Some(shifted) = debts.shifted(&unit) else {
+        let Some(shifted) = self.owed.debts().shifted() else {
             if is_over {
                 self.unit_offsets.earlier.clear();
             }
@@ -357,14 +356,14 @@ impl Session {
 
     /// Somebody else has set an offset of the unit: only the others are still to be taken back.
     fn leave_foreign(&mut self, shifted: ShiftedTrack, held: TrackOffsets, now: Moment) {
-        tracing::warn!(antenna = self.name, "somebody else has set offsets of the unit");
+        tracing::warn!(antenna = self.setup.name(), "somebody else has set offsets of the unit");
         if !shifted.is_found {
             self.tell(Event::OffsetNotTaken(WriteError::ChangedMeanwhile));
         }
         let is_sure = self.unit_offsets.unsure_until.is_none_or(|until| until <= now.steady);
         match shifted.without_foreign(held) {
             Some(left) if left.before != held || !is_sure => {
-                self.owed.debts.set_shifted(&self.owed.unit, Some(left));
+                self.owed.debts().set_shifted(Some(left));
             }
             _ => self.forget_shifted(),
         }
@@ -382,18 +381,18 @@ impl Session {
 
     /// Records offsets that read back differently from those written: they are from here too.
     fn own_read_back(&self) {
-        let (debts, unit) = (&self.owed.debts, &self.owed.unit);
+        let debts = self.owed.debts();
         let held = self.held_offsets();
-        let Some((mut shifted, held)) = debts.shifted(unit).zip(held) else { return };
+        let Some((mut shifted, held)) = debts.shifted().zip(held) else { return };
         if shifted.added(held).is_none() {
             shifted.may_be(held);
-            debts.set_shifted(unit, Some(shifted));
+            debts.set_shifted(Some(shifted));
         }
     }
 
     /// The unit holds nothing of ours any more.
     fn forget_shifted(&mut self) {
-        self.owed.debts.set_shifted(&self.owed.unit, None);
+        self.owed.debts().set_shifted(None);
         let tickets = self.unit_offsets.tickets;
         self.unit_offsets = UnitOffsets { tickets, ..UnitOffsets::default() };
     }

@@ -15,16 +15,6 @@ impl Session {
         self.gate.unproved_since().is_some() || self.stop.is_under_way()
     }
 
-    /// Keeps a record for the unit's next session, whose antenna may have other settings by
-    /// then.
-    pub(super) fn keep_unproved(&mut self) {
-        let since = self.gate.unproved_since();
-        if since != self.owed.kept_unproved {
-            self.owed.kept_unproved = since;
-            self.owed.debts.keep_unproved(&self.owed.unit, self.owed.number, since);
-        }
-    }
-
     /// A halt is over and nothing moves. A unit that may start on its own stays unproved.
     pub(super) fn prove_still(&mut self) {
         self.acts = false;

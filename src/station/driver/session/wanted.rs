@@ -1,34 +1,20 @@
 //! Leaves a unit to others, and takes it back when the operator says so.
 
-use super::{
-    Session,
-    activity::Activity,
-    io_loop::{Input, MIN_WAIT, next_input},
-};
-use crate::contract::driver::{Event, LinkState, Refusal};
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Wanted {
-    No,
-    /// For a STOP only: the unit is let go again once standstill is proved.
-    ForStop,
-    Yes,
-}
+use super::{Session, activity::Activity, contact::Wanted, io_loop::MIN_WAIT, wires::Input};
+use crate::contract::driver::{Event, Refusal};
 
 impl Session {
     /// Waits until the operator or a STOP wants a link; returns `false` to end the session.
     pub(super) async fn wait_until_wanted(&mut self) -> bool {
-        self.contact.link = LinkState::Off;
-        self.contact.away_since = None;
+        self.contact.let_go();
         self.gate.watch_anew();
-        self.contact.loss_is_told = false;
         let clock = self.clock.clone();
-        while self.contact.wanted == Wanted::No {
+        while self.contact.wanted() == Wanted::No {
             let now = self.now();
             self.forget_old_stop(now);
             self.publish(now);
             let due = self.halt_due();
-            let word = next_input(&mut self.wires);
+            let word = self.wires.next();
             let turn = match due {
                 None => word.await,
                 Some(due) => tokio::select! {
@@ -43,14 +29,15 @@ impl Session {
                 Input::Over => return false,
                 Input::Stop => {
                     self.stop_and_void(now);
-                    self.contact.wanted = Wanted::ForStop;
+                    self.contact.want(Wanted::ForStop);
                 }
                 Input::Command(command) => self.carry_out_offline(command, now),
                 Input::Bounds(bounds) => self.keep_within(*bounds),
                 Input::Sleep(_) | Input::Bytes(_) | Input::Lost(_) | Input::Time => {}
             }
         }
-        self.contact.link = LinkState::Connecting { since: self.now().steady };
+        let now = self.now();
+        self.contact.connecting(now.steady);
         true
     }
 
@@ -65,8 +52,8 @@ impl Session {
             let now = self.now();
             self.halt_quietly(now);
         }
-        self.contact.wanted = Wanted::No;
-        self.forget_silence();
+        self.contact.want(Wanted::No);
+        self.contact.silence.forget();
         self.activity = Activity::Standby;
         true
     }

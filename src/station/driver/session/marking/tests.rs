@@ -10,16 +10,16 @@ use std::{
 };
 
 use jiff::{SignedDuration, Timestamp};
-use tokio::time::sleep;
+use tokio::{task::spawn_blocking, time::sleep};
 
 use super::*;
 use crate::{
     clock::Clock,
-    contract::driver::{Command, Unit},
+    contract::driver::{Command, Event, LeftMoving, Safety, Unit},
     driver::{
         AntennaHandle, Debts, Dial, Orders,
         session::{
-            Wires,
+            Session, Wires,
             testing::{self, START, antenna},
         },
     },

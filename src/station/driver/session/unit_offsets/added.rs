@@ -20,7 +20,7 @@ impl Session {
     /// not known.
     pub(super) fn added_offsets(&self) -> Option<TrackOffsets> {
         let held = self.held_offsets()?;
-        match self.owed.debts.shifted(&self.owed.unit) {
+        match self.owed.debts().shifted() {
             Some(shifted) => shifted.added(held),
             None => Some(TrackOffsets::NONE),
         }
@@ -35,14 +35,14 @@ impl Session {
 
     /// When the offsets of the unit were read last.
     pub(super) fn read_at(&self) -> Option<Timestamp> {
-        let group = self.gate.state().held.get(self.variant.track_offsets?.group)?;
+        let group = self.gate.state().held.get(self.setup.track_offsets()?.group)?;
         Some(group.held.as_ref()?.read_at)
     }
 
     /// Offsets that are meant to be on: the antenna should point this far off its target.
     pub(in crate::driver::session) fn meant_offsets(&self) -> TrackOffsets {
         let is_meant = self.unit_offsets.left.is_none()
-            && self.owed.debts.shifted(&self.owed.unit).is_some_and(|shifted| !shifted.is_found);
+            && self.owed.debts().shifted().is_some_and(|shifted| !shifted.is_found);
         self.added_offsets().filter(|_| is_meant).unwrap_or_default()
     }
 
@@ -57,12 +57,12 @@ impl Session {
         let meant = Some(self.meant_offsets()).filter(|meant| !meant.is_none())?;
         let judge = self.on_board_watch().filter(|_| self.program_is_on())?.judge();
         let axes = meant.demanded(now.utc, |at| judge.direction(at))?;
-        let beam = self.setup.track_config.model.direction(axes);
+        let beam = self.setup.track_config().model.direction(axes);
         Some(DQuat::from_rotation_arc(beam.to_enu(), judge.direction(now.utc)?.to_enu()))
     }
 
     pub(in crate::driver::session) fn unit_offsets_view(&self) -> Option<UnitOffsetsView> {
-        let shifted = self.owed.debts.shifted(&self.owed.unit);
+        let shifted = self.owed.debts().shifted();
         let pad = &self.unit_offsets;
         let offsets = self.added_offsets().unwrap_or_default();
         let is_changing = pad.wanted.is_some() || !matches!(pad.step, Step::None);
@@ -82,7 +82,7 @@ impl Session {
     /// Returns `true` once the unit does not track any more, or goes on with another pass than the
     /// one to whose track something was added.
     pub(super) fn added_track_is_over(&self, now: Moment) -> bool {
-        let added_to = self.owed.debts.shifted(&self.owed.unit).and_then(|shifted| shifted.track);
+        let added_to = self.owed.debts().shifted().and_then(|shifted| shifted.track);
         let is_another = self.told_track().zip(added_to).is_some_and(|(track, then)| {
             // The unit may report the window of a pass a little otherwise.
             let is_later = add_seconds(then.until, APART_S) < track.until;
@@ -107,9 +107,8 @@ impl Session {
     /// Returns `true` if the track is over and what was added for it is still on the unit.
     pub(in crate::driver::session) fn owes_offsets(&self) -> bool {
         let now = self.now();
-        let is_owed = self.owed.debts.shifted(&self.owed.unit).is_some()
-            && self.may_take_back(now)
-            && !self.may_track();
+        let is_owed =
+            self.owed.debts().shifted().is_some() && self.may_take_back(now) && !self.may_track();
         is_owed && self.added_offsets().is_some_and(|added| !added.is_none())
     }
 }

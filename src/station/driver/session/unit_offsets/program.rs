@@ -19,7 +19,7 @@ impl Session {
     }
 
     pub(super) fn program_is_on(&self) -> bool {
-        let program = self.gate.state().program.filter(|_| !self.contact.unread);
+        let program = self.gate.state().program.filter(|_| !self.contact.is_unread());
         program.is_some_and(|program| program.enabled && program.phase != Phase::Completed)
     }
 
@@ -28,7 +28,7 @@ impl Session {
     pub(super) fn may_track(&self) -> bool {
         let stage = self.activity.on_board().map(|track| track.stage);
         let is_starting = matches!(stage, Some(OnBoardStage::Starting { .. }));
-        self.contact.unread || self.program_is_on() || is_starting
+        self.contact.is_unread() || self.program_is_on() || is_starting
     }
 
     /// The satellite that the unit says it tracks, and when it ends that by its own clock.

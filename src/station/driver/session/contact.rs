@@ -1,0 +1,229 @@
+//! The link to a unit: whether it is wanted, its state, and what is remembered while there is none.
+
+use std::time::Duration;
+
+use super::{clocks::ClockWatch, likeness::Comparison, silence::Silence};
+use crate::{
+    clock::Instant,
+    contract::driver::{LinkLoss, LinkState},
+    device::AntennaState,
+    station::Antenna,
+};
+
+/// A unit that answers in time answers within this time.
+const LATE_REPLY: Duration = Duration::from_secs(1);
+/// Noise that is older than this says nothing of a unit that is silent now.
+const HEARD: Duration = Duration::from_secs(30);
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Wanted {
+    No,
+    /// For a STOP only: the unit is let go again once standstill is proved.
+    ForStop,
+    Yes,
+}
+
+/// How often a unit is asked, and how long it may be silent.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Pace {
+    pub(super) poll_period: Duration,
+    pub(super) patience: Duration,
+}
+
+/// How the unit had been out of reach when it was read again.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Outage {
+    /// When a link that had been up was lost.
+    pub(super) away_since: Option<Instant>,
+    /// How long the computer has slept meanwhile.
+    pub(super) slept: Duration,
+}
+
+/// State of the link, and what is remembered while there is none.
+pub(super) struct Contact {
+    wanted: Wanted,
+    link: LinkState,
+    /// When a link that had been up was lost.
+    away_since: Option<Instant>,
+    /// The operator knows of the lost link.
+    loss_is_reported: bool,
+    /// The unit has not been read on this link yet.
+    unread: bool,
+    /// The unit's own program was on at the last reading.
+    program_was_on: bool,
+    /// How long the computer has slept since the unit was last read.
+    slept: Duration,
+    pub(super) clocks: ClockWatch,
+    pub(super) silence: Silence,
+    pub(super) comparison: Comparison,
+}
+
+/// Returns the link that a new session wants, and the link state to show first.
+pub(super) fn first_link(antenna: &Antenna, since: Instant) -> (Wanted, LinkState) {
+    let waits = antenna.connection.variant().capabilities.waits_for_word;
+    if waits && !antenna.connects_at_start {
+        return (Wanted::No, LinkState::Off);
+    }
+    (Wanted::Yes, LinkState::Connecting { since })
+}
+
+impl Contact {
+    pub(super) fn new(antenna: &Antenna, now: Instant) -> Self {
+        let (wanted, link) = first_link(antenna, now);
+        Self {
+            wanted,
+            link,
+            away_since: None,
+            loss_is_reported: false,
+            unread: true,
+            program_was_on: false,
+            slept: Duration::ZERO,
+            clocks: ClockWatch::default(),
+            silence: Silence::default(),
+            comparison: Comparison::default(),
+        }
+    }
+
+    pub(super) fn wanted(&self) -> Wanted {
+        self.wanted
+    }
+
+    pub(super) fn want(&mut self, wanted: Wanted) {
+        self.wanted = wanted;
+    }
+
+    pub(super) fn link(&self) -> &LinkState {
+        &self.link
+    }
+
+    pub(super) fn is_open(&self) -> bool {
+        self.link.is_open()
+    }
+
+    /// The unit is left to others: an outage that comes later begins a new count.
+    pub(super) fn let_go(&mut self) {
+        self.link = LinkState::Off;
+        self.away_since = None;
+        self.loss_is_reported = false;
+    }
+
+    pub(super) fn connecting(&mut self, now: Instant) {
+        self.link = LinkState::Connecting { since: now };
+    }
+
+    pub(super) fn connected(&mut self, now: Instant) {
+        self.link = LinkState::Up { since: now };
+    }
+
+    /// There will be no link any more.
+    pub(super) fn close(&mut self) {
+        self.link = LinkState::Off;
+    }
+
+    /// The next loss is news again: the unit has replied on this link.
+    pub(super) fn has_replied(&mut self) {
+        self.loss_is_reported = false;
+    }
+
+    /// The link is gone; the next attempt is at `retry_at`. Returns `true` if that is news.
+    pub(super) fn lose(
+        &mut self,
+        reason: LinkLoss,
+        retry_at: Instant,
+        last_reply: Option<Instant>,
+        now: Instant,
+    ) -> bool {
+        let since = self.away_since.or(last_reply).unwrap_or(now);
+        if last_reply.is_some() {
+            self.away_since.get_or_insert(since);
+        }
+        let is_news = !matches!(self.link, LinkState::Lost { .. }) && !self.loss_is_reported;
+        self.loss_is_reported = true;
+        self.link = LinkState::Lost { since, reason, retry_at };
+        is_news
+    }
+
+    /// The next attempt is earlier.
+    pub(super) fn retry_at(&mut self, at: Instant) {
+        if let LinkState::Lost { retry_at, .. } = &mut self.link {
+            *retry_at = at;
+        }
+    }
+
+    /// A link begins, on which the unit has not been read.
+    pub(super) fn begin_link(&mut self) {
+        self.unread = true;
+    }
+
+    pub(super) fn is_unread(&self) -> bool {
+        self.unread
+    }
+
+    /// The unit was read for the first time on this link. The outage before it is over.
+    pub(super) fn read(&mut self, program_is_on: bool) -> Outage {
+        self.unread = false;
+        self.program_was_on = program_is_on;
+        Outage { away_since: self.away_since.take(), slept: std::mem::take(&mut self.slept) }
+    }
+
+    /// Returns `true` if the unit's own program has come on since the last reading.
+    pub(super) fn program_has_started(&mut self, is_on: bool) -> bool {
+        let was_on = std::mem::replace(&mut self.program_was_on, is_on);
+        is_on && !was_on
+    }
+
+    pub(super) fn has_slept(&mut self, lasted: Duration) {
+        self.slept += lasted;
+    }
+
+    /// Follows the age of the last reply on a link that began at `start`. Returns why it counts as
+    /// lost.
+    pub(super) fn follow_age(
+        &mut self,
+        state: &AntennaState,
+        pace: Pace,
+        now: Instant,
+        start: Instant,
+    ) -> Option<LinkLoss> {
+        if state.is_other_device {
+            return Some(LinkLoss::OtherDevice);
+        }
+        let last = state.traffic.last_reply.map_or(start, |reply| reply.max(start));
+        let age = now.saturating_duration_since(last);
+        if age >= pace.patience {
+            let is_unreadable = state.traffic.last_unreadable.is_some_and(|noise| {
+                // Not every try hears as much.
+                let is_young = now.saturating_duration_since(noise) < HEARD;
+                noise > last || self.away_since.is_some_and(|away| noise > away && is_young)
+            });
+            return Some(if is_unreadable { LinkLoss::Unreadable } else { LinkLoss::Silent });
+        }
+        let max_age = pace.poll_period * 2;
+        let asked = state.measured_on_link().map(|measured| measured.asked);
+        let is_old = |asked| now.saturating_duration_since(asked) > max_age + LATE_REPLY;
+        let is_late = age > max_age || asked.is_some_and(is_old);
+        match (&self.link, is_late) {
+            (LinkState::Up { .. } | LinkState::Stale { .. }, true) => {
+                let as_of = asked.map_or(last, |asked| asked.min(last));
+                self.link = LinkState::Stale { as_of };
+            }
+            (LinkState::Stale { .. }, false) => self.link = LinkState::Up { since: start },
+            (LinkState::Off, _)
+            | (LinkState::Connecting { .. }, _)
+            | (LinkState::Up { .. }, false)
+            | (LinkState::Lost { .. }, _) => {}
+        }
+        None
+    }
+
+    /// When the age of the last reply changes the state of the link.
+    pub(super) fn due(&self, state: &AntennaState, pace: Pace) -> Option<Instant> {
+        let last = state.traffic.last_reply.max(state.link_since)?;
+        let asked = state.measured_on_link().map(|measured| measured.asked + LATE_REPLY);
+        let wait = match self.link {
+            LinkState::Up { .. } => pace.poll_period * 2 + Duration::from_millis(1),
+            _ => return Some(last + pace.patience),
+        };
+        Some(asked.map_or(last, |asked| asked.min(last)) + wait)
+    }
+}

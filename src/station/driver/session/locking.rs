@@ -1,0 +1,102 @@
+//! Progress of a lock-out: the unit must be proved not to start on its own.
+
+use std::time::Duration;
+
+use crate::{clock::Instant, device::AntennaState};
+
+/// Time limit until auto-track is read back as off.
+const READ_BACK: Duration = Duration::from_secs(10);
+
+/// Progress of a lock-out, if the unit is locked out.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(super) struct Locking(Option<Progress>);
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Progress {
+    since: Instant,
+    /// The unit has a program that could start on its own.
+    has_program: bool,
+    /// Auto-track was switched off on this link.
+    is_asked: bool,
+    /// The unit reported that it does not start on its own.
+    is_proved: bool,
+    /// It was proved once: since then the person who works on it may have switched it on.
+    was_proved: bool,
+    /// The operator knows that it cannot be read back.
+    is_reported: bool,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum LockStep {
+    Wait,
+    SwitchOff,
+    /// The operator must know that the unit may start on its own.
+    Report,
+}
+
+impl Locking {
+    pub(super) fn begin(&mut self, has_program: bool, now: Instant) {
+        self.0 = Some(Progress {
+            since: now,
+            has_program,
+            is_asked: false,
+            is_proved: !has_program,
+            was_proved: false,
+            is_reported: false,
+        });
+    }
+
+    pub(super) fn end(&mut self) {
+        self.0 = None;
+    }
+
+    /// Returns `true` until the lock-out is complete. `stops`: a halt is under way.
+    pub(super) fn is_under_way(&self, stops: bool) -> bool {
+        self.0.is_some_and(|progress| !progress.is_proved || stops)
+    }
+
+    /// Keeps the unit from starting on its own and checks it: once on each link, and not again
+    /// after it was proved.
+    pub(super) fn next(&mut self, state: &AntennaState, is_unread: bool, now: Instant) -> LockStep {
+        let Some(progress) = self.0.as_mut().filter(|progress| progress.has_program) else {
+            return LockStep::Wait;
+        };
+        if is_unread {
+            progress.is_asked = false;
+            return LockStep::Wait;
+        }
+        if state.measured.is_none_or(|measured| measured.asked <= progress.since) {
+            return LockStep::Wait;
+        }
+        match state.program.and_then(|program| program.auto) {
+            Some(false) => {
+                (progress.is_proved, progress.was_proved) = (true, true);
+                progress.is_reported = false;
+                LockStep::Wait
+            }
+            Some(true) if progress.is_proved => {
+                progress.is_proved = false;
+                self.report()
+            }
+            Some(true) | None if !progress.is_asked && !progress.was_proved => {
+                progress.is_asked = true;
+                progress.since = now;
+                LockStep::SwitchOff
+            }
+            Some(true) | None if now.saturating_duration_since(progress.since) >= READ_BACK => {
+                self.report()
+            }
+            Some(true) | None => LockStep::Wait,
+        }
+    }
+
+    /// Reports once that the unit may start on its own.
+    pub(super) fn report(&mut self) -> LockStep {
+        let Some(progress) = &mut self.0 else { return LockStep::Wait };
+        if std::mem::replace(&mut progress.is_reported, true) {
+            LockStep::Wait
+        } else {
+            LockStep::Report
+        }
+    }
+}

@@ -1,0 +1,134 @@
+//! What Azel owes to a unit: a STOP, auto-track switched off, and the record of both.
+
+use std::sync::Arc;
+
+use jiff::Timestamp;
+use tokio::sync::Notify;
+
+use super::{
+    auto_track::{AutoTrackOff, NextStep},
+    locking::Locking,
+    marking::{Marking, Progress},
+    unit_debts::UnitDebts,
+};
+use crate::{
+    clock::{Instant, Moment},
+    contract::driver::{LeftMoving, Unit},
+    device::AntennaState,
+    driver::debts::Debts,
+};
+
+pub(super) struct Owed {
+    debts: UnitDebts,
+    auto_track: AutoTrackOff,
+    marking: Marking,
+    /// An earlier run may have left the unit moving, since then; the operator is being asked.
+    left_moving: Option<LeftMoving>,
+    /// Progress of a lock-out.
+    pub(super) locking: Locking,
+}
+
+impl Owed {
+    /// Begins a session of `unit`; `stop` stops it, at once if a STOP is owed.
+    pub(super) fn begin(debts: Debts, unit: Unit, stop: Arc<Notify>) -> Self {
+        Self {
+            debts: UnitDebts::begin(debts, unit, stop),
+            auto_track: AutoTrackOff::default(),
+            marking: Marking::default(),
+            left_moving: None,
+            locking: Locking::default(),
+        }
+    }
+
+    pub(super) fn debts(&self) -> &UnitDebts {
+        &self.debts
+    }
+
+    pub(super) fn left_moving(&self) -> Option<LeftMoving> {
+        self.left_moving
+    }
+
+    pub(super) fn keep_unproved(&mut self, since: Option<Instant>) {
+        self.debts.keep_unproved(since);
+    }
+
+    /// Requests the mark that the unit is moved, unless this session has already.
+    pub(super) fn follow_mark(&mut self, now: Moment) -> Progress {
+        if !self.debts.has_marks() {
+            return Progress::Settled;
+        }
+        self.marking.follow(&self.debts, now)
+    }
+
+    /// Writes the mark again from time to time, while the session attends to the unit.
+    pub(super) fn refresh_mark(&mut self, now: Moment) {
+        if self.debts.has_marks() {
+            self.marking.refresh(&self.debts, now);
+        }
+    }
+
+    /// Requests the mark, as of now. Returns `false` if there is no folder for it.
+    pub(super) fn put_mark(&mut self, now: Moment) -> bool {
+        let has_marks = self.debts.has_marks();
+        if has_marks {
+            self.marking.put(&self.debts, now);
+        }
+        has_marks
+    }
+
+    /// An earlier run left a mark. `asks`: the operator must decide.
+    pub(super) fn found_mark(&mut self, since: Option<Timestamp>, asks: bool) {
+        self.marking = Marking::found(since);
+        self.left_moving = asks.then_some(LeftMoving { since });
+    }
+
+    /// Why the next start would not know that a STOP is owed.
+    pub(super) fn not_on_disk(&self, now: Instant) -> Option<String> {
+        if !self.debts.has_marks() {
+            return Some("this user has no folder for it".to_owned());
+        }
+        self.marking.not_on_disk(&self.debts, now)
+    }
+
+    /// When to check again whether the mark is on the disk.
+    pub(super) fn marking_due(&self, now: Instant) -> Option<Instant> {
+        self.marking.due(&self.debts, now)
+    }
+
+    /// Standstill is proved: no STOP is owed to the unit any more.
+    pub(super) fn settle_stop(&mut self) {
+        self.debts.settle_stop();
+        self.left_moving = None;
+        self.marking.remove(&self.debts);
+    }
+
+    /// From now on the unit is not to start by itself.
+    pub(super) fn owe_auto_track_off(&mut self) {
+        self.debts.owe_auto_track_off();
+        self.auto_track = AutoTrackOff::default();
+    }
+
+    /// The unit is asked on this link to switch auto-track off; `None` for a new link.
+    pub(super) fn auto_track_asked(&mut self, at: Option<Instant>) {
+        self.auto_track.asked(at);
+    }
+
+    /// The unit has refused to switch auto-track off, or has not answered. Returns `true` if the
+    /// operator is to know.
+    pub(super) fn auto_stays_on(&mut self) -> bool {
+        self.auto_track.is_first_report() || !self.debts.owes_auto_track_off()
+    }
+
+    /// The next step to auto-track off, where that is owed.
+    pub(super) fn next_for_auto_track(&mut self, state: &AntennaState, now: Instant) -> NextStep {
+        if !self.debts.owes_auto_track_off() {
+            return NextStep::Wait;
+        }
+        let next = self.auto_track.next(state, now);
+        match next {
+            NextStep::Wait | NextStep::SwitchOff => {}
+            NextStep::Proved | NextStep::Unreadable => self.debts.settle_auto_track(),
+        }
+        next
+    }
+}

@@ -1,0 +1,46 @@
+//! Compares a unit after an outage before a target is tracked on.
+
+use super::{
+    Session,
+    likeness::{Compared, Recheck},
+};
+use crate::{
+    clock::Moment,
+    contract::driver::{Event, Safety},
+};
+
+impl Session {
+    /// The link goes: remembers what the unit was like, unless a comparison with an earlier
+    /// state is still pending.
+    pub(super) fn remember_likeness(&mut self) {
+        if !self.contact.is_unread() && self.recheck().is_none() {
+            self.contact.comparison.remember(self.gate.state());
+        }
+    }
+
+    /// The comparison that is pending.
+    pub(super) fn recheck(&self) -> Option<Recheck> {
+        let track = self.activity.program().and_then(|track| track.recheck);
+        track.or(self.contact.comparison.pending())
+    }
+
+    /// Compares the unit after an outage. A track resumes once it has proved to be as before;
+    /// otherwise the operator is asked.
+    pub(super) fn watch_likeness(&mut self, now: Moment) {
+        let recheck = self.recheck().filter(|_| !self.contact.is_unread());
+        let Some(Recheck { since, lost }) = recheck else { return };
+        let compared = self.contact.comparison.compare(self.gate.state(), since, now.steady);
+        if compared == Compared::Pending {
+            return;
+        }
+        self.contact.comparison.end();
+        let track = self.activity.program_mut().and_then(|track| track.recheck.take());
+        match (compared, track) {
+            (Compared::Pending | Compared::AsBefore, _) => {}
+            (Compared::Unlike(unlike), Some(_)) => self.await_word(lost, Some(unlike)),
+            (Compared::Unlike(unlike), None) => {
+                self.tell(Event::Safety(Safety::UnitDiffers { unlike }));
+            }
+        }
+    }
+}

@@ -1,0 +1,137 @@
+//! The settings of an antenna, and what follows from them and from the make of its unit.
+
+use std::time::Duration;
+
+use super::{standstill::Figures, tracking::TrackConfig};
+use crate::{
+    astro::Angle,
+    device::{Capabilities, Motion, Pointing, TrackOffsetFields, Variant},
+    name::Name,
+    plan::on_board::Ability,
+    station::{Antenna, Monitor, Resume},
+};
+
+/// Assumed sway of a standing axis before it is measured, degrees.
+const MAX_SWAY_DEG: f64 = 1.0;
+
+/// The antenna's settings.
+pub(super) struct Setup {
+    name: String,
+    variant: &'static Variant,
+    park: Pointing,
+    track_config: TrackConfig,
+    /// Limits for judging a pass that the unit tracks on its own.
+    ability: Ability,
+    /// When program track resumes by itself after the antenna was out of reach.
+    resume: Resume,
+    /// After a shorter time it resumes in any case.
+    resume_after: Duration,
+    /// The sway that the operator allows, degrees.
+    sway_deg: f64,
+    /// Response to somebody else driving the antenna into a keep-out or near the Sun.
+    monitor: Monitor,
+}
+
+impl Setup {
+    pub(super) fn new(antenna: &Antenna) -> Self {
+        let variant = antenna.connection.variant();
+        Self {
+            name: antenna.name.clone(),
+            variant,
+            park: antenna.park_direction().into(),
+            track_config: TrackConfig::of(antenna, variant.capabilities),
+            ability: Ability::of(antenna),
+            resume: antenna.resume,
+            resume_after: Duration::try_from_secs_f64(antenna.resume_after_s).unwrap_or_default(),
+            sway_deg: antenna.sway_deg,
+            monitor: antenna.monitor,
+        }
+    }
+
+    pub(super) fn name(&self) -> &str {
+        &self.name
+    }
+
+    pub(super) fn can(&self) -> Capabilities {
+        self.variant.capabilities
+    }
+
+    pub(super) fn track_offsets(&self) -> Option<&'static TrackOffsetFields> {
+        self.variant.track_offsets
+    }
+
+    /// Name of an axis; empty if the unit has no such axis.
+    pub(super) fn axis_name(&self, axis: usize) -> Name {
+        self.can().axes.get(axis).copied().unwrap_or_default()
+    }
+
+    pub(super) fn park(&self) -> Pointing {
+        self.park
+    }
+
+    /// The motion to the park position.
+    pub(super) fn park_motion(&self) -> Motion {
+        let has_elevation = self.can().has_elevation();
+        Motion::Position {
+            azimuth: self.park.azimuth,
+            elevation: self.park.elevation.filter(|_| has_elevation),
+        }
+    }
+
+    pub(super) fn track_config(&self) -> TrackConfig {
+        self.track_config
+    }
+
+    /// Keeps rates that a track has measured for the next target, degrees a second.
+    pub(super) fn learn_rates(&mut self, rates_deg_s: [f64; 2]) {
+        self.track_config.drives.rates_deg_s = rates_deg_s;
+    }
+
+    pub(super) fn ability(&self) -> Ability {
+        self.ability
+    }
+
+    pub(super) fn stops_others(&self) -> bool {
+        self.monitor == Monitor::Stop
+    }
+
+    /// Returns `true` if an outage of this length is too short to look at the unit again.
+    pub(super) fn resumes_at_once(&self, lost: Duration) -> bool {
+        lost <= self.resume_after
+    }
+
+    /// Returns `true` if the operator must be asked after a longer outage.
+    pub(super) fn asks_to_resume(&self) -> bool {
+        self.resume == Resume::Ask
+    }
+
+    /// Returns the figures for standstill with the larger of the configured and the measured sway.
+    pub(super) fn figures(&self, measured_sway_deg: Option<f64>) -> Figures {
+        self.figures_with(measured_sway_deg.unwrap_or_default())
+    }
+
+    /// Returns the figures for alarms: assumes [`MAX_SWAY_DEG`] until the sway is measured, to avoid false
+    /// alarms.
+    pub(super) fn alarm_figures(&self, measured_sway_deg: Option<f64>) -> Figures {
+        self.figures_with(measured_sway_deg.unwrap_or(MAX_SWAY_DEG))
+    }
+
+    fn figures_with(&self, measured_sway_deg: f64) -> Figures {
+        Figures::of(self.can(), self.sway_deg.max(measured_sway_deg))
+    }
+
+    /// Largest angle off target of an antenna whose beam holds it: half the beam, and what rounding
+    /// both angles to their resolution makes at most, with the noise.
+    pub(super) fn in_beam(&self, figures: Figures) -> Angle {
+        let error_deg = self.can().standstill.resolution_deg + figures.tolerance_deg();
+        self.ability.half_beam + Angle::from_degrees(error_deg)
+    }
+
+    /// Largest angle off target of a working antenna: that, the tolerance of an arrival, and as much
+    /// again of rounding, for a unit that cuts its angles off.
+    pub(super) fn on_target(&self, figures: Figures) -> Angle {
+        let can = self.can();
+        let more_deg = can.standstill.resolution_deg + can.arrives_within_deg;
+        self.in_beam(figures) + Angle::from_degrees(more_deg)
+    }
+}

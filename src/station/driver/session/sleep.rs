@@ -1,0 +1,44 @@
+//! Ends what must not go on while the computer sleeps, or after its clock was set.
+
+use super::{Session, jog::JogKey};
+use crate::{
+    clock::Moment,
+    contract::driver::{Event, LinkLoss, Safety},
+    driver::before_sleep::Awake,
+};
+
+impl Session {
+    /// Ends motions by hand: during the sleep nothing would.
+    pub(super) fn before_sleep(&mut self, awake: Awake, now: Moment) {
+        if let Some(jog) = self.key.held() {
+            let rates_deg_s = jog.rates_deg_s;
+            self.halt_quietly(now);
+            self.key = JogKey::Spent(rates_deg_s);
+            self.tell(Event::Safety(Safety::EndedForSleep));
+        }
+        self.awake = Some(awake);
+        self.let_sleep(now);
+    }
+
+    /// Lets the computer sleep once no halt is under way.
+    pub(super) fn let_sleep(&mut self, _: Moment) {
+        if !self.stop.is_under_way() {
+            self.awake = None;
+        }
+    }
+
+    /// Compares the clocks with each other. After a sleep the link is opened anew: old
+    /// positions look fresh, because the steady clock stood still.
+    pub(super) fn watch_clocks(&mut self, now: Moment) -> Option<LinkLoss> {
+        let change = self.contact.clocks.compare(now, self.clock.asleep())?;
+        if let Some(by_s) = change.stepped_s {
+            self.tell(Event::Safety(Safety::ClockStepped { by_s, time: Some(now.utc) }));
+            self.suspend_following(change.steady, now);
+        }
+        let lasted = change.slept?;
+        self.tell(Event::Safety(Safety::Slept { lasted }));
+        self.contact.has_slept(lasted);
+        self.gate.watch_anew();
+        self.contact.is_open().then_some(LinkLoss::Slept)
+    }
+}

@@ -1,0 +1,59 @@
+//! Reports a unit that does not answer while Azel has metal moving.
+
+use super::Session;
+use crate::{
+    clock::{Instant, Moment},
+    contract::driver::{Event, LinkState, Safety},
+};
+
+impl Session {
+    pub(super) fn wrote(&mut self, now: Moment) {
+        self.contact.silence.wrote(self.gate.state().traffic.replies, now.steady);
+    }
+
+    /// Returns `true` while metal moves on Azel's command as far as is known: until STOP is
+    /// proved it may, even if the last position shows it at rest.
+    fn is_in_motion(&mut self) -> bool {
+        self.is_unproved()
+            && (self.follows_now()
+                || self.stop.is_under_way()
+                || self.turns()
+                || self.gate.state().program.is_some_and(|program| program.enabled)
+                || self.activity.is_pending()
+                || self.key.held().is_some()
+                || self.stepping.is_some()
+                || self.gate.device().motion_under_way())
+    }
+
+    /// Reports a unit that does not answer while it moves, once until it answers.
+    pub(super) fn watch_silence(&mut self, now: Moment) {
+        let is_watched = self.is_in_motion();
+        let replies = self.gate.state().traffic.replies;
+        self.contact.silence.watch(is_watched, replies, now.steady);
+        // A jog that has not begun waits for its position.
+        self.gate.device().watch_closely(is_watched || self.key.held().is_some());
+        if self.silence_due().is_some_and(|at| now.steady >= at) {
+            self.tell_silence();
+        }
+    }
+
+    /// The link was lost in the middle of a motion.
+    pub(super) fn tell_silence_of_lost_link(&mut self) {
+        if self.is_in_motion() {
+            self.tell_silence();
+        }
+    }
+
+    fn tell_silence(&mut self) {
+        if self.contact.silence.report() {
+            self.tell(Event::Safety(Safety::SilentInMotion));
+        }
+    }
+
+    /// When silence must be reported.
+    pub(super) fn silence_due(&mut self) -> Option<Instant> {
+        // A link that is lost is an alarm of its own.
+        let is_open = matches!(self.contact.link(), LinkState::Up { .. } | LinkState::Stale { .. });
+        self.contact.silence.due(self.gate.device().prompt()).filter(|_| is_open)
+    }
+}

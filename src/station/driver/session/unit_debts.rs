@@ -1,0 +1,119 @@
+//! The debts of one unit, as its session sees them.
+
+use std::sync::Arc;
+
+use tokio::{sync::Notify, task::spawn_blocking};
+
+use crate::{
+    clock::Instant,
+    contract::driver::Unit,
+    driver::debts::{Debts, Mark, ShiftedTrack},
+    promises::Kept,
+};
+
+/// Debts to the unit, also from other sessions and earlier runs.
+pub(super) struct UnitDebts {
+    debts: Debts,
+    unit: Unit,
+    /// Tells the sessions of one unit apart.
+    number: u64,
+    /// Since when a record is kept that the unit was moved and has not been proved to stand.
+    kept_unproved: Option<Instant>,
+}
+
+impl UnitDebts {
+    /// Begins a session of `unit`; `stop` stops it, at once if a STOP is owed.
+    pub(super) fn begin(debts: Debts, unit: Unit, stop: Arc<Notify>) -> Self {
+        let number = debts.begin(&unit, stop);
+        let kept_unproved = debts.unproved_since(&unit);
+        Self { debts, unit, number, kept_unproved }
+    }
+
+    /// When the unit was moved without a proof of standstill since.
+    pub(super) fn unproved_since(&self) -> Option<Instant> {
+        self.kept_unproved
+    }
+
+    /// Keeps a record for the unit's next session, whose antenna may have other settings by
+    /// then.
+    pub(super) fn keep_unproved(&mut self, since: Option<Instant>) {
+        if since != self.kept_unproved {
+            self.kept_unproved = since;
+            self.debts.keep_unproved(&self.unit, self.number, since);
+        }
+    }
+
+    pub(super) fn owe_stop(&self) {
+        self.debts.owe(&self.unit);
+    }
+
+    pub(super) fn settle_stop(&self) {
+        self.debts.settle(&self.unit);
+    }
+
+    /// Returns `true` if another session of the unit has begun, and takes over what is owed.
+    pub(super) fn is_relieved(&self, owes_stop: bool) -> bool {
+        if owes_stop {
+            self.debts.hand_over(&self.unit, self.number)
+        } else {
+            self.debts.is_followed(&self.unit, self.number)
+        }
+    }
+
+    pub(super) fn owe_auto_track_off(&self) {
+        self.debts.owe_auto_track_off(&self.unit);
+    }
+
+    pub(super) fn settle_auto_track(&self) {
+        self.debts.settle_auto_track(&self.unit);
+    }
+
+    pub(super) fn owes_auto_track_off(&self) -> bool {
+        self.debts.owes_auto_track_off(&self.unit)
+    }
+
+    /// Returns `true` if there is a folder for marks.
+    pub(super) fn has_marks(&self) -> bool {
+        self.debts.has_marks()
+    }
+
+    pub(super) fn mark(&self, mark: Mark) {
+        self.debts.mark(&self.unit, self.number, mark);
+    }
+
+    pub(super) fn mark_kept(&self) -> Kept {
+        self.debts.mark_kept(&self.unit)
+    }
+
+    pub(super) fn unmark(&self) {
+        self.debts.unmark(&self.unit, self.number);
+    }
+
+    /// Finds what an earlier run left on the disk. Returns its mark.
+    pub(super) async fn find(&self) -> Option<Mark> {
+        let (debts, unit, number) = (self.debts.clone(), self.unit.clone(), self.number);
+        let finding = spawn_blocking(move || {
+            debts.find_shifted(&unit);
+            debts.take_over_mark(&unit, number)
+        });
+        finding.await.ok().flatten()
+    }
+
+    /// Waits until the disk has taken all requests for this unit.
+    pub(super) async fn settled(&self) {
+        self.debts.settled(&self.unit).await;
+    }
+
+    /// Offsets that were added for a track of the unit.
+    pub(super) fn shifted(&self) -> Option<ShiftedTrack> {
+        self.debts.shifted(&self.unit)
+    }
+
+    pub(super) fn set_shifted(&self, shifted: Option<ShiftedTrack>) {
+        self.debts.set_shifted(&self.unit, shifted);
+    }
+
+    pub(super) fn shifted_kept(&self) -> Kept {
+        self.debts.shifted_kept(&self.unit)
+    }
+}

@@ -1,0 +1,271 @@
+//! The session's ends of the channels to the station.
+
+use std::sync::{Arc, atomic::Ordering};
+
+use tokio::sync::{Mutex as AsyncMutex, Notify, mpsc, watch};
+
+use super::contact::first_link;
+use crate::{
+    clock::Instant,
+    contract::driver::{AxisLessons, Command, Event, LinkLoss, LinkState, Snapshot, WireLog},
+    device::{Measured, WireLine},
+    driver::{
+        AntennaHandle, COMMANDS, EVENTS, Numbered, Orbits, Orders, PositionLog, Stopper, Wake,
+        before_sleep::Awake,
+    },
+    plan::{Bounds, on_board::KnownOrbit},
+    station::{Antenna, LockOut},
+};
+
+/// Input that ended a wait.
+pub(super) enum Input {
+    Bytes(usize),
+    Lost(LinkLoss),
+    Command(Command),
+    /// New bounds of the antenna.
+    Bounds(Box<Bounds>),
+    Stop,
+    /// This computer is about to sleep.
+    Sleep(Awake),
+    Time,
+    /// The station is gone: the session ends.
+    Over,
+}
+
+/// The session's ends of the channels to the station. A session that breaks down leaves them
+/// to the next one.
+#[derive(Clone)]
+pub struct Wires {
+    /// Locked by the running session.
+    commands: Arc<AsyncMutex<mpsc::Receiver<Numbered>>>,
+    stopper: Stopper,
+    before_sleep: Option<Arc<AsyncMutex<mpsc::Receiver<Awake>>>>,
+    snapshots: watch::Sender<Arc<Snapshot>>,
+    events: mpsc::Sender<Event>,
+    wake: Wake,
+    wire_log: WireLog,
+    positions: PositionLog,
+    orbit: Orbits,
+    bounds: watch::Receiver<Bounds>,
+}
+
+impl Wires {
+    /// Creates both ends of one antenna's channels.
+    pub(in crate::driver) fn new(
+        antenna: &Antenna,
+        bounds: Bounds,
+        now: Instant,
+        wake: Wake,
+        orders: &Orders,
+    ) -> (Self, AntennaHandle) {
+        let (send_command, commands) = mpsc::channel(COMMANDS);
+        let (events, read_events) = mpsc::channel(EVENTS);
+        let (_, link) = first_link(antenna, now);
+        let first = Arc::new(Snapshot::before_anything(link));
+        let (snapshots, read_snapshots) = watch::channel(first);
+        let stopper = Stopper {
+            stop: Arc::new(Notify::new()),
+            void: Arc::default(),
+            orders: orders.clone(),
+            snapshots: read_snapshots,
+        };
+        let (wire_log, orbit) = (WireLog::default(), Orbits::default());
+        let positions = PositionLog::default();
+        let (keep_within, bounds) = watch::channel(bounds);
+        let wires = Self {
+            commands: Arc::new(AsyncMutex::new(commands)),
+            stopper: stopper.clone(),
+            before_sleep: None,
+            snapshots,
+            events,
+            wake,
+            wire_log: wire_log.clone(),
+            positions: positions.clone(),
+            orbit: Arc::clone(&orbit),
+            bounds,
+        };
+        let handle = AntennaHandle {
+            commands: send_command,
+            stopper,
+            orders: orders.clone(),
+            events: read_events,
+            wire: wire_log,
+            positions,
+            orbit,
+            bounds: keep_within,
+        };
+        (wires, handle)
+    }
+
+    /// The handle of an antenna that no session drives: it takes nothing.
+    pub(in crate::driver) fn closed(antenna: &Antenna, now: Instant) -> AntennaHandle {
+        let bounds = Bounds::of_antenna(antenna);
+        let (wires, handle) = Self::new(antenna, bounds, now, Arc::new(|| {}), &Orders::default());
+        let off = Snapshot::before_anything(LinkState::Off);
+        wires.snapshots.send_replace(Arc::new(off));
+        handle
+    }
+
+    /// With a channel that tells before this computer sleeps.
+    pub(in crate::driver) fn hearing(mut self, before_sleep: mpsc::Receiver<Awake>) -> Self {
+        self.before_sleep = Some(Arc::new(AsyncMutex::new(before_sleep)));
+        self
+    }
+
+    /// Fills in the first snapshot, before the session runs: what was learned of the axes before,
+    /// and the lock-out of the unit.
+    pub(in crate::driver) fn begin_with(
+        &self,
+        learned: [AxisLessons; 2],
+        lock_out: Option<LockOut>,
+    ) {
+        self.snapshots.send_modify(|first| {
+            let first = Arc::make_mut(first);
+            first.learned = learned;
+            first.locking = lock_out.is_some();
+            first.lock_out = lock_out;
+        });
+    }
+
+    /// The lock-out that was shown last.
+    pub(in crate::driver) fn shown_lock_out(&self) -> Option<LockOut> {
+        self.snapshots.borrow().lock_out.clone()
+    }
+
+    /// Sends a STOP ahead of the next command.
+    pub(in crate::driver) fn stop(&self) {
+        self.stopper.stop();
+    }
+
+    /// The newest request that a STOP has voided.
+    pub(in crate::driver) fn newest_void(&self) -> u64 {
+        self.stopper.void.load(Ordering::SeqCst)
+    }
+
+    /// Waits for a STOP that has voided a newer request than `void`.
+    pub(in crate::driver) async fn stopped_after(&self, void: u64) {
+        while self.newest_void() <= void {
+            self.stopper.stop.notified().await;
+        }
+    }
+
+    /// Sends an event to the station.
+    pub(in crate::driver) fn tell(&self, event: Event) {
+        if let Err(error) = self.events.try_send(event) {
+            tracing::warn!(%error, "nobody reads the events; one was dropped");
+        }
+        (self.wake)();
+    }
+
+    /// The next input, a STOP before anything else.
+    pub(super) async fn next(&mut self) -> Input {
+        tokio::select! {
+            biased;
+            () = self.stopper.stop.notified() => Input::Stop,
+            awake = next_sleep(self.before_sleep.as_deref()) => Input::Sleep(awake),
+            bounds = next_bounds(&mut self.bounds) => Input::Bounds(Box::new(bounds)),
+            command = next_command(&self.commands, &self.stopper) => command.map_or(Input::Over, Input::Command),
+        }
+    }
+
+    /// Voids the commands that were given before a STOP, whoever gave them.
+    pub(super) fn void_commands(&self) {
+        self.stopper.forget();
+    }
+
+    /// The present bounds of the antenna; [`Self::next`] reports later ones.
+    pub(super) fn first_bounds(&mut self) -> Bounds {
+        self.bounds.borrow_and_update().clone()
+    }
+
+    /// What was learned of the axes, also by a session that broke down.
+    pub(super) fn learned(&self) -> [AxisLessons; 2] {
+        self.snapshots.borrow().learned
+    }
+
+    pub(super) fn orbit(&self) -> Option<Arc<KnownOrbit>> {
+        self.orbit.borrow().clone()
+    }
+
+    /// Publishes a snapshot if anything in it has changed.
+    pub(super) fn publish(&self, snapshot: Snapshot) {
+        let mut is_worth_a_look = false;
+        self.snapshots.send_if_modified(|shown| {
+            let has_changed = **shown != snapshot;
+            if has_changed {
+                is_worth_a_look = !shown.shows_the_same(&snapshot);
+                *shown = Arc::new(snapshot);
+            }
+            has_changed
+        });
+        if is_worth_a_look {
+            (self.wake)();
+        }
+    }
+
+    /// Shows a lock-out that stands before the session runs.
+    pub(super) fn show_lock_out(
+        &self,
+        lock_out: Option<LockOut>,
+        is_locking: bool,
+        link: LinkState,
+    ) {
+        self.snapshots.send_modify(|shown| {
+            let shown = Arc::make_mut(shown);
+            (shown.lock_out, shown.locking, shown.link) = (lock_out, is_locking, link);
+        });
+    }
+
+    pub(super) fn log_position(&self, measured: Measured) {
+        self.positions.push(measured);
+    }
+
+    /// Passes what went over the link on to the wire log.
+    pub(super) fn log_lines(&self, lines: impl Iterator<Item = WireLine>) {
+        let mut is_awaited = false;
+        for line in lines {
+            is_awaited |= self.wire_log.push(line);
+        }
+        if is_awaited {
+            (self.wake)();
+        }
+    }
+
+    pub(super) fn stop_handle(&self) -> Arc<Notify> {
+        Arc::clone(&self.stopper.stop)
+    }
+}
+
+async fn next_sleep(before_sleep: Option<&AsyncMutex<mpsc::Receiver<Awake>>>) -> Awake {
+    if let Some(before_sleep) = before_sleep
+        && let Some(awake) = before_sleep.lock().await.recv().await
+    {
+        return awake;
+    }
+    std::future::pending().await
+}
+
+async fn next_bounds(bounds: &mut watch::Receiver<Bounds>) -> Bounds {
+    if bounds.changed().await.is_err() {
+        // The end shows as the end of the commands.
+        std::future::pending::<()>().await;
+    }
+    bounds.borrow_and_update().clone()
+}
+
+/// Returns `None` when the station is gone: commands given just before the end are not begun.
+async fn next_command(
+    commands: &AsyncMutex<mpsc::Receiver<Numbered>>,
+    stopper: &Stopper,
+) -> Option<Command> {
+    let mut commands = commands.lock().await;
+    loop {
+        let Numbered { command, number } = commands.recv().await?;
+        if commands.is_closed() {
+            return None;
+        }
+        if !command.row().void_after_stop || !stopper.is_void(number) {
+            return Some(command);
+        }
+    }
+}
