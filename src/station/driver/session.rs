@@ -6,13 +6,17 @@ mod activity;
 mod auto_track;
 mod clocks;
 mod command;
+mod commanded;
 mod contact;
+mod dead_man_watch;
 mod effect;
 mod guard;
+mod halt;
 mod hands;
 mod inside;
 mod io_loop;
 mod jog;
+mod jog_key;
 mod judging;
 mod likeness;
 mod lock_out;
@@ -49,31 +53,28 @@ mod write_settings;
 
 use std::{path::PathBuf, sync::Arc, time::Duration};
 
-use super::{
-    AntennaHandle, Clock, Dial, Orders, Wake, before_sleep::Awake, debts::Debts, gate::Gate,
-};
+use super::{AntennaHandle, Clock, Dial, Orders, Wake, debts::Debts, gate::Gate};
 use crate::{
     clock::{Instant, Moment},
     contract::driver::{Event, Preview, Snapshot, Unit},
-    device::{AxisMotion, Controller, Pointing},
+    device::{AxisMotion, Controller},
     plan::Bounds,
     station::Antenna,
 };
-use activity::Activity;
+use commanded::Commanded;
 use contact::{Contact, Pace};
 use effect::Effects;
 use guard::Guard;
 pub(super) use io_loop::{CONNECT, MIN_WAIT, WRITE, in_words};
-use jog::JogKey;
 pub use jog::LEASE as JOG_LEASE;
+use jog_key::Jog;
 use judging::Judging;
 use monitor::{Overrun, Watch};
 use owed::Owed;
 use setup::Setup;
 use standstill::{Figures, Rest};
-use step::Stepping;
 use stop::Stop;
-use supervise::{CHECKS, Check, Doubt};
+use supervise::{CHECKS, Check};
 use tracking::Tracking;
 use unit_offsets::UnitOffsets;
 pub use wires::Wires;
@@ -98,31 +99,16 @@ pub struct Session {
     wires: Wires,
     contact: Contact,
     owed: Owed,
+    commanded: Commanded,
     seen: LastSeen,
-    activity: Activity,
     /// Watch over a track that nobody asked for from here.
     unasked: Option<on_board::Watch>,
     judging: Judging,
     /// Checks that [`Session::supervise`] carries out.
     checks: &'static [Check],
-    key: JogKey,
-    guard: Guard,
-    /// Delays the computer's sleep while a motion is out that only STOP ends.
-    awake: Option<Awake>,
-    /// An action of the make was requested from here, and standstill has not been proved
-    /// since.
-    acts: bool,
-    /// A step that may not be over yet.
-    stepping: Option<Stepping>,
-    /// The direction that the operator looks at.
-    previewed: Option<Pointing>,
     stop: Stop,
-    /// A motion whose answer was lost.
-    doubt: Option<Doubt>,
     /// Offsets added to the track that the unit computes.
     unit_offsets: UnitOffsets,
-    /// Bytes of a halt, to be written before anything else.
-    stop_bytes: Vec<u8>,
 }
 
 impl Session {
@@ -163,29 +149,21 @@ impl Session {
             wires,
             contact,
             owed,
+            commanded: Commanded::new(),
             seen: LastSeen::default(),
             gate,
-            activity: Activity::Standby,
             unasked: None,
             judging: Judging::default(),
             checks: CHECKS,
-            key: JogKey::Up,
-            guard: Guard::new(None),
-            awake: None,
-            acts: false,
-            stepping: None,
-            previewed: None,
-            stop: Stop::Ready,
-            doubt: None,
+            stop: Stop::new(Guard::new(None)),
             unit_offsets: UnitOffsets::default(),
-            stop_bytes: Vec::new(),
         }
     }
 
     /// With `program` as the dead-man of motions by hand.
     #[must_use]
     pub fn guarded_by(self, program: PathBuf) -> Self {
-        Self { guard: Guard::new(Some(program)), ..self }
+        Self { stop: Stop::new(Guard::new(Some(program))), ..self }
     }
 
     fn tell(&self, event: Event) {
@@ -199,14 +177,14 @@ impl Session {
         let snapshot = Snapshot {
             link: self.contact.link().clone(),
             silent: self.contact.silence.is_reported(),
-            intent: self.activity.intent(),
-            pending: self.activity.is_pending(),
+            intent: self.commanded.activity.intent(),
+            pending: self.commanded.activity.is_pending(),
             being_judged: self.judging.is_under_way(),
             being_compared: self.recheck().is_some(),
-            aim: self.activity.aim(),
-            target: self.activity.on_board().map(|track| track.target.clone()),
+            aim: self.commanded.activity.aim(),
+            target: self.commanded.activity.on_board().map(|track| track.target.clone()),
             on_board: self.on_board_watch().map(on_board::Watch::view),
-            program_track: self.activity.last_program().map(Tracking::view),
+            program_track: self.commanded.activity.last_program().map(Tracking::view),
             unit_offsets: self.unit_offsets_view(),
             rates_deg_s: Some(self.setup.track_config().rates_deg_s()),
             unproved: self.is_unproved(),
@@ -214,15 +192,15 @@ impl Session {
             locking: self.is_being_locked_out(),
             stop: self.stop.shown(now.steady),
             runs_out: self.stop.is_under_way(),
-            unguarded: self.guard.is_missing,
+            unguarded: self.stop.guard.is_missing(),
             inside: self.inside(now),
-            sun_lifted: self.activity.program().is_some() && self.gate.lifts_sun(),
+            sun_lifted: self.commanded.activity.program().is_some() && self.gate.lifts_sun(),
             left_moving: self.owed.left_moving(),
             not_on_disk: is_pressed.then(|| self.owed.not_on_disk(now.steady)).flatten(),
-            jog: self.key.started().map(|jog| jog.rates_deg_s),
+            jog: self.commanded.key.started().map(Jog::rates_deg_s),
             stopping_way: self.stopping_way(),
             learned: self.gate.lessons(),
-            step: self.stepping.map(|stepping| stepping.steps_deg),
+            step: self.commanded.steps_deg(),
             preview: self.preview(now),
             state: self.gate.state().clone(),
             poll_period: self.gate.device().poll_period(),
@@ -232,7 +210,7 @@ impl Session {
 
     /// The way to the direction that the operator looks at.
     fn preview(&self, now: Moment) -> Option<Arc<Preview>> {
-        let to = self.previewed?;
+        let to = self.commanded.preview?;
         Some(Arc::new(Preview { to, way: self.gate.way_to(to, now) }))
     }
 
@@ -280,10 +258,8 @@ impl Session {
     fn may_move(&mut self) -> bool {
         self.turns()
             || self.gate.state().program.is_some_and(|program| program.enabled)
-            || self.activity.may_move()
+            || self.commanded.may_move()
             || (self.contact.is_unread() && self.gate.unproved_since().is_some())
-            || self.key.held().is_some()
-            || self.stepping.is_some()
             || self.gate.device().motion_under_way()
     }
 

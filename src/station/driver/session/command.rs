@@ -6,7 +6,6 @@ use super::{
     Session,
     activity::{Activity, GoTo, Leg, OnBoardStage, OnBoardTrack, Queued, Slew, SlewStage},
     contact::Wanted,
-    jog::JogKey,
 };
 use crate::{
     clock::Moment,
@@ -44,7 +43,7 @@ impl Session {
             Command::Unlock => self.unlock(),
             Command::Jog { rates_deg_s } => self.hold_jog(rates_deg_s, now),
             Command::EndJog => self.release_jog(now),
-            Command::AllowUnguarded => self.allow_unguarded(now),
+            Command::AllowUnguarded => self.stop.guard.allow_without(now.steady),
             Command::AllowWayOut => self.allow_way_out(now),
             Command::ForgetDrives => self.gate.forget_lessons(),
             Command::MoveAway => self.move_away(now),
@@ -63,7 +62,7 @@ impl Session {
                 let motion = self.setup.park_motion();
                 self.go_to(motion, Intent::Park, now);
             }
-            Command::Preview(to) => self.previewed = to,
+            Command::Preview(to) => self.commanded.preview = to,
             Command::Track(pass) => self.track(*pass, now),
             Command::TakeOver => self.take_over(now),
             Command::ProgramTrack(follow) => self.follow_as_agreed(*follow, false, now),
@@ -98,11 +97,11 @@ impl Session {
     }
 
     fn act(&mut self, act: Act, is_agreed: bool, now: Moment) {
-        let (intent, stopping) = (self.activity.intent(), self.stop.is_under_way());
+        let (intent, stopping) = (self.commanded.activity.intent(), self.stop.is_under_way());
         match self.gate.act(act, is_agreed, intent, stopping, now) {
             Ok(action) if action.moves => {
                 self.stop.forget();
-                self.acts = true;
+                self.commanded.act();
             }
             Ok(_) => {}
             Err(refusal) => self.tell(Event::NotSent(refusal)),
@@ -116,13 +115,13 @@ impl Session {
         if self.may_move() || (is_standby && self.active()) {
             self.halt_quietly(now);
         }
-        self.key = JogKey::Up;
-        self.activity = activity;
+        self.commanded.key.release();
+        self.commanded.activity = activity;
     }
 
     /// Sends a motion through the gate. Returns `false` after reporting why it was refused.
     pub(super) fn start(&mut self, motion: Motion, now: Moment) -> bool {
-        let (intent, stopping) = (self.activity.intent(), self.stop.is_under_way());
+        let (intent, stopping) = (self.commanded.activity.intent(), self.stop.is_under_way());
         match self.gate.start(motion, intent, stopping, now) {
             Ok(()) => {
                 self.stop.forget();
@@ -144,7 +143,7 @@ impl Session {
         if self.may_move() {
             self.halt_quietly(now);
         }
-        self.activity = Activity::GoTo(GoTo { parks: intent == Intent::Park, slew });
+        self.commanded.activity = Activity::GoTo(GoTo { parks: intent == Intent::Park, slew });
     }
 
     /// The way to the end of `motion`, not sent yet.
@@ -176,7 +175,8 @@ impl Session {
         }
         self.unasked = None;
         let stage = slew.map_or(OnBoardStage::LoadQueued, OnBoardStage::Slewing);
-        self.activity = Activity::OnBoardTrack(Box::new(OnBoardTrack { target, watch, stage }));
+        self.commanded.activity =
+            Activity::OnBoardTrack(Box::new(OnBoardTrack { target, watch, stage }));
     }
 
     fn take_over(&mut self, now: Moment) {
@@ -198,10 +198,11 @@ impl Session {
             return self.tell(event);
         }
         let target = watch.judge().pass().target.clone();
-        self.key = JogKey::Up;
+        self.commanded.key.release();
         let stage = OnBoardStage::Tracking;
         self.tell(Event::Tracking(target.clone()));
-        self.activity = Activity::OnBoardTrack(Box::new(OnBoardTrack { target, watch, stage }));
+        self.commanded.activity =
+            Activity::OnBoardTrack(Box::new(OnBoardTrack { target, watch, stage }));
     }
 
     /// Sends what waited for a halt to end.
@@ -209,15 +210,17 @@ impl Session {
         if self.stop.is_under_way() || self.takes_offsets_back() {
             return;
         }
-        if let Some(track) = self.activity.on_board().filter(|track| track.stage.starts_program()) {
+        if let Some(track) =
+            self.commanded.activity.on_board().filter(|track| track.stage.starts_program())
+        {
             let (judge, unit) =
                 (Arc::clone(track.watch.judge()), self.gate.state().on_board.clone());
             if !self.is_judged(&judge, &[unit]) {
                 return;
             }
         }
-        let intent = self.activity.intent();
-        let started = match self.activity.take_queued(now.steady) {
+        let intent = self.commanded.activity.intent();
+        let started = match self.commanded.activity.take_queued(now.steady) {
             None => return,
             Some(Queued::Load(target)) => self.gate.prepare(target, intent, now),
             Some(Queued::Motion(motion)) => {
@@ -232,7 +235,7 @@ impl Session {
     /// The intent cannot be carried out, or is over: back to Standby, with the reason. A halt
     /// ends what may be left of it.
     pub(super) fn give_up(&mut self, reason: Event, now: Moment) {
-        self.activity = Activity::Standby;
+        self.commanded.activity = Activity::Standby;
         self.halt_quietly(now);
         self.tell(reason);
     }
@@ -249,14 +252,14 @@ impl Session {
             // A group is read once the link is back and somebody looks. The link itself shows
             // that nothing can be asked. The I/O loop handles a disconnect.
             Command::ReadGroup(_) | Command::Ask(_) | Command::Disconnect => {}
-            Command::Preview(to) => self.previewed = to,
+            Command::Preview(to) => self.commanded.preview = to,
             Command::Connect => self.contact.want(Wanted::Yes),
             Command::LockOut(lock_out) => self.lock_out(lock_out, now),
             Command::Unlock => self.unlock(),
             // The link shows it; the keys are locked anyway.
-            Command::Jog { rates_deg_s } => self.key = JogKey::Spent(rates_deg_s),
-            Command::EndJog => self.key = JogKey::Up,
-            Command::AllowUnguarded => self.allow_unguarded(now),
+            Command::Jog { rates_deg_s } => self.commanded.key.spend_rates(rates_deg_s),
+            Command::EndJog => self.commanded.key.release(),
+            Command::AllowUnguarded => self.stop.guard.allow_without(now.steady),
             Command::AllowWayOut => self.allow_way_out(now),
             Command::ForgetDrives => self.gate.forget_lessons(),
             Command::SeenStanding => self.take_word_for_standstill(),

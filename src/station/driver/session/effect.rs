@@ -149,8 +149,8 @@ impl Session {
 
     /// Stops a motion that has no effect, and reports it.
     pub(super) fn end_without_effect(&mut self, axis: Option<Name>, now: Moment) {
-        if self.key.held().is_some() {
-            self.key.spend();
+        if self.commanded.key.held().is_some() {
+            self.commanded.key.spend();
             self.halt_quietly(now);
         } else {
             self.halt(now);
@@ -162,8 +162,9 @@ impl Session {
         if self.stop.is_under_way() || !self.contact.is_open() {
             return [None; 2];
         }
-        if let Some(jog) = self.key.started() {
-            let rates = jog.rates_deg_s.into_iter().zip(self.is_at_own_end(look, jog.rates_deg_s));
+        if let Some(jog) = self.commanded.key.started() {
+            let rates =
+                jog.rates_deg_s().into_iter().zip(self.is_at_own_end(look, jog.rates_deg_s()));
             let mut expected = [None; 2];
             let axes = look.axes.iter().zip(self.seen.effects.axes);
             for ((expected, (rate, is_at_end)), (axis, effect)) in
@@ -177,10 +178,11 @@ impl Session {
             return expected;
         }
         let is_slew = self
+            .commanded
             .activity
             .slew()
             .is_some_and(|slew| matches!(slew.stage, SlewStage::UnderWay { .. }));
-        let is_track = matches!(self.activity, Activity::ProgramTrack(_));
+        let is_track = matches!(self.commanded.activity, Activity::ProgramTrack(_));
         if !is_slew && !is_track {
             return [None; 2];
         }

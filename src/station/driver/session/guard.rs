@@ -2,10 +2,8 @@
 
 use std::{io, path::PathBuf, time::Duration};
 
-use super::Session;
 use crate::{
-    clock::{Instant, Moment},
-    contract::driver::{Event, Refusal, Safety},
+    clock::Instant,
     driver::{
         Stream,
         dead_man::{BEAT, DeadMan},
@@ -23,7 +21,7 @@ pub(super) struct Guard {
     line: GuardedLink,
     armed: Option<DeadMan>,
     /// No child could be had the last time one was needed.
-    pub(super) is_missing: bool,
+    is_missing: bool,
     /// Until then the operator allows motions by hand without one.
     allowed_until: Option<Instant>,
 }
@@ -70,6 +68,50 @@ impl Guard {
         }
     }
 
+    /// No child could be had the last time one was needed.
+    pub(super) fn is_missing(&self) -> bool {
+        self.is_missing
+    }
+
+    /// Arms the dead-man, unless it is armed already.
+    pub(super) fn ensure_armed(&mut self, now: Instant) -> io::Result<()> {
+        if self.armed.is_some() {
+            return Ok(());
+        }
+        let armed = self.arm(now);
+        self.is_missing = armed.is_err();
+        armed
+    }
+
+    /// The operator allows motions by hand without a dead-man, for a minute.
+    pub(super) fn allow_without(&mut self, now: Instant) {
+        self.allowed_until = Some(now + ALLOWED);
+    }
+
+    pub(super) fn is_allowed_without(&self, now: Instant) -> bool {
+        self.allowed_until.is_some_and(|end| now < end)
+    }
+
+    /// Beats, and ends the child when nothing can move any more. `lives`: the lease holds, or a
+    /// halt is under way. Returns `false` if the child has sent STOP.
+    pub(super) fn beat(&mut self, may_move: bool, lives: bool, now: Instant) -> bool {
+        let Some(dead_man) = &mut self.armed else { return true };
+        if !may_move {
+            self.disarm();
+            return true;
+        }
+        if lives && !dead_man.beat(now) {
+            self.armed = None;
+            return false;
+        }
+        true
+    }
+
+    /// When the next beat is due.
+    pub(super) fn due(&self) -> Option<Instant> {
+        self.armed.as_ref().map(DeadMan::due)
+    }
+
     fn arm(&mut self, now: Instant) -> io::Result<()> {
         let (link, stop) = match &self.line {
             GuardedLink::InProcess => return Ok(()),
@@ -92,45 +134,6 @@ fn copy(link: &Duplicate) -> io::Result<Duplicate> {
 #[cfg(not(unix))]
 fn copy(link: &Duplicate) -> io::Result<Duplicate> {
     match *link {}
-}
-
-impl Session {
-    /// Arms the dead-man before a motion that only a STOP would end.
-    pub(super) fn arm_dead_man(&mut self, now: Moment) -> Result<(), Refusal> {
-        if self.setup.can().ends_jogs || self.guard.armed.is_some() {
-            return Ok(());
-        }
-        let armed = self.guard.arm(now.steady);
-        self.guard.is_missing = armed.is_err();
-        let Err(error) = armed else { return Ok(()) };
-        tracing::error!(antenna = self.setup.name(), %error, "no dead-man");
-        let is_allowed = self.guard.allowed_until.is_some_and(|until| now.steady < until);
-        if is_allowed { Ok(()) } else { Err(Refusal::Unguarded) }
-    }
-
-    /// The operator allows motions by hand without a dead-man, for a minute.
-    pub(super) fn allow_unguarded(&mut self, now: Moment) {
-        self.guard.allowed_until = Some(now.steady + ALLOWED);
-    }
-
-    /// Beats while the lease holds or a halt is under way, and ends the child when nothing can
-    /// move any more.
-    pub(super) fn beat(&mut self, now: Moment) {
-        let Some(dead_man) = &mut self.guard.armed else { return };
-        if self.key.held().is_none() && !self.stop.is_under_way() {
-            return self.guard.disarm();
-        }
-        let lease_holds = self.key.held().is_some_and(|jog| now.steady < jog.until);
-        if (lease_holds || self.stop.is_under_way()) && !dead_man.beat(now.steady) {
-            self.guard.armed = None;
-            self.halt(now);
-            self.tell(Event::Safety(Safety::DeadManFired));
-        }
-    }
-
-    pub(super) fn beat_due(&self) -> Option<Instant> {
-        self.guard.armed.as_ref().map(DeadMan::due)
-    }
 }
 
 // A beat may be late by one turn of the loop.

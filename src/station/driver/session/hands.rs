@@ -9,7 +9,7 @@ use crate::{
 
 impl Session {
     fn asks_to_resume(&self) -> bool {
-        self.activity.program().is_some_and(Tracking::asks)
+        self.commanded.activity.program().is_some_and(Tracking::asks)
     }
 
     /// Ends a motion of Azel on an antenna that somebody else has moved: two must not work against
@@ -18,14 +18,14 @@ impl Session {
         let Some(Foreign { axis, evidence }) = self.gate.look_for_hands(now) else { return };
         let axis = self.setup.axis_name(axis);
         let event = Event::Safety(Safety::ForeignHands { axis, evidence });
-        if self.key.held().is_some() {
-            self.key.spend();
+        if self.commanded.key.held().is_some() {
+            self.commanded.key.spend();
             self.halt_quietly(now);
             self.tell(event);
         } else if self.asks_to_resume() {
             // The operator's answer still counts.
             self.tell(event);
-        } else if self.activity.may_move() || self.stepping.is_some() {
+        } else if self.commanded.activity.may_move() || self.commanded.steps_deg().is_some() {
             self.give_up(event, now);
         } else {
             self.tell(event);

@@ -64,8 +64,11 @@ impl Session {
     /// The bounds that apply to the present activity.
     pub(super) fn bounds_now(&self) -> &Bounds {
         // Only program track may lead to the Sun.
-        let intent =
-            if self.activity.program().is_some() { Intent::Track } else { Intent::Standby };
+        let intent = if self.commanded.activity.program().is_some() {
+            Intent::Track
+        } else {
+            Intent::Standby
+        };
         self.gate.bounds_in(intent)
     }
 

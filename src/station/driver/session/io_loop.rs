@@ -50,7 +50,7 @@ impl Session {
                 break;
             }
         }
-        if self.stop.is_under_way() || self.key.held().is_some() {
+        if self.stop.is_under_way() || self.commanded.key.held().is_some() {
             self.mark_debt().await;
             let now = self.now();
             self.halt_quietly(now);
@@ -129,12 +129,12 @@ impl Session {
     async fn pause(&mut self, loss: LinkLoss, wait: Duration) -> Option<()> {
         let now = self.now();
         self.tell_silence_of_lost_link();
-        let jogs = self.key.started().is_some();
-        self.key.spend();
+        let jogs = self.commanded.key.started().is_some();
+        self.commanded.key.spend();
         if jogs {
             self.halt_quietly(now);
         }
-        self.activity.drop_queued(now.steady);
+        self.commanded.activity.drop_queued(now.steady);
         self.judging.drop_waiting();
         let clock = self.clock.clone();
         let mut retry_at = now.steady + wait;
@@ -202,9 +202,9 @@ impl Session {
         // request.
         let now = self.now();
         let stop = self.gate.device().halt(Extent::Everything, now);
-        self.guard.link_up(&*stream, &stop);
+        self.stop.guard.link_up(&*stream, &stop);
         let end = self.talk_over(stream).await;
-        self.guard.link_down();
+        self.stop.guard.link_down();
         end
     }
 
@@ -214,7 +214,7 @@ impl Session {
         let start = self.now();
         self.gate.device().link_up(start);
         self.owed.auto_track_asked(None);
-        self.stop_bytes.clear();
+        drop(self.stop.take_bytes());
         if let Some(extent) = self.stop.extent() {
             self.queue_halt(extent, start);
         }
@@ -248,7 +248,7 @@ impl Session {
             // The effects of the last bytes go out without a wait. A controller that is always
             // due must not keep out the next command.
             hurries = !hurries && self.gate.device().due(now) <= now.steady;
-            if hurries || !self.stop_bytes.is_empty() {
+            if hurries || self.stop.has_bytes() {
                 continue;
             }
             let input = self.wait(&mut reader, &mut buffer).await;
@@ -292,7 +292,7 @@ impl Session {
         &mut self,
         writer: &mut WriteHalf<Box<dyn Stream>>,
     ) -> Result<(), LinkLoss> {
-        let bytes = std::mem::take(&mut self.stop_bytes);
+        let bytes = self.stop.take_bytes();
         if !bytes.is_empty() {
             write(&self.clock, writer, &bytes).await?;
             let now = self.now();

@@ -198,7 +198,7 @@ impl Session {
                 return;
             }
         };
-        let Some(track) = self.activity.program_mut() else { return };
+        let Some(track) = self.commanded.activity.program_mut() else { return };
         track.next_update = now.steady;
         if let Some(Err(error)) = planned.map(|planned| track.planner.take_path(*planned)) {
             self.end_follow(TrackProblem::Orbit(error), now);

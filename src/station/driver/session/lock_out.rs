@@ -41,7 +41,7 @@ impl Session {
                 self.contact.want(Wanted::ForStop);
             }
         }
-        self.activity = Activity::Standby;
+        self.commanded.activity = Activity::Standby;
         self.put_lock_out(lock_out, now);
         self.leave_panel();
         if self.setup.can().has_program && !self.contact.is_open() {

@@ -2,10 +2,7 @@
 
 use std::{collections::VecDeque, time::Duration};
 
-use super::{
-    Session,
-    activity::{Activity, SlewStage},
-};
+use super::Session;
 use crate::{
     astro::Angle,
     clock::{Instant, Moment},
@@ -253,7 +250,7 @@ impl Session {
         // Azel always stops its own requests, including on-board tracks: it started them, so the
         // station's setting for other people's motions does not apply.
         let is_requested =
-            driver == Mover::Azel || (self.activity.on_board().is_some() && !is_floor);
+            driver == Mover::Azel || (self.commanded.activity.on_board().is_some() && !is_floor);
         let stops = (enters || goes_deeper)
             && !here.warns_only
             && (is_requested || self.setup.stops_others());
@@ -270,19 +267,8 @@ impl Session {
     }
 
     fn mover(&self) -> Mover {
-        let state = self.gate.state();
-        let by_azel = match &self.activity {
-            Activity::ProgramTrack(_) => true,
-            _ => self.activity.slew().is_some_and(|slew| !matches!(slew.stage, SlewStage::Over)),
-        };
-        let by_azel = by_azel || self.acts || self.key.held().is_some() || self.stepping.is_some();
-        if by_azel {
-            Mover::Azel
-        } else if state.program.is_some_and(|program| program.enabled) {
-            Mover::Program
-        } else {
-            Mover::Somebody
-        }
+        let program = self.gate.state().program;
+        self.commanded.mover(program.is_some_and(|program| program.enabled))
     }
 }
 
@@ -366,7 +352,7 @@ impl Session {
 
     fn rates_now(&self) -> Option<[f64; 2]> {
         // Other motions may be slowing down already.
-        self.key.started().map(|_| self.seen.watch.rates_deg_s)
+        self.commanded.key.started().map(|_| self.seen.watch.rates_deg_s)
     }
 
     /// The overrun, as far as it is known.

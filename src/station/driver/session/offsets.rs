@@ -13,7 +13,7 @@ const MAX_UNDO: usize = 100;
 
 impl Session {
     pub(super) fn change_offsets(&mut self, change: OffsetChange, now: Moment) {
-        let changed = if self.activity.program().is_some() {
+        let changed = if self.commanded.activity.program().is_some() {
             self.try_offsets(change, now)
         } else {
             self.change_unit_offsets(change, now)
@@ -25,13 +25,13 @@ impl Session {
 
     /// The passes of the track that are still to come begin with these.
     pub(super) fn begin_with(&mut self, offsets: TrackOffsets) {
-        if let Some(track) = self.activity.program_mut() {
+        if let Some(track) = self.commanded.activity.program_mut() {
             track.planner.begin_with(offsets);
         }
     }
 
     fn try_offsets(&mut self, change: OffsetChange, now: Moment) -> Result<(), Refusal> {
-        let track = self.activity.program().ok_or(Refusal::NoTrack)?;
+        let track = self.commanded.activity.program().ok_or(Refusal::NoTrack)?;
         let before = track.planner.offsets();
         let offsets = match change {
             OffsetChange::Step(step) => {
@@ -57,7 +57,7 @@ impl Session {
             }
             return Err(refusal);
         }
-        let Some(track) = self.activity.program_mut() else { return Ok(()) };
+        let Some(track) = self.commanded.activity.program_mut() else { return Ok(()) };
         match change {
             OffsetChange::Undo => drop(track.earlier.pop()),
             OffsetChange::Step(_) | OffsetChange::Zero if offsets == before => {}
@@ -75,7 +75,7 @@ impl Session {
     /// Checks the way to the next position of the track.
     fn check_next(&mut self, now: Moment) -> Result<(), Refusal> {
         let axes = Tracking::turning(self.gate.state().measured);
-        let Some(track) = self.activity.program_mut() else { return Ok(()) };
+        let Some(track) = self.commanded.activity.program_mut() else { return Ok(()) };
         let order = self.judging.open_order(&mut track.planner, axes, now);
         if let Some(order) = order.map_err(|_| Refusal::PassUnknown)? {
             self.plan(order);
@@ -98,7 +98,7 @@ impl Session {
     }
 
     fn take_offsets(&mut self, offsets: TrackOffsets, now: Moment) {
-        if let Some(track) = self.activity.program_mut() {
+        if let Some(track) = self.commanded.activity.program_mut() {
             track.planner.set_offsets(offsets);
         }
         self.watch_offsets(now);
@@ -106,7 +106,7 @@ impl Session {
 
     /// Tells the gate where the axes point on the sky.
     pub(super) fn watch_offsets(&mut self, now: Moment) {
-        let track = self.activity.program();
+        let track = self.commanded.activity.program();
         let to_sky = track.and_then(|track| {
             track.planner.to_sky(track.phase.begins(now.utc), track.planner.offsets())
         });

@@ -54,7 +54,7 @@ impl Session {
 
     /// The objection to the pass now that the unit holds it and has been read again.
     pub(super) fn objection_to_pass(&mut self) -> Option<Event> {
-        let watch = &mut self.activity.on_board_mut()?.watch;
+        let watch = &mut self.commanded.activity.on_board_mut()?.watch;
         watch.judge_again(&self.gate.state().on_board, true);
         watch.objection()
     }
@@ -90,7 +90,7 @@ impl Session {
 
     /// The watch over the on-board track, whoever asked for it.
     pub(super) fn on_board_watch(&self) -> Option<&Watch> {
-        self.activity.on_board().map(|track| &track.watch).or(self.unasked.as_ref())
+        self.commanded.activity.on_board().map(|track| &track.watch).or(self.unasked.as_ref())
     }
 
     /// Begins or ends the watch over a track that nobody asked for from here.
@@ -98,7 +98,8 @@ impl Session {
         let state = self.gate.state();
         let is_on =
             !self.contact.is_unread() && state.program.is_some_and(|program| program.enabled);
-        let orbit = self.wires.orbit().filter(|_| is_on && self.activity.program().is_none());
+        let orbit =
+            self.wires.orbit().filter(|_| is_on && self.commanded.activity.program().is_none());
         let Some(pass) = orbit.and_then(|orbit| orbit.pass_of(&state.on_board)) else {
             self.unasked = None;
             return;
@@ -117,23 +118,27 @@ impl Session {
         let program = self.gate.state().program;
         let tracks = program.is_some_and(|program| program.phase == Phase::Tracking);
         let can_point = tracks && self.gate.reaches(to, now);
-        let Some(track) = self.activity.on_board_mut() else { return false };
+        let Some(track) = self.commanded.activity.on_board_mut() else { return false };
         track.watch.stands_still(measured, to, can_point, figures, can)
     }
 
     /// The watch over the on-board track, whoever asked for it.
     fn on_board_watch_mut(&mut self) -> Option<&mut Watch> {
-        self.activity.on_board_mut().map(|track| &mut track.watch).or(self.unasked.as_mut())
+        self.commanded
+            .activity
+            .on_board_mut()
+            .map(|track| &mut track.watch)
+            .or(self.unasked.as_mut())
     }
 
     /// Checks whether the unit points where it should.
     pub(super) fn watch_on_board(&mut self, now: Moment) {
-        if self.activity.on_board().is_none() {
+        if self.commanded.activity.on_board().is_none() {
             self.watch_unasked();
         }
         let state = self.gate.state();
         let is_on = state.program.is_some_and(|program| program.enabled);
-        if !is_on || self.activity.is_pending() {
+        if !is_on || self.commanded.activity.is_pending() {
             return;
         }
         let (unit, meant, measured) = (self.plain_unit(), self.meant_offsets(), state.measured);

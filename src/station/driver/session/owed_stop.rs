@@ -30,7 +30,7 @@ impl Session {
             let progress = self.owed.follow_mark(now);
             self.tell_failed_mark(progress);
         }
-        if self.stop.is_under_way() || self.key.started().is_some() {
+        if self.stop.is_under_way() || self.commanded.key.started().is_some() {
             self.owed.refresh_mark(now);
         }
     }

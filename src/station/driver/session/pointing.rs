@@ -9,7 +9,7 @@ use crate::{
 impl Session {
     /// Stops an antenna that stays off its target for too long.
     pub(super) fn watch_pointing(&mut self, now: Moment) {
-        let off_target = match &self.activity {
+        let off_target = match &self.commanded.activity {
             Activity::ProgramTrack(track) => track.off_target,
             // The operator knows that the unit may miss this pass.
             Activity::OnBoardTrack(track) if track.watch.judge().pass().is_agreed => return,
@@ -17,7 +17,7 @@ impl Session {
             Activity::Standby | Activity::Manual | Activity::Hold(_) | Activity::GoTo(_) => return,
         };
         if let Some(off) = off_target.hopeless() {
-            let cause = self.activity.on_board().and_then(|track| track.watch.cause(off));
+            let cause = self.commanded.activity.on_board().and_then(|track| track.watch.cause(off));
             let cause = cause.map(|cause| Box::new(OffTargetCause::Reported(cause)));
             let off_deg = off.degrees();
             self.give_up(Event::Safety(Safety::OffTarget { off_deg, cause }), now);

@@ -70,12 +70,12 @@ impl Session {
             }
         };
         // From one target to another no stop is needed.
-        if self.activity.last_program().is_none() && self.may_move() {
+        if self.commanded.activity.last_program().is_none() && self.may_move() {
             self.halt_quietly(now);
         }
         self.gate.begin_track();
         let track = Tracking::new(planner, phase, now.steady);
-        self.activity = Activity::ProgramTrack(Box::new(track));
+        self.commanded.activity = Activity::ProgramTrack(Box::new(track));
         self.tell_phase(phase, name);
         Ok(())
     }
@@ -103,14 +103,15 @@ impl Session {
 
     /// Returns `true` while the target is up and tracked.
     pub(super) fn follows_now(&self) -> bool {
-        self.activity
+        self.commanded
+            .activity
             .program()
             .is_some_and(|it| it.phase == TrackPhase::Tracking && !it.awaits_operator)
     }
 
     /// When the clock calls for the next look.
     pub(super) fn follow_due(&self) -> Option<Instant> {
-        let track = self.activity.program()?;
+        let track = self.commanded.activity.program()?;
         (!track.is_held_up).then_some(track.next_update)
     }
 
@@ -120,7 +121,7 @@ impl Session {
         let half_beam = self.setup.ability().half_beam;
         let on_target = self.setup.on_target(self.figures());
         let axis_count = self.setup.can().axis_count();
-        let Some(track) = self.activity.program_mut() else { return };
+        let Some(track) = self.commanded.activity.program_mut() else { return };
         if let Some(measured) = measured {
             track.compare(measured, axis_count, half_beam, on_target);
             // Known for the next target, too.
@@ -138,7 +139,7 @@ impl Session {
     }
 
     fn enter_phase(&mut self, phase: TrackPhase, now: Moment) {
-        let Some(track) = self.activity.program_mut() else { return };
+        let Some(track) = self.commanded.activity.program_mut() else { return };
         let name = track.name();
         let before = std::mem::replace(&mut track.phase, phase);
         let mut over = None;
@@ -166,12 +167,13 @@ impl Session {
 
     /// Ends the track after its last pass. Does not park an antenna that waits for the operator.
     fn end_program(&mut self, now: Moment) {
-        let awaits = (self.activity.program())
+        let awaits = (self.commanded.activity.program())
             .is_some_and(|track| track.awaits_operator || track.recheck.is_some());
-        self.activity = match std::mem::replace(&mut self.activity, Activity::Standby) {
-            Activity::ProgramTrack(track) => Activity::Hold(Some(track)),
-            activity => activity,
-        };
+        self.commanded.activity =
+            match std::mem::replace(&mut self.commanded.activity, Activity::Standby) {
+                Activity::ProgramTrack(track) => Activity::Hold(Some(track)),
+                activity => activity,
+            };
         if self.setup.track_config().settings.after == AfterPass::Park && !awaits {
             self.carry_out(Command::Park, now);
         }
@@ -180,11 +182,11 @@ impl Session {
     /// Sends the next position when it is due.
     fn update_program(&mut self, now: Moment) {
         let is_busy = self.stop.is_under_way()
-            || self.doubt.is_some()
+            || self.commanded.is_in_doubt()
             || self.contact.is_unread()
             || self.gate.device().motion_under_way();
         let measured = self.gate.state().measured.filter(|_| !is_busy);
-        let Some(track) = self.activity.program_mut() else { return };
+        let Some(track) = self.commanded.activity.program_mut() else { return };
         if now.steady < track.next_update {
             return;
         }
@@ -220,7 +222,7 @@ impl Session {
             Ok(route) => {
                 let aim = self.gate.aim(&route.first);
                 self.stop.forget();
-                let Some(track) = self.activity.program_mut() else { return };
+                let Some(track) = self.commanded.activity.program_mut() else { return };
                 // The leg round a corner is looked at again until the way is free.
                 if route.then.is_none() {
                     track.planner.sent(next);
@@ -235,7 +237,7 @@ impl Session {
             }
             // It waits at the edge, and goes on once the way is free.
             Err(Refusal::Forbidden { barrier, at }) => {
-                let Some(track) = self.activity.program_mut() else { return };
+                let Some(track) = self.commanded.activity.program_mut() else { return };
                 // Looking for a way takes time that other antennas need, too.
                 track.next_update = track.next_update.max(now.steady + BLOCKED);
                 if !std::mem::replace(&mut track.barrier_is_told, true) {
@@ -255,13 +257,13 @@ impl Session {
     }
 
     pub(super) fn end_follow(&mut self, problem: TrackProblem, now: Moment) {
-        let Some(name) = self.activity.program().map(Tracking::name) else { return };
+        let Some(name) = self.commanded.activity.program().map(Tracking::name) else { return };
         self.give_up(Event::CannotProgramTrack(name, problem), now);
     }
 
     /// A position was not answered and had no effect. Returns `true` if another may be sent.
     pub(super) fn may_send_another(&mut self) -> bool {
-        let Some(track) = self.activity.last_program_mut() else { return false };
+        let Some(track) = self.commanded.activity.last_program_mut() else { return false };
         track.lost += 1;
         track.planner.forget_sent();
         track.lost < MAX_LOST
@@ -269,14 +271,14 @@ impl Session {
 
     /// Plans the next position of these axes from where they are, whatever was sent before.
     pub(super) fn plan_anew(&mut self, axes: [bool; 2]) {
-        if let Some(track) = self.activity.last_program_mut() {
+        if let Some(track) = self.commanded.activity.last_program_mut() {
             track.planner.forget_sent_of(axes);
         }
     }
 
     /// The unit accepted a position.
     pub(super) fn position_taken(&mut self) {
-        if let Some(track) = self.activity.last_program_mut() {
+        if let Some(track) = self.commanded.activity.last_program_mut() {
             track.lost = 0;
         }
     }
@@ -284,7 +286,7 @@ impl Session {
     /// New bounds of the antenna.
     pub(super) fn keep_within(&mut self, bounds: Bounds) {
         self.gate.keep_within(bounds);
-        if let Some(track) = self.activity.program_mut() {
+        if let Some(track) = self.commanded.activity.program_mut() {
             track.planner.keep_within(self.gate.bounds_in(Intent::Track).clone());
         }
     }
@@ -292,7 +294,7 @@ impl Session {
     /// The unit was read anew after it was out of reach for `lost`: commands from the earlier
     /// link may be lost, and somebody may have gone to the antenna.
     pub(super) fn follow_on(&mut self, lost: Duration, now: Moment) {
-        let Some(track) = self.activity.program_mut() else { return };
+        let Some(track) = self.commanded.activity.program_mut() else { return };
         track.planner.forget_sent();
         track.sent = None;
         // A comparison that is pending stays pending.
@@ -307,13 +309,13 @@ impl Session {
         if self.setup.asks_to_resume() {
             return self.await_word(lost, None);
         }
-        if let Some(track) = self.activity.program_mut() {
+        if let Some(track) = self.commanded.activity.program_mut() {
             track.recheck = Some(Recheck { since: now.steady, lost });
         }
     }
 
     pub(super) fn await_word(&mut self, lost: Duration, unlike: Option<Unlike>) {
-        let Some(track) = self.activity.program_mut() else { return };
+        let Some(track) = self.commanded.activity.program_mut() else { return };
         track.awaits_operator = true;
         let name = track.name();
         self.tell(Event::Safety(Safety::AsksToResume { name, lost, unlike }));
@@ -321,13 +323,13 @@ impl Session {
 
     /// Stops the antenna and keeps its target until the operator decides.
     pub(super) fn suspend_following(&mut self, lost: Duration, now: Moment) {
-        if self.activity.program().is_none() {
+        if self.commanded.activity.program().is_none() {
             return;
         }
-        let program = std::mem::replace(&mut self.activity, Activity::Standby);
+        let program = std::mem::replace(&mut self.commanded.activity, Activity::Standby);
         self.halt_quietly(now);
-        self.activity = program;
-        if let Some(tracking) = self.activity.program_mut() {
+        self.commanded.activity = program;
+        if let Some(tracking) = self.commanded.activity.program_mut() {
             tracking.aim = None;
         }
         self.await_word(lost, None);
@@ -335,7 +337,7 @@ impl Session {
 
     /// The operator lets it go on.
     pub(super) fn resume(&mut self) {
-        if let Some(track) = self.activity.program_mut() {
+        if let Some(track) = self.commanded.activity.program_mut() {
             track.awaits_operator = false;
             track.recheck = None;
             track.planner.forget_sent();

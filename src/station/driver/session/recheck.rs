@@ -20,7 +20,7 @@ impl Session {
 
     /// The comparison that is pending.
     pub(super) fn recheck(&self) -> Option<Recheck> {
-        let track = self.activity.program().and_then(|track| track.recheck);
+        let track = self.commanded.activity.program().and_then(|track| track.recheck);
         track.or(self.contact.comparison.pending())
     }
 
@@ -34,7 +34,7 @@ impl Session {
             return;
         }
         self.contact.comparison.end();
-        let track = self.activity.program_mut().and_then(|track| track.recheck.take());
+        let track = self.commanded.activity.program_mut().and_then(|track| track.recheck.take());
         match (compared, track) {
             (Compared::Pending | Compared::AsBefore, _) => {}
             (Compared::Unlike(unlike), Some(_)) => self.await_word(lost, Some(unlike)),

@@ -22,9 +22,9 @@ impl Session {
         writer: &mut WriteHalf<Box<dyn Stream>>,
     ) {
         let start = self.now();
-        let is_held = self.key.held().is_some();
-        self.key.end();
-        if is_held || self.activity.is_queued() {
+        let is_held = self.commanded.key.held().is_some();
+        self.commanded.key.end();
+        if is_held || self.commanded.activity.is_queued() {
             self.halt_quietly(start);
         }
         let mut buffer = [0; 4096];

@@ -1,6 +1,6 @@
 //! Ends what must not go on while the computer sleeps, or after its clock was set.
 
-use super::{Session, jog::JogKey};
+use super::Session;
 use crate::{
     clock::Moment,
     contract::driver::{Event, LinkLoss, Safety},
@@ -10,21 +10,19 @@ use crate::{
 impl Session {
     /// Ends motions by hand: during the sleep nothing would.
     pub(super) fn before_sleep(&mut self, awake: Awake, now: Moment) {
-        if let Some(jog) = self.key.held() {
-            let rates_deg_s = jog.rates_deg_s;
+        if let Some(jog) = self.commanded.key.held() {
+            let rates_deg_s = jog.rates_deg_s();
             self.halt_quietly(now);
-            self.key = JogKey::Spent(rates_deg_s);
+            self.commanded.key.spend_rates(rates_deg_s);
             self.tell(Event::Safety(Safety::EndedForSleep));
         }
-        self.awake = Some(awake);
+        self.stop.keep_awake(awake);
         self.let_sleep(now);
     }
 
     /// Lets the computer sleep once no halt is under way.
     pub(super) fn let_sleep(&mut self, _: Moment) {
-        if !self.stop.is_under_way() {
-            self.awake = None;
-        }
+        self.stop.let_sleep();
     }
 
     /// Compares the clocks with each other. After a sleep the link is opened anew: old

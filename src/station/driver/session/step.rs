@@ -2,42 +2,27 @@
 
 use super::Session;
 use crate::{
-    clock::{Instant, Moment},
+    clock::Moment,
     contract::driver::{Event, Refusal},
     device::Motion,
 };
-
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Stepping {
-    /// Signed amounts of the two axes, degrees.
-    pub(super) steps_deg: [f64; 2],
-    since: Instant,
-}
 
 impl Session {
     /// Refused while the antenna moves, or the last step may still begin to.
     pub(super) fn step(&mut self, steps_deg: [f64; 2], now: Moment) {
         let [x_deg, y_deg] = steps_deg;
         let motion = Motion::Step { x_deg, y_deg };
-        let allowed = self.gate.check(motion, self.activity.intent(), now);
+        let allowed = self.gate.check(motion, self.commanded.activity.intent(), now);
         if allowed.is_ok() && !self.stop.is_under_way() && self.may_move() {
             self.tell(Event::NotSent(Refusal::StillMoving));
         } else if self.start(motion, now) {
-            self.stepping = Some(Stepping { steps_deg, since: now.steady });
+            self.commanded.begin_step(steps_deg, now.steady);
         }
     }
 
     /// A step is over when a state that was asked for after it shows standstill.
     pub(super) fn watch_step(&mut self, _: Moment) {
-        let Some(stepping) = self.stepping else { return };
         let waits = self.gate.device().motion_under_way();
-        let stands = self
-            .gate
-            .state()
-            .measured
-            .is_some_and(|measured| measured.asked > stepping.since && !measured.moving());
-        if stands && !waits {
-            self.stepping = None;
-        }
+        self.commanded.follow_step(self.gate.state().measured, waits);
     }
 }

@@ -3,14 +3,14 @@
 use std::time::Duration;
 
 use super::{
-    Session,
-    activity::Activity,
+    guard::Guard,
     standstill::{Figures, Looks, Proof},
 };
 use crate::{
-    clock::{Instant, Moment},
-    contract::driver::{Event, Safety, StopState},
-    device::Extent,
+    clock::Instant,
+    contract::driver::StopState,
+    device::{AntennaState, Extent},
+    driver::before_sleep::Awake,
 };
 
 /// A halt that is not proved by then is reported.
@@ -21,7 +21,7 @@ const BEYOND_PROOF: Duration = Duration::from_secs(1);
 const SHOWN: Duration = Duration::from_secs(10);
 
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Halting {
+struct Halting {
     since: Instant,
     /// The positions asked for since it was sent.
     looks: Looks,
@@ -31,7 +31,7 @@ pub(super) struct Halting {
     /// The operator pressed STOP; otherwise it ends a motion.
     pressed: bool,
     /// Azel has reported that standstill is not proved.
-    told: bool,
+    is_reported: bool,
 }
 
 impl Halting {
@@ -41,16 +41,16 @@ impl Halting {
 
     /// Time from STOP until Azel reports that standstill is not proved. While all positions agree,
     /// only late replies delay the proof.
-    fn told_after(&self, figures: Figures) -> Duration {
-        let usual = PROOF.max(figures.gap() + BEYOND_PROOF);
-        if self.looks.want_stop() { usual } else { usual + BEYOND_PROOF }
+    fn reported_after(&self, figures: Figures) -> Duration {
+        let default = PROOF.max(figures.gap() + BEYOND_PROOF);
+        if self.looks.want_stop() { default } else { default + BEYOND_PROOF }
     }
 }
 
-/// STOP of an antenna, pressed or at the end of a motion.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) enum Stop {
+#[derive(Debug, Clone, PartialEq, Default)]
+enum Stage {
     /// No halt is under way.
+    #[default]
     Ready,
     /// Sent, and standstill is not proved.
     UnderWay(Box<Halting>),
@@ -58,14 +58,47 @@ pub(super) enum Stop {
     Proved { at: Instant },
 }
 
+/// What a look at a halt calls for.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(super) struct HaltLook {
+    /// The halt is over.
+    pub(super) proof: Option<Proof>,
+    /// The halt must be sent again.
+    pub(super) send_again: Option<Extent>,
+    /// Another position must be requested.
+    pub(super) asks_position: bool,
+    /// The operator must know that standstill is not proved.
+    pub(super) is_overdue: bool,
+}
+
+/// STOP of an antenna, pressed or at the end of a motion.
+pub(super) struct Stop {
+    stage: Stage,
+    /// Bytes of a halt, to be written before anything else.
+    bytes: Vec<u8>,
+    /// Delays the computer's sleep while a halt is under way.
+    awake: Option<Awake>,
+    pub(super) guard: Guard,
+}
+
 impl Stop {
+    pub(super) fn new(guard: Guard) -> Self {
+        Self { stage: Stage::Ready, bytes: Vec::new(), awake: None, guard }
+    }
+
     pub(super) fn is_under_way(&self) -> bool {
-        matches!(self, Self::UnderWay(_))
+        matches!(self.stage, Stage::UnderWay(_))
     }
 
     /// Returns `true` while a STOP that the operator pressed is not proved.
     pub(super) fn is_pressed(&self) -> bool {
         self.halting().is_some_and(|halting| halting.pressed)
+    }
+
+    /// Returns `true` unless a halt is under way that is not overdue yet: until then the axes may
+    /// run out.
+    pub(super) fn has_run_out(&self) -> bool {
+        self.halting().is_none_or(|halting| halting.is_reported)
     }
 
     /// Extent with which to send the current halt again.
@@ -74,212 +107,193 @@ impl Stop {
     }
 
     fn halting(&self) -> Option<&Halting> {
-        match self {
-            Self::UnderWay(halting) => Some(halting),
-            Self::Ready | Self::Proved { .. } => None,
+        match &self.stage {
+            Stage::UnderWay(halting) => Some(halting),
+            Stage::Ready | Stage::Proved { .. } => None,
         }
     }
 
     pub(super) fn shown(&self, now: Instant) -> StopState {
-        match self {
-            Self::UnderWay(halting) if halting.told => {
+        match &self.stage {
+            Stage::UnderWay(halting) if halting.is_reported => {
                 StopState::NotConfirmed { since: halting.since }
             }
-            Self::UnderWay(halting) if halting.pressed => {
+            Stage::UnderWay(halting) if halting.pressed => {
                 StopState::Stopping { since: halting.since }
             }
-            &Self::Proved { at } if now.saturating_duration_since(at) < SHOWN => {
+            &Stage::Proved { at } if now.saturating_duration_since(at) < SHOWN => {
                 StopState::Stopped { at }
             }
-            _ => StopState::Ready,
+            Stage::UnderWay(_) | Stage::Proved { .. } | Stage::Ready => StopState::Ready,
         }
     }
 
-    /// A motion begins: the earlier proof no longer counts.
-    pub(super) fn forget(&mut self) {
-        if let Self::Proved { .. } = self {
-            *self = Self::Ready;
-        }
-    }
-}
-
-impl Session {
-    /// The operator wants everything to stand still. Never refused.
-    pub(super) fn halt(&mut self, now: Moment) {
-        self.activity = Activity::Standby;
-        self.gate.device().disarm();
-        self.begin_halt(true, now);
-    }
-
-    /// Stops the motion without leaving the mode, as at the end of a jog.
-    pub(super) fn halt_quietly(&mut self, now: Moment) {
-        self.begin_halt(false, now);
-    }
-
-    fn begin_halt(&mut self, pressed: bool, now: Moment) {
-        if !self.stop.is_under_way() {
-            self.begin_overrun(now);
-        }
-        if pressed {
-            self.key.spend();
-        }
-        self.key.end();
-        self.stepping = None;
-        self.doubt = None;
-        self.judging.drop_waiting();
-        self.void_shift();
-        self.gate.halted();
-        self.activity.halt();
-        if pressed {
-            self.end_auto_track();
-        }
-        self.queue_halt(if pressed { Extent::Everything } else { Extent::Motion }, now);
-        self.owed.debts().owe_stop();
-        let again_at = now.steady + self.gate.device().halt_patience();
-        match &mut self.stop {
+    /// Begins a halt, or joins the one that is under way. `patience`: time after which the halt is
+    /// sent again.
+    pub(super) fn begin(&mut self, pressed: bool, patience: Duration, now: Instant) {
+        let again_at = now + patience;
+        match &mut self.stage {
             // Pressing again does not delay the report that standstill is not proved.
-            Stop::UnderWay(halting) => {
+            Stage::UnderWay(halting) => {
                 halting.again_at = again_at;
                 halting.pressed |= pressed;
             }
-            stop => {
-                *stop = Stop::UnderWay(Box::new(Halting {
-                    since: now.steady,
+            stage @ (Stage::Ready | Stage::Proved { .. }) => {
+                *stage = Stage::UnderWay(Box::new(Halting {
+                    since: now,
                     looks: Looks::default(),
-                    sent_at: now.steady,
+                    sent_at: now,
                     again_at,
                     pressed,
-                    told: false,
+                    is_reported: false,
                 }));
             }
         }
-        // Its bytes go out first, if there is a link.
-        if !self.contact.is_open() {
-            self.record_debt(now);
-        }
     }
 
-    /// The bytes of a halt are the next to be written.
-    pub(super) fn queue_halt(&mut self, extent: Extent, now: Moment) {
-        self.stop_bytes = self.gate.device().halt(extent, now);
-        if extent == Extent::Everything {
-            self.owed.auto_track_asked(Some(now.steady));
-        }
-    }
-
-    /// Checks whether the antenna stands, and repeats the halt while it does not.
-    pub(super) fn watch_halt(&mut self, now: Moment) {
-        if self.stop_bytes.is_empty() || !self.contact.is_open() {
-            self.record_debt(now);
-        }
-        let figures = self.figures();
-        let is_at_rest = self.is_at_rest();
-        let Stop::UnderWay(halting) = &mut self.stop else { return };
-        let state = self.gate.state();
+    /// Looks at the last state of the unit for a proof of standstill. `is_at_rest`: the unit's
+    /// flags for its axes and program.
+    pub(super) fn look(
+        &mut self,
+        state: &AntennaState,
+        is_at_rest: bool,
+        is_open: bool,
+        figures: Figures,
+        patience: Duration,
+        now: Instant,
+    ) -> HaltLook {
+        let Stage::UnderWay(halting) = &mut self.stage else { return HaltLook::default() };
         // A halt that the operator did not press leaves other things that the unit turns
         // alone.
         let is_at_rest = is_at_rest && !(halting.pressed && state.turns_besides);
         let look = state.measured.filter(|measured| measured.asked >= halting.sent_at);
         let proof =
             look.and_then(|look| halting.looks.take(look, is_at_rest, state.link_since, figures));
-        if let Some(proof) = proof {
-            return self.end_halt(proof, now);
+        if proof.is_some() {
+            return HaltLook { proof, ..HaltLook::default() };
         }
-        let waited = now.steady.saturating_duration_since(halting.since);
-        let unproved = waited >= halting.told_after(figures);
-        let newly_unproved = unproved && !std::mem::replace(&mut halting.told, unproved);
-        let again = now.steady >= halting.again_at && halting.looks.want_stop();
-        let looks_again = halting.looks.is_due(figures, now.steady);
+        let waited = now.saturating_duration_since(halting.since);
+        let is_late = waited >= halting.reported_after(figures);
+        let is_overdue = is_late && !std::mem::replace(&mut halting.is_reported, true);
+        let is_due = now >= halting.again_at && halting.looks.want_stop();
+        let asks_position = halting.looks.is_due(figures, now);
         // Without a link, the halt is the first thing sent on the next one.
-        if again && self.contact.is_open() {
-            halting.again_at = now.steady + self.gate.device().halt_patience();
-            let extent = halting.extent_again();
-            self.queue_halt(extent, now);
+        let sends_again = is_due && is_open;
+        if sends_again {
+            halting.again_at = now + patience;
         }
-        if looks_again {
-            self.gate.device().ask_position(now);
-        }
-        if newly_unproved {
-            self.tell(Event::StopNotConfirmed);
-        }
+        let send_again = sends_again.then(|| halting.extent_again());
+        HaltLook { proof: None, send_again, asks_position, is_overdue }
     }
 
-    fn end_halt(&mut self, proof: Proof, now: Moment) {
-        let is_pressed = self.stop.halting().is_some_and(|halting| halting.pressed);
-        self.stop = if is_pressed { Stop::Proved { at: now.steady } } else { Stop::Ready };
-        self.owed.settle_stop();
-        self.prove_still();
-        self.gate.motions_over(now);
-        self.end_overrun();
-        if is_pressed {
-            self.tell(Event::Stopped);
-            if let Proof::Flags { axis } = proof {
-                let axis = self.setup.axis_name(axis);
-                self.tell(Event::Safety(Safety::StoppedByFlags { axis }));
-            }
-            if self.gate.state().program.is_some_and(|program| program.auto == Some(true)) {
-                self.tell(Event::AutoTrackStillOn);
-            }
-        }
+    /// Standstill is proved. Returns `true` if the operator had pressed STOP.
+    pub(super) fn end(&mut self, now: Instant) -> bool {
+        let is_pressed = self.is_pressed();
+        self.stage = if is_pressed { Stage::Proved { at: now } } else { Stage::Ready };
+        is_pressed
     }
 
-    /// The operator has seen that it stands.
-    pub(super) fn take_word_for_standstill(&mut self) {
-        tracing::warn!(antenna = self.setup.name(), "standstill by the operator's word");
-        if self.stop.is_under_way() {
-            self.stop = Stop::Ready;
+    /// The operator has seen that the antenna stands: nothing is left to be sent or proved.
+    pub(super) fn end_unproved(&mut self) {
+        if self.is_under_way() {
+            self.stage = Stage::Ready;
         }
-        self.contact.silence.forget();
-        self.stop_bytes.clear();
-        self.owed.settle_stop();
-        self.prove_still();
+        self.bytes.clear();
     }
 
-    /// Returns `true` if the unit's flags say that both axes are at rest.
-    fn is_at_rest(&self) -> bool {
-        let state = self.gate.state();
-        state.measured.is_some_and(|measured| !measured.moving())
-            && state.program.is_none_or(|program| !program.enabled)
-    }
-
-    /// Reports an antenna that turns although its unit says that it stands.
-    pub(super) fn watch_rest(&mut self, _: Moment) {
-        let is_at_rest =
-            self.is_at_rest() && self.stop.halting().is_none_or(|halting| halting.told);
-        let Some(look) = self.gate.state().measured else { return };
-        if self.seen.looked == Some(look.received) {
-            return;
-        }
-        self.seen.looked = Some(look.received);
-        let (began, figures) = (self.gate.unproved_since(), self.alarm_figures());
-        let turned = self.seen.rest.take(look, is_at_rest, began, figures);
-        if let Some((axis, turned_deg)) = turned {
-            let axis = self.setup.axis_name(axis);
-            self.tell(Event::Safety(Safety::FlagsContradict { axis, turned_deg }));
-        }
-    }
-
-    /// When the halt must be looked at again.
-    pub(super) fn halt_due(&self) -> Option<Instant> {
-        if let Some(halting) = self.stop.halting() {
-            let told_at = halting.since + halting.told_after(self.figures());
-            let proof = (!halting.told).then_some(told_at);
-            let (looks, is_open) = (&halting.looks, self.contact.is_open());
-            let look = looks.next(self.figures()).filter(|_| looks.awaits_look() && is_open);
-            let again = (looks.want_stop() && is_open).then_some(halting.again_at);
-            return proof.into_iter().chain(look).chain(again).min();
-        }
-        match self.stop {
-            Stop::Proved { at } => Some(at + SHOWN),
-            _ => None,
+    /// A motion begins: the earlier proof no longer counts.
+    pub(super) fn forget(&mut self) {
+        if let Stage::Proved { .. } = self.stage {
+            self.stage = Stage::Ready;
         }
     }
 
     /// The outline of the STOP button fades after a while.
-    pub(super) fn forget_old_stop(&mut self, now: Moment) {
-        if matches!(self.stop, Stop::Proved { at } if now.steady.saturating_duration_since(at) >= SHOWN)
+    pub(super) fn forget_old(&mut self, now: Instant) {
+        if let Stage::Proved { at } = self.stage
+            && now.saturating_duration_since(at) >= SHOWN
         {
-            self.stop = Stop::Ready;
+            self.stage = Stage::Ready;
         }
+    }
+
+    /// When the halt must be looked at again.
+    pub(super) fn due(&self, figures: Figures, is_open: bool) -> Option<Instant> {
+        match &self.stage {
+            Stage::UnderWay(halting) => {
+                let reported_at = halting.since + halting.reported_after(figures);
+                let report = (!halting.is_reported).then_some(reported_at);
+                let looks = &halting.looks;
+                let look = looks.next(figures).filter(|_| looks.awaits_look() && is_open);
+                let again = (looks.want_stop() && is_open).then_some(halting.again_at);
+                report.into_iter().chain(look).chain(again).min()
+            }
+            &Stage::Proved { at } => Some(at + SHOWN),
+            Stage::Ready => None,
+        }
+    }
+
+    /// These bytes are the next to be written. They take the place of older ones: one halt is enough.
+    pub(super) fn queue(&mut self, bytes: Vec<u8>) {
+        self.bytes = bytes;
+    }
+
+    pub(super) fn has_bytes(&self) -> bool {
+        !self.bytes.is_empty()
+    }
+
+    pub(super) fn take_bytes(&mut self) -> Vec<u8> {
+        std::mem::take(&mut self.bytes)
+    }
+
+    /// Delays the computer's sleep.
+    pub(super) fn keep_awake(&mut self, awake: Awake) {
+        self.awake = Some(awake);
+    }
+
+    /// Lets the computer sleep once no halt is under way.
+    pub(super) fn let_sleep(&mut self) {
+        if !self.is_under_way() {
+            self.awake = None;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::controller::satrak;
+
+    const PATIENCE: Duration = Duration::from_millis(300);
+
+    fn look(stop: &mut Stop, is_open: bool, now: Instant) -> HaltLook {
+        let figures = Figures::of(satrak::VARIANT.capabilities, 0.1);
+        stop.look(&AntennaState::default(), false, is_open, figures, PATIENCE, now)
+    }
+
+    #[test]
+    fn a_halt_without_a_reply_is_sent_again_and_reported_once() {
+        let start = Instant::now();
+        let mut stop = Stop::new(Guard::new(None));
+        assert_eq!(look(&mut stop, true, start), HaltLook::default(), "no halt is under way");
+        stop.begin(true, PATIENCE, start);
+        let looks: Vec<HaltLook> =
+            (0..60).map(|step| look(&mut stop, true, start + PATIENCE / 3 * step)).collect();
+        let sent = looks.iter().filter(|look| look.send_again == Some(Extent::Everything));
+        assert_eq!(sent.count(), 19);
+        assert_eq!(looks.iter().filter(|look| look.is_overdue).count(), 1);
+        assert!(stop.is_under_way() && looks.iter().all(|look| look.proof.is_none()));
+    }
+
+    #[test]
+    fn without_a_link_a_halt_stays_owed_and_nothing_is_sent() {
+        let start = Instant::now();
+        let mut stop = Stop::new(Guard::new(None));
+        stop.begin(false, PATIENCE, start);
+        let later = start + Duration::from_mins(1);
+        assert_eq!(look(&mut stop, false, later).send_again, None);
+        assert_eq!(stop.extent(), Some(Extent::Track));
+        stop.begin(true, PATIENCE, later);
+        assert_eq!(stop.extent(), Some(Extent::Everything), "it was pressed since");
     }
 }

@@ -6,6 +6,8 @@ use std::time::Duration;
 use super::{
     Session,
     activity::{Activity, Arrival, GoTo, OnBoardStage, OnBoardTrack, Slew, SlewStage},
+    commanded::Doubt,
+    jog_key::Jog,
     likeness::Recheck,
 };
 use crate::{
@@ -77,14 +79,6 @@ pub(super) const CHECKS: &[Check] = checks![
     watch_silence,
 ];
 
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Doubt {
-    asked: Asked,
-    since: Instant,
-    /// Angles of the two axes before it, degrees.
-    before_deg: Option<[f64; 2]>,
-}
-
 impl Session {
     /// Carries out every check once; called after every byte, command and timer.
     pub(super) fn supervise(&mut self, now: Moment) {
@@ -102,7 +96,7 @@ impl Session {
 
     /// Keeps a track going.
     fn watch_tracking(&mut self, now: Moment) {
-        match self.activity {
+        match self.commanded.activity {
             Activity::ProgramTrack(_) => self.watch_follow(now),
             Activity::OnBoardTrack(_) => self.watch_track(now),
             Activity::Standby | Activity::Manual | Activity::Hold(_) | Activity::GoTo(_) => {}
@@ -111,9 +105,9 @@ impl Session {
 
     /// The latest time for the next call of [`Self::supervise`].
     pub(super) fn supervise_due(&self) -> Option<Instant> {
-        let jog = self.key.held().map(|jog| jog.until);
+        let jog = self.commanded.key.held().map(Jog::end);
         // A motion to a position is judged whenever a state comes in.
-        let effect = match self.activity.on_board().map(|track| track.stage) {
+        let effect = match self.commanded.activity.on_board().map(|track| track.stage) {
             Some(OnBoardStage::Loading { since } | OnBoardStage::Starting { since })
                 if !self.stop.is_under_way() =>
             {
@@ -126,7 +120,7 @@ impl Session {
             .chain(effect)
             .chain(look)
             .chain(self.halt_due())
-            .chain(self.beat_due())
+            .chain(self.stop.guard.due())
             .min()
     }
 
@@ -135,7 +129,7 @@ impl Session {
             ControllerEvent::Prepared(target) => self.loaded(&target, now),
             ControllerEvent::NotPrepared(target, reason) => {
                 // A target given up since then needs no report.
-                if self.activity.on_board().is_some_and(|track| track.target == target) {
+                if self.commanded.activity.on_board().is_some_and(|track| track.target == target) {
                     self.give_up(Event::CannotTrack(target, reason), now);
                 }
             }
@@ -152,7 +146,7 @@ impl Session {
             ControllerEvent::Unanswered(asked) => {
                 self.gate.motion_not_accepted();
                 let before_deg = self.gate.started_from_deg();
-                self.doubt = Some(Doubt { asked, since: now.steady, before_deg });
+                self.commanded.doubt(asked, before_deg, now.steady);
             }
             ControllerEvent::HaltRefused(code) => self.tell(Event::StopRefused(code)),
             ControllerEvent::AutoStaysOn => {
@@ -168,13 +162,13 @@ impl Session {
         let awaits_it = |track: &OnBoardTrack| {
             track.target == *target && matches!(track.stage, OnBoardStage::Loading { .. })
         };
-        if !self.activity.on_board().is_some_and(awaits_it) {
+        if !self.commanded.activity.on_board().is_some_and(awaits_it) {
             return;
         }
         if let Some(objection) = self.objection_to_pass() {
             return self.give_up(objection, now);
         }
-        if let Some(track) = self.activity.on_board_mut() {
+        if let Some(track) = self.commanded.activity.on_board_mut() {
             track.stage = OnBoardStage::StartQueued;
         }
     }
@@ -188,17 +182,17 @@ impl Session {
         match motion {
             // The jog belongs to a mode that has been left, but its halt ends the new one as
             // well.
-            Motion::Jog { .. } if self.activity.intent() == Intent::Track => {
+            Motion::Jog { .. } if self.commanded.activity.intent() == Intent::Track => {
                 self.give_up(event, now);
             }
             Motion::Jog { .. } => {
                 // The key that is still down must not send it again.
-                self.key.spend();
+                self.commanded.key.spend();
                 self.halt_quietly(now);
                 self.tell(event);
             }
             Motion::Step { .. } => {
-                self.stepping = None;
+                self.commanded.end_step();
                 self.tell(event);
             }
             Motion::EnableAuto => self.tell(event),
@@ -209,11 +203,8 @@ impl Session {
     /// A command without an answer may have reached the unit all the same: a state asked for
     /// afterwards decides.
     fn resolve_doubt(&mut self, now: Moment) {
-        let Some(Doubt { asked, since, before_deg }) = self.doubt else { return };
-        if self.gate.state().measured.is_none_or(|measured| measured.asked <= since) {
-            return;
-        }
-        self.doubt = None;
+        let doubt = self.commanded.take_doubt(self.gate.state().measured);
+        let Some(Doubt { asked, before_deg, .. }) = doubt else { return };
         // A short motion may be over before it was in doubt.
         let turned = before_deg.zip(self.gate.axes_deg()).map_or([false; 2], |(before, after)| {
             let [first, second] = before;
@@ -255,23 +246,23 @@ impl Session {
         let away = outage.away_since.map(|since| now.steady.saturating_duration_since(since));
         let lost = away.unwrap_or_default() + outage.slept;
         let is_explained = self.explains(found, now);
-        if away.is_some() && self.activity.program().is_none() {
+        if away.is_some() && self.commanded.activity.program().is_none() {
             self.contact.comparison.begin(Recheck { since: now.steady, lost });
         }
         self.follow_on(lost, now);
         // A slew is watched further; its outcome is still to be reported.
         if let Some(Slew { stage: SlewStage::UnderWay { since, .. }, .. }) =
-            self.activity.slew_mut()
+            self.commanded.activity.slew_mut()
         {
             *since = now.steady;
         }
-        if let Activity::OnBoardTrack(track) = &mut self.activity {
+        if let Activity::OnBoardTrack(track) = &mut self.commanded.activity {
             match track.stage {
                 _ if found == Found::Tracking => track.stage = OnBoardStage::Tracking,
                 OnBoardStage::Slewing(slew) => {
-                    self.activity = Activity::GoTo(GoTo { parks: false, slew });
+                    self.commanded.activity = Activity::GoTo(GoTo { parks: false, slew });
                 }
-                _ => self.activity = Activity::Standby,
+                _ => self.commanded.activity = Activity::Standby,
             }
         }
         let event = match away {
@@ -284,10 +275,10 @@ impl Session {
     /// Returns `true` if what was asked from here explains what the unit does and where it points after
     /// an outage.
     fn explains(&self, found: Found, now: Moment) -> bool {
-        let slew = self.activity.slew();
+        let slew = self.commanded.activity.slew();
         let is_under_way =
             slew.is_some_and(|slew| matches!(slew.stage, SlewStage::UnderWay { .. }));
-        match (found, &self.activity) {
+        match (found, &self.commanded.activity) {
             // Azel compares a program track separately.
             (_, Activity::ProgramTrack(_)) => true,
             // Azel starts the unit's program only after the slew.
@@ -312,7 +303,7 @@ impl Session {
             return;
         };
         let has_started = self.contact.program_has_started(program.enabled);
-        if has_started && self.activity.intent() != Intent::Track {
+        if has_started && self.commanded.activity.intent() != Intent::Track {
             self.tell(Event::StartedByItself);
         }
     }
@@ -326,7 +317,7 @@ impl Session {
         within: Angle,
         now: Moment,
     ) -> Result<Slew, Refusal> {
-        let intent = self.activity.intent();
+        let intent = self.commanded.activity.intent();
         let next = self.slew(then, intent, now)?;
         if !next.leads_on(at, within) {
             self.gate.check(then, intent, now)?;
@@ -340,7 +331,7 @@ impl Session {
         let turned = self.seen.effects.last_change();
         let Some(measured) = self.gate.state().measured else { return };
         let Some(at) = self.gate.pointing() else { return };
-        let Some(slew) = self.activity.slew_mut() else { return };
+        let Some(slew) = self.commanded.activity.slew_mut() else { return };
         let within = Angle::from_degrees(within_deg);
         if turns {
             return;
@@ -350,19 +341,19 @@ impl Session {
         match arrival {
             Arrival::Leg(then) => match self.next_leg(then, at, within, now) {
                 Ok(next) => {
-                    if let Some(slew) = self.activity.slew_mut() {
+                    if let Some(slew) = self.commanded.activity.slew_mut() {
                         *slew = next;
                     }
                 }
                 Err(refusal) => self.give_up(Event::NotSent(refusal), now),
             },
-            Arrival::At(aim) => match self.activity.on_board_mut() {
+            Arrival::At(aim) => match self.commanded.activity.on_board_mut() {
                 Some(track) => track.stage = OnBoardStage::LoadQueued,
                 None => self.tell(Event::Arrived(aim)),
             },
             Arrival::Short { aim } => {
                 let event = Event::EndedShort { aim, at };
-                match self.activity.on_board() {
+                match self.commanded.activity.on_board() {
                     Some(_) => self.give_up(event, now),
                     None => self.tell(event),
                 }
@@ -373,7 +364,7 @@ impl Session {
     fn watch_track(&mut self, now: Moment) {
         let Some(program) = self.gate.state().program else { return };
         let read = self.gate.state().measured;
-        let Some(track) = self.activity.on_board_mut() else { return };
+        let Some(track) = self.commanded.activity.on_board_mut() else { return };
         let completed = program.phase == Phase::Completed;
         let ended = !program.enabled || completed;
         match track.stage {

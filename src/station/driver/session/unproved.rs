@@ -17,7 +17,7 @@ impl Session {
 
     /// A halt is over and nothing moves. A unit that may start on its own stays unproved.
     pub(super) fn prove_still(&mut self) {
-        self.acts = false;
+        self.commanded.proved_still();
         if !self.may_start_by_itself() {
             self.gate.proved_still();
         }

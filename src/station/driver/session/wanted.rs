@@ -48,13 +48,13 @@ impl Session {
             return false;
         }
         // A motion that waits to be sent is wanted and not over, so end it.
-        if self.activity.is_queued() {
+        if self.commanded.activity.is_queued() {
             let now = self.now();
             self.halt_quietly(now);
         }
         self.contact.want(Wanted::No);
         self.contact.silence.forget();
-        self.activity = Activity::Standby;
+        self.commanded.activity = Activity::Standby;
         true
     }
 

@@ -89,7 +89,8 @@ impl Session {
             track.catalog_number != then.catalog_number
                 || is_later && then.until < self.unit_time(now)
         });
-        !self.may_track() || is_another && self.program_is_on() && !self.activity.is_pending()
+        !self.may_track()
+            || is_another && self.program_is_on() && !self.commanded.activity.is_pending()
     }
 
     /// Returns `true` unless taking back has failed just before. An attempt that the gate refused

@@ -15,7 +15,9 @@ use crate::{
 impl Session {
     /// Returns `true` while the unit tracks on its own, or is about to, and Azel knows its pass.
     pub(super) fn on_board_is_running(&self) -> bool {
-        self.program_is_on() && !self.activity.is_pending() && self.on_board_watch().is_some()
+        self.program_is_on()
+            && !self.commanded.activity.is_pending()
+            && self.on_board_watch().is_some()
     }
 
     pub(super) fn program_is_on(&self) -> bool {
@@ -26,7 +28,7 @@ impl Session {
     /// Returns `true` unless it is known that the unit does not track: other offsets would move
     /// the antenna.
     pub(super) fn may_track(&self) -> bool {
-        let stage = self.activity.on_board().map(|track| track.stage);
+        let stage = self.commanded.activity.on_board().map(|track| track.stage);
         let is_starting = matches!(stage, Some(OnBoardStage::Starting { .. }));
         self.contact.is_unread() || self.program_is_on() || is_starting
     }

@@ -1,0 +1,143 @@
+//! What was asked of an antenna from here, and how far that has come.
+
+use super::{
+    activity::{Activity, SlewStage},
+    jog_key::JogKey,
+};
+use crate::{
+    clock::Instant,
+    contract::driver::Mover,
+    device::{Asked, Measured, Pointing},
+};
+
+/// A step that may not be over yet.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Step {
+    /// Signed amounts of the two axes, degrees.
+    steps_deg: [f64; 2],
+    since: Instant,
+}
+
+/// A motion whose answer was lost.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Doubt {
+    pub(super) asked: Asked,
+    since: Instant,
+    /// Angles of the two axes before it, degrees.
+    pub(super) before_deg: Option<[f64; 2]>,
+}
+
+pub(super) struct Commanded {
+    pub(super) activity: Activity,
+    pub(super) key: JogKey,
+    step: Option<Step>,
+    /// An action of the make was requested from here, and standstill has not been proved
+    /// since.
+    acts: bool,
+    doubt: Option<Doubt>,
+    /// The direction that the operator looks at.
+    pub(super) preview: Option<Pointing>,
+}
+
+impl Commanded {
+    pub(super) fn new() -> Self {
+        Self {
+            activity: Activity::Standby,
+            key: JogKey::default(),
+            step: None,
+            acts: false,
+            doubt: None,
+            preview: None,
+        }
+    }
+
+    /// Returns `true` if it moves the antenna, or may do so at any time.
+    pub(super) fn may_move(&self) -> bool {
+        self.activity.may_move() || self.key.held().is_some() || self.step.is_some()
+    }
+
+    /// Returns `true` if a motion is out, or about to go out, that must show in the unit's state.
+    pub(super) fn is_pending(&self) -> bool {
+        self.activity.is_pending() || self.key.held().is_some() || self.step.is_some()
+    }
+
+    /// The party whose motion the antenna shows if it moves.
+    pub(super) fn mover(&self, program_is_on: bool) -> Mover {
+        let is_led = match &self.activity {
+            Activity::ProgramTrack(_) => true,
+            Activity::Standby
+            | Activity::Manual
+            | Activity::Hold(_)
+            | Activity::GoTo(_)
+            | Activity::OnBoardTrack(_) => {
+                self.activity.slew().is_some_and(|slew| !matches!(slew.stage, SlewStage::Over))
+            }
+        };
+        if is_led || self.acts || self.key.held().is_some() || self.step.is_some() {
+            Mover::Azel
+        } else if program_is_on {
+            Mover::Program
+        } else {
+            Mover::Somebody
+        }
+    }
+
+    /// A halt ends what moves. One that the operator pressed also ends a key that is still down.
+    pub(super) fn halt(&mut self, is_pressed: bool) {
+        if is_pressed {
+            self.key.spend();
+        }
+        self.key.end();
+        self.step = None;
+        self.doubt = None;
+        self.activity.halt();
+    }
+
+    /// An action of the make was sent that moves.
+    pub(super) fn act(&mut self) {
+        self.acts = true;
+    }
+
+    pub(super) fn proved_still(&mut self) {
+        self.acts = false;
+    }
+
+    pub(super) fn begin_step(&mut self, steps_deg: [f64; 2], now: Instant) {
+        self.step = Some(Step { steps_deg, since: now });
+    }
+
+    /// Amounts of a step that may not be over yet, degrees.
+    pub(super) fn steps_deg(&self) -> Option<[f64; 2]> {
+        self.step.map(|step| step.steps_deg)
+    }
+
+    pub(super) fn end_step(&mut self) {
+        self.step = None;
+    }
+
+    /// A step is over when a state that was asked for after it shows standstill. `waits`: the
+    /// motion has not been sent or answered.
+    pub(super) fn follow_step(&mut self, measured: Option<Measured>, waits: bool) {
+        let Some(Step { since, .. }) = self.step else { return };
+        let stands = measured.is_some_and(|measured| measured.asked > since && !measured.moving());
+        if stands && !waits {
+            self.step = None;
+        }
+    }
+
+    /// The answer to a motion was lost.
+    pub(super) fn doubt(&mut self, asked: Asked, before_deg: Option<[f64; 2]>, now: Instant) {
+        self.doubt = Some(Doubt { asked, since: now, before_deg });
+    }
+
+    pub(super) fn is_in_doubt(&self) -> bool {
+        self.doubt.is_some()
+    }
+
+    /// Takes the doubt that a state asked for after it can resolve.
+    pub(super) fn take_doubt(&mut self, measured: Option<Measured>) -> Option<Doubt> {
+        let is_newer =
+            |doubt: &mut Doubt| measured.is_some_and(|measured| measured.asked > doubt.since);
+        self.doubt.take_if(is_newer)
+    }
+}

@@ -1,0 +1,136 @@
+//! Stops the antenna, and proves that it stands.
+
+use super::{Session, activity::Activity, standstill::Proof, stop::HaltLook};
+use crate::{
+    clock::{Instant, Moment},
+    contract::driver::{Event, Safety},
+    device::Extent,
+};
+
+impl Session {
+    /// The operator wants everything to stand still. Never refused.
+    pub(super) fn halt(&mut self, now: Moment) {
+        self.commanded.activity = Activity::Standby;
+        self.gate.device().disarm();
+        self.begin_halt(true, now);
+    }
+
+    /// Stops the motion without leaving the mode, as at the end of a jog.
+    pub(super) fn halt_quietly(&mut self, now: Moment) {
+        self.begin_halt(false, now);
+    }
+
+    fn begin_halt(&mut self, pressed: bool, now: Moment) {
+        if !self.stop.is_under_way() {
+            self.begin_overrun(now);
+        }
+        self.commanded.halt(pressed);
+        self.judging.drop_waiting();
+        self.void_shift();
+        self.gate.halted();
+        if pressed {
+            self.end_auto_track();
+        }
+        self.queue_halt(if pressed { Extent::Everything } else { Extent::Motion }, now);
+        self.owed.debts().owe_stop();
+        self.stop.begin(pressed, self.gate.device().halt_patience(), now.steady);
+        // Its bytes go out first, if there is a link.
+        if !self.contact.is_open() {
+            self.record_debt(now);
+        }
+    }
+
+    /// The bytes of a halt are the next to be written.
+    pub(super) fn queue_halt(&mut self, extent: Extent, now: Moment) {
+        let bytes = self.gate.device().halt(extent, now);
+        self.stop.queue(bytes);
+        if extent == Extent::Everything {
+            self.owed.auto_track_asked(Some(now.steady));
+        }
+    }
+
+    /// Checks whether the antenna stands, and repeats the halt while it does not.
+    pub(super) fn watch_halt(&mut self, now: Moment) {
+        let is_open = self.contact.is_open();
+        if !self.stop.has_bytes() || !is_open {
+            self.record_debt(now);
+        }
+        let (figures, is_at_rest) = (self.figures(), self.is_at_rest());
+        let patience = self.gate.device().halt_patience();
+        let state = self.gate.state();
+        let look = self.stop.look(state, is_at_rest, is_open, figures, patience, now.steady);
+        let HaltLook { proof, send_again, asks_position, is_overdue } = look;
+        if let Some(proof) = proof {
+            return self.end_halt(proof, now);
+        }
+        if let Some(extent) = send_again {
+            self.queue_halt(extent, now);
+        }
+        if asks_position {
+            self.gate.device().ask_position(now);
+        }
+        if is_overdue {
+            self.tell(Event::StopNotConfirmed);
+        }
+    }
+
+    fn end_halt(&mut self, proof: Proof, now: Moment) {
+        let is_pressed = self.stop.end(now.steady);
+        self.owed.settle_stop();
+        self.prove_still();
+        self.gate.motions_over(now);
+        self.end_overrun();
+        if is_pressed {
+            self.tell(Event::Stopped);
+            if let Proof::Flags { axis } = proof {
+                let axis = self.setup.axis_name(axis);
+                self.tell(Event::Safety(Safety::StoppedByFlags { axis }));
+            }
+            if self.gate.state().program.is_some_and(|program| program.auto == Some(true)) {
+                self.tell(Event::AutoTrackStillOn);
+            }
+        }
+    }
+
+    /// The operator has seen that it stands.
+    pub(super) fn take_word_for_standstill(&mut self) {
+        tracing::warn!(antenna = self.setup.name(), "standstill by the operator's word");
+        self.stop.end_unproved();
+        self.contact.silence.forget();
+        self.owed.settle_stop();
+        self.prove_still();
+    }
+
+    /// Returns `true` if the unit's flags say that both axes are at rest.
+    fn is_at_rest(&self) -> bool {
+        let state = self.gate.state();
+        state.measured.is_some_and(|measured| !measured.moving())
+            && state.program.is_none_or(|program| !program.enabled)
+    }
+
+    /// Reports an antenna that turns although its unit says that it stands.
+    pub(super) fn watch_rest(&mut self, _: Moment) {
+        let is_at_rest = self.is_at_rest() && self.stop.has_run_out();
+        let Some(look) = self.gate.state().measured else { return };
+        if self.seen.looked == Some(look.received) {
+            return;
+        }
+        self.seen.looked = Some(look.received);
+        let (began, figures) = (self.gate.unproved_since(), self.alarm_figures());
+        let turned = self.seen.rest.take(look, is_at_rest, began, figures);
+        if let Some((axis, turned_deg)) = turned {
+            let axis = self.setup.axis_name(axis);
+            self.tell(Event::Safety(Safety::FlagsContradict { axis, turned_deg }));
+        }
+    }
+
+    /// When the halt must be looked at again.
+    pub(super) fn halt_due(&self) -> Option<Instant> {
+        self.stop.due(self.figures(), self.contact.is_open())
+    }
+
+    /// The outline of the STOP button fades after a while.
+    pub(super) fn forget_old_stop(&mut self, now: Moment) {
+        self.stop.forget_old(now.steady);
+    }
+}
