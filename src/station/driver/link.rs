@@ -48,9 +48,11 @@ fn duplicate_of<T>(_: &T) -> io::Result<Option<Duplicate>> {
     Err(io::ErrorKind::Unsupported.into())
 }
 
+/// An attempt to open a link.
+pub(super) type Dialling = Pin<Box<dyn Future<Output = io::Result<Box<dyn Stream>>> + Send>>;
+
 /// Opens a link, any number of times.
-pub type Dial =
-    Box<dyn FnMut() -> Pin<Box<dyn Future<Output = io::Result<Box<dyn Stream>>> + Send>> + Send>;
+pub type Dial = Box<dyn FnMut() -> Dialling + Send>;
 
 /// Opens the links of an antenna, to places that `lock` has.
 pub(super) fn dial(antenna: &Antenna, lock: Arc<dyn UnitLock>) -> Dial {

@@ -4,12 +4,14 @@
 
 mod activity;
 mod auto_track;
+mod bounds_watch;
 mod clocks;
 mod command;
 mod commanded;
 mod contact;
 mod dead_man_watch;
 mod effect;
+mod effect_watch;
 mod guard;
 mod halt;
 mod hands;
@@ -17,18 +19,22 @@ mod inside;
 mod io_loop;
 mod jog;
 mod jog_key;
+mod judged_commands;
 mod judging;
 mod likeness;
 mod lock_out;
 mod locking;
 mod marking;
 mod monitor;
+mod observed;
 mod off_target;
 mod offsets;
 mod on_board;
 mod on_board_track;
+mod overrun;
 mod owed;
 mod owed_stop;
+mod place;
 mod pointing;
 mod program_track;
 mod recheck;
@@ -55,7 +61,7 @@ use std::{path::PathBuf, sync::Arc, time::Duration};
 
 use super::{AntennaHandle, Clock, Dial, Orders, Wake, debts::Debts, gate::Gate};
 use crate::{
-    clock::{Instant, Moment},
+    clock::Moment,
     contract::driver::{Event, Preview, Snapshot, Unit},
     device::{AxisMotion, Controller},
     plan::Bounds,
@@ -63,52 +69,36 @@ use crate::{
 };
 use commanded::Commanded;
 use contact::{Contact, Pace};
-use effect::Effects;
 use guard::Guard;
 pub(super) use io_loop::{CONNECT, MIN_WAIT, WRITE, in_words};
 pub use jog::LEASE as JOG_LEASE;
 use jog_key::Jog;
 use judging::Judging;
-use monitor::{Overrun, Watch};
+use observed::Observed;
 use owed::Owed;
 use setup::Setup;
-use standstill::{Figures, Rest};
+use standstill::Figures;
 use stop::Stop;
 use supervise::{CHECKS, Check};
 use tracking::Tracking;
-use unit_offsets::UnitOffsets;
+use unit_offsets::Shifting;
 pub use wires::Wires;
-
-/// State at the last look, for comparison with the next one.
-#[derive(Default)]
-struct LastSeen {
-    watch: Watch,
-    place: inside::Place,
-    overrun: Overrun,
-    rest: Rest,
-    effects: Effects,
-    /// When the last position that was judged came in.
-    looked: Option<Instant>,
-}
 
 pub struct Session {
     setup: Setup,
     gate: Gate,
-    dial: Dial,
     clock: Clock,
     wires: Wires,
     contact: Contact,
     owed: Owed,
     commanded: Commanded,
-    seen: LastSeen,
-    /// Watch over a track that nobody asked for from here.
-    unasked: Option<on_board::Watch>,
+    observed: Observed,
     judging: Judging,
     /// Checks that [`Session::supervise`] carries out.
     checks: &'static [Check],
     stop: Stop,
     /// Offsets added to the track that the unit computes.
-    unit_offsets: UnitOffsets,
+    unit_offsets: Shifting,
 }
 
 impl Session {
@@ -139,24 +129,22 @@ impl Session {
     ) -> Self {
         let (bounds, learned) = (wires.first_bounds(), wires.learned());
         let mut gate = Gate::new(controller, antenna, bounds, &learned);
-        let contact = Contact::new(antenna, clock.now().steady);
+        let contact = Contact::new(antenna, dial, clock.now().steady);
         let owed = Owed::begin(debts, Unit::of(antenna), wires.stop_handle());
         gate.was_moved(owed.debts().unproved_since());
         Self {
             setup: Setup::new(antenna),
-            dial,
             clock,
             wires,
             contact,
             owed,
             commanded: Commanded::new(),
-            seen: LastSeen::default(),
+            observed: Observed::default(),
             gate,
-            unasked: None,
             judging: Judging::default(),
             checks: CHECKS,
             stop: Stop::new(Guard::new(None)),
-            unit_offsets: UnitOffsets::default(),
+            unit_offsets: Shifting::default(),
         }
     }
 
@@ -173,7 +161,7 @@ impl Session {
 
     fn publish(&mut self, now: Moment) {
         self.owed.keep_unproved(self.gate.unproved_since());
-        let is_pressed = self.stop.is_pressed();
+        let (is_pressed, axes) = (self.stop.is_pressed(), self.setup.can().axes);
         let snapshot = Snapshot {
             link: self.contact.link().clone(),
             silent: self.contact.silence.is_reported(),
@@ -193,12 +181,12 @@ impl Session {
             stop: self.stop.shown(now.steady),
             runs_out: self.stop.is_under_way(),
             unguarded: self.stop.guard.is_missing(),
-            inside: self.inside(now),
+            inside: self.observed.place.view(&axes, self.gate.lets_out(now)),
             sun_lifted: self.commanded.activity.program().is_some() && self.gate.lifts_sun(),
             left_moving: self.owed.left_moving(),
             not_on_disk: is_pressed.then(|| self.owed.not_on_disk(now.steady)).flatten(),
             jog: self.commanded.key.started().map(Jog::rates_deg_s),
-            stopping_way: self.stopping_way(),
+            stopping_way: self.observed.overrun.stopping_way(self.gate.overrun_s()),
             learned: self.gate.lessons(),
             step: self.commanded.steps_deg(),
             preview: self.preview(now),

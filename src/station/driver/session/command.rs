@@ -17,7 +17,7 @@ use crate::{
 
 impl Session {
     pub(super) fn carry_out(&mut self, command: Command, now: Moment) {
-        if let Some(command) = self.take_turn(command) {
+        if let Some(command) = self.judging.take_turn(command) {
             self.carry_out_now(command, now);
         }
     }
@@ -173,7 +173,7 @@ impl Session {
         if self.may_move() {
             self.halt_quietly(now);
         }
-        self.unasked = None;
+        self.observed.unasked = None;
         let stage = slew.map_or(OnBoardStage::LoadQueued, OnBoardStage::Slewing);
         self.commanded.activity =
             Activity::OnBoardTrack(Box::new(OnBoardTrack { target, watch, stage }));
@@ -181,12 +181,12 @@ impl Session {
 
     fn take_over(&mut self, now: Moment) {
         let is_on = self.gate.state().program.is_some_and(|program| program.enabled);
-        let Some(watch) = self.unasked.take().filter(|_| is_on) else {
+        let Some(watch) = self.observed.unasked.take().filter(|_| is_on) else {
             return self.tell(Event::NotSent(Refusal::PassUnknown));
         };
         let unit = self.gate.state().on_board.clone();
         if !self.is_judged(watch.judge(), &[unit]) {
-            self.unasked = Some(watch);
+            self.observed.unasked = Some(watch);
             return self.wait_for_judgement(Command::TakeOver);
         }
         let checked = match watch.would_miss() {
@@ -194,7 +194,7 @@ impl Session {
             Some(event) => Err(event),
         };
         if let Err(event) = checked {
-            self.unasked = Some(watch);
+            self.observed.unasked = Some(watch);
             return self.tell(event);
         }
         let target = watch.judge().pass().target.clone();

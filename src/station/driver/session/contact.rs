@@ -7,6 +7,7 @@ use crate::{
     clock::Instant,
     contract::driver::{LinkLoss, LinkState},
     device::AntennaState,
+    driver::{Dial, link::Dialling},
     station::Antenna,
 };
 
@@ -41,6 +42,7 @@ pub(super) struct Outage {
 
 /// State of the link, and what is remembered while there is none.
 pub(super) struct Contact {
+    dial: Dial,
     wanted: Wanted,
     link: LinkState,
     /// When a link that had been up was lost.
@@ -68,9 +70,10 @@ pub(super) fn first_link(antenna: &Antenna, since: Instant) -> (Wanted, LinkStat
 }
 
 impl Contact {
-    pub(super) fn new(antenna: &Antenna, now: Instant) -> Self {
+    pub(super) fn new(antenna: &Antenna, dial: Dial, now: Instant) -> Self {
         let (wanted, link) = first_link(antenna, now);
         Self {
+            dial,
             wanted,
             link,
             away_since: None,
@@ -82,6 +85,11 @@ impl Contact {
             silence: Silence::default(),
             comparison: Comparison::default(),
         }
+    }
+
+    /// Begins an attempt to connect.
+    pub(super) fn dial(&mut self) -> Dialling {
+        (self.dial)()
     }
 
     pub(super) fn wanted(&self) -> Wanted {

@@ -3,17 +3,11 @@
 
 use std::time::Duration;
 
-use super::{
-    Session,
-    activity::{Activity, SlewStage},
-    standstill::Figures,
-};
+use super::standstill::Figures;
 use crate::{
     astro::Angle,
-    clock::{Instant, Moment},
-    contract::driver::{Event, Safety},
-    device::{AxisMotion, Measured},
-    name::Name,
+    clock::Instant,
+    device::{AxisMotion, Capabilities, Measured},
 };
 
 /// Longest time from the command of a jog until it shows in the angles.
@@ -43,6 +37,47 @@ enum Expected {
     /// It turns at this rate, degrees a second, towards a position that is further away than the unit
     /// may ignore.
     Approach(f64),
+}
+
+/// Motion of Azel that must show in the angles.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Requested {
+    Nothing,
+    Jog {
+        rates_deg_s: [f64; 2],
+        /// The axes that stand at an end of the unit's own travel and are jogged towards it.
+        is_at_end: [bool; 2],
+    },
+    Approach(Approach),
+}
+
+/// A motion to a position.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Approach {
+    /// It ends there; otherwise it is one of many of a track.
+    pub(super) is_slew: bool,
+    /// Where each axis was sent, degrees.
+    pub(super) to_deg: [Option<f64>; 2],
+    /// Rates of the axes, degrees a second.
+    pub(super) rates_deg_s: [f64; 2],
+    /// The unit may turn the azimuth through north.
+    pub(super) may_turn_either_way: bool,
+    /// The azimuth axis reaches no direction twice but that of its ends.
+    pub(super) has_one_turn: bool,
+}
+
+impl Approach {
+    fn wraps(&self, axis: usize, is_driven: bool, can: Capabilities) -> Wraps {
+        if axis != 0 {
+            Wraps::Never
+        } else if self.may_turn_either_way {
+            Wraps::Always
+        } else if can.azimuth_wraps && !is_driven && self.has_one_turn {
+            Wraps::AtRest { within_deg: can.rests_within_deg() }
+        } else {
+            Wraps::Never
+        }
+    }
 }
 
 /// Where an axis treats 0 and 360 degrees as the same position.
@@ -113,92 +148,80 @@ impl Effect {
 }
 
 impl Effects {
-    /// When an axis was last seen to turn.
-    pub(super) fn last_change(&self) -> Option<Instant> {
-        self.axes.iter().filter_map(|axis| Some(axis.changed?.1)).max()
+    /// Returns `true`, once for each position.
+    pub(super) fn is_new(&mut self, look: &Measured) -> bool {
+        self.last_reading.replace(look.received) != Some(look.received)
     }
-}
 
-impl Session {
-    /// Stops a motion that has no effect.
-    pub(super) fn watch_effect(&mut self, now: Moment) {
-        let Some(look) = self.gate.state().measured else { return };
-        if self.seen.effects.last_reading.replace(look.received) == Some(look.received) {
-            return;
-        }
-        let figures = self.figures();
-        let can = self.setup.can();
+    /// Takes a position. Returns the first axis that has failed for too long to move as requested.
+    /// `suspects`: axes that somebody else may have moved.
+    pub(super) fn missing(
+        &mut self,
+        look: &Measured,
+        requested: Requested,
+        suspects: [bool; 2],
+        can: Capabilities,
+        figures: Figures,
+    ) -> Option<usize> {
         let shows_after = Duration::try_from_secs_f64(can.effect.shows_after_s).unwrap_or_default();
-        let expected = self.expected(&look, shows_after);
-        // Wind or somebody else may have moved the axis, so its angle proves no lack of effect.
-        let suspects = self.gate.suspects(now);
-        let effects = self.seen.effects.axes.iter_mut().zip(look.axes).zip(expected).zip(suspects);
+        let expected = match requested {
+            Requested::Nothing => [None; 2],
+            Requested::Jog { rates_deg_s, is_at_end } => {
+                self.expected_of_jog(look, rates_deg_s, is_at_end)
+            }
+            Requested::Approach(approach) => {
+                self.expected_of_approach(look, approach, can, figures, shows_after)
+            }
+        };
         let mut missing = None;
+        let effects = self.axes.iter_mut().zip(look.axes).zip(expected).zip(suspects);
         for (index, (((effect, axis), expected), is_suspect)) in
             effects.enumerate().take(can.axis_count())
         {
             effect.take(axis.angle_deg, look.asked, figures);
+            // Wind or somebody else may have moved the axis, so its angle proves no lack of effect.
             let expected = expected.filter(|_| axis.angle_deg.is_some() && !is_suspect);
             if effect.is_missing(expected, look.asked, figures, shows_after) {
                 missing = missing.or(Some(index));
             }
         }
-        let Some(missing) = missing else { return };
-        self.end_without_effect(can.axes.get(missing).copied(), now);
+        missing
     }
 
-    /// Stops a motion that has no effect, and reports it.
-    pub(super) fn end_without_effect(&mut self, axis: Option<Name>, now: Moment) {
-        if self.commanded.key.held().is_some() {
-            self.commanded.key.spend();
-            self.halt_quietly(now);
-        } else {
-            self.halt(now);
+    fn expected_of_jog(
+        &self,
+        look: &Measured,
+        rates_deg_s: [f64; 2],
+        is_at_end: [bool; 2],
+    ) -> [Option<Expected>; 2] {
+        let mut expected = [None; 2];
+        let axes = look.axes.iter().zip(self.axes).zip(rates_deg_s).zip(is_at_end);
+        for (expected, (((axis, effect), rate), is_at_end)) in expected.iter_mut().zip(axes) {
+            // The unit itself ends a jog at its limits, which not every unit reports.
+            let is_ended = effect.has_turned && axis.motion == AxisMotion::Still;
+            let is_due = rate != 0.0 && !is_at_end && !is_ended;
+            *expected = is_due.then_some(Expected::Rate(rate));
         }
-        self.tell(Event::Safety(Safety::NoEffect { axis }));
+        expected
     }
 
-    fn expected(&self, look: &Measured, shows_after: Duration) -> [Option<Expected>; 2] {
-        if self.stop.is_under_way() || !self.contact.is_open() {
-            return [None; 2];
-        }
-        if let Some(jog) = self.commanded.key.started() {
-            let rates =
-                jog.rates_deg_s().into_iter().zip(self.is_at_own_end(look, jog.rates_deg_s()));
-            let mut expected = [None; 2];
-            let axes = look.axes.iter().zip(self.seen.effects.axes);
-            for ((expected, (rate, is_at_end)), (axis, effect)) in
-                expected.iter_mut().zip(rates).zip(axes)
-            {
-                // The unit itself ends a jog at its limits, which not every unit reports.
-                let is_ended = effect.has_turned && axis.motion == AxisMotion::Still;
-                let is_due = rate != 0.0 && !is_at_end && !is_ended;
-                *expected = is_due.then_some(Expected::Rate(rate));
-            }
-            return expected;
-        }
-        let is_slew = self
-            .commanded
-            .activity
-            .slew()
-            .is_some_and(|slew| matches!(slew.stage, SlewStage::UnderWay { .. }));
-        let is_track = matches!(self.commanded.activity, Activity::ProgramTrack(_));
-        if !is_slew && !is_track {
-            return [None; 2];
-        }
-        let can = self.setup.can();
-        let finest_deg = can.arrives_within_deg
-            + 2.0 * can.standstill.resolution_deg
-            + self.figures().tolerance_deg();
-        let effects = self.seen.effects.axes;
+    fn expected_of_approach(
+        &self,
+        look: &Measured,
+        approach: Approach,
+        can: Capabilities,
+        figures: Figures,
+        shows_after: Duration,
+    ) -> [Option<Expected>; 2] {
+        let finest_deg =
+            can.arrives_within_deg + 2.0 * can.standstill.resolution_deg + figures.tolerance_deg();
         // A unit may turn one axis after the other.
-        let turned_lately = effects.map(|effect| {
+        let turned_lately = self.axes.map(|effect| {
             effect.changed.is_some_and(|(_, changed)| {
                 look.asked.saturating_duration_since(changed) < shows_after
             })
         });
-        let rates_deg_s = self.setup.track_config().rates_deg_s();
-        let axes = look.axes.iter().zip(self.gate.sent_to_deg()).zip(effects).zip(rates_deg_s);
+        let axes = look.axes.iter().zip(approach.to_deg).zip(self.axes).zip(approach.rates_deg_s);
         let mut expected = [None; 2];
         for (index, (expected, (((axis, to_deg), effect), rate_deg_s))) in
             expected.iter_mut().zip(axes).enumerate()
@@ -207,46 +230,18 @@ impl Session {
             let is_driven = axis.motion != AxisMotion::Still;
             let other_turns = turned_lately.get(1 - index) == Some(&true);
             // One that stops on its way is reported as such, and the unit decides when to creep.
-            let may_rest = !is_driven && (other_turns || (is_slew && effect.has_turned));
+            let may_rest = !is_driven && (other_turns || (approach.is_slew && effect.has_turned));
             let ignored_deg = if is_driven { 0.0 } else { can.effect.ignores_deg };
-            let wraps = if index != 0 {
-                Wraps::Never
-            } else if self.gate.state().may_turn_either_way {
-                Wraps::Always
-            } else if can.azimuth_wraps && !is_driven && self.has_one_turn() {
-                Wraps::AtRest { within_deg: can.rests_within_deg() }
-            } else {
-                Wraps::Never
-            };
-            let way_deg = wraps.way_deg(angle_deg, to_deg);
+            let way_deg = approach.wraps(index, is_driven, can).way_deg(angle_deg, to_deg);
             let is_far = way_deg.abs() > finest_deg + ignored_deg;
             *expected = (is_far && !may_rest).then_some(Expected::Approach(rate_deg_s));
         }
         expected
     }
 
-    /// Returns `true` if the azimuth axis reaches no direction twice but that of its ends.
-    fn has_one_turn(&self) -> bool {
-        let [(from_deg, to_deg), _] = self.gate.bounds().mount().travel_deg();
-        to_deg - from_deg <= 360.0
-    }
-
-    /// Returns `true` for each axis that stands at an end of the unit's own travel and is jogged
-    /// towards it.
-    fn is_at_own_end(&self, look: &Measured, rates_deg_s: [f64; 2]) -> [bool; 2] {
-        let can = self.setup.can();
-        let near_deg = can.arrives_within_deg + 2.0 * can.standstill.resolution_deg;
-        let travel_deg = self.gate.state().travel_deg;
-        let mut is_at_end = [false; 2];
-        let axes = look.axes.iter().zip(travel_deg).zip(rates_deg_s);
-        for (is_at_end, ((axis, travel_deg), rate)) in is_at_end.iter_mut().zip(axes) {
-            let Some((angle_deg, (from_deg, to_deg))) = axis.angle_deg.zip(travel_deg) else {
-                continue;
-            };
-            let left_deg = if rate > 0.0 { to_deg - angle_deg } else { angle_deg - from_deg };
-            *is_at_end = left_deg <= near_deg;
-        }
-        is_at_end
+    /// When an axis was last seen to turn.
+    pub(super) fn last_change(&self) -> Option<Instant> {
+        self.axes.iter().filter_map(|axis| Some(axis.changed?.1)).max()
     }
 }
 

@@ -112,15 +112,28 @@ impl Session {
     pub(super) fn watch_rest(&mut self, _: Moment) {
         let is_at_rest = self.is_at_rest() && self.stop.has_run_out();
         let Some(look) = self.gate.state().measured else { return };
-        if self.seen.looked == Some(look.received) {
-            return;
-        }
-        self.seen.looked = Some(look.received);
         let (began, figures) = (self.gate.unproved_since(), self.alarm_figures());
-        let turned = self.seen.rest.take(look, is_at_rest, began, figures);
+        let turned = self.observed.turned_at_rest(look, is_at_rest, began, figures);
         if let Some((axis, turned_deg)) = turned {
             let axis = self.setup.axis_name(axis);
             self.tell(Event::Safety(Safety::FlagsContradict { axis, turned_deg }));
+        }
+    }
+
+    /// Remembers how fast the axes turn when a STOP goes out.
+    fn begin_overrun(&mut self, now: Moment) {
+        // Other motions than a jog may be slowing down already.
+        let jog = self.commanded.key.started();
+        let rates = jog.map(|_| self.observed.monitor.last_rates_deg_s());
+        self.observed.overrun.begin(self.gate.state().measured.zip(rates), now.steady);
+    }
+
+    /// Learns from a STOP that has ended.
+    fn end_overrun(&mut self) {
+        let Some(rest) = self.gate.state().measured else { return };
+        let fastest_deg_s = self.setup.track_config().fastest_deg_s();
+        if let Some(overrun_s) = self.observed.overrun.end(&rest, fastest_deg_s) {
+            self.gate.set_overrun(overrun_s);
         }
     }
 

@@ -6,8 +6,8 @@ use std::time::Duration;
 use super::{Session, program_track::NotFollowed};
 use crate::{
     astro::AzEl,
-    clock::{Instant, Moment},
-    contract::driver::{Command, Event, Inside, Intent, Refusal},
+    clock::Moment,
+    contract::driver::{Command, Event, Intent, Refusal},
     device::Motion,
     plan::{Barrier, Bounds, ProgramTrack, bounds::Budget},
 };
@@ -17,48 +17,31 @@ const ALLOWED: Duration = Duration::from_mins(1);
 /// Maximum number of ways to a refuge that are tried.
 const MAX_REFUGES: usize = 64;
 
-/// The barrier that the antenna is, or may be, inside of by the last position.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub(super) struct Place {
-    looked: Option<Instant>,
-    barrier: Option<Barrier>,
-    /// The axis without an angle; with one, the antenna may only be inside.
-    unknown_axis: Option<usize>,
-}
-
 impl Session {
     /// Finds the barrier that the antenna is inside of. The permission to leave ends outside.
     pub(super) fn watch_place(&mut self, now: Moment) {
         let Some(look) = self.gate.state().measured else { return };
-        if self.seen.place.looked.replace(look.received) == Some(look.received) {
+        if !self.observed.place.is_new(&look) {
             return;
         }
         let Some(intervals) = self.gate.intervals() else { return };
         let axis = intervals.unknown();
         if let Some(place) = self.bounds_now().unread().cloned() {
-            self.seen.place.barrier = Some(Barrier::Unread(place));
-            self.seen.place.unknown_axis = None;
+            self.observed.place.set(Some(Barrier::Unread(place)), None);
             return;
         }
         let bounds = self.bounds_now().at(now.utc).turned_by(self.gate.to_sky());
         let place = intervals.sweep();
-        self.seen.place.barrier = match axis {
+        let barrier = match axis {
             // Above the minimum elevation a known angle needs no permission to go on.
             None => bounds.may_forbid(place),
             Some(_) => bounds.may_be_inside(place),
         };
-        self.seen.place.unknown_axis = axis;
-        if self.seen.place.barrier.is_none() {
+        let is_outside = barrier.is_none();
+        self.observed.place.set(barrier, axis);
+        if is_outside {
             self.gate.let_out(None);
         }
-    }
-
-    /// For the snapshot.
-    pub(super) fn inside(&self, now: Moment) -> Option<Inside> {
-        let barrier = self.seen.place.barrier.clone()?;
-        let axes = self.setup.can().axes;
-        let unknown_axis = self.seen.place.unknown_axis.and_then(|axis| axes.get(axis)).copied();
-        Some(Inside { barrier, unknown_axis, may_leave: self.gate.lets_out(now) })
     }
 
     /// The bounds that apply to the present activity.

@@ -103,7 +103,7 @@ impl Session {
     async fn connect(&mut self) -> Result<Option<Box<dyn Stream>>, LinkLoss> {
         let now = self.now();
         self.publish(now);
-        let mut dialling = (self.dial)();
+        let mut dialling = self.contact.dial();
         let clock = self.clock.clone();
         let until = clock.now().steady + CONNECT;
         loop {
@@ -318,7 +318,7 @@ impl Session {
             .supervise_due()
             .into_iter()
             .chain(self.owed.marking_due(now.steady))
-            .chain(self.shift_due(now.steady))
+            .chain(self.unit_offsets.due(now.steady))
             .chain(link_due)
             .chain(self.silence_due())
             .chain([due])

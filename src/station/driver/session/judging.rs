@@ -8,16 +8,14 @@ use tokio::{
     task::spawn_blocking,
 };
 
-use super::Session;
 use crate::{
     clock::Moment,
-    contract::driver::{Command, Effect, Event, Intent, Refusal, TrackProblem},
-    device::{Motion, OnBoard},
-    driver::gate::{Detour, DetourQuestion, NoRoute, PathQuestion, Route},
+    contract::driver::{Command, Effect},
+    driver::gate::{Detour, DetourQuestion, PathQuestion},
     job::is_in_place,
     orbit::PropagationError,
     plan::{
-        on_board::{Judge, NotClear},
+        on_board::NotClear,
         program_track::{AxisNow, PathOrder, PlannedPath, Planner},
     },
 };
@@ -40,10 +38,20 @@ enum Question {
 }
 
 #[derive(Debug)]
-enum Answer {
+pub(super) enum Answer {
     Paths(Vec<(PathQuestion, Result<(), NotClear>)>),
     Plan(Box<PlannedPath>),
     Detour(Box<Detour>),
+}
+
+/// Progress of an answer.
+#[derive(Debug)]
+pub(super) enum Poll {
+    /// There is no question, or no answer yet.
+    Pending,
+    Answer(Answer),
+    /// The worker has ended without an answer.
+    Broken,
 }
 
 impl Question {
@@ -127,103 +135,80 @@ impl Judging {
         }
         self.running = Some(running);
     }
-}
 
-impl Session {
-    /// Returns `true` if the whole path of `judge` has been judged by each of these reports; else
-    /// sees to it that it will be.
-    pub(super) fn is_judged(&mut self, judge: &Arc<Judge>, units: &[OnBoard]) -> bool {
-        let open = self.gate.open_questions(judge, units);
-        if open.is_empty() {
-            return true;
-        }
-        self.judging.begin(Question::Paths(open));
-        false
+    /// Judges these paths of the unit's own program.
+    pub(super) fn judge(&mut self, paths: Vec<PathQuestion>) {
+        self.begin(Question::Paths(paths));
     }
 
     /// Plans the path of a program track, unless a way is being judged.
     pub(super) fn plan(&mut self, order: PathOrder) {
-        self.judging.begin(Question::Plan(Box::new(order)));
-    }
-
-    /// The way of a motion of a program track; sees to it that a detour will be looked for.
-    pub(super) fn route(&mut self, motion: Motion, now: Moment) -> Result<Route, Refusal> {
-        let route = self.gate.route(motion, Intent::Track, now);
-        if let Err(NoRoute::Open(question)) = &route {
-            self.look_for(question.clone());
-        }
-        route.map_err(NoRoute::refusal)
+        self.begin(Question::Plan(Box::new(order)));
     }
 
     /// Looks for a detour, unless a way is being judged.
     pub(super) fn look_for(&mut self, question: Box<DetourQuestion>) {
-        self.judging.begin(Question::Detour(question));
+        self.begin(Question::Detour(question));
     }
 
-    /// Carries `command` out again when the judgement is there that it needs.
-    pub(super) fn wait_for_judgement(&mut self, command: Command) {
-        if self.judging.tries >= MAX_TRIES {
-            self.judging.tries = 0;
-            return self.tell(Event::NotSent(Refusal::BeingJudged));
+    /// Keeps `command` until the judgement is there that it needs. Returns `false` for one that has
+    /// waited too often.
+    pub(super) fn wait(&mut self, command: Command) -> bool {
+        if self.tries >= MAX_TRIES {
+            self.tries = 0;
+            return false;
         }
-        self.judging.tries += 1;
-        self.judging.waiting.push_front(command);
+        self.tries += 1;
+        self.waiting.push_front(command);
+        true
     }
 
     /// Returns the command unless it has to wait behind others: steps of an offset add up. Any other
     /// command takes the place of what waits.
     pub(super) fn take_turn(&mut self, command: Command) -> Option<Command> {
-        let waiting = &mut self.judging.waiting;
-        let adds_up = matches!(command, Command::Offset(_)) && !waiting.is_empty();
-        if adds_up && waiting.len() < MAX_WAITING {
-            waiting.push_back(command);
+        let adds_up = matches!(command, Command::Offset(_)) && !self.waiting.is_empty();
+        if adds_up && self.waiting.len() < MAX_WAITING {
+            self.waiting.push_back(command);
             return None;
         }
         if command.row().effect != Effect::Looks {
-            self.judging.drop_waiting();
+            self.drop_waiting();
         }
         Some(command)
     }
 
-    fn take_answer(&mut self, answer: Answer, now: Moment) {
-        let planned = match answer {
-            Answer::Paths(judgements) => return self.gate.take_judgements(judgements),
-            Answer::Detour(detour) => {
-                self.gate.take_detour(*detour);
-                None
-            }
-            Answer::Plan(planned) if self.judging.waiting.is_empty() => Some(planned),
-            Answer::Plan(planned) => {
-                self.judging.planned = Some(*planned);
-                return;
-            }
-        };
-        let Some(track) = self.commanded.activity.program_mut() else { return };
-        track.next_update = now.steady;
-        if let Some(Err(error)) = planned.map(|planned| track.planner.take_path(*planned)) {
-            self.end_follow(TrackProblem::Orbit(error), now);
+    /// Keeps a path for the command that waits for it. Returns it if none waits.
+    pub(super) fn keep_plan(&mut self, planned: Box<PlannedPath>) -> Option<Box<PlannedPath>> {
+        if self.waiting.is_empty() {
+            return Some(planned);
+        }
+        self.planned = Some(*planned);
+        None
+    }
+
+    /// Looks for the answer.
+    pub(super) fn poll(&mut self) -> Poll {
+        match self.running.as_mut().map(oneshot::Receiver::try_recv) {
+            None | Some(Err(oneshot::error::TryRecvError::Empty)) => Poll::Pending,
+            Some(Ok(answer)) => Poll::Answer(answer),
+            Some(Err(oneshot::error::TryRecvError::Closed)) => Poll::Broken,
         }
     }
 
-    /// Takes an answer that is there, and carries out what has waited for it.
-    pub(super) fn watch_judging(&mut self, now: Moment) {
-        let Some(running) = &mut self.judging.running else { return };
-        match running.try_recv() {
-            Err(oneshot::error::TryRecvError::Empty) => return,
-            Ok(answer) => self.take_answer(answer, now),
-            Err(oneshot::error::TryRecvError::Closed) => {
-                tracing::error!(antenna = self.setup.name(), "the judgement of a way broke down");
-                self.judging.drop_waiting();
-            }
-        }
-        self.judging.running = None;
-        while !self.judging.is_under_way()
-            && let Some(command) = self.judging.waiting.pop_front()
-        {
-            self.carry_out_now(command, now);
-            if !self.judging.is_under_way() {
-                self.judging.tries = 0;
-            }
+    /// The answer was taken: the next question may begin.
+    pub(super) fn end(&mut self) {
+        self.running = None;
+    }
+
+    /// The next command that waited, unless another answer is awaited.
+    pub(super) fn next_command(&mut self) -> Option<Command> {
+        if self.is_under_way() { None } else { self.waiting.pop_front() }
+    }
+
+    /// The command was carried out. One that awaits nothing more has no tries left to count.
+    pub(super) fn was_carried_out(&mut self) {
+        if !self.is_under_way() {
+            self.tries = 0;
         }
     }
 }

@@ -78,7 +78,7 @@ impl Session {
         let Some(track) = self.commanded.activity.program_mut() else { return Ok(()) };
         let order = self.judging.open_order(&mut track.planner, axes, now);
         if let Some(order) = order.map_err(|_| Refusal::PassUnknown)? {
-            self.plan(order);
+            self.judging.plan(order);
             return Err(Refusal::BeingJudged);
         }
         let next = track.planner.update(now.utc, axes).map_err(|_| Refusal::PassUnknown)?;

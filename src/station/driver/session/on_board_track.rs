@@ -44,7 +44,7 @@ impl Session {
             Ok(to) => to,
             Err(NoRoute::Refused(refusal)) => return Err(Event::NotSent(refusal)),
             Err(NoRoute::Open(question)) => {
-                self.look_for(question);
+                self.judging.look_for(question);
                 return Ok(None);
             }
         };
@@ -90,7 +90,11 @@ impl Session {
 
     /// The watch over the on-board track, whoever asked for it.
     pub(super) fn on_board_watch(&self) -> Option<&Watch> {
-        self.commanded.activity.on_board().map(|track| &track.watch).or(self.unasked.as_ref())
+        self.commanded
+            .activity
+            .on_board()
+            .map(|track| &track.watch)
+            .or(self.observed.unasked.as_ref())
     }
 
     /// Begins or ends the watch over a track that nobody asked for from here.
@@ -101,15 +105,15 @@ impl Session {
         let orbit =
             self.wires.orbit().filter(|_| is_on && self.commanded.activity.program().is_none());
         let Some(pass) = orbit.and_then(|orbit| orbit.pass_of(&state.on_board)) else {
-            self.unasked = None;
+            self.observed.unasked = None;
             return;
         };
-        if self.unasked.as_ref().is_some_and(|watch| watch.is_over_pass(&pass)) {
+        if self.observed.unasked.as_ref().is_some_and(|watch| watch.is_over_pass(&pass)) {
             return;
         }
         // Elements that describe no orbit give no direction to compare with.
         let judge = Judge::new(pass, self.setup.ability()).ok();
-        self.unasked = judge.map(|judge| Watch::new(Arc::new(judge), &state.on_board));
+        self.observed.unasked = judge.map(|judge| Watch::new(Arc::new(judge), &state.on_board));
     }
 
     /// Returns `true` if the antenna stands while the path of the unit, at `to` now, goes on.
@@ -128,7 +132,7 @@ impl Session {
             .activity
             .on_board_mut()
             .map(|track| &mut track.watch)
-            .or(self.unasked.as_mut())
+            .or(self.observed.unasked.as_mut())
     }
 
     /// Checks whether the unit points where it should.

@@ -84,7 +84,7 @@ impl Session {
     fn check_first(&mut self, mut planner: Planner, now: Moment) -> Result<Planner, TrackProblem> {
         let axes = Tracking::turning(self.gate.state().measured);
         if let Some(order) = self.judging.open_order(&mut planner, axes, now)? {
-            self.plan(order);
+            self.judging.plan(order);
             return Err(Refusal::BeingJudged.into());
         }
         if let Some(next) = planner.update(now.utc, axes)? {
@@ -202,7 +202,7 @@ impl Session {
         let axes = track.axes(measured, latency);
         // The answer brings the next look.
         if let Some(order) = track.planner.path_order(now.utc, axes).filter(PathOrder::may_detour) {
-            return self.plan(order);
+            return self.judging.plan(order);
         }
         match track.planner.update(now.utc, axes) {
             Ok(None) => {}

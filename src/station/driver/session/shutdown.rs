@@ -77,7 +77,7 @@ impl Session {
     /// that is proved, or another session of the unit takes it over.
     pub(super) async fn pay_debts(&mut self) {
         while self.is_in_debt() && !self.owed.debts().is_relieved(self.stop.is_under_way()) {
-            if let Ok(Ok(stream)) = self.clock.timeout(CONNECT, (self.dial)()).await {
+            if let Ok(Ok(stream)) = self.clock.timeout(CONNECT, self.contact.dial()).await {
                 let (mut reader, mut writer) = tokio::io::split(stream);
                 let now = self.now();
                 self.gate.device().link_up(now);

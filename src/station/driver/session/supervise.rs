@@ -328,7 +328,7 @@ impl Session {
     /// Sends the next motion of a slew, or reports how it has ended.
     fn watch_slew(&mut self, now: Moment) {
         let (turns, within_deg) = (self.turns(), self.setup.can().arrives_within_deg);
-        let turned = self.seen.effects.last_change();
+        let turned = self.observed.effects.last_change();
         let Some(measured) = self.gate.state().measured else { return };
         let Some(at) = self.gate.pointing() else { return };
         let Some(slew) = self.commanded.activity.slew_mut() else { return };

@@ -3,16 +3,15 @@
 
 mod added;
 mod program;
+mod shifting;
 
-use std::{sync::Arc, time::Duration};
-
-use jiff::Timestamp;
+use std::sync::Arc;
 
 use super::{Session, offsets::most};
 use crate::{
     astro::{Offset, TrackOffsets},
-    clock::{Instant, Moment},
-    contract::driver::{Command, Event, LeftOffsets, OffsetChange, Refusal, SESSION_TICKETS},
+    clock::Moment,
+    contract::driver::{Command, Event, LeftOffsets, OffsetChange, Refusal},
     device::{
         OnBoard, TrackOffsetFields,
         settings::{Change, WriteError},
@@ -21,44 +20,8 @@ use crate::{
     plan::{OnBoardPass, on_board::Judge},
     promises::Kept,
 };
-
-/// Interval at which the write of a record is checked.
-const LOOK: Duration = Duration::from_millis(2);
-/// Azel's own assumption: a unit applies a setting within this time, or not at all.
-const APPLIED: Duration = Duration::from_mins(1);
-/// First and longest wait before offsets that were not taken back are written again.
-const AGAIN: Duration = Duration::from_secs(10);
-const MAX_AGAIN: Duration = Duration::from_mins(10);
-
-/// Offsets of the unit's own track, and the change of them that is under way.
-#[derive(Default)]
-pub(super) struct UnitOffsets {
-    step: Step,
-    /// Offsets that the operator wants, until they are in force.
-    wanted: Option<TrackOffsets>,
-    /// Earlier values of `wanted`, for undo, the oldest first.
-    earlier: Vec<TrackOffsets>,
-    /// Time of the last read when a change failed to read back: the offsets are unknown until a later
-    /// read.
-    unread_since: Option<Timestamp>,
-    /// Until then the unit may still apply a change that did not read back.
-    unsure_until: Option<Instant>,
-    /// Why what was written is still there.
-    left: Option<LeftOffsets>,
-    /// When taking back is tried again, and the wait before that.
-    again: Option<(Instant, Duration)>,
-    tickets: u64,
-}
-
-#[derive(Default)]
-enum Step {
-    #[default]
-    None,
-    /// Azel is recording on disk what the unit held before, and what it will hold with `wanted`.
-    Marking { wanted: TrackOffsets },
-    /// On its way to the unit.
-    Writing { ticket: u64 },
-}
+pub(super) use shifting::Shifting;
+use shifting::{Certainty, Step};
 
 impl Session {
     /// Changes what is added to the offsets of the unit's own track.
@@ -73,7 +36,7 @@ impl Session {
         if !is_running && in_force.is_none_or(TrackOffsets::is_none) {
             return Err(Refusal::NoTrack);
         }
-        let before = self.unit_offsets.wanted.or(in_force).ok_or(Refusal::OffsetsUnknown)?;
+        let before = self.unit_offsets.wanted().or(in_force).ok_or(Refusal::OffsetsUnknown)?;
         let wanted = match change {
             OffsetChange::Step(step) => {
                 if !is_running || !matches!(step, Offset::Azimuth(_) | Offset::Elevation(_)) {
@@ -82,9 +45,7 @@ impl Session {
                 before.plus(step).ok_or_else(|| Refusal::OffsetTooLarge { most: most(step) })?
             }
             OffsetChange::Zero => TrackOffsets::NONE,
-            OffsetChange::Undo => {
-                self.unit_offsets.earlier.last().copied().ok_or(Refusal::Nothing)?
-            }
+            OffsetChange::Undo => self.unit_offsets.last_earlier().ok_or(Refusal::Nothing)?,
         };
         if let Some(shift) = self.shift(wanted, now)? {
             if !self.is_judged(&shift.judge, &[shift.axes.clone(), shift.sky.clone()]) {
@@ -94,12 +55,11 @@ impl Session {
             self.gate.shift_is_clear(&shift, self.stop.is_under_way(), now)?;
         }
         match change {
-            OffsetChange::Undo => drop(self.unit_offsets.earlier.pop()),
-            _ if wanted == before => return Ok(()),
-            _ => self.unit_offsets.earlier.push(before),
+            OffsetChange::Undo => self.unit_offsets.drop_last_earlier(),
+            OffsetChange::Step(_) | OffsetChange::Zero if wanted == before => return Ok(()),
+            OffsetChange::Step(_) | OffsetChange::Zero => self.unit_offsets.remember(before),
         }
-        (self.unit_offsets.left, self.unit_offsets.again) = (None, None);
-        self.unit_offsets.wanted = Some(wanted);
+        self.unit_offsets.request(wanted);
         if let Some(shifted) = self.owed.debts().shifted() {
             let shifted = ShiftedTrack { is_found: false, ..shifted };
             self.owed.debts().set_shifted(Some(shifted));
@@ -133,8 +93,8 @@ impl Session {
 
     /// Records what is about to be written. Back to what the unit held before needs no record.
     fn begin_shift(&mut self, fields: &TrackOffsetFields, now: Moment) {
-        let Some(wanted) = self.unit_offsets.wanted else { return };
-        if !matches!(self.unit_offsets.step, Step::None) {
+        let Some(wanted) = self.unit_offsets.wanted() else { return };
+        if !self.unit_offsets.is_idle() {
             return;
         }
         let Some(held) = self.held_offsets() else { return self.forget_wanted() };
@@ -152,7 +112,7 @@ impl Session {
         let mut shifted = known.unwrap_or(new);
         let Some(after) = shifted.before.checked_add(wanted) else { return self.forget_wanted() };
         shifted.track = self.told_track();
-        if self.unit_offsets.unsure_until.is_none() {
+        if self.unit_offsets.is_sure() {
             // The unit holds what was read back, and nothing older.
             shifted.put.clear();
         }
@@ -160,7 +120,7 @@ impl Session {
         shifted.may_be(after);
         self.owed.debts().set_shifted(Some(shifted));
         if self.owed.debts().has_marks() {
-            self.unit_offsets.step = Step::Marking { wanted };
+            self.unit_offsets.begin_marking(wanted);
         } else {
             self.write_shift(fields, now);
         }
@@ -168,17 +128,16 @@ impl Session {
 
     /// Sends what is wanted through the gate.
     fn write_shift(&mut self, fields: &TrackOffsetFields, now: Moment) {
-        self.unit_offsets.step = Step::None;
+        self.unit_offsets.end_step();
         let written = self.try_write_shift(fields, now);
         match written {
-            Ok(Some(ticket)) => self.unit_offsets.step = Step::Writing { ticket },
-            Ok(None) => self.unit_offsets.wanted = None,
+            Ok(Some(ticket)) => self.unit_offsets.begin_writing(ticket),
+            Ok(None) => self.unit_offsets.is_in_force(),
             Err(refusal) => {
-                let is_taking_back = self.is_taking_back();
+                let is_taking_back = self.unit_offsets.is_taking_back();
                 self.forget_wanted();
                 if is_taking_back && self.added_track_is_over(now) {
-                    self.unit_offsets.left = Some(LeftOffsets::Refused(refusal));
-                    self.try_again_later(now);
+                    self.unit_offsets.fail(LeftOffsets::Refused(refusal), now.steady);
                 } else {
                     self.tell(Event::OffsetRefused(refusal));
                 }
@@ -192,7 +151,7 @@ impl Session {
         fields: &TrackOffsetFields,
         now: Moment,
     ) -> Result<Option<u64>, Refusal> {
-        let Some(wanted) = self.unit_offsets.wanted else { return Ok(None) };
+        let Some(wanted) = self.unit_offsets.wanted() else { return Ok(None) };
         let held = self.held_offsets().ok_or(Refusal::OffsetsUnknown)?;
         let Some(shifted) = self.owed.debts().shifted() else { return Ok(None) };
         let after = shifted.before.checked_add(wanted).ok_or(Refusal::NotOffered)?;
@@ -201,8 +160,7 @@ impl Session {
             return Ok(None);
         }
         let shift = self.shift(wanted, now)?;
-        self.unit_offsets.tickets += 1;
-        let ticket = SESSION_TICKETS + self.unit_offsets.tickets;
+        let ticket = self.unit_offsets.next_ticket();
         let group = self.gate.state().held.get(fields.group);
         let seen = group.and_then(|group| Some(group.held.as_ref()?.values.clone()));
         let change = Change { ticket, group: fields.group, values, seen, is_unlocked: false };
@@ -213,18 +171,18 @@ impl Session {
     /// Follows a change to its end, and takes back what is added once the track is over.
     pub(super) fn watch_unit_offsets(&mut self, now: Moment) {
         let Some(fields) = self.setup.track_offsets() else { return };
-        match self.unit_offsets.step {
+        match self.unit_offsets.step() {
             Step::None => {}
             Step::Marking { wanted } => match self.owed.debts().shifted_kept() {
                 Kept::Pending => return,
                 Kept::Failed(_) => {
-                    self.unit_offsets.step = Step::None;
+                    self.unit_offsets.end_step();
                     self.forget_wanted();
                     self.tell(Event::OffsetRefused(Refusal::NoOffsetsRecord));
                 }
                 Kept::OnDisk => {
-                    self.unit_offsets.step = Step::None;
-                    if self.unit_offsets.wanted == Some(wanted) {
+                    self.unit_offsets.end_step();
+                    if self.unit_offsets.wanted() == Some(wanted) {
                         self.write_shift(fields, now);
                     } else {
                         // Another change has been requested since.
@@ -234,7 +192,7 @@ impl Session {
             },
             Step::Writing { ticket } => self.watch_write(fields, ticket, now),
         }
-        if matches!(self.unit_offsets.step, Step::None) {
+        if self.unit_offsets.is_idle() {
             self.watch_shifted(fields, now);
         }
     }
@@ -245,12 +203,12 @@ impl Session {
         let Some(written) = written.filter(|written| written.change.ticket == ticket) else {
             return;
         };
-        self.unit_offsets.step = Step::None;
+        self.unit_offsets.end_step();
         // In mid-track the operator may try again, and the end of the track takes it back.
-        let was_at_the_end = self.is_taking_back() && self.added_track_is_over(now);
+        let was_at_the_end = self.unit_offsets.is_taking_back() && self.added_track_is_over(now);
         match &written.result {
-            Ok(()) if self.unit_offsets.wanted == self.added_offsets() => {
-                self.unit_offsets.wanted = None;
+            Ok(()) if self.unit_offsets.wanted() == self.added_offsets() => {
+                self.unit_offsets.is_in_force();
             }
             // Another change has been requested since.
             Ok(()) => self.begin_shift(fields, now),
@@ -259,7 +217,7 @@ impl Session {
                     self.own_read_back();
                 }
                 if may_apply_late(error) {
-                    self.unit_offsets.unsure_until = Some(now.steady + APPLIED);
+                    self.unit_offsets.doubt(now.steady);
                 }
                 self.forget_wanted();
                 if !matches!(error, WriteError::Stopped | WriteError::ChangedMeanwhile) {
@@ -270,8 +228,7 @@ impl Session {
                     WriteError::Stopped => {}
                     WriteError::ChangedMeanwhile if was_at_the_end => {}
                     error if was_at_the_end => {
-                        self.unit_offsets.left = Some(LeftOffsets::Failed(error.clone()));
-                        self.try_again_later(now);
+                        self.unit_offsets.fail(LeftOffsets::Failed(error.clone()), now.steady);
                     }
                     error => self.tell(Event::OffsetNotTaken(error.clone())),
                 }
@@ -281,35 +238,25 @@ impl Session {
 
     /// The offsets are unknown until the unit is read again.
     fn read_offsets_again(&mut self, fields: &TrackOffsetFields) {
-        self.unit_offsets.unread_since = self.read_at();
+        self.unit_offsets.unread(self.read_at());
         self.gate.device().read_group(fields.group);
-    }
-
-    /// Each failure to take offsets back doubles the wait before the next try.
-    fn try_again_later(&mut self, now: Moment) {
-        let wait = self.unit_offsets.again.map_or(AGAIN, |(_, wait)| MAX_AGAIN.min(wait * 2));
-        self.unit_offsets.again = Some((now.steady + wait, wait));
     }
 
     /// An earlier run may have written offsets just before it ended.
     pub(super) fn doubt_found_offsets(&mut self, now: Moment) {
         let shifted = self.owed.debts().shifted();
         if shifted.is_some_and(|shifted| shifted.is_found) {
-            self.unit_offsets.unsure_until = Some(now.steady + APPLIED);
+            self.unit_offsets.doubt(now.steady);
         }
     }
 
     /// The link is lost: the next read of the unit shows the outcome of a change.
     pub(super) fn lose_shift(&mut self, now: Moment) {
-        match std::mem::take(&mut self.unit_offsets.step) {
-            Step::None => return,
-            Step::Marking { .. } => {}
-            Step::Writing { .. } => {
-                self.unit_offsets.unsure_until = Some(now.steady + APPLIED);
-            }
+        if !self.unit_offsets.lose(now.steady) {
+            return;
         }
-        let is_taking_back = self.is_taking_back();
-        self.unit_offsets.unread_since = self.read_at();
+        let is_taking_back = self.unit_offsets.is_taking_back();
+        self.unit_offsets.unread(self.read_at());
         self.forget_wanted();
         // Taking back stays owed, so it is no failure to report.
         if !is_taking_back {
@@ -322,7 +269,7 @@ impl Session {
         let is_over = self.added_track_is_over(now);
         let Some(shifted) = self.owed.debts().shifted() else {
             if is_over {
-                self.unit_offsets.earlier.clear();
+                self.unit_offsets.forget_earlier();
             }
             return;
         };
@@ -333,8 +280,8 @@ impl Session {
         if added.is_none() {
             let is_done = is_over || shifted.is_found;
             if is_done {
-                self.unit_offsets.earlier.clear();
-                (self.unit_offsets.left, self.unit_offsets.again) = (None, None);
+                self.unit_offsets.forget_earlier();
+                self.unit_offsets.forget_failures();
                 if self.is_sure(fields, now) {
                     self.forget_shifted();
                 }
@@ -349,7 +296,7 @@ impl Session {
             {
                 return;
             }
-            self.unit_offsets.wanted = Some(TrackOffsets::NONE);
+            self.unit_offsets.take_back();
             self.begin_shift(fields, now);
         }
     }
@@ -360,7 +307,7 @@ impl Session {
         if !shifted.is_found {
             self.tell(Event::OffsetNotTaken(WriteError::ChangedMeanwhile));
         }
-        let is_sure = self.unit_offsets.unsure_until.is_none_or(|until| until <= now.steady);
+        let is_sure = self.unit_offsets.is_settled(now.steady);
         match shifted.without_foreign(held) {
             Some(left) if left.before != held || !is_sure => {
                 self.owed.debts().set_shifted(Some(left));
@@ -371,12 +318,14 @@ impl Session {
 
     /// Returns `true` if the unit was read after the time in which it may apply a change late.
     fn is_sure(&mut self, fields: &TrackOffsetFields, now: Moment) -> bool {
-        let Some(until) = self.unit_offsets.unsure_until else { return true };
-        if until <= now.steady {
-            self.unit_offsets.unsure_until = None;
-            self.read_offsets_again(fields);
+        match self.unit_offsets.certainty(now.steady) {
+            Certainty::Sure => true,
+            Certainty::Unsure => false,
+            Certainty::MustRead => {
+                self.read_offsets_again(fields);
+                false
+            }
         }
-        false
     }
 
     /// Records offsets that read back differently from those written: they are from here too.
@@ -393,43 +342,25 @@ impl Session {
     /// The unit holds nothing of ours any more.
     fn forget_shifted(&mut self) {
         self.owed.debts().set_shifted(None);
-        let tickets = self.unit_offsets.tickets;
-        self.unit_offsets = UnitOffsets { tickets, ..UnitOffsets::default() };
+        self.unit_offsets.reset();
     }
 
-    /// Returns `true` while all that was added is to be taken back, by the operator or at the end of the
-    /// track.
-    fn is_taking_back(&self) -> bool {
-        self.unit_offsets.wanted.is_some_and(TrackOffsets::is_none)
-    }
-
-    /// Drops the wanted offsets, and the undo steps that would change nothing.
+    /// Drops the wanted offsets.
     fn forget_wanted(&mut self) {
-        self.unit_offsets.wanted = None;
         let in_force = self.added_offsets();
-        let earlier = &mut self.unit_offsets.earlier;
-        while earlier.last().is_some_and(|last| Some(*last) == in_force) {
-            earlier.pop();
-        }
+        self.unit_offsets.forget_wanted(in_force);
     }
 
     /// A halt voids a change that is not on its way to the unit.
     pub(super) fn void_shift(&mut self) {
-        if let Step::Marking { .. } = self.unit_offsets.step {
-            self.unit_offsets.step = Step::None;
-        }
-        self.forget_wanted();
+        let in_force = self.added_offsets();
+        self.unit_offsets.void(in_force);
     }
 
     /// Returns `true` while what was added for a track is being taken back: the next one waits for
     /// that.
     pub(super) fn takes_offsets_back(&self) -> bool {
-        !self.program_is_on() && matches!(self.unit_offsets.step, Step::Writing { .. })
-    }
-
-    /// When to check again whether the record is on the disk.
-    pub(super) fn shift_due(&self, now: Instant) -> Option<Instant> {
-        matches!(self.unit_offsets.step, Step::Marking { .. }).then_some(now + LOOK)
+        !self.program_is_on() && self.unit_offsets.is_writing()
     }
 }
 

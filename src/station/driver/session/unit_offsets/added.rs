@@ -3,7 +3,6 @@
 use glam::DQuat;
 use jiff::Timestamp;
 
-use super::Step;
 use crate::{
     astro::{TrackOffsets, time::add_seconds},
     clock::Moment,
@@ -29,8 +28,8 @@ impl Session {
     /// Offsets of the unit in azimuth and elevation, at the last read; `None` while they are not
     /// known.
     pub(super) fn held_offsets(&self) -> Option<TrackOffsets> {
-        let read = self.unit_offsets.unread_since.is_none_or(|last| self.read_at() != Some(last));
-        self.gate.state().on_board.offsets.filter(|_| read)?.of_the_axes()
+        let is_read = self.unit_offsets.is_read(self.read_at());
+        self.gate.state().on_board.offsets.filter(|_| is_read)?.of_the_axes()
     }
 
     /// When the offsets of the unit were read last.
@@ -41,7 +40,7 @@ impl Session {
 
     /// Offsets that are meant to be on: the antenna should point this far off its target.
     pub(in crate::driver::session) fn meant_offsets(&self) -> TrackOffsets {
-        let is_meant = self.unit_offsets.left.is_none()
+        let is_meant = self.unit_offsets.left().is_none()
             && self.owed.debts().shifted().is_some_and(|shifted| !shifted.is_found);
         self.added_offsets().filter(|_| is_meant).unwrap_or_default()
     }
@@ -63,19 +62,19 @@ impl Session {
 
     pub(in crate::driver::session) fn unit_offsets_view(&self) -> Option<UnitOffsetsView> {
         let shifted = self.owed.debts().shifted();
-        let pad = &self.unit_offsets;
         let offsets = self.added_offsets().unwrap_or_default();
-        let is_changing = pad.wanted.is_some() || !matches!(pad.step, Step::None);
+        let is_changing = self.unit_offsets.is_changing();
+        let can_undo = self.unit_offsets.last_earlier().is_some();
         let found = || {
             let shifted = shifted.filter(|shifted| shifted.is_found && !offsets.is_none())?;
             Some(LeftOffsets::Found { since: shifted.since })
         };
-        let is_told = is_changing || !offsets.is_none() || !pad.earlier.is_empty();
-        is_told.then(|| UnitOffsetsView {
+        let is_shown = is_changing || !offsets.is_none() || can_undo;
+        is_shown.then(|| UnitOffsetsView {
             offsets,
             is_changing,
-            can_undo: !pad.earlier.is_empty(),
-            left: pad.left.clone().or_else(found),
+            can_undo,
+            left: self.unit_offsets.left().cloned().or_else(found),
         })
     }
 
@@ -93,16 +92,9 @@ impl Session {
             || is_another && self.program_is_on() && !self.commanded.activity.is_pending()
     }
 
-    /// Returns `true` unless taking back has failed just before. An attempt that the gate refused
-    /// on the next track is repeated at the end of that track.
+    /// Returns `true` unless taking back has failed just before.
     pub(super) fn may_take_back(&self, now: Moment) -> bool {
-        match &self.unit_offsets.left {
-            None => true,
-            Some(LeftOffsets::Refused(_)) if !self.may_track() => true,
-            Some(LeftOffsets::Refused(_) | LeftOffsets::Failed(_) | LeftOffsets::Found { .. }) => {
-                self.unit_offsets.again.is_none_or(|(at, _)| at <= now.steady)
-            }
-        }
+        self.unit_offsets.may_take_back(self.may_track(), now.steady)
     }
 
     /// Returns `true` if the track is over and what was added for it is still on the unit.

@@ -1,7 +1,8 @@
 //! Records on disk, and offsets that an earlier run has left on the unit.
 
-use std::{collections::BTreeMap, path::Path, sync::Arc};
+use std::{collections::BTreeMap, path::Path, sync::Arc, time::Duration};
 
+use jiff::Timestamp;
 use tokio::{io::AsyncWriteExt as _, time::sleep};
 
 use super::*;

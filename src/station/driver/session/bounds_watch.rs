@@ -1,0 +1,159 @@
+//! Compares measured positions with the bounds of the antenna, whoever drives it.
+
+use super::Session;
+use crate::{
+    clock::Moment,
+    contract::driver::{Event, Mover, Response, Safety},
+    device::{AxisMotion, Measured},
+    driver::gate::{Interval, Intervals},
+    plan::{Barrier, Clearance, Sweep},
+};
+
+/// An antenna that dips below its minimum elevation by no more than this, beyond its pointing
+/// tolerance, is left alone: a program ends there, and readings are rounded.
+const DIP_DEG: f64 = 0.5;
+/// Lower rates are those of a standing antenna, degrees a second.
+const SLOWEST_DEG_S: f64 = 0.02;
+/// A shorter way out is lost in the noise of the readings, degrees.
+const NOISE_DEG: f64 = 0.02;
+
+/// How certain it is that the antenna is inside a barrier.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Certainty {
+    /// Both angles are known.
+    Known,
+    /// It is inside at every possible angle.
+    Inside,
+    Unknown,
+}
+
+impl Session {
+    /// Checks whether the antenna enters, or is inside, a forbidden zone.
+    pub(super) fn watch_bounds(&mut self, now: Moment) {
+        let Some(look) = self.gate.state().measured else { return };
+        if !self.observed.monitor.is_new(&look) || self.contact.is_unread() {
+            return;
+        }
+        let Some(intervals) = self.gate.intervals() else { return };
+        let here = intervals.sweep();
+        let (has_elevation, width_deg) =
+            (self.setup.can().has_elevation(), self.alarm_figures().rest_width_deg());
+        let rates = self.observed.monitor.rates(&look, intervals, has_elevation, width_deg);
+        let turns_unseen = self.turns_unseen(&look, intervals);
+        let is_moving = rates.iter().any(|rate| rate.abs() > SLOWEST_DEG_S) || turns_unseen;
+        let ahead_s = self.gate.ahead_s(now);
+        let there = self.reached(intervals, rates, turns_unseen, ahead_s);
+        let bounds = self.bounds_now().at(now.utc).turned_by(self.gate.to_sky());
+        let [from, to] = [here, there].map(|place| bounds.least_clearances(place));
+        let is_known = intervals.unknown().is_none();
+        // An unknown angle is inside a barrier only if it is so wherever the axis may be.
+        let surely = (!is_known).then(|| bounds.holds_all_of(here));
+        // From anywhere in a range the search would hold up the other antennas of this thread.
+        let way_deg = |place| is_known.then(|| bounds.way_out_deg(place)).flatten();
+        let ways_deg = [here, there].map(way_deg);
+        for (index, (from, to)) in from.into_iter().zip(to).enumerate() {
+            // Where no single axis leads out, the depth inside each barrier counts.
+            let deeper_deg = match ways_deg {
+                [Some(here_deg), Some(there_deg)] => there_deg - here_deg,
+                _ => from.angle.degrees() - to.angle.degrees(),
+            };
+            let goes_deeper = is_moving && deeper_deg > NOISE_DEG;
+            let certainty = match &surely {
+                None => Certainty::Known,
+                Some(surely) if surely.get(index) == Some(&true) => Certainty::Inside,
+                Some(_) => Certainty::Unknown,
+            };
+            self.judge(from, &to, certainty, is_moving, goes_deeper, now);
+        }
+    }
+
+    /// Returns `true` if an axis whose angle is unknown may turn.
+    fn turns_unseen(&self, look: &Measured, intervals: Intervals) -> bool {
+        let is_ours = self.mover() == Mover::Azel;
+        let axes = look.axes.iter().zip(intervals.0).zip(self.gate.turns());
+        let mut unknown = axes.filter(|((_, interval), _)| !interval.is_known);
+        unknown.any(|((axis, _), is_turned)| {
+            axis.motion != AxisMotion::Still || (is_ours && is_turned)
+        })
+    }
+
+    /// Where the axes may be after `ahead_s` seconds at these rates.
+    fn reached(
+        &self,
+        intervals: Intervals,
+        rates: [f64; 2],
+        turns_unseen: bool,
+        ahead_s: f64,
+    ) -> Sweep {
+        let ahead_deg = rates.map(|rate| rate * ahead_s);
+        if let Some(axes_deg) = intervals.angles_deg() {
+            let Sweep([first, second]) = Sweep::at(self.gate.ahead_of(axes_deg, ahead_deg));
+            let has_elevation = self.setup.can().has_elevation();
+            let Sweep([_, column]) = intervals.sweep();
+            return Sweep([first, if has_elevation { second } else { column }]);
+        }
+        let here = intervals.sweep().turned(ahead_deg);
+        let unseen_deg =
+            if turns_unseen { self.setup.track_config().fastest_deg_s() * ahead_s } else { 0.0 };
+        let widen = |(from, to): (f64, f64), axis: Interval| {
+            if axis.is_known { (from, to) } else { (from - unseen_deg, to + unseen_deg) }
+        };
+        let (Sweep([first, second]), Intervals([first_axis, second_axis])) = (here, intervals);
+        Sweep([widen(first, first_axis), widen(second, second_axis)])
+    }
+
+    fn judge(
+        &mut self,
+        here: Clearance,
+        there: &Clearance,
+        certainty: Certainty,
+        is_moving: bool,
+        goes_deeper: bool,
+        now: Moment,
+    ) {
+        let arrives_within_deg = self.setup.can().arrives_within_deg;
+        let is_floor = here.barrier == Barrier::MinimumElevation;
+        let dip_deg = if is_floor { DIP_DEG + arrives_within_deg } else { 0.0 };
+        let (here_deg, there_deg) =
+            (here.angle.degrees() + dip_deg, there.angle.degrees() + dip_deg);
+        let driver = self.mover();
+        let is_inside = match certainty {
+            Certainty::Known => here_deg < 0.0,
+            Certainty::Inside => true,
+            // Where it may be inside already, the gate alone forbids or permits.
+            Certainty::Unknown if here_deg < 0.0 => return,
+            Certainty::Unknown => false,
+        };
+        // A program slows down where its pass begins; the readings show whether it does.
+        let ends_there = driver == Mover::Program && here.barrier == Barrier::MinimumElevation;
+        let enters = is_moving && !is_inside && there_deg < 0.0 && !ends_there;
+        let goes_deeper = is_inside && goes_deeper;
+        let is_reported = self.observed.monitor.is_reported(&here.barrier);
+        if !is_inside && !enters {
+            self.observed.monitor.leave(&here.barrier);
+            return;
+        }
+        // Azel always stops its own requests, including on-board tracks: it started them, so the
+        // station's setting for other people's motions does not apply.
+        let is_requested =
+            driver == Mover::Azel || (self.commanded.activity.on_board().is_some() && !is_floor);
+        let stops = (enters || goes_deeper)
+            && !here.warns_only
+            && (is_requested || self.setup.stops_others());
+        if stops && !self.stop.is_under_way() {
+            self.halt(now);
+        } else if is_reported {
+            return;
+        }
+        if !is_reported {
+            self.observed.monitor.report(here.barrier.clone());
+        }
+        let response = if stops { Response::Stopped } else { Response::Reported };
+        self.tell(Event::Safety(Safety::Forbidden { barrier: here.barrier, driver, response }));
+    }
+
+    fn mover(&self) -> Mover {
+        let program = self.gate.state().program;
+        self.commanded.mover(program.is_some_and(|program| program.enabled))
+    }
+}

@@ -1,0 +1,32 @@
+//! The barrier that an antenna is inside of.
+
+use crate::{
+    clock::Instant, contract::driver::Inside, device::Measured, name::Name, plan::Barrier,
+};
+
+/// The barrier that the antenna is, or may be, inside of by the last position.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(super) struct Place {
+    looked: Option<Instant>,
+    barrier: Option<Barrier>,
+    /// The axis without an angle; with one, the antenna may only be inside.
+    unknown_axis: Option<usize>,
+}
+
+impl Place {
+    /// Returns `true`, once for each position.
+    pub(super) fn is_new(&mut self, look: &Measured) -> bool {
+        self.looked.replace(look.received) != Some(look.received)
+    }
+
+    pub(super) fn set(&mut self, barrier: Option<Barrier>, unknown_axis: Option<usize>) {
+        (self.barrier, self.unknown_axis) = (barrier, unknown_axis);
+    }
+
+    /// For the snapshot. `axes`: their names.
+    pub(super) fn view(&self, axes: &[Name], may_leave: bool) -> Option<Inside> {
+        let barrier = self.barrier.clone()?;
+        let unknown_axis = self.unknown_axis.and_then(|axis| axes.get(axis)).copied();
+        Some(Inside { barrier, unknown_axis, may_leave })
+    }
+}
