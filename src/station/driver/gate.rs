@@ -161,6 +161,7 @@ impl Gate {
 
     /// `None` ends the lock-out.
     pub(super) fn set_lock_out(&mut self, lock_out: Option<LockOut>) {
+        // Changes of settings that wait in the controller must not pass the lock-out either.
         self.controller.lock_changes(lock_out.is_some());
         self.lock_out = lock_out;
     }
@@ -174,6 +175,7 @@ impl Gate {
     pub(super) fn was_moved(&mut self, since: Option<Instant>) {
         self.unproved_since = since;
         if let Some(since) = since {
+            // A debt holds the time of the motion, and nothing of where it leads.
             self.watch.commanded([Some(Lead::Anywhere); 2], since);
         }
     }
@@ -233,6 +235,7 @@ impl Gate {
             Motion::Position { azimuth, elevation } if matches!(self.mount, Mount::AzEl { .. }) => {
                 [azimuth.is_some(), elevation.is_some()]
             }
+            // Any new direction turns both axes of an X/Y mount.
             Motion::Position { .. } | Motion::StartProgram | Motion::EnableAuto => [true; 2],
         }
     }
@@ -248,6 +251,7 @@ impl Gate {
 
     pub(super) fn keep_within(&mut self, bounds: Bounds) {
         self.bounds = bounds;
+        // The bounds of an agreed track to the Sun derive from these.
         self.lift_sun(self.lifts_sun());
     }
 
@@ -268,6 +272,8 @@ impl Gate {
         let asked = self.angles_asked().unwrap_or(measured.asked);
         let age = now.steady.saturating_duration_since(asked);
         let reply = measured.received.saturating_duration_since(measured.asked);
+        // A motion is judged again when the next position arrives, which may take as long as the
+        // last.
         (age + reply + self.controller.poll_period()).as_secs_f64() + self.overrun_s
     }
 
@@ -304,8 +310,10 @@ impl Gate {
         stopping: bool,
         now: Moment,
     ) -> Result<(), Refusal> {
+        // A refused motion must leave everything that is remembered of the one before.
         self.examine(motion.into(), &self.situation(intent, stopping, now))?;
         self.remember_target(motion, intent, now);
+        // If the answer is lost, a turn since then shows that the motion reached the unit.
         self.started_from_deg = self.axes_deg();
         self.unproved_since = Some(now.steady);
         self.watch_motion(motion, now);
@@ -346,6 +354,8 @@ impl Gate {
             to_sky: self.to_sky_in(intent),
             ahead_s: self.ahead_s(now),
             lock_out: self.lock_out.as_ref(),
+            // A single motion counts no looks: a budget that others had used up could refuse what a
+            // search had just accepted.
             budget: None,
             now,
         }
@@ -426,6 +436,8 @@ impl Gate {
         let azimuth = azimuth.or(azimuth_now.map(Angle::from_degrees));
         let elevation = elevation.or(elevation_now);
         if elevation.is_none() && self.is_flipped() {
+            // At its upper limit the axis has no angle, and the beam still points to the other
+            // side.
             let azimuth = azimuth.map(|azimuth| (azimuth + HALF_TURN).wrapped_360());
             return Some(Pointing { azimuth, elevation });
         }

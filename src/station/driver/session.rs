@@ -160,6 +160,7 @@ impl Session {
     }
 
     fn publish(&mut self, now: Moment) {
+        // If this session breaks down, the unit's next one must know that the antenna may turn.
         self.owed.keep_unproved(self.gate.unproved_since());
         let (is_pressed, axes) = (self.stop.is_pressed(), self.setup.can().axes);
         let snapshot = Snapshot {
@@ -247,6 +248,7 @@ impl Session {
         self.turns()
             || self.gate.state().program.is_some_and(|program| program.enabled)
             || self.commanded.may_move()
+            // Until the new link is read, the motion of the last one may still be going on.
             || (self.contact.is_unread() && self.gate.unproved_since().is_some())
             || self.gate.device().motion_under_way()
     }

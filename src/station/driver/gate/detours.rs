@@ -75,6 +75,7 @@ impl DetourQuestion {
         let mut ends = self.to_deg.into_iter().zip(other.to_deg);
         other.asked.steady.saturating_duration_since(self.asked.steady) < FRESH
             && ends.all(|(one_deg, other_deg)| (one_deg - other_deg).abs() <= SAME_END_DEG)
+            // A keep-out that was drawn since then could lie across the detour.
             && self.bounds == other.bounds
     }
 }
@@ -87,6 +88,7 @@ impl Gate {
         to_deg: [f64; 2],
         now: Moment,
     ) -> Result<&[[f64; 2]], NoRoute> {
+        // Only a track follows a detour, and an agreement may let it lead to the Sun.
         let bounds = self.bounds_in(Intent::Track).clone();
         let limits = self.axis_limits();
         let question = DetourQuestion { bounds, limits, from_deg, to_deg, asked: now };

@@ -32,6 +32,7 @@ pub(super) fn watch(
     lessons: &[AxisLessons; 2],
 ) -> MotionWatch {
     let is_azel = matches!(mount, Mount::AzEl { .. });
+    // The watch still trusts angles of an X/Y mount that the geometry misses by this much.
     let slack_deg = if is_azel { 0.0 } else { FITS_DEG };
     let figures = |wraps| AxisFigures {
         resolution_deg: can.standstill.resolution_deg,
@@ -104,6 +105,7 @@ impl Gate {
         let leads = match self.controller.lead_of(act) {
             panel::Lead::Nowhere => [None; 2],
             panel::Lead::To(to_deg) => to_deg.map(|deg| deg.map(Lead::To)),
+            // Wherever the action leads, Azel sent it, so its motion accuses nobody.
             panel::Lead::Unseen(_) | panel::Lead::Unknown(_) => [Some(Lead::Anywhere); 2],
         };
         self.watch.commanded(leads, now.steady);
@@ -168,6 +170,7 @@ impl Gate {
 
     /// Looks at the last position. Returns an axis that somebody else has moved.
     pub(in crate::driver) fn look_for_hands(&mut self, now: Moment) -> Option<Foreign> {
+        // The unit's program leads the axes where no command of Azel does.
         if self.state().program.is_some_and(|program| program.enabled) {
             self.watch.opened(now.steady);
         }

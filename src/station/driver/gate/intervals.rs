@@ -108,6 +108,8 @@ impl LastAngles {
                 *last = Some(LastAngle { deg, asked, at_limit: None });
             } else if let Some(last) = last.as_mut().filter(|_| axis.plus_limit != axis.minus_limit)
             {
+                // The axis had reached the switch by then: later readings give it no more time to
+                // get there.
                 last.at_limit.get_or_insert(asked);
             }
         }
@@ -143,6 +145,7 @@ impl Gate {
             if self.variant.capabilities.has_elevation() {
                 interval(second, second_travel_deg, second_last)
             } else {
+                // A keep-out applies to an azimuth alone at any elevation.
                 Interval { from_deg, to_deg, is_known: true }
             },
         ]))
@@ -153,6 +156,7 @@ impl Gate {
         let measured = self.state().measured?;
         let count = self.variant.capabilities.axis_count();
         let axes = measured.axes.into_iter().zip(self.last_angles.0).take(count);
+        // A bridged angle is older than its position. A motion must be judged from the older one.
         let bridged =
             axes.filter(|(axis, _)| angle_deg(*axis).is_none()).filter_map(|(_, last)| {
                 last.map(|last| last.asked).filter(|asked| is_bridged(*asked, measured.asked))
@@ -173,8 +177,10 @@ fn interval(
         return Interval::at(deg);
     }
     match (axis.minus_limit, axis.plus_limit, last) {
+        // An RC2000C reports no angle of an axis at its limit switch.
         (true, false, last) => at_limit(travel_deg.0, last, asked, rate_deg_s),
         (false, true, last) => at_limit(travel_deg.1, last, asked, rate_deg_s),
+        // Both switches at once contradict each other, so neither places the axis.
         (_, _, Some(last)) if is_bridged(last.asked, asked) => Interval::at(last.deg),
         (_, _, Some(last)) => {
             let elapsed = asked.saturating_duration_since(last.asked);

@@ -81,6 +81,7 @@ impl Gate {
     ) {
         let Judged(kept) = &mut self.judged;
         kept.extend(judgements);
+        // A unit that keeps reporting something else must not fill the memory.
         kept.drain(..kept.len().saturating_sub(MAX_KEPT));
     }
 
@@ -96,6 +97,7 @@ impl Gate {
         judge: &Arc<Judge>,
         unit: &OnBoard,
     ) -> Result<(), Refusal> {
+        // The unit may have reported something else since: a path without a verdict is not clear.
         let verdict = self.verdict(&self.question(judge, unit)).ok_or(Refusal::BeingJudged)?;
         Ok(verdict.clone()?)
     }

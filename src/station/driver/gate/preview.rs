@@ -46,6 +46,7 @@ impl Gate {
 fn turning(from_deg: [f64; 2], to_deg: [f64; 2]) -> impl Iterator<Item = [f64; 2]> {
     let [first, second] = [to_deg[0] - from_deg[0], to_deg[1] - from_deg[1]];
     let whole_deg = first.abs().max(second.abs());
+    // A constant bounds the points, because the driver's thread works them out.
     let parts = (whole_deg / STEP_DEG).ceil().clamp(1.0, 1000.0) as u32;
     (0..=parts).map(move |part| {
         let turned_deg = whole_deg * f64::from(part) / f64::from(parts);

@@ -35,6 +35,7 @@ impl Gate {
     /// Checks whether the unit may track the pass that it holds.
     pub(super) fn held_is_clear(&self, now: Moment) -> Result<(), Refusal> {
         match &self.held {
+            // With auto-track on and nothing to track, the unit stands.
             Held::Nothing => Ok(()),
             Held::Pass(judge) => self.path_is_clear(judge, now),
             Held::Unread => Err(Refusal::PassUnknown),
@@ -50,6 +51,8 @@ impl Gate {
         judge: &Arc<Judge>,
         now: Moment,
     ) -> Result<(), Refusal> {
+        // The rule looks at the pass that is set, so it has to be set before it is known to be
+        // clear.
         let before = self.program.replace(Arc::clone(judge));
         let checked = self.check(Motion::StartProgram, Intent::Track, now);
         if checked.is_err() {
@@ -74,6 +77,7 @@ impl Gate {
             return Err(refusal.into());
         };
         let lowest = Angle::from_degrees(self.limits.minimum_elevation_deg);
+        // A pass may begin below the minimum elevation, where the gate sends no antenna.
         let elevation = if start.elevation < lowest { lowest } else { start.elevation };
         let to = Motion::Position { azimuth: Some(start.azimuth), elevation: Some(elevation) };
         let nearest = self.nearest(to).map_err(|_| refusal.clone())?;
@@ -81,6 +85,8 @@ impl Gate {
             NoRoute::Refused(_) => refusal.into(),
             open @ NoRoute::Open(_) => open,
         })?;
+        // Only the unit's own way there was barred, not the pass. The rule judges it again at its
+        // start.
         self.program = Some(Arc::clone(judge));
         Ok(Some(to))
     }

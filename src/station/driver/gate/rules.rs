@@ -75,6 +75,7 @@ fn unit_is_not_locked_out(_: &Asked, situation: &Situation<'_>) -> Result<(), Re
 }
 
 fn something_is_asked_for(motion: &Motion, _: &Situation<'_>) -> Result<(), Refusal> {
+    // A number that is not finite would pass every comparison of the rules below.
     let sound = match *motion {
         Motion::Jog { x_deg_s: x, y_deg_s: y } | Motion::Step { x_deg: x, y_deg: y } => {
             x.is_finite() && y.is_finite() && (x != 0.0 || y != 0.0)
@@ -123,6 +124,7 @@ fn controller_offers_it(motion: &Motion, situation: &Situation<'_>) -> Result<()
 }
 
 fn position_is_fresh(asked: &Asked, situation: &Situation<'_>) -> Result<(), Refusal> {
+    // The window locks its controls by the same function, so that both give the same answer.
     position_for(asked, situation.state, situation.now.steady).map(drop)
 }
 
@@ -138,6 +140,7 @@ fn intent_allows_it(asked: &Asked, situation: &Situation<'_>) -> Result<(), Refu
             matches!(intent, Intent::Position | Intent::Park | Intent::Track)
         }
         Asked::Motion(Motion::StartProgram) => intent == Intent::Track,
+        // The unit starts by itself in any mode; `auto_track_is_clear` judges the pass that it has.
         Asked::Motion(Motion::EnableAuto) => true,
         Asked::Action(_) => matches!(intent, Intent::Manual | Intent::Position),
     };
@@ -148,6 +151,7 @@ fn no_fault_forbids_it(_: &Asked, situation: &Situation<'_>) -> Result<(), Refus
     match situation.state.motion_lock {
         Some(false) => Ok(()),
         Some(true) => Err(Refusal::Fault),
+        // Missing information counts against motion.
         None => Err(Refusal::FaultsUnknown),
     }
 }
@@ -189,6 +193,7 @@ fn within_rates_and_steps(motion: &Motion, situation: &Situation<'_>) -> Result<
                 return Err(Refusal::StepTooLarge { asked_deg, allowed_deg });
             }
         }
+        // The unit turns to these at rates of its own.
         Motion::Position { .. } | Motion::StartProgram | Motion::EnableAuto => {}
     }
     Ok(())
@@ -218,6 +223,7 @@ fn within_travel(motion: &Motion, situation: &Situation<'_>) -> Result<(), Refus
             situation.turning([x_deg_s, y_deg_s]).map(|rate| rate * situation.ahead_s)
         }
         Motion::Step { x_deg, y_deg } => [x_deg, y_deg],
+        // `within_reach` judges the end of a position, and a worker the path of a program.
         Motion::Position { .. } | Motion::StartProgram | Motion::EnableAuto => return Ok(()),
     };
     let Intervals(axes) = situation.intervals.ok_or(Refusal::PositionUnknown)?;

@@ -58,6 +58,7 @@ impl Gate {
             Check::AnySetting(check) => check(&situation),
             _ => Ok(()),
         })?;
+        // STOP voids a change of offsets, also one that would move nothing.
         if stopping {
             return Err(Refusal::Stopping);
         }
@@ -115,6 +116,7 @@ impl Gate {
         intent: Intent,
         now: Moment,
     ) -> Result<(), Refusal> {
+        // The unit could move as soon as it has the target, so its start is judged here already.
         self.check(Motion::StartProgram, intent, now)?;
         self.controller.prepare(target);
         Ok(())

@@ -58,8 +58,11 @@ fn to_position(
     let intervals = situation.intervals.ok_or(Refusal::PositionUnknown)?;
     let start = intervals.sweep();
     let end = target(azimuth, elevation, start, situation).ok_or(Refusal::PositionUnknown)?;
+    // The last position may be seconds old. A track sends its next position while the axes turn,
+    // so the way begins wherever they can be by now.
     let gone_on = situation.gate.gone_on(start, situation.ahead_s);
     let ways = ways_round(azimuth.is_some(), start.with(end), gone_on, situation);
+    // The unit chooses between these, so a barrier on either refuses the motion.
     for sweep in ways.into_iter().flatten() {
         away_from_the_sun(sweep, intervals, end, situation)
             .unwrap_or_else(|| blocked(sweep, start, &situation.bounds_now()))?;
@@ -158,8 +161,10 @@ fn by_hand(
     let Some(inside) = inside else {
         return blocked(sweep, start, &bounds_now);
     };
+    // Leaving one barrier gives no leave to enter another.
     let outside_of = bounds_now.without_entered(start);
     blocked(sweep, start, &situation.at_present(&outside_of))?;
+    // Without an elevation axis only a turn in azimuth leads out.
     let is_left = if situation.can.has_elevation() {
         is_left_on_the_way(start, ahead_deg, &bounds_now)
     } else {
@@ -182,6 +187,7 @@ fn is_left_on_the_way(start: Sweep, ahead_deg: [f64; 2], bounds: &BoundsAt<'_>) 
         let there = Depth::of(bounds, start.turned(ahead_deg.map(|deg| deg * share)));
         // On the way it may lead along an edge, or past a point where the way out is shorter.
         let gain_deg = if look == looks { OUT_GAIN_DEG } else { -OUT_GAIN_DEG };
+        // A gap between two barriers is no way out if the motion runs on into the second.
         let enters_again = was_out && !there.is_out();
         was_out = there.is_out();
         !enters_again && here.is_left_for(&there, gain_deg)
@@ -232,6 +238,7 @@ pub(super) fn slowly_by_permission(
     situation: &Situation<'_>,
 ) -> Result<(), Refusal> {
     let fastest = rates_deg_s.into_iter().flatten().map(f64::abs).fold(0.0, f64::max);
+    // A controller with named speeds may have none as slow as the share.
     let slowest_share = match situation.can.jog {
         JogSpeeds::Named(speeds) => speeds.first().map_or(0.0, |slowest| slowest.share),
         JogSpeeds::AnyRate => 0.0,
@@ -363,6 +370,8 @@ impl Gate {
         }
         // A sequence of positions may follow any way.
         let places_deg = self.detour_places_deg(from_deg, to_deg, now)?;
+        // The worker searched from where the axes were then; they have moved since, and so has the
+        // Sun.
         let is_reached = |place_deg: &&[f64; 2]| check(self.to_axes(**place_deg)).is_ok();
         // A few first, because each look takes time.
         let step = places_deg.len().div_ceil(FIRST_PLACES).max(1);
@@ -383,6 +392,7 @@ impl Gate {
         let gone_deg = self.limits.maximum_rate_deg_s * ahead_s;
         let mut gone_on = start;
         let axes = gone_on.0.iter_mut().zip(self.turns).zip(self.to_deg);
+        // An axis that no motion of Azel turns stays where it was read.
         for (((from_deg, to_deg), _), end_deg) in axes.filter(|((_, turns), _)| *turns) {
             let ends_deg = end_deg.map_or((f64::NEG_INFINITY, f64::INFINITY), |deg| (deg, deg));
             let lowest_deg = ends_deg.0.max(*from_deg - gone_deg);

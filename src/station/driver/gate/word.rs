@@ -39,6 +39,7 @@ impl Gate {
     /// The bounds that apply with this intent.
     pub(in crate::driver) fn bounds_in(&self, intent: Intent) -> &Bounds {
         match &self.word.sunward {
+            // The agreement is for the track alone: a go-to in the meantime keeps clear of the Sun.
             Some(sunward) if intent == Intent::Track => sunward,
             _ => &self.bounds,
         }

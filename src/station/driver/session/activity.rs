@@ -297,6 +297,7 @@ impl Slew {
         if asked <= since {
             return None;
         }
+        // While its angles change the motion is not over, whatever the flags say.
         let since = turned.map_or(since, |turned| turned.max(since));
         let is_near = at.off(aim).is_some_and(|off| off <= within);
         let arrival = match leg {

@@ -39,6 +39,7 @@ impl ClockWatch {
         let before = self.last.replace(Clocks { at: now, asleep })?;
         let slept = asleep.saturating_sub(before.asleep);
         let steady = now.steady.saturating_duration_since(before.at.steady);
+        // The steady clock stands while the computer sleeps.
         let expected_s = (steady + slept).as_secs_f64();
         let by_s = seconds_between(before.at.utc, now.utc) - expected_s;
         Some(ClockChange {

@@ -186,6 +186,7 @@ impl Session {
         };
         let unit = self.gate.state().on_board.clone();
         if !self.is_judged(watch.judge(), &[unit]) {
+            // Until it is taken over, the unit's track is watched as one of somebody else.
             self.observed.unasked = Some(watch);
             return self.wait_for_judgement(Command::TakeOver);
         }
@@ -207,6 +208,7 @@ impl Session {
 
     /// Sends what waited for a halt to end.
     pub(super) fn start_queued(&mut self, now: Moment) {
+        // Offsets that the last track left would shift the next one.
         if self.stop.is_under_way() || self.takes_offsets_back() {
             return;
         }
@@ -215,6 +217,7 @@ impl Session {
         {
             let (judge, unit) =
                 (Arc::clone(track.watch.judge()), self.gate.state().on_board.clone());
+            // The unit may report something else since the command was judged.
             if !self.is_judged(&judge, &[unit]) {
                 return;
             }
@@ -269,8 +272,8 @@ impl Session {
             Command::FirstOffsets(offsets) => self.begin_with(offsets),
             // The track goes on with the offsets that it has.
             Command::Offset(_) => self.tell(Event::OffsetRefused(Refusal::PositionUnknown)),
-            // Another motion ends the current one, so Azel owes it a STOP as soon as the link is back.
-            // Azel refuses the new motion, because the unit's position is unknown.
+            // Another motion ends the current one, so Azel owes it a STOP as soon as the link is
+            // back. Azel refuses the new motion, because the unit's position is unknown.
             Command::Manual
             | Command::Hold
             | Command::MoveAway

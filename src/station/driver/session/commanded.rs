@@ -119,6 +119,7 @@ impl Commanded {
     /// motion has not been sent or answered.
     pub(super) fn follow_step(&mut self, measured: Option<Measured>, waits: bool) {
         let Some(Step { since, .. }) = self.step else { return };
+        // A state from before the step shows the standstill before it.
         let stands = measured.is_some_and(|measured| measured.asked > since && !measured.moving());
         if stands && !waits {
             self.step = None;
@@ -136,6 +137,7 @@ impl Commanded {
 
     /// Takes the doubt that a state asked for after it can resolve.
     pub(super) fn take_doubt(&mut self, measured: Option<Measured>) -> Option<Doubt> {
+        // An older state shows nothing of what the motion did.
         let is_newer =
             |doubt: &mut Doubt| measured.is_some_and(|measured| measured.asked > doubt.since);
         self.doubt.take_if(is_newer)

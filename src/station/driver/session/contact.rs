@@ -145,6 +145,7 @@ impl Contact {
         if last_reply.is_some() {
             self.away_since.get_or_insert(since);
         }
+        // Every attempt that fails loses the link again; only the first loss is news.
         let is_news = !matches!(self.link, LinkState::Lost { .. }) && !self.loss_is_reported;
         self.loss_is_reported = true;
         self.link = LinkState::Lost { since, reason, retry_at };
@@ -206,8 +207,10 @@ impl Contact {
             });
             return Some(if is_unreadable { LinkLoss::Unreadable } else { LinkLoss::Silent });
         }
+        // Any one reply may be lost, so one poll period without a reply is no trouble.
         let max_age = pace.poll_period * 2;
         let asked = state.measured_on_link().map(|measured| measured.asked);
+        // A position counts from its question, and may be as late as any reply.
         let is_old = |asked| now.saturating_duration_since(asked) > max_age + LATE_REPLY;
         let is_late = age > max_age || asked.is_some_and(is_old);
         match (&self.link, is_late) {
@@ -229,6 +232,7 @@ impl Contact {
         let last = state.traffic.last_reply.max(state.link_since)?;
         let asked = state.measured_on_link().map(|measured| measured.asked + LATE_REPLY);
         let wait = match self.link {
+            // A link is stale only beyond its limit: at the limit itself nothing would change.
             LinkState::Up { .. } => pace.poll_period * 2 + Duration::from_millis(1),
             _ => return Some(last + pace.patience),
         };

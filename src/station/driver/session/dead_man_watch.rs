@@ -9,6 +9,7 @@ use crate::{
 impl Session {
     /// Arms the dead-man before a motion that only a STOP would end.
     pub(super) fn arm_dead_man(&mut self, now: Moment) -> Result<(), Refusal> {
+        // Such a unit ends a jog by itself when nobody renews it.
         if self.setup.can().ends_jogs {
             return Ok(());
         }
@@ -24,6 +25,8 @@ impl Session {
         let may_move = jog.is_some() || stops;
         let lease_holds = jog.is_some_and(|jog| now.steady < jog.end());
         if !self.stop.guard.beat(may_move, lease_holds || stops, now.steady) {
+            // The child took this process for dead and sent STOP. The motion has ended, so Azel
+            // proves it.
             self.halt(now);
             self.tell(Event::Safety(Safety::DeadManFired));
         }

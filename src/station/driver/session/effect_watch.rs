@@ -40,6 +40,7 @@ impl Session {
 
     /// The motion of Azel that must show in the angles.
     fn requested(&self, look: &Measured) -> Requested {
+        // A halt ends what was expected, and without a link no angle would show it.
         if self.stop.is_under_way() || !self.contact.is_open() {
             return Requested::Nothing;
         }

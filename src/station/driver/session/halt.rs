@@ -22,6 +22,7 @@ impl Session {
 
     fn begin_halt(&mut self, pressed: bool, now: Moment) {
         if !self.stop.is_under_way() {
+            // A repeated STOP finds the axes slowing down already, which shows no overrun.
             self.begin_overrun(now);
         }
         self.commanded.halt(pressed);
@@ -29,6 +30,8 @@ impl Session {
         self.void_shift();
         self.gate.halted();
         if pressed {
+            // After a STOP that somebody pressed nothing may start by itself. The halt at the end
+            // of a motion leaves auto-track as the operator set it.
             self.end_auto_track();
         }
         self.queue_halt(if pressed { Extent::Everything } else { Extent::Motion }, now);
@@ -95,6 +98,7 @@ impl Session {
     /// The operator has seen that it stands.
     pub(super) fn take_word_for_standstill(&mut self) {
         tracing::warn!(antenna = self.setup.name(), "standstill by the operator's word");
+        // Flags of motion or a missing angle may keep the proof from coming for ever.
         self.stop.end_unproved();
         self.contact.silence.forget();
         self.owed.settle_stop();

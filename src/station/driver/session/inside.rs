@@ -27,6 +27,7 @@ impl Session {
         let Some(intervals) = self.gate.intervals() else { return };
         let axis = intervals.unknown();
         if let Some(place) = self.bounds_now().unread().cloned() {
+            // Bounds that could not be read forbid every place.
             self.observed.place.set(Some(Barrier::Unread(place)), None);
             return;
         }
@@ -72,6 +73,7 @@ impl Session {
         leads_to_sun: bool,
         now: Moment,
     ) {
+        // The planner takes its bounds from the gate, so the agreement must stand before it plans.
         let before = self.gate.lift_sun(leads_to_sun);
         let Err(not_followed) = self.follow(follow.clone(), now) else { return };
         // The present track goes on as it was agreed.

@@ -51,6 +51,7 @@ impl Session {
             }
         }
         if self.stop.is_under_way() || self.commanded.key.held().is_some() {
+            // If the program is killed from here on, its next start must find the STOP on disk.
             self.mark_debt().await;
             let now = self.now();
             self.halt_quietly(now);
@@ -106,6 +107,7 @@ impl Session {
         let mut dialling = self.contact.dial();
         let clock = self.clock.clone();
         let until = clock.now().steady + CONNECT;
+        // An address that does not answer must not hold up a STOP or a command.
         loop {
             tokio::select! {
                 biased;
@@ -130,10 +132,12 @@ impl Session {
         let now = self.now();
         self.tell_silence_of_lost_link();
         let jogs = self.commanded.key.started().is_some();
+        // The key may still be down when the link is back. It must not start the motion again.
         self.commanded.key.spend();
         if jogs {
             self.halt_quietly(now);
         }
+        // No motion goes out late: after an outage the antenna may be somewhere else.
         self.commanded.activity.drop_queued(now.steady);
         self.judging.drop_waiting();
         let clock = self.clock.clone();
@@ -215,6 +219,7 @@ impl Session {
         self.gate.device().link_up(start);
         self.owed.auto_track_asked(None);
         drop(self.stop.take_bytes());
+        // The first bytes of a link are a STOP that is owed, before any question.
         if let Some(extent) = self.stop.extent() {
             self.queue_halt(extent, start);
         }
@@ -292,6 +297,7 @@ impl Session {
         &mut self,
         writer: &mut WriteHalf<Box<dyn Stream>>,
     ) -> Result<(), LinkLoss> {
+        // A STOP overtakes every question, and waits for no reply that the unit owes.
         let bytes = self.stop.take_bytes();
         if !bytes.is_empty() {
             write(&self.clock, writer, &bytes).await?;
@@ -329,6 +335,7 @@ impl Session {
         tokio::select! {
             biased;
             turn = self.wires.next() => turn,
+            // Bytes come after commands: a unit that talks without end must not keep out a STOP.
             read = reader.read(buffer) => match read {
                 Ok(0) => Input::Lost(LinkLoss::Closed),
                 Ok(count) => Input::Bytes(count),

@@ -41,6 +41,8 @@ impl Session {
         if self.stop.is_under_way() || self.commanded.key.held().is_none_or(Jog::is_started) {
             return;
         }
+        // The mark is requested before anything moves. If the program died in the jog, its next
+        // start would not know otherwise that the antenna turns.
         if !self.is_marked(now) || self.awaits_young_position(now) {
             return;
         }

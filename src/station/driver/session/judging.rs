@@ -117,6 +117,7 @@ impl Judging {
 
     /// Begins to work on the answer, unless the session awaits another one.
     fn begin(&mut self, question: Question) {
+        // A question that finds no room is not lost: its command or track asks again.
         if self.is_under_way() {
             return;
         }

@@ -95,6 +95,7 @@ impl Likeness {
     /// Returns how `now` differs. A value that was not read before cannot differ.
     fn differs(&self, now: &Self) -> Option<Unlike> {
         let moved = |(before, now): (Place, Place)| {
+            // The unit reports its place in steps, and may round it otherwise.
             let step_deg = before.step_deg + 1e-9;
             (before.latitude_deg - now.latitude_deg).abs() > step_deg
                 || (before.longitude_deg - now.longitude_deg).abs() > step_deg

@@ -34,6 +34,7 @@ impl Session {
             return;
         }
         let may_move = self.may_move() || self.active() || self.is_unproved();
+        // A unit that was let go and not moved from here may be in somebody else's hands.
         let is_left_to_others = self.contact.wanted() == Wanted::No && !self.is_unproved();
         if may_move && !is_left_to_others {
             self.halt(now);
@@ -44,6 +45,7 @@ impl Session {
         self.commanded.activity = Activity::Standby;
         self.put_lock_out(lock_out, now);
         self.leave_panel();
+        // Without a link nothing shows whether the unit would start on its own.
         if self.setup.can().has_program && !self.contact.is_open() {
             if self.owed.locking.report() == LockStep::Report {
                 self.tell(Event::LockOutUnproved);

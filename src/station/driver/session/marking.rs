@@ -58,6 +58,7 @@ pub(super) enum Progress {
 
 /// Returns `true` for a mark about which the operator must be asked.
 pub(super) fn is_old(mark: Mark, now: Timestamp) -> bool {
+    // A mark from the future was written by a clock that was wrong, so its age is unknown.
     mark.last_tried().is_none_or(|at| seconds_between(at, now).abs() > OLD_S)
 }
 
@@ -93,6 +94,7 @@ impl Marking {
     pub(super) fn put(&mut self, debts: &UnitDebts, now: Moment) {
         let (since, first, is_reported) = match self.0 {
             State::None => (Some(now.utc), now.steady, false),
+            // The debt began in the earlier run; only the try is new.
             State::Found { since } => (since, now.steady, false),
             State::Put { since, first, is_reported, .. } => (since, first, is_reported),
         };

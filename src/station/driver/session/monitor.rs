@@ -137,10 +137,14 @@ impl Watch {
             };
             let Some((last_deg, asked)) = last.replace((angle_deg, look.asked)) else { continue };
             let bridged = before.is_some_and(|before| before.asked < look.asked);
+            // Without an angle in the position before, the rate comes from the last one that had
+            // one.
             if bridged && *rate == 0.0 {
                 *rate = bridged_rate_deg_s(angle_deg - last_deg, look.asked, asked);
             }
             let turned_deg = Angle::from_degrees(angle_deg - last_deg).wrapped_180().degrees();
+            // Noise, gusts and rounding change the reading of a standing axis. Between two
+            // positions that follow at once they would be a rate that leads into a keep-out.
             let has_left = rest.leave(turned_deg, rest_width_deg);
             if !has_left && !is_driven(axis, *rate) {
                 *rate = 0.0;

@@ -46,6 +46,7 @@ impl Session {
         if !offsets.is_none() {
             self.gate.demand_is_clear(demand, now)?;
         }
+        // Only a planner that has the offsets says where they lead next. A refusal takes them back.
         self.take_offsets(offsets, now);
         if let Err(refusal) = self.check_next(now)
             && !offsets.is_none()

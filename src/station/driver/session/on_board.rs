@@ -99,6 +99,7 @@ impl Watch {
         at: Instant,
     ) {
         self.was_on_target |= is_on_target;
+        // Before it was on target for the first time, the antenna may still be on its way there.
         let slew = if self.was_on_target { Duration::ZERO } else { slew };
         let arrives = *self.arrives.get_or_insert(at + slew);
         let counts = self.was_on_target || at >= arrives;

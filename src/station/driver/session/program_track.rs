@@ -40,6 +40,7 @@ impl Session {
         let name = follow.target.name().into_owned();
         tracing::info!(antenna = self.setup.name(), name, passes = follow.passes.len(), "follow");
         let TrackConfig { mut drives, settings, model } = self.setup.track_config();
+        // The unit's own limits may be tighter than those of the station file.
         drives.mount = drives.mount.within(self.gate.state().travel_deg);
         let follow =
             if settings.after == AfterPass::Next { follow } else { follow.one_pass(now.utc) };
@@ -51,6 +52,7 @@ impl Session {
             let planner = Planner::new(follow, drives, settings, bounds);
             planner.map(|planner| planner.with_model(model)).map_err(TrackProblem::Orbit)
         };
+        // The first position must be judged with the offsets that its pass begins with.
         let sky_before = self.gate.to_sky();
         if let Ok(planner) = &planned {
             let to_sky = planner.to_sky(phase.begins(now.utc), planner.offsets());
@@ -265,6 +267,7 @@ impl Session {
     pub(super) fn may_send_another(&mut self) -> bool {
         let Some(track) = self.commanded.activity.last_program_mut() else { return false };
         track.lost += 1;
+        // Nothing tells whether the unit took the position, so the next one starts from the axes.
         track.planner.forget_sent();
         track.lost < MAX_LOST
     }
@@ -302,6 +305,7 @@ impl Session {
         if self.setup.resumes_at_once(lost) && unchecked.is_none() {
             return;
         }
+        // A second short outage does not spare the unit the comparison after the first.
         let lost = lost + unchecked.unwrap_or_default();
         if !self.gate.explains_position() {
             return self.await_word(lost, Some(Unlike::Position));
@@ -326,6 +330,7 @@ impl Session {
         if self.commanded.activity.program().is_none() {
             return;
         }
+        // A halt would end the track, which is kept for the operator's answer.
         let program = std::mem::replace(&mut self.commanded.activity, Activity::Standby);
         self.halt_quietly(now);
         self.commanded.activity = program;

@@ -13,6 +13,7 @@ impl Session {
     /// The link goes: remembers what the unit was like, unless a comparison with an earlier
     /// state is still pending.
     pub(super) fn remember_likeness(&mut self) {
+        // After a link that brought no reading the unit is compared with the one before.
         if !self.contact.is_unread() && self.recheck().is_none() {
             self.contact.comparison.remember(self.gate.state());
         }

@@ -32,6 +32,7 @@ impl Session {
         let until = start.steady + STANDSTILL_WITHIN + self.figures().gap();
         while (self.is_in_debt() || self.owes_offsets()) && self.now().steady < until {
             let now = self.now();
+            // The other checks of a session could begin a motion again.
             self.watch_auto_track(now);
             self.watch_unit_offsets(now);
             if let Err(loss) = self.send(writer).await {
@@ -84,6 +85,7 @@ impl Session {
                 self.contact.connected(now.steady);
                 self.owed.auto_track_asked(None);
                 if self.stop.is_under_way() {
+                    // The STOP goes out first on this link, too.
                     self.halt_quietly(now);
                 }
                 self.shut_down(&mut reader, &mut writer).await;

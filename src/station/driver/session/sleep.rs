@@ -13,6 +13,7 @@ impl Session {
         if let Some(jog) = self.commanded.key.held() {
             let rates_deg_s = jog.rates_deg_s();
             self.halt_quietly(now);
+            // A key that is still down after the sleep must not move the antenna.
             self.commanded.key.spend_rates(rates_deg_s);
             self.tell(Event::Safety(Safety::EndedForSleep));
         }
@@ -31,6 +32,8 @@ impl Session {
         let change = self.contact.clocks.compare(now, self.clock.asleep())?;
         if let Some(by_s) = change.stepped_s {
             self.tell(Event::Safety(Safety::ClockStepped { by_s, time: Some(now.utc) }));
+            // Positions follow from UTC, and only the operator can say which of the two times is
+            // right.
             self.suspend_following(change.steady, now);
         }
         let lasted = change.slept?;

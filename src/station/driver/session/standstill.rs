@@ -137,6 +137,7 @@ impl Looks {
         figures: Figures,
     ) -> Option<Proof> {
         self.last = Some(look.asked);
+        // Positions of two links prove nothing: in between anybody may have moved the antenna.
         let known = self.first.filter(|first| link_since.is_some_and(|since| first.asked >= since));
         let first = known.filter(|first| figures.turned(first, &look).is_none());
         self.turned |= known.is_some() && first.is_none();

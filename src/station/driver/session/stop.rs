@@ -36,6 +36,8 @@ struct Halting {
 
 impl Halting {
     fn extent_again(&self) -> Extent {
+        // A halt that has to be repeated no longer trusts the known state: a track may be on that
+        // was read as off.
         if self.pressed { Extent::Everything } else { Extent::Track }
     }
 
@@ -166,6 +168,7 @@ impl Stop {
         // A halt that the operator did not press leaves other things that the unit turns
         // alone.
         let is_at_rest = is_at_rest && !(halting.pressed && state.turns_besides);
+        // A position from before the STOP proves nothing.
         let look = state.measured.filter(|measured| measured.asked >= halting.sent_at);
         let proof =
             look.and_then(|look| halting.looks.take(look, is_at_rest, state.link_since, figures));

@@ -229,6 +229,7 @@ impl Session {
         let state = self.gate.state();
         let tracks = match state.program {
             Some(program) => program.enabled,
+            // A unit that tracks is found tracking, so its program has to be read first.
             None if self.setup.can().has_program => return,
             None => false,
         };
@@ -262,6 +263,7 @@ impl Session {
                 OnBoardStage::Slewing(slew) => {
                     self.commanded.activity = Activity::GoTo(GoTo { parks: false, slew });
                 }
+                // A track that ended during the outage is not started again by itself.
                 _ => self.commanded.activity = Activity::Standby,
             }
         }

@@ -99,6 +99,7 @@ impl Session {
         }
         let Some(held) = self.held_offsets() else { return self.forget_wanted() };
         if wanted.is_none() {
+            // The record of what was added stays until the unit reads as before.
             return self.write_shift(fields, now);
         }
         let known = self.owed.debts().shifted();
@@ -288,6 +289,7 @@ impl Session {
             }
             return;
         }
+        // A halt would void the change, and a locked-out unit takes no setting.
         let waits = self.stop.is_under_way() || self.gate.lock_out().is_some();
         if is_over && !waits && self.may_take_back(now) {
             // With auto-track on, the unit may begin its next track before that.

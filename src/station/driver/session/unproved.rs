@@ -18,6 +18,8 @@ impl Session {
     /// A halt is over and nothing moves. A unit that may start on its own stays unproved.
     pub(super) fn prove_still(&mut self) {
         self.commanded.proved_still();
+        // A unit with auto-track on may begin to turn at any time, without a motion of Azel to tell
+        // of it.
         if !self.may_start_by_itself() {
             self.gate.proved_still();
         }

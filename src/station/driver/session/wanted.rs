@@ -33,6 +33,7 @@ impl Session {
                 }
                 Input::Command(command) => self.carry_out_offline(command, now),
                 Input::Bounds(bounds) => self.keep_within(*bounds),
+                // Dropping the token lets the computer sleep: a unit that was let go needs no STOP.
                 Input::Sleep(_) | Input::Bytes(_) | Input::Lost(_) | Input::Time => {}
             }
         }

@@ -151,6 +151,7 @@ impl Wires {
 
     /// Sends an event to the station.
     pub(in crate::driver) fn tell(&self, event: Event) {
+        // The driver waits for nobody, so an event that finds no room is dropped.
         if let Err(error) = self.events.try_send(event) {
             tracing::warn!(%error, "nobody reads the events; one was dropped");
         }
@@ -159,6 +160,8 @@ impl Wires {
 
     /// The next input, a STOP before anything else.
     pub(super) async fn next(&mut self) -> Input {
+        // The order matters: a STOP must not wait behind the commands that it voids. A random order
+        // would also make two runs of one rehearsal differ.
         tokio::select! {
             biased;
             () = self.stopper.stop.notified() => Input::Stop,
@@ -198,6 +201,7 @@ impl Wires {
             }
             has_changed
         });
+        // Ages and counters alone are worth no frame: the window shows them with its next second.
         if is_worth_a_look {
             (self.wake)();
         }
@@ -264,6 +268,7 @@ async fn next_command(
         if commands.is_closed() {
             return None;
         }
+        // The command may have waited here or in the station since before the STOP.
         if !command.row().void_after_stop || !stopper.is_void(number) {
             return Some(command);
         }

@@ -40,6 +40,7 @@ impl Session {
 
     /// Offsets that are meant to be on: the antenna should point this far off its target.
     pub(in crate::driver::session) fn meant_offsets(&self) -> TrackOffsets {
+        // What an earlier run left, or could not be taken back, is an error of this track.
         let is_meant = self.unit_offsets.left().is_none()
             && self.owed.debts().shifted().is_some_and(|shifted| !shifted.is_found);
         self.added_offsets().filter(|_| is_meant).unwrap_or_default()
