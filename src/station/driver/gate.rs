@@ -9,12 +9,12 @@ mod hands;
 mod intervals;
 mod judged;
 mod offsets;
+mod permissions;
 mod preview;
 mod program;
 mod rules;
 mod settings;
 mod way;
-mod word;
 
 use std::sync::Arc;
 
@@ -38,11 +38,11 @@ pub(super) use intervals::{Interval, Intervals};
 use judged::Judged;
 pub(super) use judged::PathQuestion;
 pub(super) use offsets::Demand;
-pub(super) use program::Held;
+use permissions::Permissions;
+pub(super) use program::NextPass;
 use rules::{Check, RULES, Rule};
 pub(super) use settings::Shift;
 pub(super) use way::Route;
-use word::Word;
 
 const HALF_TURN: Angle = Angle::from_degrees(180.0);
 
@@ -100,12 +100,12 @@ pub(super) struct Gate {
     /// The pass on which the unit's own program is started.
     program: Option<Arc<Judge>>,
     /// Pass that the unit would track on its own.
-    held: Held,
+    next_pass: NextPass,
     judged: Judged,
     /// The last detour that was looked for.
     detour: Option<Detour>,
     /// The operator's permissions.
-    word: Word,
+    permissions: Permissions,
     /// From where the pointing model has the beam of an antenna that tracks to where it is on the sky,
     /// if offsets of its axes are on.
     to_sky: Option<DQuat>,
@@ -138,10 +138,10 @@ impl Gate {
             lock_out: None,
             unproved_since: None,
             program: None,
-            held: Held::Unread,
+            next_pass: NextPass::Unread,
             judged: Judged::default(),
             detour: None,
-            word: Word::default(),
+            permissions: Permissions::default(),
             to_sky: None,
         }
     }
@@ -172,11 +172,11 @@ impl Gate {
     }
 
     /// Another session moved the antenna at this time and did not prove that it stands.
-    pub(super) fn was_moved(&mut self, since: Option<Instant>) {
-        self.unproved_since = since;
-        if let Some(since) = since {
+    pub(super) fn was_moved(&mut self, moved_at: Option<Instant>) {
+        self.unproved_since = moved_at;
+        if let Some(moved_at) = moved_at {
             // A debt holds the time of the motion, and nothing of where it leads.
-            self.watch.commanded([Some(Lead::Anywhere); 2], since);
+            self.watch.commanded([Some(Lead::Anywhere); 2], moved_at);
         }
     }
 

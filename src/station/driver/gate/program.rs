@@ -13,7 +13,7 @@ use crate::{
 
 /// Pass that a unit would track on its own.
 #[derive(Debug, Clone)]
-pub(in crate::driver) enum Held {
+pub(in crate::driver) enum NextPass {
     /// Not read yet.
     Unread,
     /// Nothing: it holds no satellite, or its window is over.
@@ -28,19 +28,19 @@ pub(in crate::driver) enum Held {
 
 impl Gate {
     /// Sets what [`Motion::EnableAuto`] is checked against.
-    pub(in crate::driver) fn will_hold(&mut self, held: Held) {
-        self.held = held;
+    pub(in crate::driver) fn set_next_pass(&mut self, pass: NextPass) {
+        self.next_pass = pass;
     }
 
     /// Checks whether the unit may track the pass that it holds.
-    pub(super) fn held_is_clear(&self, now: Moment) -> Result<(), Refusal> {
-        match &self.held {
+    pub(super) fn next_pass_is_clear(&self, now: Moment) -> Result<(), Refusal> {
+        match &self.next_pass {
             // With auto-track on and nothing to track, the unit stands.
-            Held::Nothing => Ok(()),
-            Held::Pass(judge) => self.path_is_clear(judge, now),
-            Held::Unread => Err(Refusal::PassUnknown),
-            Held::TooLong { hours } => Err(Refusal::WindowTooLong { hours: *hours }),
-            Held::Unknown { name } => Err(Refusal::OrbitUnknown { name: name.clone() }),
+            NextPass::Nothing => Ok(()),
+            NextPass::Pass(judge) => self.path_is_clear(judge, now),
+            NextPass::Unread => Err(Refusal::PassUnknown),
+            NextPass::TooLong { hours } => Err(Refusal::WindowTooLong { hours: *hours }),
+            NextPass::Unknown { name } => Err(Refusal::OrbitUnknown { name: name.clone() }),
         }
     }
 

@@ -295,12 +295,12 @@ fn auto_track_is_clear(motion: &Motion, situation: &Situation<'_>) -> Result<(),
     if *motion != Motion::EnableAuto {
         return Ok(());
     }
-    situation.gate.held_is_clear(situation.now)
+    situation.gate.next_pass_is_clear(situation.now)
 }
 
 fn controller_agrees(asked: &Asked, situation: &Situation<'_>) -> Result<(), Refusal> {
     let objection = situation.gate.controller.objection(asked, situation.now);
-    objection.map_or(Ok(()), |why| Err(Refusal::Controller(why)))
+    objection.map_or(Ok(()), |reason| Err(Refusal::Controller(reason)))
 }
 
 /// Even an action without motion may endanger hands.
@@ -311,7 +311,7 @@ fn no_action_while_locked_out(_: &Act, situation: &Situation<'_>) -> Result<(), 
 /// No permission helps here: nobody knows.
 fn the_end_of_the_action_can_be_known(act: &Act, situation: &Situation<'_>) -> Result<(), Refusal> {
     match situation.gate.controller.lead_of(act) {
-        Lead::Unknown(why) => Err(Refusal::Controller(why)),
+        Lead::Unknown(reason) => Err(Refusal::Controller(reason)),
         Lead::Nowhere | Lead::To(_) | Lead::Unseen(_) => Ok(()),
     }
 }
@@ -321,9 +321,9 @@ fn the_operator_answers_for_an_unseen_end(
     situation: &Situation<'_>,
 ) -> Result<(), Refusal> {
     match situation.gate.controller.lead_of(act) {
-        Lead::Unseen(why) if !situation.is_agreed => {
+        Lead::Unseen(reason) if !situation.is_agreed => {
             let is_watched = situation.intervals.is_some_and(|axes| axes.unknown().is_none());
-            Err(Refusal::Unseen { act: act.clone(), why, is_watched })
+            Err(Refusal::Unseen { act: act.clone(), why: reason, is_watched })
         }
         _ => Ok(()),
     }

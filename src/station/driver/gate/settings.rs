@@ -91,7 +91,7 @@ impl Gate {
         }
         let group = self.variant.groups.iter().find(|group| group.key == change.group);
         let field = group.and_then(|group| group.moving_field(&change.values));
-        let hindrance = || {
+        let look_for_hindrance = || {
             let asked = self.situation(Intent::Standby, stopping, now);
             let situation = Situation { may_move, ..asked };
             self.rules.iter().find_map(|rule| match rule.check {
@@ -99,13 +99,14 @@ impl Gate {
                 _ => None,
             })
         };
-        let Some((field, why)) = field.and_then(|field| Some((field, hindrance()?))) else {
+        let Some((field, hindrance)) = field.and_then(|field| Some((field, look_for_hindrance()?)))
+        else {
             self.controller.write_settings(change, now);
             return Ok(());
         };
-        let error = WriteError::Hindered { field: field.key, hindrance: why };
+        let error = WriteError::Hindered { field: field.key, hindrance };
         self.controller.refuse_change(change, error, now);
-        Err(Refusal::Setting { field: field.label, why })
+        Err(Refusal::Setting { field: field.label, why: hindrance })
     }
 
     /// Puts a target on the unit, or returns the reason not to: with auto-track on, the

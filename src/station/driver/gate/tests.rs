@@ -122,7 +122,7 @@ struct Case {
     /// The unit's program is started on [`PROGRAM`].
     pass_is_known: bool,
     /// Pass that the unit would track on its own.
-    held: Held,
+    held: NextPass,
     lock_out: Option<LockOut>,
     /// Objection of the controller to any motion.
     objection: Option<&'static str>,
@@ -161,7 +161,7 @@ impl Case {
             keep_outs: Vec::new(),
             unread: Vec::new(),
             pass_is_known: true,
-            held: Held::Nothing,
+            held: NextPass::Nothing,
             lock_out: None,
             objection: None,
             leads_to: Lead::Nowhere,
@@ -197,7 +197,7 @@ impl Case {
         };
         let bounds = Bounds::of(&station, &self.antenna);
         let mut gate = Gate::new(Box::new(metal), &self.antenna, bounds, &Default::default());
-        gate.held = self.held.clone();
+        gate.next_pass = self.held.clone();
         gate.program = self.pass_is_known.then(|| Arc::clone(&PROGRAM));
         gate.set_lock_out(self.lock_out.clone());
         judge(&mut gate);

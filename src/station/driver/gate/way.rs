@@ -179,12 +179,12 @@ fn by_hand(
 
 /// Returns `true` if a motion of both axes from `start` leads out of barriers, and nowhere deeper.
 fn is_left_on_the_way(start: Sweep, ahead_deg: [f64; 2], bounds: &BoundsAt<'_>) -> bool {
-    let here = Depth::of(bounds, start);
+    let here = Depth::new(bounds, start);
     let looks = (ahead_deg[0].abs().max(ahead_deg[1].abs()) / LOOK_OUT_DEG).ceil().max(1.0) as u32;
     let mut was_out = false;
     (1..=looks).all(|look| {
         let share = f64::from(look) / f64::from(looks);
-        let there = Depth::of(bounds, start.turned(ahead_deg.map(|deg| deg * share)));
+        let there = Depth::new(bounds, start.turned(ahead_deg.map(|deg| deg * share)));
         // On the way it may lead along an edge, or past a point where the way out is shorter.
         let gain_deg = if look == looks { OUT_GAIN_DEG } else { -OUT_GAIN_DEG };
         // A gap between two barriers is no way out if the motion runs on into the second.
@@ -262,7 +262,7 @@ struct Depth {
 }
 
 impl Depth {
-    fn of(bounds: &BoundsAt<'_>, place: Sweep) -> Self {
+    fn new(bounds: &BoundsAt<'_>, place: Sweep) -> Self {
         let (below_deg, inside_deg) = bounds.depths_deg(place);
         Self { way_out_deg: bounds.way_out_deg(place), below_deg, inside_deg }
     }

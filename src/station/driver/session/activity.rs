@@ -42,8 +42,8 @@ pub(super) struct Slew {
 pub(super) enum SlewStage {
     /// Will be sent as soon as the antenna stands.
     Queued { motion: Motion, leg: Option<Leg> },
-    /// Under way; `since` is when it was sent, or found under way.
-    UnderWay { since: Instant, leg: Option<Leg> },
+    /// Under way; `begun` is when it was sent, or found under way.
+    UnderWay { begun: Instant, leg: Option<Leg> },
     /// Has arrived, or ended short.
     Over,
 }
@@ -70,11 +70,11 @@ pub(super) enum OnBoardStage {
     /// The target will be sent to the unit as soon as the antenna stands.
     LoadQueued,
     /// The target is being sent to the unit and read back.
-    Loading { since: Instant },
+    Loading { begun: Instant },
     /// The unit holds the target; its program will be started as soon as the antenna stands.
     StartQueued,
     /// Its program was started, but has not been seen running yet.
-    Starting { since: Instant },
+    Starting { begun: Instant },
     /// The unit has been seen tracking.
     Tracking,
 }
@@ -209,17 +209,17 @@ impl Activity {
     pub(super) fn take_queued(&mut self, now: Instant) -> Option<Queued> {
         if let Some(slew) = self.slew_mut() {
             let SlewStage::Queued { motion, leg } = slew.stage else { return None };
-            slew.stage = SlewStage::UnderWay { since: now, leg };
+            slew.stage = SlewStage::UnderWay { begun: now, leg };
             return Some(Queued::Motion(motion));
         }
         match self {
             Self::OnBoardTrack(track) => match track.stage {
                 OnBoardStage::LoadQueued => {
-                    track.stage = OnBoardStage::Loading { since: now };
+                    track.stage = OnBoardStage::Loading { begun: now };
                     Some(Queued::Load(track.target.clone()))
                 }
                 OnBoardStage::StartQueued => {
-                    track.stage = OnBoardStage::Starting { since: now };
+                    track.stage = OnBoardStage::Starting { begun: now };
                     Some(Queued::Motion(Motion::StartProgram))
                 }
                 _ => None,
@@ -292,19 +292,19 @@ impl Slew {
         within: Angle,
         now: Instant,
     ) -> Option<Arrival> {
-        let SlewStage::UnderWay { since, leg } = self.stage else { return None };
+        let SlewStage::UnderWay { begun, leg } = self.stage else { return None };
         let (aim, end) = (self.aim_under_way()?, self.aim?);
-        if asked <= since {
+        if asked <= begun {
             return None;
         }
         // While its angles change the motion is not over, whatever the flags say.
-        let since = turned.map_or(since, |turned| turned.max(since));
+        let last_turn = turned.map_or(begun, |turned| turned.max(begun));
         let is_near = at.off(aim).is_some_and(|off| off <= within);
         let arrival = match leg {
             Some(Leg { then: Some(then), .. }) if is_near => Arrival::Leg(then),
             Some(Leg { then: None, .. }) if is_near => Arrival::Short { aim: end },
             None if is_near => Arrival::At(aim),
-            _ if now.saturating_duration_since(since) >= EFFECT => Arrival::Short { aim: end },
+            _ if now.saturating_duration_since(last_turn) >= EFFECT => Arrival::Short { aim: end },
             _ => return None,
         };
         self.stage = SlewStage::Over;

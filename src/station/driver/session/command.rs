@@ -11,7 +11,7 @@ use crate::{
     clock::Moment,
     contract::driver::{Command, Event, Intent, Refusal},
     device::{Motion, panel::Act, settings::WriteError},
-    driver::gate::{Held, NoRoute},
+    driver::gate::{NextPass, NoRoute},
     plan::OnBoardPass,
 };
 
@@ -47,7 +47,7 @@ impl Session {
             Command::AllowWayOut => self.allow_way_out(now),
             Command::ForgetDrives => self.gate.forget_lessons(),
             Command::MoveAway => self.move_away(now),
-            Command::SeenStanding => self.take_word_for_standstill(),
+            Command::SeenStanding => self.accept_operator_standstill(),
             Command::Resume => self.resume(),
             Command::Offset(change) => self.change_offsets(change, now),
             Command::FirstOffsets(offsets) => self.begin_with(offsets),
@@ -68,14 +68,14 @@ impl Session {
             Command::ProgramTrack(follow) => self.follow_as_agreed(*follow, false, now),
             Command::ProgramTrackIntoSun(follow) => self.follow_as_agreed(*follow, true, now),
             Command::AutoTrack(true) => {
-                let held = self.held(now);
-                if let Held::Pass(judge) = &held {
+                let next_pass = self.next_pass(now);
+                if let NextPass::Pass(judge) = &next_pass {
                     let unit = self.gate.state().on_board.clone();
                     if !self.is_judged(judge, &[unit]) {
                         return self.wait_for_judgement(Command::AutoTrack(true));
                     }
                 }
-                self.gate.will_hold(held);
+                self.gate.set_next_pass(next_pass);
                 if self.start(Motion::EnableAuto, now) {
                     self.owed.debts().settle_auto_track();
                 }
@@ -265,7 +265,7 @@ impl Session {
             Command::AllowUnguarded => self.stop.guard.allow_without(now.steady),
             Command::AllowWayOut => self.allow_way_out(now),
             Command::ForgetDrives => self.gate.forget_lessons(),
-            Command::SeenStanding => self.take_word_for_standstill(),
+            Command::SeenStanding => self.accept_operator_standstill(),
             Command::Resume => self.resume(),
             Command::Standby => self.leave_for(Activity::Standby, now),
             Command::AutoTrack(false) => self.end_auto_track(),

@@ -15,14 +15,14 @@ use crate::{
 struct Step {
     /// Signed amounts of the two axes, degrees.
     steps_deg: [f64; 2],
-    since: Instant,
+    begun: Instant,
 }
 
 /// A motion whose answer was lost.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Doubt {
     pub(super) asked: Asked,
-    since: Instant,
+    begun: Instant,
     /// Angles of the two axes before it, degrees.
     pub(super) before_deg: Option<[f64; 2]>,
 }
@@ -53,12 +53,12 @@ impl Commanded {
 
     /// Returns `true` if it moves the antenna, or may do so at any time.
     pub(super) fn may_move(&self) -> bool {
-        self.activity.may_move() || self.key.held().is_some() || self.step.is_some()
+        self.activity.may_move() || self.key.pressed().is_some() || self.step.is_some()
     }
 
     /// Returns `true` if a motion is out, or about to go out, that must show in the unit's state.
     pub(super) fn is_pending(&self) -> bool {
-        self.activity.is_pending() || self.key.held().is_some() || self.step.is_some()
+        self.activity.is_pending() || self.key.pressed().is_some() || self.step.is_some()
     }
 
     /// The party whose motion the antenna shows if it moves.
@@ -73,7 +73,7 @@ impl Commanded {
                 self.activity.slew().is_some_and(|slew| !matches!(slew.stage, SlewStage::Over))
             }
         };
-        if is_led || self.acts || self.key.held().is_some() || self.step.is_some() {
+        if is_led || self.acts || self.key.pressed().is_some() || self.step.is_some() {
             Mover::Azel
         } else if program_is_on {
             Mover::Program
@@ -103,7 +103,7 @@ impl Commanded {
     }
 
     pub(super) fn begin_step(&mut self, steps_deg: [f64; 2], now: Instant) {
-        self.step = Some(Step { steps_deg, since: now });
+        self.step = Some(Step { steps_deg, begun: now });
     }
 
     /// Amounts of a step that may not be over yet, degrees.
@@ -118,9 +118,9 @@ impl Commanded {
     /// A step is over when a state that was asked for after it shows standstill. `waits`: the
     /// motion has not been sent or answered.
     pub(super) fn follow_step(&mut self, measured: Option<Measured>, waits: bool) {
-        let Some(Step { since, .. }) = self.step else { return };
+        let Some(Step { begun, .. }) = self.step else { return };
         // A state from before the step shows the standstill before it.
-        let stands = measured.is_some_and(|measured| measured.asked > since && !measured.moving());
+        let stands = measured.is_some_and(|measured| measured.asked > begun && !measured.moving());
         if stands && !waits {
             self.step = None;
         }
@@ -128,7 +128,7 @@ impl Commanded {
 
     /// The answer to a motion was lost.
     pub(super) fn doubt(&mut self, asked: Asked, before_deg: Option<[f64; 2]>, now: Instant) {
-        self.doubt = Some(Doubt { asked, since: now, before_deg });
+        self.doubt = Some(Doubt { asked, begun: now, before_deg });
     }
 
     pub(super) fn is_in_doubt(&self) -> bool {
@@ -139,7 +139,7 @@ impl Commanded {
     pub(super) fn take_doubt(&mut self, measured: Option<Measured>) -> Option<Doubt> {
         // An older state shows nothing of what the motion did.
         let is_newer =
-            |doubt: &mut Doubt| measured.is_some_and(|measured| measured.asked > doubt.since);
+            |doubt: &mut Doubt| measured.is_some_and(|measured| measured.asked > doubt.begun);
         self.doubt.take_if(is_newer)
     }
 }

@@ -61,12 +61,12 @@ pub(super) struct Contact {
 }
 
 /// Returns the link that a new session wants, and the link state to show first.
-pub(super) fn first_link(antenna: &Antenna, since: Instant) -> (Wanted, LinkState) {
+pub(super) fn first_link(antenna: &Antenna, now: Instant) -> (Wanted, LinkState) {
     let waits = antenna.connection.variant().capabilities.waits_for_word;
     if waits && !antenna.connects_at_start {
         return (Wanted::No, LinkState::Off);
     }
-    (Wanted::Yes, LinkState::Connecting { since })
+    (Wanted::Yes, LinkState::Connecting { since: now })
 }
 
 impl Contact {
@@ -141,14 +141,14 @@ impl Contact {
         last_reply: Option<Instant>,
         now: Instant,
     ) -> bool {
-        let since = self.away_since.or(last_reply).unwrap_or(now);
+        let lost_at = self.away_since.or(last_reply).unwrap_or(now);
         if last_reply.is_some() {
-            self.away_since.get_or_insert(since);
+            self.away_since.get_or_insert(lost_at);
         }
         // Every attempt that fails loses the link again; only the first loss is news.
         let is_news = !matches!(self.link, LinkState::Lost { .. }) && !self.loss_is_reported;
         self.loss_is_reported = true;
-        self.link = LinkState::Lost { since, reason, retry_at };
+        self.link = LinkState::Lost { since: lost_at, reason, retry_at };
         is_news
     }
 

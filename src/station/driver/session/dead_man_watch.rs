@@ -21,7 +21,7 @@ impl Session {
 
     /// Beats while the lease holds or a halt is under way.
     pub(super) fn beat(&mut self, now: Moment) {
-        let (jog, stops) = (self.commanded.key.held(), self.stop.is_under_way());
+        let (jog, stops) = (self.commanded.key.pressed(), self.stop.is_under_way());
         let may_move = jog.is_some() || stops;
         let lease_holds = jog.is_some_and(|jog| now.steady < jog.end());
         if !self.stop.guard.beat(may_move, lease_holds || stops, now.steady) {

@@ -129,9 +129,9 @@ impl Effect {
             (self.expected_since, self.has_turned) = (None, false);
             return false;
         };
-        let since = *self.expected_since.get_or_insert(at);
+        let begun = *self.expected_since.get_or_insert(at);
         let Some((_, changed)) = self.changed else { return false };
-        let waited = at.saturating_duration_since(since.max(changed));
+        let waited = at.saturating_duration_since(begun.max(changed));
         match expected {
             Expected::Rate(rate_deg_s) => {
                 let turning_s = waited.saturating_sub(JOG_SHOWS_AFTER).as_secs_f64();

@@ -29,7 +29,7 @@ impl Session {
 
     /// Stops a motion that has no effect, and reports it.
     pub(super) fn end_without_effect(&mut self, axis: Option<Name>, now: Moment) {
-        if self.commanded.key.held().is_some() {
+        if self.commanded.key.pressed().is_some() {
             self.commanded.key.spend();
             self.halt_quietly(now);
         } else {

@@ -96,7 +96,7 @@ impl Session {
     }
 
     /// The operator has seen that it stands.
-    pub(super) fn take_word_for_standstill(&mut self) {
+    pub(super) fn accept_operator_standstill(&mut self) {
         tracing::warn!(antenna = self.setup.name(), "standstill by the operator's word");
         // Flags of motion or a missing angle may keep the proof from coming for ever.
         self.stop.end_unproved();

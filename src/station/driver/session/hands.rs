@@ -18,7 +18,7 @@ impl Session {
         let Some(Foreign { axis, evidence }) = self.gate.look_for_hands(now) else { return };
         let axis = self.setup.axis_name(axis);
         let event = Event::Safety(Safety::ForeignHands { axis, evidence });
-        if self.commanded.key.held().is_some() {
+        if self.commanded.key.pressed().is_some() {
             self.commanded.key.spend();
             self.halt_quietly(now);
             self.tell(event);

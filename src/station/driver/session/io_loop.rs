@@ -50,7 +50,7 @@ impl Session {
                 break;
             }
         }
-        if self.stop.is_under_way() || self.commanded.key.held().is_some() {
+        if self.stop.is_under_way() || self.commanded.key.pressed().is_some() {
             // If the program is killed from here on, its next start must find the STOP on disk.
             self.mark_debt().await;
             let now = self.now();
@@ -106,7 +106,7 @@ impl Session {
         self.publish(now);
         let mut dialling = self.contact.dial();
         let clock = self.clock.clone();
-        let until = clock.now().steady + CONNECT;
+        let deadline = clock.now().steady + CONNECT;
         // An address that does not answer must not hold up a STOP or a command.
         loop {
             tokio::select! {
@@ -122,7 +122,7 @@ impl Session {
                     self.contact.connected(now.steady);
                     return Ok(Some(stream));
                 }
-                () = clock.sleep_until(until) => return Err(LinkLoss::ConnectTimeout),
+                () = clock.sleep_until(deadline) => return Err(LinkLoss::ConnectTimeout),
             }
         }
     }
@@ -161,7 +161,7 @@ impl Session {
                 return Some(());
             }
             let due = self.halt_due().into_iter().chain(self.owed.marking_due(now.steady));
-            let until = due.chain([retry_at]).min().unwrap_or(retry_at);
+            let deadline = due.chain([retry_at]).min().unwrap_or(retry_at);
             tokio::select! {
                 biased;
                 turn = self.wires.next() => {
@@ -169,7 +169,7 @@ impl Session {
                         return None;
                     }
                 }
-                () = clock.sleep_until(until.max(now.steady + MIN_WAIT)) => {}
+                () = clock.sleep_until(deadline.max(now.steady + MIN_WAIT)) => {}
             }
         }
     }
@@ -320,7 +320,7 @@ impl Session {
         let due = self.gate.device().due(now);
         let pace = self.pace();
         let link_due = self.contact.due(self.gate.state(), pace);
-        let until = self
+        let deadline = self
             .supervise_due()
             .into_iter()
             .chain(self.owed.marking_due(now.steady))
@@ -331,7 +331,7 @@ impl Session {
             .min();
         let (clock, judged) = (self.clock.clone(), self.judging.done());
         // A deadline without effect must not spin.
-        let until = until.unwrap_or(due).max(now.steady + MIN_WAIT);
+        let deadline = deadline.unwrap_or(due).max(now.steady + MIN_WAIT);
         tokio::select! {
             biased;
             turn = self.wires.next() => turn,
@@ -342,7 +342,7 @@ impl Session {
                 Err(error) => Input::Lost(LinkLoss::Broken(in_words(&error))),
             },
             () = judged.notified() => Input::Time,
-            () = clock.sleep_until(until) => Input::Time,
+            () = clock.sleep_until(deadline) => Input::Time,
         }
     }
 }

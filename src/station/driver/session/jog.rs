@@ -38,7 +38,7 @@ impl Session {
 
     /// Sends a held jog to the gate once no halt is under way.
     fn start_jog(&mut self, now: Moment) {
-        if self.stop.is_under_way() || self.commanded.key.held().is_none_or(Jog::is_started) {
+        if self.stop.is_under_way() || self.commanded.key.pressed().is_none_or(Jog::is_started) {
             return;
         }
         // The mark is requested before anything moves. If the program died in the jog, its next
@@ -46,7 +46,7 @@ impl Session {
         if !self.is_marked(now) || self.awaits_young_position(now) {
             return;
         }
-        let Some(jog) = self.commanded.key.held() else { return };
+        let Some(jog) = self.commanded.key.pressed() else { return };
         let motion = jog.motion();
         let intent = self.commanded.activity.intent();
         let started = self
@@ -86,7 +86,7 @@ impl Session {
 
     /// Ends a jog that is no longer renewed, or whose position is too old.
     pub(super) fn watch_jog(&mut self, now: Moment) {
-        let Some(jog) = self.commanded.key.held() else { return };
+        let Some(jog) = self.commanded.key.pressed() else { return };
         let over = now.steady >= jog.end();
         if !jog.is_started() {
             if over {

@@ -73,14 +73,14 @@ pub(super) enum PositionWait {
 }
 
 impl JogKey {
-    pub(super) fn held(&self) -> Option<&Jog> {
+    pub(super) fn pressed(&self) -> Option<&Jog> {
         match &self.0 {
             State::Down(jog) => Some(jog),
             State::Up | State::Spent(_) => None,
         }
     }
 
-    fn held_mut(&mut self) -> Option<&mut Jog> {
+    fn pressed_mut(&mut self) -> Option<&mut Jog> {
         match &mut self.0 {
             State::Down(jog) => Some(jog),
             State::Up | State::Spent(_) => None,
@@ -89,7 +89,7 @@ impl JogKey {
 
     /// The jog that went through the gate.
     pub(super) fn started(&self) -> Option<&Jog> {
-        self.held().filter(|jog| jog.is_started)
+        self.pressed().filter(|jog| jog.is_started)
     }
 
     /// Returns `true` if the key of a jog that has ended is still down in this direction.
@@ -99,7 +99,7 @@ impl JogKey {
 
     /// Lengthens a jog with exactly these rates. Returns `false` if there is none.
     pub(super) fn renew(&mut self, rates_deg_s: [f64; 2], end: Instant) -> bool {
-        let jog = self.held_mut().filter(|jog| is_same_rate(jog.rates_deg_s, rates_deg_s));
+        let jog = self.pressed_mut().filter(|jog| is_same_rate(jog.rates_deg_s, rates_deg_s));
         let is_renewed = jog.is_some();
         if let Some(jog) = jog {
             jog.end = end;
@@ -120,14 +120,14 @@ impl JogKey {
 
     /// The motion of the held key went through the gate.
     pub(super) fn start(&mut self) {
-        if let Some(jog) = self.held_mut() {
+        if let Some(jog) = self.pressed_mut() {
             jog.is_started = true;
         }
     }
 
     /// The gate has refused the motion of the held key. Returns `true` the first time.
     pub(super) fn is_first_refusal(&mut self) -> bool {
-        self.held_mut().is_some_and(|jog| !std::mem::replace(&mut jog.is_refused, true))
+        self.pressed_mut().is_some_and(|jog| !std::mem::replace(&mut jog.is_refused, true))
     }
 
     /// The key is up.
@@ -157,7 +157,7 @@ impl JogKey {
     /// Judges the last position, which was asked for at `asked`. The gate judges the age of a
     /// position that does not come.
     pub(super) fn wait_for_position(&mut self, asked: Instant, now: Instant) -> PositionWait {
-        let Some(jog) = self.held_mut() else { return PositionWait::Over };
+        let Some(jog) = self.pressed_mut() else { return PositionWait::Over };
         let age = now.saturating_duration_since(asked);
         let waited = now.saturating_duration_since(jog.pressed_at);
         if age < YOUNG || asked >= jog.pressed_at || waited >= PATIENCE {
@@ -194,7 +194,7 @@ mod tests {
         key.press(RIGHT, now, now);
         key.start();
         key.spend();
-        assert!(key.held().is_none() && key.is_spent([2.0, 0.0]));
+        assert!(key.pressed().is_none() && key.is_spent([2.0, 0.0]));
         assert!(!key.is_spent([-1.0, 0.0]), "another direction is another press");
         key.release();
         assert!(!key.is_spent(RIGHT));

@@ -27,7 +27,7 @@ struct Likeness {
 /// A unit that must be compared before a target is tracked on.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Recheck {
-    pub(super) since: Instant,
+    pub(super) begun: Instant,
     /// How long it was out of reach.
     pub(super) lost: Duration,
 }
@@ -68,10 +68,10 @@ impl Comparison {
         self.recheck = None;
     }
 
-    /// Compares the unit, which reports again `since` that time.
-    pub(super) fn compare(&self, state: &AntennaState, since: Instant, now: Instant) -> Compared {
+    /// Compares the unit, which reports again since `begun`.
+    pub(super) fn compare(&self, state: &AntennaState, begun: Instant, now: Instant) -> Compared {
         let current = Likeness::new(state);
-        let is_late = now.saturating_duration_since(since) >= READ_AGAIN;
+        let is_late = now.saturating_duration_since(begun) >= READ_AGAIN;
         match self.left_as.differs(&current) {
             None if self.left_as.is_whole(&current) => Compared::AsBefore,
             // A unit that does not report what it did may have lost its memory.

@@ -13,7 +13,7 @@ pub(super) struct Locking(Option<Progress>);
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Progress {
-    since: Instant,
+    begun: Instant,
     /// The unit has a program that could start on its own.
     has_program: bool,
     /// Auto-track was switched off on this link.
@@ -37,7 +37,7 @@ pub(super) enum LockStep {
 impl Locking {
     pub(super) fn begin(&mut self, has_program: bool, now: Instant) {
         self.0 = Some(Progress {
-            since: now,
+            begun: now,
             has_program,
             is_asked: false,
             is_proved: !has_program,
@@ -65,7 +65,7 @@ impl Locking {
             progress.is_asked = false;
             return LockStep::Wait;
         }
-        if state.measured.is_none_or(|measured| measured.asked <= progress.since) {
+        if state.measured.is_none_or(|measured| measured.asked <= progress.begun) {
             return LockStep::Wait;
         }
         match state.program.and_then(|program| program.auto) {
@@ -80,10 +80,10 @@ impl Locking {
             }
             Some(true) | None if !progress.is_asked && !progress.was_proved => {
                 progress.is_asked = true;
-                progress.since = now;
+                progress.begun = now;
                 LockStep::SwitchOff
             }
-            Some(true) | None if now.saturating_duration_since(progress.since) >= READ_BACK => {
+            Some(true) | None if now.saturating_duration_since(progress.begun) >= READ_BACK => {
                 self.report()
             }
             Some(true) | None => LockStep::Wait,

@@ -34,10 +34,10 @@ enum State {
     #[default]
     None,
     /// An earlier run left it.
-    Found { since: Option<Timestamp> },
+    Found { begun: Option<Timestamp> },
     /// Requested by this session.
     Put {
-        since: Option<Timestamp>,
+        begun: Option<Timestamp>,
         first: Instant,
         /// The last request.
         last: Instant,
@@ -63,8 +63,8 @@ pub(super) fn is_old(mark: Mark, now: Timestamp) -> bool {
 }
 
 impl Marking {
-    pub(super) fn found(since: Option<Timestamp>) -> Self {
-        Self(State::Found { since })
+    pub(super) fn found(begun: Option<Timestamp>) -> Self {
+        Self(State::Found { begun })
     }
 
     /// Follows the mark to the disk. Requests it if this session has not yet.
@@ -92,14 +92,14 @@ impl Marking {
 
     /// Requests the mark, as of now.
     pub(super) fn put(&mut self, debts: &UnitDebts, now: Moment) {
-        let (since, first, is_reported) = match self.0 {
+        let (begun, first, is_reported) = match self.0 {
             State::None => (Some(now.utc), now.steady, false),
             // The debt began in the earlier run; only the try is new.
-            State::Found { since } => (since, now.steady, false),
-            State::Put { since, first, is_reported, .. } => (since, first, is_reported),
+            State::Found { begun } => (begun, now.steady, false),
+            State::Put { begun, first, is_reported, .. } => (begun, first, is_reported),
         };
-        debts.mark(Mark { since, tried: Some(now.utc) });
-        self.0 = State::Put { since, first, last: now.steady, is_reported };
+        debts.mark(Mark { since: begun, tried: Some(now.utc) });
+        self.0 = State::Put { begun, first, last: now.steady, is_reported };
     }
 
     /// Records that a unit that may be moving is still attended to.

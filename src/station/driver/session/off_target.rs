@@ -13,14 +13,14 @@ const GIVE_UP_AFTER: Duration = Duration::from_secs(30);
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct OffTarget {
     /// Start of the error, last measured error, and time of that measurement.
-    since: Option<(Instant, Angle, Instant)>,
+    error: Option<(Instant, Angle, Instant)>,
 }
 
 impl OffTarget {
     /// Takes the angle off target; `None` on target, or while the antenna cannot be there yet.
     pub(super) fn take(&mut self, off: Option<Angle>, at: Instant) {
-        let began = self.since.map_or(at, |(began, ..)| began);
-        self.since = off.map(|off| (began, off, at));
+        let began = self.error.map_or(at, |(began, ..)| began);
+        self.error = off.map(|off| (began, off, at));
     }
 
     /// Returns the angle off target once it has lasted [`ALARM_AFTER`].
@@ -34,7 +34,7 @@ impl OffTarget {
     }
 
     fn error_after(&self, min: Duration) -> Option<Angle> {
-        let (began, off, at) = self.since?;
+        let (began, off, at) = self.error?;
         (at.saturating_duration_since(began) >= min).then_some(off)
     }
 }

@@ -36,7 +36,9 @@ impl Session {
         let offsets = match change {
             OffsetChange::Step(step) => {
                 self.offers(step, track)?;
-                before.plus(step).ok_or_else(|| Refusal::OffsetTooLarge { most: most(step) })?
+                before
+                    .plus(step)
+                    .ok_or_else(|| Refusal::OffsetTooLarge { most: max_offset(step) })?
             }
             OffsetChange::Zero => TrackOffsets::NONE,
             OffsetChange::Undo => track.earlier.last().copied().ok_or(Refusal::Nothing)?,
@@ -115,7 +117,7 @@ impl Session {
     }
 }
 
-pub(super) fn most(step: Offset) -> Offset {
+pub(super) fn max_offset(step: Offset) -> Offset {
     match step {
         Offset::Time(_) => Offset::Time(MAX_TIME_OFFSET),
         Offset::Along(_) => Offset::Along(MAX_ANGLE_OFFSET),

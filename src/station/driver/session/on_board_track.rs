@@ -15,7 +15,7 @@ use crate::{
     clock::Moment,
     contract::driver::{Event, Intent, TrackProblem},
     device::{LONGEST_WINDOW_S, Measured, OnBoard, Phase},
-    driver::gate::{Held, NoRoute},
+    driver::gate::{NextPass, NoRoute},
     plan::{OnBoardPass, on_board::Judge},
 };
 
@@ -60,31 +60,31 @@ impl Session {
     }
 
     /// Returns the pass that the unit would track on its own from now on.
-    pub(super) fn held(&self, now: Moment) -> Held {
+    pub(super) fn next_pass(&self, now: Moment) -> NextPass {
         let unit = &self.gate.state().on_board;
-        let Some(satellite) = &unit.satellite else { return Held::Unread };
+        let Some(satellite) = &unit.satellite else { return NextPass::Unread };
         if satellite.catalog_number == 0 {
-            return Held::Nothing;
+            return NextPass::Nothing;
         }
         let (Some(clock), Some((start, stop))) = (unit.clock, unit.window) else {
-            return Held::Unread;
+            return NextPass::Unread;
         };
         let own_now = add_seconds(now.utc, clock.ahead_s);
         if own_now >= stop {
-            return Held::Nothing;
+            return NextPass::Nothing;
         }
         let start = start.max(own_now);
         let span_s = seconds_between(start, stop);
         if span_s > LONGEST_WINDOW_S as f64 {
-            return Held::TooLong { hours: span_s / 3600.0 };
+            return NextPass::TooLong { hours: span_s / 3600.0 };
         }
         let from_now_on = OnBoard { window: Some((start, stop)), ..unit.clone() };
         let orbit = self.wires.orbit();
         let pass = orbit.and_then(|orbit| orbit.pass_of(&from_now_on));
         let judge = pass.and_then(|pass| Judge::new(pass, self.setup.ability()).ok());
         judge.map_or_else(
-            || Held::Unknown { name: satellite.name.clone() },
-            |judge| Held::Pass(Arc::new(judge)),
+            || NextPass::Unknown { name: satellite.name.clone() },
+            |judge| NextPass::Pass(Arc::new(judge)),
         )
     }
 

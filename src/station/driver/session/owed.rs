@@ -48,8 +48,8 @@ impl Owed {
         self.left_moving
     }
 
-    pub(super) fn keep_unproved(&mut self, since: Option<Instant>) {
-        self.debts.keep_unproved(since);
+    pub(super) fn keep_unproved(&mut self, moved_at: Option<Instant>) {
+        self.debts.keep_unproved(moved_at);
     }
 
     /// Requests the mark that the unit is moved, unless this session has already.
@@ -77,9 +77,9 @@ impl Owed {
     }
 
     /// An earlier run left a mark. `asks`: the operator must decide.
-    pub(super) fn found_mark(&mut self, since: Option<Timestamp>, asks: bool) {
-        self.marking = Marking::found(since);
-        self.left_moving = asks.then_some(LeftMoving { since });
+    pub(super) fn found_mark(&mut self, begun: Option<Timestamp>, asks: bool) {
+        self.marking = Marking::found(begun);
+        self.left_moving = asks.then_some(LeftMoving { since: begun });
     }
 
     /// Why the next start would not know that a STOP is owed.

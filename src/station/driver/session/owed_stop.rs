@@ -58,15 +58,15 @@ impl Session {
         let now = self.now();
         self.doubt_found_offsets(now);
         let Some(mark) = found else { return };
-        let since = mark.since;
+        let begun = mark.since;
         let asks = self.setup.can().waits_for_word || is_old(mark, now.utc);
-        self.owed.found_mark(since, asks);
+        self.owed.found_mark(begun, asks);
         if asks {
             self.publish(now);
         } else {
             self.halt(now);
         }
-        self.tell(Event::Safety(Safety::LeftMoving { since, asks }));
+        self.tell(Event::Safety(Safety::LeftMoving { since: begun, asks }));
     }
 
     /// Records on disk that a STOP is owed, for a program that ends before it is proved. A slow

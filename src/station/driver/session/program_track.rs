@@ -108,7 +108,7 @@ impl Session {
         self.commanded
             .activity
             .program()
-            .is_some_and(|it| it.phase == TrackPhase::Tracking && !it.awaits_operator)
+            .is_some_and(|track| track.phase == TrackPhase::Tracking && !track.awaits_operator)
     }
 
     /// When the clock calls for the next look.
@@ -308,17 +308,17 @@ impl Session {
         // A second short outage does not spare the unit the comparison after the first.
         let lost = lost + unchecked.unwrap_or_default();
         if !self.gate.explains_position() {
-            return self.await_word(lost, Some(Unlike::Position));
+            return self.await_operator(lost, Some(Unlike::Position));
         }
         if self.setup.asks_to_resume() {
-            return self.await_word(lost, None);
+            return self.await_operator(lost, None);
         }
         if let Some(track) = self.commanded.activity.program_mut() {
-            track.recheck = Some(Recheck { since: now.steady, lost });
+            track.recheck = Some(Recheck { begun: now.steady, lost });
         }
     }
 
-    pub(super) fn await_word(&mut self, lost: Duration, unlike: Option<Unlike>) {
+    pub(super) fn await_operator(&mut self, lost: Duration, unlike: Option<Unlike>) {
         let Some(track) = self.commanded.activity.program_mut() else { return };
         track.awaits_operator = true;
         let name = track.name();
@@ -337,7 +337,7 @@ impl Session {
         if let Some(tracking) = self.commanded.activity.program_mut() {
             tracking.aim = None;
         }
-        self.await_word(lost, None);
+        self.await_operator(lost, None);
     }
 
     /// The operator lets it go on.

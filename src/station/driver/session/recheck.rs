@@ -29,8 +29,8 @@ impl Session {
     /// otherwise the operator is asked.
     pub(super) fn watch_likeness(&mut self, now: Moment) {
         let recheck = self.recheck().filter(|_| !self.contact.is_unread());
-        let Some(Recheck { since, lost }) = recheck else { return };
-        let compared = self.contact.comparison.compare(self.gate.state(), since, now.steady);
+        let Some(Recheck { begun, lost }) = recheck else { return };
+        let compared = self.contact.comparison.compare(self.gate.state(), begun, now.steady);
         if compared == Compared::Pending {
             return;
         }
@@ -38,7 +38,7 @@ impl Session {
         let track = self.commanded.activity.program_mut().and_then(|track| track.recheck.take());
         match (compared, track) {
             (Compared::Pending | Compared::AsBefore, _) => {}
-            (Compared::Unlike(unlike), Some(_)) => self.await_word(lost, Some(unlike)),
+            (Compared::Unlike(unlike), Some(_)) => self.await_operator(lost, Some(unlike)),
             (Compared::Unlike(unlike), None) => {
                 self.tell(Event::Safety(Safety::UnitDiffers { unlike }));
             }

@@ -39,7 +39,7 @@ impl Setup {
             name: antenna.name.clone(),
             variant,
             park: antenna.park_direction().into(),
-            track_config: TrackConfig::of(antenna, variant.capabilities),
+            track_config: TrackConfig::new(antenna, variant.capabilities),
             ability: Ability::of(antenna),
             resume: antenna.resume,
             resume_after: Duration::try_from_secs_f64(antenna.resume_after_s).unwrap_or_default(),
@@ -117,7 +117,7 @@ impl Setup {
     }
 
     fn figures_with(&self, measured_sway_deg: f64) -> Figures {
-        Figures::of(self.can(), self.sway_deg.max(measured_sway_deg))
+        Figures::new(self.can(), self.sway_deg.max(measured_sway_deg))
     }
 
     /// Largest angle off target of an antenna whose beam holds it: half the beam, and what rounding

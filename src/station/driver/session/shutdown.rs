@@ -22,15 +22,15 @@ impl Session {
         writer: &mut WriteHalf<Box<dyn Stream>>,
     ) {
         let start = self.now();
-        let is_held = self.commanded.key.held().is_some();
+        let is_held = self.commanded.key.pressed().is_some();
         self.commanded.key.end();
         if is_held || self.commanded.activity.is_queued() {
             self.halt_quietly(start);
         }
         let mut buffer = [0; 4096];
         let clock = self.clock.clone();
-        let until = start.steady + STANDSTILL_WITHIN + self.figures().gap();
-        while (self.is_in_debt() || self.owes_offsets()) && self.now().steady < until {
+        let deadline = start.steady + STANDSTILL_WITHIN + self.figures().gap();
+        while (self.is_in_debt() || self.owes_offsets()) && self.now().steady < deadline {
             let now = self.now();
             // The other checks of a session could begin a motion again.
             self.watch_auto_track(now);
@@ -54,7 +54,7 @@ impl Session {
                     }
                     _ => break,
                 },
-                () = clock.sleep_until(self.next_update(until)) => {
+                () = clock.sleep_until(self.next_update(deadline)) => {
                     let now = self.now();
                     self.watch_halt(now);
                 }
@@ -68,10 +68,10 @@ impl Session {
     }
 
     /// When there is something to send or to check.
-    fn next_update(&mut self, until: Instant) -> Instant {
+    fn next_update(&mut self, deadline: Instant) -> Instant {
         let now = self.now();
         let due = self.gate.device().due(now).max(now.steady + MIN_WAIT);
-        until.min(self.halt_due().map_or(due, |halt| halt.min(due)))
+        deadline.min(self.halt_due().map_or(due, |halt| halt.min(due)))
     }
 
     /// The station has let go of this antenna while something is owed to its unit: tries until

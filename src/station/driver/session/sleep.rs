@@ -10,7 +10,7 @@ use crate::{
 impl Session {
     /// Ends motions by hand: during the sleep nothing would.
     pub(super) fn before_sleep(&mut self, awake: Awake, now: Moment) {
-        if let Some(jog) = self.commanded.key.held() {
+        if let Some(jog) = self.commanded.key.pressed() {
             let rates_deg_s = jog.rates_deg_s();
             self.halt_quietly(now);
             // A key that is still down after the sleep must not move the antenna.

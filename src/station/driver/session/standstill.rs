@@ -22,7 +22,7 @@ pub(super) struct Figures {
 
 impl Figures {
     /// `sway_deg`: how far the antenna may sway while it stands.
-    pub(super) fn of(can: Capabilities, sway_deg: f64) -> Self {
+    pub(super) fn new(can: Capabilities, sway_deg: f64) -> Self {
         let tolerance_deg = can.standstill.resolution_deg / 2.0 + sway_deg;
         // Each look may be rounded by half a step.
         let shows_deg = can.standstill.resolution_deg * 1.5 + sway_deg;
@@ -138,9 +138,10 @@ impl Looks {
     ) -> Option<Proof> {
         self.last = Some(look.asked);
         // Positions of two links prove nothing: in between anybody may have moved the antenna.
-        let known = self.first.filter(|first| link_since.is_some_and(|since| first.asked >= since));
-        let first = known.filter(|first| figures.turned(first, &look).is_none());
-        self.turned |= known.is_some() && first.is_none();
+        let on_link =
+            self.first.filter(|first| link_since.is_some_and(|begun| first.asked >= begun));
+        let first = on_link.filter(|first| figures.turned(first, &look).is_none());
+        self.turned |= on_link.is_some() && first.is_none();
         if !is_at_rest {
             self.first = None;
             return None;
@@ -163,10 +164,10 @@ impl Looks {
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct Rest {
     /// Since when the flags say so, and the first position that counts.
-    since: Option<(Instant, Option<Measured>)>,
+    rest: Option<(Instant, Option<Measured>)>,
     /// The last motion of Azel that has shown in the flags or the angles.
     shown: Option<Instant>,
-    told: bool,
+    is_reported: bool,
 }
 
 impl Rest {
@@ -186,8 +187,8 @@ impl Rest {
             *self = Self { shown: began, ..Self::default() };
             return None;
         }
-        let (since, anchor) = self.since.get_or_insert((look.asked, None));
-        if look.asked.saturating_duration_since(*since) < Self::RUN_OUT {
+        let (begun, anchor) = self.rest.get_or_insert((look.asked, None));
+        if look.asked.saturating_duration_since(*begun) < Self::RUN_OUT {
             return None;
         }
         let anchor = anchor.get_or_insert(look);
@@ -199,10 +200,10 @@ impl Rest {
                 && look.asked.saturating_duration_since(began) < Self::RUN_OUT
         });
         if is_new {
-            (self.since, self.shown) = (Some((look.asked, None)), began);
+            (self.rest, self.shown) = (Some((look.asked, None)), began);
             return None;
         }
-        (!std::mem::replace(&mut self.told, true)).then_some(turned)
+        (!std::mem::replace(&mut self.is_reported, true)).then_some(turned)
     }
 }
 
@@ -236,7 +237,7 @@ mod tests {
     }
 
     fn figures() -> Figures {
-        Figures::of(satrak::VARIANT.capabilities, 0.1)
+        Figures::new(satrak::VARIANT.capabilities, 0.1)
     }
 
     fn proof(angles_deg: impl Fn(f64) -> [Option<f64>; 2]) -> Option<(f64, Proof)> {
@@ -316,14 +317,14 @@ mod tests {
     fn what_turns_at_rest_is_told_once() {
         let start = Instant::now();
         let mut rest = Rest::default();
-        let told: Vec<_> = (0..200)
+        let reported: Vec<_> = (0..200)
             .filter_map(|step| {
                 let at_s = f64::from(step) * 0.1;
                 let look = look(start, at_s, [Some(10.0 + 0.05 * at_s), Some(20.0)]);
                 rest.take(look, true, None, figures()).map(|turned| (at_s, turned))
             })
             .collect();
-        let [(at_s, (0, _))] = told[..] else { panic!("{told:?}") };
+        let [(at_s, (0, _))] = reported[..] else { panic!("{reported:?}") };
         assert!((3.0..8.0).contains(&at_s), "{at_s}");
     }
 
@@ -358,8 +359,8 @@ mod tests {
 
     #[test]
     fn a_motion_that_the_flags_hide_is_told() {
-        let told = contradictions_s(|at_s| 10.0 + 2.0 * (at_s - 10.0).max(0.0));
-        let [at_s] = told[..] else { panic!("{told:?}") };
+        let reported = contradictions_s(|at_s| 10.0 + 2.0 * (at_s - 10.0).max(0.0));
+        let [at_s] = reported[..] else { panic!("{reported:?}") };
         assert!((13.0..13.5).contains(&at_s), "{at_s}");
     }
 }

@@ -22,7 +22,7 @@ const SHOWN: Duration = Duration::from_secs(10);
 
 #[derive(Debug, Clone, PartialEq)]
 struct Halting {
-    since: Instant,
+    begun: Instant,
     /// The positions asked for since it was sent.
     looks: Looks,
     sent_at: Instant,
@@ -118,10 +118,10 @@ impl Stop {
     pub(super) fn shown(&self, now: Instant) -> StopState {
         match &self.stage {
             Stage::UnderWay(halting) if halting.is_reported => {
-                StopState::NotConfirmed { since: halting.since }
+                StopState::NotConfirmed { since: halting.begun }
             }
             Stage::UnderWay(halting) if halting.pressed => {
-                StopState::Stopping { since: halting.since }
+                StopState::Stopping { since: halting.begun }
             }
             &Stage::Proved { at } if now.saturating_duration_since(at) < SHOWN => {
                 StopState::Stopped { at }
@@ -142,7 +142,7 @@ impl Stop {
             }
             stage @ (Stage::Ready | Stage::Proved { .. }) => {
                 *stage = Stage::UnderWay(Box::new(Halting {
-                    since: now,
+                    begun: now,
                     looks: Looks::default(),
                     sent_at: now,
                     again_at,
@@ -175,7 +175,7 @@ impl Stop {
         if proof.is_some() {
             return HaltLook { proof, ..HaltLook::default() };
         }
-        let waited = now.saturating_duration_since(halting.since);
+        let waited = now.saturating_duration_since(halting.begun);
         let is_late = waited >= halting.reported_after(figures);
         let is_overdue = is_late && !std::mem::replace(&mut halting.is_reported, true);
         let is_due = now >= halting.again_at && halting.looks.want_stop();
@@ -224,7 +224,7 @@ impl Stop {
     pub(super) fn due(&self, figures: Figures, is_open: bool) -> Option<Instant> {
         match &self.stage {
             Stage::UnderWay(halting) => {
-                let reported_at = halting.since + halting.reported_after(figures);
+                let reported_at = halting.begun + halting.reported_after(figures);
                 let report = (!halting.is_reported).then_some(reported_at);
                 let looks = &halting.looks;
                 let look = looks.next(figures).filter(|_| looks.awaits_look() && is_open);
@@ -270,7 +270,7 @@ mod tests {
     const PATIENCE: Duration = Duration::from_millis(300);
 
     fn look(stop: &mut Stop, is_open: bool, now: Instant) -> HaltLook {
-        let figures = Figures::of(satrak::VARIANT.capabilities, 0.1);
+        let figures = Figures::new(satrak::VARIANT.capabilities, 0.1);
         stop.look(&AntennaState::default(), false, is_open, figures, PATIENCE, now)
     }
 

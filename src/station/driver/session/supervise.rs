@@ -105,13 +105,13 @@ impl Session {
 
     /// The latest time for the next call of [`Self::supervise`].
     pub(super) fn supervise_due(&self) -> Option<Instant> {
-        let jog = self.commanded.key.held().map(Jog::end);
+        let jog = self.commanded.key.pressed().map(Jog::end);
         // A motion to a position is judged whenever a state comes in.
         let effect = match self.commanded.activity.on_board().map(|track| track.stage) {
-            Some(OnBoardStage::Loading { since } | OnBoardStage::Starting { since })
+            Some(OnBoardStage::Loading { begun } | OnBoardStage::Starting { begun })
                 if !self.stop.is_under_way() =>
             {
-                Some(since + TRACK_EFFECT)
+                Some(begun + TRACK_EFFECT)
             }
             _ => None,
         };
@@ -244,18 +244,18 @@ impl Session {
         } else {
             Found::Still
         };
-        let away = outage.away_since.map(|since| now.steady.saturating_duration_since(since));
+        let away = outage.away_since.map(|lost_at| now.steady.saturating_duration_since(lost_at));
         let lost = away.unwrap_or_default() + outage.slept;
         let is_explained = self.explains(found, now);
         if away.is_some() && self.commanded.activity.program().is_none() {
-            self.contact.comparison.begin(Recheck { since: now.steady, lost });
+            self.contact.comparison.begin(Recheck { begun: now.steady, lost });
         }
         self.follow_on(lost, now);
         // A slew is watched further; its outcome is still to be reported.
-        if let Some(Slew { stage: SlewStage::UnderWay { since, .. }, .. }) =
+        if let Some(Slew { stage: SlewStage::UnderWay { begun, .. }, .. }) =
             self.commanded.activity.slew_mut()
         {
-            *since = now.steady;
+            *begun = now.steady;
         }
         if let Activity::OnBoardTrack(track) = &mut self.commanded.activity {
             match track.stage {
@@ -381,15 +381,15 @@ impl Session {
             | OnBoardStage::StartQueued => {}
             OnBoardStage::Loading { .. } | OnBoardStage::Starting { .. }
                 if self.stop.is_under_way() => {}
-            OnBoardStage::Starting { since }
-                if !ended && read.is_some_and(|read| read.asked > since) =>
+            OnBoardStage::Starting { begun }
+                if !ended && read.is_some_and(|read| read.asked > begun) =>
             {
                 track.stage = OnBoardStage::Tracking;
                 let target = track.target.clone();
                 self.tell(Event::Tracking(target));
             }
-            OnBoardStage::Loading { since } | OnBoardStage::Starting { since } => {
-                if now.steady.saturating_duration_since(since) >= TRACK_EFFECT {
+            OnBoardStage::Loading { begun } | OnBoardStage::Starting { begun } => {
+                if now.steady.saturating_duration_since(begun) >= TRACK_EFFECT {
                     self.give_up(Event::TrackingEnded { completed: false }, now);
                 }
             }

@@ -32,7 +32,7 @@ impl TrackConfig {
         self.drives.rates_deg_s
     }
 
-    pub(super) fn of(antenna: &Antenna, can: Capabilities) -> Self {
+    pub(super) fn new(antenna: &Antenna, can: Capabilities) -> Self {
         let drives = Drives {
             mount: antenna.track_mount(),
             limits: antenna.limits,

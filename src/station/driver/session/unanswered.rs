@@ -29,7 +29,7 @@ impl Session {
         let replies = self.gate.state().traffic.replies;
         self.contact.silence.watch(is_watched, replies, now.steady);
         // A jog that has not begun waits for its position.
-        self.gate.device().watch_closely(is_watched || self.commanded.key.held().is_some());
+        self.gate.device().watch_closely(is_watched || self.commanded.key.pressed().is_some());
         if self.silence_due().is_some_and(|at| now.steady >= at) {
             self.tell_silence();
         }

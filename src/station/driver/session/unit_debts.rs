@@ -36,10 +36,10 @@ impl UnitDebts {
 
     /// Keeps a record for the unit's next session, whose antenna may have other settings by
     /// then.
-    pub(super) fn keep_unproved(&mut self, since: Option<Instant>) {
-        if since != self.kept_unproved {
-            self.kept_unproved = since;
-            self.debts.keep_unproved(&self.unit, self.number, since);
+    pub(super) fn keep_unproved(&mut self, moved_at: Option<Instant>) {
+        if moved_at != self.kept_unproved {
+            self.kept_unproved = moved_at;
+            self.debts.keep_unproved(&self.unit, self.number, moved_at);
         }
     }
 

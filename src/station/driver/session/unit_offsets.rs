@@ -7,7 +7,7 @@ mod shifting;
 
 use std::sync::Arc;
 
-use super::{Session, offsets::most};
+use super::{Session, offsets::max_offset};
 use crate::{
     astro::{Offset, TrackOffsets},
     clock::Moment,
@@ -42,7 +42,9 @@ impl Session {
                 if !is_running || !matches!(step, Offset::Azimuth(_) | Offset::Elevation(_)) {
                     return Err(Refusal::NotOffered);
                 }
-                before.plus(step).ok_or_else(|| Refusal::OffsetTooLarge { most: most(step) })?
+                before
+                    .plus(step)
+                    .ok_or_else(|| Refusal::OffsetTooLarge { most: max_offset(step) })?
             }
             OffsetChange::Zero => TrackOffsets::NONE,
             OffsetChange::Undo => self.unit_offsets.last_earlier().ok_or(Refusal::Nothing)?,
@@ -74,9 +76,9 @@ impl Session {
             return Ok(None);
         }
         let unit = &self.gate.state().on_board;
-        let held = self.held_offsets().ok_or(Refusal::OffsetsUnknown)?;
+        let current = self.held_offsets().ok_or(Refusal::OffsetsUnknown)?;
         let shifted = self.owed.debts().shifted();
-        let before = shifted.map_or(held, |shifted| shifted.before);
+        let before = shifted.map_or(current, |shifted| shifted.before);
         let after = before.checked_add(wanted).ok_or(Refusal::NotOffered)?;
         let with = |offsets| OnBoard {
             offsets: unit.offsets.map(|unit| unit.with_axes_of(offsets)),
@@ -97,27 +99,27 @@ impl Session {
         if !self.unit_offsets.is_idle() {
             return;
         }
-        let Some(held) = self.held_offsets() else { return self.forget_wanted() };
+        let Some(current) = self.held_offsets() else { return self.forget_wanted() };
         if wanted.is_none() {
             // The record of what was added stays until the unit reads as before.
             return self.write_shift(fields, now);
         }
-        let known = self.owed.debts().shifted();
+        let recorded = self.owed.debts().shifted();
         let new = ShiftedTrack {
             since: now.utc,
-            before: held,
+            before: current,
             put: Vec::new(),
             track: None,
             is_found: false,
         };
-        let mut shifted = known.unwrap_or(new);
+        let mut shifted = recorded.unwrap_or(new);
         let Some(after) = shifted.before.checked_add(wanted) else { return self.forget_wanted() };
-        shifted.track = self.told_track();
+        shifted.track = self.reported_track();
         if self.unit_offsets.is_sure() {
             // The unit holds what was read back, and nothing older.
             shifted.put.clear();
         }
-        shifted.may_be(held);
+        shifted.may_be(current);
         shifted.may_be(after);
         self.owed.debts().set_shifted(Some(shifted));
         if self.owed.debts().has_marks() {
@@ -153,18 +155,19 @@ impl Session {
         now: Moment,
     ) -> Result<Option<u64>, Refusal> {
         let Some(wanted) = self.unit_offsets.wanted() else { return Ok(None) };
-        let held = self.held_offsets().ok_or(Refusal::OffsetsUnknown)?;
+        let current = self.held_offsets().ok_or(Refusal::OffsetsUnknown)?;
         let Some(shifted) = self.owed.debts().shifted() else { return Ok(None) };
         let after = shifted.before.checked_add(wanted).ok_or(Refusal::NotOffered)?;
-        let values = fields.values(held, after);
+        let values = fields.values(current, after);
         if values.is_empty() {
             return Ok(None);
         }
         let shift = self.shift(wanted, now)?;
         let ticket = self.unit_offsets.next_ticket();
         let group = self.gate.state().held.get(fields.group);
-        let seen = group.and_then(|group| Some(group.held.as_ref()?.values.clone()));
-        let change = Change { ticket, group: fields.group, values, seen, is_unlocked: false };
+        let last_read = group.and_then(|group| Some(group.held.as_ref()?.values.clone()));
+        let change =
+            Change { ticket, group: fields.group, values, seen: last_read, is_unlocked: false };
         self.gate.shift_track(change, shift.as_ref(), self.stop.is_under_way(), now)?;
         Ok(Some(ticket))
     }
@@ -274,9 +277,9 @@ impl Session {
             }
             return;
         };
-        let Some(held) = self.held_offsets() else { return };
-        let Some(added) = shifted.added(held) else {
-            return self.leave_foreign(shifted, held, now);
+        let Some(current) = self.held_offsets() else { return };
+        let Some(added) = shifted.added(current) else {
+            return self.leave_foreign(shifted, current, now);
         };
         if added.is_none() {
             let is_done = is_over || shifted.is_found;
@@ -304,14 +307,14 @@ impl Session {
     }
 
     /// Somebody else has set an offset of the unit: only the others are still to be taken back.
-    fn leave_foreign(&mut self, shifted: ShiftedTrack, held: TrackOffsets, now: Moment) {
+    fn leave_foreign(&mut self, shifted: ShiftedTrack, current: TrackOffsets, now: Moment) {
         tracing::warn!(antenna = self.setup.name(), "somebody else has set offsets of the unit");
         if !shifted.is_found {
             self.tell(Event::OffsetNotTaken(WriteError::ChangedMeanwhile));
         }
         let is_sure = self.unit_offsets.is_settled(now.steady);
-        match shifted.without_foreign(held) {
-            Some(left) if left.before != held || !is_sure => {
+        match shifted.without_foreign(current) {
+            Some(left) if left.before != current || !is_sure => {
                 self.owed.debts().set_shifted(Some(left));
             }
             _ => self.forget_shifted(),
@@ -333,10 +336,10 @@ impl Session {
     /// Records offsets that read back differently from those written: they are from here too.
     fn own_read_back(&self) {
         let debts = self.owed.debts();
-        let held = self.held_offsets();
-        let Some((mut shifted, held)) = debts.shifted().zip(held) else { return };
-        if shifted.added(held).is_none() {
-            shifted.may_be(held);
+        let current = self.held_offsets();
+        let Some((mut shifted, current)) = debts.shifted().zip(current) else { return };
+        if shifted.added(current).is_none() {
+            shifted.may_be(current);
             debts.set_shifted(Some(shifted));
         }
     }

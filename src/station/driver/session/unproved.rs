@@ -29,11 +29,11 @@ impl Session {
     pub(super) fn watch_standstill(&mut self, _: Moment) {
         let Some(since) = self.gate.unproved_since() else { return };
         let state = self.gate.state();
-        let seen = state.measured.is_some_and(|measured| {
+        let stands = state.measured.is_some_and(|measured| {
             measured.asked.saturating_duration_since(since) >= SETTLED && !measured.moving()
         });
         let program_is_off = state.program.is_none_or(|program| !program.enabled);
-        if seen && program_is_off && !self.may_move() {
+        if stands && program_is_off && !self.may_move() {
             self.prove_still();
         }
     }

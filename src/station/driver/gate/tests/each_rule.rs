@@ -188,7 +188,7 @@ fn motions() -> Vec<Needed> {
         ),
         needed(
             "auto_track_is_clear",
-            Case { held: Held::Unknown { name: "TWIN".to_owned() }, ..Case::new(Standby) },
+            Case { held: NextPass::Unknown { name: "TWIN".to_owned() }, ..Case::new(Standby) },
             Asked::Motion(Motion::EnableAuto),
             |it| matches!(it, Refusal::OrbitUnknown { .. }),
         ),

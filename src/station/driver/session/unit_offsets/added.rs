@@ -18,9 +18,9 @@ impl Session {
     /// Offsets added to those that the unit held before, at the last read; `None` while they are
     /// not known.
     pub(super) fn added_offsets(&self) -> Option<TrackOffsets> {
-        let held = self.held_offsets()?;
+        let current = self.held_offsets()?;
         match self.owed.debts().shifted() {
-            Some(shifted) => shifted.added(held),
+            Some(shifted) => shifted.added(current),
             None => Some(TrackOffsets::NONE),
         }
     }
@@ -83,7 +83,7 @@ impl Session {
     /// one to whose track something was added.
     pub(super) fn added_track_is_over(&self, now: Moment) -> bool {
         let added_to = self.owed.debts().shifted().and_then(|shifted| shifted.track);
-        let is_another = self.told_track().zip(added_to).is_some_and(|(track, then)| {
+        let is_another = self.reported_track().zip(added_to).is_some_and(|(track, then)| {
             // The unit may report the window of a pass a little otherwise.
             let is_later = add_seconds(then.until, APART_S) < track.until;
             track.catalog_number != then.catalog_number

@@ -34,10 +34,10 @@ impl Session {
     }
 
     /// The satellite that the unit says it tracks, and when it ends that by its own clock.
-    pub(super) fn told_track(&self) -> Option<AddedTo> {
-        let told = &self.gate.state().on_board;
-        let catalog_number = told.satellite.as_ref()?.catalog_number;
-        Some(AddedTo { catalog_number, until: told.window?.1 })
+    pub(super) fn reported_track(&self) -> Option<AddedTo> {
+        let report = &self.gate.state().on_board;
+        let catalog_number = report.satellite.as_ref()?.catalog_number;
+        Some(AddedTo { catalog_number, until: report.window?.1 })
     }
 
     /// UTC by the clock of the unit.
