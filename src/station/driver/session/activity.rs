@@ -125,7 +125,7 @@ impl Activity {
     /// The direction it leads to, if that direction is fixed.
     pub(super) fn aim(&self) -> Option<Pointing> {
         match self {
-            Self::ProgramTrack(track) => track.aim,
+            Self::ProgramTrack(track) => track.aim(),
             _ => self.slew().and_then(|slew| slew.aim),
         }
     }

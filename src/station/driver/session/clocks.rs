@@ -61,7 +61,7 @@ mod tests {
     fn a_clock_that_was_set_and_a_sleep_are_told_apart() {
         let start = Instant::now();
         let at = |steady_s: f64, utc_s: f64| Moment {
-            steady: start + Duration::from_secs_f64(steady_s),
+            steady: start + Duration::try_from_secs_f64(steady_s).unwrap(),
             utc: add_seconds(Timestamp::UNIX_EPOCH, utc_s),
         };
         let look = |now, asleep_s: u64| {

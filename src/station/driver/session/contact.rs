@@ -219,10 +219,8 @@ impl Contact {
                 self.link = LinkState::Stale { as_of };
             }
             (LinkState::Stale { .. }, false) => self.link = LinkState::Up { since: start },
-            (LinkState::Off, _)
-            | (LinkState::Connecting { .. }, _)
-            | (LinkState::Up { .. }, false)
-            | (LinkState::Lost { .. }, _) => {}
+            (LinkState::Off | LinkState::Connecting { .. } | LinkState::Lost { .. }, _)
+            | (LinkState::Up { .. }, false) => {}
         }
         None
     }

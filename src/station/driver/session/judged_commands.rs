@@ -56,7 +56,7 @@ impl Session {
         };
         let Some(track) = self.commanded.activity.program_mut() else { return };
         // The track has waited for this answer.
-        track.next_update = now.steady;
+        track.look_at(now.steady);
         if let Some(Err(error)) = planned.map(|planned| track.planner.take_path(*planned)) {
             self.end_follow(TrackProblem::Orbit(error), now);
         }

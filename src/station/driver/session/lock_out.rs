@@ -46,10 +46,9 @@ impl Session {
         self.put_lock_out(lock_out, now);
         self.leave_panel();
         // Without a link nothing shows whether the unit would start on its own.
-        if self.setup.can().has_program && !self.contact.is_open() {
-            if self.owed.locking.report() == LockStep::Report {
-                self.tell(Event::LockOutUnproved);
-            }
+        let is_unseen = self.setup.can().has_program && !self.contact.is_open();
+        if is_unseen && self.owed.locking.report() == LockStep::Report {
+            self.tell(Event::LockOutUnproved);
         }
     }
 

@@ -8,9 +8,6 @@ use crate::{
     driver::gate::Demand,
 };
 
-/// So many changes can be undone.
-const MAX_UNDO: usize = 100;
-
 impl Session {
     pub(super) fn change_offsets(&mut self, change: OffsetChange, now: Moment) {
         let changed = if self.commanded.activity.program().is_some() {
@@ -41,7 +38,7 @@ impl Session {
                     .ok_or_else(|| Refusal::OffsetTooLarge { most: max_offset(step) })?
             }
             OffsetChange::Zero => TrackOffsets::NONE,
-            OffsetChange::Undo => track.earlier.last().copied().ok_or(Refusal::Nothing)?,
+            OffsetChange::Undo => track.last_earlier().ok_or(Refusal::Nothing)?,
         };
         let demand = demand(track, offsets, now).ok_or(Refusal::PassUnknown)?;
         // Without offsets the track goes on as it was asked for, and waits at an edge.
@@ -62,16 +59,11 @@ impl Session {
         }
         let Some(track) = self.commanded.activity.program_mut() else { return Ok(()) };
         match change {
-            OffsetChange::Undo => drop(track.earlier.pop()),
+            OffsetChange::Undo => track.drop_last_earlier(),
             OffsetChange::Step(_) | OffsetChange::Zero if offsets == before => {}
-            OffsetChange::Step(_) | OffsetChange::Zero => {
-                if track.earlier.len() >= MAX_UNDO {
-                    track.earlier.remove(0);
-                }
-                track.earlier.push(before);
-            }
+            OffsetChange::Step(_) | OffsetChange::Zero => track.remember(before),
         }
-        track.next_update = now.steady;
+        track.look_at(now.steady);
         Ok(())
     }
 
@@ -111,7 +103,7 @@ impl Session {
     pub(super) fn watch_offsets(&mut self, now: Moment) {
         let track = self.commanded.activity.program();
         let to_sky = track.and_then(|track| {
-            track.planner.to_sky(track.phase.begins(now.utc), track.planner.offsets())
+            track.planner.to_sky(track.phase().begins(now.utc), track.planner.offsets())
         });
         self.gate.set_to_sky(to_sky.or_else(|| self.unit_to_sky(now)));
     }
@@ -129,7 +121,7 @@ pub(super) fn max_offset(step: Offset) -> Offset {
 
 /// Where the track leads with these offsets, now or at the start of its pass.
 fn demand(track: &Tracking, offsets: TrackOffsets, now: Moment) -> Option<Demand> {
-    let at = track.phase.begins(now.utc);
+    let at = track.phase().begins(now.utc);
     let [axes, plain] =
         [offsets, offsets.of_time()].map(|offsets| track.planner.demanded(at, offsets));
     let sky = track.planner.on_the_sky(at, offsets);

@@ -10,7 +10,7 @@ impl Session {
     /// Stops an antenna that stays off its target for too long.
     pub(super) fn watch_pointing(&mut self, now: Moment) {
         let off_target = match &self.commanded.activity {
-            Activity::ProgramTrack(track) => track.off_target,
+            Activity::ProgramTrack(track) => track.off_target(),
             // The operator knows that the unit may miss this pass.
             Activity::OnBoardTrack(track) if track.watch.judge().pass().is_agreed => return,
             Activity::OnBoardTrack(track) => track.watch.unexplained(),

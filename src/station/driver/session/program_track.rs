@@ -7,7 +7,6 @@ use super::{
     Session,
     activity::Activity,
     likeness::Recheck,
-    off_target::OffTarget,
     tracking::{TrackConfig, Tracking},
 };
 use crate::{
@@ -20,12 +19,6 @@ use crate::{
     },
     station::AfterPass,
 };
-
-/// Maximum number of commands in a row without an answer and without effect.
-const MAX_LOST: u32 = 3;
-
-/// Interval between looks while a barrier is in the way.
-const BLOCKED: Duration = Duration::from_secs(2);
 
 /// Why a program track has not begun.
 pub(super) enum NotFollowed {
@@ -105,16 +98,12 @@ impl Session {
 
     /// Returns `true` while the target is up and tracked.
     pub(super) fn follows_now(&self) -> bool {
-        self.commanded
-            .activity
-            .program()
-            .is_some_and(|track| track.phase == TrackPhase::Tracking && !track.awaits_operator)
+        self.commanded.activity.program().is_some_and(Tracking::follows_now)
     }
 
     /// When the clock calls for the next look.
     pub(super) fn follow_due(&self) -> Option<Instant> {
-        let track = self.commanded.activity.program()?;
-        (!track.is_held_up).then_some(track.next_update)
+        self.commanded.activity.program()?.due()
     }
 
     /// Keeps the antenna on its target.
@@ -134,7 +123,7 @@ impl Session {
             }
         }
         let phase = track.planner.track().phase(now.utc);
-        if phase != track.phase {
+        if phase != track.phase() {
             self.enter_phase(phase, now);
         }
         self.update_program(now);
@@ -143,23 +132,9 @@ impl Session {
     fn enter_phase(&mut self, phase: TrackPhase, now: Moment) {
         let Some(track) = self.commanded.activity.program_mut() else { return };
         let name = track.name();
-        let before = std::mem::replace(&mut track.phase, phase);
-        let mut over = None;
-        if before == TrackPhase::Tracking {
-            (track.predicted, track.on_path) = (None, None);
-            track.off_target = OffTarget::default();
-            // They were for the pass.
-            let begins_with = track.planner.track().offsets;
-            track.planner.set_offsets(begins_with);
-            track.earlier.clear();
-            let stats = std::mem::take(&mut track.stats);
-            over = Some(Event::ProgramTrackOver { name: name.clone(), stats });
-        }
-        if phase == TrackPhase::Tracking {
-            track.aim = None;
-        }
-        if let Some(event) = over {
-            self.tell(event);
+        let over = track.enter(phase);
+        if let Some(stats) = over {
+            self.tell(Event::ProgramTrackOver { name: name.clone(), stats });
         }
         self.tell_phase(phase, name);
         if phase == TrackPhase::Over {
@@ -169,8 +144,7 @@ impl Session {
 
     /// Ends the track after its last pass. Does not park an antenna that waits for the operator.
     fn end_program(&mut self, now: Moment) {
-        let awaits = (self.commanded.activity.program())
-            .is_some_and(|track| track.awaits_operator || track.recheck.is_some());
+        let awaits = self.commanded.activity.program().is_some_and(Tracking::asks);
         self.commanded.activity =
             match std::mem::replace(&mut self.commanded.activity, Activity::Standby) {
                 Activity::ProgramTrack(track) => Activity::Hold(Some(track)),
@@ -189,17 +163,17 @@ impl Session {
             || self.gate.device().motion_under_way();
         let measured = self.gate.state().measured.filter(|_| !is_busy);
         let Some(track) = self.commanded.activity.program_mut() else { return };
-        if now.steady < track.next_update {
+        if !track.is_due(now.steady) {
             return;
         }
-        if track.awaits_operator || track.recheck.is_some() {
-            track.next_update = now.steady + self.setup.track_config().settings.period();
+        if track.asks() {
+            track.look_at(now.steady + self.setup.track_config().settings.period());
             return;
         }
-        track.is_held_up = measured.is_none();
+        track.hold_up(measured.is_none());
         let Some(measured) = measured else { return };
         let TrackConfig { settings, .. } = self.setup.track_config();
-        track.next_update = now.steady + settings.period();
+        track.look_at(now.steady + settings.period());
         let latency = Duration::try_from_secs_f64(settings.latency_s).unwrap_or_default();
         let axes = track.axes(measured, latency);
         // The answer brings the next look.
@@ -224,25 +198,14 @@ impl Session {
             Ok(route) => {
                 let aim = self.gate.aim(&route.first);
                 self.stop.forget();
-                let Some(track) = self.commanded.activity.program_mut() else { return };
-                // The leg round a corner is looked at again until the way is free.
-                if route.then.is_none() {
-                    track.planner.sent(next);
+                if let Some(track) = self.commanded.activity.program_mut() {
+                    track.sent(next, aim, route.then.is_some(), now.steady);
                 }
-                track.sent = Some(now.steady);
-                track.stats.commands += 1;
-                track.commanded = aim;
-                track.barrier_is_told &= route.then.is_some();
-                // During the pass the target is compared with itself, not with the last
-                // position.
-                track.aim = aim.filter(|_| track.phase != TrackPhase::Tracking);
             }
             // It waits at the edge, and goes on once the way is free.
             Err(Refusal::Forbidden { barrier, at }) => {
-                let Some(track) = self.commanded.activity.program_mut() else { return };
-                // Looking for a way takes time that other antennas need, too.
-                track.next_update = track.next_update.max(now.steady + BLOCKED);
-                if !std::mem::replace(&mut track.barrier_is_told, true) {
+                let track = self.commanded.activity.program_mut();
+                if track.is_some_and(|track| track.block(now.steady)) {
                     self.tell(Event::NotSent(Refusal::Forbidden { barrier, at }));
                 }
             }
@@ -265,11 +228,7 @@ impl Session {
 
     /// A position was not answered and had no effect. Returns `true` if another may be sent.
     pub(super) fn may_send_another(&mut self) -> bool {
-        let Some(track) = self.commanded.activity.last_program_mut() else { return false };
-        track.lost += 1;
-        // Nothing tells whether the unit took the position, so the next one starts from the axes.
-        track.planner.forget_sent();
-        track.lost < MAX_LOST
+        self.commanded.activity.last_program_mut().is_some_and(Tracking::lose)
     }
 
     /// Plans the next position of these axes from where they are, whatever was sent before.
@@ -282,7 +241,7 @@ impl Session {
     /// The unit accepted a position.
     pub(super) fn position_taken(&mut self) {
         if let Some(track) = self.commanded.activity.last_program_mut() {
-            track.lost = 0;
+            track.is_taken();
         }
     }
 
@@ -298,10 +257,8 @@ impl Session {
     /// link may be lost, and somebody may have gone to the antenna.
     pub(super) fn follow_on(&mut self, lost: Duration, now: Moment) {
         let Some(track) = self.commanded.activity.program_mut() else { return };
-        track.planner.forget_sent();
-        track.sent = None;
         // A comparison that is pending stays pending.
-        let unchecked = track.recheck.take().map(|recheck| recheck.lost);
+        let unchecked = track.interrupt();
         if self.setup.resumes_at_once(lost) && unchecked.is_none() {
             return;
         }
@@ -314,13 +271,13 @@ impl Session {
             return self.await_operator(lost, None);
         }
         if let Some(track) = self.commanded.activity.program_mut() {
-            track.recheck = Some(Recheck { begun: now.steady, lost });
+            track.begin_recheck(Recheck { begun: now.steady, lost });
         }
     }
 
     pub(super) fn await_operator(&mut self, lost: Duration, unlike: Option<Unlike>) {
         let Some(track) = self.commanded.activity.program_mut() else { return };
-        track.awaits_operator = true;
+        track.await_operator();
         let name = track.name();
         self.tell(Event::Safety(Safety::AsksToResume { name, lost, unlike }));
     }
@@ -335,7 +292,7 @@ impl Session {
         self.halt_quietly(now);
         self.commanded.activity = program;
         if let Some(tracking) = self.commanded.activity.program_mut() {
-            tracking.aim = None;
+            tracking.forget_aim();
         }
         self.await_operator(lost, None);
     }
@@ -343,9 +300,7 @@ impl Session {
     /// The operator lets it go on.
     pub(super) fn resume(&mut self) {
         if let Some(track) = self.commanded.activity.program_mut() {
-            track.awaits_operator = false;
-            track.recheck = None;
-            track.planner.forget_sent();
+            track.resume();
         }
     }
 }

@@ -3,6 +3,7 @@
 use super::{
     Session,
     likeness::{Compared, Recheck},
+    tracking::Tracking,
 };
 use crate::{
     clock::Moment,
@@ -21,7 +22,7 @@ impl Session {
 
     /// The comparison that is pending.
     pub(super) fn recheck(&self) -> Option<Recheck> {
-        let track = self.commanded.activity.program().and_then(|track| track.recheck);
+        let track = self.commanded.activity.program().and_then(Tracking::recheck);
         track.or(self.contact.comparison.pending())
     }
 
@@ -35,7 +36,7 @@ impl Session {
             return;
         }
         self.contact.comparison.end();
-        let track = self.commanded.activity.program_mut().and_then(|track| track.recheck.take());
+        let track = self.commanded.activity.program_mut().and_then(Tracking::take_recheck);
         match (compared, track) {
             (Compared::Pending | Compared::AsBefore, _) => {}
             (Compared::Unlike(unlike), Some(_)) => self.await_operator(lost, Some(unlike)),

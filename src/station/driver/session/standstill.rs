@@ -164,7 +164,7 @@ impl Looks {
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct Rest {
     /// Since when the flags say so, and the first position that counts.
-    rest: Option<(Instant, Option<Measured>)>,
+    resting: Option<(Instant, Option<Measured>)>,
     /// The last motion of Azel that has shown in the flags or the angles.
     shown: Option<Instant>,
     is_reported: bool,
@@ -187,7 +187,7 @@ impl Rest {
             *self = Self { shown: began, ..Self::default() };
             return None;
         }
-        let (begun, anchor) = self.rest.get_or_insert((look.asked, None));
+        let (begun, anchor) = self.resting.get_or_insert((look.asked, None));
         if look.asked.saturating_duration_since(*begun) < Self::RUN_OUT {
             return None;
         }
@@ -200,7 +200,7 @@ impl Rest {
                 && look.asked.saturating_duration_since(began) < Self::RUN_OUT
         });
         if is_new {
-            (self.rest, self.shown) = (Some((look.asked, None)), began);
+            (self.resting, self.shown) = (Some((look.asked, None)), began);
             return None;
         }
         (!std::mem::replace(&mut self.is_reported, true)).then_some(turned)

@@ -10,13 +10,20 @@ use crate::{
     device::{Axis, AxisMotion, Capabilities, Measured, Pointing},
     plan::{
         Sample, TrackPhase, TrackStats,
-        program_track::{AxisNow, Drives, OnPath, Planner},
+        program_track::{AxisNow, Drives, Next, OnPath, Planner},
     },
     station::{self, Antenna},
 };
 
 /// A track ends once an axis has had no angle for this long.
 const UNMEASURED: Duration = Duration::from_secs(10);
+
+/// Maximum number of commands in a row without an answer and without effect.
+const MAX_LOST: u32 = 3;
+/// Interval between looks while a barrier is in the way.
+const BLOCKED: Duration = Duration::from_secs(2);
+/// Number of changes that can be undone.
+const MAX_UNDO: usize = 100;
 
 /// Settings of program track.
 #[derive(Debug, Clone, Copy)]
@@ -52,35 +59,35 @@ impl TrackConfig {
 
 pub(super) struct Tracking {
     pub(super) planner: Planner,
-    pub(super) phase: TrackPhase,
+    phase: TrackPhase,
     /// Offsets before each change of the pass, the oldest first.
-    pub(super) earlier: Vec<TrackOffsets>,
-    pub(super) stats: TrackStats,
-    pub(super) next_update: Instant,
+    earlier: Vec<TrackOffsets>,
+    stats: TrackStats,
+    next_update: Instant,
     /// A position is due, but something else must end first, which then brings it.
-    pub(super) is_held_up: bool,
+    is_held_up: bool,
     /// When the last command went to the gate.
-    pub(super) sent: Option<Instant>,
+    sent: Option<Instant>,
     /// Number of commands in a row that were lost.
-    pub(super) lost: u32,
+    lost: u32,
     /// When the position that was compared last came in.
     compared: Option<Instant>,
-    pub(super) predicted: Option<Sample>,
+    predicted: Option<Sample>,
     /// The last measurement against the planned path; `None` before the pass.
-    pub(super) on_path: Option<OnPath>,
-    pub(super) off_target: OffTarget,
+    on_path: Option<OnPath>,
+    off_target: OffTarget,
     /// Start and latest in an unbroken series of readings without the angle of an axis off its limits.
     unmeasured: Option<(Instant, Instant)>,
     /// Waits for the operator.
-    pub(super) awaits_operator: bool,
+    awaits_operator: bool,
     /// The unit must still prove to be as before.
-    pub(super) recheck: Option<Recheck>,
+    recheck: Option<Recheck>,
     /// The barrier in the way was reported.
-    pub(super) barrier_is_told: bool,
+    barrier_is_reported: bool,
     /// Where the last command leads.
-    pub(super) commanded: Option<Pointing>,
+    commanded: Option<Pointing>,
     /// The same, while the target is not up.
-    pub(super) aim: Option<Pointing>,
+    aim: Option<Pointing>,
 }
 
 impl Tracking {
@@ -102,10 +109,161 @@ impl Tracking {
             unmeasured: None,
             awaits_operator: false,
             recheck: None,
-            barrier_is_told: false,
+            barrier_is_reported: false,
             commanded: None,
             aim: None,
         }
+    }
+
+    pub(super) fn phase(&self) -> TrackPhase {
+        self.phase
+    }
+
+    /// Returns `true` while the target is up and tracked.
+    pub(super) fn follows_now(&self) -> bool {
+        self.phase == TrackPhase::Tracking && !self.awaits_operator
+    }
+
+    /// Where the last command leads, while the target is not up.
+    pub(super) fn aim(&self) -> Option<Pointing> {
+        self.aim
+    }
+
+    pub(super) fn off_target(&self) -> OffTarget {
+        self.off_target
+    }
+
+    /// When the clock calls for the next look; `None` while something else must end first.
+    pub(super) fn due(&self) -> Option<Instant> {
+        (!self.is_held_up).then_some(self.next_update)
+    }
+
+    /// Returns `true` if the next position is due.
+    pub(super) fn is_due(&self, now: Instant) -> bool {
+        now >= self.next_update
+    }
+
+    /// The next look is at this time.
+    pub(super) fn look_at(&mut self, time: Instant) {
+        self.next_update = time;
+    }
+
+    /// Notes whether a position that is due must wait for something else to end.
+    pub(super) fn hold_up(&mut self, is_held_up: bool) {
+        self.is_held_up = is_held_up;
+    }
+
+    /// Enters a phase. Returns the figures of the pass that is over.
+    pub(super) fn enter(&mut self, phase: TrackPhase) -> Option<TrackStats> {
+        let before = std::mem::replace(&mut self.phase, phase);
+        if phase == TrackPhase::Tracking {
+            self.aim = None;
+        }
+        if before != TrackPhase::Tracking {
+            return None;
+        }
+        (self.predicted, self.on_path) = (None, None);
+        self.off_target = OffTarget::default();
+        // They were for the pass.
+        let begins_with = self.planner.track().offsets;
+        self.planner.set_offsets(begins_with);
+        self.earlier.clear();
+        Some(std::mem::take(&mut self.stats))
+    }
+
+    /// The gate has let a position pass. `is_corner`: it leads round a corner only.
+    pub(super) fn sent(
+        &mut self,
+        next: Next,
+        aim: Option<Pointing>,
+        is_corner: bool,
+        now: Instant,
+    ) {
+        // The leg round a corner is looked at again until the way is free.
+        if !is_corner {
+            self.planner.sent(next);
+        }
+        self.sent = Some(now);
+        self.stats.commands += 1;
+        self.commanded = aim;
+        self.barrier_is_reported &= is_corner;
+        // During the pass the target is compared with itself, not with the last position.
+        self.aim = aim.filter(|_| self.phase != TrackPhase::Tracking);
+    }
+
+    /// A barrier is in the way. Returns `true` the first time.
+    pub(super) fn block(&mut self, now: Instant) -> bool {
+        // Looking for a way takes time that other antennas need, too.
+        self.next_update = self.next_update.max(now + BLOCKED);
+        !std::mem::replace(&mut self.barrier_is_reported, true)
+    }
+
+    /// A position was not answered and had no effect. Returns `true` if another may be sent.
+    pub(super) fn lose(&mut self) -> bool {
+        self.lost += 1;
+        // Nothing tells whether the unit took the position, so the next one starts from the axes.
+        self.planner.forget_sent();
+        self.lost < MAX_LOST
+    }
+
+    /// The unit accepted a position.
+    pub(super) fn is_taken(&mut self) {
+        self.lost = 0;
+    }
+
+    /// The unit is read again after an outage. Returns how long it was out of reach before, if
+    /// the comparison after that is still pending.
+    pub(super) fn interrupt(&mut self) -> Option<Duration> {
+        self.planner.forget_sent();
+        self.sent = None;
+        self.recheck.take().map(|recheck| recheck.lost)
+    }
+
+    pub(super) fn recheck(&self) -> Option<Recheck> {
+        self.recheck
+    }
+
+    pub(super) fn take_recheck(&mut self) -> Option<Recheck> {
+        self.recheck.take()
+    }
+
+    /// The unit must prove to be as before.
+    pub(super) fn begin_recheck(&mut self, recheck: Recheck) {
+        self.recheck = Some(recheck);
+    }
+
+    /// Waits for the operator from now on.
+    pub(super) fn await_operator(&mut self) {
+        self.awaits_operator = true;
+    }
+
+    /// The track was stopped on its way.
+    pub(super) fn forget_aim(&mut self) {
+        self.aim = None;
+    }
+
+    /// The operator lets it go on.
+    pub(super) fn resume(&mut self) {
+        self.awaits_operator = false;
+        self.recheck = None;
+        self.planner.forget_sent();
+    }
+
+    /// Offsets before the last change of the pass.
+    pub(super) fn last_earlier(&self) -> Option<TrackOffsets> {
+        self.earlier.last().copied()
+    }
+
+    pub(super) fn drop_last_earlier(&mut self) {
+        self.earlier.pop();
+    }
+
+    /// Keeps the offsets before a change, for undo.
+    pub(super) fn remember(&mut self, before: TrackOffsets) {
+        if self.earlier.len() >= MAX_UNDO {
+            self.earlier.remove(0);
+        }
+        self.earlier.push(before);
     }
 
     pub(super) fn view(&self) -> TrackView {
@@ -166,7 +324,7 @@ impl Tracking {
             self.stats.take(off);
         }
         // Other events report why the track waits.
-        let is_free = is_up && !self.asks() && !self.barrier_is_told && direction.is_some();
+        let is_free = is_up && !self.asks() && !self.barrier_is_reported && direction.is_some();
         if !is_free {
             self.planner.restart_chase();
         }
