@@ -83,15 +83,15 @@ fn note(
         .explanations(&[]);
     let counted_s = pass.duration_s();
     let report = RecordedReport {
-        from,
-        until,
+        start: from,
+        end: until,
         planned: None,
         max_elevation_deg: pass.max_elevation().degrees(),
         age_days: 0.4,
         elements: elements.clone(),
         site: Some(site),
         half_beam_deg: 0.44,
-        about: AboutTrack {
+        track: AboutTrack {
             begun: from,
             tracked_by: TrackedBy::OnBoard,
             sent: None,
@@ -120,7 +120,7 @@ fn later(note: &PassNote, days: i64) -> PassNote {
     let by = (days * 24).hours();
     let mut note = note.clone();
     let report = &mut note.report;
-    for time in [&mut report.from, &mut report.until, &mut report.about.begun] {
+    for time in [&mut report.start, &mut report.end, &mut report.track.begun] {
         *time += by;
     }
     note.points.iter_mut().for_each(|point| point.time += by);

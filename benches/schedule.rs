@@ -16,7 +16,7 @@ use azel::{
     makes::DemoAddresses,
     orbit::{Elements, Pass, PassSearch, Propagator, bundled, passes},
     plan::schedule::{
-        Candidate, Common, PlannedAntenna, Reach, Request, Schedule, Sight, Steadiness, Wanted,
+        Candidate, Common, PassPolicy, PlannedAntenna, Reach, Request, Schedule, Sight, Steadiness,
         plan,
     },
     station::{BetweenPasses, ChooseBy, PassLimits, Priority, Station},
@@ -44,12 +44,12 @@ impl Random {
 fn antennas(station: &Station, from: Timestamp) -> Vec<PlannedAntenna> {
     let planned = station.antennas.iter().map(|antenna| PlannedAntenna {
         id: antenna.id,
-        reach: Reach::of(station, antenna, None),
+        reach: Reach::from_station(station, antenna, None),
         set_up_s: 20.0,
-        between: BetweenPasses::Wait,
+        between_passes: BetweenPasses::Wait,
         free_from: from,
         stands_deg: None,
-        off: None,
+        off_reason: None,
     });
     planned.collect()
 }
@@ -103,7 +103,7 @@ fn candidate(
     common: Common<'_>,
 ) -> Candidate {
     let mut sight = Sight::new(propagator, station.site, None, pass);
-    let wanted = Wanted { priority, take: None, limits, by_rule: &|_| None };
+    let wanted = PassPolicy { priority, take: None, limits, by_rule: &|_| None };
     let number = elements.catalog_number();
     Candidate::new(number, 0.0, (pass, propagator), wanted, &mut sight, common)
 }

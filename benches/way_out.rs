@@ -42,7 +42,7 @@ fn main() {
         sun_avoidance: Some(SunAvoidance { radius_deg: 10.0, ahead_min: 60.0 }),
         ..Station::default()
     };
-    let bounds = Bounds::of(&station, &Antenna::genius("Yagi", "memory:1"));
+    let bounds = Bounds::new(&station, &Antenna::genius("Yagi", "memory:1"));
     let utc = "2026-08-12T10:00:00Z".parse().unwrap();
     for (name, from_deg, by_deg) in [
         ("up from the floor", [173.0, 0.0], [0.0, 0.5]),
@@ -52,11 +52,11 @@ fn main() {
     ] {
         let judged_ms = (0..RUNS).map(|_| {
             let started = Instant::now();
-            let now = bounds.at(utc);
+            let now = bounds.at_time(utc);
             for look in 0..LOOKS {
                 let ahead = f64::from(look);
                 let axes_deg = [from_deg[0] + ahead * by_deg[0], from_deg[1] + ahead * by_deg[1]];
-                black_box(now.way_out_deg(black_box(Sweep::at(axes_deg))));
+                black_box(now.way_out_deg(black_box(Sweep::at_position(axes_deg))));
             }
             started.elapsed().as_secs_f64() * 1e3
         });

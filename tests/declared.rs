@@ -78,7 +78,7 @@ async fn in_manual<U: Unit>(antenna: &Antenna, control: Control<U>) -> Rig<Contr
 async fn write_settings<U: Unit>(rig: &mut Rig<Control<U>>, group: &'static Group, ticket: u64) {
     rig.send(Command::ReadGroup(group.key));
     rig.seconds(5.0).await;
-    let held = rig.shown().state.held.get(group.key).and_then(|held| held.held.clone());
+    let held = rig.shown().state.groups.get(group.key).and_then(|held| held.last_read.clone());
     let held = held.map(|held| held.values).unwrap_or_default();
     let fields = group.fields.iter().filter(|field| field.access != Access::Read);
     let values: Values = fields
@@ -90,10 +90,10 @@ async fn write_settings<U: Unit>(rig: &mut Rig<Control<U>>, group: &'static Grou
     if values.is_empty() {
         return;
     }
-    let change = Change { ticket, group: group.key, values, seen: None, is_unlocked: true };
+    let change = Change { ticket, group: group.key, values, expected: None, is_unlocked: true };
     rig.send(Command::WriteSettings(change));
     let is_over = |shown: &azel::contract::driver::Snapshot| {
-        let written = shown.state.held.get(group.key).and_then(|held| held.written.as_ref());
+        let written = shown.state.groups.get(group.key).and_then(|held| held.written.as_ref());
         written.is_some_and(|written| {
             let is_known = written.result != Err(WriteError::NoSuchSetting);
             assert!(is_known, "{} is declared and not taken", group.key);

@@ -163,7 +163,7 @@ fn park_out_of_reach(dice: &mut Dice, mechanics: &Mechanics, station: &mut Stati
     let (azimuth_deg, elevation_deg) = (dice.between(20.0, 340.0), dice.between(0.0, 15.0));
     let Some(antenna) = station.antennas.first_mut() else { return };
     let rate_deg_s = antenna.limits.maximum_rate_deg_s;
-    antenna.automatic.between = BetweenPasses::Park;
+    antenna.automatic.between_passes = BetweenPasses::Park;
     let beyond_deg = match antenna.mount {
         Mount::AzEl { azimuth_from_deg, azimuth_to_deg, .. } => {
             let free_deg = 360.0 - (azimuth_to_deg - azimuth_from_deg);
@@ -253,7 +253,7 @@ fn accusations(rehearsed: &Rehearsed) -> usize {
             [Interruption::Elsewhere, Interruption::EndedByUnit].map(DayEvent::Suspended);
         suspended.contains(what)
     };
-    rehearsed.interruptions.iter().filter(|line| accuses(&line.what)).count()
+    rehearsed.interruptions.iter().filter(|line| accuses(&line.event)).count()
 }
 
 /// Passes that were tracked for some time at least.
@@ -284,8 +284,8 @@ fn untouched_antennas_report_no_foreign_motion() {
                 "seed {seed}: {:?} from {lowest_deg}° elevation, {} keep-outs, at {}: {:?}",
                 antenna.name,
                 what.station.keep_outs.len(),
-                line.at,
-                line.what
+                line.time,
+                line.event
             );
         }
         if let Some(usual) = with_usual_park {

@@ -59,7 +59,7 @@ fn open<U: Unit>(
 ) -> Measured {
     let dial = Network::default().dial(move || link(&control));
     let (session, handle) = indebted_session(antenna, dial, clock.clone(), Debts::default());
-    handle.keep_within(Bounds::of(station, antenna));
+    handle.keep_within(Bounds::new(station, antenna));
     handle.send(Command::Connect).unwrap();
     let turns = Rc::<RefCell<Turns>>::default();
     let taken = Rc::clone(&turns);
@@ -150,8 +150,8 @@ fn begin(antennas: &[Measured], event: &Event, station: &Station) {
             catalog_number: event.elements.catalog_number(),
             name: event.elements.name().into(),
             element_file: None,
-            from: event.aos,
-            until: event.los,
+            start: event.aos,
+            end: event.los,
         },
         elements: event.elements.clone(),
         site: station.site,

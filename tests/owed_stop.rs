@@ -162,7 +162,7 @@ fn an_owed_stop_survives_settings_that_are_saved_while_the_link_is_down() {
     drop(handle);
     let changed = Antenna { beam_width_deg: 0.9, name: "Renamed".to_owned(), ..scene.antenna() };
     let handle = scene.open(&changed);
-    assert!(scene.driver.debts().owes(&Unit::of(&changed)));
+    assert!(scene.driver.debts().owes(&Unit::new(&changed)));
     scene.is_cut.send(false).unwrap();
     scene.until(&handle, "standstill is proved", |shown| {
         matches!(shown.stop, StopState::Stopped { .. })

@@ -18,10 +18,10 @@ fn differences(
     found: &[Pass],
     step_s: f64,
 ) -> Vec<String> {
-    let length_s = time::seconds_between(search.from, search.to);
+    let length_s = time::seconds_between(search.start, search.end);
     let mut differences = Vec::new();
     for index in 0..=(length_s / step_s) as usize {
-        let at = time::add_seconds(search.from, index as f64 * step_s);
+        let at = time::add_seconds(search.start, index as f64 * step_s);
         let Ok(look) = propagator.look_from(search.site.airless(), at) else {
             // After its epoch, a decayed satellite stays down.
             if at > elements.epoch() {
@@ -127,8 +127,8 @@ fn any_search() -> impl Strategy<Value = PassSearch> {
             let (latitude, longitude, altitude) = site;
             PassSearch {
                 site: Site::new(latitude, longitude, altitude).unwrap(),
-                from,
-                to: time::add_seconds(from, hours * 3600.0),
+                start: from,
+                end: time::add_seconds(from, hours * 3600.0),
                 aos_elevation: Angle::from_degrees(aos_deg),
                 floor: Angle::from_degrees(floor_deg),
             }
@@ -149,11 +149,11 @@ fn cases() -> ProptestConfig {
 /// Returns `true` if the velocities of SGP4 agree with the change of its positions. They do not far
 /// from the epoch, or with a drag that ends the orbit in days.
 fn is_an_orbit(propagator: &Propagator, search: &PassSearch) -> bool {
-    let length_s = time::seconds_between(search.from, search.to);
+    let length_s = time::seconds_between(search.start, search.end);
     (0..=200).all(|index| {
         let state = |offset_s| {
             let at_s = length_s * f64::from(index) / 200.0 + offset_s;
-            propagator.state_at(time::add_seconds(search.from, at_s))
+            propagator.state_at(time::add_seconds(search.start, at_s))
         };
         let (Ok(before), Ok(now), Ok(after)) = (state(-1.0), state(0.0), state(1.0)) else {
             return true;
@@ -180,8 +180,8 @@ proptest! {
         for pass in &found {
             let Pass { aos, tca, los, starts_before, ends_after } = *pass;
             prop_assert!(aos.time <= tca.time && tca.time <= los.time);
-            prop_assert!(starts_before == (aos.time == search.from) || starts_before);
-            prop_assert!(!ends_after || los.time <= search.to);
+            prop_assert!(starts_before == (aos.time == search.start) || starts_before);
+            prop_assert!(!ends_after || los.time <= search.end);
         }
         prop_assert!(found.windows(2).all(|pair| pair[0].los.time < pair[1].aos.time));
 

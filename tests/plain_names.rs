@@ -6,14 +6,14 @@
 //! part of a path, which is judged where it is defined.
 
 use std::{
-    collections::{BTreeSet, HashMap},
+    collections::HashMap,
     fmt::Write as _,
     fs,
     path::{Path, PathBuf},
 };
 
 /// Folders whose names are covered.
-const FOLDERS: [&str; 2] = ["src/orbit", "src/units"];
+const FOLDERS: [&str; 3] = ["src/contract", "src/orbit", "src/units"];
 
 /// Words that are no name, whatever their case.
 const NO_NAMES: &str = "
@@ -32,57 +32,6 @@ const NO_WORDS: [&str; 4] = ["least", "most", "fewest", "usual"];
 
 /// Terms with such a word.
 const TERMS: [&str; 1] = ["least_squares"];
-
-/// Names that other packages use too, with the files that define them. None is to be added; one
-/// that is renamed is taken out.
-const SHARED: &[(&str, &str)] = &[
-    ("src/orbit/astro/azel.rs", "towards"),
-    ("src/orbit/astro/track_offsets.rs", "each"),
-    ("src/orbit/passes.rs", "from to"),
-    ("src/units/controller/rc2000c/spec.rs", "of"),
-    ("src/units/controller/rotator_genius/spec.rs", "of"),
-    ("src/units/device.rs", "Asked from until about held"),
-    ("src/units/device/calibration.rs", "through"),
-    ("src/units/device/on_board.rs", "without"),
-    ("src/units/device/panel.rs", "told about"),
-    ("src/units/device/settings/copy.rs", "held"),
-    ("src/units/device/settings/field.rs", "about"),
-    ("src/units/device/settings/group_state.rs", "Held held seen at"),
-    ("src/units/device/settings/hindrance.rs", "of"),
-    ("src/units/device/settings/key.rs", "of with"),
-    ("src/units/device/state.rs", "held at asked off"),
-    ("src/units/device/wire.rs", "at is_usual_poll"),
-    ("src/units/plan/bounds.rs", "of at within least_clearances"),
-    ("src/units/plan/bounds/sweep.rs", "between at with"),
-    ("src/units/plan/on_board.rs", "of off at"),
-    ("src/units/plan/on_board/cause.rs", "off"),
-    ("src/units/plan/on_board/clear.rs", "at"),
-    ("src/units/plan/pass_report.rs", "from until at"),
-    ("src/units/plan/pass_report/explain.rs", "since with"),
-    ("src/units/plan/pass_report/losses.rs", "from until"),
-    ("src/units/plan/pointing/fit.rs", "at wanted with kept"),
-    ("src/units/plan/program_track/planner.rs", "until off"),
-    ("src/units/plan/schedule/between_passes.rs", "between"),
-    ("src/units/plan/schedule/changes.rs", "from to"),
-    ("src/units/plan/schedule/of_station.rs", "of"),
-    ("src/units/plan/schedule/outcome.rs", "from to why Why with"),
-    ("src/units/plan/schedule/reach.rs", "of"),
-    ("src/units/plan/schedule/request.rs", "Off between off Wanted"),
-    ("src/units/plan/schedule/way.rs", "at"),
-    ("src/units/plan/trackability.rs", "at from until"),
-    ("src/units/protocol/rotator_genius/reply.rs", "to"),
-    ("src/units/protocol/rotator_genius/request.rs", "of"),
-    ("src/units/protocol/satrak/reply.rs", "least most"),
-    ("src/units/station/automation_rule.rs", "of then Then"),
-    ("src/units/station/controller_spec.rs", "usual Usual"),
-    ("src/units/station/hours_of_day.rs", "from to"),
-    ("src/units/station/kept_offsets.rs", "of"),
-    ("src/units/station/lock_outs.rs", "by since of"),
-    ("src/units/station/mount.rs", "within"),
-    ("src/units/station/ranges.rs", "LEAST_PERCENT"),
-    ("src/units/station/read.rs", "why"),
-    ("src/units/station/scheduling.rs", "least_percent least_s between"),
-];
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Token<'a> {
@@ -223,31 +172,6 @@ fn words(name: &str) -> Vec<String> {
     words
 }
 
-/// Returns `true` for a field: in a declaration, a literal or a pattern.
-fn is_field(tokens: &[(Token<'_>, usize)], index: usize) -> bool {
-    let token_at = |index: usize| tokens.get(index).map(|(token, _)| *token);
-    let before = index.checked_sub(1).and_then(token_at);
-    let starts_field = ['{', ',', ')', ']'].map(Token::Mark).map(Some).contains(&before)
-        || before == Some(Token::Word("pub"));
-    let has_colon = token_at(index + 1) == Some(Token::Mark(':'))
-        && token_at(index + 2) != Some(Token::Mark(':'));
-    if !starts_field || !has_colon {
-        return false;
-    }
-    // Parameters stand in round brackets, those of closures between bars.
-    let mut depth = 0;
-    for (token, _) in tokens.iter().take(index).rev() {
-        match token {
-            Token::Mark('}' | ')' | ']') => depth += 1,
-            Token::Mark('{') if depth == 0 => return true,
-            Token::Mark('(' | '[' | '|') if depth == 0 => return false,
-            Token::Mark('{' | '(' | '[') => depth -= 1,
-            _ => {}
-        }
-    }
-    false
-}
-
 /// Judges names by their words; a name is judged once.
 #[derive(Default)]
 struct Judge<'a>(HashMap<&'a str, Verdict>);
@@ -330,12 +254,7 @@ fn findings<'a>(text: &'a str, judge: &mut Judge<'a>) -> Vec<Finding<'a>> {
         if is_test && verdict == Verdict::NoWord {
             continue;
         }
-        findings.push(Finding {
-            name,
-            line: *line,
-            is_field: is_field(&tokens, index),
-            is_defined: is_function || defines_type || previous == Some(Word("const")),
-        });
+        findings.push(Finding { name, line: *line });
     }
     findings
 }
@@ -344,9 +263,6 @@ fn findings<'a>(text: &'a str, judge: &mut Judge<'a>) -> Vec<Finding<'a>> {
 struct Finding<'a> {
     name: &'a str,
     line: usize,
-    is_field: bool,
-    /// The finding is the definition of a function, a type or a constant.
-    is_defined: bool,
 }
 
 fn rust_files(folder: &Path, found: &mut Vec<PathBuf>) {
@@ -368,12 +284,6 @@ fn no_name_is_a_preposition_a_pronoun_or_a_participle() {
         rust_files(&top.join(folder), &mut files);
     }
     assert!(files.len() > 300, "{}", files.len());
-    let shared_fields: BTreeSet<&str> =
-        SHARED.iter().flat_map(|(_, names)| names.split(' ')).collect();
-    let mut unused: BTreeSet<(&str, &str)> = SHARED
-        .iter()
-        .flat_map(|(path, names)| names.split(' ').map(|name| (*path, name)))
-        .collect();
     let texts: Vec<(String, String)> = files
         .iter()
         .map(|file| {
@@ -385,19 +295,10 @@ fn no_name_is_a_preposition_a_pronoun_or_a_participle() {
     let mut judge = Judge::default();
     for (path, text) in &texts {
         for finding in findings(text, &mut judge) {
-            let is_shared_here = (finding.is_field || finding.is_defined)
-                && SHARED.iter().any(|(shared, names)| {
-                    shared == path && names.split(' ').any(|name| name == finding.name)
-                });
-            unused.retain(|entry| !is_shared_here || *entry != (path, finding.name));
-            let is_use = finding.is_field && shared_fields.contains(finding.name);
-            if !is_shared_here && !is_use {
-                writeln!(list, "{path}:{}: {}", finding.line, finding.name).unwrap();
-            }
+            writeln!(list, "{path}:{}: {}", finding.line, finding.name).unwrap();
         }
     }
     assert!(list.is_empty(), "{} forbidden names:\n{list}", list.lines().count());
-    assert_eq!(unused, BTreeSet::new(), "these are gone: take them out of SHARED");
 }
 
 #[test]

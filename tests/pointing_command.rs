@@ -10,7 +10,7 @@ use azel::{
     clock::Clock,
     contract::{
         driver::TimeSync,
-        record::{AboutTrack, Peak, PeakChange, PeakOf, RecordedReport, TrackedBy},
+        record::{AboutTrack, Peak, PeakBody, PeakChange, RecordedReport, TrackedBy},
     },
     controller::SPECS,
     device::Pointing,
@@ -70,8 +70,8 @@ fn fly(recorder: &Recorder, antenna: &Antenna, site: Site, number: u32, seed: &m
         let tracked = TrackedPass {
             propagator: &propagator,
             site,
-            from,
-            until,
+            start: from,
+            end: until,
             limits: MountLimits {
                 mount: antenna.mount,
                 maximum_rate_deg_s: 10.0,
@@ -86,14 +86,14 @@ fn fly(recorder: &Recorder, antenna: &Antenna, site: Site, number: u32, seed: &m
         recorder.note_pass(PassNote {
             antenna: antenna.id,
             report: RecordedReport {
-                from,
-                until,
+                start: from,
+                end: until,
                 planned: None,
                 max_elevation_deg: pass.max_elevation().degrees(),
                 age_days: 1.0,
                 site: Some(site),
                 half_beam_deg: half_beam.degrees(),
-                about: AboutTrack {
+                track: AboutTrack {
                     begun: from,
                     tracked_by: TrackedBy::ProgramTrack,
                     sent: None,
@@ -136,7 +136,7 @@ fn the_model_of_recorded_passes_is_told_with_what_it_is_sure_of() {
     }
     // As it is entered in Preferences, for this antenna and for another one.
     let at = "2026-08-12T10:00:00Z".parse().unwrap();
-    let peak = Peak { of: PeakOf::Moon, at, azimuth_deg: 180.0, elevation_deg: 60.0 };
+    let peak = Peak { body: PeakBody::Moon, time: at, azimuth_deg: 180.0, elevation_deg: 60.0 };
     for of in [antenna.id, AntennaId(99)] {
         let now = Clock::new(|| "2026-08-13T00:00:00Z".parse().unwrap()).now();
         recorder.note(Entry::new(now, Some(of), Kind::Peak, &PeakChange::Added(peak)));

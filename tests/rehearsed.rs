@@ -46,7 +46,7 @@ async fn until_recorded<T>(what: &str, found: impl FnMut() -> Option<T>) -> T {
 /// The passes of the schedule that are over, with what became of them.
 fn flown(client: &Client) -> Vec<(AntennaId, Flown)> {
     let day = Arc::clone(&client.snapshot().day);
-    let flown = day.iter().filter_map(|line| match &line.what {
+    let flown = day.iter().filter_map(|line| match &line.event {
         DayEvent::Flown(flown) => Some((line.antenna, flown.clone())),
         _ => None,
     });
@@ -77,7 +77,7 @@ async fn a_marked_pass_is_reminded_of_and_its_alarm_ends_when_an_antenna_takes_i
     assert!(seconds_between(reminder.aos(), aos).abs() < 1.0, "{reminder:?}");
     assert_eq!((reminder.pass.0, &*reminder.name), (ISS, "ISS"));
     until("the alarm", || is_raised().then_some(())).await;
-    assert!(seconds_between(client.snapshot().at.utc, aos) <= 30.0);
+    assert!(seconds_between(client.snapshot().moment.utc, aos) <= 30.0);
     let mast = measured(&client, "Mast").await;
     until("its end", || {
         let pass = reminder.pass;
@@ -85,6 +85,6 @@ async fn a_marked_pass_is_reminded_of_and_its_alarm_ends_when_an_antenna_takes_i
         (!is_raised()).then_some(())
     })
     .await;
-    assert!(client.snapshot().at.utc < reminder.los, "not by LOS");
+    assert!(client.snapshot().moment.utc < reminder.los, "not by LOS");
     until("the track", || antenna(&client, "Mast")?.1.tracks).await;
 }

@@ -118,8 +118,8 @@ proptest! {
                     let length = match status.layout { Layout::Wide => 71, Layout::Narrow => 63 };
                     length + usize::from(status.panic.is_some())
                 }
-                Received::Reply(Reply::Acknowledgement { to, .. }) => {
-                    go_tos += usize::from(matches!(to, Acknowledgement::GoTo { .. }));
+                Received::Reply(Reply::Acknowledgement { request, .. }) => {
+                    go_tos += usize::from(matches!(request, Acknowledgement::GoTo { .. }));
                     3
                 }
                 Received::LayoutChanged(_) | Received::OtherProtocol => 0,

@@ -47,7 +47,7 @@ fn described(reply: &Reply) -> Value {
             "r1": rotator(status.rotator(RotatorNumber::One)),
             "r2": rotator(status.rotator(RotatorNumber::Two)),
         }]),
-        Reply::Acknowledgement { to, is_accepted } => {
+        Reply::Acknowledgement { request: to, is_accepted } => {
             let verdict = if *is_accepted { "ok" } else { "failed" };
             match to {
                 Acknowledgement::GoTo { target } => {

@@ -233,8 +233,8 @@ fn status_with_15_16_and_17_fields() {
     let count = ReplyError::Count {
         word: Word::Status,
         found: 14,
-        least: 15,
-        most: 18,
+        min: 15,
+        max: 18,
         looks_like_decimal_commas: false,
     };
     assert_eq!(Reply::parse(&frame_of("S30")), Err(count));

@@ -142,7 +142,7 @@ fn of_rc2000c() -> Pair {
         elevation: vec![point(30, 0.0), point(1830, 90.0)],
     };
     let lines = [&calibration.azimuth, &calibration.elevation]
-        .map(|points| CountLine::through(points).unwrap());
+        .map(|points| CountLine::from_points(points).unwrap());
     let control = Control::new(&Options::default());
     let mut antenna = Antenna::rc2000c("RC2000C", "in memory");
     antenna.mount = Mount::AzEl {
@@ -177,7 +177,7 @@ fn assert_true(pair: &Pair) {
     let shown = pair.handle.snapshot();
     let Some(measured) = shown.state.measured else { return };
     let Some(direction) = measured.direction() else { return };
-    let age_s = (azel::clock::Instant::now() - measured.asked).as_secs_f64();
+    let age_s = (azel::clock::Instant::now() - measured.requested).as_secs_f64();
     let off = direction.separation((pair.truth)()).degrees();
     let allowed = pair.coarse_deg + pair.fastest_deg_s * age_s;
     assert!(off <= allowed, "{}: {off} degrees off after {age_s} s: {measured:?}", pair.name);

@@ -23,7 +23,7 @@ use azel::{
     orbit::{Elements, PassSearch, Propagator, RefreshHours, Source, bundled, passes},
     plan::{OnBoardPass, ProgramTrack, Target},
     secret::Secret,
-    station::{Antenna, AntennaId, Frequency, LockOut, OffsetsOf, Priority, Station},
+    station::{Antenna, AntennaId, Frequency, LockOut, OffsetsSubject, Priority, Station},
 };
 use jiff::{Timestamp, ToSpan as _};
 
@@ -53,8 +53,8 @@ fn commands_of_antennas() -> Vec<driver::Command> {
             catalog_number: 25_544,
             name: "ISS (ZARYA)".to_owned(),
             element_file: None,
-            from: noon(),
-            until: Timestamp::MAX,
+            start: noon(),
+            end: Timestamp::MAX,
         },
         elements: elements.clone(),
         site,
@@ -74,10 +74,10 @@ fn commands_of_antennas() -> Vec<driver::Command> {
         ticket: u64::MAX,
         group: "general",
         values: values.clone(),
-        seen: Some(values),
+        expected: Some(values),
         is_unlocked: true,
     };
-    let lock_out = LockOut { by: "A".to_owned(), since: noon(), reason: "grease".to_owned() };
+    let lock_out = LockOut { operator: "A".to_owned(), start: noon(), reason: "grease".to_owned() };
     let all = vec![
         C::Standby,
         C::Manual,
@@ -174,7 +174,7 @@ fn order() -> Order {
         file: FileName::new("weather.txt", takes).unwrap(),
         user: takes.factory_user.to_owned(),
         key_file: Some("/home/o/.ssh/id".into()),
-        cargo: Cargo::New(TleFile::of([catalog.get(25_544).unwrap()], takes).unwrap()),
+        cargo: Cargo::New(TleFile::new([catalog.get(25_544).unwrap()], takes).unwrap()),
         satellite: Some(25_544),
         is_unattended: false,
     }
@@ -207,13 +207,16 @@ fn what_is_asked_of_a_station_comes_back() {
         Command::ListOlderSets(25_544),
         Command::UseSet(SetChoice::Older { catalog_number: 25_544, epoch: noon() }),
         Command::UseSet(SetChoice::Newest { catalog_number: 25_544 }),
-        Command::CopyElements { name: "own".to_owned(), from: Copied::Text("x".to_owned()) },
+        Command::CopyElements { name: "own".to_owned(), origin: Copied::Text("x".to_owned()) },
         Command::SetRefresh { name: "active".to_owned(), hours: Some(RefreshHours::from(6)) },
         Command::SetFrequencies {
             satellite: 25_544,
             frequencies: Frequency::read_list("25544 145.8 Voice").unwrap(),
         },
-        Command::KeepOffsets { of: OffsetsOf::Antenna(ANTENNA), offsets: TrackOffsets::NONE },
+        Command::KeepOffsets {
+            subject: OffsetsSubject::Antenna(ANTENNA),
+            offsets: TrackOffsets::NONE,
+        },
         Command::SetSourceOrder { satellite: 25_544, sources: vec!["own".to_owned()] },
         Command::SetPriority { numbers: vec![25_544], priority: Priority::default() },
         Command::AddSource(Source::celestrak("weather")),

@@ -17,7 +17,7 @@ use crate::{
     astro::time::seconds_between,
     contract::{
         self, CatalogState,
-        passes::{PassKey, PassLists, PredictedPass},
+        passes::{PassListKey, PassLists, PredictedPass},
         record::OpenedPass,
         recorded::Recorded,
         schedule::Planned,
@@ -214,7 +214,7 @@ impl Order {
             }
             Export::HandOverSheet => format!("hand-over-{}.html", stamp(self.now)),
             Export::Report { format } => {
-                let from = self.opened().map(|opened| opened.pass.report.from);
+                let from = self.opened().map(|opened| opened.pass.report.start);
                 let extension = match format {
                     ReportFormat::Csv => "csv",
                     ReportFormat::Json => "json",
@@ -311,7 +311,7 @@ impl Order {
 
     fn write_passes(
         &self,
-        keys: &[PassKey],
+        keys: &[PassListKey],
         format: EventFormat,
         out: &mut Vec<u8>,
     ) -> Result<(), String> {
@@ -344,7 +344,7 @@ impl Order {
 
     fn write_looks(
         &self,
-        pass: PassKey,
+        pass: PassListKey,
         format: ListFormat,
         out: &mut Vec<u8>,
     ) -> Result<(), String> {
@@ -399,7 +399,7 @@ impl Order {
             schedule,
             satellites: &names,
             antennas: &antennas,
-            reason: &|left: &LeftOut| words::schedule::why(names_in_reasons, &left.why),
+            reason: &|left: &LeftOut| words::schedule::why(names_in_reasons, &left.reason),
             passes: &passes,
             query: &self.query(),
             now: self.now,
@@ -415,7 +415,7 @@ impl Order {
         let satellites = known
             .map(|it| (it.elements.catalog_number(), (&it.elements, &it.propagator)))
             .collect();
-        let until = self.schedule.until.unwrap_or(self.now);
+        let until = self.schedule.end.unwrap_or(self.now);
         let span = (self.now, until);
         let sheet = HandOverSheet::new(&self.station, schedule, &satellites, span, self.now);
         in_words(out.write_all(sheet.html().as_bytes()))

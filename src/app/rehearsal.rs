@@ -10,7 +10,7 @@ use jiff::Timestamp;
 use super::App;
 use crate::{
     astro::time::seconds_between,
-    contract::{CatalogState, passes::PassKey, rehearsal::Rehearsed},
+    contract::{CatalogState, passes::PassListKey, rehearsal::Rehearsed},
     job::Job,
     model::rehearsal::RehearsalState,
     rehearsal::{Rehearsal, RehearsalError, run},
@@ -35,7 +35,7 @@ pub(super) struct RehearsalWork {
 
 impl App {
     /// Begins to rehearse the whole plan, or a pass of it.
-    pub(super) fn rehearse(&mut self, pass: Option<PassKey>) {
+    pub(super) fn rehearse(&mut self, pass: Option<PassListKey>) {
         let model = &self.model;
         let CatalogState::Ready(catalog) = &model.catalog else { return };
         let predicted = pass.and_then(|key| model.pass_lists.find(key));

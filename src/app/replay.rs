@@ -335,8 +335,8 @@ impl Replay {
         // The record is read by itself, and a closing is of the live station.
         (shown.recorded, shown.closing) = (model.recorded.clone(), None);
         // Ages are those of that moment.
-        let passed = at.duration_since(shown.at.utc).try_into().unwrap_or_default();
-        (model.now, model.steady) = (at, shown.at.steady + passed);
+        let passed = at.duration_since(shown.moment.utc).try_into().unwrap_or_default();
+        (model.now, model.steady) = (at, shown.moment.steady + passed);
         model.take(Arc::new(shown), |antenna| {
             wires.iter().find(|(of, _)| *of == antenna).map(|(_, wire)| wire.clone())
         });

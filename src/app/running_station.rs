@@ -14,7 +14,7 @@ use egui::{Context, ViewportCommand, ViewportId};
 
 use super::MOVING_FRAME;
 use crate::{
-    contract::By,
+    contract::CommandOrigin,
     driver::Outside,
     engine::{Client, Handle, Settings, signals},
     job::Wake,
@@ -94,7 +94,7 @@ fn close_on_signals(
     // No code panics while it holds the lock.
     let stop = move || {
         let station = station.lock().unwrap_or_else(PoisonError::into_inner).clone();
-        station.acting_for(By::Signal).stop_all()
+        station.acting_for(CommandOrigin::Signal).stop_all()
     };
     let end = move || {
         for flag in flags {

@@ -102,8 +102,8 @@ pub(super) fn run(station: Option<&Path>, options: &Options) -> anyhow::Result<E
     let site = options.elevations.map_or(Ok(place.site), |kind| kind.in_passes(place.site))?;
     let search = PassSearch {
         site,
-        from,
-        to,
+        start: from,
+        end: to,
         aos_elevation: angle(options.aos, place.aos_elevation),
         floor: angle(options.floor, place.floor),
     };
@@ -124,7 +124,7 @@ fn write_passes(
     let PassQuery { search, mask } = query;
     let Satellites { list: satellites, is_complete } =
         options.input.satellites(station, options.from)?;
-    input::caution(&satellites, search.from, search.to);
+    input::caution(&satellites, search.start, search.end);
     let progress = Progress::new(satellites.len());
     let mut found = found_passes(&satellites, search, &|done| progress.show(done), &|| false);
     if mask.is_some() {

@@ -95,8 +95,8 @@ impl Rule {
 fn scheduling(station: &Station, options: &Options) -> Scheduling {
     let own = station.scheduling;
     let partly = options.least_share.map(|share| Partly {
-        least_percent: 100.0 * share,
-        least_s: own.partly.map_or(LEAST_PART_S, |partly| partly.least_s),
+        min_percent: 100.0 * share,
+        min_s: own.partly.map_or(LEAST_PART_S, |partly| partly.min_s),
     });
     Scheduling {
         choose_by: options.choose_by.map_or(own.choose_by, Rule::choose_by),
@@ -123,7 +123,7 @@ pub(super) fn run(station: Option<&Path>, options: &Options) -> anyhow::Result<E
     let antennas: Vec<PlannedAntenna> = station
         .antennas
         .iter()
-        .map(|antenna| PlannedAntenna::of(&station, antenna, options.from))
+        .map(|antenna| PlannedAntenna::from_station(&station, antenna, options.from))
         .collect();
     let query = PassQuery { search: search(&station, from, to), mask: None };
     let found = planned_passes(&satellites, &query.search);
@@ -132,7 +132,7 @@ pub(super) fn run(station: Option<&Path>, options: &Options) -> anyhow::Result<E
         antennas: &antennas,
         candidates: &candidates,
         choose_by: station.scheduling.choose_by,
-        partial: Partial::of(&station.scheduling),
+        partial: Partial::from_scheduling(&station.scheduling),
         previous: None,
         steadiness: Steadiness::default(),
         fixed: &[],
@@ -176,7 +176,7 @@ fn write_list(
         schedule,
         satellites: &names,
         antennas: &antennas,
-        reason: &|left: &LeftOut| words::schedule::why(names_in_reasons, &left.why),
+        reason: &|left: &LeftOut| words::schedule::why(names_in_reasons, &left.reason),
         passes,
         query,
         now,
@@ -230,7 +230,7 @@ fn candidates(
     let max_age_s = station.scheduling.max_element_age_d.map(|days| days * time::DAY_S);
     let common = Common { site: station.site, floor, antennas, max_age_s };
     let judged = passes.par_iter().map(|ExportedPass { satellite, pass }| {
-        Candidate::of(station, &satellite.elements, &satellite.propagator, pass, common)
+        Candidate::from_station(station, &satellite.elements, &satellite.propagator, pass, common)
     });
     judged.collect()
 }

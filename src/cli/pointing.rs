@@ -15,7 +15,7 @@ use serde::Serialize;
 use super::{input, passes::written, record::record_of};
 use crate::{
     astro::Term,
-    contract::record::{ExplainedPasses, Peak, PeakOf, PointingFit},
+    contract::record::{ExplainedPasses, Peak, PeakBody, PointingFit},
     controller::SPECS,
     plan::pointing::Kind,
     record::{explain_passes, fit_pointing, read_peaks},
@@ -57,14 +57,14 @@ enum Format {
 }
 
 fn sun_peak(text: &str) -> Result<Peak, String> {
-    peak(PeakOf::Sun, text)
+    peak(PeakBody::Sun, text)
 }
 
 fn moon_peak(text: &str) -> Result<Peak, String> {
-    peak(PeakOf::Moon, text)
+    peak(PeakBody::Moon, text)
 }
 
-fn peak(of: PeakOf, text: &str) -> Result<Peak, String> {
+fn peak(of: PeakBody, text: &str) -> Result<Peak, String> {
     let parts: Vec<&str> = text.split(',').collect();
     let [at, azimuth, elevation] = parts.as_slice() else {
         return Err("not a time, an azimuth and an elevation, with commas between".to_owned());
@@ -76,8 +76,8 @@ fn peak(of: PeakOf, text: &str) -> Result<Peak, String> {
         })
     };
     Ok(Peak {
-        of,
-        at: input::instant(at.trim())?,
+        body: of,
+        time: input::instant(at.trim())?,
         azimuth_deg: angle(azimuth, Peak::AZIMUTHS_DEG)?,
         elevation_deg: angle(elevation, Peak::ELEVATIONS_DEG)?,
     })
@@ -102,7 +102,7 @@ pub(super) fn run(station: Option<&Path>, options: &Options) -> anyhow::Result<E
     };
     let within = options.from.unwrap_or(Timestamp::MIN)..=options.to.unwrap_or(Timestamp::MAX);
     let entered = read_peaks(&record).context("The peaks in the record cannot be read")?;
-    let entered = entered.of(antenna.id).filter(|peak| within.contains(&peak.at));
+    let entered = entered.for_antenna(antenna.id).filter(|peak| within.contains(&peak.time));
     let peaks: Vec<Peak> = entered.chain(&options.sun).chain(&options.moon).copied().collect();
     let fit = fit_pointing(&record, antenna.id, of.site, &within, &peaks, Vec::new())
         .with_context(|| format!("{} has no pointing model", antenna.name))?;
@@ -157,7 +157,7 @@ fn table(Told { antenna, fit, causes }: &Told<'_>, out: &mut impl Write) -> io::
     };
     writeln!(out, "{antenna}, recorded passes: {}", fit.passes)?;
     for noise in &fit.noise {
-        let (of, points, noise_deg) = (of(noise.of), noise.points, noise.noise_deg);
+        let (of, points, noise_deg) = (of(noise.kind), noise.points, noise.noise_deg);
         writeln!(out, "Points on {of}: {points}, noise of an axis {noise_deg:.4}°")?;
     }
     writeln!(out, "\n{:<20}  {:>11}  {:>9}", "Term", "Value", "95 %")?;

@@ -117,7 +117,7 @@ pub(super) fn run(station: Option<&Path>, options: &Options) -> anyhow::Result<E
     }
     for line in &rehearsed.interruptions {
         let name = names.iter().find(|(id, _)| *id == line.antenna).map(|(_, name)| name.as_str());
-        let (at, words) = (civil(line.at, "%Y-%m-%dT%H:%M:%SZ"), day_line(line, line.at));
+        let (at, words) = (civil(line.time, "%Y-%m-%dT%H:%M:%SZ"), day_line(line, line.time));
         input::note(&format!("{}, {at}: {words}", name.unwrap_or_default()));
     }
     let written = match options.format {
@@ -156,7 +156,7 @@ fn table(rehearsed: &Rehearsed, out: &mut impl Write) -> io::Result<()> {
             degrees(pass.rms_deg()),
             degrees(pass.worst_deg()),
             verdict(pass),
-            outcome(pass, rehearsed.from),
+            outcome(pass, rehearsed.start),
         )?;
     }
     Ok(())
@@ -188,14 +188,14 @@ fn csv(rehearsed: &Rehearsed, out: &mut impl Write) -> io::Result<()> {
         name: csv.text(&pass.satellite_name),
         aos_time: Time(pass.aos),
         los_time: Time(pass.los),
-        from_time: Time(pass.from),
-        to_time: Time(pass.to),
+        from_time: Time(pass.start),
+        to_time: Time(pass.end),
         promised_s: rounded(pass.promised_s, 1e3),
         got_s: rounded(pass.got_s(), 1e3),
         rms_deg: pass.rms_deg(),
         worst_deg: pass.worst_deg(),
         verdict: verdict(pass),
-        outcome: csv.text(&outcome(pass, rehearsed.from)).into_owned(),
+        outcome: csv.text(&outcome(pass, rehearsed.start)).into_owned(),
     });
     write_rows(out, csv, ("passes", &[]), &Row::default(), rows)
 }

@@ -208,9 +208,9 @@ pub(super) fn lock_out(
 ) -> anyhow::Result<ExitCode> {
     let by = options.by.clone().or_else(|| std::env::var("USER").ok());
     let lock_out = options.reason.clone().map(|reason| LockOut {
-        by: by.unwrap_or_else(|| "the command line".to_owned()),
+        operator: by.unwrap_or_else(|| "the command line".to_owned()),
         reason,
-        since: Timestamp::now(),
+        start: Timestamp::now(),
     });
     let antenna = options.antenna.clone();
     let is_off = lock_out.is_none();

@@ -19,7 +19,7 @@ use crate::{
     app::notifier::Notifier,
     clock::Clock,
     contract::{
-        By, Command, Event, Snapshot,
+        Command, CommandOrigin, Event, Snapshot,
         antenna::{AntennaModel, Stake},
         claim::HolderKind,
         closing::CloseHow,
@@ -156,7 +156,7 @@ pub(super) fn run(
     )?;
     drop(wake);
     Notifier::start(station.client().clone(), Desktop::default(), Arc::new(|| {}))?;
-    let client = station.client().clone().acting_for(By::Signal);
+    let client = station.client().clone().acting_for(CommandOrigin::Signal);
     signals::watch(
         move || client.stop_all(),
         move || {
@@ -224,14 +224,14 @@ pub fn until_the_end(
             break;
         }
     }
-    let how = match CloseHow::of(&station.snapshot().station) {
+    let how = match CloseHow::from_station(&station.snapshot().station) {
         // Parking takes longer than the operating system waits.
         None | Some(CloseHow::Hold | CloseHow::Park) => CloseHow::Hold,
         Some(CloseHow::Leave) => CloseHow::Leave,
     };
     say(tell, None, About::Station, "Ends.".to_owned());
     // A station that does not take it has stopped, or has broken down: see below.
-    let serve = station.client().clone().acting_for(By::Serve);
+    let serve = station.client().clone().acting_for(CommandOrigin::Serve);
     let _ = serve.send(Command::CloseAfter(how));
     let end = Instant::now() + ENDS_WITHIN;
     let is_left = |stake: &Stake| how == CloseHow::Leave && matches!(stake, Stake::OnBoard(_));

@@ -23,13 +23,13 @@ pub enum AlarmState {
     /// Its reason stands, and it was not acknowledged.
     New,
     /// Its reason is over, and it was not acknowledged.
-    NewAndOver { since: Timestamp },
+    NewAndOver { over_since: Timestamp },
     /// Its reason stands; it was acknowledged.
     Seen,
     /// Its reason is over, and it was acknowledged.
-    Over { since: Timestamp },
+    Over { over_since: Timestamp },
     /// It is quiet until then, whether its reason stands or comes again.
-    Shelved { until: Timestamp },
+    Shelved { end: Timestamp },
 }
 
 /// How long an alarm is shelved.
@@ -71,7 +71,8 @@ pub struct Alarm {
     /// How often it came.
     pub count: u32,
     /// The operator has acknowledged the alarm.
-    pub seen: bool,
+    #[serde(rename = "seen")]
+    pub acknowledged: bool,
     /// When its reason was over; `None` while it stands.
     pub over_since: Option<Timestamp>,
     /// Quiet until then.
@@ -89,7 +90,7 @@ impl Alarm {
             raised: now,
             last: now,
             count: 1,
-            seen: false,
+            acknowledged: false,
             over_since: None,
             shelved_until: None,
         }
@@ -105,12 +106,12 @@ impl Alarm {
     }
 
     pub fn state(&self) -> AlarmState {
-        match (self.shelved_until, self.over_since, self.seen) {
-            (Some(until), ..) => AlarmState::Shelved { until },
+        match (self.shelved_until, self.over_since, self.acknowledged) {
+            (Some(end), ..) => AlarmState::Shelved { end },
             (None, None, false) => AlarmState::New,
-            (None, Some(since), false) => AlarmState::NewAndOver { since },
+            (None, Some(over_since), false) => AlarmState::NewAndOver { over_since },
             (None, None, true) => AlarmState::Seen,
-            (None, Some(since), true) => AlarmState::Over { since },
+            (None, Some(over_since), true) => AlarmState::Over { over_since },
         }
     }
 
@@ -130,16 +131,16 @@ pub enum AlarmChange {
 }
 
 impl AlarmChange {
-    /// The change that was recorded at `at`, after the one before of the same id. `None` for one that
+    /// The change that was recorded at `time`, after the one before of the same id. `None` for one that
     /// nobody looks for, as the end of a shelf.
-    pub fn new(alarm: &Alarm, before: Option<&Alarm>, at: Timestamp) -> Option<Self> {
-        let is_new = before.is_none() && seconds_between(alarm.last, at) < RECORDED_S;
+    pub fn new(alarm: &Alarm, before: Option<&Alarm>, time: Timestamp) -> Option<Self> {
+        let is_new = before.is_none() && seconds_between(alarm.last, time) < RECORDED_S;
         let is_set = |part: fn(&Alarm) -> bool| part(alarm) && !before.is_some_and(part);
         if is_new {
             Some(Self::Came)
         } else if is_set(|alarm| alarm.shelved_until.is_some()) {
             Some(Self::Shelved)
-        } else if is_set(|alarm| alarm.seen) {
+        } else if is_set(|alarm| alarm.acknowledged) {
             Some(Self::Acknowledged)
         } else if is_set(Alarm::is_over) {
             Some(Self::Over)
@@ -168,6 +169,6 @@ impl Alarms {
 
     /// Id of the newest unseen alarm.
     pub fn newest_unseen(&self) -> Option<u64> {
-        self.list.iter().rev().find(|alarm| !alarm.seen).map(|alarm| alarm.id)
+        self.list.iter().rev().find(|alarm| !alarm.acknowledged).map(|alarm| alarm.id)
     }
 }

@@ -18,7 +18,7 @@ use crate::{
     clock::Instant,
     device::{OnBoard, Phase, Variant, panel::Act, settings::Group},
     driver::{Event, Intent, LinkState, Snapshot},
-    passes::PassKey,
+    passes::PassListKey,
     plan::{Sample, Supervision, TrackPhase, on_board::KnownOrbit, pass_report::Explained},
     station::{Antenna, AntennaId, ControllerSpec},
     written,
@@ -33,7 +33,8 @@ pub use stake::Stake;
 pub struct Prediction {
     /// Catalog number of a satellite; `None` for another target.
     pub catalog_number: Option<u32>,
-    pub at: Timestamp,
+    #[serde(rename = "at")]
+    pub time: Timestamp,
     pub direction: AzEl,
 }
 
@@ -159,7 +160,7 @@ impl AntennaModel {
         }
         let enabled = state.program.is_some_and(|program| program.enabled);
         if enabled {
-            return state.on_board.satellite.as_ref().map(|held| held.catalog_number);
+            return state.on_board.satellite.as_ref().map(|satellite| satellite.catalog_number);
         }
         (self.snapshot.intent == Intent::Track)
             .then(|| self.snapshot.target.as_ref().map(|target| target.catalog_number))
@@ -182,8 +183,8 @@ impl AntennaModel {
             return Some(view.phase.begins(now));
         }
         let window = snapshot.state.on_board.window.filter(|_| self.is_program_on());
-        let target = || snapshot.target.as_ref().map(|target| target.from);
-        window.map(|(from, _)| from).or_else(target)
+        let target = || snapshot.target.as_ref().map(|target| target.start);
+        window.map(|(start, _)| start).or_else(target)
     }
 
     /// Returns `true` if the antenna tracks this satellite, or is on its way to a pass of it.
@@ -204,7 +205,8 @@ impl AntennaModel {
         if self.follows() {
             return snapshot.program_track.as_ref().map(|view| view.name.as_str());
         }
-        let on_board = snapshot.state.on_board.satellite.as_ref().map(|held| held.name.as_str());
+        let on_board =
+            snapshot.state.on_board.satellite.as_ref().map(|satellite| satellite.name.as_str());
         if self.is_program_on() {
             return on_board;
         }
@@ -255,7 +257,7 @@ impl AntennaModel {
     pub fn is_live(&self) -> bool {
         let Snapshot { link, state, .. } = &*self.snapshot;
         let is_of_another_link = (state.link_since.zip(state.measured))
-            .is_some_and(|(since, measured)| measured.received < since);
+            .is_some_and(|(start, measured)| measured.received < start);
         matches!(link, LinkState::Up { .. }) && !is_of_another_link
     }
 
@@ -266,9 +268,9 @@ impl AntennaModel {
         let measured = self.snapshot.state.measured?;
         let pointing = measured.pointing;
         let azimuth = (pointing.azimuth? - prediction.direction.azimuth).wrapped_180();
-        let elevation = pointing.elevation.map(|at| at - prediction.direction.elevation);
+        let elevation = pointing.elevation.map(|angle| angle - prediction.direction.elevation);
         Some(ErrorSample {
-            time: measured.at,
+            time: measured.time,
             off_beam: pointing.separation(prediction.direction.into())?,
             azimuth,
             elevation: elevation.unwrap_or(Angle::ZERO),
@@ -293,7 +295,8 @@ pub struct Judged {
     /// How it would track; `None` where its antenna cannot track the pass.
     pub found: Option<Arc<Supervision>>,
     /// The pass and the settings that it was made of.
-    pub of: (PassKey, OnBoard),
+    #[serde(rename = "of")]
+    pub basis: (PassListKey, OnBoard),
 }
 
 /// A track that can be offered again.
@@ -304,5 +307,6 @@ pub struct TrackAgain {
     /// Command that starts the track again.
     pub command: Command,
     /// End of the track.
-    pub until: Timestamp,
+    #[serde(rename = "until")]
+    pub end: Timestamp,
 }

@@ -4,7 +4,7 @@ use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    passes::PassKey, plan::pass_report::LossCause, station::AntennaId, transfer::OldAlgorithm,
+    passes::PassListKey, plan::pass_report::LossCause, station::AntennaId, transfer::OldAlgorithm,
 };
 
 /// Automatic operation of one antenna. Only the operator switches it on, and lets it go on.
@@ -15,8 +15,10 @@ pub enum Operation {
     On(On),
     /// Somebody moved the antenna: it waits for the operator, whatever the time.
     Suspended {
-        by: Interruption,
-        since: Timestamp,
+        #[serde(rename = "by")]
+        interruption: Interruption,
+        #[serde(rename = "since")]
+        start: Timestamp,
     },
 }
 
@@ -85,7 +87,7 @@ pub enum Doing {
     /// The first motion after a rest is announced.
     Announces {
         moves_at: Timestamp,
-        pass: PassKey,
+        pass: PassListKey,
     },
     /// Goes to its park position between two passes.
     Parks,
@@ -95,9 +97,11 @@ pub enum Doing {
 /// A pass that is being taken.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Taking {
-    pub pass: PassKey,
-    pub from: Timestamp,
-    pub until: Timestamp,
+    pub pass: PassListKey,
+    #[serde(rename = "from")]
+    pub start: Timestamp,
+    #[serde(rename = "until")]
+    pub end: Timestamp,
     /// When the unit was asked last, and how often since the pass was last proved.
     pub asked_at: Timestamp,
     pub requests: u8,
@@ -148,9 +152,11 @@ pub enum GivenUp {
 /// A line of the list.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct DayLine {
-    pub at: Timestamp,
+    #[serde(rename = "at")]
+    pub time: Timestamp,
     pub antenna: AntennaId,
-    pub what: DayEvent,
+    #[serde(rename = "what")]
+    pub event: DayEvent,
 }
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -168,7 +174,8 @@ pub enum DayEvent {
         was_ahead_s: Option<f64>,
     },
     ClockNotSet {
-        why: String,
+        #[serde(rename = "why")]
+        reason: String,
     },
     /// Newer elements were uploaded to the unit between two passes, and verified.
     ElementsUploaded {
@@ -179,14 +186,15 @@ pub enum DayEvent {
         old_algorithms: Vec<OldAlgorithm>,
     },
     ElementsNotUploaded {
-        why: String,
+        #[serde(rename = "why")]
+        reason: String,
     },
 }
 
 /// Outcome of a pass.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Flown {
-    pub pass: PassKey,
+    pub pass: PassListKey,
     /// Short name of the satellite.
     pub name: String,
     /// Seconds that were to be had.

@@ -11,7 +11,8 @@ pub struct Holder {
     pub kind: HolderKind,
     /// Process id.
     pub process: u32,
-    pub since: Timestamp,
+    #[serde(rename = "since")]
+    pub start: Timestamp,
     /// Socket on which it takes STOP.
     pub socket: Option<PathBuf>,
     /// Its name of the antenna, where it holds a unit.
@@ -42,17 +43,17 @@ impl std::fmt::Display for HeldBy {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let holder = match self {
             Self::Azel(holder) => holder,
-            Self::Unknown(why) => {
-                return write!(f, "perhaps another program (Azel could not lock it: {why})");
+            Self::Unknown(reason) => {
+                return write!(f, "perhaps another program (Azel could not lock it: {reason})");
             }
         };
-        let Some(Holder { kind, process, since, .. }) = holder else {
+        let Some(Holder { kind, process, start, .. }) = holder else {
             return write!(f, "another Azel");
         };
         let kind = match kind {
             HolderKind::Window => "another window of Azel",
             HolderKind::Serve => "azel serve",
         };
-        write!(f, "{kind} (process {process}, since {})", since.strftime("%F %H:%MZ"))
+        write!(f, "{kind} (process {process}, since {})", start.strftime("%F %H:%MZ"))
     }
 }

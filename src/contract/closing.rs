@@ -22,15 +22,17 @@ pub enum CloseHow {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Closing {
     /// The operator's choice.
-    pub how: CloseHow,
-    pub waits_for: Vec<(AntennaId, Wanted)>,
+    #[serde(rename = "how")]
+    pub choice: CloseHow,
+    pub waits_for: Vec<(AntennaId, CloseCondition)>,
     /// When it began.
-    pub since: Instant,
+    #[serde(rename = "since")]
+    pub start: Instant,
 }
 
 /// Condition that a closing waits for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Wanted {
+pub enum CloseCondition {
     /// Proved standstill.
     Still,
     /// Arrival at the park position.
@@ -39,7 +41,7 @@ pub enum Wanted {
 
 impl CloseHow {
     /// The choice in the station file; `None` where the operator is asked.
-    pub fn of(station: &Station) -> Option<Self> {
+    pub fn from_station(station: &Station) -> Option<Self> {
         Some(match station.on_close? {
             OnClose::Hold => Self::Hold,
             OnClose::Park => Self::Park,

@@ -13,14 +13,15 @@ use crate::{
     driver::{self, Effect, Row},
     older_sets::SetChoice,
     orbit::{RefreshHours, Source},
-    passes::{ListChoice, PassKey, Scope},
+    passes::{ListChoice, PassListKey, Scope},
     record::PeakChange,
     recorded::RecordLook,
     secret::Secret,
     source_tests::TestAsk,
     sources::Copied,
     station::{
-        Antenna, AntennaId, Frequency, OffsetsOf, PassLimits, Priority, Scheduling, Station, Take,
+        Antenna, AntennaId, Frequency, OffsetsSubject, PassLimits, Priority, Scheduling, Station,
+        Take,
     },
     uploads,
 };
@@ -33,14 +34,14 @@ pub enum Command {
     /// Track a pass: on board where the unit can, else by program track.
     Track {
         antenna: AntennaId,
-        pass: PassKey,
+        pass: PassListKey,
         /// The operator knows that the unit would miss the satellite.
         is_agreed: bool,
     },
     /// Track a pass by program track, even where the unit could track on board.
     ProgramTrackPass {
         antenna: AntennaId,
-        pass: PassKey,
+        pass: PassListKey,
     },
     /// Switch automatic operation of an antenna on or off.
     SetAutomatic {
@@ -57,7 +58,7 @@ pub enum Command {
         take: Option<Take>,
     },
     /// Work out what it costs to take a pass that the schedule leaves out.
-    PriceSwap(PassKey),
+    PriceSwap(PassListKey),
     /// Give favourites these limits; other satellites become favourites.
     SetPassLimits {
         /// Catalog numbers.
@@ -100,7 +101,8 @@ pub enum Command {
     },
     /// Remember these offsets: tracks begin with them.
     KeepOffsets {
-        of: OffsetsOf,
+        #[serde(rename = "of")]
+        subject: OffsetsSubject,
         offsets: TrackOffsets,
     },
     /// Add a source of elements.
@@ -115,7 +117,8 @@ pub enum Command {
     /// Copy elements into the library, as a source with this name.
     CopyElements {
         name: String,
-        from: Copied,
+        #[serde(rename = "from")]
+        origin: Copied,
     },
     /// Publish the older sets of the object with this catalog number.
     ListOlderSets(u32),
@@ -187,7 +190,7 @@ pub enum Command {
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Attention {
     pub list: ListChoice,
-    pub selected: Option<PassKey>,
+    pub selected: Option<PassListKey>,
 }
 
 impl Command {

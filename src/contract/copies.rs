@@ -21,7 +21,8 @@ pub struct Copies {
 pub struct Saving {
     /// Name of the antenna.
     pub antenna: String,
-    pub at: Timestamp,
+    #[serde(rename = "at")]
+    pub time: Timestamp,
     /// Path of the copy, or the error in words.
     pub result: Result<PathBuf, String>,
 }

@@ -24,7 +24,7 @@ pub use preview::{Preview, Way};
 pub use refusal::Refusal;
 pub use safety::{Evidence, Mover, OffTargetCause, Response, Safety, Unlike};
 pub use snapshot::{
-    Event, Found, Inside, LeftMoving, LeftOffsets, LinkLoss, LinkState, OnBoardView, Snapshot,
+    Breach, Event, Found, LeftMoving, LeftOffsets, LinkLoss, LinkState, OnBoardView, Snapshot,
     StopState, StoppingWay, TrackProblem, TrackView, UnitOffsetsView,
 };
 pub use time_sync::TimeSync;

@@ -7,7 +7,7 @@ use crate::claim::HolderKind;
 /// Origin of a command.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum By {
+pub enum CommandOrigin {
     /// The operator, in the window.
     #[default]
     Window,
@@ -21,7 +21,7 @@ pub enum By {
     Station,
 }
 
-impl From<HolderKind> for By {
+impl From<HolderKind> for CommandOrigin {
     fn from(kind: HolderKind) -> Self {
         match kind {
             HolderKind::Window => Self::Window,

@@ -36,5 +36,5 @@ use azel_orbit::{astro, name};
 use azel_units::demo;
 use azel_units::{clock, controller, device, plan, secret, station};
 pub use command::{Attention, Command};
-pub use event::{By, Event};
+pub use event::{CommandOrigin, Event};
 pub use snapshot::{CatalogState, Snapshot};

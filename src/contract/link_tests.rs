@@ -23,6 +23,7 @@ pub enum LinkTestStage {
     Elsewhere(HeldBy),
     Done {
         finding: LinkFinding,
-        at: Timestamp,
+        #[serde(rename = "at")]
+        time: Timestamp,
     },
 }

@@ -19,7 +19,7 @@ pub use self::{
 use crate::astro::{Angle, AzEl, frames::SiteFrame, time::add_seconds};
 
 /// Key of a pass: catalog number of the satellite and AOS.
-pub type PassKey = (u32, Timestamp);
+pub type PassListKey = (u32, Timestamp);
 
 /// The pass lists.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
@@ -31,7 +31,7 @@ pub struct PassLists {
 }
 
 impl PassLists {
-    pub fn of(&self, scope: Scope) -> &PassList {
+    pub fn list(&self, scope: Scope) -> &PassList {
         match scope {
             Scope::Favourites => &self.favourites,
             Scope::All => &self.all,
@@ -39,7 +39,7 @@ impl PassLists {
     }
 
     /// The pass of `key`, first among the favourites.
-    pub fn find(&self, key: PassKey) -> Option<&PredictedPass> {
+    pub fn find(&self, key: PassListKey) -> Option<&PredictedPass> {
         self.favourites.find(key).or_else(|| self.all.find(key))
     }
 
@@ -53,9 +53,9 @@ impl PassLists {
 
     /// The satellite with this catalog number, if a list has it.
     pub fn satellite(&self, catalog_number: u32) -> Option<&Arc<ListedSatellite>> {
-        let number = |known: &Arc<ListedSatellite>| known.elements.catalog_number();
+        let number = |listed: &Arc<ListedSatellite>| listed.elements.catalog_number();
         let followed = &self.favourites.satellites;
-        followed.iter().find(|known| number(known) == catalog_number).or_else(|| {
+        followed.iter().find(|listed| number(listed) == catalog_number).or_else(|| {
             let all = &self.all.satellites;
             let place = all.binary_search_by_key(&catalog_number, number).ok()?;
             all.get(place)
@@ -73,8 +73,8 @@ pub fn ahead(
     let steps = (span_s / 30.0) as usize;
     let times: Vec<_> = (0..=steps).map(|step| add_seconds(now, step as f64 * 30.0)).collect();
     let states = satellite.propagator.states_at(&times);
-    let directions = states.into_iter().zip(times).map_while(|(state, at)| {
-        let direction = site.direction(state?.local(site, at).position_km);
+    let directions = states.into_iter().zip(times).map_while(|(state, time)| {
+        let direction = site.direction(state?.local(site, time).position_km);
         (direction.elevation > Angle::ZERO).then_some(direction)
     });
     directions.collect()

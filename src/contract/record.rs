@@ -10,6 +10,6 @@ pub use pass::{AboutTrack, PlannedPart, RecordedReport, TrackedBy};
 pub use past::{
     ExplainedPasses, ListedKind, OpenedPass, PassPage, PassQuery, PassTimes, RecordedPass, Row,
 };
-pub use peaks::{Peak, PeakChange, PeakOf, Peaks};
-pub use pointing::{FittedTerm, NoiseOf, PointingFit, PointingFitted};
+pub use peaks::{Peak, PeakBody, PeakChange, Peaks};
+pub use pointing::{FittedNoise, FittedTerm, PointingFit, PointingFitted};
 pub use status::{Failing, Status};

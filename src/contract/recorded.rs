@@ -25,7 +25,8 @@ pub struct Recorded {
     pub found: Result<Found, String>,
     /// Causes that explain the opened pass and those before it together. Finding them takes longer
     /// than the rest.
-    pub together: Option<ExplainedPasses>,
+    #[serde(rename = "together")]
+    pub combined: Option<ExplainedPasses>,
 }
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -43,7 +44,8 @@ pub struct MissedPass {
     /// Number of its entry in the record.
     pub id: i64,
     /// When it was over for the antenna.
-    pub at: Timestamp,
+    #[serde(rename = "at")]
+    pub time: Timestamp,
     pub antenna: AntennaId,
     /// Name of the antenna at the time.
     pub antenna_name: String,

@@ -12,7 +12,8 @@ use crate::{
 /// A rehearsal that is over.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Rehearsed {
-    pub from: Timestamp,
+    #[serde(rename = "from")]
+    pub start: Timestamp,
     pub hours: f64,
     pub seed: u64,
     /// By start, then by antenna.
@@ -33,8 +34,10 @@ pub struct RehearsedPass {
     pub aos: Timestamp,
     pub los: Timestamp,
     /// When the antenna was to track it.
-    pub from: Timestamp,
-    pub to: Timestamp,
+    #[serde(rename = "from")]
+    pub start: Timestamp,
+    #[serde(rename = "to")]
+    pub end: Timestamp,
     /// Seconds within half the beamwidth that the plan promised, when it first named the pass.
     pub promised_s: f64,
     /// A newer plan left it out before it began.
@@ -42,7 +45,8 @@ pub struct RehearsedPass {
     /// Outcome that automatic operation reports; `None` where it never set out.
     pub flown: Option<Flown>,
     /// Why automatic operation of its antenna was off by then; `None` where it set out.
-    pub off: Option<OffBecause>,
+    #[serde(rename = "off")]
+    pub off_reason: Option<OffBecause>,
     /// Where the antenna pointed; `None` where it never tracked.
     pub report: Option<RecordedReport>,
 }

@@ -3,13 +3,13 @@
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
-use crate::{astro::Angle, passes::PassKey, station::AntennaId};
+use crate::{astro::Angle, passes::PassListKey, station::AntennaId};
 
 /// A reminder of a pass. It comes some minutes before AOS and lasts until LOS.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Reminder {
     /// The pass, as it was listed when the reminder came.
-    pub pass: PassKey,
+    pub pass: PassListKey,
     /// Short name of the satellite.
     pub name: String,
     pub los: Timestamp,

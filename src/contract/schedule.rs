@@ -4,7 +4,7 @@ use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    passes::PassKey,
+    passes::PassListKey,
     plan::schedule::{Change, Schedule},
 };
 
@@ -17,7 +17,8 @@ pub struct Planned {
     /// `None` before the first.
     pub made_at: Option<Timestamp>,
     /// End of what was planned.
-    pub until: Option<Timestamp>,
+    #[serde(rename = "until")]
+    pub end: Option<Timestamp>,
     /// Changes that the last new schedule made.
     pub changes: Vec<Change>,
 }
@@ -25,7 +26,7 @@ pub struct Planned {
 /// Cost of taking a pass that the schedule leaves out.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Swap {
-    pub pass: PassKey,
+    pub pass: PassListKey,
     /// Revision of the schedule that it was worked out against.
     pub revision: u64,
     /// Changes of the schedule that follow; `None` where the pass cannot be taken at all.

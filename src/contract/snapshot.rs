@@ -44,7 +44,8 @@ pub enum CatalogState {
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Snapshot {
     /// Time by both clocks of the station: ages count from here.
-    pub at: Moment,
+    #[serde(rename = "at")]
+    pub moment: Moment,
     /// Synchronisation of this computer's clock.
     pub time_sync: TimeSync,
     /// The station as saved.
@@ -97,9 +98,9 @@ pub struct Snapshot {
 
 impl Snapshot {
     /// The snapshot before the first turn.
-    pub fn before_anything(at: Moment) -> Self {
+    pub fn before_anything(moment: Moment) -> Self {
         Self {
-            at,
+            moment,
             time_sync: TimeSync::NotKnown,
             station: Arc::default(),
             station_saved_at: None,

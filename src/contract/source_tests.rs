@@ -31,7 +31,8 @@ pub enum TestStage {
         /// The file as the unit will see it.
         view: Box<UnitView>,
         /// Time of the fetch.
-        at: Timestamp,
+        #[serde(rename = "at")]
+        time: Timestamp,
         /// Old algorithms of the SSH connection.
         #[serde(default)]
         old_algorithms: Vec<OldAlgorithm>,

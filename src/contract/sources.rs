@@ -92,7 +92,8 @@ mod tests {
     #[test]
     fn only_what_can_be_asked_and_told_apart_is_added() {
         let log_in = |user: &str| SourcePlace::SpaceTrack(user.to_owned());
-        let known = [Source::celestrak("weather"), source("Space-Track", log_in("Op@Example.org"))];
+        let sources =
+            [Source::celestrak("weather"), source("Space-Track", log_in("Op@Example.org"))];
         let web = |url: &str| SourcePlace::Web(url.to_owned());
         for (name, place, expected) in [
             ("own", SourcePlace::File("/a/b.tle".into()), Ok(())),
@@ -108,7 +109,7 @@ mod tests {
             ("own", log_in(" "), Err(SourceProblem::NoLogIn)),
             ("own", web("https://me:word@celestrak.org/x"), Err(SourceProblem::Address)),
         ] {
-            assert_eq!(check_source(&source(name, place), &known), expected, "{name}");
+            assert_eq!(check_source(&source(name, place), &sources), expected, "{name}");
         }
     }
 

@@ -1,7 +1,7 @@
 //! Files of elements on units and servers.
 
 mod hash;
-mod kept;
+mod kept_file;
 mod old_algorithms;
 mod server;
 mod tle_file;
@@ -9,9 +9,9 @@ mod unit_view;
 mod upload;
 
 pub use hash::{FileHash, NoHash};
-pub use kept::{KeptFile, Origin};
+pub use kept_file::{KeptFile, Origin};
 pub use old_algorithms::{AlgorithmPart, OldAlgorithm};
 pub use server::{FileProtocol, Peer};
 pub use tle_file::{FileName, FileNameError, FileObject, TleFile, TleFileError};
-pub use unit_view::{Seen, UnitView};
+pub use unit_view::{SatelliteMatch, UnitView};
 pub use upload::{Progress, UploadStep, Uploaded};

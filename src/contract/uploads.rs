@@ -25,7 +25,8 @@ pub struct Uploads {
     /// Further messages to the operator.
     pub warnings: Vec<Warning>,
     /// Files that can be put back.
-    pub kept: Kept,
+    #[serde(rename = "kept")]
+    pub kept_files: KeptFiles,
 }
 
 /// Stage of an order.
@@ -95,7 +96,8 @@ pub struct Proved {
     /// The satellite that the unit found in it.
     pub satellite: FileObject,
     /// Time of the unit's report.
-    pub at: Timestamp,
+    #[serde(rename = "at")]
+    pub time: Timestamp,
 }
 
 /// End of an order that failed or was cancelled.
@@ -124,9 +126,10 @@ pub enum Warning {
 
 /// The files that can be put back on a unit.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-pub struct Kept {
+pub struct KeptFiles {
     /// Host and port of the unit, and the name of the file there.
-    pub of: (String, String),
+    #[serde(rename = "of")]
+    pub origin: (String, String),
     /// Newest first, or why there is no list; `None` while it is read.
     pub list: Option<Result<Vec<KeptEntry>, String>>,
 }

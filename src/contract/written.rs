@@ -9,14 +9,14 @@ pub mod station {
         station::{Station, from_toml},
     };
 
-    pub fn serialize<S: Serializer>(station: &Station, to: S) -> Result<S::Ok, S::Error> {
-        station.serialize(to)
+    pub fn serialize<S: Serializer>(station: &Station, serializer: S) -> Result<S::Ok, S::Error> {
+        station.serialize(serializer)
     }
 
     pub fn deserialize<'de, D: Deserializer<'de>, T: From<Station>>(
-        from: D,
+        deserializer: D,
     ) -> Result<T, D::Error> {
-        let (station, notes) = from_toml(toml::Table::deserialize(from)?, SPECS);
+        let (station, notes) = from_toml(toml::Table::deserialize(deserializer)?, SPECS);
         match notes.first() {
             None => Ok(station.into()),
             Some(note) => Err(D::Error::custom(format!("{note:?}"))),
@@ -35,14 +35,14 @@ pub mod antenna {
         antenna: [&'a Antenna; 1],
     }
 
-    pub fn serialize<S: Serializer>(antenna: &Antenna, to: S) -> Result<S::Ok, S::Error> {
-        Alone { antenna: [antenna] }.serialize(to)
+    pub fn serialize<S: Serializer>(antenna: &Antenna, serializer: S) -> Result<S::Ok, S::Error> {
+        Alone { antenna: [antenna] }.serialize(serializer)
     }
 
     pub fn deserialize<'de, D: Deserializer<'de>, T: From<Antenna>>(
-        from: D,
+        deserializer: D,
     ) -> Result<T, D::Error> {
-        let mut station: Station = crate::written::station::deserialize(from)?;
+        let mut station: Station = crate::written::station::deserialize(deserializer)?;
         let antenna = station.antennas.pop();
         antenna.map(T::from).ok_or_else(|| D::Error::custom("there is no antenna"))
     }
@@ -56,16 +56,17 @@ pub mod element_files {
 
     pub fn serialize<S: Serializer>(
         takes: &'static ElementFiles,
-        to: S,
+        serializer: S,
     ) -> Result<S::Ok, S::Error> {
         let make = SPECS.iter().find(|make| make.element_files == Some(takes));
-        to.serialize_str(make.ok_or_else(|| S::Error::custom("no make takes files so"))?.key)
+        serializer
+            .serialize_str(make.ok_or_else(|| S::Error::custom("no make takes files so"))?.key)
     }
 
     pub fn deserialize<'de, D: Deserializer<'de>>(
-        from: D,
+        deserializer: D,
     ) -> Result<&'static ElementFiles, D::Error> {
-        let key = String::deserialize(from)?;
+        let key = String::deserialize(deserializer)?;
         let make = SPECS.iter().find(|make| make.key == key);
         make.and_then(|make| make.element_files)
             .ok_or_else(|| D::Error::custom(format!("{key} takes no files of elements")))

@@ -74,9 +74,9 @@ impl Pass {
 pub struct PassSearch {
     pub site: Site,
     /// Start of the window.
-    pub from: Timestamp,
+    pub start: Timestamp,
     /// End of the window.
-    pub to: Timestamp,
+    pub end: Timestamp,
     /// Elevation of AOS and LOS, -90 to 90 degrees.
     pub aos_elevation: Angle,
     /// Passes whose greatest elevation within the window stays below this are left out. A higher
@@ -87,7 +87,7 @@ pub struct PassSearch {
 impl PassSearch {
     /// All passes over the horizon of `site` from `start` to `end`.
     pub fn new(site: Site, start: Timestamp, end: Timestamp) -> Self {
-        Self { site, from: start, to: end, aos_elevation: Angle::ZERO, floor: Angle::ZERO }
+        Self { site, start, end, aos_elevation: Angle::ZERO, floor: Angle::ZERO }
     }
 }
 

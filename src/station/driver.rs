@@ -473,9 +473,9 @@ mod tests {
         driver.runtime().spawn(async move { held_up.recv() });
         let antenna = antenna();
         let lock_out = LockOut {
-            by: "Ada".to_owned(),
+            operator: "Ada".to_owned(),
             reason: "gear box open".to_owned(),
-            since: jiff::Timestamp::UNIX_EPOCH,
+            start: jiff::Timestamp::UNIX_EPOCH,
         };
         let (bounds, locked) = (Bounds::of_antenna(&antenna), Some(lock_out.clone()));
         let learned = [AxisLessons::default(); 2];

@@ -82,7 +82,7 @@ pub use self::{
 use crate::{
     clock::{Clock, Instant},
     contract::{
-        Attention, By, CatalogState, Event, Snapshot,
+        Attention, CatalogState, CommandOrigin, Event, Snapshot,
         alarms::{AlarmKind, Alarms},
         antenna::AntennaModel,
         automatic::DayLine,
@@ -210,7 +210,7 @@ struct Engine {
 #[derive(Debug, Clone, Copy)]
 struct CurrentRequest {
     number: u64,
-    by: By,
+    by: CommandOrigin,
 }
 
 /// One antenna and its session.
@@ -305,7 +305,7 @@ impl Engine {
             driver.orders().clone(),
             published,
             clock.clone(),
-            settings.claims.as_ref().map_or_else(By::default, |(_, kind)| (*kind).into()),
+            client_origin(settings),
         );
         let mut engine = Self {
             now: now.utc,
@@ -494,7 +494,7 @@ impl Engine {
     fn publish(&mut self) {
         let last = Arc::clone(&self.publish.borrow().snapshot);
         let snapshot = Arc::new(Snapshot {
-            at: self.clock.now(),
+            moment: self.clock.now(),
             time_sync: self.time_sync,
             station: Arc::clone(&self.station),
             station_saved_at: self.station_saved_at,
@@ -563,6 +563,11 @@ impl Drop for Engine {
             }
         }
     }
+}
+
+/// Origin of the commands of the client in this process.
+fn client_origin(settings: &Settings) -> CommandOrigin {
+    settings.claims.as_ref().map_or_else(CommandOrigin::default, |(_, kind)| (*kind).into())
 }
 
 /// A wake that notifies `woken`.

@@ -180,7 +180,7 @@ impl Watch {
             }
             let snapshot = self.client.snapshot();
             self.look(&snapshot);
-            let now = snapshot.at.utc;
+            let now = snapshot.moment.utc;
             let over_s = seconds_between(self.passes.until(), now);
             if over_s > LONGEST_PASS_S || over_s > 0.0 && self.passes.are_over(now) {
                 return Ok(self.passes);

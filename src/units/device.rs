@@ -84,14 +84,14 @@ pub enum Motion {
 
 /// A request to move; events report its outcome.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub enum Asked {
+pub enum MotionRequest {
     /// By [`Controller::start`].
     Motion(Motion),
     /// By [`Controller::act`]: one of [`Variant::actions`], by its key.
     Action(#[serde(deserialize_with = "name::one")] Name),
 }
 
-impl From<Motion> for Asked {
+impl From<Motion> for MotionRequest {
     fn from(motion: Motion) -> Self {
         Self::Motion(motion)
     }
@@ -107,8 +107,10 @@ pub struct TrackTarget {
     /// Element file that contains the satellite; `None` for the configured file.
     #[serde(default)]
     pub element_file: Option<String>,
-    pub from: Timestamp,
-    pub until: Timestamp,
+    #[serde(rename = "from")]
+    pub start: Timestamp,
+    #[serde(rename = "until")]
+    pub end: Timestamp,
 }
 
 /// A question that the operator may ask a unit by hand. It changes nothing.
@@ -117,7 +119,8 @@ pub struct Question {
     /// As typed, in capitals, such as `STATUS?`.
     pub key: SmolStr,
     /// Subject of the question, as a sentence without a full stop.
-    pub about: Cow<'static, str>,
+    #[serde(rename = "about")]
+    pub subject: Cow<'static, str>,
     /// Bytes that go over the link.
     pub bytes: Box<[u8]>,
 }
@@ -141,11 +144,11 @@ pub enum ControllerEvent {
     /// The unit does not hold the target.
     NotPrepared(TrackTarget, PrepareError),
     /// The unit accepted the command; its state shows whether it moves.
-    Accepted(Asked),
+    Accepted(MotionRequest),
     /// The unit refused the command with this answer.
-    Refused(Asked, String),
+    Refused(MotionRequest, String),
     /// No answer came. The command is not sent again; the state shows what happened.
-    Unanswered(Asked),
+    Unanswered(MotionRequest),
     /// The unit refused a halt with this answer.
     HaltRefused(String),
     /// The unit refused to switch auto-track off, or did not answer.
@@ -164,10 +167,11 @@ pub enum PrepareError {
     #[error("no answer")]
     Unanswered,
     /// The read-back differs from the target.
-    #[error("holds {held}")]
+    #[error("holds {current}")]
     Differs {
         /// Held by the unit now.
-        held: String,
+        #[serde(rename = "held")]
+        current: String,
     },
     /// The unit has no elements of the satellite.
     #[error("no elements in {file}")]
@@ -298,7 +302,7 @@ pub trait Device: Send {
 pub trait Controller: Device {
     /// A reason of this make not to start `asked` or let it go on. The gate calls it after
     /// its own rules, and again while a jog runs.
-    fn objection(&self, _asked: &Asked, _now: Moment) -> Option<&'static str> {
+    fn objection(&self, _asked: &MotionRequest, _now: Moment) -> Option<&'static str> {
         None
     }
 

@@ -55,7 +55,7 @@ use crate::{
         alarms::{Alarm, AlarmKind, Alarms},
         antenna::AntennaModel,
         driver::WireLog,
-        passes::{ListChoice, PassKey, PredictedPass, Scope, UpcomingPasses},
+        passes::{ListChoice, PassListKey, PredictedPass, Scope, UpcomingPasses},
     },
     desktop::Outlets,
     station::{AntennaId, Station},
@@ -121,9 +121,9 @@ pub struct Model {
     /// The choice of passes in the list.
     pub list: ListChoice,
     /// The selected pass.
-    pub selected: Option<PassKey>,
+    pub selected: Option<PassListKey>,
     /// The pass that the operator chose; it stays selected until it is over.
-    pub chosen: Option<PassKey>,
+    pub chosen: Option<PassListKey>,
     /// The sky at `now`.
     pub sky: Sky,
     /// The globe at `now`, as long as the map shows it.
@@ -240,7 +240,9 @@ impl Model {
     /// The passes that the list shows.
     pub fn upcoming(&self) -> UpcomingPasses<'_> {
         match self.list.scope {
-            Scope::Favourites => self.pass_lists.favourites.within(self.now, self.list.span_h()),
+            Scope::Favourites => {
+                self.pass_lists.favourites.upcoming_within(self.now, self.list.span_h())
+            }
             Scope::All => self.pass_lists.all.upcoming(self.now),
         }
     }

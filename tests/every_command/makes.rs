@@ -55,7 +55,7 @@ impl<U: Unit> Make<U> {
     pub(super) fn within_a_mast(&self) -> Bounds {
         let corners_deg = [(150.0, -5.0), (200.0, -5.0), (200.0, 60.0), (150.0, 60.0)];
         let station = Station { keep_outs: vec![mast(&corners_deg)], ..Station::default() };
-        Bounds::of(&station, &(self.antenna)())
+        Bounds::new(&station, &(self.antenna)())
     }
 
     pub(super) fn moves(&self, rig: &Rig<Control<U>>) -> bool {
@@ -64,7 +64,7 @@ impl<U: Unit> Make<U> {
 }
 
 fn change(group: &'static str, field: &'static str, value: Value) -> Change {
-    Change { ticket: 1, group, values: [(field, value)].into(), seen: None, is_unlocked: true }
+    Change { ticket: 1, group, values: [(field, value)].into(), expected: None, is_unlocked: true }
 }
 
 fn values(

@@ -10,8 +10,8 @@ use azel::{
         closing::CloseHow,
         driver::{Command, OffsetChange},
         older_sets::SetChoice,
-        passes::{PassKey, Scope},
-        record::{Peak, PeakChange, PeakOf},
+        passes::{PassListKey, Scope},
+        record::{Peak, PeakBody, PeakChange},
         source_tests::TestAsk,
         sources::Copied,
         uploads::Ask,
@@ -20,7 +20,7 @@ use azel::{
     orbit::{Source, SourcePlace},
     plan::{OnBoardPass, ProgramTrack, Target},
     secret::Secret,
-    station::{AntennaId, LockOut, OffsetsOf, PassLimits, Priority, Station},
+    station::{AntennaId, LockOut, OffsetsSubject, PassLimits, Priority, Station},
 };
 use jiff::Timestamp;
 
@@ -62,8 +62,8 @@ pub(super) fn name(command: &Command) -> String {
 /// A lock-out by the person who works on the unit.
 pub(super) fn lock_out() -> LockOut {
     LockOut {
-        by: "Ada".to_owned(),
-        since: "2026-08-12T10:00:00Z".parse().unwrap(),
+        operator: "Ada".to_owned(),
+        start: "2026-08-12T10:00:00Z".parse().unwrap(),
         reason: "gear box open".to_owned(),
     }
 }
@@ -134,7 +134,7 @@ pub(super) fn commands(values: &Values) -> Vec<Command> {
 /// None of them reaches a network.
 pub(super) fn commands_of_stations(
     antenna: AntennaId,
-    pass: PassKey,
+    pass: PassListKey,
     station: Station,
 ) -> Vec<contract::Command> {
     use azel::contract::Command as C;
@@ -144,7 +144,7 @@ pub(super) fn commands_of_stations(
     let nowhere = || PathBuf::from("nowhere");
     let source =
         Source { name: "own".to_owned(), place: SourcePlace::File(nowhere()), refresh: None };
-    let peak = Peak { of: PeakOf::Sun, at: aos, azimuth_deg: 100.0, elevation_deg: 20.0 };
+    let peak = Peak { body: PeakBody::Sun, time: aos, azimuth_deg: 100.0, elevation_deg: 20.0 };
     samples! {
         C::Antenna(..) => C::Antenna(antenna, Command::Standby),
         C::Track { .. } => C::Track { antenna, pass, is_agreed: true },
@@ -172,13 +172,13 @@ pub(super) fn commands_of_stations(
             C::SetFrequencies { satellite: number, frequencies: Vec::new() }
         },
         C::KeepOffsets { .. } => {
-            C::KeepOffsets { of: OffsetsOf::Antenna(antenna), offsets: TrackOffsets::NONE }
+            C::KeepOffsets { subject: OffsetsSubject::Antenna(antenna), offsets: TrackOffsets::NONE }
         },
         C::AddSource(_) => C::AddSource(source),
         C::RemoveSource(_) => C::RemoveSource("own".to_owned()),
         C::SetRefresh { .. } => C::SetRefresh { name: "own".to_owned(), hours: None },
         C::CopyElements { .. } => {
-            C::CopyElements { name: "copy".to_owned(), from: Copied::File(nowhere()) }
+            C::CopyElements { name: "copy".to_owned(), origin: Copied::File(nowhere()) }
         },
         C::ListOlderSets(_) => C::ListOlderSets(number),
         C::LookAtRecord(_) => C::LookAtRecord(None),

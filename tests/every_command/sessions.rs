@@ -48,7 +48,7 @@ impl Outcome {
     /// The error of a change of settings, as it is shown.
     fn write_error(&self, command: &Command) -> Option<WriteError> {
         let Command::WriteSettings(change) = command else { return None };
-        let written = self.shown.state.held.get(change.group)?.written.as_ref()?;
+        let written = self.shown.state.groups.get(change.group)?.written.as_ref()?;
         written.result.clone().err()
     }
 
@@ -216,9 +216,9 @@ async fn locked_out<U: Unit>(
     let outcome = trial.outcome(3.0).await;
     trial.rig.set_off(false);
     let later = trial.outcome(8.0).await;
-    let (by, reason) = (lock_out().by, lock_out().reason);
-    let panel = [Event::NotSent(Refusal::PanelLockedOut { by: by.clone() })];
-    let locked = Refusal::LockedOut { by, reason };
+    let (by, reason) = (lock_out().operator, lock_out().reason);
+    let panel = [Event::NotSent(Refusal::PanelLockedOut { operator: by.clone() })];
+    let locked = Refusal::LockedOut { operator: by, reason };
     let is_refused_here = outcome.events == [Event::NotSent(locked.clone())];
     let is_taken = !outcome.refusals().contains(&&locked);
     let is_as_said = match row.locked_out {

@@ -10,7 +10,7 @@ use azel::{
         automatic::{Interruption, Operation},
         closing::CloseHow,
         driver::{self, Effect, Event, Intent, Refusal, StopState},
-        passes::PassKey,
+        passes::PassListKey,
         transfer::{FileName, Peer, TleFile},
         uploads::{Ask, Cargo, Order, Stage as UploadStage},
     },
@@ -37,7 +37,7 @@ struct Stage {
     client: Client,
     id: AntennaId,
     name: &'static str,
-    pass: PassKey,
+    pass: PassListKey,
 }
 
 impl Stage {
@@ -135,7 +135,7 @@ impl Stage {
         self.client.stop(self.id);
         let pressed = self.client.now().steady;
         until("rest", || match self.shown().stop {
-            StopState::Stopped { at } => (at >= pressed).then_some(()),
+            StopState::Stopped { time: at } => (at >= pressed).then_some(()),
             _ => None,
         })
         .await;
@@ -220,7 +220,7 @@ async fn automatic_operation_is_suspended_by_what_the_table_says() {
             sleep(Duration::from_secs(1)).await;
             let by_hand = matches!(
                 operation(&stage.client, stage.id),
-                Operation::Suspended { by: Interruption::ByHand, .. }
+                Operation::Suspended { interruption: Interruption::ByHand, .. }
             );
             if by_hand != command.row().ends_automatic {
                 faults.push(format!("{make}, {command:?}: {by_hand}"));
@@ -283,7 +283,7 @@ fn order() -> Order {
         file: FileName::new("weather.txt", takes).unwrap(),
         user: takes.factory_user.to_owned(),
         key_file: None,
-        cargo: Cargo::New(TleFile::of([catalog.get(25_544).unwrap()], takes).unwrap()),
+        cargo: Cargo::New(TleFile::new([catalog.get(25_544).unwrap()], takes).unwrap()),
         satellite: Some(25_544),
         is_unattended: false,
     }

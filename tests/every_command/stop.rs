@@ -68,8 +68,8 @@ async fn trace<U: Unit>(make: &Make<U>, command: &Command, given: Given) -> Trac
     rig.seconds(12.0).await;
     let received = make.received(&rig, before).into_iter().map(|(_, text)| text).collect();
     let events = rig.events();
-    let Snapshot { intent, link, lock_out, inside, preview, state, .. } = &*rig.shown();
-    let written = state.held.iter().filter(|(_, group)| group.written.is_some());
+    let Snapshot { intent, link, lock_out, breach: inside, preview, state, .. } = &*rig.shown();
+    let written = state.groups.iter().filter(|(_, group)| group.written.is_some());
     Trace {
         received,
         events,

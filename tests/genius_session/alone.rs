@@ -4,7 +4,7 @@ use azel::{
     astro::Angle,
     contract::driver::{Command, Event, Refusal, Response, Safety},
     controller::rotator_genius::{ALONE, OTHER, Rotators},
-    device::{Asked, panel::Act, settings::Value},
+    device::{MotionRequest, panel::Act, settings::Value},
     plan::Bounds,
     protocol::rotator_genius::{RotatorNumber, WholeDegrees},
     sim::rotator_genius::{Fault, Options, RotatorOptions},
@@ -136,7 +136,7 @@ async fn an_action_that_is_refused_is_told() {
     rig.control.set_fault(Fault::Refuse, true);
     rig.send(send_other(200));
     let event = rig.until_event(1, |event| matches!(event, Event::Refused(..))).await;
-    assert!(matches!(event, Event::Refused(Asked::Action(OTHER), _)), "{event:?}");
+    assert!(matches!(event, Event::Refused(MotionRequest::Action(OTHER), _)), "{event:?}");
     assert_eq!(rig.orders(), ["|A1200"]);
     rig.control.set_fault(Fault::NoSensor(RotatorNumber::One), true);
     rig.seconds(1.0).await;
@@ -196,7 +196,7 @@ fn before_a_mast_between(
         [(from_deg, low_deg), (to_deg, low_deg), (to_deg, high_deg), (from_deg, high_deg)];
     let mast = crate::common::mast(&corners);
     let station = Station { keep_outs: vec![mast], ..Station::default() };
-    Bounds::of(&station, antenna)
+    Bounds::new(&station, antenna)
 }
 
 #[tokio::test(start_paused = true)]
@@ -249,7 +249,7 @@ async fn an_azimuth_inside_a_keep_out_is_jogged_out() {
     let mut rig = Rig::connected(&two_azimuths(), Rotators::First).await;
     rig.handle().keep_within(before_a_high_mast(80.0, 130.0));
     rig.send(Command::Manual);
-    rig.until("inside", 5, |shown| shown.inside.is_some()).await;
+    rig.until("inside", 5, |shown| shown.breach.is_some()).await;
     rig.send(Command::AllowWayOut);
     rig.seconds(0.1).await;
     rig.hold([4.0, 0.0], 0.5).await;
@@ -262,7 +262,7 @@ async fn an_azimuth_inside_a_keep_out_is_jogged_out() {
         rig.seconds(1.0).await;
     }
     assert!(rig.axes_deg()[0].unwrap() < 80.0);
-    assert_eq!(rig.shown().inside, None);
+    assert_eq!(rig.shown().breach, None);
 }
 
 #[tokio::test(start_paused = true)]

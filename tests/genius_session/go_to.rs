@@ -3,7 +3,7 @@
 use azel::{
     contract::driver::{Event, Intent, Refusal},
     controller::rotator_genius::Rotators,
-    device::{Asked, Motion},
+    device::{Motion, MotionRequest},
     protocol::rotator_genius::RotatorNumber,
     sim::rotator_genius::{Fault, Quirk},
 };
@@ -59,7 +59,7 @@ async fn a_refused_position_is_told_with_the_reason_and_stops_the_other_axis() {
     rig.send(to(Some(180.0), Some(20.0)));
     let event = rig.until_event(2, |event| matches!(event, Event::Refused(..))).await;
     let Event::Refused(asked, why) = event else { unreachable!() };
-    assert!(matches!(asked, Asked::Motion(Motion::Position { .. })));
+    assert!(matches!(asked, MotionRequest::Motion(Motion::Position { .. })));
     assert_eq!(why, "F for rotator 1: no reason is given; its limits are 0 and 359");
     rig.seconds(0.5).await;
     assert_eq!(rig.orders(), ["|A1180", "|S"], "half of a motion is none");

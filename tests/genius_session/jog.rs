@@ -171,7 +171,7 @@ async fn a_jog_ends_when_the_answers_stay_away() {
     rig.hold([4.0, 0.0], 1.5).await;
     assert_eq!(rig.orders()[..2], ["|P1", "|S"]);
     assert!(rig.events().contains(&Event::JogPositionOld));
-    let measured = rig.shown().state.measured.unwrap().asked;
+    let measured = rig.shown().state.measured.unwrap().requested;
     let age_s = (rig.times("|S")[0] - measured).as_secs_f64();
     assert!((1.0..1.15).contains(&age_s), "{age_s}");
 }

@@ -12,9 +12,9 @@ use super::rig::{Rig, to};
 async fn nothing_is_moved_or_configured_and_nothing_has_to_be_read_back() {
     let mut rig = Rig::pair().await;
     let lock_out = LockOut {
-        by: "Ada".to_owned(),
+        operator: "Ada".to_owned(),
         reason: "new cable".to_owned(),
-        since: "2026-11-22T10:00:00Z".parse().unwrap(),
+        start: "2026-11-22T10:00:00Z".parse().unwrap(),
     };
     rig.send(Command::Hold);
     rig.send(to(Some(90.0), None));
@@ -28,14 +28,14 @@ async fn nothing_is_moved_or_configured_and_nothing_has_to_be_read_back() {
 
     rig.send(to(Some(120.0), None));
     let (by, reason) = ("Ada".to_owned(), "new cable".to_owned());
-    let refused = Event::NotSent(Refusal::LockedOut { by, reason });
+    let refused = Event::NotSent(Refusal::LockedOut { operator: by, reason });
     assert_eq!(rig.until_event(1, |_| true).await, refused);
-    let group = *rig.shown().state.held.keys().next().unwrap();
+    let group = *rig.shown().state.groups.keys().next().unwrap();
     let values = [("stop_offset_deg", Value::Integer(3))].into();
-    let change = Change { ticket: 1, group, values, seen: None, is_unlocked: true };
+    let change = Change { ticket: 1, group, values, expected: None, is_unlocked: true };
     rig.send(Command::WriteSettings(change));
-    rig.until("refused", 5, |shown| shown.state.held[group].written.is_some()).await;
-    let written = rig.shown().state.held[group].written.clone().unwrap();
+    rig.until("refused", 5, |shown| shown.state.groups[group].written.is_some()).await;
+    let written = rig.shown().state.groups[group].written.clone().unwrap();
     assert_eq!(written.result, Err(WriteError::LockedOut));
     assert_eq!(rig.orders(), before);
 }

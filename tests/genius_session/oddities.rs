@@ -120,6 +120,6 @@ async fn late_answers_are_taken_for_what_they_answer() {
     let shown = device.handle.snapshot();
     let measured = shown.state.measured.unwrap();
     assert!(!matches!(shown.link, LinkState::Lost { .. }), "{:?}", shown.link);
-    let way = (measured.received - measured.asked).as_secs_f64();
+    let way = (measured.received - measured.requested).as_secs_f64();
     assert!(way >= 1.2, "never younger than it is: {way}");
 }

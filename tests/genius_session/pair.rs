@@ -78,7 +78,7 @@ async fn two_rotators_of_one_kind_are_told_and_take_no_positions() {
     assert_eq!(rig.axes_deg(), [None, None]);
     assert_eq!(rig.shown().state.measured.unwrap().direction(), None);
     let shown = rig.shown();
-    assert!(shown.state.checked_at >= shown.state.measured.map(|measured| measured.at));
+    assert!(shown.state.checked_at >= shown.state.measured.map(|measured| measured.time));
     let check = shown.state.checks.iter().find(|check| check.name == "Kinds of the rotators");
     assert_eq!(check.unwrap().state, CheckState::Fault);
     assert_eq!(rig.reading("Heading 2"), "20°");
@@ -137,7 +137,7 @@ async fn without_an_azimuth(station: &Station, minimum_elevation_deg: f64) -> Ri
     let mut rig = Rig::connected(&options, Rotators::Pair).await;
     let mut antenna = super::rig::antenna(Rotators::Pair);
     antenna.limits.minimum_elevation_deg = minimum_elevation_deg;
-    rig.handle().keep_within(Bounds::of(station, &antenna));
+    rig.handle().keep_within(Bounds::new(station, &antenna));
     rig.control.set_fault(Fault::NoSensor(RotatorNumber::One), true);
     // The mast may be anywhere within its travel by now.
     rig.seconds(100.0).await;
@@ -188,7 +188,7 @@ async fn a_motion_below_a_keep_out_that_may_be_anywhere_needs_the_operators_hold
     let barrier = Barrier::KeepOut("mast".into());
     let unchecked = Event::NotSent(Refusal::Unchecked { axis: "Az", barrier });
     assert_eq!(rig.events(), std::slice::from_ref(&unchecked));
-    let inside = rig.shown().inside.clone().unwrap();
+    let inside = rig.shown().breach.clone().unwrap();
     assert_eq!((inside.unknown_axis, inside.may_leave), (Some("Az"), false));
     rig.send(Command::EndJog);
     rig.send(Command::AllowWayOut);

@@ -18,7 +18,7 @@ use super::{
 fn change<const N: usize>(group: &'static str, values: [(&'static str, Value); N]) -> Change {
     static TICKET: AtomicU64 = AtomicU64::new(1);
     let ticket = TICKET.fetch_add(1, Ordering::Relaxed);
-    Change { ticket, group, values: values.into(), seen: None, is_unlocked: true }
+    Change { ticket, group, values: values.into(), expected: None, is_unlocked: true }
 }
 
 fn text(text: &str) -> Value {
@@ -32,7 +32,7 @@ fn offset(degrees: i64) -> (&'static str, Value) {
 /// Outcome of the change with this ticket, if it is over.
 fn outcome(handle: &AntennaHandle, asked: &Change) -> Option<Result<(), WriteError>> {
     let shown = handle.snapshot();
-    let written = shown.state.held.get(asked.group)?.written.as_ref()?;
+    let written = shown.state.groups.get(asked.group)?.written.as_ref()?;
     (written.change.ticket == asked.ticket).then(|| written.result.clone())
 }
 
@@ -40,7 +40,7 @@ async fn write_settings(rig: &mut Rig, change: Change) -> Result<(), WriteError>
     rig.send(Command::WriteSettings(change.clone()));
     for _ in 0..2000 {
         if let Some(result) = outcome(rig.handle(), &change) {
-            assert_eq!(rig.shown().state.held[change.group].step, None);
+            assert_eq!(rig.shown().state.groups[change.group].step, None);
             return result;
         }
         rig.seconds(0.01).await;
@@ -49,7 +49,7 @@ async fn write_settings(rig: &mut Rig, change: Change) -> Result<(), WriteError>
 }
 
 fn held(rig: &Rig, group: &str) -> Values {
-    rig.shown().state.held[group].held.clone().unwrap().values
+    rig.shown().state.groups[group].last_read.clone().unwrap().values
 }
 
 #[tokio::test(start_paused = true)]
@@ -123,7 +123,7 @@ async fn locked_unknown_moving_or_overtaken_changes_are_not_sent() {
     assert_eq!(write_settings(&mut rig, unknown).await, Err(WriteError::NoSuchSetting));
     let mut seen = held(&rig, "rotator_1");
     seen.insert("name", text("Other"));
-    let overtaken = Change { seen: Some(seen), ..change("rotator_1", [offset(3)]) };
+    let overtaken = Change { expected: Some(seen), ..change("rotator_1", [offset(3)]) };
     assert_eq!(write_settings(&mut rig, overtaken).await, Err(WriteError::ChangedMeanwhile));
     rig.send(to(None, Some(60.0)));
     rig.seconds(2.0).await;

@@ -34,7 +34,7 @@ async fn watched(elevation_deg: u16, noise_deg: f64, seed: u64) -> Rig {
     antenna.limits.minimum_elevation_deg = LOWEST_DEG;
     let mut rig = Rig::start(&options, &antenna);
     rig.until("it is read", 5, |shown| shown.state.measured.is_some()).await;
-    rig.handle().keep_within(Bounds::of(&Station::default(), &antenna));
+    rig.handle().keep_within(Bounds::new(&Station::default(), &antenna));
     rig.events();
     rig
 }

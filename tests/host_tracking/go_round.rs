@@ -43,7 +43,7 @@ async fn follow_round<U: Unit>(
     mast: KeepOut,
 ) -> [f64; 2] {
     let station = Station { site: sky::site(), keep_outs: vec![mast], ..Station::default() };
-    let bounds = Bounds::of(&station, antenna);
+    let bounds = Bounds::new(&station, antenna);
     rig.handle().keep_within(bounds.clone());
     rig.send(Command::ProgramTrack(Box::new(scene.follow())));
     let propagator = Propagator::new(&scene.elements).unwrap();
@@ -54,7 +54,7 @@ async fn follow_round<U: Unit>(
     while rig.clock.utc() < scene.pass.los.time {
         rig.seconds(0.2).await;
         let at = direction(rig);
-        let clearance = bounds.at(rig.clock.utc()).nearest(at).unwrap();
+        let clearance = bounds.at_time(rig.clock.utc()).nearest(at).unwrap();
         min_deg = min_deg.min(clearance.angle.degrees());
         let target = propagator.look_from(sky::site(), rig.clock.utc()).unwrap().direction;
         off_deg = target.separation(at).degrees();
@@ -128,7 +128,7 @@ fn stop_waits_for_no_path_and_ends_what_waits_for_it() {
         let (mut rig, control) = satrak::connected(&antenna, &scene, 120.0).await;
         let keep_outs = vec![halfway(&scene, 1.0)];
         let station = Station { site: sky::site(), keep_outs, ..Station::default() };
-        rig.handle().keep_within(Bounds::of(&station, &antenna));
+        rig.handle().keep_within(Bounds::new(&station, &antenna));
         let sent = |word: &str| {
             let received = control.received().into_iter();
             received.filter(|(_, payload)| payload.starts_with(word)).count()

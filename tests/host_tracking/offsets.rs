@@ -42,7 +42,7 @@ fn offsets<U: Unit>(rig: &Rig<Control<U>>) -> TrackOffsets {
 /// and elevation.
 fn beside_deg<U: Unit>(rig: &Rig<Control<U>>, scene: &Scene) -> [f64; 2] {
     let measured = rig.shown().state.measured.unwrap();
-    let (at, plain) = (measured.direction().unwrap(), target(scene, measured.at));
+    let (at, plain) = (measured.direction().unwrap(), target(scene, measured.time));
     [
         (at.azimuth - plain.azimuth).wrapped_180().degrees(),
         (at.elevation - plain.elevation).degrees(),
@@ -137,7 +137,7 @@ async fn ahead_in_time_is_where_the_satellite_will_be() {
     rig.send(step(Offset::Time(SignedDuration::from_secs(8))));
     rig.seconds(8.0).await;
     let measured = rig.shown().state.measured.unwrap();
-    let later = target(&scene, add_seconds(measured.at, 8.0));
+    let later = target(&scene, add_seconds(measured.time, 8.0));
     let off = measured.direction().unwrap().separation(later);
     assert!(off.degrees() < 0.6, "{off:?}");
 }
@@ -154,7 +154,7 @@ fn beside_the_pass(scene: &Scene, away_deg: f64) -> KeepOut {
 
 fn keep_out<U: Unit>(rig: &Rig<Control<U>>, antenna: &Antenna, mast: KeepOut) -> Bounds {
     let station = Station { site: sky::site(), keep_outs: vec![mast], ..Station::default() };
-    let bounds = Bounds::of(&station, antenna);
+    let bounds = Bounds::new(&station, antenna);
     rig.handle().keep_within(bounds.clone());
     bounds
 }
@@ -181,7 +181,7 @@ async fn a_step_into_a_keep_out_is_refused_and_the_old_offsets_stay() {
     while rig.clock.utc() < scene.pass.tca.time {
         rig.seconds(0.5).await;
         let at = rig.shown().state.measured.unwrap().direction().unwrap();
-        let clearance = bounds.at(rig.clock.utc()).nearest(at).unwrap();
+        let clearance = bounds.at_time(rig.clock.utc()).nearest(at).unwrap();
         assert!(clearance.angle.degrees() > -0.1, "{clearance:?}");
     }
 }
@@ -212,7 +212,7 @@ async fn on_the_sky_it_does_not_enter_a_keep_out_that_the_axes_are_led_past() {
         let is_on_it = (beside.abs() - 9.0).abs() < 1.0;
         let on_sky = target(&scene, rig.clock.utc());
         if is_on_it {
-            let clearance = bounds.at(rig.clock.utc()).nearest(on_sky).unwrap();
+            let clearance = bounds.at_time(rig.clock.utc()).nearest(on_sky).unwrap();
             least_deg = least_deg.min(clearance.angle.degrees());
         }
     }
@@ -249,7 +249,7 @@ async fn beyond_what_the_axes_reach_a_step_is_refused() {
     ] {
         rig.send(step(offset));
         rig.seconds(0.5).await;
-        assert_eq!(refusals(&rig.events()), [&Refusal::OffsetTooLarge { most }]);
+        assert_eq!(refusals(&rig.events()), [&Refusal::OffsetTooLarge { max: most }]);
     }
     assert_eq!(offsets(&rig), with(&[Offset::Time(SignedDuration::from_millis(-100))]));
 }

@@ -401,7 +401,7 @@ async fn after_a_sleep_positions_are_read_anew_and_nothing_moves_by_itself() {
     rig.seconds(20.0).await;
     assert!(gotos(&control) <= sent + 1, "{} {sent}", gotos(&control));
     let measured = rig.shown().state.measured.unwrap();
-    assert!(measured.asked >= rig.shown().state.link_since.unwrap(), "read on the new link");
+    assert!(measured.requested >= rig.shown().state.link_since.unwrap(), "read on the new link");
 }
 
 #[tokio::test(start_paused = true)]

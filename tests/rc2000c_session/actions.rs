@@ -3,7 +3,7 @@
 use azel::{
     contract::driver::{Command, Event, Intent, Mover, Refusal, Response, Safety},
     controller::rc2000c::VARIANT,
-    device::{Asked, panel::CheckState, settings::Value},
+    device::{MotionRequest, panel::CheckState, settings::Value},
     plan::Bounds,
     protocol::rc2000c::SatelliteName,
     sim::rc2000c::{Options, StoredSatellite},
@@ -14,7 +14,7 @@ use super::rig::{Rig, antenna, check, reading, uncalibrated};
 
 async fn refused(rig: &mut Rig) -> String {
     let event = rig.until_event(2, |event| matches!(event, Event::Refused(..))).await;
-    let Event::Refused(Asked::Action(_), reason) = event else { panic!("{event:?}") };
+    let Event::Refused(MotionRequest::Action(_), reason) = event else { panic!("{event:?}") };
     reason
 }
 
@@ -29,7 +29,7 @@ fn mast() -> Bounds {
     let corners_deg = [(140.0, -5.0), (150.0, -5.0), (150.0, 60.0), (140.0, 60.0)];
     let mast = crate::common::mast(&corners_deg);
     let station = Station { keep_outs: vec![mast], ..Station::default() };
-    Bounds::of(&station, &antenna())
+    Bounds::new(&station, &antenna())
 }
 
 #[tokio::test(start_paused = true)]
@@ -75,7 +75,7 @@ async fn what_leads_where_only_the_unit_knows_needs_the_operators_word() {
     let mut rig = Rig::in_manual().await;
     rig.act("to_satellite", to("GALAXY 5", 0));
     let told = not_sent(&mut rig).await;
-    let Refusal::Unseen { act, why, is_watched } = told else { panic!("{told:?}") };
+    let Refusal::Unseen { act, reason: why, is_watched } = told else { panic!("{told:?}") };
     assert_eq!((act.action, why.contains("names"), is_watched), ("to_satellite", true, true));
     rig.seconds(2.0).await;
     assert!(rig.orders().is_empty());
@@ -229,7 +229,7 @@ fn every_action_is_described_and_what_cannot_be_undone_is_asked() {
     keys.dedup();
     assert_eq!(keys.len(), VARIANT.actions.len());
     for action in VARIANT.actions {
-        assert!(action.about.ends_with('.'), "{}", action.key);
+        assert!(action.description.ends_with('.'), "{}", action.key);
         let is_reset = action.key.starts_with("reset") || action.key == "restart_track";
         assert_eq!(action.question.is_some(), is_reset, "{}", action.key);
     }
@@ -239,15 +239,15 @@ fn every_action_is_described_and_what_cannot_be_undone_is_asked() {
 async fn a_unit_that_is_locked_out_is_told_nothing_also_where_nothing_would_move() {
     let mut rig = Rig::in_manual().await;
     let lock_out = LockOut {
-        by: "Ada".to_owned(),
+        operator: "Ada".to_owned(),
         reason: "feed off".to_owned(),
-        since: "2026-11-22T10:00:00Z".parse().unwrap(),
+        start: "2026-11-22T10:00:00Z".parse().unwrap(),
     };
     rig.send(Command::LockOut(lock_out));
     rig.until("locked out", 1, |shown| shown.lock_out.is_some() && !shown.locking).await;
     let before = rig.orders();
     let (by, reason) = ("Ada".to_owned(), "feed off".to_owned());
-    let refused = Event::NotSent(Refusal::LockedOut { by, reason });
+    let refused = Event::NotSent(Refusal::LockedOut { operator: by, reason });
     for action in VARIANT.actions {
         rig.act(action.key, []);
         rig.seconds(1.0).await;

@@ -30,9 +30,9 @@ async fn where_the_station_file_says_so_it_connects_at_the_start_unless_it_is_lo
     let mut rig = Rig::start(&Options::default(), &antenna);
     rig.until_found().await;
     let lock_out = LockOut {
-        by: "Ada".to_owned(),
+        operator: "Ada".to_owned(),
         reason: "feed off".to_owned(),
-        since: "2026-11-22T10:00:00Z".parse().unwrap(),
+        start: "2026-11-22T10:00:00Z".parse().unwrap(),
     };
     let mut rig = Rig::start_locked_out(&antenna, lock_out);
     rig.seconds(60.0).await;
@@ -81,7 +81,7 @@ async fn the_first_word_is_who_it_is_and_then_what_it_does() {
     }
     assert!(shown.state.checks.iter().all(|check| check.state == CheckState::Good));
     let measured = shown.state.measured.unwrap();
-    assert!(shown.state.checked_at >= Some(measured.at), "read with the position");
+    assert!(shown.state.checked_at >= Some(measured.time), "read with the position");
     let traffic = shown.state.traffic;
     assert_eq!([traffic.damaged, traffic.unreadable, traffic.unanswered, traffic.odd], [0; 4]);
 }
@@ -170,9 +170,9 @@ async fn an_older_unit_and_one_with_a_wrong_code_are_understood() {
 
 fn lock_out() -> LockOut {
     LockOut {
-        by: "Ada".to_owned(),
+        operator: "Ada".to_owned(),
         reason: "feed off".to_owned(),
-        since: "2026-11-22T10:00:00Z".parse().unwrap(),
+        start: "2026-11-22T10:00:00Z".parse().unwrap(),
     }
 }
 
@@ -186,7 +186,7 @@ async fn a_lock_out_gives_the_panel_to_who_works_there_and_stop_alone_takes_it()
     let (dials, said) = (rig.dials().len(), rig.received().len());
     rig.send(Command::Connect);
     rig.seconds(30.0).await;
-    let refused = Event::NotSent(Refusal::PanelLockedOut { by: "Ada".to_owned() });
+    let refused = Event::NotSent(Refusal::PanelLockedOut { operator: "Ada".to_owned() });
     assert_eq!(rig.events(), [refused]);
     assert_eq!((rig.dials().len(), rig.received().len()), (dials, said), "not even a question");
 

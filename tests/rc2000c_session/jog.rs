@@ -5,7 +5,7 @@ use std::time::Duration;
 use azel::{
     contract::driver::{Command, Event, LinkState, Refusal},
     controller::rc2000c::BAUD,
-    device::{Asked, Motion, settings::Value},
+    device::{Motion, MotionRequest, settings::Value},
     plan::Barrier,
     sim::rc2000c::{AxisOptions, Fault, Options, Quirk},
 };
@@ -156,7 +156,7 @@ async fn after_a_missed_reply_the_jog_is_not_renewed_and_the_unit_ends_it() {
     let told = |event: &Event| {
         matches!(
             event,
-            Event::JogPositionOld | Event::Unanswered(Asked::Motion(Motion::Jog { .. }))
+            Event::JogPositionOld | Event::Unanswered(MotionRequest::Motion(Motion::Jog { .. }))
         )
     };
     assert!(events.iter().any(told), "{events:?}");
@@ -195,7 +195,7 @@ async fn a_refused_jog_ends_with_the_likely_reason() {
     rig.control.set_fault(Fault::Refuse, true);
     rig.send(Command::Jog { rates_deg_s: [FAST, 0.0] });
     let event = rig.until_event(1, |event| matches!(event, Event::Refused(..))).await;
-    let Event::Refused(Asked::Motion(Motion::Jog { .. }), reason) = event else {
+    let Event::Refused(MotionRequest::Motion(Motion::Jog { .. }), reason) = event else {
         panic!("{event:?}")
     };
     assert_eq!(reason, "the unit does not say why");

@@ -2,7 +2,7 @@
 
 use azel::{
     contract::driver::{Command, Event, Intent, Refusal},
-    device::{Asked, settings::Value},
+    device::{MotionRequest, settings::Value},
     sim::rc2000c::Quirk,
 };
 
@@ -18,7 +18,7 @@ async fn until_commands_are(rig: &mut Rig, text: &str) {
 
 async fn refused(rig: &mut Rig) -> String {
     let event = rig.until_event(2, |event| matches!(event, Event::Refused(..))).await;
-    let Event::Refused(Asked::Action(_), reason) = event else { panic!("{event:?}") };
+    let Event::Refused(MotionRequest::Action(_), reason) = event else { panic!("{event:?}") };
     reason
 }
 

@@ -3,7 +3,7 @@
 use azel::{
     astro::{Angle, AzEl},
     contract::driver::{Command, Event, Intent, Refusal, Way},
-    device::{Asked, Motion, panel::CheckState},
+    device::{Motion, MotionRequest, panel::CheckState},
     plan::Bounds,
     sim::rc2000c::{Fault, Options, Quirk},
     station::Station,
@@ -90,7 +90,7 @@ async fn without_a_calibration_or_known_counts_nothing_is_sent() {
     rig.send(Command::Hold);
     rig.send(to(170.0, 40.0));
     let event = rig.until_event(2, |event| matches!(event, Event::Refused(..))).await;
-    let Event::Refused(Asked::Motion(Motion::Position { .. }), reason) = event else {
+    let Event::Refused(MotionRequest::Motion(Motion::Position { .. }), reason) = event else {
         panic!("{event:?}")
     };
     assert_eq!(reason, "the azimuth is not calibrated");
@@ -132,7 +132,7 @@ async fn a_refusal_ends_the_intent_with_the_likely_reason() {
     rig.control.set_fault(Fault::Refuse, true);
     rig.send(to(170.0, 40.0));
     let event = rig.until_event(2, |event| matches!(event, Event::Refused(..))).await;
-    let Event::Refused(Asked::Motion(Motion::Position { .. }), reason) = event else {
+    let Event::Refused(MotionRequest::Motion(Motion::Position { .. }), reason) = event else {
         panic!("{event:?}")
     };
     assert_eq!(reason, "the position lies beyond a limit of the unit");
@@ -182,7 +182,7 @@ async fn looked_at(rig: &mut Rig, az_deg: f64, el_deg: f64) -> Result<Way, Refus
     rig.send(Command::Preview(Some(to)));
     rig.seconds(0.1).await;
     let preview = rig.shown().preview.clone().expect("it was judged");
-    assert_eq!(preview.to, to);
+    assert_eq!(preview.target, to);
     preview.way.clone()
 }
 
@@ -207,7 +207,7 @@ async fn a_direction_that_is_only_looked_at_is_judged_like_a_motion_and_moves_no
     let corners_deg = [(140.0, -5.0), (150.0, -5.0), (150.0, 60.0), (140.0, 60.0)];
     let mast = crate::common::mast(&corners_deg);
     let station = Station { keep_outs: vec![mast], ..Station::default() };
-    rig.handle().keep_within(Bounds::of(&station, &antenna()));
+    rig.handle().keep_within(Bounds::new(&station, &antenna()));
     let forbidden = looked_at(&mut rig, 145.0, 20.0).await;
     assert!(matches!(forbidden, Err(Refusal::Forbidden { .. })), "{forbidden:?}");
     let over = looked_at(&mut rig, 120.0, 75.0).await.unwrap();
@@ -242,7 +242,7 @@ async fn after_a_lost_link_a_way_ends_at_its_corner() {
     let corners_deg = [(190.0, -5.0), (200.0, -5.0), (200.0, 60.0), (190.0, 60.0)];
     let station =
         Station { keep_outs: vec![crate::common::mast(&corners_deg)], ..Station::default() };
-    rig.handle().keep_within(Bounds::of(&station, &antenna()));
+    rig.handle().keep_within(Bounds::new(&station, &antenna()));
     rig.send(to(220.0, 75.0));
     rig.until("it moves", 5, |shown| shown.state.measured.unwrap().moving()).await;
     let sent = rig.orders();
@@ -257,7 +257,7 @@ async fn after_a_lost_link_a_way_ends_at_its_corner() {
     let short = rig.until_event(60, is_short).await;
     rig.seconds(60.0).await;
     assert_eq!(rig.orders(), sent, "the next leg needs the operator");
-    let Event::EndedShort { aim, at } = short else { unreachable!() };
+    let Event::EndedShort { aim, position: at } = short else { unreachable!() };
     assert!(aim.separation(AzEl::from_degrees(220.0, 75.0).into()).unwrap().degrees() < 0.1);
     assert!(at.separation(aim).unwrap().degrees() > 10.0, "{at:?}");
 }

@@ -6,7 +6,7 @@ use std::{sync::Arc, time::Duration};
 use azel::{
     clock::Instant,
     contract::driver::{Command, Event, Found, LinkLoss, LinkState},
-    device::{Asked, settings::Value},
+    device::{MotionRequest, settings::Value},
     driver::{AntennaHandle, dial_line},
     sim::rc2000c::{Control, Options, Quirk, Simulator},
 };
@@ -94,7 +94,7 @@ impl Fixture {
             [state.az_counts, state.el_counts] == [1530, 750] && !state.is_turning
         })
         .await;
-        let failed = |event: &Event| matches!(event, Event::Refused(Asked::Action(_), _));
+        let failed = |event: &Event| matches!(event, Event::Refused(MotionRequest::Action(_), _));
         assert!(!self.events.iter().any(failed), "{:?}", self.events);
         assert_eq!(self.handle.snapshot().state.traffic.damaged, 0);
         self.send(Command::Disconnect);

@@ -22,9 +22,9 @@ async fn noise_beside_a_keep_out_is_not_stopped_as_a_motion() {
         let corners = [(near_deg, -5.0), (far_deg, -5.0), (far_deg, 85.0), (near_deg, 85.0)];
         let mast = crate::common::mast(&corners);
         let station = Station { keep_outs: vec![mast], ..Station::default() };
-        rig.handle().keep_within(Bounds::of(&station, &narrow));
+        rig.handle().keep_within(Bounds::new(&station, &narrow));
         rig.seconds(600.0).await;
-        assert_eq!(rig.shown().inside, None, "seed {seed}: it stands outside");
+        assert_eq!(rig.shown().breach, None, "seed {seed}: it stands outside");
         let is_forbidden = |event: &Event| matches!(event, Event::Safety(Safety::Forbidden { .. }));
         let told: Vec<Event> = rig.events().into_iter().filter(is_forbidden).collect();
         assert_eq!(told, [], "seed {seed}");

@@ -5,7 +5,7 @@ use azel::{
         alarms::AlarmKind,
         driver::{Command, Event, Found, LinkState, Refusal},
     },
-    device::{Asked, panel::CheckState, settings::Value},
+    device::{MotionRequest, panel::CheckState, settings::Value},
     engine::alarms::alarm_of,
     sim::rc2000c::{Fault, Mode, Options, Quirk},
 };
@@ -29,7 +29,7 @@ pub(super) async fn tracking() -> Rig {
 
 async fn refused(rig: &mut Rig) -> String {
     let event = rig.until_event(2, |event| matches!(event, Event::Refused(..))).await;
-    let Event::Refused(Asked::Action(_), reason) = event else { panic!("{event:?}") };
+    let Event::Refused(MotionRequest::Action(_), reason) = event else { panic!("{event:?}") };
     reason
 }
 

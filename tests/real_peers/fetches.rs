@@ -7,7 +7,7 @@ use std::{
 };
 
 use azel::{
-    contract::transfer::{FileProtocol, Seen},
+    contract::transfer::{FileProtocol, SatelliteMatch},
     transfer::{
         CancellationToken, ConnectError, ConnectStep, ElementSource, FetchError, Interruption,
         KnownHosts, Limits, Trust, fetch, what_a_unit_sees,
@@ -51,7 +51,7 @@ fn a_file_comes_over_ftp_and_tells_what_the_unit_will_see() {
     assert_eq!(bytes, file.bytes());
     let wanted = &file.objects()[200];
     let view = what_a_unit_sees(&bytes, &wanted.name);
-    assert_eq!(view.satellite, Seen::Found(wanted.clone()));
+    assert_eq!(view.satellite, SatelliteMatch::Found(wanted.clone()));
     assert_eq!((view.objects, view.is_tle, view.sha256), (400, true, file.hash()));
 }
 

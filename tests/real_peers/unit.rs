@@ -213,5 +213,5 @@ pub(crate) fn elements(count: usize) -> TleFile {
         !elements.name().contains([',', '*', '$']) && elements.name().len() <= 24
     };
     let chosen = CATALOG.iter().filter(is_plain).filter(|one| names.insert(one.name().to_owned()));
-    TleFile::of(chosen.take(count), &ELEMENT_FILES).unwrap()
+    TleFile::new(chosen.take(count), &ELEMENT_FILES).unwrap()
 }

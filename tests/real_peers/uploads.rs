@@ -41,14 +41,14 @@ fn an_upload_is_proved_and_can_be_rolled_back() {
     let sum = run(Command::new("sha256sum").arg(&path));
     assert!(sum.starts_with(&proof.sha256.to_string()), "{sum}");
     assert_eq!((proof.bytes, proof.objects.len()), (new.bytes().len() as u64, 1500));
-    assert!(proof.oldest_age_s(proof.at).unwrap() > 0.0);
+    assert!(proof.oldest_age_s(proof.time).unwrap() > 0.0);
 
     let kept = unit.kept.list(&peer(unit.address()).to_string(), FILE).unwrap();
     let origins: Vec<_> = kept.iter().map(|one| one.origin).collect();
     assert_eq!(origins, [Origin::Uploaded, Origin::Found]);
     let old = unit.kept.read(&kept[1]).unwrap();
     let back = unit.upload(&old).unwrap();
-    assert_eq!(back.sha256, FileHash::of(OLD));
+    assert_eq!(back.sha256, FileHash::new(OLD));
     unit.assert_as_before();
 }
 

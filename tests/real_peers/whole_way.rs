@@ -346,7 +346,7 @@ fn the_rule_repeats_the_upload_once_the_elements_are_too_old() {
     let antenna = AntennaId::FIRST;
     let _ = client.send(Command::SetAutomatic { antenna, is_on: true });
     let is_upload = |what: &DayEvent| matches!(what, DayEvent::ElementsUploaded { file, satellites: 2, .. } if file == FILE);
-    fixture.until("the rule", |model| model.day.iter().any(|line| is_upload(&line.what)));
+    fixture.until("the rule", |model| model.day.iter().any(|line| is_upload(&line.event)));
     let model = fixture.window.state().model();
     assert!(matches!(model.uploads.stage, Stage::Proved(_)), "{:?}", model.uploads.stage);
     assert!(model.antenna().unwrap().operation.is_on());

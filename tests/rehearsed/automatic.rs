@@ -10,7 +10,7 @@ use azel::{
         Command,
         automatic::{Flown, Interruption, MissCause, OffBecause, Operation},
         driver,
-        passes::PassKey,
+        passes::PassListKey,
     },
     engine::Client,
     plan::{pass_report::LossCause, schedule::Entry},
@@ -40,7 +40,7 @@ fn station() -> Station {
 #[derive(Default)]
 struct Witness {
     /// Entries of the schedule that were under way: antenna, satellite and AOS.
-    begun: Vec<(AntennaId, PassKey)>,
+    begun: Vec<(AntennaId, PassListKey)>,
     flown: Vec<(AntennaId, Flown)>,
 }
 
@@ -49,7 +49,7 @@ impl Witness {
         let (schedule, now) = (Arc::clone(&client.snapshot().schedule), client.now().utc);
         let is_under_way = |entry: &&Entry| {
             let is_off = matches!(operation(client, entry.antenna), Operation::Off(_));
-            entry.from < now && now < entry.to && !is_off
+            entry.start < now && now < entry.end && !is_off
         };
         for entry in schedule.schedule.entries.iter().filter(is_under_way) {
             let pass = (entry.pass.satellite, entry.pass.aos);
@@ -64,7 +64,7 @@ impl Witness {
         }
     }
 
-    fn is_told(&self, antenna: AntennaId, pass: PassKey) -> bool {
+    fn is_told(&self, antenna: AntennaId, pass: PassListKey) -> bool {
         self.flown.iter().any(|(id, of)| *id == antenna && is_same(of.pass, pass))
     }
 
@@ -77,7 +77,7 @@ impl Witness {
     }
 }
 
-fn is_same(one: PassKey, other: PassKey) -> bool {
+fn is_same(one: PassListKey, other: PassListKey) -> bool {
     one.0 == other.0 && seconds_between(one.1, other.1).abs() < 60.0
 }
 
@@ -98,21 +98,22 @@ async fn a_station_takes_its_passes_by_itself_and_each_that_it_misses_has_its_ca
     for antenna in [dish, mast] {
         set_automatic(&client, antenna, true).await;
     }
-    let lock_out = LockOut { by: "Ada".to_owned(), reason: "belts".to_owned(), since: start() };
+    let lock_out =
+        LockOut { operator: "Ada".to_owned(), reason: "belts".to_owned(), start: start() };
     let _ = client.send(Command::Antenna(horn, driver::Command::LockOut(lock_out)));
 
     // Somebody sends the mast elsewhere in the middle of a pass.
     until("a pass of the mast", || operation(&client, mast).taking()?.proved_at).await;
     let taken = operation(&client, mast).taking().copied().unwrap();
-    until("the pass", || (client.now().utc > taken.from).then_some(())).await;
+    until("the pass", || (client.now().utc > taken.start).then_some(())).await;
     until("the interruption", || {
         let _ = client.send(Command::Antenna(mast, driver::Command::Park));
         let by = Interruption::ByHand;
-        matches!(operation(&client, mast), Operation::Suspended { by: found, .. } if found == by)
+        matches!(operation(&client, mast), Operation::Suspended { interruption: found, .. } if found == by)
             .then_some(())
     })
     .await;
-    witness.until_time(&client, taken.until).await;
+    witness.until_time(&client, taken.end).await;
     assert!(!operation(&client, mast).is_on(), "the end of a pass ends no suspension");
     let _ = client.send(Command::GoOn(mast));
     until("the mast to go on", || operation(&client, mast).is_on().then_some(())).await;
@@ -181,7 +182,7 @@ async fn a_station_takes_its_passes_by_itself_and_each_that_it_misses_has_its_ca
         assert!(is_disturbed || had(of), "{antenna:?} {of:?}");
     }
     assert!(flown.iter().filter(|(_, of)| had(of)).count() >= 2);
-    let is_told = |(antenna, pass): &&(AntennaId, PassKey)| witness.is_told(*antenna, *pass);
+    let is_told = |(antenna, pass): &&(AntennaId, PassListKey)| witness.is_told(*antenna, *pass);
     let begun = &witness.begun;
     assert!(begun.iter().all(|it| is_told(&it)), "each entry is told of: {begun:?} {flown:?}");
 }

@@ -10,7 +10,7 @@ use azel::{
     contract::{
         Command,
         alarms::AlarmKind,
-        record::{Peak, PeakChange, PeakOf, Row},
+        record::{Peak, PeakBody, PeakChange, Row},
     },
     engine::{Client, film::Projector},
     record::{Kind, RowKind, open_pass},
@@ -94,8 +94,9 @@ async fn a_disk_that_is_full_in_a_pass_costs_what_did_not_fit_and_neither_the_tr
             client.send(Command::AcknowledgeAlarm(u64::MAX)).unwrap();
         }
         for elevation in 0..PEAKS {
-            let (of, at) = (PeakOf::Sun, client.now().utc);
-            let peak = Peak { of, at, azimuth_deg: 10.0, elevation_deg: f64::from(elevation) };
+            let (of, at) = (PeakBody::Sun, client.now().utc);
+            let peak =
+                Peak { body: of, time: at, azimuth_deg: 10.0, elevation_deg: f64::from(elevation) };
             client.send(Command::ChangePeaks(mast, PeakChange::Added(peak))).unwrap();
         }
         sleep(LOOK).await;

@@ -3,9 +3,9 @@
 use std::sync::Arc;
 
 use azel::{
-    contract::{Command, passes::PassKey, schedule::Planned},
+    contract::{Command, passes::PassListKey, schedule::Planned},
     engine::Client,
-    plan::schedule::{Change, Changed, Refusal, Rule, Why},
+    plan::schedule::{Change, Changed, LeftOutReason, Refusal, Rule},
     station::{PassLimits, Station, Take},
 };
 
@@ -23,7 +23,7 @@ async fn planned(client: &Client, after: u64) -> Arc<Planned> {
     .await
 }
 
-fn choose(client: &Client, pass: PassKey, take: Option<Take>) {
+fn choose(client: &Client, pass: PassListKey, take: Option<Take>) {
     let list = &client.snapshot().pass_lists.favourites;
     let tca = list.passes.iter().find(|of| of.key() == pass).unwrap().pass.tca.time;
     let _ = client.send(Command::ChoosePass { satellite: pass.0, tca, take });
@@ -60,15 +60,16 @@ async fn check(station: &Station) {
     }
     let mut now = planned(&client, 0).await;
     let (mut priced, mut by_rule) = (0, 0);
-    let mut seen: Vec<PassKey> = Vec::new();
+    let mut seen: Vec<PassListKey> = Vec::new();
     while seen.len() < LOOKED_AT {
-        let is_rule =
-            |why: &Why| matches!(why, Why::Refused(Refusal::Rule(Rule::MinElevation { .. })));
+        let is_rule = |why: &LeftOutReason| {
+            matches!(why, LeftOutReason::Refused(Refusal::Rule(Rule::MinElevation { .. })))
+        };
         // Azel plans again once it knows where the antennas stand.
         now = planned(&client, now.revision - 1).await;
         let mut left_out: Vec<_> = now.schedule.left_out.iter().collect();
-        left_out.sort_by_key(|left| !is_rule(&left.why) || by_rule > 1);
-        let keys = left_out.iter().map(|left| ((left.pass.satellite, left.pass.aos), &left.why));
+        left_out.sort_by_key(|left| !is_rule(&left.reason) || by_rule > 1);
+        let keys = left_out.iter().map(|left| ((left.pass.satellite, left.pass.aos), &left.reason));
         let Some((pass, why)) = keys.into_iter().find(|(pass, _)| !seen.contains(pass)) else {
             break;
         };

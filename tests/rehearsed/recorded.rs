@@ -12,7 +12,7 @@ use azel::{
         alarms::AlarmKind,
         driver::{self, OffsetChange},
         passes::PredictedPass,
-        record::{ListedKind, PassQuery, Peak, PeakChange, PeakOf, Peaks, Row},
+        record::{ListedKind, PassQuery, Peak, PeakBody, PeakChange, Peaks, Row},
         recorded::{Found, RecordLook},
     },
     controller::SPECS,
@@ -24,7 +24,7 @@ use azel::{
     },
     record::{Kind, Query, Record, RowKind, read_peaks},
     sim::{InMemory as _, Trouble},
-    station::{self, OffsetsOf, Station},
+    station::{self, OffsetsSubject, Station},
 };
 use jiff::{SignedDuration, ToSpan as _};
 use tokio::time::sleep;
@@ -134,8 +134,8 @@ async fn a_pass_that_was_tracked_is_reported_when_it_is_over() {
     let known = report.worst.unwrap().error.off_deg;
     assert!(worst <= known + 1e-3 && worst > 0.5 * known, "{worst} {known}");
     let (first, last) = (opened.path.first().unwrap(), opened.path.last().unwrap());
-    assert_eq!((first.time, last.time), (listed.report.from, listed.report.until));
-    let asked = |row: &Row| row.kind == "command" && row.time < listed.report.until;
+    assert_eq!((first.time, last.time), (listed.report.start, listed.report.end));
+    let asked = |row: &Row| row.kind == "command" && row.time < listed.report.end;
     assert!(opened.entries.iter().any(asked), "{:?}", opened.entries);
     for (text, matching) in [("iss", 1), ("25544", 1), ("METOP", 0), ("1999-01-01", 0)] {
         let query = PassQuery { text: text.to_owned(), ..all.clone() };
@@ -173,7 +173,7 @@ async fn with_a_pointing_model_the_axes_read_otherwise_and_the_report_tells_no_e
         mast.error().filter(|error| error.off_beam.degrees() < 1.5)?;
         let at = mast.snapshot.state.measured?;
         let read = at.direction()?;
-        let satellite = propagator.look_from(station.site, at.at).ok()?.direction;
+        let satellite = propagator.look_from(station.site, at.time).ok()?.direction;
         let is_high = satellite.elevation_deg() > 6.0;
         is_high
             .then_some([read, model.direction(read)].map(|of| of.separation(satellite).degrees()))
@@ -205,20 +205,20 @@ async fn with_a_pointing_model_the_axes_read_otherwise_and_the_report_tells_no_e
     assert_eq!((fit.passes, offset.term), (1, Term::AzimuthOffset));
     assert!((value - model.azimuth_offset_deg).abs() < 1.0, "{offset:?}");
     assert_eq!(offset.half_of_95_percent, None, "one pass does not tell it from a collimation");
-    let peak = Peak { of: PeakOf::Sun, at: start(), azimuth_deg: 100.0, elevation_deg: 20.0 };
+    let peak = Peak { body: PeakBody::Sun, time: start(), azimuth_deg: 100.0, elevation_deg: 20.0 };
     let wrong = Peak { azimuth_deg: 10.0, ..peak };
     for change in [PeakChange::Added(wrong), PeakChange::Added(peak), PeakChange::Removed(wrong)] {
         client.send(Command::ChangePeaks(id, change)).unwrap();
     }
-    let is_known = |peaks: &Peaks| peaks.of(id).eq([&peak]);
+    let is_known = |peaks: &Peaks| peaks.for_antenna(id).eq([&peak]);
     until("the peak", || is_known(&client.snapshot().peaks).then_some(())).await;
     client.send(Command::FitPointing(id, vec![Term::Sag])).unwrap();
     let fit = until("a fit with it", || {
         let found = client.snapshot().pointing_fitted.clone()?.found.clone()?.unwrap();
-        (found.without == [Term::Sag]).then_some(found)
+        (found.excluded == [Term::Sag]).then_some(found)
     })
     .await;
-    let of_sun = fit.noise.iter().find(|of| of.of == pointing::Kind::Sun).unwrap();
+    let of_sun = fit.noise.iter().find(|of| of.kind == pointing::Kind::Sun).unwrap();
     assert_eq!(of_sun.points, 1);
     assert!(fit.terms.iter().any(|of| of.term == Term::Sag && of.value.is_none()), "{fit:?}");
     drop(client);
@@ -233,14 +233,14 @@ async fn a_pass_is_flown_with_the_offsets_that_are_remembered_and_reported_besid
     let mast = station.antennas.iter().find(|of| of.name == "Mast").unwrap().id;
     let with = |step| TrackOffsets::NONE.plus(step).unwrap();
     let azimuth = with(Offset::Azimuth(Angle::from_degrees(6.0)));
-    station.keep_offsets(OffsetsOf::Antenna(mast), azimuth);
+    station.keep_offsets(OffsetsSubject::Antenna(mast), azimuth);
     let pass = next_pass(&station);
     let scene = Scene::recorded(pass.aos.time - 4.minutes(), &station);
     let client = scene.client();
     track(&client, "Mast").await;
     let time = with(Offset::Time(SignedDuration::from_secs(2)));
-    let of = OffsetsOf::Satellite(ISS);
-    client.send(Command::KeepOffsets { of, offsets: time }).unwrap();
+    let of = OffsetsSubject::Satellite(ISS);
+    client.send(Command::KeepOffsets { subject: of, offsets: time }).unwrap();
     let row = reports(&scene).await.remove(0);
     let told = &row.data["report"];
     assert_eq!(told["offsets"][0][1]["azimuth_deg"], 6.0, "{told}");

@@ -132,7 +132,7 @@ async fn compare(rehearsed: &Rehearsed, client: &Client, folder: &Path, names: &
             reports.find(|row| {
                 row.antenna.as_deref() == Some(&pass.antenna_name)
                     && row.data["satellite"] == pass.satellite
-                    && (pass.from - AT_MOST..pass.to + AT_MOST).contains(&row.time)
+                    && (pass.start - AT_MOST..pass.end + AT_MOST).contains(&row.time)
             })
         })
         .await;

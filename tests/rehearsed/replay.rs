@@ -7,7 +7,7 @@ use azel::{
     contract::{
         Command, Snapshot,
         passes::PredictedPass,
-        record::{Peak, PeakChange, PeakOf},
+        record::{Peak, PeakBody, PeakChange},
     },
     engine::{Client, film::Projector},
     model::Model,
@@ -55,8 +55,9 @@ fn told(shown: &Snapshot) -> Value {
 
 /// Model that the window makes of a snapshot at `at`, with the ages of its values.
 fn modelled(at: Timestamp, shown: &Snapshot) -> Value {
-    let passed = Duration::try_from(at.duration_since(shown.at.utc)).unwrap();
-    let mut model = Model::before_anything(Moment { utc: at, steady: shown.at.steady + passed });
+    let passed = Duration::try_from(at.duration_since(shown.moment.utc)).unwrap();
+    let mut model =
+        Model::before_anything(Moment { utc: at, steady: shown.moment.steady + passed });
     model.take(Arc::new(shown.clone()), |_| None);
     let age_s = |of: Instant| model.steady.saturating_duration_since(of).as_secs_f64();
     let antennas = model.antennas.iter().map(|antenna| {
@@ -91,7 +92,7 @@ async fn track_on_board(client: &Client) {
 async fn fit_pointing(client: &Client) {
     let mast = measured(client, "Mast").await;
     let at = client.now().utc;
-    let peak = Peak { of: PeakOf::Sun, at, azimuth_deg: 100.0, elevation_deg: 20.0 };
+    let peak = Peak { body: PeakBody::Sun, time: at, azimuth_deg: 100.0, elevation_deg: 20.0 };
     client.send(Command::ChangePeaks(mast, PeakChange::Added(peak))).unwrap();
     client.send(Command::FitPointing(mast, Vec::new())).unwrap();
     let fitted = until("the fit", || {
@@ -136,12 +137,12 @@ async fn a_pass_is_shown_again_as_it_was_at_every_recorded_event() {
         compared += 1;
     };
     for event in &events {
-        let place = live.partition_point(|shown| shown.at.utc < *event);
+        let place = live.partition_point(|shown| shown.moment.utc < *event);
         // The station published this event after the watch ended.
         let Some(shown) = live.get(place) else { continue };
         let mut film = Projector::open(&file).unwrap();
         let from = film.film().shown_from(*event).unwrap();
-        assert_eq!(from, shown.at.utc, "the first that shows it");
+        assert_eq!(from, shown.moment.utc, "the first that shows it");
         compare(from, shown);
         // Snapshot that the window showed when the event happened.
         let Some(before) = place.checked_sub(1).and_then(|place| live.get(place)) else { continue };
@@ -153,10 +154,10 @@ async fn a_pass_is_shown_again_as_it_was_at_every_recorded_event() {
         assert_eq!(modelled(*event, &again), modelled(*event, before), "at {event}");
     }
     for shown in live.iter().step_by(BETWEEN).rev() {
-        compare(shown.at.utc, shown);
+        compare(shown.moment.utc, shown);
     }
     let last = live.last().unwrap();
-    assert!(last.peaks.of(AntennaId(2)).count() == 1 && last.pointing_fitted.is_some());
+    assert!(last.peaks.for_antenna(AntennaId(2)).count() == 1 && last.pointing_fitted.is_some());
     println!("{compared} moments of {} snapshots, {} events", live.len(), events.len());
     assert!(compared > 100, "{compared}");
 }

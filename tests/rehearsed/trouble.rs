@@ -23,7 +23,7 @@ async fn write_down(mut client: Client) -> usize {
         // Only the catalog and the pass lists leave anything out.
         let shown = |of: &Snapshot| {
             let of = (
-                (&of.at, &of.time_sync, &of.station, &of.sources),
+                (&of.moment, &of.time_sync, &of.station, &of.sources),
                 (&of.antennas, &of.alarms, &of.reminders),
                 (&of.schedule, &of.day),
             );

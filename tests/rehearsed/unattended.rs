@@ -210,7 +210,8 @@ async fn an_antenna_that_another_program_moves_is_left_to_it_until_the_operator_
     by_another(&scene, &elsewhere()).await;
     let by = Interruption::Elsewhere;
     until("the suspension", || {
-        let is_that = |of| matches!(of, Operation::Suspended { by: found, .. } if found == by);
+        let is_that =
+            |of| matches!(of, Operation::Suspended { interruption: found, .. } if found == by);
         is_that(operation(&client, id)).then_some(())
     })
     .await;
@@ -238,7 +239,7 @@ async fn a_unit_that_is_given_another_satellite_is_left_to_whoever_did_it() {
         proved(&client, id).await;
         let taken = operation(&client, id).taking().copied().unwrap();
         if is_in_pass {
-            let middle = add_seconds(taken.from, 60.0);
+            let middle = add_seconds(taken.start, 60.0);
             until("the pass", || (client.now().utc > middle).then_some(())).await;
         }
         let favourites = Station::default().favourites.numbers();
@@ -249,7 +250,8 @@ async fn a_unit_that_is_given_another_satellite_is_left_to_whoever_did_it() {
             .await;
         let by = Interruption::Elsewhere;
         until("the suspension", || {
-            let is_that = |of| matches!(of, Operation::Suspended { by: found, .. } if found == by);
+            let is_that =
+                |of| matches!(of, Operation::Suspended { interruption: found, .. } if found == by);
             is_that(operation(&client, id)).then_some(())
         })
         .await;
@@ -269,7 +271,8 @@ async fn an_antenna_that_is_nudged_at_its_panel_is_left_to_whoever_did_it() {
     scene.units.dish.place([x_deg + 0.5, y_deg]);
     let by = Interruption::Elsewhere;
     until("the suspension", || {
-        let is_that = |of| matches!(of, Operation::Suspended { by: found, .. } if found == by);
+        let is_that =
+            |of| matches!(of, Operation::Suspended { interruption: found, .. } if found == by);
         is_that(operation(&client, id)).then_some(())
     })
     .await;
@@ -313,8 +316,10 @@ async fn an_antenna_that_is_turned_while_it_tracks_or_waits_is_left_to_whoever_d
         scene.units.mast.place(place);
         until("the suspension", || {
             let operation = operation(&client, id);
-            let is_suspended =
-                matches!(operation, Operation::Suspended { by: Interruption::Elsewhere, .. });
+            let is_suspended = matches!(
+                operation,
+                Operation::Suspended { interruption: Interruption::Elsewhere, .. }
+            );
             is_suspended.then_some(())
         })
         .await;
@@ -366,7 +371,7 @@ async fn an_antenna_that_is_turned_on_its_way_to_a_pass_is_left_to_whoever_did_i
     until("the suspension", || {
         let operation = operation(&client, id);
         let is_suspended =
-            matches!(operation, Operation::Suspended { by: Interruption::Elsewhere, .. });
+            matches!(operation, Operation::Suspended { interruption: Interruption::Elsewhere, .. });
         is_suspended.then_some(())
     })
     .await;
@@ -464,7 +469,7 @@ async fn a_pass_that_the_unit_tracks_through_another_start_is_taken_over_without
     let (scene, client, id) = scene_of("Dish", |dish| dish.automatic.is_on_at_start = true).await;
     proved(&client, id).await;
     let taken = operation(&client, id).taking().copied().unwrap();
-    until("the pass", || (client.now().utc > add_seconds(taken.from, 60.0)).then_some(())).await;
+    until("the pass", || (client.now().utc > add_seconds(taken.start, 60.0)).then_some(())).await;
     let is_start = |(_, payload): &(_, String)| payload.starts_with("TRACK=");
     let starts =
         |scene: &Scene| scene.units.dish.received().iter().filter(|one| is_start(one)).count();
@@ -487,7 +492,7 @@ async fn a_faulty_unit_raises_an_alarm_and_tracks_once_repaired() {
     scene.units.dish.set_fault(satrak::Fault::Unit(FaultKind::XMotor), true);
     set_automatic(&client, id, true).await;
     let is_told = |kind: &AlarmKind| {
-        matches!(kind, AlarmKind::NotOnItsWay { why: Some(NotReady::Fault), .. })
+        matches!(kind, AlarmKind::NotOnItsWay { reason: Some(NotReady::Fault), .. })
     };
     until("the alarm", || stands(&client, is_told).then_some(())).await;
     assert!(scene.units.all_stand());
@@ -583,7 +588,8 @@ async fn automatic_operation_stays_off_if_anything_changed() {
     // Somebody works on the unit, and leaves it.
     let (scene, client, id) = after_a_crash(|_| {}, nothing).await;
     let since = client.now().utc;
-    let lock_out = LockOut { by: "Ada".to_owned(), reason: "feed off".to_owned(), since };
+    let lock_out =
+        LockOut { operator: "Ada".to_owned(), reason: "feed off".to_owned(), start: since };
     let _ = client.send(Command::Antenna(id, driver::Command::LockOut(lock_out)));
     let is_locked_out = || {
         let snapshot = client.snapshot();
@@ -604,7 +610,7 @@ async fn automatic_operation_stays_off_if_anything_changed() {
 async fn the_rest_of_a_pass_is_taken_after_a_crash_although_passes_are_taken_whole() {
     let in_the_pass = async |_: &Scene, client: &Client, id: AntennaId| {
         until("the proof", || operation(client, id).taking()?.proved_at).await;
-        let from = operation(client, id).taking().unwrap().from;
+        let from = operation(client, id).taking().unwrap().start;
         until("the pass", || (client.now().utc > add_seconds(from, 60.0)).then_some(())).await;
     };
     let (_scene, client, id) = after_a_crash(|_| {}, in_the_pass).await;
@@ -615,9 +621,9 @@ async fn the_rest_of_a_pass_is_taken_after_a_crash_although_passes_are_taken_who
         taking.proved_at.map(|_| taking)
     })
     .await;
-    assert!(taken.pass.1 < crashed_at && crashed_at < taken.until, "{taken:?}");
+    assert!(taken.pass.1 < crashed_at && crashed_at < taken.end, "{taken:?}");
     let (_, of) = until("LOS", || flown(&client).first().cloned()).await;
-    assert!(of.in_beam_s > seconds_between(crashed_at, taken.until) - 120.0, "{of:?}");
+    assert!(of.in_beam_s > seconds_between(crashed_at, taken.end) - 120.0, "{of:?}");
 }
 
 #[tokio::test(start_paused = true)]
@@ -660,7 +666,7 @@ async fn new_settings_end_it_with_an_alarm_and_a_line_and_auto_track_with_it() {
     until("the alarm", || stands(&client, is_that).then_some(())).await;
     until_auto_track(&client, id, false).await;
     let day = client.snapshot().day.clone();
-    assert!(day.iter().any(|line| line.what == DayEvent::SwitchedOff(OffBecause::Changed)));
+    assert!(day.iter().any(|line| line.event == DayEvent::SwitchedOff(OffBecause::Changed)));
     drop(client);
     let scene = scene.started_again(false).await;
     let client = scene.client();
@@ -728,15 +734,15 @@ async fn parking_for_the_end_is_not_taken_over_by_the_pass() {
     let (scene, client, id) = scene_of("Dish", |_| {}).await;
     proved(&client, id).await;
     let taken = operation(&client, id).taking().copied().unwrap();
-    until("the pass", || (client.now().utc > taken.from).then_some(())).await;
+    until("the pass", || (client.now().utc > taken.start).then_some(())).await;
     let _ = client.send(Command::CloseAfter(CloseHow::Park));
     let is_suspended = || {
         let by_hand = Interruption::ByHand;
-        matches!(operation(&client, id), Operation::Suspended { by, .. } if by == by_hand)
+        matches!(operation(&client, id), Operation::Suspended { interruption, .. } if interruption == by_hand)
     };
     until("the suspension", || is_suspended().then_some(())).await;
     until("standstill", || scene.units.all_stand().then_some(())).await;
-    until("LOS", || (client.now().utc > taken.until).then_some(())).await;
+    until("LOS", || (client.now().utc > taken.end).then_some(())).await;
     assert!(is_suspended() && scene.units.all_stand());
 }
 
@@ -760,7 +766,8 @@ async fn a_clock_step_suspends_automatic_operation_first() {
         let sent = sent_to_dish(&scene);
         until("the suspension", || {
             let by = Interruption::Clock;
-            let is_that = |of| matches!(of, Operation::Suspended { by: found, .. } if found == by);
+            let is_that =
+                |of| matches!(of, Operation::Suspended { interruption: found, .. } if found == by);
             is_that(operation(&client, id)).then_some(())
         })
         .await;
@@ -785,7 +792,7 @@ async fn the_rest_of_a_pass_is_taken_once_the_clock_of_the_unit_is_right() {
         (taking.given_up == Some(GivenUp::WouldMiss)).then_some(taking)
     })
     .await;
-    let middle = add_seconds(taken.from, 120.0);
+    let middle = add_seconds(taken.start, 120.0);
     until("the middle", || (client.now().utc > middle).then_some(())).await;
     assert!(scene.units.all_stand());
     scene.units.dish.set_trouble(late, false);
@@ -805,10 +812,10 @@ async fn after_an_outage_over_the_end_of_a_pass_the_next_ones_are_taken() {
         .await;
         proved(&client, id).await;
         let taken = operation(&client, id).taking().copied().unwrap();
-        let before_los = add_seconds(taken.until, -60.0);
+        let before_los = add_seconds(taken.end, -60.0);
         until("the middle", || (client.now().utc > before_los).then_some(())).await;
         scene.units.dish.set_fault(satrak::Fault::Silence, true);
-        let after_los = add_seconds(taken.until, 60.0);
+        let after_los = add_seconds(taken.end, 60.0);
         until("LOS", || (client.now().utc > after_los).then_some(())).await;
         scene.units.dish.set_fault(satrak::Fault::Silence, false);
         until("the next pass", || {
@@ -845,7 +852,7 @@ async fn a_unit_tracks_on_while_the_clock_of_this_computer_is_wrong() {
         until("the schedule", || client.snapshot().schedule.made_at).await;
         proved(&client, id).await;
         let taken = operation(&client, id).taking().copied().unwrap();
-        let high = add_seconds(taken.from, seconds_between(taken.from, taken.until) / 3.0);
+        let high = add_seconds(taken.start, seconds_between(taken.start, taken.end) / 3.0);
         until("the pass", || (client.now().utc > high).then_some(())).await;
         ahead_s.store(by_s, Ordering::Relaxed);
         tokio::time::sleep(Duration::from_secs(90)).await;
@@ -868,7 +875,7 @@ async fn a_track_goes_on_after_a_clock_step_if_a_time_service_keeps_the_clock() 
         until("the schedule", || client.snapshot().schedule.made_at).await;
         proved(&client, id).await;
         let taken = operation(&client, id).taking().copied().unwrap();
-        until("the pass", || (client.now().utc > add_seconds(taken.from, 60.0)).then_some(()))
+        until("the pass", || (client.now().utc > add_seconds(taken.start, 60.0)).then_some(()))
             .await;
         for ahead in [by_s, 0] {
             ahead_s.store(ahead, Ordering::Relaxed);
@@ -889,8 +896,10 @@ async fn a_track_whose_angles_freeze_ends_it() {
     let (scene, client, id) = scene_of("Dish", |_| {}).await;
     proved(&client, id).await;
     let taken = operation(&client, id).taking().copied().unwrap();
-    until("the pass", || (client.snapshot().at.utc > add_seconds(taken.from, 60.0)).then_some(()))
-        .await;
+    until("the pass", || {
+        (client.snapshot().moment.utc > add_seconds(taken.start, 60.0)).then_some(())
+    })
+    .await;
     scene.units.dish.set_fault(satrak::Fault::FrozenAngles, true);
     until("the end", || {
         let is_off = |of| matches!(of, Operation::Off(OffBecause::Safety));

@@ -53,7 +53,7 @@ fn upkeep(client: &Client) -> Vec<DayEvent> {
     let day = client.snapshot().day.clone();
     let is_upkeep =
         |what: &DayEvent| matches!(what, DayEvent::ClockSet { .. } | DayEvent::ClockNotSet { .. });
-    day.iter().map(|line| line.what.clone()).filter(is_upkeep).collect()
+    day.iter().map(|line| line.event.clone()).filter(is_upkeep).collect()
 }
 
 async fn until_seen_ahead(client: &Client, least_s: f64) {
@@ -133,7 +133,7 @@ async fn a_clock_is_not_set_during_a_pass_or_shortly_before_but_after_it() {
         proved(&client, id).await;
         put_ahead(&scene, &client, 8.0).await;
         until_seen_ahead(&client, 7.0).await;
-        let los = client.snapshot().antennas[0].operation.taking().unwrap().until;
+        let los = client.snapshot().antennas[0].operation.taking().unwrap().end;
         until("LOS", || {
             let is_over = client.now().utc >= los;
             assert!(is_over || upkeep(&client).is_empty());

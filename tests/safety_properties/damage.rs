@@ -23,7 +23,7 @@ const RATES: [u32; 6] = [1, 2, 5, 10, 20, 50];
 /// Checks that the shown position is one the axes had since they were asked.
 fn assert_true(scene: &Scene, case: &str) {
     let Some(look) = scene.shown().state.measured else { return };
-    let age_s = (Instant::now() - look.asked).as_secs_f64();
+    let age_s = (Instant::now() - look.requested).as_secs_f64();
     let World { unit, fastest_deg_s, coarse_deg, .. } = &scene.world;
     for (axis, true_deg) in look.axes.iter().zip(unit.axes_deg()) {
         let Some(shown_deg) = axis.angle_deg else { continue };

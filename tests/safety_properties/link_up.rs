@@ -199,7 +199,7 @@ fn turn_out_deg(
     const STEP_DEG: f64 = 0.02;
     let World { bounds, antenna, utc_origin, .. } = &scene.world;
     let clear_deg = |axes_deg| {
-        let clearances = bounds.at(*utc_origin).clearances(bounds.direction(axes_deg));
+        let clearances = bounds.at_time(*utc_origin).clearances(bounds.direction(axes_deg));
         clearances.into_iter().map(|it| it.angle.degrees()).collect::<Vec<_>>()
     };
     let before_deg = clear_deg(axes_deg);
@@ -254,7 +254,7 @@ fn is_way_wide(scene: &Scene, (_, axis, way): (f64, usize, f64), rate_deg_s: f64
     (1..=10).map(|part| ahead_deg * f64::from(part) / 10.0).all(|ahead_deg| {
         let mut axes_deg = at_deg;
         axes_deg[axis] += way * ahead_deg;
-        let nearest = bounds.at(*utc_origin).nearest(bounds.direction(axes_deg));
+        let nearest = bounds.at_time(*utc_origin).nearest(bounds.direction(axes_deg));
         let is_free = nearest.is_none_or(|nearest| nearest.angle.degrees() >= 0.0);
         (from_deg..=to_deg).contains(&axes_deg[axis]) && (ahead_deg < turn_deg || is_free)
     })

@@ -63,7 +63,7 @@ type Tally = Rc<RefCell<BTreeMap<(Kind, &'static str), (f64, Vec<String>)>>>;
 /// `near_deg`: a unit that stands no further from where it was sent has arrived.
 fn is_false(event: &Event, near_deg: f64) -> bool {
     match event {
-        Event::EndedShort { aim, at } => {
+        Event::EndedShort { aim, position: at } => {
             aim.separation(*at).is_none_or(|off| off.degrees() <= near_deg)
         }
         Event::Connected(_)
@@ -125,7 +125,7 @@ fn world(dice: &mut Dice, kind: Kind) -> World {
             }
             _ => {}
         }
-        world.bounds = Bounds::of(&world.station, &world.antenna);
+        world.bounds = Bounds::new(&world.station, &world.antenna);
         if reaches_all(&world) {
             return world;
         }

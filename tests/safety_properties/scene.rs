@@ -190,8 +190,8 @@ impl Scene {
 
     /// Distance of the true direction from the Sun's surroundings, degrees.
     pub(super) fn sun_clearance_deg(&self) -> f64 {
-        let utc = self.shown().state.measured.map_or(self.world.utc_origin, |it| it.at);
-        let clearances = self.world.bounds.at(utc).clearances(self.world.direction());
+        let utc = self.shown().state.measured.map_or(self.world.utc_origin, |it| it.time);
+        let clearances = self.world.bounds.at_time(utc).clearances(self.world.direction());
         let sun = clearances.into_iter().find(|clearance| clearance.barrier == Barrier::Sun);
         sun.map_or(f64::INFINITY, |clearance| clearance.angle.degrees())
     }

@@ -102,7 +102,7 @@ fn damaged(dice: &mut Dice, mut world: World) -> Option<(World, String)> {
     assert!(!loaded.notes.is_empty(), "unnoticed: {damage}");
     world.station = loaded.station;
     world.antenna = world.station.antennas.first()?.clone();
-    world.bounds = Bounds::of(&world.station, &world.antenna);
+    world.bounds = Bounds::new(&world.station, &world.antenna);
     Some((world, damage))
 }
 

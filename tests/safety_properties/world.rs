@@ -113,7 +113,7 @@ impl World {
                     world.outlines.push((outline, margin_deg));
                 }
             }
-            world.bounds = Bounds::of(&world.station, &world.antenna);
+            world.bounds = Bounds::new(&world.station, &world.antenna);
             for _ in 0..200 {
                 if world.place(dice, wish.starts_inside) {
                     return world;
@@ -131,7 +131,7 @@ impl World {
         coarse_deg: f64,
     ) -> Self {
         let (unit, station) = (Arc::new(unit), Station::default());
-        let bounds = Bounds::of(&station, &antenna);
+        let bounds = Bounds::new(&station, &antenna);
         Self {
             make,
             unit,
@@ -160,7 +160,7 @@ impl World {
         }
         let direction = self.bounds.direction(axes_deg);
         let above_deg = direction.elevation_deg() - self.antenna.limits.minimum_elevation_deg;
-        let sky = self.bounds.at(self.utc_origin).above_the_floor().nearest(direction);
+        let sky = self.bounds.at_time(self.utc_origin).above_the_floor().nearest(direction);
         let clear_deg = sky.map_or(90.0, |nearest| nearest.angle.degrees());
         let is_wished = if inside { clear_deg < -0.5 } else { clear_deg > 3.0 };
         above_deg >= 3.0 && is_wished && self.unit.place(axes_deg)

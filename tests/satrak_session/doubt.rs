@@ -3,7 +3,7 @@
 use azel::{
     astro::Angle,
     contract::driver::{Command, Event, Intent},
-    device::{Asked, Motion},
+    device::{Motion, MotionRequest},
 };
 
 use super::{
@@ -59,7 +59,7 @@ async fn a_goto_without_a_reply_that_does_not_move_is_told() {
     assert_eq!(unit.sent("GOTO="), ["GOTO=,125.1,32.6"]);
     let events = unit.events();
     assert!(
-        matches!(events[..], [Event::Unanswered(Asked::Motion(Motion::Position { .. }))]),
+        matches!(events[..], [Event::Unanswered(MotionRequest::Motion(Motion::Position { .. }))]),
         "{events:?}"
     );
     assert_eq!(unit.handle.snapshot().intent, Intent::Standby);
@@ -175,7 +175,7 @@ fn with_pass() -> impl Fn(&str) -> Vec<(u64, String)> + Send {
             let civil = jiff::tz::TimeZone::UTC.to_datetime(time);
             civil.strftime("%-H,%-M,%-S,%-d,%-m,%Y").to_string()
         };
-        format!("START_STOP_TIME?,{},{}", text(iss().from), text(iss().until))
+        format!("START_STOP_TIME?,{},{}", text(iss().start), text(iss().end))
     };
     move |payload| match payload {
         "SATELLITE?" => vec![(10, "SATELLITE?,stations.txt,ISS (ZARYA),1,25544,50.0".to_owned())],

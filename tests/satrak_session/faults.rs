@@ -3,7 +3,7 @@
 use azel::{
     astro::Angle,
     contract::driver::{Command, Event},
-    device::{Asked, Motion},
+    device::{Motion, MotionRequest},
     protocol::satrak::FaultKind,
     sim::satrak::Fault,
 };
@@ -35,7 +35,7 @@ async fn warned() -> Rig {
 }
 
 fn is_refused(event: &Event) -> bool {
-    matches!(event, Event::Refused(Asked::Motion(Motion::Position { .. }), _))
+    matches!(event, Event::Refused(MotionRequest::Motion(Motion::Position { .. }), _))
 }
 
 #[tokio::test(start_paused = true)]

@@ -2,7 +2,7 @@
 
 use azel::{
     astro::{AzEl, sun_moon},
-    contract::driver::{Command, Event, Inside, Refusal, Safety, TrackProblem},
+    contract::driver::{Breach, Command, Event, Refusal, Safety, TrackProblem},
     plan::{Barrier, Bounds, ProgramTrack, Target},
     sim::satrak::Options,
     station::{Station, SunAvoidance, Unread},
@@ -28,7 +28,7 @@ fn direction(rig: &Rig) -> AzEl {
 }
 
 fn within(station: &Station) -> Bounds {
-    Bounds::of(station, &antenna())
+    Bounds::new(station, &antenna())
 }
 
 /// A site with a mast in the antenna's direction, 10 degrees wide and high.
@@ -53,8 +53,8 @@ fn go_to(at: AzEl) -> Command {
     Command::Position { azimuth: Some(at.azimuth), elevation: Some(at.elevation) }
 }
 
-fn mast(may_leave: bool) -> Inside {
-    Inside { barrier: Barrier::KeepOut("mast".into()), unknown_axis: None, may_leave }
+fn mast(may_leave: bool) -> Breach {
+    Breach { barrier: Barrier::KeepOut("mast".into()), unknown_axis: None, may_leave }
 }
 
 /// In Manual, in the middle of a mast that has just been drawn.
@@ -64,7 +64,7 @@ async fn in_a_mast() -> Rig {
     rig.until_event(60, |event| matches!(event, Event::Arrived(_))).await;
     rig.send(Command::Manual);
     rig.handle().keep_within(within(&masted(direction(&rig))));
-    rig.until("inside", 5, |shown| shown.inside == Some(mast(false))).await;
+    rig.until("inside", 5, |shown| shown.breach == Some(mast(false))).await;
     rig.events();
     rig
 }
@@ -95,7 +95,7 @@ async fn out_of_a_keep_out_it_goes_by_hand_slowly_and_by_the_operators_word_alon
     assert_eq!(rig.sent("MOVE="), Vec::<String>::new());
 
     rig.send(Command::AllowWayOut);
-    rig.until("allowed", 2, |shown| shown.inside == Some(mast(true))).await;
+    rig.until("allowed", 2, |shown| shown.breach == Some(mast(true))).await;
     let refused = try_all_keys(&mut rig, 3.0).await;
     assert!(refused.iter().any(|why| matches!(why, Refusal::TooFast { .. })), "{refused:?}");
     assert_eq!(rig.sent("MOVE="), Vec::<String>::new(), "slowly");
@@ -119,18 +119,18 @@ async fn out_of_a_keep_out_it_goes_by_hand_slowly_and_by_the_operators_word_alon
 async fn the_word_for_the_way_out_ends_after_a_minute_and_outside() {
     let mut rig = in_a_mast().await;
     rig.send(Command::AllowWayOut);
-    rig.until("allowed", 2, |shown| shown.inside == Some(mast(true))).await;
+    rig.until("allowed", 2, |shown| shown.breach == Some(mast(true))).await;
     rig.seconds(61.0).await;
-    assert_eq!(rig.shown().inside, Some(mast(false)));
+    assert_eq!(rig.shown().breach, Some(mast(false)));
     let refused = try_all_keys(&mut rig, SLOW_DEG_S).await;
     assert_eq!(refused.len(), 4, "{refused:?}");
 
     rig.send(Command::AllowWayOut);
     rig.handle().keep_within(within(&Station::default()));
-    rig.until("outside", 5, |shown| shown.inside.is_none()).await;
+    rig.until("outside", 5, |shown| shown.breach.is_none()).await;
     rig.handle().keep_within(within(&masted(direction(&rig))));
-    rig.until("inside again", 5, |shown| shown.inside.is_some()).await;
-    assert_eq!(rig.shown().inside, Some(mast(false)), "it may leave, not enter again");
+    rig.until("inside again", 5, |shown| shown.breach.is_some()).await;
+    assert_eq!(rig.shown().breach, Some(mast(false)), "it may leave, not enter again");
 }
 
 /// A unit that points at the Sun, and is then told to avoid it.
@@ -139,7 +139,7 @@ async fn in_the_way_of_the_sun() -> Rig {
     rig.send(go_to(sun_moon::sun(site(), morning())));
     rig.until_event(60, |event| matches!(event, Event::Arrived(_))).await;
     rig.handle().keep_within(within(&sunny()));
-    rig.until("inside", 5, |shown| shown.inside.is_some()).await;
+    rig.until("inside", 5, |shown| shown.breach.is_some()).await;
     rig
 }
 
@@ -159,25 +159,25 @@ async fn an_antenna_that_the_sun_comes_to_is_moved_away_in_one_step_and_never_by
     assert_eq!(rig.sent("GOTO=").len(), 2);
     let way = before.separation(direction(&rig)).degrees();
     assert!((0.5..2.0 * SUN.radius_deg + 1.0).contains(&way), "{way}");
-    rig.until("outside", 5, |shown| shown.inside.is_none()).await;
+    rig.until("outside", 5, |shown| shown.breach.is_none()).await;
     rig.events();
     // The direction stays clear for the time ahead.
     rig.seconds(SUN.ahead_min * 60.0 - 30.0).await;
-    assert_eq!((rig.shown().inside.clone(), rig.events()), (None, Vec::new()));
+    assert_eq!((rig.shown().breach.clone(), rig.events()), (None, Vec::new()));
 }
 
 #[tokio::test(start_paused = true)]
 async fn the_park_position_is_taken_where_it_is_nearer() {
     let mut dish = antenna();
     let sun = sun_moon::sun(site(), morning());
-    let beside = sun.towards(270.0, 5.3);
+    let beside = sun.displaced(270.0, 5.3);
     dish.park.azimuth_deg = beside.azimuth_deg();
     dish.park.elevation_deg = beside.elevation_deg();
     let mut rig = Rig::connected(&Options::new(site(), morning()), &dish).await;
-    rig.send(go_to(sun.towards(270.0, 1.0)));
+    rig.send(go_to(sun.displaced(270.0, 1.0)));
     rig.until_event(60, |event| matches!(event, Event::Arrived(_))).await;
     rig.handle().keep_within(within(&sunny()));
-    rig.until("inside", 5, |shown| shown.inside.is_some()).await;
+    rig.until("inside", 5, |shown| shown.breach.is_some()).await;
     rig.send(Command::MoveAway);
     rig.until_event(60, |event| matches!(event, Event::Arrived(_))).await;
     assert_eq!(rig.shown().intent, azel::contract::driver::Intent::Park);
@@ -203,12 +203,12 @@ async fn the_sun_is_followed_by_the_operators_word_and_the_avoidance_lifted_for_
     let shown = rig.shown();
     let predicted = shown.program_track.as_ref().unwrap().predicted.unwrap().direction;
     assert!(direction(&rig).separation(predicted).degrees() < 0.5, "{predicted:?}");
-    assert_eq!((shown.inside.clone(), shown.sun_lifted), (None, true));
+    assert_eq!((shown.breach.clone(), shown.sun_lifted), (None, true));
     let alarms = rig.events().into_iter().filter(|event| matches!(event, Event::Safety(_)));
     assert_eq!(alarms.collect::<Vec<_>>(), Vec::<Event>::new());
 
     rig.stop();
-    rig.until("inside", 10, |shown| shown.inside.is_some() && !shown.sun_lifted).await;
+    rig.until("inside", 10, |shown| shown.breach.is_some() && !shown.sun_lifted).await;
     rig.send(Command::ProgramTrack(Box::new(follow())));
     rig.until_event(5, |event| matches!(event, Event::CannotProgramTrack(..))).await;
 }
@@ -230,7 +230,7 @@ async fn while_a_keep_out_is_unread_it_moves_slowly_by_hand_and_by_a_hold_alone(
     rig.seconds(1.0).await;
     let not_sent = || Event::NotSent(refused.clone());
     assert_eq!(rig.events(), [not_sent(), not_sent(), not_sent(), not_sent()]);
-    let inside = rig.shown().inside.clone().unwrap();
+    let inside = rig.shown().breach.clone().unwrap();
     assert_eq!(inside.barrier, Barrier::Unread("keep_out[0]".into()));
     rig.send(Command::AllowWayOut);
     rig.seconds(0.1).await;

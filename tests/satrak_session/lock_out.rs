@@ -20,14 +20,17 @@ use super::{
 
 fn lock_out() -> LockOut {
     LockOut {
-        by: "Ada".to_owned(),
+        operator: "Ada".to_owned(),
         reason: "gear box open".to_owned(),
-        since: "2008-09-20T10:00:00Z".parse().unwrap(),
+        start: "2008-09-20T10:00:00Z".parse().unwrap(),
     }
 }
 
 fn refused() -> Event {
-    Event::NotSent(Refusal::LockedOut { by: "Ada".to_owned(), reason: "gear box open".to_owned() })
+    Event::NotSent(Refusal::LockedOut {
+        operator: "Ada".to_owned(),
+        reason: "gear box open".to_owned(),
+    })
 }
 
 /// Locks the unit out and waits for the proof.
@@ -83,8 +86,8 @@ async fn every_command_is_refused_and_nothing_but_questions_and_stop_goes_out() 
     rig.send(Command::Standby);
     let wish = change("general", [("lead_ms", Value::Integer(90_000))]);
     rig.send(Command::WriteSettings(wish));
-    rig.until("refused", 5, |shown| shown.state.held["general"].written.is_some()).await;
-    let written = rig.shown().state.held["general"].written.clone().unwrap();
+    rig.until("refused", 5, |shown| shown.state.groups["general"].written.is_some()).await;
+    let written = rig.shown().state.groups["general"].written.clone().unwrap();
     assert_eq!(written.result, Err(WriteError::LockedOut));
     let asked = rig.sent("GPS_DATA?").len();
     rig.send(Command::Ask("GPS_DATA?".into()));
@@ -132,8 +135,8 @@ async fn a_change_of_settings_that_waits_is_not_sent_any_more() {
     read(&mut rig, "web").await;
     rig.send(Command::WriteSettings(change("web", [("url", text("https://example.org/tle"))])));
     rig.send(Command::LockOut(lock_out()));
-    rig.until("refused", 5, |shown| shown.state.held["web"].written.is_some()).await;
-    let written = rig.shown().state.held["web"].written.clone().unwrap();
+    rig.until("refused", 5, |shown| shown.state.groups["web"].written.is_some()).await;
+    let written = rig.shown().state.groups["web"].written.clone().unwrap();
     assert_eq!(written.result, Err(WriteError::LockedOut));
     assert_eq!(others(&rig), [""; 0]);
 }

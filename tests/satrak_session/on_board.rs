@@ -139,7 +139,7 @@ async fn a_clock_and_offsets_that_miss_are_found_before_the_pass() {
     general(&mut rig, "minimum_elevation_deg", Value::Decimal(30.0)).await;
     assert_eq!(first(&refused(&mut rig).await), Cause::MinimumElevation(30.0));
     general(&mut rig, "minimum_elevation_deg", Value::Decimal(5.0)).await;
-    let ahead = time::add_seconds(iss().from, 3600.0);
+    let ahead = time::add_seconds(iss().start, 3600.0);
     let civil = jiff::tz::TimeZone::UTC.to_datetime(ahead);
     let clock = civil.strftime("TIME=,%-H,%-M,%-S,%-d,%-m,%Y").to_string();
     by_another(&rig, &clock).await;
@@ -158,7 +158,7 @@ async fn a_small_offset_is_told_and_tracked() {
     rig.until_event(10, |event| matches!(event, Event::Tracking(_))).await;
     let shown = rig.shown();
     let found = &shown.on_board.as_ref().unwrap().found;
-    assert!(found.is_within_beam && (found.worst.off.degrees() - 0.2).abs() < 0.05, "{found:?}");
+    assert!(found.is_within_beam && (found.worst.angle.degrees() - 0.2).abs() < 0.05, "{found:?}");
     assert_eq!(first(found), Cause::ElevationOffset(0.2));
     rig.seconds(60.0).await;
     let shown = rig.shown();
@@ -197,12 +197,12 @@ async fn a_path_below_the_antennas_limit_is_refused_with_time_and_place() {
     let mut rig = Rig::connected(&options(), &low).await;
     rig.send(track(iss()));
     let told = rig.until_event(10, |event| matches!(event, Event::NotSent(_))).await;
-    let Event::NotSent(Refusal::Path(Trespass { at, direction, limit })) = told else {
+    let Event::NotSent(Refusal::Path(Trespass { time: at, direction, limit })) = told else {
         panic!("{told:?}")
     };
     let OffLimits::Elevation { lowest_deg } = limit else { panic!("{limit:?}") };
     assert!((lowest_deg - 30.0).abs() < 1e-9);
-    assert!(time::seconds_between(iss().from, at).abs() < 2.0);
+    assert!(time::seconds_between(iss().start, at).abs() < 2.0);
     assert!((direction.elevation_deg() - 10.0).abs() < 0.5);
     rig.seconds(5.0).await;
     assert_eq!(rig.orders(), [] as [&str; 0]);
@@ -212,14 +212,11 @@ async fn a_path_below_the_antennas_limit_is_refused_with_time_and_place() {
     let propagator = Propagator::new(&satellite.elements).unwrap();
     let search = PassSearch {
         aos_elevation: Angle::from_degrees(30.0),
-        ..PassSearch::new(scene::site(), iss().from, iss().until)
+        ..PassSearch::new(scene::site(), iss().start, iss().end)
     };
     let above = passes(&propagator, &search, &|| false)[0];
-    let target = TrackTarget {
-        from: time::add_seconds(above.aos.time, 1.0),
-        until: above.los.time,
-        ..iss()
-    };
+    let target =
+        TrackTarget { start: time::add_seconds(above.aos.time, 1.0), end: above.los.time, ..iss() };
     rig.send(track(target.clone()));
     rig.until_event(10, |event| matches!(event, Event::Tracking(_))).await;
     let mut lowest = AzEl::from_degrees(0.0, 90.0);
@@ -239,7 +236,7 @@ pub(super) fn window(target: &TrackTarget) -> String {
         let civil = jiff::tz::TimeZone::UTC.to_datetime(time);
         civil.strftime("%-H,%-M,%-S,%-d,%-m,%Y").to_string()
     };
-    format!("START_STOP_TIME=,{},{}", text(target.from), text(target.until))
+    format!("START_STOP_TIME=,{},{}", text(target.start), text(target.end))
 }
 
 /// Sets `target` and its window on the unit as another client.
@@ -249,7 +246,7 @@ async fn chosen_by_another(rig: &mut Rig, target: &TrackTarget) {
     let number = target.catalog_number;
     rig.until("it is read", 32, |shown| {
         let told = &shown.state.on_board;
-        told.window.is_some_and(|(from, _)| from.as_second() == target.from.as_second())
+        told.window.is_some_and(|(from, _)| from.as_second() == target.start.as_second())
             && told.satellite.as_ref().is_some_and(|held| held.catalog_number == number)
     })
     .await;
@@ -263,7 +260,7 @@ fn in_the_way() -> Bounds {
     let corners_deg = [(from_deg, 20.0), (to_deg, 20.0), (to_deg, 80.0), (from_deg, 80.0)];
     let mast = crate::common::mast(&corners_deg);
     let station = Station { keep_outs: vec![mast], ..Station::default() };
-    Bounds::of(&station, &antenna())
+    Bounds::new(&station, &antenna())
 }
 
 /// The keep-out is added while the unit tracks a pass that Azel requested.
@@ -283,7 +280,7 @@ async fn an_on_board_track_that_azel_started_stops_before_a_keep_out() {
     assert!(!state.is_moving && !state.is_tracking);
     let bounds = in_the_way();
     let at = AzEl::from_degrees(state.az_deg, state.el_deg);
-    assert_eq!(bounds.at(iss().from).forbids(at), None, "{at:?}");
+    assert_eq!(bounds.at_time(iss().start).forbids(at), None, "{at:?}");
 }
 
 #[tokio::test(start_paused = true)]
@@ -291,9 +288,9 @@ async fn an_on_board_track_whose_angles_freeze_is_stopped() {
     let mut rig = Rig::connected(&options(), &antenna()).await;
     rig.send(track(iss()));
     rig.until_event(10, |event| matches!(event, Event::Tracking(_))).await;
-    let aos = iss().from;
+    let aos = iss().start;
     rig.until("up", 2000, |shown| {
-        shown.state.measured.is_some_and(|it| time::seconds_between(aos, it.at) > 120.0)
+        shown.state.measured.is_some_and(|it| time::seconds_between(aos, it.time) > 120.0)
     })
     .await;
     rig.control.set_fault(Fault::FrozenAngles, true);
@@ -339,7 +336,7 @@ async fn auto_track_of_a_satellite_that_is_not_known_here_is_refused_by_its_name
 #[tokio::test(start_paused = true)]
 async fn a_window_of_years_is_refused_before_it_is_judged() {
     let mut rig = read().await;
-    let years = TrackTarget { until: "2099-12-31T00:00:00Z".parse().unwrap(), ..iss() };
+    let years = TrackTarget { end: "2099-12-31T00:00:00Z".parse().unwrap(), ..iss() };
     chosen_by_another(&mut rig, &years).await;
     let refusal = auto_track_refused(&mut rig).await.to_string();
     assert!(refusal.contains("window") && refusal.contains("hours"), "{refusal}");
@@ -351,7 +348,7 @@ fn stop_waits_for_no_judgement_of_a_path_and_ends_what_waits_for_it() {
     with_one_worker(async {
         let mut rig = read().await;
         let hours =
-            TrackTarget { until: iss().from + jiff::SignedDuration::from_hours(23), ..iss() };
+            TrackTarget { end: iss().start + jiff::SignedDuration::from_hours(23), ..iss() };
         chosen_by_another(&mut rig, &hours).await;
         let before = rig.sent("STOP=").len();
         let held_up = hold_up_workers();
@@ -376,7 +373,7 @@ fn stop_waits_for_no_judgement_of_a_path_and_ends_what_waits_for_it() {
 async fn a_window_that_is_over_leads_nowhere() {
     let mut rig = read().await;
     let hours = jiff::SignedDuration::from_hours(-3);
-    let over = TrackTarget { from: iss().from + hours, until: iss().until + hours, ..twin() };
+    let over = TrackTarget { start: iss().start + hours, end: iss().end + hours, ..twin() };
     chosen_by_another(&mut rig, &over).await;
     rig.send(Command::AutoTrack(true));
     rig.seconds(1.0).await;

@@ -154,7 +154,7 @@ async fn a_motion_that_ends_elsewhere_is_told() {
     // The motor dies on the way, and the unit does not stop it by a command.
     rig.control.set_fault(Fault::Unit(FaultKind::XMotor), true);
     let event = rig.until_event(20, |event| matches!(event, Event::EndedShort { .. })).await;
-    let Event::EndedShort { aim, at } = event else { panic!("{event:?}") };
+    let Event::EndedShort { aim, position: at } = event else { panic!("{event:?}") };
     assert!(aim.separation(at).unwrap().degrees() > 10.0);
     assert!(!rig.shown().pending);
 }

@@ -66,8 +66,8 @@ fn whole(pass: &Pass) -> TrackTarget {
         catalog_number: 25_544,
         name: "ISS (ZARYA)".into(),
         element_file: None,
-        from: pass.aos.time,
-        until: pass.los.time,
+        start: pass.aos.time,
+        end: pass.los.time,
     }
 }
 

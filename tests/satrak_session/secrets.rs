@@ -79,7 +79,7 @@ async fn no_password_is_left_behind() {
         controller: "satrak".to_owned(),
         saved_at: "2026-08-12T11:15:30Z".parse().unwrap(),
     };
-    let copy = SettingsCopy::text(&head, GROUPS, &shown.state.held);
+    let copy = SettingsCopy::text(&head, GROUPS, &shown.state.groups);
     drop(guard);
     let wire: String = all(|from| rig.wire().copy_from(from)).iter().map(line_text).collect();
     assert!(wire.contains("$SATELLITE_FTP=(hidden)") && wire.contains("$SATELLITE_FTP?(hidden)"));

@@ -16,10 +16,10 @@ use super::rig::{Rig, antenna, options};
 pub(super) async fn read(rig: &mut Rig, group: &'static str) -> Values {
     rig.send(Command::ReadGroup(group));
     rig.until(group, 10, |shown| {
-        shown.state.held.get(group).is_some_and(|state| state.held.is_some())
+        shown.state.groups.get(group).is_some_and(|state| state.last_read.is_some())
     })
     .await;
-    rig.shown().state.held[group].held.clone().unwrap().values
+    rig.shown().state.groups[group].last_read.clone().unwrap().values
 }
 
 /// Outcome of writing `change` to the unit.
@@ -28,20 +28,20 @@ pub(super) async fn write_settings(rig: &mut Rig, change: Change) -> Result<(), 
     let (group, ticket) = (change.group, TICKET.fetch_add(1, Ordering::Relaxed));
     rig.send(Command::WriteSettings(Change { ticket, ..change }));
     rig.until("settled", 60, |shown| {
-        let written = shown.state.held.get(group).and_then(|state| state.written.as_ref());
+        let written = shown.state.groups.get(group).and_then(|state| state.written.as_ref());
         written.is_some_and(|written| written.change.ticket == ticket)
     })
     .await;
     let shown = rig.shown();
-    assert_eq!(shown.state.held[group].step, None);
-    shown.state.held[group].written.as_ref().unwrap().result.clone()
+    assert_eq!(shown.state.groups[group].step, None);
+    shown.state.groups[group].written.as_ref().unwrap().result.clone()
 }
 
 pub(super) fn change<const N: usize>(
     group: &'static str,
     values: [(&'static str, Value); N],
 ) -> Change {
-    Change { ticket: 0, group, values: values.into(), seen: None, is_unlocked: false }
+    Change { ticket: 0, group, values: values.into(), expected: None, is_unlocked: false }
 }
 
 pub(super) fn text(text: &str) -> Value {
@@ -51,7 +51,7 @@ pub(super) fn text(text: &str) -> Value {
 /// Value of a field, as the form shows it.
 pub(super) fn shown(rig: &Rig, group: &'static str, field: &'static str) -> String {
     let shown = rig.shown();
-    let held = shown.state.held[group].held.as_ref().unwrap();
+    let held = shown.state.groups[group].last_read.as_ref().unwrap();
     let group = GROUPS.iter().find(|known| known.key == group).unwrap();
     let value = held.values.get(field).unwrap_or_else(|| panic!("{field}: {held:?}"));
     group.field(field).unwrap().kind.text(value)

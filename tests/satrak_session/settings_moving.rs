@@ -33,7 +33,7 @@ async fn an_offset_does_not_move_an_antenna_that_tracks() {
     let before = rig.control.state().el_deg;
     let result = write_settings(&mut rig, elevation_offset(10.0)).await;
     assert_eq!(result, hindered("elevation_offset_deg", Hindrance::Tracks));
-    let why = Refusal::Setting { field: "Elevation offset", why: Hindrance::Tracks };
+    let why = Refusal::Setting { field: "Elevation offset", hindrance: Hindrance::Tracks };
     assert_eq!(rig.events(), [Event::NotSent(why)]);
     rig.seconds(9.0).await;
     let moved = rig.control.state().el_deg - before;
@@ -79,7 +79,7 @@ async fn a_window_is_not_set_while_the_unit_starts_by_itself() {
     rig.send(Command::AutoTrack(true));
     rig.until("auto", 5, |shown| shown.state.program.unwrap().auto == Some(true)).await;
     let window =
-        change("window", [("start", Value::Time(iss().from)), ("stop", Value::Time(iss().until))]);
+        change("window", [("start", Value::Time(iss().start)), ("stop", Value::Time(iss().end))]);
     let result = write_settings(&mut rig, window.clone()).await;
     assert_eq!(result, hindered("start", Hindrance::AutoTrack));
     let twin = change("file", [("file", text("stations.txt")), ("name", text("TWIN"))]);
@@ -97,7 +97,7 @@ async fn a_jog_and_a_stop_under_way_hold_such_a_setting_up() {
     rig.send(Command::WriteSettings(elevation_offset(1.0)));
     rig.hold([1.0, 0.0], 0.3).await;
     let result = |rig: &Rig| {
-        let written = rig.shown().state.held["general"].written.clone();
+        let written = rig.shown().state.groups["general"].written.clone();
         written.map(|written| written.result.clone())
     };
     assert_eq!(result(&rig), Some(hindered("elevation_offset_deg", Hindrance::Moves)));
@@ -121,6 +121,6 @@ async fn what_waits_in_the_queue_is_not_sent_once_the_unit_is_to_track() {
     let orders = rig.orders();
     let start = orders.iter().position(|order| order == "TRACK=,1").unwrap();
     assert!(!orders[start..].iter().any(|order| order.starts_with("SETTINGS=")), "{orders:?}");
-    let last = rig.shown().state.held["general"].written.clone().unwrap();
+    let last = rig.shown().state.groups["general"].written.clone().unwrap();
     assert!(matches!(last.result, Err(WriteError::Hindered { .. })), "{last:?}");
 }

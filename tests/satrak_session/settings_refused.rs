@@ -44,12 +44,12 @@ async fn what_another_client_has_changed_is_not_overwritten() {
     let mut answer = [0; 64];
     let count = near.read(&mut answer).await.unwrap();
     assert!(answer[..count].starts_with(b"$SETTINGS=,OK"));
-    let mine = Change { seen: Some(seen), ..threshold(4.0) };
+    let mine = Change { expected: Some(seen), ..threshold(4.0) };
     assert_eq!(write_settings(&mut rig, mine).await, Err(WriteError::ChangedMeanwhile));
     assert_eq!(shown(&rig, "general", "minimum_elevation_deg"), "7.5", "the new value is shown");
     assert_eq!(shown(&rig, "general", "elevation_threshold_deg"), "2.0", "nothing was sent");
-    let seen = rig.shown().state.held["general"].held.clone().unwrap().values;
-    let again = Change { seen: Some(seen), ..threshold(4.0) };
+    let seen = rig.shown().state.groups["general"].last_read.clone().unwrap().values;
+    let again = Change { expected: Some(seen), ..threshold(4.0) };
     assert_eq!(write_settings(&mut rig, again).await, Ok(()));
 }
 
@@ -57,11 +57,13 @@ async fn what_another_client_has_changed_is_not_overwritten() {
 async fn a_link_lost_in_the_middle_is_told_and_nothing_is_sent_again() {
     let mut rig = Rig::usual().await;
     rig.send(Command::WriteSettings(threshold(4.0)));
-    rig.until("sending", 10, |shown| shown.state.held["general"].step == Some(WriteStep::Sending))
-        .await;
+    rig.until("sending", 10, |shown| {
+        shown.state.groups["general"].step == Some(WriteStep::Sending)
+    })
+    .await;
     rig.set_off(true);
-    rig.until("over", 10, |shown| shown.state.held["general"].written.is_some()).await;
-    let result = rig.shown().state.held["general"].written.as_ref().unwrap().result.clone();
+    rig.until("over", 10, |shown| shown.state.groups["general"].written.is_some()).await;
+    let result = rig.shown().state.groups["general"].written.as_ref().unwrap().result.clone();
     assert_eq!(result, Err(WriteError::LinkLost));
     assert_eq!(write_settings(&mut rig, threshold(5.0)).await, Err(WriteError::NoLink));
     rig.set_off(false);
@@ -78,7 +80,7 @@ async fn a_unit_that_hangs_up_after_a_command_is_read_anew() {
     rig.control.set_fault(Fault::HangUp, false);
     rig.until_up(20).await;
     let held = |shown: &Snapshot| {
-        let held = shown.state.held["general"].held.as_ref().unwrap();
+        let held = shown.state.groups["general"].last_read.as_ref().unwrap();
         held.values["elevation_threshold_deg"] == Value::Decimal(4.0)
     };
     rig.until("read anew", 10, held).await;
@@ -104,7 +106,7 @@ async fn a_lost_answer_is_settled_by_the_read_back() {
         unit.handle.send(Command::WriteSettings(threshold(4.0))).unwrap();
         unit.seconds(10.0).await;
         let shown = unit.handle.snapshot();
-        let written = shown.state.held["general"].written.clone().unwrap();
+        let written = shown.state.groups["general"].written.clone().unwrap();
         assert_eq!(written.result, result);
         assert_eq!(unit.sent("SETTINGS=").len(), 1);
     }
@@ -121,7 +123,7 @@ async fn an_ok_that_changes_nothing_is_no_success() {
     unit.seconds(3.0).await;
     unit.handle.send(Command::WriteSettings(threshold(4.0))).unwrap();
     unit.seconds(3.0).await;
-    let written = unit.handle.snapshot().state.held["general"].written.clone().unwrap();
+    let written = unit.handle.snapshot().state.groups["general"].written.clone().unwrap();
     assert_eq!(written.result, Err(WriteError::Differs(vec!["elevation_threshold_deg"])));
 }
 
@@ -141,12 +143,12 @@ async fn a_slow_source_does_not_stop_the_polling() {
     let wish = change("web", [("url", text("https://example.org/a"))]);
     unit.handle.send(Command::WriteSettings(wish)).unwrap();
     unit.seconds(8.0).await;
-    assert_eq!(unit.handle.snapshot().state.held["web"].step, Some(WriteStep::Sending));
+    assert_eq!(unit.handle.snapshot().state.groups["web"].step, Some(WriteStep::Sending));
     assert!(unit.sent("STATUS?").len() >= before + 8, "the position must not grow old");
     unit.seconds(4.0).await;
     let shown = unit.handle.snapshot();
     assert!(shown.link.is_open());
-    assert_eq!(shown.state.held["web"].written.as_ref().unwrap().result, Ok(()));
+    assert_eq!(shown.state.groups["web"].written.as_ref().unwrap().result, Ok(()));
     assert_eq!(unit.sent("SATELLITE_HTTP=").len(), 1);
 }
 
@@ -176,7 +178,7 @@ async fn metal_that_moves_forbids_service_and_the_clock() {
     rig.send(Command::WriteSettings(service));
     rig.hold([1.0, 0.0], 3.0).await;
     let shown = rig.shown();
-    let written = shown.state.held["reduction"].written.as_ref().unwrap();
+    let written = shown.state.groups["reduction"].written.as_ref().unwrap();
     let moves = WriteError::Hindered { field: "x", hindrance: Hindrance::Moves };
     assert_eq!(written.result, Err(moves));
     assert!(rig.sent("REDUCTION=").is_empty());
@@ -205,7 +207,7 @@ async fn a_stop_overtakes_settings_and_spoils_none() {
     assert!(first - pressed < Duration::from_millis(20), "{:?}", first - pressed);
     for group in ["general", "gps", "web"] {
         let shown = rig.shown();
-        assert_eq!(shown.state.held[group].written.as_ref().unwrap().result, Ok(()), "{group}");
+        assert_eq!(shown.state.groups[group].written.as_ref().unwrap().result, Ok(()), "{group}");
     }
 }
 

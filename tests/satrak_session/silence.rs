@@ -105,7 +105,7 @@ async fn replies_that_are_four_seconds_late_are_never_taken_for_newer_ones() {
         };
         assert!(!matches!(shown.link, LinkState::Up { .. }), "{:?}", shown.link);
         readings.insert(measured.received);
-        assert!(measured.received - measured.asked >= Duration::from_secs(4), "{measured:?}");
+        assert!(measured.received - measured.requested >= Duration::from_secs(4), "{measured:?}");
     }
     assert!(readings.len() > 8, "{}", readings.len());
 }

@@ -144,7 +144,7 @@ async fn a_stop_overtakes_a_peer_that_owes_a_reply() {
     assert!(!rig.control.state().is_moving);
     assert!(is_stopping(rig.shown().stop), "it stands, but that is not known");
     rig.until_event(2, |event| *event == Event::StopNotConfirmed).await;
-    assert_eq!(rig.shown().stop, StopState::NotConfirmed { since });
+    assert_eq!(rig.shown().stop, StopState::NotConfirmed { start: since });
     let waited = (Instant::now() - pressed).as_secs_f64();
     assert!((3.0..3.1).contains(&waited), "{waited}");
     assert!(rig.sent("STOP=").len() >= 3, "a stop is repeated until proved");
@@ -297,7 +297,7 @@ async fn pressing_again_does_not_put_off_the_warning() {
     rig.until_event(1, |event| *event == Event::StopNotConfirmed).await;
     let waited_s = (Instant::now() - since).as_secs_f64();
     assert!((3.0..3.1).contains(&waited_s), "{waited_s}");
-    assert_eq!(rig.shown().stop, StopState::NotConfirmed { since });
+    assert_eq!(rig.shown().stop, StopState::NotConfirmed { start: since });
     assert!(rig.sent("STOP=").len() >= 6);
 }
 

@@ -18,7 +18,7 @@ fn window_of(target: &TrackTarget) -> String {
         let civil = jiff::tz::TimeZone::UTC.to_datetime(time);
         civil.strftime("%-H,%-M,%-S,%-d,%-m,%Y").to_string()
     };
-    format!("START_STOP_TIME=,{},{}", text(target.from), text(target.until))
+    format!("START_STOP_TIME=,{},{}", text(target.start), text(target.end))
 }
 
 /// Frames of a track in their order, without the polling around them.
@@ -123,11 +123,11 @@ async fn a_name_that_the_protocol_cannot_carry_is_told() {
 async fn a_pass_at_another_time_is_refused_for_where_it_leads() {
     let mut rig = Rig::usual().await;
     let hour = SignedDuration::from_hours(1);
-    let over = TrackTarget { from: iss().from - hour, until: iss().until - hour, ..iss() };
+    let over = TrackTarget { start: iss().start - hour, end: iss().end - hour, ..iss() };
     rig.send(track(over));
     let told = rig.until_event(10, |event| matches!(event, Event::WouldMiss { .. })).await;
     let Event::WouldMiss { found, .. } = told else { panic!("{told:?}") };
-    assert!(found.worst.off.degrees() > 10.0, "the satellite is below the horizon: {found:?}");
+    assert!(found.worst.angle.degrees() > 10.0, "the satellite is below the horizon: {found:?}");
     assert_eq!((rig.shown().intent, rig.orders()), (Intent::Standby, vec![]));
     rig.seconds(5.0).await;
     assert!(!rig.control.state().is_moving);
@@ -244,7 +244,7 @@ async fn a_unit_that_starts_to_track_by_itself_is_told_once_and_can_be_stopped()
 #[tokio::test(start_paused = true)]
 async fn on_the_way_to_a_pass_the_antenna_keeps_above_its_minimum_elevation() {
     let target = from_the_west();
-    let early = target.from - SignedDuration::from_mins(3);
+    let early = target.start - SignedDuration::from_mins(3);
     let early = Options { utc_origin: early, ..options() };
     let mut went_first = 0;
     for azimuth_deg in (5..360).step_by(15) {

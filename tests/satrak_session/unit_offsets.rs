@@ -86,7 +86,7 @@ async fn steps_are_written_read_back_and_then_shown() {
     rig.seconds(60.0).await;
     let view = rig.shown().on_board.clone().unwrap();
     assert_eq!(view.missing, None, "it is expected beside its satellite");
-    assert!((view.found.worst.off.degrees() - 0.1).abs() < 0.02, "of the unit alone: {view:?}");
+    assert!((view.found.worst.angle.degrees() - 0.1).abs() < 0.02, "of the unit alone: {view:?}");
     offset(&rig, OffsetChange::Undo);
     until_added(&mut rig, with(&[azimuth(0.2)])).await;
     offset(&rig, OffsetChange::Undo);
@@ -173,7 +173,7 @@ fn keep_out(above_deg: [f64; 2]) -> Bounds {
     let corners_deg =
         [(from_deg, low_deg), (to_deg, low_deg), (to_deg, high_deg), (from_deg, high_deg)];
     let keep_outs = vec![crate::common::mast(&corners_deg)];
-    Bounds::of(&Station { keep_outs, ..Station::default() }, &antenna())
+    Bounds::new(&Station { keep_outs, ..Station::default() }, &antenna())
 }
 
 async fn until_forbidden(rig: &mut Rig) {

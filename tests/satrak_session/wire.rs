@@ -57,7 +57,7 @@ async fn both_directions_are_recorded_in_order_with_time_and_round_trip() {
     let received: Vec<String> = rig.payloads();
     let payload = |frame: &String| frame[1..frame.len() - 3].to_owned();
     assert_eq!(sent.iter().map(payload).collect::<Vec<_>>(), received);
-    assert!(lines.windows(2).all(|pair| pair[0].at <= pair[1].at));
+    assert!(lines.windows(2).all(|pair| pair[0].time <= pair[1].time));
     for line in &lines {
         assert_eq!(line.finding, Finding::Good, "{}", line_text(line));
         assert_eq!(line.length, line.bytes.len());

@@ -50,22 +50,22 @@ fn losses() -> impl Iterator<Item = LinkLoss> {
 fn links(model: &Model) -> Vec<LinkState> {
     let at = rig::ago(model, LOST.as_secs());
     let usual = successors(Some(LinkState::Off), |link| match link {
-        LinkState::Off => Some(LinkState::Connecting { since: at }),
-        LinkState::Connecting { .. } => Some(LinkState::Up { since: at }),
+        LinkState::Off => Some(LinkState::Connecting { start: at }),
+        LinkState::Connecting { .. } => Some(LinkState::Up { start: at }),
         LinkState::Up { .. } => Some(LinkState::Stale { as_of: model.steady - AGE }),
         LinkState::Stale { .. } | LinkState::Lost { .. } => None,
     });
     let retry_at = rig::soon(model);
-    let lost = losses().map(|reason| LinkState::Lost { since: at, reason, retry_at });
+    let lost = losses().map(|reason| LinkState::Lost { start: at, reason, retry_at });
     usual.chain(lost).collect()
 }
 
 fn stops(model: &Model) -> impl Iterator<Item = StopState> {
     let since = rig::ago(model, AGE.as_secs());
     successors(Some(StopState::Ready), move |stop| match stop {
-        StopState::Ready => Some(StopState::Stopping { since }),
-        StopState::Stopping { .. } => Some(StopState::Stopped { at: since }),
-        StopState::Stopped { .. } => Some(StopState::NotConfirmed { since }),
+        StopState::Ready => Some(StopState::Stopping { start: since }),
+        StopState::Stopping { .. } => Some(StopState::Stopped { time: since }),
+        StopState::Stopped { .. } => Some(StopState::NotConfirmed { start: since }),
         StopState::NotConfirmed { .. } => None,
     })
 }
@@ -114,7 +114,8 @@ fn reasons() -> impl Iterator<Item = OffBecause> {
 
 fn operations() -> Vec<Operation> {
     let off = reasons().map(Operation::Off);
-    let suspended = interruptions().map(|by| Operation::Suspended { by, since: rig::now() });
+    let suspended =
+        interruptions().map(|by| Operation::Suspended { interruption: by, start: rig::now() });
     off.chain(suspended)
         .chain([automatic::on(&Doing::Rests), automatic::on(&Doing::Parks)])
         .collect()

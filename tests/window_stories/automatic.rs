@@ -37,7 +37,7 @@ pub(crate) fn on(doing: &Doing) -> Operation {
 }
 
 fn suspended(by: Interruption) -> Operation {
-    Operation::Suspended { by, since: rig::now() }
+    Operation::Suspended { interruption: by, start: rig::now() }
 }
 
 /// Three antennas, of which the first has this operation and a plan.
@@ -46,7 +46,7 @@ pub(crate) fn scene(operation: Operation) -> Model {
     model.shown_mut().schedule = Arc::new(plan::planned(&model));
     // The pass that is up is not its own.
     let schedule = &mut Arc::make_mut(&mut model.shown_mut().schedule).schedule;
-    schedule.entries.retain(|entry| entry.from > rig::now());
+    schedule.entries.retain(|entry| entry.start > rig::now());
     model.shown_mut().antennas[0].operation = operation;
     model
 }
@@ -152,7 +152,7 @@ fn a_chip_keeps_its_tag_while_the_unit_does_not_answer() {
     let mut model = scene(on(&Doing::Rests));
     let since = rig::ago(&model, 14);
     Arc::make_mut(&mut model.shown_mut().antennas[0].snapshot).link =
-        LinkState::Lost { since, reason: LinkLoss::Closed, retry_at: since };
+        LinkState::Lost { start: since, reason: LinkLoss::Closed, retry_at: since };
     let window = rig::window(SMALL, model);
     assert_eq!(tags(&window), 2);
     assert!(painted::texts(&window).iter().any(|text| text == "14 s ago"));

@@ -9,7 +9,7 @@ use azel::{
         driver::{Intent, LinkLoss, LinkState, Snapshot, StopState},
     },
     controller::satrak::checks,
-    device::{Asked, Motion},
+    device::{Motion, MotionRequest},
     engine::alarms::KeepAlarms,
     model::{Model, ThemeName, UiCommand, View},
     station::{AntennaId, Note, NoteReason},
@@ -96,7 +96,7 @@ fn alarms_are_told_in_words_with_their_antenna() {
             "Satrak: the jog was stopped because the window did not renew it",
         ),
         (
-            AlarmKind::Refused(Asked::Motion(Motion::StartProgram), "ERR,7".to_owned()),
+            AlarmKind::Refused(MotionRequest::Motion(Motion::StartProgram), "ERR,7".to_owned()),
             "Track: Satrak answered ERR,7",
         ),
         (AlarmKind::Check(checks(None)[7].clone()), "Satrak: X motor. Do not move X"),
@@ -291,12 +291,12 @@ fn no_antenna_is_to_be_set_up_over_a_station_file_that_could_not_be_read() {
 #[test]
 fn a_chip_says_in_words_how_its_link_stands() {
     let now = Instant::now();
-    let lost = LinkState::Lost { since: now, reason: LinkLoss::Silent, retry_at: now };
+    let lost = LinkState::Lost { start: now, reason: LinkLoss::Silent, retry_at: now };
     for size in rig::sizes() {
         for (link, wanted) in [
             (LinkState::Off, "Satrak: Not connected, link off"),
-            (LinkState::Connecting { since: now }, "Satrak: Connecting, link off"),
-            (LinkState::Up { since: now }, "Satrak: Holding, link live"),
+            (LinkState::Connecting { start: now }, "Satrak: Connecting, link off"),
+            (LinkState::Up { start: now }, "Satrak: Holding, link live"),
             (LinkState::Stale { as_of: now }, "Satrak: Late, 0.0 s ago, link late"),
             (lost.clone(), "Satrak: No reply 0.0 s, link lost"),
         ] {
@@ -338,8 +338,11 @@ fn a_chip_says_what_its_antenna_does() {
         (states::tracking(0.0), "Tracking"),
         (states::moving(), "Moving"),
         (Snapshot { jog: Some([0.5, 0.0]), ..states::moving() }, "Jogging"),
-        (Snapshot { stop: StopState::Stopping { since }, ..states::tracking(0.0) }, "Stopping"),
-        (Snapshot { stop: StopState::Stopped { at: since }, ..states::holding() }, "Stopped"),
+        (
+            Snapshot { stop: StopState::Stopping { start: since }, ..states::tracking(0.0) },
+            "Stopping",
+        ),
+        (Snapshot { stop: StopState::Stopped { time: since }, ..states::holding() }, "Stopped"),
         (rig::quiet(), "Reading"),
     ] {
         let window = rig::window(rig::LARGE, rig::model(snapshot));
@@ -413,7 +416,7 @@ fn off_target(selected: usize) -> Model {
     (second.name, second.id) = ("Mast".to_owned(), AntennaId(2));
     model.shown_mut().antennas.push(rig::antenna(second, states::holding()));
     model.selected_antenna = selected;
-    let off = AlarmKind::OffTarget { off: Angle::from_degrees(2.0), cause: None };
+    let off = AlarmKind::OffTarget { deviation: Angle::from_degrees(2.0), cause: None };
     let now = model.now;
     model.shown_mut().alarms.raise(Some(AntennaId::FIRST), off, now);
     model

@@ -168,8 +168,8 @@ fn an_answer_that_means_nothing_is_not_offered() {
         assert!(window.query_by_label("Close and let it finish").is_none());
 
         let mut owed = states::holding();
-        owed.stop = StopState::NotConfirmed { since: azel::clock::Instant::now() };
-        owed.link = LinkState::Connecting { since: azel::clock::Instant::now() };
+        owed.stop = StopState::NotConfirmed { start: azel::clock::Instant::now() };
+        owed.link = LinkState::Connecting { start: azel::clock::Instant::now() };
         let window = asked_about(size, rig::model(owed));
         assert!(rig::says(&window, "STOP of Satrak is not confirmed."));
         assert!(window.query_by_label("Close and park").is_none(), "there is no link");

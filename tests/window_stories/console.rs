@@ -25,7 +25,7 @@ pub(crate) fn wire(second: f64, direction: Direction, payload: &str) -> WireLine
     let bytes = encode(payload);
     let is_reply = direction == Direction::Received;
     WireLine {
-        at: add_seconds(rig::now(), second),
+        time: add_seconds(rig::now(), second),
         direction,
         length: bytes.len(),
         meaning: Some(satrak::meaning(direction, &bytes)),

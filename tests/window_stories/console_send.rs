@@ -125,7 +125,7 @@ fn without_a_link_nothing_is_sent() {
     let since = Instant::now();
     let reason = LinkLoss::Silent;
     let mut snapshot = states::holding();
-    snapshot.link = LinkState::Lost { since, reason, retry_at: since };
+    snapshot.link = LinkState::Lost { start: since, reason, retry_at: since };
     let mut model = rig::model(snapshot);
     model.view = View::Console;
     let mut window = rig::window(SMALL, model);

@@ -4,7 +4,7 @@ use azel::{
     astro::{Angle, time::add_seconds},
     clock::Instant,
     contract::driver::{Command, Intent, LinkState, Snapshot, position_for},
-    device::{Asked, LastSatellite, Motion},
+    device::{LastSatellite, Motion, MotionRequest},
     model::UiCommand,
     station::AntennaId,
 };
@@ -338,7 +338,7 @@ fn without_a_known_fault_the_card_says_why_motion_is_locked() {
     };
     for (link, wanted) in [
         (LinkState::Stale { as_of: steady }, "Locked: the unit answers late."),
-        (LinkState::Up { since: steady }, "Locked: the unit reports a fault without naming it."),
+        (LinkState::Up { start: steady }, "Locked: the unit reports a fault without naming it."),
     ] {
         for size in rig::sizes() {
             let mut model = rig::model(unnamed(link.clone()));
@@ -378,8 +378,8 @@ fn a_unit_that_answers_late_or_not_at_all_locks_every_motion_with_that_reason() 
 
 #[test]
 fn a_control_is_locked_from_the_moment_at_which_the_gate_refuses() {
-    let jog = Asked::Motion(Motion::Jog { x_deg_s: 0.5, y_deg_s: 0.0 });
-    let go_to = Asked::Motion(Motion::Position { azimuth: None, elevation: None });
+    let jog = MotionRequest::Motion(Motion::Jog { x_deg_s: 0.5, y_deg_s: 0.0 });
+    let go_to = MotionRequest::Motion(Motion::Position { azimuth: None, elevation: None });
     for position_s in 0..12 {
         let mut model = rig::model(states::manual());
         states::is_late(&mut model, position_s.min(2), position_s);

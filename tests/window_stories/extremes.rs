@@ -220,7 +220,7 @@ fn a_lost_link_locks_what_cannot_be_sent_and_says_why() {
     for size in SIZES {
         let mut model = rig::model(rig::quiet());
         let (since, retry_at) = (rig::ago(&model, 42), model.steady);
-        let link = LinkState::Lost { since, reason: LinkLoss::Silent, retry_at };
+        let link = LinkState::Lost { start: since, reason: LinkLoss::Silent, retry_at };
         let config = model.station.antennas[0].clone();
         model.shown_mut().antennas =
             vec![rig::antenna(config, Snapshot { link, ..states::tracking(0.0) })];

@@ -114,7 +114,7 @@ fn the_sentence_predicts_the_arrival_on_target() {
     ] {
         let snapshot = Arc::make_mut(&mut model.shown_mut().antennas[0].snapshot);
         if let Some(view) = &mut snapshot.program_track {
-            view.on_path = Some(OnPath::OnItsWay { until });
+            view.on_path = Some(OnPath::OnItsWay { arrival: until });
         }
         assert_eq!(states::sentence(&model), wanted);
     }
@@ -226,7 +226,7 @@ fn the_selected_pass_and_the_later_ones_are_followed() {
 /// Commands after choosing this entry of the menu beside Track.
 fn chosen(size: [f32; 2], antenna: Antenna, entry: &str) -> Vec<UiCommand> {
     let mut snapshot = states::holding();
-    snapshot.link = LinkState::Up { since: Instant::now() };
+    snapshot.link = LinkState::Up { start: Instant::now() };
     snapshot.state.motion_lock = Some(false);
     let mut model = rig::model(rig::quiet());
     model.shown_mut().antennas = vec![rig::antenna(antenna, snapshot)];

@@ -41,7 +41,7 @@ fn click_the_south(window: &mut Window) -> Pointing {
 /// The session answers.
 fn answer(window: &mut Window, to: Pointing, way: Result<Way, Refusal>) {
     let shown = &mut window.state_mut().model.shown_mut().antennas[0].snapshot;
-    let preview = Some(Arc::new(Preview { to, way }));
+    let preview = Some(Arc::new(Preview { target: to, way }));
     *shown = Arc::new(Snapshot { preview, ..Snapshot::clone(shown) });
     settle(window);
 }

@@ -8,7 +8,7 @@ use azel::{
         self,
         alarms::AlarmKind,
         driver::{
-            Command, Event, Inside, Intent, LeftMoving, Mover, Refusal, Response, Safety, Snapshot,
+            Breach, Command, Event, Intent, LeftMoving, Mover, Refusal, Response, Safety, Snapshot,
             StopState,
         },
     },
@@ -61,9 +61,9 @@ fn who_sees_an_antenna_stand_says_so_by_holding() {
     for size in rig::sizes() {
         let since = states::moving().state.measured.unwrap().received;
         let not_confirmed =
-            Snapshot { stop: StopState::NotConfirmed { since }, ..states::moving() };
+            Snapshot { stop: StopState::NotConfirmed { start: since }, ..states::moving() };
         let left = Snapshot {
-            left_moving: Some(LeftMoving { since: Some(rig::now()) }),
+            left_moving: Some(LeftMoving { start: Some(rig::now()) }),
             ..states::holding()
         };
         for (snapshot, why) in [
@@ -87,15 +87,15 @@ const OUT: &str = "Hold 1 s to move out by hand";
 const INTO_SUN: &str = "Hold 1 s to follow the Sun";
 
 fn inside(barrier: Barrier, may_leave: bool) -> Snapshot {
-    Snapshot { inside: Some(Inside { barrier, unknown_axis: None, may_leave }), ..states::manual() }
+    Snapshot { breach: Some(Breach { barrier, unknown_axis: None, may_leave }), ..states::manual() }
 }
 
 #[test]
 fn a_motion_that_cannot_be_checked_is_allowed_by_holding_only() {
     let unknown = |may_leave| {
         let barrier = Barrier::KeepOut("mast".into());
-        let inside = Some(Inside { barrier, unknown_axis: Some("Az"), may_leave });
-        Snapshot { inside, ..states::manual() }
+        let inside = Some(Breach { barrier, unknown_axis: Some("Az"), may_leave });
+        Snapshot { breach: inside, ..states::manual() }
     };
     let hold_unchecked = "Hold 1 s to move unchecked";
     for size in rig::sizes() {
@@ -201,7 +201,7 @@ fn an_alarm_about_the_sun_offers_to_move_away_in_one_step() {
         let mut window = alarmed(inside(Barrier::Sun, false));
         window.get_by_label(near).click();
         assert_eq!(asked(&mut window), [UiCommand::antenna(AntennaId(1), Command::MoveAway)]);
-        let moving = Snapshot { inside: inside(Barrier::Sun, false).inside, ..states::moving() };
+        let moving = Snapshot { breach: inside(Barrier::Sun, false).breach, ..states::moving() };
         for other in [moving, states::manual()] {
             assert!(alarmed(other).query_by_label(near).is_none());
         }
@@ -215,7 +215,8 @@ fn a_keep_out_is_told_of_with_its_reason() {
     let reason = "Steel mast, 24 m away".to_owned();
     Arc::make_mut(&mut model.shown_mut().station).keep_outs = vec![KeepOut { reason, ..mast }];
     let barrier = || Barrier::KeepOut("mast".into());
-    let refusal = Refusal::Forbidden { barrier: barrier(), at: AzEl::from_degrees(90.0, 20.0) };
+    let refusal =
+        Refusal::Forbidden { barrier: barrier(), direction: AzEl::from_degrees(90.0, 20.0) };
     model.shown_mut().antennas[0].news = Some((Event::NotSent(refusal), rig::now()));
     let told = Safety::Forbidden {
         barrier: barrier(),
@@ -244,7 +245,7 @@ fn an_action_whose_end_nobody_here_knows_is_started_by_holding_only() {
         model.shown_mut().antennas = vec![rig::antenna(dish.clone(), states::holding())];
         model.shown_mut().antennas[0].asks_unseen = Some(act.clone());
         let mut window = rig::window(size, model);
-        assert!(says(&window, action.about));
+        assert!(says(&window, action.description));
         window.get_by_label(UNSEEN).click();
         assert_eq!(asked(&mut window), [], "a click is no hold");
         hold(&mut window, UNSEEN);

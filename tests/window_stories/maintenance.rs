@@ -31,7 +31,7 @@ const TAKE_OFF: &str = "Hold 1 s to remove the lock-out";
 
 fn lock_out() -> LockOut {
     let since = "2026-08-12T09:30:00Z".parse().unwrap();
-    LockOut { by: "Ada".to_owned(), reason: "gear box open".to_owned(), since }
+    LockOut { operator: "Ada".to_owned(), reason: "gear box open".to_owned(), start: since }
 }
 
 /// `snapshot` with a lock-out.
@@ -70,7 +70,7 @@ fn a_name_and_a_reason_are_needed_and_then_a_second() {
             settle(&mut window);
             assert!(is_possible(&window));
             hold(&mut window, HOLD);
-            let wanted = LockOut { since: rig::now(), ..lock_out() };
+            let wanted = LockOut { start: rig::now(), ..lock_out() };
             assert_eq!(
                 asked(&mut window),
                 [UiCommand::antenna(AntennaId(1), Command::LockOut(wanted))]
@@ -240,7 +240,7 @@ fn another_address_in_the_settings_is_locked_out_as_well() {
     };
     step_until(&mut window, "the new address is used", is_moved);
     let snapshot = Arc::clone(&window.state().model().antenna().unwrap().snapshot);
-    let by = snapshot.lock_out.as_ref().map(|lock_out| lock_out.by.as_str());
+    let by = snapshot.lock_out.as_ref().map(|lock_out| lock_out.operator.as_str());
     assert!(by.is_none_or(|by| by == "Ada"), "{by:?}");
     step_until(&mut window, "it is locked out too", is_locked);
     let file = std::fs::read_to_string(folder.path().join("lock-outs.toml")).unwrap();
@@ -256,7 +256,7 @@ fn a_list_that_cannot_be_read_locks_out_everything_and_says_so() {
     std::fs::write(folder.path().join("lock-outs.toml"), "version = 1\n[[lock").unwrap();
     let mut window = open(&path, clock_from(utc));
     let snapshot = &window.state().model().antenna().unwrap().snapshot;
-    assert_eq!(snapshot.lock_out.as_ref().unwrap().by, "Azel", "from the first frame");
+    assert_eq!(snapshot.lock_out.as_ref().unwrap().operator, "Azel", "from the first frame");
     let alarms: Vec<String> = window
         .state()
         .model()

@@ -25,7 +25,7 @@ fn window(size: [f32; 2]) -> Window {
     rig::window(size, rig::model(states::holding()))
 }
 
-fn meteor(window: &Window) -> azel::contract::passes::PassKey {
+fn meteor(window: &Window) -> azel::contract::passes::PassListKey {
     let model = &window.state().model;
     let mut passes = model.pass_lists.favourites.passes.iter();
     let is_it = |pass: &&azel::contract::passes::PredictedPass| {

@@ -59,7 +59,7 @@ fn notifications_sounds_and_quiet_hours_are_set() {
         write(&mut window, "Quiet from", "21:30");
         let notices = save(&mut window).notices;
         let quiet =
-            HoursOfDay { from: HoursOfDay::read_time("21:30").unwrap(), ..HoursOfDay::NIGHT };
+            HoursOfDay { start: HoursOfDay::read_time("21:30").unwrap(), ..HoursOfDay::NIGHT };
         let wanted = Notices { sounds: false, quiet: Some(quiet), ..Notices::default() };
         assert_eq!(notices, wanted);
     }

@@ -14,7 +14,7 @@ use azel::{
     },
     device::settings::WriteError,
     model::UiCommand,
-    station::{AntennaId, OffsetsOf},
+    station::{AntennaId, OffsetsSubject},
     ui::words,
 };
 use egui::{Key, Modifiers, Role};
@@ -115,13 +115,17 @@ fn they_are_remembered_of_the_satellite_or_the_antenna() {
     let on = with(&[Offset::Along(deg(0.2)), Offset::Elevation(deg(0.3))]);
     for size in rig::sizes() {
         let mut window = opened(size, on, "Offsets: along +0.20°, el +0.30°");
-        let keep = |of| UiCommand::Station(contract::Command::KeepOffsets { of, offsets: on });
+        let keep =
+            |of| UiCommand::Station(contract::Command::KeepOffsets { subject: of, offsets: on });
         let of_satellite = "Remember time, along and across the track for NOAA 20";
-        assert_eq!(click(&mut window, of_satellite), [keep(OffsetsOf::Satellite(rig::NOAA_20))]);
+        assert_eq!(
+            click(&mut window, of_satellite),
+            [keep(OffsetsSubject::Satellite(rig::NOAA_20))]
+        );
         let of_antenna = "Remember azimuth and elevation for Mast";
-        assert_eq!(click(&mut window, of_antenna), [keep(OffsetsOf::Antenna(AntennaId(1)))]);
+        assert_eq!(click(&mut window, of_antenna), [keep(OffsetsSubject::Antenna(AntennaId(1)))]);
         let station = std::sync::Arc::make_mut(&mut window.state_mut().model.shown_mut().station);
-        station.keep_offsets(OffsetsOf::Antenna(AntennaId(1)), on);
+        station.keep_offsets(OffsetsSubject::Antenna(AntennaId(1)), on);
         settle(&mut window);
         assert_eq!(click(&mut window, &format!("{of_antenna}: remembered already")), []);
     }
@@ -171,7 +175,7 @@ fn without_a_link_they_are_shown_and_locked_with_the_reason() {
     let mut model = following::tracking(with(&[Offset::Azimuth(deg(0.5))]));
     let steady = model.steady;
     let snapshot = std::sync::Arc::make_mut(&mut model.shown_mut().antennas[0].snapshot);
-    snapshot.link = LinkState::Connecting { since: steady };
+    snapshot.link = LinkState::Connecting { start: steady };
     let mut window = rig::window(SIZES[1], model);
     window.get_by_role_and_label(Role::Button, "Offsets: az +0.50°").click();
     settle(&mut window);
@@ -256,7 +260,7 @@ fn offsets_that_were_left_on_the_unit_are_taken_back_with_one_click() {
         ..states::holding()
     };
     for left in [
-        LeftOffsets::Found { since: rig::now() },
+        LeftOffsets::Found { start: rig::now() },
         LeftOffsets::Failed(WriteError::Refused("ERR,4".to_owned())),
         LeftOffsets::Refused(Refusal::PassUnknown),
     ] {
@@ -265,8 +269,11 @@ fn offsets_that_were_left_on_the_unit_are_taken_back_with_one_click() {
             assert!(rig::says(&window, "Left on the unit: az +0.20°."));
             assert_eq!(click(&mut window, "Take back az +0.20°"), [change(OffsetChange::Zero)]);
         }
-        let said =
-            words::alarm(&AlarmKind::OffsetsLeft { offsets: added, why: left }, "Dish", rig::now());
+        let said = words::alarm(
+            &AlarmKind::OffsetsLeft { offsets: added, reason: left },
+            "Dish",
+            rig::now(),
+        );
         assert!(said.starts_with("The unit of Dish ") && said.contains("az +0.20°"), "{said}");
     }
 }

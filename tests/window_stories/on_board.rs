@@ -41,12 +41,12 @@ use crate::window_stories::{
 fn elsewhere(off_deg: f64) -> Ranked {
     let place = Place { latitude_deg: 12.3, longitude_deg: 45.6, step_deg: 0.01 };
     let off = Some(Angle::from_degrees(off_deg));
-    Ranked { cause: Cause::Place { place, away_km: 1596.1 }, off }
+    Ranked { cause: Cause::Place { place, away_km: 1596.1 }, max_error: off }
 }
 
 pub(crate) fn found(off_deg: f64) -> Supervision {
     Supervision {
-        worst: Error { off: Angle::from_degrees(off_deg), at: rig::now() },
+        worst: Error { angle: Angle::from_degrees(off_deg), time: rig::now() },
         is_within_beam: off_deg < 0.44,
         causes: vec![elsewhere(off_deg)],
         unknown: vec![Unknown::Elements],
@@ -63,7 +63,7 @@ pub(crate) fn told(found: Supervision) -> Snapshot {
 #[test]
 fn the_cause_of_an_error_goes_once_the_antenna_is_measured_within_its_beam() {
     let cause = pass_report::Cause::ElevationOffset { offset_deg: 2.0 };
-    let causes = vec![Explanation { cause, left_deg: 0.01, share: 0.9, with: None }];
+    let causes = vec![Explanation { cause, left_deg: 0.01, share: 0.9, partner: None }];
     let says_cause = |off_deg: f64, error_deg: f64| {
         let mut model = rig::model(states::tracking(off_deg));
         model.shown_mut().antennas[0].explained =
@@ -120,11 +120,13 @@ fn the_minimum_of_the_station_is_filled_in_to_be_applied() {
 #[test]
 fn a_missed_satellite_is_told_with_the_likeliest_cause() {
     let off = Angle::from_degrees(23.04);
-    let missed =
-        AlarmKind::OffTarget { off, cause: Some(OffTargetCause::Reported(elsewhere(23.0))) };
+    let missed = AlarmKind::OffTarget {
+        deviation: off,
+        cause: Some(OffTargetCause::Reported(elsewhere(23.0))),
+    };
     let said = words::alarm(&missed, "Satrak", rig::now());
     assert!(said.starts_with("Satrak is 23.0° off its satellite. The unit's location is 1596 km"));
-    let unexplained = AlarmKind::OffTarget { off, cause: None };
+    let unexplained = AlarmKind::OffTarget { deviation: off, cause: None };
     let said = words::alarm(&unexplained, "Satrak", rig::now());
     assert!(said.contains("check its drives, and the age of its elements"), "{said}");
 }

@@ -409,7 +409,7 @@ fn the_other_antennas_stand_below_and_a_click_shows_one() {
         let mut model = rig::model(states::holding());
         let genius = Antenna::genius("Mast", "192.168.1.250:9006");
         let mut snapshot = states::holding();
-        snapshot.link = LinkState::Up { since: Instant::now() };
+        snapshot.link = LinkState::Up { start: Instant::now() };
         snapshot.state.measured = Some(states::measured(43.0, 12.0, AxisMotion::Still));
         model.shown_mut().antennas.push(rig::antenna(genius, snapshot));
         Arc::make_mut(&mut model.shown_mut().antennas[1].config).id = AntennaId(2);

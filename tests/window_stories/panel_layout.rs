@@ -7,7 +7,7 @@ use azel::{
     contract::{
         self,
         antenna::TrackAgain,
-        driver::{Command, Event, Inside, Intent, LeftMoving, Refusal, Snapshot, StopState},
+        driver::{Breach, Command, Event, Intent, LeftMoving, Refusal, Snapshot, StopState},
     },
     model::{Model, ThemeName},
     plan::Barrier,
@@ -196,8 +196,7 @@ fn offered_again() -> Model {
     let mut model = rig::model(states::manual());
     let command = contract::Command::Antenna(model.antennas[0].id(), Command::Resume);
     let name = "NOAA 20 (JPSS-1)".to_owned();
-    model.shown_mut().antennas[0].track_again =
-        Some(TrackAgain { name, command, until: rig::now() });
+    model.shown_mut().antennas[0].track_again = Some(TrackAgain { name, command, end: rig::now() });
     model
 }
 
@@ -210,8 +209,8 @@ fn unguarded() -> Model {
 /// States that add and remove lines around the jog keys.
 fn around_the_jog_keys() -> Vec<(&'static str, Model)> {
     let since = states::moving().state.measured.unwrap().received;
-    let stop = StopState::NotConfirmed { since };
-    let inside = Some(Inside {
+    let stop = StopState::NotConfirmed { start: since };
+    let inside = Some(Breach {
         barrier: Barrier::KeepOut("mast".into()),
         unknown_axis: None,
         may_leave: false,
@@ -228,15 +227,15 @@ fn around_the_jog_keys() -> Vec<(&'static str, Model)> {
         (
             "left moving",
             rig::model(Snapshot {
-                left_moving: Some(LeftMoving { since: Some(rig::now()) }),
+                left_moving: Some(LeftMoving { start: Some(rig::now()) }),
                 ..states::manual()
             }),
         ),
-        ("inside", rig::model(Snapshot { inside, ..states::manual() })),
+        ("inside", rig::model(Snapshot { breach: inside, ..states::manual() })),
         ("unguarded", unguarded()),
         ("track again", offered_again()),
         ("news", told(Refusal::NoRefuge)),
-        ("long news", told(Refusal::Forbidden { barrier, at })),
+        ("long news", told(Refusal::Forbidden { barrier, direction: at })),
     ]
 }
 

@@ -7,7 +7,7 @@ use azel::{
     contract::{
         CatalogState, Command,
         automatic::{DayEvent, DayLine, Flown, Interruption, MissCause, OffBecause, Operation},
-        passes::{ListedSatellite, PassKey},
+        passes::{ListedSatellite, PassListKey},
         rehearsal::{Rehearsed, RehearsedPass},
         schedule::{Planned, Swap},
     },
@@ -16,7 +16,7 @@ use azel::{
     orbit::Propagator,
     plan::{
         pass_report::LossCause,
-        schedule::{Class, Conflict, Entry, LeftOut, PassKey as Key, Schedule, Why},
+        schedule::{Class, Conflict, Entry, LeftOut, LeftOutReason, PassKey as Key, Schedule},
     },
     station::{AntennaId, ChooseBy, Priority, Take},
 };
@@ -30,7 +30,7 @@ use crate::window_stories::{
     states, wide,
 };
 
-fn key((satellite, aos): PassKey) -> Key {
+fn key((satellite, aos): PassListKey) -> Key {
     Key { satellite, aos }
 }
 
@@ -51,17 +51,22 @@ pub(crate) fn planned(model: &azel::model::Model) -> Planned {
         if index % 2 == 1 {
             let with = before.unwrap();
             let class = Class::Priority(Priority::default());
-            let why = Why::Overlaps(Conflict { with, class, missing_s: 482.0, others: vec![] });
+            let why = LeftOutReason::Overlaps(Conflict {
+                pass: with,
+                class,
+                missing_s: 482.0,
+                others: vec![],
+            });
             let by_antenna = vec![(id, why.clone())];
-            schedule.left_out.push(LeftOut { pass, why, by_antenna });
+            schedule.left_out.push(LeftOut { pass, reason: why, by_antenna });
             continue;
         }
         schedule.entries.push(Entry {
             pass,
             antenna: id,
             class: Class::Priority(Priority::default()),
-            from: predicted.pass.aos.time,
-            to: predicted.pass.los.time,
+            start: predicted.pass.aos.time,
+            end: predicted.pass.los.time,
             late_s: 0.0,
             early_s: 0.0,
             counted_s: predicted.pass.duration_s(),
@@ -94,8 +99,8 @@ pub(crate) fn view(size: [f32; 2]) -> Window {
 fn the_spare_time_runs_down_with_the_countdown() {
     let mut window = view(LARGE);
     let model = &mut window.state_mut().model;
-    let first = model.schedule.schedule.entries.iter().find(|of| of.from > model.now).unwrap();
-    let (key, from) = ((first.pass.satellite, first.pass.aos), first.from);
+    let first = model.schedule.schedule.entries.iter().find(|of| of.start > model.now).unwrap();
+    let (key, from) = ((first.pass.satellite, first.pass.aos), first.start);
     model.selected = Some(key);
     // 41 s of slew and 12 s of set-up come before it.
     for (before_s, spare) in [(600.0, "5:00"), (253.0, "3:20"), (60.0, "0:07"), (50.0, "0:00")] {
@@ -117,7 +122,7 @@ fn a_pass_is_known_in_the_schedule_also_where_a_new_list_has_it_earlier_or_later
             pass.aos = add_seconds(pass.aos, shift_s);
         }
         model.shown_mut().schedule = Arc::new(planned);
-        let keys: Vec<PassKey> =
+        let keys: Vec<PassListKey> =
             model.planned_passes().iter().map(|planned| planned.predicted.key()).collect();
         assert!(keys.len() > 4);
         for (index, key) in keys.into_iter().enumerate() {
@@ -148,13 +153,13 @@ fn commands(window: &mut Window) -> Vec<Command> {
 }
 
 /// The pass of the row with this number among the passes to come.
-fn pass(window: &Window, index: usize) -> PassKey {
+fn pass(window: &Window, index: usize) -> PassListKey {
     let model = &window.state().model;
     let passes = model.planned_passes();
     passes[index].predicted.key()
 }
 
-fn select(window: &mut Window, index: usize) -> PassKey {
+fn select(window: &mut Window, index: usize) -> PassListKey {
     let key = pass(window, index);
     window.state_mut().model.selected = Some(key);
     settle(window);
@@ -441,7 +446,7 @@ fn automatic_operation_takes_a_hold_to_switch_on_and_a_click_to_switch_off() {
     let set = |is_on| Command::SetAutomatic { antenna: id, is_on };
     assert_eq!(commands(&mut window), [set(true)]);
     window.state_mut().model.shown_mut().antennas[0].operation =
-        Operation::Suspended { by: Interruption::ByHand, since: rig::now() };
+        Operation::Suspended { interruption: Interruption::ByHand, start: rig::now() };
     settle(&mut window);
     assert!(window.query_by_label_contains("Suspended").is_some());
     window.get_by_role_and_label(Role::Switch, "Automatic operation of Satrak, on").click();
@@ -455,7 +460,7 @@ fn a_suspended_antenna_goes_on_by_a_button_that_names_the_pass() {
         let id = window.state().model.antennas[0].id();
         window.state_mut().model.view = view;
         window.state_mut().model.shown_mut().antennas[0].operation =
-            Operation::Suspended { by: Interruption::Elsewhere, since: rig::now() };
+            Operation::Suspended { interruption: Interruption::Elsewhere, start: rig::now() };
         settle(&mut window);
         let button = window
             .query_all_by_role(Role::Button)
@@ -485,7 +490,7 @@ fn what_was_missed_is_told_with_its_cause() {
             cause,
         })
     };
-    let line = |what| DayLine { at: rig::now(), antenna: id, what };
+    let line = |what| DayLine { time: rig::now(), antenna: id, event: what };
     window.state_mut().model.shown_mut().day = Arc::new(vec![
         line(flown(None)),
         line(flown(Some(MissCause::Off(OffBecause::Stop)))),
@@ -651,16 +656,16 @@ fn the_plan_is_rehearsed_and_what_came_of_it_stands_beside_the_pass_as_a_rehears
         satellite_name: "NOAA 20".to_owned(),
         aos,
         los: add_seconds(aos, 600.0),
-        from: aos,
-        to: add_seconds(aos, 600.0),
+        start: aos,
+        end: add_seconds(aos, 600.0),
         promised_s: 600.0,
         is_given_up: false,
         flown: Some(flown),
-        off: None,
+        off_reason: None,
         report: None,
     };
     let whole = Rehearsed {
-        from: rig::now(),
+        start: rig::now(),
         hours: 24.0,
         seed: 1,
         passes: vec![rehearsed],

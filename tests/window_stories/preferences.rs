@@ -263,7 +263,7 @@ fn a_link_is_tested_as_it_is_typed() {
         };
         assert_eq!(antenna.connection.address, "tower:4001");
         let finding = LinkFinding::NotOpened(LinkFault::Refused);
-        let done = LinkTestStage::Done { finding, at: rig::now() };
+        let done = LinkTestStage::Done { finding, time: rig::now() };
         for (stage, words) in [
             (done, "tower:4001 refuses the connection."),
             (LinkTestStage::InUse, "Not asked: an antenna of this station uses the unit."),
@@ -414,7 +414,7 @@ fn an_antenna_that_moves_is_not_let_go_by_saving() {
         assert!(says(&window, "Satrak moves or tracks. Stop it, then save."));
     }
     let now = Instant::now();
-    let link = LinkState::Lost { since: now, reason: LinkLoss::Silent, retry_at: now };
+    let link = LinkState::Lost { start: now, reason: LinkLoss::Silent, retry_at: now };
     for snapshot in [states::holding(), Snapshot { link, ..states::moving() }] {
         assert!(!is_disabled(&changed(snapshot), "Save and use"));
     }

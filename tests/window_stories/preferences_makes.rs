@@ -141,7 +141,7 @@ fn one_rotator_asks_for_no_elevation() {
         press(&mut window, Role::RadioButton, "Only rotator 2");
         assert!(!has_field(&window, "Elevation to") && !has_field(&window, "Park elevation"));
         let station = save(&mut window);
-        assert_eq!(Rotators::of(&the_antenna(&station).connection), Rotators::Second);
+        assert_eq!(Rotators::from_connection(&the_antenna(&station).connection), Rotators::Second);
         press(&mut window, Role::RadioButton, "Azimuth + elevation");
         assert_eq!(typed(&window, "Elevation to"), "steep", "what was typed is still there");
     }
@@ -178,7 +178,7 @@ fn an_rc2000c_is_set_up() {
         assert!(!says(&window, "Not calibrated"));
         let station = save(&mut window);
         let connection = &the_antenna(&station).connection;
-        let calibration = Calibration::of(connection);
+        let calibration = Calibration::from_connection(connection);
         assert_eq!(connection.address, "/dev/ttyS1");
         assert_eq!((connection.whole(&BAUD), connection.whole(&BUS_ADDRESS)), (1200, 111));
         assert_eq!((calibration.azimuth.len(), calibration.elevation.len()), (2, 2));

@@ -11,7 +11,7 @@ use azel::{
         driver::{Intent, LinkFinding, Snapshot},
         link_tests::{LinkTest, LinkTestStage},
         record::{
-            FittedTerm, NoiseOf, Peak, PeakChange, PeakOf, Peaks, PointingFit, PointingFitted,
+            FittedNoise, FittedTerm, Peak, PeakBody, PeakChange, Peaks, PointingFit, PointingFitted,
         },
     },
     device::{OnBoard, Place},
@@ -325,7 +325,7 @@ fn the_outcome_of_a_test_moves_no_field() {
     let finding = LinkFinding::Reached { state: Box::default(), after: Duration::from_millis(12) };
     for (stage, words) in [
         (LinkTestStage::Working, "Asking "),
-        (LinkTestStage::Done { finding, at: rig::now() }, "Reached, 12 ms"),
+        (LinkTestStage::Done { finding, time: rig::now() }, "Reached, 12 ms"),
     ] {
         let test = LinkTest { antenna: (**antenna).clone(), stage };
         window.state_mut().model.shown_mut().link_tests = Arc::new(vec![test]);
@@ -466,9 +466,9 @@ fn a_pointing_model_is_fitted_to_the_record_and_filled_in_and_used_only_once_sav
             let not_told_from = if value.is_none() { vec![Term::AzimuthOffset] } else { vec![] };
             FittedTerm { term, value, half_of_95_percent: value.map(|_| 0.02), not_told_from }
         };
-        let noise = NoiseOf { of: Kind::Satellite, points: 340, noise_deg: 0.0312 };
+        let noise = FittedNoise { kind: Kind::Satellite, points: 340, noise_deg: 0.0312 };
         let terms = Term::ALL.map(term).into();
-        let found = PointingFit { passes: 12, noise: vec![noise], without: Vec::new(), terms };
+        let found = PointingFit { passes: 12, noise: vec![noise], excluded: Vec::new(), terms };
         let tell = |window: &mut Window, found| {
             let fitted = PointingFitted { antenna: id, found };
             window.state_mut().model.shown_mut().pointing_fitted = Some(Arc::new(fitted));
@@ -491,7 +491,7 @@ fn a_pointing_model_is_fitted_to_the_record_and_filled_in_and_used_only_once_sav
             half_of_95_percent: None,
             not_told_from: Vec::new(),
         });
-        tell(&mut window, Some(Ok(PointingFit { without, terms, ..found })));
+        tell(&mut window, Some(Ok(PointingFit { excluded: without, terms, ..found })));
         assert!(says(&window, "Left at 0, as you wanted: tilt to the east."));
         assert!(!says(&window, "Tilt to the east cannot be told from"));
         assert!(window.query_by_label("Fit without them").is_none());
@@ -526,8 +526,8 @@ fn a_peak_is_entered_as_measured_now_or_as_typed_and_removed() {
         settle(&mut window);
         press(&mut window, Role::Button, "Add peak");
         let measured = Peak {
-            of: PeakOf::Sun,
-            at: now,
+            body: PeakBody::Sun,
+            time: now,
             azimuth_deg: deg(pointing.azimuth),
             elevation_deg: deg(pointing.elevation),
         };
@@ -543,7 +543,8 @@ fn a_peak_is_entered_as_measured_now_or_as_typed_and_removed() {
         assert!(says(&window, "Type the elevation that the antenna showed at the peak."));
         write(&mut window, "Elevation at the peak", "31");
         press(&mut window, Role::Button, "Add peak");
-        let typed = Peak { of: PeakOf::Moon, at, azimuth_deg: 120.5, elevation_deg: 31.0 };
+        let typed =
+            Peak { body: PeakBody::Moon, time: at, azimuth_deg: 120.5, elevation_deg: 31.0 };
         assert_eq!(asked(&mut window), [change(PeakChange::Added(typed))]);
         let mut peaks = Peaks::default();
         peaks.change(id, PeakChange::Added(typed));

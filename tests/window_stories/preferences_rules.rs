@@ -5,8 +5,8 @@ use std::sync::Arc;
 use azel::{
     model::View,
     station::{
-        AntennaId, AutomationRule, HoursOfDay, PassLimits, Priority, RuleOf, SatelliteGroup,
-        Station, SunIs, Then,
+        AntennaId, AutomationRule, HoursOfDay, PassLimits, Priority, RuleAction, RuleSubject,
+        SatelliteGroup, Station, SunIs,
     },
 };
 use egui::{Event, Key, Modifiers, Role};
@@ -23,22 +23,29 @@ const SATELLITES: &str = "Satellites and priorities";
 const RULES: &str = "Automation rules";
 
 fn rule() -> AutomationRule {
-    let then = Then::Leave;
-    AutomationRule { is_on: true, antenna: None, of: None, sun: None, hours: None, then }
+    let then = RuleAction::Leave;
+    AutomationRule {
+        is_on: true,
+        antenna: None,
+        subject: None,
+        sun: None,
+        hours: None,
+        action: then,
+    }
 }
 
 fn of_weather() -> AutomationRule {
     AutomationRule {
         antenna: Some(AntennaId(1)),
-        of: Some(RuleOf::Group("Weather".to_owned())),
+        subject: Some(RuleSubject::Group("Weather".to_owned())),
         hours: Some(HoursOfDay::NIGHT),
         ..rule()
     }
 }
 
 fn of_iss() -> AutomationRule {
-    let of = Some(RuleOf::Satellite(ISS));
-    AutomationRule { of, sun: Some(SunIs::Down), then: Then::Take, ..rule() }
+    let of = Some(RuleSubject::Satellite(ISS));
+    AutomationRule { subject: of, sun: Some(SunIs::Down), action: RuleAction::Take, ..rule() }
 }
 
 fn weather() -> SatelliteGroup {
@@ -246,7 +253,7 @@ fn hours_that_are_empty_or_no_times_are_explained_and_not_saved() {
         assert_eq!(asked(&mut window), []);
         write(&mut window, "To", "07:30");
         let to = HoursOfDay::read_time("07:30").unwrap();
-        let wanted = HoursOfDay { to, ..HoursOfDay::NIGHT };
+        let wanted = HoursOfDay { end: to, ..HoursOfDay::NIGHT };
         assert_eq!(save(&mut window).rules[0].hours, Some(wanted));
     }
 }
@@ -263,8 +270,8 @@ fn a_rule_of_a_satellite_finds_it_by_name_and_says_if_it_is_not_planned() {
     window.key_press(Key::Enter);
     settle(&mut window);
     assert!(says(&window, "it names no favourite, and only favourites are planned"));
-    let of = Some(RuleOf::Satellite(54_234));
-    assert_eq!(save(&mut window).rules, [AutomationRule { of, ..rule() }]);
+    let of = Some(RuleSubject::Satellite(54_234));
+    assert_eq!(save(&mut window).rules, [AutomationRule { subject: of, ..rule() }]);
 }
 
 #[test]
@@ -331,7 +338,7 @@ fn rules_are_moved_and_duplicated_by_buttons_and_dragged() {
 fn a_rule_says_how_many_passes_it_decides_and_which() {
     let mut window = page(rig::LARGE, RULES, vec![rule()]);
     let model = &window.state().model;
-    let count = model.pass_lists.favourites.within(model.now, 48).iter().count();
+    let count = model.pass_lists.favourites.upcoming_within(model.now, 48).iter().count();
     assert!(count > 1 && says(&window, &format!("Next 48 h: {count} passes")));
     assert!(says(&window, "NOAA 20, "));
     choose(&mut window, "Hours", "Some");

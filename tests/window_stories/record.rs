@@ -34,7 +34,7 @@ use azel::{
             PassReport, PassVerdict, PathSource, PointingError, TrackPoint, WorstError,
         },
     },
-    station::{self, OffsetsOf},
+    station::{self, OffsetsSubject},
     ui::{format, theme},
 };
 use egui::{Key, Modifiers, Role};
@@ -101,11 +101,11 @@ fn opened(model: &Model, id: i64, pass: &Pass, verdict: PassVerdict) -> OpenedPa
             along_deg: rms(|error| error.along_deg),
             across_deg: rms(|error| error.across_deg),
         }),
-        worst: Some(WorstError { at: worst.time, error: worst.error }),
+        worst: Some(WorstError { time: worst.time, error: worst.error }),
         losses: (lost_s > 0.0)
             .then(|| LostStretch {
-                from,
-                until: add_seconds(from, lost_s),
+                start: from,
+                end: add_seconds(from, lost_s),
                 cause: LossCause::NotMeasured,
             })
             .into_iter()
@@ -122,15 +122,15 @@ fn opened(model: &Model, id: i64, pass: &Pass, verdict: PassVerdict) -> OpenedPa
         Sample { time, direction: at(time) }
     };
     let report = RecordedReport {
-        from,
-        until,
+        start: from,
+        end: until,
         planned: None,
         max_elevation_deg: pass.max_elevation().degrees(),
         age_days: 0.4,
         elements,
         site: Some(site),
         half_beam_deg: HALF_BEAM_DEG,
-        about: AboutTrack {
+        track: AboutTrack {
             begun: add_seconds(from, -30.0),
             tracked_by: TrackedBy::OnBoard,
             sent: None,
@@ -161,14 +161,14 @@ fn opened(model: &Model, id: i64, pass: &Pass, verdict: PassVerdict) -> OpenedPa
 fn recorded(flown: &[OpenedPass], place: usize) -> Recorded {
     let passes: Vec<RecordedPass> = flown.iter().map(|opened| opened.pass.clone()).collect();
     let count = passes.len() as u32;
-    let since = passes.last().map(|pass| pass.report.until);
-    let page = PassPage { passes, matching: count, all: count, since, unreadable: 0 };
+    let since = passes.last().map(|pass| pass.report.end);
+    let page = PassPage { passes, matching: count, all: count, start: since, unreadable: 0 };
     let opened = flown.get(place).cloned();
     let look = RecordLook {
         query: PassQuery { count: 200, ..PassQuery::default() },
         opened: opened.as_ref().map(|opened| opened.pass.id),
     };
-    Recorded { look, found: Ok(Found { page, missed: Vec::new(), opened }), together: None }
+    Recorded { look, found: Ok(Found { page, missed: Vec::new(), opened }), combined: None }
 }
 
 fn model() -> (Model, Vec<OpenedPass>) {
@@ -258,7 +258,7 @@ fn a_click_on_an_event_moves_the_cursor_there() {
     let (model, flown) = model();
     let mut window = rig::window(LARGE, model);
     settle(&mut window);
-    let from = flown[0].pass.report.from.strftime("%H:%M:%SZ").to_string();
+    let from = flown[0].pass.report.start.strftime("%H:%M:%SZ").to_string();
     window.get_by_label(&format!("{from}: AOS {from}")).click();
     settle(&mut window);
     let read = window.get_by_role(Role::Slider).accesskit_node().label().unwrap();
@@ -304,8 +304,8 @@ fn explained_by(cause: Cause, set: impl FnOnce(&mut AboutTrack)) -> Model {
     let mut model = rig::model(settings_rig::read());
     let mut flown = flown(&model);
     let report = &mut flown[0].pass.report;
-    report.causes = vec![Explanation { cause, left_deg: 0.01, share: 0.9, with: None }];
-    set(&mut report.about);
+    report.causes = vec![Explanation { cause, left_deg: 0.01, share: 0.9, partner: None }];
+    set(&mut report.track);
     model.shown_mut().recorded = Some(Arc::new(recorded(&flown, 0)));
     model.view = View::Record;
     model
@@ -324,10 +324,10 @@ fn a_pass_that_was_not_tracked_stands_in_the_list_and_says_why() {
     for size in SIZES {
         let (mut model, flown) = model();
         let of = &flown[1].pass;
-        let aos = of.report.from - 10.minutes();
+        let aos = of.report.start - 10.minutes();
         let missed = MissedPass {
             id: 77,
-            at: of.report.until + 1.minutes(),
+            time: of.report.end + 1.minutes(),
             antenna: of.antenna,
             antenna_name: of.antenna_name.clone(),
             flown: Flown {
@@ -354,7 +354,7 @@ fn a_pass_that_was_not_tracked_stands_in_the_list_and_says_why() {
             of.antenna_name,
         );
         let node = window.get_by_label(&row);
-        let from = format!("NOAA 20, {}, ", format::moment(of.report.from, now));
+        let from = format!("NOAA 20, {}, ", format::moment(of.report.start, now));
         let below = window.get_by_label_contains(&from);
         assert!(node.rect().bottom() <= below.rect().top() + 1.0, "in the order of time");
         window.get_by_label_contains("1 not tracked");
@@ -454,7 +454,7 @@ fn without_a_report_there_is_nothing_to_export() {
 fn a_correction_of_a_unit_is_typed_into_its_form_and_nothing_is_sent() {
     for size in rig::sizes() {
         let model = explained_by(Cause::AzimuthOffset { offset_deg: 0.25 }, |_| ());
-        let held = &model.antennas[0].snapshot.state.held["general"].held;
+        let held = &model.antennas[0].snapshot.state.groups["general"].last_read;
         let Value::Decimal(held_deg) = held.as_ref().unwrap().values["azimuth_offset_deg"] else {
             panic!("{held:?}")
         };
@@ -493,7 +493,7 @@ fn a_correction_of_what_azel_sends_is_asked_about() {
         about.offsets.note(rig::now(), TrackOffsets::NONE.plus(with).unwrap());
     };
     let model = explained_by(Cause::ElevationOffset { offset_deg: 0.2 }, by_program);
-    let of = OffsetsOf::Antenna(model.antennas[0].id());
+    let of = OffsetsSubject::Antenna(model.antennas[0].id());
     let mut window = rig::window(LARGE, model);
     settle(&mut window);
     let _ = asked(&mut window);
@@ -511,7 +511,7 @@ fn a_correction_of_what_azel_sends_is_asked_about() {
     window.key_press(Key::Enter);
     let with = Offset::Elevation(Angle::from_degrees(0.3));
     let offsets = TrackOffsets::NONE.plus(with).unwrap();
-    let keep = UiCommand::Station(Command::KeepOffsets { of, offsets });
+    let keep = UiCommand::Station(Command::KeepOffsets { subject: of, offsets });
     assert_eq!(asked(&mut window), [keep]);
     let station = &mut window.state_mut().model.shown_mut().station;
     Arc::make_mut(station).keep_offsets(of, offsets);
@@ -531,12 +531,12 @@ fn what_nothing_here_corrects_has_no_correction_and_neither_has_a_setting_writte
     let offset = Cause::AzimuthOffset { offset_deg: 0.25 };
     let mut model = explained_by(offset, |_| ());
     let antenna = &mut model.shown_mut().antennas[0];
-    let group = Arc::make_mut(&mut Arc::make_mut(&mut antenna.snapshot).state.held)
+    let group = Arc::make_mut(&mut Arc::make_mut(&mut antenna.snapshot).state.groups)
         .get_mut("general")
         .unwrap();
-    let values = group.held.as_ref().unwrap().values.clone();
-    let change = Change { ticket: 1, group: "general", values, seen: None, is_unlocked: false };
-    group.written = Some(Arc::new(Written { change, at: rig::now(), result: Ok(()) }));
+    let values = group.last_read.as_ref().unwrap().values.clone();
+    let change = Change { ticket: 1, group: "general", values, expected: None, is_unlocked: false };
+    group.written = Some(Arc::new(Written { change, time: rig::now(), result: Ok(()) }));
     let mut window = rig::window(LARGE, model);
     settle(&mut window);
     assert!(window.query_by_label("Apply…").is_none(), "it may be corrected already");
@@ -585,9 +585,9 @@ fn the_times_of_aos_and_los_do_not_lie_on_the_path() {
 fn the_bar_of_the_link_runs_below_its_words_and_a_loss_of_no_length_is_not_told() {
     let (mut model, mut flown) = model();
     let report = &mut flown[0].pass.report;
-    let (time, data) = (report.from, serde_json::Value::from("Connected"));
+    let (time, data) = (report.start, serde_json::Value::from("Connected"));
     let until = add_seconds(time, 0.4);
-    report.report.losses.push(LostStretch { from: time, until, cause: LossCause::EarlyEnd });
+    report.report.losses.push(LostStretch { start: time, end: until, cause: LossCause::EarlyEnd });
     let row = Row { time, run: 1, steady_s: None, antenna: None, kind: "link".to_owned(), data };
     flown[0].entries.push(row);
     model.shown_mut().recorded = Some(Arc::new(recorded(&flown, 0)));
@@ -601,7 +601,7 @@ fn the_bar_of_the_link_runs_below_its_words_and_a_loss_of_no_length_is_not_told(
 #[test]
 fn a_gap_is_told_from_its_beginning_and_a_stop_with_who_pressed_it() {
     let (mut model, mut flown) = model();
-    let from = flown[0].pass.report.from;
+    let from = flown[0].pass.report.start;
     let row = |kind: &str, time, data| Row {
         time,
         run: 1,
@@ -615,9 +615,9 @@ fn a_gap_is_told_from_its_beginning_and_a_stop_with_who_pressed_it() {
     flown[0].entries = vec![
         row("stop", from + 1.minutes(), pressed),
         row("stop", from + 61.seconds(), "Stopped".into()),
-        row("gap", flown[0].pass.report.until + 1.hour(), gap),
+        row("gap", flown[0].pass.report.end + 1.hour(), gap),
     ];
-    let lasted_s = flown[0].pass.report.until.duration_since(from + 2.minutes()).as_secs_f64();
+    let lasted_s = flown[0].pass.report.end.duration_since(from + 2.minutes()).as_secs_f64();
     model.shown_mut().recorded = Some(Arc::new(recorded(&flown, 0)));
     let mut window = rig::window(LARGE, model);
     settle(&mut window);
@@ -631,7 +631,7 @@ fn a_gap_is_told_from_its_beginning_and_a_stop_with_who_pressed_it() {
 #[test]
 fn an_acknowledged_alarm_is_no_new_one() {
     let (mut model, mut flown) = model();
-    let came = flown[0].pass.report.from + 1.minutes();
+    let came = flown[0].pass.report.start + 1.minutes();
     let alarm = Alarm {
         id: 7,
         row: 7,
@@ -640,11 +640,11 @@ fn an_acknowledged_alarm_is_no_new_one() {
         raised: came,
         last: came,
         count: 1,
-        seen: false,
+        acknowledged: false,
         over_since: None,
         shelved_until: None,
     };
-    let seen = Alarm { seen: true, ..alarm.clone() };
+    let seen = Alarm { acknowledged: true, ..alarm.clone() };
     let over = Alarm { over_since: Some(came + 3.minutes()), ..seen.clone() };
     // One that came before what is shown.
     let older = Alarm { id: 3, last: came - 1.hour(), ..seen.clone() };
@@ -726,14 +726,14 @@ fn two_causes_that_act_together_stand_together_and_the_passes_before_are_told() 
         let mut flown = flown(&model);
         let mixed = Explanation {
             cause: Cause::ElevationOffset { offset_deg: 0.25 },
-            with: Some(Cause::AzimuthOffset { offset_deg: -0.5 }),
+            partner: Some(Cause::AzimuthOffset { offset_deg: -0.5 }),
             left_deg: 0.01,
             share: 0.97,
         };
         flown[0].pass.report.causes = vec![mixed];
         let mut found = recorded(&flown, 0);
-        let explanations = vec![Explanation { with: None, share: 0.92, ..mixed }];
-        found.together = Some(ExplainedPasses { passes: 12, since: None, explanations });
+        let explanations = vec![Explanation { partner: None, share: 0.92, ..mixed }];
+        found.combined = Some(ExplainedPasses { passes: 12, start: None, explanations });
         model.shown_mut().recorded = Some(Arc::new(found));
         model.view = View::Record;
         let name = model.antennas[0].config.name.clone();

@@ -104,7 +104,7 @@ pub(crate) fn predicted_passes(
     station: &Station,
     now: Timestamp,
 ) -> Vec<PredictedPass> {
-    let observer = Arc::new(Observer::of(station));
+    let observer = Arc::new(Observer::from_station(station));
     let (from, to) = (add_seconds(now, -3600.0), add_seconds(now, 12.0 * 3600.0));
     let search = PassSearch {
         aos_elevation: observer.aos_elevation,
@@ -128,7 +128,7 @@ pub(crate) fn station() -> Station {
 /// Snapshot of a new session with its link up.
 pub(crate) fn quiet() -> Snapshot {
     let since = Instant::now();
-    let mut snapshot = Snapshot::before_anything(LinkState::Up { since });
+    let mut snapshot = Snapshot::before_anything(LinkState::Up { start: since });
     snapshot.state.link_since = Some(since);
     snapshot
 }

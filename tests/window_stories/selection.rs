@@ -6,7 +6,7 @@ use azel::{
     astro::time::add_seconds,
     contract::{
         automatic::Doing,
-        passes::{PassKey, PredictedPass},
+        passes::{PassListKey, PredictedPass},
     },
     device::{AxisMotion, Phase},
     model::Model,
@@ -21,9 +21,9 @@ use crate::window_stories::{
 };
 
 /// Passes of the plan to come, in the order in which their antenna takes them.
-fn planned(model: &Model) -> Vec<PassKey> {
+fn planned(model: &Model) -> Vec<PassListKey> {
     let entries = model.schedule.schedule.entries.iter();
-    let ahead = entries.filter(|entry| entry.from > model.now);
+    let ahead = entries.filter(|entry| entry.start > model.now);
     ahead.map(|entry| (entry.pass.satellite, entry.pass.aos)).collect()
 }
 
@@ -38,7 +38,7 @@ fn tracking() -> Model {
         .map(|predicted| {
             let (satellite, aos) = predicted.key();
             let (from, to) = (aos, predicted.pass.los.time);
-            Entry { pass: Key { satellite, aos }, from, to, ..entry.clone() }
+            Entry { pass: Key { satellite, aos }, start: from, end: to, ..entry.clone() }
         })
         .collect();
     assert!(plan.schedule.entries.len() > 3);
@@ -53,7 +53,7 @@ fn after_los(model: &mut Model) {
     model.now = add_seconds(states::los(), 1.0);
 }
 
-fn pass_of(model: &Model, catalog_number: u32) -> Option<PassKey> {
+fn pass_of(model: &Model, catalog_number: u32) -> Option<PassListKey> {
     model.pass_of(catalog_number).map(PredictedPass::key)
 }
 
@@ -135,7 +135,7 @@ fn pair(model: &mut Model) {
     Arc::make_mut(&mut second.config).id = AntennaId(2);
     model.shown_mut().antennas.push(second);
     let mut plan = (*model.schedule).clone();
-    let mut ahead = plan.schedule.entries.iter_mut().filter(|entry| entry.from > model.now);
+    let mut ahead = plan.schedule.entries.iter_mut().filter(|entry| entry.start > model.now);
     ahead.nth(2).unwrap().antenna = AntennaId(2);
     model.shown_mut().schedule = Arc::new(plan);
 }

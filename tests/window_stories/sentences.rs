@@ -11,7 +11,7 @@ use azel::{
         },
         passes::PredictedPass,
     },
-    device::{Asked, AxisMotion, Motion, Offsets, Phase, PrepareError},
+    device::{AxisMotion, Motion, MotionRequest, Offsets, Phase, PrepareError},
     engine::antenna::{Recent, refresh},
     model::Model,
 };
@@ -43,7 +43,7 @@ fn just(event: Event) -> impl FnOnce(&mut Model, &mut Snapshot) {
 fn lost(model: &mut Model, snapshot: &mut Snapshot) {
     let since = rig::ago(model, 42);
     let retry_at = model.steady + Duration::from_secs(3);
-    snapshot.link = LinkState::Lost { since, reason: LinkLoss::Silent, retry_at };
+    snapshot.link = LinkState::Lost { start: since, reason: LinkLoss::Silent, retry_at };
 }
 
 #[test]
@@ -186,7 +186,7 @@ fn standing_says_where_and_what_comes_next() {
     let parked = Snapshot { intent: Intent::Park, ..states::holding() };
     assert!(told(parked, nothing).starts_with("Parked, holding at 343.1°, 5.0°."));
     let at = rig::model(rig::quiet()).steady;
-    let stopped = Snapshot { stop: StopState::Stopped { at }, ..states::holding() };
+    let stopped = Snapshot { stop: StopState::Stopped { time: at }, ..states::holding() };
     assert!(told(stopped, nothing).starts_with("Stopped, holding at 343.1°, 5.0°."));
     let auto = told(states::holding(), |_, snapshot| {
         snapshot.state.program.as_mut().unwrap().auto = Some(true);
@@ -257,11 +257,11 @@ fn a_fault_that_locks_motion_comes_before_all_else_and_a_warning_does_not() {
 #[test]
 fn a_stop_says_what_is_not_proved() {
     let stopping = told(states::moving(), |model, snapshot| {
-        snapshot.stop = StopState::Stopping { since: rig::ago(model, 2) };
+        snapshot.stop = StopState::Stopping { start: rig::ago(model, 2) };
     });
     assert_eq!(stopping, "Stopping Satrak: STOP was sent 2.0 s ago, waiting for standstill.");
     let unproved = told(states::moving(), |model, snapshot| {
-        snapshot.stop = StopState::NotConfirmed { since: rig::ago(model, 4) };
+        snapshot.stop = StopState::NotConfirmed { start: rig::ago(model, 4) };
     });
     assert_eq!(
         unproved,
@@ -286,7 +286,7 @@ fn without_a_reply_it_says_since_when_and_what_was_going_on() {
              link again.",
         ),
         (
-            LinkState::Connecting { since: rig::model(rig::quiet()).steady },
+            LinkState::Connecting { start: rig::model(rig::quiet()).steady },
             "Connecting to Satrak at 192.168.10.21:4001.",
         ),
     ] {
@@ -311,7 +311,7 @@ fn a_silent_unit_is_not_said_to_do_what_it_did_last() {
     assert!(silent(states::tracking(0.0), 2).starts_with("Tracking NOAA 20"));
     let on_a_new_link = told(states::tracking(0.0), |model, snapshot| {
         let since = rig::ago(model, 1);
-        snapshot.link = LinkState::Up { since };
+        snapshot.link = LinkState::Up { start: since };
         snapshot.state.link_since = Some(since);
         if let Some(measured) = &mut snapshot.state.measured {
             measured.received = rig::ago(model, 30);
@@ -324,7 +324,7 @@ fn a_silent_unit_is_not_said_to_do_what_it_did_last() {
         snapshot.state.link_since = Some(rig::ago(model, 60));
         snapshot.state.traffic.last_reply = Some(rig::ago(model, 1));
         if let Some(measured) = &mut snapshot.state.measured {
-            measured.asked = rig::ago(model, 5);
+            measured.requested = rig::ago(model, 5);
         }
     });
     assert_eq!(
@@ -333,7 +333,7 @@ fn a_silent_unit_is_not_said_to_do_what_it_did_last() {
          still moving. Check its cable and the network."
     );
     let mut stopping = states::moving();
-    stopping.stop = StopState::NotConfirmed { since: rig::model(rig::quiet()).steady };
+    stopping.stop = StopState::NotConfirmed { start: rig::model(rig::quiet()).steady };
     assert!(silent(stopping, 9).contains("is not known to have stopped"));
 }
 
@@ -355,7 +355,7 @@ fn a_make_that_serves_one_program_says_that_another_may_have_it() {
         let mut model = makes::model(makes::pair(), rig::quiet());
         let (since, retry_at) = (rig::ago(&model, 42), model.steady + Duration::from_secs(3));
         let mut snapshot = rig::quiet();
-        snapshot.link = LinkState::Lost { since, reason, retry_at };
+        snapshot.link = LinkState::Lost { start: since, reason, retry_at };
         model.shown_mut().antennas.clone_from(&makes::model(makes::pair(), snapshot).antennas);
         let sentence = format!("No reply from Genius for 42 s: {wanted}Next try in 3.0 s.");
         assert_eq!(states::sentence(&model), sentence);
@@ -364,7 +364,7 @@ fn a_make_that_serves_one_program_says_that_another_may_have_it() {
 
 #[test]
 fn a_refusal_without_a_code_is_told_in_its_words() {
-    let asked = Asked::Action(azel::controller::rotator_genius::OTHER);
+    let asked = MotionRequest::Action(azel::controller::rotator_genius::OTHER);
     let refused = Event::Refused(asked, "F for rotator 2: it is outside its limits".to_owned());
     let mut model = makes::model(makes::alone(), states::holding());
     model.shown_mut().antennas[0].news = Some((refused, model.now));
@@ -395,7 +395,7 @@ fn what_has_just_happened_is_told_first_and_for_a_while() {
         ),
         (Event::NotSent(Refusal::Stopping), "Not sent: a stop is under way."),
         (
-            Event::Refused(Asked::Motion(Motion::StartProgram), "ERR,7".to_owned()),
+            Event::Refused(MotionRequest::Motion(Motion::StartProgram), "ERR,7".to_owned()),
             "Track: the unit answered ERR,7.",
         ),
         (
@@ -426,7 +426,7 @@ fn numbers_that_cannot_be_read_are_told_with_the_likely_cause() {
     assert!(tracked.contains("It was tracking NOAA 20 and is probably still moving."), "{tracked}");
     let stopping = told(rig::quiet(), |model, snapshot| {
         commas(snapshot);
-        snapshot.stop = StopState::NotConfirmed { since: rig::ago(model, 4) };
+        snapshot.stop = StopState::NotConfirmed { start: rig::ago(model, 4) };
         snapshot.state.measured = states::holding().state.measured;
     });
     assert!(stopping.contains("Use the local panel."), "{stopping}");
@@ -448,7 +448,7 @@ fn an_antenna_that_another_azel_drives_names_it() {
     let mut model = rig::model(Snapshot { link: LinkState::Off, ..states::holding() });
     let since = "2026-08-12T09:00:00Z".parse().unwrap();
     let (socket, antenna) = (None, None);
-    let holder = Holder { kind: HolderKind::Serve, process: 4242, since, socket, antenna };
+    let holder = Holder { kind: HolderKind::Serve, process: 4242, start: since, socket, antenna };
     model.shown_mut().antennas[0].held_by = Some(HeldBy::Azel(Some(holder)));
     assert_eq!(
         states::sentence(&model),

@@ -34,16 +34,16 @@ pub(crate) fn settles(commands: Vec<UiCommand>) -> Vec<Change> {
 }
 
 pub(crate) fn group<'a>(snapshot: &'a mut Snapshot, key: &'static str) -> &'a mut GroupState {
-    Arc::make_mut(&mut snapshot.state.held).get_mut(key).unwrap()
+    Arc::make_mut(&mut snapshot.state.groups).get_mut(key).unwrap()
 }
 
 /// Ends `change` with `result`, as the session does.
 fn end(window: &mut Window, change: &Change, result: Result<(), WriteError>) {
-    let written = Written { change: change.clone(), at: rig::now(), result };
+    let written = Written { change: change.clone(), time: rig::now(), result };
     self::change(window, 0, |snapshot| {
         let state = group(snapshot, change.group);
         if written.result.is_ok() {
-            state.held.as_mut().unwrap().values.extend(change.values.clone());
+            state.last_read.as_mut().unwrap().values.extend(change.values.clone());
         }
         state.written = Some(Arc::new(written));
     });
@@ -182,13 +182,13 @@ fn apply_sends_what_was_changed_with_what_was_seen_and_proves_it() {
         assert!(says(&window, "1 change not sent"), "what is the same is no edit");
         // Another client changes the value: the operator's view counts.
         change(&mut window, 0, |snapshot| {
-            let values = &mut group(snapshot, "general").held.as_mut().unwrap().values;
+            let values = &mut group(snapshot, "general").last_read.as_mut().unwrap().values;
             values.insert("lead_ms", Value::Integer(90_000));
         });
         press(&mut window, "Apply 1 change (Ctrl Enter)");
         let changes = settles(asked(&mut window));
         let [change_of_general] = changes.as_slice() else { panic!("{changes:?}") };
-        let Change { group: key, values, seen, is_unlocked, .. } = change_of_general;
+        let Change { group: key, values, expected: seen, is_unlocked, .. } = change_of_general;
         assert_eq!((*key, *is_unlocked), ("general", false));
         assert_eq!(*values, [("minimum_elevation_deg", Value::Decimal(5.0))].into());
         assert_eq!(seen.as_ref().unwrap()["lead_ms"], Value::Integer(1));
@@ -203,7 +203,7 @@ fn apply_sends_what_was_changed_with_what_was_seen_and_proves_it() {
         assert!(says(&window, "On the unit: Lead time was 1 ms and is now 90\u{2009}000 ms."));
         apply(&mut window);
         let again = settles(asked(&mut window)).remove(0);
-        assert_eq!(again.seen.as_ref().unwrap()["lead_ms"], Value::Integer(90_000));
+        assert_eq!(again.expected.as_ref().unwrap()["lead_ms"], Value::Integer(90_000));
         assert_ne!(again.ticket, change_of_general.ticket);
         end(&mut window, &again, Ok(()));
         assert_eq!(state_of(&window, "Minimum elevation"), "Verified 11:15:30Z");
@@ -282,7 +282,7 @@ fn without_a_link_the_old_values_stand_hollow_and_the_edits_stay() {
         change(&mut window, 0, |snapshot| {
             let now = azel::clock::Instant::now();
             let reason = LinkLoss::Closed;
-            snapshot.link = LinkState::Lost { since: now, reason, retry_at: now };
+            snapshot.link = LinkState::Lost { start: now, reason, retry_at: now };
         });
         assert!(says(&window, "Minimum elevation, on the unit, old: 3.0"));
         assert!(says(&window, "General: values read 0.0 s ago."));

@@ -55,7 +55,7 @@ fn automatic_tracking_is_switched_on_after_a_question_and_off_at_once() {
 fn the_clock_is_not_set_while_the_unit_tracks() {
     let mut snapshot = states::tracking(0.0);
     snapshot.state.link_since = read().state.link_since;
-    snapshot.state.held = read().state.held;
+    snapshot.state.groups = read().state.groups;
     let mut window = opened(LARGE, snapshot);
     assert!(says(&window, "Not while the unit is tracking."));
     press(&mut window, "Set from this PC");
@@ -75,8 +75,8 @@ fn the_effect_of_the_clock_is_that_on_the_tracked_satellite() {
         (states::holding(), "along the path of METEOR-M2 4"),
     ] {
         snapshot.state.link_since = read().state.link_since;
-        snapshot.state.held = read().state.held;
-        let values = &mut group(&mut snapshot, "file").held.as_mut().unwrap().values;
+        snapshot.state.groups = read().state.groups;
+        let values = &mut group(&mut snapshot, "file").last_read.as_mut().unwrap().values;
         values.insert("catalog_number", Value::Integer(59_051));
         let window = opened(LARGE, snapshot);
         assert!(says(&window, wanted), "{wanted}");
@@ -88,7 +88,7 @@ fn a_place_far_from_the_site_is_a_warning() {
     let mut snapshot = read();
     let mut window = opened(LARGE, snapshot.clone());
     assert!(!says(&window, "Distance to site: Differs"));
-    let values = &mut group(&mut snapshot, "gps").held.as_mut().unwrap().values;
+    let values = &mut group(&mut snapshot, "gps").last_read.as_mut().unwrap().values;
     values.insert("latitude_deg", Value::Decimal(41.5));
     change(&mut window, 0, |of| *of = snapshot);
     assert!(says(&window, "Distance to site: Differs"));

@@ -33,7 +33,7 @@ fn a_copy_tells_what_has_changed_since_and_gives_it_back() {
     assert!(ask(&control, "SETTINGS=,?,?,?,?,?,?,7.5,?,?,?,4.0").contains(",OK"));
     press(&mut scene.window, "Read again");
     step_until(&mut scene.window, "the new value is read", |model| {
-        let held = &model.antennas[0].snapshot.state.held["general"].held;
+        let held = &model.antennas[0].snapshot.state.groups["general"].last_read;
         let value = &held.as_ref().unwrap().values["elevation_threshold_deg"];
         *value == azel::device::settings::Value::Decimal(4.0)
     });

@@ -5,7 +5,9 @@ use std::sync::Arc;
 use azel::{
     contract::driver::Snapshot,
     controller::satrak::settings::GROUPS,
-    device::settings::{Access, Field, GroupState, Held, HeldGroup, Kind, Secret, Value, Values},
+    device::settings::{
+        Access, Field, GroupState, GroupStates, HeldGroup, Kind, Secret, Value, Values,
+    },
     model::View,
 };
 use egui::{Event, Key, Modifiers, Role};
@@ -40,12 +42,12 @@ fn usual(field: &Field) -> Value {
 }
 
 /// Complete readings, with the usual values.
-pub(crate) fn held() -> Held {
+pub(crate) fn held() -> GroupStates {
     let group = |fields: &[Field]| {
         let reported = fields.iter().filter(|field| field.access != Access::Write);
         let values: Values = reported.map(|field| (field.key, usual(field))).collect();
         let held = Some(HeldGroup { values, read_at: now() });
-        GroupState { held, ..GroupState::default() }
+        GroupState { last_read: held, ..GroupState::default() }
     };
     GROUPS.iter().map(|known| (known.key, group(known.fields))).collect()
 }
@@ -53,8 +55,8 @@ pub(crate) fn held() -> Held {
 /// A unit at standstill whose settings are read.
 pub(crate) fn read() -> Snapshot {
     let mut snapshot = states::holding();
-    snapshot.state.link_since = snapshot.state.measured.map(|measured| measured.asked);
-    snapshot.state.held = Arc::new(held());
+    snapshot.state.link_since = snapshot.state.measured.map(|measured| measured.requested);
+    snapshot.state.groups = Arc::new(held());
     snapshot
 }
 

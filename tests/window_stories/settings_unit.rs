@@ -100,7 +100,7 @@ impl Scene {
         crate::window_stories::unit::wait_until("the link is lost", || {
             let is_lost = |written: &Written| written.result == Err(WriteError::LinkLost);
             let shown = &self.window.state().model().antennas[0].snapshot;
-            let state = shown.state.held.get(group);
+            let state = shown.state.groups.get(group);
             if state.is_some_and(|state| state.written.as_deref().is_some_and(is_lost)) {
                 control.drop_clients();
             }
@@ -116,9 +116,10 @@ impl Scene {
         let lost_at = self.window.state().model().now;
         step_until(&mut self.window, "the link is back", |model| {
             let shown = &model.antennas[0].snapshot;
-            let is_new =
-                |state: &GroupState| state.held.as_ref().is_some_and(|held| held.read_at > lost_at);
-            matches!(shown.link, LinkState::Up { .. }) && shown.state.held.values().all(is_new)
+            let is_new = |state: &GroupState| {
+                state.last_read.as_ref().is_some_and(|held| held.read_at > lost_at)
+            };
+            matches!(shown.link, LinkState::Up { .. }) && shown.state.groups.values().all(is_new)
         });
     }
 }

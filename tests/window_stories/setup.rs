@@ -75,7 +75,7 @@ pub(crate) fn add_and_test(window: &mut Window, address: &str) -> Antenna {
 }
 
 pub(crate) fn tell(window: &mut Window, antenna: &Antenna, finding: LinkFinding) {
-    let stage = LinkTestStage::Done { finding, at: rig::now() };
+    let stage = LinkTestStage::Done { finding, time: rig::now() };
     let test = LinkTest { antenna: antenna.clone(), stage };
     window.state_mut().model.shown_mut().link_tests = Arc::new(vec![test]);
     settle(window);

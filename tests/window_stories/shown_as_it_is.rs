@@ -20,7 +20,10 @@ use crate::window_stories::{
 fn lost(snapshot: Snapshot, model: &Model) -> Snapshot {
     let since = model.steady - Duration::from_secs(5);
     let retry_at = model.steady + Duration::from_secs(2);
-    Snapshot { link: LinkState::Lost { since, reason: LinkLoss::Silent, retry_at }, ..snapshot }
+    Snapshot {
+        link: LinkState::Lost { start: since, reason: LinkLoss::Silent, retry_at },
+        ..snapshot
+    }
 }
 
 #[test]
@@ -33,7 +36,7 @@ fn without_a_fresh_measurement_there_is_no_error_and_no_rate() {
         let mut model = rig::model(states::tracking(0.1));
         let mut snapshot = lost(states::tracking(0.1), &model);
         let measured = snapshot.state.measured.as_mut().unwrap();
-        measured.asked = model.steady - Duration::from_millis(4900);
+        measured.requested = model.steady - Duration::from_millis(4900);
         model.shown_mut().antennas[0].snapshot = Arc::new(snapshot);
         let window = rig::window(size, model);
         let az = "actual 296.51, 4.9 s old, error not known, rate not known";

@@ -214,7 +214,7 @@ fn errors_of_the_last_tracks_stay_to_be_looked_at() {
         let mut snapshot = states::tracking(0.02 * f64::from(second));
         let mut measured = snapshot.state.measured.unwrap();
         measured.received = model.steady + Duration::from_secs(u64::try_from(second).unwrap());
-        measured.at = add_seconds(measured.at, f64::from(second));
+        measured.time = add_seconds(measured.time, f64::from(second));
         snapshot.state.measured = Some(measured);
         let noaa = number(&model, rig::NOAA_20);
         let antenna = &mut model.shown_mut().antennas[0];

@@ -31,7 +31,7 @@ const SPAN_S: f64 = 12.0 * 3600.0;
 fn planned(snapshot: Snapshot) -> Model {
     let mut model = rig::model(snapshot);
     let until = Some(add_seconds(model.now, SPAN_S));
-    model.shown_mut().schedule = Arc::new(Planned { until, ..plan::planned(&model) });
+    model.shown_mut().schedule = Arc::new(Planned { end: until, ..plan::planned(&model) });
     model
 }
 
@@ -227,15 +227,15 @@ fn without_a_schedule_there_is_only_now() {
 /// the second leads from 60° of elevation over the zenith to 60°.
 fn two_entries(model: &mut Model, between: BetweenPasses) -> [Entry; 2] {
     let mut station = (*model.station).clone();
-    station.antennas[0].automatic.between = between;
+    station.antennas[0].automatic.between_passes = between;
     model.shown_mut().antennas[0].config = Arc::new(station.antennas[0].clone());
     model.shown_mut().station = Arc::new(station);
     let mut entries = model.schedule.schedule.entries.clone();
-    entries.retain(|entry| entry.from > model.now);
+    entries.retain(|entry| entry.start > model.now);
     let first = entries[0].clone();
     let later = |at| add_seconds(at, 4.0 * 3600.0);
-    let second = Entry { from: later(first.from), to: later(first.to), ..first.clone() };
-    let spare_s = second.from.duration_since(first.to).as_secs_f64() - 40.0 - 12.0;
+    let second = Entry { start: later(first.start), end: later(first.end), ..first.clone() };
+    let spare_s = second.start.duration_since(first.end).as_secs_f64() - 40.0 - 12.0;
     let entries = [
         Entry { axes_deg: [[90.0, 90.0], [60.0, 90.0]], ..first },
         Entry {
@@ -247,8 +247,8 @@ fn two_entries(model: &mut Model, between: BetweenPasses) -> [Entry; 2] {
         },
     ];
     let schedule = Schedule { entries: entries.to_vec(), ..Schedule::default() };
-    let until = model.schedule.until;
-    model.shown_mut().schedule = Arc::new(Planned { schedule, until, ..Planned::default() });
+    let until = model.schedule.end;
+    model.shown_mut().schedule = Arc::new(Planned { schedule, end: until, ..Planned::default() });
     entries
 }
 
@@ -262,7 +262,7 @@ fn an_antenna_points_along_its_pass_and_holds_slews_and_waits_between() {
     let mut model = planned(states::holding());
     let [first, second] = two_entries(&mut model, BetweenPasses::Stay);
     let next = (second.pass.satellite, second.pass.aos);
-    let middle = add_seconds(first.from, 120.0);
+    let middle = add_seconds(first.start, 120.0);
     let satellite = model.pass_lists.satellite(first.pass.satellite).unwrap();
     let look = satellite.propagator.look_from(model.station.site, middle).unwrap();
     let (doing, elevation_deg) = pose(&model, middle);
@@ -276,11 +276,11 @@ fn an_antenna_points_along_its_pass_and_holds_slews_and_waits_between() {
         (59.0, PlannedActivity::WaitsFor(next), 60.0),
         (1.0, PlannedActivity::WaitsFor(next), 60.0),
     ] {
-        let (done, measured_deg) = pose(&model, add_seconds(second.from, -before_s));
+        let (done, measured_deg) = pose(&model, add_seconds(second.start, -before_s));
         assert_eq!(done, doing, "{before_s} s before");
         assert!((measured_deg - elevation_deg).abs() < 1e-6, "{before_s} s: {measured_deg}");
     }
-    let (doing, elevation_deg) = pose(&model, add_seconds(second.to, 600.0));
+    let (doing, elevation_deg) = pose(&model, add_seconds(second.end, 600.0));
     assert_eq!(doing, PlannedActivity::Stays);
     assert!((elevation_deg - 90.0).abs() < 1e-6);
 }
@@ -290,14 +290,14 @@ fn where_it_is_between_passes_follows_its_setting() {
     let mut model = planned(states::holding());
     let [first, second] = two_entries(&mut model, BetweenPasses::Wait);
     let next = (second.pass.satellite, second.pass.aos);
-    let (doing, _) = pose(&model, add_seconds(first.to, 60.0));
+    let (doing, _) = pose(&model, add_seconds(first.end, 60.0));
     assert_eq!(doing, PlannedActivity::WaitsFor(next), "it goes on at once");
 
     let mut model = planned(states::holding());
     let [first, _] = two_entries(&mut model, BetweenPasses::Park);
-    let (doing, _) = pose(&model, add_seconds(first.to, 1.0));
+    let (doing, _) = pose(&model, add_seconds(first.end, 1.0));
     assert_eq!(doing, PlannedActivity::SlewsToPark);
-    let (doing, elevation_deg) = pose(&model, add_seconds(first.to, 600.0));
+    let (doing, elevation_deg) = pose(&model, add_seconds(first.end, 600.0));
     assert_eq!(doing, PlannedActivity::Parked);
     let park = model.antennas[0].config.park_direction();
     assert!((elevation_deg - park.elevation_deg()).abs() < 0.01, "{elevation_deg}");
@@ -308,7 +308,7 @@ fn before_its_first_pass_it_holds_where_it_stands_and_without_passes_nothing_is_
     let mut model = planned(states::holding());
     let [first, _] = two_entries(&mut model, BetweenPasses::Park);
     let stands = model.antennas[0].snapshot.state.measured.unwrap().direction().unwrap();
-    let at = add_seconds(first.from, -1200.0);
+    let at = add_seconds(first.start, -1200.0);
     let (doing, elevation_deg) = pose(&model, at);
     assert_eq!(doing, PlannedActivity::Stays);
     assert!((elevation_deg - stands.elevation_deg()).abs() < 0.1, "{elevation_deg}");

@@ -163,7 +163,7 @@ fn a_server_is_spoken_to_as_its_port_says_or_as_the_operator_wants() {
 }
 
 fn seen(view: Box<UnitView>, old_algorithms: Vec<OldAlgorithm>) -> TestStage {
-    TestStage::Seen { view, at: rig::now(), old_algorithms }
+    TestStage::Seen { view, time: rig::now(), old_algorithms }
 }
 
 #[test]

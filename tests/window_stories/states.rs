@@ -26,8 +26,8 @@ pub(crate) fn measured(azimuth_deg: f64, elevation_deg: f64, motion: AxisMotion)
     };
     let steady = Instant::now();
     Measured {
-        at: now(),
-        asked: steady,
+        time: now(),
+        requested: steady,
         received: steady,
         pointing: AzEl::from_degrees(azimuth_deg, elevation_deg).into(),
         axes: [axis; 2],
@@ -61,8 +61,8 @@ pub(crate) fn target() -> TrackTarget {
         catalog_number: NOAA_20,
         name: "NOAA 20 (JPSS-1)".to_owned(),
         element_file: None,
-        from: now(),
-        until: los(),
+        start: now(),
+        end: los(),
     }
 }
 
@@ -117,7 +117,7 @@ pub(crate) fn is_late(model: &mut Model, reply_s: u64, position_s: u64) {
     snapshot.state.link_since = Some(up);
     snapshot.state.traffic.last_reply = Some(reply);
     if let Some(measured) = &mut snapshot.state.measured {
-        (measured.asked, measured.received) = (asked, reply);
+        (measured.requested, measured.received) = (asked, reply);
     }
 }
 

@@ -36,10 +36,10 @@ fn stop_stops(window: &mut Window, name: &str) {
 fn stop_goes_out_in_every_state_of_the_last_one() {
     for size in SIZES {
         let since = states::moving().state.measured.unwrap().received;
-        let stopped = StopState::Stopped { at: since };
+        let stopped = StopState::Stopped { time: since };
         for (stop, of, name) in [
             (StopState::Ready, states::moving(), "STOP"),
-            (StopState::Stopping { since }, states::moving(), "STOP, stopping"),
+            (StopState::Stopping { start: since }, states::moving(), "STOP, stopping"),
             (stopped, states::holding(), "STOP, all stopped"),
             (stopped, states::moving(), "STOP"),
         ] {
@@ -56,7 +56,8 @@ fn a_stop_that_is_not_proved_says_what_to_do_and_can_be_repeated() {
     for size in SIZES {
         let mut model = rig::model(states::moving());
         let since = rig::ago(&model, 4);
-        let snapshot = Snapshot { stop: StopState::NotConfirmed { since }, ..states::moving() };
+        let snapshot =
+            Snapshot { stop: StopState::NotConfirmed { start: since }, ..states::moving() };
         model.shown_mut().antennas =
             vec![rig::antenna(model.station.antennas[0].clone(), snapshot)];
         let text = states::sentence(&model);
@@ -112,7 +113,7 @@ fn stop_goes_out_without_link_and_without_antennas() {
     for size in SIZES {
         let mut model = rig::model(states::moving());
         let since = model.steady;
-        let link = LinkState::Lost { since, reason: LinkLoss::Silent, retry_at: since };
+        let link = LinkState::Lost { start: since, reason: LinkLoss::Silent, retry_at: since };
         let snapshot = Snapshot { link, ..states::moving() };
         model.shown_mut().antennas =
             vec![rig::antenna(model.station.antennas[0].clone(), snapshot)];
@@ -163,7 +164,9 @@ fn stop_shows_as_pressed_while_the_session_says_nothing() {
         for snapshot in [
             states::moving(),
             Snapshot {
-                stop: StopState::Stopped { at: states::holding().state.measured.unwrap().received },
+                stop: StopState::Stopped {
+                    time: states::holding().state.measured.unwrap().received,
+                },
                 ..states::holding()
             },
         ] {
@@ -210,9 +213,9 @@ fn stop_shows_as_pressed_until_the_session_tells_of_it() {
     let site = model.station.site;
     let later = rig::soon(&model);
     for told in [
-        StopState::Stopping { since: later },
-        StopState::Stopped { at: later },
-        StopState::NotConfirmed { since: later },
+        StopState::Stopping { start: later },
+        StopState::Stopped { time: later },
+        StopState::NotConfirmed { start: later },
     ] {
         let snapshot = Snapshot { stop: told, ..states::moving() };
         model.shown_mut().antennas =
@@ -228,7 +231,7 @@ fn after_a_stop_the_bar_says_in_words_what_was_left_alone() {
     for size in SIZES {
         let mut model = rig::model(states::holding());
         let at = model.steady;
-        let stopped = Snapshot { stop: StopState::Stopped { at }, ..states::holding() };
+        let stopped = Snapshot { stop: StopState::Stopped { time: at }, ..states::holding() };
         model.shown_mut().antennas = vec![rig::antenna(model.station.antennas[0].clone(), stopped)];
         let off = || Snapshot::before_anything(LinkState::Off);
         model.shown_mut().antennas.push(rig::antenna(makes::rc2000c(), off()));

@@ -91,7 +91,7 @@ fn after_two_passes(model: &mut Model) {
         let name = "NOAA 20".to_owned();
         let in_beam_s = 742.0 - lost_s;
         let flown = Flown { pass, name, of_s: 742.0, in_beam_s, proved_at: None, cause };
-        DayLine { at: model.now, antenna: AntennaId(1), what: DayEvent::Flown(flown) }
+        DayLine { time: model.now, antenna: AntennaId(1), event: DayEvent::Flown(flown) }
     };
     let before = (37_849, add_seconds(model.now, -900.0));
     model.shown_mut().day = Arc::new(vec![

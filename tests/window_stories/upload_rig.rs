@@ -109,7 +109,7 @@ pub(crate) fn file() -> TleFile {
     let azel::contract::CatalogState::Ready(catalog) = &model.catalog else {
         panic!("the bundled elements")
     };
-    TleFile::of([ISS, NOAA_20].iter().filter_map(|number| catalog.get(*number)), &ELEMENT_FILES)
+    TleFile::new([ISS, NOAA_20].iter().filter_map(|number| catalog.get(*number)), &ELEMENT_FILES)
         .unwrap()
 }
 
@@ -120,7 +120,7 @@ pub(crate) fn uploaded() -> Uploaded {
         file: FileName::new(FILE, &ELEMENT_FILES).unwrap(),
         bytes: file.bytes().len() as u64,
         sha256: file.hash(),
-        at: rig::now(),
+        time: rig::now(),
         objects: file.objects().to_vec(),
     }
 }
@@ -162,7 +162,7 @@ pub(crate) fn kept_entry(origin: Origin, hours_ago: f64) -> KeptEntry {
         file: FILE.to_owned(),
         sha256: file.hash(),
         bytes: file.bytes().len() as u64,
-        at: add_seconds(rig::now(), -hours_ago * 3600.0),
+        time: add_seconds(rig::now(), -hours_ago * 3600.0),
         origin,
     };
     KeptEntry { file: kept, objects: Ok(file.objects().to_vec()) }

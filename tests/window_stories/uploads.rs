@@ -6,7 +6,7 @@ use azel::{
     contract::{
         self, CatalogState,
         transfer::{AlgorithmPart, FileObject, OldAlgorithm, Origin, Peer, UploadStep},
-        uploads::{Ask, Cargo, Failure, Kept, KeptEntry, Proved, Stage, Uploads, Warning},
+        uploads::{Ask, Cargo, Failure, KeptEntry, KeptFiles, Proved, Stage, Uploads, Warning},
     },
     controller::satrak::ELEMENT_FILES,
     device::HeldSatellite,
@@ -157,7 +157,7 @@ fn each_field_says_what_is_missing() {
 fn proof_is_told_with_file_hash_time_and_ages() {
     let uploaded = uploaded();
     let satellite: FileObject = uploaded.objects[1].clone();
-    let proved = Proved { uploaded, satellite, at: rig::now() };
+    let proved = Proved { uploaded, satellite, time: rig::now() };
     let old = OldAlgorithm { part: AlgorithmPart::HostKey, name: "ssh-rsa".to_owned() };
     for width in WIDTHS {
         let uploads = Uploads {
@@ -223,8 +223,8 @@ fn what_was_there_before_is_listed_and_put_back_when_asked_twice() {
     let list = vec![kept_entry(Origin::Uploaded, 2.0), kept_entry(Origin::Found, 50.0)];
     for width in WIDTHS {
         let of = (peer().to_string(), FILE.to_owned());
-        let kept = Kept { of, list: Some(Ok(list.clone())) };
-        let mut window = typed(width, Uploads { kept, ..Uploads::default() });
+        let kept = KeptFiles { origin: of, list: Some(Ok(list.clone())) };
+        let mut window = typed(width, Uploads { kept_files: kept, ..Uploads::default() });
         assert!(!says(&window, "sent from here"));
         click(&mut window, "Kept on this computer: 2 files");
         assert!(says(&window, "Wed 2026-08-12 09:15:30Z") && says(&window, "sent from here"));
@@ -251,13 +251,13 @@ fn the_list_of_what_is_kept_is_asked_for_once_the_file_is_known() {
     }));
     assert!(window.state().commands.contains(&ask));
     let of = (unit, FILE.to_owned());
-    Arc::make_mut(&mut window.state_mut().model.shown_mut().uploads).kept =
-        Kept { of: of.clone(), list: None };
+    Arc::make_mut(&mut window.state_mut().model.shown_mut().uploads).kept_files =
+        KeptFiles { origin: of.clone(), list: None };
     settle(&mut window);
     assert!(says(&window, "The list is being read."));
     let problem = Some(Err("the list of kept files cannot be read".to_owned()));
-    Arc::make_mut(&mut window.state_mut().model.shown_mut().uploads).kept =
-        Kept { of, list: problem };
+    Arc::make_mut(&mut window.state_mut().model.shown_mut().uploads).kept_files =
+        KeptFiles { origin: of, list: problem };
     settle(&mut window);
     assert!(says(&window, "The list of kept files cannot be read."));
 }
@@ -278,7 +278,8 @@ fn without_elements_an_old_file_can_still_be_put_back() {
     let entry = kept_entry(Origin::Found, 2.0);
     let back = put_back("Wed 2026-08-12 09:15:30Z, was on the unit", &entry);
     let list = Some(Ok(vec![entry]));
-    Arc::make_mut(&mut window.state_mut().model.shown_mut().uploads).kept = Kept { of, list };
+    Arc::make_mut(&mut window.state_mut().model.shown_mut().uploads).kept_files =
+        KeptFiles { origin: of, list };
     settle(&mut window);
     click(&mut window, "Kept on this computer: 1 file");
     assert!(is_disabled(&window, "Upload and verify"));
@@ -295,12 +296,12 @@ fn put_back(origin: &str, entry: &KeptEntry) -> String {
 fn nothing_is_wider_than_its_place() {
     let uploaded = uploaded();
     let satellite = uploaded.objects[0].clone();
-    let proved = Proved { uploaded, satellite, at: rig::now() };
+    let proved = Proved { uploaded, satellite, time: rig::now() };
     for width in WIDTHS {
         let of = (peer().to_string(), FILE.to_owned());
-        let kept = Kept { of, list: Some(Ok(vec![kept_entry(Origin::Found, 2.0)])) };
+        let kept = KeptFiles { origin: of, list: Some(Ok(vec![kept_entry(Origin::Found, 2.0)])) };
         let stage = Stage::Proved(Box::new(proved.clone()));
-        let mut window = typed(width, Uploads { kept, ..at(stage) });
+        let mut window = typed(width, Uploads { kept_files: kept, ..at(stage) });
         click(&mut window, "Kept on this computer: 1 file");
         for role in [Role::Button, Role::TextInput, Role::RadioButton, Role::Label] {
             for node in window.query_all_by_role(role) {
@@ -378,8 +379,8 @@ fn the_form_is_in_sight_above_a_list_of_a_hundred_satellites() {
         );
         // An earlier file is not behind the list either.
         let of = (peer().to_string(), FILE.to_owned());
-        let kept = Kept { of, list: Some(Ok(vec![kept_entry(Origin::Found, 2.0)])) };
-        Arc::make_mut(&mut window.state_mut().model.shown_mut().uploads).kept = kept;
+        let kept = KeptFiles { origin: of, list: Some(Ok(vec![kept_entry(Origin::Found, 2.0)])) };
+        Arc::make_mut(&mut window.state_mut().model.shown_mut().uploads).kept_files = kept;
         window.get_by_role_and_label(Role::TextInput, "File").focus();
         rig::settle(&mut window);
         window.event(egui::Event::Text(FILE.to_owned()));
@@ -404,7 +405,7 @@ fn the_button_and_the_proof_are_in_sight_in_the_smallest_window() {
     assert!(whole.contains_rect(button), "{button:?}");
     let uploaded = uploaded();
     let satellite: FileObject = uploaded.objects[1].clone();
-    let proved = Proved { uploaded, satellite, at: rig::now() };
+    let proved = Proved { uploaded, satellite, time: rig::now() };
     let window = opened_small(at(Stage::Proved(Box::new(proved))));
     let proof = window.get_by_label_contains("Verified 11:15:30Z").rect();
     assert!(whole.contains_rect(proof), "{proof:?}");

@@ -37,7 +37,7 @@ fn a_target_in_the_sky_keeps_its_decimals() {
     let mut model = makes::model(makes::pair(), makes::pair_at(Intent::Track));
     model.shown_mut().antennas[0].prediction = Some(Prediction {
         catalog_number: Some(rig::NOAA_20),
-        at: rig::now(),
+        time: rig::now(),
         direction: AzEl::from_degrees(43.25, 12.5),
     });
     let window = rig::window(rig::LARGE, model);

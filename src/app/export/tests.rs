@@ -4,7 +4,7 @@ use crate::{
     contract::passes::{ListedSatellite, Observer, PassList as Listed},
     makes::DemoAddresses,
     orbit::{Propagator, bundled, passes, read_elements},
-    plan::schedule::{Entry, PassKey as Key, Schedule, Why, testing::entry},
+    plan::schedule::{Entry, LeftOutReason, PassKey as Key, Schedule, testing::entry},
     record::testing,
     station::{AntennaId, Frequency},
 };
@@ -18,7 +18,7 @@ fn order(export: impl Fn(&[PredictedPass]) -> Export) -> Order {
     let frequencies = vec![Frequency { satellite: ISS, mhz: 145.8, name: String::new() }];
     let demo = Station::demo(&DemoAddresses::default());
     let station = Station { frequencies, antennas: demo.antennas, ..Station::default() };
-    let observer = Arc::new(Observer::of(&station));
+    let observer = Arc::new(Observer::from_station(&station));
     let propagator = Propagator::new(&elements).unwrap();
     let satellite = Arc::new(ListedSatellite { elements, propagator });
     let to = now + jiff::SignedDuration::from_hours(24);
@@ -35,7 +35,7 @@ fn order(export: impl Fn(&[PredictedPass]) -> Export) -> Order {
     };
     let lists = PassLists { favourites, ..PassLists::default() };
     let planned = schedule(&lists, station.antennas[0].id);
-    let schedule = Arc::new(Planned { until: Some(to), ..planned });
+    let schedule = Arc::new(Planned { end: Some(to), ..planned });
     let (catalog, station) = (CatalogState::Ready(Arc::new(catalog)), Arc::new(station));
     let (recorded, record) = (None, None);
     Order { export, catalog, lists, recorded, record, schedule, station, span_h: 24, now }
@@ -47,8 +47,8 @@ fn schedule(lists: &PassLists, antenna: AntennaId) -> Planned {
     let key = |of: &PredictedPass| Key { satellite: of.number(), aos: of.pass.aos.time };
     let taken_by =
         Entry { slew_s: 12.0, set_up_s: 10.0, ..entry(antenna, key(taken), taken.pass.los.time) };
-    let why = Why::TooFar;
-    let left_out = LeftOut { pass: key(left_out), why, by_antenna: vec![] };
+    let why = LeftOutReason::TooFar;
+    let left_out = LeftOut { pass: key(left_out), reason: why, by_antenna: vec![] };
     let schedule =
         Schedule { entries: vec![taken_by], left_out: vec![left_out], ..Schedule::default() };
     Planned { schedule, ..Planned::default() }

@@ -18,17 +18,18 @@ use crate::{
 
 /// Why a replay that began at `begun_at` ends by itself.
 pub(super) fn why_over(begun_at: Timestamp, live: &Model) -> Option<ReplayEnd> {
-    let is_grave =
-        |alarm: &Alarm| alarm.priority() == Priority::First && !alarm.seen && alarm.last > begun_at;
+    let is_grave = |alarm: &Alarm| {
+        alarm.priority() == Priority::First && !alarm.acknowledged && alarm.last > begun_at
+    };
     if live.alarms.list().iter().any(is_grave) {
         return Some(ReplayEnd::Alarm);
     }
     let is_near = |entry: &&Entry| {
-        let ends_at = add_seconds(entry.from, -ENDS_BEFORE_PASS_S);
-        begun_at < ends_at && ends_at <= live.now && live.now < entry.from
+        let ends_at = add_seconds(entry.start, -ENDS_BEFORE_PASS_S);
+        begun_at < ends_at && ends_at <= live.now && live.now < entry.start
     };
     let entry = live.schedule.schedule.entries.iter().find(is_near)?;
     let satellite = words::schedule::satellite_name(live, entry.pass.satellite);
     let antenna = words::schedule::antenna_name(live, entry.antenna).to_owned();
-    Some(ReplayEnd::Pass { antenna, satellite, from: entry.from })
+    Some(ReplayEnd::Pass { antenna, satellite, from: entry.start })
 }

@@ -10,13 +10,13 @@ use crate::{
     automatic::{Interruption, NotReady, OffBecause},
     claim::HeldBy,
     device::{
-        Asked, PrepareError, TrackTarget,
+        MotionRequest, PrepareError, TrackTarget,
         panel::{Check, CheckState},
         settings::WriteError,
     },
     driver::{LeftOffsets, LinkLoss, OffTargetCause, Safety, TrackProblem, Unit},
     name::{self, Name},
-    passes::PassKey,
+    passes::PassListKey,
     plan::on_board::Ranked,
     station::Note,
 };
@@ -72,9 +72,9 @@ pub enum AlarmKind {
     /// The list of locked-out units could not be read or written; in words.
     LockOuts(String),
     /// The unit refused a request, with this code.
-    Refused(Asked, String),
+    Refused(MotionRequest, String),
     /// The unit did not answer a request.
-    Unanswered(Asked),
+    Unanswered(MotionRequest),
     /// The satellite cannot be tracked on board.
     CannotTrack(TrackTarget, PrepareError),
     /// Program track of this target cannot begin, or cannot go on.
@@ -82,7 +82,8 @@ pub enum AlarmKind {
     /// The antenna tracks, and is not where the satellite is.
     OffTarget {
         /// Error when it was noticed.
-        off: Angle,
+        #[serde(rename = "off")]
+        deviation: Angle,
         cause: Option<OffTargetCause>,
     },
     /// By the unit's own settings it would miss a pass; with the likeliest cause.
@@ -90,7 +91,8 @@ pub enum AlarmKind {
     /// The unit still adds offsets that were written for a track.
     OffsetsLeft {
         offsets: TrackOffsets,
-        why: LeftOffsets,
+        #[serde(rename = "why")]
+        reason: LeftOffsets,
     },
     /// An offset of the unit's own track was not written.
     OffsetNotTaken(WriteError),
@@ -106,16 +108,17 @@ pub enum AlarmKind {
     EndedShort,
     /// The antenna is not on its way to a pass of the schedule that is about to begin.
     NotOnItsWay {
-        pass: PassKey,
+        pass: PassListKey,
         /// Short name of the satellite.
         name: String,
         /// Reason why the unit cannot begin the pass, if known.
-        #[serde(default)]
-        why: Option<NotReady>,
+        #[serde(rename = "why", default)]
+        reason: Option<NotReady>,
     },
     /// Automatic operation is going to move the antenna, for the first time or after a rest.
     AutomaticMoves {
-        at: Timestamp,
+        #[serde(rename = "at")]
+        time: Timestamp,
         /// Short name of the satellite whose pass it is for.
         name: String,
     },
@@ -125,7 +128,7 @@ pub enum AlarmKind {
     AutomaticSuspended(Interruption),
     /// No antenna is on its way to a pass that the operator wanted to be reminded of.
     NoAntennaFor {
-        pass: PassKey,
+        pass: PassListKey,
         /// Short name of the satellite.
         name: String,
     },
@@ -167,7 +170,8 @@ pub enum AlarmKind {
     },
     /// Newer elements cannot be uploaded to the unit by the rule.
     ElementsNotUploaded {
-        why: String,
+        #[serde(rename = "why")]
+        reason: String,
     },
     /// The program was too busy to take a request.
     NotTaken,
@@ -237,7 +241,9 @@ impl AlarmKind {
             | Self::AutoTrackOwed(_)
             | Self::OffsetsOwed(_)
             | Self::OffTarget { .. }
-            | Self::OffsetsLeft { why: LeftOffsets::Failed(_) | LeftOffsets::Refused(_), .. }
+            | Self::OffsetsLeft {
+                reason: LeftOffsets::Failed(_) | LeftOffsets::Refused(_), ..
+            }
             | Self::NotOnItsWay { .. }
             | Self::AutomaticMoves { .. }
             | Self::AutomaticOff(_)

@@ -55,7 +55,7 @@ impl Alarms {
 /// Returns `true` if `effect` came while `cause` stood, and from it.
 fn is_cause(cause: &Alarm, effect: &Alarm) -> bool {
     let is_before = (cause.last, cause.id) < (effect.last, effect.id);
-    let stood = cause.over_since.is_none_or(|since| since >= effect.last);
+    let stood = cause.over_since.is_none_or(|over_since| over_since >= effect.last);
     let is_there = cause.antenna.is_none() || cause.antenna == effect.antenna;
     // A cause that is over, or that the operator is done with, must not stand above an effect that
     // still needs attention.

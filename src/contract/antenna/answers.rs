@@ -5,7 +5,7 @@ use std::time::Duration;
 use super::AntennaModel;
 use crate::{
     clock::Instant,
-    device::Asked,
+    device::MotionRequest,
     driver::{LinkState, Refusal, Snapshot, position_for},
 };
 
@@ -63,29 +63,29 @@ impl AntennaModel {
     /// Returns how the unit answers.
     pub fn answers(&self, now: Instant) -> Answers {
         let Snapshot { link, state, .. } = &*self.snapshot;
-        let age = |since: Instant| now.saturating_duration_since(since);
+        let age = |start: Instant| now.saturating_duration_since(start);
         let as_of = match *link {
             LinkState::Off => return Answers::Off,
             LinkState::Connecting { .. } => return Answers::Connecting,
-            LinkState::Lost { since, .. } => return Answers::Lost(age(since)),
+            LinkState::Lost { start, .. } => return Answers::Lost(age(start)),
             LinkState::Up { .. } if self.is_live() => return Answers::InTime,
             // The last report came over an earlier link.
-            LinkState::Up { since } => since,
+            LinkState::Up { start } => start,
             LinkState::Stale { as_of } => as_of,
         };
         let silent = age(state.traffic.last_reply.unwrap_or(as_of));
         if silent >= HICCUP {
             return Answers::Silent(silent);
         }
-        let asked = state.measured_on_link().map_or(as_of, |measured| measured.asked);
-        Answers::Late(age(asked.min(as_of)))
+        let request_time = state.measured_on_link().map_or(as_of, |measured| measured.requested);
+        Answers::Late(age(request_time.min(as_of)))
     }
 
-    /// Returns the reason why no control offers the motion `asked` now, as far as the age of the
+    /// Returns the reason why no control offers `motion` now, as far as the age of the
     /// position decides it. A position that the gate refuses is always a reason. So are replies that
     /// are late by more than a hiccup, even while the gate would still pass their position.
-    pub fn no_motion(&self, asked: &Asked, now: Instant) -> Option<NoMotion> {
-        let refusal = position_for(asked, &self.snapshot.state, now).err();
+    pub fn no_motion(&self, motion: &MotionRequest, now: Instant) -> Option<NoMotion> {
+        let refusal = position_for(motion, &self.snapshot.state, now).err();
         let is_unread = refusal == Some(Refusal::PositionUnknown);
         match self.answers(now) {
             // The link is the reason.

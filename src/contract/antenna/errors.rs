@@ -112,9 +112,9 @@ mod tests {
             errors.push(sample(f64::from(second)));
         }
         assert_eq!((copy.iter().count(), copy.back().unwrap().time.as_second()), (300, 299));
-        let kept: Vec<i64> = errors.iter().map(|sample| sample.time.as_second()).collect();
-        assert!(kept.is_sorted() && kept.last() == Some(&4999));
-        assert!((3600..3600 + 300).contains(&kept.len()), "{}", kept.len());
+        let seconds: Vec<i64> = errors.iter().map(|sample| sample.time.as_second()).collect();
+        assert!(seconds.is_sorted() && seconds.last() == Some(&4999));
+        assert!((3600..3600 + 300).contains(&seconds.len()), "{}", seconds.len());
     }
 
     #[test]

@@ -11,7 +11,7 @@ use crate::{
 };
 
 /// Number of tracks that are kept.
-const KEPT: usize = 8;
+const MAX_TRACKS: usize = 8;
 
 /// The errors of a track that is over.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -19,8 +19,10 @@ pub struct PastTrack {
     /// Name of the target.
     pub name: String,
     /// First and last sample.
-    pub from: Timestamp,
-    pub until: Timestamp,
+    #[serde(rename = "from")]
+    pub start: Timestamp,
+    #[serde(rename = "until")]
+    pub end: Timestamp,
     /// Root of the mean square of the angle between beam axis and target.
     pub rms: Angle,
     pub worst: ErrorSample,
@@ -52,6 +54,6 @@ impl PastTracks {
     /// Adds a track, and drops the oldest where there are too many.
     pub fn push(&mut self, track: PastTrack) {
         self.0.push_front(Arc::new(track));
-        self.0.truncate(KEPT);
+        self.0.truncate(MAX_TRACKS);
     }
 }

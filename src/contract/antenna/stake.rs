@@ -31,8 +31,8 @@ impl AntennaModel {
             return Some(Stake::ProgramTracked(following.name.clone()));
         }
         if state.program.is_some_and(|program| program.enabled) {
-            let held = state.on_board.satellite.as_ref();
-            return Some(Stake::OnBoard(held.map(|held| held.name.clone())));
+            let satellite = state.on_board.satellite.as_ref();
+            return Some(Stake::OnBoard(satellite.map(|satellite| satellite.name.clone())));
         }
         if snapshot.intent == Intent::Track {
             return Some(Stake::OnBoard(

@@ -9,7 +9,8 @@ use crate::{astro::AzEl, device::Pointing};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Preview {
     /// The direction, as it was asked for.
-    pub to: Pointing,
+    #[serde(rename = "to")]
+    pub target: Pointing,
     pub way: Result<Way, Refusal>,
 }
 

@@ -20,12 +20,19 @@ use crate::{
 
 #[derive(Debug, Clone, PartialEq, thiserror::Error, Serialize, Deserialize)]
 pub enum Refusal {
-    #[error("locked out by {by}: {reason}")]
-    LockedOut { by: String, reason: String },
+    #[error("locked out by {operator}: {reason}")]
+    LockedOut {
+        #[serde(rename = "by")]
+        operator: String,
+        reason: String,
+    },
     /// The unit is locked out, and any question would take its panel from the person who works
     /// on it.
-    #[error("locked out by {by}, whose panel a connection would take")]
-    PanelLockedOut { by: String },
+    #[error("locked out by {operator}, whose panel a connection would take")]
+    PanelLockedOut {
+        #[serde(rename = "by")]
+        operator: String,
+    },
     /// Another program of this computer, named here, drives the unit.
     #[error("the unit is driven by {0}")]
     Elsewhere(String),
@@ -84,7 +91,8 @@ pub enum Refusal {
     Forbidden {
         barrier: Barrier,
         /// A direction on the way that is inside of it.
-        at: AzEl,
+        #[serde(rename = "at")]
+        direction: AzEl,
     },
     /// The antenna is inside a barrier, and its way out needs the operator's permission.
     #[error("inside of {0:?}")]
@@ -112,12 +120,12 @@ pub enum Refusal {
     Controller(#[serde(deserialize_with = "name::one")] Name),
     /// Only the unit knows where the action leads, and the operator has not taken
     /// responsibility.
-    #[error("where {} leads is not known: {why}", act.action)]
+    #[error("where {} leads is not known: {reason}", act.action)]
     Unseen {
         act: Act,
         /// Why its lead is unknown.
-        #[serde(deserialize_with = "name::one")]
-        why: Name,
+        #[serde(rename = "why", deserialize_with = "name::one")]
+        reason: Name,
         /// The axes report their angles, so that the antenna is stopped before a barrier.
         is_watched: bool,
     },
@@ -149,8 +157,11 @@ pub enum Refusal {
     /// Along and across the way of a target that stands.
     #[error("the target does not move")]
     TargetStands,
-    #[error("the offset would be larger than {most:?}")]
-    OffsetTooLarge { most: Offset },
+    #[error("the offset would be larger than {max:?}")]
+    OffsetTooLarge {
+        #[serde(rename = "most")]
+        max: Offset,
+    },
     /// The unit holds a satellite without known elements.
     #[error("the orbit of {name} is not known")]
     OrbitUnknown {
@@ -161,8 +172,11 @@ pub enum Refusal {
     #[error("the window of the unit is {hours:.0} hours long")]
     WindowTooLong { hours: f64 },
     /// The elements yield no direction at this time, so the unit's path is unknown.
-    #[error("the elements give no direction at {at}")]
-    NoDirection { at: Timestamp },
+    #[error("the elements give no direction at {time}")]
+    NoDirection {
+        #[serde(rename = "at")]
+        time: Timestamp,
+    },
     /// The pass does not reach the antenna's minimum elevation.
     #[error(
         "the pass reaches {highest_deg} degrees, the antenna points no lower than {lowest_deg}"
@@ -177,11 +191,12 @@ pub enum Refusal {
     #[error("the program of the unit leads to {0:?}")]
     Path(Trespass),
     /// A setting that decides where the antenna points, at a bad time.
-    #[error("{field} is not set: {why}")]
+    #[error("{field} is not set: {hindrance}")]
     Setting {
         #[serde(deserialize_with = "name::one")]
         field: Name,
-        why: Hindrance,
+        #[serde(rename = "why")]
+        hindrance: Hindrance,
     },
 }
 
@@ -189,7 +204,7 @@ impl From<NotClear> for Refusal {
     fn from(not_clear: NotClear) -> Self {
         match not_clear {
             NotClear::Leads(trespass) => Self::Path(trespass),
-            NotClear::NoDirection(at) => Self::NoDirection { at },
+            NotClear::NoDirection(time) => Self::NoDirection { time },
         }
     }
 }
@@ -205,7 +220,7 @@ impl Refusal {
 }
 
 impl From<&LockOut> for Refusal {
-    fn from(LockOut { by, reason, .. }: &LockOut) -> Self {
-        Self::LockedOut { by: by.clone(), reason: reason.clone() }
+    fn from(LockOut { operator, reason, .. }: &LockOut) -> Self {
+        Self::LockedOut { operator: operator.clone(), reason: reason.clone() }
     }
 }

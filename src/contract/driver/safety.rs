@@ -27,7 +27,8 @@ pub enum Safety {
     /// Azel ended in the middle of a motion by hand, or while a STOP was owed.
     LeftMoving {
         /// `None` if the record of it cannot be read.
-        since: Option<Timestamp>,
+        #[serde(rename = "since")]
+        start: Option<Timestamp>,
         /// STOP was not sent automatically: the operator must decide.
         asks: bool,
     },

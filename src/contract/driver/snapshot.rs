@@ -9,8 +9,8 @@ use crate::{
     astro::{Angle, TrackOffsets},
     clock::Instant,
     device::{
-        AntennaState, Asked, Capabilities, Pointing, PrepareError, TrackTarget,
-        settings::{GroupState, Held, Hindrance, WriteError},
+        AntennaState, Capabilities, MotionRequest, Pointing, PrepareError, TrackTarget,
+        settings::{GroupState, GroupStates, Hindrance, WriteError},
     },
     driver::{AxisLessons, Intent, Preview, Refusal, Safety},
     name::{self, Name},
@@ -24,7 +24,8 @@ use crate::{
 pub struct LeftMoving {
     /// When the motion by hand began, or the STOP was pressed; `None` if the record of it cannot be
     /// read.
-    pub since: Option<Timestamp>,
+    #[serde(rename = "since")]
+    pub start: Option<Timestamp>,
 }
 
 /// One antenna at one instant. Replaced as a whole, never changed in place.
@@ -66,7 +67,8 @@ pub struct Snapshot {
     /// No dead-man could be had for the last motion by hand that needed one.
     pub unguarded: bool,
     /// It is inside a barrier.
-    pub inside: Option<Inside>,
+    #[serde(rename = "inside")]
+    pub breach: Option<Breach>,
     /// By the operator's permission, program track may lead to the Sun.
     pub sun_lifted: bool,
     /// An earlier run may have left it moving: the operator is asked. Older films hold a time under
@@ -113,7 +115,7 @@ impl Snapshot {
             stop: StopState::Ready,
             runs_out: false,
             unguarded: false,
-            inside: None,
+            breach: None,
             sun_lifted: false,
             left_moving: None,
             not_on_disk: None,
@@ -139,8 +141,8 @@ impl Snapshot {
 
     /// Returns the offsets that are meant to be added to the track that the unit computes.
     pub fn meant_offsets(&self) -> TrackOffsets {
-        let meant = self.unit_offsets.as_ref().filter(|unit| unit.left.is_none());
-        meant.map(|unit| unit.offsets).unwrap_or_default()
+        let offsets = self.unit_offsets.as_ref().filter(|unit| unit.left.is_none());
+        offsets.map(|unit| unit.offsets).unwrap_or_default()
     }
 
     /// The reason why the gate would refuse, at `now`, a setting that decides where the
@@ -149,12 +151,12 @@ impl Snapshot {
         if matches!(self.stop, StopState::Stopping { .. } | StopState::NotConfirmed { .. }) {
             return Some(Hindrance::Stopping);
         }
-        let told = self.pending
+        let is_moving = self.pending
             || self.intent == Intent::Track
             || self.program_track.is_some()
             || self.jog.is_some()
             || self.step.is_some();
-        Hindrance::of(&self.state, can, now).or(told.then_some(Hindrance::Moves))
+        Hindrance::from_state(&self.state, can, now).or(is_moving.then_some(Hindrance::Moves))
     }
 
     /// Returns `true` if only ages and counters differ. The window shows those with its next
@@ -170,7 +172,7 @@ impl Snapshot {
         if standing(self).is_none() || standing(self) != standing(newer) {
             return false;
         }
-        if !same_settings(&self.state.held, &newer.state.held) {
+        if !same_settings(&self.state.groups, &newer.state.groups) {
             return false;
         }
         let mut newer = newer.clone();
@@ -178,7 +180,7 @@ impl Snapshot {
         newer.state.traffic = self.state.traffic;
         newer.state.checked_at = self.state.checked_at;
         newer.learned = self.learned;
-        newer.state.held = Arc::clone(&self.state.held);
+        newer.state.groups = Arc::clone(&self.state.groups);
         newer.state.on_board.clock = self.state.on_board.clock;
         if let (Some(old), Some(new)) =
             (&self.state.last_satellite, &mut newer.state.last_satellite)
@@ -196,9 +198,9 @@ impl Snapshot {
 
 /// Returns `true` if the known settings and the present writes are the same. New reports of the
 /// unit alone show with the window's next second.
-fn same_settings(old: &Held, new: &Held) -> bool {
+fn same_settings(old: &GroupStates, new: &GroupStates) -> bool {
     let shown = |state: &GroupState| {
-        (state.held.is_some(), state.failure.clone(), state.step, state.written.clone())
+        (state.last_read.is_some(), state.failure.clone(), state.step, state.written.clone())
     };
     old.len() == new.len() && old.values().map(shown).eq(new.values().map(shown))
 }
@@ -221,7 +223,7 @@ impl StoppingWay {
 
 /// The barrier that an antenna is, or may be, inside of.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Inside {
+pub struct Breach {
     pub barrier: Barrier,
     /// The axis whose angle is unknown: the antenna may be inside. `None` if it surely is.
     #[serde(default, deserialize_with = "name::option")]
@@ -258,7 +260,10 @@ pub struct UnitOffsetsView {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum LeftOffsets {
     /// An earlier run of the program wrote them, at that time or soon after.
-    Found { since: Timestamp },
+    Found {
+        #[serde(rename = "since")]
+        start: Timestamp,
+    },
     /// They were not taken back.
     Failed(WriteError),
     /// The unit has gone on to another pass, on which they cannot be taken back.
@@ -302,9 +307,15 @@ pub enum LinkState {
     /// ended.
     Off,
     /// Dialling for the first time since the start.
-    Connecting { since: Instant },
+    Connecting {
+        #[serde(rename = "since")]
+        start: Instant,
+    },
     /// Open, with good replies.
-    Up { since: Instant },
+    Up {
+        #[serde(rename = "since")]
+        start: Instant,
+    },
     /// Open, but the last good reply is older than two poll periods, or the position was asked for
     /// longer ago than a unit that answers in time makes possible.
     Stale {
@@ -315,7 +326,8 @@ pub enum LinkState {
     /// Gone, or silent for too long. It is dialled again automatically.
     Lost {
         /// When the last good reply came, or the link was lost.
-        since: Instant,
+        #[serde(rename = "since")]
+        start: Instant,
         reason: LinkLoss,
         retry_at: Instant,
     },
@@ -351,11 +363,20 @@ pub enum StopState {
     /// Nothing was requested.
     Ready,
     /// Sent, or to be sent first when the link is back.
-    Stopping { since: Instant },
+    Stopping {
+        #[serde(rename = "since")]
+        start: Instant,
+    },
     /// The unit is proved to stand.
-    Stopped { at: Instant },
+    Stopped {
+        #[serde(rename = "at")]
+        time: Instant,
+    },
     /// Standstill was not proved within three seconds.
-    NotConfirmed { since: Instant },
+    NotConfirmed {
+        #[serde(rename = "since")]
+        start: Instant,
+    },
 }
 
 /// For the event line and the alarm list.
@@ -379,13 +400,13 @@ pub enum Event {
     /// The gate refused it.
     NotSent(Refusal),
     /// The unit refused it, with this code as received.
-    Refused(Asked, String),
+    Refused(MotionRequest, String),
     /// Offsets of a track stay as they are, and the track goes on.
     OffsetRefused(Refusal),
     /// An offset of the unit's own track is not in force.
     OffsetNotTaken(WriteError),
     /// No answer to a motion, which is not sent again.
-    Unanswered(Asked),
+    Unanswered(MotionRequest),
     CannotTrack(TrackTarget, PrepareError),
     /// By what the unit reports, it would miss the satellite of this name.
     WouldMiss {
@@ -414,7 +435,8 @@ pub enum Event {
     /// A motion to a position ended elsewhere.
     EndedShort {
         aim: Pointing,
-        at: Pointing,
+        #[serde(rename = "at")]
+        position: Pointing,
     },
     /// The window did not renew a jog, which was stopped.
     JogLeaseOver,

@@ -14,7 +14,7 @@ pub struct Unit {
 }
 
 impl Unit {
-    pub fn of(antenna: &Antenna) -> Self {
+    pub fn new(antenna: &Antenna) -> Self {
         Self {
             make: antenna.connection.spec().key.to_owned(),
             address: antenna.connection.address.trim().to_lowercase(),

@@ -118,7 +118,7 @@ mod tests {
 
     fn line(length: usize) -> WireLine {
         WireLine {
-            at: jiff::Timestamp::UNIX_EPOCH,
+            time: jiff::Timestamp::UNIX_EPOCH,
             direction: Direction::Sent,
             bytes: vec![b'x'; length].into(),
             length,
@@ -130,8 +130,8 @@ mod tests {
         }
     }
 
-    fn numbers(log: &WireLog, from: u64) -> Vec<u64> {
-        log.copy_from(from).iter().map(|recorded| recorded.number).collect()
+    fn numbers(log: &WireLog, first: u64) -> Vec<u64> {
+        log.copy_from(first).iter().map(|recorded| recorded.number).collect()
     }
 
     #[test]
@@ -196,11 +196,11 @@ mod tests {
     fn a_reader_who_comes_back_while_a_line_is_judged_is_not_woken_by_it() {
         let log = WireLog::default();
         let reads = log.clone();
-        let meanwhile = move |_: &Arc<Recorded>| {
+        let reading = move |_: &Arc<Recorded>| {
             assert_eq!(reads.read_from(0, Arc::new(|_| true)).len(), 1);
             true
         };
-        log.read_from(0, Arc::new(meanwhile));
+        log.read_from(0, Arc::new(reading));
         assert!(!log.push(line(1)));
         assert!(log.push(line(1)));
     }

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use crate::{
     astro::time::add_seconds,
     orbit::Pass,
-    passes::{ListedSatellite, PassKey, PredictedPass},
+    passes::{ListedSatellite, PassListKey, PredictedPass},
 };
 
 /// Largest difference in AOS of one pass between two lists.
@@ -53,7 +53,8 @@ pub enum Work {
         /// Satellites that are done.
         done: usize,
         /// All satellites; 0 while they are prepared.
-        of: usize,
+        #[serde(rename = "of")]
+        total: usize,
     },
     /// The operator has cancelled the search.
     Cancelled,
@@ -68,35 +69,37 @@ impl PassList {
 
     /// The passes that are not over at `now`.
     pub fn upcoming(&self, now: Timestamp) -> UpcomingPasses<'_> {
-        UpcomingPasses::of(self, now, None)
+        UpcomingPasses::new(self, now, None)
     }
 
     /// The passes that are not over and begin within `span_h` hours, for a list by AOS.
-    pub fn within(&self, now: Timestamp, span_h: u32) -> UpcomingPasses<'_> {
+    pub fn upcoming_within(&self, now: Timestamp, span_h: u32) -> UpcomingPasses<'_> {
         let end = add_seconds(now, f64::from(span_h) * 3600.0);
-        UpcomingPasses::of(self, now, Some(end))
+        UpcomingPasses::new(self, now, Some(end))
     }
 
     /// Place of the pass of `key` in the list. Its AOS may differ a little in a new list.
-    fn place(&self, (number, aos): PassKey) -> Option<usize> {
+    fn place(&self, (number, aos): PassListKey) -> Option<usize> {
         let (dated, always_up) = self.parts();
         // Passes cut at the start of a list all have that for AOS, and so are by number.
         let start = dated.first().map(|predicted| predicted.pass.aos.time);
         let cut = dated.partition_point(|predicted| Some(predicted.pass.aos.time) <= start);
         let early = [(0, dated.get(..cut).unwrap_or_default()), (dated.len(), always_up)];
         for (first, passes) in early {
-            let Ok(at) = passes.binary_search_by_key(&number, PredictedPass::number) else {
+            let Ok(index) = passes.binary_search_by_key(&number, PredictedPass::number) else {
                 continue;
             };
-            let is_it = |of: &PredictedPass| of.pass.starts_before && aos < of.pass.los.time;
-            if passes.get(at).is_some_and(is_it) {
-                return Some(first + at);
+            let is_it = |predicted: &PredictedPass| {
+                predicted.pass.starts_before && aos < predicted.pass.los.time
+            };
+            if passes.get(index).is_some_and(is_it) {
+                return Some(first + index);
             }
         }
-        let (from, to) = (add_seconds(aos, -SAME_AOS_S), add_seconds(aos, SAME_AOS_S));
-        let first = dated.partition_point(|predicted| predicted.pass.aos.time <= from);
+        let (start, end) = (add_seconds(aos, -SAME_AOS_S), add_seconds(aos, SAME_AOS_S));
+        let first = dated.partition_point(|predicted| predicted.pass.aos.time <= start);
         let near = dated.iter().enumerate().skip(first);
-        near.take_while(|(_, predicted)| predicted.pass.aos.time < to)
+        near.take_while(|(_, predicted)| predicted.pass.aos.time < end)
             .find_map(|(place, predicted)| (predicted.number() == number).then_some(place))
     }
 
@@ -106,7 +109,7 @@ impl PassList {
         self.passes.split_at(dated)
     }
 
-    pub fn find(&self, key: PassKey) -> Option<&PredictedPass> {
+    pub fn find(&self, key: PassListKey) -> Option<&PredictedPass> {
         self.passes.get(self.place(key)?)
     }
 }
@@ -122,21 +125,21 @@ pub struct UpcomingPasses<'a> {
 }
 
 impl<'a> UpcomingPasses<'a> {
-    fn of(list: &'a PassList, now: Timestamp, end: Option<Timestamp>) -> Self {
+    fn new(list: &'a PassList, now: Timestamp, end: Option<Timestamp>) -> Self {
         let (dated, standing) = list.parts();
-        let over = |passes: &[PredictedPass], first: usize| {
+        let ended = |passes: &[PredictedPass], first: usize| {
             let passes = passes.iter().enumerate();
-            let over = passes.filter(|(_, predicted)| predicted.pass.los.time <= now);
-            over.map(|(place, _)| first + place..first + place + 1).collect::<Vec<_>>()
+            let ended = passes.filter(|(_, predicted)| predicted.pass.los.time <= now);
+            ended.map(|(place, _)| first + place..first + place + 1).collect::<Vec<_>>()
         };
         // A pass that is over has begun: the rest of a long list need not be searched.
         let begun = dated.partition_point(|predicted| predicted.pass.aos.time <= now);
         let late = end.map_or(dated.len(), |end| {
             dated.partition_point(|predicted| predicted.pass.aos.time < end).max(begun)
         });
-        let mut left_out = over(dated.get(..begun).unwrap_or_default(), 0);
+        let mut left_out = ended(dated.get(..begun).unwrap_or_default(), 0);
         left_out.push(late..dated.len());
-        left_out.extend(over(standing, dated.len()));
+        left_out.extend(ended(standing, dated.len()));
         Self { list, left_out, late }
     }
 
@@ -156,8 +159,8 @@ impl<'a> UpcomingPasses<'a> {
     /// Number of rows whose passes have begun at `now`, without those that are always up.
     pub fn begun(&self, now: Timestamp) -> usize {
         let begun = self.list.parts().0.partition_point(|dated| dated.pass.aos.time <= now);
-        let over = self.left_out.iter().filter(|range| range.start < begun);
-        begun - over.map(|range| range.end.min(begun) - range.start).sum::<usize>()
+        let ended = self.left_out.iter().filter(|range| range.start < begun);
+        begun - ended.map(|range| range.end.min(begun) - range.start).sum::<usize>()
     }
 
     /// The pass in this row.
@@ -180,13 +183,13 @@ impl<'a> UpcomingPasses<'a> {
     }
 
     /// The passes with AOS before `end`, by AOS, without those that are always up.
-    pub fn until(&self, end: Timestamp) -> impl Iterator<Item = &'a PredictedPass> {
+    pub fn starting_before(&self, end: Timestamp) -> impl Iterator<Item = &'a PredictedPass> {
         let passes = self.iter().take_while(move |predicted| predicted.pass.aos.time < end);
         passes.filter(|predicted| !predicted.is_always_up())
     }
 
     /// Row of the pass of `key`. Its AOS may differ a little in a new list.
-    pub fn row(&self, key: PassKey) -> Option<usize> {
+    pub fn row(&self, key: PassListKey) -> Option<usize> {
         let place = self.list.place(key)?;
         let before = self.left_out.iter().take_while(|left_out| left_out.start <= place);
         let mut row = place;

@@ -8,7 +8,7 @@ use jiff::Timestamp;
 use crate::{
     astro::{Angle, HorizonMask, Site, time::add_seconds},
     orbit::{Elements, Pass, PassSearch, Propagator, clear_stretches, passes},
-    passes::PassKey,
+    passes::PassListKey,
     plan::{MountLimits, ProgramTrack, Sample, Target, Trackability, trackability},
     station::{Antenna, Station},
 };
@@ -46,7 +46,7 @@ pub struct Observer {
 }
 
 impl Observer {
-    pub fn of(station: &Station) -> Self {
+    pub fn from_station(station: &Station) -> Self {
         Self {
             site: station.site,
             aos_elevation: station.aos_elevation(),
@@ -85,7 +85,7 @@ impl PredictedPass {
         Self { satellite, pass, number, observer, outline: OnceLock::new() }
     }
 
-    pub fn key(&self) -> PassKey {
+    pub fn key(&self) -> PassListKey {
         (self.number(), self.pass.aos.time)
     }
 
@@ -97,24 +97,24 @@ impl PredictedPass {
         let lowest_deg = self.observer.site.pass_elevation(lowest).degrees();
         let aos_elevation =
             Angle::from_degrees(self.observer.aos_elevation.degrees().max(lowest_deg));
-        let search = |from, floor| PassSearch {
+        let search = |start, floor| PassSearch {
             aos_elevation,
             floor,
-            ..PassSearch::new(self.observer.site, from, add_seconds(from, LATER_S))
+            ..PassSearch::new(self.observer.site, start, add_seconds(start, LATER_S))
         };
         let found = |search| passes(&self.satellite.propagator, &search, &|| false);
         let mut spans = Vec::new();
         if !self.is_always_up() {
             // The end of the search may have cut this pass: it goes on to its true LOS.
-            let until = if self.pass.ends_after { None } else { Some(self.pass.los.time) };
+            let end = if self.pass.ends_after { None } else { Some(self.pass.los.time) };
             let of_this = found(search(self.pass.aos.time, aos_elevation));
-            let of_this = of_this.iter().take_while(|stay| match until {
-                Some(until) => stay.aos.time < until,
+            let of_this = of_this.iter().take_while(|stay| match end {
+                Some(end) => stay.aos.time < end,
                 None => stay.starts_before || stay.aos.time <= self.pass.tca.time,
             });
             spans.extend(of_this.map(|stay| (stay.aos.time, stay.los.time)));
-            let from = spans.last().map_or(self.pass.los.time, |(_, los)| *los);
-            let later = found(search(from, floor));
+            let start = spans.last().map_or(self.pass.los.time, |(_, los)| *los);
+            let later = found(search(start, floor));
             let later = later.iter().filter(|pass| !pass.starts_before);
             spans.extend(later.map(|pass| (pass.aos.time, pass.los.time)));
         }
@@ -230,12 +230,12 @@ pub fn mount_limits(antenna: &Antenna) -> MountLimits {
 
 fn thinned(track: &[Sample]) -> Vec<Sample> {
     let mut path: Vec<Sample> = Vec::new();
-    let last = track.len().saturating_sub(1);
+    let final_index = track.len().saturating_sub(1);
     for (index, sample) in track.iter().enumerate() {
-        let is_far = path.last().is_none_or(|kept| {
-            kept.direction.separation(sample.direction).degrees() >= OUTLINE_STEP_DEG
+        let is_far = path.last().is_none_or(|last| {
+            last.direction.separation(sample.direction).degrees() >= OUTLINE_STEP_DEG
         });
-        if is_far || index == last {
+        if is_far || index == final_index {
             path.push(*sample);
         }
     }
@@ -252,10 +252,10 @@ mod tests {
     fn an_outline_has_the_ends_and_the_verdict_of_the_whole_track() {
         let elements = bundled().unwrap().get(25_544).unwrap().clone();
         let propagator = Propagator::new(&elements).unwrap();
-        let from: Timestamp = "2026-08-12T00:00:00Z".parse().unwrap();
+        let start: Timestamp = "2026-08-12T00:00:00Z".parse().unwrap();
         let station = Station::demo(&DemoAddresses::default());
-        let search = PassSearch::new(station.site, from, add_seconds(from, 86_400.0));
-        let observer = Arc::new(Observer::of(&station));
+        let search = PassSearch::new(station.site, start, add_seconds(start, 86_400.0));
+        let observer = Arc::new(Observer::from_station(&station));
         let found = passes(&propagator, &search, &|| false);
         let satellite = Arc::new(ListedSatellite { elements, propagator });
         assert!(found.len() > 3);
@@ -281,23 +281,23 @@ mod tests {
     fn aos_is_that_of_the_site_and_each_antenna_is_judged_by_its_own_minimum() {
         let elements = bundled().unwrap().get(25_544).unwrap().clone();
         let propagator = Propagator::new(&elements).unwrap();
-        let from: Timestamp = "2026-08-12T00:00:00Z".parse().unwrap();
+        let start: Timestamp = "2026-08-12T00:00:00Z".parse().unwrap();
         let mut station = Station { aos_elevation_deg: 2.0, ..demo() };
         for (antenna, lowest_deg) in station.antennas.iter_mut().zip([30.0, 60.0, 0.0]) {
             antenna.limits.minimum_elevation_deg = lowest_deg;
             antenna.mount = Antenna::genius("", "").mount;
         }
-        let observer = Arc::new(Observer::of(&station));
+        let observer = Arc::new(Observer::from_station(&station));
         let search = PassSearch {
             aos_elevation: observer.aos_elevation,
-            ..PassSearch::new(station.site, from, add_seconds(from, 86_400.0))
+            ..PassSearch::new(station.site, start, add_seconds(start, 86_400.0))
         };
         let elevation_at = |time| {
             let look = propagator.look_from(station.site, time).unwrap();
             look.direction.elevation_deg()
         };
-        let between = |pass: &Pass| (40.0..55.0).contains(&pass.max_elevation().degrees());
-        let pass = passes(&propagator, &search, &|| false).into_iter().find(between).unwrap();
+        let is_between = |pass: &Pass| (40.0..55.0).contains(&pass.max_elevation().degrees());
+        let pass = passes(&propagator, &search, &|| false).into_iter().find(is_between).unwrap();
         assert!((elevation_at(pass.aos.time) - 2.0).abs() < 0.01);
         let satellite = Arc::new(ListedSatellite { elements, propagator: propagator.clone() });
         let predicted = PredictedPass::new(satellite, pass, observer);
@@ -318,13 +318,13 @@ mod tests {
     fn the_mask_moves_no_end_of_a_pass_and_tells_what_it_leaves() {
         let elements = bundled().unwrap().get(25_544).unwrap().clone();
         let propagator = Propagator::new(&elements).unwrap();
-        let from: Timestamp = "2026-08-12T00:00:00Z".parse().unwrap();
+        let start: Timestamp = "2026-08-12T00:00:00Z".parse().unwrap();
         let mask = HorizonMask::from_degrees([(0.0, 3.0), (120.0, 25.0), (240.0, 12.0)]).unwrap();
         let station = Station { horizon_mask: Some(mask.clone()), ..demo() };
-        let observer = Arc::new(Observer::of(&station));
+        let observer = Arc::new(Observer::from_station(&station));
         let search = PassSearch {
             aos_elevation: observer.aos_elevation,
-            ..PassSearch::new(station.site, from, add_seconds(from, 3.0 * 86_400.0))
+            ..PassSearch::new(station.site, start, add_seconds(start, 3.0 * 86_400.0))
         };
         let found = passes(&propagator, &search, &|| false);
         let satellite = Arc::new(ListedSatellite { elements, propagator });

@@ -31,17 +31,17 @@ pub fn window(
         ..PassSearch::new(site.airless(), add_seconds(aos, -EDGE_S), add_seconds(los, EDGE_S))
     };
     let stays = passes(&predicted.satellite.propagator, &search, &|| false);
-    let within = stays.iter().map(|stay| (stay.aos.time.max(aos), stay.los.time.min(los)));
-    let mut whole = within.map(|(from, until)| (first_second(from), last_second(until)));
-    whole.find(|(from, until)| from < until && now < *until).ok_or(Refusal::TooLow {
+    let clipped = stays.iter().map(|stay| (stay.aos.time.max(aos), stay.los.time.min(los)));
+    let mut whole = clipped.map(|(start, end)| (first_second(start), last_second(end)));
+    whole.find(|(start, end)| start < end && now < *end).ok_or(Refusal::TooLow {
         highest_deg: predicted.pass.max_elevation().degrees(),
         lowest_deg,
     })
 }
 
 /// The whole seconds within a span.
-pub fn whole_seconds((from, until): (Timestamp, Timestamp)) -> (Timestamp, Timestamp) {
-    (first_second(from), last_second(until))
+pub fn whole_seconds((start, end): (Timestamp, Timestamp)) -> (Timestamp, Timestamp) {
+    (first_second(start), last_second(end))
 }
 
 fn first_second(time: Timestamp) -> Timestamp {
@@ -65,8 +65,8 @@ mod tests {
         station::Station,
     };
 
-    fn length_s((from, until): (Timestamp, Timestamp)) -> f64 {
-        seconds_between(from, until)
+    fn length_s((start, end): (Timestamp, Timestamp)) -> f64 {
+        seconds_between(start, end)
     }
 
     fn now() -> Timestamp {
@@ -85,7 +85,7 @@ mod tests {
     fn predicted_pass(station: &Station) -> PredictedPass {
         let elements = bundled().unwrap().get(25_544).unwrap().clone();
         let propagator = Propagator::new(&elements).unwrap();
-        let observer = Observer::of(station);
+        let observer = Observer::from_station(station);
         let search = PassSearch {
             aos_elevation: observer.aos_elevation,
             ..PassSearch::new(station.site, now(), add_seconds(now(), 5.0 * 86_400.0))
@@ -109,15 +109,15 @@ mod tests {
         assert!(length_s(first) > 500.0 && length_s(second) < 200.0, "{first:?} {second:?}");
         let aos = predicted.pass.aos.time;
         assert!((0.0..1.01).contains(&seconds_between(aos, first.0)), "{aos} {first:?}");
-        let elevation = |at| {
-            let look = predicted.satellite.propagator.look_from(station.site, at).unwrap();
+        let elevation = |time| {
+            let look = predicted.satellite.propagator.look_from(station.site, time).unwrap();
             look.direction.elevation_deg()
         };
-        for (from, until) in [second] {
-            for at in [from, until] {
-                assert!((45.0..46.0).contains(&elevation(at)), "{} {at}", elevation(at));
+        for (start, end) in [second] {
+            for time in [start, end] {
+                assert!((45.0..46.0).contains(&elevation(time)), "{} {time}", elevation(time));
             }
-            assert_eq!((from.subsec_nanosecond(), until.subsec_nanosecond()), (0, 0));
+            assert_eq!((start.subsec_nanosecond(), end.subsec_nanosecond()), (0, 0));
         }
     }
 

@@ -15,8 +15,10 @@ use crate::{
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct RecordedReport {
     /// From AOS to LOS, above the antenna's minimum elevation.
-    pub from: Timestamp,
-    pub until: Timestamp,
+    #[serde(rename = "from")]
+    pub start: Timestamp,
+    #[serde(rename = "until")]
+    pub end: Timestamp,
     /// The part of it that the plan gave to the antenna: that counts. `None` without a plan, where all
     /// of it counts.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -30,7 +32,7 @@ pub struct RecordedReport {
     pub site: Option<Site>,
     pub half_beam_deg: f64,
     #[serde(flatten)]
-    pub about: AboutTrack,
+    pub track: AboutTrack,
     #[serde(flatten)]
     pub report: PassReport,
     /// The cause of the error, or up to three that the positions do not tell apart, the best first;
@@ -42,8 +44,10 @@ pub struct RecordedReport {
 /// The part of a pass that a plan gives to an antenna.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct PlannedPart {
-    pub from: Timestamp,
-    pub until: Timestamp,
+    #[serde(rename = "from")]
+    pub start: Timestamp,
+    #[serde(rename = "until")]
+    pub end: Timestamp,
 }
 
 /// Description of a track besides its positions.

@@ -53,7 +53,8 @@ pub struct PassPage {
     /// Number of all passes in the record.
     pub all: u32,
     /// LOS of the first pass in the record.
-    pub since: Option<Timestamp>,
+    #[serde(rename = "since")]
+    pub start: Option<Timestamp>,
     /// Passes of the page whose report cannot be read.
     pub unreadable: u32,
 }
@@ -90,7 +91,8 @@ pub struct ExplainedPasses {
     /// Number of passes.
     pub passes: usize,
     /// LOS of the first of them; `None` where there is none.
-    pub since: Option<Timestamp>,
+    #[serde(rename = "since")]
+    pub start: Option<Timestamp>,
     /// The cause that these passes share, or up to three that they do not tell apart, the best first.
     pub explanations: Vec<Explanation>,
 }

@@ -15,15 +15,17 @@ use crate::{
 /// Where the axes stood when the noise was greatest.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Peak {
-    pub of: PeakOf,
-    pub at: Timestamp,
+    #[serde(rename = "of")]
+    pub body: PeakBody,
+    #[serde(rename = "at")]
+    pub time: Timestamp,
     pub azimuth_deg: f64,
     pub elevation_deg: f64,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum PeakOf {
+pub enum PeakBody {
     Sun,
     Moon,
 }
@@ -48,9 +50,9 @@ impl Peak {
     /// The point of an antenna at `site`.
     pub fn point(&self, site: Site) -> Point {
         let axes = AzEl::from_degrees(self.azimuth_deg, self.elevation_deg);
-        match self.of {
-            PeakOf::Sun => Point::of_sun(site, self.at, axes, 1.0),
-            PeakOf::Moon => Point::of_moon(site, self.at, axes, 1.0),
+        match self.body {
+            PeakBody::Sun => Point::of_sun(site, self.time, axes, 1.0),
+            PeakBody::Moon => Point::of_moon(site, self.time, axes, 1.0),
         }
     }
 }
@@ -58,7 +60,7 @@ impl Peak {
 impl Peaks {
     pub fn change(&mut self, antenna: AntennaId, change: PeakChange) {
         let (PeakChange::Added(peak) | PeakChange::Removed(peak)) = change;
-        self.0.retain(|known| *known != (antenna, peak));
+        self.0.retain(|entry| *entry != (antenna, peak));
         if matches!(change, PeakChange::Added(_)) {
             self.0.push((antenna, peak));
         }
@@ -72,7 +74,7 @@ impl Peaks {
     }
 
     /// Those of an antenna.
-    pub fn of(&self, antenna: AntennaId) -> impl Iterator<Item = &Peak> {
-        self.0.iter().filter(move |(of, _)| *of == antenna).map(|(_, peak)| peak)
+    pub fn for_antenna(&self, antenna: AntennaId) -> impl Iterator<Item = &Peak> {
+        self.0.iter().filter(move |(owner, _)| *owner == antenna).map(|(_, peak)| peak)
     }
 }

@@ -9,18 +9,19 @@ use crate::{astro::Term, plan::pointing::Kind, station::AntennaId};
 pub struct PointingFit {
     /// Number of passes with a point that counts.
     pub passes: usize,
-    pub noise: Vec<NoiseOf>,
+    pub noise: Vec<FittedNoise>,
     /// Terms that were left out of the fit. They are zero.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub without: Vec<Term>,
+    #[serde(rename = "without", default, skip_serializing_if = "Vec::is_empty")]
+    pub excluded: Vec<Term>,
     /// One a term, in the order of [`Term::ALL`].
     pub terms: Vec<FittedTerm>,
 }
 
 /// Points of a kind.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct NoiseOf {
-    pub of: Kind,
+pub struct FittedNoise {
+    #[serde(rename = "of")]
+    pub kind: Kind,
     pub points: usize,
     /// Standard deviation of one axis, degrees.
     pub noise_deg: f64,

@@ -23,8 +23,10 @@ pub struct Status {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Failing {
     /// When something was written last.
-    pub since: Timestamp,
-    pub why: String,
+    #[serde(rename = "since")]
+    pub last_write: Timestamp,
+    #[serde(rename = "why")]
+    pub reason: String,
     /// Entries that wait.
     pub waiting: u64,
 }

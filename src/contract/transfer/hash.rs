@@ -10,7 +10,7 @@ use sha2::{Digest as _, Sha256};
 pub struct FileHash([u8; 32]);
 
 impl FileHash {
-    pub fn of(bytes: &[u8]) -> Self {
+    pub fn new(bytes: &[u8]) -> Self {
         Self(Sha256::digest(bytes).into())
     }
 }
@@ -64,8 +64,8 @@ mod tests {
     fn a_hash_is_written_as_others_write_it_and_read_again() {
         // FIPS 180-4, example of one block.
         let text = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad";
-        assert_eq!(FileHash::of(b"abc").to_string(), text);
-        assert_eq!(text.parse(), Ok(FileHash::of(b"abc")));
+        assert_eq!(FileHash::new(b"abc").to_string(), text);
+        assert_eq!(text.parse(), Ok(FileHash::new(b"abc")));
         for bad in ["", &text[1..], &text.replace('b', "g"), &format!("{text}0")] {
             assert_eq!(bad.parse::<FileHash>(), Err(NoHash), "{bad}");
         }

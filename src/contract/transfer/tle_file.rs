@@ -62,7 +62,7 @@ fn listed(refused: &[TleRefusal]) -> String {
 impl TleFile {
     /// Makes a file of the `chosen` objects for a unit with these element files. Either all of
     /// them are in it, each under a name that the unit can be given, or there is no file.
-    pub fn of<'a>(
+    pub fn new<'a>(
         chosen: impl IntoIterator<Item = &'a Elements>,
         takes: &ElementFiles,
     ) -> Result<Self, TleFileError> {
@@ -72,7 +72,7 @@ impl TleFile {
         if !refused.is_empty() {
             return Err(TleFileError::Refused(refused));
         }
-        let file = Self::kept(bytes);
+        let file = Self::from_bytes(bytes);
         if file.objects.is_empty() {
             return Err(TleFileError::Empty);
         }
@@ -91,7 +91,7 @@ impl TleFile {
     }
 
     /// A file from an earlier state of a unit, whatever its content, to be put back.
-    pub fn kept(bytes: Vec<u8>) -> Self {
+    pub fn from_bytes(bytes: Vec<u8>) -> Self {
         let object = |elements: &Elements| FileObject {
             name: elements.name().to_owned(),
             catalog_number: elements.catalog_number(),
@@ -111,7 +111,7 @@ impl TleFile {
     }
 
     pub fn hash(&self) -> FileHash {
-        FileHash::of(&self.bytes)
+        FileHash::new(&self.bytes)
     }
 }
 
@@ -169,7 +169,7 @@ mod tests {
         let objects: Vec<_> = objects.iter().map(|(name, number)| omm(name, *number)).collect();
         let read = read_elements(&format!("[{}]", objects.join(",")));
         assert_eq!(read.elements.len(), objects.len(), "{:?}", read.refused);
-        TleFile::of(&read.elements, &ELEMENT_FILES)
+        TleFile::new(&read.elements, &ELEMENT_FILES)
     }
 
     #[test]
@@ -181,7 +181,7 @@ mod tests {
             file.objects().iter().map(|one| (one.name.as_str(), one.catalog_number)).collect();
         assert_eq!(objects, [("ISS (ZARYA)", 25_544), ("NOAA 15 [B]", 125_338)]);
         assert_eq!(file.objects()[0].epoch, "2026-08-11T12:00:00Z".parse().unwrap());
-        assert_eq!(file.hash(), FileHash::of(text.as_bytes()));
+        assert_eq!(file.hash(), FileHash::new(text.as_bytes()));
     }
 
     #[test]
@@ -205,7 +205,7 @@ mod tests {
         let elements: Vec<_> = catalog.iter().take(500).collect();
         assert_eq!(elements.len(), 500);
         for one in elements {
-            let file = TleFile::of([one], &ELEMENT_FILES).unwrap();
+            let file = TleFile::new([one], &ELEMENT_FILES).unwrap();
             assert_eq!(file.objects()[0].catalog_number, one.catalog_number());
         }
     }

@@ -22,12 +22,12 @@ pub struct UnitView {
     /// The file is TLE, the only form that units are known to read.
     pub is_tle: bool,
     /// Result of the unit's search for its satellite.
-    pub satellite: Seen,
+    pub satellite: SatelliteMatch,
 }
 
 /// Result of a search for a satellite by name.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Seen {
+pub enum SatelliteMatch {
     Found(FileObject),
     /// Several objects with that name; the unit takes one of them.
     Several(Vec<FileObject>),
@@ -42,9 +42,9 @@ impl UnitView {
     /// Newest epoch among the objects found.
     pub fn epoch(&self) -> Option<Timestamp> {
         match &self.satellite {
-            Seen::Found(object) => Some(object.epoch),
-            Seen::Several(objects) => objects.iter().map(|object| object.epoch).max(),
-            Seen::Missing { .. } => None,
+            SatelliteMatch::Found(object) => Some(object.epoch),
+            SatelliteMatch::Several(objects) => objects.iter().map(|object| object.epoch).max(),
+            SatelliteMatch::Missing { .. } => None,
         }
     }
 }

@@ -59,7 +59,8 @@ pub struct Uploaded {
     pub bytes: u64,
     pub sha256: FileHash,
     /// Time of reading back.
-    pub at: Timestamp,
+    #[serde(rename = "at")]
+    pub time: Timestamp,
     /// Objects in the order of the file.
     pub objects: Vec<FileObject>,
 }

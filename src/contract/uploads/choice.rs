@@ -32,7 +32,7 @@ pub struct ChosenObject {
 impl Chosen {
     /// The objects with these catalog numbers from `catalog`, for a unit that takes such
     /// files. An object without elements is listed, but not in the file.
-    pub fn of(catalog: &Catalog, numbers: &[u32], takes: &ElementFiles) -> Self {
+    pub fn new(catalog: &Catalog, numbers: &[u32], takes: &ElementFiles) -> Self {
         let objects = numbers.iter().map(|number| match catalog.get(*number) {
             None => ChosenObject {
                 catalog_number: *number,
@@ -44,12 +44,12 @@ impl Chosen {
                 catalog_number: *number,
                 name: elements.name().to_owned(),
                 epoch: Some(elements.epoch()),
-                problem: TleFile::of([elements], takes).err(),
+                problem: TleFile::new([elements], takes).err(),
             },
         });
         Self {
             objects: objects.collect(),
-            file: TleFile::of(numbers.iter().filter_map(|number| catalog.get(*number)), takes),
+            file: TleFile::new(numbers.iter().filter_map(|number| catalog.get(*number)), takes),
         }
     }
 }
@@ -66,7 +66,7 @@ mod tests {
 
     #[test]
     fn what_can_be_carried_makes_a_file() {
-        let chosen = Chosen::of(&bundled().unwrap(), &[ISS, 43_013], &ELEMENT_FILES);
+        let chosen = Chosen::new(&bundled().unwrap(), &[ISS, 43_013], &ELEMENT_FILES);
         assert!(chosen.objects.iter().all(|one| one.problem.is_none() && one.epoch.is_some()));
         assert_eq!(chosen.file.unwrap().objects().len(), 2);
     }
@@ -79,7 +79,7 @@ mod tests {
                     \"INCLINATION\":98.7,\"RA_OF_ASC_NODE\":0,\"ARG_OF_PERICENTER\":0,\
                     \"MEAN_ANOMALY\":0,\"BSTAR\":0}]";
         catalog.merge(read_elements(text), "own");
-        let chosen = Chosen::of(&catalog, &[ISS, 340_000, 999_999_998], &ELEMENT_FILES);
+        let chosen = Chosen::new(&catalog, &[ISS, 340_000, 999_999_998], &ELEMENT_FILES);
         let is_fine: Vec<_> = chosen.objects.iter().map(|one| one.problem.is_none()).collect();
         assert_eq!(is_fine, [true, false, true]);
         assert_eq!(chosen.objects[2].epoch, None);

@@ -49,15 +49,15 @@ pub enum Cargo {
 }
 
 impl Serialize for Order {
-    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        Self::serialize(self, to)
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        Self::serialize(self, serializer)
     }
 }
 
 /// Refuses a file name that leads out of its folder.
 impl<'de> Deserialize<'de> for Order {
-    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        let order = Self::deserialize(from)?;
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let order = Self::deserialize(deserializer)?;
         FileName::new(order.file.as_str(), order.takes).map_err(D::Error::custom)?;
         Ok(order)
     }

@@ -71,7 +71,7 @@ impl AzEl {
     /// The direction `distance_deg` away along the great circle that leaves at `bearing_deg`, where
     /// 0 is towards the zenith and 90 is clockwise.
     #[must_use]
-    pub fn towards(self, bearing_deg: f64, distance_deg: f64) -> Self {
+    pub fn displaced(self, bearing_deg: f64, distance_deg: f64) -> Self {
         let (sin_az, cos_az) = self.azimuth.radians().sin_cos();
         let start = self.to_enu();
         let clockwise = DVec3::new(cos_az, -sin_az, 0.0);
@@ -124,15 +124,16 @@ mod tests {
     fn a_bearing_leads_up_and_clockwise_and_so_far() {
         let start = AzEl::from_degrees(120.0, 40.0);
         assert!(
-            start.towards(0.0, 10.0).separation(AzEl::from_degrees(120.0, 50.0)).degrees() < 1e-9
+            start.displaced(0.0, 10.0).separation(AzEl::from_degrees(120.0, 50.0)).degrees() < 1e-9
         );
         assert!(
-            start.towards(180.0, 10.0).separation(AzEl::from_degrees(120.0, 30.0)).degrees() < 1e-9
+            start.displaced(180.0, 10.0).separation(AzEl::from_degrees(120.0, 30.0)).degrees()
+                < 1e-9
         );
-        let clockwise = start.towards(90.0, 10.0);
+        let clockwise = start.displaced(90.0, 10.0);
         assert!(clockwise.azimuth_deg() > 130.0 && clockwise.elevation_deg() < 40.0);
         for bearing in (0..360).step_by(20) {
-            let distance = start.separation(start.towards(f64::from(bearing), 7.0));
+            let distance = start.separation(start.displaced(f64::from(bearing), 7.0));
             assert!((distance.degrees() - 7.0).abs() < 1e-9);
         }
     }

@@ -92,7 +92,7 @@ impl TrackOffsets {
     }
 
     /// Each of them.
-    pub fn each(self) -> [Offset; 5] {
+    pub fn components(self) -> [Offset; 5] {
         [
             Offset::Time(self.time),
             Offset::Along(self.along),
@@ -133,13 +133,13 @@ impl TrackOffsets {
     /// Both together; `None` if one of them would be too large.
     #[must_use]
     pub fn checked_add(self, other: Self) -> Option<Self> {
-        other.each().into_iter().try_fold(self, Self::plus)
+        other.components().into_iter().try_fold(self, Self::plus)
     }
 
     /// Returns the offsets without `other`; `None` if one of them would be too large.
     #[must_use]
     pub fn less(self, other: Self) -> Option<Self> {
-        other.each().into_iter().try_fold(self, |rest, offset| rest.plus(-offset))
+        other.components().into_iter().try_fold(self, |rest, offset| rest.plus(-offset))
     }
 
     /// Returns the direction in which to point at `time` for a target that is in the directions `target`;

@@ -47,7 +47,7 @@ pub(super) struct Window {
 impl Window {
     /// `None` if the span is empty or no elevation can be reached.
     pub(super) fn new(search: &PassSearch) -> Option<Self> {
-        let length_s = time::seconds_between(search.from, search.to);
+        let length_s = time::seconds_between(search.start, search.end);
         let geometric = |elevation: Angle| search.site.geometric_of_pass(elevation).radians();
         let aos_elevation = geometric(search.aos_elevation);
         let floor = geometric(search.floor).max(aos_elevation);
@@ -59,10 +59,10 @@ impl Window {
         let to_enu = frames::ecef_to_enu(search.site);
         let radius_km = site_ecef_km.length();
         Some(Self {
-            start: search.from,
-            from_ns: time::nanoseconds(search.from),
+            start: search.start,
+            from_ns: time::nanoseconds(search.start),
             length_s,
-            sidereal: time::gmst(search.from).radians(),
+            sidereal: time::gmst(search.start).radians(),
             longitude: site_ecef_km.y.atan2(site_ecef_km.x),
             sin_latitude: site_ecef_km.z / radius_km,
             cos_latitude: site_ecef_km.x.hypot(site_ecef_km.y) / radius_km,

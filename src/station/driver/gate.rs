@@ -26,7 +26,8 @@ use crate::{
     clock::{Instant, Moment},
     contract::driver::{AxisLessons, Intent, Refusal},
     device::{
-        AntennaState, Asked, Capabilities, Controller, Device, Motion, Pointing, Variant, aimed,
+        AntennaState, Capabilities, Controller, Device, Motion, MotionRequest, Pointing, Variant,
+        aimed,
         panel::{Act, Action},
     },
     plan::{Bounds, Sweep, bounds::Budget, on_board::Judge},
@@ -269,9 +270,9 @@ impl Gate {
     /// position, the time until the next one arrives, and the overrun.
     pub(super) fn ahead_s(&self, now: Moment) -> f64 {
         let Some(measured) = self.state().measured else { return self.overrun_s };
-        let asked = self.angles_asked().unwrap_or(measured.asked);
+        let asked = self.angles_asked().unwrap_or(measured.requested);
         let age = now.steady.saturating_duration_since(asked);
-        let reply = measured.received.saturating_duration_since(measured.asked);
+        let reply = measured.received.saturating_duration_since(measured.requested);
         // A motion is judged again when the next position arrives, which may take as long as the
         // last.
         (age + reply + self.controller.poll_period()).as_secs_f64() + self.overrun_s
@@ -321,10 +322,10 @@ impl Gate {
         Ok(())
     }
 
-    fn examine(&self, asked: Asked, situation: &Situation<'_>) -> Result<(), Refusal> {
+    fn examine(&self, asked: MotionRequest, situation: &Situation<'_>) -> Result<(), Refusal> {
         self.ask_rules(|check| match (check, &asked) {
             (Check::Moving(check), asked) => check(asked, situation),
-            (Check::Motion(check), Asked::Motion(motion)) => check(motion, situation),
+            (Check::Motion(check), MotionRequest::Motion(motion)) => check(motion, situation),
             _ => Ok(()),
         })
     }
@@ -378,7 +379,10 @@ impl Gate {
             _ => Ok(()),
         })?;
         if action.moves {
-            self.examine(Asked::Action(act.action), &self.situation(intent, stopping, now))?;
+            self.examine(
+                MotionRequest::Action(act.action),
+                &self.situation(intent, stopping, now),
+            )?;
             self.ask_rules(|check| match check {
                 Check::MovingAct(check) => check(&act, &situation),
                 _ => Ok(()),

@@ -82,8 +82,8 @@ mod tests {
                 minus_limit: false,
             };
             Measured {
-                at: Timestamp::UNIX_EPOCH,
-                asked: received,
+                time: Timestamp::UNIX_EPOCH,
+                requested: received,
                 received,
                 pointing: Pointing { azimuth: None, elevation: None },
                 axes: [axis; 2],

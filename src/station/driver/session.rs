@@ -130,7 +130,7 @@ impl Session {
         let (bounds, learned) = (wires.first_bounds(), wires.learned());
         let mut gate = Gate::new(controller, antenna, bounds, &learned);
         let contact = Contact::new(antenna, dial, clock.now().steady);
-        let owed = Owed::begin(debts, Unit::of(antenna), wires.stop_handle());
+        let owed = Owed::begin(debts, Unit::new(antenna), wires.stop_handle());
         gate.was_moved(owed.debts().unproved_since());
         Self {
             setup: Setup::new(antenna),
@@ -182,7 +182,7 @@ impl Session {
             stop: self.stop.shown(now.steady),
             runs_out: self.stop.is_under_way(),
             unguarded: self.stop.guard.is_missing(),
-            inside: self.observed.place.view(&axes, self.gate.lets_out(now)),
+            breach: self.observed.place.view(&axes, self.gate.lets_out(now)),
             sun_lifted: self.commanded.activity.program().is_some() && self.gate.lifts_sun(),
             left_moving: self.owed.left_moving(),
             not_on_disk: is_pressed.then(|| self.owed.not_on_disk(now.steady)).flatten(),
@@ -200,7 +200,7 @@ impl Session {
     /// The way to the direction that the operator looks at.
     fn preview(&self, now: Moment) -> Option<Arc<Preview>> {
         let to = self.commanded.preview?;
-        Some(Arc::new(Preview { to, way: self.gate.way_to(to, now) }))
+        Some(Arc::new(Preview { target: to, way: self.gate.way_to(to, now) }))
     }
 
     /// Passes what went over the link on to the wire log, and the position on to its log.
@@ -233,7 +233,7 @@ impl Session {
     /// Age of the last measured position.
     fn position_age(&self, now: Moment) -> Option<Duration> {
         let measured = self.gate.state().measured?;
-        Some(now.steady.saturating_duration_since(measured.asked))
+        Some(now.steady.saturating_duration_since(measured.requested))
     }
 
     /// Returns `true` if the antenna turns; what else the unit moves does not count.

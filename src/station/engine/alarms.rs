@@ -104,7 +104,7 @@ impl KeepAlarms for Alarms {
                 row: before.row,
                 raised: before.raised,
                 count: before.count.saturating_add(1),
-                seen: before.shelved_until.is_some(),
+                acknowledged: before.shelved_until.is_some(),
                 shelved_until: before.shelved_until,
                 ..new
             },
@@ -170,11 +170,19 @@ impl KeepAlarms for Alarms {
     }
 
     fn acknowledge(&mut self, id: u64, now: Timestamp) {
-        change(self, |alarm| alarm.id == id && !alarm.seen, |alarm| acknowledge(alarm, now));
+        change(
+            self,
+            |alarm| alarm.id == id && !alarm.acknowledged,
+            |alarm| acknowledge(alarm, now),
+        );
     }
 
     fn acknowledge_all(&mut self, newest: u64, now: Timestamp) {
-        change(self, |alarm| alarm.id <= newest && !alarm.seen, |alarm| acknowledge(alarm, now));
+        change(
+            self,
+            |alarm| alarm.id <= newest && !alarm.acknowledged,
+            |alarm| acknowledge(alarm, now),
+        );
     }
 
     fn shelve(&mut self, id: u64, time: ShelveTime, now: Timestamp) {
@@ -182,7 +190,7 @@ impl KeepAlarms for Alarms {
             self,
             |alarm| alarm.id == id && alarm.priority() < Priority::First,
             |alarm| {
-                alarm.seen = true;
+                alarm.acknowledged = true;
                 alarm.shelved_until = now.checked_add(time.duration()).ok();
             },
         );
@@ -205,10 +213,10 @@ impl KeepAlarms for Alarms {
         };
         let stands = |alarm: &Alarm| is_up(alarm) && !alarm.is_over() && !is_momentary(&alarm.kind);
         self.unopened |= self.list.iter().any(stands);
-        change(self, stands, |alarm| alarm.seen = false);
+        change(self, stands, |alarm| alarm.acknowledged = false);
         change(self, is_up, |alarm| {
             alarm.shelved_until = None;
-            if alarm.seen {
+            if alarm.acknowledged {
                 alarm.over_since.get_or_insert(now);
             }
         });
@@ -224,7 +232,7 @@ impl KeepAlarms for Alarms {
 }
 
 fn acknowledge(alarm: &mut Alarm, now: Timestamp) {
-    alarm.seen = true;
+    alarm.acknowledged = true;
     if is_momentary(&alarm.kind) {
         alarm.over_since.get_or_insert(now);
     }
@@ -247,7 +255,7 @@ fn make_room(list: &mut Vec<Alarm>) {
     let oldest = list
         .iter()
         .position(Alarm::is_done)
-        .or_else(|| list.iter().position(|alarm| alarm.seen))
+        .or_else(|| list.iter().position(|alarm| alarm.acknowledged))
         .or_else(|| list.iter().position(|alarm| alarm.priority() < Priority::First))
         .unwrap_or(0);
     list.remove(oldest);

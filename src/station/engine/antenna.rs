@@ -34,7 +34,7 @@ pub fn refresh<'a>(
     let is_told = |pressed: &Instant| match antenna.snapshot.stop {
         StopState::Ready => false,
         StopState::Stopping { .. } | StopState::NotConfirmed { .. } => true,
-        StopState::Stopped { at } => at >= *pressed,
+        StopState::Stopped { time: at } => at >= *pressed,
     };
     antenna.stop_pressed = antenna.stop_pressed.filter(|pressed| !is_told(pressed));
     let Some(measured) = antenna.snapshot.state.measured else { return };
@@ -51,9 +51,13 @@ pub fn refresh<'a>(
         antenna.tracked_number().filter(|_| is_on_course(antenna)).and_then(|number| {
             let propagator = &followed(number)?.propagator;
             let satellite = |at| Some(propagator.look_from(site, at).ok()?.direction);
-            let is_up = satellite(measured.at)?.elevation_deg() >= 0.0;
-            let direction = antenna.snapshot.meant_offsets().demanded(measured.at, satellite)?;
-            is_up.then_some(Prediction { catalog_number: Some(number), at: measured.at, direction })
+            let is_up = satellite(measured.time)?.elevation_deg() >= 0.0;
+            let direction = antenna.snapshot.meant_offsets().demanded(measured.time, satellite)?;
+            is_up.then_some(Prediction {
+                catalog_number: Some(number),
+                time: measured.time,
+                direction,
+            })
         })
     };
     if antenna.prediction.map(|prediction| prediction.catalog_number) != before {
@@ -73,12 +77,15 @@ pub fn refresh<'a>(
 
 fn take_rate(antenna: &mut AntennaModel, recent: &mut Recent, measured: Measured) {
     while recent.0.len() > 1
-        && recent.0.get(1).is_some_and(|next| seconds_between(next.at, measured.at) >= RATE_SPAN_S)
+        && recent
+            .0
+            .get(1)
+            .is_some_and(|next| seconds_between(next.time, measured.time) >= RATE_SPAN_S)
     {
         recent.0.pop_front();
     }
     antenna.rates_deg_s = recent.0.front().and_then(|before| {
-        let span_s = seconds_between(before.at, measured.at);
+        let span_s = seconds_between(before.time, measured.time);
         if !(RATE_SPAN_S / 2.0..=10.0).contains(&span_s) {
             return None;
         }
@@ -103,7 +110,7 @@ fn followed_prediction(antenna: &AntennaModel) -> Option<Prediction> {
     let predicted = view.predicted?;
     Some(Prediction {
         catalog_number: view.catalog_number,
-        at: predicted.time,
+        time: predicted.time,
         direction: predicted.direction,
     })
 }

@@ -30,16 +30,16 @@ use super::{Antenna, CurrentRequest, Engine, StationClaim, handle::Stopped};
 use crate::{
     astro::time::seconds_between,
     contract::{
-        By, Command,
+        Command, CommandOrigin,
         alarms::AlarmKind,
         antenna::AntennaModel,
         automatic::{DayEvent, DayLine, Doing, Flown, Interruption, OffBecause, On, Operation},
         driver::{self, Event, Found, Refusal, Response, Safety, StopState, TrackProblem, Unit},
-        passes::PassKey,
+        passes::PassListKey,
     },
-    device::{Asked, Motion},
+    device::{Motion, MotionRequest},
     engine::{alarms::KeepAlarms, automatic::operation::is_alarming},
-    plan::schedule::{Entry, between, parks_within_s, sets_out},
+    plan::schedule::{Entry, between_passes, parks_within_s, sets_out},
     promises::FileState,
     station::{AntennaId, BetweenPasses},
 };
@@ -57,7 +57,7 @@ pub(super) struct AtWork {
     /// After a crash it waits to be switched on again.
     resumption: Option<Resumption>,
     /// The pass that the last run was taking, until the antenna takes one in this run.
-    interrupted: Option<PassKey>,
+    interrupted: Option<PassListKey>,
     clock_stop: ClockStop,
     upkeep: UpkeepWork,
 }
@@ -82,7 +82,7 @@ impl AtWork {
     }
 
     /// The pass that the last run was taking, if automatic operation is on or waits to resume.
-    pub(super) fn interrupted(&self, operation: &Operation) -> Option<PassKey> {
+    pub(super) fn interrupted(&self, operation: &Operation) -> Option<PassListKey> {
         self.interrupted.filter(|_| operation.is_on() || self.resumption.is_some())
     }
 }
@@ -124,9 +124,9 @@ impl Engine {
             let Some(antenna) = self.antennas.get(index) else { continue };
             let config = &antenna.shown.config;
             let is_free = antenna.shown.held_by.is_none()
-                && self.lock_outs.of(&config.connection).is_none()
+                && self.lock_outs.find(&config.connection).is_none()
                 && self.driver.debts().units().is_empty()
-                && !self.driver.debts().is_marked(&Unit::of(config))
+                && !self.driver.debts().is_marked(&Unit::new(config))
                 && !self.station.unread.iter().any(|unread| unread.concerns(config.id));
             let (id, is_on_at_start) = (config.id, config.automatic.is_on_at_start);
             if is_on_at_start && is_free && last.allows(id) {
@@ -236,8 +236,8 @@ impl Engine {
         let operation = &mut antenna.shown.operation;
         match event {
             // The pass itself goes on without auto-track, and waits at the edge of a keep-out.
-            Event::Refused(Asked::Motion(Motion::EnableAuto), _)
-            | Event::Unanswered(Asked::Motion(Motion::EnableAuto))
+            Event::Refused(MotionRequest::Motion(Motion::EnableAuto), _)
+            | Event::Unanswered(MotionRequest::Motion(Motion::EnableAuto))
             | Event::NotSent(Refusal::Forbidden { .. }) => {}
             Event::NotSent(_) if operation.is_proved() => {}
             Event::NotSent(Refusal::Path(_))
@@ -249,8 +249,10 @@ impl Engine {
             Event::CannotTrack(..)
             | Event::CannotProgramTrack(..)
             | Event::NotSent(_)
-            | Event::Refused(Asked::Motion(_), _)
-            | Event::Unanswered(Asked::Motion(_)) => operation.take_outcome(Outcome::Failed),
+            | Event::Refused(MotionRequest::Motion(_), _)
+            | Event::Unanswered(MotionRequest::Motion(_)) => {
+                operation.take_outcome(Outcome::Failed);
+            }
             // A motion to the start of a pass is asked for again.
             Event::EndedShort { .. } if operation.is_idle() => operation.ended_by_unit(now),
             Event::TrackingEnded { completed: false } => operation.ended_by_unit(now),
@@ -289,7 +291,7 @@ impl Engine {
 
     /// Does what is due. A STOP since `turn` was drawn voids what is sent here.
     pub(super) fn run_automatic(&mut self, turn: u64) {
-        self.asked = Some(CurrentRequest { number: turn, by: By::Station });
+        self.asked = Some(CurrentRequest { number: turn, by: CommandOrigin::Station });
         self.limit_rule_upload();
         for index in 0..self.antennas.len() {
             self.run_automatic_of(index);
@@ -352,7 +354,7 @@ impl Engine {
     }
 
     fn between(&self, antenna: &AntennaModel) -> BetweenPasses {
-        between(&self.station, &antenna.config, self.now)
+        between_passes(&self.station, &antenna.config, self.now)
     }
 
     fn wishes(&self, antenna: &AntennaModel) -> Wishes {
@@ -369,7 +371,7 @@ impl Engine {
     /// Follows the pass of the schedule that is under way.
     fn fly(&mut self, index: usize, duties: &[Duty], seen: Seen) {
         let now = self.now;
-        let name = |pass: PassKey| {
+        let name = |pass: PassListKey| {
             let found = self.pass_lists.find(pass);
             found.map_or_else(|| pass.0.to_string(), |of| of.satellite.short_name().to_owned())
         };
@@ -403,13 +405,13 @@ impl Engine {
         let late = late.map(|flight| (flight.duty.pass, flight.name().to_owned()));
         let of = Some(shown.id());
         self.alarms.clear(of, now, |kind| match kind {
-            AlarmKind::NotOnItsWay { pass, why: known, .. } => {
+            AlarmKind::NotOnItsWay { pass, reason: known, .. } => {
                 *known != why || late.as_ref().is_none_or(|(late, _)| !is_same_pass(*late, *pass))
             }
             _ => false,
         });
         if let Some((pass, name)) = late {
-            self.alarms.raise(of, AlarmKind::NotOnItsWay { pass, name, why }, now);
+            self.alarms.raise(of, AlarmKind::NotOnItsWay { pass, name, reason: why }, now);
         }
         if let (Some(flight), Some(id)) = (ended, of) {
             self.end_flight(id, flight);
@@ -440,7 +442,7 @@ impl Engine {
         if let Some((at, pass)) = announced {
             let name = self.pass_lists.find(pass);
             let name = name.map_or_else(String::new, |of| of.satellite.short_name().to_owned());
-            self.alarms.raise(Some(id), AlarmKind::AutomaticMoves { at, name }, self.now);
+            self.alarms.raise(Some(id), AlarmKind::AutomaticMoves { time: at, name }, self.now);
         }
         if !matches!(operation, Operation::Suspended { .. }) {
             let is_that = |kind: &AlarmKind| matches!(kind, AlarmKind::AutomaticSuspended(_));
@@ -452,7 +454,7 @@ impl Engine {
             | (Operation::Suspended { .. }, Operation::Suspended { .. }) => return,
             (Operation::Suspended { .. }, Operation::On(_)) => DayEvent::WentOn,
             (_, Operation::On(_)) => DayEvent::SwitchedOn,
-            (_, Operation::Suspended { by, .. }) => {
+            (_, Operation::Suspended { interruption: by, .. }) => {
                 if *by != Interruption::ByHand {
                     self.alarms.raise(Some(id), AlarmKind::AutomaticSuspended(*by), self.now);
                 }
@@ -497,7 +499,7 @@ impl Engine {
 
     fn note_day(&mut self, antenna: AntennaId, what: DayEvent) {
         tracing::info!(?antenna, ?what, "automatic operation");
-        let line = DayLine { at: self.now, antenna, what };
+        let line = DayLine { time: self.now, antenna, event: what };
         self.recording.day_line(&line, self.clock.now());
         day::add(&mut self.day, line);
     }
@@ -506,11 +508,11 @@ impl Engine {
 fn duty(entry: &Entry, between: BetweenPasses) -> Duty {
     Duty {
         pass: (entry.pass.satellite, entry.pass.aos),
-        from: entry.from,
-        until: entry.to,
+        from: entry.start,
+        until: entry.end,
         go_at: sets_out(entry, between),
         counted_s: entry.counted_s,
-        lost_at: entry.lost.map(|lost| lost.at),
+        lost_at: entry.lost.map(|lost| lost.loss),
         begins_late: entry.late_s > 0.0,
         ends_early: entry.early_s > 0.0,
     }

@@ -14,10 +14,10 @@ use super::{
 use crate::{
     astro::time::seconds_between,
     contract::{
-        self, By, CatalogState, Command, Event,
+        self, CatalogState, Command, CommandOrigin, Event,
         alarms::AlarmKind,
         driver,
-        passes::{PassKey, PredictedPass},
+        passes::{PassListKey, PredictedPass},
         sources::SourceWork,
         uploads,
     },
@@ -111,11 +111,11 @@ impl Engine {
                 station.frequencies.retain(|frequency| frequency.satellite != satellite);
                 station.frequencies.extend(frequencies);
             }),
-            Command::KeepOffsets { of, offsets } => {
+            Command::KeepOffsets { subject: of, offsets } => {
                 self.change_station(|station| station.keep_offsets(of, offsets));
                 self.tell_first_offsets();
             }
-            Command::CopyElements { name, from } => {
+            Command::CopyElements { name, origin: from } => {
                 let copy = Some((name, from));
                 self.begin_elements(Task { copy, ..Task::default() });
             }
@@ -222,7 +222,7 @@ impl Engine {
             let (id, stopper) = (antenna.shown.id(), antenna.handle.stopper());
             let stopped = Stopped {
                 at: self.steady,
-                by: By::Station,
+                by: CommandOrigin::Station,
                 antennas: vec![id],
                 elsewhere: Vec::new(),
                 tracked: stopper.tracks().then_some(id).into_iter().collect(),
@@ -280,8 +280,8 @@ impl Engine {
         if antenna.shown.variant().capabilities.has_program {
             return match on_board::pass_for(predicted, config, site, now) {
                 Ok(mut pass) => {
-                    (pass.target.from, pass.target.until) =
-                        contract::passes::whole_seconds(cut((pass.target.from, pass.target.until)));
+                    (pass.target.start, pass.target.end) =
+                        contract::passes::whole_seconds(cut((pass.target.start, pass.target.end)));
                     self.send(index, driver::Command::Track(Box::new(pass)));
                 }
                 Err(refusal) => self.take_event(index, driver::Event::NotSent(refusal)),
@@ -293,7 +293,7 @@ impl Engine {
         self.send(index, driver::Command::ProgramTrack(Box::new(track)));
     }
 
-    fn track(&mut self, index: usize, pass: PassKey, is_agreed: bool) {
+    fn track(&mut self, index: usize, pass: PassListKey, is_agreed: bool) {
         let Some(antenna) = self.antennas.get(index) else { return };
         if antenna.shown.variant().capabilities.has_program {
             return self.track_on_board(index, pass, is_agreed);
@@ -301,7 +301,7 @@ impl Engine {
         self.follow_pass(index, pass);
     }
 
-    fn follow_pass(&mut self, index: usize, pass: PassKey) {
+    fn follow_pass(&mut self, index: usize, pass: PassListKey) {
         // A pass that has ended since the request is not replaced by another.
         let Some(predicted) = self.pass(pass) else { return };
         let Some(antenna) = self.antennas.get(index) else { return };
@@ -328,7 +328,7 @@ impl Engine {
     }
 
     /// A listed pass that is not over.
-    pub(super) fn pass(&self, key: PassKey) -> Option<&PredictedPass> {
+    pub(super) fn pass(&self, key: PassListKey) -> Option<&PredictedPass> {
         self.pass_lists.find(key).filter(|predicted| predicted.pass.los.time > self.now)
     }
 

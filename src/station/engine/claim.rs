@@ -122,7 +122,7 @@ impl Claims {
         let me = Holder {
             kind: self.kind,
             process: std::process::id(),
-            since: Timestamp::now(),
+            start: Timestamp::now(),
             socket: self.socket.clone(),
             antenna: antenna.map(str::to_owned),
         };

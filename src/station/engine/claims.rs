@@ -255,7 +255,7 @@ impl Engine {
     fn leave_unit(&mut self, index: usize, elsewhere: Option<Elsewhere>) {
         let Some(antenna) = self.antennas.get(index) else { return };
         let config = Arc::clone(&antenna.shown.config);
-        let owes_stop = self.driver.debts().owes(&Unit::of(&config));
+        let owes_stop = self.driver.debts().owes(&Unit::new(&config));
         let claim = match elsewhere {
             Some(elsewhere) => {
                 let kind = AlarmKind::UnitElsewhere(elsewhere.by.clone());
@@ -274,7 +274,7 @@ impl Engine {
     fn reopen(&mut self, index: usize, claim: Result<Option<Claim>, Elsewhere>) {
         let Some(antenna) = self.antennas.get(index) else { return };
         let config = Arc::clone(&antenna.shown.config);
-        let bounds = Bounds::of(&self.station, &config);
+        let bounds = Bounds::new(&self.station, &config);
         self.note_learned_drives();
         let opened = self.open_claimed(config, bounds, claim);
         self.cancel_resumption(index);

@@ -8,7 +8,7 @@ use crate::{
         Event as Told,
         antenna::Stake,
         automatic::Interruption,
-        closing::{CloseHow, Closing, Wanted},
+        closing::{CloseCondition, CloseHow, Closing},
         driver::{Command, Event, Intent, StopState},
     },
     engine::automatic::Operate,
@@ -36,7 +36,7 @@ impl Engine {
             antenna.operation.suspend(Interruption::ByHand, self.now);
             if how == CloseHow::Park && antenna.can_park() {
                 self.send(index, Command::Park);
-                waits_for.push((id, Wanted::Parked));
+                waits_for.push((id, CloseCondition::Parked));
                 continue;
             }
             // An antenna already reported as not stopped is not waited for again: an
@@ -44,10 +44,10 @@ impl Engine {
             let was_told = matches!(antenna.snapshot.stop, StopState::NotConfirmed { .. });
             self.stop_one(index);
             if !was_told {
-                waits_for.push((id, Wanted::Still));
+                waits_for.push((id, CloseCondition::Still));
             }
         }
-        self.closing = Some(Closing { how, waits_for, since: self.steady });
+        self.closing = Some(Closing { choice: how, waits_for, start: self.steady });
     }
 
     /// Takes an event of an antenna that the closing waits for.
@@ -56,10 +56,11 @@ impl Engine {
         let Some(place) = closing.waits_for.iter().position(|(of, _)| *of == id) else { return };
         let Some((_, wanted)) = closing.waits_for.get(place) else { return };
         let is_done = match (wanted, event) {
-            (Wanted::Still, Event::Stopped) | (Wanted::Parked, Event::Arrived(_)) => true,
+            (CloseCondition::Still, Event::Stopped)
+            | (CloseCondition::Parked, Event::Arrived(_)) => true,
             (_, Event::StopNotConfirmed)
             | (
-                Wanted::Parked,
+                CloseCondition::Parked,
                 Event::NotSent(_)
                 | Event::Refused(..)
                 | Event::Unanswered(_)
@@ -79,14 +80,16 @@ impl Engine {
     /// Ends the closing: drops one that fails, and reports one that is done.
     pub(super) fn watch_closing(&mut self) {
         let Some(closing) = &self.closing else { return };
-        let age = self.steady.saturating_duration_since(closing.since);
-        let fails = |(id, wanted): &(AntennaId, Wanted)| {
+        let age = self.steady.saturating_duration_since(closing.start);
+        let fails = |(id, wanted): &(AntennaId, CloseCondition)| {
             let Some(antenna) = self.place(*id).and_then(|place| self.antennas.get(place)) else {
                 return false;
             };
             match wanted {
-                Wanted::Still => age > STOPPED_IN,
-                Wanted::Parked => age > TAKEN_IN && antenna.shown.snapshot.intent != Intent::Park,
+                CloseCondition::Still => age > STOPPED_IN,
+                CloseCondition::Parked => {
+                    age > TAKEN_IN && antenna.shown.snapshot.intent != Intent::Park
+                }
             }
         };
         if closing.waits_for.iter().any(fails) {
@@ -100,7 +103,7 @@ impl Engine {
     /// Ends without a question: stops active antennas unless the station file says to leave
     /// them.
     pub(super) fn end_unasked(&mut self) {
-        match CloseHow::of(&self.station) {
+        match CloseHow::from_station(&self.station) {
             // Parking takes longer than the operating system waits.
             None | Some(CloseHow::Hold | CloseHow::Park) => {
                 for antenna in &self.antennas {

@@ -10,7 +10,7 @@ use jiff::Timestamp;
 
 use crate::{
     contract::antenna::AntennaModel,
-    device::settings::{Change, CopyHead, Group, Held, SettingsCopy},
+    device::settings::{Change, CopyHead, Group, GroupStates, SettingsCopy},
     job::{BrokeOff, Job, Wake},
     whole_file,
 };
@@ -68,8 +68,8 @@ impl CopyWork {
             controller: antenna.spec().key.to_owned(),
             saved_at: now,
         };
-        let held: &Held = &antenna.snapshot.state.held;
-        if held.values().all(|state| state.held.is_none()) {
+        let held: &GroupStates = &antenna.snapshot.state.groups;
+        if held.values().all(|state| state.last_read.is_none()) {
             return Err(format!("nothing was read from {name} yet"));
         }
         let text = SettingsCopy::text(&head, antenna.groups(), held);

@@ -11,7 +11,7 @@ use crate::{
     contract::{CatalogState, alarms::AlarmKind, antenna::AntennaModel},
     engine::alarms::KeepAlarms,
     orbit::{Catalog, SourceReport},
-    plan::schedule::{LeftOut, Refusal, Schedule, Why},
+    plan::schedule::{LeftOut, LeftOutReason, Refusal, Schedule},
     station::{AntennaId, Scheduling},
 };
 
@@ -79,9 +79,10 @@ fn max_age_d(scheduling: &Scheduling) -> f64 {
 /// newer elements.
 fn concerned(schedule: &Schedule, automatic: &[AntennaId]) -> Vec<(u32, Timestamp)> {
     let entries = schedule.entries.iter().filter(|entry| automatic.contains(&entry.antenna));
-    let taken = entries.map(|entry| (entry.pass.satellite, entry.from));
-    let is_old = |why: &Why| matches!(why, Why::Refused(Refusal::OldElements { .. }));
-    let is_left_out = |left: &&LeftOut| is_old(&left.why) && !automatic.is_empty();
+    let taken = entries.map(|entry| (entry.pass.satellite, entry.start));
+    let is_old =
+        |why: &LeftOutReason| matches!(why, LeftOutReason::Refused(Refusal::OldElements { .. }));
+    let is_left_out = |left: &&LeftOut| is_old(&left.reason) && !automatic.is_empty();
     let left_out = schedule.left_out.iter().filter(is_left_out);
     taken.chain(left_out.map(|left| (left.pass.satellite, left.pass.aos))).collect()
 }
@@ -193,7 +194,7 @@ mod tests {
         let alarm = |refusal, automatic: &[AntennaId], max_element_age_d| {
             let left_out = vec![LeftOut {
                 pass: PassKey { satellite: NOAA_20, aos },
-                why: Why::Refused(refusal),
+                reason: LeftOutReason::Refused(refusal),
                 by_antenna: Vec::new(),
             }];
             let schedule = Schedule { left_out, ..Schedule::default() };

@@ -61,13 +61,13 @@ struct DrawnAntenna {
 
 impl Picture for Snapshot {
     fn at(&self) -> Moment {
-        self.at
+        self.moment
     }
 
     fn draw(&self, parts: &mut Parts) -> serde_json::Result<Value> {
         // All fields by name: a new one has to be drawn as well.
         let Self {
-            at,
+            moment: at,
             time_sync,
             station,
             station_saved_at,
@@ -168,7 +168,7 @@ fn without_unchanged(
     let same_readings = parts.is_same(state_field("readings"), &state.readings);
     let same_checks = parts.is_same(state_field("checks"), &state.checks);
     let same_questions = parts.is_same(state_field("questions"), &state.questions);
-    let same_held = parts.is_same(state_field("held"), &state.held);
+    let same_held = parts.is_same(state_field("held"), &state.groups);
     // Compare the fields first, so that they stay known while the whole snapshot is unchanged.
     if parts.is_same(place, snapshot) {
         return Arc::new(driver::Snapshot::before_anything(LinkState::Off));
@@ -184,7 +184,7 @@ fn without_unchanged(
         snapshot.state.questions = Arc::default();
     }
     if same_held {
-        snapshot.state.held = Arc::default();
+        snapshot.state.groups = Arc::default();
     }
     Arc::new(snapshot)
 }

@@ -15,7 +15,7 @@ use super::{Engine, Settings};
 use crate::{
     clock::{Clock, Instant, Moment},
     contract::{
-        By, Command, Event, Snapshot,
+        Command, CommandOrigin, Event, Snapshot,
         driver::{self, WireLog},
         passes::ListChoice,
     },
@@ -39,7 +39,7 @@ const STANDS: Duration = Duration::from_secs(2);
 /// of the request.
 pub(super) struct Request {
     pub(super) command: Command,
-    pub(super) by: By,
+    pub(super) by: CommandOrigin,
     pub(super) number: u64,
     pub(super) at: Instant,
 }
@@ -73,7 +73,7 @@ pub(super) struct Urgent {
 pub struct Stopped {
     pub at: Instant,
     /// Origin of the STOP.
-    pub by: By,
+    pub by: CommandOrigin,
     /// Antennas that it was sent to.
     pub antennas: Vec<AntennaId>,
     /// Antennas that another Azel drives; the STOP is passed on to it.
@@ -113,7 +113,7 @@ pub struct Client {
     orders: Orders,
     published: watch::Receiver<Published>,
     clock: Clock,
-    by: By,
+    by: CommandOrigin,
 }
 
 impl Client {
@@ -123,14 +123,14 @@ impl Client {
         orders: Orders,
         published: watch::Receiver<Published>,
         clock: Clock,
-        by: By,
+        by: CommandOrigin,
     ) -> Self {
         Self { requests, urgent: Arc::default(), woken, orders, published, clock, by }
     }
 
     /// The same for somebody else, as the record tells it.
     #[must_use]
-    pub fn acting_for(self, by: By) -> Self {
+    pub fn acting_for(self, by: CommandOrigin) -> Self {
         Self { by, ..self }
     }
 
@@ -283,7 +283,7 @@ impl Handle {
     /// Time for which the station has published nothing, from two seconds on. It normally
     /// publishes every second.
     pub fn stood_for(&self) -> Option<Duration> {
-        let shown = self.client.published.borrow().snapshot.at.steady;
+        let shown = self.client.published.borrow().snapshot.moment.steady;
         let stood = self.client.now().steady.saturating_duration_since(shown);
         (stood >= STANDS).then_some(stood)
     }

@@ -123,14 +123,14 @@ impl Engine {
 
     /// Returns what was learned of an antenna's unit before.
     pub(super) fn learned_drives(&self, config: &station::Antenna) -> [AxisLessons; 2] {
-        self.learned_drives.axes(&Unit::of(config))
+        self.learned_drives.axes(&Unit::new(config))
     }
 
     /// Takes what the sessions have learned. A unit that another Azel drives keeps what is known of it.
     pub(super) fn note_learned_drives(&mut self) {
         let ours = self.antennas.iter().filter(|antenna| antenna.shown.held_by.is_none());
         let learned = ours
-            .map(|antenna| (Unit::of(&antenna.shown.config), antenna.handle.snapshot().learned));
+            .map(|antenna| (Unit::new(&antenna.shown.config), antenna.handle.snapshot().learned));
         let learned: Vec<_> = learned.collect();
         for (unit, axes) in learned {
             self.learned_drives.note(unit, axes);

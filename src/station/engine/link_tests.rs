@@ -52,7 +52,7 @@ impl Runner {
                 LinkFinding::NotOpened(LinkFault::Other(broke_off.to_string()))
             });
             if let Some(test) = shown.iter_mut().find(|test| test.antenna.id == *id) {
-                test.stage = LinkTestStage::Done { finding, at };
+                test.stage = LinkTestStage::Done { finding, time: at };
             }
         }
         self.under_way.retain(|(_, job)| job.is_some());
@@ -74,11 +74,11 @@ impl Engine {
         if known.is_some_and(|known| known.stage == LinkTestStage::Working) {
             return;
         }
-        let unit = Unit::of(&antenna);
+        let unit = Unit::new(&antenna);
         let is_ours = self
             .antennas
             .iter()
-            .any(|of| of.shown.held_by.is_none() && Unit::of(&of.shown.config) == unit);
+            .any(|of| of.shown.held_by.is_none() && Unit::new(&of.shown.config) == unit);
         let stage = if is_ours {
             LinkTestStage::InUse
         } else {

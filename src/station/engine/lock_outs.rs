@@ -95,7 +95,7 @@ impl Engine {
         if antenna.shown.held_by.is_some() {
             return;
         }
-        let wanted = self.lock_outs.of(&antenna.shown.config.connection);
+        let wanted = self.lock_outs.find(&antenna.shown.config.connection);
         let told = antenna.handle.snapshot();
         if told.lock_out.as_ref() == wanted {
             return;

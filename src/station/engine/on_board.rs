@@ -13,7 +13,7 @@ use crate::{
         alarms::AlarmKind,
         antenna::{AntennaModel, Judged},
         driver::{self, Event, OffTargetCause, Refusal, Snapshot},
-        passes::{PassKey, PredictedPass, window},
+        passes::{PassListKey, PredictedPass, window},
     },
     device::{OnBoard, TrackTarget, UnitClock},
     engine::alarms::KeepAlarms,
@@ -38,8 +38,8 @@ pub(super) fn pass_for(
         name: elements.name().to_owned(),
         element_file: antenna.connection.element_file(),
         // For a pass under way the window begins now.
-        from: from.max(add_seconds(now, -1.0)),
-        until,
+        start: from.max(add_seconds(now, -1.0)),
+        end: until,
     };
     Ok(OnBoardPass { target, elements, site, is_agreed: false })
 }
@@ -47,7 +47,7 @@ pub(super) fn pass_for(
 impl Engine {
     /// Starts on-board track of a pass. `is_agreed`: the operator knows that the unit may
     /// miss.
-    pub(super) fn track_on_board(&mut self, index: usize, pass: PassKey, is_agreed: bool) {
+    pub(super) fn track_on_board(&mut self, index: usize, pass: PassListKey, is_agreed: bool) {
         // A pass that has ended since the request is not replaced by another.
         let Some(predicted) = self.pass(pass) else { return };
         let (site, now) = (self.station.site, self.now);
@@ -76,7 +76,8 @@ impl Engine {
     /// The judgement of the unit of `antenna`, kept where nothing has changed.
     fn judged(&self, antenna: &AntennaModel) -> Option<Judged> {
         // Azel takes back the offsets of the current track after it.
-        let unit = &antenna.snapshot.state.on_board.without(antenna.snapshot.meant_offsets());
+        let unit =
+            &antenna.snapshot.state.on_board.without_offsets(antenna.snapshot.meant_offsets());
         let is_told = unit.place.is_some() || unit.clock.is_some() || unit.offsets.is_some();
         let can = antenna.variant().capabilities.has_program && antenna.snapshot.link.is_open();
         if !can || !is_told {
@@ -85,13 +86,15 @@ impl Engine {
         let selected = self.attention.selected.and_then(|key| self.pass(key));
         let predicted = selected.or_else(|| self.pass_lists.next(self.now))?;
         let of = (predicted.key(), rounded(unit));
-        if let Some(before) = antenna.judged.as_ref().filter(|judged| judged.of == of) {
+        if let Some(before) = antenna.judged.as_ref().filter(|judged| judged.basis == of) {
             return Some(before.clone());
         }
         let pass = pass_for(predicted, &antenna.config, self.station.site, self.now);
-        let judge = pass.ok().and_then(|pass| Judge::new(pass, Ability::of(&antenna.config)).ok());
+        let judge = pass
+            .ok()
+            .and_then(|pass| Judge::new(pass, Ability::from_antenna(&antenna.config)).ok());
         let found = judge.map(|judge| Arc::new(judge.supervise(&of.1, false)));
-        Some(Judged { found, of })
+        Some(Judged { found, basis: of })
     }
 }
 
@@ -128,7 +131,7 @@ impl Engine {
         let from_here = antenna.snapshot.program_track.as_ref().and_then(|view| view.missing);
         let missed = on_board.or(from_here.map(|off| (off, None))).map(|(off, reported)| {
             let cause = off_because(antenna, off, reported.map(OffTargetCause::Reported));
-            AlarmKind::OffTarget { off, cause }
+            AlarmKind::OffTarget { deviation: off, cause }
         });
         let is_missed = |kind: &AlarmKind| matches!(kind, AlarmKind::OffTarget { .. });
         alarms.follow(of, now, missed, is_missed);
@@ -137,7 +140,7 @@ impl Engine {
         let standing = antenna.misses().into_iter().flat_map(|found| &found.causes).find(|cause| {
             let kind = AlarmKind::UnitDiffers((*cause).clone());
             let is_large =
-                differs.is_some_and(|first| first.off.is_none_or(|off| cause.can_make(off)));
+                differs.is_some_and(|first| first.max_error.is_none_or(|off| cause.can_make(off)));
             is_large && alarms.stands(of, &kind)
         });
         let differs = standing.or(differs).cloned().map(AlarmKind::UnitDiffers);
@@ -145,7 +148,7 @@ impl Engine {
         let left = antenna.snapshot.unit_offsets.as_ref();
         let left = left.and_then(|unit| Some((unit.offsets, unit.left.clone()?)));
         let left = left.filter(|(offsets, _)| !offsets.is_none());
-        let left = left.map(|(offsets, why)| AlarmKind::OffsetsLeft { offsets, why });
+        let left = left.map(|(offsets, why)| AlarmKind::OffsetsLeft { offsets, reason: why });
         alarms.follow(of, now, left, |kind| matches!(kind, AlarmKind::OffsetsLeft { .. }));
         let is_loading = matches!(self.catalog, CatalogState::Loading);
         let not_compared = not_compared(antenna).filter(|_| !is_loading);

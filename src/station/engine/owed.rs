@@ -23,7 +23,7 @@ impl Engine {
     /// where it owes that, if no antenna has the unit: each has a session that ends once it is paid.
     pub(super) fn pay_left_debts(&mut self) {
         let debts = self.driver.debts();
-        let has_it = |unit: &Unit| self.station.antennas.iter().any(|of| Unit::of(of) == *unit);
+        let has_it = |unit: &Unit| self.station.antennas.iter().any(|of| Unit::new(of) == *unit);
         let left: BTreeSet<Unit> =
             debts.with_auto_track().into_iter().chain(debts.left_moving()).collect();
         for unit in left.into_iter().filter(|unit| !has_it(unit)) {
@@ -65,7 +65,7 @@ pub(super) fn strangers<'a>(
     debts: &Debts,
     antennas: impl Iterator<Item = &'a Antenna>,
 ) -> Vec<AlarmKind> {
-    let known: Vec<Unit> = antennas.map(Unit::of).collect();
+    let known: Vec<Unit> = antennas.map(Unit::new).collect();
     let is_strange = |unit: &Unit| !known.contains(unit);
     let stops: BTreeSet<Unit> = debts.units().into_iter().chain(debts.left_moving()).collect();
     let stops = stops.into_iter().filter(is_strange).map(AlarmKind::Owed);
@@ -105,17 +105,18 @@ mod tests {
         let left = Antenna::satrak("Dish", "10.0.0.7:4001");
         let debts = Debts::default();
         for antenna in [&kept, &left] {
-            debts.owe_auto_track_off(&Unit::of(antenna));
+            debts.owe_auto_track_off(&Unit::new(antenna));
         }
         for antenna in [&kept, &gone] {
-            debts.owe(&Unit::of(antenna));
+            debts.owe(&Unit::new(antenna));
         }
         let mut alarms = Alarms::default();
         for _ in 0..3 {
             let strangers = strangers(&debts, std::iter::once(&kept));
             tell(&mut alarms, strangers, Timestamp::UNIX_EPOCH);
         }
-        let wanted = [AlarmKind::Owed(Unit::of(&gone)), AlarmKind::AutoTrackOwed(Unit::of(&left))];
+        let wanted =
+            [AlarmKind::Owed(Unit::new(&gone)), AlarmKind::AutoTrackOwed(Unit::new(&left))];
         assert_eq!(standing(&alarms), wanted.iter().collect::<Vec<_>>());
         tell(&mut alarms, Vec::new(), Timestamp::UNIX_EPOCH);
         assert!(standing(&alarms).is_empty());
@@ -139,6 +140,6 @@ mod tests {
         let strangers = strangers(&debts, std::iter::once(&kept));
         tell(&mut alarms, strangers, Timestamp::UNIX_EPOCH);
         let stranger = Antenna::satrak("Dish", "10.0.0.7:4001");
-        assert_eq!(standing(&alarms), [&AlarmKind::OffsetsOwed(Unit::of(&stranger))]);
+        assert_eq!(standing(&alarms), [&AlarmKind::OffsetsOwed(Unit::new(&stranger))]);
     }
 }

@@ -99,7 +99,7 @@ impl SearchKey {
         Self {
             catalog: Arc::clone(catalog),
             scope: SearchScope::Favourites(station.favourites.numbers().into()),
-            observer: Arc::new(Observer::of(station)),
+            observer: Arc::new(Observer::from_station(station)),
             floor: station.elevation_floor(),
             span_h: FAVOURITES_H.max(station.scheduling.span_h.ceil() as u32),
         }

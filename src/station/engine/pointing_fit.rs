@@ -61,7 +61,7 @@ impl PointingWork {
     fn counting(&self, antenna: AntennaId) -> Counting {
         match &self.peaks_state {
             PeaksState::None | PeaksState::Known => {
-                Counting::Peaks(self.peaks.of(antenna).copied().collect())
+                Counting::Peaks(self.peaks.for_antenna(antenna).copied().collect())
             }
             PeaksState::Reading(_) => Counting::NotYet,
             PeaksState::Unread { why, .. } => Counting::Unread(why.clone()),
@@ -175,13 +175,13 @@ mod tests {
     use std::sync::mpsc;
 
     use super::*;
-    use crate::{clock::Clock, contract::record::PeakOf, job::BrokeOff};
+    use crate::{clock::Clock, contract::record::PeakBody, job::BrokeOff};
 
     const ANTENNA: AntennaId = AntennaId(3);
 
     fn peaks() -> (Peak, Peaks) {
         let at = Timestamp::UNIX_EPOCH;
-        let peak = Peak { of: PeakOf::Sun, at, azimuth_deg: 100.0, elevation_deg: 20.0 };
+        let peak = Peak { body: PeakBody::Sun, time: at, azimuth_deg: 100.0, elevation_deg: 20.0 };
         let mut peaks = Peaks::default();
         peaks.change(ANTENNA, PeakChange::Added(peak));
         (peak, peaks)

@@ -326,7 +326,7 @@ mod tests {
         let holder = Holder {
             kind: HolderKind::Serve,
             process,
-            since: Timestamp::UNIX_EPOCH,
+            start: Timestamp::UNIX_EPOCH,
             socket: Some(folder.join("gone.sock")),
             antenna: None,
         };

@@ -23,13 +23,13 @@ const UNTIL_WRITTEN: Duration = Duration::from_secs(1);
 fn missed_pass(entry: MissedEntry) -> Option<MissedPass> {
     let MissedEntry { id, at, antenna, antenna_name, flown } = entry;
     let flown = serde_json::from_value(flown).ok()?;
-    Some(MissedPass { id, at, antenna, antenna_name, flown })
+    Some(MissedPass { id, time: at, antenna, antenna_name, flown })
 }
 
 /// Reads the record at `path`. Reports without a site are of an antenna at `site`.
 pub fn read_record(path: &Path, look: RecordLook, site: Site) -> Recorded {
     let found = read(path, &look, site).map_err(|error| error.to_string());
-    Recorded { look, found, together: None }
+    Recorded { look, found, combined: None }
 }
 
 /// Returns `true` if the same pass is opened and the record has as many passes, so that what
@@ -73,7 +73,7 @@ impl Engine {
         };
         let Some(path) = self.record_file() else {
             let found = Err("this user has no folder for records".to_owned());
-            self.record_reading.found = Some(Arc::new(Recorded { look, found, together: None }));
+            self.record_reading.found = Some(Arc::new(Recorded { look, found, combined: None }));
             return;
         };
         let site = self.station.site;
@@ -90,7 +90,7 @@ impl Engine {
         if let Some(Ok(mut recorded)) = Job::take(&mut self.record_reading.job) {
             let before = self.record_reading.found.take();
             let before = before.filter(|before| have_same_passes(before, &recorded));
-            recorded.together = before.as_ref().and_then(|before| before.together.clone());
+            recorded.combined = before.as_ref().and_then(|before| before.combined.clone());
             self.record_reading.found = Some(Arc::new(recorded));
             if before.is_none() {
                 self.explain_together();
@@ -99,7 +99,7 @@ impl Engine {
         if let Some(Ok(together)) = Job::take(&mut self.record_reading.explaining)
             && let Some(found) = &mut self.record_reading.found
         {
-            Arc::make_mut(found).together = together;
+            Arc::make_mut(found).combined = together;
         }
     }
 
@@ -108,7 +108,7 @@ impl Engine {
         reading.explaining = None;
         let found = reading.found.as_ref().and_then(|of| of.found.as_ref().ok());
         let Some(opened) = found.and_then(|found| found.opened.as_ref()) else { return };
-        let (antenna, until) = (opened.pass.antenna, opened.pass.report.until);
+        let (antenna, until) = (opened.pass.antenna, opened.pass.report.end);
         let configured = self.station.antennas.iter().find(|of| of.id == antenna);
         // An antenna that has left the station has no known mount.
         let (Some(of), Some(path)) = (configured, self.record_file()) else { return };
@@ -162,7 +162,7 @@ mod tests {
         let antenna = AntennaId(3);
         let recorder = Recorder::start(path.clone(), clock, Retention::default()).unwrap();
         for of in [&missed, &in_part] {
-            let line = DayLine { at: now.utc, antenna, what: DayEvent::Flown(of.clone()) };
+            let line = DayLine { time: now.utc, antenna, event: DayEvent::Flown(of.clone()) };
             recorder.note(Entry::new(now, Some(antenna), Kind::Day, &line));
         }
         recorder.flush();

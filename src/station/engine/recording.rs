@@ -33,7 +33,7 @@ use crate::{
     astro::time::seconds_between,
     clock::{Clock, Instant, Moment},
     contract::{
-        self, By, Command, Snapshot,
+        self, Command, CommandOrigin, Snapshot,
         alarms::{Alarm, AlarmKind},
         automatic::DayLine,
         driver::{Event, Response, Safety, TimeSync},
@@ -231,7 +231,7 @@ impl Engine {
     }
 
     /// Records a command of a client. A held jog key counts once.
-    pub(super) fn note_command(&mut self, command: &Command, by: By) {
+    pub(super) fn note_command(&mut self, command: &Command, by: CommandOrigin) {
         match command {
             command if command.only_looks() => return,
             Command::Antenna(id, contract::driver::Command::Jog { .. }) => {
@@ -255,9 +255,9 @@ impl Engine {
     /// unless the client named only a pass.
     pub(super) fn note_sent(&self, index: usize, command: &contract::driver::Command) {
         use crate::contract::driver::Command::{ProgramTrack, ProgramTrackIntoSun, Track};
-        let by = self.asked.map_or(By::Station, |asked| asked.by);
+        let by = self.asked.map_or(CommandOrigin::Station, |asked| asked.by);
         let is_track = matches!(command, Track(_) | ProgramTrack(_) | ProgramTrackIntoSun(_));
-        if by != By::Station && !is_track {
+        if by != CommandOrigin::Station && !is_track {
             return;
         }
         let Some(id) = self.antennas.get(index).map(|antenna| antenna.shown.id()) else { return };
@@ -298,7 +298,7 @@ impl Engine {
         let status = recorder.status();
         match &status.failing {
             Some(failing) => {
-                self.alarms.raise(None, AlarmKind::NoRecord(failing.why.clone()), self.now);
+                self.alarms.raise(None, AlarmKind::NoRecord(failing.reason.clone()), self.now);
             }
             None => {
                 self.alarms.clear(None, self.now, |kind| matches!(kind, AlarmKind::NoRecord(_)));
@@ -340,7 +340,7 @@ impl Engine {
         let list = self.alarms.list();
         // How long something stands grows with every turn.
         let story = |alarm: &Alarm| {
-            (alarm.id, alarm.seen, alarm.over_since, alarm.shelved_until, alarm.count)
+            (alarm.id, alarm.acknowledged, alarm.over_since, alarm.shelved_until, alarm.count)
         };
         let known = &self.recording.alarms;
         if list.iter().map(story).eq(known.iter().map(story)) {
@@ -363,9 +363,9 @@ fn note_antenna(recording: &mut Recording, antenna: &Antenna, at: Moment) {
         recording.note(at, Some(id), Kind::State, &state);
         recording.states.insert(id, state);
     }
-    for (group, held) in &*antenna.shown.snapshot.state.held {
+    for (group, held) in &*antenna.shown.snapshot.state.groups {
         let Some(written) = &held.written else { continue };
-        if recording.written.insert((id, group), written.at) != Some(written.at) {
+        if recording.written.insert((id, group), written.time) != Some(written.time) {
             let data = json!({ "group": group, "written": written });
             recording.note(at, Some(id), Kind::Setting, &data);
         }

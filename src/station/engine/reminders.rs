@@ -119,7 +119,7 @@ mod tests {
         let elements = bundled().unwrap().get(ISS).unwrap().clone();
         let propagator = Propagator::new(&elements).unwrap();
         let from: Timestamp = "2026-08-12T00:00:00Z".parse().unwrap();
-        let observer = Arc::new(Observer::of(&station));
+        let observer = Arc::new(Observer::from_station(&station));
         let search = PassSearch {
             aos_elevation: observer.aos_elevation,
             ..PassSearch::new(station.site, from, from + 12.hours())
@@ -148,7 +148,7 @@ mod tests {
         // The next search finds the pass a little later.
         let mut pass = first.pass;
         pass.aos.time += 2.seconds();
-        let observer = Arc::new(Observer::of(&station));
+        let observer = Arc::new(Observer::from_station(&station));
         let again = PredictedPass::new(Arc::clone(&first.satellite), pass, observer);
         let renewed = PassList { passes: Arc::new(vec![again]), ..PassList::default() };
         assert_eq!(at(&station, &renewed, aos - 60.seconds()), [aos]);
@@ -207,7 +207,7 @@ mod tests {
             let config = Antenna::satrak("Dish", "10.0.0.5:4001");
             AntennaModel::new(config, Arc::new(snapshot)).takes(ISS)
         };
-        let up = LinkState::Up { since: Instant::now() };
+        let up = LinkState::Up { start: Instant::now() };
         assert!(takes(Phase::AtStart, ISS, up.clone()) && takes(Phase::Tracking, ISS, up.clone()));
         assert!(!takes(Phase::Completed, ISS, up.clone()), "the pass before");
         assert!(!takes(Phase::AtStart, 43_013, up));

@@ -12,14 +12,14 @@ use crate::{
         alarms::{AlarmKind, Work},
         antenna::AntennaModel,
         driver::LinkState,
-        passes::{PassKey, PredictedPass},
+        passes::{PassListKey, PredictedPass},
         schedule::{Planned, Swap},
     },
     engine::alarms::KeepAlarms,
     job::Job,
     plan::schedule::{
-        self, Candidate, Common, Entry, Off, Partial, PlannedAntenna, Reach, Request, Schedule,
-        Steadiness, changes, plan,
+        self, AntennaOff, Candidate, Common, Entry, Partial, PlannedAntenna, Reach, Request,
+        Schedule, Steadiness, changes, plan,
     },
     station::{AntennaId, Station, Take},
 };
@@ -38,11 +38,11 @@ pub(super) struct Inputs {
     /// Revision of `passes`.
     revision: u64,
     /// Antennas that take no passes.
-    off: Vec<(AntennaId, Off)>,
+    off: Vec<(AntennaId, AntennaOff)>,
     /// Satellites that antennas track without automatic operation.
     tracked: Vec<Tracked>,
     /// Passes that antennas were taking before the start of this run and may resume.
-    interrupted: Vec<(AntennaId, PassKey)>,
+    interrupted: Vec<(AntennaId, PassListKey)>,
     /// Antennas with known positions, with the rates of their axes as learned.
     placed: Vec<(AntennaId, Option<[f64; 2]>)>,
 }
@@ -123,8 +123,8 @@ impl Engine {
         let off = self.antennas.iter().filter_map(|antenna| {
             let snapshot = &antenna.shown.snapshot;
             let off = match snapshot.link {
-                _ if snapshot.lock_out.is_some() => Off::LockedOut,
-                LinkState::Off => Off::SwitchedOff,
+                _ if snapshot.lock_out.is_some() => AntennaOff::LockedOut,
+                LinkState::Off => AntennaOff::SwitchedOff,
                 _ => return None,
             };
             Some((antenna.shown.id(), off))
@@ -137,7 +137,7 @@ impl Engine {
             let is_by_hand = !shown.operation.is_on() || shown.tracks_unasked();
             let target = shown.snapshot.target.as_ref();
             let target = target.filter(|target| target.catalog_number == satellite);
-            let from = target.map(|target| target.from);
+            let from = target.map(|target| target.start);
             is_by_hand.then_some(Tracked { antenna: shown.id(), satellite, from })
         });
         let is_placed = |antenna: &&super::Antenna| stands_deg(&antenna.shown).is_some();
@@ -156,7 +156,7 @@ impl Engine {
 
     /// Begins to work out what it would cost to take a pass always: the schedule is made as it would
     /// be made after that choice.
-    pub(super) fn price_swap(&mut self, pass: PassKey) {
+    pub(super) fn price_swap(&mut self, pass: PassListKey) {
         // Not those of the last schedule: an antenna may have begun to track since.
         let Some(mut inputs) = self.schedule_inputs() else { return };
         let mut listed = inputs.passes.iter();
@@ -207,7 +207,7 @@ impl Engine {
             schedule,
             revision: before.revision + 1,
             made_at: begun,
-            until: begun.map(|at| add_seconds(at, span_s)),
+            end: begun.map(|at| add_seconds(at, span_s)),
             changes,
         });
     }
@@ -219,16 +219,16 @@ impl Engine {
             let off = inputs.off.iter().find(|(id, _)| *id == config.id);
             PlannedAntenna {
                 stands_deg: stands_deg(shown),
-                off: off.map(|(_, off)| *off),
-                reach: Reach::of(&self.station, config, shown.snapshot.rates_deg_s),
-                ..PlannedAntenna::of(&self.station, config, self.now)
+                off_reason: off.map(|(_, off)| *off),
+                reach: Reach::from_station(&self.station, config, shown.snapshot.rates_deg_s),
+                ..PlannedAntenna::from_station(&self.station, config, self.now)
             }
         };
         self.antennas.iter().map(planned).collect()
     }
 
     /// Passes that automatic operation was taking when the last run ended, of antennas that do not move.
-    fn interrupted_passes(&self) -> Vec<(AntennaId, PassKey)> {
+    fn interrupted_passes(&self) -> Vec<(AntennaId, PassListKey)> {
         let own = self.antennas.iter().filter_map(|antenna| {
             let pass = antenna.at_work.interrupted(&antenna.shown.operation)?;
             let is_tracked = antenna.shown.tracked_number() == Some(pass.0);
@@ -249,7 +249,7 @@ impl Engine {
                 is_same_pass(taking.pass, (entry.pass.satellite, entry.pass.aos))
             })
         };
-        entries.filter(|entry| entry.to > self.now).filter(is_taken).cloned().collect()
+        entries.filter(|entry| entry.end > self.now).filter(is_taken).cloned().collect()
     }
 }
 
@@ -268,7 +268,7 @@ fn gives_away(schedule: &Schedule, begun: &[Entry], fixed: &[Entry]) -> bool {
             let key = |of: &Entry| (of.pass.satellite, of.pass.aos);
             other.antenna == entry.antenna
                 && is_same_pass(key(other), key(entry))
-                && seconds_between(other.to, entry.to).abs() < MOVED_S
+                && seconds_between(other.end, entry.end).abs() < MOVED_S
         })
     };
     fixed.iter().any(|entry| !is_in(begun, entry) && !is_in(&schedule.entries, entry))
@@ -298,7 +298,7 @@ fn make(
         .map(|predicted| {
             let satellite = &predicted.satellite;
             let (elements, propagator) = (&satellite.elements, &satellite.propagator);
-            Candidate::of(station, elements, propagator, &predicted.pass, common)
+            Candidate::from_station(station, elements, propagator, &predicted.pass, common)
         })
         .collect();
     let under_way = inputs.tracked.iter().filter_map(|tracked| {
@@ -329,7 +329,7 @@ fn make(
         antennas,
         candidates: &candidates,
         choose_by: scheduling.choose_by,
-        partial: Partial::of(&scheduling),
+        partial: Partial::from_scheduling(&scheduling),
         previous: (!previous.entries.is_empty()).then_some(previous),
         steadiness: STEADINESS,
         fixed: &fixed,

@@ -21,7 +21,7 @@ use tokio::{
 use super::{Client, claim::LockFolder, status::AntennaStatus};
 use crate::{
     contract::{
-        By, Command, Snapshot,
+        Command, CommandOrigin, Snapshot,
         alarms::AlarmKind,
         antenna::AntennaModel,
         driver::{self, LinkState, StopState},
@@ -155,7 +155,7 @@ impl Drop for Served {
 
 /// Serves the socket called `name` in `folder` on a thread of its own until the station ends.
 pub(super) fn serve(folder: LockFolder, name: PathBuf, station: Client) -> io::Result<Served> {
-    let station = station.acting_for(By::Program);
+    let station = station.acting_for(CommandOrigin::Program);
     let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
     let door = {
         let _within = runtime.enter();
@@ -318,8 +318,8 @@ async fn stop(antenna: Option<&str>, mut station: Client) -> Answer {
     };
     let (pressed, elsewhere) = (stopped.at, stopped.elsewhere.clone());
     let outcome = |antenna: &AntennaModel| match antenna.snapshot.stop {
-        StopState::Stopped { at } if at >= pressed => Some(true),
-        StopState::NotConfirmed { since } if since >= pressed => Some(false),
+        StopState::Stopped { time: at } if at >= pressed => Some(true),
+        StopState::NotConfirmed { start: since } if since >= pressed => Some(false),
         _ => None,
     };
     let end = Instant::now() + PROVED_WITHIN;
@@ -359,10 +359,10 @@ async fn set_lock_out(
     let antenna = snapshot.antennas.iter().find(|antenna| antenna.id() == id);
     let standing = antenna.and_then(|antenna| antenna.snapshot.lock_out.clone());
     match standing {
-        Some(LockOut { by, reason, .. }) if lock_out.is_some() => {
+        Some(LockOut { operator: by, reason, .. }) if lock_out.is_some() => {
             return Answer::Refused(format!("it is locked out already by {by}: {reason}"));
         }
-        Some(LockOut { by, reason, .. }) if locked_by != Some(by.as_str()) => {
+        Some(LockOut { operator: by, reason, .. }) if locked_by != Some(by.as_str()) => {
             return Answer::Refused(format!(
                 "it is locked out by {by}: {reason}. Ask {by}, then repeat the command with \
                  --locked-by \"{by}\""
@@ -388,7 +388,7 @@ async fn set_lock_out(
         let shown = &antenna.snapshot;
         let is_so = shown.lock_out == lock_out;
         let stands = shown.state.measured.is_some_and(|measured| {
-            shown.link.is_open() && measured.asked >= asked.steady && !measured.moving()
+            shown.link.is_open() && measured.requested >= asked.steady && !measured.moving()
         });
         if is_so && (lock_out.is_none() || !shown.locking && stands) {
             return Answer::LockOut { proved: true, not_on_disk: not_on_disk(&snapshot) };
@@ -428,7 +428,7 @@ async fn set_automatic(antenna: AntennaId, is_on: bool, mut station: Client) -> 
         if let Some(by) = &shown.held_by {
             return Answer::Refused(format!("{by} drives it: switch it on there"));
         }
-        if let Some(LockOut { by, reason, .. }) = &shown.snapshot.lock_out {
+        if let Some(LockOut { operator: by, reason, .. }) = &shown.snapshot.lock_out {
             return Answer::Refused(format!("it is locked out by {by}: {reason}"));
         }
         if !timeout_at(end, station.changed()).await.unwrap_or_default() {
@@ -467,9 +467,9 @@ mod tests {
     #[test]
     fn questions_and_answers_come_back_as_they_went() {
         let lock_out = LockOut {
-            by: "Ada".to_owned(),
+            operator: "Ada".to_owned(),
             reason: "belts".to_owned(),
-            since: jiff::Timestamp::UNIX_EPOCH,
+            start: jiff::Timestamp::UNIX_EPOCH,
         };
         for ask in [
             Ask::Status,

@@ -103,7 +103,7 @@ impl AntennaStatus {
             elevation_deg: measured
                 .and_then(|measured| measured.pointing.elevation)
                 .map(Angle::degrees),
-            measured_at: measured.map(|measured| measured.at),
+            measured_at: measured.map(|measured| measured.time),
             moves: measured.map(|measured| measured.moving()),
             tracks: followed.or_else(|| held.map(|held| held.name.clone())),
             owes_stop: matches!(
@@ -115,7 +115,8 @@ impl AntennaStatus {
                 Operation::On(_) => AutomaticStatus::On,
                 Operation::Suspended { .. } => AutomaticStatus::Suspended,
             },
-            locked_out: lock_out.map(|lock_out| format!("{}: {}", lock_out.by, lock_out.reason)),
+            locked_out: lock_out
+                .map(|lock_out| format!("{}: {}", lock_out.operator, lock_out.reason)),
         }
     }
 }

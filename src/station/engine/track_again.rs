@@ -27,12 +27,12 @@ impl Engine {
                 let Some(predicted) = self.pass_lists.find(*pass) else { return };
                 let name = predicted.satellite.short_name().to_owned();
                 let until = predicted.pass.los.time;
-                (*antenna, Some(TrackAgain { name, command: command.clone(), until }))
+                (*antenna, Some(TrackAgain { name, command: command.clone(), end: until }))
             }
             Command::Antenna(antenna, driver::Command::ProgramTrack(follow)) => {
                 let name = follow.target.name().into_owned();
                 let until = end_of(follow, self.now);
-                (*antenna, Some(TrackAgain { name, command: command.clone(), until }))
+                (*antenna, Some(TrackAgain { name, command: command.clone(), end: until }))
             }
             Command::Antenna(antenna, other) if chooses_something_else(other) => (*antenna, None),
             _ => return,
@@ -53,7 +53,7 @@ impl Engine {
         let until = add_seconds(self.now, OFFERED_S);
         let Some(antenna) = self.antennas.get_mut(index) else { return };
         let command = Command::Antenna(antenna.shown.id(), driver::Command::Resume);
-        antenna.shown.track_again = Some(TrackAgain { name: name.to_owned(), command, until });
+        antenna.shown.track_again = Some(TrackAgain { name: name.to_owned(), command, end: until });
     }
 
     /// Records a STOP that has gone to the sessions.
@@ -66,7 +66,7 @@ impl Engine {
         self.drop_waiting_settings();
         self.end_automatic_by_stop(stopped);
         // STOP while the antennas are parked for the end: the operator is needed here.
-        self.closing.take_if(|closing| closing.how == CloseHow::Park);
+        self.closing.take_if(|closing| closing.choice == CloseHow::Park);
         let latest = add_seconds(self.now, OFFERED_S);
         for antenna in &mut self.antennas {
             let id = antenna.shown.id();
@@ -88,8 +88,8 @@ impl Engine {
                 continue;
             }
             shown.track_again = shown.ordered_track.take().map(|ordered| {
-                let until = ordered.until.min(latest);
-                TrackAgain { until, ..ordered }
+                let until = ordered.end.min(latest);
+                TrackAgain { end: until, ..ordered }
             });
         }
     }
@@ -120,7 +120,7 @@ impl Engine {
                     Command::Track { pass, .. } => pass_lists.find(pass).is_none(),
                     _ => false,
                 };
-                now >= again.until || chosen || is_locked_out || is_gone
+                now >= again.end || chosen || is_locked_out || is_gone
             });
         }
     }

@@ -249,8 +249,8 @@ impl Engine {
             alarms.restate(of, &AlarmKind::LinkLost(reason.clone()));
         }
         match snapshot.left_moving {
-            Some(LeftMoving { since }) => {
-                let matter = Safety::LeftMoving { since, asks: true };
+            Some(LeftMoving { start: since }) => {
+                let matter = Safety::LeftMoving { start: since, asks: true };
                 alarms.raise(of, AlarmKind::Safety(matter), now);
             }
             None => alarms.clear(of, now, |kind| {

@@ -93,7 +93,7 @@ impl Engine {
         // The alarms of a unit end with it; a STOP that it is owed is an alarm of its own.
         let is_same = |new: &&station::Antenna| {
             let known = before.iter().find(|antenna| antenna.shown.id() == new.id);
-            known.is_some_and(|known| Unit::of(&known.shown.config) == Unit::of(new))
+            known.is_some_and(|known| Unit::new(&known.shown.config) == Unit::new(new))
         };
         let same: Vec<AntennaId> =
             station.antennas.iter().filter(is_same).map(|antenna| antenna.id).collect();
@@ -102,7 +102,7 @@ impl Engine {
         // STOP.
         let debts = self.driver.debts().clone();
         let owed: Vec<String> = (before.iter())
-            .filter(|antenna| debts.owes(&Unit::of(&antenna.shown.config)))
+            .filter(|antenna| debts.owes(&Unit::new(&antenna.shown.config)))
             .map(|antenna| antenna.shown.config.name.clone())
             .collect();
         // A unit accepts one client: the old session leaves first.
@@ -111,9 +111,9 @@ impl Engine {
         };
         let mut changed: Vec<Changed> = Vec::new();
         for antenna in before.extract_if(.., |antenna| !is_kept(antenna)) {
-            let unit = Unit::of(&antenna.shown.config);
+            let unit = Unit::new(&antenna.shown.config);
             let is_of =
-                |new: &station::Antenna| new.id == antenna.shown.id() && Unit::of(new) == unit;
+                |new: &station::Antenna| new.id == antenna.shown.id() && Unit::new(new) == unit;
             let is_left = !station.antennas.iter().any(is_of) && antenna.shown.held_by.is_none();
             if is_left && antenna.may_have_auto_track() {
                 let marked = debts.mark_auto_track_off(&unit, self.now);
@@ -125,7 +125,7 @@ impl Engine {
             changed.push(Changed { unit, id: config.id, operation, at_work: antenna.at_work });
         }
         for config in &station.antennas {
-            let bounds = Bounds::of(&station, config);
+            let bounds = Bounds::new(&station, config);
             let kept = before.iter().position(|antenna| *antenna.shown.config == *config);
             let antenna = if let Some(kept) = kept {
                 let antenna = before.swap_remove(kept);
@@ -137,7 +137,7 @@ impl Engine {
                 if let Some(was) = was.map(|was| changed.swap_remove(was)) {
                     antenna.shown.operation = was.operation;
                     antenna.shown.operation.switch_off(OffBecause::Changed);
-                    let is_same_unit = was.unit == Unit::of(config);
+                    let is_same_unit = was.unit == Unit::new(config);
                     antenna.at_work =
                         if is_same_unit { was.at_work } else { was.at_work.without_unit() };
                 }
@@ -173,7 +173,7 @@ impl Engine {
         self.sessions += 1;
         let (handle, held_by, hold) = match claim {
             Ok(claim) => {
-                let lock_out = self.lock_outs.of(&config.connection).cloned();
+                let lock_out = self.lock_outs.find(&config.connection).cloned();
                 // The claim lasts until the session has ended.
                 let lock = Box::new(claim.clone());
                 // Only a start connects without the operator, and not a change of a setting later.

@@ -62,7 +62,7 @@ impl Engine {
         let Some(antenna) = self.antennas.get(index) else { return };
         if let Err(why) = self.copy_work.save(&antenna.shown, self.now) {
             let (antenna, at) = (antenna.shown.config.name.clone(), self.now);
-            self.copies.saved = Some(Saving { antenna, at, result: Err(why) });
+            self.copies.saved = Some(Saving { antenna, time: at, result: Err(why) });
         }
     }
 
@@ -81,7 +81,7 @@ impl Engine {
         match outcome {
             Outcome::Saved { antenna, result } => {
                 self.after_copy(&antenna, result.as_ref().err().cloned());
-                self.copies.saved = Some(Saving { antenna, at: now, result });
+                self.copies.saved = Some(Saving { antenna, time: now, result });
             }
             Outcome::Listed(paths) => {
                 if let Some(open) = &mut self.copies.open {

@@ -94,7 +94,7 @@ pub(super) fn genius(antenna: &mut Antenna, around: &Surroundings<'_>) -> Arc<dy
         ..RotatorOptions::elevation()
     };
     let other = RotatorOptions { name: "Other".to_owned(), ..RotatorOptions::default() };
-    let rotators = match Rotators::of(&antenna.connection) {
+    let rotators = match Rotators::from_connection(&antenna.connection) {
         Rotators::Pair => [azimuth, elevation],
         Rotators::First => [azimuth, other],
         Rotators::Second => [other, azimuth],
@@ -123,7 +123,7 @@ fn ends_of_circle((from_deg, to_deg): (f64, f64)) -> (WholeDegrees, WholeDegrees
 
 pub(super) fn rc2000c(antenna: &mut Antenna, around: &Surroundings<'_>) -> Arc<dyn InMemory> {
     let connection = &antenna.connection;
-    let calibration = Calibration::of(connection);
+    let calibration = Calibration::from_connection(connection);
     let usual = rc2000c::Options::default();
     let [azimuth_deg, elevation_deg] = antenna.mount.travel_deg();
     let rate_deg_s = antenna.limits.maximum_rate_deg_s;
@@ -140,7 +140,7 @@ pub(super) fn rc2000c(antenna: &mut Antenna, around: &Surroundings<'_>) -> Arc<d
         ..usual
     };
     let unit = rc2000c::Control::on_clock(&options, around.clock.clone());
-    let counts = |points: &[CountPoint], deg| CountLine::through(points).ok()?.counts(deg);
+    let counts = |points: &[CountPoint], deg| CountLine::from_points(points).ok()?.counts(deg);
     let park = antenna.park;
     let azimuth = counts(&calibration.azimuth, park.azimuth_deg);
     let elevation = counts(&calibration.elevation, park.elevation_deg);
@@ -156,7 +156,7 @@ fn counted(
     (from_deg, to_deg): (f64, f64),
     rate_deg_s: f64,
 ) -> Option<rc2000c::AxisOptions> {
-    let line = CountLine::through(points).ok()?;
+    let line = CountLine::from_points(points).ok()?;
     let (from, to) = (line.counts(from_deg)?, line.counts(to_deg)?);
     let travel: RangeInclusive<u16> = from.min(to)..=from.max(to);
     let counts_per_deg = f64::from(from.abs_diff(to)) / (to_deg - from_deg);

@@ -92,9 +92,9 @@ fn times_of(pass: &RecordedPass, site: Site) -> PassTimes {
         .max_by(|a, b| a.direction.elevation.radians().total_cmp(&b.direction.elevation.radians()));
     PassTimes {
         name: report.elements.short_name().to_owned(),
-        aos: report.from,
+        aos: report.start,
         tca: highest.map(|sample| sample.time),
-        los: report.until,
-        lost: report.report.losses.iter().map(|lost| (lost.from, lost.until)).collect(),
+        los: report.end,
+        lost: report.report.losses.iter().map(|lost| (lost.start, lost.end)).collect(),
     }
 }

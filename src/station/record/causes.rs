@@ -29,7 +29,7 @@ pub fn explain_passes(
     within: &RangeInclusive<Timestamp>,
 ) -> Result<ExplainedPasses, RecordError> {
     if !path.exists() {
-        return Ok(ExplainedPasses { passes: 0, since: None, explanations: Vec::new() });
+        return Ok(ExplainedPasses { passes: 0, start: None, explanations: Vec::new() });
     }
     let record = Passes::open(path, site)?;
     let mut flown: Vec<(Propagator, Site, PathSource, Vec<MeasuredPosition>)> = Vec::new();
@@ -39,12 +39,12 @@ pub fn explain_passes(
         let Ok(propagator) = Propagator::new(&report.elements) else { continue };
         let site = record.site_of(&report);
         let points = thinned(&report, &record.points(id)?);
-        let compared = |flown| report.about.compared(&propagator, site, flown);
+        let compared = |flown| report.track.compared(&propagator, site, flown);
         let points: Vec<MeasuredPosition> = points.into_iter().map(compared).collect();
         if !points.is_empty() {
-            since = Some(report.until);
+            since = Some(report.end);
             half_beam_deg = half_beam_deg.max(report.half_beam_deg);
-            flown.push((propagator, site, report.about.path_source(site), points));
+            flown.push((propagator, site, report.track.path_source(site), points));
         }
     }
     let positions = || flown.iter().flat_map(|(_, _, _, points)| points);
@@ -58,11 +58,15 @@ pub fn explain_passes(
             evidence.with_pass(propagator, *site, *source, measured)
         },
     );
-    Ok(ExplainedPasses { passes: flown.len(), since, explanations: evidence.explanations(&[]) })
+    Ok(ExplainedPasses {
+        passes: flown.len(),
+        start: since,
+        explanations: evidence.explanations(&[]),
+    })
 }
 
 /// Positions in which the antenna should have been on the satellite.
 fn thinned(report: &RecordedReport, points: &[MeasuredPosition]) -> Vec<MeasuredPosition> {
-    let is_judged = |point: &&MeasuredPosition| report.report.judges(point.time, report.until);
+    let is_judged = |point: &&MeasuredPosition| report.report.judges(point.time, report.end);
     apart(points.iter().filter(is_judged).copied(), APART_S, |point| point.time).collect()
 }

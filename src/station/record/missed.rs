@@ -38,7 +38,7 @@ pub fn missed(
     }
     // Older ones come with the older passes.
     let is_whole = page.matching <= query.count;
-    let since = page.passes.last().filter(|_| !is_whole).map(|pass| pass.report.until);
+    let since = page.passes.last().filter(|_| !is_whole).map(|pass| pass.report.end);
     let db = file::open_to_read(path)?;
     // A pass with time in the beam and no report was tracked while nothing could be recorded.
     let mut statement = db.prepare(

@@ -94,10 +94,10 @@ fn track_of(
 }
 
 pub(super) fn path_of(propagator: &Propagator, site: Site, report: &RecordedReport) -> Vec<Sample> {
-    let count = (seconds_between(report.from, report.until) / STEP_S).ceil().max(0.0) as u32;
+    let count = (seconds_between(report.start, report.end) / STEP_S).ceil().max(0.0) as u32;
     let times = (0..=count).map(|step| {
-        let time = crate::astro::time::add_seconds(report.from, f64::from(step) * STEP_S);
-        time.min(report.until)
+        let time = crate::astro::time::add_seconds(report.start, f64::from(step) * STEP_S);
+        time.min(report.end)
     });
     let sample = |time| {
         let look = propagator.look_from(site, time).ok()?;
@@ -182,14 +182,14 @@ impl Passes {
         let (track, path) = match Propagator::new(&report.elements) {
             Ok(propagator) => {
                 let points = self.points(pass.id)?;
-                let track = track_of(&points, &propagator, site, &report.about);
+                let track = track_of(&points, &propagator, site, &report.track);
                 (track, path_of(&propagator, site, report))
             }
             Err(_) => (Vec::new(), Vec::new()),
         };
         let query = Query {
-            from: report.from.min(report.about.begun).checked_sub(BEFORE).ok(),
-            to: report.until.checked_add(AFTER).ok(),
+            from: report.start.min(report.track.begun).checked_sub(BEFORE).ok(),
+            to: report.end.checked_add(AFTER).ok(),
             antenna: Some(pass.antenna_name.clone()),
             what: TOLD.into_iter().map(RowKind::Entry).collect(),
         };
@@ -215,8 +215,8 @@ impl Passes {
         let report = &pass.report;
         let Ok(propagator) = Propagator::new(&report.elements) else { return Ok(Vec::new()) };
         let points = self.points(pass.id)?;
-        let led_from = report.about.led_from(self.site_of(report));
-        Ok(track_of(&points, &propagator, led_from, &report.about))
+        let led_from = report.track.led_from(self.site_of(report));
+        Ok(track_of(&points, &propagator, led_from, &report.track))
     }
 
     pub(super) fn points(&self, id: i64) -> Result<Vec<MeasuredPosition>, RecordError> {
@@ -254,7 +254,7 @@ fn page(db: &Connection, query: &PassQuery) -> Result<PassPage, RecordError> {
     let mut page = PassPage {
         matching,
         all,
-        since: since_us.and_then(|us| Timestamp::from_microsecond(us).ok()),
+        start: since_us.and_then(|us| Timestamp::from_microsecond(us).ok()),
         ..PassPage::default()
     };
     let mut statement = db.prepare(&format!(

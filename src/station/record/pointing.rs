@@ -7,7 +7,7 @@ use jiff::Timestamp;
 use super::{RecordError, past::Passes};
 use crate::{
     astro::{PointingModel, Site, Term, time::apart},
-    contract::record::{FittedTerm, NoiseOf, Peak, PointingFit},
+    contract::record::{FittedNoise, FittedTerm, Peak, PointingFit},
     plan::{
         pass_report::TrackPoint,
         pointing::{self, CannotFit, Fit, Kind, Point},
@@ -43,7 +43,7 @@ pub fn fit_pointing(
     if path.exists() {
         let record = Passes::open(path, site)?;
         for pass in record.newest(antenna, within, u32::MAX)? {
-            let run = thinned(&record.led_track(&pass)?, &pass.report.about.pointing_model);
+            let run = thinned(&record.led_track(&pass)?, &pass.report.track.pointing_model);
             if !run.is_empty() {
                 runs.push(run);
             }
@@ -60,8 +60,8 @@ fn thinned(track: &[TrackPoint], flown_with: &PointingModel) -> Vec<Point> {
     let near = track.iter().filter(|point| point.error.off_deg <= NEAR_DEG);
     let point = |point: &TrackPoint| Point {
         kind: Kind::Satellite,
-        at: point.time,
-        wanted: point.satellite,
+        time: point.time,
+        direction: point.satellite,
         // Readings of the axes.
         measured: flown_with.reading(point.antenna).unwrap_or(point.antenna),
         weight: 1.0,
@@ -75,20 +75,20 @@ fn fitted(passes: usize, fit: &Fit, without: Vec<Term>) -> PointingFit {
         let alike = fit.alike.iter().find(|alike| alike.term == term);
         FittedTerm {
             term,
-            value: fit.kept.contains(&term).then(|| fit.model.term(term)),
+            value: fit.fitted.contains(&term).then(|| fit.model.term(term)),
             half_of_95_percent: interval.map(|interval| interval.half),
-            not_told_from: alike.map(|alike| alike.with.clone()).unwrap_or_default(),
+            not_told_from: alike.map(|alike| alike.others.clone()).unwrap_or_default(),
         }
     };
-    let noise = |found: &pointing::KindNoise| NoiseOf {
-        of: found.kind,
+    let noise = |found: &pointing::KindNoise| FittedNoise {
+        kind: found.kind,
         points: found.points,
         noise_deg: found.noise_deg,
     };
     PointingFit {
         passes,
         noise: fit.noise.iter().map(noise).collect(),
-        without,
+        excluded: without,
         terms: Term::ALL.map(term).into(),
     }
 }

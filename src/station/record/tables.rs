@@ -75,8 +75,8 @@ impl Tables<'_> {
                 pass.antenna.0,
                 report.elements.catalog_number(),
                 report.elements.name(),
-                report.from.as_microsecond(),
-                report.until.as_microsecond(),
+                report.start.as_microsecond(),
+                report.end.as_microsecond(),
                 self.run,
                 report.report.verdict.word(),
                 serde_json::to_string(report)?,
@@ -128,7 +128,7 @@ impl Tables<'_> {
                     .fold(0, |bits, (place, is_set)| bits | i64::from(*is_set) << place);
             insert.execute(params![
                 antenna.0,
-                measured.at.as_microsecond(),
+                measured.time.as_microsecond(),
                 number.cast_signed(),
                 self.run,
                 self.steady_us(measured.received),
@@ -155,7 +155,7 @@ impl Tables<'_> {
         for Recorded { number, line } in lines.iter().map(AsRef::as_ref) {
             insert.execute(params![
                 antenna.0,
-                line.at.as_microsecond(),
+                line.time.as_microsecond(),
                 number.cast_signed(),
                 self.run,
                 line.direction == Direction::Sent,

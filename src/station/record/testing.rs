@@ -38,17 +38,17 @@ pub fn note(antenna: AntennaId, satellite: u32, from: Timestamp) -> PassNote {
     };
     let points = (0..POINTS).map(|second| point(second as f64)).collect();
     let lost =
-        LostStretch { from: from + 1.minutes(), until: from + 2.minutes(), cause: LossCause::Slew };
+        LostStretch { start: from + 1.minutes(), end: from + 2.minutes(), cause: LossCause::Slew };
     let report = RecordedReport {
-        from,
-        until: from + 10.minutes(),
+        start: from,
+        end: from + 10.minutes(),
         planned: None,
         max_elevation_deg: 50.0,
         age_days: 0.5,
         elements,
         site: None,
         half_beam_deg: 0.5,
-        about: AboutTrack {
+        track: AboutTrack {
             begun: from,
             tracked_by: TrackedBy::ProgramTrack,
             sent: None,

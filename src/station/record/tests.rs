@@ -93,8 +93,8 @@ impl Logs {
             minus_limit: true,
         };
         self.positions.push(Measured {
-            at,
-            asked: self.steady,
+            time: at,
+            requested: self.steady,
             received: self.steady,
             pointing: Pointing { azimuth: Some(Angle::from_degrees(azimuth_deg)), elevation: None },
             axes: [axis(Some(azimuth_deg - 360.0)), axis(None)],
@@ -235,7 +235,7 @@ fn what_waits_for_a_disk_is_written_later_and_nothing_is_lost() {
     logs.position(1.0);
     recorder.flush();
     let failing = recorder.status().failing.expect("nothing can be written");
-    assert_eq!(failing.since, start());
+    assert_eq!(failing.last_write, start());
     fs::remove_file(&blocked).unwrap();
     recorder.note(entry(2));
     logs.position(2.0);
@@ -298,7 +298,7 @@ fn a_record_of_a_newer_program_is_left_as_it_is() {
     recorder.note(entry(1));
     recorder.flush();
     let failing = recorder.status().failing.unwrap();
-    assert!(failing.why.starts_with("the record was written by a newer Azel (schema 3; "));
+    assert!(failing.reason.starts_with("the record was written by a newer Azel (schema 3; "));
     assert!(matches!(Record::open(&path), Err(RecordError::Newer(3))));
     drop(recorder);
     assert_eq!(fs::read(&path).unwrap(), before);

@@ -200,8 +200,11 @@ impl Writer {
             Err(error) => {
                 self.open = None;
                 let since = self.written_at;
-                let failing =
-                    Failing { since, why: error.to_string(), waiting: self.waiting.len() as u64 };
+                let failing = Failing {
+                    last_write: since,
+                    reason: error.to_string(),
+                    waiting: self.waiting.len() as u64,
+                };
                 if locked(&self.shared.status).failing.replace(failing).is_none() {
                     tracing::error!(%error, path = %self.path.display(), "nothing is recorded");
                 }

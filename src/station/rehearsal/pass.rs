@@ -57,7 +57,7 @@ impl Passes {
     /// Returns `true` if no pass goes on at `now`.
     pub(super) fn are_over(&self, now: Timestamp) -> bool {
         let is_over = |it: &RehearsedPass| {
-            it.is_given_up || seconds_between(it.to.max(it.los), now) > REPORTED_AFTER_S
+            it.is_given_up || seconds_between(it.end.max(it.los), now) > REPORTED_AFTER_S
         };
         self.list.iter().all(is_over)
     }
@@ -69,15 +69,15 @@ impl Passes {
             return;
         }
         self.revision = planned.revision;
-        for pass in self.list.iter_mut().filter(|pass| pass.from > snapshot.at.utc) {
+        for pass in self.list.iter_mut().filter(|pass| pass.start > snapshot.moment.utc) {
             pass.is_given_up = true;
         }
         let entries = planned.schedule.entries.iter();
-        for entry in entries.filter(|it| self.from <= it.from && it.from < self.until) {
+        for entry in entries.filter(|it| self.from <= it.start && it.start < self.until) {
             let PassKey { satellite, aos } = entry.pass;
             match self.list.iter_mut().find(|it| is_pass(it, entry.antenna, satellite, aos)) {
                 Some(known) => {
-                    (known.from, known.to) = (entry.from, entry.to);
+                    (known.start, known.end) = (entry.start, entry.end);
                     known.is_given_up = false;
                 }
                 None => self.list.push(new(entry, snapshot)),
@@ -89,9 +89,9 @@ impl Passes {
     pub(super) fn take_day(&mut self, day: &[DayLine]) {
         // Lines of one turn have the same time, and come together.
         let since = self.day_until;
-        let news = day.iter().filter(|line| since.is_none_or(|since| line.at > since));
+        let news = day.iter().filter(|line| since.is_none_or(|since| line.time > since));
         for line in news {
-            match &line.what {
+            match &line.event {
                 DayEvent::SwitchedOff(_) | DayEvent::Suspended(_) => {
                     self.interruptions.push(line.clone());
                 }
@@ -104,7 +104,7 @@ impl Passes {
                 DayEvent::Flown(flown) => self.take_flown(line.antenna, flown),
             }
         }
-        self.day_until = day.last().map(|line| line.at).or(since);
+        self.day_until = day.last().map(|line| line.time).or(since);
     }
 
     fn take_flown(&mut self, antenna: AntennaId, flown: &Flown) {
@@ -119,8 +119,8 @@ impl Passes {
         let is_its = |it: &&mut RehearsedPass| {
             it.antenna == note.antenna
                 && it.satellite == report.elements.catalog_number()
-                && it.from < report.until
-                && report.from < it.to
+                && it.start < report.end
+                && report.start < it.end
         };
         if let Some(pass) = self.list.iter_mut().find(is_its) {
             pass.report = Some(report);
@@ -137,16 +137,17 @@ impl Passes {
         for pass in &mut passes {
             let antenna = station.antennas.iter().find(|antenna| antenna.id == pass.antenna);
             let off = interruptions.iter().filter(|line| line.antenna == pass.antenna);
-            let off = off.filter(|line| line.at <= pass.to).filter_map(|line| match line.what {
-                DayEvent::SwitchedOff(because) => Some(because),
-                _ => None,
-            });
-            pass.off = off.reduce(|_, later| later).filter(|_| pass.flown.is_none());
+            let off =
+                off.filter(|line| line.time <= pass.end).filter_map(|line| match line.event {
+                    DayEvent::SwitchedOff(because) => Some(because),
+                    _ => None,
+                });
+            pass.off_reason = off.reduce(|_, later| later).filter(|_| pass.flown.is_none());
             pass.antenna_name = antenna.map(|antenna| antenna.name.clone()).unwrap_or_default();
         }
-        passes.sort_by_key(|pass| (pass.from, pass.antenna, pass.satellite));
+        passes.sort_by_key(|pass| (pass.start, pass.antenna, pass.satellite));
         Rehearsed {
-            from: what.from,
+            start: what.from,
             hours: what.hours,
             seed: what.seed,
             passes,
@@ -166,13 +167,13 @@ fn new(entry: &Entry, snapshot: &Snapshot) -> RehearsedPass {
         satellite,
         satellite_name: name.unwrap_or_else(|| satellite.to_string()),
         aos,
-        los: predicted.map_or(entry.to, |of| of.pass.los.time),
-        from: entry.from,
-        to: entry.to,
+        los: predicted.map_or(entry.end, |of| of.pass.los.time),
+        start: entry.start,
+        end: entry.end,
         promised_s: entry.counted_s,
         is_given_up: false,
         flown: None,
-        off: None,
+        off_reason: None,
         report: None,
     }
 }

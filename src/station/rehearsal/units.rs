@@ -53,7 +53,7 @@ impl Units {
         let site = station.site;
         // An antenna that cannot stand at its park position begins elsewhere.
         let begins_at = |antenna: &Antenna| {
-            let (reach, now) = (Reach::of(station, antenna, None), clock.utc());
+            let (reach, now) = (Reach::from_station(station, antenna, None), clock.utc());
             let open = reach.open_sky(now).filter(|_| !reach.can_park(now))?;
             let (azimuth_deg, elevation_deg) = (open.azimuth_deg(), open.elevation_deg());
             Some(Direction { azimuth_deg, elevation_deg })

@@ -82,10 +82,10 @@ impl KeptFiles {
     pub fn read(&self, kept: &KeptFile) -> Result<TleFile, KeptError> {
         let path = self.content(kept.sha256);
         let bytes = fs::read(&path).map_err(disk_error(&path))?;
-        if FileHash::of(&bytes) != kept.sha256 {
+        if FileHash::new(&bytes) != kept.sha256 {
             return Err(KeptError::Changed { path });
         }
-        Ok(TleFile::kept(bytes))
+        Ok(TleFile::from_bytes(bytes))
     }
 
     /// Keeps a file of a unit. The same content is not kept twice in a row.
@@ -99,7 +99,7 @@ impl KeptFiles {
     ) -> Result<(), KeptError> {
         let mut list = self.load()?;
         let is_of_file = |one: &KeptFile| one.unit == unit && one.file == file;
-        let sha256 = FileHash::of(bytes);
+        let sha256 = FileHash::new(bytes);
         let newest = list.kept.iter().rfind(|one| is_of_file(one));
         let is_held = newest.is_some_and(|newest| newest.sha256 == sha256);
         let path = self.content(sha256);
@@ -112,7 +112,7 @@ impl KeptFiles {
             file: file.to_owned(),
             sha256,
             bytes: bytes.len() as u64,
-            at,
+            time: at,
             origin,
         });
         let too_many = list.kept.iter().filter(|one| is_of_file(one)).count().saturating_sub(MAX);
@@ -209,7 +209,7 @@ mod tests {
             kept.keep(unit, file, bytes.as_bytes(), at(minute), origin).unwrap();
         }
         let list = kept.list(UNIT, "a.txt").unwrap();
-        let seen: Vec<_> = list.iter().map(|one| (one.origin, one.at, one.bytes)).collect();
+        let seen: Vec<_> = list.iter().map(|one| (one.origin, one.time, one.bytes)).collect();
         assert_eq!(seen, [(Origin::Uploaded, at(1), 3), (Origin::Found, at(0), 3)]);
         assert_eq!(kept.read(&list[1]).unwrap().bytes(), b"one");
         assert_eq!(kept.list("other:22", "a.txt").unwrap().len(), 1);
@@ -224,8 +224,8 @@ mod tests {
             kept.keep(UNIT, "a.txt", bytes.as_bytes(), at(minute), Origin::Uploaded).unwrap();
         }
         let list = kept.list(UNIT, "a.txt").unwrap();
-        assert_eq!((list.len(), list[MAX - 1].at), (MAX, at(3)));
-        let exists = |bytes: &str| kept.content(FileHash::of(bytes.as_bytes())).is_file();
+        assert_eq!((list.len(), list[MAX - 1].time), (MAX, at(3)));
+        let exists = |bytes: &str| kept.content(FileHash::new(bytes.as_bytes())).is_file();
         assert!(!exists("1") && !exists("2") && exists("3"));
         assert!(exists("0"), "another unit still names it");
     }

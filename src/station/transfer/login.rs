@@ -30,7 +30,7 @@ pub enum Proof {
 /// change it.
 pub fn is_factory_password(password: &SecretString, of: &ElementFiles) -> bool {
     let salted = SecretString::from(format!("{}:{}", of.factory_user, password.expose_secret()));
-    FileHash::of(salted.expose_secret().as_bytes()).to_string() == of.factory_digest
+    FileHash::new(salted.expose_secret().as_bytes()).to_string() == of.factory_digest
 }
 
 #[cfg(test)]

@@ -49,7 +49,7 @@ pub async fn upload(
     Ok(Uploaded {
         bytes: elements.bytes().len() as u64,
         sha256,
-        at,
+        time: at,
         objects: elements.objects().to_vec(),
         unit,
         file,

@@ -22,7 +22,7 @@ use std::{collections::VecDeque, time::Duration};
 
 use crate::{
     clock::{Instant, Moment},
-    device::{AntennaState, Asked, ControllerEvent, Motion, Question, wire::WireQueue},
+    device::{AntennaState, ControllerEvent, Motion, MotionRequest, Question, wire::WireQueue},
     protocol::rc2000c::{
         self as unit, Address, Decoder, DeviceType, NameIndex, Query, Request, Speed, Status,
     },
@@ -94,7 +94,7 @@ pub struct Rc2000c {
 struct QueuedRequest {
     request: Request,
     /// The request it belongs to; `None` for a part of a halt.
-    origin: Option<Asked>,
+    origin: Option<MotionRequest>,
 }
 
 /// A jog that lives until a halt, a refusal or a missing reply.
@@ -112,7 +112,7 @@ const DEVICE_TYPE: &str = "DEVICE TYPE";
 fn questions(address: Address) -> [Question; 2] {
     let question = |key: &str, subject: &'static str, query| Question {
         key: key.into(),
-        about: subject.into(),
+        subject: subject.into(),
         bytes: Request::Query(query).to_bytes(address).into(),
     };
     [
@@ -133,7 +133,7 @@ impl Rc2000c {
             mount: antenna.mount,
             maximum_rate_deg_s: antenna.limits.maximum_rate_deg_s,
             address,
-            axes: Axes::new(&Calibration::of(connection)),
+            axes: Axes::new(&Calibration::from_connection(connection)),
             line: Line::new(connection.whole(&BAUD)),
             decoder: Decoder::new(address),
             state: AntennaState { questions: questions(address).into(), ..AntennaState::default() },
@@ -234,7 +234,7 @@ impl Rc2000c {
     }
 
     /// Queues the command for `origin`, or says why there is none.
-    fn order(&mut self, origin: Asked, request: Result<Request, String>) {
+    fn order(&mut self, origin: MotionRequest, request: Result<Request, String>) {
         match request {
             Ok(request) => self.orders.push_back(QueuedRequest { request, origin: Some(origin) }),
             Err(reason) => self.events.push_back(ControllerEvent::Refused(origin, reason)),

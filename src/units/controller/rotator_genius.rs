@@ -91,7 +91,7 @@ const STATUS: &str = "STATUS";
 fn questions() -> [Question; 1] {
     [Question {
         key: STATUS.into(),
-        about: "Asks for the status".into(),
+        subject: "Asks for the status".into(),
         bytes: Request::Read.to_bytes().into(),
     }]
 }

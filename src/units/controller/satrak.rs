@@ -138,7 +138,7 @@ impl Satrak {
     /// it was switched on.
     fn program_may_run(&self) -> bool {
         let switched_on = self.program_switched_on.is_some_and(|instant| {
-            self.state.measured.is_none_or(|measured| measured.asked <= instant)
+            self.state.measured.is_none_or(|measured| measured.requested <= instant)
         });
         switched_on || self.state.program.is_none_or(|program| program.enabled)
     }

@@ -31,7 +31,7 @@ impl CountPoint {
                 format!("must hold angles from {} to {}°", RANGE_DEG.start(), RANGE_DEG.end());
             return Err(Unfit::Text(words.replace('-', "−")));
         }
-        CountLine::through(points).map(|_| ()).map_err(|error| {
+        CountLine::from_points(points).map(|_| ()).map_err(|error| {
             Unfit::Text(match error {
                 CalibrationError::TooFew => "must hold two points or more, or none".to_owned(),
                 CalibrationError::SameCounts(counts) => {
@@ -73,7 +73,7 @@ pub enum CalibrationError {
 
 impl CountLine {
     /// The line through two points or more, in any order.
-    pub fn through(points: &[CountPoint]) -> Result<Self, CalibrationError> {
+    pub fn from_points(points: &[CountPoint]) -> Result<Self, CalibrationError> {
         let mut counts: Vec<u16> = points.iter().map(|point| point.counts).collect();
         counts.sort_unstable();
         let twice = counts.iter().zip(counts.iter().skip(1)).find(|(a, b)| a == b);
@@ -137,7 +137,7 @@ mod tests {
 
     #[test]
     fn two_points_make_a_line_that_goes_past_north() {
-        let line = CountLine::through(&points(&[(30, 0.0), (9030, 450.0)])).unwrap();
+        let line = CountLine::from_points(&points(&[(30, 0.0), (9030, 450.0)])).unwrap();
         assert!((line.degrees(7430) - 370.0).abs() < 1e-9);
         assert_eq!((line.counts(370.0), line.counts(10.0)), (Some(7430), Some(230)));
         assert!(!line.is_reversed());
@@ -145,7 +145,7 @@ mod tests {
 
     #[test]
     fn every_count_comes_back_also_where_the_angle_falls() {
-        let line = CountLine::through(&points(&[(65_535, -12.5), (0, 181.25)])).unwrap();
+        let line = CountLine::from_points(&points(&[(65_535, -12.5), (0, 181.25)])).unwrap();
         assert!(line.is_reversed());
         for counts in 0..=u16::MAX {
             assert_eq!(line.counts(line.degrees(counts)), Some(counts));
@@ -156,7 +156,7 @@ mod tests {
     #[test]
     fn more_points_are_fitted_and_each_tells_how_far_it_is_off() {
         let measured = points(&[(1000, 10.0), (2000, 20.3), (3000, 30.0)]);
-        let line = CountLine::through(&measured).unwrap();
+        let line = CountLine::from_points(&measured).unwrap();
         let residuals = line.residuals_deg(&measured);
         for (residual, expected) in residuals.iter().zip([-0.1, 0.2, -0.1]) {
             assert!((residual - expected).abs() < 1e-9, "{residuals:?}");
@@ -165,7 +165,7 @@ mod tests {
 
     #[test]
     fn what_makes_no_line_is_refused_with_the_reason() {
-        let refused = |pairs: &[(u16, f64)]| CountLine::through(&points(pairs)).unwrap_err();
+        let refused = |pairs: &[(u16, f64)]| CountLine::from_points(&points(pairs)).unwrap_err();
         assert_eq!(refused(&[]), CalibrationError::TooFew);
         assert_eq!(refused(&[(30, 0.0)]), CalibrationError::TooFew);
         assert_eq!(refused(&[(30, 0.0), (40, 1.0), (30, 2.0)]), CalibrationError::SameCounts(30));

@@ -36,7 +36,7 @@ pub struct ElementFiles {
 impl ElementFiles {
     /// The catalog number that the unit found in its file.
     pub fn found(&self, values: &Values) -> Option<i64> {
-        self.number.of(values)
+        self.number.get(values)
     }
 }
 

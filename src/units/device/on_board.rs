@@ -132,7 +132,7 @@ impl Offsets {
 impl OnBoard {
     /// The same without offsets in azimuth and elevation that are meant to be on.
     #[must_use]
-    pub fn without(&self, offsets: TrackOffsets) -> Self {
+    pub fn without_offsets(&self, offsets: TrackOffsets) -> Self {
         let less = |unit: Offsets| Some(unit.with_axes_of(unit.of_the_axes()?.less(offsets)?));
         Self { offsets: self.offsets.map(|unit| less(unit).unwrap_or(unit)), ..self.clone() }
     }

@@ -62,7 +62,8 @@ pub struct Check {
     pub when_good: Name,
     pub state: CheckState,
     /// The unit's own words where they say more than `state`; else empty.
-    pub told: Cow<'static, str>,
+    #[serde(rename = "told")]
+    pub unit_text: Cow<'static, str>,
     /// Advice to the operator, as a sentence.
     #[serde(deserialize_with = "name::one")]
     pub advice: Name,
@@ -74,7 +75,7 @@ impl Check {
     /// A check that never forbids motion.
     pub const fn new(name: &'static str, state: CheckState, advice: &'static str) -> Self {
         let text = Cow::Borrowed("");
-        Self { name, when_good: "", state, told: text, advice, locks_motion: false }
+        Self { name, when_good: "", state, unit_text: text, advice, locks_motion: false }
     }
 
     /// Returns `true` for a fault that forbids all motion.
@@ -102,7 +103,7 @@ pub struct Action {
     /// Text on its button.
     pub label: &'static str,
     /// Effect, in a sentence or two.
-    pub about: &'static str,
+    pub description: &'static str,
     /// Inputs that the window asks for.
     pub fields: &'static [Field],
     /// The action may move the antenna, so it passes every rule of the gate.

@@ -15,7 +15,7 @@ pub use crate::secret::Secret;
 pub use copy::{CopiedValue, CopyError, CopyHead, Difference, SettingsCopy, Verdict};
 pub use field::{Access, Field, Group, Guard, Kind};
 pub use group_state::{
-    Change, GroupState, Held, HeldGroup, ReadFailure, WriteError, WriteStep, Written,
+    Change, GroupState, GroupStates, HeldGroup, ReadFailure, WriteError, WriteStep, Written,
 };
 pub use hindrance::Hindrance;
 pub use key::Key;

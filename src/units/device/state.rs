@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::{
     OnBoard, Question,
     panel::{Check, CheckState, Reading},
-    settings::{Change, GroupState, Held, WriteError, Written},
+    settings::{Change, GroupState, GroupStates, WriteError, Written},
 };
 use crate::{
     astro::{Angle, AzEl},
@@ -57,8 +57,8 @@ pub struct AntennaState {
     #[serde(deserialize_with = "name::option")]
     pub unreadable: Option<Name>,
     /// Settings that were read, and the outcome of changes.
-    #[serde(deserialize_with = "name::shared_map")]
-    pub held: Arc<Held>,
+    #[serde(rename = "held", deserialize_with = "name::shared_map")]
+    pub groups: Arc<GroupStates>,
     /// Another unit answers, or one that needs a code first.
     pub is_other_device: bool,
     /// Identity that the unit reported on this link, with its firmware or names.
@@ -72,12 +72,12 @@ impl AntennaState {
     /// The last position that was asked for on the present link.
     pub fn measured_on_link(&self) -> Option<Measured> {
         let start = self.link_since?;
-        self.measured.filter(|measured| measured.asked >= start)
+        self.measured.filter(|measured| measured.requested >= start)
     }
 
     /// The state of a group of settings, empty if it is new.
     pub(crate) fn group(&mut self, key: &'static str) -> &mut GroupState {
-        Arc::make_mut(&mut self.held).entry(key).or_default()
+        Arc::make_mut(&mut self.groups).entry(key).or_default()
     }
 
     /// Replaces the readings if they changed; an unchanged list keeps its address for comparisons.
@@ -99,7 +99,7 @@ impl AntennaState {
         self.checked_at = None;
         let unknown = |check: &Check| Check {
             state: CheckState::Unknown,
-            told: Cow::Borrowed(""),
+            unit_text: Cow::Borrowed(""),
             ..check.clone()
         };
         self.show_checks(self.checks.iter().map(unknown).collect());
@@ -120,7 +120,7 @@ impl AntennaState {
         if !is_followed {
             state.step = None;
         }
-        state.written = Some(Arc::new(Written { change, at: now.utc, result }));
+        state.written = Some(Arc::new(Written { change, time: now.utc, result }));
     }
 }
 
@@ -135,10 +135,12 @@ pub struct LastSatellite {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Measured {
     /// Time of the measurement, estimated from the round trip over the link.
-    pub at: Timestamp,
+    #[serde(rename = "at")]
+    pub time: Timestamp,
     /// When it was first asked for. The position may not show what the unit did after this
     /// instant.
-    pub asked: Instant,
+    #[serde(rename = "asked")]
+    pub requested: Instant,
     pub received: Instant,
     pub pointing: Pointing,
     pub axes: [Axis; 2],
@@ -210,7 +212,7 @@ impl Pointing {
 
     /// Angle from here to `aim` in the angles that `aim` has; `None` while one of them is missing
     /// here.
-    pub fn off(self, aim: Self) -> Option<Angle> {
+    pub fn deviation(self, aim: Self) -> Option<Angle> {
         match aim {
             Self { azimuth: Some(azimuth), elevation: Some(elevation) } => {
                 Some(self.direction()?.separation(AzEl { azimuth, elevation }))

@@ -16,7 +16,8 @@ const MAX_WAITING: usize = 4096;
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct WireLine {
     /// UTC when it was sent, or received in whole.
-    pub at: Timestamp,
+    #[serde(rename = "at")]
+    pub time: Timestamp,
     pub direction: Direction,
     /// Bytes of the line with its end, without secrets; at most a kilobyte. Empty when no
     /// reply came: see [`Finding::NoReply`].
@@ -38,7 +39,7 @@ impl WireLine {
     /// A whole line without further details.
     pub fn new(direction: Direction, bytes: &[u8], finding: Finding, time: Timestamp) -> Self {
         Self {
-            at: time,
+            time,
             direction,
             bytes: bytes.into(),
             length: bytes.len(),
@@ -51,7 +52,7 @@ impl WireLine {
     }
 
     /// Returns `true` for a routine question or answer with nothing unusual in it.
-    pub fn is_usual_poll(&self) -> bool {
+    pub fn is_routine_poll(&self) -> bool {
         let is_calm = |meaning: &Meaning| matches!(meaning.tone, Tone::Plain | Tone::Good);
         self.is_poll && self.finding.is_good() && self.meaning.as_ref().is_none_or(is_calm)
     }

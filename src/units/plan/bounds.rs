@@ -85,7 +85,7 @@ pub struct Bounds {
 }
 
 impl Bounds {
-    pub fn of(station: &Station, antenna: &Antenna) -> Self {
+    pub fn new(station: &Station, antenna: &Antenna) -> Self {
         let finest = Angle::from_degrees(FINEST_DEG);
         let half_beam = antenna.beam_width() * 0.5;
         let holds = station.keep_outs.iter().filter(|zone| zone.holds_for(&antenna.name));
@@ -115,7 +115,7 @@ impl Bounds {
 
     /// The bounds of an antenna without a station: only its minimum elevation.
     pub fn of_antenna(antenna: &Antenna) -> Self {
-        Self::of(&Station::default(), antenna)
+        Self::new(&Station::default(), antenna)
     }
 
     pub fn mount(&self) -> Mount {
@@ -127,7 +127,7 @@ impl Bounds {
         self.mount.direction(axes_deg)
     }
 
-    pub fn at(&self, utc: Timestamp) -> BoundsAt<'_> {
+    pub fn at_time(&self, utc: Timestamp) -> BoundsAt<'_> {
         let minimum_elevation = self.minimum_elevation;
         BoundsAt {
             bounds: self,
@@ -182,7 +182,7 @@ pub struct BoundsAt<'a> {
 impl<'a> BoundsAt<'a> {
     /// The same for one of many looks that share `budget`.
     #[must_use]
-    pub fn within(self, budget: Option<&'a Budget>) -> Self {
+    pub fn with_budget(self, budget: Option<&'a Budget>) -> Self {
         Self { budget, ..self }
     }
 
@@ -193,7 +193,7 @@ impl<'a> BoundsAt<'a> {
 
     /// The least clearance from every barrier among the positions in `place`: exact where that is
     /// one position, else taken from samples, and negative where [`Self::blocks`] finds a way in.
-    pub fn least_clearances(&self, place: Sweep) -> Vec<Clearance> {
+    pub fn min_clearances(&self, place: Sweep) -> Vec<Clearance> {
         let within_deg = place.sampled_within_deg() * self.max_beam_turn();
         let clearances = self.each_in(place).into_iter().enumerate();
         let shared = Budget::default();
@@ -265,7 +265,7 @@ impl<'a> BoundsAt<'a> {
 
     /// The keep-out, or the surroundings of the Sun, that the antenna may be in within `place`.
     pub fn may_forbid(&self, place: Sweep) -> Option<Barrier> {
-        deepest(self.least_clearances(place))
+        deepest(self.min_clearances(place))
     }
 
     /// The first barrier that refuses motion and that the axes may be inside of in `place`.
@@ -490,7 +490,7 @@ mod tests {
     fn bounds(keep_outs: Vec<KeepOut>) -> Bounds {
         let antenna = Antenna::genius("Yagi", "memory:1");
         let station = Station { keep_outs, ..Station::default() };
-        Bounds::of(&station, &antenna)
+        Bounds::new(&station, &antenna)
     }
 
     fn noon() -> Timestamp {
@@ -498,7 +498,7 @@ mod tests {
     }
 
     fn high() -> Sweep {
-        Sweep::at([0.0, 89.0])
+        Sweep::at_position([0.0, 89.0])
     }
 
     #[test]
@@ -506,7 +506,9 @@ mod tests {
         let bounds = bounds(Vec::new());
         let start_deg = [10.0, -3.0];
         let way = |to_deg| {
-            bounds.at(noon()).blocks(Sweep::between(start_deg, to_deg), Sweep::at(start_deg))
+            bounds
+                .at_time(noon())
+                .blocks(Sweep::new(start_deg, to_deg), Sweep::at_position(start_deg))
         };
         assert_eq!(way([90.0, 30.0]), None);
         assert_eq!(way([90.0, -4.0]).map(|(barrier, _)| barrier), Some(Barrier::MinimumElevation));
@@ -520,7 +522,7 @@ mod tests {
     fn a_way_round_a_corner_is_free_and_the_box_of_both_axes_is_not() {
         let bounds = bounds(vec![mast()]);
         let free =
-            |start, end| bounds.at(noon()).blocks(Sweep::between(start, end), high()).is_none();
+            |start, end| bounds.at_time(noon()).blocks(Sweep::new(start, end), high()).is_none();
         let (first, last) = ([60.0, 20.0], [160.0, 70.0]);
         assert!(!free(first, last), "both axes at once may sweep through");
         assert!(free(first, [60.0, 70.0]) && free([60.0, 70.0], last), "elevation first");
@@ -531,11 +533,15 @@ mod tests {
     fn a_keep_out_of_one_antenna_holds_for_no_other() {
         let other = KeepOut { antenna: Some("Dish".to_owned()), ..mast() };
         let boxed = Sweep([(110.0, 110.0), (20.0, 20.0)]);
-        assert_eq!(bounds(vec![other]).at(noon()).blocks(boxed, high()), None);
-        let (barrier, _) = bounds(vec![mast()]).at(noon()).blocks(boxed, high()).unwrap();
+        assert_eq!(bounds(vec![other]).at_time(noon()).blocks(boxed, high()), None);
+        let (barrier, _) = bounds(vec![mast()]).at_time(noon()).blocks(boxed, high()).unwrap();
         assert_eq!(barrier, Barrier::KeepOut("mast".into()));
         let warns = KeepOut { entered: Entered::Warn, ..mast() };
-        assert_eq!(bounds(vec![warns]).at(noon()).blocks(boxed, high()), None, "told, not refused");
+        assert_eq!(
+            bounds(vec![warns]).at_time(noon()).blocks(boxed, high()),
+            None,
+            "told, not refused"
+        );
     }
 
     proptest! {
@@ -557,7 +563,7 @@ mod tests {
             let zone = KeepOut { zone: zone.unwrap(), ..mast() };
             let bounds = bounds(vec![zone]);
             let end: [f64; 2] = [az + daz, f64::min(el + del, 90.0)];
-            let (now, sweep) = (bounds.at(noon()), Sweep::between([az, el], end));
+            let (now, sweep) = (bounds.at_time(noon()), Sweep::new([az, el], end));
             if let Some((_, direction)) = &now.blocks(sweep, high()) {
                 let nearest = now.nearest(*direction).unwrap();
                 let is_settled = now.blocks_from(sweep, None).is_some_and(|reached| reached.is_settled);

@@ -327,7 +327,7 @@ mod tests {
     fn bounds(keep_outs: Vec<KeepOut>, sun_avoidance: Option<SunAvoidance>) -> Bounds {
         let mut antenna = Antenna::rc2000c("Dish", "memory:1");
         antenna.limits.minimum_elevation_deg = 0.0;
-        Bounds::of(&Station { keep_outs, sun_avoidance, ..Station::default() }, &antenna)
+        Bounds::new(&Station { keep_outs, sun_avoidance, ..Station::default() }, &antenna)
     }
 
     fn noon() -> Timestamp {
@@ -353,7 +353,7 @@ mod tests {
             for part in 0..=100 {
                 let share = f64::from(part) / 100.0;
                 let axes = [0, 1].map(|axis| start[axis] + (end[axis] - start[axis]) * share);
-                let nearest = bounds.at(noon()).nearest(bounds.direction(axes)).unwrap();
+                let nearest = bounds.at_time(noon()).nearest(bounds.direction(axes)).unwrap();
                 assert!(nearest.angle.degrees() >= -1e-6, "{axes:?} {nearest:?}");
             }
         }
@@ -362,7 +362,7 @@ mod tests {
     #[test]
     fn it_leads_over_a_mast_and_stays_outside_of_its_margin() {
         let bounds = bounds(vec![mast(40.0)], None);
-        let way = route(&bounds.at(noon()), &limits(), [80.0, 20.0], [140.0, 20.0]).unwrap();
+        let way = route(&bounds.at_time(noon()), &limits(), [80.0, 20.0], [140.0, 20.0]).unwrap();
         assert_eq!((way.first(), way.last()), (Some(&[80.0, 20.0]), Some(&[140.0, 20.0])));
         assert_outside(&bounds, &way);
         let highest_deg = way.iter().map(|axes| axes[1]).fold(0.0, f64::max);
@@ -375,7 +375,7 @@ mod tests {
     #[test]
     fn a_way_ends_beside_a_margin_wherever_it_begins() {
         let bounds = bounds(vec![mast(40.0)], None);
-        let now = bounds.at(noon());
+        let now = bounds.at_time(noon());
         for azimuth_deg in [110.0, 110.3, 109.7] {
             let up = (0..200).map(|step| [azimuth_deg, 40.0 + 0.05 * f64::from(step)]);
             // A route needs a quarter of a degree at its end.
@@ -394,27 +394,27 @@ mod tests {
     #[test]
     fn where_nothing_is_in_the_way_it_is_straight() {
         let bounds = bounds(vec![mast(40.0)], None);
-        let way = route(&bounds.at(noon()), &limits(), [200.0, 20.0], [240.2, 61.7]);
+        let way = route(&bounds.at_time(noon()), &limits(), [200.0, 20.0], [240.2, 61.7]);
         assert_eq!(way, Some(vec![[200.0, 20.0], [240.2, 61.7]]));
     }
 
     #[test]
     fn a_wall_up_to_the_zenith_is_gone_round_the_other_way_or_not_at_all() {
         let wall = bounds(vec![mast(89.0)], None);
-        let way = route(&wall.at(noon()), &limits(), [80.0, 20.0], [140.0, 20.0]);
+        let way = route(&wall.at_time(noon()), &limits(), [80.0, 20.0], [140.0, 20.0]);
         // The azimuth axis ends in the north.
         assert_eq!(way, None);
         let wide_limits = AxisLimits::new([(-300.0, 360.0), (0.0, 90.0)], [4.0, 4.0], 0.0);
-        let way =
-            route(&wall.at(noon()), &wide_limits, [80.0, 20.0], [140.0 - 360.0, 20.0]).unwrap();
+        let way = route(&wall.at_time(noon()), &wide_limits, [80.0, 20.0], [140.0 - 360.0, 20.0])
+            .unwrap();
         assert_outside(&wall, &way);
     }
 
     #[test]
     fn no_way_begins_or_ends_inside() {
         let bounds = bounds(vec![mast(40.0)], None);
-        assert_eq!(route(&bounds.at(noon()), &limits(), [110.0, 20.0], [140.0, 20.0]), None);
-        assert_eq!(route(&bounds.at(noon()), &limits(), [80.0, 20.0], [110.0, 20.0]), None);
+        assert_eq!(route(&bounds.at_time(noon()), &limits(), [110.0, 20.0], [140.0, 20.0]), None);
+        assert_eq!(route(&bounds.at_time(noon()), &limits(), [80.0, 20.0], [110.0, 20.0]), None);
     }
 
     #[test]
@@ -425,7 +425,7 @@ mod tests {
         let [azimuth, elevation] = [sun.azimuth_deg(), sun.elevation_deg()];
         assert!(elevation > 20.0 && (30.0..330.0).contains(&azimuth), "{sun:?}");
         let ends = [azimuth - 25.0, azimuth + 25.0].map(|azimuth| [azimuth, elevation]);
-        let way = route(&bounds.at(noon()), &limits(), ends[0], ends[1]).unwrap();
+        let way = route(&bounds.at_time(noon()), &limits(), ends[0], ends[1]).unwrap();
         assert_outside(&bounds, &way);
         assert!(way.len() > 2, "{way:?}");
         assert!(bounds.direction(ends[0]).separation(sun) > Angle::from_degrees(8.0));

@@ -53,8 +53,8 @@ impl KnownOrbit {
                 catalog_number: held_satellite.catalog_number,
                 name: held_satellite.name.clone(),
                 element_file: None,
-                from: start,
-                until: end,
+                start,
+                end,
             },
             elements: self.elements.clone(),
             site: self.site,
@@ -76,7 +76,7 @@ pub struct Ability {
 }
 
 impl Ability {
-    pub fn of(antenna: &Antenna) -> Self {
+    pub fn from_antenna(antenna: &Antenna) -> Self {
         Self {
             mount: antenna.mount,
             minimum_elevation: Angle::from_degrees(antenna.limits.minimum_elevation_deg),
@@ -113,8 +113,10 @@ impl Supervision {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Error {
     /// Angle between the beam axis and the satellite.
-    pub off: Angle,
-    pub at: Timestamp,
+    #[serde(rename = "off")]
+    pub angle: Angle,
+    #[serde(rename = "at")]
+    pub time: Timestamp,
 }
 
 /// A pass, prepared for repeated comparison with a unit.
@@ -131,7 +133,7 @@ impl Judge {
     /// Fails if the elements do not describe an orbit.
     pub fn new(pass: OnBoardPass, ability: Ability) -> Result<Self, PropagationError> {
         let propagator = Propagator::new(&pass.elements)?;
-        let truth = spread(pass.target.from, pass.target.until)
+        let truth = spread(pass.target.start, pass.target.end)
             .map_while(|time| {
                 let look = propagator.look_from(pass.site, time).ok()?;
                 Some(Sample { time, direction: look.direction })
@@ -157,7 +159,7 @@ impl Judge {
     /// unit: the satellite that it held before means nothing.
     pub fn supervise(&self, unit: &OnBoard, holds_target: bool) -> Supervision {
         let all = UnitPath::surely(unit, self);
-        let none = Error { off: Angle::ZERO, at: self.pass.target.from };
+        let none = Error { angle: Angle::ZERO, time: self.pass.target.start };
         let worst = |unit: UnitPath<'_>| {
             unit.either_way().map(|unit| self.worst(&unit)).reduce(worse).unwrap_or(none)
         };
@@ -167,7 +169,8 @@ impl Judge {
         };
         Supervision {
             worst: worst(all),
-            is_within_beam: worst(UnitPath { refracts: true, ..all }).off <= self.ability.half_beam,
+            is_within_beam: worst(UnitPath { refracts: true, ..all }).angle
+                <= self.ability.half_beam,
             causes: cause::ranked(self, unit, holds_target),
             unknown: cause::unknown(unit),
             lower_minimum_deg: unit.offsets.as_ref().and_then(lower),
@@ -193,15 +196,15 @@ impl Judge {
         &'a self,
         unit: UnitPath<'a>,
     ) -> impl Iterator<Item = Result<Sample, NoDirection>> + 'a {
-        path::samples(unit, (self.pass.target.from, self.pass.target.until))
+        path::samples(unit, (self.pass.target.start, self.pass.target.end))
     }
 
     fn worst(&self, unit: &UnitPath<'_>) -> Error {
         let errors = self.truth.iter().filter_map(|truth| {
             let deviation = unit.direction(truth.time)?.separation(truth.direction);
-            Some(Error { off: deviation, at: truth.time })
+            Some(Error { angle: deviation, time: truth.time })
         });
-        errors.reduce(worse).unwrap_or(Error { off: Angle::ZERO, at: self.pass.target.from })
+        errors.reduce(worse).unwrap_or(Error { angle: Angle::ZERO, time: self.pass.target.start })
     }
 
     /// The maximum elevation that the unit will compute for the window.
@@ -211,12 +214,12 @@ impl Judge {
     }
 
     fn span_s(&self) -> f64 {
-        seconds_between(self.pass.target.from, self.pass.target.until)
+        seconds_between(self.pass.target.start, self.pass.target.end)
     }
 }
 
 fn worse(a: Error, b: Error) -> Error {
-    if b.off > a.off { b } else { a }
+    if b.angle > a.angle { b } else { a }
 }
 
 #[cfg(test)]

@@ -49,8 +49,8 @@ pub struct TrackedPass<'a> {
     pub site: Site,
     /// Part of the pass that counts: the planned part for the antenna, or without a plan all from
     /// AOS to LOS above the antenna's minimum elevation.
-    pub from: Timestamp,
-    pub until: Timestamp,
+    pub start: Timestamp,
+    pub end: Timestamp,
     pub limits: MountLimits,
     /// The share of that part that the mount can track.
     pub trackability: Trackability,
@@ -103,7 +103,7 @@ impl PassReport {
     /// Returns `true` if the error at a time is one of pointing or of the drives. `end`: of what
     /// counts of the pass.
     pub fn judges(&self, time: Timestamp, end: Timestamp) -> bool {
-        let is_there = |lost: &&LostStretch| (lost.from..=lost.until).contains(&time);
+        let is_there = |lost: &&LostStretch| (lost.start..=lost.end).contains(&time);
         self.losses.iter().filter(is_there).all(|lost| lost.is_judged(end))
     }
 }
@@ -147,7 +147,8 @@ pub struct PointingError {
 /// The largest error of a pass.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct WorstError {
-    pub at: Timestamp,
+    #[serde(rename = "at")]
+    pub time: Timestamp,
     pub error: PointingError,
 }
 
@@ -197,8 +198,8 @@ impl TrackedPass<'_> {
     /// The report by `flown`, oldest first: the positions in which this pass was commanded. Those just
     /// before and after the pass tell when the satellite came into the beam and left it.
     pub fn report(&self, flown: &[MeasuredPosition]) -> PassReport {
-        let counted_s = seconds_between(self.from, self.until).max(0.0);
-        let near = add_seconds(self.from, -APART_S)..=add_seconds(self.until, APART_S);
+        let counted_s = seconds_between(self.start, self.end).max(0.0);
+        let near = add_seconds(self.start, -APART_S)..=add_seconds(self.end, APART_S);
         let near = flown.iter().filter(|flown| near.contains(&flown.time));
         let points: Vec<TrackPoint> = near.filter_map(|flown| self.compare(*flown)).collect();
         let stretches = self.stretches(&points);
@@ -237,7 +238,7 @@ impl TrackedPass<'_> {
         let judged: Vec<&TrackPoint> =
             points.iter().filter(|point| self.judges(&report, point)).collect();
         let worst = judged.iter().max_by(|a, b| a.error.off_deg.total_cmp(&b.error.off_deg));
-        report.worst = worst.map(|worst| WorstError { at: worst.time, error: worst.error });
+        report.worst = worst.map(|worst| WorstError { time: worst.time, error: worst.error });
         report.rms = root_mean_square(&judged);
         report
     }
@@ -254,9 +255,9 @@ impl TrackedPass<'_> {
     }
 
     fn judges(&self, report: &PassReport, point: &TrackPoint) -> bool {
-        (self.from..=self.until).contains(&point.time)
+        (self.start..=self.end).contains(&point.time)
             && self.limits.mount.reaches(point.satellite)
-            && report.judges(point.time, self.until)
+            && report.judges(point.time, self.end)
     }
 
     /// Seconds that this mount may lose: an antenna needs some to come back to its satellite.

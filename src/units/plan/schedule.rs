@@ -26,16 +26,16 @@ mod tests;
 mod under_way;
 mod way;
 
-pub use between_passes::{LEAD_S, between, parks_within_s, sets_out};
+pub use between_passes::{LEAD_S, between_passes, parks_within_s, sets_out};
 use board::{Board, Fact};
 pub use changes::{Change, ChangeCause, Changed, changes};
 pub use joining::Joining;
 pub use of_station::{deciding_rule, sun_is};
-pub use outcome::{ClassWorth, Conflict, Entry, LeftOut, Proof, Schedule, Why};
+pub use outcome::{ClassWorth, Conflict, Entry, LeftOut, LeftOutReason, Proof, Schedule};
 pub use reach::Reach;
 pub use request::{
-    Candidate, Choice, Common, Off, Partial, PassKey, PlannedAntenna, Refusal, Request, Rule,
-    Steadiness, Wanted,
+    AntennaOff, Candidate, Choice, Common, Partial, PassKey, PassPolicy, PlannedAntenna, Refusal,
+    Request, Rule, Steadiness,
 };
 pub use row::Class;
 pub use sight::Sight;
@@ -62,7 +62,7 @@ impl Board<'_> {
                 before = Some(*take);
             }
         }
-        entries.sort_by_key(|entry| (entry.from, entry.antenna));
+        entries.sort_by_key(|entry| (entry.start, entry.antenna));
         let left_out = self.left_out(solution);
         let worth = self.worth(&entries, solution);
         Schedule { entries, left_out, worth, slew_s }
@@ -93,8 +93,8 @@ impl Board<'_> {
             pass: fact.pass,
             antenna: fact.antenna,
             class: fact.class,
-            from: at_ms(of_take.from_ms),
-            to: at_ms(of_take.to_ms),
+            start: at_ms(of_take.from_ms),
+            end: at_ms(of_take.to_ms),
             late_s: seconds(fact.late_ms),
             early_s: seconds(fact.early_ms),
             counted_s: seconds(fact.counted_ms),

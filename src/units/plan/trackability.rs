@@ -46,10 +46,10 @@ pub enum Trackability {
         /// Time outside the beam, seconds.
         seconds: f64,
         /// Where the loss begins.
-        at: Loss,
+        loss: Loss,
         /// First and last moment outside the beam; in between it may be inside.
-        from: Timestamp,
-        until: Timestamp,
+        start: Timestamp,
+        end: Timestamp,
     },
     Nothing,
     /// The pass stays below the minimum elevation of the antenna.
@@ -133,7 +133,7 @@ impl Trackability {
     fn new(lost: Outside, whole_s: f64, loss: Loss) -> Self {
         match (lost.first, lost.last) {
             (Some(start), Some(end)) if lost.seconds > 0.0 && lost.seconds < whole_s => {
-                Self::Loses { seconds: lost.seconds, at: loss, from: start, until: end }
+                Self::Loses { seconds: lost.seconds, loss, start, end }
             }
             (Some(_), Some(_)) if lost.seconds > 0.0 => Self::Nothing,
             _ => Self::Whole,

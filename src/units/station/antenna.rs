@@ -147,7 +147,7 @@ impl Antenna {
         let margin_deg = self.wrap_margin_deg(azimuth_to_deg - azimuth_from_deg);
         let azimuth_deg = (azimuth_from_deg + margin_deg, azimuth_to_deg - margin_deg);
         let top_deg = if self.pointing_model.is_none() { f64::MAX } else { 90.0 };
-        self.mount.within([Some(azimuth_deg), Some((f64::MIN, top_deg))])
+        self.mount.clipped([Some(azimuth_deg), Some((f64::MIN, top_deg))])
     }
 
     /// Distance of a target from either end at which an axis that comes to rest past its target still
@@ -175,7 +175,7 @@ impl Antenna {
 
     /// Time from the end of one pass until it can go to the next, seconds.
     pub fn set_up_s(&self) -> f64 {
-        self.automatic.set_up_s.unwrap_or(self.connection.spec().usual.set_up_s)
+        self.automatic.set_up_s.unwrap_or(self.connection.spec().defaults.set_up_s)
     }
 
     /// Creates the controller; it is silent until its link is up.

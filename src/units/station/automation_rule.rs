@@ -15,20 +15,20 @@ pub struct AutomationRule {
     pub antenna: Option<AntennaId>,
     /// `None` for all satellites.
     #[serde(flatten)]
-    pub of: Option<RuleOf>,
+    pub subject: Option<RuleSubject>,
     /// `None` whatever the Sun does.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sun: Option<SunIs>,
     /// By UTC; `None` for all hours.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub hours: Option<HoursOfDay>,
-    pub then: Then,
+    pub action: RuleAction,
 }
 
 /// The satellites of a rule.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum RuleOf {
+pub enum RuleSubject {
     /// Catalog number.
     Satellite(u32),
     /// Name of a group.
@@ -46,7 +46,7 @@ pub enum SunIs {
 /// Action of a rule.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Then {
+pub enum RuleAction {
     /// The pass may be taken, whatever the limits of its satellite say.
     Take,
     /// The antenna does not take the pass.

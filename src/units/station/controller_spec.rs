@@ -27,7 +27,7 @@ pub struct ControllerSpec {
     /// Address at which it answers as it leaves the factory, or else an example.
     pub default_address: &'static str,
     /// Figures of an antenna of which nothing else is known.
-    pub usual: Usual,
+    pub defaults: DefaultFigures,
     /// Settings of its connection besides the address, in the order of the file.
     pub settings: &'static [&'static Setting],
     /// Why it may have refused or closed the connection, in a sentence.
@@ -64,7 +64,7 @@ pub enum Link {
 
 /// The figures of an antenna that a make can know.
 #[derive(Debug, Clone, Copy)]
-pub struct Usual {
+pub struct DefaultFigures {
     /// How the axes are arranged. A station changes only the ends of their travel.
     pub mount: Mount,
     /// Full width of the beam at half power, degrees.
@@ -90,7 +90,8 @@ impl ControllerSpec {
 
     /// An antenna at `address` with the usual settings and figures.
     pub fn antenna(&'static self, name: &str, address: &str) -> Antenna {
-        let Usual { mount, beam_width_deg, park, limits, poll, follow, .. } = self.usual;
+        let DefaultFigures { mount, beam_width_deg, park, limits, poll, follow, .. } =
+            self.defaults;
         Antenna {
             id: AntennaId::FIRST,
             name: name.to_owned(),

@@ -6,16 +6,16 @@ use serde::{Deserialize, Serialize, Serializer};
 /// A part of each day, which may contain midnight. Who holds it says by which clock.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct HoursOfDay {
-    #[serde(serialize_with = "as_text")]
-    pub from: Time,
-    #[serde(serialize_with = "as_text")]
-    pub to: Time,
+    #[serde(rename = "from", serialize_with = "as_text")]
+    pub start: Time,
+    #[serde(rename = "to", serialize_with = "as_text")]
+    pub end: Time,
 }
 
 impl HoursOfDay {
     /// From ten in the evening to six in the morning.
     pub const NIGHT: Self =
-        Self { from: Time::constant(22, 0, 0, 0), to: Time::constant(6, 0, 0, 0) };
+        Self { start: Time::constant(22, 0, 0, 0), end: Time::constant(6, 0, 0, 0) };
 
     /// Reads a time of the day, such as 22:00.
     pub fn read_time(text: &str) -> Option<Time> {
@@ -30,7 +30,7 @@ impl HoursOfDay {
     /// Returns `true` if the clock of `zone` shows one of these hours.
     pub fn contain(&self, utc: Timestamp, zone: &TimeZone) -> bool {
         let time = zone.to_datetime(utc).time();
-        let Self { from: start, to: end } = *self;
+        let Self { start, end } = *self;
         if start <= end { (start..end).contains(&time) } else { start <= time || time < end }
     }
 }
@@ -59,8 +59,8 @@ mod tests {
         ] {
             assert_eq!(is_quiet(HoursOfDay::NIGHT, hour), quiet, "{hour}");
         }
-        let HoursOfDay { from: end, to: start } = HoursOfDay::NIGHT;
-        let by_day = HoursOfDay { from: start, to: end };
+        let HoursOfDay { start: end, end: start } = HoursOfDay::NIGHT;
+        let by_day = HoursOfDay { start, end };
         assert!(is_quiet(by_day, "2026-08-12T09:00:00Z"));
         assert!(!is_quiet(by_day, "2026-08-12T20:00:00Z"));
     }

@@ -9,7 +9,7 @@ use crate::astro::TrackOffsets;
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct KeptOffsets {
     #[serde(flatten)]
-    pub of: OffsetsOf,
+    pub subject: OffsetsSubject,
     #[serde(flatten)]
     pub offsets: TrackOffsets,
 }
@@ -17,14 +17,14 @@ pub struct KeptOffsets {
 /// Source of the error that the offsets make up for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum OffsetsOf {
+pub enum OffsetsSubject {
     /// The elements of a satellite, by its catalog number: time, along and across.
     Satellite(u32),
     /// The mount of an antenna: azimuth and elevation.
     Antenna(AntennaId),
 }
 
-impl OffsetsOf {
+impl OffsetsSubject {
     /// Returns the offsets of its kinds.
     #[must_use]
     pub fn part(self, offsets: TrackOffsets) -> TrackOffsets {
@@ -37,24 +37,25 @@ impl OffsetsOf {
 
 impl Station {
     /// The offsets that are remembered of a satellite or an antenna.
-    pub fn kept_offsets(&self, offsets_of: OffsetsOf) -> TrackOffsets {
-        let entry = self.offsets.iter().find(|kept_offsets| kept_offsets.of == offsets_of);
+    pub fn kept_offsets(&self, offsets_of: OffsetsSubject) -> TrackOffsets {
+        let entry = self.offsets.iter().find(|kept_offsets| kept_offsets.subject == offsets_of);
         offsets_of.part(entry.map(|kept_offsets| kept_offsets.offsets).unwrap_or_default())
     }
 
     /// The offsets with which an antenna begins a track.
     pub fn first_offsets(&self, antenna: AntennaId, satellite: Option<u32>) -> TrackOffsets {
-        let of_satellite = satellite.map(|number| self.kept_offsets(OffsetsOf::Satellite(number)));
-        let of_antenna = self.kept_offsets(OffsetsOf::Antenna(antenna));
+        let of_satellite =
+            satellite.map(|number| self.kept_offsets(OffsetsSubject::Satellite(number)));
+        let of_antenna = self.kept_offsets(OffsetsSubject::Antenna(antenna));
         of_satellite.unwrap_or_default().with_axes_of(of_antenna)
     }
 
     /// Remembers these offsets in place of earlier ones; none are forgotten.
-    pub fn keep_offsets(&mut self, offsets_of: OffsetsOf, offsets: TrackOffsets) {
-        self.offsets.retain(|kept_offsets| kept_offsets.of != offsets_of);
+    pub fn keep_offsets(&mut self, offsets_of: OffsetsSubject, offsets: TrackOffsets) {
+        self.offsets.retain(|kept_offsets| kept_offsets.subject != offsets_of);
         let offsets = offsets_of.part(offsets);
         self.offsets
-            .extend((!offsets.is_none()).then_some(KeptOffsets { of: offsets_of, offsets }));
+            .extend((!offsets.is_none()).then_some(KeptOffsets { subject: offsets_of, offsets }));
     }
 }
 
@@ -72,14 +73,14 @@ mod tests {
         let all = offsets(&[Offset::Along(deg(0.1)), Offset::Elevation(deg(0.2))]);
         let mut station = Station::default();
         let (antenna, other) = (AntennaId(1), AntennaId(2));
-        station.keep_offsets(OffsetsOf::Satellite(25_544), all);
-        station.keep_offsets(OffsetsOf::Antenna(antenna), all);
+        station.keep_offsets(OffsetsSubject::Satellite(25_544), all);
+        station.keep_offsets(OffsetsSubject::Antenna(antenna), all);
         assert_eq!(station.first_offsets(antenna, Some(25_544)), all, "not twice");
         let along = offsets(&[Offset::Along(deg(0.1))]);
         assert_eq!(station.first_offsets(other, Some(25_544)), along);
         let elevation = offsets(&[Offset::Elevation(deg(0.2))]);
         assert_eq!(station.first_offsets(antenna, None), elevation);
-        station.keep_offsets(OffsetsOf::Satellite(25_544), TrackOffsets::NONE);
+        station.keep_offsets(OffsetsSubject::Satellite(25_544), TrackOffsets::NONE);
         assert_eq!(station.offsets.len(), 1, "forgotten");
     }
 }

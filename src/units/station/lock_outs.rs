@@ -19,11 +19,12 @@ const VERSION: i64 = 1;
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct LockOut {
     /// Person who locked it out.
-    #[serde(deserialize_with = "one_line")]
-    pub by: String,
+    #[serde(rename = "by", deserialize_with = "one_line")]
+    pub operator: String,
     #[serde(deserialize_with = "one_line")]
     pub reason: String,
-    pub since: Timestamp,
+    #[serde(rename = "since")]
+    pub start: Timestamp,
 }
 
 /// Reads a text and replaces control characters with spaces, so that it can neither send escape
@@ -91,9 +92,9 @@ impl LockOuts {
             Ok(units) => (Self { units, ..Self::default() }, None),
             Err(reason) => {
                 let others = LockOut {
-                    by: "Azel".to_owned(),
+                    operator: "Azel".to_owned(),
                     reason: format!("{LOCK_OUTS_FILE} cannot be read"),
-                    since: now,
+                    start: now,
                 };
                 let lock_outs = Self { others: Some(others), ..Self::default() };
                 (lock_outs, Some(format!("{}: {}", reason.trim(), path.display())))
@@ -127,13 +128,13 @@ impl LockOuts {
         }
         let unit = |line: LockOutEntry| {
             let LockOutEntry { make, address, operator, reason, start } = line;
-            (UnitKey { make, address }, LockOut { by: operator, reason, since: start })
+            (UnitKey { make, address }, LockOut { operator, reason, start })
         };
         Ok(file.lock_outs.into_iter().map(unit).collect())
     }
 
     /// The lock-out of the unit at `connection`.
-    pub fn of(&self, connection: &Connection) -> Option<&LockOut> {
+    pub fn find(&self, connection: &Connection) -> Option<&LockOut> {
         self.units.get(&UnitKey::new(connection)).or(self.others.as_ref())
     }
 
@@ -181,7 +182,7 @@ impl LockOuts {
     /// Content of the file with all lock-outs.
     pub fn text(&self) -> Result<String, toml::ser::Error> {
         let line = |(unit, lock_out): (&UnitKey, &LockOut)| {
-            let (UnitKey { make, address }, LockOut { by: operator, reason, since: start }) =
+            let (UnitKey { make, address }, LockOut { operator, reason, start }) =
                 (unit.clone(), lock_out.clone());
             LockOutEntry { make, address, operator, reason, start }
         };
@@ -203,9 +204,9 @@ mod tests {
 
     fn lock_out(reason: &str) -> LockOut {
         LockOut {
-            by: "Ada".to_owned(),
+            operator: "Ada".to_owned(),
             reason: reason.to_owned(),
-            since: "2026-11-22T10:00:00Z".parse().unwrap(),
+            start: "2026-11-22T10:00:00Z".parse().unwrap(),
         }
     }
 
@@ -223,7 +224,7 @@ mod tests {
         let text = r#"{"by": "Ada\u001b[2J", "reason": "belts\nMast: stands\u009b1m",
             "since": "2026-11-22T10:00:00Z"}"#;
         let read: LockOut = serde_json::from_str(text).unwrap();
-        assert_eq!((&*read.by, &*read.reason), ("Ada [2J", "belts Mast: stands 1m"));
+        assert_eq!((&*read.operator, &*read.reason), ("Ada [2J", "belts Mast: stands 1m"));
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join(LOCK_OUTS_FILE);
         let dish = Antenna::satrak("Dish", "unit:1").connection;
@@ -232,7 +233,7 @@ mod tests {
         fs::write(&path, file).unwrap();
         let (lock_outs, trouble) = LockOuts::load(&path, now());
         assert_eq!(trouble, None);
-        assert_eq!(lock_outs.of(&dish).unwrap().reason, "belts [2J");
+        assert_eq!(lock_outs.find(&dish).unwrap().reason, "belts [2J");
     }
 
     #[test]
@@ -250,8 +251,8 @@ mod tests {
 
         let (mut again, problem) = LockOuts::load(&path, now());
         assert_eq!((&again, problem), (&lock_outs, None));
-        assert_eq!(again.of(&renamed), Some(&lock_out("gear")));
-        assert_eq!((again.of(&other), again.of(&make)), (None, None));
+        assert_eq!(again.find(&renamed), Some(&lock_out("gear")));
+        assert_eq!((again.find(&other), again.find(&make)), (None, None));
         again.set(&renamed, None, std::iter::empty());
         save(&mut again, &path);
         assert_eq!(LockOuts::load(&path, now()), (LockOuts::default(), None));
@@ -268,7 +269,7 @@ mod tests {
         let (lock_outs, problem) = LockOuts::load(&path, now());
         assert_eq!(problem, None);
         let dish = Antenna::satrak("Dish", "Unit.local:4001").connection;
-        assert_eq!(lock_outs.of(&dish), Some(&lock_out("gear")));
+        assert_eq!(lock_outs.find(&dish), Some(&lock_out("gear")));
         assert_eq!(lock_outs.text().unwrap(), text, "it is written the same");
     }
 
@@ -283,10 +284,10 @@ mod tests {
         // The disk does not take it.
         assert_eq!(lock_outs.reload(&path, now()), None);
         lock_outs.set(&mast, Some(lock_out("belts")), std::iter::empty());
-        assert!(lock_outs.of(&dish).is_some() && lock_outs.of(&mast).is_some());
+        assert!(lock_outs.find(&dish).is_some() && lock_outs.find(&mast).is_some());
         save(&mut lock_outs, &path);
         let (again, _) = LockOuts::load(&path, now());
-        assert!(again.of(&dish).is_some() && again.of(&mast).is_some());
+        assert!(again.find(&dish).is_some() && again.find(&mast).is_some());
     }
 
     #[test]
@@ -313,19 +314,19 @@ mod tests {
             let (mut lock_outs, problem) = LockOuts::load(&path, now());
             assert!(problem.is_some(), "{bad}");
             for unit in [&dish, &mast] {
-                let lock_out = lock_outs.of(unit).expect("locked out");
-                assert_eq!((lock_out.by.as_str(), lock_out.since), ("Azel", now()));
+                let lock_out = lock_outs.find(unit).expect("locked out");
+                assert_eq!((lock_out.operator.as_str(), lock_out.start), ("Azel", now()));
             }
             lock_outs.set(&dish, None, [&dish, &mast].into_iter());
             save(&mut lock_outs, &path);
             let (again, problem) = LockOuts::load(&path, now());
             assert_eq!(problem, None);
-            assert_eq!(again.of(&dish), None);
-            assert!(again.of(&mast).is_some(), "nobody has said so of this one");
+            assert_eq!(again.find(&dish), None);
+            assert!(again.find(&mast).is_some(), "nobody has said so of this one");
         }
         // A folder cannot be read as a file either.
         let (lock_outs, problem) = LockOuts::load(folder.path(), now());
-        assert!(problem.is_some() && lock_outs.of(&dish).is_some());
+        assert!(problem.is_some() && lock_outs.find(&dish).is_some());
     }
 
     #[test]
@@ -345,16 +346,16 @@ mod tests {
         ] {
             let mut lock_outs = locked();
             assert!(lock_outs.stay_with_antennas(&before, &[mast.clone(), changed.clone()]));
-            assert_eq!(lock_outs.of(&changed.connection), Some(&lock_out("gear")), "{changed:?}");
-            assert!(lock_outs.of(&dish.connection).is_some(), "the unit itself stays so");
-            assert_eq!(lock_outs.of(&mast.connection), None);
+            assert_eq!(lock_outs.find(&changed.connection), Some(&lock_out("gear")), "{changed:?}");
+            assert!(lock_outs.find(&dish.connection).is_some(), "the unit itself stays so");
+            assert_eq!(lock_outs.find(&mast.connection), None);
             // The operator removes each lock-out by itself, with a hold.
             lock_outs.set(&changed.connection, None, std::iter::empty());
-            assert_eq!(lock_outs.of(&changed.connection), None);
+            assert_eq!(lock_outs.find(&changed.connection), None);
         }
         let mut lock_outs = locked();
         assert!(!lock_outs.stay_with_antennas(&before, std::slice::from_ref(&mast)), "deleted");
-        assert_eq!(lock_outs.of(&mast.connection), None);
+        assert_eq!(lock_outs.find(&mast.connection), None);
         assert!(!lock_outs.stay_with_antennas(&before, &before));
     }
 }

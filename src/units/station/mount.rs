@@ -108,7 +108,7 @@ impl Mount {
     /// Ends that would leave an axis no travel are ignored, and so are all ends for an X/Y
     /// mount.
     #[must_use]
-    pub fn within(self, ends_deg: [Option<(f64, f64)>; 2]) -> Self {
+    pub fn clipped(self, ends_deg: [Option<(f64, f64)>; 2]) -> Self {
         if matches!(self, Self::Xy { .. }) {
             return self;
         }
@@ -211,11 +211,11 @@ mod tests {
     #[test]
     fn a_device_may_draw_the_ends_in_and_never_out() {
         let mount = azel(0.0, 450.0);
-        assert_eq!(mount.within([None, None]), mount);
-        assert_eq!(mount.within([Some((-90.0, 500.0)), Some((-10.0, 180.0))]), mount);
-        let drawn_in = mount.within([Some((0.0, 359.0)), Some((5.0, 180.0))]);
+        assert_eq!(mount.clipped([None, None]), mount);
+        assert_eq!(mount.clipped([Some((-90.0, 500.0)), Some((-10.0, 180.0))]), mount);
+        let drawn_in = mount.clipped([Some((0.0, 359.0)), Some((5.0, 180.0))]);
         assert_eq!(drawn_in.travel_deg(), [(0.0, 359.0), (5.0, 90.0)]);
-        assert_eq!(mount.within([Some((500.0, 600.0)), None]), mount);
+        assert_eq!(mount.clipped([Some((500.0, 600.0)), None]), mount);
     }
 
     #[test]

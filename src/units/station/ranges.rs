@@ -68,7 +68,7 @@ pub const PASSES_PER_DAY: RangeInclusive<f64> = 1.0..=100.0;
 /// Time ahead that is planned, hours.
 pub const SCHEDULE_SPAN_H: RangeInclusive<f64> = 12.0..=168.0;
 /// Smallest part of a pass that is taken, per cent of the seconds that count.
-pub const LEAST_PERCENT: RangeInclusive<f64> = 1.0..=100.0;
+pub const MIN_PERCENT: RangeInclusive<f64> = 1.0..=100.0;
 /// Age of elements by which passes are still taken, days.
 pub const ELEMENT_AGE_D: RangeInclusive<f64> = 0.1..=1000.0;
 /// Error of a unit's clock from which it is set, seconds: a clock that was set is proved within 2.

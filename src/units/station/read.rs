@@ -45,7 +45,8 @@ pub enum NoteReason {
     DoesNotHold {
         /// Name that the operator gave it.
         name: String,
-        why: String,
+        #[serde(rename = "why")]
+        reason: String,
     },
 }
 

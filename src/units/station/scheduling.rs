@@ -39,8 +39,10 @@ pub enum ChooseBy {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Partly {
     /// Share of the seconds that count, per cent, 1 to 100.
-    pub least_percent: f64,
-    pub least_s: f64,
+    #[serde(rename = "least_percent")]
+    pub min_percent: f64,
+    #[serde(rename = "least_s")]
+    pub min_s: f64,
 }
 
 /// Automatic operation of one antenna.
@@ -54,7 +56,7 @@ pub struct Automatic {
     pub resumes_after_crash: bool,
     /// Where the antenna is between two passes.
     #[serde(rename = "between_passes", skip_serializing_if = "super::is_default")]
-    pub between: BetweenPasses,
+    pub between_passes: BetweenPasses,
     /// A unit with a program of its own is left to start the next pass without this computer.
     #[serde(rename = "uses_auto_track", skip_serializing_if = "super::is_default")]
     pub uses_auto_track: bool,

@@ -114,7 +114,7 @@ impl PassQuery {
 
     /// The passes of one satellite that belong to the query, in another window.
     fn passes_between(&self, propagator: &Propagator, from: Timestamp, to: Timestamp) -> Vec<Pass> {
-        let search = PassSearch { from, to, ..self.search };
+        let search = PassSearch { start: from, end: to, ..self.search };
         let found = passes(propagator, &search, &|| false);
         found.into_iter().flat_map(|pass| self.parts(propagator, pass)).collect()
     }

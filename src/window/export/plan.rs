@@ -80,7 +80,7 @@ impl PlanList<'_> {
         let mut rows: Vec<Planned<'_>> =
             taken.chain(self.schedule.left_out.iter().map(Planned::LeftOut)).collect();
         rows.sort_by_key(|row| match row {
-            Planned::Taken(entry) => (entry.pass.aos, entry.pass.satellite, entry.from),
+            Planned::Taken(entry) => (entry.pass.aos, entry.pass.satellite, entry.start),
             Planned::LeftOut(left) => (left.pass.aos, left.pass.satellite, left.pass.aos),
         });
         rows
@@ -112,8 +112,8 @@ impl PlanList<'_> {
                     "{:<antennas$}  {:<names$}  {}  {}  {:>6}  {:>5}  {:>6}",
                     self.antenna(entry.antenna),
                     self.satellite(entry.pass.satellite),
-                    civil(entry.from, "%Y-%m-%d %H:%M:%S"),
-                    civil(entry.to, "%H:%M:%S"),
+                    civil(entry.start, "%Y-%m-%d %H:%M:%S"),
+                    civil(entry.end, "%H:%M:%S"),
                     minutes(entry.counted_s),
                     minutes(entry.slew_s),
                     entry.spare_s.map(minutes).unwrap_or_default(),
@@ -157,8 +157,8 @@ impl PlanList<'_> {
                 state: "taken",
                 antenna: Some(format.text(self.antenna(entry.antenna))),
                 antenna_id: Some(entry.antenna.0),
-                from_time: Some(Time(entry.from)),
-                to_time: Some(Time(entry.to)),
+                from_time: Some(Time(entry.start)),
+                to_time: Some(Time(entry.end)),
                 counted_s: seconds(entry.counted_s),
                 late_s: seconds(entry.late_s),
                 early_s: seconds(entry.early_s),
@@ -188,8 +188,8 @@ impl PlanList<'_> {
             let mut event = Event::new();
             event.uid(&id);
             event.add_property("DTSTAMP", &stamp);
-            event.add_property("DTSTART", civil(entry.from, BASIC));
-            event.add_property("DTEND", civil(entry.to, BASIC));
+            event.add_property("DTSTART", civil(entry.start, BASIC));
+            event.add_property("DTEND", civil(entry.end, BASIC));
             let name = self.satellite(number);
             let summary = format!("{name}, {}", self.antenna(antenna));
             event.add_property("SUMMARY", &summary);
@@ -205,9 +205,9 @@ impl PlanList<'_> {
     /// Returns the identity of the pass of `entry` in `pass_ids`, which belong to [`Self::passes`].
     fn pass_id(&self, entry: &Entry, pass_ids: &[String]) -> String {
         let number = entry.pass.satellite;
-        let half_s = 0.5 * seconds_between(entry.from, entry.to);
+        let half_s = 0.5 * seconds_between(entry.start, entry.end);
         // AOS may differ: the passes may have been predicted again since the schedule was made.
-        let middle = add_seconds(entry.from, half_s);
+        let middle = add_seconds(entry.start, half_s);
         let is_planned = |row: &ExportedPass<'_>| {
             row.satellite.elements.catalog_number() == number
                 && (row.pass.aos.time..=row.pass.los.time).contains(&middle)

@@ -16,7 +16,7 @@ use crate::{
     astro::HorizonMask,
     contract::{
         self, driver,
-        passes::{PassKey, PredictedPass, Scope},
+        passes::{PassListKey, PredictedPass, Scope},
     },
     desktop::Sound,
     station::AntennaId,
@@ -43,10 +43,10 @@ pub enum UiCommand {
     ChangeNow,
     /// Stay with the station in the window.
     KeepStation,
-    SelectPass(PassKey),
+    SelectPass(PassListKey),
     /// Ask whether the selected antenna is to track this pass; the second step of the views
     /// takes it.
-    AskToTrack(PassKey),
+    AskToTrack(PassListKey),
     /// Show the present or next pass of this satellite.
     SelectSatellite(u32),
     /// Select the antenna at this place.
@@ -85,7 +85,7 @@ pub enum UiCommand {
     /// Work out the passes to come over an edited site.
     ShowMoved(Box<sites::Question>),
     /// Rehearse the plan, or this pass of it, against simulated units.
-    Rehearse(Option<PassKey>),
+    Rehearse(Option<PassListKey>),
     /// Cancel the rehearsal, or forget the last one.
     EndRehearsal,
     /// Show a stretch of the record again, from this moment on.

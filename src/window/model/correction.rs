@@ -12,7 +12,7 @@ use crate::{
     },
     device::settings::{Value, Written},
     plan::pass_report::{Cause, Explanation},
-    station::{AntennaId, OffsetsOf},
+    station::{AntennaId, OffsetsSubject},
 };
 
 /// A correction that the operator may take over.
@@ -44,7 +44,7 @@ pub fn correction(
     explanation: &Explanation,
 ) -> Option<Correction> {
     let antenna = model.antennas.iter().find(|antenna| antenna.id() == pass.antenna)?;
-    let how = match pass.report.about.tracked_by {
+    let how = match pass.report.track.tracked_by {
         TrackedBy::ProgramTrack => remembered(model, antenna, pass, explanation),
         TrackedBy::OnBoard | TrackedBy::Elsewhere => settings(antenna, pass, explanation),
     };
@@ -67,9 +67,9 @@ fn remembered(
     };
     let mut steps = explanation.causes().filter_map(step).peekable();
     steps.peek()?;
-    let flown = pass.report.about.offsets.changes().last();
+    let flown = pass.report.track.offsets.changes().last();
     let flown = flown.map_or(TrackOffsets::NONE, |(_, offsets)| *offsets);
-    let of = OffsetsOf::Antenna(antenna.id());
+    let of = OffsetsSubject::Antenna(antenna.id());
     let offsets = steps.try_fold(of.part(flown), TrackOffsets::plus)?;
     (model.station.kept_offsets(of) != offsets).then_some(How::Remembered(offsets))
 }
@@ -81,15 +81,15 @@ const LEAST_DEG: f64 = 0.005;
 /// which may correct it already.
 fn settings(antenna: &AntennaModel, pass: &RecordedPass, explanation: &Explanation) -> Option<How> {
     let fields = antenna.variant().track_offsets?;
-    let state = antenna.snapshot.state.held.get(fields.group)?;
+    let state = antenna.snapshot.state.groups.get(fields.group)?;
     // A session takes back what it adds for a pass.
     let is_later = |written: &Arc<Written>| {
-        written.at > pass.report.from && !is_ticket_of_session(written.change.ticket)
+        written.time > pass.report.start && !is_ticket_of_session(written.change.ticket)
     };
     if state.written.as_ref().is_some_and(is_later) {
         return None;
     }
-    let held = &state.held.as_ref()?.values;
+    let held = &state.last_read.as_ref()?.values;
     let degrees = |field: &'static str, offset_deg: f64| match held.get(field)? {
         Value::Decimal(held_deg) if offset_deg.abs() >= LEAST_DEG => {
             Some((field, Value::Decimal(held_deg - offset_deg)))

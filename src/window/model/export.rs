@@ -5,7 +5,7 @@ use std::{path::PathBuf, sync::Arc};
 use jiff::civil::Date;
 
 use crate::{
-    contract::{passes::PassKey, record::PassQuery},
+    contract::{passes::PassListKey, record::PassQuery},
     export::{EventFormat, ListFormat, RowFormat},
 };
 
@@ -41,9 +41,9 @@ pub enum Export {
     /// The elements in use of these objects, by catalog number.
     Elements { numbers: Arc<[u32]>, form: ElementForm },
     /// These passes.
-    Passes { keys: Arc<[PassKey]>, format: EventFormat },
+    Passes { keys: Arc<[PassListKey]>, format: EventFormat },
     /// Azimuth, elevation and range through one pass.
-    Looks { pass: PassKey, format: ListFormat },
+    Looks { pass: PassListKey, format: ListFormat },
     /// The plan of all antennas.
     Schedule { format: EventFormat },
     /// The page to print for the next shift.

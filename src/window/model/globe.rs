@@ -182,7 +182,7 @@ impl Globe {
         let now = model.now;
         self.subsolar = Some(sun_moon::subsolar_point(now));
         self.night = Some(sun_moon::night(now));
-        self.aos_elevation = Observer::of(&model.station).aos_elevation;
+        self.aos_elevation = Observer::from_station(&model.station).aos_elevation;
         self.refresh_tracks(&made_of, model);
         self.satellites = self.placed(&made_of, model);
         self.made_of = Some(made_of);

@@ -10,7 +10,7 @@ use jiff::Timestamp;
 
 use super::Model;
 use crate::{
-    contract::{antenna::AntennaModel, passes::PassKey},
+    contract::{antenna::AntennaModel, passes::PassListKey},
     plan::schedule::{Joining, PlannedAntenna, Reach},
     station::AntennaId,
 };
@@ -18,7 +18,7 @@ use crate::{
 /// More than a list shows at once.
 const KEPT: usize = 200;
 
-type Found = HashMap<(AntennaId, PassKey), (i64, Option<Joining>)>;
+type Found = HashMap<(AntennaId, PassListKey), (i64, Option<Joining>)>;
 
 #[derive(Debug, Default)]
 pub struct Joinings(Mutex<Found>);
@@ -28,7 +28,7 @@ impl Joinings {
     pub fn of(
         &self,
         antenna: AntennaId,
-        pass: PassKey,
+        pass: PassListKey,
         now: Timestamp,
         find: impl FnOnce() -> Option<Joining>,
     ) -> Option<Joining> {
@@ -54,12 +54,13 @@ impl Model {
     pub fn planned_from_here(&self, antenna: &AntennaModel) -> Option<PlannedAntenna> {
         let has_elevation = antenna.variant().capabilities.has_elevation();
         let measured = antenna.snapshot.state.measured.filter(|_| antenna.is_live())?;
-        let reach = Reach::of(&self.station, &antenna.config, antenna.snapshot.rates_deg_s);
+        let reach =
+            Reach::from_station(&self.station, &antenna.config, antenna.snapshot.rates_deg_s);
         let travel_deg = antenna.config.mount.travel_deg();
         Some(PlannedAntenna {
             stands_deg: Some(measured.planned_axes_deg(travel_deg, has_elevation)?),
             reach,
-            ..PlannedAntenna::of(&self.station, &antenna.config, self.now)
+            ..PlannedAntenna::from_station(&self.station, &antenna.config, self.now)
         })
     }
 }

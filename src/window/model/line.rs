@@ -53,7 +53,7 @@ impl ConsoleLine {
     /// For the clipboard and for a file: UTC, antenna, direction, frame, round
     /// trip and meaning, with tabs between them.
     pub fn report(&self) -> String {
-        let at = self.wire().at.to_zoned(TimeZone::UTC).strftime("%FT%T.%3fZ").to_string();
+        let at = self.wire().time.to_zoned(TimeZone::UTC).strftime("%FT%T.%3fZ").to_string();
         let mut text = format!("{at}\t{}\t{}\t{}\t", self.antenna, self.direction(), self.raw);
         text.push_str(&self.round_trip().unwrap_or_default());
         // Writing to a string cannot fail.
@@ -135,7 +135,7 @@ pub(crate) mod testing {
     pub(crate) fn wire(second: i64, direction: Direction, text: &str) -> WireLine {
         let bytes = format!("{text}\r\n").into_bytes();
         WireLine {
-            at: jiff::Timestamp::from_second(second).unwrap(),
+            time: jiff::Timestamp::from_second(second).unwrap(),
             direction,
             length: bytes.len(),
             meaning: Some(satrak::meaning(direction, &bytes)),
@@ -196,11 +196,11 @@ mod tests {
     #[test]
     fn only_usual_polls_are_polls() {
         let mut wire = wire(1, Direction::Received, "$TIME?,ERR,7*4D");
-        assert!(!wire.is_usual_poll());
+        assert!(!wire.is_routine_poll());
         wire.is_poll = true;
-        assert!(!wire.is_usual_poll(), "a refusal is worth a look");
+        assert!(!wire.is_routine_poll(), "a refusal is worth a look");
         let question = testing::wire(1, Direction::Sent, "$STATUS?*2B");
-        assert!(WireLine { is_poll: true, ..question }.is_usual_poll());
+        assert!(WireLine { is_poll: true, ..question }.is_routine_poll());
     }
 
     #[test]

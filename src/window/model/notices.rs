@@ -12,7 +12,7 @@ use crate::{
     contract::{
         Snapshot,
         alarms::{Alarm, Priority},
-        passes::PassKey,
+        passes::PassListKey,
         reminders::Reminder,
     },
     station::{HoursOfDay, Notices, Tones},
@@ -58,7 +58,7 @@ pub struct Teller {
     /// Rows of the alarms that stood then.
     standing: BTreeSet<u64>,
     /// Passes of the reminders that were there then.
-    reminded: Vec<PassKey>,
+    reminded: Vec<PassListKey>,
     /// The station stood then.
     stood: bool,
 }
@@ -68,18 +68,18 @@ impl Teller {
     /// `stood`: the station has published nothing for so long. Quiet hours go by the clock
     /// of `zone`.
     pub fn look(&mut self, station: &Snapshot, stood: Option<Duration>, zone: &TimeZone) -> News {
-        let new = |alarm: &&Alarm| !alarm.seen;
+        let new = |alarm: &&Alarm| !alarm.acknowledged;
         let alarms = station.alarms.list().iter().filter(new);
         let untold = alarms.clone().filter(|alarm| !self.new.contains(&alarm.id));
         let untold = untold.map(|alarm| About::Alarm(alarm.clone()));
         let reminders = station.reminders.iter().filter(|reminder| {
-            reminder.aos() > station.at.utc && !self.reminded.contains(&reminder.pass)
+            reminder.aos() > station.moment.utc && !self.reminded.contains(&reminder.pass)
         });
         let stands = stood.filter(|_| !self.stood).map(About::StationStands);
         let about = untold.chain(reminders.cloned().map(About::Reminder)).chain(stands);
         let notices = &station.station.notices;
         let is_quiet =
-            notices.quiet.is_some_and(|hours: HoursOfDay| hours.contain(station.at.utc, zone));
+            notices.quiet.is_some_and(|hours: HoursOfDay| hours.contain(station.moment.utc, zone));
         let mut told: Vec<Notice> = about
             .map(|about| {
                 let is_told = |wanted: bool| about.has_top_priority() || wanted && !is_quiet;

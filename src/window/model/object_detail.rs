@@ -43,7 +43,7 @@ impl DetailKey {
         Self {
             older: older.filter(is_of).cloned(),
             elements: elements.clone(),
-            observer: Observer::of(station),
+            observer: Observer::from_station(station),
             floor: station.elevation_floor(),
         }
     }

@@ -12,10 +12,10 @@ use crate::{
     contract::{
         antenna::AntennaModel,
         automatic::{DayEvent, Flown, Taking},
-        passes::{PassKey, PredictedPass},
+        passes::{PassListKey, PredictedPass},
         schedule::Swap,
     },
-    plan::schedule::{Entry, LeftOut, Why},
+    plan::schedule::{Entry, LeftOut, LeftOutReason},
     station::{AntennaId, PassChoice, Priority},
 };
 pub use pose::{PlannedActivity, Pose};
@@ -58,7 +58,7 @@ pub enum Standing<'a> {
     Planned(&'a Entry),
     /// Another antenna takes it.
     TakenBy(AntennaId),
-    LeftOut(&'a Why),
+    LeftOut(&'a LeftOutReason),
     /// No schedule knows of it yet.
     NotKnown,
 }
@@ -66,7 +66,7 @@ pub enum Standing<'a> {
 /// A row of the list of one antenna.
 #[derive(Debug, Clone)]
 pub struct ListedPass<'a> {
-    pub key: PassKey,
+    pub key: PassListKey,
     pub name: &'a str,
     pub los: Timestamp,
     pub max_elevation_deg: Option<f64>,
@@ -76,7 +76,7 @@ pub struct ListedPass<'a> {
     pub planned: Option<PlannedPass<'a>>,
 }
 
-fn is_same(entry: (u32, Timestamp), key: PassKey) -> bool {
+fn is_same(entry: (u32, Timestamp), key: PassListKey) -> bool {
     entry.0 == key.0 && seconds_between(entry.1, key.1).abs() < SAME_AOS_S
 }
 
@@ -89,12 +89,12 @@ impl Model {
     /// The entry of the plan that an antenna carries out now or next.
     pub fn next_entry(&self, antenna: AntennaId) -> Option<&Entry> {
         let entries = self.schedule.schedule.entries.iter();
-        let own = entries.filter(|entry| entry.antenna == antenna && entry.to > self.now);
-        own.min_by_key(|entry| entry.from)
+        let own = entries.filter(|entry| entry.antenna == antenna && entry.end > self.now);
+        own.min_by_key(|entry| entry.start)
     }
 
     /// The antennas that take a pass in the plan; the selected one where none does.
-    pub fn antennas_of(&self, key: PassKey) -> Vec<AntennaId> {
+    pub fn antennas_of(&self, key: PassListKey) -> Vec<AntennaId> {
         let entries = self.schedule.schedule.entries.iter();
         let own = entries.filter(|entry| is_same((entry.pass.satellite, entry.pass.aos), key));
         let own: Vec<AntennaId> = own.map(|entry| entry.antenna).collect();
@@ -106,7 +106,7 @@ impl Model {
     }
 
     /// Returns the cost of this pass in the schedule shown, once that is known.
-    pub fn swap_of(&self, pass: PassKey) -> Option<&Swap> {
+    pub fn swap_of(&self, pass: PassListKey) -> Option<&Swap> {
         let fits = |swap: &&Swap| swap.pass == pass && swap.revision == self.schedule.revision;
         self.swap.as_deref().filter(fits)
     }
@@ -125,7 +125,7 @@ impl Model {
         for entry in schedule.entries.iter().filter(|entry| entry.pass.aos < last) {
             entries.entry(entry.pass.satellite).or_default().push(entry);
         }
-        let planned = ahead.until(end).map(|predicted| {
+        let planned = ahead.starting_before(end).map(|predicted| {
             let own = entries.get(&predicted.number()).into_iter().flatten();
             self.planned(predicted, own.copied())
         });
@@ -162,7 +162,7 @@ impl Model {
     }
 
     /// Returns the entry of the schedule for a pass that it leaves out.
-    fn left_out(&self, key: PassKey) -> Option<&LeftOut> {
+    fn left_out(&self, key: PassListKey) -> Option<&LeftOut> {
         let all = &self.schedule.schedule.left_out;
         let (from, to) = (add_seconds(key.1, -SAME_AOS_S), add_seconds(key.1, SAME_AOS_S));
         let near = all.iter().skip(all.partition_point(|of| of.pass.aos <= from));
@@ -198,7 +198,7 @@ impl Model {
     /// The passes of this day that are over for an antenna.
     pub fn flown_by(&self, antenna: AntennaId) -> impl Iterator<Item = &Flown> + Clone {
         let own = self.day.iter().filter(move |line| line.antenna == antenna);
-        own.filter_map(|line| match &line.what {
+        own.filter_map(|line| match &line.event {
             DayEvent::Flown(flown) => Some(flown),
             _ => None,
         })
@@ -264,7 +264,7 @@ impl<'a> Standings<'a> {
         flown.map_or_else(|| self.ahead(planned), Standing::Flown)
     }
 
-    fn flown(&self, key: PassKey) -> Option<&'a Flown> {
+    fn flown(&self, key: PassListKey) -> Option<&'a Flown> {
         let first = self.flown.partition_point(|flown| flown.pass.0 < key.0);
         let own = self.flown.iter().skip(first).take_while(|flown| flown.pass.0 == key.0);
         own.copied().find(|flown| is_same(flown.pass, key))
@@ -282,14 +282,14 @@ impl<'a> Standings<'a> {
             }
             let Some(left_out) = planned.left_out else { return Standing::NotKnown };
             let own = left_out.by_antenna.iter().find(|(of, _)| *of == self.antenna);
-            return Standing::LeftOut(own.map_or(&left_out.why, |(_, why)| why));
+            return Standing::LeftOut(own.map_or(&left_out.reason, |(_, why)| why));
         };
         let key = planned.predicted.key();
         let Some(taking) = self.taking.filter(|taking| is_same(taking.pass, key)) else {
             return Standing::Planned(entry);
         };
         match taking.proved_at {
-            Some(_) if taking.from <= self.now => Standing::Running,
+            Some(_) if taking.start <= self.now => Standing::Running,
             Some(at) => Standing::Proved(at),
             None => Standing::Sent(taking.asked_at),
         }

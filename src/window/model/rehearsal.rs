@@ -8,7 +8,7 @@ use super::Model;
 use crate::{
     astro::time::seconds_between,
     contract::{
-        passes::PassKey,
+        passes::PassListKey,
         rehearsal::{Rehearsed, RehearsedPass},
     },
 };
@@ -32,7 +32,7 @@ pub enum RehearsalState {
 
 impl Model {
     /// Returns the outcome of a pass in the rehearsal; two where it is handed over.
-    pub fn rehearsed(&self, key: PassKey) -> impl Iterator<Item = &RehearsedPass> {
+    pub fn rehearsed(&self, key: PassListKey) -> impl Iterator<Item = &RehearsedPass> {
         let passes = match &self.rehearsal {
             RehearsalState::Done { rehearsed, .. } => &rehearsed.passes[..],
             _ => &[],

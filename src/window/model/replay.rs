@@ -48,8 +48,8 @@ impl Stretch {
                 satellite: report.elements.catalog_number(),
                 antenna: pass.antenna,
             }),
-            from: add_seconds(report.from.min(report.about.begun), -BEFORE_S),
-            until: add_seconds(report.until, AFTER_S),
+            from: add_seconds(report.start.min(report.track.begun), -BEFORE_S),
+            until: add_seconds(report.end, AFTER_S),
         }
     }
 

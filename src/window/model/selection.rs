@@ -5,7 +5,7 @@ use crate::{
     astro::time::seconds_between,
     contract::{
         antenna::AntennaModel,
-        passes::{PassKey, PredictedPass},
+        passes::{PassListKey, PredictedPass},
     },
 };
 
@@ -15,7 +15,7 @@ const EARLY_S: f64 = 600.0;
 
 impl Model {
     /// Selects a pass until it is over or the operator chooses another one.
-    pub fn choose_pass(&mut self, pass: PassKey) {
+    pub fn choose_pass(&mut self, pass: PassListKey) {
         (self.chosen, self.selected) = (Some(pass), Some(pass));
     }
 
@@ -84,7 +84,7 @@ impl Model {
     }
 
     /// The pass of `key`, until it is over.
-    pub(super) fn pass_ahead(&self, key: PassKey) -> Option<&PredictedPass> {
+    pub(super) fn pass_ahead(&self, key: PassListKey) -> Option<&PredictedPass> {
         let predicted = self.pass_lists.find(key)?;
         (predicted.pass.los.time > self.now).then_some(predicted)
     }

@@ -42,7 +42,7 @@ use super::{
 use crate::{
     contract::driver::{Intent, OffsetChange},
     device::panel::{Act, CheckState, Reading},
-    station::OffsetsOf,
+    station::OffsetsSubject,
 };
 pub use drive::{DriveModel, DriveState};
 pub use faults::FaultsModel;
@@ -224,7 +224,7 @@ pub enum CardAction {
     /// Change the offsets of the track.
     Offset(OffsetChange),
     /// Remember the offsets that are on.
-    KeepOffsets(OffsetsOf),
+    KeepOffsets(OffsetsSubject),
     /// Switch automatic starting of passes by the unit.
     SetAutoTrack(bool),
     /// Start an action of this make.

@@ -165,7 +165,7 @@ fn is_left_to_the_sun(kind: &AlarmKind, antenna: &AntennaModel) -> bool {
     let is_about = barrier_of(kind) == Some(&Barrier::Sun);
     let snapshot = &antenna.snapshot;
     let is_there = snapshot
-        .inside
+        .breach
         .as_ref()
         .is_some_and(|inside| inside.barrier == Barrier::Sun && inside.unknown_axis.is_none());
     is_about && is_there && antenna.can_park() && !antenna.is_busy()

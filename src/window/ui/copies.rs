@@ -133,7 +133,7 @@ fn compared(
         let words = format!("Unknown settings, left out: {}.", copy.unknown.join(", "));
         ui.label(RichText::new(words).font(text::small()).color(t.warn));
     }
-    let differences = copy.differences(antenna.groups(), &antenna.snapshot.state.held);
+    let differences = copy.differences(antenna.groups(), &antenna.snapshot.state.groups);
     if differences.is_empty() {
         let words = "The unit already holds every value in the file.";
         ui.label(RichText::new(words).font(text::body()).color(t.ok));
@@ -191,7 +191,7 @@ fn row(ui: &mut Ui, difference: &Difference, state: &mut CompareState) {
     }
     let words = |value: Option<&Value>| value.map_or("–".to_owned(), |it| shown(field, it));
     let in_file = words(difference.copied.as_ref().ok());
-    let on_unit = words(difference.held.as_ref());
+    let on_unit = words(difference.current.as_ref());
     ui.label(RichText::new(in_file).font(text::body()));
     ui.label(RichText::new(on_unit).font(text::body()).color(t.t2));
     ui.label(RichText::new(verdict(group, difference)).font(text::small()).color(t.t3));

@@ -10,20 +10,20 @@ use crate::{
     astro::AzEl,
     contract::{
         Command,
-        passes::{ListedSatellite, PassKey, PredictedPass},
+        passes::{ListedSatellite, PassListKey, PredictedPass},
     },
     model::{Model, UiCommand, View},
 };
 
 /// Shows the entries of a pass in the menu of the row or bar with this id.
-pub type PassMenu<'a> = dyn Fn(&mut Ui, Id, PassKey, &mut Vec<UiCommand>) + 'a;
+pub type PassMenu<'a> = dyn Fn(&mut Ui, Id, PassListKey, &mut Vec<UiCommand>) + 'a;
 
 /// Shows the entries of a pass in the menu of `response`.
 pub(super) fn pass(
     ui: &mut Ui,
     response: Id,
     model: &Model,
-    key: PassKey,
+    key: PassListKey,
     commands: &mut Vec<UiCommand>,
 ) {
     let Some(predicted) = model.pass_lists.find(key) else { return };

@@ -6,7 +6,7 @@ use egui::{Align2, Area, Frame, Label, Margin, Order, Rect, RichText, Stroke, Ui
 
 use super::{map, text, theme, words};
 use crate::{
-    contract::{passes::PassKey, reminders::Reminder},
+    contract::{passes::PassListKey, reminders::Reminder},
     model::{Model, UiCommand, View, export::SavedFile},
 };
 
@@ -24,13 +24,13 @@ pub struct Notes {
     /// The file that was saved last, or what was not done and why; until it is closed.
     pub news: Option<Result<SavedFile, String>>,
     /// Passes whose reminders were closed.
-    closed: Vec<PassKey>,
+    closed: Vec<PassListKey>,
 }
 
 impl Notes {
     /// Shows the file, and the reminders before their AOS that are not closed.
     pub fn show(&mut self, ui: &Ui, room: Rect, model: &Model, commands: &mut Vec<UiCommand>) {
-        let is_known = |pass: &PassKey| model.reminders.iter().any(|of| of.pass == *pass);
+        let is_known = |pass: &PassListKey| model.reminders.iter().any(|of| of.pass == *pass);
         self.closed.retain(is_known);
         let is_shown = |reminder: &&Reminder| {
             reminder.aos() > model.now && !self.closed.contains(&reminder.pass)
@@ -82,7 +82,7 @@ fn line(
     ui: &mut Ui,
     model: &Model,
     reminder: &Reminder,
-    closed: &mut Vec<PassKey>,
+    closed: &mut Vec<PassListKey>,
     commands: &mut Vec<UiCommand>,
 ) {
     let words = words::reminder(reminder, &model.antennas, model.now);

@@ -32,7 +32,7 @@ use crate::{
     contract::{
         antenna::AntennaModel,
         driver::Command,
-        passes::{PassKey, PredictedPass},
+        passes::{PassListKey, PredictedPass},
     },
     model::{Model, UiCommand},
     station::AntennaId,
@@ -88,7 +88,7 @@ impl OperateState {
     }
 
     /// The pass `down` places below the selected one in the filtered list.
-    pub fn neighbour(&mut self, model: &Model, down: isize) -> Option<PassKey> {
+    pub fn neighbour(&mut self, model: &Model, down: isize) -> Option<PassListKey> {
         let listed = model.upcoming();
         let found = self.found.arrange(model, &self.passes.filter);
         let place = model.selected.and_then(|key| listed.row(key));

@@ -22,7 +22,7 @@ use jiff::Timestamp;
 use super::{menus::PassMenu, text, theme, widgets::paint};
 use crate::{
     astro::time::seconds_between,
-    contract::passes::{PassKey, Scope, Work},
+    contract::passes::{PassListKey, Scope, Work},
     model::UiCommand,
     plan::Sample,
     ui::widgets::list::Scroll,
@@ -38,7 +38,7 @@ pub const FLOORS_DEG: [f64; 8] = [0.0, 5.0, 10.0, 20.0, 30.0, 45.0, 60.0, 75.0];
 #[derive(Debug, Clone, Copy)]
 pub struct PassRow<'a> {
     /// Identifies the pass while it is listed.
-    pub key: PassKey,
+    pub key: PassListKey,
     pub name: &'a str,
     /// AOS, or the start of the list.
     pub aos: Timestamp,
@@ -74,10 +74,10 @@ pub struct PassListModel<'a> {
     /// The pass at an index. Called only for rows in view.
     pub row: &'a dyn Fn(usize) -> Option<PassRow<'a>>,
     /// The index of a pass in the list; must be fast.
-    pub place: &'a dyn Fn(PassKey) -> Option<usize>,
+    pub place: &'a dyn Fn(PassListKey) -> Option<usize>,
     /// The keys of all rows.
-    pub keys: &'a dyn Fn() -> Arc<[PassKey]>,
-    pub selected: Option<PassKey>,
+    pub keys: &'a dyn Fn() -> Arc<[PassListKey]>,
+    pub selected: Option<PassListKey>,
     /// The satellites whose passes are listed.
     pub scope: Scope,
     /// Span of the list.
@@ -105,10 +105,10 @@ pub struct PassListModel<'a> {
 pub struct PassListState {
     pub filter: Filter,
     /// The selected pass in the last frame.
-    shown: Option<PassKey>,
+    shown: Option<PassListKey>,
     scroll: Scroll,
     /// The row at the upper edge and its pass.
-    top: Option<(usize, PassKey)>,
+    top: Option<(usize, PassListKey)>,
     /// The list of the last frame with rows, and what it was filtered by.
     listed: Option<(Scope, String, Arrangement)>,
 }
@@ -116,7 +116,7 @@ pub struct PassListState {
 impl PassListState {
     /// Returns `true` if the selection has changed since the last frame. In a new list the AOS of
     /// the same pass may differ slightly.
-    fn is_news(&mut self, selected: Option<PassKey>) -> bool {
+    fn is_news(&mut self, selected: Option<PassListKey>) -> bool {
         let before = std::mem::replace(&mut self.shown, selected);
         match (before, selected) {
             (Some((old, then)), Some((new, at))) => {

@@ -22,7 +22,7 @@ use crate::contract::record::OpenedPass;
 pub fn html(opened: &OpenedPass, printed: Timestamp) -> String {
     let report = &opened.pass.report;
     let word = record::verdict(report.report.verdict).to_lowercase();
-    let sentence = record::verdict_sentence(report, report.from);
+    let sentence = record::verdict_sentence(report, report.start);
     let content = html! {
         (head(opened, printed))
         (section("verdict", &format!("Verdict: {word}"), "", &html! { p { (sentence) } }))
@@ -41,8 +41,8 @@ fn head(opened: &OpenedPass, printed: Timestamp) -> Markup {
     let report = &opened.pass.report;
     let when = format!(
         "{} {}, {}, max {}",
-        format::date(report.from),
-        format::stretch(report.from, report.until, report.from),
+        format::date(report.start),
+        format::stretch(report.start, report.end, report.start),
         format::duration(report.report.counted_s),
         format::degrees(report.max_elevation_deg, 1)
     );
@@ -51,7 +51,7 @@ fn head(opened: &OpenedPass, printed: Timestamp) -> Markup {
         "{}, {}, {}",
         report.elements.catalog_number(),
         opened.pass.antenna_name,
-        record::tracked_by(report.about.tracked_by)
+        record::tracked_by(report.track.tracked_by)
     );
     let place = report.site.map(page::place).unwrap_or_default();
     let lines = [[&*when, &*printed], [&*by, &*place]];

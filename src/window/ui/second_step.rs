@@ -8,7 +8,7 @@ use crate::{
         self,
         antenna::AntennaModel,
         driver,
-        passes::{PassKey, PredictedPass},
+        passes::{PassListKey, PredictedPass},
     },
     device::Pointing,
     model::{Model, UiCommand},
@@ -69,7 +69,7 @@ pub(super) fn before_parking(antenna: &AntennaModel) -> Question {
 }
 
 /// The question before a track, which names the one that it ends.
-fn before_a_track(model: &Model, pass: PassKey) -> Option<Question> {
+fn before_a_track(model: &Model, pass: PassListKey) -> Option<Question> {
     let (antenna, predicted) = (model.antenna()?, model.pass_lists.find(pass)?);
     let track = contract::Command::Track { antenna: antenna.id(), pass, is_agreed: false };
     let track = UiCommand::Station(track);
@@ -131,7 +131,7 @@ fn what(
 }
 
 /// The track of a pass in words, with the time that the antenna would wait for it.
-fn tracking(model: &Model, pass: PassKey) -> String {
+fn tracking(model: &Model, pass: PassListKey) -> String {
     let (_, aos) = pass;
     let listed = model.pass_lists.find(pass);
     let name = listed.map_or("the other pass", |listed| listed.satellite.short_name());

@@ -201,7 +201,7 @@ fn outcome(
             Some(Answer::No) => push(commands, TestAsk::Cancel),
             None => {}
         },
-        TestStage::Seen { view, at, old_algorithms } => {
+        TestStage::Seen { view, time: at, old_algorithms } => {
             seen::show(ui, view, &tested.satellite, *at, model.now);
             if let Some(words) = words::old_algorithms(old_algorithms) {
                 line(ui, Tone::Caution, &words);

@@ -85,14 +85,14 @@ fn stop(model: &Model, antenna: &AntennaModel) -> Option<Spoken> {
                 format::age(age)
             ))
         }),
-        StopState::Stopping { since } => {
+        StopState::Stopping { start: since } => {
             let age = model.steady.saturating_duration_since(since).as_secs_f64();
             Some(Spoken::new(SentenceKind::Caution).plain(format!(
                 "Stopping {name}: STOP was sent {} ago, waiting for standstill.",
                 format::age(age)
             )))
         }
-        StopState::NotConfirmed { since } => {
+        StopState::NotConfirmed { start: since } => {
             let age = model.steady.saturating_duration_since(since).as_secs_f64();
             Some(Spoken::new(SentenceKind::Fault).plain(format!(
                 "{name} is not known to have stopped, {} after STOP. Use the local panel.",
@@ -313,7 +313,7 @@ fn standing(model: &Model, antenna: &AntennaModel) -> Spoken {
              stop.",
         );
     }
-    if let Some(inside) = &antenna.snapshot.inside {
+    if let Some(inside) = &antenna.snapshot.breach {
         let words = words::kept_still(&antenna.config.name, inside);
         return Spoken::new(SentenceKind::Caution).plain(words);
     }

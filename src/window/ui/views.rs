@@ -313,7 +313,7 @@ impl Views {
         }
         self.operate.leave_card(commands);
         self.question = None;
-        match CloseHow::of(&model.station) {
+        match CloseHow::from_station(&model.station) {
             Some(how) if lost.is_empty() => {
                 commands.push(UiCommand::Station(contract::Command::CloseAfter(how)));
             }

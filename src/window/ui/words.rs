@@ -26,7 +26,7 @@ use crate::{
         driver::Intent,
     },
     controller::SPECS,
-    device::{Asked, Motion, SecondAxis, settings::Unfit},
+    device::{Motion, MotionRequest, SecondAxis, settings::Unfit},
     model::Model,
     orbit::Elements,
     ui::format,
@@ -57,10 +57,10 @@ pub use way_there::{WayThere, needs};
 pub const OLD_ELEMENTS_S: f64 = 7.0 * 86_400.0;
 
 /// Name of a request to an antenna, as its key or button calls it.
-pub fn asked(asked: Asked) -> &'static str {
+pub fn asked(asked: MotionRequest) -> &'static str {
     let motion = match asked {
-        Asked::Motion(motion) => motion,
-        Asked::Action(key) => return action_name(key),
+        MotionRequest::Motion(motion) => motion,
+        MotionRequest::Action(key) => return action_name(key),
     };
     match motion {
         Motion::Jog { .. } => "Jog",

@@ -121,7 +121,7 @@ fn flies(propagator: &Propagator, from: Timestamp) -> bool {
 /// Between its passes a satellite is down, within them it is up.
 fn seen_when_up(propagator: &Propagator, search: &PassSearch, found: &[Pass]) {
     for minute in (0..24 * 60).step_by(10) {
-        let at = search.from + SignedDuration::from_mins(minute);
+        let at = search.start + SignedDuration::from_mins(minute);
         let Ok(look) = propagator.look_from(search.site.airless(), at) else {
             // After its epoch, a decayed satellite stays down; before it, the search ends too.
             break;

@@ -30,9 +30,9 @@ fn lock_outs(path: &Path) {
     let now = Timestamp::UNIX_EPOCH;
     let (mut first, problem) = LockOuts::load(path, now);
     let unit = Antenna::satrak("Dish", "10.0.0.1:4001").connection;
-    assert!(problem.is_none() || first.of(&unit).is_some());
+    assert!(problem.is_none() || first.find(&unit).is_some());
     // Names the unit, so that saving ends the lock-out of all.
-    let own = first.of(&unit).cloned();
+    let own = first.find(&unit).cloned();
     first.set(&unit, own, std::iter::empty());
     let text = first.text().expect("what was loaded can be saved");
     fs::write(path, text).expect("a file");

@@ -55,7 +55,9 @@ fn every_byte_is_told(bytes: &[u8]) {
 }
 
 fn is_go_to(received: &Received) -> bool {
-    let Received::Reply(Reply::Acknowledgement { to, .. }) = received else { return false };
+    let Received::Reply(Reply::Acknowledgement { request: to, .. }) = received else {
+        return false;
+    };
     matches!(to, Acknowledgement::GoTo { .. })
 }
 

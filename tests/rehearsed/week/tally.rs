@@ -12,7 +12,7 @@ use azel::{
         Snapshot,
         automatic::{DayEvent, Flown},
         driver::Event,
-        passes::PassKey,
+        passes::PassListKey,
     },
     plan::schedule::Entry,
     station::AntennaId,
@@ -63,7 +63,7 @@ impl Sum for Total {
 /// A pass that has begun.
 struct Begun {
     antenna: AntennaId,
-    pass: PassKey,
+    pass: PassListKey,
     during: Span,
     /// Time in beam that the plan promised as the pass began, seconds.
     promised_s: f64,
@@ -89,7 +89,7 @@ impl Begun {
     }
 
     /// A pass that was under way at a start of the station has that start for AOS.
-    fn covers(&self, antenna: AntennaId, (satellite, aos): PassKey) -> bool {
+    fn covers(&self, antenna: AntennaId, (satellite, aos): PassListKey) -> bool {
         let from = add_seconds(self.pass.1, -SAME_AOS_S);
         self.antenna == antenna && self.pass.0 == satellite && from < aos && aos < self.during.to
     }
@@ -136,8 +136,8 @@ impl Tally {
 
     /// Counts the passes that begin before `until`: the plan in force at a power cut stays until then.
     pub(super) fn expect(&mut self, snapshot: &Snapshot, until: Timestamp) {
-        let now = snapshot.at.utc;
-        let is_due = |entry: &&Entry| entry.from < until && now < entry.to;
+        let now = snapshot.moment.utc;
+        let is_due = |entry: &&Entry| entry.start < until && now < entry.end;
         for entry in snapshot.schedule.schedule.entries.iter().filter(is_due) {
             self.begin(entry);
         }
@@ -146,10 +146,10 @@ impl Tally {
 
     fn begin(&mut self, entry: &Entry) {
         let (antenna, pass) = (entry.antenna, (entry.pass.satellite, entry.pass.aos));
-        if entry.from < self.from || self.begun.iter().any(|begun| begun.covers(antenna, pass)) {
+        if entry.start < self.from || self.begun.iter().any(|begun| begun.covers(antenna, pass)) {
             return;
         }
-        let during = Span { from: entry.from, to: entry.to };
+        let during = Span { from: entry.start, to: entry.end };
         let excused = self.excused.get(&antenna).into_iter().flatten();
         let excused_s = excused.map(|span| span.overlap_s(during)).sum();
         let promised_s = entry.counted_s;
@@ -166,8 +166,8 @@ impl Tally {
 
     /// Looks at the station at a true time, which its clock may not show.
     pub(super) fn look(&mut self, snapshot: &Snapshot, true_time: Timestamp) {
-        let now = snapshot.at.utc;
-        let is_under_way = |entry: &&Entry| entry.from <= now && now < entry.to;
+        let now = snapshot.moment.utc;
+        let is_under_way = |entry: &&Entry| entry.start <= now && now < entry.end;
         if !self.takes_no_more {
             for entry in snapshot.schedule.schedule.entries.iter().filter(is_under_way) {
                 self.begin(entry);
@@ -205,19 +205,19 @@ impl Tally {
 
     fn take_day(&mut self, snapshot: &Snapshot) {
         for line in snapshot.day.iter() {
-            let is_new = self.day_until.is_none_or(|until| line.at > until);
-            match &line.what {
+            let is_new = self.day_until.is_none_or(|until| line.time > until);
+            match &line.event {
                 DayEvent::Flown(flown) => {
                     let is_its = |begun: &&mut Begun| begun.covers(line.antenna, flown.pass);
                     if let Some(begun) = self.begun.iter_mut().rev().take(60).find(is_its) {
                         begun.flown.get_or_insert_with(|| flown.clone());
                     }
                 }
-                what if is_new => println!("{} antenna {}: {what:?}", line.at, line.antenna.0),
+                what if is_new => println!("{} antenna {}: {what:?}", line.time, line.antenna.0),
                 _ => {}
             }
         }
-        self.day_until = snapshot.day.last().map(|line| line.at).or(self.day_until);
+        self.day_until = snapshot.day.last().map(|line| line.time).or(self.day_until);
     }
 
     /// Returns `true` if the station has told of each pass that met no fault.

@@ -47,7 +47,7 @@ fn random(dice: &mut Dice, utc_origin: Timestamp) -> World {
         elevation: vec![point(30, 0.0), point(1830, 90.0)],
     };
     let lines = [&calibration.azimuth, &calibration.elevation]
-        .map(|points| CountLine::through(points).unwrap());
+        .map(|points| CountLine::from_points(points).unwrap());
     let mut antenna = Antenna::rc2000c("Dish", "in memory");
     calibration.put_into(&mut antenna.connection).unwrap();
     antenna.mount = Mount::AzEl {

@@ -96,7 +96,7 @@ fn pasted_elements_are_told_with_their_refusals_and_taken_once() {
         click(&mut window, "Read once: pasted text");
         let name = "pasted 12 Aug 11:15".to_owned();
         let from = Copied::Text(text.to_owned());
-        let wanted = contract::Command::CopyElements { name, from };
+        let wanted = contract::Command::CopyElements { name, origin: from };
         assert_eq!(asked(&mut window), [UiCommand::Station(wanted)]);
 
         let mut window = view(size, Vec::new());

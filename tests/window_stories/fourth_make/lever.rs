@@ -18,7 +18,7 @@ use azel::{
         Effect, Extent, JogSpeeds, Measured, Motion, SecondAxis, Standstill, Variant,
         settings::{Field, Key},
     },
-    station::{Connection, ControllerSpec, Link, Setting, Table, Usual},
+    station::{Connection, ControllerSpec, DefaultFigures, Link, Setting, Table},
 };
 
 pub(crate) static SPEC: ControllerSpec = ControllerSpec {
@@ -27,7 +27,7 @@ pub(crate) static SPEC: ControllerSpec = ControllerSpec {
     short_name: "Lever",
     link: Link::Tcp,
     default_address: "lever.example:1",
-    usual: Usual { beam_width_deg: 7.0, ..satrak::SPEC.usual },
+    defaults: DefaultFigures { beam_width_deg: 7.0, ..satrak::SPEC.defaults },
     settings: &[&CODE, &GEAR, &SHAFTS],
     closed_note: None,
     element_files: None,
@@ -167,8 +167,8 @@ impl Lever {
             minus_limit: false,
         };
         self.state.measured = Some(Measured {
-            at: now.utc,
-            asked,
+            time: now.utc,
+            requested: asked,
             received: now.steady,
             pointing: AzEl::from_degrees(azimuth_deg, elevation_deg).into(),
             axes: [axis(azimuth_deg), axis(elevation_deg)],

@@ -12,7 +12,7 @@ fn from_steps(steps: &[Offset]) -> TrackOffsets {
 
 /// The way of a target that rises straight up.
 fn upwards(direction: AzEl) -> DVec3 {
-    direction.towards(0.0, 90.0).to_enu()
+    direction.displaced(0.0, 90.0).to_enu()
 }
 
 fn is_near(a: AzEl, b: AzEl) -> bool {
@@ -146,7 +146,7 @@ proptest! {
         thousandths in -10_000_i32..10_000,
     ) {
         let direction = AzEl::from_degrees(azimuth, elevation);
-        let way = Some(direction.towards(bearing, 90.0).to_enu());
+        let way = Some(direction.displaced(bearing, 90.0).to_enu());
         let angle = deg(f64::from(thousandths) / 1000.0);
         let [ahead, right] = [Offset::Along(angle), Offset::Across(angle)]
             .map(|step| from_steps(&[step]).added_to(direction, way));
@@ -154,8 +154,8 @@ proptest! {
             prop_assert!((direction.separation(end).degrees() - angle.degrees().abs()).abs() < 1e-8);
             prop_assert!((-90.0..=90.0).contains(&end.elevation_deg()));
         }
-        prop_assert!(ahead.separation(direction.towards(bearing, angle.degrees())).degrees() < 1e-8);
-        prop_assert!(right.separation(direction.towards(bearing + 90.0, angle.degrees())).degrees() < 1e-8);
+        prop_assert!(ahead.separation(direction.displaced(bearing, angle.degrees())).degrees() < 1e-8);
+        prop_assert!(right.separation(direction.displaced(bearing + 90.0, angle.degrees())).degrees() < 1e-8);
     }
 
     /// A step back undoes a step, in any order.

@@ -98,7 +98,7 @@ fn files_of_an_earlier_version_mean_the_same() {
     );
     for _ in 0..2 {
         let debts = Debts::marked_in(Some(folder.path().to_owned()));
-        let dish = Unit::of(&Antenna::satrak("Dish", "DISH.local:4001"));
+        let dish = Unit::new(&Antenna::satrak("Dish", "DISH.local:4001"));
         assert_eq!(dish, unit("dish.local:4001"));
         assert_eq!(debts.left_moving(), std::slice::from_ref(&dish));
         assert_eq!(debts.marked(&dish), Some(Mark { since: Some(since()), tried: None }));

@@ -64,7 +64,7 @@ impl DetourQuestion {
     /// Looks for the detour; takes up to a tenth of a second.
     pub(in crate::driver) fn search(self) -> Detour {
         let Self { from_deg, to_deg, asked, .. } = self;
-        let now = self.bounds.at(asked.utc);
+        let now = self.bounds.at_time(asked.utc);
         let turns = detour::route(&now, &self.limits, from_deg, to_deg);
         let places_deg = detour::in_steps(&turns.unwrap_or_default(), STEP_DEG);
         Detour { question: self, places_deg }

@@ -89,7 +89,7 @@ impl Gate {
             return Lead::EitherWay(deg);
         }
         let counted = Sweep([(at_deg.min(deg), at_deg.max(deg)), (0.0, 0.0)]);
-        let start = Sweep::at([at_deg, 0.0]);
+        let start = Sweep::at_position([at_deg, 0.0]);
         let situation = self.situation(Intent::Position, false, now);
         let over_north_deg = if deg > at_deg { deg - TURN_DEG } else { deg + TURN_DEG };
         let ways = way::ways_round(true, counted, start, &situation);
@@ -194,7 +194,7 @@ impl Gate {
         let measured = self.state().measured?;
         let reading = |axis: Axis| {
             let angle_deg = axis.angle_deg.filter(|deg| deg.is_finite())?;
-            let Measured { asked, received, .. } = measured;
+            let Measured { requested: asked, received, .. } = measured;
             let Axis { motion, drive, .. } = axis;
             Some(AxisReading { angle_deg, motion, drive, asked, received })
         };

@@ -103,7 +103,7 @@ pub(super) struct LastAngles([Option<LastAngle>; 2]);
 impl LastAngles {
     fn take(&mut self, measured: &Measured) {
         for (last, axis) in self.0.iter_mut().zip(measured.axes) {
-            let asked = measured.asked;
+            let asked = measured.requested;
             if let Some(deg) = angle_deg(axis) {
                 *last = Some(LastAngle { deg, asked, at_limit: None });
             } else if let Some(last) = last.as_mut().filter(|_| axis.plus_limit != axis.minus_limit)
@@ -137,8 +137,9 @@ impl Gate {
         let [first_travel_deg, second_travel_deg] = self.mount.travel_deg();
         let [first_last, second_last] = self.last_angles.0;
         let rate_deg_s = self.limits.maximum_rate_deg_s;
-        let interval =
-            |axis, travel_deg, last| interval(axis, travel_deg, last, measured.asked, rate_deg_s);
+        let interval = |axis, travel_deg, last| {
+            interval(axis, travel_deg, last, measured.requested, rate_deg_s)
+        };
         let (from_deg, to_deg) = ALL_ELEVATIONS_DEG;
         Some(Intervals([
             interval(first, first_travel_deg, first_last),
@@ -159,9 +160,9 @@ impl Gate {
         // A bridged angle is older than its position. A motion must be judged from the older one.
         let bridged =
             axes.filter(|(axis, _)| angle_deg(*axis).is_none()).filter_map(|(_, last)| {
-                last.map(|last| last.asked).filter(|asked| is_bridged(*asked, measured.asked))
+                last.map(|last| last.asked).filter(|asked| is_bridged(*asked, measured.requested))
             });
-        bridged.chain([measured.asked]).min()
+        bridged.chain([measured.requested]).min()
     }
 }
 

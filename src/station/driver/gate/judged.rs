@@ -40,8 +40,8 @@ impl PathQuestion {
         let is_part = Arc::ptr_eq(&self.judge, &other.judge)
             || (mine.elements == others.elements
                 && mine.site == others.site
-                && mine.target.until == others.target.until
-                && mine.target.from <= others.target.from
+                && mine.target.end == others.target.end
+                && mine.target.start <= others.target.start
                 && self.judge.ability() == other.judge.ability());
         let is_same_clock = match (self.unit.clock, other.unit.clock) {
             (Some(mine), Some(other)) => (mine.ahead_s - other.ahead_s).abs() < SAME_CLOCK_S,

@@ -57,10 +57,10 @@ impl Gate {
     ) -> Result<(), Refusal> {
         let Demand { at, axes, sky, plain } = demand;
         // The demand names both directions.
-        let bounds = self.bounds_in(Intent::Track).at(at).without_model();
+        let bounds = self.bounds_in(Intent::Track).at_time(at).without_model();
         for direction in [axes, sky] {
             if let Some(barrier) = bounds.forbids(direction) {
-                return Err(Refusal::Forbidden { barrier, at: direction });
+                return Err(Refusal::Forbidden { barrier, direction });
             }
         }
         let has_elevation = self.variant.capabilities.has_elevation();
@@ -76,7 +76,7 @@ impl Gate {
             let to = Motion::Position { azimuth: Some(axes.azimuth), elevation: Some(elevation) };
             return rules::within_reach(&to, &self.situation(Intent::Track, false, now));
         };
-        let mount = self.mount.within(self.state().travel_deg);
+        let mount = self.mount.clipped(self.state().travel_deg);
         let wanted_deg = if has_elevation { axes.elevation_deg() } else { elevation_from_deg };
         let elevation = Angle::from_degrees(wanted_deg.max(lowest_deg).max(elevation_from_deg));
         if mount.reaches(AzEl { elevation, ..axes }) {

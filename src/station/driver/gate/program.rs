@@ -110,7 +110,7 @@ impl Gate {
         now: Moment,
     ) -> Result<(), Refusal> {
         self.whole_path_is_clear(judge, unit)?;
-        let start = judge.start(unit, now.utc).ok_or(Refusal::NoDirection { at: now.utc })?;
+        let start = judge.start(unit, now.utc).ok_or(Refusal::NoDirection { time: now.utc })?;
         self.slew_is_clear(start, now)
     }
 }

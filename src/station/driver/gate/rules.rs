@@ -5,7 +5,7 @@ use crate::{
     astro::{Angle, xy_mount},
     contract::driver::{Intent, Refusal, position_for},
     device::{
-        Asked, Motion, SecondAxis, aimed,
+        Motion, MotionRequest, SecondAxis, aimed,
         panel::{Act, Lead},
         settings::Hindrance,
     },
@@ -22,7 +22,7 @@ pub(super) struct Rule {
 #[derive(Clone, Copy)]
 pub(super) enum Check {
     /// Any motion, and any action that moves the antenna.
-    Moving(fn(&Asked, &Situation<'_>) -> Result<(), Refusal>),
+    Moving(fn(&MotionRequest, &Situation<'_>) -> Result<(), Refusal>),
     Motion(fn(&Motion, &Situation<'_>) -> Result<(), Refusal>),
     Act(fn(&Act, &Situation<'_>) -> Result<(), Refusal>),
     /// An action that moves the antenna, after the rules of motions.
@@ -70,7 +70,7 @@ pub(super) const RULES: &[Rule] = rules![
     Setting(no_setting_after_a_motion_was_asked_for),
 ];
 
-fn unit_is_not_locked_out(_: &Asked, situation: &Situation<'_>) -> Result<(), Refusal> {
+fn unit_is_not_locked_out(_: &MotionRequest, situation: &Situation<'_>) -> Result<(), Refusal> {
     situation.lock_out.map_or(Ok(()), |lock_out| Err(lock_out.into()))
 }
 
@@ -90,16 +90,21 @@ fn something_is_asked_for(motion: &Motion, _: &Situation<'_>) -> Result<(), Refu
 }
 
 /// Only the operator can answer for bounds that are not known, and only for a motion by hand.
-fn safety_settings_are_read(asked: &Asked, situation: &Situation<'_>) -> Result<(), Refusal> {
+fn safety_settings_are_read(
+    asked: &MotionRequest,
+    situation: &Situation<'_>,
+) -> Result<(), Refusal> {
     let Some(place) = situation.bounds.unread() else { return Ok(()) };
     let refusal = Refusal::SettingsUnread { place: place.clone() };
     let rates_deg_s = match *asked {
-        Asked::Motion(Motion::Jog { x_deg_s, y_deg_s }) => {
+        MotionRequest::Motion(Motion::Jog { x_deg_s, y_deg_s }) => {
             Some(situation.turning([x_deg_s, y_deg_s]))
         }
-        Asked::Motion(Motion::Step { .. }) => None,
-        Asked::Motion(Motion::Position { .. } | Motion::StartProgram | Motion::EnableAuto)
-        | Asked::Action(_) => return Err(refusal),
+        MotionRequest::Motion(Motion::Step { .. }) => None,
+        MotionRequest::Motion(
+            Motion::Position { .. } | Motion::StartProgram | Motion::EnableAuto,
+        )
+        | MotionRequest::Action(_) => return Err(refusal),
     };
     way::slowly_by_permission(rates_deg_s, refusal, situation)
 }
@@ -123,31 +128,31 @@ fn controller_offers_it(motion: &Motion, situation: &Situation<'_>) -> Result<()
     if offered { Ok(()) } else { Err(Refusal::NotOffered) }
 }
 
-fn position_is_fresh(asked: &Asked, situation: &Situation<'_>) -> Result<(), Refusal> {
+fn position_is_fresh(asked: &MotionRequest, situation: &Situation<'_>) -> Result<(), Refusal> {
     // The window locks its controls by the same function, so that both give the same answer.
     position_for(asked, situation.state, situation.now.steady).map(drop)
 }
 
-fn no_stop_under_way(_: &Asked, situation: &Situation<'_>) -> Result<(), Refusal> {
+fn no_stop_under_way(_: &MotionRequest, situation: &Situation<'_>) -> Result<(), Refusal> {
     if situation.stopping { Err(Refusal::Stopping) } else { Ok(()) }
 }
 
-fn intent_allows_it(asked: &Asked, situation: &Situation<'_>) -> Result<(), Refusal> {
+fn intent_allows_it(asked: &MotionRequest, situation: &Situation<'_>) -> Result<(), Refusal> {
     let intent = situation.intent;
     let allowed = match asked {
-        Asked::Motion(Motion::Jog { .. } | Motion::Step { .. }) => intent == Intent::Manual,
-        Asked::Motion(Motion::Position { .. }) => {
+        MotionRequest::Motion(Motion::Jog { .. } | Motion::Step { .. }) => intent == Intent::Manual,
+        MotionRequest::Motion(Motion::Position { .. }) => {
             matches!(intent, Intent::Position | Intent::Park | Intent::Track)
         }
-        Asked::Motion(Motion::StartProgram) => intent == Intent::Track,
+        MotionRequest::Motion(Motion::StartProgram) => intent == Intent::Track,
         // The unit starts by itself in any mode; `auto_track_is_clear` judges the pass that it has.
-        Asked::Motion(Motion::EnableAuto) => true,
-        Asked::Action(_) => matches!(intent, Intent::Manual | Intent::Position),
+        MotionRequest::Motion(Motion::EnableAuto) => true,
+        MotionRequest::Action(_) => matches!(intent, Intent::Manual | Intent::Position),
     };
     if allowed { Ok(()) } else { Err(Refusal::Intent(intent)) }
 }
 
-fn no_fault_forbids_it(_: &Asked, situation: &Situation<'_>) -> Result<(), Refusal> {
+fn no_fault_forbids_it(_: &MotionRequest, situation: &Situation<'_>) -> Result<(), Refusal> {
     match situation.state.motion_lock {
         Some(false) => Ok(()),
         Some(true) => Err(Refusal::Fault),
@@ -298,7 +303,7 @@ fn auto_track_is_clear(motion: &Motion, situation: &Situation<'_>) -> Result<(),
     situation.gate.next_pass_is_clear(situation.now)
 }
 
-fn controller_agrees(asked: &Asked, situation: &Situation<'_>) -> Result<(), Refusal> {
+fn controller_agrees(asked: &MotionRequest, situation: &Situation<'_>) -> Result<(), Refusal> {
     let objection = situation.gate.controller.objection(asked, situation.now);
     objection.map_or(Ok(()), |reason| Err(Refusal::Controller(reason)))
 }
@@ -323,7 +328,7 @@ fn the_operator_answers_for_an_unseen_end(
     match situation.gate.controller.lead_of(act) {
         Lead::Unseen(reason) if !situation.is_agreed => {
             let is_watched = situation.intervals.is_some_and(|axes| axes.unknown().is_none());
-            Err(Refusal::Unseen { act: act.clone(), why: reason, is_watched })
+            Err(Refusal::Unseen { act: act.clone(), reason: reason, is_watched })
         }
         _ => Ok(()),
     }
@@ -360,7 +365,7 @@ fn no_setting_while_stopping(situation: &Situation<'_>) -> Option<Hindrance> {
 }
 
 fn no_setting_while_the_unit_may_move(situation: &Situation<'_>) -> Option<Hindrance> {
-    Hindrance::of(situation.state, situation.can, situation.now.steady)
+    Hindrance::from_state(situation.state, situation.can, situation.now.steady)
 }
 
 fn no_setting_after_a_motion_was_asked_for(situation: &Situation<'_>) -> Option<Hindrance> {

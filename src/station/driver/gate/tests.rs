@@ -76,7 +76,7 @@ impl Device for Metal {
 }
 
 impl Controller for Metal {
-    fn objection(&self, _: &Asked, _: Moment) -> Option<&'static str> {
+    fn objection(&self, _: &MotionRequest, _: Moment) -> Option<&'static str> {
         self.objection
     }
 
@@ -103,11 +103,11 @@ static PROGRAM: LazyLock<Arc<Judge>> = LazyLock::new(|| {
         catalog_number: 25_544,
         name: "ISS".to_owned(),
         element_file: None,
-        from: pass.aos.time,
-        until: pass.los.time,
+        start: pass.aos.time,
+        end: pass.los.time,
     };
     let pass = OnBoardPass { target, elements, site, is_agreed: false };
-    Arc::new(Judge::new(pass, Ability::of(&Antenna::satrak("Dish", ""))).unwrap())
+    Arc::new(Judge::new(pass, Ability::from_antenna(&Antenna::satrak("Dish", ""))).unwrap())
 });
 
 /// Situation in which a test asks the gate.
@@ -141,8 +141,8 @@ impl Case {
         };
         let now = Instant::now();
         let measured = Measured {
-            at: Timestamp::UNIX_EPOCH,
-            asked: now,
+            time: Timestamp::UNIX_EPOCH,
+            requested: now,
             received: now,
             pointing: AzEl::from_degrees(80.0, 45.0).into(),
             axes: [axis; 2],
@@ -195,7 +195,7 @@ impl Case {
             unread: self.unread.clone(),
             ..Station::default()
         };
-        let bounds = Bounds::of(&station, &self.antenna);
+        let bounds = Bounds::new(&station, &self.antenna);
         let mut gate = Gate::new(Box::new(metal), &self.antenna, bounds, &Default::default());
         gate.next_pass = self.held.clone();
         gate.program = self.pass_is_known.then(|| Arc::clone(&PROGRAM));
@@ -228,7 +228,7 @@ fn a_path_has_to_be_judged_by_what_the_unit_reports_now_and_within_the_present_b
     let mut gate = case.gate(&Arc::default());
     let start =
         |gate: &mut Gate| gate.start(Motion::StartProgram, Intent::Track, false, case.now());
-    let bounds = Bounds::of(
+    let bounds = Bounds::new(
         &Station {
             sun_avoidance: Some(SunAvoidance { radius_deg: 5.0, ahead_min: 0.0 }),
             ..Station::default()
@@ -414,7 +414,8 @@ fn an_angle_that_stays_is_taken_from_the_measured_position() {
 #[test]
 fn a_position_from_before_the_link_came_up_counts_for_nothing() {
     let mut case = Case::new(Intent::Manual);
-    case.state.link_since = case.state.measured.map(|read| read.asked + Duration::from_millis(1));
+    case.state.link_since =
+        case.state.measured.map(|read| read.requested + Duration::from_millis(1));
     assert_eq!(case.ask(jog(1.0, 0.0)), Err(Refusal::PositionUnknown));
 }
 

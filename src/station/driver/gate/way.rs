@@ -61,7 +61,7 @@ fn to_position(
     // The last position may be seconds old. A track sends its next position while the axes turn,
     // so the way begins wherever they can be by now.
     let gone_on = situation.gate.gone_on(start, situation.ahead_s);
-    let ways = ways_round(azimuth.is_some(), start.with(end), gone_on, situation);
+    let ways = ways_round(azimuth.is_some(), start.union(end), gone_on, situation);
     // The unit chooses between these, so a barrier on either refuses the motion.
     for sweep in ways.into_iter().flatten() {
         away_from_the_sun(sweep, intervals, end, situation)
@@ -80,7 +80,7 @@ pub(super) fn ways_round(
     situation: &Situation<'_>,
 ) -> [Option<Sweep>; 2] {
     if !turns_azimuth || !situation.state.may_turn_either_way {
-        return [Some(counted.with(gone_on)), None];
+        return [Some(counted.union(gone_on)), None];
     }
     let Sweep([(from_deg, to_deg), second]) = counted;
     let over_north = Sweep([(to_deg, from_deg + 360.0), second]);
@@ -92,8 +92,8 @@ pub(super) fn ways_round(
     let crosses = [counted, over_north].map(crosses_limit);
     let Sweep([(begins_deg, _), _]) = gone_on;
     let turn_deg = if begins_deg <= from_deg { 360.0 } else { 0.0 };
-    let counted = counted.with(gone_on);
-    let over_north = over_north.with(gone_on.turned([turn_deg, 0.0]));
+    let counted = counted.union(gone_on);
+    let over_north = over_north.union(gone_on.turned([turn_deg, 0.0]));
     match crosses {
         [false, true] => [Some(counted), None],
         [true, false] => [Some(over_north), None],
@@ -108,7 +108,7 @@ impl Situation<'_> {
 
     /// These bounds at present, with the offsets of the axes.
     fn at_present<'b>(&'b self, bounds: &'b Bounds) -> BoundsAt<'b> {
-        bounds.at(self.now.utc).turned_by(self.to_sky).within(self.budget)
+        bounds.at_time(self.now.utc).turned_by(self.to_sky).with_budget(self.budget)
     }
 
     /// The rates at which the axes really turn in a jog: a controller with named speeds has no
@@ -148,11 +148,11 @@ fn by_hand(
 ) -> Result<(), Refusal> {
     let bounds_now = situation.bounds_now();
     let start = intervals.sweep();
-    let sweep = start.with(start.turned(ahead_deg));
+    let sweep = start.union(start.turned(ahead_deg));
     if intervals.unknown().is_some() {
         return by_hand_unseen(intervals, ahead_deg, rates_deg_s, situation);
     }
-    let clearances = bounds_now.least_clearances(start);
+    let clearances = bounds_now.min_clearances(start);
     let inside = clearances.iter().find(|clearance| {
         !clearance.warns_only
             && clearance.barrier != Barrier::MinimumElevation
@@ -172,7 +172,7 @@ fn by_hand(
     };
     if !is_left {
         let at = situation.bounds.direction(sweep.middle());
-        return Err(Refusal::Forbidden { barrier: inside.barrier.clone(), at });
+        return Err(Refusal::Forbidden { barrier: inside.barrier.clone(), direction: at });
     }
     slowly_by_permission(rates_deg_s, Refusal::Inside(inside.barrier.clone()), situation)
 }
@@ -200,7 +200,7 @@ fn is_left_by_azimuth(start: Sweep, [ahead_deg, _]: [f64; 2], bounds: &BoundsAt<
     let Some(out) = out_deg(ahead_deg) else { return false };
     let is_shorter = out_deg(-ahead_deg).is_none_or(|other| out <= other);
     let past_the_edge = |deg: f64| start.turned([deg.copysign(ahead_deg), 0.0]);
-    let beyond = past_the_edge(out).with(past_the_edge(out.max(ahead_deg.abs())));
+    let beyond = past_the_edge(out).union(past_the_edge(out.max(ahead_deg.abs())));
     is_shorter && bounds.blocks(beyond, start).is_none()
 }
 
@@ -214,14 +214,14 @@ fn by_hand_unseen(
 ) -> Result<(), Refusal> {
     let bounds_now = situation.bounds_now();
     let start = intervals.sweep();
-    let sweep = start.with(intervals.after(ahead_deg, situation.mount.travel_deg()));
+    let sweep = start.union(intervals.after(ahead_deg, situation.mount.travel_deg()));
     let Some((barrier, at)) = bounds_now.blocks_unseen(sweep, start) else { return Ok(()) };
     // The operator's permission overrides neither what the known angle alone forbids nor barriers
     // that the axes are definitely outside.
     let Intervals([_, second]) = intervals;
     let knows_elevation = matches!(situation.mount, Mount::AzEl { .. }) && second.is_known;
     if knows_elevation && bounds_now.leads_below_the_floor(sweep, start) {
-        return Err(Refusal::Forbidden { barrier: Barrier::MinimumElevation, at });
+        return Err(Refusal::Forbidden { barrier: Barrier::MinimumElevation, direction: at });
     }
     let outside_of = bounds_now.without_entered(start);
     blocked(sweep, start, &situation.at_present(&outside_of))?;
@@ -295,7 +295,7 @@ impl Depth {
 fn blocked(sweep: Sweep, start: Sweep, bounds: &BoundsAt<'_>) -> Result<(), Refusal> {
     bounds
         .blocks(sweep, start)
-        .map_or(Ok(()), |(barrier, at)| Err(Refusal::Forbidden { barrier, at }))
+        .map_or(Ok(()), |(barrier, at)| Err(Refusal::Forbidden { barrier, direction: at }))
 }
 
 /// Where the axes may be at the end of a motion to a position; `None` where that is not known.
@@ -314,7 +314,7 @@ fn target(
         Mount::Xy { lower_axis_azimuth_deg, .. } => {
             let measured = situation.state.measured.map(|measured| measured.pointing);
             let direction = aimed(azimuth, elevation, measured).direction()?;
-            Some(Sweep::at(crossed(direction, lower_axis_azimuth_deg)))
+            Some(Sweep::at_position(crossed(direction, lower_axis_azimuth_deg)))
         }
     }
 }
@@ -354,13 +354,13 @@ impl Gate {
         };
         let Some((from_deg, to_deg)) = self.ends(motion, now) else { return Err(refusal.into()) };
         let corners_deg = [[to_deg[0], from_deg[1]], [from_deg[0], to_deg[1]]];
-        let bounds = self.bounds_in(intent).at(now.utc);
-        let bounds_now = bounds.turned_by(self.to_sky_in(intent)).within(Some(budget));
+        let bounds = self.bounds_in(intent).at_time(now.utc);
+        let bounds_now = bounds.turned_by(self.to_sky_in(intent)).with_budget(Some(budget));
         for corner_deg in corners_deg {
             let first = self.to_axes(corner_deg);
-            let second = Sweep::between(corner_deg, to_deg);
-            let is_free =
-                bounds_now.blocks(second, Sweep::at(corner_deg)).is_none() && check(first).is_ok();
+            let second = Sweep::new(corner_deg, to_deg);
+            let is_free = bounds_now.blocks(second, Sweep::at_position(corner_deg)).is_none()
+                && check(first).is_ok();
             if is_free {
                 return Ok(Route { first, then: Some(motion) });
             }
@@ -479,7 +479,7 @@ impl Gate {
             .ok_or(Refusal::PositionUnknown)?;
         let along = Angle::from_degrees(ALONG_DEG);
         let bounds = situation.at_present(&self.bounds).with_floor_lower_by(along);
-        blocked(start.with(end), start, &bounds)
+        blocked(start.union(end), start, &bounds)
     }
 
     /// The lead of an action as a motion to a position; `None` where it leads nowhere or is

@@ -274,7 +274,7 @@ impl Slew {
     pub(super) fn leads_on(&self, at: Pointing, within: Angle) -> bool {
         match self.stage {
             SlewStage::Queued { leg: Some(Leg { aim, .. }), .. } => {
-                at.off(aim).is_none_or(|off| off > within)
+                at.deviation(aim).is_none_or(|off| off > within)
             }
             SlewStage::Queued { leg: None, .. } | SlewStage::UnderWay { .. } | SlewStage::Over => {
                 true
@@ -299,7 +299,7 @@ impl Slew {
         }
         // While its angles change the motion is not over, whatever the flags say.
         let last_turn = turned.map_or(begun, |turned| turned.max(begun));
-        let is_near = at.off(aim).is_some_and(|off| off <= within);
+        let is_near = at.separation(aim).is_some_and(|off| off <= within);
         let arrival = match leg {
             Some(Leg { then: Some(then), .. }) if is_near => Arrival::Leg(then),
             Some(Leg { then: None, .. }) if is_near => Arrival::Short { aim: end },

@@ -41,7 +41,8 @@ impl AutoTrackOff {
     pub(super) fn next(&mut self, state: &AntennaState, now: Instant) -> NextStep {
         let asked_at = self.asked_at;
         // A report from before the command shows nothing of its effect.
-        let is_answer = |asked_at| state.measured.is_some_and(|measured| measured.asked > asked_at);
+        let is_answer =
+            |asked_at| state.measured.is_some_and(|measured| measured.requested > asked_at);
         let read = state.program.filter(|_| asked_at.is_some_and(is_answer));
         match read.map(|program| program.auto) {
             Some(Some(false)) => NextStep::Proved,

@@ -43,8 +43,8 @@ impl Session {
         let is_moving = rates.iter().any(|rate| rate.abs() > SLOWEST_DEG_S) || turns_unseen;
         let ahead_s = self.gate.ahead_s(now);
         let there = self.reached(intervals, rates, turns_unseen, ahead_s);
-        let bounds = self.bounds_now().at(now.utc).turned_by(self.gate.to_sky());
-        let [from, to] = [here, there].map(|place| bounds.least_clearances(place));
+        let bounds = self.bounds_now().at_time(now.utc).turned_by(self.gate.to_sky());
+        let [from, to] = [here, there].map(|place| bounds.min_clearances(place));
         let is_known = intervals.unknown().is_none();
         // An unknown angle is inside a barrier only if it is so wherever the axis may be.
         let surely = (!is_known).then(|| bounds.holds_all_of(here));
@@ -87,7 +87,8 @@ impl Session {
     ) -> Sweep {
         let ahead_deg = rates.map(|rate| rate * ahead_s);
         if let Some(axes_deg) = intervals.angles_deg() {
-            let Sweep([first, second]) = Sweep::at(self.gate.ahead_of(axes_deg, ahead_deg));
+            let Sweep([first, second]) =
+                Sweep::at_position(self.gate.ahead_of(axes_deg, ahead_deg));
             let has_elevation = self.setup.can().has_elevation();
             let Sweep([_, column]) = intervals.sweep();
             return Sweep([first, if has_elevation { second } else { column }]);

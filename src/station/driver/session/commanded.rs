@@ -7,7 +7,7 @@ use super::{
 use crate::{
     clock::Instant,
     contract::driver::Mover,
-    device::{Asked, Measured, Pointing},
+    device::{Measured, MotionRequest, Pointing},
 };
 
 /// A step that may not be over yet.
@@ -21,7 +21,7 @@ struct Step {
 /// A motion whose answer was lost.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Doubt {
-    pub(super) asked: Asked,
+    pub(super) asked: MotionRequest,
     begun: Instant,
     /// Angles of the two axes before it, degrees.
     pub(super) before_deg: Option<[f64; 2]>,
@@ -120,14 +120,20 @@ impl Commanded {
     pub(super) fn follow_step(&mut self, measured: Option<Measured>, waits: bool) {
         let Some(Step { begun, .. }) = self.step else { return };
         // A state from before the step shows the standstill before it.
-        let stands = measured.is_some_and(|measured| measured.asked > begun && !measured.moving());
+        let stands =
+            measured.is_some_and(|measured| measured.requested > begun && !measured.moving());
         if stands && !waits {
             self.step = None;
         }
     }
 
     /// The answer to a motion was lost.
-    pub(super) fn doubt(&mut self, asked: Asked, before_deg: Option<[f64; 2]>, now: Instant) {
+    pub(super) fn doubt(
+        &mut self,
+        asked: MotionRequest,
+        before_deg: Option<[f64; 2]>,
+        now: Instant,
+    ) {
         self.doubt = Some(Doubt { asked, begun: now, before_deg });
     }
 
@@ -139,7 +145,7 @@ impl Commanded {
     pub(super) fn take_doubt(&mut self, measured: Option<Measured>) -> Option<Doubt> {
         // An older state shows nothing of what the motion did.
         let is_newer =
-            |doubt: &mut Doubt| measured.is_some_and(|measured| measured.asked > doubt.begun);
+            |doubt: &mut Doubt| measured.is_some_and(|measured| measured.requested > doubt.begun);
         self.doubt.take_if(is_newer)
     }
 }

@@ -66,7 +66,7 @@ pub(super) fn first_link(antenna: &Antenna, now: Instant) -> (Wanted, LinkState)
     if waits && !antenna.connects_at_start {
         return (Wanted::No, LinkState::Off);
     }
-    (Wanted::Yes, LinkState::Connecting { since: now })
+    (Wanted::Yes, LinkState::Connecting { start: now })
 }
 
 impl Contact {
@@ -116,11 +116,11 @@ impl Contact {
     }
 
     pub(super) fn connecting(&mut self, now: Instant) {
-        self.link = LinkState::Connecting { since: now };
+        self.link = LinkState::Connecting { start: now };
     }
 
     pub(super) fn connected(&mut self, now: Instant) {
-        self.link = LinkState::Up { since: now };
+        self.link = LinkState::Up { start: now };
     }
 
     /// There will be no link any more.
@@ -148,7 +148,7 @@ impl Contact {
         // Every attempt that fails loses the link again; only the first loss is news.
         let is_news = !matches!(self.link, LinkState::Lost { .. }) && !self.loss_is_reported;
         self.loss_is_reported = true;
-        self.link = LinkState::Lost { since: lost_at, reason, retry_at };
+        self.link = LinkState::Lost { start: lost_at, reason, retry_at };
         is_news
     }
 
@@ -209,7 +209,7 @@ impl Contact {
         }
         // Any one reply may be lost, so one poll period without a reply is no trouble.
         let max_age = pace.poll_period * 2;
-        let asked = state.measured_on_link().map(|measured| measured.asked);
+        let asked = state.measured_on_link().map(|measured| measured.requested);
         // A position counts from its question, and may be as late as any reply.
         let is_old = |asked| now.saturating_duration_since(asked) > max_age + LATE_REPLY;
         let is_late = age > max_age || asked.is_some_and(is_old);
@@ -218,7 +218,7 @@ impl Contact {
                 let as_of = asked.map_or(last, |asked| asked.min(last));
                 self.link = LinkState::Stale { as_of };
             }
-            (LinkState::Stale { .. }, false) => self.link = LinkState::Up { since: start },
+            (LinkState::Stale { .. }, false) => self.link = LinkState::Up { start: start },
             (LinkState::Off | LinkState::Connecting { .. } | LinkState::Lost { .. }, _)
             | (LinkState::Up { .. }, false) => {}
         }
@@ -228,7 +228,7 @@ impl Contact {
     /// When the age of the last reply changes the state of the link.
     pub(super) fn due(&self, state: &AntennaState, pace: Pace) -> Option<Instant> {
         let last = state.traffic.last_reply.max(state.link_since)?;
-        let asked = state.measured_on_link().map(|measured| measured.asked + LATE_REPLY);
+        let asked = state.measured_on_link().map(|measured| measured.requested + LATE_REPLY);
         let wait = match self.link {
             // A link is stale only beyond its limit: at the limit itself nothing would change.
             LinkState::Up { .. } => pace.poll_period * 2 + Duration::from_millis(1),

@@ -178,10 +178,10 @@ impl Effects {
         for (index, (((effect, axis), expected), is_suspect)) in
             effects.enumerate().take(can.axis_count())
         {
-            effect.take(axis.angle_deg, look.asked, figures);
+            effect.take(axis.angle_deg, look.requested, figures);
             // Wind or somebody else may have moved the axis, so its angle proves no lack of effect.
             let expected = expected.filter(|_| axis.angle_deg.is_some() && !is_suspect);
-            if effect.is_missing(expected, look.asked, figures, shows_after) {
+            if effect.is_missing(expected, look.requested, figures, shows_after) {
                 missing = missing.or(Some(index));
             }
         }
@@ -218,7 +218,7 @@ impl Effects {
         // A unit may turn one axis after the other.
         let turned_lately = self.axes.map(|effect| {
             effect.changed.is_some_and(|(_, changed)| {
-                look.asked.saturating_duration_since(changed) < shows_after
+                look.requested.saturating_duration_since(changed) < shows_after
             })
         });
         let axes = look.axes.iter().zip(approach.to_deg).zip(self.axes).zip(approach.rates_deg_s);

@@ -31,7 +31,7 @@ impl Session {
             self.observed.place.set(Some(Barrier::Unread(place)), None);
             return;
         }
-        let bounds = self.bounds_now().at(now.utc).turned_by(self.gate.to_sky());
+        let bounds = self.bounds_now().at_time(now.utc).turned_by(self.gate.to_sky());
         let place = intervals.sweep();
         let barrier = match axis {
             // Above the minimum elevation a known angle needs no permission to go on.

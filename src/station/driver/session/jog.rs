@@ -71,7 +71,7 @@ impl Session {
     /// Returns `true` while the jog waits for a position that lasts until the next one comes. The
     /// gate judges the age of a position that does not come.
     fn awaits_young_position(&mut self, now: Moment) -> bool {
-        let asked = self.gate.state().measured.map(|measured| measured.asked);
+        let asked = self.gate.state().measured.map(|measured| measured.requested);
         match asked.map_or(PositionWait::Over, |asked| {
             self.commanded.key.wait_for_position(asked, now.steady)
         }) {

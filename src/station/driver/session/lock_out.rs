@@ -87,9 +87,9 @@ impl Session {
                 is_refused_here.then(|| Refusal::from(lock_out))
             }
             LockedOut::TakesPanel => {
-                let by = lock_out.by.clone();
+                let by = lock_out.operator.clone();
                 let takes_panel = self.setup.can().waits_for_word;
-                takes_panel.then_some(Refusal::PanelLockedOut { by })
+                takes_panel.then_some(Refusal::PanelLockedOut { operator: by })
             }
         };
         let Some(refusal) = refusal else { return false };

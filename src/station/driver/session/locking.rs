@@ -65,7 +65,7 @@ impl Locking {
             progress.is_asked = false;
             return LockStep::Wait;
         }
-        if state.measured.is_none_or(|measured| measured.asked <= progress.begun) {
+        if state.measured.is_none_or(|measured| measured.requested <= progress.begun) {
             return LockStep::Wait;
         }
         match state.program.and_then(|program| program.auto) {

@@ -135,12 +135,14 @@ impl Watch {
                 }
                 continue;
             };
-            let Some((last_deg, asked)) = last.replace((angle_deg, look.asked)) else { continue };
-            let bridged = before.is_some_and(|before| before.asked < look.asked);
+            let Some((last_deg, asked)) = last.replace((angle_deg, look.requested)) else {
+                continue;
+            };
+            let bridged = before.is_some_and(|before| before.requested < look.requested);
             // Without an angle in the position before, the rate comes from the last one that had
             // one.
             if bridged && *rate == 0.0 {
-                *rate = bridged_rate_deg_s(angle_deg - last_deg, look.asked, asked);
+                *rate = bridged_rate_deg_s(angle_deg - last_deg, look.requested, asked);
             }
             let turned_deg = Angle::from_degrees(angle_deg - last_deg).wrapped_180().degrees();
             // Noise, gusts and rounding change the reading of a standing axis. Between two
@@ -161,7 +163,7 @@ impl Watch {
 /// Longest time between two measurements. The reply to a repeated question may have been measured
 /// at any time since the first.
 fn span(before: &Measured, after: &Measured) -> Duration {
-    let asked = after.asked.saturating_duration_since(before.asked);
+    let asked = after.requested.saturating_duration_since(before.requested);
     asked.max(after.received.saturating_duration_since(before.received))
 }
 

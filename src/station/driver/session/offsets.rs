@@ -35,7 +35,7 @@ impl Session {
                 self.offers(step, track)?;
                 before
                     .plus(step)
-                    .ok_or_else(|| Refusal::OffsetTooLarge { most: max_offset(step) })?
+                    .ok_or_else(|| Refusal::OffsetTooLarge { max: max_offset(step) })?
             }
             OffsetChange::Zero => TrackOffsets::NONE,
             OffsetChange::Undo => track.last_earlier().ok_or(Refusal::Nothing)?,

@@ -145,7 +145,7 @@ impl Watch {
     /// Returns `true`, once for each position, while the satellite is up.
     pub(super) fn is_due(&mut self, measured: &Measured) -> bool {
         let target = &self.judge.pass().target;
-        let is_up = (target.from..target.until).contains(&measured.at);
+        let is_up = (target.start..target.end).contains(&measured.time);
         is_up && self.compared.replace(measured.received) != Some(measured.received)
     }
 
@@ -176,7 +176,7 @@ impl Watch {
         let off = measured.pointing.separation(to.into());
         from.separation(to).degrees() > finest_deg
             && off.is_some_and(|off| off.degrees() > finest_deg)
-            && measured.asked.saturating_duration_since(before.asked) >= shows_after
+            && measured.requested.saturating_duration_since(before.requested) >= shows_after
     }
 
     /// Compares a position with the satellite. `meant`: offsets that are meant to be on.
@@ -188,14 +188,14 @@ impl Watch {
         limits: PointingLimits,
         now: Instant,
     ) {
-        let predicted = meant.demanded(measured.at, |at| self.judge.direction(at));
+        let predicted = meant.demanded(measured.time, |at| self.judge.direction(at));
         let off = predicted.and_then(|predicted| measured.pointing.separation(predicted.into()));
         let Some(off) = off else { return };
         // Both axes may have to turn by more than the beam.
         let slew_s = 2.0 * off.degrees() / limits.max_rate_deg_s;
         let slew = Duration::try_from_secs_f64(slew_s).unwrap_or_default();
         let is_off = |off: &Angle| *off > limits.on_target;
-        let by_clock = self.by_unit_clock(unit, meant, measured.at);
+        let by_clock = self.by_unit_clock(unit, meant, measured.time);
         let by_clock = by_clock.and_then(|to| measured.pointing.separation(to.into()));
         let is_explained = by_clock.is_some_and(|off| !is_off(&off));
         let unexplained = Some(off).filter(|off| is_off(off) && !is_explained);

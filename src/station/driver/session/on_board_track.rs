@@ -159,7 +159,7 @@ impl Session {
             return;
         }
         // Where this unit goes, by its own minimum elevation, clock and window.
-        let own = watch.judge().start(&unit, measured.at);
+        let own = watch.judge().start(&unit, measured.time);
         if own.is_some_and(|to| self.stands_while_it_should_track(&measured, to, now)) {
             return self.end_without_effect(None, now);
         }

@@ -32,7 +32,7 @@ impl Overrun {
     /// evenly turn on for longer the faster they are.
     pub(super) fn end(&mut self, rest: &Measured, fastest_deg_s: f64) -> Option<f64> {
         let (before, rates, stop) = self.before.take()?;
-        let to_stop_s = stop.saturating_duration_since(before.asked).as_secs_f64();
+        let to_stop_s = stop.saturating_duration_since(before.requested).as_secs_f64();
         let axes = before.axes.iter().zip(&rest.axes).zip(rates);
         let overrun_s = axes
             .filter(|(_, rate)| rate.abs() >= fastest_deg_s * TELLING_SHARE)

@@ -79,7 +79,7 @@ impl Owed {
     /// An earlier run left a mark. `asks`: the operator must decide.
     pub(super) fn found_mark(&mut self, begun: Option<Timestamp>, asks: bool) {
         self.marking = Marking::found(begun);
-        self.left_moving = asks.then_some(LeftMoving { since: begun });
+        self.left_moving = asks.then_some(LeftMoving { start: begun });
     }
 
     /// Why the next start would not know that a STOP is owed.

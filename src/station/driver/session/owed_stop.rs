@@ -66,7 +66,7 @@ impl Session {
         } else {
             self.halt(now);
         }
-        self.tell(Event::Safety(Safety::LeftMoving { since: begun, asks }));
+        self.tell(Event::Safety(Safety::LeftMoving { start: begun, asks }));
     }
 
     /// Records on disk that a STOP is owed, for a program that ends before it is proved. A slow

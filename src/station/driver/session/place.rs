@@ -1,7 +1,7 @@
 //! The barrier that an antenna is inside of.
 
 use crate::{
-    clock::Instant, contract::driver::Inside, device::Measured, name::Name, plan::Barrier,
+    clock::Instant, contract::driver::Breach, device::Measured, name::Name, plan::Barrier,
 };
 
 /// The barrier that the antenna is, or may be, inside of by the last position.
@@ -24,9 +24,9 @@ impl Place {
     }
 
     /// For the snapshot. `axes`: their names.
-    pub(super) fn view(&self, axes: &[Name], may_leave: bool) -> Option<Inside> {
+    pub(super) fn view(&self, axes: &[Name], may_leave: bool) -> Option<Breach> {
         let barrier = self.barrier.clone()?;
         let unknown_axis = self.unknown_axis.and_then(|axis| axes.get(axis)).copied();
-        Some(Inside { barrier, unknown_axis, may_leave })
+        Some(Breach { barrier, unknown_axis, may_leave })
     }
 }

@@ -34,7 +34,7 @@ impl Session {
         tracing::info!(antenna = self.setup.name(), name, passes = follow.passes.len(), "follow");
         let TrackConfig { mut drives, settings, model } = self.setup.track_config();
         // The unit's own limits may be tighter than those of the station file.
-        drives.mount = drives.mount.within(self.gate.state().travel_deg);
+        drives.mount = drives.mount.clipped(self.gate.state().travel_deg);
         let follow =
             if settings.after == AfterPass::Next { follow } else { follow.one_pass(now.utc) };
         let phase = follow.phase(now.utc);
@@ -203,10 +203,10 @@ impl Session {
                 }
             }
             // It waits at the edge, and goes on once the way is free.
-            Err(Refusal::Forbidden { barrier, at }) => {
+            Err(Refusal::Forbidden { barrier, direction: at }) => {
                 let track = self.commanded.activity.program_mut();
                 if track.is_some_and(|track| track.block(now.steady)) {
-                    self.tell(Event::NotSent(Refusal::Forbidden { barrier, at }));
+                    self.tell(Event::NotSent(Refusal::Forbidden { barrier, direction: at }));
                 }
             }
             // It will be known later.

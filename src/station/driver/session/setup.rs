@@ -40,7 +40,7 @@ impl Setup {
             variant,
             park: antenna.park_direction().into(),
             track_config: TrackConfig::new(antenna, variant.capabilities),
-            ability: Ability::of(antenna),
+            ability: Ability::from_antenna(antenna),
             resume: antenna.resume,
             resume_after: Duration::try_from_secs_f64(antenna.resume_after_s).unwrap_or_default(),
             sway_deg: antenna.sway_deg,

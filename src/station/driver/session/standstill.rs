@@ -104,7 +104,7 @@ impl Looks {
     /// When to ask for a position that proves standstill if it agrees with the first one.
     pub(super) fn next(&self, figures: Figures) -> Option<Instant> {
         let received = |first: &Measured| first.received + figures.gap.saturating_sub(UNEVEN);
-        self.first.map(|first| (first.asked + figures.gap).max(received(&first)))
+        self.first.map(|first| (first.requested + figures.gap).max(received(&first)))
     }
 
     /// Returns `true` if another STOP could help: not while all positions agree.
@@ -136,10 +136,10 @@ impl Looks {
         link_since: Option<Instant>,
         figures: Figures,
     ) -> Option<Proof> {
-        self.last = Some(look.asked);
+        self.last = Some(look.requested);
         // Positions of two links prove nothing: in between anybody may have moved the antenna.
         let on_link =
-            self.first.filter(|first| link_since.is_some_and(|begun| first.asked >= begun));
+            self.first.filter(|first| link_since.is_some_and(|begun| first.requested >= begun));
         let first = on_link.filter(|first| figures.turned(first, &look).is_none());
         self.turned |= on_link.is_some() && first.is_none();
         if !is_at_rest {
@@ -148,8 +148,8 @@ impl Looks {
         }
         let first = *self.first.insert(first.unwrap_or(look));
         // Each may have been measured at any time between its question and its reply.
-        let asked = look.asked.saturating_duration_since(first.asked);
-        let apart = look.asked.saturating_duration_since(first.received);
+        let asked = look.requested.saturating_duration_since(first.requested);
+        let apart = look.requested.saturating_duration_since(first.received);
         if asked < figures.gap || apart + UNEVEN < figures.gap {
             return None;
         }
@@ -187,8 +187,8 @@ impl Rest {
             *self = Self { shown: began, ..Self::default() };
             return None;
         }
-        let (begun, anchor) = self.resting.get_or_insert((look.asked, None));
-        if look.asked.saturating_duration_since(*begun) < Self::RUN_OUT {
+        let (begun, anchor) = self.resting.get_or_insert((look.requested, None));
+        if look.requested.saturating_duration_since(*begun) < Self::RUN_OUT {
             return None;
         }
         let anchor = anchor.get_or_insert(look);
@@ -197,10 +197,10 @@ impl Rest {
         let is_new = began.is_some_and(|began| {
             self.shown < Some(began)
                 && look.received > began
-                && look.asked.saturating_duration_since(began) < Self::RUN_OUT
+                && look.requested.saturating_duration_since(began) < Self::RUN_OUT
         });
         if is_new {
-            (self.resting, self.shown) = (Some((look.asked, None)), began);
+            (self.resting, self.shown) = (Some((look.requested, None)), began);
             return None;
         }
         (!std::mem::replace(&mut self.is_reported, true)).then_some(turned)
@@ -228,8 +228,8 @@ mod tests {
             minus_limit: false,
         };
         Measured {
-            at: Timestamp::UNIX_EPOCH,
-            asked: at,
+            time: Timestamp::UNIX_EPOCH,
+            requested: at,
             received: at,
             pointing: AzEl::from_degrees(0.0, 0.0).into(),
             axes: angles_deg.map(axis),
@@ -278,7 +278,7 @@ mod tests {
         let (gap, far) = (figures().gap(), start + Duration::from_mins(1));
         for late in [20, 90, 300, 900].map(Duration::from_millis) {
             let mut looks = Looks::default();
-            let late_by = |look: Measured| Measured { received: look.asked + late, ..look };
+            let late_by = |look: Measured| Measured { received: look.requested + late, ..look };
             let first = late_by(look(start, 0.0, [Some(10.0), Some(69.0)]));
             assert_eq!(looks.take(first, true, Some(start), figures()), None);
             let asked = looks.next(figures()).unwrap();
@@ -289,7 +289,7 @@ mod tests {
             assert_eq!(looks.take(early, true, Some(start), figures()), None);
             assert!(looks.is_due(figures(), far), "another one is needed");
             // This reply comes at once.
-            let next = Measured { asked, received: asked, ..first };
+            let next = Measured { requested: asked, received: asked, ..first };
             assert_eq!(looks.take(next, true, Some(start), figures()), Some(Proof::Angles));
         }
     }
@@ -338,7 +338,7 @@ mod tests {
             .filter_map(|step| {
                 let at_s = f64::from(step) * 0.1;
                 let look = look(start, at_s, [Some(first_deg(at_s)), Some(20.0)]);
-                let begun = Some(began).filter(|began| *began <= look.asked);
+                let begun = Some(began).filter(|began| *began <= look.requested);
                 rest.take(look, true, begun, figures()).map(|_| at_s)
             })
             .collect()

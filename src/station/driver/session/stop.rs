@@ -118,13 +118,13 @@ impl Stop {
     pub(super) fn shown(&self, now: Instant) -> StopState {
         match &self.stage {
             Stage::UnderWay(halting) if halting.is_reported => {
-                StopState::NotConfirmed { since: halting.begun }
+                StopState::NotConfirmed { start: halting.begun }
             }
             Stage::UnderWay(halting) if halting.pressed => {
-                StopState::Stopping { since: halting.begun }
+                StopState::Stopping { start: halting.begun }
             }
             &Stage::Proved { at } if now.saturating_duration_since(at) < SHOWN => {
-                StopState::Stopped { at }
+                StopState::Stopped { time: at }
             }
             Stage::UnderWay(_) | Stage::Proved { .. } | Stage::Ready => StopState::Ready,
         }
@@ -169,7 +169,7 @@ impl Stop {
         // alone.
         let is_at_rest = is_at_rest && !(halting.pressed && state.turns_besides);
         // A position from before the STOP proves nothing.
-        let look = state.measured.filter(|measured| measured.asked >= halting.sent_at);
+        let look = state.measured.filter(|measured| measured.requested >= halting.sent_at);
         let proof =
             look.and_then(|look| halting.looks.take(look, is_at_rest, state.link_since, figures));
         if proof.is_some() {

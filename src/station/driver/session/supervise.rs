@@ -14,7 +14,7 @@ use crate::{
     astro::Angle,
     clock::{Instant, Moment},
     contract::driver::{Event, Found, Intent, Refusal},
-    device::{Asked, AxisMotion, ControllerEvent, Motion, Phase, Pointing, TrackTarget},
+    device::{AxisMotion, ControllerEvent, Motion, MotionRequest, Phase, Pointing, TrackTarget},
 };
 
 /// Time within which an accepted command to track must show in the unit's state.
@@ -135,7 +135,7 @@ impl Session {
             }
             ControllerEvent::Accepted(asked) => {
                 self.gate.motion_accepted(now);
-                if let Asked::Motion(Motion::Position { .. }) = asked {
+                if let MotionRequest::Motion(Motion::Position { .. }) = asked {
                     self.position_taken();
                 }
             }
@@ -174,10 +174,10 @@ impl Session {
     }
 
     /// Ends the activity of a motion or action that does not come about.
-    fn forget(&mut self, asked: Asked, event: Event, now: Moment) {
+    fn forget(&mut self, asked: MotionRequest, event: Event, now: Moment) {
         let motion = match asked {
-            Asked::Motion(motion) => motion,
-            Asked::Action(_) => return self.tell(event),
+            MotionRequest::Motion(motion) => motion,
+            MotionRequest::Action(_) => return self.tell(event),
         };
         match motion {
             // The jog belongs to a mode that has been left, but its halt ends the new one as
@@ -288,7 +288,7 @@ impl Session {
                 matches!(activity, Activity::OnBoardTrack(_)) && !is_under_way
             }
             (_, Activity::OnBoardTrack(track)) if matches!(track.stage, OnBoardStage::Tracking) => {
-                found == Found::Still && now.utc >= track.target.until
+                found == Found::Still && now.utc >= track.target.end
             }
             // Until a STOP reaches the unit, its last command explains the motion.
             (Found::Moving, _) => {
@@ -338,7 +338,7 @@ impl Session {
         if turns {
             return;
         }
-        let arrival = slew.watch(at, measured.asked, turned, within, now.steady);
+        let arrival = slew.watch(at, measured.requested, turned, within, now.steady);
         let Some(arrival) = arrival else { return };
         match arrival {
             Arrival::Leg(then) => match self.next_leg(then, at, within, now) {
@@ -354,7 +354,7 @@ impl Session {
                 None => self.tell(Event::Arrived(aim)),
             },
             Arrival::Short { aim } => {
-                let event = Event::EndedShort { aim, at };
+                let event = Event::EndedShort { aim, position: at };
                 match self.commanded.activity.on_board() {
                     Some(_) => self.give_up(event, now),
                     None => self.tell(event),
@@ -382,7 +382,7 @@ impl Session {
             OnBoardStage::Loading { .. } | OnBoardStage::Starting { .. }
                 if self.stop.is_under_way() => {}
             OnBoardStage::Starting { begun }
-                if !ended && read.is_some_and(|read| read.asked > begun) =>
+                if !ended && read.is_some_and(|read| read.requested > begun) =>
             {
                 track.stage = OnBoardStage::Tracking;
                 let target = track.target.clone();

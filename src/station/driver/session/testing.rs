@@ -90,8 +90,8 @@ pub(in crate::driver) fn pass() -> OnBoardPass {
         catalog_number: 25_544,
         name: "ISS (ZARYA)".into(),
         element_file: None,
-        from: pass.aos.time,
-        until: pass.los.time,
+        start: pass.aos.time,
+        end: pass.los.time,
     };
     OnBoardPass { target, elements, site: site(), is_agreed: false }
 }
@@ -99,7 +99,7 @@ pub(in crate::driver) fn pass() -> OnBoardPass {
 /// A unit that comes to life this long after AOS.
 pub(in crate::driver) fn unit(after_s: f64) -> (Control, Timestamp) {
     let pass = pass();
-    let now = add_seconds(pass.target.from, after_s);
+    let now = add_seconds(pass.target.start, after_s);
     let elements = BTreeMap::from([("stations.txt".to_owned(), vec![pass.elements])]);
     (Control::new(&Options { elements, ..Options::new(site(), now) }), now)
 }

@@ -314,10 +314,10 @@ impl Tracking {
         let is_measured = measured.axes.iter().take(axis_count).all(is_known);
         let began = self.unmeasured.map_or(measured.received, |(began, _)| began);
         self.unmeasured = (!is_measured && !self.asks()).then_some((began, measured.received));
-        self.planner.watch(measured.asked, positions_deg);
+        self.planner.watch(measured.requested, positions_deg);
         let is_up = self.phase == TrackPhase::Tracking;
-        let direction = is_up.then(|| self.planner.reachable(measured.at)).flatten();
-        self.predicted = direction.map(|direction| Sample { time: measured.at, direction });
+        let direction = is_up.then(|| self.planner.reachable(measured.time)).flatten();
+        self.predicted = direction.map(|direction| Sample { time: measured.time, direction });
         if let Some(off) =
             direction.and_then(|direction| measured.pointing.separation(direction.into()))
         {
@@ -330,12 +330,12 @@ impl Tracking {
         }
         let Pointing { azimuth, elevation } = measured.pointing;
         let reported = [azimuth, elevation];
-        let compared =
-            is_free.then(|| self.planner.compare(measured.at, positions_deg, reported, half_beam));
+        let compared = is_free
+            .then(|| self.planner.compare(measured.time, positions_deg, reported, half_beam));
         self.on_path = compared.flatten();
-        let allowed = on_target + self.planner.allowed(measured.at);
+        let allowed = on_target + self.planner.allowed(measured.time);
         let off = match self.on_path {
-            Some(OnPath::Due { off }) => Some(off).filter(|off| *off > allowed),
+            Some(OnPath::Due { deviation: off }) => Some(off).filter(|off| *off > allowed),
             Some(OnPath::OnItsWay { .. }) | None => None,
         };
         self.off_target.take(off, measured.received);
@@ -355,7 +355,7 @@ impl Tracking {
 
     /// The axes, as far as they show the effect of the last command.
     pub(super) fn axes(&self, measured: Measured, latency: Duration) -> [AxisNow; 2] {
-        let shows_it = self.sent.is_none_or(|sent| measured.asked >= sent + latency);
+        let shows_it = self.sent.is_none_or(|sent| measured.requested >= sent + latency);
         measured.axes.map(|axis| AxisNow {
             position_deg: axis.angle_deg,
             stands: shows_it && axis.motion == AxisMotion::Still,

@@ -44,7 +44,7 @@ impl Session {
                 }
                 before
                     .plus(step)
-                    .ok_or_else(|| Refusal::OffsetTooLarge { most: max_offset(step) })?
+                    .ok_or_else(|| Refusal::OffsetTooLarge { max: max_offset(step) })?
             }
             OffsetChange::Zero => TrackOffsets::NONE,
             OffsetChange::Undo => self.unit_offsets.last_earlier().ok_or(Refusal::Nothing)?,
@@ -87,7 +87,7 @@ impl Session {
         let watch = self.on_board_watch().ok_or(Refusal::PassUnknown)?;
         let mut pass = OnBoardPass::clone(watch.judge().pass());
         // The unit runs through the window by its own clock.
-        pass.target.from = pass.target.from.max(self.unit_time(now)).min(pass.target.until);
+        pass.target.start = pass.target.start.max(self.unit_time(now)).min(pass.target.end);
         let judge = Judge::new(pass, self.setup.ability()).map_err(|_| Refusal::PassUnknown)?;
         let judge = Arc::new(judge);
         Ok(Some(Shift { judge, axes: with(after), sky: with(before) }))
@@ -164,10 +164,10 @@ impl Session {
         }
         let shift = self.shift(wanted, now)?;
         let ticket = self.unit_offsets.next_ticket();
-        let group = self.gate.state().held.get(fields.group);
-        let last_read = group.and_then(|group| Some(group.held.as_ref()?.values.clone()));
+        let group = self.gate.state().groups.get(fields.group);
+        let last_read = group.and_then(|group| Some(group.last_read.as_ref()?.values.clone()));
         let change =
-            Change { ticket, group: fields.group, values, seen: last_read, is_unlocked: false };
+            Change { ticket, group: fields.group, values, expected: last_read, is_unlocked: false };
         self.gate.shift_track(change, shift.as_ref(), self.stop.is_under_way(), now)?;
         Ok(Some(ticket))
     }
@@ -202,7 +202,7 @@ impl Session {
     }
 
     fn watch_write(&mut self, fields: &TrackOffsetFields, ticket: u64, now: Moment) {
-        let group = self.gate.state().held.get(fields.group);
+        let group = self.gate.state().groups.get(fields.group);
         let written = group.and_then(|group| group.written.clone());
         let Some(written) = written.filter(|written| written.change.ticket == ticket) else {
             return;

@@ -30,7 +30,7 @@ impl Session {
         let Some(since) = self.gate.unproved_since() else { return };
         let state = self.gate.state();
         let stands = state.measured.is_some_and(|measured| {
-            measured.asked.saturating_duration_since(since) >= SETTLED && !measured.moving()
+            measured.requested.saturating_duration_since(since) >= SETTLED && !measured.moving()
         });
         let program_is_off = state.program.is_none_or(|program| !program.enabled);
         if stands && program_is_off && !self.may_move() {

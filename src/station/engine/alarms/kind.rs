@@ -55,9 +55,12 @@ pub(super) fn is_momentary(kind: &AlarmKind) -> bool {
 /// error of an antenna that is off its satellite stays, and so does a cause once it is known.
 pub(super) fn restated(standing: &AlarmKind, present: &AlarmKind) -> Option<AlarmKind> {
     match (standing, present) {
-        (AlarmKind::OffTarget { off, cause: before }, AlarmKind::OffTarget { cause, .. }) => {
+        (
+            AlarmKind::OffTarget { deviation: off, cause: before },
+            AlarmKind::OffTarget { cause, .. },
+        ) => {
             let is_news = cause.is_some() && cause != before;
-            is_news.then(|| AlarmKind::OffTarget { off: *off, cause: cause.clone() })
+            is_news.then(|| AlarmKind::OffTarget { deviation: *off, cause: cause.clone() })
         }
         _ => (same_matter(standing, present) && standing != present).then(|| present.clone()),
     }

@@ -56,7 +56,7 @@ fn a_cause_that_is_found_later_comes_into_the_alarm_that_stands() {
     let is_missed = |kind: &AlarmKind| matches!(kind, AlarmKind::OffTarget { .. });
     let missed = |off_deg, cause| {
         let off = crate::astro::Angle::from_degrees(off_deg);
-        Some(AlarmKind::OffTarget { off, cause })
+        Some(AlarmKind::OffTarget { deviation: off, cause })
     };
     let cause = OffTargetCause::Measured(Explained { causes: Vec::new(), error_deg: 0.9 });
     for (off_deg, cause) in [(0.8, None), (0.9, Some(cause.clone())), (0.7, None)] {
@@ -65,7 +65,7 @@ fn a_cause_that_is_found_later_comes_into_the_alarm_that_stands() {
     let kinds: Vec<AlarmKind> = alarms.list().iter().map(|alarm| alarm.kind.clone()).collect();
     assert_eq!(kinds, [missed(0.8, Some(cause)).unwrap()]);
     alarms.follow(LOST_OF, time(), None, is_missed);
-    assert_eq!(states(&alarms), [AlarmState::NewAndOver { since: time() }]);
+    assert_eq!(states(&alarms), [AlarmState::NewAndOver { over_since: time() }]);
 }
 
 #[test]
@@ -81,7 +81,7 @@ fn a_lost_link_says_why_it_cannot_be_had_again() {
 fn another_cause_ends_the_alarm_of_the_one_before() {
     let mut alarms = Alarms::default();
     let elements = Cause::Elements { told_deg: 40.0, expected_deg: 71.0 };
-    let differs = |cause| AlarmKind::UnitDiffers(Ranked { cause, off: None });
+    let differs = |cause| AlarmKind::UnitDiffers(Ranked { cause, max_error: None });
     for cause in [elements, Cause::Clock { ahead_s: 12.0 }, Cause::Clock { ahead_s: 14.0 }] {
         let is_of_matter = |kind: &AlarmKind| matches!(kind, AlarmKind::UnitDiffers(_));
         alarms.follow(LOST_OF, time(), Some(differs(cause)), is_of_matter);
@@ -90,7 +90,7 @@ fn another_cause_ends_the_alarm_of_the_one_before() {
     assert_eq!(standing.kind, differs(Cause::Clock { ahead_s: 14.0 }), "the figures of now");
     assert_eq!(
         states(&alarms),
-        [AlarmState::NewAndOver { since: time() }, AlarmState::New],
+        [AlarmState::NewAndOver { over_since: time() }, AlarmState::New],
         "the wrong cause is over"
     );
 }
@@ -109,15 +109,15 @@ fn an_alarm_has_four_states_and_says_since_when_it_is_over() {
     alarms.acknowledge(alarms.newest_unseen().unwrap(), time());
     assert_eq!(states(&alarms), [AlarmState::Seen]);
     alarms.clear(LOST_OF, over, |_| true);
-    assert_eq!(states(&alarms), [AlarmState::Over { since: over }]);
+    assert_eq!(states(&alarms), [AlarmState::Over { over_since: over }]);
 
     let mut alarms = Alarms::default();
     alarms.raise(LOST_OF, LOST, time());
     alarms.clear(LOST_OF, over, |_| true);
     alarms.clear(LOST_OF, over + 1.hour(), |_| true);
-    assert_eq!(states(&alarms), [AlarmState::NewAndOver { since: over }]);
+    assert_eq!(states(&alarms), [AlarmState::NewAndOver { over_since: over }]);
     alarms.acknowledge(alarms.newest_unseen().unwrap(), over + 1.minute());
-    assert_eq!(states(&alarms), [AlarmState::Over { since: over }]);
+    assert_eq!(states(&alarms), [AlarmState::Over { over_since: over }]);
 }
 
 #[test]
@@ -128,7 +128,7 @@ fn a_moment_is_over_when_it_is_seen() {
     }
     assert_eq!((states(&alarms), alarms.list()[0].count), (vec![AlarmState::New], 3));
     alarms.acknowledge(alarms.newest_unseen().unwrap(), time() + 1.second());
-    assert_eq!(states(&alarms), [AlarmState::Over { since: time() + 1.second() }]);
+    assert_eq!(states(&alarms), [AlarmState::Over { over_since: time() + 1.second() }]);
 }
 
 #[test]
@@ -165,7 +165,7 @@ fn what_is_over_stays_for_the_day() {
     alarms.pass_time(time() + 24.hours() - 1.second());
     assert_eq!(alarms.list().len(), 2);
     alarms.pass_time(time() + 24.hours());
-    assert_eq!(states(&alarms), [AlarmState::NewAndOver { since: time() }], "nobody saw it");
+    assert_eq!(states(&alarms), [AlarmState::NewAndOver { over_since: time() }], "nobody saw it");
 }
 
 #[test]
@@ -178,7 +178,7 @@ fn an_alarm_on_the_shelf_is_quiet_and_comes_back_when_its_time_is_up() {
     alarms.clear(LOST_OF, time(), |_| true);
     alarms.raise(LOST_OF, LOST, time() + 1.minute());
     alarms.pass_time(until - 1.second());
-    assert_eq!(states(&alarms), [AlarmState::Shelved { until }]);
+    assert_eq!(states(&alarms), [AlarmState::Shelved { end: until }]);
     assert_eq!((alarms.newest_unseen(), alarms.unopened), (None, false));
     alarms.pass_time(until);
     assert_eq!((states(&alarms), alarms.unopened), (vec![AlarmState::New], true));
@@ -190,7 +190,7 @@ fn an_alarm_on_the_shelf_is_quiet_and_comes_back_when_its_time_is_up() {
     alarms.shelve(id, ShelveTime::OneHour, until);
     alarms.clear(LOST_OF, until, |_| true);
     alarms.pass_time(until + 2.hours());
-    assert_eq!(states(&alarms), [AlarmState::Over { since: until }]);
+    assert_eq!(states(&alarms), [AlarmState::Over { over_since: until }]);
 }
 
 #[test]
@@ -209,7 +209,7 @@ fn a_top_priority_alarm_is_never_shelved() {
         AlarmKind::StopNotConfirmed,
         AlarmKind::StopRefused("ERR,7".to_owned()),
         AlarmKind::StopNotElsewhere,
-        AlarmKind::Owed(Unit::of(&Antenna::satrak("Dish", "10.0.0.5:4001"))),
+        AlarmKind::Owed(Unit::new(&Antenna::satrak("Dish", "10.0.0.5:4001"))),
         AlarmKind::Safety(Safety::DeadManFired),
         AlarmKind::Safety(Safety::FlagsContradict { axis: "X", turned_deg: 2.0 }),
         AlarmKind::Safety(Safety::Forbidden {
@@ -268,7 +268,7 @@ fn red_alarms_that_stand_come_before_all_that_are_over() {
 
 #[test]
 fn alarms_of_a_removed_antenna_go_but_for_what_its_unit_is_owed() {
-    let owed = AlarmKind::Owed(Unit::of(&Antenna::satrak("Dish", "10.0.0.5:4001")));
+    let owed = AlarmKind::Owed(Unit::new(&Antenna::satrak("Dish", "10.0.0.5:4001")));
     let mut alarms = Alarms::default();
     alarms.raise(LOST_OF, LOST, time());
     alarms.clear(LOST_OF, time(), |_| true);
@@ -324,7 +324,7 @@ fn a_check_is_over_when_it_is_told_to_be_good_or_worse() {
 #[test]
 fn a_check_that_is_told_in_other_words_is_the_same_matter() {
     let check = Check::new("X position sensor", CheckState::Fault, "Look at it.");
-    let told = Check { told: "Not connected".into(), ..check.clone() };
+    let told = Check { unit_text: "Not connected".into(), ..check.clone() };
     let mut alarms = Alarms::default();
     alarms.raise(Some(AntennaId::FIRST), AlarmKind::Check(check), time());
     alarms.raise(Some(AntennaId::FIRST), AlarmKind::Check(told), time());

@@ -27,7 +27,7 @@ pub(super) fn past_track(name: String, errors: &Errors) -> Option<PastTrack> {
     let worst = *finite().max_by(by_size)?;
     let is_kept = |error: &ErrorSample| [worst.time, last.time].contains(&error.time);
     let errors = errors.thinned(INTERVAL_S, is_kept);
-    Some(PastTrack { name, from: first.time, until: last.time, rms, worst, errors })
+    Some(PastTrack { name, start: first.time, end: last.time, rms, worst, errors })
 }
 
 #[cfg(test)]
@@ -75,7 +75,7 @@ mod tests {
         let track = past.iter().next().unwrap();
         let times: Vec<Timestamp> = track.errors.iter().map(|error| error.time).collect();
         assert!((600..=602).contains(&times.len()), "{}", times.len());
-        assert!(times.contains(&track.worst.time) && times.last() == Some(&track.until));
+        assert!(times.contains(&track.worst.time) && times.last() == Some(&track.end));
         assert!((track.worst.off_beam.degrees() - 0.7).abs() < 1e-9);
     }
 
@@ -88,7 +88,7 @@ mod tests {
         let track = Arc::clone(past.iter().next().unwrap());
         assert!((track.rms.degrees() - 0.1_f64.sqrt()).abs() < 1e-9, "{:?}", track.rms);
         assert!((track.worst.off_beam.degrees() - 0.5).abs() < 1e-9);
-        assert_eq!((track.from.as_second(), track.until.as_second()), (0, 5));
+        assert_eq!((track.start.as_second(), track.end.as_second()), (0, 5));
         for number in 0..20 {
             keep(&mut past, &format!("SAT {number}"), &errors(&[0.1; 9]));
         }

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::{
     contract::{
-        passes::PassKey,
+        passes::PassListKey,
         transfer::{FileHash, FileObject},
     },
     engine::uploads::UploadTarget,
@@ -91,12 +91,12 @@ impl LastRun {
     }
 
     /// The pass that this antenna's unit was last proved to be on its way to.
-    pub(super) fn held_by(&self, antenna: AntennaId) -> Option<PassKey> {
+    pub(super) fn held_by(&self, antenna: AntennaId) -> Option<PassListKey> {
         let held = self.held.iter().find(|held| held.antenna == antenna)?;
         Some((held.satellite, held.aos))
     }
 
-    pub(super) fn holds(&mut self, antenna: AntennaId, (satellite, aos): PassKey) {
+    pub(super) fn holds(&mut self, antenna: AntennaId, (satellite, aos): PassListKey) {
         self.held.retain(|held| held.antenna != antenna);
         self.held.push(Held { antenna, satellite, aos });
     }

@@ -51,7 +51,7 @@ impl Engine {
             return;
         }
         let taking = antenna.shown.operation.taking();
-        let is_taken = taking.is_some_and(|taking| taking.given_up.is_none() && now < taking.until);
+        let is_taken = taking.is_some_and(|taking| taking.given_up.is_none() && now < taking.end);
         if is_kept && is_taken {
             antenna.at_work.clock_stop = ClockStop::default();
             antenna.shown.track_again = None;

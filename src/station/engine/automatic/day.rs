@@ -56,7 +56,7 @@ impl Flight {
         self.seen_to = until;
         let by = match operation {
             Operation::Off(because) => Some(MissCause::Off(*because)),
-            Operation::Suspended { by, .. } => Some(MissCause::Suspended(*by)),
+            Operation::Suspended { interruption: by, .. } => Some(MissCause::Suspended(*by)),
             // Its link tells why.
             Operation::On(_) if !seen.is_live => None,
             Operation::On(_) if seen.awaits_operator => Some(MissCause::NotResumed),
@@ -88,7 +88,7 @@ impl Flight {
     /// The cause of most of what was lost, apart from what the mount had to lose.
     fn cause(&self, report: Option<&PassReport>) -> MissCause {
         let Duty { from, until, .. } = self.duty;
-        let nothing = [LostStretch { from, until, cause: LossCause::NotMeasured }];
+        let nothing = [LostStretch { start: from, end: until, cause: LossCause::NotMeasured }];
         let losses = report.map_or(&nothing[..], |report| &report.losses);
         let could_be_had = losses.iter().filter(|lost| !lost.cause.is_of_mount());
         let by_far = self.longest(could_be_had).or_else(|| self.longest(losses.iter()));
@@ -107,7 +107,7 @@ impl Flight {
         for lost in losses {
             let mut left_s = lost.seconds();
             for hindered in &self.hindered {
-                let (from, until) = (hindered.from.max(lost.from), hindered.until.min(lost.until));
+                let (from, until) = (hindered.from.max(lost.start), hindered.until.min(lost.end));
                 let common_s = seconds_between(from, until).max(0.0);
                 if common_s > 0.0 {
                     add(hindered.by, common_s);
@@ -124,8 +124,8 @@ impl Flight {
 /// Adds a line, and drops those of earlier days (UTC).
 pub(super) fn add(list: &mut Vec<DayLine>, line: DayLine) {
     let day = |at: Timestamp| at.to_zoned(TimeZone::UTC).date();
-    let today = day(line.at);
-    list.retain(|known| day(known.at) == today);
+    let today = day(line.time);
+    list.retain(|known| day(known.time) == today);
     if list.len() >= MAX {
         list.remove(0);
     }
@@ -166,8 +166,8 @@ mod tests {
         let losses: Vec<LostStretch> = losses
             .iter()
             .map(|(from, until, cause)| LostStretch {
-                from: at(*from),
-                until: at(*until),
+                start: at(*from),
+                end: at(*until),
                 cause: *cause,
             })
             .collect();
@@ -206,7 +206,7 @@ mod tests {
         let on = Operation::switched_on();
         let off = Operation::Off(OffBecause::Stop);
         let by = Interruption::ByHand;
-        let suspended = Operation::Suspended { by, since: at(0.0) };
+        let suspended = Operation::Suspended { interruption: by, start: at(0.0) };
         let lost = |seen: &[(std::ops::Range<i32>, &Operation)], losses| {
             let mut flight = flight();
             for (seconds, operation) in seen {
@@ -246,9 +246,9 @@ mod tests {
     fn the_list_is_that_of_one_day() {
         let mut list = Vec::new();
         let line = |second: f64| DayLine {
-            at: at(second),
+            time: at(second),
             antenna: AntennaId(1),
-            what: DayEvent::SwitchedOn,
+            event: DayEvent::SwitchedOn,
         };
         for second in [10.0, 86_399.0, 86_401.0] {
             add(&mut list, line(second));

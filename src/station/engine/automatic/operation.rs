@@ -12,7 +12,7 @@ use crate::{
         automatic::{
             Attempt, Doing, GivenUp, Interruption, NotReady, OffBecause, On, Operation, Taking,
         },
-        passes::PassKey,
+        passes::PassListKey,
     },
     plan::Loss,
 };
@@ -50,7 +50,7 @@ fn is_final(reason: GivenUp) -> bool {
 /// A pass that the schedule gives to the antenna.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Duty {
-    pub pass: PassKey,
+    pub pass: PassListKey,
     /// First and last moment that count.
     pub from: Timestamp,
     pub until: Timestamp,
@@ -105,7 +105,7 @@ pub(in crate::engine) struct Wishes {
     pub(in crate::engine) announced_for_s: f64,
     /// The pass that automatic operation proved last, in this run or the one before: the unit may
     /// go on with it on its own.
-    pub(in crate::engine) held: Option<PassKey>,
+    pub(in crate::engine) held: Option<PassListKey>,
 }
 
 /// Action of the station for automatic operation.
@@ -205,7 +205,7 @@ impl Operate for Operation {
 
     fn suspend(&mut self, by: Interruption, now: Timestamp) {
         if self.is_on() {
-            *self = Self::Suspended { by, since: now };
+            *self = Self::Suspended { interruption: by, start: now };
         }
     }
 
@@ -306,7 +306,7 @@ fn see(active: &mut On, seen: Seen, now: Timestamp) {
                 taking.given_up = taking.given_up.filter(|given_up| is_final(*given_up));
             }
         }
-        if now >= taking.until {
+        if now >= taking.end {
             // A track from here counts as proved before the unit has answered to it.
             if taking.proved_at.is_some() && taking.given_up.is_none() {
                 active.failures = 0;
@@ -415,8 +415,8 @@ fn take(active: &mut On, duty: Duty, requests: u8, now: Timestamp) {
     active.moved_at = Some(now);
     active.doing = Doing::Takes(Taking {
         pass,
-        from,
-        until,
+        start: from,
+        end: until,
         asked_at: now,
         requests,
         attempt: Attempt::NotBegun,
@@ -521,7 +521,7 @@ fn end_after_failures(operation: &mut Operation) {
 }
 
 /// Returns `true` if both are one pass: newer elements move its AOS a little.
-pub(in crate::engine) fn is_same_pass(one: PassKey, other: PassKey) -> bool {
+pub(in crate::engine) fn is_same_pass(one: PassListKey, other: PassListKey) -> bool {
     one.0 == other.0 && seconds_between(one.1, other.1).abs() < SAME_AOS_S
 }
 

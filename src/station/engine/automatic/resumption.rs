@@ -27,7 +27,7 @@ pub(super) struct Resumption {
 
 /// Identifies the content of a station; `None` if it cannot be written.
 pub(super) fn fingerprint(station: &Station) -> Option<FileHash> {
-    toml::to_string(station).ok().map(|text| FileHash::of(text.as_bytes()))
+    toml::to_string(station).ok().map(|text| FileHash::new(text.as_bytes()))
 }
 
 /// Returns `true` for an event that would end or suspend automatic operation.
@@ -100,11 +100,11 @@ impl Engine {
         let owed = debts.units();
         for antenna in &mut self.antennas {
             let config = &antenna.shown.config;
-            let unit = Unit::of(config);
+            let unit = Unit::new(config);
             // Somebody moved it by hand, or pressed STOP.
             let is_marked = owed.contains(&unit) || debts.is_marked(&unit);
             let is_free = antenna.shown.held_by.is_none()
-                && self.lock_outs.of(&config.connection).is_none()
+                && self.lock_outs.find(&config.connection).is_none()
                 && !is_marked;
             let is_allowed =
                 is_free && config.automatic.resumes_after_crash && last.was_on_at_crash(config.id);
@@ -156,7 +156,7 @@ impl Engine {
     /// Returns `true` if the unit is at rest, owed nothing, and controlled by nobody else.
     fn is_ready(&self, antenna: &Antenna) -> bool {
         let (shown, snapshot) = (&antenna.shown, &antenna.shown.snapshot);
-        let unit = Unit::of(&shown.config);
+        let unit = Unit::new(&shown.config);
         let debts = self.driver.debts();
         let is_stopped = match snapshot.stop {
             StopState::Ready | StopState::Stopped { .. } => true,

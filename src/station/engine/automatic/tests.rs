@@ -8,7 +8,7 @@ use tokio::sync::mpsc;
 use super::*;
 use crate::{
     clock::Clock,
-    contract::By,
+    contract::CommandOrigin,
     controller::SPECS,
     driver::{Dial, Outside, UnitLock},
     engine::{Outbox, Settings},
@@ -45,7 +45,7 @@ fn a_stop_before_the_first_turn_keeps_it_off_at_the_next_start() {
     assert!(engine.antennas[0].shown.operation.is_on());
     engine.note_stop(&Stopped {
         at: engine.steady,
-        by: By::Window,
+        by: CommandOrigin::Window,
         antennas: Vec::new(),
         elsewhere: Vec::new(),
         tracked: Vec::new(),

@@ -84,7 +84,7 @@ impl Engine {
         let ClockSetting { group, from_here, .. } = *setting;
         work.setting = Some(ClockChange { ticket, group, sent: steady, was_ahead_s });
         let values = from_here();
-        let change = Change { ticket, group, values, seen: None, is_unlocked: false };
+        let change = Change { ticket, group, values, expected: None, is_unlocked: false };
         self.send(index, driver::Command::WriteSettings(change));
     }
 
@@ -135,7 +135,7 @@ impl Engine {
         let steady = self.steady;
         let Some(antenna) = self.antennas.get_mut(index) else { return };
         let Some(change) = antenna.at_work.upkeep.setting else { return };
-        let groups = &antenna.shown.snapshot.state.held;
+        let groups = &antenna.shown.snapshot.state.groups;
         let written = groups.get(change.group).and_then(|group| group.written.as_ref());
         let answer = written.filter(|written| written.change.ticket == change.ticket);
         let what = match answer {
@@ -148,11 +148,11 @@ impl Engine {
                     work.next_setting = Some(steady + RETRY_AT_REST);
                     return;
                 }
-                Err(why) => DayEvent::ClockNotSet { why: why.to_string() },
+                Err(why) => DayEvent::ClockNotSet { reason: why.to_string() },
             },
             None if steady.saturating_duration_since(change.sent) > ANSWER_TIMEOUT => {
                 DayEvent::ClockNotSet {
-                    why: "the unit did not answer, or STOP came first".to_owned(),
+                    reason: "the unit did not answer, or STOP came first".to_owned(),
                 }
             }
             None => return,
@@ -175,12 +175,12 @@ fn is_clock_off(rule: &Upkeep, clock: UnitClock, now: Timestamp) -> bool {
 fn is_free(entries: &[Entry], antenna: AntennaId, now: Timestamp, takes_s: f64) -> bool {
     !entries.iter().any(|entry| {
         let sets_out = sets_out(entry, BetweenPasses::Stay);
-        entry.antenna == antenna && now < entry.to && seconds_between(now, sets_out) < takes_s
+        entry.antenna == antenna && now < entry.end && seconds_between(now, sets_out) < takes_s
     })
 }
 
 fn is_kept_by_unit(setting: &ClockSetting, antenna: &AntennaModel) -> bool {
-    let group = antenna.snapshot.state.held.get(setting.group);
-    let reading = group.and_then(|group| group.held.as_ref());
+    let group = antenna.snapshot.state.groups.get(setting.group);
+    let reading = group.and_then(|group| group.last_read.as_ref());
     reading.is_some_and(|reading| (setting.is_kept_by_unit)(&reading.values))
 }

@@ -39,7 +39,7 @@ impl Search {
         let work = match (&self.running, &self.halted) {
             (Some(Running { progress, .. }), _) => Work::UnderWay {
                 done: progress.done.load(Ordering::Relaxed),
-                of: progress.of.load(Ordering::Relaxed),
+                total: progress.of.load(Ordering::Relaxed),
             },
             (None, Some(_)) => Work::Cancelled,
             (None, None) => Work::Nothing,

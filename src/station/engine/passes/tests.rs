@@ -6,7 +6,7 @@ use std::{
 use super::*;
 use crate::{
     astro::{Site, time::add_seconds},
-    contract::passes::{PassKey, PredictedPass, Work},
+    contract::passes::{PassListKey, PredictedPass, Work},
     makes::DemoAddresses,
     orbit::{bundled, read_element_bytes, write_omm_json},
 };
@@ -73,7 +73,7 @@ impl Fixture {
         self.refresh();
         while [Scope::Favourites, Scope::All]
             .iter()
-            .any(|scope| matches!(self.pass_lists.of(*scope).work, Work::UnderWay { .. }))
+            .any(|scope| matches!(self.pass_lists.list(*scope).work, Work::UnderWay { .. }))
         {
             self.woken.recv_timeout(Duration::from_mins(1)).expect("a sign of life");
             self.refresh();
@@ -133,7 +133,7 @@ fn what_never_sets_stands_behind_the_passes_of_favourites_whatever_the_span() {
     fixture.finish();
     let favourites = &fixture.pass_lists.favourites;
     for (span_h, is_cut) in [(1, true), (12, true), (48, false)] {
-        let listed = favourites.within(now(), span_h);
+        let listed = favourites.upcoming_within(now(), span_h);
         assert_eq!(listed.len() < favourites.passes.len(), is_cut, "{span_h} h");
         let last = listed.get(listed.len() - 1).unwrap();
         assert_eq!((last.number(), listed.row(last.key())), (METEOSAT_12, Some(listed.len() - 1)));
@@ -244,7 +244,8 @@ fn a_shorter_span_shows_the_beginning_of_the_list() {
     let mut fixture = Fixture::new();
     fixture.finish();
     let favourites = &fixture.pass_lists.favourites;
-    let (short, long) = (favourites.within(now(), 6), favourites.within(now(), 48));
+    let (short, long) =
+        (favourites.upcoming_within(now(), 6), favourites.upcoming_within(now(), 48));
     assert!(short.len() < long.len() && long.len() == favourites.passes.len());
     let end = add_seconds(now(), 6.0 * 3600.0);
     assert!(short.iter().all(|pass| pass.pass.aos.time < end));
@@ -261,11 +262,11 @@ fn the_rows_are_the_passes_that_are_neither_over_nor_too_late() {
         let end = add_seconds(from, f64::from(span_h) * 3600.0);
         let begins_in_time = |of: &PredictedPass| of.is_always_up() || of.pass.aos.time < end;
         let is_listed = |of: &&PredictedPass| of.pass.los.time > from && begins_in_time(of);
-        let expected: Vec<PassKey> =
+        let expected: Vec<PassListKey> =
             favourites.passes.iter().filter(is_listed).map(PredictedPass::key).collect();
-        let listed = favourites.within(from, span_h);
+        let listed = favourites.upcoming_within(from, span_h);
         assert_eq!(listed.iter().map(PredictedPass::key).collect::<Vec<_>>(), expected);
-        let rows: Vec<PassKey> =
+        let rows: Vec<PassListKey> =
             (0..listed.len()).filter_map(|row| listed.get(row)).map(PredictedPass::key).collect();
         assert_eq!(rows, expected);
         for predicted in &*favourites.passes {
@@ -277,7 +278,9 @@ fn the_rows_are_the_passes_that_are_neither_over_nor_too_late() {
         let dated_passes = favourites.passes.iter().filter(|of| !of.is_always_up());
         assert_eq!(listed.begun(from), dated_passes.filter(is_begun).count(), "{after_h} h");
         let until = favourites.upcoming(from);
-        assert!(until.until(end).map(PredictedPass::key).eq(dated.map(PredictedPass::key)));
+        assert!(
+            until.starting_before(end).map(PredictedPass::key).eq(dated.map(PredictedPass::key))
+        );
     }
 }
 

@@ -75,8 +75,8 @@ impl Followed {
             let tracked = TrackedPass {
                 propagator: &propagator,
                 site,
-                from,
-                until: now,
+                start: from,
+                end: now,
                 limits,
                 trackability,
                 ended: None,

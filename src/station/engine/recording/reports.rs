@@ -369,7 +369,7 @@ impl Followed {
             }
             let snapshot = &antenna.shown.snapshot;
             let lost_since = match snapshot.link {
-                LinkState::Lost { since, .. } => {
+                LinkState::Lost { start: since, .. } => {
                     Some(add_seconds(now, -steady.saturating_duration_since(since).as_secs_f64()))
                 }
                 LinkState::Off
@@ -408,9 +408,10 @@ impl Followed {
         self.next_position = first + positions.len() as u64;
         let near = add_seconds(self.from, -APART_S)..=add_seconds(self.until, APART_S);
         let own = positions.iter().filter(|measured| {
-            near.contains(&measured.at) && self.breaks.was_commanded(measured.at)
+            near.contains(&measured.time) && self.breaks.was_commanded(measured.time)
         });
-        self.flown.extend(own.map(|own| MeasuredPosition { time: own.at, pointing: own.pointing }));
+        self.flown
+            .extend(own.map(|own| MeasuredPosition { time: own.time, pointing: own.pointing }));
     }
 
     /// Starts the work on the report.
@@ -427,8 +428,8 @@ impl Followed {
         let tracked = TrackedPass {
             propagator: &self.propagator,
             site: self.site,
-            from,
-            until,
+            start: from,
+            end: until,
             limits: self.limits,
             trackability: self.trackability(),
             ended: self.ended,
@@ -460,15 +461,15 @@ impl Followed {
         let points = self.flown.iter().filter(within).copied();
         let points = apart(points, POINT_S, |flown| flown.time).collect();
         let report = RecordedReport {
-            from: self.from,
-            until: self.until,
-            planned: self.planned.map(|duty| PlannedPart { from: duty.from, until: duty.until }),
+            start: self.from,
+            end: self.until,
+            planned: self.planned.map(|duty| PlannedPart { start: duty.from, end: duty.until }),
             max_elevation_deg: self.max_elevation_deg,
             age_days: self.elements.age_s(middle) / 86_400.0,
             half_beam_deg: self.limits.half_beam.degrees(),
             elements: self.elements,
             site: Some(self.site),
-            about: self.about,
+            track: self.about,
             report,
             causes,
         };
@@ -489,10 +490,10 @@ impl Followed {
         let Some(duty) = self.planned else { return alone };
         let Some(at) = duty.lost_at else { return Trackability::Whole };
         let (from, until) = match alone {
-            Trackability::Loses { from, until, .. } => (from, until),
+            Trackability::Loses { start: from, end: until, .. } => (from, until),
             Trackability::Whole | Trackability::Nothing | Trackability::TooLow => (first, last),
         };
         let seconds = (seconds_between(first, last) - duty.counted_s).max(0.0);
-        Trackability::Loses { seconds, at, from, until }
+        Trackability::Loses { seconds, loss: at, start: from, end: until }
     }
 }

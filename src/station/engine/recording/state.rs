@@ -8,7 +8,7 @@ use crate::{
     contract::{
         antenna::AntennaModel,
         automatic::Operation,
-        driver::{Inside, Intent, LeftMoving, StopState},
+        driver::{Breach, Intent, LeftMoving, StopState},
     },
     device::{Phase, panel::CheckState},
     engine::{automatic::Operate, status::LinkStatus},
@@ -36,7 +36,7 @@ pub(super) struct State {
     is_unproved: bool,
     is_silent: bool,
     left_moving: Option<LeftMoving>,
-    inside: Option<Inside>,
+    inside: Option<Breach>,
     lock_out: Option<LockOut>,
     operation: Operation,
     /// Names of the checks that are not good.
@@ -72,7 +72,7 @@ impl State {
             is_unproved: snapshot.unproved,
             is_silent: snapshot.silent,
             left_moving: snapshot.left_moving,
-            inside: snapshot.inside.clone(),
+            inside: snapshot.breach.clone(),
             lock_out: snapshot.lock_out.clone(),
             operation: antenna.operation.clone().without_motion(),
             faults: checks.map(|check| check.name.to_string()).collect(),

@@ -77,7 +77,7 @@ impl Runner {
         self.transfer = None;
         shown.stage = match result {
             Ok(Ok((view, old_algorithms))) => {
-                TestStage::Seen { view: Box::new(view), at: self.clock.utc(), old_algorithms }
+                TestStage::Seen { view: Box::new(view), time: self.clock.utc(), old_algorithms }
             }
             Ok(Err(FetchError::Connect(error))) => {
                 let text = error.to_string();

@@ -336,7 +336,7 @@ impl Flow {
             Ok(()) => {
                 let satellite = selection.satellite;
                 shown.stage =
-                    Stage::Proved(Box::new(Proved { uploaded: *uploaded, satellite, at }));
+                    Stage::Proved(Box::new(Proved { uploaded: *uploaded, satellite, time: at }));
             }
             Err(text) => fail_after(shown, text, uploaded),
         }

@@ -10,7 +10,7 @@ use super::{
 };
 use crate::{
     clock::{Clock, Instant},
-    contract::uploads::{Ask, Kept, KeptEntry, Order, Stage, Uploads, Warning},
+    contract::uploads::{Ask, KeptEntry, KeptFiles, Order, Stage, Uploads, Warning},
     engine::{host_keys, uploads::order::account},
     job::{Job, Wake},
     transfer::Transfer,
@@ -37,7 +37,7 @@ pub(in crate::engine) struct Runner {
     transfer: Option<Transfer<Report>>,
     deciding: Option<Job<Result<(), String>>>,
     keeping: Option<Job<Result<(), String>>>,
-    listing: Option<Job<Kept>>,
+    listing: Option<Job<KeptFiles>>,
     selecting_since: Option<Instant>,
 }
 
@@ -120,8 +120,8 @@ impl Runner {
         shown: &mut Uploads,
     ) -> Option<SessionRequest> {
         match Job::take(&mut self.listing) {
-            Some(Ok(kept)) => shown.kept = kept,
-            Some(Err(broke_off)) => shown.kept.list = Some(Err(broke_off.to_string())),
+            Some(Ok(kept)) => shown.kept_files = kept,
+            Some(Err(broke_off)) => shown.kept_files.list = Some(Err(broke_off.to_string())),
             None => {}
         }
         if let Some(Err(problem)) = take(&mut self.keeping) {
@@ -152,7 +152,7 @@ impl Runner {
             self.keeping = Some(errand::keep_secret(places, account(order), secret, wake));
         }
         let next = self.flow.reported(report, unit, shown);
-        let kept = shown.kept.of.clone();
+        let kept = shown.kept_files.origin.clone();
         if !kept.1.is_empty() {
             self.list(kept.0, kept.1, shown);
         }
@@ -209,8 +209,8 @@ impl Runner {
 
     fn list(&mut self, unit: String, file: String, shown: &mut Uploads) {
         let of = (unit, file);
-        if shown.kept.of != of {
-            shown.kept = Kept { of: of.clone(), list: None };
+        if shown.kept_files.origin != of {
+            shown.kept_files = KeptFiles { origin: of.clone(), list: None };
         }
         let Some(places) = &self.places else { return };
         let kept = places.kept.clone();
@@ -222,7 +222,7 @@ impl Runner {
                 KeptEntry { file, objects: objects.map_err(|error| error.to_string()) }
             };
             let list = list.map(|files| files.into_iter().map(entry).collect());
-            Kept { of, list: Some(list) }
+            KeptFiles { origin: of, list: Some(list) }
         }));
     }
 }

@@ -72,18 +72,19 @@ impl UnitNow {
         let Some(antenna) = antenna else { return Self { at, ..Self::default() } };
         let state = &antenna.snapshot.state;
         let takes = antenna.spec().element_files;
-        let group = takes.and_then(|takes| state.held.get(takes.group));
+        let group = takes.and_then(|takes| state.groups.get(takes.group));
         let answer = group.and_then(|group| {
             Some(Answer {
                 written: group.written.clone()?,
-                held: group.held.clone(),
+                held: group.last_read.clone(),
                 checks: Arc::clone(&state.checks),
                 checked_at: state.checked_at,
             })
         });
         let held = state.on_board.satellite.as_ref().map(|held| held.catalog_number);
         let locked_out = antenna.snapshot.lock_out.as_ref();
-        let locked_out = locked_out.map(|lock_out| format!("{}: {}", lock_out.by, lock_out.reason));
+        let locked_out =
+            locked_out.map(|lock_out| format!("{}: {}", lock_out.operator, lock_out.reason));
         let hindrance = antenna.snapshot.hindrance(antenna.variant().capabilities, steady);
         let is_idle = antenna.operation.is_idle();
         Self { at, busy: busy(antenna), locked_out, hindrance, is_idle, held, answer }
@@ -115,7 +116,7 @@ impl Selection {
             ticket: self.ticket,
             group: self.takes.group,
             values,
-            seen: None,
+            expected: None,
             is_unlocked: false,
         })
     }
@@ -128,7 +129,7 @@ impl Selection {
             return None;
         }
         let result = written.result.clone().map_err(|error| error.to_string());
-        Some((written.at, result.and_then(|()| self.judge(answer).map_err(str::to_owned))))
+        Some((written.time, result.and_then(|()| self.judge(answer).map_err(str::to_owned))))
     }
 
     fn judge(&self, answer: &Answer) -> Result<(), &'static str> {
@@ -201,9 +202,9 @@ mod tests {
 
     fn answer(result: Result<(), WriteError>) -> Answer {
         let Command::WriteSettings(change) = selection().command() else { panic!() };
-        let values = [CATALOG_NUMBER.with(NUMBER.into())].into();
+        let values = [CATALOG_NUMBER.entry(NUMBER.into())].into();
         Answer {
-            written: Arc::new(Written { change, at: time(3), result }),
+            written: Arc::new(Written { change, time: time(3), result }),
             held: Some(HeldGroup { values, read_at: time(1) }),
             checks: checks(CheckState::Good),
             checked_at: Some(time(2)),
@@ -217,8 +218,8 @@ mod tests {
     #[test]
     fn the_unit_is_told_to_end_its_track_and_to_keep_its_period() {
         let Command::WriteSettings(change) = selection().command() else { panic!() };
-        assert_eq!(CONTINUE_TRACKING.of(&change.values), Some(false));
-        assert_eq!(SATELLITE_NAME.of(&change.values).as_deref(), Some("NOAA 20"));
+        assert_eq!(CONTINUE_TRACKING.get(&change.values), Some(false));
+        assert_eq!(SATELLITE_NAME.get(&change.values).as_deref(), Some("NOAA 20"));
         assert!(!change.values.contains_key(PERIOD.name));
     }
 
@@ -235,7 +236,7 @@ mod tests {
         assert!(problem(&missing).contains("does not find the satellite"));
         let mut wrong = answer(Ok(()));
         let held = wrong.held.as_mut().unwrap();
-        held.values.extend([CATALOG_NUMBER.with(0)]);
+        held.values.extend([CATALOG_NUMBER.entry(0)]);
         assert!(problem(&wrong).contains("another object"));
         let stale = answer(Ok(()));
         let held = stale.held.clone().map(|held| HeldGroup { read_at: time(-1), ..held });

@@ -246,7 +246,7 @@ fn a_bad_field_of_an_rc2000c_costs_only_itself() {
          azimuth = [{ counts = 30, degrees = 90 }, { counts = 3630, degrees = 270.0 }]\n\
          elevation = [{ counts = 30, degrees = 0 }, { counts = 30, degrees = 9 }]\n",
     );
-    let calibration = Calibration::of(&read.connection);
+    let calibration = Calibration::from_connection(&read.connection);
     assert_eq!((calibration.azimuth.len(), calibration.elevation.len()), (2, 0));
     assert_eq!(places, ["connection.calibration.elevation"]);
 }

@@ -79,7 +79,8 @@ fn a_keep_out_that_cannot_be_read_is_said_not_to_hold() {
         let Loaded { station, notes } = load(&path).unwrap();
         assert_eq!(station.keep_outs.len(), 1);
         assert_eq!(station.keep_outs[0].name, "roof");
-        let reason = NoteReason::DoesNotHold { name: "mast".to_owned(), why: expected.to_owned() };
+        let reason =
+            NoteReason::DoesNotHold { name: "mast".to_owned(), reason: expected.to_owned() };
         assert_eq!(notes, [Note { place: "keep_out[0]".to_owned(), line: Some(1), reason }]);
     }
     for (text, name) in [
@@ -107,7 +108,7 @@ fn keep_outs_beyond_the_largest_number_do_not_hold_and_forbid_motion() {
     let Loaded { station, notes } = load(&path).unwrap();
     assert_eq!(station.keep_outs.len(), KeepOut::MAX_NUMBER);
     let [note] = notes.as_slice() else { panic!("{notes:?}") };
-    let NoteReason::DoesNotHold { name, why } = &note.reason else { panic!("{note:?}") };
+    let NoteReason::DoesNotHold { name, reason: why } = &note.reason else { panic!("{note:?}") };
     assert_eq!((name.as_str(), why.as_str()), ("mast 33", "a station has 32 keep-outs at most"));
     assert_eq!(station.unread.len(), 1, "it forbids motion");
     save(&station, &path, SPECS).unwrap();
@@ -130,7 +131,7 @@ fn keep_outs_have_no_more_corners_than_can_be_judged_in_time() {
     let Loaded { station, notes } = load(&path).unwrap();
     assert_eq!(station.keep_outs.len(), 8);
     let [note] = notes.as_slice() else { panic!("{notes:?}") };
-    let NoteReason::DoesNotHold { name, why } = &note.reason else { panic!("{note:?}") };
+    let NoteReason::DoesNotHold { name, reason: why } = &note.reason else { panic!("{note:?}") };
     let limit = "all keep-outs have 800 corners at most";
     assert_eq!((name.as_str(), why.as_str()), ("mast 9", limit));
     assert_eq!(station.unread.len(), 1, "it forbids motion");

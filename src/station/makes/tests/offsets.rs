@@ -4,7 +4,7 @@ use super::file::{load, written};
 use crate::{
     astro::{Angle, Offset, TrackOffsets},
     controller::SPECS,
-    station::{self, AntennaId, Loaded, OffsetsOf},
+    station::{self, AntennaId, Loaded, OffsetsSubject},
 };
 
 const ANTENNA: &str = "[[antenna]]\nid = 4\nname = 'Dish'\n[antenna.connection]\n\
@@ -16,9 +16,9 @@ fn they_come_back_as_they_were_remembered() {
     let mut station = load(&path).unwrap().station;
     let with = |step| TrackOffsets::NONE.plus(step).unwrap();
     let along = with(Offset::Along(Angle::from_degrees(-0.3)));
-    station.keep_offsets(OffsetsOf::Satellite(25_544), along);
+    station.keep_offsets(OffsetsSubject::Satellite(25_544), along);
     let azimuth = with(Offset::Azimuth(Angle::from_degrees(0.1)));
-    station.keep_offsets(OffsetsOf::Antenna(AntennaId(4)), azimuth);
+    station.keep_offsets(OffsetsSubject::Antenna(AntennaId(4)), azimuth);
     station::save(&station, &path, SPECS).unwrap();
     let text = std::fs::read_to_string(&path).unwrap();
     assert!(text.contains("satellite = 25544\nalong_deg = -0.3\n"), "{text}");

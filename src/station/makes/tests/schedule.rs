@@ -5,8 +5,8 @@ use crate::{
     controller::SPECS,
     station::{
         self, AntennaId, Automatic, AutomationRule, BetweenPasses, ChooseBy, Favourite, HoursOfDay,
-        Light, Loaded, Partly, PassChoice, PassLimits, Priority, RuleOf, SatelliteGroup,
-        Scheduling, SunIs, Take, Then, Upkeep,
+        Light, Loaded, Partly, PassChoice, PassLimits, Priority, RuleAction, RuleSubject,
+        SatelliteGroup, Scheduling, SunIs, Take, Upkeep,
     },
 };
 
@@ -36,7 +36,7 @@ fn everything_about_the_schedule_comes_back_as_it_was_saved() {
     station.scheduling = Scheduling {
         choose_by: ChooseBy::MostMinutes,
         span_h: 48.0,
-        partly: Some(Partly { least_percent: 40.0, least_s: 120.0 }),
+        partly: Some(Partly { min_percent: 40.0, min_s: 120.0 }),
         hand_over: true,
         max_element_age_d: Some(14.0),
         warn_after_rest_min: 30.0,
@@ -59,23 +59,23 @@ fn everything_about_the_schedule_comes_back_as_it_was_saved() {
         AutomationRule {
             is_on: true,
             antenna: Some(AntennaId(4)),
-            of: Some(RuleOf::Group("Weather".to_owned())),
+            subject: Some(RuleSubject::Group("Weather".to_owned())),
             sun: Some(SunIs::Down),
             hours: Some(HoursOfDay::NIGHT),
-            then: Then::Park,
+            action: RuleAction::Park,
         },
         AutomationRule {
             is_on: false,
             antenna: None,
-            of: Some(RuleOf::Satellite(25_544)),
+            subject: Some(RuleSubject::Satellite(25_544)),
             sun: None,
             hours: None,
-            then: Then::Take,
+            action: RuleAction::Take,
         },
     ];
     station.antennas[0].automatic = Automatic {
         is_on_at_start: true,
-        between: BetweenPasses::Park,
+        between_passes: BetweenPasses::Park,
         resumes_after_crash: true,
         uses_auto_track: true,
         set_up_s: Some(20.0),
@@ -168,7 +168,7 @@ fn what_cannot_be_read_is_named_and_a_rule_never_becomes_wider() {
         assert!(places.contains(&place), "{place} is not named: {places:?}");
     }
     assert_eq!(station.rules.len(), 1);
-    assert_eq!(station.rules[0].of, Some(RuleOf::Satellite(7)));
+    assert_eq!(station.rules[0].subject, Some(RuleSubject::Satellite(7)));
     assert_eq!(station.pass_limits(7).antennas, Some(vec![AntennaId(4)]));
     assert_eq!((station.groups, station.pass_choices), (vec![], vec![]));
     assert_eq!(station.scheduling, Scheduling::default());
@@ -179,10 +179,10 @@ fn a_rule_holds_by_its_antenna_its_hours_of_utc_and_the_sun() {
     let rule = AutomationRule {
         is_on: true,
         antenna: Some(AntennaId(4)),
-        of: None,
+        subject: None,
         sun: Some(SunIs::Down),
         hours: Some(HoursOfDay::NIGHT),
-        then: Then::Leave,
+        action: RuleAction::Leave,
     };
     let at = |text: &str| text.parse().unwrap();
     let night = at("2026-08-12T23:00:00Z");

@@ -277,7 +277,7 @@ impl Film {
             let good = Ok(Finding::Unchecked);
             let finding = fault.map_or(good, |fault| serde_json::from_str(&fault))?;
             lines.push(WireLine {
-                at,
+                time: at,
                 direction: if is_sent { Direction::Sent } else { Direction::Received },
                 length: length.and_then(|of| of.try_into().ok()).unwrap_or(bytes.len()),
                 is_shortened: length.is_some(),

@@ -43,7 +43,7 @@ fn each_pass_is_the_neighbour_of_the_next_and_other_antennas_count_once() {
     testing::record(&path, notes);
     let from = |of, is_next| {
         let pass = neighbour(&path, of, is_next).unwrap();
-        pass.map(|pass| (pass.id, pass.report.from))
+        pass.map(|pass| (pass.id, pass.report.start))
     };
     assert_eq!(from(Beside::Pass(1), true), Some((2, at(60))));
     assert_eq!(from(Beside::Pass(2), true), Some((4, at(95))), "not the same pass again");
@@ -135,7 +135,7 @@ fn the_passes_within_a_time_are_found_by_their_aos_however_many() {
     recorder.flush();
     let found = |query: PassQuery| {
         let passes = passes_within(&path, &query, &(at(0)..at(1000)), Site::default()).unwrap();
-        passes.iter().map(|opened| opened.pass.report.from).collect::<Vec<_>>()
+        passes.iter().map(|opened| opened.pass.report.start).collect::<Vec<_>>()
     };
     let all = PassQuery { count: 1, ..PassQuery::default() };
     assert_eq!(found(all.clone()), [at(0), at(300), at(900)], "in order, and not the newest alone");

@@ -27,7 +27,7 @@ pub struct Snapshot {
 
 impl Snapshot {
     pub fn rotator(&self, number: RotatorNumber) -> &RotatorState {
-        number.of(&self.rotators)
+        number.select(&self.rotators)
     }
 }
 

@@ -1,7 +1,7 @@
 //! Contents of a file of elements as a unit will see them.
 
 use crate::{
-    contract::transfer::{FileHash, FileObject, Seen, UnitView},
+    contract::transfer::{FileHash, FileObject, SatelliteMatch, UnitView},
     orbit::{Elements, read_element_bytes},
 };
 
@@ -21,16 +21,16 @@ pub fn what_a_unit_sees(bytes: &[u8], satellite: &str) -> UnitView {
     };
     let mut found: Vec<_> = read.elements.iter().filter(named).map(object).collect();
     let satellite = match found.pop() {
-        None => Seen::Missing { similar: similar(&read.elements, satellite) },
-        Some(only) if found.is_empty() => Seen::Found(only),
+        None => SatelliteMatch::Missing { similar: similar(&read.elements, satellite) },
+        Some(only) if found.is_empty() => SatelliteMatch::Found(only),
         Some(last) => {
             found.push(last);
-            Seen::Several(found)
+            SatelliteMatch::Several(found)
         }
     };
     UnitView {
         bytes: bytes.len() as u64,
-        sha256: FileHash::of(bytes),
+        sha256: FileHash::new(bytes),
         objects: read.elements.len(),
         refused: read.refused,
         refused_unlisted: read.refused_unlisted,
@@ -83,13 +83,13 @@ TEST 1B\r
     #[test]
     fn a_satellite_is_found_by_its_very_name() {
         let view = what_a_unit_sees(SETS.as_bytes(), "TEST 1");
-        let Seen::Found(object) = &view.satellite else { panic!("{view:?}") };
+        let SatelliteMatch::Found(object) = &view.satellite else { panic!("{view:?}") };
         assert_eq!(object.catalog_number, 88_888);
         assert_eq!(view.epoch().unwrap().to_string()[..10], *"1980-10-01");
         assert!(view.is_tle);
         // The second set has a wrong checksum.
         assert_eq!((view.objects, view.refused.len()), (1, 1));
-        assert_eq!(view.sha256, FileHash::of(SETS.as_bytes()));
+        assert_eq!(view.sha256, FileHash::new(SETS.as_bytes()));
     }
 
     #[test]
@@ -97,10 +97,10 @@ TEST 1B\r
         for wanted in ["test 1", "TEST-1", "TEST"] {
             let view = what_a_unit_sees(SETS.as_bytes(), wanted);
             let similar = vec!["TEST 1".to_owned()];
-            assert_eq!(view.satellite, Seen::Missing { similar }, "{wanted}");
+            assert_eq!(view.satellite, SatelliteMatch::Missing { similar }, "{wanted}");
             assert_eq!(view.epoch(), None);
         }
-        let none = Seen::Missing { similar: Vec::new() };
+        let none = SatelliteMatch::Missing { similar: Vec::new() };
         assert_eq!(what_a_unit_sees(SETS.as_bytes(), "NOAA 15").satellite, none);
         assert_eq!(what_a_unit_sees(SETS.as_bytes(), "").satellite, none);
         let page = what_a_unit_sees(b"<html>gone</html>", "TEST 1");
@@ -111,7 +111,7 @@ TEST 1B\r
     fn one_name_for_several_objects_is_told() {
         let set = SETS.lines().take(3).collect::<Vec<_>>().join("\n");
         let view = what_a_unit_sees(format!("{set}\n{set}\n").as_bytes(), "TEST 1");
-        assert!(matches!(&view.satellite, Seen::Several(objects) if objects.len() == 2));
+        assert!(matches!(&view.satellite, SatelliteMatch::Several(objects) if objects.len() == 2));
     }
 
     #[test]
@@ -120,7 +120,7 @@ TEST 1B\r
             "ECCENTRICITY":0.0004,"INCLINATION":51.6,"RA_OF_ASC_NODE":100,"ARG_OF_PERICENTER":10,
             "MEAN_ANOMALY":20,"NORAD_CAT_ID":7,"BSTAR":0,"MEAN_MOTION_DOT":0,"MEAN_MOTION_DDOT":0}]"#;
         let view = what_a_unit_sees(json, "A");
-        assert!(matches!(view.satellite, Seen::Found(_)), "{view:?}");
+        assert!(matches!(view.satellite, SatelliteMatch::Found(_)), "{view:?}");
         assert!(!view.is_tle);
     }
 }

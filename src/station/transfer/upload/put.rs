@@ -189,7 +189,7 @@ impl<F: Folder> Put<'_, F> {
     }
 
     fn is_new(&self, found: Option<&FolderFile>) -> bool {
-        found.is_some_and(|found| FileHash::of(&found.bytes) == FileHash::of(self.new))
+        found.is_some_and(|found| FileHash::new(&found.bytes) == FileHash::new(self.new))
     }
 }
 

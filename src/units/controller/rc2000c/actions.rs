@@ -6,7 +6,7 @@ use super::{
 };
 use crate::{
     device::{
-        Asked, ControllerEvent, Device,
+        ControllerEvent, Device, MotionRequest,
         panel::{Act, Action, Lead},
         settings::{Field, Key, Unfit},
     },
@@ -42,7 +42,7 @@ const EL_COUNTS: Key<i64> = Key::integer("el_counts", 0, 65_535);
 const UNITS: Key<i64> = Key::integer("units", 0, 1023);
 
 const EVEN_DURING_TRACK: Field = Field::write(END_TRACK, "Even during TRACK")
-    .about("While the unit tracks by itself, a move is sent only with this.");
+    .description("While the unit tracks by itself, a move is sent only with this.");
 
 const NAMES_ONLY: &str = "the unit tells the names of its satellites and not their places, so \
                           only the unit knows where it will go";
@@ -59,7 +59,8 @@ const UNHEARD_OF: &str = "where this leads is not known";
 pub(super) const ACTIONS: &[Action] = &[
     Action {
         fields: &[
-            Field::write(SATELLITE, "Satellite").about("As in the list of stored satellites."),
+            Field::write(SATELLITE, "Satellite")
+                .description("As in the list of stored satellites."),
             Field::write(POLARITY, "Polarity"),
             EVEN_DURING_TRACK,
         ],
@@ -79,7 +80,7 @@ pub(super) const ACTIONS: &[Action] = &[
         ..moving(TO_COUNTS, "Go to counts", "Both axes go to these counts of their sensors.")
     },
     Action {
-        fields: &[Field::write(UNITS, "Polarization").about(
+        fields: &[Field::write(UNITS, "Polarization").description(
             "0 to 661 with a polarotor, 0 to 1023 with a rotating feed; more is further CCW.",
         )],
         ..moving(TO_POLARIZATION, "Turn polarization to", "The polarization alone turns.")
@@ -115,7 +116,7 @@ pub(super) const ACTIONS: &[Action] = &[
 ];
 
 const fn still(key: &'static str, label: &'static str, subject: &'static str) -> Action {
-    Action { key, label, about: subject, fields: &[], moves: false, question: None }
+    Action { key, label, description: subject, fields: &[], moves: false, question: None }
 }
 
 const fn moving(key: &'static str, label: &'static str, subject: &'static str) -> Action {
@@ -141,7 +142,7 @@ fn check_name(typed: &str) -> Result<(), Unfit> {
 
 impl Rc2000c {
     pub(super) fn act_on(&mut self, act: &Act) {
-        let origin = Asked::Action(act.action);
+        let origin = MotionRequest::Action(act.action);
         if self.motion_under_way() {
             let reason = "another command is under way".to_owned();
             return self.events.push_back(ControllerEvent::Refused(origin, reason));
@@ -158,7 +159,7 @@ impl Rc2000c {
         }
     }
 
-    fn reset(&mut self, drive: DriveReset, origin: Asked) {
+    fn reset(&mut self, drive: DriveReset, origin: MotionRequest) {
         let reset = Request::Motion(UnitMotion::ResetDrive(drive));
         let origin = Some(origin);
         self.orders.extend([Request::Stop, reset].map(|request| QueuedRequest { request, origin }));
@@ -194,8 +195,9 @@ impl Rc2000c {
 
     /// The reason for which the unit would refuse to turn the polarization now. It accepts H and
     /// V in every phase of TRACK.
-    pub(super) fn objection_to(&self, origin: &Asked) -> Option<&'static str> {
-        let Asked::Action(TO_POLARIZATION | POLARIZATION_CW | POLARIZATION_CCW) = origin else {
+    pub(super) fn objection_to(&self, origin: &MotionRequest) -> Option<&'static str> {
+        let MotionRequest::Action(TO_POLARIZATION | POLARIZATION_CW | POLARIZATION_CCW) = origin
+        else {
             return None;
         };
         let status =
@@ -226,13 +228,13 @@ impl Rc2000c {
 
     fn to_satellite(&self, act: &Act) -> Result<AutoMove, String> {
         self.check_track(act)?;
-        let typed = SATELLITE.of(&act.values).ok_or("no satellite was named")?;
+        let typed = SATELLITE.get(&act.values).ok_or("no satellite was named")?;
         if !self.names.is_complete() {
             return Err("the list of stored satellites was not read yet".to_owned());
         }
         let name = self.names.find(&typed);
         let name = name.ok_or_else(|| format!("no satellite {:?} is stored", typed.trim()))?;
-        let polarity = match POLARITY.of(&act.values) {
+        let polarity = match POLARITY.get(&act.values) {
             Some(1) => Some(Polarity::Horizontal),
             Some(2) => Some(Polarity::Vertical),
             _ => None,
@@ -252,7 +254,7 @@ impl Rc2000c {
 
     /// A move would take the antenna out of the unit's own tracking.
     fn check_track(&self, act: &Act) -> Result<(), String> {
-        let is_told = END_TRACK.of(&act.values) == Some(true);
+        let is_told = END_TRACK.get(&act.values) == Some(true);
         if is_told || !self.status.as_ref().is_some_and(is_tracking) {
             Ok(())
         } else {
@@ -266,6 +268,6 @@ fn auto_move(target: AutoMove) -> Request {
 }
 
 fn integer(act: &Act, key: &Key<i64>) -> Result<u16, String> {
-    let number = key.of(&act.values).and_then(|number| u16::try_from(number).ok());
+    let number = key.get(&act.values).and_then(|number| u16::try_from(number).ok());
     number.ok_or_else(|| format!("{} is missing", key.name))
 }

@@ -25,7 +25,7 @@ pub(super) struct Axes {
 impl Axes {
     pub(super) fn new(calibration: &Calibration) -> Self {
         let lines = [&calibration.azimuth, &calibration.elevation];
-        Self { lines: lines.map(|points| CountLine::through(points).ok()) }
+        Self { lines: lines.map(|points| CountLine::from_points(points).ok()) }
     }
 
     pub(super) fn are_calibrated(&self) -> bool {

@@ -11,7 +11,7 @@ use crate::{
     astro::Angle,
     clock::{Instant, Moment},
     device::{
-        AntennaState, Asked, Controller, ControllerEvent, Device, Extent, Finding, Motion,
+        AntennaState, Controller, ControllerEvent, Device, Extent, Finding, Motion, MotionRequest,
         PrepareError, TrackTarget, WireLine,
         panel::{Act, Lead},
     },
@@ -205,7 +205,7 @@ impl Rc2000c {
 }
 
 impl Controller for Rc2000c {
-    fn objection(&self, origin: &Asked, _now: Moment) -> Option<&'static str> {
+    fn objection(&self, origin: &MotionRequest, _now: Moment) -> Option<&'static str> {
         self.objection_to(origin)
     }
 

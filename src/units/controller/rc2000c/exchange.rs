@@ -6,7 +6,7 @@ use super::{QueuedRequest, Rc2000c, axes::Axes, checks, line::GAP, line::Line, r
 use crate::{
     clock::{Instant, Moment},
     controller::reply_clock::ReplyClock,
-    device::{Asked, ControllerEvent, Measured, Motion, Phase, Program},
+    device::{ControllerEvent, Measured, Motion, MotionRequest, Phase, Program},
     protocol::rc2000c::{
         AutoMove, Command, Frame, FrameError, Motion as UnitMotion, PolarizationMotion,
         PolarizationUnits, Query, Reply, ReplyError, Request, Status,
@@ -27,7 +27,7 @@ pub(super) enum Purpose {
     /// Another question.
     Question,
     /// A request of the operator; `None` for a part of a halt.
-    Order(Option<Asked>),
+    Order(Option<MotionRequest>),
     /// A halt ahead of everything.
     Halt,
     /// Overtaken by a halt: its reply does not matter.
@@ -214,17 +214,16 @@ impl Rc2000c {
         self.status = Some(status);
         let pointing = Axes::pointing(axes, &self.mount);
         let [azimuth, elevation] = axes;
-        let before = self
-            .state
-            .measured
-            .as_ref()
-            .filter(|before| now.steady.saturating_duration_since(before.asked) <= CONTINUOUS);
+        let before =
+            self.state.measured.as_ref().filter(|before| {
+                now.steady.saturating_duration_since(before.requested) <= CONTINUOUS
+            });
         let before = before.map(|before| &before.axes[0]);
         let azimuth = Axes::unwrapped(azimuth, status.azimuth, before, &self.mount);
         let way = now.steady.saturating_duration_since(sent.steady) / 2;
         self.state.measured = Some(Measured {
-            at: now.utc.checked_sub(way).unwrap_or(now.utc),
-            asked: moment.steady,
+            time: now.utc.checked_sub(way).unwrap_or(now.utc),
+            requested: moment.steady,
             received: now.steady,
             pointing,
             axes: [azimuth, elevation],
@@ -283,9 +282,15 @@ impl Rc2000c {
 
     /// Nothing renews the jog any more: the unit's timer ends it. Reported unless the failed
     /// command was the jog itself.
-    fn end_jog(&mut self, failed: &Outstanding, tell: impl FnOnce(Asked) -> ControllerEvent) {
-        let is_told =
-            matches!(failed.purpose, Purpose::Order(Some(Asked::Motion(Motion::Jog { .. }))));
+    fn end_jog(
+        &mut self,
+        failed: &Outstanding,
+        tell: impl FnOnce(MotionRequest) -> ControllerEvent,
+    ) {
+        let is_told = matches!(
+            failed.purpose,
+            Purpose::Order(Some(MotionRequest::Motion(Motion::Jog { .. })))
+        );
         let ended = self.jog.take().filter(|_| !is_told);
         self.events.extend(ended.map(|jog| tell(jog.motion.into())));
     }

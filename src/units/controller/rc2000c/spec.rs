@@ -7,8 +7,8 @@ use crate::{
         settings::{Field, Key, Unfit, Value},
     },
     station::{
-        AfterPass, Antenna, Connection, ControllerSpec, Direction, Link, MotionLimits, Mount,
-        PollRates, Setting, Table, TrackSettings, Usual,
+        AfterPass, Antenna, Connection, ControllerSpec, DefaultFigures, Direction, Link,
+        MotionLimits, Mount, PollRates, Setting, Table, TrackSettings,
     },
 };
 
@@ -22,7 +22,7 @@ pub static SPEC: ControllerSpec = ControllerSpec {
     short_name: "RC2000C",
     link: Link::Line { baud: &BAUD },
     default_address: if cfg!(windows) { "COM3" } else { "/dev/ttyUSB0" },
-    usual: Usual {
+    defaults: DefaultFigures {
         mount: Mount::AzEl {
             azimuth_from_deg: 0.0,
             azimuth_to_deg: 360.0,
@@ -131,7 +131,7 @@ pub struct Calibration {
 
 impl Calibration {
     /// Returns the calibration of an RC2000C with this connection.
-    pub fn of(connection: &Connection) -> Self {
+    pub fn from_connection(connection: &Connection) -> Self {
         Self {
             azimuth: connection.points(&AZIMUTH_POINTS).to_vec(),
             elevation: connection.points(&ELEVATION_POINTS).to_vec(),

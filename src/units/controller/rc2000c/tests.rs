@@ -99,12 +99,12 @@ fn after_a_repeated_question_the_surplus_answer_is_waited_for() {
     assert_eq!(bench.poll_after(1045).as_deref(), Some(STATUS));
     bench.hear(IDLE);
     let measured = bench.unit.state().measured.unwrap();
-    assert_eq!(measured.asked, question_time, "it may answer the first of the two");
+    assert_eq!(measured.requested, question_time, "it may answer the first of the two");
     assert_eq!(bench.poll_after(800), None);
     bench.hear(IDLE);
     assert_eq!(bench.poll_after(400).as_deref(), Some(STATUS));
     bench.hear(IDLE);
-    assert_eq!(bench.unit.state().measured.unwrap().asked, bench.now.steady);
+    assert_eq!(bench.unit.state().measured.unwrap().requested, bench.now.steady);
     bench.hear(IDLE);
     assert_eq!(bench.unit.state().traffic.unsolicited, 1, "a third answer to two questions");
 }
@@ -118,7 +118,7 @@ fn a_lost_status_leaves_the_position_of_a_moving_antenna_young() {
     assert_eq!(bench.poll_after(700).as_deref(), Some(STATUS));
     let repeated = bench.now.steady;
     bench.hear(IDLE);
-    let measured_at = |bench: &Bench| bench.unit.state().measured.unwrap().asked;
+    let measured_at = |bench: &Bench| bench.unit.state().measured.unwrap().requested;
     assert_eq!(measured_at(&bench), lost, "it may answer either question");
     assert_eq!(bench.poll_after(500).as_deref(), Some(STATUS), "without a pause");
     bench.hear(IDLE);
@@ -142,7 +142,7 @@ fn the_reply_to_a_halt_ends_the_wait_for_earlier_answers() {
         bench.hear(&idle_reply_to(b'3'));
         assert_eq!(bench.poll_after(50).as_deref(), Some(STATUS), "after {wait_ms} ms");
         bench.hear(IDLE);
-        assert_eq!(bench.unit.state().measured.unwrap().asked, bench.now.steady);
+        assert_eq!(bench.unit.state().measured.unwrap().requested, bench.now.steady);
     }
 }
 
@@ -168,7 +168,7 @@ fn answers_that_come_late_and_together_are_taken_for_no_younger_than_they_are() 
     }
     for question_time in questions {
         bench.hear(IDLE);
-        assert_eq!(bench.unit.state().measured.unwrap().asked, question_time);
+        assert_eq!(bench.unit.state().measured.unwrap().requested, question_time);
     }
 }
 

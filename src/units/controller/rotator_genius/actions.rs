@@ -20,10 +20,10 @@ pub(super) const ARMED: Duration = Duration::from_mins(1);
 pub(super) const SEND_OTHER: Action = Action {
     key: OTHER,
     label: "Send the other rotator",
-    about: "Turns the rotator that is not this antenna's. STOP stops both.",
+    description: "Turns the rotator that is not this antenna's. STOP stops both.",
     fields: &[Field::edit(DIRECTION, "Direction")
         .in_unit("°")
-        .about("In that rotator's own degrees.")],
+        .description("In that rotator's own degrees.")],
     moves: true,
     question: None,
 };
@@ -31,7 +31,7 @@ pub(super) const SEND_OTHER: Action = Action {
 pub(super) const ARM_RESCUE: Action = Action {
     key: RESCUE,
     label: "Allow jogs outside limits",
-    about: "For a minute or until STOP, a rotator outside its limits may be jogged back. The \
+    description: "For a minute or until STOP, a rotator outside its limits may be jogged back. The \
             device does not end such a motion by itself: Azel stops it when the key is let go \
             and when a reply is missing.",
     fields: &[],

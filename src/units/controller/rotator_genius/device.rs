@@ -11,8 +11,8 @@ use super::{
 use crate::{
     clock::{Instant, Moment},
     device::{
-        AntennaState, Asked, Controller, ControllerEvent, Device, Extent, Motion, PrepareError,
-        TrackTarget, WireLine,
+        AntennaState, Controller, ControllerEvent, Device, Extent, Motion, MotionRequest,
+        PrepareError, TrackTarget, WireLine,
         panel::{Act, Lead},
         settings::{Change, WriteError},
     },
@@ -172,13 +172,13 @@ impl Controller for Genius {
         self.changes.push(change, &mut self.state);
     }
 
-    fn objection(&self, origin: &Asked, now: Moment) -> Option<&'static str> {
+    fn objection(&self, origin: &MotionRequest, now: Moment) -> Option<&'static str> {
         self.objection_to(origin, now)
     }
 
     fn start(&mut self, motion: Motion) {
         // A newer request replaces one that has not gone out yet.
-        self.orders.retain(|order| matches!(order.origin, Asked::Action(_)));
+        self.orders.retain(|order| matches!(order.origin, MotionRequest::Action(_)));
         match self.orders_for(motion) {
             Ok(orders) => self.orders.extend(orders),
             Err(reason) => {
@@ -191,7 +191,7 @@ impl Controller for Genius {
         match act.action {
             RESCUE => self.is_rescue_wanted = true,
             OTHER => {
-                let origin = Asked::Action(OTHER);
+                let origin = MotionRequest::Action(OTHER);
                 self.orders.retain(|order| order.origin != origin);
                 match self.order_for(&act) {
                     Ok(order) => self.orders.push_back(order),

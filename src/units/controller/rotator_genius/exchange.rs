@@ -4,7 +4,7 @@ use super::{DRAIN, Genius, MAX_MISSING, QUIET, REPLY, RESCUE_REPLY};
 use crate::{
     clock::{Instant, Moment},
     controller::reply_clock::ReplyClock,
-    device::{Asked, ControllerEvent, PROMPT},
+    device::{ControllerEvent, MotionRequest, PROMPT},
     protocol::rotator_genius::{
         self as unit, Acknowledgement, Direction, Received, Reply, Request, Status,
     },
@@ -21,7 +21,7 @@ pub(super) enum Purpose {
     /// A question of the operator.
     Asked,
     /// Starts a motion.
-    Motion(Asked),
+    Motion(MotionRequest),
     /// A step of changing the configuration.
     WriteSettings,
     /// Overtaken by a halt: its reply does not matter.
@@ -118,10 +118,13 @@ impl Genius {
         self.record_received(&received, now);
         match received {
             Received::Reply(Reply::Status(status)) => self.take_answer(status, now),
-            Received::Reply(Reply::Acknowledgement { to: Acknowledgement::Stop, is_accepted }) => {
+            Received::Reply(Reply::Acknowledgement {
+                request: Acknowledgement::Stop,
+                is_accepted,
+            }) => {
                 self.take_halt_answer(is_accepted, now);
             }
-            Received::Reply(Reply::Acknowledgement { to: acknowledgement, is_accepted }) => {
+            Received::Reply(Reply::Acknowledgement { request: acknowledgement, is_accepted }) => {
                 let is_expected = |sent: &mut Outstanding| sent.is_acknowledged_by(acknowledgement);
                 match self.outstanding.take_if(is_expected) {
                     Some(outstanding) => self.take_verdict(&outstanding, is_accepted, now),
@@ -217,7 +220,7 @@ impl Genius {
     }
 
     /// Drops the rest of a motion: half of one is useless.
-    fn forget_orders(&mut self, origin: Asked) {
+    fn forget_orders(&mut self, origin: MotionRequest) {
         self.orders.retain(|order| order.origin != origin);
     }
 

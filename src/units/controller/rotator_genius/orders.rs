@@ -8,7 +8,7 @@ use super::{
 use crate::{
     astro::Angle,
     clock::Moment,
-    device::{Asked, AxisMotion, Motion, panel::Act},
+    device::{AxisMotion, Motion, MotionRequest, panel::Act},
     protocol::rotator_genius::{
         self as unit, Direction, NoPosition, Rotator, RotatorNumber, WholeDegrees,
     },
@@ -19,7 +19,7 @@ use crate::{
 pub(super) struct QueuedMotion {
     pub(super) request: unit::Motion,
     /// The request it is a part of.
-    pub(super) origin: Asked,
+    pub(super) origin: MotionRequest,
 }
 
 const NOT_READ: &str = "the rotators were not read yet";
@@ -40,11 +40,11 @@ impl Genius {
     }
 
     /// The make's own reason not to send `origin`.
-    pub(super) fn objection_to(&self, origin: &Asked, now: Moment) -> Option<&'static str> {
+    pub(super) fn objection_to(&self, origin: &MotionRequest, now: Moment) -> Option<&'static str> {
         let Some(status) = &self.status else { return Some(NOT_READ) };
         let Roles { axes: [first, second], is_clear, is_pair } = Roles::new(self.rotators, status);
         match *origin {
-            Asked::Motion(Motion::Jog { x_deg_s, .. }) => {
+            MotionRequest::Motion(Motion::Jog { x_deg_s, .. }) => {
                 let (number, other) =
                     if x_deg_s == 0.0 { (second, first) } else { (first, second) };
                 if !is_clear && (is_pair || number == first) {
@@ -61,7 +61,7 @@ impl Genius {
                     None => Some(OUTSIDE_UNKNOWN),
                 }
             }
-            Asked::Motion(Motion::Position { azimuth, elevation }) => {
+            MotionRequest::Motion(Motion::Position { azimuth, elevation }) => {
                 if !is_clear {
                     return Some(KINDS);
                 }
@@ -73,7 +73,7 @@ impl Genius {
                     numbers.into_iter().flatten().map(|number| status.rotator(number));
                 rotators.find_map(without_position)
             }
-            Asked::Action(OTHER) => without_position(status.rotator(second)),
+            MotionRequest::Action(OTHER) => without_position(status.rotator(second)),
             _ => None,
         }
     }
@@ -119,12 +119,12 @@ impl Genius {
     }
 
     pub(super) fn order_for(&self, act: &Act) -> Result<QueuedMotion, &'static str> {
-        let degrees = DIRECTION.of(&act.values).and_then(|degrees| u16::try_from(degrees).ok());
+        let degrees = DIRECTION.get(&act.values).and_then(|degrees| u16::try_from(degrees).ok());
         let target =
             degrees.and_then(|degrees| WholeDegrees::new(degrees).ok()).ok_or(OUT_OF_RANGE)?;
         let Roles { axes: [_, rotator], .. } = self.roles().ok_or(NOT_READ)?;
         let request = unit::Motion::GoTo { rotator, target };
-        Ok(QueuedMotion { request, origin: Asked::Action(act.action) })
+        Ok(QueuedMotion { request, origin: MotionRequest::Action(act.action) })
     }
 
     /// Meaning of an `F`, as far as the last status shows: the unit never says.

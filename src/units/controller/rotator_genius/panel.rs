@@ -42,7 +42,7 @@ pub(super) fn checks(status: &Status, roles: Roles) -> Vec<Check> {
     );
     let ours = roles.axes.into_iter().filter(|number| roles.is_ours(*number));
     let of_rotators = ours.flat_map(|number| {
-        let (rotator, names) = (status.rotator(number), number.of(&NAMES));
+        let (rotator, names) = (status.rotator(number), number.select(&NAMES));
         let sensor = Check::new(
             names.sensor,
             if rotator.position.is_ok() { CheckState::Good } else { CheckState::Fault },

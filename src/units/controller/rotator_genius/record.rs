@@ -34,7 +34,7 @@ impl Genius {
                     self.missing.front().copied().or_else(|| sent_at(&Outstanding::is_read));
                 (Meaning::plain("Status"), question_time, is_poll)
             }
-            Received::Reply(Reply::Acknowledgement { to: acknowledgement, is_accepted }) => {
+            Received::Reply(Reply::Acknowledgement { request: acknowledgement, is_accepted }) => {
                 let question_time = if *acknowledgement == Acknowledgement::Stop {
                     self.halts.front().map(|end| *end - REPLY)
                 } else {

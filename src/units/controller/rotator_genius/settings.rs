@@ -26,17 +26,17 @@ const fn fields() -> [Field; 5] {
         Field::edit(LIMIT_CW, "CW limit")
             .part_of(TRAVEL)
             .in_unit("°")
-            .about("The end of the travel clockwise."),
+            .description("The end of the travel clockwise."),
         Field::edit(LIMIT_CCW, "CCW limit")
             .part_of(TRAVEL)
             .in_unit("°")
-            .about("The end of the travel counter-clockwise."),
+            .description("The end of the travel counter-clockwise."),
         Field::edit(KIND, "Axis"),
-        Field::write(STOP_OFFSET, "Stop offset").in_unit("°").about(
+        Field::write(STOP_OFFSET, "Stop offset").in_unit("°").description(
             "How early the drive is cut off before a target. The unit never reports it, so it \
              must be given with every change.",
         ),
-        Field::edit(NAME, "Name").about("At most 10 characters are taken."),
+        Field::edit(NAME, "Name").description("At most 10 characters are taken."),
     ]
 }
 
@@ -66,9 +66,10 @@ fn check_name(text: &str) -> Result<(), Unfit> {
 pub(super) fn values(status: &Status, number: RotatorNumber) -> Values {
     let Rotator { limit_cw, limit_ccw, kind, name, .. } = status.rotator(number);
     let limits = [(LIMIT_CW, limit_cw), (LIMIT_CCW, limit_ccw)].into_iter();
-    let limits = limits.filter_map(|(key, limit)| Some(key.with(limit.as_ref()?.degrees().into())));
-    let kind = KIND.with(i64::from(*kind == RotatorKind::Elevation));
-    limits.chain([kind, NAME.with(name.clone())]).collect()
+    let limits =
+        limits.filter_map(|(key, limit)| Some(key.entry(limit.as_ref()?.degrees().into())));
+    let kind = KIND.entry(i64::from(*kind == RotatorKind::Elevation));
+    limits.chain([kind, NAME.entry(name.clone())]).collect()
 }
 
 /// The whole configuration of a rotator: `new` values over those that it holds.
@@ -77,7 +78,7 @@ pub(super) fn configuration(
     new: &Values,
     unit_values: &Values,
 ) -> Result<Configuration, WriteError> {
-    let integer = |key: &Key<i64>| key.of(new).or_else(|| key.of(unit_values));
+    let integer = |key: &Key<i64>| key.get(new).or_else(|| key.get(unit_values));
     let limit = |key: &Key<i64>| {
         let degrees = integer(key).and_then(|degrees| u16::try_from(degrees).ok());
         WholeDegrees::new(degrees.ok_or_else(|| missing(key.name))?)
@@ -90,7 +91,7 @@ pub(super) fn configuration(
     };
     let offset = integer(&STOP_OFFSET).and_then(|offset| u8::try_from(offset).ok());
     let offset = offset.ok_or_else(|| missing(STOP_OFFSET.name))?;
-    let text = NAME.of(new).or_else(|| NAME.of(unit_values)).ok_or_else(|| missing(NAME.name))?;
+    let text = NAME.get(new).or_else(|| NAME.get(unit_values)).ok_or_else(|| missing(NAME.name))?;
     // A name that would be cut short is not sent unasked.
     let name = RotatorName::new(&text)
         .map_err(|problem| cannot(NAME.name, format!("{text:?} {problem}, give another one")))?;

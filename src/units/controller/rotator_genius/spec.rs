@@ -7,8 +7,8 @@ use crate::{
         settings::{Field, Key, Value},
     },
     station::{
-        AfterPass, Antenna, Connection, ControllerSpec, Direction, Link, MotionLimits, Mount,
-        PollRates, Setting, TrackSettings, Usual,
+        AfterPass, Antenna, Connection, ControllerSpec, DefaultFigures, Direction, Link,
+        MotionLimits, Mount, PollRates, Setting, TrackSettings,
     },
 };
 
@@ -21,7 +21,7 @@ pub static SPEC: ControllerSpec = ControllerSpec {
     short_name: "Genius",
     link: Link::Tcp,
     default_address: "192.168.1.250:9006",
-    usual: Usual {
+    defaults: DefaultFigures {
         mount: Mount::AzEl {
             azimuth_from_deg: 0.0,
             azimuth_to_deg: 360.0,
@@ -51,11 +51,13 @@ pub static SPEC: ControllerSpec = ControllerSpec {
     explain: None,
     why_no_question: None,
     variants: &[&PAIR, &ALONE],
-    variant: |connection| match Rotators::of(connection) {
+    variant: |connection| match Rotators::from_connection(connection) {
         Rotators::Pair => &PAIR,
         Rotators::First | Rotators::Second => &ALONE,
     },
-    open: |antenna| Box::new(Genius::new(antenna.poll, Rotators::of(&antenna.connection))),
+    open: |antenna| {
+        Box::new(Genius::new(antenna.poll, Rotators::from_connection(&antenna.connection)))
+    },
 };
 
 /// Both rotators turn the same antenna.
@@ -130,7 +132,7 @@ pub enum Rotators {
 
 impl Rotators {
     /// Those of a Genius with this connection.
-    pub fn of(connection: &Connection) -> Self {
+    pub fn from_connection(connection: &Connection) -> Self {
         match connection.text(&ROTATORS) {
             FIRST_WORD => Self::First,
             SECOND_WORD => Self::Second,
@@ -167,7 +169,7 @@ mod tests {
             [(Rotators::First, false), (Rotators::Second, false), (Rotators::Pair, true)]
         {
             connection.put(&ROTATORS, rotators).unwrap();
-            assert_eq!(Rotators::of(&connection), rotators);
+            assert_eq!(Rotators::from_connection(&connection), rotators);
             assert_eq!(connection.variant().capabilities.has_elevation(), has_elevation);
         }
     }

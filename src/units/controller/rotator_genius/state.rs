@@ -37,8 +37,8 @@ impl Genius {
             }
         });
         self.state.measured = Some(Measured {
-            at: now.utc.checked_sub(way).unwrap_or(now.utc),
-            asked: question_time,
+            time: now.utc.checked_sub(way).unwrap_or(now.utc),
+            requested: question_time,
             received: now.steady,
             pointing: pointing(axes, roles.is_pair),
             axes,
@@ -52,7 +52,7 @@ impl Genius {
         for number in RotatorNumber::ALL {
             let state = self.state.group(settings::group_of(number).key);
             let values = settings::values(&status, number);
-            state.held = Some(HeldGroup { values, read_at: now.utc });
+            state.last_read = Some(HeldGroup { values, read_at: now.utc });
         }
         let rescue_left = self.rescue_until.map(|end| end.saturating_duration_since(now.steady));
         self.state.show_readings(panel::readings(&status, roles, rescue_left));

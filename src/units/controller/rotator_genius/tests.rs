@@ -66,7 +66,7 @@ fn step() -> impl Strategy<Value = ScriptStep> {
 
 fn settings_write() -> Change {
     let values = [("stop_offset_deg", Value::Integer(2))].into();
-    Change { ticket: 1, group: "rotator_1", values, seen: None, is_unlocked: true }
+    Change { ticket: 1, group: "rotator_1", values, expected: None, is_unlocked: true }
 }
 
 proptest! {
@@ -88,7 +88,7 @@ proptest! {
                     genius.start(motion);
                 }
                 ScriptStep::Act(action, degrees) => {
-                    let values: Values = [actions::DIRECTION.with(degrees)].into();
+                    let values: Values = [actions::DIRECTION.entry(degrees)].into();
                     genius.act(Act { action, values });
                 }
                 ScriptStep::WriteSettings => genius.write_settings(settings_write(), now),
@@ -142,11 +142,11 @@ fn a_lost_status_leaves_the_position_of_a_moving_antenna_young() {
     assert_eq!(unit.poll(now).as_deref(), Some(&b"|h"[..]));
     let repeated = now.steady;
     unit.receive(STATUS, now);
-    assert_eq!(unit.state().measured.unwrap().asked, lost, "it may answer either question");
+    assert_eq!(unit.state().measured.unwrap().requested, lost, "it may answer either question");
     assert_eq!(unit.poll(now).as_deref(), Some(&b"|h"[..]), "without a pause");
     now.steady += Duration::from_millis(30);
     unit.receive(STATUS, now);
-    assert_eq!(unit.state().measured.unwrap().asked, repeated);
+    assert_eq!(unit.state().measured.unwrap().requested, repeated);
 }
 
 #[test]
@@ -160,7 +160,7 @@ fn a_surplus_status_is_waited_for_while_the_antenna_stands() {
     now.steady += Duration::from_millis(1);
     assert_eq!(unit.poll(now).as_deref(), Some(&b"|h"[..]));
     unit.receive(STATUS, now);
-    assert_eq!(unit.state().measured.unwrap().asked, now.steady);
+    assert_eq!(unit.state().measured.unwrap().requested, now.steady);
 }
 
 #[test]

@@ -29,7 +29,7 @@ pub fn checks(faults: Option<&Faults>) -> Vec<Check> {
         let (when_good, locks_motion) = (when_good(kind), kind.locks_motion());
         Check {
             when_good,
-            told: shown,
+            unit_text: shown,
             locks_motion,
             ..Check::new(name(kind), state, advice(kind))
         }

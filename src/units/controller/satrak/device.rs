@@ -241,7 +241,8 @@ mod tests {
         satrak.link_up(now);
         let values = [("azimuth_offset_deg", Value::Decimal(0.2))].into();
         let (ticket, group) = (1, "general");
-        satrak.shift_track(Change { ticket, group, values, seen: None, is_unlocked: false }, now);
+        satrak
+            .shift_track(Change { ticket, group, values, expected: None, is_unlocked: false }, now);
         satrak.changes.begin(&mut satrak.state, now);
         satrak.changes.advance(&mut satrak.state, now, |write| write.looked(Values::new()));
         satrak

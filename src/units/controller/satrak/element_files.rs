@@ -25,15 +25,15 @@ pub static ELEMENT_FILES: ElementFiles = ElementFiles {
     group: FILE.key,
     choose: |file, satellite| {
         Values::from([
-            FILE_NAME.with(file.to_owned()),
-            SATELLITE_NAME.with(satellite.to_owned()),
-            CONTINUE_TRACKING.with(false),
+            FILE_NAME.entry(file.to_owned()),
+            SATELLITE_NAME.entry(satellite.to_owned()),
+            CONTINUE_TRACKING.entry(false),
         ])
     },
     number: CATALOG_NUMBER,
     source_group: GENERAL.key,
     are_fetched_by_unit: |values| {
-        TLE_SOURCE.of(values).is_some_and(|source| source != TLE_FROM_FILE)
+        TLE_SOURCE.get(values).is_some_and(|source| source != TLE_FROM_FILE)
     },
     checks: &FILE_CHECKS,
 };

@@ -74,7 +74,7 @@ impl Preparation {
     }
 
     fn window(&self) -> Result<TrackWindow, PrepareError> {
-        TrackWindow::new(self.target.from, self.target.until)
+        TrackWindow::new(self.target.start, self.target.end)
             .map_err(|error| PrepareError::CannotBeSent(error.to_string()))
     }
 
@@ -116,7 +116,7 @@ impl Preparation {
                 if !self.holds_target() {
                     let previous_name =
                         previous.map(|satellite| satellite.name).unwrap_or_default();
-                    return Err(PrepareError::Differs { held: previous_name });
+                    return Err(PrepareError::Differs { current: previous_name });
                 }
                 PrepareStep::SetWindow
             }
@@ -125,7 +125,7 @@ impl Preparation {
                 let sent = self.window()?;
                 if read.start != sent.start() || read.stop != sent.stop() {
                     return Err(PrepareError::Differs {
-                        held: format!("the window {} to {}", read.start, read.stop),
+                        current: format!("the window {} to {}", read.start, read.stop),
                     });
                 }
                 return Ok(Outcome::Done);

@@ -7,8 +7,8 @@ use crate::{
         settings::{Field, Key, Value},
     },
     station::{
-        AfterPass, Antenna, ControllerSpec, Direction, Link, MotionLimits, Mount, PollRates,
-        Setting, TrackSettings, Usual,
+        AfterPass, Antenna, ControllerSpec, DefaultFigures, Direction, Link, MotionLimits, Mount,
+        PollRates, Setting, TrackSettings,
     },
 };
 
@@ -19,7 +19,7 @@ pub static SPEC: ControllerSpec = ControllerSpec {
     short_name: "Satrak",
     link: Link::Tcp,
     default_address: "192.168.10.21:4001",
-    usual: Usual {
+    defaults: DefaultFigures {
         mount: Mount::Xy {
             lower_axis_azimuth_deg: 0.0,
             travel_from_deg: 5.0,

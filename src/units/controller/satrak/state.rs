@@ -73,7 +73,7 @@ impl Satrak {
             values.extend(self.reported.clock.as_ref().map(ahead));
         }
         let state = self.state.group(group.key);
-        state.held = Some(HeldGroup { values, read_at: now.utc });
+        state.last_read = Some(HeldGroup { values, read_at: now.utc });
         state.failure = None;
         self.show_gps_state();
     }
@@ -87,10 +87,10 @@ impl Satrak {
         ];
         for (group, entry) in added {
             let Some((key, value)) = entry else { continue };
-            let shown = self.state.held.get(group).and_then(|state| state.held.as_ref());
+            let shown = self.state.groups.get(group).and_then(|state| state.last_read.as_ref());
             // An unchanged group stays shared.
             if shown.is_some_and(|held_group| held_group.values.get(key) != Some(&value))
-                && let Some(read_group) = &mut self.state.group(group).held
+                && let Some(read_group) = &mut self.state.group(group).last_read
             {
                 read_group.values.insert(key, value);
             }
@@ -108,8 +108,8 @@ impl Satrak {
         let limits = status.limits;
         self.state.unreadable = None;
         self.state.measured = Some(Measured {
-            at: time,
-            asked: moment.steady,
+            time,
+            requested: moment.steady,
             received: now.steady,
             pointing: AzEl::from_degrees(status.az_deg, status.el_deg).into(),
             axes: [

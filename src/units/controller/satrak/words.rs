@@ -14,7 +14,7 @@ use crate::{
 pub(super) fn questions() -> Vec<Question> {
     let question = |(query, word): (Query, Word)| Question {
         key: format!("{word}?").into(),
-        about: Cow::Owned(
+        subject: Cow::Owned(
             unit::Meaning::of_request(&Frame::from_payload(&format!("{word}?"))).text,
         ),
         bytes: Request::Query(query).to_bytes().into(),

@@ -9,7 +9,7 @@ use std::fmt::Write as _;
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
-use super::{Access, Field, Group, Guard, Held, Kind, Unfit, Value};
+use super::{Access, Field, Group, GroupStates, Guard, Kind, Unfit, Value};
 use crate::name::{self, Name};
 
 /// Version of the files that this program writes.
@@ -59,7 +59,7 @@ pub struct Difference {
     /// Value in the copy, or the reason why it cannot be used.
     pub copied: Result<Value, Unfit>,
     /// Value on the unit; `None` where unknown.
-    pub held: Option<Value>,
+    pub current: Option<Value>,
     pub verdict: Verdict,
 }
 
@@ -105,7 +105,7 @@ fn is_copied(field: &Field) -> bool {
 impl SettingsCopy {
     /// Text of a copy with the values of `groups` in `unit_settings`. A group that was not read is
     /// named in a comment with the reason.
-    pub fn text(head: &CopyHead, groups: &[&'static Group], unit_settings: &Held) -> String {
+    pub fn text(head: &CopyHead, groups: &[&'static Group], unit_settings: &GroupStates) -> String {
         let text = |text: &str| toml::Value::String(text.to_owned());
         let mut lines = format!(
             "# Settings of an antenna controller, saved by Azel. Passwords are left out.\n\
@@ -117,7 +117,7 @@ impl SettingsCopy {
         );
         for group in groups.iter().filter(|group| group.fields.iter().any(is_copied)) {
             let state = unit_settings.get(group.key);
-            let Some(read) = state.and_then(|state| state.held.as_ref()) else {
+            let Some(read) = state.and_then(|state| state.last_read.as_ref()) else {
                 let failure = state.and_then(|state| state.failure.as_ref());
                 let reason = failure.map_or("nobody asked".to_owned(), ToString::to_string);
                 let _ = write!(lines, "\n# {}: not read, {reason}\n", group.key);
@@ -176,11 +176,15 @@ impl SettingsCopy {
     }
 
     /// The settings that differ on the unit.
-    pub fn differences(&self, groups: &[&'static Group], unit_settings: &Held) -> Vec<Difference> {
+    pub fn differences(
+        &self,
+        groups: &[&'static Group],
+        unit_settings: &GroupStates,
+    ) -> Vec<Difference> {
         let difference = |copied: &CopiedValue| {
             let group = *groups.iter().find(|group| group.key == copied.group)?;
             let field = group.field(copied.field)?;
-            let of_group = unit_settings.get(group.key).and_then(|state| state.held.as_ref());
+            let of_group = unit_settings.get(group.key).and_then(|state| state.last_read.as_ref());
             let current = of_group.and_then(|read| read.values.get(field.key)).cloned();
             // A value that cannot be sent, such as an empty text, may still be on the unit.
             let is_held = |current: &Value| match &copied.value {
@@ -197,7 +201,7 @@ impl SettingsCopy {
                 Ok(_) if of_group.is_none() => Verdict::NotRead,
                 Ok(_) => Verdict::Free,
             };
-            Some(Difference { group, field, copied: copied.value.clone(), held: current, verdict })
+            Some(Difference { group, field, copied: copied.value.clone(), current, verdict })
         };
         self.values.iter().filter_map(difference).collect()
     }

@@ -37,7 +37,7 @@ pub struct Field {
     /// goes out with the values of the other parts, or waits for them.
     pub part_of: Option<&'static str>,
     /// Explanation in a sentence or two.
-    pub about: &'static str,
+    pub description: &'static str,
 }
 
 /// Values that a field can hold.
@@ -112,7 +112,7 @@ impl Field {
             guard: free,
             moves: false,
             part_of: None,
-            about: "",
+            description: "",
         }
     }
 
@@ -134,8 +134,8 @@ impl Field {
 
     /// With what it does.
     #[must_use]
-    pub const fn about(self, text: &'static str) -> Self {
-        Self { about: text, ..self }
+    pub const fn description(self, text: &'static str) -> Self {
+        Self { description: text, ..self }
     }
 
     /// With the care that its values take.

@@ -9,13 +9,14 @@ use super::{Hindrance, Unfit, Values};
 use crate::name::{self, Name};
 
 /// Groups of a unit by key, each as far as known.
-pub type Held = BTreeMap<Name, GroupState>;
+pub type GroupStates = BTreeMap<Name, GroupState>;
 
 /// Known state of a group.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct GroupState {
     /// Values as last read.
-    pub held: Option<HeldGroup>,
+    #[serde(rename = "held")]
+    pub last_read: Option<HeldGroup>,
     /// Why the last read failed; `None` where it did not.
     pub failure: Option<ReadFailure>,
     /// Step of the change under way; `None` without one.
@@ -69,8 +70,8 @@ pub struct Change {
     pub values: Values,
     /// Values that the operator saw. If the unit holds others by then, nothing is sent.
     /// `None` accepts any.
-    #[serde(deserialize_with = "name::option_map")]
-    pub seen: Option<Values>,
+    #[serde(rename = "seen", deserialize_with = "name::option_map")]
+    pub expected: Option<Values>,
     /// The operator has unlocked the service functions.
     pub is_unlocked: bool,
 }
@@ -80,7 +81,8 @@ pub struct Change {
 pub struct Written {
     pub change: Change,
     /// End of the change.
-    pub at: Timestamp,
+    #[serde(rename = "at")]
+    pub time: Timestamp,
     /// `Ok` when the values were read back and found right.
     pub result: Result<(), WriteError>,
 }

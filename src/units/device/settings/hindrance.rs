@@ -33,12 +33,12 @@ pub enum Hindrance {
 
 impl Hindrance {
     /// The reason, by the state of a unit, not to send such a setting at `now`.
-    pub fn of(state: &AntennaState, can: Capabilities, now: Instant) -> Option<Self> {
+    pub fn from_state(state: &AntennaState, can: Capabilities, now: Instant) -> Option<Self> {
         let link_since = state.link_since;
         let measured = state
             .measured
-            .filter(|measured| link_since.is_some_and(|start| measured.asked >= start))
-            .filter(|measured| now.saturating_duration_since(measured.asked) < RECENT);
+            .filter(|measured| link_since.is_some_and(|start| measured.requested >= start))
+            .filter(|measured| now.saturating_duration_since(measured.requested) < RECENT);
         let Some(measured) = measured else { return Some(Self::Unknown) };
         match state.program {
             None if can.has_program => Some(Self::Unknown),

@@ -26,12 +26,12 @@ impl<T> Copy for Key<T> {}
 
 impl<T> Key<T> {
     /// The value among `values`; `None` where it is not known.
-    pub fn of(&self, values: &Values) -> Option<T> {
+    pub fn get(&self, values: &Values) -> Option<T> {
         values.get(self.name).and_then(self.unwrap)
     }
 
     /// An entry of [`Values`].
-    pub fn with(&self, value: T) -> (&'static str, Value) {
+    pub fn entry(&self, value: T) -> (&'static str, Value) {
         (self.name, (self.wrap)(value))
     }
 }

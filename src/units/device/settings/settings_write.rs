@@ -179,7 +179,7 @@ impl SettingsWrite {
 
     /// Compares the editable fields only: reported values may change at any time.
     fn has_changed_meanwhile(&self) -> bool {
-        let Some(previous) = &self.change.seen else { return false };
+        let Some(previous) = &self.change.expected else { return false };
         let is_editable = |field: &&Field| field.access == Access::Edit;
         let changed = |field: &Field| match (previous.get(field.key), self.before.get(field.key)) {
             (Some(before), Some(now)) => !field.kind.same(before, now),

@@ -196,13 +196,13 @@ mod tests {
         antenna.pointing_model.tilt_east_deg = tilt_deg;
         let half_beam_deg = antenna.beam_width().degrees() / 2.0;
         let lowest_deg = 21.0 + half_beam_deg + tilt_deg + 1.0;
-        (Bounds::of(&station, &antenna), Sweep([(0.0, turn_deg), (lowest_deg, 89.0)]))
+        (Bounds::new(&station, &antenna), Sweep([(0.0, turn_deg), (lowest_deg, 89.0)]))
     }
 
     fn is_free_above_saws(tilt_deg: f64, turn_deg: f64, budget: Option<&Budget>) -> bool {
         let (bounds, sweep) = above_saws(tilt_deg, turn_deg);
-        let now = bounds.at("2026-08-12T22:00:00Z".parse().unwrap());
-        now.within(budget).blocks(sweep, Sweep::at([0.0, 89.0])).is_none()
+        let now = bounds.at_time("2026-08-12T22:00:00Z".parse().unwrap());
+        now.with_budget(budget).blocks(sweep, Sweep::at_position([0.0, 89.0])).is_none()
     }
 
     #[test]
@@ -220,13 +220,13 @@ mod tests {
     #[test]
     fn a_barrier_for_which_the_work_ends_too_early_stays_among_the_bounds() {
         let (bounds, place) = above_saws(2.0, 360.0);
-        let now = bounds.at("2026-08-12T22:00:00Z".parse().unwrap());
+        let now = bounds.at_time("2026-08-12T22:00:00Z".parse().unwrap());
         assert_eq!(now.without_entered(place), bounds, "it is outside of each");
         let budget = Budget::default();
         for _ in 0..40 {
             is_free_above_saws(2.0, 360.0, Some(&budget));
         }
-        assert_eq!(now.within(Some(&budget)).without_entered(place), bounds);
+        assert_eq!(now.with_budget(Some(&budget)).without_entered(place), bounds);
     }
 
     #[test]

@@ -137,8 +137,8 @@ mod tests {
                 sun_avoidance: Some(SunAvoidance { radius_deg: 5.0, ahead_min: 0.0 }),
                 ..Station::default()
             };
-            let bounds = Bounds::of(&station, &antenna);
-            let now = bounds.at("2026-08-12T10:00:00Z".parse().unwrap());
+            let bounds = Bounds::new(&station, &antenna);
+            let now = bounds.at_time("2026-08-12T10:00:00Z".parse().unwrap());
             let ends_deg = [(from_deg.0, widths_deg.0), (from_deg.1, widths_deg.1)];
             let place = Sweep(ends_deg.map(|(start, width)| (start, start + width)));
             let clearances = now.each_in(place);

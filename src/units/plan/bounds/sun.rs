@@ -55,7 +55,7 @@ impl Bounds {
     fn now_and_later(&self, time: Timestamp) -> Vec<BoundsAt<'_>> {
         let ahead_min = self.sun.map_or(0.0, |sun| sun.ahead_min);
         let later = time.checked_add(seconds(ahead_min * 60.0));
-        std::iter::once(time).chain(later).map(|utc| self.at(utc)).collect()
+        std::iter::once(time).chain(later).map(|utc| self.at_time(utc)).collect()
     }
 
     /// Directions of the axes that stay clear, the nearest to `start` first.
@@ -64,7 +64,7 @@ impl Bounds {
         let rings = (1..).map(f64::from).take_while(move |ring| ring * RING_DEG <= furthest_deg);
         let ring_points = rings.flat_map(move |ring| {
             let bearings = (0..BEARINGS).map(|part| f64::from(part) / f64::from(BEARINGS) * 360.0);
-            bearings.map(move |bearing_deg| start.towards(bearing_deg, ring * RING_DEG))
+            bearings.map(move |bearing_deg| start.displaced(bearing_deg, ring * RING_DEG))
         });
         let all = self.now_and_later(time);
         ring_points.filter(move |direction| are_clear(&all, *direction))
@@ -157,25 +157,25 @@ mod tests {
     }
 
     fn high() -> Sweep {
-        Sweep::at([0.0, 89.0])
+        Sweep::at_position([0.0, 89.0])
     }
 
     #[test]
     fn the_sun_is_avoided_where_it_will_be_too() {
         let sun_avoidance = Some(SunAvoidance { radius_deg: 5.0, ahead_min: 60.0 });
         let mut station = Station { sun_avoidance, ..Station::default() };
-        let bounds = Bounds::of(&station, &Antenna::genius("Yagi", "memory:1"));
+        let bounds = Bounds::new(&station, &Antenna::genius("Yagi", "memory:1"));
         let later = noon() + SignedDuration::from_mins(50);
         let ahead = sun_moon::sun(station.site, later);
         let place_deg = [ahead.azimuth_deg(), ahead.elevation_deg()];
-        let sweep = Sweep::between(place_deg, place_deg);
+        let sweep = Sweep::new(place_deg, place_deg);
         assert_eq!(
-            bounds.at(noon()).blocks(sweep, high()).map(|(barrier, _)| barrier),
+            bounds.at_time(noon()).blocks(sweep, high()).map(|(barrier, _)| barrier),
             Some(Barrier::Sun)
         );
         station.sun_avoidance = None;
-        let bounds = Bounds::of(&station, &Antenna::genius("Yagi", "memory:1"));
-        assert_eq!(bounds.at(noon()).blocks(sweep, high()), None);
+        let bounds = Bounds::new(&station, &Antenna::genius("Yagi", "memory:1"));
+        assert_eq!(bounds.at_time(noon()).blocks(sweep, high()), None);
     }
 
     #[test]
@@ -212,15 +212,15 @@ mod tests {
         for (radius_deg, ahead_min) in [(0.1, 120.0), (5.0, 120.0), (1.0, 7.0), (30.0, 0.0)] {
             let sun_avoidance = Some(SunAvoidance { radius_deg, ahead_min });
             let station = Station { sun_avoidance, ..Station::default() };
-            let bounds = Bounds::of(&station, &Antenna::genius("Yagi", "memory:1"));
-            let bounds = bounds.at(noon());
+            let bounds = Bounds::new(&station, &Antenna::genius("Yagi", "memory:1"));
+            let bounds = bounds.at_time(noon());
             let positions = bounds.sun.as_ref().unwrap().all().len();
             assert!(positions <= 42, "{positions}");
             for second in (0..=(ahead_min * 60.0) as i64).step_by(10) {
                 let later = noon() + SignedDuration::from_secs(second);
                 let sun = sun_moon::sun(station.site, later);
                 for bearing_deg in [0.0, 45.0, 90.0, 180.0, 300.0] {
-                    let near_edge = sun.towards(bearing_deg, radius_deg * 0.999);
+                    let near_edge = sun.displaced(bearing_deg, radius_deg * 0.999);
                     assert!(
                         !are_clear(std::slice::from_ref(&bounds), near_edge),
                         "{radius_deg} {second} {bearing_deg}"

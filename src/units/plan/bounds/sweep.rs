@@ -14,19 +14,19 @@ pub struct Sweep(pub [(f64, f64); 2]);
 
 impl Sweep {
     /// The ranges that both axes sweep between two positions.
-    pub fn between(from_deg: [f64; 2], to_deg: [f64; 2]) -> Self {
+    pub fn new(from_deg: [f64; 2], to_deg: [f64; 2]) -> Self {
         let [(a, b), (c, d)] = [(from_deg[0], to_deg[0]), (from_deg[1], to_deg[1])];
         Self([(a.min(b), a.max(b)), (c.min(d), c.max(d))])
     }
 
     /// The single position `axes_deg`.
-    pub fn at(axes_deg: [f64; 2]) -> Self {
+    pub fn at_position(axes_deg: [f64; 2]) -> Self {
         Self(axes_deg.map(|deg| (deg, deg)))
     }
 
     /// The smallest sweep that contains both.
     #[must_use]
-    pub fn with(self, other: Self) -> Self {
+    pub fn union(self, other: Self) -> Self {
         let [(a, b), (c, d)] = self.0;
         let [(e, f), (g, h)] = other.0;
         Self([(a.min(e), b.max(f)), (c.min(g), d.max(h))])

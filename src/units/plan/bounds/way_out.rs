@@ -245,7 +245,7 @@ mod tests {
             elevation_from_deg: 0.0,
             elevation_to_deg: 90.0,
         };
-        Bounds::of(&Station { keep_outs: vec![keep_out], ..Station::default() }, &antenna)
+        Bounds::new(&Station { keep_outs: vec![keep_out], ..Station::default() }, &antenna)
     }
 
     fn morning() -> Timestamp {
@@ -253,7 +253,7 @@ mod tests {
     }
 
     fn way_out_deg(axes_deg: [f64; 2]) -> Option<f64> {
-        bounds().at(morning()).way_out_deg(Sweep::at(axes_deg))
+        bounds().at_time(morning()).way_out_deg(Sweep::at_position(axes_deg))
     }
 
     #[test]
@@ -266,9 +266,15 @@ mod tests {
 
     #[test]
     fn an_edge_before_the_end_of_the_travel_is_a_way_out_where_there_is_room() {
-        let at_deg = bounds_to(161.08).at(morning()).way_out_deg(Sweep::at([155.0, 30.0])).unwrap();
+        let at_deg = bounds_to(161.08)
+            .at_time(morning())
+            .way_out_deg(Sweep::at_position([155.0, 30.0]))
+            .unwrap();
         assert!((4.0..5.0).contains(&at_deg), "{at_deg}");
-        let at_deg = bounds_to(161.02).at(morning()).way_out_deg(Sweep::at([155.0, 30.0])).unwrap();
+        let at_deg = bounds_to(161.02)
+            .at_time(morning())
+            .way_out_deg(Sweep::at_position([155.0, 30.0]))
+            .unwrap();
         assert!(at_deg > 20.0, "too narrow: {at_deg}");
     }
 
@@ -278,7 +284,7 @@ mod tests {
         // The lower edge is at 2 degrees.
         for (floor_deg, is_open) in [(0.94, true), (0.96, false)] {
             bounds.minimum_elevation = Some(Angle::from_degrees(floor_deg));
-            let at_deg = bounds.at(morning()).way_out_deg(Sweep::at([130.0, 3.0]));
+            let at_deg = bounds.at_time(morning()).way_out_deg(Sweep::at_position([130.0, 3.0]));
             assert_eq!(at_deg.unwrap() < 1.1, is_open, "{at_deg:?}");
         }
     }
@@ -286,7 +292,8 @@ mod tests {
     #[test]
     fn an_antenna_without_an_elevation_axis_gets_out_by_its_azimuth() {
         let bounds = Bounds { has_elevation: false, minimum_elevation: None, ..bounds() };
-        let at_deg = bounds.at(morning()).way_out_deg(Sweep::at([130.0, 58.0])).unwrap();
+        let at_deg =
+            bounds.at_time(morning()).way_out_deg(Sweep::at_position([130.0, 58.0])).unwrap();
         assert!((15.0..17.0).contains(&at_deg), "{at_deg}");
     }
 
@@ -302,9 +309,9 @@ mod tests {
     fn a_way_along_the_floor_is_found_in_few_looks() {
         for axes_deg in [[130.0, 5.0], [130.0, 5.01], [130.0, 4.99]] {
             let bounds = bounds();
-            let now = bounds.at(morning());
-            let left = now.entered(Sweep::at(axes_deg));
-            let turn = now.turn(Sweep::at(axes_deg), 0, 1.0);
+            let now = bounds.at_time(morning());
+            let left = now.entered(Sweep::at_position(axes_deg));
+            let turn = now.turn(Sweep::at_position(axes_deg), 0, 1.0);
             let mut looks = 0;
             let turn_deg = turn.out_deg(FURTHEST_DEG, EDGE_DEG, |turn_deg| {
                 looks += 1;

@@ -65,7 +65,8 @@ pub enum Cause {
 pub struct Ranked {
     pub cause: Cause,
     /// The largest error that this cause makes alone; `None` if unknown.
-    pub off: Option<Angle>,
+    #[serde(rename = "off")]
+    pub max_error: Option<Angle>,
 }
 
 /// Share of an error that a cause has to make to be named for it. The known part of a cause is its
@@ -76,7 +77,7 @@ impl Ranked {
     /// Returns `true` if this cause can make an error of `deviation`, by far the most of it. A cause whose
     /// error is unknown can.
     pub fn can_make(&self, deviation: Angle) -> bool {
-        self.off.is_none_or(|own| own.degrees() >= MADE_SHARE * deviation.degrees())
+        self.max_error.is_none_or(|own| own.degrees() >= MADE_SHARE * deviation.degrees())
     }
 }
 
@@ -104,7 +105,7 @@ pub(super) fn unknown(on_board: &OnBoard) -> Vec<Unknown> {
 pub(super) fn ranked(judge: &Judge, on_board: &OnBoard, holds_target: bool) -> Vec<Ranked> {
     let right = UnitPath::right(judge);
     let alone = |unit: UnitPath<'_>| {
-        let errors = unit.either_way().map(|unit| judge.worst(&unit).off);
+        let errors = unit.either_way().map(|unit| judge.worst(&unit).angle);
         errors
             .fold(Angle::ZERO, |worst, deviation| if deviation > worst { deviation } else { worst })
     };
@@ -112,7 +113,7 @@ pub(super) fn ranked(judge: &Judge, on_board: &OnBoard, holds_target: bool) -> V
     let mut add = |cause, unit: UnitPath<'_>| {
         let difference = alone(unit);
         if difference.degrees() >= WORTH_NAMING_DEG {
-            ranked.push(Ranked { cause, off: Some(difference) });
+            ranked.push(Ranked { cause, max_error: Some(difference) });
         }
     };
     add(Cause::Refraction, UnitPath { refracts: false, ..right });
@@ -145,7 +146,7 @@ pub(super) fn ranked(judge: &Judge, on_board: &OnBoard, holds_target: bool) -> V
         ranked.extend(satellite(judge, on_board));
     }
     ranked.sort_by(|a, b| {
-        let weight = |ranked: &Ranked| ranked.off.map_or(f64::INFINITY, Angle::degrees);
+        let weight = |ranked: &Ranked| ranked.max_error.map_or(f64::INFINITY, Angle::degrees);
         weight(b).total_cmp(&weight(a))
     });
     ranked
@@ -157,18 +158,21 @@ fn satellite(judge: &Judge, on_board: &OnBoard) -> Option<Ranked> {
     let target = &judge.pass.target;
     if held_satellite.catalog_number != target.catalog_number {
         let (catalog_number, name) = (held_satellite.catalog_number, held_satellite.name.clone());
-        return Some(Ranked { cause: Cause::OtherSatellite { catalog_number, name }, off: None });
+        return Some(Ranked {
+            cause: Cause::OtherSatellite { catalog_number, name },
+            max_error: None,
+        });
     }
     let told_deg = held_satellite.maximum_elevation_deg?;
     let (start, stop) = on_board.window?;
-    let is_this = start.as_second() == target.from.as_second()
-        && stop.as_second() == target.until.as_second();
+    let is_this =
+        start.as_second() == target.start.as_second() && stop.as_second() == target.end.as_second();
     let site = site(on_board, judge.pass.site)?;
     let unit = UnitPath { site, refracts: false, ..UnitPath::right(judge) };
     let expected_deg = judge.highest(&unit).filter(|_| is_this && judge.span_s() > 0.0)?.degrees();
     let differs_deg = (told_deg - expected_deg).abs();
     (differs_deg > HIGHEST_ROUGH_DEG).then_some(Ranked {
         cause: Cause::Elements { told_deg, expected_deg },
-        off: Some(Angle::from_degrees(differs_deg)),
+        max_error: Some(Angle::from_degrees(differs_deg)),
     })
 }

@@ -17,7 +17,8 @@ pub const ALONG_DEG: f64 = 0.5;
 /// The first position at which a path leaves the limits.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Trespass {
-    pub at: Timestamp,
+    #[serde(rename = "at")]
+    pub time: Timestamp,
     pub direction: AzEl,
     pub limit: OffLimits,
 }
@@ -50,9 +51,9 @@ pub(super) fn path_is_clear(
     path.try_for_each(|sample| {
         let Sample { time, direction } =
             sample.map_err(|NoDirection(utc)| NotClear::NoDirection(utc))?;
-        let forbidden = || bounds.at(time).forbids(direction).map(OffLimits::Forbidden);
+        let forbidden = || bounds.at_time(time).forbids(direction).map(OffLimits::Forbidden);
         let limit = off_limits(direction, ability).or_else(forbidden);
-        let leads = |limit| NotClear::Leads(Trespass { at: time, direction, limit });
+        let leads = |limit| NotClear::Leads(Trespass { time, direction, limit });
         limit.map_or(Ok(()), |limit| Err(leads(limit)))
     })
 }

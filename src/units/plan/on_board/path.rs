@@ -51,7 +51,7 @@ impl<'a> UnitPath<'a> {
         let target = &judge.pass.target;
         Self {
             propagator: &judge.propagator,
-            window: (target.from, target.until),
+            window: (target.start, target.end),
             site: judge.pass.site,
             ahead_s: 0.0,
             offsets: Offsets { minimum_elevation_deg: -90.0, ..Offsets::default() },

@@ -43,13 +43,16 @@ fn judge_from(site: Site, minimum_deg: f64) -> Judge {
         catalog_number: ISS,
         name: "ISS".to_owned(),
         element_file: None,
-        from: pass().aos.time,
-        until: pass().los.time,
+        start: pass().aos.time,
+        end: pass().los.time,
     };
     let pass = OnBoardPass { target, elements: ELEMENTS.clone(), site, is_agreed: false };
     let minimum_elevation = Angle::from_degrees(minimum_deg);
-    Judge::new(pass, Ability { minimum_elevation, ..Ability::of(&Antenna::satrak("Dish", "")) })
-        .unwrap()
+    Judge::new(
+        pass,
+        Ability { minimum_elevation, ..Ability::from_antenna(&Antenna::satrak("Dish", "")) },
+    )
+    .unwrap()
 }
 
 fn judge() -> Judge {
@@ -96,8 +99,10 @@ fn look(place: Site, time: Timestamp) -> AzEl {
 /// The only cause and its error, which must be the whole error.
 fn only(unit: &OnBoard) -> (Cause, f64) {
     let found = judge().supervise(unit, true);
-    let [Ranked { cause, off: Some(deviation) }] = &found.causes[..] else { panic!("{found:#?}") };
-    assert!((found.worst.off.degrees() - deviation.degrees()).abs() < 1e-9, "{found:#?}");
+    let [Ranked { cause, max_error: Some(deviation) }] = &found.causes[..] else {
+        panic!("{found:#?}")
+    };
+    assert!((found.worst.angle.degrees() - deviation.degrees()).abs() < 1e-9, "{found:#?}");
     (cause.clone(), deviation.degrees())
 }
 
@@ -113,7 +118,7 @@ fn open_sky() -> crate::plan::Bounds {
 #[test]
 fn a_unit_that_goes_by_the_same_follows() {
     let found = judge().supervise(&right(), true);
-    assert!(found.is_within_beam && found.worst.off.degrees() < 1e-9, "{found:#?}");
+    assert!(found.is_within_beam && found.worst.angle.degrees() < 1e-9, "{found:#?}");
     assert_eq!((found.causes, found.unknown), (vec![], vec![Unknown::Elements]));
     assert_eq!(found.lower_minimum_deg, None);
     // The unit reports its location in hundredths of a degree.
@@ -129,7 +134,9 @@ fn a_place_elsewhere_is_told_with_its_distance() {
     let distance = frames::site_ecef_km(other_site).distance(frames::site_ecef_km(site()));
     assert!((1500.0..1700.0).contains(&distance));
     let found = judge().supervise(&OnBoard { place: Some(place), ..right() }, true);
-    let [Ranked { cause, off: Some(deviation) }] = &found.causes[..] else { panic!("{found:#?}") };
+    let [Ranked { cause, max_error: Some(deviation) }] = &found.causes[..] else {
+        panic!("{found:#?}")
+    };
     assert_eq!(*cause, Cause::Place { place, away_km: distance });
     assert_near(deviation.degrees(), worst_deg(|time| look(other_site, time)));
     // The unit does not point below its minimum elevation of 5 degrees.
@@ -138,7 +145,7 @@ fn a_place_elsewhere_is_told_with_its_distance() {
         let AzEl { azimuth, elevation } = look(other_site, utc);
         AzEl { azimuth, elevation: if elevation < min { min } else { elevation } }
     });
-    assert_near(found.worst.off.degrees(), clamped);
+    assert_near(found.worst.angle.degrees(), clamped);
     assert!(!found.is_within_beam && clamped > 15.0, "{clamped}");
 }
 
@@ -160,7 +167,7 @@ fn a_clock_is_off_by_no_more_than_its_reading_proves() {
     let judged = |ahead_s, error_s| {
         let clock = UnitClock { error_s, ..clock(ahead_s) };
         let found = judge().supervise(&OnBoard { clock: Some(clock), ..right() }, true);
-        (found.worst.off.degrees(), found.causes)
+        (found.worst.angle.degrees(), found.causes)
     };
     assert_eq!(judged(-0.15, 0.15), judged(0.0, 0.0), "the reply alone may have been late");
     let (off_deg, causes) = judged(-5.0, 2.0);
@@ -227,7 +234,7 @@ fn another_satellite_and_other_elements_are_told_once_the_target_is_on_the_unit(
     assert_eq!(judge().supervise(&holds(43_013, 20.0), false).causes, []);
     let found = judge().supervise(&holds(43_013, 20.0), true).causes;
     let cause = Cause::OtherSatellite { catalog_number: 43_013, name: "NOAA 20".to_owned() };
-    assert_eq!(found, [Ranked { cause, off: None }]);
+    assert_eq!(found, [Ranked { cause, max_error: None }]);
     assert_eq!(judge().supervise(&holds(ISS, highest_deg), true).causes, []);
     let found = judge().supervise(&holds(ISS, highest_deg - 20.0), true).causes;
     assert!(matches!(found[..], [Ranked { cause: Cause::Elements { .. }, .. }]), "{found:?}");
@@ -276,8 +283,8 @@ fn a_path_that_nobody_knows_is_not_clear() {
     let gone_time = (0..100_000).step_by(50).find_map(gone_time).expect("elements that end");
     let mut judge = judge();
     for until_s in [0.0, 3600.0] {
-        judge.pass.target.from = add_seconds(gone_time, until_s - 3600.0);
-        judge.pass.target.until = add_seconds(gone_time, until_s);
+        judge.pass.target.start = add_seconds(gone_time, until_s - 3600.0);
+        judge.pass.target.end = add_seconds(gone_time, until_s);
         // The rest of the path may be clear.
         judge.ability.minimum_elevation = Angle::from_degrees(-90.0);
         assert!(judge.is_clear(&right(), &open_sky()).is_err(), "{until_s}");
@@ -293,7 +300,7 @@ fn a_path_below_the_limit_or_beyond_the_travel_says_where_first() {
     };
     let low = leads(&judge_above(45.0), &right());
     assert_eq!(low.limit, OffLimits::Elevation { lowest_deg: 45.0 });
-    assert_eq!(low.at, pass().aos.time);
+    assert_eq!(low.time, pass().aos.time);
     // With an offset that lowers the path, the end of the pass is as low as its beginning.
     let sunk = leads(
         &judge_above(10.0),
@@ -324,11 +331,12 @@ fn a_unit_that_leaves_refraction_out_is_told_apart_and_still_takes_the_pass() {
     // At 10 degrees.
     assert!((0.08..0.1).contains(&off_deg) && lifted.elevation > aos.direction.elevation);
     let found = judge.supervise(&right(), true);
-    assert_near(100.0 * found.worst.off.degrees(), 100.0 * off_deg);
-    let [Ranked { cause: Cause::Refraction, off: Some(deviation) }] = &found.causes[..] else {
+    assert_near(100.0 * found.worst.angle.degrees(), 100.0 * off_deg);
+    let [Ranked { cause: Cause::Refraction, max_error: Some(deviation) }] = &found.causes[..]
+    else {
         panic!("{found:#?}")
     };
-    assert_eq!(*deviation, found.worst.off);
+    assert_eq!(*deviation, found.worst.angle);
     // A beam narrower than that loses the ends of the pass, which no setting of the unit saves.
     let narrow = Ability { half_beam: Angle::from_degrees(0.05), ..judge.ability() };
     let narrow = Judge::new(judge.pass().clone(), narrow).unwrap();
@@ -342,7 +350,7 @@ fn a_unit_that_leaves_refraction_out_is_told_apart_and_still_takes_the_pass() {
 fn a_small_known_error_is_no_cause_of_a_large_one() {
     let ranked = |off_deg: Option<f64>| Ranked {
         cause: Cause::Refraction,
-        off: off_deg.map(Angle::from_degrees),
+        max_error: off_deg.map(Angle::from_degrees),
     };
     let can_make = |own_deg, off_deg| ranked(own_deg).can_make(Angle::from_degrees(off_deg));
     assert!(can_make(Some(2.5), 2.6) && can_make(Some(9.0), 2.6));

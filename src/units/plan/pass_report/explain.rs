@@ -97,7 +97,8 @@ pub enum Cause {
     },
     /// An axis stands since then; `None`: both stand.
     Stuck {
-        since: Timestamp,
+        #[serde(rename = "since")]
+        start: Timestamp,
         #[serde(default, skip_serializing_if = "Option::is_none")]
         axis: Option<Axis>,
     },
@@ -136,7 +137,7 @@ pub struct Explanation {
     pub cause: Cause,
     /// The cause that acts together with it; `None` if it acts alone.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub with: Option<Cause>,
+    pub partner: Option<Cause>,
     /// Root mean square of what is left, degrees.
     pub left_deg: f64,
     /// Share of the mean square that it explains of what is not noise, 0 to 1.
@@ -146,7 +147,7 @@ pub struct Explanation {
 impl Explanation {
     /// Its one cause or two.
     pub fn causes(&self) -> impl Iterator<Item = &Cause> {
-        std::iter::once(&self.cause).chain(&self.with)
+        std::iter::once(&self.cause).chain(&self.partner)
     }
 }
 
@@ -326,14 +327,14 @@ impl Evidence<'_> {
         for FoundCause { cause, partner, fit } in found.iter().copied() {
             let explanation = Explanation {
                 cause,
-                with: partner,
+                partner,
                 left_deg: self.rms_deg(fit.left),
                 share: self.share(fit.left, whole),
             };
             // Only the best of several other sets counts.
             let is_same = |shown: &Explanation| {
                 shown.cause.is_same_kind(&cause)
-                    && matches!((shown.with, partner), (None, None))
+                    && matches!((shown.partner, partner), (None, None))
                     && matches!(cause, Cause::OtherElements { .. })
             };
             if shown.len() < MAX_CANDIDATES && !shown.iter().any(is_same) {

@@ -16,14 +16,16 @@ use crate::{
 /// A stretch of a pass that was lost.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct LostStretch {
-    pub from: Timestamp,
-    pub until: Timestamp,
+    #[serde(rename = "from")]
+    pub start: Timestamp,
+    #[serde(rename = "until")]
+    pub end: Timestamp,
     pub cause: LossCause,
 }
 
 impl LostStretch {
     pub fn seconds(&self) -> f64 {
-        seconds_between(self.from, self.until)
+        seconds_between(self.start, self.end)
     }
 
     /// Returns `true` if the error in it is one of pointing or of the drives. An antenna that is on
@@ -31,7 +33,7 @@ impl LostStretch {
     pub(super) fn is_judged(&self, end: Timestamp) -> bool {
         match self.cause {
             LossCause::OutsideBeam | LossCause::EarlyEnd => true,
-            LossCause::LateStart => self.until >= end,
+            LossCause::LateStart => self.end >= end,
             LossCause::NotMeasured
             | LossCause::LinkLost
             | LossCause::ProgramEnded
@@ -117,8 +119,8 @@ impl LossCause {
 impl TrackedPass<'_> {
     /// The stretches that were lost, with the positions that tell why.
     pub(super) fn losses(&self, stretches: &[Stretch], points: &[TrackPoint]) -> Vec<LostStretch> {
-        let end = self.ended.unwrap_or(self.until);
-        let commanded = self.breaks.commanded(self.from, end).into_iter();
+        let end = self.ended.unwrap_or(self.end);
+        let commanded = self.breaks.commanded(self.start, end).into_iter();
         let followed: Vec<(Timestamp, Following)> = commanded
             .map(|(start, stop_time)| {
                 let near = add_seconds(start, -APART_S)..=add_seconds(stop_time, APART_S);
@@ -136,13 +138,12 @@ impl TrackedPass<'_> {
             }
         });
         let ended = self.ended.into_iter();
-        let ended =
-            ended.flat_map(|begin| self.in_parts(begin, self.until, LossCause::ProgramEnded));
+        let ended = ended.flat_map(|begin| self.in_parts(begin, self.end, LossCause::ProgramEnded));
         let mut losses: Vec<LostStretch> = Vec::new();
         for lost in lost.chain(ended) {
             match losses.last_mut() {
-                Some(last) if last.cause == lost.cause && last.until == lost.from => {
-                    last.until = lost.until;
+                Some(last) if last.cause == lost.cause && last.end == lost.start => {
+                    last.end = lost.end;
                 }
                 _ => losses.push(lost),
             }
@@ -198,8 +199,7 @@ impl TrackedPass<'_> {
     /// The loss of the mount between two times, if that is where it had to lose something, and no
     /// more than it had to.
     fn loss_of_mount(&self, start: Timestamp, end: Timestamp) -> Option<LossCause> {
-        let Trackability::Loses { at: loss, from: first, until: last, .. } = self.trackability
-        else {
+        let Trackability::Loses { loss, start: first, end: last, .. } = self.trackability else {
             return None;
         };
         let is_there = start <= add_seconds(last, COMES_BACK_S)
@@ -227,7 +227,7 @@ impl TrackedPass<'_> {
 
     /// Returns `true` if all of the pass is within reach of the mount.
     fn is_reached(&self) -> bool {
-        self.reached_s(self.from, self.until) >= seconds_between(self.from, self.until)
+        self.reached_s(self.start, self.end) >= seconds_between(self.start, self.end)
     }
 
     /// Seconds in which the satellite was within reach of the mount.
@@ -252,8 +252,8 @@ impl TrackedPass<'_> {
             let cause =
                 if self.is_in_reach(time(second)) { loss_cause } else { LossCause::OutOfReach };
             match found.last_mut() {
-                Some(last) if last.cause == cause => last.until = time(second + 1),
-                _ => found.push(LostStretch { from: time(second), until: time(second + 1), cause }),
+                Some(last) if last.cause == cause => last.end = time(second + 1),
+                _ => found.push(LostStretch { start: time(second), end: time(second + 1), cause }),
             }
         }
         if found.len() > 1 {

@@ -32,9 +32,9 @@ impl TrackedPass<'_> {
     /// The stretches of the pass, in order and without gaps, up to where the program ended. Between
     /// two positions the error is taken to change evenly.
     pub(super) fn stretches(&self, points: &[TrackPoint]) -> Vec<Stretch> {
-        let end = self.ended.unwrap_or(self.until);
-        let (mut found, mut time) = (Stretches(Vec::new()), self.from);
-        for (start, stop_time) in self.breaks.commanded(self.from, end) {
+        let end = self.ended.unwrap_or(self.end);
+        let (mut found, mut time) = (Stretches(Vec::new()), self.start);
+        for (start, stop_time) in self.breaks.commanded(self.start, end) {
             found.add(time, start, StretchState::NotCommanded);
             self.measured(start, stop_time, points, &mut found);
             time = stop_time;

@@ -45,8 +45,8 @@ impl Scene {
         TrackedPass {
             propagator: &self.propagator,
             site: self.site,
-            from: self.pass.aos.time,
-            until: self.pass.los.time,
+            start: self.pass.aos.time,
+            end: self.pass.los.time,
             limits: MountLimits {
                 mount: Mount::AzEl {
                     azimuth_from_deg: 0.0,
@@ -131,7 +131,7 @@ fn a_late_antenna_is_behind_along_the_way_and_not_across_it() {
     let worst = report.worst.unwrap();
     assert!(worst.error.along_deg < 0.0, "{worst:?}");
     // A satellite is fastest where it is nearest.
-    assert!(is_close(seconds_between(worst.at, scene.pass.tca.time), 0.0, 5.0));
+    assert!(is_close(seconds_between(worst.time, scene.pass.tca.time), 0.0, 5.0));
 }
 
 #[test]
@@ -176,8 +176,7 @@ fn what_the_mount_had_to_lose_is_no_fault_and_no_excuse_for_more() {
             Some(if lost.contains(&second) { shifted_after(utc) } else { scene.direction(utc) })
         });
         let [start, end] = [150.0, 158.0].map(|second| scene.time(second));
-        let trackability =
-            Trackability::Loses { seconds: 8.0, at: Loss::Overhead, from: start, until: end };
+        let trackability = Trackability::Loses { seconds: 8.0, loss: Loss::Overhead, start, end };
         TrackedPass { trackability, ..scene.flown_pass() }.report(&measured)
     };
     let planned = report(150.0..158.0);
@@ -214,12 +213,8 @@ fn what_is_out_of_reach_is_no_fault_whatever_was_measured_there() {
     let tracked = scene.flown_pass();
     let lost_s = scene.duration_s() - middle_s;
     let (start, stop_time) = (scene.time(middle_s), scene.pass.los.time);
-    let trackability = Trackability::Loses {
-        seconds: lost_s,
-        at: Loss::OutOfReach,
-        from: start,
-        until: stop_time,
-    };
+    let trackability =
+        Trackability::Loses { seconds: lost_s, loss: Loss::OutOfReach, start, end: stop_time };
     let limits = MountLimits { mount, ..tracked.limits };
     let tracked = TrackedPass { limits, trackability, ..tracked };
     let at_its_end = scene.direction(add_seconds(scene.pass.aos.time, middle_s));
@@ -373,8 +368,7 @@ fn what_the_mount_had_to_lose_at_an_end_of_the_pass_is_no_fault() {
     let end_s = scene.duration_s();
     for (first_s, last_s) in [(0.0, 20.0), (end_s - 20.0, end_s)] {
         let (start, end) = (scene.time(first_s), scene.time(last_s));
-        let trackability =
-            Trackability::Loses { seconds: 20.0, at: Loss::Slew, from: start, until: end };
+        let trackability = Trackability::Loses { seconds: 20.0, loss: Loss::Slew, start, end };
         let turns = scene.flown(|second, time| {
             let away_s = (second - first_s).min(last_s - second).max(0.0);
             let away_s = if first_s == 0.0 { (last_s - second).max(0.0) } else { away_s };
@@ -538,7 +532,7 @@ fn an_offset_is_no_error_and_what_the_antenna_misses_beside_it_is() {
             now.demanded(time, |utc| Some(scene.direction(utc))).unwrap()
         };
         let flown = |by_deg: f64| {
-            let flown = scene.flown(|_, time| Some(demanded(time).towards(30.0, by_deg)));
+            let flown = scene.flown(|_, time| Some(demanded(time).displaced(30.0, by_deg)));
             let shifted =
                 |flown: MeasuredPosition| offsets.taken_off(&scene.propagator, scene.site, flown);
             flown.into_iter().map(shifted).collect::<Vec<_>>()

@@ -217,8 +217,8 @@ fn any_points(mount: &Errors, errs: Errs, draws: &mut Draws) -> Vec<Point> {
         };
         points.push(Point {
             kind: Kind::Satellite,
-            at: time,
-            wanted: degrees(sky),
+            time,
+            direction: degrees(sky),
             measured: degrees([read[0] + noise[0] / sky[1].cos(), read[1] + noise[1]]),
             weight: 1.0,
         });

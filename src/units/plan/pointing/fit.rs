@@ -48,8 +48,10 @@ pub enum Kind {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Point {
     pub kind: Kind,
-    pub at: Timestamp,
-    pub wanted: AzEl,
+    #[serde(rename = "at")]
+    pub time: Timestamp,
+    #[serde(rename = "wanted")]
+    pub direction: AzEl,
     pub measured: AzEl,
     /// Among the points of its kind.
     pub weight: f64,
@@ -58,28 +60,28 @@ pub struct Point {
 impl Point {
     /// The peak of the Sun at this time.
     pub fn of_sun(site: Site, time: Timestamp, measured: AzEl, weight: f64) -> Self {
-        Self { kind: Kind::Sun, at: time, wanted: sun_moon::sun(site, time), measured, weight }
+        Self { kind: Kind::Sun, time, direction: sun_moon::sun(site, time), measured, weight }
     }
 
     /// The peak of the Moon at this time.
     pub fn of_moon(site: Site, time: Timestamp, measured: AzEl, weight: f64) -> Self {
-        Self { kind: Kind::Moon, at: time, wanted: sun_moon::moon(site, time), measured, weight }
+        Self { kind: Kind::Moon, time, direction: sun_moon::moon(site, time), measured, weight }
     }
 
     /// Measured minus modelled, of the azimuth on the sky and of the elevation, degrees.
     pub(super) fn rest_deg(&self, model: &PointingModel) -> Option<[f64; 2]> {
-        let reading = model.reading(self.wanted)?;
+        let reading = model.reading(self.direction)?;
         let azimuth = (self.measured.azimuth - reading.azimuth).wrapped_180().degrees();
         let elevation_deg = (self.measured.elevation - reading.elevation).degrees();
-        Some([azimuth * self.wanted.elevation.radians().cos(), elevation_deg])
+        Some([azimuth * self.direction.elevation.radians().cos(), elevation_deg])
     }
 
     pub(super) fn is_usable(&self) -> bool {
         let weighs = self.weight.is_finite() && self.weight > 0.0;
-        let angles =
-            [self.wanted, self.measured].map(|direction| [direction.azimuth, direction.elevation]);
+        let angles = [self.direction, self.measured]
+            .map(|direction| [direction.azimuth, direction.elevation]);
         let is_known = angles.as_flattened().iter().all(|angle| angle.is_finite());
-        weighs && is_known && self.wanted.elevation_deg().abs() <= HIGHEST_DEG
+        weighs && is_known && self.direction.elevation_deg().abs() <= HIGHEST_DEG
     }
 }
 
@@ -103,7 +105,7 @@ pub struct Interval {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Alike {
     pub term: Term,
-    pub with: Vec<Term>,
+    pub others: Vec<Term>,
 }
 
 /// The noise of the points of a kind.
@@ -128,9 +130,9 @@ impl KindNoise {
 pub struct Fit {
     pub model: PointingModel,
     /// Terms that were fitted.
-    pub kept: Vec<Term>,
+    pub fitted: Vec<Term>,
     pub alike: Vec<Alike>,
-    /// Terms of `kept` that a term of `alike`, of any typical size, would change by more than
+    /// Terms of `fitted` that a term of `alike`, of any typical size, would change by more than
     /// a part of what the noise does: nothing tells how well they are known.
     pub shared: Vec<Term>,
     pub noise: Vec<KindNoise>,
@@ -144,7 +146,7 @@ pub struct Fit {
 impl Fit {
     /// `None` for a term that was not fitted, or that holds a part of one that was not.
     pub fn interval(&self, term: Term) -> Option<Interval> {
-        let is_kept = self.kept.contains(&term) && !self.shared.contains(&term);
+        let is_kept = self.fitted.contains(&term) && !self.shared.contains(&term);
         let variance = is_kept.then(|| self.variances.get(term as usize).copied()).flatten()?;
         let half = student_95(self.freedom as f64) * variance.sqrt();
         Some(Interval { value: self.model.term(term), half })
@@ -157,7 +159,7 @@ impl Fit {
 
     /// From -1 to 1; `None` where one of the terms was not fitted.
     pub fn correlation(&self, a: Term, b: Term) -> Option<f64> {
-        let is_kept = self.kept.contains(&a) && self.kept.contains(&b);
+        let is_kept = self.fitted.contains(&a) && self.fitted.contains(&b);
         let deviations = (self.covariance(a, a) * self.covariance(b, b)).sqrt();
         is_kept.then(|| self.covariance(a, b) / deviations)
     }
@@ -212,13 +214,13 @@ pub fn fit<'a>(
         places.iter().filter_map(|place| Term::ALL.get(*place).copied()).collect()
     };
     let alike = left_out.iter().filter_map(|out| {
-        Some(Alike { term: *Term::ALL.get(out.unknown)?, with: named(&out.named) })
+        Some(Alike { term: *Term::ALL.get(out.unknown)?, others: named(&out.named) })
     });
     let shared: Vec<usize> =
         retained.iter().copied().filter(|unknown| solved.shares(*unknown)).collect();
     Ok(Fit {
         model: *model,
-        kept: named(retained),
+        fitted: named(retained),
         alike: alike.collect(),
         shared: named(&shared),
         noise: noise.clone(),

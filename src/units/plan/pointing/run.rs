@@ -54,10 +54,14 @@ impl PointRun {
         let usable: Vec<Point> = points.iter().copied().filter(Point::is_usable).collect();
         let last = usable.len().saturating_sub(1);
         let timed = usable.iter().enumerate().filter_map(|(index, point)| {
-            let at_s = seconds_between(usable.first()?.at, point.at);
+            let at_s = seconds_between(usable.first()?.time, point.time);
             let (before, after) =
                 (usable.get(index.saturating_sub(1))?, usable.get((index + 1).min(last))?);
-            Some(Timed { point: *point, at_s, rate_deg_s: rate_deg_s(point.wanted, before, after) })
+            Some(Timed {
+                point: *point,
+                at_s,
+                rate_deg_s: rate_deg_s(point.direction, before, after),
+            })
         });
         Self(timed.collect())
     }
@@ -103,7 +107,7 @@ impl PointRun {
         let mut equations = Vec::with_capacity(2 * self.0.len());
         for Timed { point, at_s, rate_deg_s } in &self.0 {
             let Some(rest_deg) = point.rest_deg(model) else { continue };
-            let effects = Term::ALL.map(|term| term.effect(point.wanted));
+            let effects = Term::ALL.map(|term| term.effect(point.direction));
             let scale = point.weight.sqrt() / deviation_deg(point.kind);
             let axes = filters.iter_mut().zip(rate_deg_s).zip(rest_deg).enumerate();
             for (axis, ((filter, rate_deg_s), rest_deg)) in axes {
@@ -122,11 +126,11 @@ impl PointRun {
 
 /// Rate of the direction `direction` between two points, azimuth on the sky and elevation, degrees a second.
 fn rate_deg_s(direction: AzEl, before: &Point, after: &Point) -> [f64; 2] {
-    let span_s = seconds_between(before.at, after.at);
+    let span_s = seconds_between(before.time, after.time);
     if span_s <= 0.0 {
         return [0.0; 2];
     }
-    let turned = (after.wanted.to_enu() - before.wanted.to_enu()) / span_s;
+    let turned = (after.direction.to_enu() - before.direction.to_enu()) / span_s;
     let (sin_az, cos_az) = direction.azimuth.radians().sin_cos();
     let (sin_el, cos_el) = direction.elevation.radians().sin_cos();
     let clockwise = DVec3::new(cos_az, -sin_az, 0.0);

@@ -57,7 +57,7 @@ fn point(
     let aside_deg = noise_deg * normal(random) / target.elevation.radians().cos();
     measured.azimuth = measured.azimuth + Angle::from_degrees(aside_deg);
     measured.elevation = measured.elevation + Angle::from_degrees(noise_deg * normal(random));
-    Point { kind, at: Timestamp::UNIX_EPOCH, wanted: target, measured, weight: 1.0 }
+    Point { kind, time: Timestamp::UNIX_EPOCH, direction: target, measured, weight: 1.0 }
 }
 
 fn points(
@@ -131,7 +131,7 @@ fn intervals_hold_the_terms_and_are_as_small_as_they_can_be() {
         let noise_deg = uniform(&mut random, 0.01, 0.1);
         let points = points(&model, (80, noise_deg), (8.0, 82.0), &mut random);
         let fit = fit_scattered(&points, &Term::ALL).unwrap();
-        assert_eq!(fit.kept, Term::ALL, "seed {SEED}, case {case}");
+        assert_eq!(fit.fitted, Term::ALL, "seed {SEED}, case {case}");
         let found = fit.noise[0];
         assert_eq!((found.kind, found.points), (Kind::Satellite, 80));
         noises += found.noise_deg / noise_deg / f64::from(CASES);
@@ -177,7 +177,7 @@ fn of_passes(
         let read = |step: u32| {
             let time = add_seconds(pass.aos.time, pass.duration_s() * f64::from(step) / 50.0);
             let target = propagator.look_from(site, time).unwrap().direction;
-            Point { at: time, ..point(Kind::Satellite, target, model, noise_deg, random) }
+            Point { time, ..point(Kind::Satellite, target, model, noise_deg, random) }
         };
         points.push((0..50).map(read).collect());
     }
@@ -251,7 +251,7 @@ fn terms_that_the_points_do_not_tell_apart_are_named_and_left_out() {
     let level = points(&model, (60, 0.02), (30.0, 30.0), &mut random);
     let fit = fit_scattered(&level, &Term::ALL).unwrap();
     let alike =
-        |term: Term| fit.alike.iter().find(|alike| alike.term == term).map(|pair| &*pair.with);
+        |term: Term| fit.alike.iter().find(|alike| alike.term == term).map(|pair| &*pair.others);
     assert_eq!(alike(Term::Collimation), Some(&[Term::AzimuthOffset][..]));
     assert_eq!(alike(Term::NonPerpendicularity), Some(&[Term::AzimuthOffset][..]));
     assert_eq!(alike(Term::ElevationScale), Some(&[Term::ElevationOffset][..]));
@@ -319,7 +319,7 @@ fn a_term_that_is_not_wanted_is_zero_and_the_others_are_fitted() {
     let points = points(&model, (200, 0.02), (8.0, 82.0), &mut random);
     let terms = [Term::AzimuthOffset, Term::ElevationOffset];
     let fit = fit_scattered(&points, &terms).unwrap();
-    assert_eq!((&fit.kept[..], fit.alike.len()), (&terms[..], 0));
+    assert_eq!((&fit.fitted[..], fit.alike.len()), (&terms[..], 0));
     for term in Term::ALL {
         let Some(found) = fit.interval(term) else {
             assert_eq!((fit.model.term(term), terms.contains(&term)), (0.0, false), "{term:?}");

@@ -93,10 +93,16 @@ pub struct Next {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum OnPath {
     /// The antenna cannot have reached the path yet, or the path leaves the target, as in an unwrap.
-    /// `until` is the predicted arrival on target; `None` if none is predicted.
-    OnItsWay { until: Option<Timestamp> },
+    /// `arrival` is the predicted arrival on target; `None` if none is predicted.
+    OnItsWay {
+        #[serde(rename = "until")]
+        arrival: Option<Timestamp>,
+    },
     /// The antenna should be on its path but is off by this angle.
-    Due { off: Angle },
+    Due {
+        #[serde(rename = "off")]
+        deviation: Angle,
+    },
 }
 
 /// Progress of an antenna that is off its path.
@@ -328,7 +334,7 @@ impl Planner {
             let (arrival, _) =
                 recent.unwrap_or_else(|| (chase.reaches(path, rates_deg_s, is_met), time));
             self.arrival = recent.or(Some((arrival, time)));
-            return Some(OnPath::OnItsWay { until: arrival });
+            return Some(OnPath::OnItsWay { arrival });
         }
         self.arrival = None;
         let [azimuth, elevation] = reported;
@@ -342,9 +348,9 @@ impl Planner {
         // A unit may report a position that is already old; the age that fits best is assumed.
         let off_deg = off_deg.into_iter().fold(f64::INFINITY, f64::min);
         if self.approach.comes_nearer(off_deg, time) {
-            return Some(OnPath::OnItsWay { until: None });
+            return Some(OnPath::OnItsWay { arrival: None });
         }
-        Some(OnPath::Due { off: Angle::from_degrees(off_deg) })
+        Some(OnPath::Due { deviation: Angle::from_degrees(off_deg) })
     }
 
     /// Largest error that the settings of program track allow at `time`.

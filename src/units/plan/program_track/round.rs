@@ -65,7 +65,7 @@ pub(super) fn round(
                 // A search takes long, so the bounds of this moment stand for the whole stretch.
                 let middle_time = targets.get(count / 2).map(|sample| sample.time);
                 middle_time
-                    .and_then(|time| detour::route(&bounds.at(time), &limits, entry_deg, end))
+                    .and_then(|time| detour::route(&bounds.at_time(time), &limits, entry_deg, end))
             }
             // The target rises or sets behind the keep-out.
             (Some(one), None) | (None, Some(one)) => Some(vec![one]),

@@ -5,25 +5,25 @@ use jiff::Timestamp;
 use crate::{
     astro::time::add_seconds,
     plan::schedule::{Entry, sun_is},
-    station::{Antenna, AutomationRule, BetweenPasses, Station, Then},
+    station::{Antenna, AutomationRule, BetweenPasses, RuleAction, Station},
 };
 
 /// Longest time by which Azel sends an antenna to a pass earlier than necessary, seconds.
 pub const LEAD_S: f64 = 60.0;
 
 /// Where the antenna is between passes at `time`, by its settings and by the rules of the station.
-pub fn between(station: &Station, antenna: &Antenna, time: Timestamp) -> BetweenPasses {
+pub fn between_passes(station: &Station, antenna: &Antenna, time: Timestamp) -> BetweenPasses {
     let mut rules = station.rules.iter().filter(|rule| rule.is_for(antenna.id)).peekable();
     // The Sun is computed only where a rule may ask for it.
     if rules.peek().is_none() {
-        return antenna.automatic.between;
+        return antenna.automatic.between_passes;
     }
     let sun = sun_is(station, time);
     // A rule about a satellite or a group says nothing about the time between passes.
-    let mut holding = rules.filter(|rule| rule.of.is_none() && rule.holds_at(time, sun));
+    let mut holding = rules.filter(|rule| rule.subject.is_none() && rule.holds_at(time, sun));
     match holding.next() {
-        Some(AutomationRule { then: Then::Park, .. }) => BetweenPasses::Park,
-        _ => antenna.automatic.between,
+        Some(AutomationRule { action: RuleAction::Park, .. }) => BetweenPasses::Park,
+        _ => antenna.automatic.between_passes,
     }
 }
 
@@ -43,5 +43,5 @@ pub fn sets_out(entry: &Entry, plan: BetweenPasses) -> Timestamp {
             entry.slew_s + entry.set_up_s + lead_s
         }
     };
-    add_seconds(entry.from, -before_s)
+    add_seconds(entry.start, -before_s)
 }

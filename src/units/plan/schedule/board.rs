@@ -57,8 +57,8 @@ impl<'a> Board<'a> {
             // By overlap, because newer elements shift AOS.
             let is_it = |candidate: &Candidate| {
                 candidate.key.satellite == entry.pass.satellite
-                    && candidate.key.aos < entry.to
-                    && entry.from < candidate.los
+                    && candidate.key.aos < entry.end
+                    && entry.start < candidate.los
             };
             request.candidates.iter().position(is_it)
         };
@@ -93,7 +93,7 @@ impl<'a> Board<'a> {
             let id = request.antennas.get(whole.antenna).map(|antenna| antenna.id);
             let is_free = |span: Span| {
                 fixed_entries.iter().all(|entry| {
-                    let is_apart = span.from_ms >= ms(entry.to) || span.to_ms <= ms(entry.from);
+                    let is_apart = span.from_ms >= ms(entry.end) || span.to_ms <= ms(entry.start);
                     entry.shared_with.is_some() && id != Some(entry.antenna) && is_apart
                 })
             };
@@ -139,8 +139,8 @@ impl<'a> Board<'a> {
             antenna: antenna as u32,
             limit,
             part: PassPart::Alone,
-            from_ms: ms(entry.from),
-            to_ms: ms(entry.to),
+            from_ms: ms(entry.start),
+            to_ms: ms(entry.end),
             share: 1000,
             is_whole: true,
             height_mdeg: 0,
@@ -273,8 +273,10 @@ impl Candidate {
 
 /// All that an antenna can take as a whole.
 fn wholes<'a>(request: &'a Request<'a>, antenna: usize) -> Vec<Whole<'a>> {
-    let Some(planned) =
-        request.antennas.get(antenna).filter(|planned_antenna| planned_antenna.off.is_none())
+    let Some(planned) = request
+        .antennas
+        .get(antenna)
+        .filter(|planned_antenna| planned_antenna.off_reason.is_none())
     else {
         return Vec::new();
     };
@@ -419,7 +421,7 @@ impl PreviousPlan {
         let takes = previous.filter_map(|entry| {
             let own = by_satellite.get(&entry.pass.satellite)?;
             let same = own.iter().find(|(_, candidate)| {
-                candidate.key.aos < entry.to && entry.from < candidate.los
+                candidate.key.aos < entry.end && entry.start < candidate.los
             })?;
             Some((same.0, entry.antenna))
         });

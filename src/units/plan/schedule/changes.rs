@@ -4,7 +4,7 @@ use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
 use super::{
-    outcome::{Entry, Schedule, Why},
+    outcome::{Entry, LeftOutReason, Schedule},
     request::PassKey,
 };
 use crate::station::AntennaId;
@@ -31,8 +31,10 @@ pub enum Changed {
         antenna: AntennaId,
     },
     Moved {
-        from: AntennaId,
-        to: AntennaId,
+        #[serde(rename = "from")]
+        source: AntennaId,
+        #[serde(rename = "to")]
+        destination: AntennaId,
     },
     /// It starts later and ends earlier by so many seconds; less than 0 for the other way.
     Cut {
@@ -49,7 +51,7 @@ pub enum ChangeCause {
     /// The pass is not predicted any more.
     Gone,
     /// The pass is left out now.
-    LeftOut(Why),
+    LeftOut(LeftOutReason),
     /// The schedule is worth more this way.
     Better,
 }
@@ -57,7 +59,7 @@ pub enum ChangeCause {
 /// Returns the changes from `before` to `after`, from `start` on, in the order of `after`, then of
 /// `before`. Two passes are the same if they are of the same satellite and their spans overlap.
 pub fn changes(before: &Schedule, after: &Schedule, start: Timestamp) -> Vec<Change> {
-    let ahead = |entry: &&Entry| entry.to > start;
+    let ahead = |entry: &&Entry| entry.end > start;
     let old: Vec<&Entry> = before.entries.iter().filter(ahead).collect();
     let new: Vec<&Entry> = after.entries.iter().filter(ahead).collect();
     let mut found = Vec::new();
@@ -75,7 +77,7 @@ pub fn changes(before: &Schedule, after: &Schedule, start: Timestamp) -> Vec<Cha
         } else {
             let (source, destination) =
                 (same.first().map(|earlier| earlier.antenna), entry.antenna);
-            source.map(|source| Changed::Moved { from: source, to: destination })
+            source.map(|source| Changed::Moved { source, destination })
         };
         let was_known = before.left_out.iter().any(|left_out| is_near(left_out.pass, entry));
         let is_new = same.is_empty() && !was_known;
@@ -89,7 +91,7 @@ pub fn changes(before: &Schedule, after: &Schedule, start: Timestamp) -> Vec<Cha
         }
         let left_out = after.left_out.iter().find(|left_out| is_near(left_out.pass, entry));
         let cause = left_out
-            .map_or(ChangeCause::Gone, |omission| ChangeCause::LeftOut(omission.why.clone()));
+            .map_or(ChangeCause::Gone, |omission| ChangeCause::LeftOut(omission.reason.clone()));
         let pass = left_out.map_or(entry.pass, |reason| reason.pass);
         let changed = Changed::Dropped { antenna: entry.antenna };
         found.push(Change { pass, changed, cause });
@@ -98,7 +100,8 @@ pub fn changes(before: &Schedule, after: &Schedule, start: Timestamp) -> Vec<Cha
 }
 
 fn is_same(a: &Entry, b: &Entry) -> bool {
-    a.pass.satellite == b.pass.satellite && (a.pass == b.pass || (a.from < b.to && b.from < a.to))
+    a.pass.satellite == b.pass.satellite
+        && (a.pass == b.pass || (a.start < b.end && b.start < a.end))
 }
 
 /// Half of the shortest revolution, seconds: passes of a satellite are further apart.

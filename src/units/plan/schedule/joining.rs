@@ -125,8 +125,9 @@ mod tests {
     /// The antenna in a station with these keep-outs, free so many seconds after AOS.
     fn planned(antenna: &Antenna, keep_outs: Vec<KeepOut>, free_s: f64) -> PlannedAntenna {
         let station = Station { keep_outs, ..Station::default() };
-        let planned_antenna = PlannedAntenna::of(&station, antenna, add_seconds(AOS, free_s));
-        PlannedAntenna { set_up_s: 0.0, between: BetweenPasses::Wait, ..planned_antenna }
+        let planned_antenna =
+            PlannedAntenna::from_station(&station, antenna, add_seconds(AOS, free_s));
+        PlannedAntenna { set_up_s: 0.0, between_passes: BetweenPasses::Wait, ..planned_antenna }
     }
 
     fn join(

@@ -2,7 +2,7 @@
 
 use super::{
     board::{Board, Fact},
-    outcome::{Conflict, LeftOut, Why},
+    outcome::{Conflict, LeftOut, LeftOutReason},
     request::{Candidate, Choice, PlannedAntenna},
     solve::{PassPart, Slews as _, Solution, Take},
     way::{Impossible, Verdict, ms},
@@ -53,17 +53,17 @@ impl Board<'_> {
             self.request.antennas.iter().enumerate().map(on).collect()
         };
         let all_impossible =
-            by_antenna.iter().all(|(_, reason)| matches!(reason, Why::Impossible(_)));
+            by_antenna.iter().all(|(_, reason)| matches!(reason, LeftOutReason::Impossible(_)));
         let nearest =
             by_antenna.iter().map(|(_, reason)| reason).min_by_key(|reason| distance(reason));
         let chosen = match (candidate.refusal, nearest) {
             // The limits of the mounts come before the age of the elements and the rules.
             (Some(_), Some(nearest)) if all_impossible => nearest.clone(),
-            (Some(refusal), _) => Why::Refused(refusal),
+            (Some(refusal), _) => LeftOutReason::Refused(refusal),
             (None, Some(nearest)) => nearest.clone(),
-            (None, None) => Why::NotFound,
+            (None, None) => LeftOutReason::NotFound,
         };
-        LeftOut { pass: candidate.key, why: chosen, by_antenna }
+        LeftOut { pass: candidate.key, reason: chosen, by_antenna }
     }
 
     fn why_not_on(
@@ -73,26 +73,26 @@ impl Board<'_> {
         candidate: &Candidate,
         wholes: &[u32],
         solution: &Solution,
-    ) -> Why {
+    ) -> LeftOutReason {
         let option = candidate.options.iter().find(|(id, _)| *id == antenna.id);
         match option {
             Some((_, Choice::Judged(Verdict::Impossible(impossible)))) => {
-                return Why::Impossible(impossible.clone());
+                return LeftOutReason::Impossible(impossible.clone());
             }
             Some((_, Choice::AgainstRule)) | None => {
                 let allowed = candidate.options.iter().filter(|(_, choice)| match choice {
                     Choice::Judged(_) => true,
                     Choice::AgainstRule => false,
                 });
-                return Why::OtherAntennas(allowed.map(|(id, _)| *id).collect());
+                return LeftOutReason::OtherAntennas(allowed.map(|(id, _)| *id).collect());
             }
             Some((_, Choice::Judged(Verdict::Possible(_)))) => {}
         }
-        if let Some(off_reason) = antenna.off {
-            return Why::Off(off_reason);
+        if let Some(off_reason) = antenna.off_reason {
+            return LeftOutReason::Off(off_reason);
         }
         if let Some(refusal) = candidate.refusal {
-            return Why::Refused(refusal);
+            return LeftOutReason::Refused(refusal);
         }
         let own = wholes.iter().filter(|take| self.is_on(**take, index));
         let entries = solution.takes.get(index).map(Vec::as_slice).unwrap_or_default();
@@ -103,7 +103,7 @@ impl Board<'_> {
         }
         let limit = wholes.iter().find_map(|take| self.takes.get(*take as usize)?.limit);
         let day_limit = limit.and_then(|limit| self.limits.get(limit as usize));
-        day_limit.map_or(Why::NotFound, |max| Why::MaxPerDay(*max))
+        day_limit.map_or(LeftOutReason::NotFound, |max| LeftOutReason::MaxPerDay(*max))
     }
 
     fn is_on(&self, take: u32, antenna: usize) -> bool {
@@ -111,7 +111,7 @@ impl Board<'_> {
     }
 
     /// Returns the reason that hinders one more take among `entries`.
-    fn in_the_way(&self, take: u32, entries: &[u32]) -> Option<Why> {
+    fn in_the_way(&self, take: u32, entries: &[u32]) -> Option<LeftOutReason> {
         let (taken_entry, _) = self.with_fact(take)?;
         let mut overlaps: Vec<(i64, Fact)> = Vec::new();
         let mut too_short: Vec<(i64, Fact)> = Vec::new();
@@ -128,17 +128,17 @@ impl Board<'_> {
                 continue;
             }
             let Some(missing_ms) = self.missing_ms((*entry, other), (take, taken_entry)) else {
-                return Some(Why::Impossible(Impossible::NoWay));
+                return Some(LeftOutReason::Impossible(Impossible::NoWay));
             };
             if missing_ms > 0 {
                 too_short.push((missing_ms, *fact));
             }
         }
         if let Some(conflict) = conflict(overlaps, &too_short) {
-            return Some(Why::Overlaps(conflict));
+            return Some(LeftOutReason::Overlaps(conflict));
         }
         if let Some(conflict) = conflict(too_short, &[]) {
-            return Some(Why::SlewTooShort(conflict));
+            return Some(LeftOutReason::SlewTooShort(conflict));
         }
         let is_first = entries.iter().filter_map(|entry| self.takes.get(*entry as usize));
         let is_first = is_first.into_iter().all(|other| other.from_ms >= taken_entry.to_ms);
@@ -146,11 +146,11 @@ impl Board<'_> {
             return None;
         }
         if !self.legs.is_in_reach(take as usize) {
-            return Some(Why::Impossible(Impossible::NoWay));
+            return Some(LeftOutReason::Impossible(Impossible::NoWay));
         }
         let antenna = self.request.antennas.get(taken_entry.antenna as usize);
         let has_begun = antenna.is_some_and(|antenna| taken_entry.from_ms < ms(antenna.free_from));
-        Some(if has_begun { Why::UnderWay } else { Why::TooFar })
+        Some(if has_begun { LeftOutReason::UnderWay } else { LeftOutReason::TooFar })
     }
 
     /// `None` where no way leads from one to the other.
@@ -167,7 +167,7 @@ fn conflict(mut found: Vec<(i64, Fact)>, more: &[(i64, Fact)]) -> Option<Conflic
     let (missing_ms, rival) = found.first()?;
     let others = found.iter().skip(1).chain(more).map(|(_, fact)| fact.pass);
     Some(Conflict {
-        with: rival.pass,
+        pass: rival.pass,
         class: rival.class,
         missing_s: *missing_ms as f64 / 1000.0,
         others: others.collect(),
@@ -175,18 +175,18 @@ fn conflict(mut found: Vec<(i64, Fact)>, more: &[(i64, Fact)]) -> Option<Conflic
 }
 
 /// How far a pass was from being taken.
-fn distance(reason: &Why) -> (u8, i64) {
+fn distance(reason: &LeftOutReason) -> (u8, i64) {
     let ms = |conflict: &Conflict| (conflict.missing_s * 1000.0) as i64;
     match reason {
-        Why::NotFound => (0, 0),
-        Why::MaxPerDay(_) => (1, 0),
-        Why::SlewTooShort(conflict) => (2, ms(conflict)),
-        Why::Overlaps(conflict) => (3, ms(conflict)),
-        Why::TooFar | Why::UnderWay => (4, 0),
-        Why::Refused(_) => (5, 0),
-        Why::Off(_) => (6, 0),
+        LeftOutReason::NotFound => (0, 0),
+        LeftOutReason::MaxPerDay(_) => (1, 0),
+        LeftOutReason::SlewTooShort(conflict) => (2, ms(conflict)),
+        LeftOutReason::Overlaps(conflict) => (3, ms(conflict)),
+        LeftOutReason::TooFar | LeftOutReason::UnderWay => (4, 0),
+        LeftOutReason::Refused(_) => (5, 0),
+        LeftOutReason::Off(_) => (6, 0),
         // An antenna that is excluded may well be able to take it, but that is the operator's will.
-        Why::Impossible(_) => (7, 0),
-        Why::OtherAntennas(_) => (8, 0),
+        LeftOutReason::Impossible(_) => (7, 0),
+        LeftOutReason::OtherAntennas(_) => (8, 0),
     }
 }

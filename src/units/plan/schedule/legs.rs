@@ -56,7 +56,8 @@ impl<'a> Legs<'a> {
             let own = stops.iter().filter(|stop| stop.antenna == index);
             let widest_ms = antenna.reach.widest_ms(own.flat_map(|stop| stop.ends_deg));
             // By way of the park position, or round a barrier.
-            let is_round = antenna.between == BetweenPasses::Park || antenna.reach.has_barriers();
+            let is_round =
+                antenna.between_passes == BetweenPasses::Park || antenna.reach.has_barriers();
             let times = if is_round { 2 } else { 1 };
             widest_ms * times + set_up_ms(antenna)
         });
@@ -118,7 +119,7 @@ impl<'a> Legs<'a> {
 fn search_ms(antenna: &PlannedAntenna, before: &Stop, after: &Stop, max_ms: i64) -> Option<i64> {
     let by_park = || by_park_ms(antenna, before, after).filter(|ms| *ms <= max_ms);
     let direct = || direct_ms(antenna, before, after, max_ms);
-    if antenna.between == BetweenPasses::Park && !(before.is_fixed && after.is_fixed) {
+    if antenna.between_passes == BetweenPasses::Park && !(before.is_fixed && after.is_fixed) {
         let gap_ms = after.from_ms - before.to_ms - set_up_ms(antenna);
         // Without time for the park position, the antenna goes straight to the next pass.
         by_park().filter(|ms| *ms <= gap_ms).or_else(direct)
@@ -173,7 +174,7 @@ impl Slews for Legs<'_> {
         }
         let gap_ms = after.from_ms - before.to_ms - set_up_ms(antenna);
         let longest_ms = self.longest_ms(before.antenna) - set_up_ms(antenna);
-        let parks = antenna.between == BetweenPasses::Park;
+        let parks = antenna.between_passes == BetweenPasses::Park;
         if gap_ms >= longest_ms && antenna.reach.has_barriers() && !parks {
             // A way leads there in time. Its length only breaks ties, which a search is not worth.
             let [[_, end_deg], [start_deg, _]] = [before.ends_deg, after.ends_deg];

@@ -2,11 +2,11 @@
 
 use jiff::Timestamp;
 
-use super::{Candidate, Common, Partial, PlannedAntenna, Reach, Sight, Wanted};
+use super::{Candidate, Common, Partial, PassPolicy, PlannedAntenna, Reach, Sight};
 use crate::{
     astro::sun_moon,
     orbit::{Elements, Pass, Propagator},
-    station::{Antenna, AntennaId, RuleOf, Scheduling, Station, SunIs, Then},
+    station::{Antenna, AntennaId, RuleAction, RuleSubject, Scheduling, Station, SunIs},
 };
 
 /// A pass that is taken in part starts late, or ends early, by a multiple of this, seconds.
@@ -14,22 +14,22 @@ const STEP_S: f64 = 15.0;
 
 impl PlannedAntenna {
     /// An antenna of a station that is free from `free_from` on, wherever it stands then.
-    pub fn of(station: &Station, antenna: &Antenna, free_from: Timestamp) -> Self {
+    pub fn from_station(station: &Station, antenna: &Antenna, free_from: Timestamp) -> Self {
         Self {
             id: antenna.id,
-            reach: Reach::of(station, antenna, None),
+            reach: Reach::from_station(station, antenna, None),
             set_up_s: antenna.set_up_s(),
-            between: antenna.automatic.between,
+            between_passes: antenna.automatic.between_passes,
             free_from,
             stands_deg: None,
-            off: None,
+            off_reason: None,
         }
     }
 }
 
 impl Candidate {
     /// Judges a pass of a satellite by what the station file says of it.
-    pub fn of(
+    pub fn from_station(
         station: &Station,
         elements: &Elements,
         propagator: &Propagator,
@@ -38,7 +38,7 @@ impl Candidate {
     ) -> Self {
         let number = elements.catalog_number();
         let choice = station.pass_choice(number, (pass.aos.time, pass.los.time));
-        let wanted_pass = Wanted {
+        let wanted_pass = PassPolicy {
             priority: station.priority(number).unwrap_or_default(),
             take: choice.map(|choice| choice.take),
             limits: &station.pass_limits(number),
@@ -53,11 +53,11 @@ impl Candidate {
 
 impl Partial {
     /// How a station takes passes in part; `None` where it takes them whole.
-    pub fn of(scheduling: &Scheduling) -> Option<Self> {
+    pub fn from_scheduling(scheduling: &Scheduling) -> Option<Self> {
         let partly = scheduling.partly?;
         Some(Self {
-            min_share: partly.least_percent / 100.0,
-            min_s: partly.least_s,
+            min_share: partly.min_percent / 100.0,
+            min_s: partly.min_s,
             step_s: STEP_S,
             hand_over: scheduling.hand_over,
         })
@@ -65,10 +65,15 @@ impl Partial {
 }
 
 /// Returns the action of the first automation rule that fits a satellite and an antenna at a time.
-fn by_rule(station: &Station, satellite: u32, time: Timestamp, antenna: AntennaId) -> Option<Then> {
+fn by_rule(
+    station: &Station,
+    satellite: u32,
+    time: Timestamp,
+    antenna: AntennaId,
+) -> Option<RuleAction> {
     station.rules.iter().find(|rule| rule.is_for(antenna))?;
     let place = deciding_rule(station, satellite, (time, sun_is(station, time)), antenna)?;
-    station.rules.get(place).map(|rule| rule.then)
+    station.rules.get(place).map(|rule| rule.action)
 }
 
 /// Place of the first automation rule that fits a satellite and an antenna at a time, where the
@@ -79,12 +84,12 @@ pub fn deciding_rule(
     (time, sun): (Timestamp, SunIs),
     antenna: AntennaId,
 ) -> Option<usize> {
-    let is_of = |rule_of: &RuleOf| match rule_of {
-        RuleOf::Satellite(number) => *number == satellite,
-        RuleOf::Group(name) => station.groups_of(satellite).any(|group| group.name == *name),
+    let is_of = |rule_of: &RuleSubject| match rule_of {
+        RuleSubject::Satellite(number) => *number == satellite,
+        RuleSubject::Group(name) => station.groups_of(satellite).any(|group| group.name == *name),
     };
     station.rules.iter().position(|rule| {
-        rule.is_for(antenna) && rule.of.as_ref().is_none_or(is_of) && rule.holds_at(time, sun)
+        rule.is_for(antenna) && rule.subject.as_ref().is_none_or(is_of) && rule.holds_at(time, sun)
     })
 }
 
@@ -123,7 +128,7 @@ mod tests {
         let planned: Vec<PlannedAntenna> = station
             .antennas
             .iter()
-            .map(|antenna| PlannedAntenna::of(&station, antenna, start))
+            .map(|antenna| PlannedAntenna::from_station(&station, antenna, start))
             .collect();
         let common = Common {
             site: station.site,
@@ -131,7 +136,7 @@ mod tests {
             antennas: &planned,
             max_age_s: None,
         };
-        let candidate = Candidate::of(&station, elements, &propagator, &pass, common);
+        let candidate = Candidate::from_station(&station, elements, &propagator, &pass, common);
         let may =
             |(id, choice): &(AntennaId, Choice)| matches!(choice, Choice::Judged(_)).then_some(*id);
         let allowed = candidate.options.iter().filter_map(may).collect();
@@ -142,24 +147,28 @@ mod tests {
         numbers.iter().copied().map(AntennaId).collect()
     }
 
-    fn rule(antenna: Option<u32>, subject: Option<RuleOf>, action: Then) -> AutomationRule {
+    fn rule(
+        antenna: Option<u32>,
+        subject: Option<RuleSubject>,
+        action: RuleAction,
+    ) -> AutomationRule {
         let antenna = antenna.map(AntennaId);
-        AutomationRule { is_on: true, antenna, of: subject, sun: None, hours: None, then: action }
+        AutomationRule { is_on: true, antenna, subject, sun: None, hours: None, action }
     }
 
     #[test]
     fn the_first_rule_that_fits_decides() {
         assert_eq!(judged(|_| ()).1, ids(&[1, 2, 3]));
-        let leave = rule(Some(2), None, Then::Leave);
+        let leave = rule(Some(2), None, RuleAction::Leave);
         assert_eq!(judged(|station| station.rules = vec![leave.clone()]).1, ids(&[1, 3]));
-        let take = rule(Some(2), Some(RuleOf::Satellite(ISS)), Then::Take);
+        let take = rule(Some(2), Some(RuleSubject::Satellite(ISS)), RuleAction::Take);
         assert_eq!(
             judged(|station| station.rules = vec![take.clone(), leave.clone()]).1,
             ids(&[1, 2, 3])
         );
         assert_eq!(judged(|station| station.rules = vec![leave, take]).1, ids(&[1, 3]));
-        let group = || RuleOf::Group("Stations".to_owned());
-        let of_group = rule(None, Some(group()), Then::Park);
+        let group = || RuleSubject::Group("Stations".to_owned());
+        let of_group = rule(None, Some(group()), RuleAction::Park);
         assert_eq!(judged(|station| station.rules = vec![of_group.clone()]).1, ids(&[1, 2, 3]));
         let with_group = |changed: &mut Station| {
             changed.groups = vec![SatelliteGroup {
@@ -183,7 +192,7 @@ mod tests {
         assert!(matches!(candidate.refusal, Some(Refusal::Rule(_))), "{:?}", candidate.refusal);
         let (candidate, allowed) = judged(|other| {
             limit(other);
-            other.rules = vec![rule(Some(2), None, Then::Take)];
+            other.rules = vec![rule(Some(2), None, RuleAction::Take)];
         });
         assert_eq!((candidate.refusal, allowed), (None, ids(&[2])));
     }

@@ -4,7 +4,7 @@ use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
 use super::{
-    request::{Off, PassKey, Refusal},
+    request::{AntennaOff, PassKey, Refusal},
     row::Class,
     way::{Impossible, Lost},
 };
@@ -30,8 +30,10 @@ pub struct Entry {
     pub antenna: AntennaId,
     pub class: Class,
     /// The axes stand at the start of the track.
-    pub from: Timestamp,
-    pub to: Timestamp,
+    #[serde(rename = "from")]
+    pub start: Timestamp,
+    #[serde(rename = "to")]
+    pub end: Timestamp,
     /// Seconds by which it starts late and ends early of what the antenna could take.
     pub late_s: f64,
     pub early_s: f64,
@@ -61,7 +63,7 @@ impl Entry {
     /// Returns the spare time that is left at `now`, some time after the schedule was made. `None`
     /// from the start of the entry on, and for an entry without a spare time.
     pub fn spare_at(&self, now: Timestamp) -> Option<f64> {
-        let until_s = seconds_between(now, self.from);
+        let until_s = seconds_between(now, self.start);
         let left_s = until_s - self.slew_s - self.set_up_s;
         self.spare_s.filter(|_| until_s > 0.0).map(|spare_s| spare_s.min(left_s).max(0.0))
     }
@@ -71,18 +73,19 @@ impl Entry {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct LeftOut {
     pub pass: PassKey,
-    pub why: Why,
+    #[serde(rename = "why")]
+    pub reason: LeftOutReason,
     /// Reason against it on each antenna.
-    pub by_antenna: Vec<(AntennaId, Why)>,
+    pub by_antenna: Vec<(AntennaId, LeftOutReason)>,
 }
 
 /// Why a pass is left out.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Why {
+pub enum LeftOutReason {
     Refused(Refusal),
     Impossible(Impossible),
-    Off(Off),
+    Off(AntennaOff),
     /// The rules of the satellite leave out this antenna and allow only these.
     OtherAntennas(Vec<AntennaId>),
     /// The antenna takes other passes at this time.
@@ -102,7 +105,8 @@ pub enum Why {
 /// Entry that took the time of a pass instead.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Conflict {
-    pub with: PassKey,
+    #[serde(rename = "with")]
+    pub pass: PassKey,
     pub class: Class,
     /// Seconds that are missing.
     pub missing_s: f64,

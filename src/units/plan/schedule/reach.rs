@@ -71,7 +71,11 @@ struct Judged {
 
 impl Reach {
     /// The reach of an antenna of `station`, with the rates that its axes were measured to have.
-    pub fn of(station: &Station, antenna: &Antenna, rates_deg_s: Option<[f64; 2]>) -> Self {
+    pub fn from_station(
+        station: &Station,
+        antenna: &Antenna,
+        rates_deg_s: Option<[f64; 2]>,
+    ) -> Self {
         let can = antenna.connection.variant().capabilities;
         let drives = Drives {
             mount: antenna.track_mount(),
@@ -84,7 +88,7 @@ impl Reach {
         let park = antenna.park_direction();
         let sample = Sample { time: Timestamp::UNIX_EPOCH, direction: park };
         let choice = FlipChoice::Keep(Flip::None);
-        let bounds = Bounds::of(station, antenna);
+        let bounds = Bounds::new(station, antenna);
         let start = Start::default();
         let whole = Drives { mount: antenna.mount, ..drives };
         let parked = whole.along_within(&bounds, &[sample], 1.0, start, choice).axes_deg;
@@ -110,12 +114,13 @@ impl Reach {
         } else {
             (self.park.azimuth - reached.azimuth).wrapped_180().abs()
         };
-        deviation.degrees() < SAME_DEG && self.bounds.at(time).forbids(reached).is_none()
+        deviation.degrees() < SAME_DEG && self.bounds.at_time(time).forbids(reached).is_none()
     }
 
     /// A direction outside of all barriers at `time`; `None` where none is found.
     pub fn open_sky(&self, time: Timestamp) -> Option<AzEl> {
-        self.open_sky_deg(&self.bounds.at(time)).map(|axes_deg| self.bounds.direction(axes_deg))
+        self.open_sky_deg(&self.bounds.at_time(time))
+            .map(|axes_deg| self.bounds.direction(axes_deg))
     }
 
     /// Where the axes stand at the park position, or as near to it as they travel, degrees as the
@@ -207,7 +212,7 @@ impl Reach {
         }
         let Some(part) = self.within_travel(&coarse, span) else {
             let seconds = Span::total_ms(&clear) as f64 / 1000.0;
-            return Verdict::Impossible(Impossible::Lost(Lost { seconds, at: Loss::OutOfReach }));
+            return Verdict::Impossible(Impossible::Lost(Lost { seconds, loss: Loss::OutOfReach }));
         };
         drop(coarse);
         self.ways(&self.all_as_read(sight.fine(span, part)), &clear)
@@ -261,7 +266,7 @@ impl Reach {
         if ways.is_empty() {
             let seconds = Span::total_ms(clear) as f64 / 1000.0;
             let loss = lost_at.unwrap_or(Loss::OutOfReach);
-            return Verdict::Impossible(Impossible::Lost(Lost { seconds, at: loss }));
+            return Verdict::Impossible(Impossible::Lost(Lost { seconds, loss }));
         }
         ways.retain(|way| self.is_within_reach(way));
         if ways.is_empty() {
@@ -293,7 +298,7 @@ impl Reach {
                 let step_ms = ms(sample.time).div_euclid(SUN_STAYS_MS) * SUN_STAYS_MS;
                 let now = match bounds.take() {
                     Some((since_ms, now)) if since_ms == step_ms => now,
-                    Some(_) | None => self.bounds.at(at_ms(step_ms)),
+                    Some(_) | None => self.bounds.at_time(at_ms(step_ms)),
                 };
                 let barrier = now.forbids(direction);
                 bounds = Some((step_ms, now));
@@ -319,7 +324,7 @@ impl Reach {
         let counted = Span::intersections(&visible, clear);
         let lost_ms = Span::total_ms(clear) - Span::total_ms(&counted);
         let lost = lost_at.filter(|_| lost_ms > 0);
-        let lost = lost.map(|loss| Lost { seconds: lost_ms as f64 / 1000.0, at: loss });
+        let lost = lost.map(|loss| Lost { seconds: lost_ms as f64 / 1000.0, loss });
         let way = (!counted.is_empty()).then(|| Way::new(samples, axes_deg, counted, lost));
         Judged { way, entered, lost_at }
     }
@@ -332,14 +337,14 @@ impl Reach {
         let Span { from_ms, to_ms } = way.span();
         let (start_deg, end_deg) = (way.axes_deg(from_ms), way.axes_deg(to_ms));
         [(start_deg, from_ms), (end_deg, to_ms)].into_iter().all(|(place_deg, ms)| {
-            let now = self.bounds.at(at_ms(ms));
+            let now = self.bounds.at_time(at_ms(ms));
             self.open_sky_deg(&now).is_some_and(|open_deg| self.is_way(place_deg, open_deg, &now))
         })
     }
 
     fn is_way(&self, place_deg: [f64; 2], open_deg: [f64; 2], now: &BoundsAt<'_>) -> bool {
-        let sweep = Sweep::between(place_deg, open_deg);
-        now.blocks(sweep, Sweep::at(place_deg)).is_none() || {
+        let sweep = Sweep::new(place_deg, open_deg);
+        now.blocks(sweep, Sweep::at_position(place_deg)).is_none() || {
             // From the place that may be shut in, where a search ends soon if it is.
             detour::leads(now, &self.slews, place_deg, open_deg)
         }
@@ -540,8 +545,8 @@ impl Reach {
         time_ms: i64,
         max_ms: i64,
     ) -> Option<i64> {
-        let (now, sweep) = (self.bounds.at(at_ms(time_ms)), Sweep::between(from_deg, to_deg));
-        if now.blocks(sweep, Sweep::at(from_deg)).is_none() {
+        let (now, sweep) = (self.bounds.at_time(at_ms(time_ms)), Sweep::new(from_deg, to_deg));
+        if now.blocks(sweep, Sweep::at_position(from_deg)).is_none() {
             return Some(0);
         }
         let limits = &self.slews;

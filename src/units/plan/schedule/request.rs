@@ -7,7 +7,7 @@ use super::{Entry, Schedule, reach::Reach, sight::Sight, way::Verdict};
 use crate::{
     astro::{Angle, Site, sun_moon},
     orbit::{Pass, Propagator, is_sunlit},
-    station::{AntennaId, BetweenPasses, ChooseBy, Light, PassLimits, Priority, Take, Then},
+    station::{AntennaId, BetweenPasses, ChooseBy, Light, PassLimits, Priority, RuleAction, Take},
 };
 
 /// A pass by the catalog number of its satellite and the time of AOS.
@@ -45,7 +45,7 @@ pub enum Refusal {
 /// Why an antenna takes no passes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Off {
+pub enum AntennaOff {
     SwitchedOff,
     LockedOut,
 }
@@ -58,12 +58,12 @@ pub struct PlannedAntenna {
     /// Time that its unit needs before each pass besides the slew, such as to load it and read it
     /// back, seconds.
     pub set_up_s: f64,
-    pub between: BetweenPasses,
+    pub between_passes: BetweenPasses,
     /// From when on it is free.
     pub free_from: Timestamp,
     /// Where its axes stand then, degrees as the mount counts; `None` if unknown.
     pub stands_deg: Option<[f64; 2]>,
-    pub off: Option<Off>,
+    pub off_reason: Option<AntennaOff>,
 }
 
 /// A pass that may be taken.
@@ -101,12 +101,12 @@ pub struct Common<'a> {
 
 /// Policy of the operator for a pass and its satellite.
 #[derive(Clone, Copy)]
-pub struct Wanted<'a> {
+pub struct PassPolicy<'a> {
     pub priority: Priority,
     pub take: Option<Take>,
     pub limits: &'a PassLimits,
     /// Returns the action of the automation rules for the pass on an antenna.
-    pub by_rule: &'a dyn Fn(AntennaId) -> Option<Then>,
+    pub by_rule: &'a dyn Fn(AntennaId) -> Option<RuleAction>,
 }
 
 impl Candidate {
@@ -115,16 +115,16 @@ impl Candidate {
         satellite: u32,
         age_s: f64,
         (pass, propagator): (&Pass, &Propagator),
-        limits_of_pass: Wanted<'_>,
+        limits_of_pass: PassPolicy<'_>,
         sight: &mut Sight<'_>,
         common: Common<'_>,
     ) -> Self {
-        let Wanted { priority, take, limits, by_rule } = limits_of_pass;
+        let PassPolicy { priority, take, limits, by_rule } = limits_of_pass;
         let always = take == Some(Take::Always);
         let max_elevation = pass.max_elevation();
         let too_old = common.max_age_s.filter(|max_s| age_s > *max_s);
         let broken = if always { None } else { broken(limits, pass, propagator, common.site) };
-        let is_forced = |antenna: &PlannedAntenna| by_rule(antenna.id) == Some(Then::Take);
+        let is_forced = |antenna: &PlannedAntenna| by_rule(antenna.id) == Some(RuleAction::Take);
         let refusal = if take == Some(Take::Never) {
             Some(Refusal::Never)
         } else if max_elevation < common.floor && !always {
@@ -135,8 +135,8 @@ impl Candidate {
             broken.filter(|_| !common.antennas.iter().any(is_forced)).map(Refusal::Rule)
         };
         let is_allowed = |antenna: &PlannedAntenna| match by_rule(antenna.id) {
-            Some(Then::Take) => true,
-            Some(Then::Leave | Then::Park) => false,
+            Some(RuleAction::Take) => true,
+            Some(RuleAction::Leave | RuleAction::Park) => false,
             None => {
                 // Also where the pass is always taken: an antenna may be unable to receive it.
                 let antennas = limits.antennas.as_ref();

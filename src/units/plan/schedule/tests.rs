@@ -38,7 +38,7 @@ fn each_day(days: u64, check: impl Fn(&Request<'_>)) {
         let list = candidates(&station, &antennas, &satellites, start, 5.0);
         for (partial, rest, choose_by) in kinds() {
             for antenna in &mut antennas {
-                antenna.between = rest;
+                antenna.between_passes = rest;
             }
             check(&Request { choose_by, partial, ..request(&antennas, &list) });
         }
@@ -65,7 +65,7 @@ fn behind_keep_outs(
         let list = candidates(&station, &antennas, &satellites, start, hours);
         for (partial, rest, choose_by) in kinds.iter().copied() {
             for antenna in &mut antennas {
-                antenna.between = rest;
+                antenna.between_passes = rest;
             }
             let schedule = plan(&Request { choose_by, partial, ..request(&antennas, &list) });
             for entry in &schedule.entries {
@@ -80,15 +80,15 @@ fn behind_keep_outs(
                     let [a, b] = [pair[0], pair[1]];
                     let reach = &antenna.reach;
                     let (end_deg, start_deg) = (a.axes_deg[1], b.axes_deg[0]);
-                    let direct = reach.leg_ms(end_deg, start_deg, way::ms(a.to));
-                    let back = reach.leg_ms(end_deg, reach.park_deg(), way::ms(a.to));
-                    let back_ms = reach.leg_ms(reach.park_deg(), start_deg, way::ms(b.from));
+                    let direct = reach.leg_ms(end_deg, start_deg, way::ms(a.end));
+                    let back = reach.leg_ms(end_deg, reach.park_deg(), way::ms(a.end));
+                    let back_ms = reach.leg_ms(reach.park_deg(), start_deg, way::ms(b.start));
                     let by_park = back.zip(back_ms).map(|(back, outward)| back + outward);
                     let way_ms = direct.into_iter().chain(by_park).min();
                     let label = || format!("seed {SEED}, day {day}: {a:?} {b:?}");
                     let needs_s =
                         way_ms.unwrap_or_else(|| panic!("no way, {}", label())) as f64 / 1e3;
-                    let gap_s = seconds_between(a.to, b.from);
+                    let gap_s = seconds_between(a.end, b.start);
                     assert!(gap_s + 1e-3 >= needs_s + antenna.set_up_s, "{needs_s} {}", label());
                     pairs += 1;
                     detours += usize::from(way_ms > Some(reach.straight_ms(end_deg, start_deg)));
@@ -107,7 +107,7 @@ fn assert_counts(entry: &Entry, list: &[Candidate], day: u32) {
     let Some((_, Choice::Judged(Verdict::Possible(ways)))) = option else {
         panic!("seed {SEED}, day {day}: {entry:?}")
     };
-    let span = way::Span { from_ms: way::ms(entry.from), to_ms: way::ms(entry.to) };
+    let span = way::Span { from_ms: way::ms(entry.start), to_ms: way::ms(entry.end) };
     let is_it = |way: &&Way| {
         let ends_deg = [way.axes_deg(span.from_ms), way.axes_deg(span.to_ms)];
         let counted_s = way.counted_ms(span) as f64 / 1e3;
@@ -144,7 +144,7 @@ fn no_two_entries_of_an_antenna_come_closer_than_slew_and_set_up() {
             for pair in own.windows(2) {
                 let [a, b] = [pair[0], pair[1]];
                 let straight_ms = antenna.reach.straight_ms(a.axes_deg[1], b.axes_deg[0]);
-                let gap_s = seconds_between(a.to, b.from);
+                let gap_s = seconds_between(a.end, b.start);
                 assert!(gap_s >= straight_ms as f64 / 1000.0 + antenna.set_up_s, "{a:?} {b:?}");
                 assert!(b.spare_s.is_some_and(|spare_s| spare_s >= 0.0), "{b:?}");
                 assert_eq!(b.after, Some(a.pass));
@@ -156,7 +156,7 @@ fn no_two_entries_of_an_antenna_come_closer_than_slew_and_set_up() {
                 [_] => assert_eq!(entry.shared_with, None),
                 [a, b] => {
                     assert!(request.partial.is_some_and(|partial| partial.hand_over));
-                    assert!(a.antenna != b.antenna && a.to <= b.from, "{a:?} {b:?}");
+                    assert!(a.antenna != b.antenna && a.end <= b.start, "{a:?} {b:?}");
                 }
                 _ => panic!("{parts:?}"),
             }
@@ -226,8 +226,8 @@ fn a_pass_that_has_begun_is_left_out_as_under_way_and_not_as_too_far() {
     let satellites = low_satellites(&mut Random::new(SEED), 1);
     let list = candidates(&station, &antennas, &satellites, noon(), 24.0);
     let first = plan(&request(&antennas, &list)).entries[0].clone();
-    for (after_s, expected) in [(-1.0, Why::TooFar), (60.0, Why::UnderWay)] {
-        let free_from = add_seconds(first.from, after_s);
+    for (after_s, expected) in [(-1.0, LeftOutReason::TooFar), (60.0, LeftOutReason::UnderWay)] {
+        let free_from = add_seconds(first.start, after_s);
         let stands_deg = |antenna: &PlannedAntenna| Some(antenna.reach.park_deg());
         let late = antennas.iter().map(|antenna| PlannedAntenna {
             free_from,
@@ -237,7 +237,7 @@ fn a_pass_that_has_begun_is_left_out_as_under_way_and_not_as_too_far() {
         let late: Vec<PlannedAntenna> = late.collect();
         let schedule = plan(&request(&late, &list));
         let left = schedule.left_out.iter().find(|left| left.pass == first.pass).unwrap();
-        assert_eq!(left.why, expected, "{after_s}: {left:?}");
+        assert_eq!(left.reason, expected, "{after_s}: {left:?}");
     }
 }
 
@@ -248,31 +248,37 @@ fn every_reason_holds_when_the_pass_is_always_taken() {
         assert_eq!(worth_in(request, &schedule), worth(&schedule));
         for left in schedule.left_out.iter().step_by(3) {
             let swapped = with_always(request, left.pass);
-            match &left.why {
-                Why::Refused(_) | Why::Impossible(_) | Why::Off(_) | Why::OtherAntennas(_) => {
+            match &left.reason {
+                LeftOutReason::Refused(_)
+                | LeftOutReason::Impossible(_)
+                | LeftOutReason::Off(_)
+                | LeftOutReason::OtherAntennas(_) => {
                     assert_eq!(swapped, None, "{left:?}");
                 }
-                Why::Overlaps(_)
-                | Why::SlewTooShort(_)
-                | Why::MaxPerDay(_)
-                | Why::TooFar
-                | Why::UnderWay => {
+                LeftOutReason::Overlaps(_)
+                | LeftOutReason::SlewTooShort(_)
+                | LeftOutReason::MaxPerDay(_)
+                | LeftOutReason::TooFar
+                | LeftOutReason::UnderWay => {
                     let Some(swapped) = swapped else {
-                        assert!(matches!(left.why, Why::TooFar | Why::UnderWay), "{left:?}");
+                        assert!(
+                            matches!(left.reason, LeftOutReason::TooFar | LeftOutReason::UnderWay),
+                            "{left:?}"
+                        );
                         continue;
                     };
                     // Beyond its limit a satellite may well add to the worth.
-                    if schedule.is_proved() && !matches!(left.why, Why::MaxPerDay(_)) {
+                    if schedule.is_proved() && !matches!(left.reason, LeftOutReason::MaxPerDay(_)) {
                         assert!(worth_in(request, &swapped) <= worth(&schedule), "{left:?}");
                     }
                     let start = request.antennas[0].free_from;
                     let changes = changes(&schedule, &swapped, start);
                     assert!(changes.iter().any(|change| change.pass == left.pass));
                     // Something has made room for it.
-                    let has_room = matches!(left.why, Why::MaxPerDay(_));
+                    let has_room = matches!(left.reason, LeftOutReason::MaxPerDay(_));
                     assert!(has_room || changes.len() > 1, "{left:?} {changes:?}");
                 }
-                Why::NotFound => assert!(!schedule.is_proved()),
+                LeftOutReason::NotFound => assert!(!schedule.is_proved()),
             }
         }
     });
@@ -309,8 +315,8 @@ fn a_pass_that_its_only_antenna_cannot_take_is_impossible() {
     let mut count = 0;
     for left in &schedule.left_out {
         let own = left.by_antenna.iter().find(|(antenna, _)| *antenna == narrow);
-        if let Some((_, reason @ Why::Impossible(_))) = own {
-            assert_eq!(left.why, *reason);
+        if let Some((_, reason @ LeftOutReason::Impossible(_))) = own {
+            assert_eq!(left.reason, *reason);
             count += 1;
         }
     }
@@ -324,8 +330,12 @@ fn conflicts_name_entries_that_are_really_in_the_way() {
         let schedule = plan(request);
         let conflicts = schedule.left_out.iter().flat_map(|left| &left.by_antenna);
         for (antenna, reason) in conflicts {
-            let (Why::Overlaps(conflict) | Why::SlewTooShort(conflict)) = reason else { continue };
-            let mut entries = schedule.entries_of(conflict.with);
+            let (LeftOutReason::Overlaps(conflict) | LeftOutReason::SlewTooShort(conflict)) =
+                reason
+            else {
+                continue;
+            };
+            let mut entries = schedule.entries_of(conflict.pass);
             assert!(entries.any(|entry| entry.antenna == *antenna), "{conflict:?}");
             assert!(conflict.missing_s > 0.0);
             checked.set(checked.get() + 1);
@@ -342,8 +352,10 @@ fn what_is_fixed_stays_and_what_the_operator_says_is_done() {
     let mut list = candidates(&station, &antennas, &satellites, noon(), 6.0);
     let first = plan(&request(&antennas, &list));
     let (entry, left) = (first.entries[3].clone(), first.left_out.iter());
-    let is_lost = |left: &&LeftOut| matches!(left.why, Why::Overlaps(_) | Why::SlewTooShort(_));
-    let later = |left: &&LeftOut| left.pass.aos > add_seconds(entry.to, 3_600.0);
+    let is_lost = |left: &&LeftOut| {
+        matches!(left.reason, LeftOutReason::Overlaps(_) | LeftOutReason::SlewTooShort(_))
+    };
+    let later = |left: &&LeftOut| left.pass.aos > add_seconds(entry.end, 3_600.0);
     let lost = left.filter(is_lost).find(later).unwrap().pass;
     let taken_pass = first.entries[5].pass;
     for candidate in &mut list {
@@ -358,16 +370,16 @@ fn what_is_fixed_stays_and_what_the_operator_says_is_done() {
     let new = plan(&Request { fixed: &fixed, ..request(&antennas, &list) });
     let expected = new.entries_of(entry.pass).next().unwrap();
     assert_eq!(
-        (expected.antenna, expected.from, expected.to),
-        (entry.antenna, entry.from, entry.to)
+        (expected.antenna, expected.start, expected.end),
+        (entry.antenna, entry.start, entry.end)
     );
     assert!(expected.is_fixed);
     let always = new.entries_of(lost).next().unwrap();
     assert_eq!(always.class, Class::Always);
     let never = new.left_out.iter().find(|left| left.pass == taken_pass).unwrap();
-    assert_eq!(never.why, Why::Refused(Refusal::Never));
+    assert_eq!(never.reason, LeftOutReason::Refused(Refusal::Never));
     assert!(changes(&first, &new, noon()).iter().any(|change| {
-        change.pass == taken_pass && change.cause == ChangeCause::LeftOut(never.why.clone())
+        change.pass == taken_pass && change.cause == ChangeCause::LeftOut(never.reason.clone())
     }));
 }
 
@@ -382,14 +394,14 @@ fn an_antenna_resumes_a_pass_from_where_it_stands() {
     for entry in &first.entries {
         let candidate = list.iter().find(|candidate| candidate.key == entry.pass).unwrap();
         let antenna = antennas.iter().find(|antenna| antenna.id == entry.antenna).unwrap();
-        let now = add_seconds(entry.from, 30.0);
+        let now = add_seconds(entry.start, 30.0);
         let stands_deg = Some(antenna.reach.park_deg());
         let parked = PlannedAntenna { free_from: now, stands_deg, ..antenna.clone() };
         let Some(rest) = candidate.resumed(&parked, choose_by) else { continue };
         let needs_s = rest.slew_s + rest.set_up_s;
-        let waits_s = seconds_between(now, rest.from);
+        let waits_s = seconds_between(now, rest.start);
         assert!(waits_s > needs_s - 1.0, "{rest:?}");
-        assert!(rest.from < rest.to && rest.to <= candidate.los, "{rest:?}");
+        assert!(rest.start < rest.end && rest.end <= candidate.los, "{rest:?}");
         assert!(rest.counted_s <= entry.counted_s - 30.0 + 1.0, "{rest:?}");
         let lost = PlannedAntenna { stands_deg: None, ..parked.clone() };
         assert_eq!(candidate.resumed(&lost, choose_by), None, "it may stand anywhere");
@@ -400,7 +412,7 @@ fn an_antenna_resumes_a_pass_from_where_it_stands() {
     let candidate = list.iter().find(|candidate| candidate.key == entry.pass).unwrap();
     let antenna = antennas.iter().find(|antenna| antenna.id == entry.antenna).unwrap();
     let stands_deg = Some(entry.axes_deg[0]);
-    let planned_antenna = PlannedAntenna { free_from: entry.from, stands_deg, ..antenna.clone() };
+    let planned_antenna = PlannedAntenna { free_from: entry.start, stands_deg, ..antenna.clone() };
     let rest = candidate.resumed(&planned_antenna, choose_by).unwrap();
     assert!(rest.counted_s > entry.counted_s - 60.0, "{rest:?}");
 }
@@ -416,14 +428,14 @@ fn a_pass_that_is_tracked_already_or_waited_for_stays_until_its_end() {
     let candidate = list.iter().find(|candidate| candidate.key == entry.pass).unwrap();
     let antenna = antennas.iter().find(|antenna| antenna.id == entry.antenna).unwrap();
     let choose_by = ChooseBy::default();
-    let now = add_seconds(entry.from, 30.0);
+    let now = add_seconds(entry.start, 30.0);
     let rest = candidate.under_way(antenna, choose_by, now).unwrap();
-    assert_eq!((rest.from, rest.to), (now, entry.to));
+    assert_eq!((rest.start, rest.end), (now, entry.end));
     assert!((entry.counted_s - rest.counted_s - 30.0).abs() < 1.0, "{rest:?}");
-    assert_eq!(candidate.under_way(antenna, choose_by, entry.to), None);
+    assert_eq!(candidate.under_way(antenna, choose_by, entry.end), None);
     let ahead = candidate.under_way(antenna, choose_by, add_seconds(entry.pass.aos, -900.0));
     let ahead = ahead.unwrap();
-    assert_eq!((ahead.from, ahead.to, ahead.late_s), (entry.from, entry.to, 0.0));
+    assert_eq!((ahead.start, ahead.end, ahead.late_s), (entry.start, entry.end, 0.0));
     // By then it could not be taken as a whole.
     let mut later = antennas.clone();
     for antenna in &mut later {
@@ -434,7 +446,10 @@ fn a_pass_that_is_tracked_already_or_waited_for_stays_until_its_end() {
     let fixed = [rest];
     let fixed_plan = plan(&Request { fixed: &fixed, ..request(&later, &list) });
     let expected = fixed_plan.entries_of(entry.pass).next().unwrap();
-    assert_eq!((expected.antenna, expected.to, expected.is_fixed), (entry.antenna, entry.to, true));
+    assert_eq!(
+        (expected.antenna, expected.end, expected.is_fixed),
+        (entry.antenna, entry.end, true)
+    );
 }
 
 #[test]

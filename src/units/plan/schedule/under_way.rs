@@ -32,7 +32,7 @@ impl Candidate {
         let way = ways.iter().min_by(|a, b| away_deg(a).total_cmp(&away_deg(b)))?;
         let Span { from_ms, to_ms } = way.span();
         let rest = Span { from_ms: from_ms.max(now_ms), to_ms };
-        if antenna.off.is_some() || rest.length_ms() <= 0 {
+        if antenna.off_reason.is_some() || rest.length_ms() <= 0 {
             return None;
         }
         Some(self.fixed(antenna, choose_by, way, rest))
@@ -44,7 +44,7 @@ impl Candidate {
         let option = self.options.iter().find(|(id, _)| *id == antenna.id);
         let (_, Choice::Judged(Verdict::Possible(ways))) = option? else { return None };
         // The operator or a rule may have refused the pass in the meantime.
-        if antenna.off.is_some() || self.refusal.is_some() {
+        if antenna.off_reason.is_some() || self.refusal.is_some() {
             return None;
         }
         let (stands_deg, ready_ms) = (antenna.stands_deg?, antenna.ready_ms());
@@ -63,8 +63,8 @@ impl Candidate {
             pass: self.key,
             antenna: antenna.id,
             class: self.class(choose_by),
-            from: at_ms(rest.from_ms),
-            to: at_ms(rest.to_ms),
+            start: at_ms(rest.from_ms),
+            end: at_ms(rest.to_ms),
             late_s: (rest.from_ms - way.span().from_ms) as f64 / 1000.0,
             early_s: 0.0,
             counted_s: counted_ms as f64 / 1000.0,

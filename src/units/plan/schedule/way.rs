@@ -76,7 +76,8 @@ pub enum Impossible {
 pub struct Lost {
     pub seconds: f64,
     /// Where the loss begins.
-    pub at: Loss,
+    #[serde(rename = "at")]
+    pub loss: Loss,
 }
 
 /// One way of taking a pass: from the first second that counts to the last.

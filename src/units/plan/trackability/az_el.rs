@@ -116,7 +116,7 @@ mod tests {
     #[test]
     fn a_pass_overhead_costs_a_slow_axis_some_seconds() {
         let lost = super::trackability(&pass(20.0, 90.0), limits(450.0, 3.0));
-        let Trackability::Loses { seconds, at: Loss::Overhead, .. } = lost else {
+        let Trackability::Loses { seconds, loss: Loss::Overhead, .. } = lost else {
             panic!("{lost:?}")
         };
         assert!((10.0..80.0).contains(&seconds), "{seconds}");
@@ -132,7 +132,9 @@ mod tests {
         // From east-north-east through north.
         let through_north = pass(600.0, 275.0);
         let lost = super::trackability(&through_north, limits(360.0, 3.0));
-        let Trackability::Loses { seconds, at: Loss::Slew, .. } = lost else { panic!("{lost:?}") };
+        let Trackability::Loses { seconds, loss: Loss::Slew, .. } = lost else {
+            panic!("{lost:?}")
+        };
         assert!((50.0..150.0).contains(&seconds), "{seconds}");
         assert_eq!(super::trackability(&through_north, limits(450.0, 3.0)), Trackability::Whole);
     }
@@ -151,7 +153,7 @@ mod tests {
     #[test]
     fn beyond_the_travel_a_high_satellite_is_out_of_reach() {
         let lost = super::trackability(&pass(150.0, 75.0), limits(120.0, 30.0));
-        let Trackability::Loses { at: loss, seconds, .. } = lost else { panic!("{lost:?}") };
+        let Trackability::Loses { loss, seconds, .. } = lost else { panic!("{lost:?}") };
         assert_eq!(loss, Loss::BeyondAzimuth(Angle::from_degrees(120.0)));
         assert!(seconds > 60.0, "{seconds}");
     }
@@ -170,7 +172,7 @@ mod tests {
         let whole = super::trackability(&pass(8.0, 90.0), over_travel(limits(450.0, 3.0)));
         assert_eq!(whole, Trackability::Whole);
         let lost = super::trackability(&pass(8.0, 90.0), limits(450.0, 3.0));
-        assert!(matches!(lost, Trackability::Loses { at: Loss::Overhead, .. }), "{lost:?}");
+        assert!(matches!(lost, Trackability::Loses { loss: Loss::Overhead, .. }), "{lost:?}");
     }
 
     #[test]

@@ -90,7 +90,7 @@ mod tests {
     #[test]
     fn a_slow_mount_loses_the_part_near_the_keyhole() {
         let low: Vec<Sample> = pass(600.0, 0.0);
-        let Trackability::Loses { seconds, at: Loss::Keyhole(keyhole_azimuth), .. } =
+        let Trackability::Loses { seconds, loss: Loss::Keyhole(keyhole_azimuth), .. } =
             trackability(&low, limits(0.4))
         else {
             panic!("{:?}", trackability(&low, limits(0.4)));

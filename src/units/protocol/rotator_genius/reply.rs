@@ -9,7 +9,7 @@ pub enum Reply {
     Status(Status),
     /// Reply to a command.
     Acknowledgement {
-        to: Acknowledgement,
+        request: Acknowledgement,
         /// `K`, not `F`. An `F` never says why.
         is_accepted: bool,
     },
@@ -88,7 +88,7 @@ fn ended_by(
         Some(b'F') => false,
         Some(_) => return ReplyStart::Unknown,
     };
-    ReplyStart::Whole(Reply::Acknowledgement { to: acknowledgement, is_accepted }, length)
+    ReplyStart::Whole(Reply::Acknowledgement { request: acknowledgement, is_accepted }, length)
 }
 
 #[cfg(test)]
@@ -98,7 +98,7 @@ mod tests {
     #[test]
     fn an_acknowledgement_ends_with_its_verdict() {
         let accepted = |request, length| {
-            ReplyStart::Whole(Reply::Acknowledgement { to: request, is_accepted: true }, length)
+            ReplyStart::Whole(Reply::Acknowledgement { request, is_accepted: true }, length)
         };
         let target = |degrees| WholeDegrees::new(degrees).ok();
         let go_to = |target| Acknowledgement::GoTo { target };

@@ -53,7 +53,7 @@ impl RotatorNumber {
     }
 
     /// Item of `pair` that belongs to this rotator.
-    pub fn of<T>(self, pair: &[T; 2]) -> &T {
+    pub fn select<T>(self, pair: &[T; 2]) -> &T {
         let [one, two] = pair;
         match self {
             Self::One => one,

@@ -97,7 +97,7 @@ pub enum Moving {
 
 impl Status {
     pub fn rotator(&self, number: RotatorNumber) -> &Rotator {
-        number.of(&self.rotators)
+        number.select(&self.rotators)
     }
 
     /// Reads a status of this shape; `None` unless `bytes` have its length.

@@ -90,12 +90,12 @@ pub enum ReplyError {
     #[error("{0}= without OK or ERR")]
     NeitherOkNorErr(Word),
     /// Wrong number of values.
-    #[error("{word}? with {found} instead of {least} to {most} values")]
+    #[error("{word}? with {found} instead of {min} to {max} values")]
     Count {
         word: Word,
         found: usize,
-        least: usize,
-        most: usize,
+        min: usize,
+        max: usize,
         /// The unit seems to write decimal commas.
         looks_like_decimal_commas: bool,
     },
@@ -159,7 +159,7 @@ impl ReplyShape {
         // Either every decimal falls apart at its comma, or only those that are not whole.
         let looks_like_decimal_commas = found > self.max && self.decimals > 0;
         let Self { min, max, .. } = *self;
-        Err(ReplyError::Count { word, found, least: min, most: max, looks_like_decimal_commas })
+        Err(ReplyError::Count { word, found, min, max, looks_like_decimal_commas })
     }
 
     fn note(&self, word: Word, found: usize) -> Option<Note> {

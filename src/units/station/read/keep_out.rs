@@ -50,7 +50,7 @@ impl TableFields<'_> {
     }
 
     fn does_not_hold(&mut self, place: &str, name: &str, reason: impl Into<String>) {
-        self.note(place, NoteReason::DoesNotHold { name: name.to_owned(), why: reason.into() });
+        self.note(place, NoteReason::DoesNotHold { name: name.to_owned(), reason: reason.into() });
     }
 
     fn keep_out_name(&mut self, number: usize, others: &[&str]) -> String {

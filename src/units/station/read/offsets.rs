@@ -6,7 +6,7 @@ use toml::{Table, Value};
 use super::{TableFields, catalog_number};
 use crate::{
     astro::TrackOffsets,
-    station::{AntennaId, KeptOffsets, OffsetsOf},
+    station::{AntennaId, KeptOffsets, OffsetsSubject},
 };
 
 const KINDS: [&str; 5] = ["time_s", "along_deg", "across_deg", "azimuth_deg", "elevation_deg"];
@@ -22,16 +22,16 @@ impl TableFields<'_> {
         let satellite = self.table.remove("satellite");
         let antenna = self.table.remove("antenna");
         let subject = match (satellite, antenna) {
-            (Some(number), None) => catalog_number(&number).map(OffsetsOf::Satellite),
+            (Some(number), None) => catalog_number(&number).map(OffsetsSubject::Satellite),
             (None, Some(id)) => catalog_number(&id)
                 .map(AntennaId)
                 .filter(|id| antennas.contains(id))
-                .map(OffsetsOf::Antenna),
+                .map(OffsetsSubject::Antenna),
             _ => None,
         };
         if subject.is_none() {
             self.invalid("satellite", "must be a catalogue number, or antenna the id of one");
         }
-        Some(KeptOffsets { of: subject?, offsets })
+        Some(KeptOffsets { subject: subject?, offsets })
     }
 }

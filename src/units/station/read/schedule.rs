@@ -8,7 +8,7 @@ use toml::Value;
 use super::TableFields;
 use crate::station::{
     AntennaId, Automatic, AutomationRule, BetweenPasses, ChooseBy, HoursOfDay, Partly, PassChoice,
-    RuleOf, Scheduling, SunIs, Take, Then, Upkeep, ranges,
+    RuleAction, RuleSubject, Scheduling, SunIs, Take, Upkeep, ranges,
 };
 
 impl TableFields<'_> {
@@ -39,8 +39,8 @@ impl TableFields<'_> {
         const KEY: &str = "partly";
         self.table.contains_key(KEY).then(|| {
             self.inner(KEY, |fields| Partly {
-                least_percent: fields.number("least_percent", &ranges::LEAST_PERCENT, 50.0),
-                least_s: fields.number("least_s", &ranges::MIN_DURATION_S, 60.0),
+                min_percent: fields.number("least_percent", &ranges::MIN_PERCENT, 50.0),
+                min_s: fields.number("least_s", &ranges::MIN_DURATION_S, 60.0),
             })
         })
     }
@@ -55,7 +55,7 @@ impl TableFields<'_> {
         Automatic {
             is_on_at_start: self.flag("automatic_operation_at_start", false),
             resumes_after_crash: self.flag("automatic_operation_after_crash", false),
-            between: self.one_of("between_passes", &choices, BetweenPasses::default()),
+            between_passes: self.one_of("between_passes", &choices, BetweenPasses::default()),
             uses_auto_track: self.flag("uses_auto_track", false),
             set_up_s: self.optional("set_up_s", &ranges::SET_UP_S),
         }
@@ -113,8 +113,11 @@ impl TableFields<'_> {
         groups: &[&str],
     ) -> Option<AutomationRule> {
         let before = self.notes.len();
-        let choices =
-            [("take", Some(Then::Take)), ("leave", Some(Then::Leave)), ("park", Some(Then::Park))];
+        let choices = [
+            ("take", Some(RuleAction::Take)),
+            ("leave", Some(RuleAction::Leave)),
+            ("park", Some(RuleAction::Park)),
+        ];
         let sun = [("up", Some(SunIs::Up)), ("down", Some(SunIs::Down))];
         if !self.table.contains_key("then") {
             self.invalid("then", "must be take, leave or park");
@@ -122,10 +125,10 @@ impl TableFields<'_> {
         let rule = AutomationRule {
             is_on: self.flag("on", true),
             antenna: self.antenna_of_rule(antennas),
-            of: self.satellites_of_rule(groups),
+            subject: self.satellites_of_rule(groups),
             sun: self.one_of("sun", &sun, None),
             hours: self.hours("hours"),
-            then: self.one_of("then", &choices, None)?,
+            action: self.one_of("then", &choices, None)?,
         };
         (self.notes.len() == before).then_some(rule)
     }
@@ -140,16 +143,16 @@ impl TableFields<'_> {
         valid
     }
 
-    fn satellites_of_rule(&mut self, groups: &[&str]) -> Option<RuleOf> {
+    fn satellites_of_rule(&mut self, groups: &[&str]) -> Option<RuleSubject> {
         if self.table.contains_key("satellite") {
-            return self.satellite().map(RuleOf::Satellite);
+            return self.satellite().map(RuleSubject::Satellite);
         }
         let name = self.table.remove("group")?;
         let valid = name.as_str().filter(|name| groups.contains(name)).map(str::to_owned);
         if valid.is_none() {
             self.invalid("group", "must be the name of a group");
         }
-        valid.map(RuleOf::Group)
+        valid.map(RuleSubject::Group)
     }
 
     /// Hours of which one end cannot be read are none: they are not guessed.
@@ -163,7 +166,7 @@ impl TableFields<'_> {
             self.invalid(key, "must end at another time than they begin");
             return None;
         }
-        Some(HoursOfDay { from: start, to: end })
+        Some(HoursOfDay { start, end })
     }
 
     fn time_of_day(&mut self, key: &str) -> Option<jiff::civil::Time> {

@@ -35,7 +35,7 @@ pub(in crate::export) fn event_ids(rows: &[ExportedPass<'_>], query: &PassQuery)
         let number = satellite.elements.catalog_number();
         let slots = Slots::of(&satellite.elements);
         let again = |from, to| query.passes_between(&satellite.propagator, from, to);
-        let FoundSlot { slot, order } = slots.find(pass, query.search.from, again);
+        let FoundSlot { slot, order } = slots.find(pass, query.search.start, again);
         let before = before.entry((number, slot)).or_default();
         let order = order.max(*before);
         *before = order + 1;

@@ -15,7 +15,7 @@ use crate::{
         },
     },
     device::{
-        Asked, PrepareError, TrackTarget,
+        MotionRequest, PrepareError, TrackTarget,
         panel::{Check, CheckState},
         settings::WriteError,
     },
@@ -116,8 +116,8 @@ fn each_outlet_has_its_setting_and_quiet_hours_hold_for_both() {
     assert_eq!(told(false, true, None), Some((false, true)));
     assert_eq!(told(false, false, None), None);
     assert_eq!(told(true, true, Some(HoursOfDay::NIGHT)), None, "23:00 local, 20:00 UTC");
-    let HoursOfDay { from, to } = HoursOfDay::NIGHT;
-    let by_day = HoursOfDay { from: to, to: from };
+    let HoursOfDay { start: from, end: to } = HoursOfDay::NIGHT;
+    let by_day = HoursOfDay { start: to, end: from };
     assert_eq!(told(true, true, Some(by_day)), Some((true, true)));
 }
 
@@ -247,13 +247,13 @@ fn nothing_silences_a_top_priority_alarm() {
 /// Each kind, and each matter of safety.
 fn every_kind() -> Vec<AlarmKind> {
     use crate::contract::alarms::AlarmKind as K;
-    let ranked = || Ranked { cause: Cause::AzimuthOffset(1.0), off: None };
+    let ranked = || Ranked { cause: Cause::AzimuthOffset(1.0), max_error: None };
     let target = TrackTarget {
         catalog_number: 25_544,
         name: "ISS".to_owned(),
         element_file: None,
-        from: time(),
-        until: time(),
+        start: time(),
+        end: time(),
     };
     let text = || "text".to_owned();
     let note = |reason| Note { place: text(), line: None, reason };
@@ -267,29 +267,32 @@ fn every_kind() -> Vec<AlarmKind> {
         K::AutoTrackStillOn,
         K::AutoStaysOn,
         K::AutoTrackNotKnown,
-        K::AutoTrackOwed(Unit::of(&Antenna::satrak("Dish", "10.0.0.5:4001"))),
-        K::OffsetsOwed(Unit::of(&Antenna::satrak("Dish", "10.0.0.5:4001"))),
+        K::AutoTrackOwed(Unit::new(&Antenna::satrak("Dish", "10.0.0.5:4001"))),
+        K::OffsetsOwed(Unit::new(&Antenna::satrak("Dish", "10.0.0.5:4001"))),
         K::LockOutUnproved,
         K::LockOuts(text()),
-        K::Refused(Asked::Action("park"), text()),
-        K::Unanswered(Asked::Action("park")),
+        K::Refused(MotionRequest::Action("park"), text()),
+        K::Unanswered(MotionRequest::Action("park")),
         K::CannotTrack(target, PrepareError::CannotBeSent(text())),
         K::CannotProgramTrack(text(), TrackProblem::NoPass),
-        K::OffTarget { off: Angle::from_degrees(1.0), cause: None },
-        K::OffsetsLeft { offsets: TrackOffsets::NONE, why: LeftOffsets::Found { since: time() } },
+        K::OffTarget { deviation: Angle::from_degrees(1.0), cause: None },
+        K::OffsetsLeft {
+            offsets: TrackOffsets::NONE,
+            reason: LeftOffsets::Found { start: time() },
+        },
         K::OffsetNotTaken(WriteError::Unanswered),
         K::UnitDiffers(ranked()),
         K::NotCompared { satellite: None },
         K::NoAntennaFor { pass: (25_544, time()), name: text() },
-        K::NotOnItsWay { pass: (25_544, time()), name: text(), why: None },
-        K::AutomaticMoves { at: time(), name: text() },
+        K::NotOnItsWay { pass: (25_544, time()), name: text(), reason: None },
+        K::AutomaticMoves { time: time(), name: text() },
         K::AutomaticOff(OffBecause::Failures),
         K::AutomaticSuspended(crate::contract::automatic::Interruption::Elsewhere),
         K::TrackingEnded,
         K::EndedShort,
         K::StartedByItself,
         K::MovesByItself,
-        K::Owed(Unit::of(&Antenna::satrak("Dish", "10.0.0.5:4001"))),
+        K::Owed(Unit::new(&Antenna::satrak("Dish", "10.0.0.5:4001"))),
         K::DriverStands(Duration::from_secs(3)),
         K::StationStands(Duration::from_secs(3)),
         K::StationElsewhere(HeldBy::Azel(None)),
@@ -299,7 +302,7 @@ fn every_kind() -> Vec<AlarmKind> {
         K::SourceSetAside(text()),
         K::SourceFails { source: text(), as_of: Some(time()) },
         K::ElementsOld { name: text(), others: 2 },
-        K::ElementsNotUploaded { why: text() },
+        K::ElementsNotUploaded { reason: text() },
         K::NotTaken,
         K::Check(Check::new("Drive", CheckState::Fault, "Look at it.")),
         K::Check(Check::new("Drive", CheckState::Caution, "Look at it.")),
@@ -308,7 +311,7 @@ fn every_kind() -> Vec<AlarmKind> {
         K::Unreadable("Decimal commas."),
         K::Setting(note(NoteReason::Unknown)),
         K::SafetySetting {
-            note: note(NoteReason::DoesNotHold { name: text(), why: text() }),
+            note: note(NoteReason::DoesNotHold { name: text(), reason: text() }),
             antenna: None,
         },
         K::Settings(text()),
@@ -385,7 +388,7 @@ fn is_listed(kind: &AlarmKind) {
 fn every_matter_of_safety() -> Vec<Safety> {
     let all = vec![
         Safety::DeadManFired,
-        Safety::LeftMoving { since: Some(time()), asks: true },
+        Safety::LeftMoving { start: Some(time()), asks: true },
         Safety::NoMark,
         Safety::SessionBroke,
         Safety::StoppedByFlags { axis: "X" },

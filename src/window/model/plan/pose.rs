@@ -5,9 +5,9 @@ use jiff::Timestamp;
 use super::Model;
 use crate::{
     astro::time::{add_seconds, seconds_between},
-    contract::{antenna::AntennaModel, passes::PassKey},
+    contract::{antenna::AntennaModel, passes::PassListKey},
     device::Pointing,
-    plan::schedule::{Entry, Reach, between, parks_within_s, sets_out},
+    plan::schedule::{Entry, Reach, between_passes, parks_within_s, sets_out},
     station::BetweenPasses,
 };
 
@@ -21,10 +21,10 @@ pub struct Pose {
 /// Activity of an antenna by the schedule at one moment.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PlannedActivity {
-    Tracks(PassKey),
-    SlewsTo(PassKey),
+    Tracks(PassListKey),
+    SlewsTo(PassListKey),
     /// Stands where the pass will begin.
-    WaitsFor(PassKey),
+    WaitsFor(PassListKey),
     /// Stands where the last pass ended, or where it stands now.
     Stays,
     SlewsToPark,
@@ -58,14 +58,14 @@ impl Slew {
     }
 }
 
-fn key(entry: &Entry) -> PassKey {
+fn key(entry: &Entry) -> PassListKey {
     (entry.pass.satellite, entry.pass.aos)
 }
 
 impl Model {
     /// The end of the schedule, if that is to come.
     pub fn schedule_until(&self) -> Option<Timestamp> {
-        self.schedule.until.filter(|until| *until > self.now)
+        self.schedule.end.filter(|until| *until > self.now)
     }
 
     /// Returns the scheduled activity of an antenna at `at`, and where it points then. `None` for
@@ -74,12 +74,12 @@ impl Model {
         let id = antenna.id();
         let entries = || self.schedule.schedule.entries.iter().filter(|of| of.antenna == id);
         entries().next()?;
-        let reach = Reach::of(&self.station, &antenna.config, None);
-        if let Some(entry) = entries().find(|entry| entry.from <= at && at < entry.to) {
+        let reach = Reach::from_station(&self.station, &antenna.config, None);
+        if let Some(entry) = entries().find(|entry| entry.start <= at && at < entry.end) {
             return self.tracks(&reach, entry, at);
         }
-        let before = entries().rfind(|entry| entry.to <= at);
-        let next = entries().find(|entry| entry.from > at);
+        let before = entries().rfind(|entry| entry.end <= at);
+        let next = entries().find(|entry| entry.start > at);
         let measured = antenna.snapshot.state.measured;
         let has_elevation = antenna.variant().capabilities.has_elevation();
         let stands_deg = match before {
@@ -116,8 +116,8 @@ impl Model {
         stands_deg: Option<[f64; 2]>,
         at: Timestamp,
     ) -> (PlannedActivity, Option<[f64; 2]>) {
-        let since = before.map_or(self.now, |entry| entry.to);
-        let policy = between(&self.station, &antenna.config, since);
+        let since = before.map_or(self.now, |entry| entry.end);
+        let policy = between_passes(&self.station, &antenna.config, since);
         let goes_at = next.map(|next| sets_out(next, policy).max(since));
         let left_s = goes_at.map_or(f64::INFINITY, |at| seconds_between(since, at));
         // Before its first pass it stays where it is: parking is not announced.

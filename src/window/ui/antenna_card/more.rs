@@ -139,7 +139,7 @@ fn ask(
     state: &mut MoreState,
     actions: &mut Vec<CardAction>,
 ) {
-    let response = button.show(ui, ("action", action.key), place).on_hover_text(action.about);
+    let response = button.show(ui, ("action", action.key), place).on_hover_text(action.description);
     if !response.clicked() {
         return;
     }
@@ -159,7 +159,7 @@ fn field_row(
     let t = theme::tokens(ui);
     let label = row.with_max_x(row.left() + LABEL * row.width());
     paint::text_in(ui, label, Align2::LEFT_CENTER, field.label, text::small(), t.t2);
-    let about = if field.about.is_empty() { action.about } else { field.about };
+    let about = if field.description.is_empty() { action.description } else { field.description };
     let salt = ("action label", action.key, field.key);
     paint::name_text(ui, salt, label, field.label).on_hover_text(about);
     let room = row.with_min_x(label.right() + GAP);
@@ -198,7 +198,7 @@ mod tests {
         Action {
             key: "turn",
             label: "Turn the other",
-            about: "Sends the other rotator to a heading.",
+            description: "Sends the other rotator to a heading.",
             fields: FIELDS,
             moves: true,
             question: None,
@@ -206,7 +206,7 @@ mod tests {
         Action {
             key: "reset",
             label: "Reset alarms",
-            about: "Takes back the alarms.",
+            description: "Takes back the alarms.",
             fields: &[],
             moves: false,
             question: None,
@@ -214,7 +214,7 @@ mod tests {
         Action {
             key: "read",
             label: "Read the list",
-            about: "Reads the names of the satellites.",
+            description: "Reads the names of the satellites.",
             fields: &[],
             moves: false,
             question: None,

@@ -6,7 +6,7 @@ use super::{CardAction, Cursor};
 use crate::{
     astro::{Offset, TrackOffsets},
     contract::driver::OffsetChange,
-    station::OffsetsOf,
+    station::OffsetsSubject,
     ui::{
         icons::{self, Icon},
         text, theme,
@@ -47,7 +47,7 @@ pub enum OffsetsIn<'a> {
         has_elevation: bool,
         /// Subjects that Azel can remember the offsets for: the name, and whether the offsets in
         /// force differ from the remembered ones.
-        keep: &'a [(OffsetsOf, &'a str, bool)],
+        keep: &'a [(OffsetsSubject, &'a str, bool)],
     },
     /// The unit, which tracks by itself; with the sum of the offsets that it adds, in words.
     Unit { held: &'a str, is_changing: bool },
@@ -115,7 +115,7 @@ pub(super) fn show(
 ) {
     let t = theme::tokens(ui);
     at.skip(4.0);
-    for offset in model.offsets.each().into_iter().filter(|offset| model.of.offers(*offset)) {
+    for offset in model.offsets.components().into_iter().filter(|offset| model.of.offers(*offset)) {
         row(ui, at.take(SMALL_HEIGHT), offset, model, state.step, actions);
         at.skip(GAP);
     }
@@ -169,7 +169,7 @@ pub(super) fn show(
 }
 
 /// A button for each that the offsets can be remembered of.
-fn keep(ui: &Ui, row: Rect, kept: &[(OffsetsOf, &str, bool)], actions: &mut Vec<CardAction>) {
+fn keep(ui: &Ui, row: Rect, kept: &[(OffsetsSubject, &str, bool)], actions: &mut Vec<CardAction>) {
     let t = theme::tokens(ui);
     let words = "Remember for";
     let head = paint::text(ui, row.left_center(), Align2::LEFT_CENTER, words, text::small(), t.t2);
@@ -180,10 +180,10 @@ fn keep(ui: &Ui, row: Rect, kept: &[(OffsetsOf, &str, bool)], actions: &mut Vec<
         let place = room.with_min_x(left).with_max_x(left + width);
         left = place.right() + GAP;
         let about = match of {
-            OffsetsOf::Satellite(_) => {
+            OffsetsSubject::Satellite(_) => {
                 format!("Remember time, along and across the track for {name}")
             }
-            OffsetsOf::Antenna(_) => format!("Remember azimuth and elevation for {name}"),
+            OffsetsSubject::Antenna(_) => format!("Remember azimuth and elevation for {name}"),
         };
         let said = if *differs { about } else { format!("{about}: remembered already") };
         let response = Button::normal(name).locked(!differs).show(ui, ("keep", *name), place);

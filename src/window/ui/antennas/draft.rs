@@ -153,8 +153,8 @@ impl Draft {
             let Some(field) = fields.iter().find(|field| field.key == *key) else { continue };
             let outcome = match (&written.result, field.access) {
                 (Err(_), _) => Outcome::Rejected,
-                (Ok(()), Access::Write) => Outcome::Taken(written.at),
-                (Ok(()), _) => Outcome::Verified(written.at),
+                (Ok(()), Access::Write) => Outcome::Taken(written.time),
+                (Ok(()), _) => Outcome::Verified(written.time),
             };
             self.outcomes.insert(field.key, outcome);
             let proved = held.and_then(|held| held.get(field.key)).cloned();
@@ -201,8 +201,8 @@ mod tests {
 
     fn written(result: Result<(), WriteError>) -> Written {
         let values = held(5.0);
-        let change = Change { ticket: 1, group: "g", values, seen: None, is_unlocked: false };
-        Written { change, at: Timestamp::UNIX_EPOCH, result }
+        let change = Change { ticket: 1, group: "g", values, expected: None, is_unlocked: false };
+        Written { change, time: Timestamp::UNIX_EPOCH, result }
     }
 
     fn send(draft: &mut Draft) {

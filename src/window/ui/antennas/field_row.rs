@@ -71,8 +71,8 @@ fn show(
     let at = Columns::of(row::take(ui));
     paint::text_in(ui, at.label, egui::Align2::LEFT_CENTER, field.label, text::small(), t.t1);
     let named = paint::name_text(ui, ("label", field.key), at.label, field.label);
-    if !field.about.is_empty() {
-        named.on_hover_text(field.about);
+    if !field.description.is_empty() {
+        named.on_hover_text(field.description);
     } else if !paint::fits(ui, field.label, text::small(), at.label) {
         named.on_hover_text(field.label);
     }

@@ -195,7 +195,7 @@ impl Form {
         let seen = draft.seen().cloned().or_else(|| unit.values(group.key).cloned());
         draft.begin(Sent { ticket, at: unit.model.steady, values: values.clone() });
         let is_unlocked = is_service && unit.is_unlocked;
-        let change = Change { ticket, group: group.key, values, seen, is_unlocked };
+        let change = Change { ticket, group: group.key, values, expected: seen, is_unlocked };
         commands.push(UiCommand::antenna(unit.antenna.id(), Command::WriteSettings(change)));
     }
 
@@ -211,7 +211,7 @@ impl Form {
             if let Some(written) = written {
                 let count = sent.values.len();
                 match &written.result {
-                    Ok(()) => self.report.verify(group, &sent.values, count, written.at),
+                    Ok(()) => self.report.verify(group, &sent.values, count, written.time),
                     Err(error) => {
                         let words = outcome::sentence(group, &written, error, draft.seen(), held);
                         self.report.failures.push(words);

@@ -74,7 +74,7 @@ pub(super) fn show(ui: &Ui, rect: Rect, unit: &ShownUnit<'_>, commands: &mut Vec
 /// Result of the copy that was just saved.
 fn saved(unit: &ShownUnit<'_>) -> Option<Result<String, String>> {
     let saving = unit.model.copies.saved.as_ref()?;
-    let is_news = seconds_between(saving.at, unit.model.now) < SAVED_S;
+    let is_news = seconds_between(saving.time, unit.model.now) < SAVED_S;
     (is_news && saving.antenna == unit.name()).then(|| match &saving.result {
         Ok(path) => Ok(format!("Saved as {}", path.display())),
         Err(why) => Err(format!("Not saved: {why}")),

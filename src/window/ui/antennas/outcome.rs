@@ -152,8 +152,8 @@ mod tests {
     fn said(values: Values, error: &WriteError, seen: f64, held: f64) -> String {
         let of = |low| Values::from([("elevation_threshold_deg", Value::Decimal(low))]);
         let change =
-            Change { ticket: 1, group: GENERAL.key, values, seen: None, is_unlocked: false };
-        let written = Written { change, at: Timestamp::UNIX_EPOCH, result: Err(error.clone()) };
+            Change { ticket: 1, group: GENERAL.key, values, expected: None, is_unlocked: false };
+        let written = Written { change, time: Timestamp::UNIX_EPOCH, result: Err(error.clone()) };
         sentence(&GENERAL, &written, error, Some(&of(seen)), Some(&of(held)))
     }
 
@@ -173,16 +173,17 @@ mod tests {
 
     #[test]
     fn a_password_is_never_in_a_sentence() {
-        let secret = |text: &str| Values::from([PASSWORD.with(Secret::new(text))]);
+        let secret = |text: &str| Values::from([PASSWORD.entry(Secret::new(text))]);
         let values = secret("hunter2");
-        let change = Change { ticket: 1, group: FTP.key, values, seen: None, is_unlocked: false };
+        let change =
+            Change { ticket: 1, group: FTP.key, values, expected: None, is_unlocked: false };
         for error in [
             WriteError::Refused("7".to_owned()),
             WriteError::ChangedMeanwhile,
             WriteError::Differs(vec![PASSWORD.name]),
         ] {
             let result = Err(error.clone());
-            let written = Written { change: change.clone(), at: Timestamp::UNIX_EPOCH, result };
+            let written = Written { change: change.clone(), time: Timestamp::UNIX_EPOCH, result };
             let (seen, held) = (secret("hunter3"), secret("hunter4"));
             let words = sentence(&FTP, &written, &error, Some(&seen), Some(&held));
             assert!(!words.contains("hunter") && words.contains(HIDDEN), "{words}");

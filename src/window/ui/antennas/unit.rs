@@ -36,16 +36,16 @@ impl<'a> ShownUnit<'a> {
     }
 
     pub(super) fn group(&self, key: &str) -> Option<&'a GroupState> {
-        self.antenna.snapshot.state.held.get(key)
+        self.antenna.snapshot.state.groups.get(key)
     }
 
     /// Values of the group at its last reading.
     pub(super) fn values(&self, key: &str) -> Option<&'a Values> {
-        self.group(key)?.held.as_ref().map(|held| &held.values)
+        self.group(key)?.last_read.as_ref().map(|held| &held.values)
     }
 
     pub(super) fn read_at(&self, key: &str) -> Option<Timestamp> {
-        self.group(key)?.held.as_ref().map(|held| held.read_at)
+        self.group(key)?.last_read.as_ref().map(|held| held.read_at)
     }
 
     pub(super) fn failure(&self, key: &str) -> Option<&'a ReadFailure> {

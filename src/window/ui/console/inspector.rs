@@ -109,7 +109,7 @@ fn when(line: &ConsoleLine, now: Timestamp) -> String {
     format!(
         "{}, {}Z{}",
         line.antenna,
-        format::millisecond(line.wire().at, now),
+        format::millisecond(line.wire().time, now),
         after.unwrap_or_default()
     )
 }

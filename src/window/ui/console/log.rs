@@ -40,7 +40,7 @@ impl Filter {
         let is_other_way = self.direction.is_some_and(|way| way != wire.direction);
         if is_other || is_other_way || !has_text() {
             LineVerdict::Other
-        } else if self.hides_polls && wire.is_usual_poll() {
+        } else if self.hides_polls && wire.is_routine_poll() {
             LineVerdict::Poll
         } else {
             LineVerdict::Shown
@@ -128,7 +128,7 @@ impl Log {
                 continue;
             };
             let is_earlier = first.as_ref().and_then(|(_, lines)| lines.front());
-            if is_earlier.is_none_or(|earliest| line.line.at < earliest.line.at) {
+            if is_earlier.is_none_or(|earliest| line.line.time < earliest.line.time) {
                 first = Some((source, lines));
             }
         }
@@ -282,7 +282,7 @@ mod tests {
         }
         let mut log = Log::default();
         while log.pull([("Dish", &busy), ("Mast", &quiet)].into_iter()) {}
-        let times: Vec<_> = log.all_shown().map(|line| line.wire().at).collect();
+        let times: Vec<_> = log.all_shown().map(|line| line.wire().time).collect();
         assert_eq!(times.len(), 3850);
         assert!(times.is_sorted());
     }

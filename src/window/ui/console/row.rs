@@ -92,7 +92,7 @@ pub(super) fn show(ui: &Ui, rect: Rect, names_antenna: bool, now: Timestamp, lin
         ui,
         columns.time,
         left,
-        &format::millisecond(line.wire().at, now),
+        &format::millisecond(line.wire().time, now),
         text::raw(),
         t.t2,
     );
@@ -132,7 +132,7 @@ fn mark_of(tone: Tone, t: &Tokens) -> Option<(Icon, Color32)> {
 
 /// The row for screen readers.
 pub(super) fn spoken(line: &ConsoleLine, now: Timestamp) -> String {
-    let time = format::millisecond(line.wire().at, now);
+    let time = format::millisecond(line.wire().time, now);
     let raw = line.raw.trim_end_matches("<CR><LF>");
     let went = match line.direction() {
         "" => String::new(),

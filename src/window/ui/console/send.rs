@@ -69,7 +69,7 @@ pub(super) fn show(
         }
         (Some(Err(reason)), _) => (Icon::Lock, format!("Not sent. {reason}"), t.warn),
         (_, Some(question)) => {
-            (Icon::Check, format!("{}. The answer will appear in the log.", question.about), t.t2)
+            (Icon::Check, format!("{}. The answer will appear in the log.", question.subject), t.t2)
         }
         (None, _) => {
             let such =
@@ -148,7 +148,7 @@ fn fields(ui: &mut Ui, rect: Rect, questions: &[Question], entry: &mut Entry) ->
         let queries = DropDown { button, salt: "queries", name: "Pick a query" };
         let (place, _) = ui.allocate_exact_size(vec2(PICK, BUTTON), Sense::hover());
         queries.show(ui, place, |ui| {
-            for Question { key, about, .. } in questions {
+            for Question { key, subject: about, .. } in questions {
                 let words = RichText::new(format!("{key}  {about}")).font(text::small());
                 if ui.selectable_label(false, words).clicked() {
                     entry.text = key.to_string();

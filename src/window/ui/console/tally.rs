@@ -56,7 +56,7 @@ fn tallies(now: Timestamp, log: &Log) -> Vec<Tally> {
         (Tally { antenna, lines: 0, bad: 0, missing: 0, median: None }, Vec::new())
     };
     let mut all: Vec<(Tally, Vec<Duration>)> = log.antennas().map(nothing).collect();
-    let is_recent = |line: &&Arc<ConsoleLine>| now.duration_since(line.wire().at) <= SPAN;
+    let is_recent = |line: &&Arc<ConsoleLine>| now.duration_since(line.wire().time) <= SPAN;
     for line in log.newest_first().take_while(is_recent) {
         let own = all.iter_mut().find(|(tally, _)| tally.antenna == line.antenna);
         let Some((tally, waits)) = own else { continue };

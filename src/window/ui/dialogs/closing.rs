@@ -6,7 +6,7 @@ use crate::{
     contract::{
         self,
         antenna::{AntennaModel, Stake},
-        closing::{CloseHow, Wanted},
+        closing::{CloseCondition, CloseHow},
     },
     model::{Model, UiCommand},
     ui::{
@@ -123,7 +123,7 @@ fn answer_key(ui: &mut Ui, word: &str, about: &str) -> bool {
 /// Shows what the closing of the window waits for.
 pub fn waiting(ui: &Ui, model: &Model, commands: &mut Vec<UiCommand>) {
     let Some(closing) = &model.closing else { return };
-    let names = |wanted: Wanted| -> Vec<&str> {
+    let names = |wanted: CloseCondition| -> Vec<&str> {
         let waits = closing.waits_for.iter().filter(|(_, of)| *of == wanted);
         waits.filter_map(|(id, _)| Some(model.antenna_of(*id)?.config.name.as_str())).collect()
     };
@@ -133,8 +133,8 @@ pub fn waiting(ui: &Ui, model: &Model, commands: &mut Vec<UiCommand>) {
         let title = next.map_or("Azel closes".to_owned(), |next| format!("Azel changes to {next}"));
         ui.label(RichText::new(title).font(text::value()));
         for (wanted, words) in [
-            (Wanted::Still, "once it is known to be at rest"),
-            (Wanted::Parked, "once it is parked"),
+            (CloseCondition::Still, "once it is known to be at rest"),
+            (CloseCondition::Parked, "once it is parked"),
         ] {
             let names = names(wanted);
             if !names.is_empty() {

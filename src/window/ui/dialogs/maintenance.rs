@@ -111,7 +111,7 @@ impl MaintenanceDialog {
         lock_out: &LockOut,
     ) -> MaintenanceAnswer {
         let t = theme::tokens(ui);
-        let LockOut { by, reason, since } = lock_out;
+        let LockOut { operator: by, reason, start: since } = lock_out;
         let title = format!("Remove the lock-out of {}", antenna.config.name);
         ui.label(RichText::new(title).font(text::value()));
         for (label, told) in [
@@ -148,9 +148,9 @@ impl MaintenanceDialog {
 
     fn typed(&self, model: &Model) -> LockOut {
         LockOut {
-            by: self.by.trim().to_owned(),
+            operator: self.by.trim().to_owned(),
             reason: self.reason.trim().to_owned(),
-            since: model.now,
+            start: model.now,
         }
     }
 }

@@ -132,7 +132,7 @@ fn known_since(antenna: &AntennaModel, now: Instant) -> String {
         LinkState::Off | LinkState::Connecting { .. } => None,
         LinkState::Up { .. } => snapshot.state.measured.map(|measured| measured.received),
         LinkState::Stale { as_of } => Some(as_of),
-        LinkState::Lost { since, .. } => Some(since),
+        LinkState::Lost { start: since, .. } => Some(since),
     };
     match since {
         Some(since) => {

@@ -245,7 +245,7 @@ impl Shown<'_> {
                 Offer::File(path) => crate::contract::sources::Copied::File(path.clone()),
                 Offer::Text(text) => crate::contract::sources::Copied::Text(text.to_string()),
             };
-            let command = contract::Command::CopyElements { name: source.clone(), from: offer };
+            let command = contract::Command::CopyElements { name: source.clone(), origin: offer };
             commands.push(UiCommand::Station(command));
             state.taken.push(self.index);
         }

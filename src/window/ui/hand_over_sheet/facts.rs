@@ -10,7 +10,7 @@ use crate::{
         time::{DAY_S, add_seconds, seconds_between},
     },
     orbit::{Pass, PassSearch, passes},
-    plan::schedule::{Entry, LeftOut, PassKey, Why},
+    plan::schedule::{Entry, LeftOut, LeftOutReason, PassKey},
     station::AntennaId,
 };
 
@@ -31,7 +31,7 @@ impl<'a> HandOverSheet<'a> {
     /// The entries that are not over at the start of the sheet, in the order of execution.
     pub(super) fn entries(&self) -> Vec<&'a Entry> {
         let schedule: &'a _ = self.schedule;
-        let within = |entry: &&Entry| entry.to > self.from && entry.from < self.until;
+        let within = |entry: &&Entry| entry.end > self.from && entry.start < self.until;
         schedule.entries.iter().filter(within).collect()
     }
 
@@ -84,14 +84,14 @@ impl<'a> HandOverSheet<'a> {
     /// replanned, on the antenna where that is least. `None` if no antenna can take it.
     pub(super) fn price(&self, left: &LeftOut) -> Option<Price<'a>> {
         let schedule: &'a _ = self.schedule;
-        let on = |(antenna, why): &(AntennaId, Why)| {
+        let on = |(antenna, why): &(AntennaId, LeftOutReason)| {
             let in_the_way = match why {
-                Why::Overlaps(conflict) | Why::SlewTooShort(conflict) => {
+                LeftOutReason::Overlaps(conflict) | LeftOutReason::SlewTooShort(conflict) => {
                     let mut all = conflict.others.clone();
-                    all.push(conflict.with);
+                    all.push(conflict.pass);
                     all
                 }
-                Why::NotFound => Vec::new(),
+                LeftOutReason::NotFound => Vec::new(),
                 _ => return None,
             };
             let is_given_up = |it: &&Entry| it.antenna == *antenna && in_the_way.contains(&it.pass);

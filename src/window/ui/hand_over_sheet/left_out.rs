@@ -6,7 +6,7 @@ use maud::{Markup, html};
 
 use super::HandOverSheet;
 use crate::{
-    plan::schedule::{LeftOut, Why},
+    plan::schedule::{LeftOut, LeftOutReason},
     ui::{
         format,
         page::{SECTION_HEAD_MM, section},
@@ -103,7 +103,7 @@ fn group(sheet: &HandOverSheet<'_>, left: &LeftOut) -> Group {
             pass: &|(number, _)| sheet.name(number),
             antenna: &|id| sheet.antenna(id),
         },
-        &left.why,
+        &left.reason,
     );
     let costs = sheet.price(left).map_or_else(String::new, |price| {
         let given_up = match &price.entries[..] {
@@ -117,13 +117,13 @@ fn group(sheet: &HandOverSheet<'_>, left: &LeftOut) -> Group {
     });
     let max = sheet.pass(left.pass).map(|pass| pass.max_elevation().degrees());
     let against_others = matches!(
-        left.why,
-        Why::Overlaps(_)
-            | Why::SlewTooShort(_)
-            | Why::TooFar
-            | Why::UnderWay
-            | Why::NotFound
-            | Why::MaxPerDay(_)
+        left.reason,
+        LeftOutReason::Overlaps(_)
+            | LeftOutReason::SlewTooShort(_)
+            | LeftOutReason::TooFar
+            | LeftOutReason::UnderWay
+            | LeftOutReason::NotFound
+            | LeftOutReason::MaxPerDay(_)
     );
     Group {
         name: sheet.name(number),

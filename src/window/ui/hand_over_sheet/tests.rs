@@ -4,7 +4,7 @@ use super::*;
 use crate::{
     makes::DemoAddresses,
     orbit::{Catalog, PassSearch, bundled, passes, read_elements},
-    plan::schedule::{Class, Conflict, Entry, LeftOut, Why, testing},
+    plan::schedule::{Class, Conflict, Entry, LeftOut, LeftOutReason, testing},
     station::Priority,
     ui::page::testing::prints_on_one_sheet,
 };
@@ -58,9 +58,14 @@ fn schedule(
             });
         } else {
             let with = schedule.entries.last().map_or(pass, |entry| entry.pass);
-            let why = Why::Overlaps(Conflict { with, class, missing_s: 482.0, others: vec![] });
+            let why = LeftOutReason::Overlaps(Conflict {
+                pass: with,
+                class,
+                missing_s: 482.0,
+                others: vec![],
+            });
             let by_antenna = vec![(antenna, why.clone())];
-            schedule.left_out.push(LeftOut { pass, why, by_antenna });
+            schedule.left_out.push(LeftOut { pass, reason: why, by_antenna });
         }
     }
     schedule
@@ -120,8 +125,8 @@ fn the_price_of_a_pass_is_what_the_antenna_that_gives_up_least_has_to_drop() {
     };
     let against = |entry: &Entry| {
         let (with, class) = (entry.pass, entry.class);
-        let conflict = Conflict { with, class, missing_s: 482.0, others: vec![] };
-        (entry.antenna, Why::Overlaps(conflict))
+        let conflict = Conflict { pass: with, class, missing_s: 482.0, others: vec![] };
+        (entry.antenna, LeftOutReason::Overlaps(conflict))
     };
     // The lowest priority, then the shortest.
     for (entry, number) in schedule.entries.iter_mut().zip([1, 4, 4]) {
@@ -133,7 +138,7 @@ fn the_price_of_a_pass_is_what_the_antenna_that_gives_up_least_has_to_drop() {
     let [_, second, _] = &schedule.entries[..] else { panic!("three entries") };
     assert_eq!(said(&schedule), format!("{} on {}", name(second), antennas[1]));
 
-    schedule.left_out[0].by_antenna[2].1 = Why::NotFound;
+    schedule.left_out[0].by_antenna[2].1 = LeftOutReason::NotFound;
     assert_eq!(said(&schedule), format!("Nothing on {}", antennas[2]));
 
     schedule.left_out[0].by_antenna.truncate(1);
@@ -158,7 +163,7 @@ fn passes_of_one_satellite_that_are_left_out_for_one_reason_are_one_row() {
     let satellites = [(elements, propagator)];
     let mut schedule = schedule(&station, &satellites, (0, 5));
     for left in &mut schedule.left_out {
-        left.why = Why::OtherAntennas(vec![AntennaId::FIRST]);
+        left.reason = LeftOutReason::OtherAntennas(vec![AntennaId::FIRST]);
         left.by_antenna.clear();
     }
     let page = printed(&station, &schedule, &satellites);

@@ -49,11 +49,11 @@ impl HandOverSheet<'_> {
                     svg viewBox=(format!("0 0 {WIDTH} {HEIGHT}")) preserveAspectRatio="none" {
                         (background)
                         @for entry in self.entries().into_iter().filter(|it| it.antenna == antenna.id) {
-                            @let go_at = sets_out(entry, antenna.automatic.between);
+                            @let go_at = sets_out(entry, antenna.automatic.between_passes);
                             @let busy_s = entry.slew_s + entry.set_up_s;
-                            @let moves_from = go_at.max(add_seconds(entry.from, -busy_s));
+                            @let moves_from = go_at.max(add_seconds(entry.start, -busy_s));
                             @let [before, from, to] =
-                                [moves_from, entry.from, entry.to].map(|at| self.x(at));
+                                [moves_from, entry.start, entry.end].map(|at| self.x(at));
                             (plot::filled("filled", [before, 4.4], [from - before, 1.2]))
                             (plot::filled("filled", [from, 2.5], [(to - from).max(1.0), 5.0]))
                         }

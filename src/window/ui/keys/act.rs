@@ -276,7 +276,7 @@ impl OffsetKey {
     }
 
     fn change(self, antenna: &AntennaModel, step: OffsetStep) -> Option<OffsetChange> {
-        let [time, ..] = self.offsets(antenna)?.each();
+        let [time, ..] = self.offsets(antenna)?.components();
         Some(match self {
             Self::Time { is_more } => {
                 let step = OffsetStep::Medium.of(time);

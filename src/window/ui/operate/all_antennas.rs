@@ -62,7 +62,7 @@ pub(super) fn stops(model: &Model, all: bool) -> Vec<AzimuthStop<'_>> {
 
 /// Both ends of an azimuth axis that has any, as directions of the sky, the CCW end first.
 pub(super) fn ends(antenna: &AntennaModel) -> Option<[Angle; 2]> {
-    let mount = antenna.config.mount.within(antenna.snapshot.state.travel_deg);
+    let mount = antenna.config.mount.clipped(antenna.snapshot.state.travel_deg);
     let Mount::AzEl { azimuth_from_deg, azimuth_to_deg, .. } = mount else { return None };
     Some([azimuth_from_deg, azimuth_to_deg].map(|deg| Angle::from_degrees(deg).wrapped_360()))
 }

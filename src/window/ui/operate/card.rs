@@ -149,7 +149,7 @@ pub(super) fn show(
             },
             lock_out: lock_out(snapshot),
             asks_standing: asks_standing.as_deref(),
-            asks_unseen: asks_unseen.map(|action| action.about),
+            asks_unseen: asks_unseen.map(|action| action.description),
             way_out: way_out.as_ref().map(|(words, hold)| WayOutModel { words, hold: *hold }),
             others: &others,
         };
@@ -201,13 +201,13 @@ fn faults<'a>(
 
 fn lock_out(snapshot: &Snapshot) -> Option<LockOutModel<'_>> {
     let lock_out = snapshot.lock_out.as_ref()?;
-    Some(LockOutModel { by: &lock_out.by, locking: snapshot.locking })
+    Some(LockOutModel { by: &lock_out.operator, locking: snapshot.locking })
 }
 
 /// The age of measured values that are old.
 fn age_of_old(model: &Model, antenna: &AntennaModel) -> Option<String> {
     let measured = antenna.snapshot.state.measured.filter(|_| !antenna.is_live())?;
-    let age = model.steady.saturating_duration_since(measured.asked);
+    let age = model.steady.saturating_duration_since(measured.requested);
     Some(format::age(age.as_secs_f64()))
 }
 
@@ -306,7 +306,7 @@ fn way_out(antenna: &AntennaModel) -> Option<(String, Option<&'static str>)> {
     let snapshot = &antenna.snapshot;
     let can_be_asked =
         snapshot.link.is_open() && snapshot.lock_out.is_none() && snapshot.intent != Intent::Track;
-    let inside = snapshot.inside.as_ref().filter(|_| can_be_asked)?;
+    let inside = snapshot.breach.as_ref().filter(|_| can_be_asked)?;
     let hold = if inside.unknown_axis.is_some() || matches!(inside.barrier, Barrier::Unread(_)) {
         words::HOLD_UNCHECKED
     } else {

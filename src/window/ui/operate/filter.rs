@@ -10,7 +10,7 @@ use crate::{
     astro::sun_moon,
     contract::{
         CatalogState,
-        passes::{PassKey, PredictedPass, Scope, UpcomingPasses},
+        passes::{PassListKey, PredictedPass, Scope, UpcomingPasses},
     },
     model::Model,
     orbit::is_sunlit,
@@ -42,7 +42,7 @@ pub(super) struct FoundPasses {
     /// The row of each place.
     rows: HashMap<usize, usize>,
     /// Passes that were judged for the wanted filters.
-    judged: HashMap<PassKey, bool>,
+    judged: HashMap<PassListKey, bool>,
     is_whole: bool,
 }
 
@@ -60,7 +60,7 @@ impl FoundPasses {
             text,
             arrangement: arrangement.clone(),
             scope,
-            revision: model.pass_lists.of(scope).revision,
+            revision: model.pass_lists.list(scope).revision,
             antenna: model.selected_antenna,
             catalog: catalog_id(model),
         };

@@ -118,7 +118,7 @@ pub(super) fn keep(
 
 /// Result of the session's check of the path to `target`.
 fn judged(antenna: &AntennaModel, target: Target) -> Option<&Preview> {
-    antenna.snapshot.preview.as_deref().filter(|preview| preview.to == pointing(target))
+    antenna.snapshot.preview.as_deref().filter(|preview| preview.target == pointing(target))
 }
 
 /// The ghost for the plot; none for an antenna without elevation.

@@ -9,13 +9,13 @@ use crate::{
     contract::{
         CatalogState,
         antenna::AntennaModel,
-        passes::{PassKey, PredictedPass, Work},
+        passes::{PassListKey, PredictedPass, Work},
     },
     model::{Model, UiCommand, plan::Standing},
     orbit::Pass,
     plan::{
         Sample, Trackability,
-        schedule::{Conflict, Refusal, Why},
+        schedule::{Conflict, LeftOutReason, Refusal},
     },
     ui::{
         format, menus,
@@ -38,7 +38,7 @@ pub(super) fn list(
     commands: &mut Vec<UiCommand>,
 ) {
     let passes = model.upcoming();
-    let listing = model.pass_lists.of(model.list.scope);
+    let listing = model.pass_lists.list(model.list.scope);
     let found = found.arrange(model, &state.filter);
     if found.is_some_and(|found| !found.is_whole()) {
         ui.request_repaint_after_for(NEXT_FRAME, egui::ViewportId::ROOT);
@@ -118,7 +118,9 @@ pub(in crate::ui) fn pass_row<'a>(model: &'a Model, predicted: &'a PredictedPass
         Trackability::Whole | Trackability::Loses { .. } => {
             let in_part = match (trackability, predicted.clear_s()) {
                 _ if misses => Verdict::Misses,
-                (Trackability::Loses { seconds, at, .. }, _) => Verdict::Loses { seconds, at },
+                (Trackability::Loses { seconds, loss: at, .. }, _) => {
+                    Verdict::Loses { seconds, at }
+                }
                 (_, Some(clear_s)) => Verdict::Blocked {
                     seconds: pass.duration_s() - clear_s,
                     is_whole: clear_s <= 0.0,
@@ -166,7 +168,7 @@ fn left_out<'a>(
 ) -> Option<LeftOut<'a>> {
     let (planned, standings) = (model.planned_pass(predicted), model.standings_on(antenna));
     let name = |conflict: &Conflict| {
-        let found = model.pass_lists.satellite(conflict.with.satellite);
+        let found = model.pass_lists.satellite(conflict.pass.satellite);
         found.map_or("another pass", |of| of.short_name())
     };
     let why = match standings.of(&planned) {
@@ -177,16 +179,17 @@ fn left_out<'a>(
         _ => return None,
     };
     Some(match why {
-        Why::Overlaps(conflict) => LeftOut::Overlaps(name(conflict)),
-        Why::SlewTooShort(conflict) => LeftOut::TooClose(name(conflict)),
-        Why::TooFar => LeftOut::TooFar,
-        Why::UnderWay => LeftOut::UnderWay,
-        Why::Refused(Refusal::Never) => LeftOut::Never,
-        Why::Refused(_) | Why::Impossible(_) | Why::OtherAntennas(_) | Why::MaxPerDay(_) => {
-            LeftOut::Limit
-        }
-        Why::Off(off) => LeftOut::Off(*off),
-        Why::NotFound => LeftOut::WorthLess,
+        LeftOutReason::Overlaps(conflict) => LeftOut::Overlaps(name(conflict)),
+        LeftOutReason::SlewTooShort(conflict) => LeftOut::TooClose(name(conflict)),
+        LeftOutReason::TooFar => LeftOut::TooFar,
+        LeftOutReason::UnderWay => LeftOut::UnderWay,
+        LeftOutReason::Refused(Refusal::Never) => LeftOut::Never,
+        LeftOutReason::Refused(_)
+        | LeftOutReason::Impossible(_)
+        | LeftOutReason::OtherAntennas(_)
+        | LeftOutReason::MaxPerDay(_) => LeftOut::Limit,
+        LeftOutReason::Off(off) => LeftOut::Off(*off),
+        LeftOutReason::NotFound => LeftOut::WorthLess,
     })
 }
 
@@ -228,7 +231,7 @@ pub(super) fn nothing_left(model: &Model, antenna: &AntennaModel) -> Option<Stri
     }
 }
 
-pub(super) fn selected_key(model: &Model) -> Option<PassKey> {
+pub(super) fn selected_key(model: &Model) -> Option<PassListKey> {
     model.selected_pass().map(PredictedPass::key)
 }
 
@@ -374,8 +377,8 @@ fn past_tracks(model: &Model) -> Vec<PastModel<'_>> {
     let tracks = antenna.past_tracks.iter().map(|track| PastModel {
         now: model.now,
         name: short(&track.name),
-        from: track.from,
-        until: track.until,
+        from: track.start,
+        until: track.end,
         rms_deg: track.rms.degrees(),
         worst_deg: track.worst.off_beam.degrees(),
         worst_at: track.worst.time,

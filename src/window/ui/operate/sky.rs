@@ -8,7 +8,7 @@ use crate::{
     astro::{Angle, AzEl, time::seconds_between},
     contract::{
         antenna::{Answers, AntennaModel},
-        passes::{PassKey, PredictedPass},
+        passes::{PassListKey, PredictedPass},
     },
     model::{Model, Selected, Sky, UiCommand},
     orbit::{LookAngles, PassPoint},
@@ -161,7 +161,7 @@ fn others(sky: &Sky, selected: Option<u32>) -> Vec<OtherSatellite<'_>> {
 }
 
 /// The pass of a satellite that is under way at `at`.
-fn pass_at(model: &Model, number: u32, at: Timestamp) -> Option<PassKey> {
+fn pass_at(model: &Model, number: u32, at: Timestamp) -> Option<PassListKey> {
     let ahead = model.pass_lists.favourites.upcoming(model.now);
     let mut own = ahead.iter().filter(|predicted| predicted.number() == number);
     own.find(|of| of.pass.aos.time <= at && at <= of.pass.los.time).map(PredictedPass::key)

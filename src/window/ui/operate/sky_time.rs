@@ -7,7 +7,7 @@ use jiff::Timestamp;
 
 use crate::{
     astro::{Site, time::add_seconds},
-    contract::passes::{PassKey, PredictedPass},
+    contract::passes::{PassListKey, PredictedPass},
     model::{Model, Sky},
     ui::{format, sky_plot::PlannedAntenna, words},
 };
@@ -30,7 +30,7 @@ struct SkyKey {
     at: Timestamp,
     site: Site,
     passes_revision: u64,
-    selected: Option<PassKey>,
+    selected: Option<PassListKey>,
 }
 
 impl SkyTime {

@@ -80,7 +80,7 @@ pub(super) fn show(
 fn bars_of_mount(model: &Model, antenna: usize, end: Timestamp) -> Vec<Bar<'_>> {
     let mut left = NEW_OUTLINES;
     let ahead = model.pass_lists.favourites.upcoming(model.now);
-    let bars = ahead.until(end).map(|predicted| {
+    let bars = ahead.starting_before(end).map(|predicted| {
         let is_new = !predicted.has_outline();
         let trackability = if is_new && left == 0 { None } else { predicted.trackability(antenna) };
         left = left.saturating_sub(usize::from(is_new));

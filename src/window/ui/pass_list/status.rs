@@ -34,7 +34,7 @@ pub(super) fn show(ui: &Ui, rect: Rect, model: &PassListModel<'_>, commands: &mu
     });
     let (words, colour, offer) = match model.work {
         Work::Nothing => (made, t.t3, None),
-        Work::UnderWay { done, of } => {
+        Work::UnderWay { done, total: of } => {
             progress(ui, rect, done, of);
             let count = |number: usize| format::number(number as f64, 0);
             let words = if of == 0 {

@@ -31,7 +31,7 @@ struct Fixture {
     span_h: u32,
     work: Work,
     made: Option<(usize, Timestamp)>,
-    selected: Option<PassKey>,
+    selected: Option<PassListKey>,
     floor_deg: f64,
     thumbnails: bool,
     actions: Vec<UiCommand>,
@@ -135,7 +135,7 @@ fn window(fixture: Fixture) -> Harness<'static, Fixture> {
                     fixture.work = Work::Cancelled;
                 }
                 UiCommand::Station(contract::Command::ResumeSearch(_)) => {
-                    fixture.work = Work::UnderWay { done: 0, of: 0 }
+                    fixture.work = Work::UnderWay { done: 0, total: 0 }
                 }
                 other => panic!("{other:?}"),
             }
@@ -144,7 +144,7 @@ fn window(fixture: Fixture) -> Harness<'static, Fixture> {
     })
 }
 
-fn key_of(index: usize) -> PassKey {
+fn key_of(index: usize) -> PassListKey {
     pass(index, &[]).key
 }
 
@@ -229,7 +229,7 @@ fn satellites_and_span_are_chosen_above_the_list() {
 
 #[test]
 fn a_search_tells_how_far_it_is_and_can_be_cancelled_and_begun_again() {
-    let work = Work::UnderWay { done: 4022, of: 16_089 };
+    let work = Work::UnderWay { done: 4022, total: 16_089 };
     let mut window = window(Fixture { scope: Scope::All, work, ..Fixture::with(8) });
     window.get_by_label("Searched 4022 of 16\u{2009}089");
     let bar = window.get_by_role(Role::ProgressIndicator);

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use crate::{
-    plan::{Loss, schedule::Off},
+    plan::{Loss, schedule::AntennaOff},
     ui::{
         format,
         words::{self, WayThere},
@@ -60,7 +60,7 @@ pub enum LeftOut<'a> {
     /// A limit of the satellite or of the station.
     Limit,
     /// The antenna takes no passes.
-    Off(Off),
+    Off(AntennaOff),
     /// No schedule with it is known to be worth more.
     WorthLess,
 }
@@ -76,8 +76,8 @@ impl LeftOut<'_> {
             Self::UnderWay => "under way".into(),
             Self::Never => "as you chose".into(),
             Self::Limit => "a limit".into(),
-            Self::Off(Off::LockedOut) => "in maintenance".into(),
-            Self::Off(Off::SwitchedOff) => "not connected".into(),
+            Self::Off(AntennaOff::LockedOut) => "in maintenance".into(),
+            Self::Off(AntennaOff::SwitchedOff) => "not connected".into(),
             Self::WorthLess => "worth less".into(),
         }
     }

@@ -263,7 +263,7 @@ fn spoken(model: &Model, planned: &PlannedPass<'_>) -> String {
     let what = match planned.left_out {
         _ if !by.is_empty() => format!("Taken by {}.", format::list(&by)),
         Some(left_out) => {
-            format!("Left out: {}.", words::schedule::why_left_out(model, &left_out.why))
+            format!("Left out: {}.", words::schedule::why_left_out(model, &left_out.reason))
         }
         None => "Not planned yet.".to_owned(),
     };

@@ -7,7 +7,7 @@ use crate::{
     contract::{self, antenna::AntennaModel, automatic::Operation, driver::LinkState},
     model::{Model, UiCommand, View, plan::PlannedPass, rehearsal::RehearsalState},
     orbit::PassPoint,
-    plan::schedule::{Entry, Off, Why},
+    plan::schedule::{AntennaOff, Entry, LeftOutReason},
     station::{Priority, Take},
     ui::{
         format,
@@ -215,7 +215,8 @@ fn verdict(
     match left_out {
         Some(why) => (Icon::Dash, t.t2, format!("{}.", words::schedule::why_left_out(model, why))),
         None if antenna.snapshot.link == LinkState::Off => {
-            let why = words::schedule::why_left_out(model, &Why::Off(Off::SwitchedOff));
+            let why =
+                words::schedule::why_left_out(model, &LeftOutReason::Off(AntennaOff::SwitchedOff));
             (Icon::Dash, t.t2, format!("{why}."))
         }
         None if let Some(entry) = planned.entries.first() => {

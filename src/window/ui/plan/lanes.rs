@@ -242,7 +242,7 @@ fn lane(
         |x: egui::Rangef| Rect::from_x_y_ranges(x, middle - ENTRY / 2.0..=middle + ENTRY / 2.0);
     let own = model.day.iter().enumerate().filter(|(_, line)| line.antenna == id);
     for (place_in_day, line) in own {
-        let DayEvent::Flown(flown) = &line.what else { continue };
+        let DayEvent::Flown(flown) = &line.event else { continue };
         let to = add_seconds(flown.pass.1, flown.of_s);
         let Some(x) = axis.range(flown.pass.1, to) else { continue };
         let rect = band(x);
@@ -253,13 +253,13 @@ fn lane(
     }
     let entries: Vec<&Entry> =
         model.schedule.schedule.entries.iter().filter(|entry| entry.antenna == id).collect();
-    let ahead = entries.iter().filter(|entry| entry.to > model.now);
+    let ahead = entries.iter().filter(|entry| entry.end > model.now);
     let mut before = model.now;
     let mut bars = Vec::new();
     for entry in ahead {
         way(ui, middle, before, entry, axis);
         bars.extend(bar(ui, band, model, antenna, entry, axis, commands));
-        before = entry.to;
+        before = entry.end;
     }
     names(ui, place, &bars);
     if entries.is_empty() {
@@ -283,14 +283,14 @@ fn way(ui: &Ui, y: f32, before: jiff::Timestamp, entry: &Entry, axis: TimeAxis) 
     let t = theme::tokens(ui);
     let slew_s = entry.slew_s + entry.set_up_s;
     let arrives = add_seconds(before, slew_s);
-    if let Some(x) = axis.range(arrives, entry.from)
-        && seconds_between(arrives, entry.from) > 0.0
+    if let Some(x) = axis.range(arrives, entry.start)
+        && seconds_between(arrives, entry.start) > 0.0
     {
         let line = [pos2(x.min, y), pos2(x.max, y)];
         ui.painter().extend(egui::Shape::dotted_line(&line, t.t3, 5.0, 0.75));
     }
     if slew_s > 0.0
-        && let Some(x) = axis.range(before, arrives.min(entry.from))
+        && let Some(x) = axis.range(before, arrives.min(entry.start))
     {
         let rect = Rect::from_x_y_ranges(x, y - ENTRY / 2.0..=y + ENTRY / 2.0);
         let stroke = Stroke::new(1.0, t.cmd);
@@ -341,7 +341,7 @@ fn bar(
     commands: &mut Vec<UiCommand>,
 ) -> Option<NamedBar> {
     let t = theme::tokens(ui);
-    let rect = band(axis.range(entry.from, entry.to)?);
+    let rect = band(axis.range(entry.start, entry.end)?);
     let key = (entry.pass.satellite, entry.pass.aos);
     let name = words::schedule::pass_name(model, key);
     let found = model.pass_lists.find(key);
@@ -351,11 +351,11 @@ fn bar(
         selected.number() == key.0 && seconds_between(selected.pass.aos.time, key.1).abs() < 60.0
     });
     let taking = antenna.operation.taking().filter(|taking| taking.pass.0 == key.0);
-    let taking = taking.filter(|taking| taking.from < entry.to && entry.from < taking.until);
+    let taking = taking.filter(|taking| taking.start < entry.end && entry.start < taking.end);
     let (form, state) = match taking {
         None => (BarForm::Planned, "planned"),
         Some(taking) if taking.proved_at.is_none() => (BarForm::Sent, "sent, not verified"),
-        Some(taking) if taking.from <= model.now => (BarForm::Running, "running"),
+        Some(taking) if taking.start <= model.now => (BarForm::Running, "running"),
         Some(_) => (BarForm::Proved, "verified"),
     };
     pass_bar::paint(ui, rect, form);
@@ -369,7 +369,7 @@ fn bar(
     let spoken = format!(
         "{name} with {}, {}, {max}, {state}.{}",
         antenna.config.name,
-        format::stretch(entry.from, entry.to, model.now),
+        format::stretch(entry.start, entry.end, model.now),
         lost.unwrap_or_default()
     );
     response.widget_info(|| WidgetInfo::selected(Role::ListBoxOption, true, is_selected, &spoken));

@@ -5,12 +5,12 @@ use egui::{Align2, Color32, Rect, Role, Ui, WidgetInfo, pos2, vec2};
 
 use super::{PADDING, PlanState, state::Shown};
 use crate::{
-    contract::{antenna::AntennaModel, passes::PassKey},
+    contract::{antenna::AntennaModel, passes::PassListKey},
     model::{
         Model, UiCommand,
         plan::{ListedPass, Standing},
     },
-    plan::schedule::{Why, sets_out},
+    plan::schedule::{LeftOutReason, sets_out},
     station::Take,
     ui::{
         format,
@@ -265,11 +265,11 @@ fn state(
             (Icon::ChevronRight, words, t.cmd)
         }
         Standing::Planned(entry) if antenna.operation.is_on() => {
-            let at = sets_out(entry, antenna.config.automatic.between);
+            let at = sets_out(entry, antenna.config.automatic.between_passes);
             (Icon::Clock, words::schedule::sets_out(antenna, at, model.now), t.t1)
         }
         Standing::Planned(_) => (Icon::Clock, "Planned".to_owned(), t.t1),
-        Standing::LeftOut(Why::UnderWay) => (Icon::Dash, "Not tracked".to_owned(), t.t2),
+        Standing::LeftOut(LeftOutReason::UnderWay) => (Icon::Dash, "Not tracked".to_owned(), t.t2),
         Standing::TakenBy(_) | Standing::LeftOut(_) => (Icon::Dash, "Left out".to_owned(), t.t2),
         Standing::NotKnown => (Icon::Dash, "Not planned yet".to_owned(), t.t3),
     }
@@ -283,7 +283,7 @@ fn reason(model: &Model, antenna: &AntennaModel, listed: &ListedPass<'_>) -> (St
             None => (String::new(), false),
             Some(cause) => (words::automatic::miss_cause(cause), true),
         },
-        Standing::LeftOut(why @ Why::UnderWay) => {
+        Standing::LeftOut(why @ LeftOutReason::UnderWay) => {
             let cause = words::automatic::not_tracking(&antenna.operation);
             let cause = cause.map_or_else(String::new, |cause| format!(" {cause}"));
             (format!("{}.{cause}", words::schedule::why_left_out(model, why)), false)
@@ -315,7 +315,7 @@ fn reason(model: &Model, antenna: &AntennaModel, listed: &ListedPass<'_>) -> (St
     }
 }
 
-fn cannot_swap(model: &Model, pass: PassKey) -> bool {
+fn cannot_swap(model: &Model, pass: PassListKey) -> bool {
     model.swap_of(pass).is_some_and(|swap| swap.changes.is_none())
 }
 

@@ -8,7 +8,7 @@ use super::choose;
 use crate::{
     astro::time::seconds_between,
     contract,
-    contract::passes::{PassKey, PredictedPass},
+    contract::passes::{PassListKey, PredictedPass},
     model::{Model, UiCommand, plan::PlannedPass},
     station::{AntennaId, Take},
     ui::{
@@ -95,9 +95,9 @@ impl PlanState {
     }
 
     /// The pass that the list shows before or after the selected one.
-    pub fn neighbour(&self, model: &Model, by: isize) -> Option<PassKey> {
+    pub fn neighbour(&self, model: &Model, by: isize) -> Option<PassListKey> {
         let all = model.planned_passes();
-        let keys: Vec<PassKey> = all.iter().map(|planned| planned.predicted.key()).collect();
+        let keys: Vec<PassListKey> = all.iter().map(|planned| planned.predicted.key()).collect();
         let selected = model.selected_pass().map(PredictedPass::key);
         let place = keys.iter().position(|key| Some(*key) == selected);
         let place = place.map_or(Some(0), |place| place.checked_add_signed(by));

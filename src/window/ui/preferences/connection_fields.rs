@@ -77,7 +77,7 @@ fn field(setting: &'static Setting) -> Of {
 /// Quality of the straight line through the points of one axis.
 fn fit(points: &[CountPoint]) -> Option<String> {
     // Two points are always on the line.
-    let line = CountLine::through(points).ok().filter(|_| points.len() > 2)?;
+    let line = CountLine::from_points(points).ok().filter(|_| points.len() > 2)?;
     let residuals = line.residuals_deg(points);
     let all: Vec<String> = residuals.iter().map(|off| format::signed(*off, 2)).collect();
     let largest =

@@ -385,7 +385,7 @@ mod tests {
         "100 -5\n2100; 95".clone_into(write(unit, "Elevation counts"));
         let station = draft.read().unwrap();
         let connection = &station.antennas[2].connection;
-        let calibration = Calibration::of(connection);
+        let calibration = Calibration::from_connection(connection);
         assert_eq!(connection.address, "host:4002");
         assert_eq!((connection.whole(&BAUD), connection.whole(&BUS_ADDRESS)), (1200, 111));
         assert_eq!(calibration.elevation.len(), 2);

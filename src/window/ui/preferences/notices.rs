@@ -109,12 +109,12 @@ fn fields() -> Vec<Placed<Telling>> {
             "No notifications or sounds then, except for top-priority alarms. The \
                          window shows all alarms.",
         ),
-        Description::time("Quiet from", |telling: &mut Telling| &mut telling.hours.from)
+        Description::time("Quiet from", |telling: &mut Telling| &mut telling.hours.start)
             .when(|telling| telling.is_quiet),
-        Description::time("Quiet to", |telling: &mut Telling| &mut telling.hours.to)
+        Description::time("Quiet to", |telling: &mut Telling| &mut telling.hours.end)
             .when(|telling| telling.is_quiet)
             .checked(|telling| {
-                let HoursOfDay { from, to } = telling.hours;
+                let HoursOfDay { start: from, end: to } = telling.hours;
                 if from == to { Err("must differ from Quiet from") } else { Ok(()) }
             })
             .about("By the local time of this computer."),

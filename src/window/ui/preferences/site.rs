@@ -157,8 +157,8 @@ fn about_record(ui: &mut Ui, model: &Model) {
         return told::line(ui, Tone::Plain, words);
     };
     if let Some(failing) = &record.failing {
-        let since = format::moment(failing.since, model.now);
-        let words = format!("Nothing has been recorded since {since}: {}.", failing.why);
+        let since = format::moment(failing.last_write, model.now);
+        let words = format!("Nothing has been recorded since {since}: {}.", failing.reason);
         told::line(ui, Tone::Bad, &words);
     } else {
         let size = format::bytes(record.bytes);

@@ -100,7 +100,7 @@ fn title(ui: &Ui, rect: Rect, model: &Model, is_wide: bool, state: &RecordState)
 fn summary(model: &Model, state: &RecordState) -> String {
     let Some(page) = RecordState::page(model) else { return String::new() };
     let size = model.record.as_ref().map(|record| format::bytes(record.bytes));
-    let mut words = match (page.all, page.since) {
+    let mut words = match (page.all, page.start) {
         (0, _) | (_, None) => "No pass yet".to_owned(),
         (1, Some(since)) => format!("1 pass, {}", format::day(since)),
         (all, Some(since)) => format!("{all} passes since {}", format::day(since)),
@@ -219,8 +219,8 @@ fn recording(ui: &Ui, room: Rect, model: &Model) {
     let t = theme::tokens(ui);
     let failing = model.record.as_ref().and_then(|record| record.failing.as_ref());
     let (icon, colour, words) = if let Some(failing) = failing {
-        let since = format::moment(failing.since, model.now);
-        (Icon::Warning, t.bad, format!("Nothing recorded since {since}: {}", failing.why))
+        let since = format::moment(failing.last_write, model.now);
+        (Icon::Warning, t.bad, format!("Nothing recorded since {since}: {}", failing.reason))
     } else if model.record.is_some() {
         let count = model.antennas.len();
         let antennas = if count == 1 { "antenna" } else { "antennas" };

@@ -6,7 +6,7 @@ use crate::{
         Model, UiCommand, View,
         correction::{Correction, How},
     },
-    station::OffsetsOf,
+    station::OffsetsSubject,
     ui::{antennas::AntennasState, confirm::Question, copies::Taken, words},
 };
 
@@ -29,13 +29,13 @@ pub fn take_over(
         }
         How::Remembered(offsets) => {
             let name = model.antennas.get(place).map_or("", |antenna| &antenna.config.name);
-            let of = OffsetsOf::Antenna(antenna);
+            let of = OffsetsSubject::Antenna(antenna);
             let [now, then] = [model.station.kept_offsets(of), offsets].map(words::offsets);
             let text = format!(
                 "Remember for {name}: {then}, in place of {now}? It is added to what Azel sends \
                  in each track that begins from now on."
             );
-            let command = contract::Command::KeepOffsets { of, offsets };
+            let command = contract::Command::KeepOffsets { subject: of, offsets };
             let command = UiCommand::Station(command);
             *question = Some(Question { text, yes: "Remember", command });
         }

@@ -17,7 +17,7 @@ pub(super) fn point<'a>(opened: &'a OpenedPass, state: &RecordState) -> Option<&
         return nearest(&opened.track, at);
     }
     let worst = opened.pass.report.report.worst;
-    let told = worst.and_then(|worst| nearest(&opened.track, worst.at));
+    let told = worst.and_then(|worst| nearest(&opened.track, worst.time));
     told.or_else(|| recorded_track::worst(&opened.track))
 }
 

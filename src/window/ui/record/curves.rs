@@ -52,7 +52,7 @@ pub(super) fn show(
     ui.painter().vline(rect.left() + 0.5, rect.y_range(), (1.0, t.line));
     let report = &opened.pass.report;
     let plots = rect.with_min_x(rect.left() + LEFT).with_max_x(rect.right() - RIGHT);
-    let (Ok(start), Ok(end)) = (report.from.checked_sub(AROUND), report.until.checked_add(AROUND))
+    let (Ok(start), Ok(end)) = (report.start.checked_sub(AROUND), report.end.checked_add(AROUND))
     else {
         return;
     };

@@ -7,7 +7,7 @@ use super::{PADDING, RecordState, curves};
 use crate::{
     astro::time::seconds_between,
     contract::{
-        By,
+        CommandOrigin,
         alarms::{Alarm, AlarmChange},
         record::{OpenedPass, Row},
     },
@@ -106,9 +106,9 @@ fn events(model: &Model, axis: &TimeAxis, opened: &OpenedPass) -> [Vec<Moment>; 
         words: format!("{word} {}", format::moment(at, model.now)),
         colour: Colour::Satellite,
     };
-    let mut pass = vec![of_pass(report.from, "AOS")];
+    let mut pass = vec![of_pass(report.start, "AOS")];
     pass.extend(highest.map(|sample| of_pass(sample.time, "TCA")));
-    pass.push(of_pass(report.until, "LOS"));
+    pass.push(of_pass(report.end, "LOS"));
     let mut lanes = [pass, Vec::new(), Vec::new(), Vec::new()];
     let mut told: Vec<(i64, Alarm)> = Vec::new();
     for row in &opened.entries {
@@ -146,7 +146,7 @@ fn events(model: &Model, axis: &TimeAxis, opened: &OpenedPass) -> [Vec<Moment>; 
     let longest = longest.filter(|lost| is_told(lost.cause, lost.seconds()));
     if let Some(alarms) = lanes.last_mut() {
         alarms.extend(longest.map(|lost| Moment {
-            at: lost.from,
+            at: lost.start,
             words: format!(
                 "Beyond half the beamwidth for {}: {}",
                 format::duration(lost.seconds()),
@@ -179,7 +179,7 @@ fn not_recorded(row: &Row) -> String {
     }
 }
 
-fn by(row: &Row) -> Option<By> {
+fn by(row: &Row) -> Option<CommandOrigin> {
     row.data.get("by").cloned().and_then(|by| serde_json::from_value(by).ok())
 }
 
@@ -194,13 +194,13 @@ fn command(row: &Row) -> String {
     }
 }
 
-fn given_by(by: By) -> &'static str {
+fn given_by(by: CommandOrigin) -> &'static str {
     match by {
-        By::Window => "the window",
-        By::Serve => "azel serve",
-        By::Program => "another program",
-        By::Signal => "a signal",
-        By::Station => "the station",
+        CommandOrigin::Window => "the window",
+        CommandOrigin::Serve => "azel serve",
+        CommandOrigin::Program => "another program",
+        CommandOrigin::Signal => "a signal",
+        CommandOrigin::Station => "the station",
     }
 }
 
@@ -235,10 +235,10 @@ fn link(ui: &Ui, lane: Rect, axis: &TimeAxis, opened: &OpenedPass) {
             Rect::from_x_y_ranges(left..=right, lane.center().y - 2.5..=lane.center().y + 2.5);
         ui.painter().rect_filled(place, 0.0, colour);
     };
-    bar(report.from, report.until, t.ok);
+    bar(report.start, report.end, t.ok);
     for lost in &report.report.losses {
         if !has_positions(lost.cause) {
-            bar(lost.from, lost.until, t.bad);
+            bar(lost.start, lost.end, t.bad);
         }
     }
 }

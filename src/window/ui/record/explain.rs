@@ -90,7 +90,7 @@ pub(super) fn show(
             paint_stripe(ui, row);
         }
         explained(ui, row, place, &columns, explanation);
-        if let Some(with) = &explanation.with {
+        if let Some(with) = &explanation.partner {
             let row = next();
             cells(ui, row, &columns, [&words::second_cause(with), &words::size(with), ""]);
         }
@@ -100,7 +100,7 @@ pub(super) fn show(
             state.correction = Some(Ok(taken));
         }
     }
-    let together = model.recorded.as_ref().and_then(|recorded| recorded.together.as_ref());
+    let together = model.recorded.as_ref().and_then(|recorded| recorded.combined.as_ref());
     let together = together.and_then(|of| words::explained_together(of, &opened.pass));
     let mut at = rest.min + vec2(PADDING, 8.0);
     for (id, words) in [("alike", words::alike(explanations)), ("together", together)] {
@@ -181,7 +181,7 @@ fn explained(ui: &Ui, row: Rect, place: usize, columns: &Columns, of: &Explanati
     let cell = row.with_min_x(columns.share.0).with_max_x(columns.share.1);
     paint::text_in(ui, cell, Align2::RIGHT_CENTER, &words, text::small_strong(), t.t1);
     let alike = if place > 0 { ", not distinguishable from the best one" } else { "" };
-    let with = of.with.as_ref();
+    let with = of.partner.as_ref();
     let with = with.map(|of| format!(" {} {}", words::second_cause(of), words::size(of)));
     let with = with.unwrap_or_default();
     let spoken = format!("{cause} {size}{with}: explains {words}, {left}° left{alike}");

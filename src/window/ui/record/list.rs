@@ -158,7 +158,7 @@ fn row(
     let report = &pass.report;
     let name = report.elements.short_name();
     let max = format!("max {}", format::degrees(report.max_elevation_deg, 0));
-    let aos = format::moment(report.from, now);
+    let aos = format::moment(report.start, now);
     let said = words::in_short(&report.report);
     let spoken = format!(
         "{name}, {aos}, {max}, {}: {}, {said}{}",

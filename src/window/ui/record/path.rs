@@ -89,7 +89,7 @@ pub(super) fn show(ui: &Ui, rect: Rect, model: &Model, opened: &OpenedPass, stat
         // The track has a point a second, and the report looked at every position.
         let worst = opened.pass.report.report.worst.filter(|_| state.cursor.is_none());
         let (off_deg, at_time) = worst
-            .map_or((point.error.off_deg, point.time), |worst| (worst.error.off_deg, worst.at));
+            .map_or((point.error.off_deg, point.time), |worst| (worst.error.off_deg, worst.time));
         let words =
             format!("{}, {}", format::degrees(off_deg, 2), format::moment(at_time, model.now));
         label(&mut labels, Key::Cursor, dome, off, &words, t.warn);

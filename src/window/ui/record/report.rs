@@ -71,14 +71,14 @@ pub(super) fn head(
         "{}, {}, {}",
         report.elements.catalog_number(),
         pass.antenna_name,
-        words::tracked_by(report.about.tracked_by)
+        words::tracked_by(report.track.tracked_by)
     );
     let drawn = paint::text_in(ui, line(19.0), left, name, text::title(), t.t1);
     let beside = line(20.0).with_min_x(drawn.right() + 8.0);
     paint::text_in(ui, beside, left, &by, text::small(), t.t2);
     let when = format!(
         "{}, {}, max {}",
-        format::stretch(report.from, report.until, model.now),
+        format::stretch(report.start, report.end, model.now),
         format::duration(report.report.counted_s),
         format::degrees(report.max_elevation_deg, 1)
     );

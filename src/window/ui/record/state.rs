@@ -52,15 +52,15 @@ pub(super) enum Listed<'a> {
 impl Listed<'_> {
     pub(super) fn aos(self) -> Timestamp {
         match self {
-            Self::Tracked(pass) => pass.report.from,
+            Self::Tracked(pass) => pass.report.start,
             Self::NotTracked(pass) => pass.flown.pass.1,
         }
     }
 
     fn over_at(self) -> Timestamp {
         match self {
-            Self::Tracked(pass) => pass.report.until,
-            Self::NotTracked(pass) => pass.at,
+            Self::Tracked(pass) => pass.report.end,
+            Self::NotTracked(pass) => pass.time,
         }
     }
 }

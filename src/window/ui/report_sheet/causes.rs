@@ -29,7 +29,7 @@ pub(super) fn html(opened: &OpenedPass) -> Markup {
                 @let size = words::size(&explanation.cause);
                 @let left = format::number(explanation.left_deg, 3);
                 (row([words::cause(&explanation.cause), &size, &left], Some(explanation.share)))
-                @if let Some(second) = &explanation.with {
+                @if let Some(second) = &explanation.partner {
                     (row([&words::second_cause(second), &words::size(second), ""], None))
                 }
             }

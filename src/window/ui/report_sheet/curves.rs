@@ -68,7 +68,7 @@ fn note(y: f64, words: &str) -> Markup {
 pub(super) fn html(opened: &OpenedPass) -> Markup {
     let report = &opened.pass.report;
     let x = Rangef::new(NUMBERS as f32, (WIDTH - WORDS) as f32);
-    let axis = TimeAxis::lasting(report.from, seconds_between(report.from, report.until), x);
+    let axis = TimeAxis::lasting(report.start, seconds_between(report.start, report.end), x);
     let plot = |top, height, values| Plot { axis, top, height, values };
     let half_beam_deg = report.half_beam_deg.max(1e-3);
     let top_deg = recorded_track::error_top_deg(half_beam_deg, &opened.track);

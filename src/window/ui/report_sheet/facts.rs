@@ -11,7 +11,7 @@ pub(super) fn html(report: &RecordedReport) -> Markup {
     html! {
         div.facts {
             dl {
-                @for fact in facts(report, report.from) {
+                @for fact in facts(report, report.start) {
                     div {
                         dt { (fact.name) }
                         dd.bold[matches!(fact.kind, FactKind::Caution)] { (fact.value) }

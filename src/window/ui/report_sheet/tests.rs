@@ -61,8 +61,8 @@ fn opened(late_s: f64, is_measured: impl Fn(u32) -> bool) -> OpenedPass {
     let tracked = TrackedPass {
         propagator: &propagator,
         site,
-        from,
-        until,
+        start: from,
+        end: until,
         limits,
         trackability,
         ended: None,
@@ -82,14 +82,14 @@ fn opened(late_s: f64, is_measured: impl Fn(u32) -> bool) -> OpenedPass {
             antenna: AntennaId(1),
             antenna_name: "North mast".to_owned(),
             report: RecordedReport {
-                from,
-                until,
+                start: from,
+                end: until,
                 planned: None,
                 max_elevation_deg: pass.max_elevation().degrees(),
                 age_days: 0.4,
                 site: Some(site),
                 half_beam_deg: HALF_BEAM_DEG,
-                about: AboutTrack {
+                track: AboutTrack {
                     begun: add_seconds(from, -30.0),
                     tracked_by: TrackedBy::ProgramTrack,
                     sent: Some(640),
@@ -112,7 +112,7 @@ fn opened(late_s: f64, is_measured: impl Fn(u32) -> bool) -> OpenedPass {
 }
 
 fn page(opened: &OpenedPass) -> String {
-    html(opened, add_seconds(opened.pass.report.until, 600.0))
+    html(opened, add_seconds(opened.pass.report.end, 600.0))
 }
 
 /// Points of the lines of what was measured over the sky.

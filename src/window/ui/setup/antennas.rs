@@ -161,7 +161,7 @@ fn one(
     for (tone, words) in outcome.unwrap_or_default() {
         line(ui, tone, &words);
     }
-    if let Some(LinkTestStage::Done { at, .. }) = test.map(|test| &test.stage)
+    if let Some(LinkTestStage::Done { time: at, .. }) = test.map(|test| &test.stage)
         && is_news(ui, id, *at)
     {
         // It may lie below what is in sight, with a warning that nobody should miss.

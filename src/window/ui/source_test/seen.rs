@@ -5,7 +5,7 @@ use jiff::Timestamp;
 
 use crate::{
     astro::time::seconds_between,
-    contract::transfer::{FileObject, Seen, UnitView},
+    contract::transfer::{FileObject, SatelliteMatch, UnitView},
     orbit::Refusal,
     ui::{
         format,
@@ -58,7 +58,7 @@ fn sentences(
 
 fn found(view: &UnitView, satellite: &str, now: Timestamp) -> (Tone, String) {
     match &view.satellite {
-        Seen::Found(object) => {
+        SatelliteMatch::Found(object) => {
             let age_s = seconds_between(object.epoch, now);
             let words = format!("The unit will find {}.", of(object, now));
             let tone = if view.is_tle { Tone::Good } else { Tone::Plain };
@@ -68,7 +68,7 @@ fn found(view: &UnitView, satellite: &str, now: Timestamp) -> (Tone, String) {
                 (tone, words)
             }
         }
-        Seen::Several(objects) => {
+        SatelliteMatch::Several(objects) => {
             let list: Vec<String> = objects.iter().map(|object| of(object, now)).collect();
             let words = format!(
                 "Several objects have this name; the unit takes one of them: {}.",
@@ -76,10 +76,10 @@ fn found(view: &UnitView, satellite: &str, now: Timestamp) -> (Tone, String) {
             );
             (Tone::Caution, words)
         }
-        Seen::Missing { similar } if similar.is_empty() => {
+        SatelliteMatch::Missing { similar } if similar.is_empty() => {
             (Tone::Bad, format!("The unit will not find {satellite}: it is not in the file."))
         }
-        Seen::Missing { similar } => {
+        SatelliteMatch::Missing { similar } => {
             let words = format!(
                 "The unit will not find {satellite}. The file has {}; names must match exactly.",
                 similar.join(", ")

@@ -26,7 +26,7 @@ pub(super) fn sentence(antenna: &AntennaModel) -> Option<Spoken> {
     };
     let lead =
         if snapshot.locking { "Being locked out by " } else { "In maintenance, locked out by " };
-    Some(Spoken::new(SentenceKind::Caution).plain(lead).bold(&lock_out.by).plain(format!(
+    Some(Spoken::new(SentenceKind::Caution).plain(lead).bold(&lock_out.operator).plain(format!(
         " since {}: {}. Only queries and STOP go to it.{after}",
         since(antenna),
         lock_out.reason.trim_end_matches('.'),
@@ -35,6 +35,6 @@ pub(super) fn sentence(antenna: &AntennaModel) -> Option<Spoken> {
 
 /// Start of the lock-out, with the day.
 fn since(antenna: &AntennaModel) -> String {
-    let since = antenna.snapshot.lock_out.as_ref().map(|lock_out| lock_out.since);
+    let since = antenna.snapshot.lock_out.as_ref().map(|lock_out| lock_out.start);
     since.map_or_else(String::new, format::dated)
 }

@@ -79,7 +79,7 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
         Event::TrackingEnded { completed: false } => {
             caution.plain("The unit ended tracking before LOS.")
         }
-        Event::EndedShort { aim, at } => caution.plain(format!(
+        Event::EndedShort { aim, position: at } => caution.plain(format!(
             "Stopped at {} instead of {}.",
             format::pointing(*at, can),
             format::pointing(*aim, can)

@@ -51,7 +51,8 @@ fn following(model: &Model, antenna: &AntennaModel, view: &TrackView, name: &str
     } else {
         (SentenceKind::Caution, "outside")
     };
-    if let (SentenceKind::Caution, Some(OnPath::OnItsWay { until })) = (kind, view.on_path) {
+    if let (SentenceKind::Caution, Some(OnPath::OnItsWay { arrival: until })) = (kind, view.on_path)
+    {
         let until = until.map_or_else(String::new, |until| {
             let (at, left) =
                 (format::moment(until, model.now), format::time_left(model.now, until));

@@ -99,7 +99,7 @@ impl Form {
         let checked = self.checked.take().filter(is_known).unwrap_or_else(|| Checked {
             catalog: Arc::clone(catalog),
             numbers: numbers.to_vec(),
-            chosen: Arc::new(Chosen::of(catalog, numbers, self.takes)),
+            chosen: Arc::new(Chosen::new(catalog, numbers, self.takes)),
         });
         Arc::clone(&self.checked.insert(checked).chosen)
     }
@@ -222,7 +222,7 @@ mod tests {
 
     fn file() -> Cargo {
         let catalog = bundled().unwrap();
-        Cargo::New(TleFile::of(catalog.get(25_544), &ELEMENT_FILES).unwrap())
+        Cargo::New(TleFile::new(catalog.get(25_544), &ELEMENT_FILES).unwrap())
     }
 
     #[test]

@@ -36,8 +36,8 @@ pub(super) fn show(
 ) {
     let (Ok(unit), Ok(file)) = (form.peer(), form.file_name()) else { return };
     let of = (unit.to_string(), file.as_str().to_owned());
-    let kept = &model.uploads.kept;
-    if kept.of != of {
+    let kept = &model.uploads.kept_files;
+    if kept.origin != of {
         let (unit, file) = of;
         commands.push(UiCommand::Station(contract::Command::Upload(Ask::ListKept { unit, file })));
         return;
@@ -65,7 +65,7 @@ pub(super) fn show(
             None => line(ui, Tone::Plain, "The list is being read."),
             Some(Err(problem)) => line(ui, Tone::Bad, &sentence(problem)),
             Some(Ok(_)) => {
-                let words = format!("No earlier copy of {} from {}.", kept.of.1, kept.of.0);
+                let words = format!("No earlier copy of {} from {}.", kept.origin.1, kept.origin.0);
                 ui.label(RichText::new(words).font(text::small()).color(t.t3));
             }
         }
@@ -82,7 +82,7 @@ fn one(
 ) {
     let t = theme::tokens(ui);
     let file = &entry.file;
-    let at = format::dated(file.at);
+    let at = format::dated(file.time);
     let origin = match file.origin {
         Origin::Found => "was on the unit",
         Origin::Uploaded => "sent from here",

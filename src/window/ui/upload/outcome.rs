@@ -57,7 +57,7 @@ pub(super) fn show(
 
 fn proved(ui: &mut Ui, model: &Model, proved: &Proved) {
     let what = if model.uploads.is_roll_back { "Rolled back and verified" } else { "Verified" };
-    let words = format!("{what} {}", format::moment(proved.at, model.now));
+    let words = format!("{what} {}", format::moment(proved.time, model.now));
     line(ui, Tone::Good, &words);
     let satellite = &proved.satellite;
     let words = format!(
@@ -98,7 +98,7 @@ fn failed(ui: &mut Ui, model: &Model, failure: &Failure, question: &mut Option<Q
 fn file(ui: &mut Ui, uploaded: &Uploaded) {
     fact(ui, "File", &format!("{}, {} bytes", uploaded.file.as_str(), uploaded.bytes));
     fact(ui, "Unit", &uploaded.unit.to_string());
-    let at = format::dated(uploaded.at);
+    let at = format::dated(uploaded.time);
     fact(ui, "Read back", &at);
     fact(ui, "SHA-256", &uploaded.sha256.to_string());
 }

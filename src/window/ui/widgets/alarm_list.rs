@@ -319,9 +319,9 @@ mod tests {
         let colour = |rows: &[AlarmRow<'_>]| AlarmModel { rows, unopened: false }.colour(t);
         let [red, amber] = ROWS;
         let now = jiff::Timestamp::UNIX_EPOCH;
-        let shelved = AlarmRow { state: AlarmState::Shelved { until: now }, ..red };
-        let over = AlarmRow { state: AlarmState::NewAndOver { since: now }, ..red };
-        let done = AlarmRow { state: AlarmState::Over { since: now }, ..red };
+        let shelved = AlarmRow { state: AlarmState::Shelved { end: now }, ..red };
+        let over = AlarmRow { state: AlarmState::NewAndOver { over_since: now }, ..red };
+        let done = AlarmRow { state: AlarmState::Over { over_since: now }, ..red };
         assert_eq!(colour(&[red, amber]), t.bad);
         assert_eq!(colour(&[AlarmRow { state: AlarmState::Seen, ..red }]), t.bad);
         assert_eq!(colour(&[amber, shelved, done]), t.warn);

@@ -28,12 +28,14 @@ pub fn alarm_times(alarm: &Alarm, now: Timestamp) -> String {
 pub fn alarm_state(state: AlarmState, now: Timestamp) -> String {
     match state {
         AlarmState::New => "new".to_owned(),
-        AlarmState::NewAndOver { since } => {
+        AlarmState::NewAndOver { over_since: since } => {
             format!("new, over since {}", format::moment(since, now))
         }
         AlarmState::Seen => "seen".to_owned(),
-        AlarmState::Over { since } => format!("over since {}", format::moment(since, now)),
-        AlarmState::Shelved { until } => format!("shelved to {}", format::moment(until, now)),
+        AlarmState::Over { over_since: since } => {
+            format!("over since {}", format::moment(since, now))
+        }
+        AlarmState::Shelved { end: until } => format!("shelved to {}", format::moment(until, now)),
     }
 }
 
@@ -127,7 +129,7 @@ pub fn alarm(kind: &AlarmKind, antenna: &str, now: Timestamp) -> String {
         AlarmKind::CannotProgramTrack(name, problem) => {
             format!("{antenna} does not follow {name}: {}", super::track_problem(problem, now))
         }
-        AlarmKind::OffTarget { off, cause } => {
+        AlarmKind::OffTarget { deviation: off, cause } => {
             let off = format::degrees(off.degrees(), 1);
             match cause {
                 Some(cause) => {
@@ -139,7 +141,7 @@ pub fn alarm(kind: &AlarmKind, antenna: &str, now: Timestamp) -> String {
                 ),
             }
         }
-        AlarmKind::OffsetsLeft { offsets, why } => super::offsets_left(antenna, *offsets, why, now),
+        AlarmKind::OffsetsLeft { offsets, reason: why } => super::offsets_left(antenna, *offsets, why, now),
         AlarmKind::OffsetNotTaken(error) => {
             format!("{antenna}: {}", super::offset_not_taken(error))
         }
@@ -160,14 +162,14 @@ pub fn alarm(kind: &AlarmKind, antenna: &str, now: Timestamp) -> String {
              track that is worth less.",
             format::moment(*aos, now)
         ),
-        AlarmKind::NotOnItsWay { pass: (_, aos), name, why } => {
+        AlarmKind::NotOnItsWay { pass: (_, aos), name, reason: why } => {
             let why = why.map_or_else(String::new, |why| format!(" {}", not_ready(why)));
             format!(
                 "{antenna} is not on its way to {name}, AOS {}, which the schedule assigns to it.{why}",
                 format::moment(*aos, now)
             )
         }
-        AlarmKind::AutomaticMoves { at, name } => format!(
+        AlarmKind::AutomaticMoves { time: at, name } => format!(
             "{antenna} will move by itself at {}, for {name}. STOP or Standby prevents it.",
             format::moment(*at, now)
         ),
@@ -243,7 +245,7 @@ pub fn alarm(kind: &AlarmKind, antenna: &str, now: Timestamp) -> String {
                  the elements."
             )
         }
-        AlarmKind::ElementsNotUploaded { why } => format!(
+        AlarmKind::ElementsNotUploaded { reason: why } => format!(
             "Azel could not upload newer elements to {antenna}: {why}. The unit keeps its current elements. \
              Azel tries again in an hour. Upload them by hand in Elements to see each step."
         ),
@@ -283,7 +285,7 @@ pub fn setting_note(note: &Note) -> String {
     match &note.reason {
         NoteReason::Invalid(why) => format!("Setting {place} is not used: {why}."),
         NoteReason::Unknown => format!("Setting {place} is not known."),
-        NoteReason::DoesNotHold { name, why } => {
+        NoteReason::DoesNotHold { name, reason: why } => {
             format!("{name} does not apply: {why}. It is {place} in the settings.")
         }
     }

@@ -14,7 +14,7 @@ use crate::{
     model::Model,
     plan::{
         pass_report::LossCause,
-        schedule::{Entry, between, sets_out},
+        schedule::{Entry, between_passes, sets_out},
     },
     ui::format,
 };
@@ -84,7 +84,7 @@ pub fn in_short(model: &Model, antenna: &AntennaModel) -> String {
     match &antenna.operation {
         Operation::Off(OffBecause::NotSwitchedOn | OffBecause::Operator) => "Off.".to_owned(),
         Operation::Off(because) => format!("Off. {}", off(*because)),
-        Operation::Suspended { by, .. } => suspended(*by).to_owned(),
+        Operation::Suspended { interruption: by, .. } => suspended(*by).to_owned(),
         Operation::On(On { doing, .. }) => match doing {
             Doing::Announces { moves_at, .. } => {
                 format!("On. Moves {} unless STOP.", moment(*moves_at))
@@ -99,7 +99,7 @@ pub fn in_short(model: &Model, antenna: &AntennaModel) -> String {
             }
             Doing::Rests => model.next_entry(antenna.id()).map_or_else(
                 || "On. No pass is planned.".to_owned(),
-                |next| format!("On. Next {}: {}.", moment(next.from), name_of(model, next)),
+                |next| format!("On. Next {}: {}.", moment(next.start), name_of(model, next)),
             ),
         },
     }
@@ -112,7 +112,7 @@ pub fn in_full(model: &Model, antenna: &AntennaModel) -> Option<String> {
     let in_time = |at| format!("{}, in {}", moment(at), format::time_left(model.now, at));
     let on = match &antenna.operation {
         Operation::Off(_) => return None,
-        Operation::Suspended { by, .. } => {
+        Operation::Suspended { interruption: by, .. } => {
             return Some(format!("Suspended. {}", interruption(*by)));
         }
         Operation::On(on) => on,
@@ -130,12 +130,12 @@ pub fn in_full(model: &Model, antenna: &AntennaModel) -> Option<String> {
                 (None, None) => {
                     format!("Sent {}, not verified yet: {name}.", moment(taking.asked_at))
                 }
-                (None, Some(_)) if taking.from > model.now => {
-                    format!("Takes {} at {}.", name, in_time(taking.from))
+                (None, Some(_)) if taking.start > model.now => {
+                    format!("Takes {} at {}.", name, in_time(taking.start))
                 }
                 (None, Some(_)) => {
                     let then = following(model, antenna, taking);
-                    format!("Takes {name} until {}{then}.", moment(taking.until))
+                    format!("Takes {name} until {}{then}.", moment(taking.end))
                 }
             }
         }
@@ -148,22 +148,26 @@ fn next(model: &Model, antenna: &AntennaModel) -> String {
     let Some(entry) = model.next_entry(antenna.id()) else {
         return "No pass is planned.".to_owned();
     };
-    let policy = between(&model.station, &antenna.config, model.now);
+    let policy = between_passes(&model.station, &antenna.config, model.now);
     let at = Some(sets_out(entry, policy)).filter(|at| *at > model.now);
     let leaves = at.map_or_else(String::new, |at| {
         let left = format::time_left(model.now, at);
         format!(" {}, in {left}.", schedule::sets_out(antenna, at, model.now))
     });
-    format!("Next at {}: {}.{leaves}", format::moment(entry.from, model.now), name_of(model, entry))
+    format!(
+        "Next at {}: {}.{leaves}",
+        format::moment(entry.start, model.now),
+        name_of(model, entry)
+    )
 }
 
 /// The pass after the one that an antenna takes, as the end of a sentence.
 fn following(model: &Model, antenna: &AntennaModel, taking: &Taking) -> String {
     let entries = model.schedule.schedule.entries.iter();
-    let own = entries.filter(|entry| entry.antenna == antenna.id() && entry.from >= taking.until);
-    let next = own.min_by_key(|entry| entry.from);
+    let own = entries.filter(|entry| entry.antenna == antenna.id() && entry.start >= taking.end);
+    let next = own.min_by_key(|entry| entry.start);
     next.map_or_else(String::new, |entry| {
-        let at = format::moment(entry.from, model.now);
+        let at = format::moment(entry.start, model.now);
         format!(", then {} at {at}", name_of(model, entry))
     })
 }
@@ -176,7 +180,7 @@ pub fn go_on(model: &Model, antenna: &AntennaModel) -> Option<String> {
     Some(model.next_entry(antenna.id()).map_or_else(
         || RESUME.to_owned(),
         |entry| {
-            let at = format::moment(entry.from, model.now);
+            let at = format::moment(entry.start, model.now);
             format!("Go on with {}, {at}", name_of(model, entry))
         },
     ))
@@ -194,8 +198,8 @@ pub fn lost_by_closing(model: &Model) -> Option<String> {
     let comes_back = antennas().all(|antenna| antenna.config.automatic.is_on_at_start);
     let until = if comes_back { "this station runs again" } else { "you switch it on again" };
     let next = antennas().filter_map(|antenna| model.next_entry(antenna.id()));
-    let next = next.min_by_key(|entry| entry.from).map_or_else(String::new, |entry| {
-        let at = format::moment(entry.from, model.now);
+    let next = next.min_by_key(|entry| entry.start).map_or_else(String::new, |entry| {
+        let at = format::moment(entry.start, model.now);
         format!(" The next would be {} at {at}.", name_of(model, entry))
     });
     let names = format::list(&names);
@@ -259,7 +263,7 @@ fn lost(cause: LossCause) -> &'static str {
 pub fn not_tracking(operation: &Operation) -> Option<String> {
     let cause = match operation {
         Operation::Off(because) => MissCause::Off(*because),
-        Operation::Suspended { by, .. } => MissCause::Suspended(*by),
+        Operation::Suspended { interruption: by, .. } => MissCause::Suspended(*by),
         Operation::On(_) => match operation.taking()?.given_up? {
             GivenUp::Refused => MissCause::Refused,
             GivenUp::OffTarget => MissCause::OffTarget,
@@ -289,7 +293,7 @@ pub fn flown_part(flown: &Flown) -> String {
 
 /// A line of the list of the day, as a sentence.
 pub fn day_line(line: &DayLine, now: Timestamp) -> String {
-    match &line.what {
+    match &line.event {
         DayEvent::SwitchedOn => "Automatic operation is on.".to_owned(),
         DayEvent::SwitchedOff(because) => format!("Automatic operation is off. {}", off(*because)),
         DayEvent::Suspended(by) => {
@@ -314,9 +318,11 @@ pub fn day_line(line: &DayLine, now: Timestamp) -> String {
                 None => what,
             }
         }
-        DayEvent::ElementsNotUploaded { why } => {
+        DayEvent::ElementsNotUploaded { reason: why } => {
             format!("Azel could not upload elements to the unit: {why}.")
         }
-        DayEvent::ClockNotSet { why } => format!("Azel could not set the unit's clock: {why}."),
+        DayEvent::ClockNotSet { reason: why } => {
+            format!("Azel could not set the unit's clock: {why}.")
+        }
     }
 }

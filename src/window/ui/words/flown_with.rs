@@ -30,7 +30,7 @@ pub enum FactKind {
 pub fn facts(report: &RecordedReport, now: Timestamp) -> Vec<Fact> {
     let fact = |name, value, kind| Fact { name, value, kind };
     let plain = |name, value| fact(name, value, FactKind::Plain);
-    let about = &report.about;
+    let about = &report.track;
     let mut facts = vec![
         plain("Elements of", format::copied(report.elements.epoch())),
         plain("Element age at the pass", format::age(report.age_days * DAY_S)),
@@ -80,7 +80,7 @@ pub fn clock_first(report: &RecordedReport) -> Option<&'static str> {
     let is_time =
         |explanation: &Explanation| explanation.causes().any(|of| matches!(of, Cause::Late { .. }));
     let is_late = report.causes.first().is_some_and(is_time)
-        && report.about.unit_clock_ahead_s.is_some_and(is_off);
+        && report.track.unit_clock_ahead_s.is_some_and(is_off);
     is_late.then_some(
         "Set the unit's clock first: a time offset would hide the wrong clock, and be wrong \
          itself once the clock is set.",

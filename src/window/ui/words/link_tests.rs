@@ -101,7 +101,7 @@ pub fn link_test(test: &LinkTest, is_demo: bool, now: Timestamp) -> Vec<(Tone, S
             (Tone::Caution, format!("Not asked: {by} holds this unit.")),
             (Tone::Plain, "Close it there first: a unit obeys one Azel at a time.".to_owned()),
         ],
-        LinkTestStage::Done { finding, at } => {
+        LinkTestStage::Done { finding, time: at } => {
             let mut lines = finding_words(finding, spec, address);
             lines.push((Tone::Plain, format!("Tested {}.", ago(*at, now))));
             lines

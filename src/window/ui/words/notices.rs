@@ -12,7 +12,7 @@ use crate::{
 
 /// Title and text of a notification.
 pub fn notice(about: &About, station: &Snapshot) -> (String, String) {
-    let (now, antennas) = (station.at.utc, &station.antennas);
+    let (now, antennas) = (station.moment.utc, &station.antennas);
     let (word, text) = match about {
         About::Alarm(of) => {
             let antenna = antennas.iter().find(|antenna| Some(antenna.id()) == of.antenna);

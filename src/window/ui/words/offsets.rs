@@ -49,7 +49,7 @@ pub fn offsets_left(
 ) -> String {
     let added = offsets(added);
     match why {
-        LeftOffsets::Found { since } => format!(
+        LeftOffsets::Found { start: since } => format!(
             "The unit of {antenna} still adds {added} to its tracks, written for a pass at {}. Azel \
              takes it back once the unit neither tracks nor is locked out.",
             format::moment(*since, now)
@@ -90,7 +90,7 @@ pub fn offset_value(offset: Offset) -> String {
 
 /// All that are not zero, in one line.
 pub fn offsets(offsets: TrackOffsets) -> String {
-    listed(offsets.each().into_iter())
+    listed(offsets.components().into_iter())
 }
 
 fn listed(offsets: impl Iterator<Item = Offset>) -> String {

@@ -67,11 +67,11 @@ fn place_words(place: Place) -> String {
 
 /// The amount by which a unit would miss `name`, and the reason.
 pub fn would_miss(name: &str, found: &Supervision, now: Timestamp, unit: DistanceUnit) -> String {
-    let off = format::degrees(found.worst.off.degrees(), 1);
+    let off = format::degrees(found.worst.angle.degrees(), 1);
     // In a pass under way the worst may be over.
-    let is_ahead = found.worst.at > now;
+    let is_ahead = found.worst.time > now;
     let at = if is_ahead {
-        format!(" at {}", format::moment(found.worst.at, now))
+        format!(" at {}", format::moment(found.worst.time, now))
     } else {
         String::new()
     };
@@ -99,7 +99,7 @@ pub fn not_known(found: &Supervision) -> Option<String> {
 /// The note on a unit that tracks well enough.
 pub fn within_beam(found: &Supervision, unit: DistanceUnit) -> Option<String> {
     let first = found.causes.first()?;
-    let off = format::degrees(found.worst.off.degrees(), 2);
+    let off = format::degrees(found.worst.angle.degrees(), 2);
     Some(format!("Up to {off} off: {}.", cause(first, unit)))
 }
 
@@ -114,7 +114,7 @@ pub fn lower_minimum(unit_deg: f64, station_deg: f64) -> String {
 
 /// The first place where a unit's own program would enter a forbidden zone, and what to do.
 pub fn trespass(trespass: &Trespass, now: Timestamp) -> String {
-    let Trespass { at, direction, limit } = trespass;
+    let Trespass { time: at, direction, limit } = trespass;
     let bound = match limit {
         OffLimits::Elevation { lowest_deg } => {
             format!("below the {} of this antenna", format::degrees(*lowest_deg, 1))

@@ -2,7 +2,7 @@
 
 use crate::{
     astro::Term,
-    contract::record::{NoiseOf, PeakOf, PointingFit},
+    contract::record::{FittedNoise, PeakBody, PointingFit},
     plan::pointing::Kind,
 };
 
@@ -19,10 +19,10 @@ pub fn pointing_term(term: Term) -> &'static str {
     }
 }
 
-pub fn peak_of(of: PeakOf) -> &'static str {
+pub fn peak_of(of: PeakBody) -> &'static str {
     match of {
-        PeakOf::Sun => "Sun",
-        PeakOf::Moon => "Moon",
+        PeakBody::Sun => "Sun",
+        PeakBody::Moon => "Moon",
     }
 }
 
@@ -30,7 +30,7 @@ pub fn peak_of(of: PeakOf) -> &'static str {
 pub fn fitted_to(fit: &PointingFit) -> String {
     let passes =
         if fit.passes == 1 { "1 pass".to_owned() } else { format!("{} passes", fit.passes) };
-    let of = |NoiseOf { of, points, noise_deg }: &NoiseOf| {
+    let of = |FittedNoise { kind: of, points, noise_deg }: &FittedNoise| {
         let peaks = if *points == 1 { "1 peak".to_owned() } else { format!("{points} peaks") };
         let what = match of {
             Kind::Satellite => format!("{passes}, {points} points"),

@@ -108,7 +108,7 @@ pub fn cause_in_short(pass: &RecordedPass) -> Option<String> {
         && lost.is_none_or(is_off)
     {
         // Two with their sizes are longer than a row.
-        let words = if best.with.is_some() { names(best) } else { causes(best) };
+        let words = if best.partner.is_some() { names(best) } else { causes(best) };
         return Some(words + &or_alike(&pass.report.causes));
     }
     let lost = lost.filter(|lost| lost.cause != LossCause::OutsideBeam);
@@ -204,7 +204,7 @@ pub fn size(cause: &Cause) -> String {
             format!("{} north, {} east", km(*north_km), km(*east_km))
         }
         Cause::SlowDrives { rate_deg_s, .. } => format!("{}°/s", format::number(*rate_deg_s, 2)),
-        Cause::Stuck { since, .. } => format!("since {}", format::copied(*since)),
+        Cause::Stuck { start: since, .. } => format!("since {}", format::copied(*since)),
     }
 }
 
@@ -299,7 +299,7 @@ fn inside_sentence(words: &str) -> String {
 /// Share of the error that these causes explain, after them.
 fn explains(by: &Explanation) -> String {
     let share = whole_share(by.share);
-    if by.with.is_some() {
+    if by.partner.is_some() {
         format!("together they explain {share}")
     } else {
         format!("that explains {share}")
@@ -340,7 +340,7 @@ fn cause_now(of: &Cause, now: Timestamp) -> String {
         Cause::ElevationOffset { offset_deg } => {
             format!("The elevation is off by {}", deg(*offset_deg))
         }
-        Cause::Stuck { since, axis } => {
+        Cause::Stuck { start: since, axis } => {
             let since = format::moment(*since, now);
             match axis {
                 None => format!("Both axes stand since {since}"),
@@ -362,7 +362,7 @@ pub fn verdict_sentence(pass: &RecordedReport, now: Timestamp) -> String {
         share(report.share()),
         format::duration(report.counted_s),
         format::degrees(worst.error.off_deg, 2),
-        format::moment(worst.at, now),
+        format::moment(worst.time, now),
     );
     let explained = match &pass.causes[..] {
         [] => None,
@@ -452,7 +452,7 @@ pub fn no_correction(best: Option<&Explanation>) -> String {
 
 /// Explanation of this pass and those before it together; `None` where it is the only one.
 pub fn explained_together(of: &ExplainedPasses, pass: &RecordedPass) -> Option<String> {
-    let since = of.since.map(|since| format!(" from {}", format::date(since))).unwrap_or_default();
+    let since = of.start.map(|since| format!(" from {}", format::date(since))).unwrap_or_default();
     let (passes, antenna) = (of.passes, &pass.antenna_name);
     let last = format!("The {passes} passes of {antenna}{since} up to this one, together");
     let Some(best) = of.explanations.first() else {
@@ -528,7 +528,7 @@ fn or_alike(explanations: &[Explanation]) -> String {
     let others: Vec<String> = others.map(|name| inside_sentence(&name)).collect();
     match &others[..] {
         [] => String::new(),
-        [one] if explanations.iter().all(|it| it.with.is_none()) => format!(" or {one}"),
+        [one] if explanations.iter().all(|it| it.partner.is_none()) => format!(" or {one}"),
         [_] => " or another".to_owned(),
         several => format!(" or {} others", several.len()),
     }
@@ -543,7 +543,7 @@ mod tests {
     };
 
     fn explanation(cause: Cause) -> Explanation {
-        Explanation { cause, with: None, left_deg: 0.03, share: 0.97 }
+        Explanation { cause, partner: None, left_deg: 0.03, share: 0.97 }
     }
 
     #[test]
@@ -557,14 +557,14 @@ mod tests {
         };
         let at = |seconds: f64| add_seconds(Timestamp::UNIX_EPOCH, seconds);
         let lost =
-            |from_s, until_s, cause| LostStretch { from: at(from_s), until: at(until_s), cause };
+            |from_s, until_s, cause| LostStretch { start: at(from_s), end: at(until_s), cause };
         let report = |verdict, in_beam_s, losses| PassReport {
             verdict,
             counted_s: 600.0,
             known_s: 600.0,
             in_beam_s,
             rms: Some(error(0.1)),
-            worst: Some(WorstError { at: at(10.0), error: error(0.124) }),
+            worst: Some(WorstError { time: at(10.0), error: error(0.124) }),
             losses,
         };
         let beyond = lost(298.0, 600.0, LossCause::OutOfReach);
@@ -615,10 +615,10 @@ mod tests {
                 "The rms error of 0.50° may come from time offset, other elements or azimuth offset."
             )
         );
-        let y = Cause::Stuck { since: Timestamp::UNIX_EPOCH, axis: Some(Axis::Y) };
+        let y = Cause::Stuck { start: Timestamp::UNIX_EPOCH, axis: Some(Axis::Y) };
         assert_eq!(cause(&y), "Y stuck");
         assert_eq!(second_cause(&y), "with Y stuck");
-        let both = Explanation { with: Some(y), ..explanation(Cause::Refraction) };
+        let both = Explanation { partner: Some(y), ..explanation(Cause::Refraction) };
         assert_eq!(
             said(&[both]).as_deref(),
             Some(

@@ -22,10 +22,10 @@ pub const HOLD_UNGUARDED: &str = "Hold 1 s to move without the dead-man timer";
 #[allow(clippy::too_many_lines)]
 pub fn refusal(refusal: &Refusal, now: Timestamp) -> String {
     match refusal {
-        Refusal::LockedOut { by, reason } => {
+        Refusal::LockedOut { operator: by, reason } => {
             format!("Not sent: in maintenance, locked out by {by}: {reason}.")
         }
-        Refusal::PanelLockedOut { by } => format!(
+        Refusal::PanelLockedOut { operator: by } => format!(
             "Not connected: in maintenance by {by}, and even a query would take the panel of \
              this unit from the person working at it. STOP still goes out. Remove the lock-out \
              first."
@@ -75,7 +75,7 @@ pub fn refusal(refusal: &Refusal, now: Timestamp) -> String {
             format!("Not sent: the angle of {axis} is not known, so nobody would see it turn.")
         }
         Refusal::OneAxis => "Not sent: this controller turns one axis at a time.".to_owned(),
-        Refusal::Forbidden { barrier, at } => format!(
+        Refusal::Forbidden { barrier, direction: at } => format!(
             "Not sent: the path leads {}, at {}.",
             super::forbidden(barrier),
             format::pointing_at(*at)
@@ -98,7 +98,7 @@ pub fn refusal(refusal: &Refusal, now: Timestamp) -> String {
                               Move the antenna by hand."
             .to_owned(),
         Refusal::Controller(why) => format!("Not sent: {why}."),
-        Refusal::Unseen { why, is_watched, .. } => {
+        Refusal::Unseen { reason: why, is_watched, .. } => {
             let watched = if *is_watched {
                 "Azel stops the antenna before a forbidden direction"
             } else {
@@ -134,7 +134,7 @@ pub fn refusal(refusal: &Refusal, now: Timestamp) -> String {
              azimuth and elevation."
                 .to_owned()
         }
-        Refusal::OffsetTooLarge { most } => {
+        Refusal::OffsetTooLarge { max: most } => {
             format!("Not sent: an offset {} is the largest allowed.", super::offset(*most))
         }
         Refusal::OrbitUnknown { name } => format!(
@@ -150,7 +150,7 @@ pub fn refusal(refusal: &Refusal, now: Timestamp) -> String {
              Set a shorter window under Antennas.",
             format::number(hours / 24.0, 1)
         ),
-        Refusal::NoDirection { at } => format!(
+        Refusal::NoDirection { time: at } => format!(
             "Not sent: the elements give no direction at {}, so Azel cannot check where the unit would \
              point. Load newer elements or set a shorter window under Antennas.",
             format::moment(*at, now)
@@ -162,7 +162,7 @@ pub fn refusal(refusal: &Refusal, now: Timestamp) -> String {
             format::degrees(*highest_deg, 1)
         ),
         Refusal::Path(trespass) => super::trespass(trespass, now),
-        Refusal::Setting { field, why } => format!("{field} was not sent. {}", hindrance(*why)),
+        Refusal::Setting { field, hindrance: why } => format!("{field} was not sent. {}", hindrance(*why)),
     }
 }
 
@@ -217,7 +217,7 @@ pub fn prepare_error(error: &PrepareError) -> String {
         PrepareError::CannotBeSent(why) => format!("it cannot be sent: {why}"),
         PrepareError::Refused(answer) => format!("the unit answered {answer}"),
         PrepareError::Unanswered => "the unit did not answer".to_owned(),
-        PrepareError::Differs { held } => format!("the unit still holds {held}"),
+        PrepareError::Differs { current: held } => format!("the unit still holds {held}"),
         PrepareError::NotOnDevice { file } => {
             format!("the unit has no elements of it in {file}")
         }

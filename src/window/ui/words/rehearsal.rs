@@ -15,7 +15,7 @@ pub fn outcome(pass: &RehearsedPass, now: Timestamp) -> String {
     }
     let tracked = pass.report.as_ref().map(|report| record::verdict_sentence(report, now));
     let cause = match &pass.flown {
-        None => Some(match pass.off {
+        None => Some(match pass.off_reason {
             Some(because) => {
                 format!("Automatic operation was off by then: {}", automatic::off(because))
             }

@@ -5,7 +5,7 @@ use jiff::Timestamp;
 use super::clock;
 use crate::{
     contract::driver::{
-        AxisLessons, Evidence, Inside, Mover, Response, Safety, Snapshot, StopState, StoppingWay,
+        AxisLessons, Breach, Evidence, Mover, Response, Safety, Snapshot, StopState, StoppingWay,
         Unit, Unlike,
     },
     controller::SPECS,
@@ -35,7 +35,7 @@ pub fn inside(barrier: &Barrier) -> String {
 }
 
 /// Why an antenna that is, or may be, inside a barrier stands.
-pub fn kept_still(antenna: &str, Inside { barrier, unknown_axis, .. }: &Inside) -> String {
+pub fn kept_still(antenna: &str, Breach { barrier, unknown_axis, .. }: &Breach) -> String {
     if let Barrier::Unread(setting) = barrier {
         return format!(
             "{antenna} does not move by itself: the setting {setting} could not be read."
@@ -53,7 +53,7 @@ pub fn kept_still(antenna: &str, Inside { barrier, unknown_axis, .. }: &Inside) 
 
 /// The motions allowed to an antenna that is, or may be, inside a barrier; `may_leave`: the
 /// operator has allowed them.
-pub fn way_out(antenna: &str, Inside { barrier, unknown_axis, may_leave }: &Inside) -> String {
+pub fn way_out(antenna: &str, Breach { barrier, unknown_axis, may_leave }: &Breach) -> String {
     if let Barrier::Unread(setting) = barrier {
         let unread = format!(
             "The setting {setting} could not be read, so {antenna} does not move by itself."
@@ -182,7 +182,7 @@ pub fn asks_standing(snapshot: &Snapshot, now: Timestamp) -> Option<String> {
                    you confirm.";
         return Some(why.to_owned());
     }
-    let ended = ended_at(snapshot.left_moving?.since, now);
+    let ended = ended_at(snapshot.left_moving?.start, now);
     Some(format!("{ended} while the antenna was moved. Look at it before you confirm."))
 }
 
@@ -272,11 +272,11 @@ pub fn safety(matter: &Safety, antenna: &str, now: Timestamp) -> String {
             "{antenna} was stopped by the dead-man timer: Azel was late. Press the key again to \
              move it."
         ),
-        Safety::LeftMoving { since, asks: false } => format!(
+        Safety::LeftMoving { start: since, asks: false } => format!(
             "{} while {antenna} was moved by hand. STOP was sent first.",
             ended_at(*since, now)
         ),
-        Safety::LeftMoving { since, asks: true } => format!(
+        Safety::LeftMoving { start: since, asks: true } => format!(
             "{} while {antenna} was moved by hand, and nobody has seen it at rest since. Press STOP, \
              or confirm that you have seen it at rest.",
             ended_at(*since, now)

@@ -3,7 +3,7 @@
 use jiff::Timestamp;
 
 use crate::{
-    contract::{antenna::AntennaModel, passes::PassKey, schedule::Swap},
+    contract::{antenna::AntennaModel, passes::PassListKey, schedule::Swap},
     model::{
         Model,
         plan::{PlannedActivity, Standing},
@@ -11,8 +11,8 @@ use crate::{
     plan::{
         Loss,
         schedule::{
-            Change, Changed, Class, ClassWorth, Conflict, Impossible, Lost, Off, Proof, Refusal,
-            Rule, Schedule, Why,
+            AntennaOff, Change, Changed, Class, ClassWorth, Conflict, Impossible, LeftOutReason,
+            Lost, Proof, Refusal, Rule, Schedule,
         },
     },
     station::{AntennaId, ChooseBy, Light},
@@ -32,7 +32,7 @@ pub fn choose_by(rule: ChooseBy) -> &'static str {
 /// Time that the mount loses of a pass, and the place, as a sentence without a full stop.
 pub fn lost(lost: Lost) -> String {
     let seconds = format::duration(lost.seconds);
-    match lost.at {
+    match lost.loss {
         Loss::Keyhole(azimuth) => {
             format!("Loses {seconds} at the keyhole at {}", format::azimuth(azimuth.degrees()))
         }
@@ -49,41 +49,41 @@ pub fn lost(lost: Lost) -> String {
 #[derive(Clone, Copy)]
 pub struct Names<'a> {
     /// The satellite of a pass.
-    pub pass: &'a dyn Fn(PassKey) -> String,
+    pub pass: &'a dyn Fn(PassListKey) -> String,
     pub antenna: &'a dyn Fn(AntennaId) -> String,
 }
 
 /// Why a pass is left out, as a sentence without a full stop.
-pub fn why(names: Names<'_>, why: &Why) -> String {
+pub fn why(names: Names<'_>, why: &LeftOutReason) -> String {
     match why {
-        Why::Refused(refusal) => refused(*refusal),
-        Why::Impossible(impossible) => not_possible(impossible),
-        Why::Off(Off::LockedOut) => "The unit is locked out".to_owned(),
-        Why::Off(Off::SwitchedOff) => "The antenna is not connected".to_owned(),
-        Why::OtherAntennas(allowed) if allowed.is_empty() => {
+        LeftOutReason::Refused(refusal) => refused(*refusal),
+        LeftOutReason::Impossible(impossible) => not_possible(impossible),
+        LeftOutReason::Off(AntennaOff::LockedOut) => "The unit is locked out".to_owned(),
+        LeftOutReason::Off(AntennaOff::SwitchedOff) => "The antenna is not connected".to_owned(),
+        LeftOutReason::OtherAntennas(allowed) if allowed.is_empty() => {
             "Your limits or rules allow no antenna".to_owned()
         }
-        Why::OtherAntennas(allowed) => {
+        LeftOutReason::OtherAntennas(allowed) => {
             let allowed: Vec<String> = allowed.iter().map(|id| (names.antenna)(*id)).collect();
             format!("Your limits or rules allow only {}", format::list(&allowed))
         }
-        Why::Overlaps(conflict) => {
+        LeftOutReason::Overlaps(conflict) => {
             let by = format::duration(conflict.missing_s);
             let verb = if conflict.others.is_empty() { "overlaps" } else { "overlap" };
             format!("{} {verb} by {by}", against(names, conflict))
         }
-        Why::SlewTooShort(conflict) => {
+        LeftOutReason::SlewTooShort(conflict) => {
             let by = format::duration(conflict.missing_s);
             let against = against(names, conflict);
             format!("Too close to {against}: {by} short for slew and set-up")
         }
-        Why::TooFar => "The antenna cannot be there in time".to_owned(),
-        Why::UnderWay => "The pass is under way".to_owned(),
-        Why::MaxPerDay(most) => match most {
+        LeftOutReason::TooFar => "The antenna cannot be there in time".to_owned(),
+        LeftOutReason::UnderWay => "The pass is under way".to_owned(),
+        LeftOutReason::MaxPerDay(most) => match most {
             1 => "One pass of the satellite is already taken that day".to_owned(),
             most => format!("{most} passes of the satellite are already taken that day"),
         },
-        Why::NotFound => "It would fit, but no better plan was found with it".to_owned(),
+        LeftOutReason::NotFound => "It would fit, but no better plan was found with it".to_owned(),
     }
 }
 
@@ -120,7 +120,7 @@ fn not_possible(impossible: &Impossible) -> String {
         Impossible::Name => "Not possible: this unit cannot take the satellite's name".to_owned(),
         Impossible::TooLow => "Stays below the minimum elevation of the antenna".to_owned(),
         Impossible::Hidden => "The horizon mask hides all of it".to_owned(),
-        Impossible::Lost(Lost { at: Loss::Keyhole(_), .. }) => {
+        Impossible::Lost(Lost { loss: Loss::Keyhole(_), .. }) => {
             "Not possible: all of it lies in the keyhole".to_owned()
         }
         Impossible::Lost(_) => "Not possible: the mount cannot follow it".to_owned(),
@@ -132,7 +132,7 @@ fn not_possible(impossible: &Impossible) -> String {
 }
 
 fn against(names: Names<'_>, conflict: &Conflict) -> String {
-    let name = (names.pass)((conflict.with.satellite, conflict.with.aos));
+    let name = (names.pass)((conflict.pass.satellite, conflict.pass.aos));
     let class = match conflict.class {
         Class::Always => " (always)".to_owned(),
         Class::Priority(priority) => format!(" (priority {})", priority.number()),
@@ -147,7 +147,7 @@ fn against(names: Names<'_>, conflict: &Conflict) -> String {
 }
 
 /// Why a pass is left out, with the names that the window shows.
-pub fn why_left_out(model: &Model, of: &Why) -> String {
+pub fn why_left_out(model: &Model, of: &LeftOutReason) -> String {
     let antenna = |id| antenna_name(model, id).to_owned();
     why(Names { pass: &|pass| pass_name(model, pass), antenna: &antenna }, of)
 }
@@ -179,7 +179,7 @@ pub fn doing(model: &Model, doing: PlannedActivity) -> String {
 }
 
 /// Short name of the satellite of a pass.
-pub fn pass_name(model: &Model, pass: PassKey) -> String {
+pub fn pass_name(model: &Model, pass: PassListKey) -> String {
     satellite_name(model, pass.0)
 }
 
@@ -213,7 +213,9 @@ pub fn change(model: &Model, change: &Change) -> String {
             format!("{name}, is taken by {}", antenna_name(model, antenna))
         }
         Changed::Dropped { .. } => format!("{name}, is dropped"),
-        Changed::Moved { to, .. } => format!("{name}, goes to {}", antenna_name(model, to)),
+        Changed::Moved { destination: to, .. } => {
+            format!("{name}, goes to {}", antenna_name(model, to))
+        }
         Changed::Cut { late_s, early_s } => {
             let by = |seconds: f64, more: &str, less: &str| {
                 let word = if seconds > 0.0 { more } else { less };
@@ -295,7 +297,10 @@ mod tests {
     #[test]
     fn a_limit_names_the_antennas_that_it_allows() {
         let said = |allowed: &[u32]| {
-            why(NAMES, &Why::OtherAntennas(allowed.iter().map(|id| AntennaId(*id)).collect()))
+            why(
+                NAMES,
+                &LeftOutReason::OtherAntennas(allowed.iter().map(|id| AntennaId(*id)).collect()),
+            )
         };
         assert_eq!(said(&[2]), "Your limits or rules allow only Antenna 2");
         assert_eq!(said(&[2, 3]), "Your limits or rules allow only Antenna 2 and Antenna 3");
@@ -306,8 +311,8 @@ mod tests {
     fn a_pass_that_is_too_close_names_the_other_with_its_priority() {
         let said = |class| {
             let with = Key { satellite: 1, aos: Timestamp::UNIX_EPOCH };
-            let conflict = Conflict { with, class, missing_s: 80.0, others: vec![] };
-            why(NAMES, &Why::SlewTooShort(conflict))
+            let conflict = Conflict { pass: with, class, missing_s: 80.0, others: vec![] };
+            why(NAMES, &LeftOutReason::SlewTooShort(conflict))
         };
         let end = ": 1:20 short for slew and set-up";
         let priority = Class::Priority(Priority::default());

@@ -123,7 +123,7 @@ struct BothWays {
 impl BothWays {
     fn of(station: &Station, antenna: &Antenna) -> Self {
         let plain = Antenna { pointing_model: PointingModel::default(), ..antenna.clone() };
-        Self { plain: Bounds::of(station, &plain), model: antenna.track_model() }
+        Self { plain: Bounds::new(station, &plain), model: antenna.track_model() }
     }
 
     /// The lesser clearance from each barrier, degrees; from the minimum elevation by the axes.
@@ -135,7 +135,7 @@ impl BothWays {
         } else {
             self.model.direction(AzEl::from_degrees(first_deg, second_deg))
         };
-        let [by_axes, on_sky] = [by_axes, beam].map(|at| self.plain.at(utc).clearances(at));
+        let [by_axes, on_sky] = [by_axes, beam].map(|at| self.plain.at_time(utc).clearances(at));
         let each = by_axes.into_iter().zip(on_sky).map(|(by_axes, on_sky)| {
             let (axes_deg, sky_deg) = (by_axes.angle.degrees(), on_sky.angle.degrees());
             let is_floor = by_axes.barrier == Barrier::MinimumElevation;
@@ -226,7 +226,7 @@ fn look_closely(seed: u64) -> Outcome {
     let (intent, motion) = motion(&mut dice, &antenna);
     let from_deg = antenna.mount.travel_deg().map(|(from, to)| dice.between(from, to));
     let utc = add_seconds("2026-06-21T00:00:00Z".parse().unwrap(), dice.between(0.0, 3e7));
-    let (bounds, both) = (Bounds::of(&station, &antenna), BothWays::of(&station, &antenna));
+    let (bounds, both) = (Bounds::new(&station, &antenna), BothWays::of(&station, &antenna));
     let here = bounds.direction(from_deg);
     let mut case = Case { antenna: antenna.clone(), ..Case::new(intent) };
     case.age = Duration::from_millis(dice.between(0.0, 900.0) as u64);

@@ -70,7 +70,7 @@ fn a_detour_within_other_bounds_is_looked_for_anew() {
     let keep_outs =
         case.keep_outs.iter().map(|keep_out| KeepOut { margin_deg: 3.0, ..keep_out.clone() });
     let wider = Station { keep_outs: keep_outs.collect(), ..Station::default() };
-    gate.keep_within(Bounds::of(&wider, &case.antenna));
+    gate.keep_within(Bounds::new(&wider, &case.antenna));
     assert!(open(gate.route(behind, Intent::Track, now)).is_some());
 }
 

@@ -50,7 +50,7 @@ fn put(gate: &mut Gate, case: &Case, asked: Asked) -> Result<(), Refusal> {
         ticket: 1,
         group: "gps",
         values: Values::from([("is_automatic", Value::Flag(true))]),
-        seen: None,
+        expected: None,
         is_unlocked: false,
     };
     match asked {
@@ -64,8 +64,11 @@ fn put(gate: &mut Gate, case: &Case, asked: Asked) -> Result<(), Refusal> {
 }
 
 fn locked_out(case: Case) -> Case {
-    let lock_out =
-        LockOut { by: "Ada".to_owned(), reason: "gear".to_owned(), since: Timestamp::UNIX_EPOCH };
+    let lock_out = LockOut {
+        operator: "Ada".to_owned(),
+        reason: "gear".to_owned(),
+        start: Timestamp::UNIX_EPOCH,
+    };
     Case { lock_out: Some(lock_out), ..case }
 }
 
@@ -253,19 +256,19 @@ fn actions_and_settings() -> Vec<Needed> {
             "no_setting_while_stopping",
             Case { stopping: true, ..idle_satrak() },
             Asked::Setting,
-            |it| matches!(it, Refusal::Setting { why: Hindrance::Stopping, .. }),
+            |it| matches!(it, Refusal::Setting { hindrance: Hindrance::Stopping, .. }),
         ),
         needed(
             "no_setting_while_the_unit_may_move",
             changed(idle_satrak(), |case| case.axes()[1].motion = AxisMotion::Plus),
             Asked::Setting,
-            |it| matches!(it, Refusal::Setting { why: Hindrance::Moves, .. }),
+            |it| matches!(it, Refusal::Setting { hindrance: Hindrance::Moves, .. }),
         ),
         needed(
             "no_setting_after_a_motion_was_asked_for",
             idle_satrak(),
             Asked::SettingInMotion,
-            |it| matches!(it, Refusal::Setting { why: Hindrance::Moves, .. }),
+            |it| matches!(it, Refusal::Setting { hindrance: Hindrance::Moves, .. }),
         ),
     ]
 }

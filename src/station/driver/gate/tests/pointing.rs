@@ -44,7 +44,8 @@ fn plain(case: Case) -> Case {
 
 /// Checks that the mast forbids `motion` from `azimuth_deg`, but not without a model.
 fn assert_only_the_beam_enters(azimuth_deg: f64, intent: Intent, motion: Motion) {
-    let Err(Refusal::Forbidden { barrier, at: inside }) = at(azimuth_deg, intent).ask(motion)
+    let Err(Refusal::Forbidden { barrier, direction: inside }) =
+        at(azimuth_deg, intent).ask(motion)
     else {
         panic!("{motion:?} from {azimuth_deg} is allowed");
     };

@@ -46,9 +46,9 @@ fn leave_tried_mark(folder: &Path, age_s: i64, tried: Option<i64>) -> Timestamp 
         Debts::marked_in(Some(folder.to_owned())),
         Mark { since: Some(ago(age_s)), tried: tried.map(ago) },
     );
-    debts.mark(&Unit::of(&antenna()), 0, mark);
+    debts.mark(&Unit::new(&antenna()), 0, mark);
     // The worker writes it.
-    while debts.mark_kept(&Unit::of(&antenna())) == Kept::Pending {
+    while debts.mark_kept(&Unit::new(&antenna())) == Kept::Pending {
         std::thread::yield_now();
     }
     ago(age_s)
@@ -84,8 +84,8 @@ async fn after_a_restart_stop_is_the_first_word_to_what_was_moved_by_hand() {
     let (control, mut handle, debts) = start(folder.path());
     seconds(5).await;
     assert_eq!(control.received()[0].1, "STOP=");
-    assert_eq!(told(&mut handle), [Safety::LeftMoving { since: Some(since), asks: false }]);
-    assert_eq!(debts.marked(&Unit::of(&antenna())), None, "standstill is proved");
+    assert_eq!(told(&mut handle), [Safety::LeftMoving { start: Some(since), asks: false }]);
+    assert_eq!(debts.marked(&Unit::new(&antenna())), None, "standstill is proved");
 }
 
 #[tokio::test(start_paused = true)]
@@ -95,14 +95,14 @@ async fn an_old_mark_asks_and_stays_until_the_operator_has_seen_it_stand() {
     let (control, mut handle, debts) = start(folder.path());
     seconds(20).await;
     assert_eq!(stops(&control), 0);
-    assert_eq!(told(&mut handle), [Safety::LeftMoving { since: Some(since), asks: true }]);
-    assert_eq!(handle.snapshot().left_moving, Some(LeftMoving { since: Some(since) }));
+    assert_eq!(told(&mut handle), [Safety::LeftMoving { start: Some(since), asks: true }]);
+    assert_eq!(handle.snapshot().left_moving, Some(LeftMoving { start: Some(since) }));
     let mark = Mark { since: Some(since), tried: None };
-    assert_eq!(debts.marked(&Unit::of(&antenna())), Some(mark), "nothing is tried");
+    assert_eq!(debts.marked(&Unit::new(&antenna())), Some(mark), "nothing is tried");
     handle.send(Command::SeenStanding).unwrap();
     seconds(1).await;
     assert_eq!(handle.snapshot().left_moving, None);
-    assert_eq!(debts.marked(&Unit::of(&antenna())), None);
+    assert_eq!(debts.marked(&Unit::new(&antenna())), None);
     assert_eq!(stops(&control), 0);
 }
 
@@ -115,8 +115,8 @@ async fn a_mark_that_cannot_be_read_asks_and_names_no_time() {
     let (control, mut handle, _) = start(folder.path());
     seconds(5).await;
     assert_eq!(stops(&control), 0);
-    assert_eq!(told(&mut handle), [Safety::LeftMoving { since: None, asks: true }]);
-    assert_eq!(handle.snapshot().left_moving, Some(LeftMoving { since: None }));
+    assert_eq!(told(&mut handle), [Safety::LeftMoving { start: None, asks: true }]);
+    assert_eq!(handle.snapshot().left_moving, Some(LeftMoving { start: None }));
 }
 
 /// STOP would take the panel from the person who works there.
@@ -125,8 +125,8 @@ async fn where_another_may_have_the_panel_a_mark_asks_however_young_it_is() {
     let (horn, folder) = (Antenna::rc2000c("Horn", "in memory"), tempfile::tempdir().unwrap());
     let debts = Debts::marked_in(Some(folder.path().to_owned()));
     let since = START - SignedDuration::from_secs(20);
-    debts.mark(&Unit::of(&horn), 0, Mark { since: Some(since), tried: None });
-    while debts.mark_kept(&Unit::of(&horn)) == Kept::Pending {
+    debts.mark(&Unit::new(&horn), 0, Mark { since: Some(since), tried: None });
+    while debts.mark_kept(&Unit::new(&horn)) == Kept::Pending {
         std::thread::yield_now();
     }
     let clock = Clock::at_speed(START, NonZeroU32::MIN);
@@ -141,7 +141,7 @@ async fn where_another_may_have_the_panel_a_mark_asks_however_young_it_is() {
     let session = Session::over(horn.controller(), &horn, dial, clock, wires, debts);
     tokio::spawn(session.run());
     seconds(5).await;
-    assert_eq!(told(&mut handle), [Safety::LeftMoving { since: Some(since), asks: true }]);
+    assert_eq!(told(&mut handle), [Safety::LeftMoving { start: Some(since), asks: true }]);
     assert!(!dials.load(Ordering::Relaxed));
 }
 
@@ -152,7 +152,7 @@ async fn the_age_of_a_mark_counts_from_the_last_try() {
     let (control, mut handle, _) = start(folder.path());
     seconds(5).await;
     assert_eq!(control.received()[0].1, "STOP=");
-    assert_eq!(told(&mut handle), [Safety::LeftMoving { since: Some(since), asks: false }]);
+    assert_eq!(told(&mut handle), [Safety::LeftMoving { start: Some(since), asks: false }]);
 }
 
 #[tokio::test(start_paused = true)]
@@ -168,13 +168,13 @@ async fn a_unit_out_of_reach_for_an_hour_gets_its_stop_first_after_a_kill() {
         handle.stop();
         seconds(3600).await;
         // As if the program were killed here: its file is all that is left.
-        let mark = debts.marked(&Unit::of(&antenna())).unwrap();
+        let mark = debts.marked(&Unit::new(&antenna())).unwrap();
         let now = START + SignedDuration::from_secs(3605);
         assert!(seconds_between(mark.last_tried().unwrap(), now).abs() <= 90.0, "{mark:?}");
         let killed = tempfile::tempdir().unwrap();
-        Debts::marked_in(Some(killed.path().to_owned())).mark(&Unit::of(&antenna()), 0, mark);
+        Debts::marked_in(Some(killed.path().to_owned())).mark(&Unit::new(&antenna()), 0, mark);
         let debts = Debts::marked_in(Some(killed.path().to_owned()));
-        while debts.marked(&Unit::of(&antenna())).is_none() {
+        while debts.marked(&Unit::new(&antenna())).is_none() {
             sleep(Duration::from_millis(1)).await;
         }
         let (next, _handle) = testing::start_at(now, debts);
@@ -193,7 +193,7 @@ async fn a_stop_answers_for_an_old_mark_too() {
     seconds(5).await;
     assert!(stops(&control) > 0);
     assert_eq!(handle.snapshot().left_moving, None);
-    assert_eq!(debts.marked(&Unit::of(&antenna())), None);
+    assert_eq!(debts.marked(&Unit::new(&antenna())), None);
 }
 
 #[tokio::test(start_paused = true)]
@@ -234,7 +234,7 @@ fn a_disk_that_hangs_does_not_hold_up_the_stop_that_is_owed_at_the_end() {
         advance(5_000).await;
         control.set_fault(Fault::Silence, false);
         advance(10_000).await;
-        assert!(!debts.owes(&Unit::of(&antenna())), "standstill is proved");
+        assert!(!debts.owes(&Unit::new(&antenna())), "standstill is proved");
         drop(disk);
     });
 }
@@ -261,11 +261,11 @@ async fn a_mark_that_the_disk_takes_late_does_not_outlive_standstill() {
     assert!((MAX..MAX + Duration::from_millis(100)).contains(&held_up), "{held_up:?}");
     handle.send(Command::EndJog).unwrap();
     advance(10_000).await;
-    assert!(!debts.owes(&Unit::of(&antenna())), "standstill is proved");
+    assert!(!debts.owes(&Unit::new(&antenna())), "standstill is proved");
     disk.go_on();
     assert_eq!(disk.begun(), FileState::Absent);
     disk.go_on();
-    debts.settled(&Unit::of(&antenna())).await;
+    debts.settled(&Unit::new(&antenna())).await;
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
 }
 
@@ -287,7 +287,7 @@ async fn a_stop_that_the_disk_does_not_take_says_why_until_it_does() {
     assert_eq!(handle.snapshot().not_on_disk, None);
     assert_eq!(told(&mut handle), [], "it is told once");
     let next = Debts::marked_in(Some(folder.path().to_owned()));
-    assert!(next.is_marked(&Unit::of(&antenna())));
+    assert!(next.is_marked(&Unit::new(&antenna())));
 }
 
 /// Lets time go on, since the paused clock stands while the disk hangs.
@@ -301,7 +301,7 @@ async fn advance(milliseconds: u64) {
 async fn a_stop_that_is_owed_is_on_disk_until_it_is_proved() {
     let folder = tempfile::tempdir().unwrap();
     let (control, handle, debts) = start(folder.path());
-    let is_marked = || debts.marked(&Unit::of(&antenna())).is_some();
+    let is_marked = || debts.marked(&Unit::new(&antenna())).is_some();
     seconds(5).await;
     control.set_fault(Fault::Silence, true);
     handle.stop();

@@ -34,8 +34,8 @@ impl Session {
 
     /// When the offsets of the unit were read last.
     pub(super) fn read_at(&self) -> Option<Timestamp> {
-        let group = self.gate.state().held.get(self.setup.track_offsets()?.group)?;
-        Some(group.held.as_ref()?.read_at)
+        let group = self.gate.state().groups.get(self.setup.track_offsets()?.group)?;
+        Some(group.last_read.as_ref()?.read_at)
     }
 
     /// Offsets that are meant to be on: the antenna should point this far off its target.
@@ -48,7 +48,7 @@ impl Session {
 
     /// State that the unit reports, without the offsets that are meant to be on.
     pub(in crate::driver::session) fn plain_unit(&self) -> OnBoard {
-        self.gate.state().on_board.without(self.meant_offsets())
+        self.gate.state().on_board.without_offsets(self.meant_offsets())
     }
 
     /// From where the pointing model has the beam of the unit to where it is on the sky, if what was
@@ -68,7 +68,7 @@ impl Session {
         let can_undo = self.unit_offsets.last_earlier().is_some();
         let found = || {
             let shifted = shifted.filter(|shifted| shifted.is_found && !offsets.is_none())?;
-            Some(LeftOffsets::Found { since: shifted.since })
+            Some(LeftOffsets::Found { start: shifted.since })
         };
         let is_shown = is_changing || !offsets.is_none() || can_undo;
         is_shown.then(|| UnitOffsetsView {

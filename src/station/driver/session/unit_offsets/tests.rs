@@ -45,8 +45,8 @@ fn pass() -> OnBoardPass {
         catalog_number: 25_544,
         name: "ISS (ZARYA)".into(),
         element_file: None,
-        from: pass.aos.time,
-        until: pass.los.time,
+        start: pass.aos.time,
+        end: pass.los.time,
     };
     OnBoardPass { target, elements, site: site(), is_agreed: false }
 }
@@ -54,7 +54,7 @@ fn pass() -> OnBoardPass {
 /// A unit that comes to life this long after AOS.
 fn unit(after_s: f64) -> (Control, Timestamp) {
     let pass = pass();
-    let now = add_seconds(pass.target.from, after_s);
+    let now = add_seconds(pass.target.start, after_s);
     let elements = BTreeMap::from([("stations.txt".to_owned(), vec![pass.elements])]);
     (Control::new(&Options { elements, ..Options::new(site(), now) }), now)
 }
@@ -69,7 +69,7 @@ fn run(control: &Control, now: Timestamp, folder: &Path) -> AntennaHandle {
 }
 
 fn mark(folder: &Path) -> Option<ShiftedTrack> {
-    Debts::marked_in(Some(folder.to_owned())).shifted(&Unit::of(&antenna()))
+    Debts::marked_in(Some(folder.to_owned())).shifted(&Unit::new(&antenna()))
 }
 
 fn azimuth(degrees: f64) -> TrackOffsets {
@@ -189,7 +189,9 @@ async fn what_an_earlier_run_left_waits_while_the_unit_is_locked_out() {
     by_another(&control, "TRACK=,0").await;
     let handle = run(&control, now, folder.path());
     let (by, reason) = ("Ada".to_owned(), "belts".to_owned());
-    handle.send(Command::LockOut(crate::station::LockOut { by, reason, since: now })).unwrap();
+    handle
+        .send(Command::LockOut(crate::station::LockOut { operator: by, reason, start: now }))
+        .unwrap();
     until(&handle, "told", is_found).await;
     sleep(Duration::from_mins(1)).await;
     assert_eq!(sent(&control).len(), 1);

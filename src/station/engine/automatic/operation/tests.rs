@@ -137,7 +137,7 @@ fn an_antenna_that_somebody_moves_is_left_to_them_and_one_that_coasts_is_not() {
     assert!(fixture.operation.is_on());
     fixture.until(200.0, moved(110.0, 130.0));
     let since = at(115.0);
-    let suspended = Operation::Suspended { by: Interruption::Elsewhere, since };
+    let suspended = Operation::Suspended { interruption: Interruption::Elsewhere, start: since };
     assert_eq!(fixture.operation, suspended);
 }
 
@@ -147,7 +147,8 @@ fn a_track_that_somebody_ends_suspends_it() {
     fixture.until(150.0, |_| STANDS);
     fixture.until(250.0, |_| taking(1));
     fixture.operation.ended_by_unit(at(250.0));
-    let suspended = Operation::Suspended { by: Interruption::EndedByUnit, since: at(250.0) };
+    let suspended =
+        Operation::Suspended { interruption: Interruption::EndedByUnit, start: at(250.0) };
     assert_eq!(fixture.operation, suspended);
 }
 
@@ -455,6 +456,7 @@ fn a_park_that_somebody_ends_suspends_it() {
     fixture.until(810.0, |_| taking(1));
     assert!(!fixture.until(815.0, |_| STANDS).is_empty(), "it parks");
     fixture.operation.ended_by_unit(at(820.0));
-    let suspended = Operation::Suspended { by: Interruption::EndedByUnit, since: at(820.0) };
+    let suspended =
+        Operation::Suspended { interruption: Interruption::EndedByUnit, start: at(820.0) };
     assert_eq!(fixture.operation, suspended);
 }

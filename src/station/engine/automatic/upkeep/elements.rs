@@ -101,8 +101,8 @@ impl Engine {
     fn needed_upload(&self, antenna: &AntennaModel) -> Option<Result<Option<Order>, String>> {
         let takes = antenna.spec().element_files?;
         let CatalogState::Ready(catalog) = &self.catalog else { return None };
-        let group = antenna.snapshot.state.held.get(takes.source_group);
-        let reading = group.and_then(|group| group.held.as_ref())?;
+        let group = antenna.snapshot.state.groups.get(takes.source_group);
+        let reading = group.and_then(|group| group.last_read.as_ref())?;
         if (takes.are_fetched_by_unit)(&reading.values) {
             return Some(Ok(None));
         }
@@ -185,7 +185,7 @@ impl Engine {
                 // The window offers what an operator can do about an order by hand.
                 mem::take(&mut self.uploads.stage);
                 if is_cancel {
-                    self.note_day(id, DayEvent::ElementsNotUploaded { why });
+                    self.note_day(id, DayEvent::ElementsNotUploaded { reason: why });
                     self.check_elements_after(id, CHECK_PERIOD);
                 } else {
                     self.note_upload_failure(id, why);
@@ -209,8 +209,12 @@ impl Engine {
 
     fn note_upload_failure(&mut self, id: AntennaId, why: String) {
         self.check_elements_after(id, RETRY);
-        self.alarms.raise(Some(id), AlarmKind::ElementsNotUploaded { why: why.clone() }, self.now);
-        self.note_day(id, DayEvent::ElementsNotUploaded { why });
+        self.alarms.raise(
+            Some(id),
+            AlarmKind::ElementsNotUploaded { reason: why.clone() },
+            self.now,
+        );
+        self.note_day(id, DayEvent::ElementsNotUploaded { reason: why });
     }
 
     fn clear_upload_alarm(&mut self, id: AntennaId) {
@@ -227,7 +231,7 @@ fn chosen<'a>(
 ) -> Vec<(FileObject, &'a Elements)> {
     let mut chosen: Vec<(FileObject, &Elements)> = Vec::new();
     for elements in numbers.iter().filter_map(|number| catalog.get(*number)) {
-        let Ok(alone) = TleFile::of([elements], takes) else { continue };
+        let Ok(alone) = TleFile::new([elements], takes) else { continue };
         let Some(object) = alone.objects().first().cloned() else { continue };
         // The unit looks for a satellite by its name.
         if chosen.iter().all(|(known, _)| known.name != object.name) {
@@ -268,7 +272,7 @@ fn order(
     takes: &'static ElementFiles,
     chosen: &[(FileObject, &Elements)],
 ) -> Result<Order, String> {
-    let content = TleFile::of(chosen.iter().map(|(_, elements)| *elements), takes);
+    let content = TleFile::new(chosen.iter().map(|(_, elements)| *elements), takes);
     let file = antenna.config.connection.element_file().unwrap_or_else(|| target.file.clone());
     Ok(Order {
         antenna: antenna.config.name.clone(),
@@ -335,7 +339,7 @@ mod tests {
         let chosen = chosen(&catalog, &twice, &ELEMENT_FILES);
         let numbers: Vec<u32> = chosen.iter().map(|(object, _)| object.catalog_number).collect();
         assert_eq!(numbers, FAVOURITES);
-        assert!(TleFile::of(chosen.iter().map(|(_, elements)| *elements), &ELEMENT_FILES).is_ok());
+        assert!(TleFile::new(chosen.iter().map(|(_, elements)| *elements), &ELEMENT_FILES).is_ok());
     }
 
     fn target() -> UploadTarget {
@@ -437,8 +441,8 @@ mod tests {
             let failure = Failure { text: "why".to_owned(), is_cancel, ..Failure::default() };
             engine.uploads.stage = Stage::Failed(failure);
             engine.end_rule_upload();
-            let expected = DayEvent::ElementsNotUploaded { why: "why".to_owned() };
-            assert_eq!(engine.day.last().map(|line| &line.what), Some(&expected));
+            let expected = DayEvent::ElementsNotUploaded { reason: "why".to_owned() };
+            assert_eq!(engine.day.last().map(|line| &line.event), Some(&expected));
             assert_eq!((alarms(&engine) == 0, &engine.uploads.stage), (is_cancel, &Stage::Idle));
         }
     }

@@ -8,7 +8,7 @@ use std::{
 
 use super::*;
 use crate::{
-    contract::{source_tests::TestedSource, transfer::Seen},
+    contract::{source_tests::TestedSource, transfer::SatelliteMatch},
     orbit::{bundled, write_tle},
     transfer::{KeptFiles, KnownHosts, Limits, MemoryKeyring},
 };
@@ -70,7 +70,9 @@ fn a_source_is_seen_as_the_unit_will_see_it() {
     assert_eq!(shown.stage, TestStage::Working);
     wait(&mut runner, &mut shown, &woken);
     let TestStage::Seen { view, .. } = &shown.stage else { panic!("{:?}", shown.stage) };
-    assert!(matches!(&view.satellite, Seen::Found(object) if object.catalog_number == NOAA_20));
+    assert!(
+        matches!(&view.satellite, SatelliteMatch::Found(object) if object.catalog_number == NOAA_20)
+    );
 }
 
 #[test]

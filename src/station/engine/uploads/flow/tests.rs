@@ -25,7 +25,7 @@ fn peer() -> Peer {
 fn order() -> Order {
     let catalog = crate::orbit::bundled().unwrap();
     let file =
-        TleFile::of([ISS, NOAA_20].iter().filter_map(|one| catalog.get(*one)), &ELEMENT_FILES)
+        TleFile::new([ISS, NOAA_20].iter().filter_map(|one| catalog.get(*one)), &ELEMENT_FILES)
             .unwrap();
     Order {
         antenna: "Satrak".to_owned(),
@@ -52,7 +52,7 @@ fn uploaded() -> Box<Uploaded> {
         file: FileName::new("active.txt", &ELEMENT_FILES).unwrap(),
         bytes: file.bytes().len() as u64,
         sha256: file.hash(),
-        at: now(),
+        time: now(),
         objects: file.objects().to_vec(),
     })
 }
@@ -330,7 +330,7 @@ fn a_roll_back_takes_the_satellite_that_the_unit_holds_or_the_first() {
         file: "active.txt".to_owned(),
         sha256: uploaded().sha256,
         bytes: 1,
-        at: now(),
+        time: now(),
         origin: Origin::Found,
     };
     for (held, picked) in [(Some(NOAA_20), NOAA_20), (Some(7), ISS), (None, ISS)] {

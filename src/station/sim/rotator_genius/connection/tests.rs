@@ -55,7 +55,7 @@ impl Client {
             Request::Read => panic!("a read has no acknowledgement"),
         };
         match self.ask(request).await {
-            Said::Acknowledgement { to, is_accepted } if to == expected => is_accepted,
+            Said::Acknowledgement { request: to, is_accepted } if to == expected => is_accepted,
             other => panic!("{other:?}"),
         }
     }

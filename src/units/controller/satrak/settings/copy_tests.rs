@@ -2,8 +2,8 @@
 
 use super::GROUPS;
 use crate::device::settings::{
-    CopyError, CopyHead, GroupState, Held, HeldGroup, ReadFailure, Secret, SettingsCopy, Value,
-    Values, Verdict,
+    CopyError, CopyHead, GroupState, GroupStates, HeldGroup, ReadFailure, Secret, SettingsCopy,
+    Value, Values, Verdict,
 };
 
 fn head() -> CopyHead {
@@ -18,16 +18,16 @@ fn head() -> CopyHead {
 fn state<const N: usize>(values: [(&'static str, Value); N]) -> GroupState {
     let read_at = head().saved_at;
     let group = Some(HeldGroup { values: Values::from(values), read_at });
-    GroupState { held: group, ..GroupState::default() }
+    GroupState { last_read: group, ..GroupState::default() }
 }
 
-fn unit_settings() -> Held {
+fn unit_settings() -> GroupStates {
     let text = |text: &str| Value::Text(text.to_owned());
     let failed = GroupState {
         failure: Some(ReadFailure::Refused("ERR,1".to_owned())),
         ..GroupState::default()
     };
-    Held::from([
+    GroupStates::from([
         (
             "general",
             state([

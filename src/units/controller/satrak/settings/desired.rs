@@ -18,7 +18,7 @@ pub(in crate::controller::satrak) struct Desired<'a> {
 
 impl Desired<'_> {
     fn find<T>(&self, key: &Key<T>) -> Option<T> {
-        key.of(self.new).or_else(|| key.of(self.unit_values))
+        key.get(self.new).or_else(|| key.get(self.unit_values))
     }
 
     /// A flag; off if it is unknown.

@@ -42,45 +42,45 @@ pub static GENERAL: Group = Group {
     fields: &[
         Field::edit(CLOCK_FROM_GPS, "Clock from GPS")
             .moving()
-            .about("The unit sets its clock from GPS by itself."),
-        Field::edit(TIME_OFFSET_MS, "Tracking time offset").in_unit("ms").moving().about(
+            .description("The unit sets its clock from GPS by itself."),
+        Field::edit(TIME_OFFSET_MS, "Tracking time offset").in_unit("ms").moving().description(
             "Shifts the track in time. Whether a larger value is ahead or behind is not \
                     documented.",
         ),
         Field::edit(AZIMUTH_OFFSET_DEG, "Azimuth offset")
             .in_unit("°")
             .moving()
-            .about("Added to the azimuth while the unit tracks."),
+            .description("Added to the azimuth while the unit tracks."),
         Field::edit(ELEVATION_OFFSET_DEG, "Elevation offset")
             .in_unit("°")
             .moving()
-            .about("Added to the elevation while the unit tracks."),
-        Field::edit(LEAD_MS, "Lead time")
-            .in_unit("ms")
-            .moving()
-            .about("How long before the window begins the unit goes to the start of the track."),
+            .description("Added to the elevation while the unit tracks."),
+        Field::edit(LEAD_MS, "Lead time").in_unit("ms").moving().description(
+            "How long before the window begins the unit goes to the start of the track.",
+        ),
         Field::edit(POSITION_BASE, "Position base")
             .moving()
-            .about("The sensors from which the unit takes its position."),
+            .description("The sensors from which the unit takes its position."),
         Field::edit(MINIMUM_ELEVATION_DEG, "Minimum elevation")
             .in_unit("°")
             .moving()
-            .about("The unit does not point lower than this."),
+            .description("The unit does not point lower than this."),
         Field::edit(NORTH_OFFSET_DEG, "North offset")
             .in_unit("°")
             .moving()
-            .about("Between the mount's zero and north."),
+            .description("Between the mount's zero and north."),
         Field::edit(SSPA, "Transmitter (SSPA)")
             .guarded(sspa_guard)
-            .about("Power amplifier of the transmitter. On radiates at once."),
+            .description("Power amplifier of the transmitter. On radiates at once."),
         Field::edit(SSPA_RULE, "SSPA auto rule")
-            .about("What switches the amplifier on when it is on Auto."),
-        Field::read(TLE_SOURCE, "TLE source in use")
-            .about("No command sets it: presumably the last of file, web and FTP that was set."),
+            .description("What switches the amplifier on when it is on Auto."),
+        Field::read(TLE_SOURCE, "TLE source in use").description(
+            "No command sets it: presumably the last of file, web and FTP that was set.",
+        ),
         Field::edit(ELEVATION_THRESHOLD_DEG, "Elevation threshold")
             .in_unit("°")
             .moving()
-            .about("What the unit does with it is not documented."),
+            .description("What the unit does with it is not documented."),
     ],
 };
 
@@ -95,18 +95,18 @@ fn sspa_guard(value: &Value) -> Guard {
 pub(super) fn values(reply: &Reply) -> Option<Values> {
     let Reply::Settings(settings) = reply else { return None };
     Some(Values::from([
-        CLOCK_FROM_GPS.with(settings.rtc_from_gps),
-        TIME_OFFSET_MS.with(settings.time_offset_ms),
-        AZIMUTH_OFFSET_DEG.with(settings.az_offset_deg),
-        ELEVATION_OFFSET_DEG.with(settings.el_offset_deg),
-        LEAD_MS.with(settings.lead_ms),
-        POSITION_BASE.with(settings.position_base.code()),
-        MINIMUM_ELEVATION_DEG.with(settings.minimum_elevation_deg),
-        NORTH_OFFSET_DEG.with(settings.north_offset_deg),
-        SSPA.with(settings.sspa.code()),
-        SSPA_RULE.with(settings.sspa_auto.code()),
-        TLE_SOURCE.with(settings.tle_mode.code()),
-        ELEVATION_THRESHOLD_DEG.with(settings.elevation_threshold_deg),
+        CLOCK_FROM_GPS.entry(settings.rtc_from_gps),
+        TIME_OFFSET_MS.entry(settings.time_offset_ms),
+        AZIMUTH_OFFSET_DEG.entry(settings.az_offset_deg),
+        ELEVATION_OFFSET_DEG.entry(settings.el_offset_deg),
+        LEAD_MS.entry(settings.lead_ms),
+        POSITION_BASE.entry(settings.position_base.code()),
+        MINIMUM_ELEVATION_DEG.entry(settings.minimum_elevation_deg),
+        NORTH_OFFSET_DEG.entry(settings.north_offset_deg),
+        SSPA.entry(settings.sspa.code()),
+        SSPA_RULE.entry(settings.sspa_auto.code()),
+        TLE_SOURCE.entry(settings.tle_mode.code()),
+        ELEVATION_THRESHOLD_DEG.entry(settings.elevation_threshold_deg),
     ]))
 }
 
@@ -114,17 +114,17 @@ pub(super) fn values(reply: &Reply) -> Option<Values> {
 pub(super) fn write(desired: &Desired<'_>) -> Result<Setting, WriteError> {
     let new = desired.new;
     let change = SettingsChange {
-        rtc_from_gps: CLOCK_FROM_GPS.of(new),
-        time_offset_ms: TIME_OFFSET_MS.of(new),
-        az_offset_deg: AZIMUTH_OFFSET_DEG.of(new),
-        el_offset_deg: ELEVATION_OFFSET_DEG.of(new),
-        lead_ms: LEAD_MS.of(new),
-        position_base: POSITION_BASE.of(new).map(PositionBase::from_code),
-        minimum_elevation_deg: MINIMUM_ELEVATION_DEG.of(new),
-        north_offset_deg: NORTH_OFFSET_DEG.of(new),
-        sspa: SSPA.of(new).map(SspaMode::from_code),
-        sspa_auto: SSPA_RULE.of(new).map(SspaAutoRule::from_code),
-        elevation_threshold_deg: ELEVATION_THRESHOLD_DEG.of(new),
+        rtc_from_gps: CLOCK_FROM_GPS.get(new),
+        time_offset_ms: TIME_OFFSET_MS.get(new),
+        az_offset_deg: AZIMUTH_OFFSET_DEG.get(new),
+        el_offset_deg: ELEVATION_OFFSET_DEG.get(new),
+        lead_ms: LEAD_MS.get(new),
+        position_base: POSITION_BASE.get(new).map(PositionBase::from_code),
+        minimum_elevation_deg: MINIMUM_ELEVATION_DEG.get(new),
+        north_offset_deg: NORTH_OFFSET_DEG.get(new),
+        sspa: SSPA.get(new).map(SspaMode::from_code),
+        sspa_auto: SSPA_RULE.get(new).map(SspaAutoRule::from_code),
+        elevation_threshold_deg: ELEVATION_THRESHOLD_DEG.get(new),
     };
     let first = new.keys().next().copied().unwrap_or(GENERAL.key);
     SettingsRequest::new(&change).map(Setting::Settings).map_err(cannot(first))

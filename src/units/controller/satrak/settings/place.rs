@@ -16,24 +16,23 @@ const PLACE: &str = "place";
 const TIME: Key<Timestamp> = Key::time("time");
 const LOCK_DELAY_S: Key<f64> = Key::decimal("lock_delay_s", f64::MIN, f64::MAX, 0);
 
-pub static GPS: Group = Group {
-    key: "gps",
-    title: "GPS",
-    is_service: false,
-    fields: &[
-        Field::edit(IS_AUTOMATIC, "Position from GPS")
-            .moving()
-            .about("On: the unit uses its receiver. Off: it uses the location below."),
-        Field::edit(LATITUDE_DEG, "Latitude")
-            .part_of(PLACE)
-            .moving()
-            .about("Used while the position does not come from GPS. Sent with two decimals."),
-        Field::edit(LONGITUDE_DEG, "Longitude")
-            .part_of(PLACE)
-            .moving()
-            .about("Used while the position does not come from GPS. Sent with two decimals."),
-    ],
-};
+pub static GPS: Group =
+    Group {
+        key: "gps",
+        title: "GPS",
+        is_service: false,
+        fields: &[
+            Field::edit(IS_AUTOMATIC, "Position from GPS")
+                .moving()
+                .description("On: the unit uses its receiver. Off: it uses the location below."),
+            Field::edit(LATITUDE_DEG, "Latitude").part_of(PLACE).moving().description(
+                "Used while the position does not come from GPS. Sent with two decimals.",
+            ),
+            Field::edit(LONGITUDE_DEG, "Longitude").part_of(PLACE).moving().description(
+                "Used while the position does not come from GPS. Sent with two decimals.",
+            ),
+        ],
+    };
 
 pub static RECEIVER: Group = Group {
     key: "receiver",
@@ -51,7 +50,7 @@ pub static RECEIVER: Group = Group {
 pub(super) fn values(reply: &Reply) -> Option<Values> {
     let Reply::GpsSettings(settings) = reply else { return None };
     let mut values = place(settings.position);
-    values.extend([IS_AUTOMATIC.with(settings.automatic)]);
+    values.extend([IS_AUTOMATIC.entry(settings.automatic)]);
     Some(values)
 }
 
@@ -59,21 +58,21 @@ pub(super) fn values(reply: &Reply) -> Option<Values> {
 pub(super) fn receiver(reply: &Reply) -> Option<Values> {
     let Reply::GpsData(data) = reply else { return None };
     let mut values = place(data.position);
-    values.extend([IS_VALID.with(data.valid)]);
-    values.extend(data.time.map(|time| TIME.with(time)));
+    values.extend([IS_VALID.entry(data.valid)]);
+    values.extend(data.time.map(|time| TIME.entry(time)));
     Some(values)
 }
 
 /// STATUS tells the delay; `GPS_DATA` does not.
 pub(in crate::controller::satrak) fn lock_delay(delay_s: f64) -> (&'static str, Value) {
-    LOCK_DELAY_S.with(delay_s)
+    LOCK_DELAY_S.entry(delay_s)
 }
 
 fn place(position: Option<Position>) -> Values {
     let Some(position) = position else { return Values::new() };
     Values::from([
-        LATITUDE_DEG.with(position.latitude_deg()),
-        LONGITUDE_DEG.with(position.longitude_deg()),
+        LATITUDE_DEG.entry(position.latitude_deg()),
+        LONGITUDE_DEG.entry(position.longitude_deg()),
     ])
 }
 

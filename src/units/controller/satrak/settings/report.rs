@@ -27,7 +27,7 @@ pub static POSITION: Group = Group {
     fields: &[
         Field::read(X_DEG, "First angle")
             .in_unit("°")
-            .about("X as the document says; its example rather looks like an azimuth."),
+            .description("X as the document says; its example rather looks like an azimuth."),
         Field::read(Y_DEG, "Second angle").in_unit("°"),
         Field::read(TIME, "Measured at"),
     ],
@@ -35,15 +35,15 @@ pub static POSITION: Group = Group {
 
 pub(super) fn versions(reply: &Reply) -> Option<Values> {
     let Reply::Version(version) = reply else { return None };
-    let drive = version.drive_unit.clone().map(|drive| DRIVE_UNIT.with(drive));
-    Some([CONTROL_UNIT.with(version.control_unit.clone())].into_iter().chain(drive).collect())
+    let drive = version.drive_unit.clone().map(|drive| DRIVE_UNIT.entry(drive));
+    Some([CONTROL_UNIT.entry(version.control_unit.clone())].into_iter().chain(drive).collect())
 }
 
 pub(super) fn position(reply: &Reply) -> Option<Values> {
     let Reply::TimedPosition(position) = reply else { return None };
     Some(Values::from([
-        X_DEG.with(position.x_deg),
-        Y_DEG.with(position.y_deg),
-        TIME.with(position.time),
+        X_DEG.entry(position.x_deg),
+        Y_DEG.entry(position.y_deg),
+        TIME.entry(position.time),
     ]))
 }

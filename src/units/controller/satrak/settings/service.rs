@@ -33,9 +33,9 @@ pub static ANGLES: Group = Group {
     title: "Angle calibration",
     is_service: true,
     fields: &[
-        Field::write(REFERENCE, "Sensor references")
-            .moving()
-            .about("Present position: the unit takes the references from its present position."),
+        Field::write(REFERENCE, "Sensor references").moving().description(
+            "Present position: the unit takes the references from its present position.",
+        ),
         Field::edit(X_SENSOR, "X sensor reference").part_of(X_REFERENCE).moving(),
         Field::edit(X_DEG, "X angle at reference").part_of(X_REFERENCE).moving().in_unit("°"),
         Field::edit(Y_SENSOR, "Y sensor reference").part_of(Y_REFERENCE).moving(),
@@ -48,8 +48,8 @@ pub static REDUCTION: Group = Group {
     title: "Drive reduction",
     is_service: true,
     fields: &[
-        Field::edit(X_RATIO, "X reduction").moving().about("Its unit is not documented."),
-        Field::edit(Y_RATIO, "Y reduction").moving().about("Its unit is not documented."),
+        Field::edit(X_RATIO, "X reduction").moving().description("Its unit is not documented."),
+        Field::edit(Y_RATIO, "Y reduction").moving().description("Its unit is not documented."),
     ],
 };
 
@@ -59,31 +59,31 @@ pub static IMAGE: Group = Group {
     is_service: true,
     fields: &[
         Field::read(STATUS, "Update status")
-            .about("As the unit reports it: its values are not documented."),
+            .description("As the unit reports it: its values are not documented."),
         Field::write(FILE, "Image file")
             .moving()
-            .about("On the unit. Presumably firmware or configuration."),
+            .description("On the unit. Presumably firmware or configuration."),
     ],
 };
 
 pub(super) fn angles(reply: &Reply) -> Option<Values> {
     let Reply::AngleSettings(angles) = reply else { return None };
     Some(Values::from([
-        X_SENSOR.with(angles.x_sensor),
-        X_DEG.with(angles.x_deg),
-        Y_SENSOR.with(angles.y_sensor),
-        Y_DEG.with(angles.y_deg),
+        X_SENSOR.entry(angles.x_sensor),
+        X_DEG.entry(angles.x_deg),
+        Y_SENSOR.entry(angles.y_sensor),
+        Y_DEG.entry(angles.y_deg),
     ]))
 }
 
 pub(super) fn reduction(reply: &Reply) -> Option<Values> {
     let Reply::Reduction(reduction) = reply else { return None };
-    Some(Values::from([X_RATIO.with(reduction.x()), Y_RATIO.with(reduction.y())]))
+    Some(Values::from([X_RATIO.entry(reduction.x()), Y_RATIO.entry(reduction.y())]))
 }
 
 pub(super) fn image(reply: &Reply) -> Option<Values> {
     let Reply::ImageStatus(status) = reply else { return None };
-    Some(Values::from([STATUS.with(status.raw.clone())]))
+    Some(Values::from([STATUS.entry(status.raw.clone())]))
 }
 
 pub(super) fn write_angles(desired: &Desired<'_>) -> Result<Setting, WriteError> {
@@ -112,7 +112,7 @@ pub(super) fn write_image(desired: &Desired<'_>) -> Result<Setting, WriteError> 
 
 /// Where the references are taken from the present position, they are not known before.
 pub(super) fn angles_differing(proof: &Proof<'_>) -> Vec<&'static str> {
-    let takes_present = REFERENCE.of(proof.new) == Some(PRESENT);
+    let takes_present = REFERENCE.get(proof.new) == Some(PRESENT);
     proof.differing(|field, new, current| {
         let is_measured = takes_present && matches!(field.kind, Kind::Integer { .. });
         is_measured || field.kind.same(new, current)

@@ -40,7 +40,7 @@ const SERVER: &str = "server";
 const fn continue_tracking() -> Field {
     Field::write(CONTINUE_TRACKING, "Keep present track")
         .moving()
-        .about("Off: the present track is stopped. On: it runs to its end.")
+        .description("Off: the present track is stopped. On: it runs to its end.")
 }
 
 pub static FILE: Group = Group {
@@ -51,17 +51,17 @@ pub static FILE: Group = Group {
         Field::edit(FILE_NAME, "TLE file")
             .part_of(SATELLITE_OF_FILE)
             .moving()
-            .about("In the unit's folder of element files."),
+            .description("In the unit's folder of element files."),
         Field::edit(SATELLITE_NAME, "Satellite")
             .part_of(SATELLITE_OF_FILE)
             .moving()
-            .about("Its name as in the file."),
+            .description("Its name as in the file."),
         Field::edit(PERIOD, "Update period")
             .moving()
-            .about("Its unit is not documented here; days for web and FTP."),
+            .description("Its unit is not documented here; days for web and FTP."),
         continue_tracking(),
         Field::read(CATALOG_NUMBER, "Catalogue number")
-            .about("Of the satellite that the unit found in the file."),
+            .description("Of the satellite that the unit found in the file."),
         Field::read(MAXIMUM_ELEVATION_DEG, "Maximum elevation").in_unit("°"),
     ],
 };
@@ -71,7 +71,7 @@ pub static WEB: Group = Group {
     title: "Web",
     is_service: false,
     fields: &[
-        Field::edit(URL, "Web address").moving().about("A comma in it is sent as %2C."),
+        Field::edit(URL, "Web address").moving().description("A comma in it is sent as %2C."),
         Field::edit(PERIOD_DAYS, "Update period").moving().in_unit("days"),
         Field::edit(ON_ERROR, "When a fetch fails").moving(),
         continue_tracking(),
@@ -88,13 +88,13 @@ pub static FTP: Group = Group {
         Field::edit(PASSWORD, "Password")
             .part_of(SERVER)
             .moving()
-            .about("The unit sends it in clear text, also when it is queried."),
-        Field::edit(PORT, "Port").part_of(SERVER).moving().about("22 is SFTP, 21 is FTP."),
+            .description("The unit sends it in clear text, also when it is queried."),
+        Field::edit(PORT, "Port").part_of(SERVER).moving().description("22 is SFTP, 21 is FTP."),
         Field::edit(FILE_NAME, "TLE file").part_of(SATELLITE_OF_FILE).moving(),
         Field::edit(SATELLITE, "Satellite")
             .part_of(SATELLITE_OF_FILE)
             .moving()
-            .about("Its name as in the file."),
+            .description("Its name as in the file."),
         Field::edit(PERIOD_DAYS, "Update period").moving().in_unit("days"),
         Field::edit(ON_ERROR, "When a fetch fails").moving(),
     ],
@@ -107,15 +107,15 @@ fn password(text: &str) -> Result<(), Unfit> {
 pub(super) fn file(reply: &Reply) -> Option<Values> {
     let Reply::Satellite(satellite) = reply else { return None };
     let mut values = Values::from([
-        FILE_NAME.with(satellite.file.clone()),
-        SATELLITE_NAME.with(satellite.name.clone()),
-        PERIOD.with(satellite.period.into()),
+        FILE_NAME.entry(satellite.file.clone()),
+        SATELLITE_NAME.entry(satellite.name.clone()),
+        PERIOD.entry(satellite.period.into()),
     ]);
     // Both are 0 while the unit has found no satellite.
     if satellite.catalog_number > 0 {
         values.extend([
-            CATALOG_NUMBER.with(satellite.catalog_number.into()),
-            MAXIMUM_ELEVATION_DEG.with(satellite.maximum_elevation_deg),
+            CATALOG_NUMBER.entry(satellite.catalog_number.into()),
+            MAXIMUM_ELEVATION_DEG.entry(satellite.maximum_elevation_deg),
         ]);
     }
     Some(values)
@@ -124,23 +124,23 @@ pub(super) fn file(reply: &Reply) -> Option<Values> {
 pub(super) fn web(reply: &Reply) -> Option<Values> {
     let Reply::SatelliteHttp(web) = reply else { return None };
     Some(Values::from([
-        URL.with(web.url.clone()),
-        PERIOD_DAYS.with(web.period_days.into()),
-        ON_ERROR.with(web.on_error.code()),
+        URL.entry(web.url.clone()),
+        PERIOD_DAYS.entry(web.period_days.into()),
+        ON_ERROR.entry(web.on_error.code()),
     ]))
 }
 
 pub(super) fn ftp(reply: &Reply) -> Option<Values> {
     let Reply::SatelliteFtp(ftp) = reply else { return None };
     Some(Values::from([
-        ADDRESS.with(ftp.address.clone()),
-        USER.with(ftp.user.clone()),
-        PASSWORD.with(Secret::new(ftp.password.reveal())),
-        PORT.with(ftp.port.into()),
-        FILE_NAME.with(ftp.file.clone()),
-        SATELLITE.with(ftp.satellite.clone()),
-        PERIOD_DAYS.with(ftp.period_days.into()),
-        ON_ERROR.with(ftp.on_error.code()),
+        ADDRESS.entry(ftp.address.clone()),
+        USER.entry(ftp.user.clone()),
+        PASSWORD.entry(Secret::new(ftp.password.reveal())),
+        PORT.entry(ftp.port.into()),
+        FILE_NAME.entry(ftp.file.clone()),
+        SATELLITE.entry(ftp.satellite.clone()),
+        PERIOD_DAYS.entry(ftp.period_days.into()),
+        ON_ERROR.entry(ftp.on_error.code()),
     ]))
 }
 

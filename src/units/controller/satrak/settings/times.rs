@@ -33,12 +33,12 @@ pub static WINDOW: Group = Group {
             .part_of(FROM_START_TO_STOP)
             .in_unit("UTC")
             .moving()
-            .about("The unit tracks from here on while tracking is switched on."),
+            .description("The unit tracks from here on while tracking is switched on."),
         Field::edit(STOP, "Stop")
             .part_of(FROM_START_TO_STOP)
             .in_unit("UTC")
             .moving()
-            .about("The unit ends tracking here."),
+            .description("The unit ends tracking here."),
     ],
 };
 
@@ -61,36 +61,36 @@ pub static CLOCK: Group = Group {
         Field::read(TIME, "Unit clock"),
         Field::read(AHEAD_S, "Ahead of this PC").in_unit("s"),
         Field::read(IS_FROM_GPS, "Updated from GPS"),
-        Field::write(SET_FROM, "Set from").moving().about("The unit tracks by its clock."),
+        Field::write(SET_FROM, "Set from").moving().description("The unit tracks by its clock."),
     ],
 };
 
 pub(super) fn window(reply: &Reply) -> Option<Values> {
     let Reply::StartStopTime(window) = reply else { return None };
-    Some(Values::from([START.with(window.start), STOP.with(window.stop)]))
+    Some(Values::from([START.entry(window.start), STOP.entry(window.stop)]))
 }
 
 /// A unit that updates its clock from GPS is left alone: it would take the setting back.
 pub(in crate::controller::satrak) static CLOCK_SETTING: ClockSetting = ClockSetting {
     group: CLOCK.key,
-    from_here: || Values::from([SET_FROM.with(FROM_THIS_PC)]),
-    is_kept_by_unit: |values| IS_FROM_GPS.of(values) == Some(true),
+    from_here: || Values::from([SET_FROM.entry(FROM_THIS_PC)]),
+    is_kept_by_unit: |values| IS_FROM_GPS.get(values) == Some(true),
 };
 
 /// The values [`ahead`] and [`is_from_gps`] come from elsewhere.
 pub(super) fn clock(reply: &Reply) -> Option<Values> {
     let Reply::Clock(clock) = reply else { return None };
-    Some(Values::from([TIME.with(clock.time)]))
+    Some(Values::from([TIME.entry(clock.time)]))
 }
 
 /// How far the unit's clock is ahead of the computer's, as it is shown.
 pub(in crate::controller::satrak) fn ahead(clock: &UnitClock) -> (&'static str, Value) {
-    AHEAD_S.with((clock.ahead_s * 10.0).round() / 10.0)
+    AHEAD_S.entry((clock.ahead_s * 10.0).round() / 10.0)
 }
 
 /// STATUS tells whether the unit has updated its clock from GPS; TIME does not.
 pub(in crate::controller::satrak) fn is_from_gps(is_from_gps: bool) -> (&'static str, Value) {
-    IS_FROM_GPS.with(is_from_gps)
+    IS_FROM_GPS.entry(is_from_gps)
 }
 
 pub(super) fn write_window(desired: &Desired<'_>) -> Result<Setting, WriteError> {
@@ -120,7 +120,7 @@ pub(super) fn write_clock(desired: &Desired<'_>) -> Result<Setting, WriteError> 
 
 /// GPS knows the time better than this computer.
 pub(super) fn clock_differing(proof: &Proof<'_>) -> Vec<&'static str> {
-    let from_gps = SET_FROM.of(proof.new) == Some(FROM_GPS);
+    let from_gps = SET_FROM.get(proof.new) == Some(FROM_GPS);
     let is_right = proof.ahead_s.is_some_and(|ahead_s| ahead_s.abs() <= CLOCK_RIGHT_S);
     if from_gps || is_right { Vec::new() } else { vec![TIME.name] }
 }

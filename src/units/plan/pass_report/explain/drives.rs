@@ -64,7 +64,7 @@ impl Evidence<'_> {
         let (best_share, fit) = searched(fit)?;
         let start = points.get(place(best_share))?.time;
         Some(FoundCause {
-            cause: Cause::Stuck { since: start, axis: self.axis(axes) },
+            cause: Cause::Stuck { start, axis: self.axis(axes) },
             partner: None,
             fit,
         })

@@ -274,7 +274,7 @@ fn a_line_of_several_holds_the_true_cause_and_none_that_the_positions_exclude() 
         }));
         let exact = evidence_of(exact);
         for line_item in line.iter().filter(|explanation| {
-            explanation.with.is_none() && !is_same_kind(&explanation.cause, &cause)
+            explanation.partner.is_none() && !is_same_kind(&explanation.cause, &cause)
         }) {
             wrong += 1;
             let is_excluded = is_excluded(&line_item.cause, &exact, &others);
@@ -321,7 +321,7 @@ fn two_causes_that_act_together_are_named_together_with_their_sizes() {
         );
         let found = evidence.explanations(&[(flight.elements.epoch(), other)]);
         row[0] += 1;
-        let by_one = found.iter().find(|explanation| explanation.with.is_none());
+        let by_one = found.iter().find(|explanation| explanation.partner.is_none());
         let squares = exact.iter().map(|(time, direction)| {
             direction.separation(flight.direction_at(*time)).degrees().powi(2)
         });
@@ -389,7 +389,7 @@ fn several_passes_tell_apart_what_one_does_not() {
         }
         let found = evidence.explanations(&[]);
         let Cause::Late { late_s: told_s } = found[0].cause else { panic!("{found:?}") };
-        assert!(found[0].with.is_none() && (told_s - late_s).abs() < 0.1 * late_s, "{found:?}");
+        assert!(found[0].partner.is_none() && (told_s - late_s).abs() < 0.1 * late_s, "{found:?}");
         assert_eq!(found.len(), 1, "{found:?}");
         count += 1;
     }
@@ -577,10 +577,10 @@ fn the_clock_that_a_unit_tells_is_named_beside_what_is_left() {
                 .explanations(&[])
         };
         let [only] = found(&late)[..] else { panic!("{:?}", found(&late)) };
-        assert_eq!((only.cause, only.with), (Cause::Late { late_s: 0.69 }, None));
+        assert_eq!((only.cause, only.partner), (Cause::Late { late_s: 0.69 }, None));
         let [pair] = found(&measured_both)[..] else { panic!("{:?}", found(&measured_both)) };
         assert_eq!(pair.cause, Cause::Late { late_s: 0.69 });
-        let Some(Cause::AzimuthOffset { offset_deg }) = pair.with else { panic!("{pair:?}") };
+        let Some(Cause::AzimuthOffset { offset_deg }) = pair.partner else { panic!("{pair:?}") };
         assert!((offset_deg - 1.3).abs() < 0.05, "{pair:?}");
     }
 }
@@ -639,12 +639,12 @@ fn a_stuck_axis_is_named_with_the_time_since_when_it_stands() {
         let other = Propagator::new(&flight.elements).unwrap();
         let start = add_seconds(flight.pass.aos.time, 0.3 * flight.pass.duration_s());
         for axis in [Some(Axis::Azimuth), None] {
-            let exact = measured(flight, AZ_EL, &Cause::Stuck { since: start, axis }, &other);
+            let exact = measured(flight, AZ_EL, &Cause::Stuck { start, axis }, &other);
             let noisy_track = noisy(&exact, &mut random);
             let found = Evidence::new(AZ_EL, true, deg(HALF_BEAM_DEG))
                 .with_pass(&flight.propagator, flight.site, UNIT, noisy_track.into_iter())
                 .explanations(&[]);
-            let Some(Cause::Stuck { since: found_since, axis: named }) =
+            let Some(Cause::Stuck { start: found_since, axis: named }) =
                 found.first().map(|best| best.cause)
             else {
                 panic!("{found:?}")
@@ -660,7 +660,7 @@ fn after_an_axis_did_not_turn_as_commanded_only_drives_explain_an_error() {
     let flight = &flights()[0];
     let mut random = Random::new(SEED);
     let start = add_seconds(flight.pass.aos.time, 0.3 * flight.pass.duration_s());
-    let stuck = Cause::Stuck { since: start, axis: Some(Axis::Azimuth) };
+    let stuck = Cause::Stuck { start, axis: Some(Axis::Azimuth) };
     let late = Cause::Late { late_s: 20.0 };
     for (cause, is_named) in [(stuck, true), (late, false)] {
         let exact = measured(flight, AZ_EL, &cause, &flight.propagator);
@@ -700,7 +700,7 @@ fn the_refraction_that_a_unit_leaves_out_is_named_beside_any_other_cause() {
         let alone = measured(flight, AZ_EL, &Cause::Refraction, &flight.propagator);
         let named = found(&alone, UNIT, &mut random);
         let [only] = named[..] else { panic!("{named:?}") };
-        assert_eq!((only.cause, only.with), (Cause::Refraction, None));
+        assert_eq!((only.cause, only.partner), (Cause::Refraction, None));
         let offset = Cause::AzimuthOffset { offset_deg: 0.4 };
         let measured_both = measured_of(flight, AZ_EL, &alone, &offset, &flight.propagator);
         let named = found(&measured_both, UNIT, &mut random);
@@ -724,11 +724,11 @@ fn the_refraction_that_a_unit_leaves_out_is_named_beside_any_other_cause() {
 #[test]
 fn what_explains_a_small_error_does_not_explain_a_large_one() {
     let explained = |cause| {
-        let explanation = Explanation { cause, with: None, left_deg: 0.01, share: 0.97 };
+        let explanation = Explanation { cause, partner: None, left_deg: 0.01, share: 0.97 };
         Explained { causes: vec![explanation], error_deg: 0.5 }
     };
     let late = explained(Cause::Late { late_s: 0.4 });
-    let stuck = explained(Cause::Stuck { since: Timestamp::UNIX_EPOCH, axis: Some(Axis::X) });
+    let stuck = explained(Cause::Stuck { start: Timestamp::UNIX_EPOCH, axis: Some(Axis::X) });
     for (off_deg, late_can, stuck_can) in [(0.6, true, true), (6.0, false, true)] {
         let deviation = Angle::from_degrees(off_deg);
         assert_eq!(

@@ -274,7 +274,7 @@ fn an_unwrap_is_on_its_way_until_the_predicted_time_and_else_the_antenna_is_on_i
     let run = run(target, &pass, azel((0.0, 360.0), 4.0, 0.0), settings(1.0, 0.2));
     let turns = |entry: &&(f64, OnPath)| matches!(entry.1, OnPath::OnItsWay { .. });
     let first = run.on_path.iter().position(|entry| turns(&entry)).unwrap();
-    let (_, OnPath::OnItsWay { until: Some(end) }) = run.on_path[first] else {
+    let (_, OnPath::OnItsWay { arrival: Some(end) }) = run.on_path[first] else {
         panic!("{:?}", run.on_path[first]);
     };
     let back_s = run.on_path[first..].iter().find(|entry| !turns(entry)).unwrap().0;
@@ -284,7 +284,7 @@ fn an_unwrap_is_on_its_way_until_the_predicted_time_and_else_the_antenna_is_on_i
     // 360 degrees at 4 degrees a second, four times a second.
     assert!((200..500).contains(&turning), "{turning}");
     for (at_s, compared) in &run.on_path {
-        if let OnPath::Due { off: deviation } = compared {
+        if let OnPath::Due { deviation } = compared {
             assert!(deviation.degrees() < 0.7, "{deviation:?} at {at_s}");
         }
     }
@@ -297,7 +297,7 @@ fn an_antenna_that_stands_is_off_its_path_once_it_should_have_arrived() {
     let stuck = Metal { rate_deg_s: 0.0, ..metal(drives, settings) };
     let run = run_on(target, &pass, drives, settings, &stuck);
     let due = run.on_path.iter().filter(
-        |(_, compared)| matches!(compared, OnPath::Due { off: deviation } if deviation.degrees() > 10.0),
+        |(_, compared)| matches!(compared, OnPath::Due { deviation } if deviation.degrees() > 10.0),
     );
     assert!(due.count() > run.on_path.len() / 2);
 }
@@ -496,7 +496,7 @@ fn mast(target: &Target, pass: &Pass, around_deg: f64) -> (Bounds, KeepOut) {
     let mut antenna = Antenna::rc2000c("", "");
     antenna.limits.minimum_elevation_deg = 0.0;
     let station = Station { site: site(), keep_outs: vec![mast.clone()], ..Station::default() };
-    (Bounds::of(&station, &antenna), mast)
+    (Bounds::new(&station, &antenna), mast)
 }
 
 #[test]
@@ -518,7 +518,7 @@ fn a_mast_in_the_middle_of_a_pass_is_gone_round_along_its_margin() {
                 return;
             }
             nearest_deg =
-                nearest_deg.min(bounds.at(now).nearest(direction).unwrap().angle.degrees());
+                nearest_deg.min(bounds.at_time(now).nearest(direction).unwrap().angle.degrees());
             let target = course.direction(now).unwrap();
             let off_deg = target.separation(direction).degrees();
             if mast.zone.clearance(target) < Angle::from_degrees(8.0) {
@@ -546,7 +546,7 @@ fn what_sets_behind_a_mast_is_waited_for_at_its_edge() {
     let station = Station { site: site(), keep_outs: vec![mast], ..Station::default() };
     let mut antenna = Antenna::rc2000c("", "");
     antenna.limits.minimum_elevation_deg = 0.0;
-    let bounds = Bounds::of(&station, &antenna);
+    let bounds = Bounds::new(&station, &antenna);
     let drives = azel((-180.0, 540.0), 6.0, 0.0);
     let settings = settings(0.5, 0.2);
     let track = ProgramTrack::new(target, site(), vec![(pass.aos.time, pass.los.time)]);
@@ -554,7 +554,7 @@ fn what_sets_behind_a_mast_is_waited_for_at_its_edge() {
     let mut last_deg = f64::MAX;
     run_planner(planner, &pass, settings, &metal(drives, settings), |now, axes_deg| {
         if now >= pass.aos.time {
-            let clear = bounds.at(now).nearest(bounds.direction(axes_deg)).unwrap();
+            let clear = bounds.at_time(now).nearest(bounds.direction(axes_deg)).unwrap();
             last_deg = bounds.direction(axes_deg).separation(pass.los.direction).degrees();
             assert!(clear.angle.degrees() > -0.05, "{clear:?}");
         }

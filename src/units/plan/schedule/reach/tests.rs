@@ -120,7 +120,7 @@ fn directions_between_few_states_are_judged_as_those_of_the_orbit() {
 /// A part that is out of reach is that, and no slew, even if the axis changes ends meanwhile.
 fn assert_same_loss(judged: Option<Lost>, many: Option<Lost>, label: &str) {
     assert_eq!(judged.map(|lost| lost.seconds), many.map(|lost| lost.seconds), "{label}");
-    let [judged, many] = [judged, many].map(|lost| lost.map(|lost| lost.at));
+    let [judged, many] = [judged, many].map(|lost| lost.map(|lost| lost.loss));
     let changes_ends = matches!((judged, many), (Some(Loss::BeyondAzimuth(_)), Some(Loss::Slew)));
     assert!(judged == many || changes_ends, "{label}: {judged:?} {many:?}");
 }
@@ -255,7 +255,7 @@ fn assert_outside(reach: &Reach, way: &Way, label: &str) {
         if way.counted_ms(span) < span.length_ms() {
             continue;
         }
-        let bounds = reach.bounds.at(at_ms(time_ms));
+        let bounds = reach.bounds.at_time(at_ms(time_ms));
         let nearest = bounds.nearest(reach.bounds.direction(way.axes_deg(time_ms)));
         // Between two samples the axes may cut a corner.
         let inside_deg = nearest.map_or(0.0, |nearest| -nearest.angle.degrees());
@@ -294,15 +294,16 @@ fn a_park_position_out_of_reach_costs_no_pass() {
         assert!(free.iter().filter(|(_, is_possible)| *is_possible).count() > 30, "{free:?}");
         assert_eq!(judged(&mut station, 3.0), free, "{entered:?}");
         for antenna in &station.antennas {
-            let reach = Reach::of(&station, antenna, None);
+            let reach = Reach::from_station(&station, antenna, None);
             let open = reach.open_sky(noon()).unwrap();
-            assert!(reach.bounds.at(noon()).forbids(open).is_none(), "{open:?}");
+            assert!(reach.bounds.at_time(noon()).forbids(open).is_none(), "{open:?}");
         }
     }
     // 0 degrees is outside the travel of the third antenna.
     let mut station = three_antennas();
     let can_park = |station: &Station| {
-        let reach = station.antennas.iter().map(|antenna| Reach::of(station, antenna, None));
+        let reach =
+            station.antennas.iter().map(|antenna| Reach::from_station(station, antenna, None));
         reach.map(|reach| reach.can_park(noon())).collect::<Vec<_>>()
     };
     assert_eq!(can_park(&station), [true; 3]);
@@ -335,8 +336,8 @@ fn ways_lead_to_the_open_sky_beside_any_park_position() {
             antenna.park = park;
         }
         for antenna in &station.antennas {
-            let reach = Reach::of(&station, antenna, None);
-            let now = reach.bounds.at(noon());
+            let reach = Reach::from_station(&station, antenna, None);
+            let now = reach.bounds.at_time(noon());
             let open_deg = reach.open_sky_deg(&now).unwrap();
             let [(from_deg, to_deg), _] = reach.slews.travel_deg;
             for first_deg in [from_deg + 30.0, to_deg - 30.0] {

@@ -3,7 +3,7 @@
 use jiff::Timestamp;
 
 use crate::plan::schedule::{
-    Candidate, Common, PlannedAntenna, Reach, Request, Sight, Steadiness, Wanted,
+    Candidate, Common, PassPolicy, PlannedAntenna, Reach, Request, Sight, Steadiness,
 };
 use crate::{
     astro::time::add_seconds,
@@ -113,12 +113,12 @@ pub(in crate::plan) fn add_barriers(station: &mut Station, random: &mut Random) 
 pub(in crate::plan) fn planned(station: &Station, start: Timestamp) -> Vec<PlannedAntenna> {
     let planned_antenna = |antenna: &Antenna| PlannedAntenna {
         id: antenna.id,
-        reach: Reach::of(station, antenna, None),
+        reach: Reach::from_station(station, antenna, None),
         set_up_s: if antenna.name == "Satrak" { 20.0 } else { 2.0 },
-        between: BetweenPasses::Wait,
+        between_passes: BetweenPasses::Wait,
         free_from: start,
         stands_deg: Some([180.0, 45.0]),
-        off: None,
+        off_reason: None,
     };
     station.antennas.iter().map(planned_antenna).collect()
 }
@@ -190,7 +190,7 @@ fn candidate(
     let mask = station.horizon_mask.as_ref();
     let mut sight = Sight::new(propagator, station.site, mask, pass);
     let DrawnSatellite { priority, limits, take, .. } = satellite;
-    let pass_wishes = Wanted { priority: *priority, take: *take, limits, by_rule: &|_| None };
+    let pass_wishes = PassPolicy { priority: *priority, take: *take, limits, by_rule: &|_| None };
     let number = satellite.elements.catalog_number();
     let age_s = satellite.elements.epoch_distance_s(pass.aos.time);
     Candidate::new(number, age_s, (pass, propagator), pass_wishes, &mut sight, common)

@@ -15,7 +15,7 @@ fn take(decoder: &mut Decoder, bytes: &[u8]) -> Vec<Received> {
 }
 
 fn stop() -> Received {
-    Received::Reply(Reply::Acknowledgement { to: Acknowledgement::Stop, is_accepted: true })
+    Received::Reply(Reply::Acknowledgement { request: Acknowledgement::Stop, is_accepted: true })
 }
 
 fn status(received: &Received) -> &Status {

@@ -19,9 +19,7 @@ pub(super) fn meaning(frame: &Frame) -> Meaning {
             Meaning::new(Tone::Caution, "Not in the document")
         }
         Err(ReplyError::NeitherOkNorErr(_)) => Meaning::new(Tone::Bad, "Neither OK nor ERR"),
-        Err(ReplyError::Count {
-            found, least: min, most: max, looks_like_decimal_commas, ..
-        }) => {
+        Err(ReplyError::Count { found, min, max, looks_like_decimal_commas, .. }) => {
             let reason =
                 if looks_like_decimal_commas { ", decimal commas by the look" } else { "" };
             let expected = match max {

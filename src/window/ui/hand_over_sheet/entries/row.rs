@@ -38,14 +38,14 @@ impl Row {
     pub(super) fn of(sheet: &HandOverSheet<'_>, entry: &Entry) -> Self {
         let number = entry.pass.satellite;
         let pass = sheet.pass(entry.pass);
-        let whole = pass.map_or((entry.from, entry.to), |pass| (pass.aos.time, pass.los.time));
+        let whole = pass.map_or((entry.start, entry.end), |pass| (pass.aos.time, pass.los.time));
         let max = pass.map(|pass| {
             let (azimuth_deg, elevation_deg) =
                 (pass.tca.direction.azimuth_deg(), pass.max_elevation().degrees());
             format!("{} {}", format::degrees(elevation_deg, 0), format::azimuth(azimuth_deg))
         });
         let antenna = sheet.station.antennas.iter().find(|it| it.id == entry.antenna);
-        let between = antenna.map_or(BetweenPasses::default(), |it| it.automatic.between);
+        let between = antenna.map_or(BetweenPasses::default(), |it| it.automatic.between_passes);
         let priority = match entry.class {
             Class::Always => "A".to_owned(),
             Class::Priority(priority) => priority.number().to_string(),
@@ -68,7 +68,7 @@ impl Row {
             spare: entry.spare_s.map_or_else(|| "\u{2013}".to_owned(), format::duration),
             is_spare_short: entry.spare_s.is_some_and(|spare_s| spare_s < SHORT_S),
             whole: sheet.track(number, whole.0, whole.1),
-            taken: sheet.track(number, entry.from, entry.to),
+            taken: sheet.track(number, entry.start, entry.end),
         }
     }
 }

@@ -51,7 +51,7 @@ impl CardHandler<'_> {
             }
             CardAction::KeepOffsets(of) => {
                 let track = self.antenna.snapshot.program_track.as_ref();
-                let keep = |offsets| contract::Command::KeepOffsets { of, offsets };
+                let keep = |offsets| contract::Command::KeepOffsets { subject: of, offsets };
                 let keep = track.map(|track| UiCommand::Station(keep(track.offsets)));
                 return self.commands.extend(keep);
             }

@@ -55,7 +55,8 @@ pub(super) fn travel(antenna: &AntennaModel) -> Vec<TravelModel<'static>> {
     let can = antenna.variant().capabilities;
     let state = &antenna.snapshot.state;
     let mount = antenna.config.mount;
-    let [whole_deg, within_deg] = [mount, mount.within(state.travel_deg)].map(|it| it.travel_deg());
+    let [whole_deg, within_deg] =
+        [mount, mount.clipped(state.travel_deg)].map(|it| it.travel_deg());
     let gauge = |index: usize| {
         let axis = state.measured.and_then(|measured| measured.axes.get(index).copied());
         let (name, whole_deg) = (can.axes.get(index)?, *whole_deg.get(index)?);

@@ -35,9 +35,9 @@ fn live_antenna(live: &Model, antenna: &AntennaModel) -> LiveAntenna {
 
 fn next(live: &Model) -> String {
     let entries = live.schedule.schedule.entries.iter();
-    let next = entries.filter(|entry| entry.from > live.now).min_by_key(|entry| entry.from);
+    let next = entries.filter(|entry| entry.start > live.now).min_by_key(|entry| entry.start);
     let Some(next) = next else { return "no pass is planned".to_owned() };
     let name = words::schedule::satellite_name(live, next.pass.satellite);
-    let at = format::moment(next.from, live.now);
-    format!("{name} at {at}, in {}", format::time_left(live.now, next.from))
+    let at = format::moment(next.start, live.now);
+    format!("{name} at {at}, in {}", format::time_left(live.now, next.start))
 }

@@ -5,7 +5,7 @@ use crate::{
         antenna::{AntennaModel, NoMotion},
         driver::{Intent, LinkState},
     },
-    device::{Asked, Motion, panel::Check},
+    device::{Motion, MotionRequest, panel::Check},
     model::Model,
     ui::state_sentence::missing_angle,
 };
@@ -99,7 +99,7 @@ impl<'a> Locks<'a> {
 
 /// The reason, by the age of the position, why this motion is not offered.
 fn no_motion(model: &Model, antenna: &AntennaModel, motion: Motion) -> Option<&'static str> {
-    let reason = antenna.no_motion(&Asked::Motion(motion), model.steady)?;
+    let reason = antenna.no_motion(&MotionRequest::Motion(motion), model.steady)?;
     Some(match reason {
         NoMotion::Unread => "Locked: the position is not read yet.",
         NoMotion::Late => LATE,

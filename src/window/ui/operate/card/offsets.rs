@@ -4,7 +4,7 @@ use super::Locks;
 use crate::{
     contract::antenna::AntennaModel,
     model::Model,
-    station::OffsetsOf,
+    station::OffsetsSubject,
     ui::{
         antenna_card::{OffsetsIn, OffsetsModel},
         state_sentence::short,
@@ -15,7 +15,7 @@ use crate::{
 /// Values that the section borrows.
 pub(super) struct CardOffsets<'a> {
     /// Subjects that Azel can remember the offsets in force for, and whether that would be new.
-    keep: Vec<(OffsetsOf, &'a str, bool)>,
+    keep: Vec<(OffsetsSubject, &'a str, bool)>,
     /// Offsets on the unit, in words.
     on_unit: String,
     /// Offsets that are still on the unit although no track needs them, in words.
@@ -80,13 +80,13 @@ impl<'a> CardOffsets<'a> {
     }
 }
 
-fn kept<'a>(model: &Model, antenna: &'a AntennaModel) -> Vec<(OffsetsOf, &'a str, bool)> {
+fn kept<'a>(model: &Model, antenna: &'a AntennaModel) -> Vec<(OffsetsSubject, &'a str, bool)> {
     let Some(track) = &antenna.snapshot.program_track else { return Vec::new() };
     let of_satellite =
-        track.catalog_number.map(|number| (OffsetsOf::Satellite(number), short(&track.name)));
-    let of_antenna = (OffsetsOf::Antenna(antenna.id()), &*antenna.config.name);
+        track.catalog_number.map(|number| (OffsetsSubject::Satellite(number), short(&track.name)));
+    let of_antenna = (OffsetsSubject::Antenna(antenna.id()), &*antenna.config.name);
     let each = of_satellite.into_iter().chain([of_antenna]);
-    let differs = |of: OffsetsOf| of.part(track.offsets) != model.station.kept_offsets(of);
+    let differs = |of: OffsetsSubject| of.part(track.offsets) != model.station.kept_offsets(of);
     each.map(|(of, name)| (of, name, differs(of))).collect()
 }
 

@@ -6,7 +6,7 @@ use jiff::Timestamp;
 
 use crate::{
     contract,
-    contract::record::{Peak, PeakChange, PeakOf},
+    contract::record::{Peak, PeakBody, PeakChange},
     device::settings::number,
     model::{Model, UiCommand},
     station::AntennaId,
@@ -25,7 +25,7 @@ const ANGLE: f32 = 72.0;
 /// A peak being entered; empty fields mean "now".
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(in crate::ui::preferences) struct TypedPeak {
-    of: PeakOf,
+    of: PeakBody,
     at: String,
     azimuth: String,
     elevation: String,
@@ -34,7 +34,7 @@ pub(in crate::ui::preferences) struct TypedPeak {
 impl Default for TypedPeak {
     fn default() -> Self {
         let [at, azimuth, elevation] = [const { String::new() }; 3];
-        Self { of: PeakOf::Sun, at, azimuth, elevation }
+        Self { of: PeakBody::Sun, at, azimuth, elevation }
     }
 }
 
@@ -58,8 +58,8 @@ impl TypedPeak {
         let azimuths = Peak::AZIMUTHS_DEG;
         let elevations = Peak::ELEVATIONS_DEG;
         Ok(Peak {
-            of: self.of,
-            at,
+            body: self.of,
+            time: at,
             azimuth_deg: angle("azimuth", &self.azimuth, azimuth, &azimuths)?,
             elevation_deg: angle("elevation", &self.elevation, elevation, &elevations)?,
         })
@@ -99,7 +99,7 @@ pub(super) fn show(
     let mut change = |change| {
         commands.push(UiCommand::Station(contract::Command::ChangePeaks(id, change)));
     };
-    for peak in model.peaks.of(id) {
+    for peak in model.peaks.for_antenna(id) {
         ui.horizontal(|ui| {
             let words = in_words(peak, model);
             ui.label(RichText::new(&words).font(text::small()).color(t.t1));
@@ -116,7 +116,7 @@ pub(super) fn show(
     let measured = measured(model, id);
     let hints = measured.map(|deg| deg.map(|of| format::number(of, 2)));
     ui.horizontal_wrapped(|ui| {
-        for of in [PeakOf::Sun, PeakOf::Moon] {
+        for of in [PeakBody::Sun, PeakBody::Moon] {
             ui.radio_value(&mut typed.of, of, peak_of(of));
         }
         let is_now = typed.at.trim().is_empty();
@@ -172,7 +172,7 @@ fn measured(model: &Model, id: AntennaId) -> Option<[f64; 2]> {
 }
 
 fn in_words(peak: &Peak, model: &Model) -> String {
-    let (of, at) = (peak_of(peak.of), format::moment(peak.at, model.now));
+    let (of, at) = (peak_of(peak.body), format::moment(peak.time, model.now));
     let [azimuth, elevation] =
         [peak.azimuth_deg, peak.elevation_deg].map(|deg| format::degrees(deg, 2));
     format!("{of}, {at}: az {azimuth}, el {elevation}")
@@ -181,10 +181,10 @@ fn in_words(peak: &Peak, model: &Model) -> String {
 /// Says that a peak is far from where the Sun or the Moon was.
 fn far(peak: &Peak, model: &Model) -> Option<String> {
     let point = peak.point(model.station.site);
-    let off_deg = point.wanted.separation(point.measured).degrees();
+    let off_deg = point.direction.separation(point.measured).degrees();
     (off_deg > FAR_DEG).then(|| {
-        let of = peak_of(peak.of);
-        let (off, at) = (format::degrees(off_deg, 0), format::pointing_at(point.wanted));
+        let of = peak_of(peak.body);
+        let (off, at) = (format::degrees(off_deg, 0), format::pointing_at(point.direction));
         format!("The {of} was at {at} then: that is {off} from there.")
     })
 }
@@ -199,18 +199,19 @@ mod tests {
 
     fn typed(at: &str, azimuth: &str, elevation: &str) -> TypedPeak {
         let [at, azimuth, elevation] = [at, azimuth, elevation].map(str::to_owned);
-        TypedPeak { of: PeakOf::Moon, at, azimuth, elevation }
+        TypedPeak { of: PeakBody::Moon, at, azimuth, elevation }
     }
 
     #[test]
     fn what_is_empty_is_that_of_now() {
         let measured = Some([180.5, 30.25]);
         let read = |typed: TypedPeak| typed.read(now(), measured);
-        let peak = Peak { of: PeakOf::Moon, at: now(), azimuth_deg: 180.5, elevation_deg: 30.25 };
+        let peak =
+            Peak { body: PeakBody::Moon, time: now(), azimuth_deg: 180.5, elevation_deg: 30.25 };
         assert_eq!(read(typed("", "", "")), Ok(peak));
         assert_eq!(read(typed("", "181", "")), Ok(Peak { azimuth_deg: 181.0, ..peak }));
         let at = "2026-11-30T11:00:00Z".parse().unwrap();
-        let earlier = Peak { at, azimuth_deg: -170.0, elevation_deg: 20.0, ..peak };
+        let earlier = Peak { time: at, azimuth_deg: -170.0, elevation_deg: 20.0, ..peak };
         assert_eq!(read(typed("2026-11-30 11:00:00Z", "-170", " 20 ")), Ok(earlier));
         assert!(read(typed("2026-11-30 11:00:00Z", "", "")).is_err(), "that is not of then");
         assert!(typed("", "", "").read(now(), None).is_err());

@@ -104,7 +104,7 @@ fn terms(ui: &mut Ui, antenna: &Antenna, fit: &PointingFit, can_fit: bool) -> Op
             ui.end_row();
         }
     });
-    let is_fitted = |of: &&FittedTerm| !fit.without.contains(&of.term);
+    let is_fitted = |of: &&FittedTerm| !fit.excluded.contains(&of.term);
     for words in fit.terms.iter().filter(is_fitted).filter_map(not_told) {
         line(ui, &words);
     }
@@ -120,8 +120,8 @@ fn terms(ui: &mut Ui, antenna: &Antenna, fit: &PointingFit, can_fit: bool) -> Op
             ),
         );
     }
-    if !fit.without.is_empty() {
-        let terms: Vec<&str> = fit.without.iter().map(|term| pointing_term(*term)).collect();
+    if !fit.excluded.is_empty() {
+        let terms: Vec<&str> = fit.excluded.iter().map(|term| pointing_term(*term)).collect();
         line(ui, &format!("Left at 0, as you wanted: {}.", format::list(&terms).to_lowercase()));
     }
     let may_go = without(fit);
@@ -144,7 +144,7 @@ fn terms(ui: &mut Ui, antenna: &Antenna, fit: &PointingFit, can_fit: bool) -> Op
 /// The terms to leave out so that none is left that may be zero, if there is one.
 fn without(fit: &PointingFit) -> Option<Vec<Term>> {
     let zero: Vec<Term> = fit.terms.iter().filter(|of| may_be_zero(of)).map(|of| of.term).collect();
-    (!zero.is_empty()).then(|| [&fit.without[..], &zero].concat())
+    (!zero.is_empty()).then(|| [&fit.excluded[..], &zero].concat())
 }
 
 /// The terms of such a fit may have errors that cancel each other in these passes alone.

@@ -159,5 +159,5 @@ fn is_within(inner: HoursOfDay, outer: HoursOfDay) -> bool {
     const DAY_MIN: i32 = 24 * 60;
     let minute = |time: jiff::civil::Time| i32::from(time.hour()) * 60 + i32::from(time.minute());
     let after = |from, to| (minute(to) - minute(from)).rem_euclid(DAY_MIN);
-    after(outer.from, inner.from) + after(inner.from, inner.to) <= after(outer.from, outer.to)
+    after(outer.start, inner.start) + after(inner.start, inner.end) <= after(outer.start, outer.end)
 }

@@ -37,7 +37,7 @@ impl Decided {
     pub(super) fn of(station: Station, model: &Model) -> Self {
         let list = &model.pass_lists.favourites;
         let mut of_rules: Vec<Vec<DecidedPass>> = station.rules.iter().map(|_| vec![]).collect();
-        for predicted in list.within(model.now, AHEAD_H).iter() {
+        for predicted in list.upcoming_within(model.now, AHEAD_H).iter() {
             let (number, pass) = (predicted.number(), &predicted.pass);
             let at = (pass.tca.time, sun_is(&station, pass.tca.time));
             for antenna in &station.antennas {

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use super::cannot_act::{self, Around};
 use crate::{
-    station::{AntennaId, AutomationRule, HoursOfDay, RuleOf, Station, SunIs, Then},
+    station::{AntennaId, AutomationRule, HoursOfDay, RuleAction, RuleSubject, Station, SunIs},
     ui::preferences::{
         draft::Draft,
         fields::{Description, Placed, Problem, Typed, placed},
@@ -27,7 +27,7 @@ pub(super) struct Conditions {
     pub(super) is_by_hours: bool,
     /// They wait here while the rule holds at all hours.
     pub(super) hours: HoursOfDay,
-    pub(super) then: Then,
+    pub(super) then: RuleAction,
 }
 
 /// The satellites of a rule.
@@ -64,16 +64,16 @@ impl RuleDraft {
             sun: rule.sun,
             is_by_hours: rule.hours.is_some(),
             hours: rule.hours.unwrap_or(HoursOfDay::NIGHT),
-            then: rule.then,
+            then: rule.action,
         };
         Self {
             was,
             is_on: rule.is_on,
             antenna: rule.antenna,
-            of: match &rule.of {
+            of: match &rule.subject {
                 None => Of::All,
-                Some(RuleOf::Satellite(number)) => Of::Satellite(Some(*number)),
-                Some(RuleOf::Group(name)) => Of::Group(group(name)),
+                Some(RuleSubject::Satellite(number)) => Of::Satellite(Some(*number)),
+                Some(RuleSubject::Group(name)) => Of::Group(group(name)),
             },
             typed: Typed::of(conditions, fields()),
             is_removed: false,
@@ -102,17 +102,17 @@ impl RuleDraft {
     fn read(&self, around: &Around<'_>) -> Option<AutomationRule> {
         let of = match self.of {
             Of::All => None,
-            Of::Satellite(number) => Some(RuleOf::Satellite(number?)),
-            Of::Group(group) => Some(RuleOf::Group(around.group(group?)?)),
+            Of::Satellite(number) => Some(RuleSubject::Satellite(number?)),
+            Of::Group(group) => Some(RuleSubject::Group(around.group(group?)?)),
         };
         let conditions = self.typed.read().0;
         Some(AutomationRule {
             is_on: self.is_on,
             antenna: self.antenna,
-            of,
+            subject: of,
             sun: conditions.sun,
             hours: conditions.hours(),
-            then: conditions.then,
+            action: conditions.then,
         })
     }
 }
@@ -137,7 +137,7 @@ impl RulesDraft {
             sun: None,
             is_by_hours: false,
             hours: HoursOfDay::NIGHT,
-            then: Then::Leave,
+            then: RuleAction::Leave,
         };
         self.0.push(RuleDraft {
             was: None,
@@ -232,7 +232,7 @@ impl DraftSection for RulesDraft {
 
 fn fields() -> Vec<Placed<Conditions>> {
     const SUN: [Option<SunIs>; 3] = [None, Some(SunIs::Up), Some(SunIs::Down)];
-    const THENS: [Then; 3] = [Then::Take, Then::Leave, Then::Park];
+    const THENS: [RuleAction; 3] = [RuleAction::Take, RuleAction::Leave, RuleAction::Park];
     let mut fields = placed(
         WHEN,
         [
@@ -248,14 +248,14 @@ fn fields() -> Vec<Placed<Conditions>> {
                 &[false, true],
                 |conditions: &mut Conditions| &mut conditions.is_by_hours,
             ),
-            Description::time("From", |conditions: &mut Conditions| &mut conditions.hours.from)
+            Description::time("From", |conditions: &mut Conditions| &mut conditions.hours.start)
                 .in_unit("UTC")
                 .when(|conditions| conditions.is_by_hours),
-            Description::time("To", |conditions: &mut Conditions| &mut conditions.hours.to)
+            Description::time("To", |conditions: &mut Conditions| &mut conditions.hours.end)
                 .in_unit("UTC")
                 .when(|conditions| conditions.is_by_hours)
                 .checked(|conditions| {
-                    let HoursOfDay { from, to } = conditions.hours;
+                    let HoursOfDay { start: from, end: to } = conditions.hours;
                     if from == to { Err("must differ from From") } else { Ok(()) }
                 }),
         ],

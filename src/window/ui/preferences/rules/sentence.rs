@@ -5,7 +5,7 @@ use super::{
     draft::{Of, RuleDraft},
 };
 use crate::{
-    station::{HoursOfDay, SunIs, Then},
+    station::{HoursOfDay, RuleAction, SunIs},
     ui::words,
 };
 
@@ -18,22 +18,22 @@ pub(super) fn sentence(
     let passes = passes(rule, around, name);
     let then = rule.typed.read().0.then;
     let does = match (rule.antenna.map(|id| around.antenna(id)), then) {
-        (None, Then::Take) => format!("any antenna may take {passes}, whatever their limits"),
-        (None, Then::Leave) if rule.of == Of::All => "no antenna takes any pass".to_owned(),
-        (None, Then::Leave) => format!("no antenna takes {passes}"),
-        (None, Then::Park) if rule.of == Of::All => {
+        (None, RuleAction::Take) => format!("any antenna may take {passes}, whatever their limits"),
+        (None, RuleAction::Leave) if rule.of == Of::All => "no antenna takes any pass".to_owned(),
+        (None, RuleAction::Leave) => format!("no antenna takes {passes}"),
+        (None, RuleAction::Park) if rule.of == Of::All => {
             "all antennas are parked and take no passes".to_owned()
         }
-        (None, Then::Park) => format!("no antenna takes {passes}, but none is parked"),
+        (None, RuleAction::Park) => format!("no antenna takes {passes}, but none is parked"),
         (Some(antenna), then) => {
             let antenna = antenna.unwrap_or("an antenna that is removed");
             match then {
-                Then::Take => format!("{antenna} may take {passes}, whatever their limits"),
-                Then::Leave => format!("{antenna} leaves {passes} out"),
-                Then::Park if rule.of == Of::All => {
+                RuleAction::Take => format!("{antenna} may take {passes}, whatever their limits"),
+                RuleAction::Leave => format!("{antenna} leaves {passes} out"),
+                RuleAction::Park if rule.of == Of::All => {
                     format!("{antenna} is parked and takes no passes")
                 }
-                Then::Park => format!("{antenna} leaves {passes} out, but is not parked"),
+                RuleAction::Park => format!("{antenna} leaves {passes} out, but is not parked"),
             }
         }
     };
@@ -62,7 +62,7 @@ fn when(rule: &RuleDraft) -> String {
         SunIs::Down => "while the Sun is down".to_owned(),
     });
     let hours = conditions.hours().map(|hours| {
-        let [from, to] = [hours.from, hours.to].map(HoursOfDay::time_text);
+        let [from, to] = [hours.start, hours.end].map(HoursOfDay::time_text);
         format!("from {from} to {to} UTC")
     });
     sun.into_iter().chain(hours).collect::<Vec<_>>().join(", ")
@@ -88,7 +88,7 @@ pub(super) fn when_in_short(
         SunIs::Down => "Sun down".to_owned(),
     });
     let hours = conditions.hours().map(|hours| {
-        let [from, to] = [hours.from, hours.to].map(HoursOfDay::time_text);
+        let [from, to] = [hours.start, hours.end].map(HoursOfDay::time_text);
         format!("{from} to {to} UTC")
     });
     let parts: Vec<String> = of.into_iter().chain(sun).chain(hours).collect();
@@ -98,9 +98,9 @@ pub(super) fn when_in_short(
 /// Effect of a rule, in a few words.
 pub(super) fn then_in_short(rule: &RuleDraft) -> &'static str {
     match (rule.typed.read().0.then, rule.of) {
-        (Then::Take, _) => "take, whatever the limits",
-        (Then::Leave, _) => "leave out",
-        (Then::Park, Of::All) => "park, take nothing",
-        (Then::Park, _) => "leave out, do not park",
+        (RuleAction::Take, _) => "take, whatever the limits",
+        (RuleAction::Leave, _) => "leave out",
+        (RuleAction::Park, Of::All) => "park, take nothing",
+        (RuleAction::Park, _) => "leave out, do not park",
     }
 }

@@ -6,8 +6,8 @@ use super::{
 use crate::{
     makes::DemoAddresses,
     station::{
-        AntennaId, AutomationRule, HoursOfDay, PassLimits, RuleOf, SatelliteGroup, Station, SunIs,
-        Then,
+        AntennaId, AutomationRule, HoursOfDay, PassLimits, RuleAction, RuleSubject, SatelliteGroup,
+        Station, SunIs,
     },
     ui::preferences::draft::Draft,
 };
@@ -21,24 +21,24 @@ fn rule() -> AutomationRule {
     AutomationRule {
         is_on: true,
         antenna: None,
-        of: None,
+        subject: None,
         sun: None,
         hours: None,
-        then: Then::Leave,
+        action: RuleAction::Leave,
     }
 }
 
 fn of_group(name: &str) -> AutomationRule {
-    AutomationRule { of: Some(RuleOf::Group(name.to_owned())), ..rule() }
+    AutomationRule { subject: Some(RuleSubject::Group(name.to_owned())), ..rule() }
 }
 
 fn of_satellite(number: u32) -> AutomationRule {
-    AutomationRule { of: Some(RuleOf::Satellite(number)), ..rule() }
+    AutomationRule { subject: Some(RuleSubject::Satellite(number)), ..rule() }
 }
 
 fn hours(from: &str, to: &str) -> HoursOfDay {
     let time = |text| HoursOfDay::read_time(text).unwrap();
-    HoursOfDay { from: time(from), to: time(to) }
+    HoursOfDay { start: time(from), end: time(to) }
 }
 
 fn group(name: &str, satellites: &[u32]) -> SatelliteGroup {
@@ -82,7 +82,7 @@ fn a_rule_is_one_sentence_made_from_its_fields() {
     for (rule, wanted) in [
         (rule(), "No antenna takes any pass."),
         (
-            AutomationRule { then: Then::Take, ..of_satellite(ISS) },
+            AutomationRule { action: RuleAction::Take, ..of_satellite(ISS) },
             "Any antenna may take passes of ISS, whatever their limits.",
         ),
         (
@@ -94,21 +94,21 @@ fn a_rule_is_one_sentence_made_from_its_fields() {
                 antenna: genius,
                 sun: Some(SunIs::Up),
                 hours: Some(hours("22:00", "06:30")),
-                then: Then::Park,
+                action: RuleAction::Park,
                 ..rule()
             },
             "While the Sun is up, from 22:00 to 06:30 UTC, Genius is parked and takes no passes.",
         ),
         (
-            AutomationRule { then: Then::Park, ..rule() },
+            AutomationRule { action: RuleAction::Park, ..rule() },
             "All antennas are parked and take no passes.",
         ),
         (
-            AutomationRule { antenna: genius, then: Then::Park, ..of_satellite(ISS) },
+            AutomationRule { antenna: genius, action: RuleAction::Park, ..of_satellite(ISS) },
             "Genius leaves passes of ISS out, but is not parked.",
         ),
         (
-            AutomationRule { then: Then::Park, ..of_satellite(ISS) },
+            AutomationRule { action: RuleAction::Park, ..of_satellite(ISS) },
             "No antenna takes passes of ISS, but none is parked.",
         ),
     ] {
@@ -129,7 +129,7 @@ fn the_table_says_a_rule_in_a_few_words() {
     let night = AutomationRule {
         sun: Some(SunIs::Down),
         hours: Some(hours("22:00", "06:00")),
-        then: Then::Take,
+        action: RuleAction::Take,
         ..of_group("Weather")
     };
     let when = "Weather, Sun down, 22:00 to 06:00 UTC".to_owned();

@@ -64,7 +64,7 @@ pub(super) async fn watch_likeness(checks: Checks) -> bool {
     let scene = satrak_after(30.0, checks).read().await;
     let OnBoardPass { target, elements, site, .. } = testing::pass();
     let satellite = Target::Satellite(Box::new(elements));
-    let track = ProgramTrack::new(satellite, site, vec![(target.from, target.until)]);
+    let track = ProgramTrack::new(satellite, site, vec![(target.start, target.end)]);
     scene.send(Command::ProgramTrack(Box::new(track)));
     scene.seconds(20.0).await;
     scene.set_off(true);
@@ -172,7 +172,7 @@ pub(super) async fn watch_rest(checks: Checks) -> bool {
 pub(super) async fn watch_place(checks: Checks) -> bool {
     let scene = genius(checks).read().await;
     scene.put_mast(&[(160.0, -5.0), (190.0, -5.0), (190.0, 30.0), (160.0, 30.0)]);
-    scene.shows(5.0, |shown| shown.inside.is_some()).await
+    scene.shows(5.0, |shown| shown.breach.is_some()).await
 }
 
 /// After a track with an offset the antenna points where its axes do, not at the target.
@@ -203,7 +203,7 @@ pub(super) async fn watch_lock_out(checks: Checks) -> bool {
     let scene = satrak(checks).read().await;
     let since = testing::START;
     let (by, reason) = ("Ada".to_owned(), "gear".to_owned());
-    scene.send(Command::LockOut(LockOut { by, since, reason }));
+    scene.send(Command::LockOut(LockOut { operator: by, start: since, reason }));
     scene.seconds(0.1).await;
     scene.shows(10.0, |shown| !shown.locking).await
 }

@@ -204,7 +204,7 @@ impl<U: Unit> Scene<U> {
             zone: KeepOut::zone_of(corners_deg).unwrap(),
         };
         let station = Station { keep_outs: vec![mast], ..Station::default() };
-        self.handle.keep_within(Bounds::of(&station, &self.antenna));
+        self.handle.keep_within(Bounds::new(&station, &self.antenna));
     }
 
     pub(super) fn readings(&self) -> usize {

@@ -27,7 +27,7 @@ async fn the_longer_reply_to_a_go_to_repeats_the_target() {
     let (mut client, _control) = with(&[], &[Quirk::GoToReply6]);
     let target = Some(angle(42));
     let to = Acknowledgement::GoTo { target };
-    let expected = Said::Acknowledgement { to, is_accepted: true };
+    let expected = Said::Acknowledgement { request: to, is_accepted: true };
     assert_eq!(client.ask(go_to(ONE, 42)).await, expected);
 }
 
@@ -37,7 +37,7 @@ async fn requests_together_and_in_pieces_are_answered_in_order() {
     client.write(b"|A1200|S|").await;
     client.write(b"h").await;
     for expected in [Acknowledgement::GoTo { target: None }, Acknowledgement::Stop] {
-        let reply = Said::Acknowledgement { to: expected, is_accepted: true };
+        let reply = Said::Acknowledgement { request: expected, is_accepted: true };
         assert_eq!(client.receive().await, Some(Received::Reply(reply)));
     }
     assert!(matches!(client.receive().await, Some(Received::Reply(Said::Status(_)))));

@@ -141,7 +141,7 @@ pub(super) fn measured_of(
                 axes = Some(now);
                 pointed(mount, now)
             }
-            Cause::Stuck { since: begin, axis } => {
+            Cause::Stuck { start: begin, axis } => {
                 let stood = axes.filter(|_| *time >= begin).unwrap_or(end);
                 let now =
                     [0, 1].map(|place| if is_of(axis, place) { stood[place] } else { end[place] });

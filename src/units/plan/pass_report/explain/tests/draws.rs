@@ -93,7 +93,7 @@ fn cause(kind: &str, flight: &Flight, mount: Mount, random: &mut Random) -> Caus
         "elevation scale" => Cause::ElevationScale { per_mille: 20.0 * size },
         "stuck axis" => {
             let after_s = flight.pass.duration_s() * 0.9 * share(random);
-            Cause::Stuck { since: add_seconds(flight.pass.aos.time, after_s), axis }
+            Cause::Stuck { start: add_seconds(flight.pass.aos.time, after_s), axis }
         }
         "slow axis" | "slow drives" => {
             let axis = axis.filter(|_| kind == "slow axis");
@@ -202,7 +202,9 @@ fn a_single_cause_is_named_or_among_three() {
             (effect_deg * (0.4 + 0.6 * share(&mut random))).max(2.0 * noise.rms_deg());
         let found = explained(flight, mount, half_beam_deg, &noisy_track, &others);
         let is_right = found.iter().any(|found| {
-            found.with.is_none() && is_same_kind(&found.cause, &cause) && is_of_axis(found, &cause)
+            found.partner.is_none()
+                && is_same_kind(&found.cause, &cause)
+                && is_of_axis(found, &cause)
         });
         assert!(found.len() <= 3);
         let row = table.entry(kind).or_default();

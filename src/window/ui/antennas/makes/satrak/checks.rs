@@ -38,7 +38,7 @@ fn show_check(ui: &mut Ui, check: &Check) {
         CheckState::Caution => (Icon::Warning, "Caution", t.warn),
         CheckState::Fault => (Icon::Cross, "Fault", t.bad),
     };
-    let word = if check.told.is_empty() { word } else { check.told.as_ref() };
+    let word = if check.unit_text.is_empty() { word } else { check.unit_text.as_ref() };
     let is_good = check.state == CheckState::Good;
     let about = if is_good { check.when_good } else { "" };
     row::plain(ui, check.name, about, Some((Some(icon), word, colour)));

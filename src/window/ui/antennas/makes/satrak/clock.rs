@@ -55,7 +55,7 @@ fn difference(ui: &mut Ui, unit: &ShownUnit<'_>) {
 /// Error of the beam due to the clock.
 fn effect(ui: &mut Ui, unit: &ShownUnit<'_>) {
     let t = theme::tokens(ui);
-    let ahead_s = unit.values(CLOCK.key).and_then(|values| AHEAD_S.of(values));
+    let ahead_s = unit.values(CLOCK.key).and_then(|values| AHEAD_S.get(values));
     let predicted = predicted_pass(unit);
     let rate_deg_s = predicted.and_then(|predicted| rate_at_tca(unit.model, predicted));
     let (Some(ahead_s), Some(predicted), Some(rate_deg_s)) = (ahead_s, predicted, rate_deg_s)
@@ -77,7 +77,7 @@ fn effect(ui: &mut Ui, unit: &ShownUnit<'_>) {
 fn predicted_pass<'a>(unit: &ShownUnit<'a>) -> Option<&'a PredictedPass> {
     let model = unit.model;
     let held = || {
-        let number = unit.values(FILE.key).and_then(|values| CATALOG_NUMBER.of(values))?;
+        let number = unit.values(FILE.key).and_then(|values| CATALOG_NUMBER.get(values))?;
         u32::try_from(number).ok()
     };
     let number = unit.antenna.tracked_number().or_else(held);
@@ -115,7 +115,7 @@ fn set(ui: &mut Ui, unit: &ShownUnit<'_>, form: &mut Form, commands: &mut Vec<Ui
         let place = Rect::from_min_size(pos2(left, rect.top()), size);
         left = place.right() + 8.0;
         if button.show(ui, words, place).clicked() {
-            let values = Values::from([SET_FROM.with(from)]);
+            let values = Values::from([SET_FROM.entry(from)]);
             form.begin_report();
             form.send(unit, &CLOCK, values, commands);
         }

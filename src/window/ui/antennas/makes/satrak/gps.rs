@@ -48,13 +48,13 @@ fn site_check(ui: &mut Ui, unit: &ShownUnit<'_>) {
 /// Place that the unit uses: that of its receiver, or the one it was given.
 fn place(unit: &ShownUnit<'_>) -> Option<Site> {
     let given = unit.values(GPS.key)?;
-    let is_automatic = IS_AUTOMATIC.of(given) == Some(true);
+    let is_automatic = IS_AUTOMATIC.get(given) == Some(true);
     let from_gps = unit
         .values(RECEIVER.key)
-        .filter(|receiver| is_automatic && IS_VALID.of(receiver) == Some(true));
+        .filter(|receiver| is_automatic && IS_VALID.get(receiver) == Some(true));
     let altitude_m = unit.model.station.site.altitude_m();
     let values = from_gps.unwrap_or(given);
-    Site::new(LATITUDE_DEG.of(values)?, LONGITUDE_DEG.of(values)?, altitude_m).ok()
+    Site::new(LATITUDE_DEG.get(values)?, LONGITUDE_DEG.get(values)?, altitude_m).ok()
 }
 
 fn distance_km(a: Site, b: Site) -> f64 {

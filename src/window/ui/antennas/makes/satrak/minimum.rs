@@ -17,7 +17,7 @@ use crate::{
 /// Offers the minimum elevation of the station as the new value.
 pub(super) fn show(ui: &mut Ui, unit: &ShownUnit<'_>, form: &mut Form) {
     let station_deg = unit.antenna.config.limits.minimum_elevation_deg;
-    let held = unit.values(GENERAL.key).and_then(|held| MINIMUM_ELEVATION_DEG.of(held));
+    let held = unit.values(GENERAL.key).and_then(|held| MINIMUM_ELEVATION_DEG.get(held));
     let Some(unit_deg) = held else { return };
     if unit_deg >= station_deg {
         return;

@@ -68,7 +68,7 @@ fn test_from_here(
         group.field(key).map_or_else(String::new, |field| draft.text(field, Some(held)))
     };
     // A password that nobody typed is the one on the unit.
-    let password = match (text(PASSWORD.name), PASSWORD.of(held)) {
+    let password = match (text(PASSWORD.name), PASSWORD.get(held)) {
         (typed, Some(held)) if typed.is_empty() => held.reveal().to_owned(),
         (typed, _) => typed,
     };
@@ -98,7 +98,7 @@ fn test_from_here(
 
 /// Group of the source that the unit uses.
 fn used(unit: &ShownUnit<'_>) -> Option<&'static str> {
-    let code = TLE_SOURCE.of(unit.values(GENERAL.key)?)?;
+    let code = TLE_SOURCE.get(unit.values(GENERAL.key)?)?;
     SOURCES.get(usize::try_from(code).ok()?).map(|group| group.key)
 }
 

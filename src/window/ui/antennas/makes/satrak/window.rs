@@ -9,7 +9,7 @@ use crate::{
         passes::PredictedPass,
     },
     controller::satrak::settings::{START, STOP, WINDOW},
-    device::{Asked, Motion, settings::Value},
+    device::{Motion, MotionRequest, settings::Value},
     model::UiCommand,
     ui::{
         antennas::{
@@ -94,10 +94,10 @@ fn refusal(unit: &ShownUnit<'_>, form: &Form) -> Option<String> {
     let (event, _) = unit.antenna.news.as_ref().filter(|(_, at)| *at >= asked)?;
     match event {
         Event::NotSent(refusal) => Some(words::refusal(refusal, unit.model.now)),
-        Event::Refused(Asked::Motion(Motion::EnableAuto), answer) => {
+        Event::Refused(MotionRequest::Motion(Motion::EnableAuto), answer) => {
             Some(format!("{AUTO}: the unit answered {answer}."))
         }
-        Event::Unanswered(Asked::Motion(Motion::EnableAuto)) => {
+        Event::Unanswered(MotionRequest::Motion(Motion::EnableAuto)) => {
             Some(format!("{AUTO}: the unit did not answer."))
         }
         _ => None,

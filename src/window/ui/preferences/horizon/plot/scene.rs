@@ -211,7 +211,7 @@ fn sun(
     let Some(avoidance) = skies.sun.kept() else { return };
     let radius = Angle::from_degrees(avoidance.radius_deg);
     let around =
-        (0..=72_u8).map(|step| direction.towards(f64::from(step) * 5.0, avoidance.radius_deg));
+        (0..=72_u8).map(|step| direction.displaced(f64::from(step) * 5.0, avoidance.radius_deg));
     let ring: Vec<Pos2> = around.filter_map(|of| dome.point(of)).collect();
     ui.painter().extend(dashed(&ring, 4.0, 3.0, Stroke::new(1.25, t.sun)));
     let words = format!("Sun {}", format::degrees(avoidance.radius_deg, 1));

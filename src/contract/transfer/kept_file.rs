@@ -17,7 +17,8 @@ pub struct KeptFile {
     /// Size of the whole file.
     pub bytes: u64,
     /// Time at which it was sent, or read on the unit.
-    pub at: Timestamp,
+    #[serde(rename = "at")]
+    pub time: Timestamp,
     pub origin: Origin,
 }
 
