@@ -144,10 +144,10 @@ impl App {
         model.stations.open = settings.station_path().map(whole);
         let folder = model.stations.open.as_deref().and_then(Path::parent).map(Path::to_path_buf);
         let known_work;
-        (known_work, model.stations.known) = KnownWork::beside(folder.as_deref());
+        (known_work, model.stations.stations) = KnownWork::beside(folder.as_deref());
         Self {
             model,
-            views: ui::Views::with(keeper.memory.views.clone()),
+            views: ui::Views::new(keeper.memory.views.clone()),
             station,
             settings,
             stations_folder: folder,
@@ -296,7 +296,7 @@ impl App {
 
     /// Keeps the operator's changes for the next start.
     fn remember(&mut self) {
-        self.keeper.memory.views = self.views.kept();
+        self.keeper.memory.views = self.views.stored();
         self.keeper.keep(&self.wake);
     }
 

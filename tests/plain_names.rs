@@ -13,7 +13,10 @@ use std::{
 };
 
 /// Folders whose names are covered.
-const FOLDERS: [&str; 3] = ["src/contract", "src/orbit", "src/units"];
+const FOLDERS: [&str; 4] = ["src/contract", "src/orbit", "src/units", "src/window"];
+
+/// Starts of paths in those folders whose names are not covered yet.
+const NOT_COVERED: [&str; 2] = ["src/window/ui/antenna_card", "src/window/ui/operate/card"];
 
 /// Words that are no name, whatever their case.
 const NO_NAMES: &str = "
@@ -290,6 +293,7 @@ fn no_name_is_a_preposition_a_pronoun_or_a_participle() {
             let path = file.strip_prefix(top).unwrap().display().to_string().replace('\\', "/");
             (path, fs::read_to_string(file).unwrap())
         })
+        .filter(|(path, _)| !NOT_COVERED.iter().any(|start| path.starts_with(start)))
         .collect();
     let mut list = String::new();
     let mut judge = Judge::default();

@@ -85,7 +85,7 @@ impl App {
             }
             UiCommand::ShowTracked(question) => model.mount_effects.ask(*question, model.steady),
             UiCommand::ShowMoved(question) => model.site_effects.ask(*question, model.steady),
-            UiCommand::ShowCatalog(question) => model.catalog_table.asked = question,
+            UiCommand::ShowCatalog(question) => model.catalog_table.question = question,
             UiCommand::OfferElements { offers, is_dropped } => {
                 self.offer_elements(offers, is_dropped);
             }

@@ -52,7 +52,7 @@ impl App {
     /// present one.
     #[must_use]
     pub fn with_stations_in(mut self, folder: PathBuf) -> Self {
-        (self.known_work, self.model.stations.known) = KnownWork::beside(Some(&folder));
+        (self.known_work, self.model.stations.stations) = KnownWork::beside(Some(&folder));
         self.stations_folder = Some(folder);
         self
     }
@@ -100,7 +100,7 @@ impl App {
                 tracing::warn!("a station is not opened: {why}");
                 self.model.stations.refused = Some(why.to_string());
                 if matches!(why, CannotOpen::Missing(_)) {
-                    let known = &mut self.model.stations.known;
+                    let known = &mut self.model.stations.stations;
                     self.known_work.forget(path, known, &self.wake);
                 }
             }
@@ -185,11 +185,11 @@ impl App {
         (self.effects_jobs, self.catalog_work) = Default::default();
         self.intake_work = super::IntakeWork::default();
         self.rehearsal_work = super::RehearsalWork::default();
-        let known = std::mem::take(&mut self.model.stations.known);
+        let known = std::mem::take(&mut self.model.stations.stations);
         self.model = Model::before_anything(self.clock.now());
         (self.model.list, self.model.view) = (keeper.memory.list, keeper.memory.view);
-        (self.model.stations.known, self.model.stations.open) = (known, settings.station_path());
-        self.views = ui::Views::with(keeper.memory.views.clone());
+        (self.model.stations.stations, self.model.stations.open) = (known, settings.station_path());
+        self.views = ui::Views::new(keeper.memory.views.clone());
         (self.keeper, self.settings) = (keeper, settings);
         self.place_watch = PlaceWatch::default();
         (self.told, self.closes) = (contract::Attention::default(), false);
@@ -208,7 +208,7 @@ impl App {
         }
         let Some(path) = self.model.stations.open.clone() else { return };
         let station = KnownStation { name: self.model.station.name.clone(), path };
-        self.known_work.put_first(station, &mut self.model.stations.known, &self.wake);
+        self.known_work.put_first(station, &mut self.model.stations.stations, &self.wake);
     }
 }
 

@@ -55,10 +55,10 @@ fn work<Q: Compare>(
     match end {
         Some(Ok(effect)) => effects.effect = Some(effect),
         // The same question would fail again.
-        Some(Err(_)) => effects.asked = None,
+        Some(Err(_)) => effects.requested = None,
         None => {}
     }
-    let Some((question, since)) = &effects.asked else { return };
+    let Some((question, since)) = &effects.requested else { return };
     let revision = listing.revision;
     let known = effects.effect.as_ref().filter(|effect| effect.revision == revision);
     let is_answered = known.is_some_and(|effect| effect.question == *question);
@@ -76,7 +76,7 @@ fn work<Q: Compare>(
     let asked = question.clone();
     let job = move |cancelled: &(dyn Fn() -> bool + Sync)| {
         let ways = known.unwrap_or_else(|| ways::<Q>(&passes, cancelled));
-        Effect::of(asked, &ways, revision)
+        Effect::new(asked, &ways, revision)
     };
     // Replacing the job of an older question cancels it.
     *begun = Some((question.clone(), revision, Job::start("azel-effects", Arc::clone(wake), job)));

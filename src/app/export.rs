@@ -193,7 +193,7 @@ impl Order {
 
     fn ask_for_path(&self, path: PathBuf, replaces: bool, why: String) -> Outcome {
         let purpose = PathPurpose::Save { export: self.export.clone(), replaces };
-        Outcome::AsksForPath(PathRequest { purpose, path, why })
+        Outcome::AsksForPath(PathRequest { purpose, path, reason: why })
     }
 
     /// The name that the dialog offers.
@@ -366,7 +366,7 @@ impl Order {
         let list = LookList {
             satellite: &satellite,
             site: self.station.site,
-            from,
+            start: from,
             count: (whole_s / step_s) as u32 + 1,
             step_s,
             carrier_hz,
@@ -399,7 +399,9 @@ impl Order {
             schedule,
             satellites: &names,
             antennas: &antennas,
-            reason: &|left: &LeftOut| words::schedule::why(names_in_reasons, &left.reason),
+            reason: &|left: &LeftOut| {
+                words::schedule::left_out_reason(names_in_reasons, &left.reason)
+            },
             passes: &passes,
             query: &self.query(),
             now: self.now,

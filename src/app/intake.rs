@@ -31,7 +31,7 @@ impl App {
         self.intake_work.judging =
             Some(Job::start("azel-intake", Arc::clone(&self.wake), move |cancelled| {
                 let wanted = asked.iter().take_while(|_| !cancelled());
-                let judge = |bytes: &[u8]| Judged::of(bytes, catalog.as_deref());
+                let judge = |bytes: &[u8]| Judged::new(bytes, catalog.as_deref());
                 wanted
                     .map(|offer| match offer {
                         Offer::Text(text) => judge(text.as_bytes()),

@@ -16,7 +16,7 @@ use crate::{
     contract::passes::{ListChoice, SPANS_H, Scope},
     job::{Job, Wake},
     model::{Appearance, DistanceUnit, ThemeName, View},
-    ui::{Kept, map::MapLayers, pass_list::Arrangement, sky_plot::Layers},
+    ui::{StoredViews, map::MapLayers, pass_list::Arrangement, sky_plot::Layers},
     whole_file,
 };
 
@@ -42,7 +42,7 @@ pub(super) struct Memory {
     /// The choice of passes in the list.
     pub(super) list: ListChoice,
     /// The kept state of the views.
-    pub(super) views: Kept,
+    pub(super) views: StoredViews,
 }
 
 /// Reads the file at `path`; empty where there is none, or none that can be read.
@@ -107,7 +107,7 @@ impl Memory {
             antenna: table.get("antenna").and_then(toml::Value::as_str).map(str::to_owned),
             view: kept_view(word(table, "view")),
             place: table.get("window").and_then(|place| place.clone().try_into().ok()),
-            views: Kept {
+            views: StoredViews {
                 travel_open: is_set("travel_open"),
                 faults_open: is_set("faults_open"),
                 strip_hours: number("strip_hours"),
@@ -338,7 +338,7 @@ mod tests {
                 .try_into()
                 .ok(),
             list: ListChoice { scope: Scope::All, favourites_h: 24, all_h: 12 },
-            views: Kept {
+            views: StoredViews {
                 travel_open: true,
                 faults_open: false,
                 strip_hours: Some(24),
@@ -424,7 +424,10 @@ mod tests {
             }),
             ("list_width = -4\n[layers]\nnames = false\nmask = 3\nnew = true", {
                 let layers = Layers { names: false, ..Layers::default() };
-                Memory { views: Kept { layers, ..Kept::default() }, ..Memory::default() }
+                Memory {
+                    views: StoredViews { layers, ..StoredViews::default() },
+                    ..Memory::default()
+                }
             }),
             ("[passes]\norder = 'maximum'\nlight = 3\nsunlit = 'yes'\ntrackable = true", {
                 let passes = Arrangement {
@@ -432,7 +435,10 @@ mod tests {
                     trackable: true,
                     ..Arrangement::default()
                 };
-                Memory { views: Kept { passes, ..Kept::default() }, ..Memory::default() }
+                Memory {
+                    views: StoredViews { passes, ..StoredViews::default() },
+                    ..Memory::default()
+                }
             }),
             ("pass_scope = 'none'\npass_hours = 7\npass_hours_of_all = 24", {
                 let list = ListChoice { all_h: 24, ..ListChoice::default() };

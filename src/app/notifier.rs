@@ -15,7 +15,7 @@ use crate::{
     desktop::{Desktop, Notification, Outlets, Sound, Urgency},
     engine::Client,
     job::Wake,
-    model::notices::{About, Notice, Teller},
+    model::notices::{Notice, NoticeSubject, Teller},
     station::Tones,
     ui::words,
 };
@@ -75,12 +75,12 @@ async fn tell_all(
     loop {
         let snapshot = station.snapshot();
         let news = teller.look(&snapshot, stood, &TimeZone::system());
-        if !news.told.is_empty() {
-            let notifications = notifications(&news.told, &snapshot);
-            desktop.tell(&notifications, sound(&news.told)).await;
+        if !news.notices.is_empty() {
+            let notifications = notifications(&news.notices, &snapshot);
+            desktop.tell(&notifications, sound(&news.notices)).await;
             told(desktop.outlets());
         }
-        desktop.close(&news.over).await;
+        desktop.close(&news.ended).await;
         tokio::select! {
             changed = timeout(STANDS, station.changed()) => match changed {
                 Ok(true) => stood = None,
@@ -102,15 +102,15 @@ fn trial(sound: Sound) -> Notification {
 
 fn notifications(news: &[Notice], station: &Snapshot) -> Vec<Notification> {
     let shown = news.iter().filter(|notice| notice.is_shown);
-    shown.map(|notice| notification(&notice.about, station)).collect()
+    shown.map(|notice| notification(&notice.subject, station)).collect()
 }
 
-fn notification(about: &About, station: &Snapshot) -> Notification {
+fn notification(about: &NoticeSubject, station: &Snapshot) -> Notification {
     let (title, text) = words::notice(about, station);
     let urgency = if about.has_top_priority() { Urgency::Critical } else { Urgency::Normal };
     let number = match about {
-        About::Alarm(alarm) => Some(alarm.row),
-        About::StationStands(_) | About::Reminder(_) => None,
+        NoticeSubject::Alarm(alarm) => Some(alarm.row),
+        NoticeSubject::StationStands(_) | NoticeSubject::Reminder(_) => None,
     };
     Notification { title, text, urgency, number }
 }

@@ -124,7 +124,7 @@ fn take_typed(file: OpenedFile, path: PathBuf) -> Outcome {
 }
 
 fn ask_for_path(file: OpenedFile, path: PathBuf, why: String) -> Outcome {
-    Outcome::AsksForPath(PathRequest { purpose: PathPurpose::Open(file), path, why })
+    Outcome::AsksForPath(PathRequest { purpose: PathPurpose::Open(file), path, reason: why })
 }
 
 /// Why a typed path cannot be that of a file.
@@ -159,7 +159,7 @@ mod tests {
                 request(choose(file, Some(&stations), no_dialog, || Some(documents.clone())));
             assert_eq!((request.purpose, &request.path), (PathPurpose::Open(file), expected));
             assert!(request.path.display().to_string().ends_with(std::path::MAIN_SEPARATOR));
-            assert!(request.why.contains("no file dialogs"), "{}", request.why);
+            assert!(request.reason.contains("no file dialogs"), "{}", request.reason);
             let cancelled = |_: OpenedFile, _: Option<&Path>| Ok(Vec::new());
             let outcome = choose(file, None, cancelled, || None);
             assert_eq!(outcome, Outcome::Chosen(file, Vec::new()));
@@ -172,11 +172,11 @@ mod tests {
         let path = folder.path().join("own.toml");
         for file in FILES {
             let missing = request(take_typed(file, path.clone()));
-            assert_eq!((missing.path, &*missing.why), (path.clone(), "there is no such file"));
+            assert_eq!((missing.path, &*missing.reason), (path.clone(), "there is no such file"));
             let relative = request(take_typed(file, "own.toml".into()));
-            assert!(relative.why.contains("whole path"), "{}", relative.why);
+            assert!(relative.reason.contains("whole path"), "{}", relative.reason);
             let is_folder = request(take_typed(file, folder.path().to_owned()));
-            assert!(is_folder.why.contains("folder"), "{}", is_folder.why);
+            assert!(is_folder.reason.contains("folder"), "{}", is_folder.reason);
         }
         std::fs::write(&path, "").unwrap();
         for file in FILES {

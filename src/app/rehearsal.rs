@@ -94,7 +94,7 @@ impl App {
         self.model.rehearsal = match end {
             None => return,
             Some(Ok(Ok(rehearsed))) => {
-                RehearsalState::Done { rehearsed: Arc::new(rehearsed), at: self.model.now }
+                RehearsalState::Done { rehearsed: Arc::new(rehearsed), time: self.model.now }
             }
             Some(Ok(Err(error))) => RehearsalState::Failed(error.to_string()),
             Some(Err(broke_off)) => RehearsalState::Failed(broke_off.to_string()),

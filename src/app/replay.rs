@@ -44,7 +44,7 @@ impl App {
     /// Shows a stretch of the record again, from `at` on.
     pub(super) fn begin_replay(&mut self, stretch: Stretch, at: Timestamp) {
         let Some(record) = &self.model.record else { return };
-        let views = ui::Views::with(self.views.kept());
+        let views = ui::Views::new(self.views.stored());
         let (path, wake) = (record.path.clone(), Arc::clone(&self.wake));
         self.model.replay_end = None;
         self.replay = Some(Replay::begin(path, stretch, at, &self.model, views, wake));
@@ -214,7 +214,7 @@ impl Replay {
             UiCommand::ShowEffects(asked) => model.obstacle_effects.ask(*asked, model.steady),
             UiCommand::ShowTracked(asked) => model.mount_effects.ask(*asked, model.steady),
             UiCommand::ShowMoved(asked) => model.site_effects.ask(*asked, model.steady),
-            UiCommand::ShowCatalog(asked) => model.catalog_table.asked = asked,
+            UiCommand::ShowCatalog(asked) => model.catalog_table.question = asked,
             UiCommand::InspectObject(number) => model.catalog_table.inspected = Some(number),
             UiCommand::Station(Command::LookAtRecord(look)) => {
                 if look.is_none() {
@@ -241,17 +241,17 @@ impl Replay {
         match command {
             ReplayCommand::Pass { is_next } => {
                 let pass = replay.stretch.pass.map(|pass| Beside::Pass(pass.id));
-                let of = pass.unwrap_or(Beside::Moment(replay.at));
+                let of = pass.unwrap_or(Beside::Moment(replay.time));
                 self.wanted = Some(Wanted::Pass { of, is_next });
             }
             ReplayCommand::PlayOrPause => {
                 let is_forward = replay.speed > 0;
-                if let Some(ReplayProblem::NoFilm { from, until }) = replay.problem {
+                if let Some(ReplayProblem::NoFilm { start: from, end: until }) = replay.problem {
                     // On the other side it goes on.
                     self.wanted = Some(Wanted::At(if is_forward { until } else { from }));
                 } else if !replay.plays && replay.is_at_end() {
                     let stretch = &replay.stretch;
-                    let start = if replay.speed < 0 { stretch.until } else { stretch.from };
+                    let start = if replay.speed < 0 { stretch.end } else { stretch.start };
                     self.wanted = Some(Wanted::At(start));
                 }
                 replay.plays = !replay.plays;
@@ -259,10 +259,10 @@ impl Replay {
             ReplayCommand::Speed(speed) => replay.speed = speed,
             ReplayCommand::Event { is_next } => {
                 replay.plays = false;
-                self.wanted = Some(Wanted::Event { from: replay.at, is_next });
+                self.wanted = Some(Wanted::Event { from: replay.time, is_next });
             }
             ReplayCommand::To(at) => {
-                let at = at.clamp(replay.stretch.from, replay.stretch.until);
+                let at = at.clamp(replay.stretch.start, replay.stretch.end);
                 self.wanted = Some(Wanted::At(at));
             }
         }
@@ -301,9 +301,10 @@ impl Replay {
             self.unselected = stretch.pass;
         }
         if let Some(replay) = &mut self.model.replay {
-            replay.at = at;
-            replay.stretch = stretch.unwrap_or_else(|| replay.stretch.clone().around(at));
-            let skipped = skipped.map(|(from, until)| JumpNews::Skipped { from, until });
+            replay.time = at;
+            replay.stretch = stretch.unwrap_or_else(|| replay.stretch.clone().around_time(at));
+            let skipped =
+                skipped.map(|(from, until)| JumpNews::Skipped { start: from, end: until });
             replay.news = skipped.or(replay.news.take());
             replay.problem = None;
         }
@@ -311,7 +312,7 @@ impl Replay {
             Ok(Some(scene)) => {
                 self.take_scene(at, scene);
                 if let Some((from, until)) = hole {
-                    self.tell(ReplayProblem::NoFilm { from, until });
+                    self.tell(ReplayProblem::NoFilm { start: from, end: until });
                 }
             }
             Ok(None) => {
@@ -322,7 +323,7 @@ impl Replay {
                     Scene { shown: Snapshot::before_anything(moment), wires: Vec::new() },
                 );
                 self.tell(match hole {
-                    Some((from, until)) => ReplayProblem::NoFilm { from, until },
+                    Some((from, until)) => ReplayProblem::NoFilm { start: from, end: until },
                     None => ReplayProblem::NothingYet,
                 });
             }
@@ -373,8 +374,8 @@ impl Replay {
             replay.plays = false;
             return;
         }
-        let at = add_seconds(replay.at, passed_s * f64::from(replay.speed));
-        let at = at.clamp(replay.stretch.from, replay.stretch.until);
+        let at = add_seconds(replay.time, passed_s * f64::from(replay.speed));
+        let at = at.clamp(replay.stretch.start, replay.stretch.end);
         self.wanted = Some(Wanted::At(at));
     }
 

@@ -62,7 +62,7 @@ pub(super) fn run(station: Option<&Path>, options: &Options) -> anyhow::Result<E
     let list = LookList {
         satellite,
         site,
-        from,
+        start: from,
         // Rounding of the division must not cost the last row.
         count: (length_s / options.step + 1e-9) as u32 + 1,
         step_s: options.step,

@@ -176,7 +176,7 @@ fn write_list(
         schedule,
         satellites: &names,
         antennas: &antennas,
-        reason: &|left: &LeftOut| words::schedule::why(names_in_reasons, &left.reason),
+        reason: &|left: &LeftOut| words::schedule::left_out_reason(names_in_reasons, &left.reason),
         passes,
         query,
         now,

@@ -300,7 +300,7 @@ pub trait Device: Send {
 /// The side of a controller that can move the antenna or decide where it goes. Only the
 /// gate holds it.
 pub trait Controller: Device {
-    /// A reason of this make not to start `asked` or let it go on. The gate calls it after
+    /// A reason of this make not to start the motion or let it go on. The gate calls it after
     /// its own rules, and again while a jog runs.
     fn objection(&self, _asked: &MotionRequest, _now: Moment) -> Option<&'static str> {
         None

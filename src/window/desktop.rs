@@ -133,12 +133,12 @@ impl Desktop {
             ("are not shown by the desktop", &mut self.outlets.notifications, notifications),
             ("make no sound", &mut self.outlets.sounds, sounds),
         ];
-        for (what, missing, attempt) in attempts {
+        for (subject, missing, attempt) in attempts {
             match attempt {
                 Some(Ok(())) => *missing = None,
-                Some(Err(why)) if missing.is_none() => {
-                    tracing::warn!("alarms and reminders {what}: {why}");
-                    *missing = Some(why);
+                Some(Err(reason)) if missing.is_none() => {
+                    tracing::warn!("alarms and reminders {subject}: {reason}");
+                    *missing = Some(reason);
                 }
                 _ => {}
             }

@@ -34,7 +34,7 @@ pub use self::{
     appearance::{Appearance, DistanceUnit},
     command::UiCommand,
     line::{ConsoleLine, Piece, pieces},
-    sky::{CROWD, Seen, Selected, Sky},
+    sky::{CROWD, Selected, Sky, SkySatellite},
     stations::{KnownStation, NextStation, Stations},
     theme_name::ThemeName,
 };
@@ -251,11 +251,13 @@ impl Model {
     pub fn take(&mut self, shown: Arc<Snapshot>, wire: impl Fn(AntennaId) -> Option<WireLog>) {
         self.take_demo(shown.demo);
         let before = std::mem::replace(&mut self.shown, shown);
-        for known in before.antennas.iter().filter(|known| known.stop_pressed.is_some()) {
-            let place = self.place(known.id());
+        for model_antenna in
+            before.antennas.iter().filter(|model_antenna| model_antenna.stop_pressed.is_some())
+        {
+            let place = self.place(model_antenna.id());
             let antennas = &mut self.shown_mut().antennas;
             if let Some(antenna) = place.and_then(|place| antennas.get_mut(place)) {
-                antenna.keep_pressed(known.stop_pressed);
+                antenna.keep_pressed(model_antenna.stop_pressed);
             }
         }
         let wire = |antenna: &AntennaModel| wire(antenna.id()).unwrap_or_default();
@@ -317,8 +319,8 @@ impl Model {
     }
 
     /// The sky at another time, without day and night.
-    pub fn sky_at(&self, at: Timestamp) -> Sky {
+    pub fn sky_at(&self, time: Timestamp) -> Sky {
         let selected = self.selected_pass().map(|predicted| &*predicted.satellite);
-        Sky::at(&self.pass_lists.favourites.satellites, selected, self.station.site, at)
+        Sky::new(&self.pass_lists.favourites.satellites, selected, self.station.site, time)
     }
 }

@@ -52,4 +52,4 @@ mod views;
 pub mod widgets;
 pub mod words;
 
-pub use views::{Kept, Views};
+pub use views::{StoredViews, Views};

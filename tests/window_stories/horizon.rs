@@ -366,7 +366,7 @@ fn the_effect_on_the_passes_stands_below_the_plot() {
         window.get_by_label_contains("Being worked out.");
         let passes = window.state().model.pass_lists.favourites.passes.clone();
         let ways = effects::ways::<obstacles::Question>(&passes, &|| false);
-        let effect = Effect::of(question.clone(), &ways, 0);
+        let effect = Effect::new(question.clone(), &ways, 0);
         assert!(effect.after.touched > 0);
         let touched =
             format!("block part of {} of the {} passes", effect.after.touched, effect.ways.len());

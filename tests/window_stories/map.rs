@@ -5,7 +5,7 @@ use std::sync::Arc;
 use azel::{
     astro::{GroundPoint, time::add_seconds},
     contract::passes::{ListedSatellite, PassLists, PredictedPass},
-    model::{Model, UiCommand, View, globe::Towards},
+    model::{Model, UiCommand, View, globe::MapDirection},
     orbit::{Propagator, bundled},
 };
 use egui::{Event, Key, Modifiers, PointerButton, Role, pos2};
@@ -336,10 +336,10 @@ fn a_note_leaves_the_bar_of_the_table() {
 #[test]
 fn the_arrows_lead_from_satellite_to_satellite() {
     for (key, towards) in [
-        (Key::ArrowUp, Towards::North),
-        (Key::ArrowRight, Towards::East),
-        (Key::ArrowDown, Towards::South),
-        (Key::ArrowLeft, Towards::West),
+        (Key::ArrowUp, MapDirection::North),
+        (Key::ArrowRight, MapDirection::East),
+        (Key::ArrowDown, MapDirection::South),
+        (Key::ArrowLeft, MapDirection::West),
     ] {
         let mut window = view(LARGE);
         let globe = &window.state().model.globe;
@@ -350,10 +350,10 @@ fn the_arrows_lead_from_satellite_to_satellite() {
             let north = (to.below.point.latitude - from.latitude).degrees();
             let east = (to.below.point.longitude - from.longitude).wrapped_180().degrees();
             let along = match towards {
-                Towards::North => north,
-                Towards::South => -north,
-                Towards::East => east,
-                Towards::West => -east,
+                MapDirection::North => north,
+                MapDirection::South => -north,
+                MapDirection::East => east,
+                MapDirection::West => -east,
             };
             assert!(along > 0.0, "{towards:?} {north} {east}");
         }
@@ -436,7 +436,7 @@ fn layers_are_shown_and_hidden_and_kept() {
             window.get_by_label(name).click();
             settle(&mut window);
         }
-        let layers = window.state().views.kept().map_layers;
+        let layers = window.state().views.stored().map_layers;
         assert!(!layers.grid && layers.other_tracks && layers.terminator);
         window.key_press(Key::L);
         settle(&mut window);
@@ -448,7 +448,7 @@ fn layers_are_shown_and_hidden_and_kept() {
         window.get_by_role_and_label(Role::CheckBox, name).click();
         settle(&mut window);
     }
-    let layers = window.state().views.kept().map_layers;
+    let layers = window.state().views.stored().map_layers;
     assert!(!(layers.tracks || layers.footprints || layers.terminator || layers.names));
 }
 

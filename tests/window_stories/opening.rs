@@ -26,7 +26,7 @@ use crate::window_stories::{
 fn without_a_dialog_of_the_desktop_the_path_of_a_file_to_open_is_typed() {
     let ask = |window: &mut Window, file| {
         let (purpose, path) = (PathPurpose::Open(file), "/home/op/".into());
-        let request = PathRequest { purpose, path, why: NoDialog.to_string() };
+        let request = PathRequest { purpose, path, reason: NoDialog.to_string() };
         window.state_mut().views.ask_for_path(request);
         settle(window);
     };

@@ -9,7 +9,7 @@ use azel::{
     model::{Model, UiCommand},
     station::AntennaId,
     ui::{
-        Kept, Views,
+        StoredViews, Views,
         pass_list::{Arrangement, Light, Order},
         sky_plot::Layers,
         theme,
@@ -349,7 +349,7 @@ fn chips_filter_and_sort_the_list_and_stay_when_it_is_closed() {
         assert!(listed.len() > 1, "{listed:?}");
         assert!(listed.iter().map(highest).is_sorted_by(|a, b| a >= b), "{listed:?}");
         assert!(listed.iter().all(|row| !row.contains("LOS")), "{listed:?}");
-        let arrangement = window.state().views.kept().passes;
+        let arrangement = window.state().views.stored().passes;
         assert_eq!((arrangement.order, arrangement.to_come), (Order::Maximum, true));
 
         window.get_by_role_and_label(Role::Button, "Close").click();
@@ -357,7 +357,7 @@ fn chips_filter_and_sort_the_list_and_stay_when_it_is_closed() {
         assert!(says(&window, "Filtered: Highest first · Upcoming"));
         window.get_by_role_and_label(Role::Button, "Clear").click();
         settle(&mut window);
-        assert_eq!(window.state().views.kept().passes, Arrangement::default());
+        assert_eq!(window.state().views.stored().passes, Arrangement::default());
         assert_eq!(asked(&mut window), []);
     }
 }
@@ -366,7 +366,8 @@ fn chips_filter_and_sort_the_list_and_stay_when_it_is_closed() {
 fn sunlit_trackable_and_time_of_day_leave_out_the_rest() {
     let of = |arrangement: Arrangement| {
         let mut window = window(LARGE);
-        window.state_mut().views = Views::with(Kept { passes: arrangement, ..Kept::default() });
+        window.state_mut().views =
+            Views::new(StoredViews { passes: arrangement, ..StoredViews::default() });
         settle(&mut window);
         window.run_steps(20);
         let title = window.get_by_label_contains("Next passes, ").accesskit_node().value();
@@ -390,7 +391,7 @@ fn sunlit_trackable_and_time_of_day_leave_out_the_rest() {
 fn arrows_follow_the_order_of_the_rows() {
     let mut window = window(LARGE);
     let passes = Arrangement { order: Order::Duration, to_come: true, ..Arrangement::default() };
-    window.state_mut().views = Views::with(Kept { passes, ..Kept::default() });
+    window.state_mut().views = Views::new(StoredViews { passes, ..StoredViews::default() });
     let model = &window.state().model;
     let mut wanted: Vec<&PredictedPass> =
         model.upcoming().iter().filter(|pass| pass.pass.aos.time > model.now).collect();
@@ -450,7 +451,7 @@ fn the_list_is_drawn_wider_and_a_double_click_brings_it_back() {
     settle(&mut window);
     window.drop_at(target);
     settle(&mut window);
-    assert_eq!(window.state().views.kept().list_width, Some(390));
+    assert_eq!(window.state().views.stored().list_width, Some(390));
     assert!((edge(&window).x - usual.x - 70.0).abs() < 1.5, "{}", edge(&window));
     let at = edge(&window);
     window.hover_at(at);
@@ -464,7 +465,7 @@ fn the_list_is_drawn_wider_and_a_double_click_brings_it_back() {
     };
     window.input_mut().events.extend([true, false, true, false].map(press));
     settle(&mut window);
-    assert_eq!(window.state().views.kept().list_width, None);
+    assert_eq!(window.state().views.stored().list_width, None);
     assert_eq!(edge(&window), usual);
     assert_eq!(asked(&mut window), []);
 }
@@ -472,11 +473,11 @@ fn the_list_is_drawn_wider_and_a_double_click_brings_it_back() {
 #[test]
 fn layers_and_width_are_there_again_at_the_next_start() {
     let layers = Layers { names: false, ..Layers::default() };
-    let kept = Kept { list_width: Some(300), layers, ..Kept::default() };
+    let kept = StoredViews { list_width: Some(300), layers, ..StoredViews::default() };
     let mut window = window(LARGE);
-    window.state_mut().views = Views::with(kept.clone());
+    window.state_mut().views = Views::new(kept.clone());
     settle(&mut window);
-    assert_eq!(window.state().views.kept(), kept);
+    assert_eq!(window.state().views.stored(), kept);
     let edge = window.get_by_label("Width of the pass list").rect().center();
     assert!((edge.x - (72.0 + 300.0)).abs() < 1.5, "{edge}");
 }

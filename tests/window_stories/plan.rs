@@ -673,7 +673,7 @@ fn the_plan_is_rehearsed_and_what_came_of_it_stands_beside_the_pass_as_a_rehears
         left_out: Vec::new(),
     };
     window.state_mut().model.rehearsal =
-        RehearsalState::Done { rehearsed: Arc::new(whole), at: rig::now() };
+        RehearsalState::Done { rehearsed: Arc::new(whole), time: rig::now() };
     settle(&mut window);
     assert!(says(&window, "0 of 1 good"));
     let told = "Rehearsal, Satrak: 9:00 of 10:00. 1:00 lost: The unit did not answer.";

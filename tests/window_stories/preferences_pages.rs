@@ -200,7 +200,7 @@ fn what_an_edit_changes_of_the_passes_is_asked_for_and_shown_beside_what_was() {
         let question = question.expect("the page asks");
         let passes = window.state().model.pass_lists.favourites.passes.clone();
         let ways = effects::ways::<effects::mounts::Question>(&passes, &|| false);
-        let effect = effects::Effect::of(question.clone(), &ways, 0);
+        let effect = effects::Effect::new(question.clone(), &ways, 0);
         let (was, new) = (effect.before, effect.after);
         assert!(new.whole < was.whole, "{was:?} {new:?}");
         let model = &mut window.state_mut().model;
@@ -398,7 +398,7 @@ fn a_moved_site_shows_its_passes_beside_those_of_the_saved_one() {
         });
         let question = question.expect("the page asks");
         assert_ne!(question.before, question.after);
-        let effect = effects::Effect::of(question.clone(), &Arc::default(), 0);
+        let effect = effects::Effect::new(question.clone(), &Arc::default(), 0);
         let (was, new) = (effect.before, effect.after);
         assert_ne!(was.count, new.count, "{was:?} {new:?}");
         let model = &mut window.state_mut().model;

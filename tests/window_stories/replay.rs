@@ -42,8 +42,8 @@ pub(crate) fn model() -> Model {
     let stretch = Stretch {
         name: "NOAA 20".to_owned(),
         pass: Some(StretchPass { id: 7, satellite: NOAA_20, antenna: AntennaId(1) }),
-        from: add_seconds(at, -300.0),
-        until: add_seconds(at, 600.0),
+        start: add_seconds(at, -300.0),
+        end: add_seconds(at, 600.0),
     };
     let passes = vec![times(&model, "NOAA 20", -200.0)];
     model.replay = Some(Replayed { speed: 10, passes, ..Replayed::begin(stretch, at) });
@@ -254,7 +254,7 @@ fn a_jump_over_what_was_not_filmed_is_told() {
         let mut model = model();
         let at = model.now;
         let (from, until) = (add_seconds(at, -86_400.0), add_seconds(at, -60.0));
-        model.replay.as_mut().unwrap().news = Some(JumpNews::Skipped { from, until });
+        model.replay.as_mut().unwrap().news = Some(JumpNews::Skipped { start: from, end: until });
         model.view = View::Plan;
         let mut window = rig::window(size, model);
         let whole = "There is no film of 11 Aug 11:15:30Z to 12 Aug 11:14:30Z: ";
@@ -262,7 +262,8 @@ fn a_jump_over_what_was_not_filmed_is_told() {
         let texts = painted::texts(&window);
         assert!(texts.iter().any(|of| of == "Skipped 23 h 59 min: no film."), "{texts:?}");
         let replay = window.state_mut().model.replay.as_mut().unwrap();
-        (replay.news, replay.problem) = (None, Some(ReplayProblem::NoFilm { from, until }));
+        (replay.news, replay.problem) =
+            (None, Some(ReplayProblem::NoFilm { start: from, end: until }));
         settle(&mut window);
         window.get_by_label_contains(whole);
         let texts = painted::texts(&window);
@@ -318,7 +319,7 @@ fn why_a_replay_has_ended_stands_until_the_operator_closes_it() {
             model.refresh_sky();
             let from = add_seconds(model.now, 119.0);
             let (antenna, satellite) = ("Dish".to_owned(), "METOP-B".to_owned());
-            model.replay_end = Some(ReplayEnd::Pass { antenna, satellite, from });
+            model.replay_end = Some(ReplayEnd::Pass { antenna, satellite, start: from });
             let mut window = rig::window(size, model);
             window.get_by_label("Replay ended: Dish is to track METOP-B in 1:59.");
             let place = |window: &Window| window.get_by_label_contains("Replay ended: ").rect();
@@ -356,8 +357,8 @@ fn the_keys_of_a_replay_come_before_those_of_the_view() {
             (Modifiers::NONE, Key::ArrowRight, by(1.0)),
             (Modifiers::SHIFT, Key::ArrowLeft, by(-10.0)),
             (Modifiers::SHIFT, Key::ArrowRight, by(10.0)),
-            (Modifiers::NONE, Key::Home, replayed(ReplayCommand::To(stretch.from))),
-            (Modifiers::NONE, Key::End, replayed(ReplayCommand::To(stretch.until))),
+            (Modifiers::NONE, Key::Home, replayed(ReplayCommand::To(stretch.start))),
+            (Modifiers::NONE, Key::End, replayed(ReplayCommand::To(stretch.end))),
             (Modifiers::NONE, Key::Space, replayed(ReplayCommand::PlayOrPause)),
             (Modifiers::NONE, Key::Comma, replayed(ReplayCommand::Event { is_next: false })),
             (Modifiers::NONE, Key::Period, replayed(ReplayCommand::Event { is_next: true })),

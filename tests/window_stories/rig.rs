@@ -215,7 +215,7 @@ fn arrange_catalog(story: &mut Story) {
     let model = &mut story.model;
     for command in &story.commands {
         if let UiCommand::ShowCatalog(question) = command {
-            model.catalog_table.asked = question.clone();
+            model.catalog_table.question = question.clone();
         }
     }
     for command in &story.commands {
@@ -237,9 +237,9 @@ fn arrange_catalog(story: &mut Story) {
             UiCommand::OfferElements { offers, is_dropped } => {
                 let CatalogState::Ready(catalog) = &model.catalog else { continue };
                 let judged = offers.iter().map(|offer| match offer {
-                    Offer::Text(text) => Judged::of(text.as_bytes(), Some(catalog)),
+                    Offer::Text(text) => Judged::new(text.as_bytes(), Some(catalog)),
                     Offer::File(path) => match std::fs::read(path) {
-                        Ok(bytes) => Judged::of(&bytes, Some(catalog)),
+                        Ok(bytes) => Judged::new(&bytes, Some(catalog)),
                         Err(error) => Judged::Unreadable(error.to_string()),
                     },
                 });

@@ -69,7 +69,7 @@ fn without_a_dialog_of_the_desktop_the_path_is_typed() {
     let export = Export::HandOverSheet;
     let ask = |window: &mut Window, path: &str, replaces| {
         let purpose = PathPurpose::Save { export: export.clone(), replaces };
-        let request = PathRequest { purpose, path: path.into(), why: NoDialog.to_string() };
+        let request = PathRequest { purpose, path: path.into(), reason: NoDialog.to_string() };
         window.state_mut().views.ask_for_path(request);
         settle(window);
     };

@@ -142,7 +142,7 @@ fn plus_and_zero_magnify_the_sky_that_has_the_focus() {
     window.key_press(Key::Num0);
     settle(&mut window);
     assert!(los(&window).distance(whole) < 0.5);
-    assert_eq!(window.state().views.kept().strip_hours, None, "the strip keeps its hours");
+    assert_eq!(window.state().views.stored().strip_hours, None, "the strip keeps its hours");
 }
 
 /// A station with a Satrak and a Rotator Genius beside it.

@@ -33,7 +33,7 @@ fn the_menu_of_every_station_leads_to_the_others_and_to_the_demo() {
         let mut model = rig::model(rig::quiet());
         model.shown_mut().demo = demo;
         let known = |name: &str, path: &str| KnownStation { name: name.into(), path: path.into() };
-        model.stations.known =
+        model.stations.stations =
             vec![known("Şile 1", "/a.toml"), known("Hill", "/b.toml"), known("Hill", "/c.toml")];
         model.stations.open = Some("/a.toml".into());
         let mut window = rig::window(size, model);
@@ -227,7 +227,7 @@ fn the_window_changes_to_another_station_and_back() {
     two.pick(NAMES[0]);
     two.wait_for(NAMES[0]);
     let names: Vec<&str> =
-        two.window.state().model().stations.known.iter().map(|known| &*known.name).collect();
+        two.window.state().model().stations.stations.iter().map(|known| &*known.name).collect();
     assert_eq!(names, NAMES);
 }
 
@@ -307,7 +307,7 @@ fn a_station_that_cannot_be_opened_leaves_the_present_one_as_it_is() {
     two.until_it_says("The file is gone");
     two.window.key_press(Key::Enter);
     two.window.run_steps(3);
-    assert_eq!(two.window.state().model().stations.known.len(), 1, "it is not offered again");
+    assert_eq!(two.window.state().model().stations.stations.len(), 1, "it is not offered again");
     assert!(two.units[0].control.state().is_tracking, "it goes on");
     assert_eq!(two.window.state().model().station.name, NAMES[0]);
 }
@@ -335,7 +335,7 @@ fn the_demo_is_in_the_menu_of_a_station_and_a_new_station_gets_a_file_of_its_own
     press(&mut two.window, "Finish (Enter)");
     step_until(&mut two.window, "the station is saved", |model| !model.demo);
     assert!(two.folder.path().join("station-2.toml").exists());
-    let known = &two.window.state().model().stations.known;
+    let known = &two.window.state().model().stations.stations;
     assert_eq!(known.len(), 3);
     assert!(known[0].path.ends_with("station-2.toml"));
 }

@@ -161,7 +161,7 @@ fn without_a_dialog_a_path_among_the_documents_is_proposed() {
     assert_eq!(request.path, folder.path().join(order.name()));
     let purpose = PathPurpose::Save { export: order.export.clone(), replaces: false };
     assert_eq!(request.purpose, purpose);
-    assert!(request.why.contains("no file dialogs"), "{request:?}");
+    assert!(request.reason.contains("no file dialogs"), "{request:?}");
     assert_eq!(order.save(|_, _| Ok(None), documents), Ok(Outcome::Cancelled));
 }
 
@@ -174,7 +174,7 @@ fn a_typed_path_is_written_and_a_file_there_is_replaced_only_if_the_operator_agr
         let Outcome::AsksForPath(request) = outcome else { panic!("{outcome:?}") };
         let export = order.export.clone();
         assert_eq!(request.purpose, PathPurpose::Save { export, replaces });
-        request.why
+        request.reason
     };
     let path = folder.path().join("sheet.html");
     let sheet = || std::fs::read(&path).unwrap();

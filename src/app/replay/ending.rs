@@ -31,5 +31,5 @@ pub(super) fn why_over(begun_at: Timestamp, live: &Model) -> Option<ReplayEnd> {
     let entry = live.schedule.schedule.entries.iter().find(is_near)?;
     let satellite = words::schedule::satellite_name(live, entry.pass.satellite);
     let antenna = words::schedule::antenna_name(live, entry.antenna).to_owned();
-    Some(ReplayEnd::Pass { antenna, satellite, from: entry.start })
+    Some(ReplayEnd::Pass { antenna, satellite, start: entry.start })
 }

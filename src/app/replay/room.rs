@@ -102,7 +102,7 @@ impl Room {
         let passes = match stretch.pass {
             Some(pass) => record::times_of_pass(&self.path, pass.id, site)
                 .map(|times| times.into_iter().collect()),
-            None => record::times_between(&self.path, stretch.from, stretch.until, site),
+            None => record::times_between(&self.path, stretch.start, stretch.end, site),
         };
         passes.unwrap_or_else(|error| {
             tracing::warn!(%error, "the passes of a replay are not marked");
@@ -129,8 +129,8 @@ impl Room {
             Wanted::Pass { of, is_next } => {
                 let pass = record::neighbour(&self.path, of, is_next);
                 let pass = pass.map_err(|error| JumpNews::Failed(error.to_string()))?;
-                let stretch = Stretch::of(&pass.ok_or(JumpNews::NoPass { is_next })?);
-                let from = stretch.from;
+                let stretch = Stretch::new(&pass.ok_or(JumpNews::NoPass { is_next })?);
+                let from = stretch.start;
                 (Some(stretch), Ok((from, None)))
             }
         };

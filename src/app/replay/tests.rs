@@ -16,7 +16,7 @@ fn replay() -> Replay {
     let at: Timestamp = "2026-11-14T19:00:00Z".parse().unwrap();
     let live = Model::before_anything(Moment { utc: at, steady: Instant::now() });
     let (from, until) = (add_seconds(at, -60.0), add_seconds(at, 60.0));
-    let stretch = Stretch { name: "the record".to_owned(), pass: None, from, until };
+    let stretch = Stretch { name: "the record".to_owned(), pass: None, start: from, end: until };
     let path = PathBuf::from("no record");
     Replay::begin(path, stretch, at, &live, ui::Views::default(), Arc::new(|| {}))
 }
@@ -91,7 +91,7 @@ fn the_replay_of_another_report_selects_its_antenna() {
             let antenna = AntennaId(number);
             let pass = Some(StretchPass { id: 1, satellite: 25_544, antenna });
             let (from, until) = (add_seconds(at, -60.0), add_seconds(at, 60.0));
-            Stretch { name: "ISS".to_owned(), pass, from, until }
+            Stretch { name: "ISS".to_owned(), pass, start: from, end: until }
         });
         let scene = Ok(Some(scene(at)));
         replay.take_moment(Found { at, stretch, hole: None, skipped: None, scene });
@@ -113,7 +113,7 @@ fn the_replay_of_a_report_begins_with_its_antenna() {
     let at: Timestamp = "2026-11-14T19:00:00Z".parse().unwrap();
     let live = Model::before_anything(Moment { utc: at, steady: Instant::now() });
     let pass = Some(StretchPass { id: 1, satellite: 25_544, antenna: AntennaId(11) });
-    let stretch = Stretch { name: "ISS".to_owned(), pass, from: at, until: add_seconds(at, 60.0) };
+    let stretch = Stretch { name: "ISS".to_owned(), pass, start: at, end: add_seconds(at, 60.0) };
     let path = PathBuf::from("no record");
     let mut replay = Replay::begin(path, stretch, at, &live, ui::Views::default(), Arc::new(|| {}));
     let found = Found { at, stretch: None, hole: None, skipped: None, scene: Ok(Some(scene(at))) };

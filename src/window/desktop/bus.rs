@@ -15,7 +15,7 @@ pub(super) const OBJECT: &str = "/org/freedesktop/Notifications";
 /// The service may be started for the call.
 const PATIENCE: Duration = Duration::from_secs(5);
 /// Most notifications that can be replaced: as many as there can be alarms.
-const MOST: usize = 200;
+const MAX_CHARS: usize = 200;
 /// The service decides for how long a notification is shown.
 const ITS_OWN_TIME: i32 = -1;
 
@@ -34,7 +34,7 @@ pub(super) struct Service {
 
 impl Bus {
     #[cfg(any(test, feature = "testing"))]
-    pub(super) fn of(service: Service) -> Self {
+    pub(super) fn new(service: Service) -> Self {
         Self { service: Some(service), ..Self::default() }
     }
 
@@ -52,7 +52,7 @@ impl Bus {
         let id = shown?;
         if let Some(number) = notification.number {
             self.shown.insert(number, id);
-            while self.shown.len() > MOST {
+            while self.shown.len() > MAX_CHARS {
                 self.shown.pop_first();
             }
         }
@@ -123,7 +123,7 @@ impl Service {
         let capabilities: Vec<String> = answer
             .and_then(|answer| answer.body().deserialize())
             .map_err(|error| Missing::Service(error.to_string()))?;
-        service.reads_markup = capabilities.iter().any(|of| of == "body-markup");
+        service.reads_markup = capabilities.iter().any(|name| name == "body-markup");
         Ok(service)
     }
 
@@ -164,13 +164,13 @@ mod tests {
             urgency,
             is_silent: true,
         };
-        let wanted = [
+        let expected = [
             call("Alarm", 2, 0),
             call("Reminder", 1, 0),
             call("Alarm", 2, 1),
             call("Reminder", 1, 0),
         ];
-        assert_eq!(calls.try_iter().collect::<Vec<_>>(), wanted);
+        assert_eq!(calls.try_iter().collect::<Vec<_>>(), expected);
     }
 
     #[tokio::test]
@@ -200,6 +200,6 @@ mod tests {
         for number in 0..300 {
             bus.show(&notification("Alarm", Urgency::Normal, Some(number))).await.unwrap();
         }
-        assert_eq!((bus.shown.len(), bus.shown.contains_key(&299)), (MOST, true));
+        assert_eq!((bus.shown.len(), bus.shown.contains_key(&299)), (MAX_CHARS, true));
     }
 }

@@ -28,19 +28,19 @@ pub(super) struct Player {
 
 impl Default for Player {
     fn default() -> Self {
-        Self::within(env::var_os("PATH"))
+        Self::with_path(env::var_os("PATH"))
     }
 }
 
 impl Player {
     /// The players in these folders.
-    pub(super) fn within(path: Option<OsString>) -> Self {
+    pub(super) fn with_path(path: Option<OsString>) -> Self {
         let path = path.unwrap_or_default();
         let place = |name: &str| {
             let mut folders = env::split_paths(&path).filter(|folder| folder.is_absolute());
             folders.find_map(|folder| Some(folder.join(name)).filter(|file| file.is_file()))
         };
-        let found = PLAYERS.iter().filter_map(|(name, with)| Some((place(name)?, *with)));
+        let found = PLAYERS.iter().filter_map(|(name, arguments)| Some((place(name)?, *arguments)));
         Self { found: found.collect() }
     }
 
@@ -52,8 +52,8 @@ impl Player {
     pub(super) async fn play(&mut self, sound: Sound) -> Result<(), Missing> {
         let mut outcome = self.look();
         for index in 0..self.found.len() {
-            let Some((program, with)) = self.found.get(index) else { break };
-            let why = match run(program, with, sound).await {
+            let Some((program, arguments)) = self.found.get(index) else { break };
+            let reason = match run(program, arguments, sound).await {
                 Ok(status) if status.success() => {
                     self.found.rotate_left(index);
                     return Ok(());
@@ -61,15 +61,15 @@ impl Player {
                 Ok(status) => status.to_string(),
                 Err(error) => error.to_string(),
             };
-            outcome = Err(Missing::NotPlayed(format!("{}: {why}", program.display())));
+            outcome = Err(Missing::NotPlayed(format!("{}: {reason}", program.display())));
         }
         outcome
     }
 }
 
-async fn run(program: &PathBuf, with: &[&str], sound: Sound) -> io::Result<ExitStatus> {
+async fn run(program: &PathBuf, arguments: &[&str], sound: Sound) -> io::Result<ExitStatus> {
     let mut player = Command::new(program)
-        .args(with)
+        .args(arguments)
         // All of them take the name of a file, and some nothing else.
         .arg("/dev/stdin")
         .stdin(file(sound)?)
@@ -112,7 +112,7 @@ mod tests {
     }
 
     fn players(folder: &Path) -> Player {
-        Player::within(Some(folder.as_os_str().to_owned()))
+        Player::with_path(Some(folder.as_os_str().to_owned()))
     }
 
     #[tokio::test]
@@ -123,8 +123,8 @@ mod tests {
         let mut player = players(folder.path());
         player.play(Sound::Falling).await.unwrap();
         player.play(Sound::Rising).await.unwrap();
-        let wanted = "pw-play\naplay -q /dev/stdin\naplay -q /dev/stdin\n";
-        assert_eq!(log(folder.path()), wanted);
+        let expected = "pw-play\naplay -q /dev/stdin\naplay -q /dev/stdin\n";
+        assert_eq!(log(folder.path()), expected);
         let played = fs::read(folder.path().join("log.wav")).unwrap();
         assert_eq!(played, include_bytes!("../../../assets/sounds/reminder.wav"));
     }
@@ -138,8 +138,8 @@ mod tests {
         player(folder.path(), "paplay", "exit 3");
         let mut broken = players(folder.path());
         assert_eq!(broken.look(), Ok(()));
-        let Err(Missing::NotPlayed(why)) = broken.play(Sound::Falling).await else { panic!() };
-        assert!(why.ends_with("paplay: exit status: 3"), "{why}");
-        assert_eq!(Player::within(None).look(), Err(Missing::Player(NAMES)));
+        let Err(Missing::NotPlayed(reason)) = broken.play(Sound::Falling).await else { panic!() };
+        assert!(reason.ends_with("paplay: exit status: 3"), "{reason}");
+        assert_eq!(Player::with_path(None).look(), Err(Missing::Player(NAMES)));
     }
 }

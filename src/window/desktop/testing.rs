@@ -77,7 +77,7 @@ impl Desk {
 pub(super) async fn desk(capabilities: &[&str]) -> (Bus, Connection, mpsc::Receiver<Call>) {
     let (near, far) = UnixStream::pair().unwrap();
     let (calls, called) = mpsc::sync_channel(1000);
-    let capabilities = capabilities.iter().map(|of| (*of).to_owned()).collect();
+    let capabilities = capabilities.iter().map(|name| (*name).to_owned()).collect();
     let desk = Desk { calls, capabilities, last_id: 0, closed: Vec::new() };
     let server = async {
         let builder = Builder::async_io_unix_stream(far).server(Guid::generate())?.p2p();
@@ -86,7 +86,7 @@ pub(super) async fn desk(capabilities: &[&str]) -> (Bus, Connection, mpsc::Recei
     let client = async { Builder::async_io_unix_stream(near).p2p().build().await };
     let (server, client) = tokio::join!(server, client);
     let service = Service::on(client.unwrap()).await.unwrap();
-    (Bus::of(service), server.unwrap(), called)
+    (Bus::new(service), server.unwrap(), called)
 }
 
 /// Ids of the notifications that were closed.
@@ -98,5 +98,5 @@ pub async fn closed(server: &Connection) -> Vec<u32> {
 /// A desktop with a notification service and without players.
 pub fn desktop() -> (Desktop, Connection, mpsc::Receiver<Call>) {
     let (bus, server, calls) = zbus::block_on(desk(&["body"]));
-    (Desktop { bus, player: Player::within(None), ..Desktop::default() }, server, calls)
+    (Desktop { bus, player: Player::with_path(None), ..Desktop::default() }, server, calls)
 }

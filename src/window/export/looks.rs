@@ -19,8 +19,8 @@ use crate::astro::{Site, time};
 pub struct LookList<'a> {
     pub satellite: &'a Satellite,
     pub site: Site,
-    pub from: Timestamp,
-    /// Number of rows; the first is at `from`.
+    pub start: Timestamp,
+    /// Number of rows; the first is at `start`.
     pub count: u32,
     pub step_s: f64,
     /// Frequency for which the Doppler shift is written.
@@ -53,13 +53,13 @@ impl LookList<'_> {
 
     fn rows(&self) -> impl Iterator<Item = Row> {
         let instants = (0..self.count)
-            .map(|index| time::add_seconds(self.from, f64::from(index) * self.step_s));
-        instants.map_while(|at| {
-            let look = self.satellite.propagator.look_from(self.site, at).ok()?;
+            .map(|index| time::add_seconds(self.start, f64::from(index) * self.step_s));
+        instants.map_while(|time| {
+            let look = self.satellite.propagator.look_from(self.site, time).ok()?;
             let distance = look.distance();
             let doppler_hz = |carrier_hz| rounded(distance.doppler_hz(carrier_hz), 10.0);
             Some(Row {
-                time: Time(at),
+                time: Time(time),
                 azimuth_deg: degrees(look.direction.azimuth_deg()),
                 elevation_deg: degrees(look.direction.elevation_deg()),
                 range_km: rounded(distance.range_km, 1e3),
@@ -76,11 +76,14 @@ impl LookList<'_> {
         write!(out, "{head}     az     el    range km      km/s")?;
         writeln!(out, "{}", if self.carrier_hz.is_some() { "    Doppler Hz" } else { "" })?;
         for row in self.rows() {
-            let Time(at) = row.time;
+            let Time(time) = row.time;
             let shown = if is_fine {
-                rfc3339::<3>(to_millisecond(at)).replace('T', " ").trim_end_matches('Z').to_owned()
+                rfc3339::<3>(to_millisecond(time))
+                    .replace('T', " ")
+                    .trim_end_matches('Z')
+                    .to_owned()
             } else {
-                civil(at, "%Y-%m-%d %H:%M:%S")
+                civil(time, "%Y-%m-%d %H:%M:%S")
             };
             write!(
                 out,
@@ -103,9 +106,9 @@ mod tests {
 
     fn written(format: ListFormat, step_s: f64, carrier_hz: Option<f64>) -> String {
         let satellite = Satellite::new(example().0).unwrap();
-        let from = "2026-08-12T01:00:00Z".parse().unwrap();
+        let start = "2026-08-12T01:00:00Z".parse().unwrap();
         let site = Site::default();
-        let list = LookList { satellite: &satellite, site, from, count: 3, step_s, carrier_hz };
+        let list = LookList { satellite: &satellite, site, start, count: 3, step_s, carrier_hz };
         let mut out = Vec::new();
         list.write(&mut out, format).unwrap();
         String::from_utf8(out).unwrap()

@@ -67,7 +67,7 @@ impl View {
         &self,
         satellite: &Satellite,
         near: &OverGround,
-        at: Timestamp,
+        time: Timestamp,
         written: impl Fn(Distance) -> T,
     ) -> Distance {
         let distance = near.distance_from(self.site.ecef_km);
@@ -78,8 +78,8 @@ impl View {
         if written(shifted(-1.0)) == written(shifted(1.0)) {
             return distance;
         }
-        let exact = satellite.propagator.state_at(at);
-        exact.map_or(distance, |exact| exact.over_ground(at).distance_from(self.site.ecef_km))
+        let exact = satellite.propagator.state_at(time);
+        exact.map_or(distance, |exact| exact.over_ground(time).distance_from(self.site.ecef_km))
     }
 
     /// Returns `true` if the sky over the site is dark enough to see a satellite in sunlight.
@@ -113,8 +113,13 @@ impl PassQuery {
     }
 
     /// The passes of one satellite that belong to the query, in another window.
-    fn passes_between(&self, propagator: &Propagator, from: Timestamp, to: Timestamp) -> Vec<Pass> {
-        let search = PassSearch { start: from, end: to, ..self.search };
+    fn passes_between(
+        &self,
+        propagator: &Propagator,
+        start: Timestamp,
+        end: Timestamp,
+    ) -> Vec<Pass> {
+        let search = PassSearch { start, end, ..self.search };
         let found = passes(propagator, &search, &|| false);
         found.into_iter().flat_map(|pass| self.parts(propagator, pass)).collect()
     }

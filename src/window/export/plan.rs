@@ -76,9 +76,9 @@ impl PlanList<'_> {
 
     /// All passes by AOS.
     fn planned(&self) -> Vec<Planned<'_>> {
-        let taken = self.schedule.entries.iter().map(Planned::Taken);
+        let entries = self.schedule.entries.iter().map(Planned::Taken);
         let mut rows: Vec<Planned<'_>> =
-            taken.chain(self.schedule.left_out.iter().map(Planned::LeftOut)).collect();
+            entries.chain(self.schedule.left_out.iter().map(Planned::LeftOut)).collect();
         rows.sort_by_key(|row| match row {
             Planned::Taken(entry) => (entry.pass.aos, entry.pass.satellite, entry.start),
             Planned::LeftOut(left) => (left.pass.aos, left.pass.satellite, left.pass.aos),
@@ -133,10 +133,10 @@ impl PlanList<'_> {
 
     fn write_rows(&self, out: &mut impl Write, format: RowFormat) -> io::Result<()> {
         let is_best = self.schedule.worth.iter().all(|class| class.proof == Proof::Best);
-        let about = [("is_proved_best", is_best.into())];
+        let fields = [("is_proved_best", is_best.into())];
         let planned = self.planned();
         let rows = planned.iter().map(|planned| self.row(format, planned));
-        write_rows(out, format, ("passes", &about), &Row::default(), rows)
+        write_rows(out, format, ("passes", &fields), &Row::default(), rows)
     }
 
     fn row(&self, format: RowFormat, planned: &Planned<'_>) -> Row<'_> {

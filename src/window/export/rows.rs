@@ -100,11 +100,11 @@ fn io_error(error: csv::Error) -> io::Error {
 }
 
 /// Writes `rows` in their order. The columns of CSV are the fields of `columns`. JSON is an object with
-/// `format_version`, the fields of `about`, and the rows under `name`.
+/// `format_version`, the fields of `fields`, and the rows under `name`.
 pub fn write_rows<R: Serialize>(
     out: &mut impl Write,
     format: RowFormat,
-    (name, about): (&str, &[(&str, serde_json::Value)]),
+    (name, fields): (&str, &[(&str, serde_json::Value)]),
     columns: &R,
     rows: impl IntoIterator<Item = R>,
 ) -> io::Result<()> {
@@ -113,7 +113,7 @@ pub fn write_rows<R: Serialize>(
         let mut chunk = rows.by_ref().take(AT_ONCE).peekable();
         chunk.peek().is_some().then(|| format.lines(chunk))
     });
-    write_lines(out, format, (name, about), columns, texts)
+    write_lines(out, format, (name, fields), columns, texts)
 }
 
 /// Writes a row for each of `items`, in their order. `make` makes the rows of some hundred items, in
@@ -122,23 +122,23 @@ pub fn write_rows<R: Serialize>(
 pub(super) fn write_many<T: Send + Sync, R: Serialize>(
     out: &mut impl Write,
     format: RowFormat,
-    (name, about): (&str, &[(&str, serde_json::Value)]),
+    (name, fields): (&str, &[(&str, serde_json::Value)]),
     columns: &R,
     mut items: impl Iterator<Item = T>,
     make: impl Fn(&[T]) -> Vec<R> + Sync,
 ) -> io::Result<()> {
     let texts = std::iter::from_fn(|| {
-        let taken: Vec<T> = items.by_ref().take(AT_ONCE).collect();
+        let batch: Vec<T> = items.by_ref().take(AT_ONCE).collect();
         let lines = |chunk: &[T]| format.lines(make(chunk));
-        (!taken.is_empty()).then(|| taken.par_chunks(CHUNK).map(lines).collect::<Vec<_>>())
+        (!batch.is_empty()).then(|| batch.par_chunks(CHUNK).map(lines).collect::<Vec<_>>())
     });
-    write_lines(out, format, (name, about), columns, texts.flatten())
+    write_lines(out, format, (name, fields), columns, texts.flatten())
 }
 
 fn write_lines<R: Serialize>(
     out: &mut impl Write,
     format: RowFormat,
-    (name, about): (&str, &[(&str, serde_json::Value)]),
+    (name, fields): (&str, &[(&str, serde_json::Value)]),
     columns: &R,
     texts: impl IntoIterator<Item = io::Result<Vec<u8>>>,
 ) -> io::Result<()> {
@@ -154,7 +154,7 @@ fn write_lines<R: Serialize>(
         }
         RowFormat::Json => {
             write!(out, "{{\"format_version\":{FORMAT_VERSION}")?;
-            for (field, value) in about {
+            for (field, value) in fields {
                 write!(out, ",\"{field}\":{value}")?;
             }
             write!(out, ",\"{name}\":[")?;
@@ -192,9 +192,9 @@ mod tests {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         let mut out = Vec::new();
         let make = |numbers: &[usize]| numbers.iter().map(|number| row(format, *number)).collect();
-        let about = [("site", serde_json::json!("Porto"))];
+        let fields = [("site", serde_json::json!("Porto"))];
         pool.in_place_scope(|_| {
-            write_many(&mut out, format, ("rows", &about), &row(format, 0), 0..count, make)
+            write_many(&mut out, format, ("rows", &fields), &row(format, 0), 0..count, make)
         })
         .unwrap();
         String::from_utf8(out).unwrap()

@@ -96,12 +96,13 @@ mod tests {
     #[test]
     fn by_day_it_is_light_and_by_night_never() {
         let sun = |elevation_deg: f64| Some(AzEl::from_degrees(90.0, elevation_deg));
-        let of = |theme, light_by_day| Appearance { theme, light_by_day, ..Appearance::default() };
-        let night = of(ThemeName::Night, true);
+        let appearance =
+            |theme, light_by_day| Appearance { theme, light_by_day, ..Appearance::default() };
+        let night = appearance(ThemeName::Night, true);
         assert_eq!(night.theme_under(sun(-0.2)), ThemeName::Light);
         assert_eq!(night.theme_under(sun(-0.4)), ThemeName::Night);
         assert_eq!(night.theme_under(None), ThemeName::Night);
-        assert_eq!(of(ThemeName::Light, true).theme_under(sun(-9.0)), ThemeName::Dark);
-        assert_eq!(of(ThemeName::Dark, false).theme_under(sun(50.0)), ThemeName::Dark);
+        assert_eq!(appearance(ThemeName::Light, true).theme_under(sun(-9.0)), ThemeName::Dark);
+        assert_eq!(appearance(ThemeName::Dark, false).theme_under(sun(50.0)), ThemeName::Dark);
     }
 }

@@ -30,7 +30,7 @@ const LOOK_BACK_S: f64 = 3600.0;
 
 /// Objects among which the table searches.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub enum Among {
+pub enum Subset {
     #[default]
     All,
     Favourites,
@@ -66,7 +66,7 @@ pub enum Column {
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Question {
     pub search: String,
-    pub among: Among,
+    pub scope: Subset,
     pub sort: Column,
     pub is_descending: bool,
 }
@@ -96,7 +96,7 @@ pub struct NextPasses {
     pub key: NextKey,
     pub made_at: Timestamp,
     /// The first passes of each satellite, by time.
-    of: HashMap<u32, Vec<NextPass>>,
+    by_satellite: HashMap<u32, Vec<NextPass>>,
 }
 
 /// Inputs of the next passes, except the time.
@@ -111,7 +111,7 @@ pub struct NextKey {
 /// The table with what was asked last.
 #[derive(Default)]
 pub struct CatalogTable {
-    pub asked: Question,
+    pub question: Question,
     /// The last rows, kept until the next ones.
     pub answer: Option<Answer>,
     pub next: Option<Arc<NextPasses>>,
@@ -125,7 +125,7 @@ impl CatalogTable {
     /// Returns the inputs from which the rows have to be computed.
     pub fn inputs(&self, catalog: &Arc<Catalog>, station: &Arc<Station>) -> Inputs {
         Inputs {
-            question: self.asked.clone(),
+            question: self.question.clone(),
             catalog: Arc::clone(catalog),
             station: Arc::clone(station),
             next: self.next.clone(),
@@ -135,7 +135,7 @@ impl CatalogTable {
 
 impl PartialEq for Inputs {
     fn eq(&self, other: &Self) -> bool {
-        let made_at = |of: &Self| of.next.as_ref().map(|next| next.made_at);
+        let made_at = |inputs: &Self| inputs.next.as_ref().map(|next| next.made_at);
         self.question == other.question
             && Arc::ptr_eq(&self.catalog, &other.catalog)
             && self.station.favourites == other.station.favourites
@@ -171,22 +171,24 @@ impl NextPasses {
         let prepared: Vec<(u32, Propagator)> = all
             .into_par_iter()
             .filter(|_| !cancelled())
-            .filter_map(|of| Some((of.catalog_number(), Propagator::new(of).ok()?)))
+            .filter_map(|elements| {
+                Some((elements.catalog_number(), Propagator::new(elements).ok()?))
+            })
             .collect();
         let (numbers, propagators): (Vec<u32>, Vec<Propagator>) = prepared.into_iter().unzip();
-        let to = add_seconds(now, f64::from(NEXT_PASSES_H) * 3600.0);
+        let end = add_seconds(now, f64::from(NEXT_PASSES_H) * 3600.0);
         let window = PassSearch {
             aos_elevation: key.aos_elevation,
             floor: key.floor,
-            ..PassSearch::new(key.site, add_seconds(now, -LOOK_BACK_S), to)
+            ..PassSearch::new(key.site, add_seconds(now, -LOOK_BACK_S), end)
         };
-        let mut of = HashMap::new();
+        let mut by_satellite = HashMap::new();
         for (index, pass) in passes_of_all(&propagators, &window, &|_| (), cancelled) {
             if pass.los.time <= now {
                 continue;
             }
             let Some(number) = numbers.get(index) else { continue };
-            let first: &mut Vec<NextPass> = of.entry(*number).or_default();
+            let first: &mut Vec<NextPass> = by_satellite.entry(*number).or_default();
             if first.len() < PASSES_AHEAD {
                 first.push(NextPass {
                     aos: pass.aos.time,
@@ -196,12 +198,12 @@ impl NextPasses {
                 });
             }
         }
-        Self { key, made_at: now, of }
+        Self { key, made_at: now, by_satellite }
     }
 
     /// The pass of a satellite that is under way at `now` or comes next.
     pub fn get(&self, number: u32, now: Timestamp) -> Option<NextPass> {
-        self.of.get(&number)?.iter().copied().find(|pass| pass.los > now)
+        self.by_satellite.get(&number)?.iter().copied().find(|pass| pass.los > now)
     }
 }
 
@@ -212,28 +214,32 @@ type Rank = Option<(f64, f64)>;
 pub fn arrange(inputs: Inputs, now: Timestamp) -> Answer {
     let Inputs { question, catalog, station, .. } = &inputs;
     let is_old = |elements: &&Elements| elements.epoch_distance_s(now) > OLD_S;
-    let mut found: Vec<&Elements> = match &question.among {
-        Among::All => catalog.iter().collect(),
-        Among::Favourites => {
+    let mut found: Vec<&Elements> = match &question.scope {
+        Subset::All => catalog.iter().collect(),
+        Subset::Favourites => {
             let favourites = station.favourites.iter();
-            favourites.filter_map(|of| catalog.get(of.satellite)).collect()
+            favourites.filter_map(|favourite| catalog.get(favourite.satellite)).collect()
         }
-        Among::Group(group) => catalog.in_group(group).collect(),
-        Among::Own(name) => {
+        Subset::Group(group) => catalog.in_group(group).collect(),
+        Subset::Own(name) => {
             station.in_groups(name).into_iter().filter_map(|number| catalog.get(number)).collect()
         }
-        Among::Old => catalog.iter().filter(is_old).collect(),
+        Subset::Old => catalog.iter().filter(is_old).collect(),
     };
     let needle = question.search.trim().to_lowercase();
     if !needle.is_empty() {
         found.retain(|elements| is_found(elements, &needle));
     }
     let rows = match question.sort {
-        Column::Name => by_text(found, question.is_descending, |of| of.name().to_lowercase()),
-        Column::From => by_text(found, question.is_descending, |of| {
-            catalog.source_of(of.catalog_number()).unwrap_or_default().to_owned()
+        Column::Name => {
+            by_text(found, question.is_descending, |object| object.name().to_lowercase())
+        }
+        Column::From => by_text(found, question.is_descending, |object| {
+            catalog.source_of(object.catalog_number()).unwrap_or_default().to_owned()
         }),
-        column => by_number(found, question.is_descending, |of| rank(column, of, &inputs, now)),
+        column => {
+            by_number(found, question.is_descending, |object| rank(column, object, &inputs, now))
+        }
     };
     let old = catalog.iter().filter(is_old).count();
     Answer { inputs, rows, old }
@@ -248,20 +254,20 @@ fn is_found(elements: &Elements, needle: &str) -> bool {
             .is_some_and(|designator| designator.to_lowercase().contains(needle))
 }
 
-fn rank(column: Column, of: &Elements, inputs: &Inputs, now: Timestamp) -> Rank {
-    let number = of.catalog_number();
+fn rank(column: Column, elements: &Elements, inputs: &Inputs, now: Timestamp) -> Rank {
+    let number = elements.catalog_number();
     let next = || inputs.next.as_ref().and_then(|next| next.get(number, now));
     let one = |value: f64| Some((value, 0.0));
     match column {
         Column::Star => one(f64::from(inputs.station.priority(number)?.number())),
         Column::Name | Column::From | Column::Number => one(f64::from(number)),
-        Column::Period => one(of.period_s()),
-        Column::Inclination => one(of.inclination().degrees()),
+        Column::Period => one(elements.period_s()),
+        Column::Inclination => one(elements.inclination().degrees()),
         Column::Heights => {
-            let heights = of.heights();
+            let heights = elements.heights();
             Some((heights.apogee_km, heights.perigee_km))
         }
-        Column::Age => one(of.age_s(now)),
+        Column::Age => one(elements.age_s(now)),
         Column::NextPass => {
             let next = next()?;
             // Satellites that are up all the time come after all others.
@@ -278,7 +284,7 @@ fn by_number(
     rank: impl Fn(&Elements) -> Rank,
 ) -> Arc<[u32]> {
     let mut ranked: Vec<(Rank, u32)> =
-        found.into_iter().map(|of| (rank(of), of.catalog_number())).collect();
+        found.into_iter().map(|elements| (rank(elements), elements.catalog_number())).collect();
     ranked.sort_by(|(a, first), (b, second)| {
         let order = match (a, b) {
             (Some(a), Some(b)) => {
@@ -301,7 +307,7 @@ fn by_text(
     text: impl Fn(&Elements) -> String,
 ) -> Arc<[u32]> {
     let mut named: Vec<(String, u32)> =
-        found.into_iter().map(|of| (text(of), of.catalog_number())).collect();
+        found.into_iter().map(|elements| (text(elements), elements.catalog_number())).collect();
     named.sort_by(|(a, first), (b, second)| {
         let order = if is_descending { b.cmp(a) } else { a.cmp(b) };
         a.is_empty().cmp(&b.is_empty()).then(order).then(first.cmp(second))
@@ -361,13 +367,15 @@ mod tests {
     #[test]
     fn every_column_sorts_both_ways() {
         let catalog = bundled().unwrap();
-        let of = |number: u32| catalog.get(number).unwrap();
+        let elements = |number: u32| catalog.get(number).unwrap();
         let sorted =
             |sort, is_descending| rows(Question { sort, is_descending, ..search("sentinel") });
         let check = |column, key: &dyn Fn(&Elements) -> f64| {
             for is_descending in [false, true] {
-                let keys: Vec<f64> =
-                    sorted(column, is_descending).iter().map(|number| key(of(*number))).collect();
+                let keys: Vec<f64> = sorted(column, is_descending)
+                    .iter()
+                    .map(|number| key(elements(*number)))
+                    .collect();
                 assert!(keys.len() > 3);
                 let right = |pair: &[f64]| {
                     if is_descending { pair[0] >= pair[1] } else { pair[0] <= pair[1] }
@@ -375,13 +383,15 @@ mod tests {
                 assert!(keys.windows(2).all(right), "{column:?} {keys:?}");
             }
         };
-        check(Column::Number, &|of| f64::from(of.catalog_number()));
-        check(Column::Period, &|of| of.period_s());
-        check(Column::Inclination, &|of| of.inclination().degrees());
-        check(Column::Heights, &|of| of.heights().apogee_km);
-        check(Column::Age, &|of| of.age_s(now()));
-        let names: Vec<_> =
-            sorted(Column::Name, false).iter().map(|n| of(*n).name().to_lowercase()).collect();
+        check(Column::Number, &|elements| f64::from(elements.catalog_number()));
+        check(Column::Period, &|elements| elements.period_s());
+        check(Column::Inclination, &|elements| elements.inclination().degrees());
+        check(Column::Heights, &|elements| elements.heights().apogee_km);
+        check(Column::Age, &|elements| elements.age_s(now()));
+        let names: Vec<_> = sorted(Column::Name, false)
+            .iter()
+            .map(|n| elements(*n).name().to_lowercase())
+            .collect();
         assert!(names.is_sorted());
         let all = |sort| rows(Question { sort, ..Question::default() });
         assert_eq!(all(Column::Star)[..2], [ISS, NOAA_20], "by priority, the others after them");
@@ -390,11 +400,18 @@ mod tests {
 
     #[test]
     fn groups_favourites_and_old_sets_are_chosen() {
-        let of = |among| arrange(inputs(Question { among, ..Question::default() }), now());
-        assert_eq!(of(Among::Favourites).rows.len(), 2, "one has no elements");
-        assert_eq!(of(Among::Own("weather".to_owned())).rows[..], [NOAA_20], "one is not held");
-        assert_eq!(of(Among::Group(crate::orbit::BUNDLED_SOURCE.to_owned())).rows.len(), 16_089);
-        let old = of(Among::Old);
+        let answer = |scope| arrange(inputs(Question { scope, ..Question::default() }), now());
+        assert_eq!(answer(Subset::Favourites).rows.len(), 2, "one has no elements");
+        assert_eq!(
+            answer(Subset::Own("weather".to_owned())).rows[..],
+            [NOAA_20],
+            "one is not held"
+        );
+        assert_eq!(
+            answer(Subset::Group(crate::orbit::BUNDLED_SOURCE.to_owned())).rows.len(),
+            16_089
+        );
+        let old = answer(Subset::Old);
         assert_eq!(old.rows.len(), old.old);
         assert!(old.old > 0 && old.old < 16_089, "{}", old.old);
     }
@@ -402,11 +419,11 @@ mod tests {
     #[test]
     fn sorting_and_searching_the_whole_catalog_is_timed() {
         let all = inputs(Question::default());
-        let timed = |what: &str, question: Question| {
+        let timed = |subject: &str, question: Question| {
             let inputs = Inputs { question, ..all.clone() };
             let start = Instant::now();
             let count = arrange(inputs, now()).rows.len();
-            println!("{what}: {:.1} ms, {count} rows", start.elapsed().as_secs_f64() * 1e3);
+            println!("{subject}: {:.1} ms, {count} rows", start.elapsed().as_secs_f64() * 1e3);
         };
         for sort in [Column::Name, Column::Number, Column::Heights, Column::Age, Column::From] {
             timed(&format!("sort by {sort:?}"), Question { sort, ..Question::default() });

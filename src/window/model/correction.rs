@@ -19,11 +19,11 @@ use crate::{
 #[derive(Debug, Clone, PartialEq)]
 pub struct Correction {
     pub antenna: AntennaId,
-    pub how: How,
+    pub method: CorrectionMethod,
 }
 
 #[derive(Debug, Clone, PartialEq)]
-pub enum How {
+pub enum CorrectionMethod {
     /// Values for settings of the unit, by their keys and that of their group.
     Settings {
         group: &'static str,
@@ -44,11 +44,13 @@ pub fn correction(
     explanation: &Explanation,
 ) -> Option<Correction> {
     let antenna = model.antennas.iter().find(|antenna| antenna.id() == pass.antenna)?;
-    let how = match pass.report.track.tracked_by {
+    let method = match pass.report.track.tracked_by {
         TrackedBy::ProgramTrack => remembered(model, antenna, pass, explanation),
         TrackedBy::OnBoard | TrackedBy::Elsewhere => settings(antenna, pass, explanation),
     };
-    how.filter(|_| model.replay.is_none()).map(|how| Correction { antenna: antenna.id(), how })
+    method
+        .filter(|_| model.replay.is_none())
+        .map(|method| Correction { antenna: antenna.id(), method })
 }
 
 /// The offsets with which the pass was flown, less its error: the same however often it is taken
@@ -58,7 +60,7 @@ fn remembered(
     antenna: &AntennaModel,
     pass: &RecordedPass,
     explanation: &Explanation,
-) -> Option<How> {
+) -> Option<CorrectionMethod> {
     let less = |offset_deg: f64| Angle::from_degrees(-offset_deg);
     let step = |cause: &Cause| match *cause {
         Cause::AzimuthOffset { offset_deg } => Some(Offset::Azimuth(less(offset_deg))),
@@ -69,17 +71,22 @@ fn remembered(
     steps.peek()?;
     let flown = pass.report.track.offsets.changes().last();
     let flown = flown.map_or(TrackOffsets::NONE, |(_, offsets)| *offsets);
-    let of = OffsetsSubject::Antenna(antenna.id());
-    let offsets = steps.try_fold(of.part(flown), TrackOffsets::plus)?;
-    (model.station.kept_offsets(of) != offsets).then_some(How::Remembered(offsets))
+    let offsets_subject = OffsetsSubject::Antenna(antenna.id());
+    let offsets = steps.try_fold(offsets_subject.part(flown), TrackOffsets::plus)?;
+    (model.station.kept_offsets(offsets_subject) != offsets)
+        .then_some(CorrectionMethod::Remembered(offsets))
 }
 
 /// An offset below this changes no setting, degrees.
-const LEAST_DEG: f64 = 0.005;
+const MIN_DEG: f64 = 0.005;
 
 /// Returns the values that the unit holds, less the error. `None` after a write since the pass,
 /// which may correct it already.
-fn settings(antenna: &AntennaModel, pass: &RecordedPass, explanation: &Explanation) -> Option<How> {
+fn settings(
+    antenna: &AntennaModel,
+    pass: &RecordedPass,
+    explanation: &Explanation,
+) -> Option<CorrectionMethod> {
     let fields = antenna.variant().track_offsets?;
     let state = antenna.snapshot.state.groups.get(fields.group)?;
     // A session takes back what it adds for a pass.
@@ -89,9 +96,9 @@ fn settings(antenna: &AntennaModel, pass: &RecordedPass, explanation: &Explanati
     if state.written.as_ref().is_some_and(is_later) {
         return None;
     }
-    let held = &state.last_read.as_ref()?.values;
-    let degrees = |field: &'static str, offset_deg: f64| match held.get(field)? {
-        Value::Decimal(held_deg) if offset_deg.abs() >= LEAST_DEG => {
+    let current = &state.last_read.as_ref()?.values;
+    let degrees = |field: &'static str, offset_deg: f64| match current.get(field)? {
+        Value::Decimal(held_deg) if offset_deg.abs() >= MIN_DEG => {
             Some((field, Value::Decimal(held_deg - offset_deg)))
         }
         _ => None,
@@ -99,7 +106,7 @@ fn settings(antenna: &AntennaModel, pass: &RecordedPass, explanation: &Explanati
     let value = |cause: &Cause| match *cause {
         Cause::AzimuthOffset { offset_deg } => degrees(fields.azimuth_deg, offset_deg),
         Cause::ElevationOffset { offset_deg } => degrees(fields.elevation_deg, offset_deg),
-        Cause::Late { late_s } => match held.get(fields.time_ms)? {
+        Cause::Late { late_s } => match current.get(fields.time_ms)? {
             Value::Integer(held_ms) => {
                 let late_ms = (late_s * 1000.0).round() as i64;
                 Some((fields.time_ms, Value::Integer(held_ms.saturating_add(late_ms))))
@@ -110,5 +117,9 @@ fn settings(antenna: &AntennaModel, pass: &RecordedPass, explanation: &Explanati
     };
     let values: Vec<_> = explanation.causes().filter_map(value).collect();
     let has_time = values.iter().any(|(field, _)| *field == fields.time_ms);
-    (!values.is_empty()).then_some(How::Settings { group: fields.group, values, has_time })
+    (!values.is_empty()).then_some(CorrectionMethod::Settings {
+        group: fields.group,
+        values,
+        has_time,
+    })
 }

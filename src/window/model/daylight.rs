@@ -17,8 +17,8 @@ const EXACT_S: f64 = 60.0;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SunSpan {
     /// Sunrise or sunset, except for the first span.
-    pub from: Timestamp,
-    pub to: Timestamp,
+    pub start: Timestamp,
+    pub end: Timestamp,
     /// `false` for night.
     pub up: bool,
 }
@@ -27,21 +27,21 @@ pub struct SunSpan {
 /// of less than ten minutes may be missed.
 pub fn spans(site: Site, now: Timestamp, ahead_s: f64) -> Vec<SunSpan> {
     let is_up =
-        |at: Timestamp| sun_moon::sun(site.airless(), at).elevation_deg() > sun_moon::RISE_DEG;
-    let mut at = add_seconds(now, -PAST_S);
+        |time: Timestamp| sun_moon::sun(site.airless(), time).elevation_deg() > sun_moon::RISE_DEG;
+    let mut time = add_seconds(now, -PAST_S);
     let end = add_seconds(now, ahead_s);
-    let mut last = SunSpan { from: at, to: at, up: is_up(at) };
+    let mut last = SunSpan { start: time, end: time, up: is_up(time) };
     let mut spans = Vec::new();
-    while at < end {
-        let next = add_seconds(at, STEP_S).min(end);
+    while time < end {
+        let next = add_seconds(time, STEP_S).min(end);
         if is_up(next) != last.up {
-            let change = change(at, next, |at| is_up(at) == last.up);
-            spans.push(SunSpan { to: change, ..last });
-            last = SunSpan { from: change, to: change, up: !last.up };
+            let change = change(time, next, |time| is_up(time) == last.up);
+            spans.push(SunSpan { end: change, ..last });
+            last = SunSpan { start: change, end: change, up: !last.up };
         }
-        at = next;
+        time = next;
     }
-    spans.push(SunSpan { to: end, ..last });
+    spans.push(SunSpan { end, ..last });
     spans
 }
 
@@ -75,7 +75,7 @@ mod tests {
         let spans = spans(site, noon, 25.0 * 3600.0);
         assert!(spans[0].up && !spans[1].up);
         let sunset: Timestamp = "2026-08-12T17:08:00Z".parse().unwrap();
-        let off_s = crate::astro::time::seconds_between(sunset, spans[1].from);
+        let off_s = crate::astro::time::seconds_between(sunset, spans[1].start);
         assert!(off_s.abs() < 300.0, "{off_s}");
     }
 
@@ -86,11 +86,11 @@ mod tests {
         let spans = spans(site, now, 168.0 * 3600.0);
         assert_eq!(spans.len(), 15, "seven nights between eight days");
         for pair in spans.windows(2) {
-            assert_eq!(pair[0].to, pair[1].from);
+            assert_eq!(pair[0].end, pair[1].start);
             assert_ne!(pair[0].up, pair[1].up);
-            let hours = seconds_between(pair[1].from, pair[1].to) / 3600.0;
+            let hours = seconds_between(pair[1].start, pair[1].end) / 3600.0;
             assert!(hours < 14.5, "{hours}");
         }
-        assert_eq!(spans[14].to, add_seconds(now, 168.0 * 3600.0));
+        assert_eq!(spans[14].end, add_seconds(now, 168.0 * 3600.0));
     }
 }

@@ -46,7 +46,7 @@ pub struct Effect<Q: Compare> {
 }
 
 impl<Q: Compare> Effect<Q> {
-    pub fn of(question: Q, ways: &Arc<[PassTrack]>, revision: u64) -> Self {
+    pub fn new(question: Q, ways: &Arc<[PassTrack]>, revision: u64) -> Self {
         let [before, after] = question.tallies(ways);
         Self { ways: Arc::clone(ways), before, after, revision, question }
     }
@@ -57,25 +57,25 @@ pub struct Effects<Q: Compare> {
     /// The last answer, kept until the next one so that the view does not flicker.
     pub effect: Option<Effect<Q>>,
     /// The question, and the time it was asked first.
-    pub asked: Option<(Q, Instant)>,
+    pub requested: Option<(Q, Instant)>,
 }
 
 impl<Q: Compare> Default for Effects<Q> {
     fn default() -> Self {
-        Self { effect: None, asked: None }
+        Self { effect: None, requested: None }
     }
 }
 
 impl<Q: Compare> Effects<Q> {
     /// Asks a question. The work begins once no other was asked for a while.
     pub fn ask(&mut self, question: Q, now: Instant) {
-        if self.wanted() != Some(&question) {
-            self.asked = Some((question, now));
+        if self.requested() != Some(&question) {
+            self.requested = Some((question, now));
         }
     }
 
-    pub fn wanted(&self) -> Option<&Q> {
-        self.asked.as_ref().map(|(question, _)| question)
+    pub fn requested(&self) -> Option<&Q> {
+        self.requested.as_ref().map(|(question, _)| question)
     }
 }
 
@@ -84,10 +84,10 @@ pub fn ways<Q: Compare>(
     passes: &[PredictedPass],
     cancelled: &dyn Fn() -> bool,
 ) -> Arc<[PassTrack]> {
-    let wanted = passes.iter().filter(|predicted| !predicted.is_always_up());
+    let listed = passes.iter().filter(|predicted| !predicted.is_always_up());
     let way = |predicted: &PredictedPass| PassTrack {
         number: predicted.number(),
         samples: predicted.track().iter().step_by(Q::EVERY).copied().collect(),
     };
-    wanted.take_while(|_| !cancelled()).map(way).collect()
+    listed.take_while(|_| !cancelled()).map(way).collect()
 }

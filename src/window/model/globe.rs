@@ -87,7 +87,7 @@ pub struct NextPass {
 
 /// A side of the map.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Towards {
+pub enum MapDirection {
     North,
     East,
     South,
@@ -98,7 +98,7 @@ pub enum Towards {
 struct KeptTrack {
     epoch: Timestamp,
     is_selected: bool,
-    from: Timestamp,
+    start: Timestamp,
     points: Arc<[TrackPoint]>,
 }
 
@@ -113,7 +113,7 @@ struct MadeOf {
 }
 
 impl MadeOf {
-    fn of(model: &Model) -> Self {
+    fn new(model: &Model) -> Self {
         Self {
             second: model.now.as_second(),
             selected: model.selected.map(|(number, _)| number),
@@ -140,42 +140,42 @@ impl GlobeSatellite {
 
 impl Globe {
     pub fn selected(&self) -> Option<&GlobeSatellite> {
-        self.satellites.iter().find(|of| of.is_selected)
+        self.satellites.iter().find(|satellite| satellite.is_selected)
     }
 
     /// The next satellite on that side of the selected one, among those that `is_shown`; the
     /// highest over the station if none is selected. Only a satellite with a pass can be selected.
     pub fn nearest(
         &self,
-        towards: Towards,
+        direction: MapDirection,
         is_shown: impl Fn(&GlobeSatellite) -> bool,
     ) -> Option<u32> {
-        let mut others = self.satellites.iter().filter(|of| {
-            let can_be_selected = of.next.is_some() && !of.is_selected;
-            can_be_selected && is_shown(of)
+        let mut others = self.satellites.iter().filter(|satellite| {
+            let can_be_selected = satellite.next.is_some() && !satellite.is_selected;
+            can_be_selected && is_shown(satellite)
         });
-        let Some(from) = self.selected() else { return others.next().map(GlobeSatellite::number) };
-        let effort = |to: &GlobeSatellite| {
-            let from = from.below.point;
-            let east = (to.below.point.longitude - from.longitude).wrapped_180().degrees();
-            let north = (to.below.point.latitude - from.latitude).degrees();
-            let (along, aside) = match towards {
-                Towards::North => (north, east),
-                Towards::East => (east, north),
-                Towards::South => (-north, east),
-                Towards::West => (-east, north),
+        let Some(start) = self.selected() else { return others.next().map(GlobeSatellite::number) };
+        let effort = |end: &GlobeSatellite| {
+            let start = start.below.point;
+            let east = (end.below.point.longitude - start.longitude).wrapped_180().degrees();
+            let north = (end.below.point.latitude - start.latitude).degrees();
+            let (along, across) = match direction {
+                MapDirection::North => (north, east),
+                MapDirection::East => (east, north),
+                MapDirection::South => (-north, east),
+                MapDirection::West => (-east, north),
             };
-            (along > 0.0).then(|| along + 2.0 * aside.abs())
+            (along > 0.0).then(|| along + 2.0 * across.abs())
         };
         others
-            .filter_map(|of| Some((effort(of)?, of.number())))
+            .filter_map(|satellite| Some((effort(satellite)?, satellite.number())))
             .min_by(|(a, _), (b, _)| a.total_cmp(b))
             .map(|(_, number)| number)
     }
 
     /// Recomputes the globe if the second or something else that it shows has changed.
     pub(super) fn refresh(&mut self, model: &Model) {
-        let made_of = MadeOf::of(model);
+        let made_of = MadeOf::new(model);
         if self.made_of.as_ref().is_some_and(|before| before.is_same(&made_of)) {
             return;
         }
@@ -206,7 +206,7 @@ impl Globe {
                 self.place(satellite, next, made_of, model)
             })
             .collect();
-        let elevation = |of: &GlobeSatellite| of.look.direction.elevation.radians();
+        let elevation = |object: &GlobeSatellite| object.look.direction.elevation.radians();
         placed.sort_by(|a, b| elevation(b).total_cmp(&elevation(a)));
         placed
     }
@@ -238,7 +238,7 @@ impl Globe {
             is_up: elevation.radians() >= lowest,
             heading: heading(&satellite, &below, now),
             is_sunlit: is_sunlit(&state, now),
-            track: self.tracks.get(&number).map(|kept| &kept.points).cloned().unwrap_or_default(),
+            track: self.tracks.get(&number).map(|track| &track.points).cloned().unwrap_or_default(),
             satellite,
             below,
             look,
@@ -256,7 +256,7 @@ impl Globe {
         for (satellite, number) in satellites.iter().zip(numbers) {
             let is_selected = made_of.selected == Some(number);
             let fresh = KeptTrack::empty(satellite, is_selected, model.now);
-            if self.tracks.get(&number).is_some_and(|kept| kept.is_same(&fresh)) {
+            if self.tracks.get(&number).is_some_and(|track| track.is_same(&fresh)) {
                 continue;
             }
             if !is_selected {
@@ -279,13 +279,13 @@ impl KeptTrack {
         };
         let second = now.as_second();
         let from_second = second - second.rem_euclid(period_s) - flown_s;
-        let from = Timestamp::from_second(from_second).unwrap_or(now);
+        let start = Timestamp::from_second(from_second).unwrap_or(now);
         let epoch = satellite.elements.epoch();
-        Self { epoch, is_selected, from, points: Arc::default() }
+        Self { epoch, is_selected, start, points: Arc::default() }
     }
 
     fn is_same(&self, other: &Self) -> bool {
-        (self.epoch, self.is_selected, self.from) == (other.epoch, other.is_selected, other.from)
+        (self.epoch, self.is_selected, self.start) == (other.epoch, other.is_selected, other.start)
     }
 
     fn computed(self, satellite: &ListedSatellite) -> Self {
@@ -295,7 +295,7 @@ impl KeptTrack {
             (OTHERS_STEP_S, OTHERS_AHEAD_MIN)
         };
         let count = span_min * 60 / step_s + 1;
-        let track = satellite.propagator.ground_track(self.from, f64::from(step_s), count);
+        let track = satellite.propagator.ground_track(self.start, f64::from(step_s), count);
         Self { points: track.into(), ..self }
     }
 }
@@ -307,7 +307,10 @@ fn listed(made_of: &MadeOf, model: &Model) -> Vec<Arc<ListedSatellite>> {
     let chosen = chosen.filter_map(|number| model.pass_lists.satellite(*number));
     for satellite in chosen.chain(model.pass_lists.favourites.satellites.iter()) {
         let number = satellite.elements.catalog_number();
-        if !listed.iter().any(|known| known.elements.catalog_number() == number) {
+        if !listed
+            .iter()
+            .any(|listed_satellite| listed_satellite.elements.catalog_number() == number)
+        {
             listed.push(Arc::clone(satellite));
         }
     }
@@ -315,9 +318,9 @@ fn listed(made_of: &MadeOf, model: &Model) -> Vec<Arc<ListedSatellite>> {
 }
 
 fn heading(satellite: &ListedSatellite, below: &SubPoint, now: Timestamp) -> Option<Angle> {
-    let then = add_seconds(now, HEADING_S);
-    let state: State = satellite.propagator.state_at(then).ok()?;
-    let to = state.sub_point(then).point;
-    let moved = below.point.distance(to).degrees();
-    (moved >= STANDS_BELOW_DEG_S * HEADING_S).then(|| below.point.bearing(to))
+    let time = add_seconds(now, HEADING_S);
+    let state: State = satellite.propagator.state_at(time).ok()?;
+    let end = state.sub_point(time).point;
+    let moved = below.point.distance(end).degrees();
+    (moved >= STANDS_BELOW_DEG_S * HEADING_S).then(|| below.point.bearing(end))
 }

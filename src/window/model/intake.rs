@@ -70,7 +70,7 @@ impl Offer {
 
 impl Judged {
     /// Compares the elements in `bytes` with those in use.
-    pub fn of(bytes: &[u8], in_use: Option<&Catalog>) -> Self {
+    pub fn new(bytes: &[u8], in_use: Option<&Catalog>) -> Self {
         let report = read_element_bytes(bytes);
         if let Some(nothing) = report.nothing {
             return Self::Nothing(nothing);
@@ -81,8 +81,10 @@ impl Judged {
             ..Counts::default()
         };
         for elements in &report.elements {
-            let held = in_use.and_then(|catalog| catalog.get(elements.catalog_number()));
-            let count = match held.map(|held| elements.epoch().cmp(&held.epoch())) {
+            let known_elements = in_use.and_then(|catalog| catalog.get(elements.catalog_number()));
+            let count = match known_elements
+                .map(|known_elements| elements.epoch().cmp(&known_elements.epoch()))
+            {
                 None => &mut counts.new,
                 Some(std::cmp::Ordering::Greater) => &mut counts.newer,
                 Some(std::cmp::Ordering::Equal) => &mut counts.same,
@@ -115,14 +117,14 @@ mod tests {
         list[1]["EPOCH"] = "2026-08-01T00:00:00".into();
         list[2]["NORAD_CAT_ID"] = 999_999.into();
         list.as_array_mut().unwrap().push(serde_json::json!({ "OBJECT_NAME": "M" }));
-        let Judged::Elements(counts) = Judged::of(list.to_string().as_bytes(), Some(&catalog))
+        let Judged::Elements(counts) = Judged::new(list.to_string().as_bytes(), Some(&catalog))
         else {
             panic!("there are elements")
         };
         assert_eq!((counts.new, counts.newer, counts.same, counts.older), (1, 1, 1, 1));
         assert_eq!((counts.objects(), counts.all_refused), (4, 1));
         assert_eq!(counts.refused[0].object.as_deref(), Some("M"));
-        let page = Judged::of(b"<!DOCTYPE html>", Some(&catalog));
+        let page = Judged::new(b"<!DOCTYPE html>", Some(&catalog));
         assert_eq!(page, Judged::Nothing(Nothing::WebPage));
         assert!(!page.is_usable());
     }

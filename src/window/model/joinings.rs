@@ -16,7 +16,7 @@ use crate::{
 };
 
 /// More than a list shows at once.
-const KEPT: usize = 200;
+const MAX_JOININGS: usize = 200;
 
 type Found = HashMap<(AntennaId, PassListKey), (i64, Option<Joining>)>;
 
@@ -25,7 +25,7 @@ pub struct Joinings(Mutex<Found>);
 
 impl Joinings {
     /// When the antenna would join the pass at `now`, by `find` or as it found before.
-    pub fn of(
+    pub fn get_or_find(
         &self,
         antenna: AntennaId,
         pass: PassListKey,
@@ -35,13 +35,13 @@ impl Joinings {
         // No code panics while it holds the lock.
         let mut found = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         let second = now.as_second();
-        if let Some((at, joining)) = found.get(&(antenna, pass))
-            && *at == second
+        if let Some((searched_second, joining)) = found.get(&(antenna, pass))
+            && *searched_second == second
         {
             return *joining;
         }
         let joining = find();
-        if found.len() >= KEPT {
+        if found.len() >= MAX_JOININGS {
             found.clear();
         }
         found.insert((antenna, pass), (second, joining));
@@ -72,16 +72,17 @@ mod tests {
     #[test]
     fn what_was_found_is_kept_for_the_second_of_its_antenna_and_pass() {
         let joinings = Joinings::default();
-        let at = |ms: i64| Timestamp::from_millisecond(ms).unwrap();
-        let of = |antenna: u32, satellite: u32, now: Timestamp, late_s: f64| {
+        let time = |ms: i64| Timestamp::from_millisecond(ms).unwrap();
+        let join = |antenna: u32, satellite: u32, now: Timestamp, late_s: f64| {
             let joining = Joining { met: now, needs_s: late_s, late_s, left_s: 1.0 };
             let pass = (satellite, Timestamp::UNIX_EPOCH);
-            joinings.of(AntennaId(antenna), pass, now, || Some(joining)).unwrap().late_s as i64
+            joinings.get_or_find(AntennaId(antenna), pass, now, || Some(joining)).unwrap().late_s
+                as i64
         };
-        assert_eq!(of(1, 7, at(1_000), 10.0), 10);
-        assert_eq!(of(1, 7, at(1_900), 11.0), 10);
-        assert_eq!(of(2, 7, at(1_900), 12.0), 12);
-        assert_eq!(of(1, 8, at(1_900), 13.0), 13);
-        assert_eq!(of(1, 7, at(2_000), 14.0), 14);
+        assert_eq!(join(1, 7, time(1_000), 10.0), 10);
+        assert_eq!(join(1, 7, time(1_900), 11.0), 10);
+        assert_eq!(join(2, 7, time(1_900), 12.0), 12);
+        assert_eq!(join(1, 8, time(1_900), 13.0), 13);
+        assert_eq!(join(1, 7, time(2_000), 14.0), 14);
     }
 }

@@ -53,8 +53,9 @@ impl ConsoleLine {
     /// For the clipboard and for a file: UTC, antenna, direction, frame, round
     /// trip and meaning, with tabs between them.
     pub fn report(&self) -> String {
-        let at = self.wire().time.to_zoned(TimeZone::UTC).strftime("%FT%T.%3fZ").to_string();
-        let mut text = format!("{at}\t{}\t{}\t{}\t", self.antenna, self.direction(), self.raw);
+        let time_text = self.wire().time.to_zoned(TimeZone::UTC).strftime("%FT%T.%3fZ").to_string();
+        let mut text =
+            format!("{time_text}\t{}\t{}\t{}\t", self.antenna, self.direction(), self.raw);
         text.push_str(&self.round_trip().unwrap_or_default());
         // Writing to a string cannot fail.
         let _ = write!(text, "\t{}", self.meaning.text);
@@ -106,8 +107,8 @@ fn unnamed(direction: Direction, length: usize) -> Meaning {
 fn meaning(line: &WireLine) -> Meaning {
     let (tone, text) = match line.finding {
         Finding::Good | Finding::Unchecked => {
-            let said = line.meaning.clone();
-            return said.unwrap_or_else(|| unnamed(line.direction, line.length));
+            let parsed = line.meaning.clone();
+            return parsed.unwrap_or_else(|| unnamed(line.direction, line.length));
         }
         Finding::BadChecksum { received, computed } => {
             (Tone::Bad, format!("Checksum {received:02X}, should be {computed:02X}. Dropped"))
@@ -207,7 +208,7 @@ mod tests {
     fn bytes_that_cannot_be_printed_are_named() {
         let text = |text: &str| Piece::Text(text.to_owned());
         let code = |code: &str| Piece::Code(code.to_owned());
-        let seen = pieces(b"ab\0\xffc\r\n");
-        assert_eq!(seen, [text("ab"), code("NUL"), code("FF"), text("c"), code("CR"), code("LF")]);
+        let found = pieces(b"ab\0\xffc\r\n");
+        assert_eq!(found, [text("ab"), code("NUL"), code("FF"), text("c"), code("CR"), code("LF")]);
     }
 }

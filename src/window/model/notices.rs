@@ -21,21 +21,21 @@ use crate::{
 /// An alarm or reminder to be told.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Notice {
-    pub about: About,
+    pub subject: NoticeSubject,
     /// The desktop shows it.
     pub is_shown: bool,
     pub tones: Tones,
 }
 
 #[derive(Debug, Clone, PartialEq)]
-pub enum About {
+pub enum NoticeSubject {
     Alarm(Alarm),
     /// The station has published nothing for this long, and raises no alarm of its own.
     StationStands(Duration),
     Reminder(Reminder),
 }
 
-impl About {
+impl NoticeSubject {
     pub fn has_top_priority(&self) -> bool {
         matches!(self, Self::Alarm(alarm) if alarm.priority() == Priority::First)
     }
@@ -45,9 +45,9 @@ impl About {
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct News {
     /// Notices to give, top-priority alarms first.
-    pub told: Vec<Notice>,
+    pub notices: Vec<Notice>,
     /// Rows of alarms that stood at the last look and are over.
-    pub over: Vec<u64>,
+    pub ended: Vec<u64>,
 }
 
 /// Keeps track of the notices already given.
@@ -71,51 +71,52 @@ impl Teller {
         let new = |alarm: &&Alarm| !alarm.acknowledged;
         let alarms = station.alarms.list().iter().filter(new);
         let untold = alarms.clone().filter(|alarm| !self.new.contains(&alarm.id));
-        let untold = untold.map(|alarm| About::Alarm(alarm.clone()));
+        let untold = untold.map(|alarm| NoticeSubject::Alarm(alarm.clone()));
         let reminders = station.reminders.iter().filter(|reminder| {
             reminder.aos() > station.moment.utc && !self.reminded.contains(&reminder.pass)
         });
-        let stands = stood.filter(|_| !self.stood).map(About::StationStands);
-        let about = untold.chain(reminders.cloned().map(About::Reminder)).chain(stands);
+        let stands = stood.filter(|_| !self.stood).map(NoticeSubject::StationStands);
+        let subjects = untold.chain(reminders.cloned().map(NoticeSubject::Reminder)).chain(stands);
         let notices = &station.station.notices;
         let is_quiet =
             notices.quiet.is_some_and(|hours: HoursOfDay| hours.contain(station.moment.utc, zone));
-        let mut told: Vec<Notice> = about
-            .map(|about| {
-                let is_told = |wanted: bool| about.has_top_priority() || wanted && !is_quiet;
+        let mut list: Vec<Notice> = subjects
+            .map(|subject| {
+                let is_told =
+                    |requested: bool| subject.has_top_priority() || requested && !is_quiet;
                 Notice {
                     is_shown: is_told(notices.notifications),
                     tones: if is_told(notices.sounds) {
-                        tones(&about, notices)
+                        tones(&subject, notices)
                     } else {
                         Tones::None
                     },
-                    about,
+                    subject,
                 }
             })
             .filter(|notice| notice.is_shown || notice.tones != Tones::None)
             .collect();
-        told.sort_by_key(|notice| Reverse(notice.about.has_top_priority()));
+        list.sort_by_key(|notice| Reverse(notice.subject.has_top_priority()));
         self.stood = stood.is_some();
         self.new = alarms.map(|alarm| alarm.id).collect();
         let stand = station.alarms.list().iter().filter(|alarm| !alarm.is_over());
         let standing: BTreeSet<u64> = stand.map(|alarm| alarm.row).collect();
-        let over = self.standing.difference(&standing).copied().collect();
+        let ended = self.standing.difference(&standing).copied().collect();
         self.standing = standing;
         self.reminded = station.reminders.iter().map(|reminder| reminder.pass).collect();
-        News { told, over }
+        News { notices: list, ended }
     }
 }
 
 /// Returns the sound of a notice. The operator cannot choose that of a top-priority alarm.
-fn tones(about: &About, notices: &Notices) -> Tones {
-    match about {
-        About::Alarm(alarm) => match alarm.priority() {
+fn tones(subject: &NoticeSubject, notices: &Notices) -> Tones {
+    match subject {
+        NoticeSubject::Alarm(alarm) => match alarm.priority() {
             Priority::First => Tones::Falling,
             Priority::Warning => notices.warning_tones,
             Priority::Caution => notices.caution_tones,
         },
-        About::StationStands(_) => notices.warning_tones,
-        About::Reminder(_) => notices.reminder_tones,
+        NoticeSubject::StationStands(_) => notices.warning_tones,
+        NoticeSubject::Reminder(_) => notices.reminder_tones,
     }
 }

@@ -67,7 +67,7 @@ pub struct SetShift {
     /// where it has no such pass.
     pub late_s: Option<f64>,
     /// Largest angle between the directions by both sets; `None` without a pass.
-    pub off: Option<Angle>,
+    pub deviation: Option<Angle>,
 }
 
 impl ObjectDetail {
@@ -92,20 +92,20 @@ fn shift(
     key: &DetailKey,
     cancelled: &dyn Fn() -> bool,
 ) -> SetShift {
-    let mut shift = SetShift { set: set.clone(), late_s: None, off: None };
+    let mut shift = SetShift { set: set.clone(), late_s: None, deviation: None };
     let propagator = Propagator::new(&set.elements).ok();
     let (Some(predicted), Some(propagator)) = (predicted, propagator) else { return shift };
-    let off = |sample: &Sample| {
+    let deviation = |sample: &Sample| {
         let look = propagator.look_from(key.observer.site, sample.time).ok()?;
         Some(look.direction.separation(sample.direction))
     };
-    shift.off = predicted
+    shift.deviation = predicted
         .track()
         .iter()
-        .filter_map(off)
+        .filter_map(deviation)
         .reduce(|a, b| if a.radians() < b.radians() { b } else { a });
     let pass = predicted.pass;
-    let around = PassSearch {
+    let pass_search = PassSearch {
         aos_elevation: Angle::ZERO,
         floor: Angle::ZERO,
         ..PassSearch::new(
@@ -114,8 +114,8 @@ fn shift(
             add_seconds(pass.los.time, AROUND_S),
         )
     };
-    let late_s = |of: &Pass| seconds_between(pass.tca.time, of.tca.time);
-    let found = passes(&propagator, &around, cancelled);
+    let late_s = |other: &Pass| seconds_between(pass.tca.time, other.tca.time);
+    let found = passes(&propagator, &pass_search, cancelled);
     shift.late_s = found
         .iter()
         .filter(|_| !predicted.is_always_up())
@@ -194,7 +194,7 @@ mod tests {
         let shift = &detail.sets[0];
         let late_s = shift.late_s.unwrap();
         assert!((3.0..25.0).contains(&late_s), "{late_s}");
-        let off_deg = shift.off.unwrap().degrees();
+        let off_deg = shift.deviation.unwrap().degrees();
         assert!((1.0..25.0).contains(&off_deg), "{off_deg}");
     }
 

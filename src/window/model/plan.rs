@@ -164,10 +164,10 @@ impl Model {
     /// Returns the entry of the schedule for a pass that it leaves out.
     fn left_out(&self, key: PassListKey) -> Option<&LeftOut> {
         let all = &self.schedule.schedule.left_out;
-        let (from, to) = (add_seconds(key.1, -SAME_AOS_S), add_seconds(key.1, SAME_AOS_S));
-        let near = all.iter().skip(all.partition_point(|of| of.pass.aos <= from));
-        let mut near = near.take_while(|of| of.pass.aos < to);
-        near.find(|of| is_same((of.pass.satellite, of.pass.aos), key))
+        let (start, end) = (add_seconds(key.1, -SAME_AOS_S), add_seconds(key.1, SAME_AOS_S));
+        let near = all.iter().skip(all.partition_point(|entry| entry.pass.aos <= start));
+        let mut near = near.take_while(|entry| entry.pass.aos < end);
+        near.find(|entry| is_same((entry.pass.satellite, entry.pass.aos), key))
     }
 
     /// The satellites of the plan by priority, then in the order of the favourites.
@@ -177,8 +177,8 @@ impl Model {
             by_number.entry(planned.predicted.number()).or_default().push(planned);
         }
         let priorities = self.station.priorities();
-        let known = &self.pass_lists.favourites.satellites;
-        let mut satellites: Vec<PlannedSatellite<'_>> = known
+        let favourites = &self.pass_lists.favourites.satellites;
+        let mut satellites: Vec<PlannedSatellite<'_>> = favourites
             .iter()
             .filter(|satellite| !satellite.elements.is_geosynchronous())
             .map(|satellite| {
@@ -219,7 +219,7 @@ impl Model {
     /// Returns the list of an antenna: the passes of this day that are over, then those to come.
     pub fn listed_passes(&self, antenna: &AntennaModel) -> Vec<ListedPass<'_>> {
         let id = antenna.id();
-        let over = self.flown_by(id).map(|flown| ListedPass {
+        let ended = self.flown_by(id).map(|flown| ListedPass {
             key: flown.pass,
             name: &flown.name,
             los: add_seconds(flown.pass.1, flown.of_s),
@@ -244,7 +244,7 @@ impl Model {
                 planned: Some(planned),
             })
         });
-        over.chain(ahead).collect()
+        ended.chain(ahead).collect()
     }
 }
 
@@ -258,7 +258,7 @@ pub struct Standings<'a> {
 }
 
 impl<'a> Standings<'a> {
-    pub fn of(&self, planned: &PlannedPass<'a>) -> Standing<'a> {
+    pub fn standing(&self, planned: &PlannedPass<'a>) -> Standing<'a> {
         // A pass that is over for the antenna may not have set yet.
         let flown = self.flown(planned.predicted.key());
         flown.map_or_else(|| self.ahead(planned), Standing::Flown)
@@ -281,8 +281,8 @@ impl<'a> Standings<'a> {
                 return Standing::TakenBy(other.antenna);
             }
             let Some(left_out) = planned.left_out else { return Standing::NotKnown };
-            let own = left_out.by_antenna.iter().find(|(of, _)| *of == self.antenna);
-            return Standing::LeftOut(own.map_or(&left_out.reason, |(_, why)| why));
+            let own = left_out.by_antenna.iter().find(|(antenna, _)| *antenna == self.antenna);
+            return Standing::LeftOut(own.map_or(&left_out.reason, |(_, reason)| reason));
         };
         let key = planned.predicted.key();
         let Some(taking) = self.taking.filter(|taking| is_same(taking.pass, key)) else {
@@ -290,7 +290,7 @@ impl<'a> Standings<'a> {
         };
         match taking.proved_at {
             Some(_) if taking.start <= self.now => Standing::Running,
-            Some(at) => Standing::Proved(at),
+            Some(time) => Standing::Proved(time),
             None => Standing::Sent(taking.asked_at),
         }
     }

@@ -25,7 +25,7 @@ pub enum RehearsalState {
     UnderWay(f64),
     Done {
         rehearsed: Arc<Rehearsed>,
-        at: Timestamp,
+        time: Timestamp,
     },
     Failed(String),
 }
@@ -37,8 +37,9 @@ impl Model {
             RehearsalState::Done { rehearsed, .. } => &rehearsed.passes[..],
             _ => &[],
         };
-        passes.iter().filter(move |it| {
-            it.satellite == key.0 && seconds_between(it.aos, key.1).abs() < SAME_AOS_S
+        passes.iter().filter(move |rehearsed_pass| {
+            rehearsed_pass.satellite == key.0
+                && seconds_between(rehearsed_pass.aos, key.1).abs() < SAME_AOS_S
         })
     }
 }

@@ -22,8 +22,8 @@ pub struct Stretch {
     pub name: String,
     /// Pass that the stretch is of, if any.
     pub pass: Option<StretchPass>,
-    pub from: Timestamp,
-    pub until: Timestamp,
+    pub start: Timestamp,
+    pub end: Timestamp,
 }
 
 /// A pass of the record.
@@ -39,7 +39,7 @@ pub struct StretchPass {
 
 impl Stretch {
     /// A pass, from shortly before its track to shortly after its LOS.
-    pub fn of(pass: &RecordedPass) -> Self {
+    pub fn new(pass: &RecordedPass) -> Self {
         let report = &pass.report;
         Self {
             name: report.elements.short_name().to_owned(),
@@ -48,23 +48,23 @@ impl Stretch {
                 satellite: report.elements.catalog_number(),
                 antenna: pass.antenna,
             }),
-            from: add_seconds(report.start.min(report.track.begun), -BEFORE_S),
-            until: add_seconds(report.end, AFTER_S),
+            start: add_seconds(report.start.min(report.track.begun), -BEFORE_S),
+            end: add_seconds(report.end, AFTER_S),
         }
     }
 
-    /// The same stretch, or one as long around `at` where that is outside.
+    /// The same stretch, or one as long around `time` where that is outside.
     #[must_use]
-    pub fn around(self, at: Timestamp) -> Self {
-        if (self.from..=self.until).contains(&at) {
+    pub fn around_time(self, time: Timestamp) -> Self {
+        if (self.start..=self.end).contains(&time) {
             return self;
         }
-        let half_s = seconds_between(self.from, self.until) / 2.0;
+        let half_s = seconds_between(self.start, self.end) / 2.0;
         Self {
             name: "the record".to_owned(),
             pass: None,
-            from: add_seconds(at, -half_s),
-            until: add_seconds(at, half_s),
+            start: add_seconds(time, -half_s),
+            end: add_seconds(time, half_s),
         }
     }
 }
@@ -95,7 +95,7 @@ pub const SPEEDS: [i32; 5] = [1, 5, 10, 20, 60];
 pub struct Replayed {
     pub stretch: Stretch,
     /// The moment that is shown.
-    pub at: Timestamp,
+    pub time: Timestamp,
     /// In multiples of real time; below zero backward.
     pub speed: i32,
     pub plays: bool,
@@ -111,7 +111,7 @@ pub struct Replayed {
 #[derive(Debug, Clone, PartialEq)]
 pub enum JumpNews {
     /// There is no film of this stretch, which was passed over.
-    Skipped { from: Timestamp, until: Timestamp },
+    Skipped { start: Timestamp, end: Timestamp },
     /// There is no event on this side.
     NoEvent { is_next: bool },
     /// There is no pass on this side.
@@ -127,8 +127,8 @@ pub enum ReplayProblem {
     NothingYet,
     /// There is no film of it, between two runs. What was shown last stands there.
     NoFilm {
-        from: Timestamp,
-        until: Timestamp,
+        start: Timestamp,
+        end: Timestamp,
     },
     Failed(String),
     /// The thread that reads the film cannot be started or broke off, for this reason. From then on
@@ -146,18 +146,18 @@ pub enum ReplayEnd {
     Pass {
         antenna: String,
         satellite: String,
-        from: Timestamp,
+        start: Timestamp,
     },
 }
 
 impl Replayed {
     /// A replay that begins to play.
-    pub fn begin(stretch: Stretch, at: Timestamp) -> Self {
-        Self { stretch, at, speed: 1, plays: true, passes: Vec::new(), news: None, problem: None }
+    pub fn begin(stretch: Stretch, time: Timestamp) -> Self {
+        Self { stretch, time, speed: 1, plays: true, passes: Vec::new(), news: None, problem: None }
     }
 
     /// Returns `true` if playing would not move it on.
     pub fn is_at_end(&self) -> bool {
-        self.at == if self.speed < 0 { self.stretch.from } else { self.stretch.until }
+        self.time == if self.speed < 0 { self.stretch.start } else { self.stretch.end }
     }
 }

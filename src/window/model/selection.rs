@@ -45,12 +45,12 @@ impl Model {
         let is_over = chosen.is_some_and(|predicted| predicted.pass.los.time <= self.now);
         let chosen = chosen.filter(|_| !is_over);
         let antenna = self.antenna();
-        let taken = || self.pass_taken_by(antenna?);
+        let taken_pass = || self.pass_taken_by(antenna?);
         // At the start a pass under way may still be tracked by hand.
         let follows_another = self.selected.is_some();
         let planned = || self.next_planned_pass(antenna?).filter(|_| follows_another);
         let selected = chosen
-            .or_else(taken)
+            .or_else(taken_pass)
             .or_else(|| self.selected_pass())
             .or_else(planned)
             .or_else(|| self.next_pass());
@@ -71,7 +71,7 @@ impl Model {
             // Right after LOS the snapshot still holds the past track; the next pass is another one.
             let begins = antenna.track_begins(self.now);
             let aos = predicted.pass.aos.time;
-            begins.is_none_or(|at| seconds_between(at, aos) < EARLY_S).then_some(predicted)
+            begins.is_none_or(|time| seconds_between(time, aos) < EARLY_S).then_some(predicted)
         };
         let is_on = antenna.operation.is_on();
         commanded().or_else(|| self.next_planned_pass(antenna).filter(|_| is_on))

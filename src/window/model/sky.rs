@@ -22,7 +22,7 @@ const SUN_AHEAD_S: f64 = 25.0 * 3600.0;
 #[derive(Debug, Default)]
 pub struct Sky {
     /// Satellites of the list above the horizon.
-    pub satellites: Vec<Seen>,
+    pub satellites: Vec<SkySatellite>,
     /// The satellite of the selected pass, above the horizon or not.
     pub selected: Option<Selected>,
     pub sun: Option<AzEl>,
@@ -35,7 +35,7 @@ pub struct Sky {
 
 /// A satellite above the horizon.
 #[derive(Debug)]
-pub struct Seen {
+pub struct SkySatellite {
     pub satellite: Arc<ListedSatellite>,
     pub direction: AzEl,
     /// Path of the next minutes; empty in a crowd.
@@ -51,9 +51,9 @@ pub struct Selected {
 }
 
 impl Selected {
-    fn at(satellite: &ListedSatellite, site: Site, at: Timestamp) -> Option<Self> {
-        let state = satellite.propagator.state_at(at).ok()?;
-        Some(Self { look: state.look_from(site, at), sunlit: is_sunlit(&state, at) })
+    fn new(satellite: &ListedSatellite, site: Site, time: Timestamp) -> Option<Self> {
+        let state = satellite.propagator.state_at(time).ok()?;
+        Some(Self { look: state.look_from(site, time), sunlit: is_sunlit(&state, time) })
     }
 }
 
@@ -68,48 +68,48 @@ impl Sky {
     ) {
         if self.seconds == Some(now.as_second()) {
             // The selected satellite is compared with the antenna and moves with every frame.
-            self.selected = selected.and_then(|satellite| Selected::at(satellite, site, now));
+            self.selected = selected.and_then(|satellite| Selected::new(satellite, site, now));
             return;
         }
         let sun_spans = (std::mem::take(&mut self.sun_spans), self.sun_spans_of);
-        *self = Self::at(satellites, selected, site, now);
+        *self = Self::new(satellites, selected, site, now);
         self.seconds = Some(now.as_second());
         (self.sun_spans, self.sun_spans_of) = sun_spans;
         self.refresh_sun_spans(site, span_s, now);
     }
 
     /// The sky at any time, without day and night.
-    pub(super) fn at(
+    pub(super) fn new(
         satellites: &[Arc<ListedSatellite>],
         selected: Option<&ListedSatellite>,
         site: Site,
-        at: Timestamp,
+        time: Timestamp,
     ) -> Self {
         let frame = SiteFrame::from(site);
-        let wanted: Vec<_> = satellites.iter().map(|of| (&of.propagator, at)).collect();
-        let places = Propagator::over_ground(&wanted).into_iter();
+        let requests: Vec<_> = satellites.iter().map(|listed| (&listed.propagator, time)).collect();
+        let places = Propagator::over_ground(&requests).into_iter();
         let up = satellites.iter().zip(places).filter_map(|(satellite, place)| {
             let place_km = frame.enu_km(place?.position_km);
             // The direction of one well below the horizon is not worth computing.
             let direction =
                 (place_km.z > -0.1 * place_km.length()).then(|| frame.direction(place_km))?;
-            (direction.elevation > Angle::ZERO).then(|| Seen {
+            (direction.elevation > Angle::ZERO).then(|| SkySatellite {
                 satellite: Arc::clone(satellite),
                 direction,
                 ahead: Vec::new(),
             })
         });
-        let mut satellites: Vec<Seen> = up.collect();
+        let mut satellites: Vec<SkySatellite> = up.collect();
         if satellites.len() <= CROWD {
-            for seen in &mut satellites {
-                seen.ahead = ahead(&seen.satellite, &frame, at, AHEAD_S);
+            for satellite in &mut satellites {
+                satellite.ahead = ahead(&satellite.satellite, &frame, time, AHEAD_S);
             }
         }
         Self {
             satellites,
-            selected: selected.and_then(|satellite| Selected::at(satellite, site, at)),
-            sun: Some(sun_moon::sun(site, at)),
-            moon: Some(sun_moon::moon(site, at)),
+            selected: selected.and_then(|satellite| Selected::new(satellite, site, time)),
+            sun: Some(sun_moon::sun(site, time)),
+            moon: Some(sun_moon::moon(site, time)),
             ..Self::default()
         }
     }
@@ -132,19 +132,20 @@ mod tests {
 
     #[test]
     fn a_satellite_stands_where_its_look_angles_are_and_has_a_path_unless_there_is_a_crowd() {
-        let at: Timestamp = "2026-08-12T11:15:30Z".parse().unwrap();
+        let time: Timestamp = "2026-08-12T11:15:30Z".parse().unwrap();
         let site = Site::new(41.02, 29.17, 100.0).unwrap();
         let elements = bundled().unwrap().get(54_743).unwrap().clone();
         let propagator = Propagator::new(&elements).unwrap();
-        let look = propagator.look_from(site, at).unwrap();
+        let look = propagator.look_from(site, time).unwrap();
         let satellite = Arc::new(ListedSatellite { elements, propagator });
-        let sky = |count| Sky::at(&vec![Arc::clone(&satellite); count], None, site, at).satellites;
+        let sky =
+            |count| Sky::new(&vec![Arc::clone(&satellite); count], None, site, time).satellites;
         let few = sky(CROWD);
         assert_eq!(few.len(), CROWD);
-        assert!(few.iter().all(|seen| seen.ahead.len() == 11));
+        assert!(few.iter().all(|satellite| satellite.ahead.len() == 11));
         assert!(few[0].direction.separation(look.direction).degrees() < 1e-9);
         let many = sky(CROWD + 1);
         assert_eq!(many.len(), CROWD + 1);
-        assert!(many.iter().all(|seen| seen.ahead.is_empty()));
+        assert!(many.iter().all(|satellite| satellite.ahead.is_empty()));
     }
 }

@@ -26,7 +26,7 @@ pub enum NextStation {
 #[derive(Debug, Clone, Default)]
 pub struct Stations {
     /// The last used first.
-    pub known: Vec<KnownStation>,
+    pub stations: Vec<KnownStation>,
     /// File of the station in the window; for the demo station that of the station it may become.
     pub open: Option<PathBuf>,
     /// The station that the operator is asked about, or that the window changes to.
@@ -40,7 +40,9 @@ pub struct Stations {
 impl Stations {
     /// Returns the text of the menu for a known station. The files tell two of the same name apart.
     pub fn label(&self, station: &KnownStation) -> String {
-        let is_alone = self.known.iter().filter(|known| known.name == station.name).count() < 2;
+        let is_alone =
+            self.stations.iter().filter(|known_station| known_station.name == station.name).count()
+                < 2;
         match station.path.file_stem().filter(|_| !is_alone) {
             Some(file) => format!("{} ({})", station.name, file.to_string_lossy()),
             None => station.name.clone(),

@@ -19,7 +19,7 @@ pub struct PathRequest {
     /// The path that is proposed, or was typed before.
     pub path: PathBuf,
     /// Why the path is to be typed, or typed again.
-    pub why: String,
+    pub reason: String,
 }
 
 /// The purpose of a typed path.

@@ -8,17 +8,17 @@ use crate::{
 };
 
 /// The direction on a path at `time`; `None` beyond its ends and where it is not finite.
-pub fn at(path: &[Sample], time: Timestamp) -> Option<Sample> {
+pub fn sample_at(path: &[Sample], time: Timestamp) -> Option<Sample> {
     let next = path.partition_point(|sample| sample.time < time);
-    let to = path.get(next)?;
-    if to.time == time {
-        return finite(*to);
+    let end = path.get(next)?;
+    if end.time == time {
+        return finite(*end);
     }
-    let from = path.get(next.checked_sub(1)?)?;
-    let part = seconds_between(from.time, time) / seconds_between(from.time, to.time);
+    let start = path.get(next.checked_sub(1)?)?;
+    let part = seconds_between(start.time, time) / seconds_between(start.time, end.time);
     // Between vectors, so that nothing jumps at north or at the zenith.
-    let between = from.direction.to_enu().lerp(to.direction.to_enu(), part);
-    finite(Sample { time, direction: AzEl::from_enu(between) })
+    let middle = start.direction.to_enu().lerp(end.direction.to_enu(), part);
+    finite(Sample { time, direction: AzEl::from_enu(middle) })
 }
 
 fn finite(sample: Sample) -> Option<Sample> {
@@ -42,14 +42,14 @@ mod tests {
             sample("2026-11-14T11:00:04Z", 2.0, 20.0),
         ];
         let time = |text: &str| text.parse::<Timestamp>().unwrap();
-        let middle = at(&path, time("2026-11-14T11:00:02Z")).unwrap().direction;
+        let middle = sample_at(&path, time("2026-11-14T11:00:02Z")).unwrap().direction;
         assert!(middle.azimuth.wrapped_180().degrees().abs() < 1e-6, "{middle:?}");
         assert!((middle.elevation_deg() - 20.0).abs() < 0.1);
-        assert_eq!(at(&path, path[0].time), Some(path[0]));
-        assert_eq!(at(&path, path[1].time), Some(path[1]));
-        assert_eq!(at(&path, time("2026-11-14T10:59:59Z")), None);
-        assert_eq!(at(&path, time("2026-11-14T11:00:05Z")), None);
-        assert_eq!(at(&[], path[0].time), None);
+        assert_eq!(sample_at(&path, path[0].time), Some(path[0]));
+        assert_eq!(sample_at(&path, path[1].time), Some(path[1]));
+        assert_eq!(sample_at(&path, time("2026-11-14T10:59:59Z")), None);
+        assert_eq!(sample_at(&path, time("2026-11-14T11:00:05Z")), None);
+        assert_eq!(sample_at(&[], path[0].time), None);
     }
 
     #[test]
@@ -58,7 +58,7 @@ mod tests {
             sample("2026-11-14T11:00:00Z", f64::NAN, 20.0),
             sample("2026-11-14T11:00:04Z", 2.0, 20.0),
         ];
-        assert_eq!(at(&path, path[0].time), None);
-        assert_eq!(at(&path, "2026-11-14T11:00:02Z".parse().unwrap()), None);
+        assert_eq!(sample_at(&path, path[0].time), None);
+        assert_eq!(sample_at(&path, "2026-11-14T11:00:02Z".parse().unwrap()), None);
     }
 }

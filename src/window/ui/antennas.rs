@@ -33,7 +33,7 @@ use self::{
     unlock_dialog::{UnlockAnswer, UnlockDialog},
 };
 use super::{
-    copies::{self, CompareState, Taken},
+    copies::{self, CompareState, CopiedValues},
     text, theme,
     widgets::{
         button::{Button, HEIGHT},
@@ -59,7 +59,7 @@ impl AntennasState {
     /// service functions when they may no longer be open.
     pub fn watch(&mut self, model: &Model) {
         for index in 0..model.antennas.len() {
-            let Some(unit) = ShownUnit::of(model, index) else { continue };
+            let Some(unit) = ShownUnit::new(model, index) else { continue };
             let Some(form) = self.forms.get_mut(unit.name()) else { continue };
             form.take_outcomes(&unit);
             form.unlock = form.unlock.filter(|unlock| unlock.holds(&unit));
@@ -68,18 +68,18 @@ impl AntennasState {
 
     /// Takes this value over into the form of the antenna at `place`, as if it had been typed, and
     /// shows it.
-    pub fn type_in(&mut self, model: &Model, place: usize, taken: Taken) {
-        let Some(unit) = ShownUnit::of(model, place) else { return };
-        let sections = Section::of(&unit.antenna.config.connection).into_iter();
-        let holds = |section: &Section| section.keys.contains(&taken.group);
+    pub fn type_in(&mut self, model: &Model, place: usize, copy: CopiedValues) {
+        let Some(unit) = ShownUnit::new(model, place) else { return };
+        let sections = Section::new(&unit.antenna.config.connection).into_iter();
+        let holds = |section: &Section| section.keys.contains(&copy.group);
         self.scroll_to = sections.into_iter().find(holds);
         let form = self.forms.entry(unit.name().to_owned()).or_default();
-        form.take_over(&unit, vec![taken]);
+        form.take_over(&unit, vec![copy]);
     }
 
     /// Number of typed values that are not on their unit.
     pub fn edited(&self, model: &Model) -> usize {
-        let units = (0..model.antennas.len()).filter_map(|index| ShownUnit::of(model, index));
+        let units = (0..model.antennas.len()).filter_map(|index| ShownUnit::new(model, index));
         let edited =
             |unit: ShownUnit<'_>| Some(self.forms.get(unit.name())?.count_all(&unit).edited);
         units.filter_map(edited).sum()
@@ -97,7 +97,7 @@ pub fn show(
     let t = theme::tokens(ui);
     ui.painter().rect_filled(rect, 0.0, t.bg0);
     let (side, body) = rect.split_left_right_at_x(rect.left() + list::WIDTH);
-    let Some(mut unit) = ShownUnit::of(model, model.selected_antenna) else {
+    let Some(mut unit) = ShownUnit::new(model, model.selected_antenna) else {
         list::show(ui, side, model, None, commands);
         return none(ui, body, model, commands);
     };
@@ -130,8 +130,8 @@ pub fn show(
         foot::show(ui, bottom, &unit, form, commands);
     }
     if let Some(open) = model.copies.open.as_ref().filter(|open| open.antenna == unit.name()) {
-        let taken = copies::show(ui, unit.antenna, open, &mut state.compare, commands);
-        form.take_over(&unit, taken);
+        let entries = copies::show(ui, unit.antenna, open, &mut state.compare, commands);
+        form.take_over(&unit, entries);
     }
     if wants_unlock {
         state.unlock = Some(UnlockDialog::default());

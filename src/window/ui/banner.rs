@@ -57,8 +57,8 @@ pub fn show(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand
     if let Some(replayed) = &model.replay {
         return replay::show(ui, rect, model, replayed, commands);
     }
-    if let Some(why) = &model.replay_end {
-        return replay::show_end(ui, rect, why, model.now, commands);
+    if let Some(reason) = &model.replay_end {
+        return replay::show_end(ui, rect, reason, model.now, commands);
     }
     let t = theme::tokens(ui);
     let whole = rect.shrink2(vec2(PADDING, 0.0));

@@ -53,8 +53,8 @@ pub fn show(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand
         })
         .collect();
 
-    let told: Vec<ToldAlarm<'_>> = told_alarms(model);
-    let rows: Vec<AlarmRow<'_>> = told.iter().map(ToldAlarm::row).collect();
+    let announced: Vec<ToldAlarm<'_>> = told_alarms(model);
+    let rows: Vec<AlarmRow<'_>> = announced.iter().map(ToldAlarm::row).collect();
 
     let unproved = unproved_stop(model);
     let left_out = left_out_of_stop(model);
@@ -108,21 +108,23 @@ impl ToldAlarm<'_> {
 /// that are over and seen.
 fn told_alarms(model: &Model) -> Vec<ToldAlarm<'_>> {
     let mut placed = model.alarms.in_order();
-    placed.sort_by_key(|placed| Section::of(placed.alarm.state()));
+    placed.sort_by_key(|placed| Section::new(placed.alarm.state()));
     let section_of = |id: u64| {
         let alarm = placed.iter().find(|placed| placed.alarm.id == id);
-        alarm.map(|placed| Section::of(placed.alarm.state()))
+        alarm.map(|placed| Section::new(placed.alarm.state()))
     };
     let tell = |Placed { alarm, follows }| {
         let antenna = alarm.antenna.and_then(|id| model.antenna_of(id));
         ToldAlarm {
             alarm,
-            follows: follows.and_then(section_of) == Some(Section::of(alarm.state())),
+            follows: follows.and_then(section_of) == Some(Section::new(alarm.state())),
             text: alarm_text(model, alarm),
             time: words::alarm_times(alarm, model.now),
             state: words::alarm_state(alarm.state(), model.now),
             moves_away: alarm.antenna.filter(|_| {
-                !alarm.is_over() && antenna.is_some_and(|of| is_left_to_the_sun(&alarm.kind, of))
+                !alarm.is_over()
+                    && antenna
+                        .is_some_and(|model_antenna| is_left_to_the_sun(&alarm.kind, model_antenna))
             }),
         }
     };
@@ -132,7 +134,7 @@ fn told_alarms(model: &Model) -> Vec<ToldAlarm<'_>> {
 fn alarm_text(model: &Model, alarm: &Alarm) -> String {
     let antenna = alarm.antenna.and_then(|id| model.antenna_of(id));
     let name = antenna.map_or("Azel", |antenna| antenna.config.name.as_str());
-    let reason = barrier_of(&alarm.kind).map(|of| words::reason(of, &model.station));
+    let reason = barrier_of(&alarm.kind).map(|barrier| words::reason(barrier, &model.station));
     words::alarm(&alarm.kind, name, model.now) + &reason.unwrap_or_default()
 }
 
@@ -167,7 +169,7 @@ fn is_left_to_the_sun(kind: &AlarmKind, antenna: &AntennaModel) -> bool {
     let is_there = snapshot
         .breach
         .as_ref()
-        .is_some_and(|inside| inside.barrier == Barrier::Sun && inside.unknown_axis.is_none());
+        .is_some_and(|breach| breach.barrier == Barrier::Sun && breach.unknown_axis.is_none());
     is_about && is_there && antenna.can_park() && !antenna.is_busy()
 }
 
@@ -185,18 +187,20 @@ fn stop_about(model: &Model, left_out: Option<&(String, String)>) -> String {
 
 /// How many antennas STOP stops, and the names of those that it leaves to others, if any.
 fn left_out_of_stop(model: &Model) -> Option<(String, String)> {
-    let is_left_out = |of: &&AntennaModel| of.held_by.is_none() && !of.snapshot.wants_stop();
+    let is_left_out = |model_antenna: &&AntennaModel| {
+        model_antenna.held_by.is_none() && !model_antenna.snapshot.wants_stop()
+    };
     let left_out = model.antennas.iter().filter(is_left_out);
     let names: Vec<&str> = left_out.map(|antenna| antenna.config.name.as_str()).collect();
-    let (verb, them) = match *names {
+    let (verb, pronoun) = match *names {
         [] => return None,
         [_] => ("is", "it"),
         _ => ("are", "them"),
     };
-    let of = model.antennas.len();
-    let count = format!("{} of {of}", of - names.len());
+    let total = model.antennas.len();
+    let count = format!("{} of {total}", total - names.len());
     let names = format::list(&names);
-    Some((count, format!("{names} {verb} not connected: STOP does not reach {them}.")))
+    Some((count, format!("{names} {verb} not connected: STOP does not reach {pronoun}.")))
 }
 
 fn clock_health(sync: TimeSync) -> ClockHealth<'static> {
@@ -299,8 +303,8 @@ fn stop_look<'a>(model: &Model, unproved: Option<&'a str>) -> StopLook<'a> {
     if let Some(text) = unproved {
         return StopLook::NotConfirmed { text };
     }
-    let any = |wanted: fn(&StopState) -> bool| {
-        model.antennas.iter().any(|antenna| wanted(&antenna.snapshot.stop))
+    let any = |is_matching: fn(&StopState) -> bool| {
+        model.antennas.iter().any(|antenna| is_matching(&antenna.snapshot.stop))
     };
     let is_pressed = model.antennas.iter().any(|antenna| antenna.stop_pressed.is_some());
     if is_pressed || any(|stop| matches!(stop, StopState::Stopping { .. })) {

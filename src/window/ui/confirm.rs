@@ -25,13 +25,13 @@ impl Question {
     /// Shows the question until it is answered. Enter says yes unless Cancel has the focus, Esc says
     /// no.
     pub fn show(question: &mut Option<Self>, ui: &Ui, commands: &mut Vec<UiCommand>) {
-        let Some(asked) = question else { return };
+        let Some(requested) = question else { return };
         let mut answer = None;
         let modal = modal(ui, "question").show(ui.ctx(), |ui| {
             ui.set_width(320.0);
-            ui.label(egui::RichText::new(&asked.text).font(text::body()));
+            ui.label(egui::RichText::new(&requested.text).font(text::body()));
             ui.add_space(12.0);
-            let yes = format!("{} (Enter)", asked.yes);
+            let yes = format!("{} (Enter)", requested.yes);
             let [yes, cancel] = button::pair(ui, Button::primary(&yes), Button::normal("Cancel"));
             let enter = ui.input(|input| input.key_pressed(Key::Enter));
             if cancel.clicked() {
@@ -45,7 +45,7 @@ impl Question {
         }
         if let Some(yes) = answer {
             if yes {
-                commands.push(asked.command.clone());
+                commands.push(requested.command.clone());
             }
             *question = None;
         }

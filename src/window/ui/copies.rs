@@ -32,7 +32,7 @@ pub struct CompareState {
 
 /// A value that the operator takes over from a file.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Taken {
+pub struct CopiedValues {
     /// Key of the group.
     pub group: &'static str,
     /// Key of the field.
@@ -48,8 +48,8 @@ pub fn show(
     open: &OpenCopy,
     state: &mut CompareState,
     commands: &mut Vec<UiCommand>,
-) -> Vec<Taken> {
-    let mut taken = Vec::new();
+) -> Vec<CopiedValues> {
+    let mut entries = Vec::new();
     let mut closed = false;
     let room = ui.ctx().content_rect().width() - 64.0;
     let modal = modal(ui, "compare settings").show(ui.ctx(), |ui| {
@@ -64,16 +64,16 @@ pub fn show(
         }
         match &open.read {
             None => {}
-            Some((path, Err(why))) => problem(ui, path, why),
-            Some((_, Ok(copy))) => taken = compared(ui, copy, antenna, state),
+            Some((path, Err(reason))) => problem(ui, path, reason),
+            Some((_, Ok(copy))) => entries = compared(ui, copy, antenna, state),
         }
-        closed = !taken.is_empty() || ui.button("Close").clicked();
+        closed = !entries.is_empty() || ui.button("Close").clicked();
     });
     if closed || modal.should_close() {
         *state = CompareState::default();
         commands.push(UiCommand::Station(contract::Command::CloseCopy));
     }
-    taken
+    entries
 }
 
 /// Shows the existing copies, and a path to any other. Returns the one to read.
@@ -108,9 +108,9 @@ fn file_name(path: &Path) -> String {
     path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default()
 }
 
-fn problem(ui: &mut Ui, path: &Path, why: &str) {
+fn problem(ui: &mut Ui, path: &Path, reason: &str) {
     let t = theme::tokens(ui);
-    let words = format!("{}: {why}.", file_name(path));
+    let words = format!("{}: {reason}.", file_name(path));
     ui.label(RichText::new(words).font(text::body()).color(t.bad));
 }
 
@@ -119,7 +119,7 @@ fn compared(
     copy: &SettingsCopy,
     antenna: &AntennaModel,
     state: &mut CompareState,
-) -> Vec<Taken> {
+) -> Vec<CopiedValues> {
     let t = theme::tokens(ui);
     let head = &copy.head;
     let words = format!(
@@ -151,27 +151,24 @@ fn compared(
             }
         });
     });
-    let mut taken = Vec::new();
+    let mut entries = Vec::new();
     ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
-        let chosen: Vec<_> = differences.iter().filter_map(|it| chosen(it, state)).collect();
+        let chosen: Vec<_> = differences.iter().filter_map(|entry| chosen(entry, state)).collect();
         let word = format!("Copy {} to the form", chosen.len());
         if ui.add_enabled(!chosen.is_empty(), egui::Button::new(word)).clicked() {
-            taken = chosen;
+            entries = chosen;
         }
         let words = "They become edits in the form; Apply sends them.";
         ui.label(RichText::new(words).font(text::small()).color(t.t2));
     });
-    taken
+    entries
 }
 
-fn chosen(difference: &Difference, state: &CompareState) -> Option<Taken> {
+fn chosen(difference: &Difference, state: &CompareState) -> Option<CopiedValues> {
     let (group, field) = (difference.group.key, difference.field.key);
     let value = difference.copied.as_ref().ok()?;
-    (difference.verdict == Verdict::Free && state.chosen.contains(&(group, field))).then(|| Taken {
-        group,
-        field,
-        value: value.clone(),
-    })
+    (difference.verdict == Verdict::Free && state.chosen.contains(&(group, field)))
+        .then(|| CopiedValues { group, field, value: value.clone() })
 }
 
 fn row(ui: &mut Ui, difference: &Difference, state: &mut CompareState) {
@@ -189,7 +186,7 @@ fn row(ui: &mut Ui, difference: &Difference, state: &mut CompareState) {
             state.chosen.remove(&key)
         };
     }
-    let words = |value: Option<&Value>| value.map_or("–".to_owned(), |it| shown(field, it));
+    let words = |value: Option<&Value>| value.map_or("–".to_owned(), |value| shown(field, value));
     let in_file = words(difference.copied.as_ref().ok());
     let on_unit = words(difference.current.as_ref());
     ui.label(RichText::new(in_file).font(text::body()));
@@ -204,7 +201,7 @@ fn shown(field: &Field, value: &Value) -> String {
 
 fn verdict(group: &Group, difference: &Difference) -> String {
     match (difference.verdict, &difference.copied) {
-        (Verdict::Unfit, Err(why)) => format!("cannot be used: {why}"),
+        (Verdict::Unfit, Err(reason)) => format!("cannot be used: {reason}"),
         (Verdict::Service, _) => "service setting, only shown".to_owned(),
         (Verdict::NotRead, _) => format!("{} was not read from the unit", group.title),
         _ => String::new(),

@@ -14,7 +14,7 @@ use super::{
     widgets::{
         button::{self, Button},
         modal::modal,
-        told::{Tone, fact, line},
+        status_line::{Tone, fact, line},
     },
 };
 use crate::{contract::host_keys::DoubtfulKey, model::UiCommand};

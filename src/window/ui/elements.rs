@@ -63,7 +63,7 @@ pub struct ElementsState {
     /// Files that were held over the window in the last frame.
     hovered: Vec<std::path::PathBuf>,
     /// Places of the offers that were taken.
-    taken: Vec<usize>,
+    shown: Vec<usize>,
     /// Choice for the upload, until the upload takes it.
     uploads: Option<Choice>,
 }
@@ -124,11 +124,11 @@ pub fn show(
     if let Some(intake) = &model.intake {
         intake::show(ui, rest, model, intake, state, commands);
     } else {
-        state.taken.clear();
+        state.shown.clear();
         show_main(ui, rest, rect.height(), model, lock, state, question, commands);
     }
     state.source_password.show(ui, model, commands);
-    if state.question != model.catalog_table.asked {
+    if state.question != model.catalog_table.question {
         commands.push(UiCommand::ShowCatalog(state.question.clone()));
     }
     if state.selection.row() != model.catalog_table.inspected {
@@ -154,21 +154,21 @@ fn first_object(model: &Model) -> Option<u32> {
     of_pass.into_iter().chain(model.station.favourites.numbers()).find(is_held)
 }
 
-/// Draws sources, groups, table and what belongs to them, in a view of height `of`.
+/// Draws sources, groups, table and what belongs to them, in a view of height `height`.
 #[allow(clippy::too_many_arguments)]
 fn show_main(
     ui: &mut Ui,
     rest: Rect,
-    of: f32,
+    height: f32,
     model: &Model,
     lock: Option<&'static str>,
     state: &mut ElementsState,
     question: &mut Option<Question>,
     commands: &mut Vec<UiCommand>,
 ) {
-    let sources = sources::height(model, state, of);
+    let sources = sources::height(model, state, height);
     let (top, rest) = rest.split_top_bottom_at_y(rest.top() + sources);
-    sources::show(ui, top, of, model, state, question, commands);
+    sources::show(ui, top, height, model, state, question, commands);
     let (top, rest) = rest.split_top_bottom_at_y(rest.top() + chips::HEIGHT);
     chips::show(ui, top, model, state, commands);
     let (rest, bottom) = rest.split_top_bottom_at_y(rest.bottom() - refused::height(model, state));
@@ -200,6 +200,6 @@ fn show_upload(ui: &Ui, rect: Rect, state: &mut ElementsState) -> UploadPlace {
 /// Copies the elements of these objects.
 fn copy(ui: &Ui, model: &Model, numbers: &[u32], form: Form) {
     let CatalogState::Ready(catalog) = &model.catalog else { return };
-    let held = numbers.iter().filter_map(|number| catalog.get(*number));
-    ui.copy_text(words::copied(held, form));
+    let elements = numbers.iter().filter_map(|number| catalog.get(*number));
+    ui.copy_text(words::copied(elements, form));
 }

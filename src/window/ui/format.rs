@@ -68,8 +68,8 @@ pub fn pointing(pointing: Pointing, can: Capabilities) -> String {
     let azimuth = pointing.azimuth.map(|azimuth| azimuth.wrapped_360().degrees());
     let angles = [azimuth, pointing.elevation.map(Angle::degrees)];
     let decimals = decimals(can, 1);
-    let known = angles.into_iter().flatten().map(|deg| degrees(deg, decimals));
-    known.collect::<Vec<_>>().join(", ")
+    let numbers = angles.into_iter().flatten().map(|deg| degrees(deg, decimals));
+    numbers.collect::<Vec<_>>().join(", ")
 }
 
 /// A direction of the sky.
@@ -95,13 +95,13 @@ fn lettered(value_deg: f64, decimals: usize, plus: char, minus: char) -> String 
     format!("{digits}° {letter}")
 }
 
-/// Significant decimals of a degree for a controller with these capabilities, at most `most`.
-pub fn decimals(can: Capabilities, most: usize) -> usize {
+/// Significant decimals of a degree for a controller with these capabilities, at most `max`.
+pub fn decimals(can: Capabilities, max: usize) -> usize {
     match can.position_step_deg {
-        0.0 => most,
+        0.0 => max,
         step_deg if step_deg.fract() == 0.0 => 0,
-        step_deg if (step_deg * 10.0).fract() == 0.0 => most.min(1),
-        _ => most.min(2),
+        step_deg if (step_deg * 10.0).fract() == 0.0 => max.min(1),
+        _ => max.min(2),
     }
 }
 
@@ -141,20 +141,20 @@ pub fn duration(seconds: f64) -> String {
     }
 }
 
-/// Seconds from the time that the clock shows at `now` to the time that is written for `at`.
+/// Seconds from the time that the clock shows at `now` to the time that is written for `time`.
 /// Both are cut to whole seconds; so the clock and a countdown add up to the time beside them.
-fn seconds_left(now: Timestamp, at: Timestamp) -> i64 {
-    at.as_second() - now.as_second()
+fn seconds_left(now: Timestamp, time: Timestamp) -> i64 {
+    time.as_second() - now.as_second()
 }
 
-/// The time until `at`, as a [`duration`] that agrees with its [`countdown`].
-pub fn time_left(now: Timestamp, at: Timestamp) -> String {
-    duration(seconds_left(now, at).max(0) as f64)
+/// The time until `time`, as a [`duration`] that agrees with its [`countdown`].
+pub fn time_left(now: Timestamp, time: Timestamp) -> String {
+    duration(seconds_left(now, time).max(0) as f64)
 }
 
 /// A countdown: T−mm:ss, from one hour T−h:mm:ss; T+ once the time is past.
-pub fn countdown(now: Timestamp, at: Timestamp) -> String {
-    let left = seconds_left(now, at);
+pub fn countdown(now: Timestamp, time: Timestamp) -> String {
+    let left = seconds_left(now, time);
     let sign = if left < 0 { '+' } else { MINUS };
     let whole = left.unsigned_abs();
     let (hours, minutes, rest) = (whole / 3600, whole / 60 % 60, whole % 60);
@@ -206,16 +206,16 @@ mod tests {
 
     #[test]
     fn a_direction_has_the_decimals_of_its_unit() {
-        let at = Pointing::from(crate::astro::AzEl::from_degrees(43.0, 12.0));
+        let position = Pointing::from(crate::astro::AzEl::from_degrees(43.0, 12.0));
         let satrak = crate::controller::satrak::VARIANT.capabilities;
-        let said = |position_step_deg| {
+        let text = |position_step_deg| {
             let can = Capabilities { position_step_deg, ..satrak };
-            (pointing(at, can), decimals(can, 3))
+            (pointing(position, can), decimals(can, 3))
         };
-        assert_eq!(said(0.0), ("43.0°, 12.0°".to_owned(), 3));
-        assert_eq!(said(1.0), ("43°, 12°".to_owned(), 0));
-        assert_eq!(said(0.5), ("43.0°, 12.0°".to_owned(), 1));
-        assert_eq!(said(0.25).1, 2);
+        assert_eq!(text(0.0), ("43.0°, 12.0°".to_owned(), 3));
+        assert_eq!(text(1.0), ("43°, 12°".to_owned(), 0));
+        assert_eq!(text(0.5), ("43.0°, 12.0°".to_owned(), 1));
+        assert_eq!(text(0.25).1, 2);
     }
 
     #[test]
@@ -257,15 +257,15 @@ mod tests {
     #[test]
     fn times_left_and_passed() {
         let now = Timestamp::UNIX_EPOCH;
-        let told = |left_s| {
-            let at = Timestamp::from_second(left_s).unwrap();
-            (countdown(now, at), time_left(now, at))
+        let text = |left_s| {
+            let time = Timestamp::from_second(left_s).unwrap();
+            (countdown(now, time), time_left(now, time))
         };
-        assert_eq!(told(513), ("T−08:33".to_owned(), "8:33".to_owned()));
-        assert_eq!(told(5395), ("T−1:29:55".to_owned(), "1:29:55".to_owned()));
-        assert_eq!(told(86_399).0, "T−23:59:59");
-        assert_eq!(told(0), ("T−00:00".to_owned(), "0:00".to_owned()));
-        assert_eq!(told(-61), ("T+01:01".to_owned(), "0:00".to_owned()));
+        assert_eq!(text(513), ("T−08:33".to_owned(), "8:33".to_owned()));
+        assert_eq!(text(5395), ("T−1:29:55".to_owned(), "1:29:55".to_owned()));
+        assert_eq!(text(86_399).0, "T−23:59:59");
+        assert_eq!(text(0), ("T−00:00".to_owned(), "0:00".to_owned()));
+        assert_eq!(text(-61), ("T+01:01".to_owned(), "0:00".to_owned()));
         assert_eq!(duration(772.0), "12:52");
         assert_eq!(duration(3600.0), "1:00:00");
         assert_eq!(duration(48.0), "0:48");
@@ -280,10 +280,10 @@ mod tests {
             parts.fold(0, |sum, part| 60 * sum + part.parse::<i64>().unwrap())
         };
         for (now_ms, at_ms) in [(600, 12_900), (900, 12_100), (0, 12_999), (12_950, 12_050)] {
-            let (now, at) = (after(now_ms), after(at_ms));
-            let (shown, left) = (countdown(now, at), time_left(now, at));
+            let (now, time) = (after(now_ms), after(at_ms));
+            let (shown, left) = (countdown(now, time), time_left(now, time));
             let left_s = written_s(shown.trim_start_matches("T−"));
-            assert_eq!(written_s(&clock(now)) + left_s, written_s(&moment(at, now)));
+            assert_eq!(written_s(&clock(now)) + left_s, written_s(&moment(time, now)));
             assert_eq!(left_s, written_s(&left));
         }
         assert_eq!(countdown(after(13_000), after(12_999)), "T+00:01");

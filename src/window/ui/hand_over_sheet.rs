@@ -39,30 +39,30 @@ pub struct HandOverSheet<'a> {
     schedule: &'a Schedule,
     /// By catalog number.
     satellites: &'a BTreeMap<u32, (&'a Elements, &'a Propagator)>,
-    from: Timestamp,
-    until: Timestamp,
+    start: Timestamp,
+    end: Timestamp,
     printed: Timestamp,
 }
 
 impl<'a> HandOverSheet<'a> {
-    /// The first 24 hours of a schedule that was made for the time between `from` and `until`,
+    /// The first 24 hours of a schedule that was made for the time between `start` and `end`,
     /// printed at `printed`.
     pub fn new(
         station: &'a Station,
         schedule: &'a Schedule,
         satellites: &'a BTreeMap<u32, (&'a Elements, &'a Propagator)>,
-        (from, until): (Timestamp, Timestamp),
+        (start, end): (Timestamp, Timestamp),
         printed: Timestamp,
     ) -> Self {
-        let until = until.min(add_seconds(from, DAY_S)).max(add_seconds(from, 1.0));
-        Self { station, schedule, satellites, from, until, printed }
+        let end = end.min(add_seconds(start, DAY_S)).max(add_seconds(start, 1.0));
+        Self { station, schedule, satellites, start, end, printed }
     }
 
     /// The page, as HTML.
     pub fn html(&self) -> String {
-        let entries = entries::Table::of(self);
-        let left_out = left_out::List::of(self);
-        let ages = ages::List::of(self);
+        let entries = entries::Table::new(self);
+        let left_out = left_out::List::new(self);
+        let ages = ages::List::new(self);
         let fixed_mm = HEAD_MM + self.time_line_mm() + ages.height_mm() + NOTES_MM;
         let room_mm = HEIGHT_MM - fixed_mm - 5.0 * GAP_MM;
         // The entries come first, but for a few lines of what is left out.
@@ -82,8 +82,8 @@ impl<'a> HandOverSheet<'a> {
 
     /// Which station, which hours, and how good the schedule is known to be.
     fn head(&self) -> Markup {
-        let minute = |at| format!("{} {}Z", format::date(at), format::minute_of_day(at));
-        let span = format!("{} to {} (UTC)", minute(self.from), minute(self.until));
+        let minute = |time| format!("{} {}Z", format::date(time), format::minute_of_day(time));
+        let span = format!("{} to {} (UTC)", minute(self.start), minute(self.end));
         let printed = format!("Printed {}", minute(self.printed));
         let rule = words::schedule::choose_by(self.station.scheduling.choose_by);
         let proof = words::schedule::proof(self.schedule);
@@ -94,8 +94,9 @@ impl<'a> HandOverSheet<'a> {
 
     /// Name of a satellite; its number where it has none.
     fn name(&self, number: u32) -> String {
-        let known = self.satellites.get(&number);
-        known.map_or_else(|| number.to_string(), |(elements, _)| page::printable(&elements.label()))
+        let known_satellite = self.satellites.get(&number);
+        known_satellite
+            .map_or_else(|| number.to_string(), |(elements, _)| page::printable(&elements.label()))
     }
 
     /// Name of a satellite with the time of AOS.
@@ -104,8 +105,8 @@ impl<'a> HandOverSheet<'a> {
     }
 
     fn antenna(&self, id: AntennaId) -> String {
-        let known = self.station.antennas.iter().find(|antenna| antenna.id == id);
-        known.map_or_else(|| "?".to_owned(), |antenna| page::printable(&antenna.name))
+        let antenna_config = self.station.antennas.iter().find(|antenna| antenna.id == id);
+        antenna_config.map_or_else(|| "?".to_owned(), |antenna| page::printable(&antenna.name))
     }
 }
 

@@ -20,7 +20,7 @@ use super::{
 };
 use crate::{
     astro::{Angle, Offset},
-    model::{Model, UiCommand, View, globe::Towards},
+    model::{Model, UiCommand, View, globe::MapDirection},
     station::Take,
 };
 use act::{Act, OffsetKey, ReplayKey};
@@ -97,7 +97,7 @@ const fn row(place: KeyScope, keys: &'static [(Key, Act)], does: &'static str) -
     Binding { modifiers: Modifiers::NONE, keys, place, does }
 }
 
-const fn with(modifiers: Modifiers, binding: Binding) -> Binding {
+const fn with_modifiers(modifiers: Modifiers, binding: Binding) -> Binding {
     Binding { modifiers, ..binding }
 }
 
@@ -110,7 +110,7 @@ pub const ALL: [Binding; 42] = [
         &[(Key::Escape, Act::There)],
         "STOP in every view; also closes what is open",
     ),
-    with(
+    with_modifiers(
         Modifiers::COMMAND,
         row(
             KeyScope::Everywhere,
@@ -164,7 +164,7 @@ pub const ALL: [Binding; 42] = [
         "play, previous event, next, leave",
     ),
     // They come before those of the views, which have the same keys.
-    with(
+    with_modifiers(
         Modifiers::SHIFT,
         row(
             KeyScope::Replay,
@@ -217,7 +217,7 @@ pub const ALL: [Binding; 42] = [
         ],
         "held: jog, in Manual with the pad focused",
     ),
-    with(
+    with_modifiers(
         Modifiers::SHIFT,
         row(
             KeyScope::Focus,
@@ -241,7 +241,7 @@ pub const ALL: [Binding; 42] = [
         "while tracking: time offset −100, +100 ms, reset, undo",
     ),
     // More modifiers come first: fewer of them fit as well.
-    with(
+    with_modifiers(
         CTRL_SHIFT,
         row(
             KeyScope::Operate,
@@ -254,7 +254,7 @@ pub const ALL: [Binding; 42] = [
             "while tracking: a step across the track or along it",
         ),
     ),
-    with(
+    with_modifiers(
         Modifiers::COMMAND,
         row(
             KeyScope::Operate,
@@ -290,10 +290,10 @@ pub const ALL: [Binding; 42] = [
     row(
         KeyScope::Map,
         &[
-            (Key::ArrowLeft, Act::Nearest(Towards::West)),
-            (Key::ArrowRight, Act::Nearest(Towards::East)),
-            (Key::ArrowUp, Act::Nearest(Towards::North)),
-            (Key::ArrowDown, Act::Nearest(Towards::South)),
+            (Key::ArrowLeft, Act::Nearest(MapDirection::West)),
+            (Key::ArrowRight, Act::Nearest(MapDirection::East)),
+            (Key::ArrowUp, Act::Nearest(MapDirection::North)),
+            (Key::ArrowDown, Act::Nearest(MapDirection::South)),
         ],
         "the next satellite in that direction",
     ),
@@ -336,7 +336,7 @@ pub const ALL: [Binding; 42] = [
         ],
         "shorter, longer time span; back to now",
     ),
-    with(
+    with_modifiers(
         Modifiers::COMMAND,
         row(
             KeyScope::Everywhere,
@@ -344,7 +344,7 @@ pub const ALL: [Binding; 42] = [
             "filter the list of passes or the log; search catalogue or settings",
         ),
     ),
-    with(
+    with_modifiers(
         Modifiers::COMMAND,
         row(
             KeyScope::Focus,
@@ -352,7 +352,7 @@ pub const ALL: [Binding; 42] = [
             "in Antennas: apply; in Preferences: save",
         ),
     ),
-    with(
+    with_modifiers(
         Modifiers::COMMAND,
         row(
             KeyScope::Focus,
@@ -365,7 +365,7 @@ pub const ALL: [Binding; 42] = [
         &[(Key::Insert, Act::There), (Key::Delete, Act::There)],
         "add, remove a horizon point or zone corner; arrows move one",
     ),
-    with(
+    with_modifiers(
         Modifiers::COMMAND,
         row(
             KeyScope::Elements,
@@ -373,7 +373,7 @@ pub const ALL: [Binding; 42] = [
             "in Elements: choose files, refresh what is due",
         ),
     ),
-    with(
+    with_modifiers(
         Modifiers::COMMAND,
         row(KeyScope::Preferences, &[(Key::Tab, Act::NextPage)], "in Preferences: the next page"),
     ),
@@ -391,7 +391,7 @@ pub const ALL: [Binding; 42] = [
         ],
         "in the table of Elements: mark, favourite, priority 1 to 5, upload",
     ),
-    with(
+    with_modifiers(
         Modifiers::ALT,
         row(
             KeyScope::Focus,
@@ -399,7 +399,7 @@ pub const ALL: [Binding; 42] = [
             "on an automation rule: move it up, down",
         ),
     ),
-    with(
+    with_modifiers(
         Modifiers::ALT,
         row(
             KeyScope::Focus,
@@ -408,7 +408,7 @@ pub const ALL: [Binding; 42] = [
         ),
     ),
     row(KeyScope::Views, &[(Key::A, Act::Acknowledge)], "acknowledge the newest alarm"),
-    with(
+    with_modifiers(
         Modifiers::COMMAND,
         row(KeyScope::Everywhere, &[(Key::L, Act::NextTheme)], "next theme: dark, light, night"),
     ),

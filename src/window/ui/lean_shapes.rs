@@ -46,7 +46,7 @@ fn rewrite(shape: &mut Shape, scale: f32) {
             }
             None
         }
-        Shape::LineSegment { points: [from, to], stroke } => line(*from, *to, *stroke, scale),
+        Shape::LineSegment { points: [start, end], stroke } => line(*start, *end, *stroke, scale),
         Shape::Path(path) => dash(path, scale),
         Shape::Rect(rect) => rectangle(rect, scale),
         Shape::Circle(circle) => disc(*circle, scale),
@@ -58,36 +58,36 @@ fn rewrite(shape: &mut Shape, scale: f32) {
 }
 
 /// A line between two points: upright and of whole pixels, or thin.
-fn line(from: Pos2, to: Pos2, stroke: Stroke, scale: f32) -> Option<Shape> {
-    if stroke.is_empty() || !(from.x + from.y + to.x + to.y).is_finite() || from == to {
+fn line(start: Pos2, end: Pos2, stroke: Stroke, scale: f32) -> Option<Shape> {
+    if stroke.is_empty() || !(start.x + start.y + end.x + end.y).is_finite() || start == end {
         return None;
     }
     let width_px = stroke.width * scale;
     let whole = width_px >= 1.0 && (width_px - width_px.round()).abs() < 1e-3;
-    let across = (to - from).abs();
+    let across = (end - start).abs();
     if whole && across.min_elem() <= 0.0 {
-        return Some(upright(from, to, stroke, scale));
+        return Some(upright(start, end, stroke, scale));
     }
-    (width_px <= 1.0).then(|| mesh::thin_line(from, to, stroke, scale))
+    (width_px <= 1.0).then(|| mesh::thin_line(start, end, stroke, scale))
 }
 
 /// One dash of a dashed line.
 fn dash(path: &PathShape, scale: f32) -> Option<Shape> {
     let ColorMode::Solid(colour) = path.stroke.color else { return None };
     match path.points[..] {
-        [from, to] if path.stroke.width * scale <= 1.0 => {
-            line(from, to, Stroke::new(path.stroke.width, colour), scale)
+        [start, end] if path.stroke.width * scale <= 1.0 => {
+            line(start, end, Stroke::new(path.stroke.width, colour), scale)
         }
         _ => None,
     }
 }
 
 /// An upright line of whole pixels, placed as egui places it.
-fn upright(from: Pos2, to: Pos2, stroke: Stroke, scale: f32) -> Shape {
-    let vertical = (to.x - from.x).abs() <= 0.0;
+fn upright(start: Pos2, last: Pos2, stroke: Stroke, scale: f32) -> Shape {
+    let vertical = (last.x - start.x).abs() <= 0.0;
     // A quarter of a pixel off each end, so that ends on pixel borders stay there.
-    let shorter = (to - from).normalized() * (0.25 / scale);
-    let [from, to] = [from + shorter, to - shorter].map(|mut end| {
+    let shorter = (last - start).normalized() * (0.25 / scale);
+    let [start, last] = [start + shorter, last - shorter].map(|mut end| {
         let (across, along) =
             if vertical { (&mut end.x, &mut end.y) } else { (&mut end.y, &mut end.x) };
         stroke.round_center_to_pixel(scale, across);
@@ -96,7 +96,7 @@ fn upright(from: Pos2, to: Pos2, stroke: Stroke, scale: f32) -> Shape {
     });
     let (half, cap) = (stroke.width / 2.0, 0.5 / scale);
     let grown = if vertical { Vec2::new(half, cap) } else { Vec2::new(cap, half) };
-    mesh::plain(&[Rect::from_two_pos(from, to).expand2(grown)], stroke.color)
+    mesh::plain(&[Rect::from_two_pos(start, last).expand2(grown)], stroke.color)
 }
 
 /// A rectangle, with or without rounded corners and a border.

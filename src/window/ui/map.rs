@@ -29,7 +29,7 @@ use super::{
 };
 use crate::model::{
     Model, UiCommand,
-    globe::{GlobeSatellite, Towards},
+    globe::{GlobeSatellite, MapDirection},
 };
 
 /// Largest height of the bar below the map.
@@ -42,7 +42,7 @@ const PADDING: f32 = 16.0;
 const ROWS: f32 = 3.0;
 /// Rows of the table for which the map gives way, down to this part of its height.
 const WANTED_ROWS: usize = 8;
-const LEAST_MAP: f32 = 0.85;
+const MIN_MAP: f32 = 0.85;
 
 /// Layers of the map.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
@@ -129,8 +129,8 @@ impl MapState {
     }
 
     /// The next satellite on that side of the selected one.
-    pub fn nearest(&self, model: &Model, towards: Towards) -> Option<u32> {
-        model.globe.nearest(towards, |satellite| self.shown.has(satellite))
+    pub fn nearest(&self, model: &Model, direction: MapDirection) -> Option<u32> {
+        model.globe.nearest(direction, |satellite| self.shown.has(satellite))
     }
 }
 
@@ -146,7 +146,7 @@ pub fn show(
     let t = theme::tokens(ui);
     ui.painter().rect_filled(rect, 0.0, t.bg0);
     let shown: Vec<&GlobeSatellite> =
-        model.globe.satellites.iter().filter(|of| state.shown.has(of)).collect();
+        model.globe.satellites.iter().filter(|satellite| state.shown.has(satellite)).collect();
     let has_drawer = window.width() < DRAWER_BELOW;
     let side = if has_drawer && !state.inspector_is_open { 0.0 } else { INSPECTOR };
     let (left, right) = rect.split_left_right_at_x(rect.right() - side);
@@ -154,7 +154,7 @@ pub fn show(
     let (head, rest) = left.split_top_bottom_at_y(left.top() + bar::HEIGHT);
 
     bar::show(ui, head, model, has_drawer, state);
-    let areas = Areas::of(rest, shown.len(), state.table_is_open);
+    let areas = Areas::new(rest, shown.len(), state.table_is_open);
     // A drawer over the map takes the pointer.
     let visible = areas.map.with_max_x(right.left().min(areas.map.right()));
     let visible = visible.with_max_y(areas.table.top().min(visible.bottom()));
@@ -178,12 +178,12 @@ struct Areas {
 }
 
 impl Areas {
-    fn of(rest: Rect, rows: usize, is_open: bool) -> Self {
+    fn new(rest: Rect, rows: usize, is_open: bool) -> Self {
         let map = rest.width() / 2.0;
         let spare = rest.height() - map;
         if spare >= table::BAR + table::height(ROWS) {
-            let wanted = table::BAR + table::height(rows.min(WANTED_ROWS) as f32);
-            let map = map.min((rest.height() - wanted).max(LEAST_MAP * map));
+            let requested = table::BAR + table::height(rows.min(WANTED_ROWS) as f32);
+            let map = map.min((rest.height() - requested).max(MIN_MAP * map));
             let (map, table) = rest.split_top_bottom_at_y(rest.top() + map);
             return Self { map, table, is_drawer: false };
         }

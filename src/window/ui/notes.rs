@@ -30,7 +30,8 @@ pub struct Notes {
 impl Notes {
     /// Shows the file, and the reminders before their AOS that are not closed.
     pub fn show(&mut self, ui: &Ui, room: Rect, model: &Model, commands: &mut Vec<UiCommand>) {
-        let is_known = |pass: &PassListKey| model.reminders.iter().any(|of| of.pass == *pass);
+        let is_known =
+            |pass: &PassListKey| model.reminders.iter().any(|candidate| candidate.pass == *pass);
         self.closed.retain(is_known);
         let is_shown = |reminder: &&Reminder| {
             reminder.aos() > model.now && !self.closed.contains(&reminder.pass)
@@ -50,11 +51,11 @@ impl Notes {
 
 fn frame(ui: &Ui, room: Rect, view: View, lines: impl FnOnce(&mut Ui)) {
     let width = WIDTH.min(room.width() - RIGHT - GAP);
-    let at = room.left_bottom() + vec2(GAP, -below(view));
+    let position = room.left_bottom() + vec2(GAP, -below(view));
     Area::new(ui.make_persistent_id("notes"))
         .order(Order::Middle)
         .pivot(Align2::LEFT_BOTTOM)
-        .fixed_pos(at)
+        .fixed_pos(position)
         .show(ui.ctx(), |ui| {
             ui.set_width(width);
             let t = theme::tokens(ui);
@@ -112,7 +113,7 @@ fn news_line(ui: &mut Ui, news: &mut Option<Result<SavedFile, String>>) {
     let t = theme::tokens(ui);
     let (words, colour) = match outcome {
         Ok(file) => (saved(file), t.t1),
-        Err(why) => (why.clone(), t.bad),
+        Err(reason) => (reason.clone(), t.bad),
     };
     let is_closed = ui
         .with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {

@@ -92,12 +92,12 @@ impl OperateState {
         let listed = model.upcoming();
         let found = self.found.arrange(model, &self.passes.filter);
         let place = model.selected.and_then(|key| listed.row(key));
-        let at = match found {
+        let index = match found {
             Some(found) => place.and_then(|place| found.row(place)),
             None => place,
         };
-        let wanted = at.map_or(Some(0), |at| at.checked_add_signed(down))?;
-        let place = found.map_or(Some(wanted), |found| found.place(wanted))?;
+        let requested = index.map_or(Some(0), |index| index.checked_add_signed(down))?;
+        let place = found.map_or(Some(requested), |found| found.place(requested))?;
         listed.get(place).map(PredictedPass::key)
     }
 
@@ -133,7 +133,7 @@ pub fn show(
 ) {
     let list_width = state.list_width.map(|width| width as f32);
     let count = model.antennas.len();
-    let areas = Areas::of(window, rect, state.drawer_open, state.has_banner, count, list_width);
+    let areas = Areas::new(window, rect, state.drawer_open, state.has_banner, count, list_width);
     let t = theme::tokens(ui);
     let shown = model.antenna().map(AntennaModel::id);
     if state.shown_antenna != shown {
@@ -145,7 +145,7 @@ pub fn show(
         state.shown_antenna = shown;
     }
     let mut on_cards: Vec<AntennaId> = shown.into_iter().collect();
-    let beside: [Option<&AntennaModel>; SIDE_CARDS] = std::array::from_fn(|index| {
+    let neighbours: [Option<&AntennaModel>; SIDE_CARDS] = std::array::from_fn(|index| {
         let card = state.side_cards.get_mut(index)?;
         if areas.side_cards.get(index).copied().flatten().is_none() {
             card.leave(commands);
@@ -164,13 +164,13 @@ pub fn show(
     state.sky.folds_legend = areas.small && areas.list.is_some();
     let pointed = sky::show(ui, areas.sky, model, state, commands);
     sky_time::row::show(ui, areas.sky_time, model, &mut state.sky_time);
-    let then = state.sky_time.at();
+    let time = state.sky_time.time();
     if let Some(timeline) = areas.timeline {
-        strip::show(ui, timeline, model, then, &mut state.zoom, commands);
+        strip::show(ui, timeline, model, time, &mut state.zoom, commands);
     }
     let mut marked = pointed;
     if let Some(profile) = areas.profile {
-        let read = passes::profile(ui, profile, model, pointed.or(then), &mut state.profile);
+        let read = passes::profile(ui, profile, model, pointed.or(time), &mut state.profile);
         marked = marked.or(read);
     }
     if state.marked != marked {
@@ -191,13 +191,13 @@ pub fn show(
         passes::list(ui, list, model, areas.thumbnails, list_state, found, commands);
     }
     if let Some(selected) = model.antenna() {
-        let beside = beside.into_iter().zip(&mut state.side_cards);
-        let beside = beside.filter_map(|(antenna, card)| Some((antenna?, card.card())));
+        let neighbours = neighbours.into_iter().zip(&mut state.side_cards);
+        let neighbours = neighbours.filter_map(|(antenna, card)| Some((antenna?, card.card())));
         let mut cards: Vec<_> =
-            std::iter::once((selected, &mut state.card)).chain(beside).collect();
+            std::iter::once((selected, &mut state.card)).chain(neighbours).collect();
         // As in the station: selecting another antenna makes no two cards change places.
         cards.sort_by_key(|(antenna, _)| {
-            model.antennas.iter().position(|of| of.id() == antenna.id())
+            model.antennas.iter().position(|model_antenna| model_antenna.id() == antenna.id())
         });
         let places = std::iter::once(areas.card).chain(areas.side_cards.into_iter().flatten());
         let is_one_of_several = cards.len() > 1;

@@ -95,20 +95,27 @@ mod tests {
                 _ => "hue",
             };
             match shape {
-                Shape::Vec(shapes) => shapes.iter().for_each(|of| collect(of, ground, found)),
-                Shape::Rect(of) => found.push(format!(
+                Shape::Vec(shapes) => {
+                    for outline in shapes {
+                        collect(outline, ground, found);
+                    }
+                }
+                Shape::Rect(rect_shape) => found.push(format!(
                     "{:?} {} {} {}",
-                    of.rect,
-                    hue(of.fill),
-                    of.stroke.width,
-                    hue(of.stroke.color)
+                    rect_shape.rect,
+                    hue(rect_shape.fill),
+                    rect_shape.stroke.width,
+                    hue(rect_shape.stroke.color)
                 )),
                 Shape::LineSegment { points, stroke } => {
                     found.push(format!("{points:?} {} {}", stroke.width, hue(stroke.color)));
                 }
                 Shape::Mesh(mesh) => {
-                    let places: Vec<_> =
-                        mesh.vertices.iter().map(|of| (of.pos, hue(of.color))).collect();
+                    let places: Vec<_> = mesh
+                        .vertices
+                        .iter()
+                        .map(|vertex| (vertex.pos, hue(vertex.color)))
+                        .collect();
                     found.push(format!("{places:?}"));
                 }
                 other => found.push(format!("{:?}", other.visual_bounding_rect())),
@@ -140,7 +147,7 @@ mod tests {
         for size in [vec2(22.0, 22.0), vec2(14.0, 10.0), vec2(4.0, 14.0)] {
             for (index, form) in forms.iter().enumerate() {
                 for other in &forms[index + 1..] {
-                    let [one, two] = [*form, *other].map(|of| in_one_hue(of, size));
+                    let [one, two] = [*form, *other].map(|bar_form| in_one_hue(bar_form, size));
                     assert_ne!(one, two, "{form:?} and {other:?} at {size:?}");
                 }
             }

@@ -27,7 +27,7 @@ const WORD_GAP: f32 = 7.0;
 /// difference in size.
 const DOWN_PER_SIZE: f32 = 0.22;
 /// Stands between the clauses of the second line.
-pub const BETWEEN: &str = " · ";
+pub const SEPARATOR: &str = " · ";
 /// Minimum width of a text; with less room it is left out.
 const MIN_TEXT: f32 = 24.0;
 /// Minimum width of the texts for a countdown to TCA.
@@ -97,9 +97,9 @@ pub fn show(ui: &mut Ui, rect: Rect, model: &PassHeaderModel<'_>) -> bool {
         ui,
         "pass",
         texts,
-        &said(&[model.name, model.detail, model.warning, model.second_line]),
+        &joined(&[model.name, model.detail, model.warning, model.second_line]),
     )
-    .on_hover_text(said(&[model.warning, model.second_line]));
+    .on_hover_text(joined(&[model.warning, model.second_line]));
     clicked
 }
 
@@ -124,11 +124,11 @@ fn second_line(ui: &Ui, rect: Rect, model: &PassHeaderModel<'_>) {
         let drawn =
             paint::text_in(ui, rect, Align2::LEFT_CENTER, model.warning, text::small(), t.warn);
         room = rect.with_min_x(drawn.right());
-        words = format!("{BETWEEN}{words}");
+        words = format!("{SEPARATOR}{words}");
     }
     // A clause that has no room is left out whole, with those behind it.
     while !words.is_empty() && paint::text_width(ui, &words, text::small()) > room.width() {
-        words = words.rsplit_once(BETWEEN).map_or("", |(first, _)| first).to_owned();
+        words = words.rsplit_once(SEPARATOR).map_or("", |(first, _)| first).to_owned();
     }
     if room.width() >= MIN_TEXT && !words.is_empty() {
         paint::text_in(ui, room, Align2::LEFT_CENTER, &words, text::small(), t.t2);
@@ -140,10 +140,10 @@ fn countdowns(ui: &Ui, room: Rect, model: &PassHeaderModel<'_>, one_line: bool) 
     let t = theme::tokens(ui);
     let y = room.center().y;
     let font = if one_line { text::sized(24.0, Weight::SemiBold) } else { text::clock() };
-    let at = room.right_center();
-    paint::text(ui, at, Align2::RIGHT_CENTER, model.countdown, font.clone(), t.t1);
-    let at = pos2(room.right() - countdown_width(ui, model.countdown, font) - 10.0, y);
-    let event = paint::text(ui, at, Align2::RIGHT_CENTER, model.event, text::small(), t.t2);
+    let position = room.right_center();
+    paint::text(ui, position, Align2::RIGHT_CENTER, model.countdown, font.clone(), t.t1);
+    let position = pos2(room.right() - countdown_width(ui, model.countdown, font) - 10.0, y);
+    let event = paint::text(ui, position, Align2::RIGHT_CENTER, model.event, text::small(), t.t2);
     let mut spoken = format!("{} {}", model.event, model.countdown);
     let mut left = event.left();
 
@@ -153,18 +153,18 @@ fn countdowns(ui: &Ui, room: Rect, model: &PassHeaderModel<'_>, one_line: bool) 
         spoken = format!("TCA {}, {spoken}", model.tca_countdown);
         let t2 = t.t2;
         if one_line {
-            let at = pos2(left - 12.0, y);
-            paint::text(ui, at, Align2::RIGHT_CENTER, model.tca_countdown, value, t.t1);
-            let at = pos2(at.x - width - 4.0, y);
-            left = paint::text(ui, at, Align2::RIGHT_CENTER, "TCA", text::small(), t2).left();
+            let position = pos2(left - 12.0, y);
+            paint::text(ui, position, Align2::RIGHT_CENTER, model.tca_countdown, value, t.t1);
+            let position = pos2(position.x - width - 4.0, y);
+            left = paint::text(ui, position, Align2::RIGHT_CENTER, "TCA", text::small(), t2).left();
         } else {
             let divider = left - 16.5;
             ui.painter().vline(divider, y - 16.0..=y + 16.0, (1.0, t.line));
             let right = divider - 16.5;
-            let at = pos2(right, y - 10.0);
-            paint::text(ui, at, Align2::RIGHT_CENTER, "TCA", text::small(), t2);
-            let at = pos2(right, y + 8.0);
-            paint::text(ui, at, Align2::RIGHT_CENTER, model.tca_countdown, value, t.t1);
+            let position = pos2(right, y - 10.0);
+            paint::text(ui, position, Align2::RIGHT_CENTER, "TCA", text::small(), t2);
+            let position = pos2(right, y + 8.0);
+            paint::text(ui, position, Align2::RIGHT_CENTER, model.tca_countdown, value, t.t1);
             left = right - width;
         }
     }
@@ -178,12 +178,12 @@ fn countdown_width(ui: &Ui, countdown: &str, font: FontId) -> f32 {
     if countdown.is_empty() {
         return 0.0;
     }
-    let usual = paint::text_width(ui, DEFAULT_COUNTDOWN, font.clone());
-    paint::text_width(ui, countdown, font).max(usual)
+    let default = paint::text_width(ui, DEFAULT_COUNTDOWN, font.clone());
+    paint::text_width(ui, countdown, font).max(default)
 }
 
 /// The non-empty texts, joined.
-fn said(texts: &[&str]) -> String {
+fn joined(texts: &[&str]) -> String {
     let texts: Vec<&str> = texts.iter().copied().filter(|text| !text.is_empty()).collect();
     texts.join(", ")
 }

@@ -42,7 +42,7 @@ pub(super) fn show(
     let title = RichText::new("Limits for this satellite");
     ui.label(title.font(text::sized(13.0, Weight::SemiBold)).color(t.t1));
     let antennas: Vec<(AntennaId, String)> =
-        model.antennas.iter().map(|of| (of.id(), of.config.name.clone())).collect();
+        model.antennas.iter().map(|antenna| (antenna.id(), antenna.config.name.clone())).collect();
     let all = model.station.pass_limits(number);
     let mut limits = favourite.limits.clone();
     let form = LimitsForm { width, label_width: LABEL, antennas: &antennas, lock };
@@ -112,7 +112,7 @@ pub(super) fn in_short(limits: &PassLimits, antennas: &[(AntennaId, String)]) ->
         limits.min_max_elevation_deg.map(elevation),
         limits.min_duration_s.map(duration),
         limits.light.map(light),
-        limits.max_per_day.map(|most| format!("{most} a day")),
+        limits.max_per_day.map(|max| format!("{max} a day")),
         limits.antennas.as_ref().map(|_| format!("by {}", names(limits, antennas))),
     ];
     words.into_iter().flatten().collect::<Vec<_>>().join(", ")
@@ -130,14 +130,14 @@ fn duration(seconds: f64) -> String {
     format!("from {}", format::duration(seconds))
 }
 
-fn per_day(most: u32) -> String {
-    format!("{most} at most")
+fn per_day(max: u32) -> String {
+    format!("{max} at most")
 }
 
 fn names(limits: &PassLimits, antennas: &[(AntennaId, String)]) -> String {
     let Some(ids) = &limits.antennas else { return any() };
-    let known = antennas.iter().filter(|(id, _)| ids.contains(id));
-    let names: Vec<&str> = known.map(|(_, name)| name.as_str()).collect();
+    let named = antennas.iter().filter(|(id, _)| ids.contains(id));
+    let names: Vec<&str> = named.map(|(_, name)| name.as_str()).collect();
     if names.is_empty() { "none".to_owned() } else { format::list(&names) }
 }
 
@@ -170,7 +170,7 @@ fn choose_antennas(ui: &mut Ui, antennas: &[(AntennaId, String)], own: &mut Pass
         let mut list = own.antennas.clone().unwrap_or_default();
         let mut is_on = list.contains(id);
         if ui.add(CheckBox::new(&mut is_on, name)).clicked() {
-            list.retain(|known| known != id);
+            list.retain(|antenna| antenna != id);
             list.extend(is_on.then_some(*id));
             own.antennas = (!list.is_empty()).then_some(list);
         }

@@ -68,7 +68,7 @@ pub struct PassListModel<'a> {
     /// Number of rows at the top whose passes have begun.
     pub begun: usize,
     /// Number of passes without filters.
-    pub of: usize,
+    pub total: usize,
     /// Names of the groups of the catalogue.
     pub groups: &'a [&'a str],
     /// The pass at an index. Called only for rows in view.
@@ -119,8 +119,8 @@ impl PassListState {
     fn is_news(&mut self, selected: Option<PassListKey>) -> bool {
         let before = std::mem::replace(&mut self.shown, selected);
         match (before, selected) {
-            (Some((old, then)), Some((new, at))) => {
-                old != new || seconds_between(then, at).abs() > 60.0
+            (Some((old, time)), Some((new, moment))) => {
+                old != new || seconds_between(time, moment).abs() > 60.0
             }
             (None, Some(_)) => true,
             (_, None) => false,

@@ -54,9 +54,9 @@ pub fn show(
     let satellites = model.planned_satellites();
     let lanes = if is_low { 1 } else { model.antennas.len().clamp(1, 3) };
     let below = lanes::height(lanes) + list::min_height(is_low);
-    let most = (rest.height() - below).max(gantt::height(1));
-    let wanted = gantt::height(satellites.len().min(if is_low { 8 } else { usize::MAX }));
-    let (top, rest) = rest.split_top_bottom_at_y(rest.top() + wanted.min(most));
+    let max = (rest.height() - below).max(gantt::height(1));
+    let requested = gantt::height(satellites.len().min(if is_low { 8 } else { usize::MAX }));
+    let (top, rest) = rest.split_top_bottom_at_y(rest.top() + requested.min(max));
     let (middle, bottom) = rest.split_top_bottom_at_y(rest.top() + lanes::height(lanes));
     // A drawer takes the pointer.
     let visible =

@@ -37,7 +37,7 @@ use crate::{
 };
 use columns::Part;
 use draft::Draft;
-use form::Sought;
+use form::FocusTarget;
 use horizon::HorizonState;
 use page::Page;
 use rules::RulesState;
@@ -65,7 +65,7 @@ pub struct PreferencesState {
 /// State of the forms of all pages.
 #[derive(Default)]
 struct FormState {
-    sought: Sought,
+    focus_target: FocusTarget,
     /// The preview is unfolded, where it is a fold.
     preview_is_open: bool,
     satellites: SatellitesState,
@@ -84,23 +84,23 @@ struct Places {
 }
 
 impl Places {
-    fn of(rect: Rect) -> Self {
-        let [least_width, least_height] = SMALL_BELOW;
-        let is_narrow = rect.width() < least_width;
-        let is_small = is_narrow || rect.height() < least_height;
+    fn new(rect: Rect) -> Self {
+        let [min_width, min_height] = SMALL_BELOW;
+        let is_narrow = rect.width() < min_width;
+        let is_small = is_narrow || rect.height() < min_height;
         let list = if is_narrow { list::SMALL_WIDTH } else { list::WIDTH };
         let (list, rest) = rect.split_left_right_at_x(rect.left() + list);
         let top = rest.bottom() - save_bar::height(is_small);
         let (page, save_bar) = rest.split_top_bottom_at_y(top);
-        let [usual, small] = HEAD;
-        Self { list, page, head: if is_small { small } else { usual }, save_bar }
+        let [default, small] = HEAD;
+        Self { list, page, head: if is_small { small } else { default }, save_bar }
     }
 }
 
 impl PreferencesState {
     /// Returns `true` if an edit is not saved.
     pub fn is_edited(&self) -> bool {
-        self.draft.as_ref().is_some_and(|(station, draft)| *draft != Draft::of(station))
+        self.draft.as_ref().is_some_and(|(station, draft)| *draft != Draft::new(station))
     }
 
     /// Drops the draft, because the station has changed elsewhere. Callers ask the operator
@@ -126,7 +126,7 @@ impl PreferencesState {
                 Ok(format!("{points} points read from {form}. Save to use them."))
             }
             MaskNews::Written(path) => Ok(format!("Written to {}.", path.display())),
-            MaskNews::Failed(why) => Err(format!("{}.", words::capitalised(&why))),
+            MaskNews::Failed(reason) => Err(format!("{}.", words::capitalised(&reason))),
         });
     }
 
@@ -169,14 +169,14 @@ pub fn show(
     ui.painter().rect_filled(rect, 0.0, t.bg0);
     let (station, mut draft) = state.draft.take().unwrap_or_else(|| {
         let station = model.station_to_edit();
-        let draft = Draft::of(&station);
+        let draft = Draft::new(&station);
         (station, draft)
     });
-    let before = Draft::of(&station);
+    let before = Draft::new(&station);
     if !Page::all(&draft).contains(&state.page) {
         state.page = Page::default();
     }
-    let places = Places::of(rect);
+    let places = Places::new(rect);
     list::show(ui, &places, model, (&mut draft, &before), state, commands);
     show_page(ui, &places, model, &station, (&mut draft, &before), state, commands);
     let drafts = (&draft, &before);
@@ -215,7 +215,7 @@ fn show_page(
             antenna::show(ui, rect, model, id, (draft, before), form, commands);
         }
         Page::Notices => cards(ui, rect, "notices", &notices::CARDS, |ui, card| {
-            notices::card_of(ui, card, model, draft, &mut form.sought, commands);
+            notices::card_of(ui, card, model, draft, &mut form.focus_target, commands);
         }),
         Page::Appearance => cards(ui, rect, "appearance", &appearance::CARDS, |ui, card| {
             appearance::card_of(ui, card, model, commands);

@@ -73,7 +73,7 @@ pub fn show(
     past: &[PastModel<'_>],
     state: &mut ProfileState,
 ) -> Option<Timestamp> {
-    let shown = past.iter().find(|track| Some(track.from) == state.past);
+    let shown = past.iter().find(|track| Some(track.start) == state.past);
     let head_room = past::choice(ui, rect, past, shown, &mut state.past);
     if let Some(track) = shown {
         past::show(ui, rect, head_room, track);
@@ -104,15 +104,16 @@ pub fn show(
         response.widget_info(|| WidgetInfo::labeled(Role::Image, true, &sentence));
         return None;
     };
-    let mut asked = None;
+    let mut requested = None;
     if curves_rect.width() >= MIN_PLOT && curves_rect.height() >= MIN_PLOT {
         curves::show(ui, curves_rect, &axis, model);
         error_plot::show(ui, error_rect, &axis, model.errors, model.half_beam_deg);
         let plots = curves_rect.union(error_rect);
         now_line(ui, plots, &axis, model.now);
         words::times(ui, error_rect, &axis, model);
-        asked = marker::asked(ui, &response, plots, &axis, model.now, &mut state.cursor);
-        if let Some(time) = asked.or(model.marked) {
+        requested =
+            marker::requested_time(ui, &response, plots, &axis, model.now, &mut state.cursor);
+        if let Some(time) = requested.or(model.marked) {
             marker::paint(ui, plots, curves_rect, &axis, model, time);
         }
     }
@@ -122,7 +123,7 @@ pub fn show(
     }
     let sentence = words::sentence(&axis, model);
     response.widget_info(|| WidgetInfo::labeled(Role::Image, true, &sentence));
-    asked
+    requested
 }
 
 fn empty(ui: &Ui, rect: Rect, sentence: &str) {

@@ -112,18 +112,18 @@ fn cell(ui: &Ui, rect: Rect, top: f32, entry: &RailEntry<'_>, role: Role) -> Res
         icons::paint(ui.painter(), paint::square(cell.center(), 20.0), entry.icon, colour);
         response = response.on_hover_text(&name);
     } else {
-        let at = cell.center() - vec2(0.0, 9.0);
-        icons::paint(ui.painter(), paint::square(at, 20.0), entry.icon, colour);
+        let position = cell.center() - vec2(0.0, 9.0);
+        icons::paint(ui.painter(), paint::square(position, 20.0), entry.icon, colour);
         let word = cell.with_min_y(cell.bottom() - 27.0).expand2(vec2(3.0, 0.0));
         paint::text_in(ui, word, Align2::CENTER_CENTER, entry.word, text::caption(), colour);
     }
     if entry.edits > 0 {
         let words = entry.edits.to_string();
         let half = paint::text_width(ui, &words, text::caption()) / 2.0 + 4.0;
-        let at = pos2(cell.right() - half - 2.0, cell.top() + 10.0);
-        let badge = Rect::from_center_size(at, vec2(2.0 * half, 16.0));
+        let position = pos2(cell.right() - half - 2.0, cell.top() + 10.0);
+        let badge = Rect::from_center_size(position, vec2(2.0 * half, 16.0));
         ui.painter().rect_filled(badge, 8.0, t.sat);
-        paint::text(ui, at, Align2::CENTER_CENTER, words, text::caption(), t.onsat);
+        paint::text(ui, position, Align2::CENTER_CENTER, words, text::caption(), t.onsat);
     }
     paint::focus_ring(ui, &response, 6);
     response

@@ -25,7 +25,7 @@ impl Plugin for ReadingOrder {
 
     fn output_hook(&mut self, ctx: &Context, output: &mut FullOutput) {
         let Some(update) = &mut output.platform_output.accesskit_update else { return };
-        let spots = Spots::of(ctx, &update.nodes);
+        let spots = Spots::new(ctx, &update.nodes);
         for (_, node) in &mut update.nodes {
             // The marks of a drawing have an order of their own, such as that of time.
             if node.role() != Role::Canvas && node.children().len() > 1 {
@@ -60,12 +60,15 @@ impl Spot {
 struct Spots(HashMap<NodeId, Spot>);
 
 impl Spots {
-    fn of(ctx: &Context, nodes: &[(NodeId, Node)]) -> Self {
+    fn new(ctx: &Context, nodes: &[(NodeId, Node)]) -> Self {
         let of_widgets: HashMap<NodeId, Spot> = ctx.viewport(|viewport| {
             let layers = viewport.this_pass.widgets.layers();
             let widgets = layers.flat_map(|(_, widgets)| widgets);
-            let spot = |of: &egui::WidgetRect| Spot { layer: of.layer_id, place: of.interact_rect };
-            widgets.map(|of| (of.id.accesskit_id(), spot(of))).collect()
+            let spot = |widget: &egui::WidgetRect| Spot {
+                layer: widget.layer_id,
+                place: widget.interact_rect,
+            };
+            widgets.map(|widget| (widget.id.accesskit_id(), spot(widget))).collect()
         });
         let nodes: HashMap<NodeId, &Node> = nodes.iter().map(|(id, node)| (*id, node)).collect();
         let mut spots = Self(HashMap::new());
@@ -91,8 +94,9 @@ impl Spots {
         }
         for child in node.children() {
             let child = self.add(*child, nodes, of_widgets);
-            if let Some(child) = child.filter(|of| of.layer == spot.layer && of.place.is_positive())
-            {
+            if let Some(child) = child.filter(|recorded_spot| {
+                recorded_spot.layer == spot.layer && recorded_spot.place.is_positive()
+            }) {
                 spot.place = spot.place.union(child.place);
             }
         }
@@ -113,22 +117,24 @@ impl Spots {
             |a: Option<Spot>, b: Option<Spot>| a.zip(b).is_some_and(|(a, b)| a.is_before(b));
         // Looked up once: each is compared with each.
         let spots: Vec<Option<Spot>> = nodes.iter().map(|id| self.0.get(id).copied()).collect();
-        let before = |spot: Option<Spot>| spots.iter().filter(|of| is_before(**of, spot)).count();
+        let before = |spot: Option<Spot>| {
+            spots.iter().filter(|maybe_spot| is_before(**maybe_spot, spot)).count()
+        };
         let with_spots = nodes.iter().zip(&spots);
         let mut left: Vec<Left> = with_spots
             .map(|(id, spot)| Left { id: *id, spot: *spot, before: before(*spot) })
             .collect();
-        let (mut order, mut from) = (Vec::with_capacity(nodes.len()), 0);
+        let (mut order, mut start) = (Vec::with_capacity(nodes.len()), 0);
         while !left.is_empty() {
-            let is_free = |(index, of): (usize, &Left)| (of.before == 0).then_some(index);
-            let later = left.iter().enumerate().skip(from).find_map(is_free);
+            let is_free = |(index, one): (usize, &Left)| (one.before == 0).then_some(index);
+            let later = left.iter().enumerate().skip(start).find_map(is_free);
             let next = later.or_else(|| left.iter().enumerate().find_map(is_free));
-            from = next.unwrap_or_default();
-            let taken = left.remove(from);
-            for other in left.iter_mut().filter(|of| is_before(taken.spot, of.spot)) {
+            start = next.unwrap_or_default();
+            let following_left = left.remove(start);
+            for other in left.iter_mut().filter(|one| is_before(following_left.spot, one.spot)) {
                 other.before -= 1;
             }
-            order.push(taken.id);
+            order.push(following_left.id);
         }
         order
     }

@@ -5,7 +5,7 @@ use crate::{astro::time::seconds_between, plan::pass_report::TrackPoint};
 /// Points that are further apart are not joined, seconds.
 const APART_S: f64 = 3.0;
 /// Greatest size of the enlarged worst error in the sky, degrees.
-const MOST_DEG: f64 = 12.0;
+const MAX_DEG: f64 = 12.0;
 const ENLARGED: [u16; 4] = [50, 20, 10, 5];
 
 /// The parts of a track that were measured without a break.
@@ -20,7 +20,7 @@ pub(super) fn worst(track: &[TrackPoint]) -> Option<&TrackPoint> {
 /// Factor by which the error is drawn larger over the sky.
 pub(super) fn enlarged(track: &[TrackPoint]) -> u16 {
     let worst_deg = worst(track).map_or(0.0, |worst| worst.error.off_deg);
-    let fits = |factor: &u16| worst_deg * f64::from(*factor) <= MOST_DEG;
+    let fits = |factor: &u16| worst_deg * f64::from(*factor) <= MAX_DEG;
     ENLARGED.into_iter().find(fits).unwrap_or(1)
 }
 
@@ -35,16 +35,20 @@ pub(super) fn enlargement(factor: u16) -> String {
 /// Half of the height of the scale of errors, degrees.
 pub(super) fn error_top_deg(half_beam_deg: f64, track: &[TrackPoint]) -> f64 {
     /// Smallest and greatest reach of the scale, as multiples of half the beamwidth.
-    const LEAST: f64 = 1.25;
-    const MOST: f64 = 4.0;
+    const MIN_SCALE: f64 = 1.25;
+    const MAX_SCALE: f64 = 4.0;
     let worst_deg = worst(track).map_or(0.0, |worst| worst.error.off_deg);
-    (1.1 * worst_deg).clamp(LEAST * half_beam_deg, MOST * half_beam_deg)
+    (1.1 * worst_deg).clamp(MIN_SCALE * half_beam_deg, MAX_SCALE * half_beam_deg)
 }
 
 /// Distance of the lines of a scale that reaches from minus `top` to `top`.
 pub(super) fn nice_step(top: f64) -> f64 {
     let tenth = 10_f64.powf((top / 2.0).log10().floor());
-    [5.0, 2.0, 1.0].into_iter().map(|of| of * tenth).find(|step| top / step >= 2.0).unwrap_or(tenth)
+    [5.0, 2.0, 1.0]
+        .into_iter()
+        .map(|factor| factor * tenth)
+        .find(|step| top / step >= 2.0)
+        .unwrap_or(tenth)
 }
 
 /// Decimals of the numbers of a scale whose lines are `step` apart.

@@ -37,7 +37,7 @@ pub const REFUSED: &str = "Not done: this is a replay. Leave it first.";
 const STOP_WORKS: &str = "STOP stops the live antennas.";
 const STOP_IN_SHORT: &str = "STOP is live";
 /// Least width of the bar of the stretch, beside words.
-const LEAST_BAR: f32 = 80.0;
+const MIN_BAR: f32 = 80.0;
 
 /// From this width on the strip has room for everything.
 const WIDE: f32 = 1360.0;
@@ -48,7 +48,7 @@ const GAP: f32 = 8.0;
 const TAG: f32 = 76.0;
 const TIME: f32 = 104.0;
 const SMALL_TIME: f32 = 72.0;
-const ABOUT: f32 = 184.0;
+const DESCRIPTION_WIDTH: f32 = 184.0;
 const KEY: f32 = 36.0;
 const SMALL_KEY: f32 = 26.0;
 const SPEEDS_WIDTH: f32 = 225.0;
@@ -95,10 +95,10 @@ pub fn show(
     }
     let height = height_of_buttons(rect);
     let mut place = |width: f32| {
-        let at =
+        let area =
             Rect::from_min_size(pos2(left, rect.center().y - height / 2.0), vec2(width, height));
         left += width + GAP;
-        at
+        area
     };
     let centre = Align2::CENTER_CENTER;
     let tag = place(TAG);
@@ -107,12 +107,12 @@ pub fn show(
     let clock = place(if is_high { TIME } else { SMALL_TIME });
     let font = if is_high { text::clock() } else { text::value() };
     let font = if is_high { egui::FontId { size: 20.0, ..font } } else { font };
-    paint::text_in(ui, clock, centre, &format::clock(replay.at), font, t.t1);
-    let about = about(replay, live.now);
-    paint::name_text(ui, "replay", tag.union(clock), &format!("Replay, {about}"))
+    paint::text_in(ui, clock, centre, &format::clock(replay.time), font, t.t1);
+    let description = description(replay, live.now);
+    paint::name_text(ui, "replay", tag.union(clock), &format!("Replay, {description}"))
         .on_hover_text(STOP_WORKS);
     if is_wide {
-        let room = place(ABOUT);
+        let room = place(DESCRIPTION_WIDTH);
         let line = |y: f32| {
             Rect::from_x_y_ranges(
                 room.x_range(),
@@ -120,11 +120,11 @@ pub fn show(
             )
         };
         let left = Align2::LEFT_CENTER;
-        let of = format!("{}, {}", format::date(replay.at), replay.stretch.name);
-        paint::text_in(ui, line(-9.0), left, &of, text::small(), t.t1);
-        let said = news(replay).unwrap_or_else(|| STOP_WORKS.to_owned());
-        paint::text_in(ui, line(9.0), left, &said, text::small(), t.warn);
-        let whole = whole_news(replay).unwrap_or(said);
+        let name = format!("{}, {}", format::date(replay.time), replay.stretch.name);
+        paint::text_in(ui, line(-9.0), left, &name, text::small(), t.t1);
+        let spoken = news(replay).unwrap_or_else(|| STOP_WORKS.to_owned());
+        paint::text_in(ui, line(9.0), left, &spoken, text::small(), t.warn);
+        let whole = whole_news(replay).unwrap_or(spoken);
         paint::name_text(ui, "about the replay", line(9.0), &whole).on_hover_text(&whole);
     }
     let key = if is_high { KEY } else { SMALL_KEY };
@@ -132,17 +132,17 @@ pub fn show(
     transport(ui, &mut || place(key), has_pass_keys, replay, commands);
     speeds(ui, &mut place, is_wide, replay, commands);
     let leave = Button::normal(if is_high { "Leave replay (Q)" } else { "Leave (Q)" });
-    let at = at_the_end(ui, rect, leave);
-    let rest = rect.with_min_x(left + GAP).with_max_x(at.left() - 2.0 * GAP);
-    if let Some(said) = news(replay).filter(|_| !is_wide) {
-        paint::text_in(ui, rest, Align2::LEFT_CENTER, &said, text::small(), t.warn);
-        let whole = whole_news(replay).unwrap_or(said);
+    let area = at_the_end(ui, rect, leave);
+    let rest = rect.with_min_x(left + GAP).with_max_x(area.left() - 2.0 * GAP);
+    if let Some(spoken) = news(replay).filter(|_| !is_wide) {
+        paint::text_in(ui, rest, Align2::LEFT_CENTER, &spoken, text::small(), t.warn);
+        let whole = whole_news(replay).unwrap_or(spoken);
         paint::name_text(ui, "about the replay", rest, &whole).on_hover_text(&whole);
     } else {
         let bar = if is_wide { rest } else { after_stop_works(ui, rest) };
         scrubber(ui, bar, replay, commands);
     }
-    if leave.show(ui, "leave replay", at).clicked() {
+    if leave.show(ui, "leave replay", area).clicked() {
         commands.push(UiCommand::LeaveReplay);
     }
 }
@@ -162,8 +162,7 @@ fn height_of_buttons(strip: Rect) -> f32 {
 /// Says in a narrow strip that STOP works, and returns the room after the words.
 fn after_stop_works(ui: &Ui, rect: Rect) -> Rect {
     let font = text::small();
-    let has_room =
-        paint::text_width(ui, STOP_WORKS, font.clone()) + GAP + LEAST_BAR <= rect.width();
+    let has_room = paint::text_width(ui, STOP_WORKS, font.clone()) + GAP + MIN_BAR <= rect.width();
     let words = if has_room { STOP_WORKS } else { STOP_IN_SHORT };
     let left = Align2::LEFT_CENTER;
     let drawn = paint::text_in(ui, rect, left, words, font, theme::tokens(ui).warn);
@@ -181,11 +180,11 @@ pub fn frame(ui: &Ui, rect: Rect) {
     ui.painter().hline(rect.x_range(), inner.bottom(), stroke);
 }
 
-fn about(replay: &Replayed, now: Timestamp) -> String {
+fn description(replay: &Replayed, now: Timestamp) -> String {
     let speed = in_words(replay.speed);
     let goes = if replay.plays { format!("plays at {speed}") } else { "stands".to_owned() };
-    let said = news(replay).unwrap_or_else(|| STOP_WORKS.to_owned());
-    format!("{} of {}, {goes}. {said}", format::moment(replay.at, now), replay.stretch.name)
+    let spoken = news(replay).unwrap_or_else(|| STOP_WORKS.to_owned());
+    format!("{} of {}, {goes}. {spoken}", format::moment(replay.time, now), replay.stretch.name)
 }
 
 fn in_words(speed: i32) -> String {
@@ -195,7 +194,7 @@ fn in_words(speed: i32) -> String {
 /// Outcome of the last jump, or the reason why the moment is not shown.
 fn news(replay: &Replayed) -> Option<String> {
     let side = |is_next: bool| if is_next { "later" } else { "earlier" };
-    let age = |from, until| format::age(seconds_between(from, until));
+    let age = |start, end| format::age(seconds_between(start, end));
     Some(match (&replay.news, &replay.problem) {
         (None, None) => return None,
         (_, Some(ReplayProblem::NotRead(_))) => "Reading failed: leave it (Q).".to_owned(),
@@ -205,32 +204,37 @@ fn news(replay: &Replayed) -> Option<String> {
         (Some(JumpNews::NoPass { is_next }), _) => {
             format!("No {} pass is recorded.", side(*is_next))
         }
-        (Some(JumpNews::Failed(why)), _) => format!("Not found. {}", words::sentence(why)),
-        (_, Some(ReplayProblem::NoFilm { from, until })) => {
-            format!("No film here, for {}.", age(*from, *until))
+        (Some(JumpNews::Failed(reason)), _) => format!("Not found. {}", words::sentence(reason)),
+        (_, Some(ReplayProblem::NoFilm { start: begin, end: last })) => {
+            format!("No film here, for {}.", age(*begin, *last))
         }
         (_, Some(ReplayProblem::NothingYet)) => "Nothing was recorded at this moment.".to_owned(),
-        (_, Some(ReplayProblem::Failed(why))) => format!("Not shown. {}", words::sentence(why)),
-        (Some(JumpNews::Skipped { from, until }), None) => {
-            format!("Skipped {}: no film.", age(*from, *until))
+        (_, Some(ReplayProblem::Failed(reason))) => {
+            format!("Not shown. {}", words::sentence(reason))
+        }
+        (Some(JumpNews::Skipped { start: begin, end: last }), None) => {
+            format!("Skipped {}: no film.", age(*begin, *last))
         }
     })
 }
 
 /// The whole of the news, for whoever points at it.
 fn whole_news(replay: &Replayed) -> Option<String> {
-    let (from, until) = match (&replay.news, &replay.problem) {
-        (None | Some(JumpNews::Skipped { .. }), Some(ReplayProblem::NoFilm { from, until }))
-        | (Some(JumpNews::Skipped { from, until }), None) => (*from, *until),
-        (_, Some(ReplayProblem::NotRead(why))) => {
-            let why = words::sentence(why);
+    let (start, end) = match (&replay.news, &replay.problem) {
+        (
+            None | Some(JumpNews::Skipped { .. }),
+            Some(ReplayProblem::NoFilm { start: begin, end: last }),
+        )
+        | (Some(JumpNews::Skipped { start: begin, end: last }), None) => (*begin, *last),
+        (_, Some(ReplayProblem::NotRead(reason))) => {
+            let reason = words::sentence(reason);
             return Some(format!(
-                "Nothing more of the record is read. {why} Leave the replay (Q) and begin it again."
+                "Nothing more of the record is read. {reason} Leave the replay (Q) and begin it again."
             ));
         }
         _ => return news(replay),
     };
-    let stretch = format::stretch(from, until, replay.at);
+    let stretch = format::stretch(start, end, replay.time);
     Some(format!(
         "There is no film of {stretch}: Azel did not run, or what it showed is not kept any more."
     ))
@@ -261,14 +265,14 @@ fn transport(
     let before = ReplayCommand::Event { is_next: false };
     jump(ui, place(), "Previous event (comma)", before, commands);
     for (sign, salt) in [(-1, "play backward"), (1, "play forward")] {
-        let at = place();
+        let rect = place();
         let goes = replay.plays && replay.speed.signum() == sign;
         let name = match (goes, sign) {
             (true, _) => "Pause (Space)",
             (false, 1) => "Play",
             (false, _) => "Play backward",
         };
-        if key(ui, salt, at, name, goes).clicked() {
+        if key(ui, salt, rect, name, goes).clicked() {
             if replay.speed.signum() != sign {
                 commands.push(UiCommand::Replay(ReplayCommand::Speed(-replay.speed)));
             }
@@ -278,11 +282,11 @@ fn transport(
         }
         if goes {
             for x in [-3.5, 3.5] {
-                let bar = Rect::from_center_size(at.center() + vec2(x, 0.0), vec2(3.5, 12.0));
+                let bar = Rect::from_center_size(rect.center() + vec2(x, 0.0), vec2(3.5, 12.0));
                 ui.painter().rect_filled(bar, 0.0, t.onsat);
             }
         } else {
-            triangle(ui, at, sign as f32, false, t.t1);
+            triangle(ui, rect, sign as f32, false, t.t1);
         }
     }
     let after = ReplayCommand::Event { is_next: true };
@@ -293,18 +297,18 @@ fn transport(
 }
 
 /// A key that goes to an event, or to a pass.
-fn jump(ui: &Ui, at: Rect, name: &str, command: ReplayCommand, commands: &mut Vec<UiCommand>) {
+fn jump(ui: &Ui, rect: Rect, name: &str, command: ReplayCommand, commands: &mut Vec<UiCommand>) {
     let t = theme::tokens(ui);
-    let clicked = key(ui, name, at, name, false).clicked();
+    let clicked = key(ui, name, rect, name, false).clicked();
     let (triangles, is_next): (&[f32], bool) = match command {
         ReplayCommand::Pass { is_next } => (&[-5.0, 4.0], is_next),
         ReplayCommand::Event { is_next } => (&[0.0], is_next),
         _ => return,
     };
-    let towards = if is_next { 1.0 } else { -1.0 };
-    for (place, aside) in triangles.iter().enumerate() {
-        let at = at.translate(vec2(aside * towards, 0.0));
-        triangle(ui, at, towards, place + 1 == triangles.len(), t.t1);
+    let sign = if is_next { 1.0 } else { -1.0 };
+    for (place, offset) in triangles.iter().enumerate() {
+        let rect = rect.translate(vec2(offset * sign, 0.0));
+        triangle(ui, rect, sign, place + 1 == triangles.len(), t.t1);
     }
     if clicked {
         commands.push(UiCommand::Replay(command));
@@ -326,14 +330,14 @@ fn key(ui: &Ui, salt: &str, rect: Rect, name: &str, is_on: bool) -> Response {
 }
 
 /// A triangle that points to the left below zero; `to_stop`: with a bar at its tip.
-fn triangle(ui: &Ui, rect: Rect, towards: f32, to_stop: bool, colour: Color32) {
-    let (at, size) = (rect.center(), 5.0);
-    let tip = at + vec2(towards * size, 0.0);
-    let base = at.x - towards * size;
-    let corners = vec![tip, pos2(base, at.y - size), pos2(base, at.y + size)];
+fn triangle(ui: &Ui, rect: Rect, sign: f32, to_stop: bool, colour: Color32) {
+    let (position, size) = (rect.center(), 5.0);
+    let tip = position + vec2(sign * size, 0.0);
+    let base = position.x - sign * size;
+    let corners = vec![tip, pos2(base, position.y - size), pos2(base, position.y + size)];
     ui.painter().add(Shape::convex_polygon(corners, colour, Stroke::NONE));
     if to_stop {
-        let bar = Rect::from_center_size(tip + vec2(towards, 0.0), vec2(2.0, 2.0 * size));
+        let bar = Rect::from_center_size(tip + vec2(sign, 0.0), vec2(2.0, 2.0 * size));
         ui.painter().rect_filled(bar, 0.0, colour);
     }
 }
@@ -347,22 +351,22 @@ fn speeds(
     commands: &mut Vec<UiCommand>,
 ) {
     let (speed, sign) = (replay.speed.abs(), replay.speed.signum());
-    let index = SPEEDS.iter().position(|of| *of == speed).unwrap_or_default();
+    let index = SPEEDS.iter().position(|speed_step| *speed_step == speed).unwrap_or_default();
     let chosen = if is_wide {
-        let at = place(SPEEDS_WIDTH);
+        let rect = place(SPEEDS_WIDTH);
         let words = SPEEDS.map(in_words);
-        let segments = std::array::from_fn::<_, { SPEEDS.len() }, _>(|of| {
-            let state = if of == index { Segment::Chosen } else { Segment::Free };
-            (words.get(of).map_or("", String::as_str), state)
+        let segments = std::array::from_fn::<_, { SPEEDS.len() }, _>(|total| {
+            let state = if total == index { Segment::Chosen } else { Segment::Free };
+            (words.get(total).map_or("", String::as_str), state)
         });
-        segmented::show(ui, "replay speed", at, "Speed of the replay", &segments)
+        segmented::show(ui, "replay speed", rect, "Speed of the replay", &segments)
     } else {
-        let at = place(SPEED);
+        let rect = place(SPEED);
         let word = in_words(speed);
-        let clicked = Button::normal(&word).show(ui, "replay speed", at).clicked();
+        let clicked = Button::normal(&word).show(ui, "replay speed", rect).clicked();
         clicked.then_some((index + 1) % SPEEDS.len())
     };
-    if let Some(speed) = chosen.and_then(|of| SPEEDS.get(of)) {
+    if let Some(speed) = chosen.and_then(|total| SPEEDS.get(total)) {
         commands.push(UiCommand::Replay(ReplayCommand::Speed(sign * speed)));
     }
 }

@@ -47,13 +47,13 @@ fn head(opened: &OpenedPass, printed: Timestamp) -> Markup {
         format::degrees(report.max_elevation_deg, 1)
     );
     let printed = format!("Printed {}", format::dated(printed));
-    let by = format!(
+    let name = format!(
         "{}, {}, {}",
         report.elements.catalog_number(),
         opened.pass.antenna_name,
         record::tracked_by(report.track.tracked_by)
     );
     let place = report.site.map(page::place).unwrap_or_default();
-    let lines = [[&*when, &*printed], [&*by, &*place]];
+    let lines = [[&*when, &*printed], [&*name, &*place]];
     page::head(report.elements.name(), "Pass report", lines)
 }

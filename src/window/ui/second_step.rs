@@ -14,10 +14,10 @@ use crate::{
     model::{Model, UiCommand},
 };
 
-/// Takes the first of the `commands` from the index `from` on that needs a second step out
+/// Takes the first of the `commands` from the index `start` on that needs a second step out
 /// of them; returns its question.
-pub(super) fn ask(model: &Model, from: usize, commands: &mut Vec<UiCommand>) -> Option<Question> {
-    let found = commands.iter().enumerate().skip(from);
+pub(super) fn ask(model: &Model, start: usize, commands: &mut Vec<UiCommand>) -> Option<Question> {
+    let found = commands.iter().enumerate().skip(start);
     let mut found = found.filter_map(|(index, command)| Some((index, question(model, command)?)));
     let (index, question) = found.next()?;
     commands.remove(index);
@@ -45,12 +45,12 @@ fn question(model: &Model, command: &UiCommand) -> Option<Question> {
             command: command.clone(),
         });
     }
-    let (what, yes) = what(model, antenna, station)?;
+    let (subject, yes) = step_text(model, antenna, station)?;
     let tracked = antenna.tracked_name().map(short)?;
-    let until = end(model, antenna)
+    let end_text = end(model, antenna)
         .map(|los| format!(" until {}", format::moment(los, model.now)))
         .unwrap_or_default();
-    let text = format!("{name} tracks {tracked}{until}. {what} ends that.");
+    let text = format!("{name} tracks {tracked}{end_text}. {subject} ends that.");
     Some(Question { text, yes, command: command.clone() })
 }
 
@@ -73,7 +73,7 @@ fn before_a_track(model: &Model, pass: PassListKey) -> Option<Question> {
     let (antenna, predicted) = (model.antenna()?, model.pass_lists.find(pass)?);
     let track = contract::Command::Track { antenna: antenna.id(), pass, is_agreed: false };
     let track = UiCommand::Station(track);
-    let usual = || Question {
+    let default_question = || Question {
         text: format!(
             "Track {} with {}? The antenna moves{}.",
             predicted.satellite.short_name(),
@@ -83,7 +83,7 @@ fn before_a_track(model: &Model, pass: PassListKey) -> Option<Question> {
         yes: "Track",
         command: track.clone(),
     };
-    Some(question(model, &track).unwrap_or_else(usual))
+    Some(question(model, &track).unwrap_or_else(default_question))
 }
 
 /// The way to the begin of a pass, or to where the antenna would meet one under way.
@@ -92,19 +92,19 @@ fn way_there(model: &Model, antenna: &AntennaModel, predicted: &PredictedPass) -
     let measured = antenna.snapshot.state.measured.filter(|_| antenna.is_live())?;
     let track = predicted.track();
     let joining = model.planned_from_here(antenna)?.joining(track)?;
-    let to = track.iter().find(|sample| sample.time >= joining.met)?.direction;
-    let elevation = can.has_elevation().then_some(to.elevation);
-    let to = Pointing { azimuth: Some(to.azimuth), elevation };
+    let end = track.iter().find(|sample| sample.time >= joining.met)?.direction;
+    let elevation = can.has_elevation().then_some(end.elevation);
+    let target = Pointing { azimuth: Some(end.azimuth), elevation };
     Some(format!(
         " from {} to {} and {}",
         format::pointing(measured.pointing, can),
-        format::pointing(to, can),
+        format::pointing(target, can),
         words::needs(joining)
     ))
 }
 
 /// Outcome of a command that would end a track, and the words of its button.
-fn what(
+fn step_text(
     model: &Model,
     antenna: &AntennaModel,
     command: &contract::Command,
@@ -149,9 +149,14 @@ fn end(model: &Model, antenna: &AntennaModel) -> Option<jiff::Timestamp> {
     let los = window.map(|(_, stop)| stop).or_else(|| {
         let number = antenna.tracked_number()?;
         let listed = model.pass_lists.favourites.upcoming(model.now);
-        let under_way =
-            |number| listed.iter().find(|it| it.number() == number && it.in_progress(model.now));
-        under_way(number).filter(|it| !it.pass.ends_after).map(|it| it.pass.los.time)
+        let under_way = |number| {
+            listed
+                .iter()
+                .find(|predicted| predicted.number() == number && predicted.in_progress(model.now))
+        };
+        under_way(number)
+            .filter(|predicted| !predicted.pass.ends_after)
+            .map(|predicted| predicted.pass.los.time)
     });
     los.filter(|los| *los > model.now)
 }

@@ -54,7 +54,7 @@ impl SetupState {
     pub fn saved(&mut self, result: &Result<Timestamp, String>) {
         match result {
             Ok(_) => *self = Self::default(),
-            Err(why) => self.problem = Some(why.clone()),
+            Err(reason) => self.problem = Some(reason.clone()),
         }
     }
 
@@ -66,7 +66,7 @@ impl SetupState {
 
     /// Outcome of a step. The antennas are not done while the link of one has not been tested.
     fn passed(&self, step: Step, draft: &SetupDraft, model: &Model) -> Passed {
-        match self.progress.of(step) {
+        match self.progress.outcome(step) {
             Passed::Done if step == Step::Antennas && draft.has_untested(model) => Passed::NotYet,
             passed => passed,
         }
@@ -87,8 +87,8 @@ impl SetupState {
         if self.step != Step::Elements {
             return None;
         }
-        let why = self.add.typed(&model.sources)?.err()?;
-        Some(format!("This source is not added yet: {why}."))
+        let reason = self.add.typed(&model.sources)?.err()?;
+        Some(format!("This source is not added yet: {reason}."))
     }
 
     /// Adds the source that is typed in the step that is shown. Returns `true` if there is one.
@@ -159,7 +159,7 @@ pub fn show(
     ui.painter().rect_filled(rect, 0.0, t.bg0);
     let mut draft = state.draft.take().unwrap_or_else(|| {
         state.wants_focus = true;
-        SetupDraft::of(model.station_to_edit())
+        SetupDraft::new(model.station_to_edit())
     });
     let head = ui.make_persistent_id("head of the step");
     if takes_keys {
@@ -210,7 +210,7 @@ pub fn show(
 /// to it.
 fn show_head(ui: &mut Ui, id: egui::Id, step: Step) {
     let t = theme::tokens(ui);
-    let (title, about) = step.title();
+    let (title, description) = step.title();
     let galley = ui.painter().layout_no_wrap(title.to_owned(), text::title(), t.t1);
     let (place, _) = ui.allocate_exact_size(galley.size(), Sense::hover());
     ui.painter().galley(place.min, galley, t.t1);
@@ -218,8 +218,8 @@ fn show_head(ui: &mut Ui, id: egui::Id, step: Step) {
     let sense = if has_focus { Sense::focusable_noninteractive() } else { Sense::hover() };
     let response = ui.interact(place, id, sense);
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Heading, true, title));
-    let about = RichText::new(about).font(text::body()).color(t.t2);
-    ui.add(egui::Label::new(about).wrap());
+    let rich_text = RichText::new(description).font(text::body()).color(t.t2);
+    ui.add(egui::Label::new(rich_text).wrap());
 }
 
 fn take_keys(

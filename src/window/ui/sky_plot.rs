@@ -48,8 +48,8 @@ use crate::{astro::AzEl, model::CROWD};
 
 pub(in crate::ui) use corners::LEGEND_FOOT;
 pub use scene::{
-    AzimuthStop, Bearing, Ghost, KeepOutMark, Keyholes, Measured, OtherAntenna, OtherSatellite,
-    PlannedAntenna, SkyScene, Then, Track,
+    AzimuthStop, Bearing, Ghost, KeepOutMark, Keyholes, LaterScene, Measured, OtherAntenna,
+    OtherSatellite, PlannedAntenna, SkyScene, Track,
 };
 pub use small::paint_small;
 pub use zoom::Zoom;
@@ -156,7 +156,7 @@ pub fn show(
     if takes_click_back {
         state.zoom.reset();
     }
-    let dome = state.zoom.of(whole);
+    let dome = state.zoom.disc(whole);
     let others: &[_] = if state.layers.others { scene.others } else { &[] };
     let others = bodies::dots(dome, others);
     paint_sky(ui, rect, dome, scene, &others, state, t);
@@ -180,7 +180,7 @@ pub fn show(
     let is_menu_open = Popup::is_any_open(ui);
     let closes_menu = std::mem::replace(&mut state.menu_open, is_menu_open) || is_menu_open;
     if canvas.secondary_clicked() {
-        state.menu_at = canvas.interact_pointer_pos().and_then(|at| dome.direction(at));
+        state.menu_at = canvas.interact_pointer_pos().and_then(|position| dome.direction(position));
     }
     let menu_at = state.menu_at.or(scene.measured.map(|measured| measured.direction));
     if let Some(direction) = menu_at {
@@ -192,9 +192,9 @@ pub fn show(
         chosen,
         antenna,
         pointed,
-        clicked: clicked.and_then(|at| dome.direction(at)),
+        clicked: clicked.and_then(|position| dome.direction(position)),
         takes_click_back,
-        ghost_at: ghost_at(dome, scene).filter(|at| rect.contains(*at)),
+        ghost_at: ghost_at(dome, scene).filter(|position| rect.contains(*position)),
     }
 }
 
@@ -202,9 +202,9 @@ pub fn show(
 fn ghost_at(dome: Dome, scene: &SkyScene<'_>) -> Option<Pos2> {
     let on_line = || {
         let azimuth = scene.bearing?.ghost.filter(|azimuth| azimuth.is_finite())?;
-        Some(dome.at(azimuth.radians() as f32, 45.0))
+        Some(dome.point_at(azimuth.radians() as f32, 45.0))
     };
-    scene.ghost.and_then(|ghost| dome.point(ghost.to)).or_else(on_line)
+    scene.ghost.and_then(|ghost| dome.point(ghost.end)).or_else(on_line)
 }
 
 /// Tells the direction under the pointer, or the time where it points at the path or another
@@ -218,12 +218,15 @@ fn point_out(
     t: &Tokens,
 ) -> Option<Timestamp> {
     let pointer = canvas.hover_pos().filter(|_| canvas.hovered() && !canvas.dragged());
-    let on_path = pointer.and_then(|at| pointer::on_path(dome, scene.track.as_ref()?, at));
-    let elsewhere = || along::at(scene.track?.samples, scene.marked?);
+    let on_path =
+        pointer.and_then(|position| pointer::on_path(dome, scene.track.as_ref()?, position));
+    let elsewhere = || along::sample_at(scene.track?.samples, scene.marked?);
     if let Some(sample) = on_path.or_else(elsewhere) {
         pointer::marked(ui, rect, dome, sample, scene.now, t);
-    } else if let Some((at, pointed)) = pointer.and_then(|at| Some((at, dome.direction(at)?))) {
-        pointer::pointed_at(ui, rect, at, pointed, t);
+    } else if let Some((position, pointed)) =
+        pointer.and_then(|position| Some((position, dome.direction(position)?)))
+    {
+        pointer::pointed_at(ui, rect, position, pointed, t);
     }
     on_path.map(|sample| sample.time)
 }
@@ -311,8 +314,8 @@ fn paint_sky(
     bearing::paint(painter, dome, scene, t);
     antenna::paint(painter, dome, scene, t);
     let position = scene.track.and_then(|track| track.position);
-    if let Some(at) = position.and_then(|position| dome.visible(position)) {
-        marks::selected(painter, at, t);
+    if let Some(point) = position.and_then(|position| dome.visible(position)) {
+        marks::selected(painter, point, t);
     }
 }
 

@@ -1,6 +1,6 @@
 //! "Test from here" beside the forms of a unit's web and FTP sources.
 
-mod seen;
+mod reading;
 
 use egui::{RichText, Sense, Spinner, TextEdit, Ui, vec2};
 
@@ -11,7 +11,7 @@ use super::{
     widgets::{
         button::{Button, SMALL_HEIGHT},
         drop_down::DropDown,
-        told::{Tone, line},
+        status_line::{Tone, line},
     },
     words::{self, sentence},
 };
@@ -72,10 +72,16 @@ pub fn show(
     commands: &mut Vec<UiCommand>,
 ) {
     let Some(antenna) = model.antennas.get(antenna) else { return };
-    let held = antenna.snapshot.state.on_board.satellite.as_ref().map(|held| held.name.as_str());
-    let order = order(&antenna.config.name, typed, held.unwrap_or_default(), state);
+    let current = antenna
+        .snapshot
+        .state
+        .on_board
+        .satellite
+        .as_ref()
+        .map(|held_satellite| held_satellite.name.as_str());
+    let order = order(&antenna.config.name, typed, current.unwrap_or_default(), state);
     match typed {
-        TypedSource::Web { .. } => satellite(ui, held, state),
+        TypedSource::Web { .. } => satellite(ui, current, state),
         TypedSource::Server { .. } => protocol(ui, &mut state.protocol),
     }
     let tests = &model.source_tests;
@@ -114,7 +120,7 @@ fn push(commands: &mut Vec<UiCommand>, ask: TestAsk) {
 fn order(
     antenna: &str,
     typed: TypedSource<'_>,
-    held: &str,
+    current: &str,
     state: &SourceTestState,
 ) -> Result<SourceOrder, &'static str> {
     let present = |typed: &str, problem| {
@@ -124,7 +130,7 @@ fn order(
     let (source, satellite) = match typed {
         TypedSource::Web { url } => {
             let url = present(url, "the address is missing")?;
-            (TestedSource::Web { url }, state.satellite.as_deref().unwrap_or(held))
+            (TestedSource::Web { url }, state.satellite.as_deref().unwrap_or(current))
         }
         TypedSource::Server { address, port, user, password, file, satellite } => {
             let host = present(address, "the address is missing")?;
@@ -143,11 +149,11 @@ fn order(
     Ok(SourceOrder { antenna: antenna.to_owned(), source, satellite })
 }
 
-fn satellite(ui: &mut Ui, held: Option<&str>, state: &mut SourceTestState) {
+fn satellite(ui: &mut Ui, current: Option<&str>, state: &mut SourceTestState) {
     let t = theme::tokens(ui);
     ui.horizontal(|ui| {
         let label = ui.label(RichText::new("Look for").font(text::body()).color(t.t2)).id;
-        let mut typed = state.satellite.clone().unwrap_or_else(|| held.unwrap_or("").to_owned());
+        let mut typed = state.satellite.clone().unwrap_or_else(|| current.unwrap_or("").to_owned());
         let hint = RichText::new("name of the satellite").color(t.t3);
         let edit = TextEdit::singleline(&mut typed).id_salt("look for").hint_text(hint);
         let edit = ui.add(edit.desired_width(ui.available_width().min(240.0)));
@@ -201,8 +207,8 @@ fn outcome(
             Some(Answer::No) => push(commands, TestAsk::Cancel),
             None => {}
         },
-        TestStage::Seen { view, time: at, old_algorithms } => {
-            seen::show(ui, view, &tested.satellite, *at, model.now);
+        TestStage::Seen { view, time, old_algorithms } => {
+            reading::show(ui, view, &tested.satellite, *time, model.now);
             if let Some(words) = words::old_algorithms(old_algorithms) {
                 line(ui, Tone::Caution, &words);
             }

@@ -53,7 +53,7 @@ impl Spoken {
     }
 
     /// Calls `show` with the sentence as the widget takes it.
-    pub fn with<R>(&self, show: impl FnOnce(&Sentence<'_>) -> R) -> R {
+    pub fn with_sentence<R>(&self, show: impl FnOnce(&Sentence<'_>) -> R) -> R {
         let spans: Vec<Span<'_>> =
             self.parts.iter().map(|(text, bold)| Span { text, bold: *bold }).collect();
         show(&Sentence { kind: self.kind, spans: &spans })
@@ -85,15 +85,15 @@ fn stop(model: &Model, antenna: &AntennaModel) -> Option<Spoken> {
                 format::age(age)
             ))
         }),
-        StopState::Stopping { start: since } => {
-            let age = model.steady.saturating_duration_since(since).as_secs_f64();
+        StopState::Stopping { start } => {
+            let age = model.steady.saturating_duration_since(start).as_secs_f64();
             Some(Spoken::new(SentenceKind::Caution).plain(format!(
                 "Stopping {name}: STOP was sent {} ago, waiting for standstill.",
                 format::age(age)
             )))
         }
-        StopState::NotConfirmed { start: since } => {
-            let age = model.steady.saturating_duration_since(since).as_secs_f64();
+        StopState::NotConfirmed { start } => {
+            let age = model.steady.saturating_duration_since(start).as_secs_f64();
             Some(Spoken::new(SentenceKind::Fault).plain(format!(
                 "{name} is not known to have stopped, {} after STOP. Use the local panel.",
                 format::age(age)
@@ -153,8 +153,8 @@ fn preparing(antenna: &AntennaModel) -> Option<Spoken> {
 fn program(model: &Model, antenna: &AntennaModel) -> Option<Spoken> {
     let state = &antenna.snapshot.state;
     let program = state.program.filter(|program| program.enabled)?;
-    let held = state.on_board.satellite.as_ref();
-    let name = held.map_or("a satellite", |held| short(&held.name));
+    let satellite = state.on_board.satellite.as_ref();
+    let name = satellite.map_or("a satellite", |satellite| short(&satellite.name));
     let window = state.on_board.window;
     match program.phase {
         Phase::Tracking => Some(tracking(model, antenna, name)),
@@ -170,11 +170,11 @@ fn program(model: &Model, antenna: &AntennaModel) -> Option<Spoken> {
             let lead_s = state.on_board.offsets.map_or(0.0, |offsets| offsets.lead_s);
             let moves = starts.filter(|_| program.phase == Phase::OutOfWindow);
             let moves = moves.map(|start| (start, add_seconds(start, -lead_s)));
-            Some(match moves.filter(|(_, at)| lead_s > 0.0 && *at > model.now) {
-                Some((start, at)) => spoken.plain(format!(
+            Some(match moves.filter(|(_, time)| lead_s > 0.0 && *time > model.now) {
+                Some((start, time)) => spoken.plain(format!(
                     ". The antenna moves to the start at {}, in {}, and tracks from {}.",
-                    format::moment(at, model.now),
-                    format::time_left(model.now, at),
+                    format::moment(time, model.now),
+                    format::time_left(model.now, time),
                     format::moment(start, model.now)
                 )),
                 None => spoken.plain(tracking_starts(model, starts)),
@@ -224,7 +224,9 @@ fn tracking(model: &Model, antenna: &AntennaModel, name: &str) -> Spoken {
     };
     let off_deg = error.off_beam.degrees();
     let arrives = antenna.snapshot.on_board.as_ref().and_then(|view| view.arrives);
-    if let Some(arrives) = arrives.filter(|at| *at > model.steady && off_deg > half_beam_deg) {
+    if let Some(arrives) =
+        arrives.filter(|instant| *instant > model.steady && off_deg > half_beam_deg)
+    {
         let left = arrives.saturating_duration_since(model.steady).as_secs_f64();
         return Spoken::new(SentenceKind::Commanded).plain("Tracking ").bold(name).plain(own).plain(
             format!(
@@ -236,8 +238,8 @@ fn tracking(model: &Model, antenna: &AntennaModel, name: &str) -> Spoken {
     }
     let after = match antenna.snapshot.state.on_board.window {
         Some((_, stop)) if stop > model.now => {
-            let what = if sets(model, antenna) { "At LOS" } else { "It does not set; at" };
-            format!(" {what} {} it stops and holds.", format::moment(stop, model.now))
+            let subject = if sets(model, antenna) { "At LOS" } else { "It does not set; at" };
+            format!(" {subject} {} it stops and holds.", format::moment(stop, model.now))
         }
         _ => String::new(),
     };
@@ -258,7 +260,11 @@ fn sets(model: &Model, antenna: &AntennaModel) -> bool {
     let Some(number) = antenna.tracked_number() else { return true };
     let lists = [&model.pass_lists.favourites, &model.pass_lists.all];
     let mut listed = lists.into_iter().flat_map(|list| list.passes.iter());
-    !listed.any(|it| it.number() == number && it.in_progress(model.now) && it.pass.ends_after)
+    !listed.any(|predicted| {
+        predicted.number() == number
+            && predicted.in_progress(model.now)
+            && predicted.pass.ends_after
+    })
 }
 
 fn by_hand(antenna: &AntennaModel) -> Option<Spoken> {
@@ -313,8 +319,8 @@ fn standing(model: &Model, antenna: &AntennaModel) -> Spoken {
              stop.",
         );
     }
-    if let Some(inside) = &antenna.snapshot.breach {
-        let words = words::kept_still(&antenna.config.name, inside);
+    if let Some(breach) = &antenna.snapshot.breach {
+        let words = words::kept_still(&antenna.config.name, breach);
         return Spoken::new(SentenceKind::Caution).plain(words);
     }
     let next = next_words(

@@ -77,13 +77,13 @@ impl TimeAxis {
         self.x.span() * (3600.0 / self.seconds) as f32
     }
 
-    /// The x range of the time `from` to `to`, cut at the axis and never narrower than visible.
+    /// The x range of the time `start` to `end`, cut at the axis and never narrower than visible.
     /// `None` if it lies outside the axis.
-    pub(super) fn range(&self, from: Timestamp, to: Timestamp) -> Option<Rangef> {
-        if to <= self.start || from >= self.end() || to < from {
+    pub(super) fn range(&self, start: Timestamp, end: Timestamp) -> Option<Rangef> {
+        if end <= self.start || start >= self.end() || end < start {
             return None;
         }
-        let (left, right) = (self.x(from).max(self.x.min), self.x(to).min(self.x.max));
+        let (left, right) = (self.x(start).max(self.x.min), self.x(end).min(self.x.max));
         let width = (right - left).max(MIN_RANGE);
         let last_left = (self.x.max - width).max(self.x.min);
         let left = ((left + right - width) / 2.0).clamp(self.x.min, last_left);

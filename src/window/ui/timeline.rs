@@ -94,7 +94,7 @@ pub struct TimelineModel<'a> {
     /// The time of the now-line, UTC.
     pub now: Timestamp,
     /// The time that the sky plot shows, if that is not now.
-    pub then: Option<Timestamp>,
+    pub time: Option<Timestamp>,
     pub hours: f64,
     /// A lane for each antenna, in the order of the station; at least one.
     pub lanes: &'a [Lane<'a>],
@@ -201,8 +201,8 @@ fn all_lanes(
         lane_name(ui, rect.left() + MARGIN, place, lane.name, index == model.main);
         let heights = bars::fitting(&grown(place), place);
         let bars = bars::stand(&lane.bars, |_| true, model.selected, scale, place, &heights);
-        let of = LaneOf { antenna: lane.name, is_one_of_several: true };
-        bars::show(ui, &bars, of, model, commands);
+        let lane_of = LaneOf { antenna: lane.name, is_one_of_several: true };
+        bars::show(ui, &bars, lane_of, model, commands);
         standing.push((place, bars));
     }
     lane_name(ui, rect.left() + MARGIN, sun, "Sun", false);
@@ -238,11 +238,11 @@ fn full(
     axis::show(ui, scale, lane.with_max_y(out.bottom()), names);
     let Some(shown) = model.lanes.get(model.main) else { return };
     lane_name(ui, rect.left() + MARGIN, lane, shown.name, true);
-    let of = LaneOf { antenna: shown.name, is_one_of_several: false };
+    let lane_of = LaneOf { antenna: shown.name, is_one_of_several: false };
     let heights = bars::fitting(&grown(lane), lane);
-    let wanted = |bar: &Bar<'_>| bar.is_taken() || !two_lanes;
-    let main = bars::stand(&shown.bars, wanted, model.selected, scale, lane, &heights);
-    bars::show(ui, &main, of, model, commands);
+    let is_shown = |bar: &Bar<'_>| bar.is_taken() || !two_lanes;
+    let main = bars::stand(&shown.bars, is_shown, model.selected, scale, lane, &heights);
+    bars::show(ui, &main, lane_of, model, commands);
     if two_lanes {
         ui.painter().hline(x, out.top(), (1.0, theme::tokens(ui).line));
         let name = if model.is_planned { "Left out" } else { "Out of reach" };
@@ -255,7 +255,7 @@ fn full(
             out,
             &OUT_HEIGHTS,
         );
-        bars::show(ui, &others, of, model, commands);
+        bars::show(ui, &others, lane_of, model, commands);
     }
     lane_name(ui, rect.left() + MARGIN, sun, "Sun", false);
     sun::show(ui, scale, model.now, model.sun, sun, words);
@@ -277,10 +277,10 @@ fn small(
     axis::show(ui, scale, lane, names);
     let Some(shown) = model.lanes.get(model.main) else { return };
     lane_name(ui, rect.left() + SMALL_MARGIN, lane, shown.name, true);
-    let of = LaneOf { antenna: shown.name, is_one_of_several: false };
+    let lane_of = LaneOf { antenna: shown.name, is_one_of_several: false };
     let heights = bars::fitting(&HEIGHTS, lane);
     let standing = bars::stand(&shown.bars, |_| true, model.selected, scale, lane, &heights);
-    bars::show(ui, &standing, of, model, commands);
+    bars::show(ui, &standing, lane_of, model, commands);
     axis::time_lines(ui, scale, model, Rangef::new(lane.top() - 4.0, lane.bottom()));
     let room = lane.with_min_x(lane.left() - REACH);
     bars::show_names(ui, &standing, model.selected, room);

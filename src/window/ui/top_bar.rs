@@ -118,8 +118,8 @@ fn fill(ui: &mut Ui, rect: Rect, model: &TopBarModel<'_>, commands: &mut Vec<UiC
     let alarms = Rect::from_min_size(min, vec2(alarm_width, control));
 
     if let Some(left_out) = model.stop_left_out {
-        let beside = Rect::from_min_max(alarms.right_top(), stop.left_bottom());
-        mark_left_out(ui, beside, left_out);
+        let area = Rect::from_min_max(alarms.right_top(), stop.left_bottom());
+        mark_left_out(ui, area, left_out);
     }
 
     let clock = clock::show(ui, rect.with_min_x(left), &model.clock, wide);
@@ -149,8 +149,8 @@ fn fill(ui: &mut Ui, rect: Rect, model: &TopBarModel<'_>, commands: &mut Vec<UiC
         && said_left_out.is_none()
         && !matches!(model.stop, StopLook::NotConfirmed { .. });
     let date = free.with_min_x(clock.time + 10.0);
-    let told = has_date && clock::date(ui, date, &model.clock);
-    if !told && model.clock.health.mood == ClockMood::Bad {
+    let is_announced = has_date && clock::date(ui, date, &model.clock);
+    if !is_announced && model.clock.health.mood == ClockMood::Bad {
         clock::warn(ui, clock.utc, &model.clock.health);
     }
 

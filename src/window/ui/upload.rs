@@ -2,8 +2,8 @@
 //! and earlier files to restore.
 
 mod chosen;
+mod earlier_files;
 mod form;
-mod kept;
 mod outcome;
 mod progress;
 mod questions;
@@ -22,7 +22,7 @@ use super::{
     widgets::{
         button::{Button, HEIGHT},
         paint,
-        told::{Tone, line},
+        status_line::{Tone, line},
     },
     words::sentence,
 };
@@ -85,7 +85,7 @@ pub fn show(
         let words = format!("{name} stores no elements, so none can be uploaded to it.");
         return line(ui, Tone::Plain, &words);
     };
-    let form = state.forms.entry(name.clone()).or_insert_with(|| Form::of(&antenna.config, takes));
+    let form = state.forms.entry(name.clone()).or_insert_with(|| Form::new(&antenna.config, takes));
     if let Some(choice) = state.choice.take() {
         form.choose(choice, &model.station.favourites.numbers());
     }
@@ -135,11 +135,11 @@ fn content(
     }
     form::show(ui, form);
     // The satellites come last: they may be hundreds.
-    kept::show(ui, model, name, form, &mut state.question, commands);
+    earlier_files::show(ui, model, name, form, &mut state.question, commands);
     let file = match &model.catalog {
         CatalogState::Ready(catalog) => {
-            let held = antenna.snapshot.state.on_board.satellite.as_ref();
-            chosen::show(ui, model, catalog, held, form);
+            let satellite = antenna.snapshot.state.on_board.satellite.as_ref();
+            chosen::show(ui, model, catalog, satellite, form);
             form.chosen_file(catalog, &model.station.favourites.numbers())
         }
         CatalogState::Loading | CatalogState::Failed => {
@@ -174,11 +174,11 @@ fn send(
     }
     if let Err(problem) = order {
         let words = sentence(problem);
-        let at = place.left_bottom() + vec2(20.0, 6.0);
-        let glyph = paint::square(at + vec2(-13.0, 8.0), 13.0);
+        let position = place.left_bottom() + vec2(20.0, 6.0);
+        let glyph = paint::square(position + vec2(-13.0, 8.0), 13.0);
         icons::paint(ui.painter(), glyph, Icon::Warning, t.warn);
-        let width = foot.right() - at.x;
-        let place = paint::paragraph(ui, at, width, &words, text::small(), t.warn);
+        let width = foot.right() - position.x;
+        let place = paint::paragraph(ui, position, width, &words, text::small(), t.warn);
         paint::name_text(ui, "no upload", place, &words);
     }
 }

@@ -60,7 +60,7 @@ pub struct Views {
 
 /// State of the views kept from one start to the next.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub struct Kept {
+pub struct StoredViews {
     /// The travel gauges are unfolded in a low window.
     pub travel_open: bool,
     /// The checks are unfolded in a low window.
@@ -79,25 +79,25 @@ pub struct Kept {
 
 impl Views {
     /// Views in the state in which the operator left them.
-    pub fn with(kept: Kept) -> Self {
+    pub fn new(stored: StoredViews) -> Self {
         let mut views = Self::default();
         let operate = &mut views.operate;
-        operate.card.travel_open = kept.travel_open;
-        operate.card.faults_open = kept.faults_open;
-        operate.zoom = Zoom::of(kept.strip_hours);
-        operate.list_width = kept.list_width;
-        operate.passes.filter.arrangement = kept.passes;
-        operate.sky.layers = kept.layers;
-        views.map.layers = kept.map_layers;
+        operate.card.travel_open = stored.travel_open;
+        operate.card.faults_open = stored.faults_open;
+        operate.zoom = Zoom::new(stored.strip_hours);
+        operate.list_width = stored.list_width;
+        operate.passes.filter.arrangement = stored.passes;
+        operate.sky.layers = stored.layers;
+        views.map.layers = stored.map_layers;
         views
     }
 
     /// The state to keep.
-    pub fn kept(&self) -> Kept {
-        Kept {
+    pub fn stored(&self) -> StoredViews {
+        StoredViews {
             travel_open: self.operate.card.travel_open,
             faults_open: self.operate.card.faults_open,
-            strip_hours: self.operate.zoom.wanted(),
+            strip_hours: self.operate.zoom.requested(),
             list_width: self.operate.list_width,
             passes: self.operate.passes.filter.arrangement.clone(),
             layers: self.operate.sky.layers,
@@ -253,7 +253,7 @@ impl Views {
                 let (antennas, question) = (&mut self.antennas, &mut self.question);
                 record::take_over(correction, model, antennas, question, commands);
             }
-            Some(Err(why)) => self.notes.news = Some(Err(why)),
+            Some(Err(reason)) => self.notes.news = Some(Err(reason)),
             None => {}
         }
     }
@@ -286,8 +286,8 @@ impl Views {
     /// `true` if the operator has to be told.
     fn refuse_in_replay(&mut self, commands: &mut Vec<UiCommand>, before: usize) -> bool {
         let acts = |command: &UiCommand| !command.is_for_replay();
-        let asked = self.question.take_if(|question| acts(&question.command)).is_some();
-        commands.extract_if(before.., |command| acts(command)).count() > 0 || asked
+        let requested = self.question.take_if(|question| acts(&question.command)).is_some();
+        commands.extract_if(before.., |command| acts(command)).count() > 0 || requested
     }
 
     /// Asks before the window closes or changes to another station if something would be lost with
@@ -314,8 +314,8 @@ impl Views {
         self.operate.leave_card(commands);
         self.question = None;
         match CloseHow::from_station(&model.station) {
-            Some(how) if lost.is_empty() => {
-                commands.push(UiCommand::Station(contract::Command::CloseAfter(how)));
+            Some(choice) if lost.is_empty() => {
+                commands.push(UiCommand::Station(contract::Command::CloseAfter(choice)));
             }
             _ => self.closing = Some(ClosingDialog { lost }),
         }
@@ -355,7 +355,7 @@ impl Views {
 
     /// Takes the outcome of saving a file: the file or the error.
     pub fn file_saved(&mut self, result: Result<SavedFile, String>) {
-        self.notes.news = Some(result.map_err(|why| format!("Nothing was saved: {why}.")));
+        self.notes.news = Some(result.map_err(|reason| format!("Nothing was saved: {reason}.")));
     }
 
     /// The operator is to type the path of a file.
@@ -364,14 +364,14 @@ impl Views {
     }
 
     /// The folder that the operator wanted to see was not opened.
-    pub fn folder_not_opened(&mut self, why: &str) {
+    pub fn folder_not_opened(&mut self, reason: &str) {
         let cure = "Copy its path and open it by hand";
-        self.notes.news = Some(Err(format!("The folder was not opened: {why}. {cure}.")));
+        self.notes.news = Some(Err(format!("The folder was not opened: {reason}. {cure}.")));
     }
 
     /// A file that the operator wanted to open was not opened, for this reason.
-    pub fn not_opened(&mut self, why: &str) {
-        self.notes.news = Some(Err(why.to_owned()));
+    pub fn not_opened(&mut self, reason: &str) {
+        self.notes.news = Some(Err(reason.to_owned()));
     }
 
     /// Takes the outcome of reading or writing a horizon mask.

@@ -30,8 +30,8 @@ pub mod rate_slider;
 pub mod segmented;
 pub mod selection;
 pub mod sentence;
+pub mod status_line;
 pub mod stop_button;
-pub mod told;
 pub mod travel_gauge;
 
 #[cfg(test)]

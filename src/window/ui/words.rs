@@ -46,8 +46,8 @@ pub use refusals::{
     prepare_error, refusal, track_problem,
 };
 pub use safety::{
-    SUN_IS_LIFTED, UNGUARDED, asks_standing, auto_track_owed, drive, forbidden, inside, kept_still,
-    offsets_owed, owed, reason, safety, stopping_way, sun_lifted, way_out,
+    SUN_IS_LIFTED, UNGUARDED, asks_standing, auto_track_owed, drive, forbidden, inside_barrier,
+    kept_still, offsets_owed, owed, reason, safety, stopping_way, sun_lifted, way_out,
 };
 pub use site::{off_the_told, sun_there};
 pub use way_there::{WayThere, needs};
@@ -57,8 +57,8 @@ pub use way_there::{WayThere, needs};
 pub const OLD_ELEMENTS_S: f64 = 7.0 * 86_400.0;
 
 /// Name of a request to an antenna, as its key or button calls it.
-pub fn asked(asked: MotionRequest) -> &'static str {
-    let motion = match asked {
+pub fn motion_name(request: MotionRequest) -> &'static str {
+    let motion = match request {
         MotionRequest::Motion(motion) => motion,
         MotionRequest::Action(key) => return action_name(key),
     };
@@ -104,26 +104,26 @@ pub fn stake(antenna: &str, stake: &Stake) -> String {
 }
 
 /// Why a value cannot be used, with the unit behind the ends of a range.
-pub fn unfit(why: &Unfit, unit: &str) -> String {
-    match why {
+pub fn unfit(reason: &Unfit, unit: &str) -> String {
+    match reason {
         Unfit::Number { .. } | Unfit::Integer { .. } if !unit.is_empty() => {
             let gap = if unit == "°" { "" } else { " " };
-            format!("{why}{gap}{unit}")
+            format!("{reason}{gap}{unit}")
         }
-        _ => why.to_string(),
+        _ => reason.to_string(),
     }
 }
 
 /// A reason why a value cannot be used, in a few words for beside its field.
-pub fn unfit_in_short(why: &Unfit, unit: &str) -> String {
+pub fn unfit_in_short(reason: &Unfit, unit: &str) -> String {
     let only = |min: f64, max: f64| {
         let gap = if unit == "°" || unit.is_empty() { "" } else { " " };
         format!("Must be {min} to {max}{gap}{unit}").replace('-', "−")
     };
-    match *why {
+    match *reason {
         Unfit::Number { min, max } => only(min, max),
         Unfit::Integer { min, max } => only(min as f64, max as f64),
-        _ => capitalised(&why.to_string()),
+        _ => capitalised(&reason.to_string()),
     }
 }
 

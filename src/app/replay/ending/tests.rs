@@ -38,7 +38,7 @@ fn a_replay_ends_two_minutes_before_a_planned_pass() {
     assert_eq!(why_over(at(0), &planned(500, 621)), None);
     let over = why_over(at(0), &planned(501, 621));
     let (antenna, satellite) = ("an antenna".to_owned(), "43013".to_owned());
-    assert_eq!(over, Some(ReplayEnd::Pass { antenna, satellite, from: at(621) }));
+    assert_eq!(over, Some(ReplayEnd::Pass { antenna, satellite, start: at(621) }));
     assert_eq!(why_over(at(510), &planned(511, 621)), None, "the operator began it after that");
     assert_eq!(why_over(at(0), &planned(700, 621)), None, "the pass has begun");
     assert_eq!(why_over(at(0), &live(500)), None);

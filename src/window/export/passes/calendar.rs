@@ -121,7 +121,7 @@ mod tests {
         assert!(text.contains("DTSTART:20260812T010203Z\r\n"), "{text}");
         assert!(text.contains("DTEND:20260812T010204Z\r\n"), "{text}");
         let unfolded = text.replace("\r\n ", "");
-        let said = "Elements of 2026-08-11 01:21:00Z\\, age 1.0 days at AOS";
-        assert!(unfolded.contains(said), "{unfolded}");
+        let spoken = "Elements of 2026-08-11 01:21:00Z\\, age 1.0 days at AOS";
+        assert!(unfolded.contains(spoken), "{unfolded}");
     }
 }

@@ -33,8 +33,8 @@ pub(in crate::export) fn event_ids(rows: &[ExportedPass<'_>], query: &PassQuery)
     let mut before: BTreeMap<(u32, Option<i64>), usize> = BTreeMap::new();
     let id = |ExportedPass { satellite, pass }: &ExportedPass<'_>| {
         let number = satellite.elements.catalog_number();
-        let slots = Slots::of(&satellite.elements);
-        let again = |from, to| query.passes_between(&satellite.propagator, from, to);
+        let slots = Slots::new(&satellite.elements);
+        let again = |start, end| query.passes_between(&satellite.propagator, start, end);
         let FoundSlot { slot, order } = slots.find(pass, query.search.start, again);
         let before = before.entry((number, slot)).or_default();
         let order = order.max(*before);
@@ -71,7 +71,7 @@ struct FoundSlot {
 }
 
 impl Slots {
-    fn of(elements: &Elements) -> Self {
+    fn new(elements: &Elements) -> Self {
         let period_s = elements.period_s();
         // A slow satellite rises once per rotation of the Earth.
         let between_s = SLOT_SHARE * period_s.min(time::DAY_S);
@@ -79,7 +79,7 @@ impl Slots {
         Self { exponent, longest_pass_s: LONGEST_PASS * period_s }
     }
 
-    fn at(&self, time: Timestamp) -> i64 {
+    fn slot(&self, time: Timestamp) -> i64 {
         time.as_second() >> self.exponent
     }
 
@@ -87,16 +87,16 @@ impl Slots {
         Timestamp::from_second(slot << self.exponent).unwrap_or(Timestamp::MIN)
     }
 
-    /// Finds the slot of `pass`. If the window that starts at `from` cuts off a part of the pass or
+    /// Finds the slot of `pass`. If the window that starts at `start` cuts off a part of the pass or
     /// of its slot, `again` searches a wider window.
     fn find(
         &self,
         pass: &Pass,
-        from: Timestamp,
+        start: Timestamp,
         again: impl FnOnce(Timestamp, Timestamp) -> Vec<Pass>,
     ) -> FoundSlot {
-        let slot = self.at(pass.tca.time);
-        let is_cut = pass.starts_before || pass.ends_after || self.start(slot) < from;
+        let slot = self.slot(pass.tca.time);
+        let is_cut = pass.starts_before || pass.ends_after || self.start(slot) < start;
         let found = FoundSlot { slot: Some(slot), order: 0 };
         if !is_cut {
             return if self.is_long(pass) { FoundSlot { slot: None, order: 0 } } else { found };
@@ -111,10 +111,10 @@ impl Slots {
         if self.is_long(whole) {
             return FoundSlot { slot: None, order: 0 };
         }
-        let slot = self.at(whole.tca.time);
+        let slot = self.slot(whole.tca.time);
         let is_before = |other: &&Pass| {
             other.aos.time < whole.aos.time
-                && self.at(other.tca.time) == slot
+                && self.slot(other.tca.time) == slot
                 && !self.is_long(other)
         };
         FoundSlot { slot: Some(slot), order: passes.iter().filter(is_before).count() }

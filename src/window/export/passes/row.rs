@@ -87,7 +87,7 @@ impl Serialize for Epoch {
 
 /// Distance and Doppler shift, rounded.
 #[derive(Clone, Copy, PartialEq)]
-struct Seen {
+struct Geometry {
     range_km: f64,
     range_rate_km_s: f64,
     doppler_hz: Doppler,
@@ -103,11 +103,11 @@ impl<'a> Row<'a> {
 
     /// A row for each pass, in their order.
     pub(super) fn all(view: &View, format: RowFormat, passes: &[ExportedPass<'a>]) -> Vec<Self> {
-        let wanted: Vec<_> = passes
+        let requests: Vec<_> = passes
             .iter()
-            .flat_map(|row| times(&row.pass).map(|at| (&row.satellite.propagator, at)))
+            .flat_map(|row| times(&row.pass).map(|time| (&row.satellite.propagator, time)))
             .collect();
-        let places = Propagator::over_ground(&wanted);
+        let places = Propagator::over_ground(&requests);
         let rows = passes.iter().zip(places.as_chunks().0);
         rows.map(|(row, places)| Self::new(view, format, row, places)).collect()
     }
@@ -119,23 +119,23 @@ impl<'a> Row<'a> {
         places: &[Option<OverGround>; 3],
     ) -> Self {
         let elements = &satellite.elements;
-        let seen = |distance: Distance| Seen {
+        let geometry = |distance: Distance| Geometry {
             range_km: rounded(distance.range_km, 1e3),
             range_rate_km_s: rounded(distance.range_rate_km_s, 1e6),
             doppler_hz: view.carrier_hz.map_or(Doppler::LeftOut, |hertz| {
                 Doppler::Hertz(rounded(distance.doppler_hz(hertz), 10.0))
             }),
         };
-        let at = |place: &Option<OverGround>, time| {
-            place.as_ref().map(|place| seen(view.distance(satellite, place, time, seen)))
+        let geometry_at = |place: &Option<OverGround>, time| {
+            place.as_ref().map(|place| geometry(view.distance(satellite, place, time, geometry)))
         };
         let [aos_place, tca_place, los_place] = places;
-        let aos = at(aos_place, pass.aos.time);
-        let tca = at(tca_place, pass.tca.time);
-        let los = at(los_place, pass.los.time);
+        let aos = geometry_at(aos_place, pass.aos.time);
+        let tca = geometry_at(tca_place, pass.tca.time);
+        let los = geometry_at(los_place, pass.los.time);
         let sun_km = sun_moon::sun_ecef_km(pass.tca.time);
-        let doppler_hz = |seen: Option<Seen>| match (seen, view.carrier_hz) {
-            (Some(seen), _) => seen.doppler_hz,
+        let doppler_hz = |geometry: Option<Geometry>| match (geometry, view.carrier_hz) {
+            (Some(geometry), _) => geometry.doppler_hz,
             (None, Some(_)) => Doppler::Unknown,
             (None, None) => Doppler::LeftOut,
         };
@@ -157,15 +157,15 @@ impl<'a> Row<'a> {
             ends_after: pass.ends_after,
             epoch: Epoch(elements.epoch()),
             age_days: satellite.age_days(pass.aos.time),
-            range_km: tca.map(|seen| seen.range_km),
+            range_km: tca.map(|geometry| geometry.range_km),
             sunlit: tca_place.as_ref().map(|place| is_lit(place.position_km, sun_km)),
             designator: elements.international_designator().map(|text| format.text(text)),
             dark_at_site: view.is_dark(sun_km),
-            aos_range_km: aos.map(|seen| seen.range_km),
-            los_range_km: los.map(|seen| seen.range_km),
-            aos_range_rate_km_s: aos.map(|seen| seen.range_rate_km_s),
-            tca_range_rate_km_s: tca.map(|seen| seen.range_rate_km_s),
-            los_range_rate_km_s: los.map(|seen| seen.range_rate_km_s),
+            aos_range_km: aos.map(|geometry| geometry.range_km),
+            los_range_km: los.map(|geometry| geometry.range_km),
+            aos_range_rate_km_s: aos.map(|geometry| geometry.range_rate_km_s),
+            tca_range_rate_km_s: tca.map(|geometry| geometry.range_rate_km_s),
+            los_range_rate_km_s: los.map(|geometry| geometry.range_rate_km_s),
             aos_doppler_hz: doppler_hz(aos),
             tca_doppler_hz: doppler_hz(tca),
             los_doppler_hz: doppler_hz(los),

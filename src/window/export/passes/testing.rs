@@ -63,9 +63,9 @@ pub(super) fn write_to(
 ) -> io::Result<()> {
     let satellite = Satellite::new(elements).unwrap();
     let rows = passes.iter().map(|pass| ExportedPass { satellite: &satellite, pass: *pass });
-    let at = |text: &str| -> Timestamp { text.parse().unwrap() };
-    let (now, to) = (at("2026-08-11T00:00:00Z"), at("2026-08-13T00:00:00Z"));
-    let query = PassQuery { search: PassSearch::new(Site::default(), now, to), mask: None };
+    let time = |text: &str| -> Timestamp { text.parse().unwrap() };
+    let (now, end) = (time("2026-08-11T00:00:00Z"), time("2026-08-13T00:00:00Z"));
+    let query = PassQuery { search: PassSearch::new(Site::default(), now, end), mask: None };
     let (place, alarm_before_s) = (None, None);
     let list = PassList { query: &query, place, carrier_hz, alarm_before_s, now };
     list.write(out, format, rows)

@@ -28,7 +28,7 @@ pub struct Tally {
 }
 
 impl Tally {
-    fn of(limits: MountLimits, ways: &[PassTrack]) -> Self {
+    fn new(limits: MountLimits, ways: &[PassTrack]) -> Self {
         let mut tally = Self::default();
         for way in ways {
             match trackability(&way.samples, limits) {
@@ -50,7 +50,7 @@ impl Compare for Question {
     const EVERY: usize = 1;
 
     fn tallies(&self, ways: &[PassTrack]) -> [Tally; 2] {
-        [self.before, self.after].map(|limits| Tally::of(limits, ways))
+        [self.before, self.after].map(|limits| Tally::new(limits, ways))
     }
 }
 

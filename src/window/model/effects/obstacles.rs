@@ -85,55 +85,57 @@ fn tally(obstacles: &Obstacles, question: &Question, ways: &[PassTrack]) -> Tall
     tally.of_sun = obstacles.sun.map(|_| Toll::default());
     for (index, way) in ways.iter().enumerate() {
         let is_masked = |sample: &Sample| {
-            let skyline =
-                obstacles.mask.as_ref().map(|of| of.elevation_at(sample.direction.azimuth));
+            let skyline = obstacles
+                .mask
+                .as_ref()
+                .map(|horizon_mask| horizon_mask.elevation_at(sample.direction.azimuth));
             skyline.is_some_and(|skyline| sample.direction.elevation < skyline)
         };
-        let seen: Vec<bool> = way.samples.iter().map(|sample| !is_masked(sample)).collect();
-        tally.masked += usize::from(seen.contains(&false));
-        let mut free = seen.clone();
+        let visible: Vec<bool> = way.samples.iter().map(|sample| !is_masked(sample)).collect();
+        tally.masked += usize::from(visible.contains(&false));
+        let mut free = visible.clone();
         let mut is_touched = false;
         for (keep_out, toll) in obstacles.keep_outs.iter().zip(&mut tally.of_each) {
             let holds = question.antenna.as_ref().is_none_or(|name| keep_out.holds_for(name));
             if !holds {
                 continue;
             }
-            let inside: Vec<bool> = way
+            let is_inside: Vec<bool> = way
                 .samples
                 .iter()
-                .zip(&seen)
-                .map(|(sample, seen)| {
+                .zip(&visible)
+                .map(|(sample, is_visible)| {
                     let margin = keep_out.margin() + question.half_beam;
-                    *seen && keep_out.zone.clearance(sample.direction) < margin
+                    *is_visible && keep_out.zone.clearance(sample.direction) < margin
                 })
                 .collect();
-            let stretches = stretches(&inside);
+            let stretches = stretches(&is_inside);
             if stretches.is_empty() {
                 continue;
             }
             is_touched = true;
             toll.add(index, way, stretches);
             if keep_out.entered != Entered::Warn {
-                for (free, inside) in free.iter_mut().zip(&inside) {
-                    *free &= !inside;
+                for (free, is_inside) in free.iter_mut().zip(&is_inside) {
+                    *free &= !is_inside;
                 }
             }
         }
         if let (Some(sun), Some(toll)) = (obstacles.sun, &mut tally.of_sun) {
-            let inside = near_sun(sun, question.site, way, &seen);
-            let stretches = stretches(&inside);
+            let is_inside = near_sun(sun, question.site, way, &visible);
+            let stretches = stretches(&is_inside);
             if !stretches.is_empty() {
                 is_touched = true;
                 toll.add(index, way, stretches);
-                for (free, inside) in free.iter_mut().zip(&inside) {
-                    *free &= !inside;
+                for (free, is_inside) in free.iter_mut().zip(&is_inside) {
+                    *free &= !is_inside;
                 }
             }
         }
         tally.touched += usize::from(is_touched);
         let blocked: Vec<bool> =
-            seen.iter().zip(&free).map(|(seen, free)| *seen && !free).collect();
-        let lost_s: f64 = stretches(&blocked).iter().map(|of| time_s(way, of)).sum();
+            visible.iter().zip(&free).map(|(is_visible, free)| *is_visible && !free).collect();
+        let lost_s: f64 = stretches(&blocked).iter().map(|stretch| time_s(way, stretch)).sum();
         tally.lost_s += lost_s;
         tally.impossible += usize::from(lost_s > 0.0 && !free.contains(&true));
     }
@@ -143,14 +145,14 @@ fn tally(obstacles: &Obstacles, question: &Question, ways: &[PassTrack]) -> Tall
 impl Toll {
     fn add(&mut self, index: usize, way: &PassTrack, stretches: Vec<Range<usize>>) {
         self.passes += 1;
-        self.time_s += stretches.iter().map(|of| time_s(way, of)).sum::<f64>();
-        self.blocked.extend(stretches.into_iter().map(|of| (index, of)));
+        self.time_s += stretches.iter().map(|stretch| time_s(way, stretch)).sum::<f64>();
+        self.blocked.extend(stretches.into_iter().map(|stretch| (index, stretch)));
     }
 }
 
-/// For each sample that is `seen`, `true` if it lies too near to the Sun, at its time or in the
+/// For each sample that is `visible`, `true` if it lies too near to the Sun, at its time or in the
 /// look-ahead time.
-fn near_sun(sun: SunAvoidance, site: Site, way: &PassTrack, seen: &[bool]) -> Vec<bool> {
+fn near_sun(sun: SunAvoidance, site: Site, way: &PassTrack, visible: &[bool]) -> Vec<bool> {
     let (Some(first), Some(last)) = (way.samples.first(), way.samples.last()) else {
         return Vec::new();
     };
@@ -160,19 +162,21 @@ fn near_sun(sun: SunAvoidance, site: Site, way: &PassTrack, seen: &[bool]) -> Ve
         .map(|step| sun_moon::sun(site, add_seconds(first.time, f64::from(step) * SUN_STEP_S)))
         .collect();
     let place = |after_s: f64| (after_s / SUN_STEP_S).max(0.0) as usize;
-    let is_near = |(sample, seen): (&Sample, &bool)| {
+    let is_near = |(sample, is_visible): (&Sample, &bool)| {
         let after_s = seconds_between(first.time, sample.time);
         let ahead = suns.iter().take(place(after_s + sun.ahead_min * 60.0) + 1);
         let mut ahead = ahead.skip(place(after_s));
-        *seen && ahead.any(|at| sample.direction.separation(*at).degrees() < sun.radius_deg)
+        *is_visible
+            && ahead
+                .any(|direction| sample.direction.separation(*direction).degrees() < sun.radius_deg)
     };
-    way.samples.iter().zip(seen).map(is_near).collect()
+    way.samples.iter().zip(visible).map(is_near).collect()
 }
 
-/// The unbroken runs of `inside`.
-fn stretches(inside: &[bool]) -> Vec<Range<usize>> {
+/// The unbroken runs of `flags`.
+fn stretches(flags: &[bool]) -> Vec<Range<usize>> {
     let mut found: Vec<Range<usize>> = Vec::new();
-    for (index, _) in inside.iter().enumerate().filter(|(_, inside)| **inside) {
+    for (index, _) in flags.iter().enumerate().filter(|(_, is_inside)| **is_inside) {
         match found.last_mut() {
             Some(last) if last.end == index => last.end = index + 1,
             _ => found.push(index..index + 1),
@@ -183,12 +187,13 @@ fn stretches(inside: &[bool]) -> Vec<Range<usize>> {
 
 /// Duration of a stretch, with half a step more at each end where the track goes on.
 fn time_s(way: &PassTrack, stretch: &Range<usize>) -> f64 {
-    let at = |index: usize| way.samples.get(index).map(|sample| sample.time);
-    let (Some(first), Some(last)) = (at(stretch.start), at(stretch.end.saturating_sub(1))) else {
+    let time = |index: usize| way.samples.get(index).map(|sample| sample.time);
+    let (Some(first), Some(last)) = (time(stretch.start), time(stretch.end.saturating_sub(1)))
+    else {
         return 0.0;
     };
-    let before = stretch.start.checked_sub(1).and_then(at).unwrap_or(first);
-    let after = at(stretch.end).unwrap_or(last);
+    let before = stretch.start.checked_sub(1).and_then(time).unwrap_or(first);
+    let after = time(stretch.end).unwrap_or(last);
     seconds_between(first, last)
         + seconds_between(before, first) / 2.0
         + seconds_between(last, after) / 2.0
@@ -243,7 +248,7 @@ mod tests {
     fn a_pass_through_the_surroundings_of_the_sun_is_counted() {
         let site = Site::new(41.0, 29.0, 100.0).unwrap();
         let start: Timestamp = "2026-08-12T10:00:00Z".parse().unwrap();
-        let through = |place: AzEl| {
+        let track_through = |place: AzEl| {
             // From 20 degrees below to 20 above it, a degree each 6 s.
             let samples = (-20..=20).map(|step| Sample {
                 time: add_seconds(start, f64::from(step + 20) * 6.0),
@@ -261,14 +266,14 @@ mod tests {
         };
         let radius_deg = 5.5;
         let now = Some(SunAvoidance { radius_deg, ahead_min: 0.0 });
-        let way = through(sun_moon::sun(site, start));
+        let way = track_through(sun_moon::sun(site, start));
         assert_eq!(tally(&way, None), Tally::default());
-        let held = tally(&way, now);
-        let toll = held.of_sun.clone().unwrap();
-        assert_eq!((held.touched, toll.passes, held.impossible), (1, 1, 0));
-        assert!((held.lost_s - 66.0).abs() < 7.0, "{held:?}");
+        let outcome = tally(&way, now);
+        let toll = outcome.of_sun.clone().unwrap();
+        assert_eq!((outcome.touched, toll.passes, outcome.impossible), (1, 1, 0));
+        assert!((outcome.lost_s - 66.0).abs() < 7.0, "{outcome:?}");
 
-        let later = through(sun_moon::sun(site, add_seconds(start, 50.0 * 60.0)));
+        let later = track_through(sun_moon::sun(site, add_seconds(start, 50.0 * 60.0)));
         assert_eq!(tally(&later, now).touched, 0);
         let ahead = Some(SunAvoidance { radius_deg, ahead_min: 60.0 });
         assert_eq!(tally(&later, ahead).touched, 1, "where it will be");
@@ -295,9 +300,9 @@ mod tests {
 
     #[test]
     fn keep_outs_that_leave_nothing_make_a_pass_impossible() {
-        let both =
+        let zones =
             vec![keep_out(-1.0, 90.5, Entered::Hard), keep_out(80.0, 181.0, Entered::GoRound)];
-        let tally = effect(both, "");
+        let tally = effect(zones, "");
         assert_eq!((tally.touched, tally.impossible), (1, 1));
         assert!((tally.lost_s - 1080.0).abs() < 1e-6, "an overlap counts once: {}", tally.lost_s);
         let other =

@@ -27,7 +27,7 @@ pub struct Standpoint {
 }
 
 impl Standpoint {
-    pub fn of(station: &Station) -> Self {
+    pub fn new(station: &Station) -> Self {
         Self {
             site: station.site,
             aos_elevation: station.aos_elevation(),
@@ -42,7 +42,7 @@ pub struct Question {
     /// The favourites.
     pub satellites: Arc<Vec<Arc<ListedSatellite>>>,
     /// Start of the passes that are counted.
-    pub from: Timestamp,
+    pub start: Timestamp,
     pub before: Standpoint,
     pub after: Standpoint,
 }
@@ -50,7 +50,7 @@ pub struct Question {
 impl PartialEq for Question {
     fn eq(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.satellites, &other.satellites)
-            && self.from == other.from
+            && self.start == other.start
             && self.before == other.before
             && self.after == other.after
     }
@@ -68,14 +68,14 @@ pub struct Tally {
 }
 
 impl Tally {
-    fn of(standpoint: Standpoint, question: &Question) -> Self {
+    fn new(standpoint: Standpoint, question: &Question) -> Self {
         let search = PassSearch {
             aos_elevation: standpoint.aos_elevation,
             floor: standpoint.floor,
             ..PassSearch::new(
                 standpoint.site,
-                question.from,
-                add_seconds(question.from, AHEAD_H * 3600.0),
+                question.start,
+                add_seconds(question.start, AHEAD_H * 3600.0),
             )
         };
         let mut tally = Self::default();
@@ -105,7 +105,7 @@ impl Compare for Question {
     const EVERY: usize = usize::MAX;
 
     fn tallies(&self, _: &[PassTrack]) -> [Tally; 2] {
-        [self.before, self.after].map(|standpoint| Tally::of(standpoint, self))
+        [self.before, self.after].map(|standpoint| Tally::new(standpoint, self))
     }
 }
 
@@ -117,7 +117,7 @@ mod tests {
     #[test]
     fn a_moved_site_and_a_higher_aos_have_other_passes() {
         let elements = bundled().unwrap().get(25_544).unwrap().clone();
-        let from = elements.epoch();
+        let start = elements.epoch();
         let propagator = Propagator::new(&elements).unwrap();
         let satellite = ListedSatellite { elements, propagator };
         let station = Station::default();
@@ -127,9 +127,9 @@ mod tests {
                     elements: satellite.elements.clone(),
                     propagator: satellite.propagator.clone(),
                 })]),
-                from,
-                before: Standpoint::of(&Station::default()),
-                after: Standpoint::of(station),
+                start,
+                before: Standpoint::new(&Station::default()),
+                after: Standpoint::new(station),
             };
             question.tallies(&[])
         };

@@ -27,7 +27,7 @@ use crate::{
     station::{Antenna, AntennaId, Note, NoteReason, Notices, Station},
 };
 
-const OF: Option<AntennaId> = Some(AntennaId::FIRST);
+const ANTENNA: Option<AntennaId> = Some(AntennaId::FIRST);
 const LOST: AlarmKind = AlarmKind::LinkLost(LinkLoss::Silent);
 const STOP: AlarmKind = AlarmKind::StopNotConfirmed;
 
@@ -42,42 +42,42 @@ fn istanbul() -> TimeZone {
 
 /// Returns the notices of a station with these alarms and these settings.
 fn look(teller: &mut Teller, alarms: &Alarms, notices: &Notices) -> Vec<Notice> {
-    let at = Moment { utc: time(), steady: Instant::now() };
+    let moment = Moment { utc: time(), steady: Instant::now() };
     let station = Station { notices: notices.clone(), ..Station::default() };
     let snapshot = Snapshot {
         station: Arc::new(station),
         alarms: alarms.clone(),
-        ..Snapshot::before_anything(at)
+        ..Snapshot::before_anything(moment)
     };
-    teller.look(&snapshot, None, &istanbul()).told
+    teller.look(&snapshot, None, &istanbul()).notices
 }
 
-fn rows(told: &[Notice]) -> Vec<u64> {
-    let row = |notice: &Notice| match &notice.about {
-        About::Alarm(alarm) => alarm.row,
-        about => panic!("{about:?}"),
+fn rows(notices: &[Notice]) -> Vec<u64> {
+    let row = |notice: &Notice| match &notice.subject {
+        NoticeSubject::Alarm(alarm) => alarm.row,
+        subject => panic!("{subject:?}"),
     };
-    told.iter().map(row).collect()
+    notices.iter().map(row).collect()
 }
 
 #[test]
 fn an_alarm_is_told_once_and_again_in_its_row_when_it_comes_again() {
     let (mut teller, mut alarms, notices) =
         (Teller::default(), Alarms::default(), Notices::default());
-    alarms.raise(OF, LOST, time());
-    let told = look(&mut teller, &alarms, &notices);
-    assert_eq!(rows(&told), [0]);
-    assert!(told[0].is_shown && told[0].tones == Tones::Falling);
-    alarms.raise(OF, LOST, time());
+    alarms.raise(ANTENNA, LOST, time());
+    let list = look(&mut teller, &alarms, &notices);
+    assert_eq!(rows(&list), [0]);
+    assert!(list[0].is_shown && list[0].tones == Tones::Falling);
+    alarms.raise(ANTENNA, LOST, time());
     assert_eq!(look(&mut teller, &alarms, &notices), []);
     alarms.raise(None, AlarmKind::NotTaken, time());
     assert_eq!(rows(&look(&mut teller, &alarms, &notices)), [1]);
-    alarms.clear(OF, time(), |_| true);
+    alarms.clear(ANTENNA, time(), |_| true);
     assert_eq!(look(&mut teller, &alarms, &notices), []);
-    alarms.raise(OF, LOST, time());
+    alarms.raise(ANTENNA, LOST, time());
     let again = look(&mut teller, &alarms, &notices);
     assert_eq!(rows(&again), [0], "in the place of the first");
-    let About::Alarm(alarm) = &again[0].about else { panic!("{again:?}") };
+    let NoticeSubject::Alarm(alarm) = &again[0].subject else { panic!("{again:?}") };
     assert_eq!((alarm.id, alarm.count), (2, 2));
 }
 
@@ -85,11 +85,11 @@ fn an_alarm_is_told_once_and_again_in_its_row_when_it_comes_again() {
 fn the_shelf_is_silent_until_its_time_is_up() {
     let (mut teller, mut alarms, notices) =
         (Teller::default(), Alarms::default(), Notices::default());
-    alarms.raise(OF, LOST, time());
+    alarms.raise(ANTENNA, LOST, time());
     look(&mut teller, &alarms, &notices);
     alarms.shelve(0, ShelveTime::TenMinutes, time());
-    alarms.clear(OF, time(), |_| true);
-    alarms.raise(OF, LOST, time());
+    alarms.clear(ANTENNA, time(), |_| true);
+    alarms.raise(ANTENNA, LOST, time());
     assert_eq!(look(&mut teller, &alarms, &notices), []);
     alarms.pass_time(time() + 10.minutes());
     assert_eq!(rows(&look(&mut teller, &alarms, &notices)), [0]);
@@ -98,7 +98,7 @@ fn the_shelf_is_silent_until_its_time_is_up() {
 #[test]
 fn what_an_operator_has_seen_first_is_not_told() {
     let (mut teller, mut alarms) = (Teller::default(), Alarms::default());
-    alarms.raise(OF, LOST, time());
+    alarms.raise(ANTENNA, LOST, time());
     alarms.acknowledge(0, time());
     assert_eq!(look(&mut teller, &alarms, &Notices::default()), []);
 }
@@ -106,26 +106,26 @@ fn what_an_operator_has_seen_first_is_not_told() {
 #[test]
 fn each_outlet_has_its_setting_and_quiet_hours_hold_for_both() {
     let mut alarms = Alarms::default();
-    alarms.raise(OF, LOST, time());
-    let told = |notifications, sounds, quiet| {
+    alarms.raise(ANTENNA, LOST, time());
+    let tones = |notifications, sounds, quiet| {
         let notices = Notices { notifications, sounds, quiet, ..Notices::default() };
-        let told = look(&mut Teller::default(), &alarms, &notices);
-        told.first().map(|notice| (notice.is_shown, notice.tones != Tones::None))
+        let list = look(&mut Teller::default(), &alarms, &notices);
+        list.first().map(|notice| (notice.is_shown, notice.tones != Tones::None))
     };
-    assert_eq!(told(true, false, None), Some((true, false)));
-    assert_eq!(told(false, true, None), Some((false, true)));
-    assert_eq!(told(false, false, None), None);
-    assert_eq!(told(true, true, Some(HoursOfDay::NIGHT)), None, "23:00 local, 20:00 UTC");
-    let HoursOfDay { start: from, end: to } = HoursOfDay::NIGHT;
-    let by_day = HoursOfDay { start: to, end: from };
-    assert_eq!(told(true, true, Some(by_day)), Some((true, true)));
+    assert_eq!(tones(true, false, None), Some((true, false)));
+    assert_eq!(tones(false, true, None), Some((false, true)));
+    assert_eq!(tones(false, false, None), None);
+    assert_eq!(tones(true, true, Some(HoursOfDay::NIGHT)), None, "23:00 local, 20:00 UTC");
+    let HoursOfDay { start, end } = HoursOfDay::NIGHT;
+    let by_day = HoursOfDay { start: end, end: start };
+    assert_eq!(tones(true, true, Some(by_day)), Some((true, true)));
 }
 
 #[test]
 fn each_kind_of_notice_has_a_sound_of_its_own_or_none() {
-    let told = |kind: AlarmKind, notices: &Notices| {
+    let tones = |kind: AlarmKind, notices: &Notices| {
         let mut alarms = Alarms::default();
-        alarms.raise(OF, kind, time());
+        alarms.raise(ANTENNA, kind, time());
         look(&mut Teller::default(), &alarms, notices).first().map(|notice| notice.tones)
     };
     let (warning, caution) = (LOST, AlarmKind::ClockNotSet);
@@ -133,40 +133,40 @@ fn each_kind_of_notice_has_a_sound_of_its_own_or_none() {
     assert_eq!(ranks, [Priority::Warning, Priority::Caution]);
     let notices =
         Notices { warning_tones: Tones::Rising, caution_tones: Tones::None, ..Notices::default() };
-    assert_eq!(told(warning, &notices), Some(Tones::Rising));
-    assert_eq!(told(caution.clone(), &notices), Some(Tones::None), "shown all the same");
+    assert_eq!(tones(warning, &notices), Some(Tones::Rising));
+    assert_eq!(tones(caution.clone(), &notices), Some(Tones::None), "shown all the same");
     let silent = Notices { notifications: false, ..notices };
-    assert_eq!(told(caution, &silent), None);
-    assert_eq!(told(STOP, &silent), Some(Tones::Falling), "top priority");
+    assert_eq!(tones(caution, &silent), None);
+    assert_eq!(tones(STOP, &silent), Some(Tones::Falling), "top priority");
 }
 
 #[test]
 fn an_alarm_that_stood_and_is_over_is_named_once() {
-    let at = Moment { utc: time(), steady: Instant::now() };
+    let moment = Moment { utc: time(), steady: Instant::now() };
     let (mut teller, mut alarms) = (Teller::default(), Alarms::default());
-    let mut over = |alarms: &Alarms| {
+    let mut ended = |alarms: &Alarms| {
         let alarms = alarms.clone();
-        let snapshot = Snapshot { alarms, ..Snapshot::before_anything(at) };
-        teller.look(&snapshot, None, &istanbul()).over
+        let snapshot = Snapshot { alarms, ..Snapshot::before_anything(moment) };
+        teller.look(&snapshot, None, &istanbul()).ended
     };
-    alarms.raise(OF, LOST, time());
-    alarms.raise(OF, AlarmKind::EndedShort, time());
-    assert_eq!(over(&alarms), [0; 0]);
-    alarms.clear(OF, time(), |kind| *kind == LOST);
-    assert_eq!(over(&alarms), [0]);
-    assert_eq!(over(&alarms), [0; 0]);
-    alarms.raise(OF, LOST, time());
-    assert_eq!(over(&alarms), [0; 0]);
-    alarms.clear(OF, time(), |kind| *kind == LOST);
-    assert_eq!(over(&alarms), [0], "it came again in its row");
+    alarms.raise(ANTENNA, LOST, time());
+    alarms.raise(ANTENNA, AlarmKind::EndedShort, time());
+    assert_eq!(ended(&alarms), [0; 0]);
+    alarms.clear(ANTENNA, time(), |kind| *kind == LOST);
+    assert_eq!(ended(&alarms), [0]);
+    assert_eq!(ended(&alarms), [0; 0]);
+    alarms.raise(ANTENNA, LOST, time());
+    assert_eq!(ended(&alarms), [0; 0]);
+    alarms.clear(ANTENNA, time(), |kind| *kind == LOST);
+    assert_eq!(ended(&alarms), [0], "it came again in its row");
     alarms.acknowledge(1, time());
-    assert_eq!(over(&alarms), [1], "what lasted for a moment is over once it is seen");
+    assert_eq!(ended(&alarms), [1], "what lasted for a moment is over once it is seen");
 }
 
 #[test]
 fn what_was_quiet_is_not_told_afterwards() {
     let (mut teller, mut alarms) = (Teller::default(), Alarms::default());
-    alarms.raise(OF, LOST, time());
+    alarms.raise(ANTENNA, LOST, time());
     let quiet = Notices { quiet: Some(HoursOfDay::NIGHT), ..Notices::default() };
     assert_eq!(look(&mut teller, &alarms, &quiet), []);
     assert_eq!(look(&mut teller, &alarms, &Notices::default()), []);
@@ -182,22 +182,22 @@ fn a_reminder_is_told_once_before_aos() {
         can_track: vec![AntennaId::FIRST],
     };
     let mut alarms = Alarms::default();
-    alarms.raise(OF, STOP, time());
+    alarms.raise(ANTENNA, STOP, time());
     let look = |teller: &mut Teller, utc, station: &Arc<Station>| {
-        let at = Moment { utc, steady: Instant::now() };
+        let moment = Moment { utc, steady: Instant::now() };
         let snapshot = Snapshot {
             reminders: Arc::new(vec![reminder.clone()]),
             alarms: alarms.clone(),
             station: Arc::clone(station),
-            ..Snapshot::before_anything(at)
+            ..Snapshot::before_anything(moment)
         };
-        teller.look(&snapshot, None, &istanbul()).told
+        teller.look(&snapshot, None, &istanbul()).notices
     };
     let mut teller = Teller::default();
     let station = Arc::default();
-    let told = look(&mut teller, time(), &station);
-    assert!(told[0].about.has_top_priority() && told.len() == 2, "{told:?}");
-    assert_eq!(told[1].about, About::Reminder(reminder.clone()));
+    let list = look(&mut teller, time(), &station);
+    assert!(list[0].subject.has_top_priority() && list.len() == 2, "{list:?}");
+    assert_eq!(list[1].subject, NoticeSubject::Reminder(reminder.clone()));
     assert_eq!(look(&mut teller, time(), &station), []);
     let late = look(&mut Teller::default(), time() + 5.minutes(), &station);
     assert_eq!(late.len(), 1, "not after AOS: {late:?}");
@@ -208,18 +208,18 @@ fn a_reminder_is_told_once_before_aos() {
 
 #[test]
 fn a_station_that_stands_is_told_once_until_it_goes_on() {
-    let at = Moment { utc: time(), steady: Instant::now() };
-    let (snapshot, stood) = (Snapshot::before_anything(at), Duration::from_secs(2));
+    let moment = Moment { utc: time(), steady: Instant::now() };
+    let (snapshot, stood) = (Snapshot::before_anything(moment), Duration::from_secs(2));
     let mut teller = Teller::default();
-    let mut told = |stood| {
-        let told = teller.look(&snapshot, stood, &istanbul()).told;
-        told.into_iter().map(|notice| notice.about).collect::<Vec<_>>()
+    let mut announced = |stood| {
+        let notices = teller.look(&snapshot, stood, &istanbul()).notices;
+        notices.into_iter().map(|notice| notice.subject).collect::<Vec<_>>()
     };
-    assert_eq!(told(None), []);
-    assert_eq!(told(Some(stood)), [About::StationStands(stood)]);
-    assert_eq!(told(Some(stood)), []);
-    assert_eq!(told(None), []);
-    assert_eq!(told(Some(stood)), [About::StationStands(stood)]);
+    assert_eq!(announced(None), []);
+    assert_eq!(announced(Some(stood)), [NoticeSubject::StationStands(stood)]);
+    assert_eq!(announced(Some(stood)), []);
+    assert_eq!(announced(None), []);
+    assert_eq!(announced(Some(stood)), [NoticeSubject::StationStands(stood)]);
 }
 
 #[test]
@@ -234,10 +234,11 @@ fn nothing_silences_a_top_priority_alarm() {
     let mut first = 0;
     for kind in every_kind() {
         let mut alarms = Alarms::default();
-        alarms.raise(OF, kind.clone(), time());
+        alarms.raise(ANTENNA, kind.clone(), time());
         alarms.shelve(0, ShelveTime::EightHours, time());
-        let told = look(&mut Teller::default(), &alarms, &silent);
-        let is_told = told.iter().any(|notice| notice.is_shown && notice.tones == Tones::Falling);
+        let notices = look(&mut Teller::default(), &alarms, &silent);
+        let is_told =
+            notices.iter().any(|notice| notice.is_shown && notice.tones == Tones::Falling);
         assert_eq!(is_told, kind.priority() == Priority::First, "{kind:?}");
         first += usize::from(is_told);
     }

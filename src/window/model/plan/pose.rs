@@ -34,7 +34,7 @@ pub enum PlannedActivity {
 /// A motion of the axes, degrees as the mount counts.
 #[derive(Debug, Clone, Copy)]
 struct Slew {
-    from: Timestamp,
+    start: Timestamp,
     seconds: f64,
     from_deg: [f64; 2],
     to_deg: [f64; 2],
@@ -42,19 +42,19 @@ struct Slew {
 
 impl Slew {
     /// Where the axes are, both moving from the beginning to the end.
-    fn axes_deg(self, at: Timestamp) -> [f64; 2] {
-        let share = (seconds_between(self.from, at) / self.seconds.max(1e-3)).clamp(0.0, 1.0);
+    fn axes_deg(self, time: Timestamp) -> [f64; 2] {
+        let share = (seconds_between(self.start, time) / self.seconds.max(1e-3)).clamp(0.0, 1.0);
         let [a, b] = self.from_deg;
         let [c, d] = self.to_deg;
         [a + (c - a) * share, b + (d - b) * share]
     }
 
-    fn has_begun(self, at: Timestamp) -> bool {
-        at >= self.from
+    fn has_begun(self, time: Timestamp) -> bool {
+        time >= self.start
     }
 
-    fn is_over(self, at: Timestamp) -> bool {
-        seconds_between(self.from, at) >= self.seconds
+    fn is_over(self, time: Timestamp) -> bool {
+        seconds_between(self.start, time) >= self.seconds
     }
 }
 
@@ -65,21 +65,22 @@ fn key(entry: &Entry) -> PassListKey {
 impl Model {
     /// The end of the schedule, if that is to come.
     pub fn schedule_until(&self) -> Option<Timestamp> {
-        self.schedule.end.filter(|until| *until > self.now)
+        self.schedule.end.filter(|end| *end > self.now)
     }
 
-    /// Returns the scheduled activity of an antenna at `at`, and where it points then. `None` for
+    /// Returns the scheduled activity of an antenna at `time`, and where it points then. `None` for
     /// an antenna without passes, and where its position is unknown.
-    pub fn pose_at(&self, antenna: &AntennaModel, at: Timestamp) -> Option<Pose> {
+    pub fn pose_at(&self, antenna: &AntennaModel, time: Timestamp) -> Option<Pose> {
         let id = antenna.id();
-        let entries = || self.schedule.schedule.entries.iter().filter(|of| of.antenna == id);
+        let entries =
+            || self.schedule.schedule.entries.iter().filter(|current| current.antenna == id);
         entries().next()?;
         let reach = Reach::from_station(&self.station, &antenna.config, None);
-        if let Some(entry) = entries().find(|entry| entry.start <= at && at < entry.end) {
-            return self.tracks(&reach, entry, at);
+        if let Some(entry) = entries().find(|entry| entry.start <= time && time < entry.end) {
+            return self.tracks(&reach, entry, time);
         }
-        let before = entries().rfind(|entry| entry.end <= at);
-        let next = entries().find(|entry| entry.start > at);
+        let before = entries().rfind(|entry| entry.end <= time);
+        let next = entries().find(|entry| entry.start > time);
         let measured = antenna.snapshot.state.measured;
         let has_elevation = antenna.variant().capabilities.has_elevation();
         let stands_deg = match before {
@@ -87,7 +88,7 @@ impl Model {
             None => measured.and_then(|measured| measured.axes_deg(has_elevation)),
         };
         let (doing, axes_deg) =
-            self.between_passes(antenna, &reach, (before, next), stands_deg, at);
+            self.between_passes(antenna, &reach, (before, next), stands_deg, time);
         let pointing = if doing == PlannedActivity::Stays && before.is_none() {
             measured?.pointing
         } else {
@@ -96,9 +97,9 @@ impl Model {
         Some(Pose { doing, pointing })
     }
 
-    fn tracks(&self, reach: &Reach, entry: &Entry, at: Timestamp) -> Option<Pose> {
+    fn tracks(&self, reach: &Reach, entry: &Entry, time: Timestamp) -> Option<Pose> {
         let satellite = self.pass_lists.satellite(entry.pass.satellite)?;
-        let look = satellite.propagator.look_from(self.station.site, at).ok()?;
+        let look = satellite.propagator.look_from(self.station.site, time).ok()?;
         // Without an elevation axis there is none to plan.
         let has_elevation = reach.pointing(entry.axes_deg[0]).elevation.is_some();
         let elevation = Some(look.direction.elevation).filter(|_| has_elevation);
@@ -114,22 +115,22 @@ impl Model {
         reach: &Reach,
         (before, next): (Option<&Entry>, Option<&Entry>),
         stands_deg: Option<[f64; 2]>,
-        at: Timestamp,
+        time: Timestamp,
     ) -> (PlannedActivity, Option<[f64; 2]>) {
-        let since = before.map_or(self.now, |entry| entry.end);
-        let policy = between_passes(&self.station, &antenna.config, since);
-        let goes_at = next.map(|next| sets_out(next, policy).max(since));
-        let left_s = goes_at.map_or(f64::INFINITY, |at| seconds_between(since, at));
+        let start = before.map_or(self.now, |entry| entry.end);
+        let policy = between_passes(&self.station, &antenna.config, start);
+        let goes_at = next.map(|next| sets_out(next, policy).max(start));
+        let left_s = goes_at.map_or(f64::INFINITY, |time| seconds_between(start, time));
         // Before its first pass it stays where it is: parking is not announced.
         let parks = policy == BetweenPasses::Park
             && before.is_some()
             && antenna.can_park()
-            && reach.can_park(since)
+            && reach.can_park(start)
             && left_s > parks_within_s(&antenna.config);
         let park = stands_deg.filter(|_| parks).map(|stands_deg| {
             let to_deg = reach.park_deg();
             let seconds = reach.straight_s(stands_deg, to_deg);
-            Slew { from: since, seconds, from_deg: stands_deg, to_deg }
+            Slew { start, seconds, from_deg: stands_deg, to_deg }
         });
         let rest_deg = park.map(|park| park.to_deg).or(stands_deg);
         if let (Some(next), Some(goes_at)) = (next, goes_at) {
@@ -139,18 +140,18 @@ impl Model {
                 Some(_) => reach.straight_s(from_deg, to_deg),
                 None => next.slew_s,
             };
-            let from = add_seconds(goes_at, next.set_up_s);
-            let slew = Slew { from, seconds, from_deg, to_deg };
-            if slew.is_over(at) {
+            let begin = add_seconds(goes_at, next.set_up_s);
+            let slew = Slew { start: begin, seconds, from_deg, to_deg };
+            if slew.is_over(time) {
                 return (PlannedActivity::WaitsFor(key(next)), Some(to_deg));
             }
-            if slew.has_begun(at) {
-                return (PlannedActivity::SlewsTo(key(next)), Some(slew.axes_deg(at)));
+            if slew.has_begun(time) {
+                return (PlannedActivity::SlewsTo(key(next)), Some(slew.axes_deg(time)));
             }
         }
         match park {
-            Some(park) if park.is_over(at) => (PlannedActivity::Parked, Some(park.to_deg)),
-            Some(park) => (PlannedActivity::SlewsToPark, Some(park.axes_deg(at))),
+            Some(park) if park.is_over(time) => (PlannedActivity::Parked, Some(park.to_deg)),
+            Some(park) => (PlannedActivity::SlewsToPark, Some(park.axes_deg(time))),
             None => (PlannedActivity::Stays, stands_deg),
         }
     }

@@ -166,7 +166,7 @@ fn jog(
         keys: model.keys,
         locked: model.jog_locked.is_some(),
         blocked: model.blocked,
-        asked: &speed::in_words(rate_deg_s, model.speeds, model.max_deg_s),
+        requested: &speed::in_words(rate_deg_s, model.speeds, model.max_deg_s),
         real_deg_s: model.real_deg_s,
     };
     let held = jog_pad::show(ui, pad, &jog_model, &mut state.jog);

@@ -56,7 +56,7 @@ fn model() -> CardModel<'static> {
         },
         sentence: Sentence { kind: SentenceKind::Tracking, spans: &SPANS },
         axes: AxesTable {
-            wanted: WantedColumn::Command,
+            wanted_column: WantedColumn::Command,
             decimals: 2,
             predicted_decimals: 2,
             age: None,

@@ -50,12 +50,12 @@ pub(super) fn show(
     effects: &mut CardEffects<'_>,
 ) {
     let room = ui.available_width();
-    let all = Section::of(&unit.antenna.config.connection);
+    let all = Section::new(&unit.antenna.config.connection);
     if all.is_empty() {
         return none(ui, unit, effects.commands);
     }
-    let least = row::MIN_WIDTH + 2.0 * f32::from(PADDING) + 2.0;
-    let fitting = ((room + GAP) / (least + GAP)) as usize;
+    let min = row::MIN_WIDTH + 2.0 * f32::from(PADDING) + 2.0;
+    let fitting = ((room + GAP) / (min + GAP)) as usize;
     let columns = columns(&all, fitting);
     let count = columns.len() as f32;
     let width = ((room - GAP * (count - 1.0)) / count).min(WIDEST);
@@ -102,8 +102,9 @@ fn columns(all: &[Section], fitting: usize) -> Vec<Vec<Section>> {
         (section.column.unwrap_or(turn), *section)
     });
     let (left, right): (Vec<_>, Vec<_>) = places.partition(|(column, _)| *column == Column::Left);
-    let sections =
-        |column: Vec<(Column, Section)>| column.into_iter().map(|(_, of)| of).collect::<Vec<_>>();
+    let sections = |column: Vec<(Column, Section)>| {
+        column.into_iter().map(|(_, kind)| kind).collect::<Vec<_>>()
+    };
     let (mut left, right) = (sections(left), sections(right));
     if fitting < 3 || left.len() < 2 {
         return vec![left, right];

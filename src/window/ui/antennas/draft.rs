@@ -15,7 +15,7 @@ use crate::{
 pub(super) struct Draft {
     edits: BTreeMap<&'static str, Edit>,
     /// Values shown as on the unit when the first edit began.
-    seen: Option<Values>,
+    expected: Option<Values>,
     sent: Option<Sent>,
     outcomes: BTreeMap<&'static str, Outcome>,
     /// Values of the unit when an edit was proved.
@@ -32,7 +32,7 @@ struct Edit {
 /// A change on its way to the unit.
 pub(super) struct Sent {
     pub(super) ticket: u64,
-    pub(super) at: Instant,
+    pub(super) instant: Instant,
     pub(super) values: Values,
 }
 
@@ -55,42 +55,47 @@ pub(super) enum Reading {
 }
 
 /// Content of a field without an edit.
-fn default_text(field: &Field, held: Option<&Values>) -> String {
+fn default_text(field: &Field, current: Option<&Values>) -> String {
     if field.access == Access::Write {
         return field.kind.untouched();
     }
-    let value = held.and_then(|held| held.get(field.key));
+    let value = current.and_then(|current| current.get(field.key));
     value.map(|value| field.kind.text(value)).unwrap_or_default()
 }
 
 impl Draft {
     /// Content of the field.
-    pub(super) fn text(&self, field: &Field, held: Option<&Values>) -> String {
+    pub(super) fn text(&self, field: &Field, current: Option<&Values>) -> String {
         let typed = self.edits.get(field.key).map(|edit| edit.text.clone());
-        typed.unwrap_or_else(|| default_text(field, held))
+        typed.unwrap_or_else(|| default_text(field, current))
     }
 
     /// Takes `text` as typed by the operator.
-    pub(super) fn type_in(&mut self, field: &'static Field, text: String, held: Option<&Values>) {
+    pub(super) fn type_in(
+        &mut self,
+        field: &'static Field,
+        text: String,
+        current: Option<&Values>,
+    ) {
         self.outcomes.remove(field.key);
-        if text == default_text(field, held) {
+        if text == default_text(field, current) {
             self.edits.remove(field.key);
         } else {
             if self.edits.is_empty() {
-                self.seen = held.cloned();
+                self.expected = current.cloned();
             }
             self.edits.insert(field.key, Edit { text, ..Edit::default() });
         }
     }
 
-    pub(super) fn reading(&self, field: &Field, held: Option<&Values>) -> Reading {
+    pub(super) fn reading(&self, field: &Field, current: Option<&Values>) -> Reading {
         let Some(edit) = self.edits.get(field.key) else { return Reading::Same };
-        if edit.text == default_text(field, held) {
+        if edit.text == default_text(field, current) {
             return Reading::Same;
         }
         match field.kind.read(&edit.text) {
             Ok(new) => {
-                let same = held.and_then(|held| held.get(field.key));
+                let same = current.and_then(|current| current.get(field.key));
                 if same.is_some_and(|old| field.kind.same(old, &new)) {
                     Reading::Same
                 } else {
@@ -119,9 +124,9 @@ impl Draft {
 
     /// Result of the last change of the field. A proof is void when the unit has another value
     /// by now.
-    pub(super) fn outcome(&self, field: &Field, held: Option<&Values>) -> Option<Outcome> {
+    pub(super) fn outcome(&self, field: &Field, current: Option<&Values>) -> Option<Outcome> {
         let outcome = self.outcomes.get(field.key).copied()?;
-        let now = held.and_then(|held| held.get(field.key));
+        let now = current.and_then(|current| current.get(field.key));
         let still = match (self.proved.get(field.key), now) {
             (Some(proved), Some(now)) => field.kind.same(proved, now),
             _ => false,
@@ -129,8 +134,8 @@ impl Draft {
         (still || !matches!(outcome, Outcome::Verified(_))).then_some(outcome)
     }
 
-    pub(super) fn seen(&self) -> Option<&Values> {
-        self.seen.as_ref()
+    pub(super) fn expected(&self) -> Option<&Values> {
+        self.expected.as_ref()
     }
 
     pub(super) fn sent(&self) -> Option<&Sent> {
@@ -147,7 +152,7 @@ impl Draft {
 
     /// Ends the change. Proved values are no longer edits; from here on the operator has seen
     /// what the form shows.
-    pub(super) fn end(&mut self, written: &Written, fields: &[Field], held: Option<&Values>) {
+    pub(super) fn end(&mut self, written: &Written, fields: &[Field], current: Option<&Values>) {
         let Some(sent) = self.sent.take() else { return };
         for (key, value) in &sent.values {
             let Some(field) = fields.iter().find(|field| field.key == *key) else { continue };
@@ -157,14 +162,14 @@ impl Draft {
                 (Ok(()), _) => Outcome::Verified(written.time),
             };
             self.outcomes.insert(field.key, outcome);
-            let proved = held.and_then(|held| held.get(field.key)).cloned();
+            let proved = current.and_then(|current| current.get(field.key)).cloned();
             self.proved.extend(proved.map(|value| (field.key, value)));
             let still = self.edits.get(key).map(|edit| field.kind.read(&edit.text));
             if outcome != Outcome::Rejected && still == Some(Ok(value.clone())) {
                 self.edits.remove(key);
             }
         }
-        self.seen = held.cloned();
+        self.expected = current.cloned();
     }
 
     /// Gives the change up when no result of it will come.
@@ -189,46 +194,46 @@ mod tests {
         Field::write(Key::flag("keep"), "Keep"),
     ];
 
-    fn held(low: f64) -> Values {
+    fn held_values(low: f64) -> Values {
         [("low", Value::Decimal(low))].into()
     }
 
     fn draft_of(text: &str) -> Draft {
         let mut draft = Draft::default();
-        draft.type_in(&FIELDS[0], text.to_owned(), Some(&held(3.0)));
+        draft.type_in(&FIELDS[0], text.to_owned(), Some(&held_values(3.0)));
         draft
     }
 
     fn written(result: Result<(), WriteError>) -> Written {
-        let values = held(5.0);
+        let values = held_values(5.0);
         let change = Change { ticket: 1, group: "g", values, expected: None, is_unlocked: false };
         Written { change, time: Timestamp::UNIX_EPOCH, result }
     }
 
     fn send(draft: &mut Draft) {
-        draft.begin(Sent { ticket: 1, at: Instant::now(), values: held(5.0) });
+        draft.begin(Sent { ticket: 1, instant: Instant::now(), values: held_values(5.0) });
     }
 
     #[test]
     fn only_what_differs_is_an_edit() {
-        for (text, wanted) in [("3.0", Reading::Same), ("3,00", Reading::Same)] {
-            assert_eq!(draft_of(text).reading(&FIELDS[0], Some(&held(3.0))), wanted);
+        for (text, reading) in [("3.0", Reading::Same), ("3,00", Reading::Same)] {
+            assert_eq!(draft_of(text).reading(&FIELDS[0], Some(&held_values(3.0))), reading);
         }
-        let new = draft_of("5").reading(&FIELDS[0], Some(&held(3.0)));
+        let new = draft_of("5").reading(&FIELDS[0], Some(&held_values(3.0)));
         assert_eq!(new, Reading::New(Value::Decimal(5.0)));
-        assert_eq!(draft_of("5").reading(&FIELDS[0], Some(&held(5.0))), Reading::Same);
-        let unfit = draft_of("x").reading(&FIELDS[0], Some(&held(3.0)));
+        assert_eq!(draft_of("5").reading(&FIELDS[0], Some(&held_values(5.0))), Reading::Same);
+        let unfit = draft_of("x").reading(&FIELDS[0], Some(&held_values(3.0)));
         assert_eq!(unfit, Reading::Unfit(Unfit::Number { min: 0.0, max: 90.0 }));
     }
 
     #[test]
     fn what_was_seen_is_what_stood_there_when_the_edit_began() {
         let mut draft = draft_of("5");
-        draft.type_in(&FIELDS[1], "On".to_owned(), Some(&held(7.5)));
-        assert_eq!(draft.seen(), Some(&held(3.0)));
+        draft.type_in(&FIELDS[1], "On".to_owned(), Some(&held_values(7.5)));
+        assert_eq!(draft.expected(), Some(&held_values(3.0)));
         draft.revert();
-        draft.type_in(&FIELDS[1], "On".to_owned(), Some(&held(7.5)));
-        assert_eq!(draft.seen(), Some(&held(7.5)));
+        draft.type_in(&FIELDS[1], "On".to_owned(), Some(&held_values(7.5)));
+        assert_eq!(draft.expected(), Some(&held_values(7.5)));
     }
 
     #[test]
@@ -236,26 +241,30 @@ mod tests {
         let mut draft = draft_of("5");
         send(&mut draft);
         assert!(draft.is_sending("low"));
-        draft.end(&written(Err(WriteError::NoLink)), &FIELDS, Some(&held(3.0)));
-        assert_eq!(draft.outcome(&FIELDS[0], Some(&held(3.0))), Some(Outcome::Rejected));
-        assert_eq!(draft.text(&FIELDS[0], Some(&held(3.0))), "5");
+        draft.end(&written(Err(WriteError::NoLink)), &FIELDS, Some(&held_values(3.0)));
+        assert_eq!(draft.outcome(&FIELDS[0], Some(&held_values(3.0))), Some(Outcome::Rejected));
+        assert_eq!(draft.text(&FIELDS[0], Some(&held_values(3.0))), "5");
         send(&mut draft);
-        draft.end(&written(Ok(())), &FIELDS, Some(&held(5.0)));
+        draft.end(&written(Ok(())), &FIELDS, Some(&held_values(5.0)));
         let verified = Some(Outcome::Verified(Timestamp::UNIX_EPOCH));
-        assert_eq!(draft.outcome(&FIELDS[0], Some(&held(5.0))), verified);
-        assert_eq!(draft.outcome(&FIELDS[0], Some(&held(7.5))), None, "changed by another");
-        assert_eq!(draft.reading(&FIELDS[0], Some(&held(5.0))), Reading::Same);
-        draft.type_in(&FIELDS[0], "6".to_owned(), Some(&held(5.0)));
-        assert_eq!(draft.outcome(&FIELDS[0], Some(&held(5.0))), None, "until it is edited again");
+        assert_eq!(draft.outcome(&FIELDS[0], Some(&held_values(5.0))), verified);
+        assert_eq!(draft.outcome(&FIELDS[0], Some(&held_values(7.5))), None, "changed by another");
+        assert_eq!(draft.reading(&FIELDS[0], Some(&held_values(5.0))), Reading::Same);
+        draft.type_in(&FIELDS[0], "6".to_owned(), Some(&held_values(5.0)));
+        assert_eq!(
+            draft.outcome(&FIELDS[0], Some(&held_values(5.0))),
+            None,
+            "until it is edited again"
+        );
     }
 
     #[test]
     fn what_was_typed_on_while_it_was_sent_stays_an_edit() {
         let mut draft = draft_of("5");
         send(&mut draft);
-        draft.type_in(&FIELDS[0], "6".to_owned(), Some(&held(3.0)));
-        draft.end(&written(Ok(())), &FIELDS, Some(&held(5.0)));
-        let still = draft.reading(&FIELDS[0], Some(&held(5.0)));
+        draft.type_in(&FIELDS[0], "6".to_owned(), Some(&held_values(3.0)));
+        draft.end(&written(Ok(())), &FIELDS, Some(&held_values(5.0)));
+        let still = draft.reading(&FIELDS[0], Some(&held_values(5.0)));
         assert_eq!(still, Reading::New(Value::Decimal(6.0)));
     }
 
@@ -264,7 +273,7 @@ mod tests {
         let mut draft = draft_of("5");
         draft.confirm("low");
         assert!(draft.is_confirmed("low"));
-        draft.type_in(&FIELDS[0], "6".to_owned(), Some(&held(3.0)));
+        draft.type_in(&FIELDS[0], "6".to_owned(), Some(&held_values(3.0)));
         assert!(!draft.is_confirmed("low"));
     }
 }

@@ -45,13 +45,13 @@ pub(super) fn show_all(
 /// Note why the values are not current.
 fn old_or_unread(ui: &mut Ui, unit: &ShownUnit<'_>, group: &Group) {
     let t = theme::tokens(ui);
-    let why = unit.failure(group.key).map(outcome::read_failure);
-    let words = match (unit.read_at(group.key), unit.is_open(), why) {
-        (Some(at), _, _) => {
-            let age = format::age(seconds_between(at, unit.model.now));
+    let reason = unit.failure(group.key).map(outcome::read_failure);
+    let words = match (unit.read_at(group.key), unit.is_open(), reason) {
+        (Some(time), _, _) => {
+            let age = format::age(seconds_between(time, unit.model.now));
             format!("{}: values read {age} ago.", group.title)
         }
-        (None, _, Some(why)) => format!("{}: not read: {why}.", group.title),
+        (None, _, Some(reason)) => format!("{}: not read: {reason}.", group.title),
         (None, true, None) => format!("{}: being read.", group.title),
         (None, false, None) => format!("{}: not read yet; there is no link.", group.title),
     };
@@ -67,21 +67,21 @@ fn show(
     is_revealed: &mut bool,
 ) {
     let t = theme::tokens(ui);
-    let (state, _) = field_state::of(unit, group, field, draft);
-    let at = Columns::of(row::take(ui));
-    paint::text_in(ui, at.label, egui::Align2::LEFT_CENTER, field.label, text::small(), t.t1);
-    let named = paint::name_text(ui, ("label", field.key), at.label, field.label);
+    let (state, _) = field_state::new(unit, group, field, draft);
+    let columns = Columns::new(row::take(ui));
+    paint::text_in(ui, columns.label, egui::Align2::LEFT_CENTER, field.label, text::small(), t.t1);
+    let named = paint::name_text(ui, ("label", field.key), columns.label, field.label);
     if !field.description.is_empty() {
         named.on_hover_text(field.description);
-    } else if !paint::fits(ui, field.label, text::small(), at.label) {
+    } else if !paint::fits(ui, field.label, text::small(), columns.label) {
         named.on_hover_text(field.label);
     }
-    on_unit(ui, unit, group, field, &at);
+    on_unit(ui, unit, group, field, &columns);
     if field.access != Access::Read {
         let is_long = matches!(field.kind, Kind::Text(_) | Kind::Password(_) | Kind::Time);
-        let place = if is_long { at.wide() } else { at.new };
+        let place = if is_long { columns.wide() } else { columns.new };
         if !is_long {
-            paint_unit(ui, &at, field);
+            paint_unit(ui, &columns, field);
         }
         edit(ui, unit, group, field, draft, is_revealed, (&state, place));
     }
@@ -89,23 +89,23 @@ fn show(
     let word = state.word(unit.model.now);
     // Painted beside each field, it would hide the few that differ.
     let painted = if state == FieldState::Unchanged { "" } else { &word };
-    row::state(ui, at.state, icon, painted, colour, &format!("{}: {word}", field.label));
+    row::state(ui, columns.state, icon, painted, colour, &format!("{}: {word}", field.label));
     below(ui, field, draft, &state);
     if *is_revealed && matches!(field.kind, Kind::Password(_)) {
         typed_password(ui, &draft.text(field, unit.values(group.key)));
     }
 }
 
-fn paint_unit(ui: &Ui, at: &Columns, field: &Field) {
+fn paint_unit(ui: &Ui, columns: &Columns, field: &Field) {
     let t = theme::tokens(ui);
-    let room = at.unit.with_min_x(at.unit.left() + 3.0);
+    let room = columns.unit.with_min_x(columns.unit.left() + 3.0);
     paint::text_in(ui, room, egui::Align2::LEFT_CENTER, field.unit, text::small(), t.t3);
 }
 
 /// Value on the unit, hollow if it is not current.
-fn on_unit(ui: &Ui, unit: &ShownUnit<'_>, group: &Group, field: &Field, at: &Columns) {
+fn on_unit(ui: &Ui, unit: &ShownUnit<'_>, group: &Group, field: &Field, columns: &Columns) {
     let t = theme::tokens(ui);
-    let value = unit.values(group.key).and_then(|held| held.get(field.key));
+    let value = unit.values(group.key).and_then(|current| current.get(field.key));
     let full = value.map(|value| outcome::shown(field, value)).filter(|shown| !shown.is_empty());
     let full = full.unwrap_or_else(|| missing(unit, group, field).to_owned());
     let short = match value {
@@ -113,9 +113,9 @@ fn on_unit(ui: &Ui, unit: &ShownUnit<'_>, group: &Group, field: &Field, at: &Col
         _ => full.clone(),
     };
     let mut room = if field.access == Access::Read {
-        at.on_unit.with_max_x(at.unit.right())
+        columns.on_unit.with_max_x(columns.unit.right())
     } else {
-        at.on_unit
+        columns.on_unit
     };
     let is_old = !unit.is_fresh(group.key);
     if is_old && value.is_some() {
@@ -132,7 +132,7 @@ fn on_unit(ui: &Ui, unit: &ShownUnit<'_>, group: &Group, field: &Field, at: &Col
         short
     };
     let colour = if is_old { t.t3 } else { t.t2 };
-    row::said(ui, room, &short, text::small(), colour, &name);
+    row::status_text(ui, room, &short, text::small(), colour, &name);
 }
 
 /// Placeholder for a value that the unit never reports or has not reported.
@@ -150,11 +150,11 @@ fn edit(
     is_revealed: &mut bool,
     (state, place): (&FieldState, Rect),
 ) {
-    let held = unit.values(group.key);
+    let current = unit.values(group.key);
     let name = format!("{}, new value", field.label);
     let border = state.mark().border(theme::tokens(ui));
     let input = Input { rect: place, name: &name, border };
-    let mut typed = draft.text(field, held);
+    let mut typed = draft.text(field, current);
     let is_password = matches!(field.kind, Kind::Password(_));
     let is_closed = group.is_service && !unit.is_unlocked;
     if !unit.is_open() || is_closed || !state.is_editable() {
@@ -168,7 +168,7 @@ fn edit(
     let eye = place.with_min_x(place.right() - 24.0);
     let rect = if is_password { place.with_max_x(eye.left() - 2.0) } else { place };
     if (Input { rect, ..input }).value(ui, &field.kind, &mut typed) {
-        draft.type_in(field, typed, held);
+        draft.type_in(field, typed, current);
     }
     if is_password {
         reveal(ui, eye, is_revealed);
@@ -191,9 +191,9 @@ fn reveal(ui: &Ui, rect: Rect, is_revealed: &mut bool) {
 /// Painted only: a screen reader would speak a real text, and tools would record it.
 fn typed_password(ui: &mut Ui, typed: &str) {
     let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 18.0), Sense::hover());
-    let at = Columns::of(rect).new.with_max_x(rect.right());
+    let area = Columns::new(rect).new.with_max_x(rect.right());
     let colour = theme::tokens(ui).t1;
-    paint::text_in(ui, at, egui::Align2::LEFT_CENTER, typed, text::small(), colour);
+    paint::text_in(ui, area, egui::Align2::LEFT_CENTER, typed, text::small(), colour);
 }
 
 /// Space below the line: problem of the value, or its confirmation.
@@ -224,8 +224,8 @@ fn below(ui: &mut Ui, field: &'static Field, draft: &mut Draft, state: &FieldSta
             let words = format!("Hold 1 s to confirm {} {value}", field.label);
             let (rect, _) =
                 ui.allocate_exact_size(vec2(ui.available_width(), row::HEIGHT), Sense::hover());
-            let at = rect.shrink2(vec2(0.0, 2.0));
-            if draft.hold(field.key).is_some_and(|hold| hold_button::show(ui, at, &words, hold)) {
+            let area = rect.shrink2(vec2(0.0, 2.0));
+            if draft.hold(field.key).is_some_and(|hold| hold_button::show(ui, area, &words, hold)) {
                 draft.confirm(field.key);
             }
         }

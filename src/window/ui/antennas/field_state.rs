@@ -46,13 +46,13 @@ impl FieldState {
             Self::ConfirmFirst => "Confirm first".to_owned(),
             Self::NeedsService => "Service locked".to_owned(),
             Self::Sending => "Sending".to_owned(),
-            Self::Verified(at) => format!("Verified {}", format::moment(*at, now)),
-            Self::Taken(at) => format!("Accepted {}", format::moment(*at, now)),
+            Self::Verified(time) => format!("Verified {}", format::moment(*time, now)),
+            Self::Taken(time) => format!("Accepted {}", format::moment(*time, now)),
             Self::Rejected => "Rejected".to_owned(),
             Self::Invalid(_) => "Invalid".to_owned(),
             Self::HeldBackBy(_) => "Held back".to_owned(),
             Self::ReadOnly => "Read only".to_owned(),
-            Self::Read(at) => format!("Read {} ago", format::age(seconds_between(*at, now))),
+            Self::Read(time) => format!("Read {} ago", format::age(seconds_between(*time, now))),
             Self::Locked => "Locked".to_owned(),
         }
     }
@@ -94,7 +94,7 @@ impl FieldState {
 }
 
 /// State of `field` in `group`, with the new value if it can be sent.
-pub(super) fn of(
+pub(super) fn new(
     unit: &ShownUnit<'_>,
     group: &Group,
     field: &Field,
@@ -118,15 +118,15 @@ fn alone(
     field: &Field,
     draft: &Draft,
 ) -> (FieldState, Option<Value>) {
-    let held = unit.values(group.key);
-    let is_told = held.is_some_and(|held| held.contains_key(field.key));
+    let current = unit.values(group.key);
+    let is_told = current.is_some_and(|current| current.contains_key(field.key));
     // A value that is never reported is known as far as its group is.
-    let is_known = is_told || (field.access == Access::Write && held.is_some());
+    let is_known = is_told || (field.access == Access::Write && current.is_some());
     if field.access == Access::Read {
         // A value missing from a group that was read is one that the unit does not report.
         let state = match (unit.read_at(group.key), &field.kind) {
             (None, _) => FieldState::Unknown,
-            (Some(at), Kind::Time) => FieldState::Read(at),
+            (Some(time), Kind::Time) => FieldState::Read(time),
             (Some(_), _) => FieldState::ReadOnly,
         };
         return (state, None);
@@ -135,17 +135,17 @@ fn alone(
         return (FieldState::Sending, None);
     }
     if group.is_service && !unit.is_unlocked {
-        let is_typed = draft.reading(field, held) != Reading::Same;
+        let is_typed = draft.reading(field, current) != Reading::Same;
         return (if is_typed { FieldState::NeedsService } else { FieldState::Locked }, None);
     }
     if !is_known {
         return (FieldState::Unknown, None);
     }
-    let state = match draft.reading(field, held) {
+    let state = match draft.reading(field, current) {
         Reading::Unfit(unfit) => FieldState::Invalid(unfit),
-        Reading::Same => match draft.outcome(field, held) {
-            Some(Outcome::Verified(at)) => FieldState::Verified(at),
-            Some(Outcome::Taken(at)) => FieldState::Taken(at),
+        Reading::Same => match draft.outcome(field, current) {
+            Some(Outcome::Verified(time)) => FieldState::Verified(time),
+            Some(Outcome::Taken(time)) => FieldState::Taken(time),
             Some(Outcome::Rejected) | None => FieldState::Unchanged,
         },
         Reading::New(value) => return edited(unit, group, field, draft, value),

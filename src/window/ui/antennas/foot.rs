@@ -43,7 +43,7 @@ enum Mark {
 
 impl Lines {
     /// Lays the sentences out; a narrow view includes the edits not sent yet.
-    fn of(ui: &Ui, unit: &ShownUnit<'_>, form: &Form, width: f32) -> Self {
+    fn new(ui: &Ui, unit: &ShownUnit<'_>, form: &Form, width: f32) -> Self {
         let t = theme::tokens(ui);
         let is_narrow = width < NARROW;
         let room = if is_narrow { width - BUTTONS } else { width * REPORT - PADDING } - 24.0;
@@ -62,7 +62,7 @@ impl Lines {
 
 /// Height of the bar in a view of this width.
 pub(super) fn height(ui: &Ui, unit: &ShownUnit<'_>, form: &Form, width: f32) -> f32 {
-    (Lines::of(ui, unit, form, width).height + 16.0).max(MIN_HEIGHT)
+    (Lines::new(ui, unit, form, width).height + 16.0).max(MIN_HEIGHT)
 }
 
 /// Shows the bar in `rect` and carries out its buttons.
@@ -92,7 +92,7 @@ pub(super) fn show(
     let right = rect.right_center() - vec2(PADDING, 0.0);
     let [reverting, applying] = button::row(right, [revert.width(ui), apply.width(ui)]);
     if rect.width() >= NARROW {
-        let (said, colour) = pending(ui, unit, form);
+        let (spoken, colour) = pending(ui, unit, form);
         let left = rect.left() + rect.width() * REPORT;
         let room = Rect::from_x_y_ranges(left..=reverting.left() - 12.0, rect.y_range());
         paint::named_text_in(
@@ -100,7 +100,7 @@ pub(super) fn show(
             "pending",
             room,
             Align2::RIGHT_CENTER,
-            &said,
+            &spoken,
             text::small(),
             colour,
         );
@@ -123,7 +123,7 @@ pub(super) fn show(
 
 fn report(ui: &Ui, rect: Rect, unit: &ShownUnit<'_>, form: &Form) {
     let t = theme::tokens(ui);
-    let lines = Lines::of(ui, unit, form, rect.width());
+    let lines = Lines::new(ui, unit, form, rect.width());
     let painter = ui.painter_at(rect);
     let mut y = rect.center().y - lines.height / 2.0;
     for (index, (mark, words, galley)) in lines.galleys.into_iter().enumerate() {
@@ -132,14 +132,14 @@ fn report(ui: &Ui, rect: Rect, unit: &ShownUnit<'_>, form: &Form) {
             Mark::Bad => (Icon::Cross, t.bad),
             Mark::Pending => (Icon::Pencil, t.t2),
         };
-        let at = pos2(rect.left() + PADDING, y);
-        icons::paint(&painter, paint::square(at + vec2(7.0, 8.0), 13.0), icon, colour);
-        let place = Rect::from_min_size(at + vec2(20.0, 0.0), galley.size());
+        let position = pos2(rect.left() + PADDING, y);
+        icons::paint(&painter, paint::square(position + vec2(7.0, 8.0), 13.0), icon, colour);
+        let place = Rect::from_min_size(position + vec2(20.0, 0.0), galley.size());
         y += galley.size().y + LINE_GAP;
         painter.galley(place.min, galley, t.t1);
-        let said = paint::name_text(ui, ("report", index), place, &words);
+        let response = paint::name_text(ui, ("report", index), place, &words);
         let live = egui::accesskit::Live::Polite;
-        ui.ctx().accesskit_node_builder(said.id, |node| node.set_live(live));
+        ui.ctx().accesskit_node_builder(response.id, |node| node.set_live(live));
     }
 }
 
@@ -154,7 +154,7 @@ fn pending(ui: &Ui, unit: &ShownUnit<'_>, form: &Form) -> (String, Color32) {
         return ("Nothing to send.".to_owned(), t.t3);
     }
     let plural = if count.edited == 1 { "change" } else { "changes" };
-    let mut said = vec![format!("{} {plural} not sent", count.edited)];
+    let mut sentences = vec![format!("{} {plural} not sent", count.edited)];
     let needs = if count.to_confirm == 1 { "needs" } else { "need" };
     for (number, words) in [
         (count.to_confirm, format!("{needs} confirmation")),
@@ -163,14 +163,14 @@ fn pending(ui: &Ui, unit: &ShownUnit<'_>, form: &Form) -> (String, Color32) {
         (count.held_back, "held back by another field".to_owned()),
     ] {
         if number > 0 {
-            said.push(format!("{number} {words}"));
+            sentences.push(format!("{number} {words}"));
         }
     }
     if !unit.is_open() {
-        said.push("no link".to_owned());
+        sentences.push("no link".to_owned());
     }
     match form.hindrance(unit) {
-        Some(why) => (format!("{}. {}", said.join(", "), words::hindrance(why)), t.warn),
-        None => (said.join(", "), t.t2),
+        Some(reason) => (format!("{}. {}", sentences.join(", "), words::hindrance(reason)), t.warn),
+        None => (sentences.join(", "), t.t2),
     }
 }

@@ -20,7 +20,7 @@ use crate::{
     contract::driver::Command,
     device::settings::{Access, Change, Group, Guard, Hindrance, Values},
     model::UiCommand,
-    ui::{copies::Taken, format, source_test::SourceTestState},
+    ui::{copies::CopiedValues, format, source_test::SourceTestState},
 };
 
 /// Time within which the session shows a change that it was given.
@@ -31,7 +31,7 @@ const HEARD: Duration = Duration::from_secs(3);
 pub(super) struct Form {
     drafts: BTreeMap<&'static str, Draft>,
     /// Groups requested so far, and the link of the requests.
-    asked: (Option<Instant>, BTreeSet<&'static str>),
+    requested: (Option<Instant>, BTreeSet<&'static str>),
     pub(super) unlock: Option<Unlock>,
     pub(super) report: Report,
     /// Source of elements on display; `None` for the one in use.
@@ -49,24 +49,24 @@ pub(super) struct Report {
     /// Number of proved settings, and time of the last proof.
     verified: Option<(usize, Timestamp)>,
     /// Groups with values that the unit never reports, and the time of the answer.
-    taken: Vec<(&'static str, Timestamp)>,
+    copied: Vec<(&'static str, Timestamp)>,
     failures: Vec<String>,
 }
 
 impl Report {
     /// All sentences, successes first; `true` for success.
     pub(super) fn lines(&self, now: Timestamp) -> Vec<(bool, String)> {
-        let verified = self.verified.iter().map(|(count, at)| {
+        let verified = self.verified.iter().map(|(count, time)| {
             let plural = if *count == 1 { "" } else { "s" };
-            let at = format::moment(*at, now);
-            (true, format!("{count} setting{plural} read back and verified {at}"))
+            let time_text = format::moment(*time, now);
+            (true, format!("{count} setting{plural} read back and verified {time_text}"))
         });
-        let taken = self.taken.iter().map(|(title, at)| {
-            let at = format::moment(*at, now);
-            (true, format!("{title}: accepted by the unit and read back {at}"))
+        let copied = self.copied.iter().map(|(title, time)| {
+            let time_text = format::moment(*time, now);
+            (true, format!("{title}: accepted by the unit and read back {time_text}"))
         });
         let failures = self.failures.iter().map(|words| (false, words.clone()));
-        verified.chain(taken).chain(failures).collect()
+        verified.chain(copied).chain(failures).collect()
     }
 }
 
@@ -97,8 +97,8 @@ impl Form {
         for (key, draft) in self.drafts.iter().filter(|(key, _)| groups.contains(key)) {
             let Some(group) = unit.description(key) else { continue };
             for field in group.fields {
-                let (state, value) = field_state::of(unit, group, field, draft);
-                let add = |to: &mut usize, is_so: bool| *to += usize::from(is_so);
+                let (state, value) = field_state::new(unit, group, field, draft);
+                let add = |end: &mut usize, is_so: bool| *end += usize::from(is_so);
                 add(&mut count.edited, state.is_edit());
                 add(&mut count.ready, value.is_some());
                 add(&mut count.to_confirm, state == FieldState::ConfirmFirst);
@@ -124,7 +124,7 @@ impl Form {
         let ready = |key: &str, draft: &Draft| {
             let Some(group) = unit.description(key) else { return false };
             let moving = group.fields.iter().filter(|field| field.moves);
-            moving.into_iter().any(|field| field_state::of(unit, group, field, draft).1.is_some())
+            moving.into_iter().any(|field| field_state::new(unit, group, field, draft).1.is_some())
         };
         let hindrance = unit.hindrance().filter(|_| unit.is_open())?;
         self.drafts.iter().any(|(key, draft)| ready(key, draft)).then_some(hindrance)
@@ -136,11 +136,11 @@ impl Form {
         if !unit.is_open() || link.is_none() || unit.model.replay.is_some() {
             return;
         }
-        if self.asked.0 != link {
-            self.asked = (link, BTreeSet::new());
+        if self.requested.0 != link {
+            self.requested = (link, BTreeSet::new());
         }
         for group in unit.antenna.groups() {
-            if !unit.is_fresh(group.key) && self.asked.1.insert(group.key) {
+            if !unit.is_fresh(group.key) && self.requested.1.insert(group.key) {
                 commands.push(UiCommand::antenna(unit.antenna.id(), Command::ReadGroup(group.key)));
             }
         }
@@ -155,7 +155,7 @@ impl Form {
             .iter()
             .filter_map(|group| {
                 let draft = self.drafts.get(group.key).filter(|draft| draft.sent().is_none())?;
-                let ready = |field| Some((field_state::of(unit, group, field, draft).1?, field));
+                let ready = |field| Some((field_state::new(unit, group, field, draft).1?, field));
                 let values = group.fields.iter().filter_map(ready);
                 let values: Values = values.map(|(value, field)| (field.key, value)).collect();
                 (!values.is_empty()).then_some((*group, values))
@@ -167,8 +167,8 @@ impl Form {
     }
 
     /// Takes over values of a copy as if they had been typed.
-    pub(super) fn take_over(&mut self, unit: &ShownUnit<'_>, taken: Vec<Taken>) {
-        for Taken { group: key, field: field_key, value } in taken {
+    pub(super) fn take_over(&mut self, unit: &ShownUnit<'_>, entries: Vec<CopiedValues>) {
+        for CopiedValues { group: key, field: field_key, value } in entries {
             let group = unit.description(key);
             let Some(field) = group.and_then(|group| group.field(field_key)) else { continue };
             self.draft(key).type_in(field, field.kind.text(&value), unit.values(key));
@@ -192,10 +192,10 @@ impl Form {
         let is_service = group.guard(&values) == Guard::Service;
         let ticket = TICKETS.fetch_add(1, Ordering::Relaxed);
         let draft = self.draft(group.key);
-        let seen = draft.seen().cloned().or_else(|| unit.values(group.key).cloned());
-        draft.begin(Sent { ticket, at: unit.model.steady, values: values.clone() });
+        let expected = draft.expected().cloned().or_else(|| unit.values(group.key).cloned());
+        draft.begin(Sent { ticket, instant: unit.model.steady, values: values.clone() });
         let is_unlocked = is_service && unit.is_unlocked;
-        let change = Change { ticket, group: group.key, values, expected: seen, is_unlocked };
+        let change = Change { ticket, group: group.key, values, expected, is_unlocked };
         commands.push(UiCommand::antenna(unit.antenna.id(), Command::WriteSettings(change)));
     }
 
@@ -207,21 +207,22 @@ impl Form {
             let written = state.and_then(|state| state.written.clone()).filter(|written| {
                 written.change.ticket == sent.ticket && written.change.values == sent.values
             });
-            let held = unit.values(key);
+            let current = unit.values(key);
             if let Some(written) = written {
                 let count = sent.values.len();
                 match &written.result {
                     Ok(()) => self.report.verify(group, &sent.values, count, written.time),
                     Err(error) => {
-                        let words = outcome::sentence(group, &written, error, draft.seen(), held);
+                        let words =
+                            outcome::sentence(group, &written, error, draft.expected(), current);
                         self.report.failures.push(words);
                     }
                 }
-                draft.end(&written, group.fields, held);
+                draft.end(&written, group.fields, current);
                 continue;
             }
             let is_under_way = state.is_some_and(|state| state.step.is_some());
-            if !is_under_way && unit.model.steady.saturating_duration_since(sent.at) > HEARD {
+            if !is_under_way && unit.model.steady.saturating_duration_since(sent.instant) > HEARD {
                 draft.give_up();
                 let words = format!("{}: no answer came back. Read again.", group.title);
                 self.report.failures.push(words);
@@ -237,14 +238,14 @@ impl Form {
 }
 
 impl Report {
-    fn verify(&mut self, group: &Group, values: &Values, count: usize, at: Timestamp) {
+    fn verify(&mut self, group: &Group, values: &Values, count: usize, time: Timestamp) {
         let reported =
             |key: &&&str| group.field(key).is_some_and(|field| field.access == Access::Edit);
         if values.keys().any(|key| reported(&key)) {
             let before = self.verified.as_ref().map_or(0, |(count, _)| *count);
-            self.verified = Some((before + count, at));
+            self.verified = Some((before + count, time));
         } else {
-            self.taken.push((group.title, at));
+            self.copied.push((group.title, time));
         }
     }
 }

@@ -77,7 +77,7 @@ fn saved(unit: &ShownUnit<'_>) -> Option<Result<String, String>> {
     let is_news = seconds_between(saving.time, unit.model.now) < SAVED_S;
     (is_news && saving.antenna == unit.name()).then(|| match &saving.result {
         Ok(path) => Ok(format!("Saved as {}", path.display())),
-        Err(why) => Err(format!("Not saved: {why}")),
+        Err(reason) => Err(format!("Not saved: {reason}")),
     })
 }
 

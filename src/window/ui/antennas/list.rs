@@ -45,7 +45,7 @@ pub(super) fn show(
         }
         let Some((unit, form)) = of_this else { continue };
         y += 4.0;
-        for section in Section::of(&unit.antenna.config.connection) {
+        for section in Section::new(&unit.antenna.config.connection) {
             let place = Rect::from_min_size(pos2(rect.left(), y), vec2(rect.width(), SECTION));
             y = place.bottom();
             if section_line(ui, place, section, unit, form) {
@@ -79,8 +79,8 @@ fn antenna_line(
     let response = paint::control(ui, id, rect, Role::Button, true, &name);
     paint_ground(ui, rect, shown.is_some(), response.hovered());
     let (icon, colour) = bar::glyph(model, antenna).look(t);
-    let at = paint::square(pos2(rect.left() + 23.0, rect.center().y), 13.0);
-    icons::paint(ui.painter(), at, icon, colour);
+    let area = paint::square(pos2(rect.left() + 23.0, rect.center().y), 13.0);
+    icons::paint(ui.painter(), area, icon, colour);
     let edited = shown.map_or(0, |(unit, form)| form.count_all(unit).edited);
     let right = if edited > 0 {
         badge(ui, pos2(rect.right() - PADDING, rect.center().y), edited, (t.onsat, Some(t.sat)))
@@ -104,21 +104,21 @@ fn section_line(ui: &Ui, rect: Rect, section: Section, unit: &ShownUnit<'_>, for
     let count = form.count(unit, section.keys);
     let clicked = line(ui, rect, section.title, if count.edited > 0 { t.t1 } else { t.t2 });
     let mut right = pos2(rect.right() - PADDING, rect.center().y);
-    let mut said = Vec::new();
+    let mut sentences = Vec::new();
     for (number, colour, word) in
         [(count.edited, t.sat, "edited"), (count.rejected, t.bad, "rejected")]
     {
         if number > 0 {
             right.x = badge(ui, right, number, (colour, None)) - 6.0;
-            said.push(format!("{number} {word}"));
+            sentences.push(format!("{number} {word}"));
         }
     }
-    if !said.is_empty() {
-        let name = format!("{}: {}", section.title, said.join(", "));
-        let at = rect.with_min_x(right.x).with_max_x(rect.right());
-        paint::name_text(ui, ("counts", section.title), at, &name);
+    if !sentences.is_empty() {
+        let name = format!("{}: {}", section.title, sentences.join(", "));
+        let area = rect.with_min_x(right.x).with_max_x(rect.right());
+        paint::name_text(ui, ("counts", section.title), area, &name);
     }
-    if section.is_service && form.unlock.is_none() && said.is_empty() {
+    if section.is_service && form.unlock.is_none() && sentences.is_empty() {
         icons::paint(ui.painter(), paint::square(right - vec2(8.0, 0.0), 14.0), Icon::Lock, t.t3);
     }
     clicked
@@ -158,22 +158,22 @@ fn versions(ui: &Ui, rect: Rect, unit: &ShownUnit<'_>) {
     let t = theme::tokens(ui);
     let own = makes::own(unit.antenna.spec());
     let Some(values) = own.and_then(|own| unit.values(own.versions.key)) else { return };
-    let told = values.values().filter_map(|value| match value {
+    let texts = values.values().filter_map(|value| match value {
         Value::Text(text) => Some(text.as_str()),
         _ => None,
     });
-    let told: Vec<&str> = told.collect();
-    let height = 18.0 * (told.len() + 1) as f32;
+    let texts: Vec<&str> = texts.collect();
+    let height = 18.0 * (texts.len() + 1) as f32;
     let top = rect.bottom() - PADDING - height;
     if top < rect.top() + 4.0 {
         return;
     }
-    let lines = std::iter::once(("Unit", t.t3)).chain(told.into_iter().map(|text| (text, t.t2)));
+    let lines = std::iter::once(("Unit", t.t3)).chain(texts.into_iter().map(|text| (text, t.t2)));
     for (index, (words, colour)) in lines.enumerate() {
         let y = top + 18.0 * index as f32;
-        let at =
+        let area =
             Rect::from_min_size(pos2(rect.left() + PADDING, y), vec2(rect.width() - 24.0, 18.0));
-        paint::text_in(ui, at, Align2::LEFT_CENTER, words, text::small(), colour);
-        paint::name_text(ui, ("version", index), at, words);
+        paint::text_in(ui, area, Align2::LEFT_CENTER, words, text::small(), colour);
+        paint::name_text(ui, ("version", index), area, words);
     }
 }

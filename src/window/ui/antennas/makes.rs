@@ -31,8 +31,8 @@ mod tests {
             let spec = SPECS.iter().find(|spec| spec.key == *key).unwrap();
             let groups = spec.variants.iter().flat_map(|variant| variant.groups);
             let shown: Vec<_> = sections.iter().flat_map(|section| section.keys).collect();
-            let known: Vec<_> = groups.map(|group| &group.key).collect();
-            assert_eq!(shown, known);
+            let keys: Vec<_> = groups.map(|group| &group.key).collect();
+            assert_eq!(shown, keys);
         }
     }
 }

@@ -46,14 +46,14 @@ pub(super) fn read_failure(failure: &ReadFailure) -> String {
     }
 }
 
-/// Reason why `written` failed. `seen` are the values that the form showed before, `held`
+/// Reason why `written` failed. `expected` are the values that the form showed before, `current`
 /// those of the unit now.
 pub(super) fn sentence(
     group: &Group,
     written: &Written,
     error: &WriteError,
-    seen: Option<&Values>,
-    held: Option<&Values>,
+    expected: Option<&Values>,
+    current: Option<&Values>,
 ) -> String {
     let fields: Vec<&Field> =
         written.change.values.keys().filter_map(|key| group.field(key)).collect();
@@ -61,7 +61,7 @@ pub(super) fn sentence(
         [only] => only.label,
         _ => group.title,
     };
-    let kept = || kept(&fields, held);
+    let kept_text = || kept_values(&fields, current);
     match error {
         WriteError::NoLink => format!("{subject}: not sent, there is no link. Your edit is kept."),
         WriteError::LinkLost => format!(
@@ -88,7 +88,7 @@ pub(super) fn sentence(
             read_failure(failure)
         ),
         WriteError::ChangedMeanwhile => {
-            let changed = changed(group, seen, held);
+            let changed = changed(group, expected, current);
             format!("{}: not sent. {changed} Apply again to send yours.", group.title)
         }
         WriteError::CannotBeSent { field, reason } => {
@@ -96,10 +96,10 @@ pub(super) fn sentence(
             format!("{label} {reason}. Nothing was sent.")
         }
         WriteError::Refused(answer) => {
-            format!("{subject}: the unit answered {answer} and kept {}.", kept())
+            format!("{subject}: the unit answered {answer} and kept {}.", kept_text())
         }
         WriteError::Unanswered => {
-            format!("{subject}: the unit did not answer and kept {}. Apply again.", kept())
+            format!("{subject}: the unit did not answer and kept {}. Apply again.", kept_text())
         }
         WriteError::NotReadBack(failure) => format!(
             "{subject}: sent, but not read back: {}. The unit's value is unknown. Read again.",
@@ -107,16 +107,17 @@ pub(super) fn sentence(
         ),
         WriteError::Differs(keys) => {
             let fields: Vec<&Field> = keys.iter().filter_map(|key| group.field(key)).collect();
-            let holds = self::kept(&fields, held);
+            let holds = self::kept_values(&fields, current);
             format!("{subject}: the unit accepted it, but holds {holds}. Read again.")
         }
-        WriteError::Useless(why) => format!("{subject}: set, but {why}."),
+        WriteError::Useless(explanation) => format!("{subject}: set, but {explanation}."),
     }
 }
 
 /// Values of the unit in `fields`.
-fn kept(fields: &[&Field], held: Option<&Values>) -> String {
-    let value = |field: &Field| with_unit(field, held.and_then(|held| held.get(field.key)));
+fn kept_values(fields: &[&Field], current: Option<&Values>) -> String {
+    let value =
+        |field: &Field| with_unit(field, current.and_then(|current| current.get(field.key)));
     if let [only] = fields {
         return value(only);
     }
@@ -125,9 +126,9 @@ fn kept(fields: &[&Field], held: Option<&Values>) -> String {
 }
 
 /// Fields in which the unit's values have changed since they were seen.
-fn changed(group: &Group, seen: Option<&Values>, held: Option<&Values>) -> String {
+fn changed(group: &Group, expected: Option<&Values>, current: Option<&Values>) -> String {
     let changes = group.fields.iter().filter_map(|field| {
-        let (was, is) = (seen?.get(field.key), held?.get(field.key));
+        let (was, is) = (expected?.get(field.key), current?.get(field.key));
         let same = match (was, is) {
             (Some(was), Some(is)) => field.kind.same(was, is),
             (was, is) => was.is_some() == is.is_some(),
@@ -149,23 +150,29 @@ mod tests {
     use crate::device::settings::{Change, Secret};
     use jiff::Timestamp;
 
-    fn said(values: Values, error: &WriteError, seen: f64, held: f64) -> String {
-        let of = |low| Values::from([("elevation_threshold_deg", Value::Decimal(low))]);
+    fn outcome_text(values: Values, error: &WriteError, expected_deg: f64, current: f64) -> String {
+        let make_values = |low| Values::from([("elevation_threshold_deg", Value::Decimal(low))]);
         let change =
             Change { ticket: 1, group: GENERAL.key, values, expected: None, is_unlocked: false };
         let written = Written { change, time: Timestamp::UNIX_EPOCH, result: Err(error.clone()) };
-        sentence(&GENERAL, &written, error, Some(&of(seen)), Some(&of(held)))
+        sentence(
+            &GENERAL,
+            &written,
+            error,
+            Some(&make_values(expected_deg)),
+            Some(&make_values(current)),
+        )
     }
 
     #[test]
     fn a_refusal_names_the_field_the_answer_and_what_was_kept() {
         let values = Values::from([("elevation_threshold_deg", Value::Decimal(12.0))]);
         assert_eq!(
-            said(values.clone(), &WriteError::Refused("ERR,7".to_owned()), 2.0, 2.0),
+            outcome_text(values.clone(), &WriteError::Refused("ERR,7".to_owned()), 2.0, 2.0),
             "Elevation threshold: the unit answered ERR,7 and kept 2.0°."
         );
         assert_eq!(
-            said(values, &WriteError::ChangedMeanwhile, 2.0, 7.5),
+            outcome_text(values, &WriteError::ChangedMeanwhile, 2.0, 7.5),
             "General: not sent. On the unit: Elevation threshold was 2.0° and is now 7.5°. Apply \
              again to send yours."
         );
@@ -184,8 +191,8 @@ mod tests {
         ] {
             let result = Err(error.clone());
             let written = Written { change: change.clone(), time: Timestamp::UNIX_EPOCH, result };
-            let (seen, held) = (secret("hunter3"), secret("hunter4"));
-            let words = sentence(&FTP, &written, &error, Some(&seen), Some(&held));
+            let (loaded, current) = (secret("hunter3"), secret("hunter4"));
+            let words = sentence(&FTP, &written, &error, Some(&loaded), Some(&current));
             assert!(!words.contains("hunter") && words.contains(HIDDEN), "{words}");
         }
     }

@@ -27,7 +27,7 @@ pub(super) struct Columns {
 
 impl Columns {
     /// Columns of a line in `rect`; the values share any width beyond the minimum.
-    pub(super) fn of(rect: Rect) -> Self {
+    pub(super) fn new(rect: Rect) -> Self {
         let spare = (rect.width() - MIN_WIDTH).max(0.0);
         let widths = [127.0, 108.0 + spare * 0.5, 112.0 + spare * 0.3, 34.0, 125.0 + spare * 0.2];
         let mut left = rect.left();
@@ -56,12 +56,12 @@ pub(super) fn take(ui: &mut Ui) -> Rect {
 pub(super) fn head(ui: &mut Ui) {
     let t = theme::tokens(ui);
     let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 20.0), Sense::hover());
-    let at = Columns::of(rect);
+    let columns = Columns::new(rect);
     for (column, word) in [
-        (at.label, "Setting"),
-        (at.on_unit, "On the unit"),
-        (at.new, "New value"),
-        (at.state, "State"),
+        (columns.label, "Setting"),
+        (columns.on_unit, "On the unit"),
+        (columns.new, "New value"),
+        (columns.state, "State"),
     ] {
         paint::text_in(ui, column, Align2::LEFT_CENTER, word, text::caption(), t.t3);
     }
@@ -69,7 +69,14 @@ pub(super) fn head(ui: &mut Ui) {
 
 /// A text in a column with the accessible name `name`, which is under the pointer if the text is cut or
 /// a short form.
-pub(super) fn said(ui: &Ui, rect: Rect, words: &str, font: FontId, colour: Color32, name: &str) {
+pub(super) fn status_text(
+    ui: &Ui,
+    rect: Rect,
+    words: &str,
+    font: FontId,
+    colour: Color32,
+    name: &str,
+) {
     paint::text_in(ui, rect, Align2::LEFT_CENTER, words, font.clone(), colour);
     let named = paint::name_text(ui, ("said", name), rect, name);
     if !name.contains(words) || !paint::fits(ui, words, font, rect) {
@@ -88,11 +95,11 @@ pub(super) fn state(
 ) {
     let mut room = rect;
     if let Some(icon) = icon {
-        let at = paint::square(pos2(rect.left() + 6.0, rect.center().y), 12.0);
-        icons::paint(ui.painter(), at, icon, colour);
+        let area = paint::square(pos2(rect.left() + 6.0, rect.center().y), 12.0);
+        icons::paint(ui.painter(), area, icon, colour);
         room = rect.with_min_x(rect.left() + 17.0);
     }
-    said(ui, room, words, text::small(), colour, name);
+    status_text(ui, room, words, text::small(), colour, name);
 }
 
 /// A line without a field: subject, fact and conclusion.
@@ -104,13 +111,13 @@ pub(super) fn plain(
 ) {
     let t = theme::tokens(ui);
     let rect = take(ui);
-    let at = Columns::of(rect);
-    said(ui, at.label, label, text::small(), t.t1, label);
-    let room = at.on_unit.with_max_x(at.unit.right());
+    let columns = Columns::new(rect);
+    status_text(ui, columns.label, label, text::small(), t.t1, label);
+    let room = columns.on_unit.with_max_x(columns.unit.right());
     let room = if verdict.is_none() { room.with_max_x(rect.right()) } else { room };
-    said(ui, room, value, text::small(), t.t2, &format!("{label}: {value}"));
+    status_text(ui, room, value, text::small(), t.t2, &format!("{label}: {value}"));
     if let Some((icon, words, colour)) = verdict {
-        state(ui, at.state, icon, words, colour, &format!("{label}: {words}"));
+        state(ui, columns.state, icon, words, colour, &format!("{label}: {words}"));
     }
 }
 
@@ -122,8 +129,8 @@ pub(super) fn note(ui: &mut Ui, icon: Option<Icon>, words: &str, colour: Color32
     let size = vec2(ui.available_width(), galley.size().y + 6.0);
     let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
     if let Some(icon) = icon {
-        let at = paint::square(pos2(rect.left() + 7.0, rect.top() + 10.0), 14.0);
-        icons::paint(ui.painter(), at, icon, colour);
+        let area = paint::square(pos2(rect.left() + 7.0, rect.top() + 10.0), 14.0);
+        icons::paint(ui.painter(), area, icon, colour);
     }
     ui.painter().galley(rect.min + vec2(indent, 2.0), galley, colour);
     paint::name_text(ui, ("note", words), rect, words);

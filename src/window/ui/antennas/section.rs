@@ -40,7 +40,7 @@ impl PartialEq for Section {
 
 impl Section {
     /// Sections of the unit at the other end of `connection`.
-    pub(super) fn of(connection: &Connection) -> Vec<Self> {
+    pub(super) fn new(connection: &Connection) -> Vec<Self> {
         let plain = |group: &&'static Group| Self {
             title: group.title,
             keys: std::slice::from_ref(&group.key),
@@ -75,7 +75,7 @@ mod tests {
     fn a_make_without_cards_of_its_own_has_one_for_each_of_its_groups() {
         for spec in SPECS.iter().filter(|spec| makes::own(spec).is_none()) {
             let connection = spec.connection("");
-            let (sections, groups) = (Section::of(&connection), connection.variant().groups);
+            let (sections, groups) = (Section::new(&connection), connection.variant().groups);
             assert_eq!(sections.len(), groups.len());
             for (section, group) in sections.iter().zip(groups) {
                 assert_eq!((section.keys, section.title), ([group.key].as_slice(), group.title));

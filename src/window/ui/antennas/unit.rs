@@ -21,7 +21,7 @@ pub(super) struct ShownUnit<'a> {
 }
 
 impl<'a> ShownUnit<'a> {
-    pub(super) fn of(model: &'a Model, index: usize) -> Option<Self> {
+    pub(super) fn new(model: &'a Model, index: usize) -> Option<Self> {
         let antenna = model.antennas.get(index)?;
         Some(Self { model, index, antenna, is_unlocked: false })
     }
@@ -41,11 +41,11 @@ impl<'a> ShownUnit<'a> {
 
     /// Values of the group at its last reading.
     pub(super) fn values(&self, key: &str) -> Option<&'a Values> {
-        self.group(key)?.last_read.as_ref().map(|held| &held.values)
+        self.group(key)?.last_read.as_ref().map(|group| &group.values)
     }
 
     pub(super) fn read_at(&self, key: &str) -> Option<Timestamp> {
-        self.group(key)?.last_read.as_ref().map(|held| held.read_at)
+        self.group(key)?.last_read.as_ref().map(|group| group.read_at)
     }
 
     pub(super) fn failure(&self, key: &str) -> Option<&'a ReadFailure> {
@@ -59,11 +59,11 @@ impl<'a> ShownUnit<'a> {
     /// Returns `true` if the group was read on the present link. Older values are from another
     /// time.
     pub(super) fn is_fresh(&self, key: &str) -> bool {
-        let Some(since) = self.antenna.snapshot.state.link_since.filter(|_| self.is_open()) else {
+        let Some(start) = self.antenna.snapshot.state.link_since.filter(|_| self.is_open()) else {
             return false;
         };
-        let up_s = self.model.steady.saturating_duration_since(since).as_secs_f64();
-        self.read_at(key).is_some_and(|at| at >= add_seconds(self.model.now, -up_s))
+        let up_s = self.model.steady.saturating_duration_since(start).as_secs_f64();
+        self.read_at(key).is_some_and(|time| time >= add_seconds(self.model.now, -up_s))
     }
 
     /// Returns `true` if the unit's own program is on, or not known to be off. For a unit without

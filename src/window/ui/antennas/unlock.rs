@@ -12,7 +12,7 @@ const OPEN: Duration = Duration::from_mins(10);
 /// The open service functions of one unit.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Unlock {
-    at: Instant,
+    instant: Instant,
     /// Link on which they were opened.
     link_since: Option<Instant>,
 }
@@ -20,7 +20,7 @@ pub(super) struct Unlock {
 impl Unlock {
     pub(super) fn new(unit: &ShownUnit<'_>) -> Self {
         let link_since = unit.antenna.snapshot.state.link_since;
-        Self { at: unit.model.steady, link_since }
+        Self { instant: unit.model.steady, link_since }
     }
 
     /// Returns `true` if they stay open: within the time, on the same link, while nothing moves and
@@ -34,7 +34,7 @@ impl Unlock {
 
     /// Time until they lock by themselves.
     pub(super) fn left(&self, unit: &ShownUnit<'_>) -> Duration {
-        OPEN.saturating_sub(unit.model.steady.saturating_duration_since(self.at))
+        OPEN.saturating_sub(unit.model.steady.saturating_duration_since(self.instant))
     }
 }
 

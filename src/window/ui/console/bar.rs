@@ -46,7 +46,7 @@ pub(super) fn show(
     ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, (1.0, t.line));
     let inner = rect.shrink2(vec2(PADDING, 0.0));
     paint::text_in(ui, inner, Align2::LEFT_CENTER, "Console", text::title(), t.t1);
-    let buttons = Buttons::of(model, state, has_drawer);
+    let buttons = Buttons::new(model, state, has_drawer);
     let places = buttons.places(ui, inner.right_center());
     let room = inner.with_min_x(inner.left() + TITLE).with_max_x(places.pause.left() - GAP);
     let layout = Layout::left_to_right(Align::Center);
@@ -104,7 +104,7 @@ fn direction(ui: &mut Ui, state: &mut ConsoleState) {
 
 /// One of each for the buttons at the right end, from the left.
 #[derive(Clone, Copy)]
-struct Each<T> {
+struct AllSources<T> {
     pause: T,
     newest: T,
     copy: T,
@@ -113,10 +113,10 @@ struct Each<T> {
     details: Option<T>,
 }
 
-type Buttons = Each<Button<'static>>;
+type Buttons = AllSources<Button<'static>>;
 
 impl Buttons {
-    fn of(model: &Model, state: &ConsoleState, has_drawer: bool) -> Self {
+    fn new(model: &Model, state: &ConsoleState, has_drawer: bool) -> Self {
         let nothing_chosen = state.chosen().next().is_none();
         let details = if state.inspector_is_open { "Close details" } else { "Details" };
         Self {
@@ -134,22 +134,22 @@ impl Buttons {
         }
     }
 
-    fn places(&self, ui: &Ui, right: Pos2) -> Each<Rect> {
-        let details = self.details.map(|of| {
-            let [place] = button::row(right, [of.width(ui)]);
+    fn places(&self, ui: &Ui, right: Pos2) -> AllSources<Rect> {
+        let details = self.details.map(|button| {
+            let [place] = button::row(right, [button.width(ui)]);
             place
         });
         let right = details.map_or(right, |place| place.left_center() - vec2(GAP, 0.0));
-        let widths = [self.pause, self.newest, self.copy, self.save].map(|of| of.width(ui));
+        let widths = [self.pause, self.newest, self.copy, self.save].map(|button| button.width(ui));
         let [pause, newest, copy, save] = button::row(right, widths);
-        Each { pause, newest, copy, save, details }
+        AllSources { pause, newest, copy, save, details }
     }
 }
 
 fn show_buttons(
     ui: &Ui,
     buttons: Buttons,
-    places: Each<Rect>,
+    places: AllSources<Rect>,
     state: &mut ConsoleState,
     commands: &mut Vec<UiCommand>,
 ) {
@@ -186,7 +186,7 @@ pub(super) fn show_strip(ui: &Ui, rect: Rect, state: &ConsoleState) {
     if let Some(saved) = &state.saved {
         let (words, colour) = match saved {
             Ok(path) => (format!("Saved to {}", path.display()), t.ok),
-            Err(why) => (format!("Not saved: {why}"), t.bad),
+            Err(reason) => (format!("Not saved: {reason}"), t.bad),
         };
         let room = inner.with_min_x(width.right() + PADDING);
         paint::named_text_in(

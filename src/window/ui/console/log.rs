@@ -80,7 +80,7 @@ pub(super) struct Log {
     /// Positions of the hidden polls, in order.
     polls: VecDeque<u64>,
     /// Number of shown lines dropped from the front.
-    gone: u64,
+    dropped: u64,
 }
 
 /// The log of one antenna and the reading position in it.
@@ -118,9 +118,9 @@ impl Log {
         &mut self,
         read: &mut [VecDeque<Arc<Recorded>>],
     ) -> Option<(Arc<str>, Arc<Recorded>)> {
-        let both = self.sources.iter_mut().zip(read);
+        let pairs = self.sources.iter_mut().zip(read);
         let mut first: Option<(&mut Source, &mut VecDeque<Arc<Recorded>>)> = None;
-        for (source, lines) in both {
+        for (source, lines) in pairs {
             let Some(line) = lines.front() else {
                 if source.next < source.log.next_number() {
                     return None;
@@ -142,8 +142,8 @@ impl Log {
     fn take_up<'a>(&mut self, logs: impl Iterator<Item = (&'a str, &'a WireLog)>) {
         let mut before = std::mem::take(&mut self.sources);
         for (antenna, log) in logs {
-            let known = before.iter().position(|source| source.log.is_same(log));
-            let next = known.map_or(0, |at| before.swap_remove(at).next);
+            let index = before.iter().position(|source| source.log.is_same(log));
+            let next = index.map_or(0, |position| before.swap_remove(position).next);
             self.sources.push(Source { antenna: antenna.into(), log: log.clone(), next });
         }
     }
@@ -157,13 +157,13 @@ impl Log {
         }
     }
 
-    fn drop_oldest(&mut self, most: usize) {
-        let surplus = self.lines.len().saturating_sub(most);
+    fn drop_oldest(&mut self, max: usize) {
+        let surplus = self.lines.len().saturating_sub(max);
         self.lines.drain(..surplus);
         self.first += surplus as u64;
         while self.shown.front().is_some_and(|position| *position < self.first) {
             self.shown.pop_front();
-            self.gone += 1;
+            self.dropped += 1;
         }
         while self.polls.front().is_some_and(|position| *position < self.first) {
             self.polls.pop_front();
@@ -203,13 +203,13 @@ impl Log {
 
     /// Number of shown lines dropped from the front since the last call.
     pub(super) fn take_gone(&mut self) -> u64 {
-        std::mem::take(&mut self.gone)
+        std::mem::take(&mut self.dropped)
     }
 
     /// The line at a position, while it is kept.
     pub(super) fn line(&self, position: u64) -> Option<&Arc<ConsoleLine>> {
-        let at = usize::try_from(position.checked_sub(self.first)?).ok()?;
-        self.lines.get(at)
+        let index = usize::try_from(position.checked_sub(self.first)?).ok()?;
+        self.lines.get(index)
     }
 
     /// Names of the followed antennas.
@@ -258,11 +258,11 @@ mod tests {
         dish.push(sent(3, "$C?*41"));
         mast.push(sent(2, "$B?*41"));
         let mut log = Log::default();
-        let both = [("Dish", &dish), ("Mast", &mast)];
-        assert!(!log.pull(both.into_iter()));
+        let logs = [("Dish", &dish), ("Mast", &mast)];
+        assert!(!log.pull(logs.into_iter()));
         dish.push(sent(4, "$D?*41"));
         assert_eq!(log.waiting(), 1);
-        log.pull(both.into_iter());
+        log.pull(logs.into_iter());
         assert_eq!(log.waiting(), 0);
         let order: String = texts(&log).iter().map(|text| &text[1..2]).collect();
         assert_eq!(order, "ABCD");

@@ -16,8 +16,8 @@ pub(super) fn show(ui: &Ui, rect: Rect, bytes: &[u8], colour: Color32) {
     let mut job = job(ui, bytes, colour);
     job.wrap = TextWrapping::truncate_at_width(rect.width());
     let galley = ui.painter().layout_job(job);
-    let at = Pos2::new(rect.left(), rect.center().y - galley.size().y / 2.0);
-    ui.painter().galley(at, galley, colour);
+    let position = Pos2::new(rect.left(), rect.center().y - galley.size().y / 2.0);
+    ui.painter().galley(position, galley, colour);
 }
 
 /// The text layout, with unprintable bytes as small tags.

@@ -35,7 +35,7 @@ struct Columns {
 }
 
 impl Columns {
-    fn of(row: Rect, names_antenna: bool) -> Self {
+    fn new(row: Rect, names_antenna: bool) -> Self {
         let mut left = row.left() + PADDING;
         let mut take = |width: f32| {
             let column = row.with_min_x(left).with_max_x(left + width);
@@ -60,7 +60,7 @@ pub(super) fn head(ui: &Ui, rect: Rect, names_antenna: bool) {
     let t = theme::tokens(ui);
     ui.painter().rect_filled(rect, 0.0, t.bg2);
     ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, (1.0, t.line));
-    let columns = Columns::of(rect, names_antenna);
+    let columns = Columns::new(rect, names_antenna);
     let word = |place: Rect, anchor, word: &str| {
         paint::text_in(ui, place, anchor, word, text::caption(), t.t3);
     };
@@ -86,7 +86,7 @@ pub(super) fn tint(ui: &Ui, line: &ConsoleLine) -> Color32 {
 /// Paints the row of a line.
 pub(super) fn show(ui: &Ui, rect: Rect, names_antenna: bool, now: Timestamp, line: &ConsoleLine) {
     let t = theme::tokens(ui);
-    let columns = Columns::of(rect, names_antenna);
+    let columns = Columns::new(rect, names_antenna);
     let left = Align2::LEFT_CENTER;
     paint::text_in(
         ui,
@@ -104,14 +104,14 @@ pub(super) fn show(ui: &Ui, rect: Rect, names_antenna: bool, now: Timestamp, lin
         (_, Direction::Sent) => (Icon::ChevronRight, t.sat),
         (_, Direction::Received) => (Icon::ChevronLeft, t.t1),
     };
-    let at = pos2(columns.arrow.left() + 6.0, rect.center().y);
-    icons::paint(ui.painter(), paint::square(at, 12.0), mark, colour);
+    let position = pos2(columns.arrow.left() + 6.0, rect.center().y);
+    icons::paint(ui.painter(), paint::square(position, 12.0), mark, colour);
     let colour = if line.wire().direction == Direction::Sent { t.sat } else { t.t1 };
     raw::show(ui, columns.raw, &line.wire().bytes, colour);
     let mut place = columns.meaning;
     if let Some((icon, colour)) = mark_of(line.meaning.tone, t) {
-        let at = pos2(place.left() + 6.0, rect.center().y);
-        icons::paint(ui.painter(), paint::square(at, 12.0), icon, colour);
+        let position = pos2(place.left() + 6.0, rect.center().y);
+        icons::paint(ui.painter(), paint::square(position, 12.0), icon, colour);
         place = place.with_min_x(place.left() + 18.0);
     }
     paint::text_in(ui, place, left, &line.meaning.text, text::small(), t.t1);

@@ -72,9 +72,9 @@ pub(super) fn show(
             (Icon::Check, format!("{}. The answer will appear in the log.", question.subject), t.t2)
         }
         (None, _) => {
-            let such =
+            let sentence =
                 questions.first().map_or_else(String::new, |one| format!(", such as {},", one.key));
-            let words = format!("Queries{such} can be sent. {ELSEWHERE}");
+            let words = format!("Queries{sentence} can be sent. {ELSEWHERE}");
             (Icon::Info, words, t.t2)
         }
         (Some(Ok(_)), None) => (Icon::Lock, "Not sent. There is no link.".to_owned(), t.warn),
@@ -86,7 +86,9 @@ pub(super) fn show(
     if let Some(question) = ready.filter(|_| is_clicked || is_entered) {
         let command = driver::Command::Ask(question.key.clone());
         entry.sent();
-        commands.extend(model.antenna().map(|of| UiCommand::antenna(of.id(), command)));
+        commands.extend(
+            model.antenna().map(|model_antenna| UiCommand::antenna(model_antenna.id(), command)),
+        );
     }
 }
 
@@ -100,7 +102,7 @@ fn read<'a>(antenna: &'a AntennaModel, typed: &str) -> Option<Result<&'a Questio
     let mut questions = antenna.snapshot.state.questions.iter();
     let found = questions.find(|question| bare(&question.key) == bare(&text));
     Some(found.ok_or_else(|| match antenna.spec().why_no_question {
-        Some(why) => why(&text),
+        Some(refuse) => refuse(&text),
         None => "The unit does not answer this query: pick one from the list.".to_owned(),
     }))
 }
@@ -112,8 +114,8 @@ fn bare(text: &str) -> &str {
 
 /// Shows the note below the line.
 fn say(ui: &Ui, below: Rect, icon: Icon, words: &str, colour: Color32) {
-    let at = pos2(below.left() + 7.0, below.bottom() - 10.0);
-    icons::paint(ui.painter(), paint::square(at, 14.0), icon, colour);
+    let position = pos2(below.left() + 7.0, below.bottom() - 10.0);
+    icons::paint(ui.painter(), paint::square(position, 14.0), icon, colour);
     let room = below.with_min_x(below.left() + 22.0).with_min_y(below.bottom() - 20.0);
     paint::text_in(ui, room, Align2::LEFT_CENTER, words, text::small(), colour);
     paint::name_text(ui, "send line", room, words);
@@ -128,8 +130,8 @@ fn antenna(ui: &Ui, rect: Rect, model: &Model) {
     };
     let link = glyph(model, antenna);
     let (icon, colour) = link.look(t);
-    let at = pos2(rect.left() + 7.0, rect.center().y);
-    icons::paint(ui.painter(), paint::square(at, 14.0), icon, colour);
+    let position = pos2(rect.left() + 7.0, rect.center().y);
+    icons::paint(ui.painter(), paint::square(position, 14.0), icon, colour);
     let name = &antenna.config.name;
     let room = rect.with_min_x(rect.left() + 22.0);
     paint::text_in(ui, room, Align2::LEFT_CENTER, name, text::body_medium(), t.t1);
@@ -148,8 +150,8 @@ fn fields(ui: &mut Ui, rect: Rect, questions: &[Question], entry: &mut Entry) ->
         let queries = DropDown { button, salt: "queries", name: "Pick a query" };
         let (place, _) = ui.allocate_exact_size(vec2(PICK, BUTTON), Sense::hover());
         queries.show(ui, place, |ui| {
-            for Question { key, subject: about, .. } in questions {
-                let words = RichText::new(format!("{key}  {about}")).font(text::small());
+            for Question { key, subject: description, .. } in questions {
+                let words = RichText::new(format!("{key}  {description}")).font(text::small());
                 if ui.selectable_label(false, words).clicked() {
                     entry.text = key.to_string();
                 }

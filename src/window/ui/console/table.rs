@@ -51,13 +51,13 @@ pub(super) fn show(
     let list = List::new(ui, body, "log", "Log of the links", ROW);
     keys(ui, &list, state);
     let rows = state.log.shown().len();
-    let gone = state.log.take_gone() as f32 * ROW;
+    let scrolled = state.log.take_gone() as f32 * ROW;
     if rows == 0 {
         return list.show_empty(ui, "no lines", why_empty(state));
     }
     let end = (rows as f32 * ROW - body.height()).max(0.0);
     let mut scroll = state.table.scroll;
-    scroll.set(if state.table.follows { end } else { scroll.offset - gone });
+    scroll.set(if state.table.follows { end } else { scroll.offset - scrolled });
     list.show_rows(ui, rows, &mut scroll, |ui, place, index| {
         show_row(ui, &list, place, (names_antenna, now), index, state);
     });
@@ -83,7 +83,7 @@ fn show_row(
     index: usize,
     state: &mut ConsoleState,
 ) {
-    let Some(line) = state.log.shown().get(index).and_then(|at| state.log.line(*at)) else {
+    let Some(line) = state.log.shown().get(index).and_then(|number| state.log.line(*number)) else {
         return;
     };
     let position = line.position;

@@ -8,7 +8,7 @@ use crate::{
         text,
         widgets::{
             modal::modal,
-            told::{Tone, line},
+            status_line::{Tone, line},
         },
         words::sentence,
     },
@@ -19,8 +19,8 @@ const WIDTH: f32 = 440.0;
 pub fn show(ui: &Ui, model: &Model, commands: &mut Vec<UiCommand>) {
     if model.stations.is_changing {
         under_way(ui, model);
-    } else if let Some(why) = &model.stations.refused {
-        refused(ui, model, why, commands);
+    } else if let Some(reason) = &model.stations.refused {
+        refused(ui, model, reason, commands);
     }
 }
 
@@ -34,11 +34,11 @@ fn under_way(ui: &Ui, model: &Model) {
     });
 }
 
-fn refused(ui: &Ui, model: &Model, why: &str, commands: &mut Vec<UiCommand>) {
+fn refused(ui: &Ui, model: &Model, reason: &str, commands: &mut Vec<UiCommand>) {
     let modal = modal(ui, "not opened").show(ui.ctx(), |ui| {
         ui.set_width(WIDTH);
         ui.label(RichText::new("The station was not opened").font(text::value()));
-        line(ui, Tone::Bad, &sentence(why));
+        line(ui, Tone::Bad, &sentence(reason));
         line(ui, Tone::Plain, &format!("{} stays as it is.", model.station.name));
         ui.add_space(4.0);
         ui.button("Close (Enter)").clicked() || ui.input(|input| input.key_pressed(Key::Enter))

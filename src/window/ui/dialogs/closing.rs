@@ -13,7 +13,7 @@ use crate::{
         format, text, theme,
         widgets::{
             modal::modal,
-            told::{Tone, line},
+            status_line::{Tone, line},
         },
         words,
     },
@@ -30,10 +30,10 @@ pub struct ClosingDialog {
 
 /// Sentences about ongoing activities of the antennas.
 pub fn stakes(model: &Model) -> Vec<String> {
-    let told = |antenna: &AntennaModel| {
+    let announcement = |antenna: &AntennaModel| {
         antenna.stake().map(|stake| words::stake(&antenna.config.name, &stake))
     };
-    model.antennas.iter().filter_map(told).collect()
+    model.antennas.iter().filter_map(announcement).collect()
 }
 
 impl ClosingDialog {
@@ -52,9 +52,9 @@ impl ClosingDialog {
             ui.add_space(4.0);
             let mut answer = None;
             let verb = if model.stations.next.is_some() { "Change" } else { "Close" };
-            for (rest, about, how) in answers(model) {
-                if answer_key(ui, &format!("{verb} {rest}"), &about) {
-                    answer = Some(Some(how));
+            for (rest, description, choice) in answers(model) {
+                if answer_key(ui, &format!("{verb} {rest}"), &description) {
+                    answer = Some(Some(choice));
                 }
             }
             if answer_key(ui, "Stay", "Nothing is sent; everything stays as it is.") {
@@ -63,8 +63,9 @@ impl ClosingDialog {
             answer
         });
         match modal.inner {
-            Some(answer) => commands
-                .extend(answer.map(|how| UiCommand::Station(contract::Command::CloseAfter(how)))),
+            Some(answer) => commands.extend(
+                answer.map(|choice| UiCommand::Station(contract::Command::CloseAfter(choice))),
+            ),
             None if modal.should_close() => {}
             None => return,
         }
@@ -82,38 +83,41 @@ fn title(model: &Model) -> String {
 
 /// The offered answers, and the effect of each.
 fn answers(model: &Model) -> Vec<(&'static str, String, CloseHow)> {
-    let staked = || model.antennas.iter().filter_map(|of| Some((of, of.stake()?)));
-    let names = |of: Vec<&str>| format::list(&of);
-    let all = names(staked().map(|(of, _)| of.config.name.as_str()).collect());
+    let staked = || model.antennas.iter().filter_map(|antenna| Some((antenna, antenna.stake()?)));
+    let names = |listed: Vec<&str>| format::list(&listed);
+    let all = names(staked().map(|(antenna, _)| antenna.config.name.as_str()).collect());
     let mut answers = vec![("and hold", format!("STOP goes to {all} first."), CloseHow::Hold)];
-    let parked: Vec<&str> =
-        staked().filter(|(of, _)| of.can_park()).map(|(of, _)| of.config.name.as_str()).collect();
+    let parked: Vec<&str> = staked()
+        .filter(|(antenna, _)| antenna.can_park())
+        .map(|(antenna, _)| antenna.config.name.as_str())
+        .collect();
     if !parked.is_empty() {
-        let about =
+        let description =
             format!("{} to the park position; everything else is kept until then.", names(parked));
-        answers.push(("and park", about, CloseHow::Park));
+        answers.push(("and park", description, CloseHow::Park));
     }
     let on_board = |stake: &Stake| matches!(stake, Stake::OnBoard(_));
     let left: Vec<&str> = staked()
         .filter(|(_, stake)| on_board(stake))
-        .map(|(of, _)| of.config.name.as_str())
+        .map(|(antenna, _)| antenna.config.name.as_str())
         .collect();
     if !left.is_empty() {
         let others = staked().any(|(_, stake)| !on_board(&stake));
         let others = if others { " STOP goes to the others first." } else { "" };
-        let about = format!("{} left tracking, with nobody watching here.{others}", names(left));
-        answers.push(("and let it finish", about, CloseHow::Leave));
+        let description =
+            format!("{} left tracking, with nobody watching here.{others}", names(left));
+        answers.push(("and let it finish", description, CloseHow::Leave));
     }
     answers
 }
 
-fn answer_key(ui: &mut Ui, word: &str, about: &str) -> bool {
+fn answer_key(ui: &mut Ui, word: &str, description: &str) -> bool {
     let t = theme::tokens(ui);
     ui.horizontal(|ui| {
         let button = Button::new(word).min_size(vec2(168.0, 28.0));
         let response = ui.add(button);
-        ui.ctx().accesskit_node_builder(response.id, |node| node.set_description(about));
-        let words = RichText::new(about).font(text::small()).color(t.t2);
+        ui.ctx().accesskit_node_builder(response.id, |node| node.set_description(description));
+        let words = RichText::new(description).font(text::small()).color(t.t2);
         ui.add(egui::Label::new(words).wrap());
         response.clicked()
     })
@@ -123,8 +127,8 @@ fn answer_key(ui: &mut Ui, word: &str, about: &str) -> bool {
 /// Shows what the closing of the window waits for.
 pub fn waiting(ui: &Ui, model: &Model, commands: &mut Vec<UiCommand>) {
     let Some(closing) = &model.closing else { return };
-    let names = |wanted: CloseCondition| -> Vec<&str> {
-        let waits = closing.waits_for.iter().filter(|(_, of)| *of == wanted);
+    let names = |condition: CloseCondition| -> Vec<&str> {
+        let waits = closing.waits_for.iter().filter(|(_, awaited)| *awaited == condition);
         waits.filter_map(|(id, _)| Some(model.antenna_of(*id)?.config.name.as_str())).collect()
     };
     let modal = modal(ui, "closing waits").show(ui.ctx(), |ui| {
@@ -132,11 +136,11 @@ pub fn waiting(ui: &Ui, model: &Model, commands: &mut Vec<UiCommand>) {
         let next = model.stations.next.as_ref();
         let title = next.map_or("Azel closes".to_owned(), |next| format!("Azel changes to {next}"));
         ui.label(RichText::new(title).font(text::value()));
-        for (wanted, words) in [
+        for (condition, words) in [
             (CloseCondition::Still, "once it is known to be at rest"),
             (CloseCondition::Parked, "once it is parked"),
         ] {
-            let names = names(wanted);
+            let names = names(condition);
             if !names.is_empty() {
                 line(ui, Tone::Now, &format!("{}: {words}.", format::list(&names)));
             }

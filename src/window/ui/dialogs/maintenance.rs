@@ -13,7 +13,7 @@ use crate::{
             button::{Button, HEIGHT},
             hold_button::{self, HoldState},
             modal::modal,
-            told::{Tone, line},
+            status_line::{Tone, line},
         },
         words,
     },
@@ -26,7 +26,7 @@ const TAKE_OFF: &str = "Hold 1 s to remove the lock-out";
 /// Input of the dialog.
 #[derive(Debug, Clone, Default)]
 pub struct MaintenanceDialog {
-    by: String,
+    name: String,
     reason: String,
     is_shown: bool,
     hold: HoldState,
@@ -85,7 +85,7 @@ impl MaintenanceDialog {
         let words = "For work at the antenna. Until the lock-out is removed, only queries and \
                      STOP go to the unit, even after a restart.";
         ui.label(RichText::new(words).font(text::body()).color(t.t2));
-        for (label, typed) in [("Your name", &mut self.by), ("Reason", &mut self.reason)] {
+        for (label, typed) in [("Your name", &mut self.name), ("Reason", &mut self.reason)] {
             let label = ui.label(RichText::new(label).font(text::small()).color(t.t3)).id;
             let edit = TextEdit::singleline(typed).desired_width(WIDTH - 16.0).char_limit(80);
             let edit = ui.add(edit).labelled_by(label);
@@ -97,7 +97,7 @@ impl MaintenanceDialog {
         if let Some(what_ends) = what_ends(antenna) {
             line(ui, Tone::Caution, &what_ends);
         }
-        let is_told = !self.by.trim().is_empty() && !self.reason.trim().is_empty();
+        let is_told = !self.name.trim().is_empty() && !self.reason.trim().is_empty();
         if !is_told {
             line(ui, Tone::Plain, "Both are required: the next person at the antenna has to know.");
         }
@@ -111,16 +111,16 @@ impl MaintenanceDialog {
         lock_out: &LockOut,
     ) -> MaintenanceAnswer {
         let t = theme::tokens(ui);
-        let LockOut { operator: by, reason, start: since } = lock_out;
+        let LockOut { operator: name, reason, start } = lock_out;
         let title = format!("Remove the lock-out of {}", antenna.config.name);
         ui.label(RichText::new(title).font(text::value()));
-        for (label, told) in [
-            ("Locked out by", by.clone()),
+        for (label, value) in [
+            ("Locked out by", name.clone()),
             ("Reason", reason.clone()),
-            ("Since", format::dated(*since)),
+            ("Since", format::dated(*start)),
         ] {
             ui.label(RichText::new(label).font(text::small()).color(t.t3));
-            ui.label(RichText::new(told).font(text::body_medium()).color(t.t1));
+            ui.label(RichText::new(value).font(text::body_medium()).color(t.t1));
         }
         ui.add_space(4.0);
         let words = "Make sure that nobody is still at the antenna: once the lock-out is removed, \
@@ -148,7 +148,7 @@ impl MaintenanceDialog {
 
     fn typed(&self, model: &Model) -> LockOut {
         LockOut {
-            operator: self.by.trim().to_owned(),
+            operator: self.name.trim().to_owned(),
             reason: self.reason.trim().to_owned(),
             start: model.now,
         }
@@ -164,6 +164,6 @@ fn what_ends(antenna: &AntennaModel) -> Option<String> {
         .map(|stake| format!("{} STOP is sent first and ends that.", words::stake(name, &stake)));
     let auto = program.is_some_and(|program| program.auto == Some(true));
     let auto = auto.then(|| format!("Auto-track of {name} is switched off."));
-    let told: Vec<String> = stake.into_iter().chain(auto).collect();
-    (!told.is_empty()).then(|| told.join(" "))
+    let sentences: Vec<String> = stake.into_iter().chain(auto).collect();
+    (!sentences.is_empty()).then(|| sentences.join(" "))
 }

@@ -11,7 +11,7 @@ use crate::{
         widgets::{
             check_box::CheckBox,
             modal::modal,
-            told::{Tone, line},
+            status_line::{Tone, line},
         },
         words::sentence,
     },
@@ -39,11 +39,11 @@ pub enum SecretAnswer {
 
 impl PasswordDialog {
     /// Shows the question until it is answered. Enter submits the input.
-    pub fn show(&mut self, ui: &Ui, wanted: &SecretWanted) -> Option<SecretAnswer> {
+    pub fn show(&mut self, ui: &Ui, request: &SecretWanted) -> Option<SecretAnswer> {
         let mut answer = None;
         let modal = modal(ui, "password").show(ui.ctx(), |ui| {
             ui.set_width(WIDTH.min(ui.ctx().content_rect().width() - 64.0));
-            answer = self.content(ui, wanted);
+            answer = self.content(ui, request);
         });
         self.is_open = true;
         if modal.should_close() {
@@ -56,22 +56,22 @@ impl PasswordDialog {
         answer
     }
 
-    fn content(&mut self, ui: &mut Ui, wanted: &SecretWanted) -> Option<SecretAnswer> {
+    fn content(&mut self, ui: &mut Ui, request: &SecretWanted) -> Option<SecretAnswer> {
         let t = theme::tokens(ui);
-        let what = if wanted.is_passphrase { "Passphrase" } else { "Password" };
-        let words = format!("{what} of {}", wanted.user);
+        let subject = if request.is_passphrase { "Passphrase" } else { "Password" };
+        let words = format!("{subject} of {}", request.user);
         ui.label(RichText::new(words).font(text::value()));
-        ui.label(RichText::new(format!("for {}", wanted.address)).font(text::body()).color(t.t2));
-        if let Some(refused) = &wanted.refused {
+        ui.label(RichText::new(format!("for {}", request.address)).font(text::body()).color(t.t2));
+        if let Some(refused) = &request.refused {
             line(ui, Tone::Bad, &sentence(refused));
         }
         let edit = TextEdit::singleline(&mut self.typed).password(true).id(field());
-        let label = ui.label(RichText::new(what).font(text::small()).color(t.t3)).id;
+        let label = ui.label(RichText::new(subject).font(text::small()).color(t.t3)).id;
         let edit = ui.add(edit.desired_width(f32::INFINITY)).labelled_by(label);
         if !self.is_open {
             edit.request_focus();
         }
-        match &wanted.keyring_problem {
+        match &request.keyring_problem {
             None => {
                 ui.add(CheckBox::new(&mut self.keep, "Keep it in the keyring of this computer"));
                 let words = "Otherwise Azel asks for it once in each session.";
@@ -89,7 +89,7 @@ impl PasswordDialog {
             let enter = can && ui.input(|input| input.key_pressed(Key::Enter));
             let sends = ui.add_enabled(can, egui::Button::new("Log in (Enter)")).clicked() || enter;
             if sends {
-                let keep = self.keep && wanted.keyring_problem.is_none();
+                let keep = self.keep && request.keyring_problem.is_none();
                 return Some(SecretAnswer::Typed { secret: Secret::take(&mut self.typed), keep });
             }
             ui.button("Cancel").clicked().then_some(SecretAnswer::Cancelled)

@@ -15,7 +15,7 @@ use crate::{
         widgets::{
             button::{self, Button},
             modal::modal,
-            told::{Tone, line},
+            status_line::{Tone, line},
         },
         words::sentence,
     },
@@ -67,7 +67,7 @@ impl PathDialog {
             PathPurpose::Open(OpenedFile::Elements) => "Open a file of elements",
         };
         ui.label(RichText::new(title).font(text::value()));
-        line(ui, Tone::Caution, &sentence(&self.request.why));
+        line(ui, Tone::Caution, &sentence(&self.request.reason));
         if self.request.purpose == PathPurpose::Open(OpenedFile::Elements) {
             let words = "Files can also be dropped on this window, and elements pasted into it.";
             line(ui, Tone::Plain, words);

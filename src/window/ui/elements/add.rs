@@ -109,13 +109,13 @@ impl AddState {
         if self.is_empty() || is_requested {
             return None;
         }
-        let why = match check_source(&source, &sources.list) {
+        let reason = match check_source(&source, &sources.list) {
             Err(problem) => problem.to_string(),
             Ok(()) if sources.is_locked => "the list of sources cannot be read".to_owned(),
             Ok(()) if !sources.is_free() => "wait until the other sources are read".to_owned(),
             Ok(()) => return Some(Ok(source)),
         };
-        Some(Err(why))
+        Some(Err(reason))
     }
 
     /// Requests `source`, which was typed.
@@ -184,8 +184,8 @@ pub(in crate::ui) fn show(
             let is_pressed = named_button(ui, matches!(typed, Some(Ok(_))), "Add", "Add source");
             match typed {
                 Some(Ok(source)) if is_pressed || entered.is_some() => state.add(source, commands),
-                Some(Err(why)) => {
-                    let words = sentence(&why);
+                Some(Err(reason)) => {
+                    let words = sentence(&reason);
                     ui.label(RichText::new(words).font(text::body()).color(t.warn));
                     if let Some(field) = entered {
                         field.request_focus();
@@ -228,7 +228,7 @@ fn suggestion(
     (word, name): (&str, &str),
     source: Source,
 ) {
-    let is_known = sources.list.iter().any(|known| known.name == source.name);
+    let is_known = sources.list.iter().any(|other| other.name == source.name);
     if named_button(ui, !is_known, word, name) {
         state.name = source.name;
         if let SourcePlace::Web(url) = source.place {

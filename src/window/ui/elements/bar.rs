@@ -25,7 +25,7 @@ pub(super) const HEIGHT: f32 = 56.0;
 pub(super) const LOW_HEIGHT: f32 = 44.0;
 const GAP: f32 = 8.0;
 const SEARCH: f32 = 280.0;
-const LEAST_SEARCH: f32 = 160.0;
+const MIN_SEARCH: f32 = 160.0;
 /// Room for the title, without and with the sentence below it.
 const TITLE: [f32; 2] = [92.0, 300.0];
 /// Width of the form for a new source.
@@ -66,11 +66,11 @@ pub(super) fn show(
     let left = of_add.left();
     let has_sentence = rect.height() >= HEIGHT;
     let title_room = TITLE.map(|width| inner.left() + width);
-    let least = if has_sentence { title_room[1] } else { title_room[0] };
-    let from = (left - GAP - SEARCH).max(least).min(left - GAP - LEAST_SEARCH);
-    title(ui, inner.with_max_x(from - GAP), model, has_sentence);
+    let min = if has_sentence { title_room[1] } else { title_room[0] };
+    let start = (left - GAP - SEARCH).max(min).min(left - GAP - MIN_SEARCH);
+    title(ui, inner.with_max_x(start - GAP), model, has_sentence);
     let place = Rect::from_min_max(
-        pos2(from, rect.center().y - BUTTON / 2.0),
+        pos2(start, rect.center().y - BUTTON / 2.0),
         pos2(left - GAP, rect.center().y + BUTTON / 2.0),
     );
     search(ui, place, state);
@@ -102,7 +102,8 @@ fn title(ui: &Ui, rect: Rect, model: &Model, has_sentence: bool) {
     let line = |y: f32| {
         Rect::from_x_y_ranges(rect.x_range(), rect.top() + y - 12.0..=rect.top() + y + 12.0)
     };
-    let problems: Vec<String> = model.sources.problems.iter().map(|it| sentence(it)).collect();
+    let problems: Vec<String> =
+        model.sources.problems.iter().map(|problem| sentence(problem)).collect();
     let (words, colour) =
         if problems.is_empty() { (summary(model), t.t2) } else { (problems.join(" "), t.bad) };
     if has_sentence {
@@ -131,7 +132,7 @@ fn summary(model: &Model) -> String {
         CatalogState::Loading => "The elements are being read.".to_owned(),
         CatalogState::Failed => "There are no elements.".to_owned(),
         CatalogState::Ready(catalog) => {
-            let from = format::counted(catalog.groups().count(), "source");
+            let start_text = format::counted(catalog.groups().count(), "source");
             let all = words::objects(catalog.len());
             let mut favourites = model.station.favourites.iter();
             let rule = if favourites.any(|favourite| !favourite.sources.is_empty()) {
@@ -139,7 +140,7 @@ fn summary(model: &Model) -> String {
             } else {
                 "The newest set of each object is used."
             };
-            format!("{all} from {from}. {rule}")
+            format!("{all} from {start_text}. {rule}")
         }
     }
 }

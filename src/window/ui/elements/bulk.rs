@@ -96,8 +96,8 @@ pub(super) fn show(
     let first = paint::text_in(ui, room, Align2::LEFT_CENTER, &count, font, t.t1);
     let old = match &model.catalog {
         CatalogState::Ready(catalog) => {
-            let held = marked.iter().filter_map(|number| catalog.get(*number));
-            held.filter(|elements| words::is_old(elements, model.now)).count()
+            let sets = marked.iter().filter_map(|number| catalog.get(*number));
+            sets.filter(|elements| words::is_old(elements, model.now)).count()
         }
         CatalogState::Loading | CatalogState::Failed => 0,
     };

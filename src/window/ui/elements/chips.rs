@@ -9,7 +9,7 @@ use crate::{
     contract::CatalogState,
     model::{
         Model, UiCommand,
-        catalog_table::Among,
+        catalog_table::Subset,
         export::{ElementForm, Export},
     },
     ui::{
@@ -39,11 +39,11 @@ pub(super) fn show(
     ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, (1.0, t.line));
     let chips = chips(model);
     // A source or group that is gone has no objects to show.
-    if !chips.iter().any(|(among, _)| *among == state.question.among) {
-        state.question.among = Among::All;
+    if !chips.iter().any(|(scope, _)| *scope == state.question.scope) {
+        state.question.scope = Subset::All;
     }
     let inner = rect.shrink2(vec2(PADDING, 0.0));
-    let exported = Exported::of(model, state);
+    let exported = Exported::new(model, state);
     let mut right = inner.right_center();
     let [export_at] = button::row_before(&mut right, CHIP, [exported.list().width(ui)]);
     groups(ui, inner.with_max_x(right.x), &chips, state);
@@ -51,38 +51,38 @@ pub(super) fn show(
 }
 
 /// Draws the chips, and the button behind which those without room stand.
-fn groups(ui: &Ui, inner: Rect, chips: &[(Among, usize)], state: &mut ElementsState) {
+fn groups(ui: &Ui, inner: Rect, chips: &[(Subset, usize)], state: &mut ElementsState) {
     let widths: Vec<f32> = chips.iter().map(|chip| width(ui, chip)).collect();
     let more = 72.0;
     let all: f32 = widths.iter().map(|width| width + GAP).sum();
-    let most = if all - GAP <= inner.width() { inner.right() } else { inner.right() - more };
+    let max = if all - GAP <= inner.width() { inner.right() } else { inner.right() - more };
     let mut x = inner.left();
     let mut hidden = Vec::new();
     let top = inner.center().y - CHIP / 2.0;
     for (chip, width) in chips.iter().zip(widths) {
         let place = Rect::from_min_size(pos2(x, top), vec2(width, CHIP));
-        if place.right() > most || !hidden.is_empty() {
+        if place.right() > max || !hidden.is_empty() {
             hidden.push(chip);
             continue;
         }
         x = place.right() + GAP;
-        if one(ui, place, chip, state.question.among == chip.0) {
-            state.question.among = chip.0.clone();
+        if one(ui, place, chip, state.question.scope == chip.0) {
+            state.question.scope = chip.0.clone();
         }
     }
     if hidden.is_empty() {
         return;
     }
-    let active = hidden.iter().find(|(among, _)| *among == state.question.among);
-    let shown = active.map_or("More", |(among, _)| word(among));
-    let name = format!("More groups, {}", word(&state.question.among));
+    let active = hidden.iter().find(|(scope, _)| *scope == state.question.scope);
+    let shown = active.map_or("More", |(scope, _)| word(scope));
+    let name = format!("More groups, {}", word(&state.question.scope));
     let list = DropDown { button: Button::quiet(shown), salt: "more groups", name: &name };
     let right = (x + list.width(ui)).min(inner.right());
     let place = Rect::from_min_max(pos2(x, top), pos2(right, top + CHIP));
     list.show(ui, place, |ui| {
-        for (among, count) in hidden {
-            let words = format!("{}, {}", word(among), format::number(*count as f64, 0));
-            ui.selectable_value(&mut state.question.among, among.clone(), words);
+        for (scope, count) in hidden {
+            let words = format!("{}, {}", word(scope), format::number(*count as f64, 0));
+            ui.selectable_value(&mut state.question.scope, scope.clone(), words);
         }
     });
 }
@@ -96,15 +96,15 @@ struct Exported {
 
 impl Exported {
     /// The marked rows, or all if none is.
-    fn of(model: &Model, state: &ElementsState) -> Self {
+    fn new(model: &Model, state: &ElementsState) -> Self {
         let marked = state.selection.marked();
-        let (numbers, which): (Vec<u32>, _) = if marked.is_empty() {
+        let (numbers, subset): (Vec<u32>, _) = if marked.is_empty() {
             let rows = table::shown(model).map(|answer| answer.rows.to_vec());
             (rows.unwrap_or_default(), "listed")
         } else {
             (marked.iter().copied().collect(), "marked")
         };
-        let name = format!("Export the {} {which}", words::plain(numbers.len()));
+        let name = format!("Export the {} {subset}", words::plain(numbers.len()));
         Self { numbers, name, lock: replay::lock(model) }
     }
 
@@ -134,46 +134,47 @@ impl Exported {
 }
 
 /// The groups with the numbers of their objects.
-fn chips(model: &Model) -> Vec<(Among, usize)> {
-    let CatalogState::Ready(catalog) = &model.catalog else { return vec![(Among::All, 0)] };
+fn chips(model: &Model) -> Vec<(Subset, usize)> {
+    let CatalogState::Ready(catalog) = &model.catalog else { return vec![(Subset::All, 0)] };
     let favourites = model.station.favourites.iter();
-    let held = favourites.filter(|of| catalog.get(of.satellite).is_some()).count();
-    let mut chips = vec![(Among::Favourites, held), (Among::All, catalog.len())];
-    let groups = catalog.groups().map(|(name, count)| (Among::Group(name.to_owned()), count));
+    let held_count =
+        favourites.filter(|favourite| catalog.get(favourite.satellite).is_some()).count();
+    let mut chips = vec![(Subset::Favourites, held_count), (Subset::All, catalog.len())];
+    let groups = catalog.groups().map(|(name, count)| (Subset::Group(name.to_owned()), count));
     chips.extend(groups);
     let old = table::shown(model).map_or(0, |answer| answer.old);
-    chips.push((Among::Old, old));
+    chips.push((Subset::Old, old));
     // A station file may have two groups of one name.
     let names: BTreeSet<&String> = model.station.groups.iter().map(|group| &group.name).collect();
     chips.extend(names.into_iter().map(|name| {
         let own = model.station.in_groups(name).into_iter();
-        (Among::Own(name.clone()), own.filter(|number| catalog.get(*number).is_some()).count())
+        (Subset::Own(name.clone()), own.filter(|number| catalog.get(*number).is_some()).count())
     }));
     chips
 }
 
-fn word(among: &Among) -> &str {
-    match among {
-        Among::All => "All",
-        Among::Favourites => "Favourites",
-        Among::Group(name) | Among::Own(name) => name,
-        Among::Old => "Older than 7 d",
+fn word(scope: &Subset) -> &str {
+    match scope {
+        Subset::All => "All",
+        Subset::Favourites => "Favourites",
+        Subset::Group(name) | Subset::Own(name) => name,
+        Subset::Old => "Older than 7 d",
     }
 }
 
-fn count((_, count): &(Among, usize)) -> String {
+fn count((_, count): &(Subset, usize)) -> String {
     format::number(*count as f64, 0)
 }
 
-fn width(ui: &Ui, chip: &(Among, usize)) -> f32 {
+fn width(ui: &Ui, chip: &(Subset, usize)) -> f32 {
     let word = paint::text_width(ui, word(&chip.0), text::small());
     (word + paint::text_width(ui, &count(chip), text::small()) + 30.0).ceil()
 }
 
-fn one(ui: &Ui, place: Rect, chip: &(Among, usize), is_active: bool) -> bool {
+fn one(ui: &Ui, place: Rect, chip: &(Subset, usize), is_active: bool) -> bool {
     let t = theme::tokens(ui);
     let (word, count) = (word(&chip.0), count(chip));
-    let own = if matches!(chip.0, Among::Own(_)) { ", your group" } else { "" };
+    let own = if matches!(chip.0, Subset::Own(_)) { ", your group" } else { "" };
     let name = format!("{word}{own}, {count}");
     let response = paint::control(ui, ("chip", own, word), place, Role::RadioButton, true, &name);
     response.widget_info(|| WidgetInfo::selected(Role::RadioButton, true, is_active, &name));

@@ -103,12 +103,12 @@ pub(super) fn places(row: Rect) -> Vec<(Column, Rect)> {
     let free = (row.width() - min_width(&others)).max(0.0);
     let weights: f32 = others.iter().map(|column| weight(*column)).sum();
     let unit = free / (weight(Column::Name) + weights);
-    let from = row.left() + NAME;
-    let mut end = from + MIN_NAME + unit * weight(Column::Name);
+    let first = row.left() + NAME;
+    let mut end = first + MIN_NAME + unit * weight(Column::Name);
     let star = row.with_min_x(row.left() + PADDING + 24.0);
     let star = star.with_max_x(star.left() + STAR);
     let mut places =
-        vec![(Column::Star, star), (Column::Name, row.with_min_x(from).with_max_x(end))];
+        vec![(Column::Star, star), (Column::Name, row.with_min_x(first).with_max_x(end))];
     for column in others {
         let start = end + GAP;
         end += min_width_of(column) + unit * weight(column);
@@ -170,7 +170,7 @@ impl Next {
 /// A row with what its cells say.
 pub(super) struct Row<'a> {
     pub(super) elements: &'a Elements,
-    pub(super) from: &'a str,
+    pub(super) start_text: &'a str,
     /// An older set is in use by choice of the operator.
     pub(super) is_older_set: bool,
     pub(super) next: Next,
@@ -184,7 +184,7 @@ impl<'a> Row<'a> {
         let next = model.catalog_table.next.as_ref();
         Self {
             elements,
-            from: catalog.source_of(number).unwrap_or_default(),
+            start_text: catalog.source_of(number).unwrap_or_default(),
             is_older_set: catalog.set_aside(number).is_some(),
             next: next.map_or(Next::Unknown, |next| {
                 next.get(number, model.now).map_or(Next::Never, Next::At)
@@ -205,7 +205,7 @@ impl<'a> Row<'a> {
             Column::Inclination => format::number(elements.inclination().degrees(), 2),
             Column::Heights => words::heights(elements.heights(), self.unit),
             Column::Age => words::age(elements.age_s(self.now)),
-            Column::From => self.from.to_owned(),
+            Column::From => self.start_text.to_owned(),
             Column::NextPass => words::next_pass(self.next, self.now),
             Column::MaxElevation => self
                 .next
@@ -217,7 +217,8 @@ impl<'a> Row<'a> {
     /// The row for screen readers.
     pub(super) fn spoken(&self, priority: Option<u8>) -> String {
         let cell = |column| self.cell(column);
-        let star = priority.map(|of| format!(", favourite of priority {of}")).unwrap_or_default();
+        let star =
+            priority.map(|level| format!(", favourite of priority {level}")).unwrap_or_default();
         let choice = if self.is_older_set { ", an older set by choice" } else { "" };
         let next = match self.next {
             Next::Unknown => "being computed".to_owned(),
@@ -228,7 +229,7 @@ impl<'a> Row<'a> {
             cell(Column::Name),
             self.elements.catalog_number(),
             cell(Column::Age),
-            self.from,
+            self.start_text,
         )
     }
 

@@ -40,19 +40,19 @@ pub(super) fn show(
     let font = text::sized(13.0, Weight::SemiBold);
     paint::text_in(ui, title, Align2::LEFT_CENTER, "Elements in use", font, t.t1);
     let number = elements.catalog_number();
-    let from = catalog.source_of(number).unwrap_or_default();
+    let start_text = catalog.source_of(number).unwrap_or_default();
     let room = title.with_min_x(title.left() + 120.0);
     if catalog.set_aside(number).is_some() {
-        let words = format!("older set, {from}");
+        let words = format!("older set, {start_text}");
         let drawn = paint::text_in(ui, room, Align2::RIGHT_CENTER, &words, text::small(), t.warn);
-        let at = pos2(drawn.left() - 11.0, drawn.center().y);
-        icons::paint(ui.painter(), paint::square(at, 12.0), Icon::Warning, t.warn);
+        let position = pos2(drawn.left() - 11.0, drawn.center().y);
+        icons::paint(ui.painter(), paint::square(position, 12.0), Icon::Warning, t.warn);
         let named = paint::name_text(ui, "older set in use", drawn, &words);
         if !paint::fits(ui, &words, text::small(), room) {
             named.on_hover_text(&words);
         }
     } else {
-        paint::text_in(ui, room, Align2::RIGHT_CENTER, from, text::small(), t.t2);
+        paint::text_in(ui, room, Align2::RIGHT_CENTER, start_text, text::small(), t.t2);
     }
     let epoch = format::copied(elements.epoch());
     let (icon, colour) = words::age_look(words::age_tone(elements, model.now), t);
@@ -64,8 +64,8 @@ pub(super) fn show(
     fact(ui, line(0), "Epoch", &epoch.clone(), t.t1);
     let place = fact(ui, line(1), "Age", &age, if icon.is_some() { colour } else { t.ok });
     if let Some(icon) = icon {
-        let at = pos2(place.left() - 11.0, place.center().y);
-        icons::paint(ui.painter(), paint::square(at, 12.0), icon, colour);
+        let position = pos2(place.left() - 11.0, place.center().y);
+        icons::paint(ui.painter(), paint::square(position, 12.0), icon, colour);
     }
     source_order::show(ui, line(2), model, catalog, number, lock, commands);
     let unit = model.appearance.distances;
@@ -90,7 +90,7 @@ fn fact(ui: &Ui, line: Rect, name: &str, value: &str, colour: Color32) -> Rect {
 }
 
 pub(super) fn figures(elements: &Elements) -> [(&'static str, String); 7] {
-    let angle = |of: crate::astro::Angle| format::degrees(of.degrees(), 4);
+    let angle = |angle: crate::astro::Angle| format::degrees(angle.degrees(), 4);
     [
         ("Inclination", angle(elements.inclination())),
         ("RAAN", angle(elements.node())),

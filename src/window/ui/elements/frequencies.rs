@@ -31,7 +31,7 @@ pub(super) fn show(
 ) {
     let t = theme::tokens(ui);
     ui.spacing_mut().item_spacing.y = 4.0;
-    let own = || model.station.frequencies.iter().filter(|of| of.satellite == number);
+    let own = || model.station.frequencies.iter().filter(|frequency| frequency.satellite == number);
     let title = RichText::new("Frequencies").font(text::sized(13.0, Weight::SemiBold));
     let is_edited = state.frequencies.as_ref().is_some_and(|edit| edit.number == number);
     let mut is_asked = false;
@@ -47,8 +47,8 @@ pub(super) fn show(
         });
     });
     let Some(edit) = state.frequencies.as_mut().filter(|edit| edit.number == number) else {
-        for of in own() {
-            let words = format!("{} MHz {}", format::number(of.mhz, 3), of.name);
+        for frequency in own() {
+            let words = format!("{} MHz {}", format::number(frequency.mhz, 3), frequency.name);
             ui.label(RichText::new(words.trim()).font(text::small()).color(t.t1));
         }
         if own().next().is_none() {
@@ -56,8 +56,11 @@ pub(super) fn show(
             ui.label(RichText::new(words).font(text::small()).color(t.t2));
         }
         if is_asked {
-            let lines: Vec<String> =
-                own().map(|of| format!("{} {}", of.mhz, of.name).trim_end().to_owned()).collect();
+            let lines: Vec<String> = own()
+                .map(|frequency| {
+                    format!("{} {}", frequency.mhz, frequency.name).trim_end().to_owned()
+                })
+                .collect();
             state.frequencies = Some(Edit { number, text: lines.join("\n") });
         }
         return;

@@ -15,7 +15,7 @@ use crate::{
         icons::{self, Icon},
         text::{self, Weight},
         theme,
-        widgets::{paint, told::Tone},
+        widgets::{paint, status_line::Tone},
     },
 };
 
@@ -51,7 +51,7 @@ fn one(ui: &Ui, line: Rect, model: &Model, antenna: &AntennaModel, elements: &El
     let name = &antenna.config.name;
     let uploaded = uploaded_epoch(model, antenna, elements.catalog_number());
     let (tone, words) = holds(antenna, elements, uploaded);
-    let since = known_since(antenna, model.steady);
+    let start_text = known_since(antenna, model.steady);
     let (icon, colour) = match tone {
         Tone::Good => (Some(Icon::Check), t.ok),
         Tone::Caution | Tone::Bad => (Some(Icon::Warning), t.warn),
@@ -63,17 +63,17 @@ fn one(ui: &Ui, line: Rect, model: &Model, antenna: &AntennaModel, elements: &El
     let (first, second) = line.shrink2(vec2(0.0, 2.0)).split_top_bottom_at_fraction(0.5);
     let drawn = paint::text_in(ui, first, Align2::LEFT_CENTER, name, text::body_medium(), t.t1);
     let room = first.with_min_x(drawn.right() + 8.0);
-    paint::text_in(ui, room, Align2::RIGHT_CENTER, &since, text::small(), t.t2);
+    paint::text_in(ui, room, Align2::RIGHT_CENTER, &start_text, text::small(), t.t2);
     let mut left = second.left();
     if let Some(icon) = icon {
-        let at = pos2(left + 6.0, second.center().y);
-        icons::paint(ui.painter(), paint::square(at, 12.0), icon, colour);
+        let position = pos2(left + 6.0, second.center().y);
+        icons::paint(ui.painter(), paint::square(position, 12.0), icon, colour);
         left += 18.0;
     }
     let room = second.with_min_x(left);
     let colour = if tone == Tone::Caution { t.warn } else { t.t1 };
     paint::text_in(ui, room, Align2::LEFT_CENTER, &words, text::small(), colour);
-    let spoken = format!("{name}: {words} {since}");
+    let spoken = format!("{name}: {words} {start_text}");
     let named = paint::name_text(ui, ("holds", name), line, spoken.trim());
     if !paint::fits(ui, &words, text::small(), room) {
         named.on_hover_text(spoken.trim());
@@ -92,14 +92,14 @@ fn holds(
         }
         return (Tone::Plain, "Stores no elements: Azel tracks with the set in use.".to_owned());
     }
-    let Some(held) = &antenna.snapshot.state.on_board.satellite else {
+    let Some(satellite) = &antenna.snapshot.state.on_board.satellite else {
         return (Tone::Plain, "What it holds has not been read yet.".to_owned());
     };
-    if held.catalog_number == 0 && held.name.is_empty() {
+    if satellite.catalog_number == 0 && satellite.name.is_empty() {
         return (Tone::Plain, "Holds no satellite.".to_owned());
     }
-    if held.catalog_number != elements.catalog_number() {
-        return (Tone::Plain, format!("Holds another satellite, {}.", held.name));
+    if satellite.catalog_number != elements.catalog_number() {
+        return (Tone::Plain, format!("Holds another satellite, {}.", satellite.name));
     }
     let Some(epoch) = uploaded else {
         let words = "Holds this satellite; it does not report the epoch of its set.";
@@ -128,15 +128,15 @@ fn uploaded_epoch(model: &Model, antenna: &AntennaModel, number: u32) -> Option<
 /// Age of the knowledge about a unit.
 fn known_since(antenna: &AntennaModel, now: Instant) -> String {
     let snapshot = &antenna.snapshot;
-    let since = match snapshot.link {
+    let start = match snapshot.link {
         LinkState::Off | LinkState::Connecting { .. } => None,
         LinkState::Up { .. } => snapshot.state.measured.map(|measured| measured.received),
         LinkState::Stale { as_of } => Some(as_of),
-        LinkState::Lost { start: since, .. } => Some(since),
+        LinkState::Lost { start, .. } => Some(start),
     };
-    match since {
-        Some(since) => {
-            let age_s = now.saturating_duration_since(since).as_secs_f64();
+    match start {
+        Some(start) => {
+            let age_s = now.saturating_duration_since(start).as_secs_f64();
             format!("{} ago", format::age(age_s))
         }
         None if snapshot.link.is_open() => "now".to_owned(),

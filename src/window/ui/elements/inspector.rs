@@ -155,9 +155,9 @@ fn show_head(
         None => ("", String::new()),
         Some(next) if next.is_always_up => ("", "always up".to_owned()),
         Some(next) => {
-            let (event, at) =
+            let (event, time) =
                 if next.aos <= model.now { ("LOS", next.los) } else { ("AOS", next.aos) };
-            (event, format::countdown(model.now, at))
+            (event, format::countdown(model.now, time))
         }
     };
     let designator = elements.international_designator().unwrap_or("no designator");
@@ -237,16 +237,17 @@ fn show_priority(
 ) {
     let t = theme::tokens(ui);
     paint::text_in(ui, rect, Align2::LEFT_CENTER, "Priority", text::small(), t.t2);
-    let at = |x: f32| {
+    let area = |x: f32| {
         let min = pos2(rect.right() - x, rect.center().y - SMALL_HEIGHT / 2.0);
         Rect::from_min_size(min, vec2(SMALL_HEIGHT, SMALL_HEIGHT))
     };
-    let place = Priority::ALL.iter().position(|known| *known == priority).unwrap_or_default();
-    for (x, word, name, by) in [(80.0, "−", "More important", -1), (24.0, "+", "Less important", 1)]
+    let place = Priority::ALL.iter().position(|level| *level == priority).unwrap_or_default();
+    for (x, word, name, step) in
+        [(80.0, "−", "More important", -1), (24.0, "+", "Less important", 1)]
     {
-        let other = place.checked_add_signed(by).and_then(|place| Priority::ALL.get(place));
+        let other = place.checked_add_signed(step).and_then(|place| Priority::ALL.get(place));
         let is_free = other.is_some() && lock.is_none();
-        let response = Button::normal(word).locked(!is_free).show(ui, name, at(x));
+        let response = Button::normal(word).locked(!is_free).show(ui, name, area(x));
         response.widget_info(|| egui::WidgetInfo::labeled(Role::Button, is_free, name));
         let response = response.on_hover_text(lock.unwrap_or(name));
         if let (true, Some(priority)) = (response.clicked(), other) {
@@ -255,7 +256,7 @@ fn show_priority(
             commands.push(UiCommand::Station(command));
         }
     }
-    let middle = at(52.0);
+    let middle = area(52.0);
     let word = priority.number().to_string();
     paint::text_in(ui, middle, Align2::CENTER_CENTER, &word, text::value(), t.t1);
     paint::name_text(ui, "priority", middle, &format!("Priority {word}"));

@@ -134,9 +134,9 @@ pub(super) fn show(
     if intake.is_dropped {
         let cancel = Button::normal("Close");
         let size = vec2(cancel.width(ui), SMALL_HEIGHT);
-        let at = pos2(left + width - size.x, y + 12.0);
-        if cancel.show(ui, "close intake", Rect::from_min_size(at, size)).clicked() {
-            state.taken.clear();
+        let position = pos2(left + width - size.x, y + 12.0);
+        if cancel.show(ui, "close intake", Rect::from_min_size(position, size)).clicked() {
+            state.shown.clear();
             commands.push(UiCommand::LeaveElements);
         }
     }
@@ -164,15 +164,17 @@ impl Shown<'_> {
         ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, (1.0, t.line));
         let name = self.offer.name();
         let room = row.with_min_x(row.left() + 22.0).with_max_x(row.left() + 220.0);
-        let at = paint::square(pos2(row.left() + 8.0, row.center().y), 14.0);
-        icons::paint(ui.painter(), at, Icon::File, t.t2);
+        let area = paint::square(pos2(row.left() + 8.0, row.center().y), 14.0);
+        icons::paint(ui.painter(), area, Icon::File, t.t2);
         paint::text_in(ui, room, Align2::LEFT_CENTER, &name, text::body_medium(), t.t1);
         let (icon, colour, words) = match self.found {
             None => (None, t.t2, "is being read".to_owned()),
-            Some(Judged::Unreadable(why)) => {
-                (Some(Icon::Cross), t.bad, sentence(&format!("it cannot be read: {why}")))
+            Some(Judged::Unreadable(reason)) => {
+                (Some(Icon::Cross), t.bad, sentence(&format!("it cannot be read: {reason}")))
             }
-            Some(Judged::Nothing(why)) => (Some(Icon::Cross), t.bad, format!("Left out: {why}.")),
+            Some(Judged::Nothing(nothing)) => {
+                (Some(Icon::Cross), t.bad, format!("Left out: {nothing}."))
+            }
             Some(found @ Judged::Elements(counts)) => {
                 let icon = if found.is_usable() { Icon::Check } else { Icon::Cross };
                 let colour = if found.is_usable() { t.t1 } else { t.bad };
@@ -181,8 +183,8 @@ impl Shown<'_> {
         };
         if let Some(icon) = icon {
             let colour = if icon == Icon::Check { t.ok } else { t.bad };
-            let at = paint::square(pos2(row.left() + 240.0, row.center().y), 12.0);
-            icons::paint(ui.painter(), at, icon, colour);
+            let area = paint::square(pos2(row.left() + 240.0, row.center().y), 12.0);
+            icons::paint(ui.painter(), area, icon, colour);
         }
         let right = if self.can_choose { row.right() - CHOICES } else { row.right() };
         let room = row.with_min_x(row.left() + 254.0).with_max_x(right);
@@ -219,7 +221,7 @@ impl Shown<'_> {
     ) {
         let t = theme::tokens(ui);
         let mut right = row.right();
-        if state.taken.contains(&self.index) {
+        if state.shown.contains(&self.index) {
             let room = row.with_min_x(right - CHOICES);
             paint::text_in(ui, room, Align2::RIGHT_CENTER, "taken", text::small(), t.ok);
             return;
@@ -247,7 +249,7 @@ impl Shown<'_> {
             };
             let command = contract::Command::CopyElements { name: source.clone(), origin: offer };
             commands.push(UiCommand::Station(command));
-            state.taken.push(self.index);
+            state.shown.push(self.index);
         }
         if let Offer::File(path) = self.offer
             && button("Keep as source")
@@ -255,7 +257,7 @@ impl Shown<'_> {
             let place = SourcePlace::File(path.clone());
             let source = Source { name: source, place, refresh: None };
             commands.push(UiCommand::Station(contract::Command::AddSource(source)));
-            state.taken.push(self.index);
+            state.shown.push(self.index);
         }
     }
 }
@@ -288,7 +290,7 @@ fn holds(counts: &Counts) -> String {
         (counts.all_refused, "refused"),
     ];
     let parts = parts.into_iter().filter(|(count, _)| *count > 0);
-    let parts = parts.map(|(count, what)| format!("{} {what}", words::plain(count)));
+    let parts = parts.map(|(count, subject)| format!("{} {subject}", words::plain(count)));
     let all = [words::objects(counts.objects())].into_iter().chain(parts);
     all.collect::<Vec<_>>().join(", ")
 }

@@ -19,14 +19,14 @@ use crate::{
 
 const BAR: f32 = 32.0;
 const ROW: f32 = 24.0;
-const MOST_ROWS: usize = 3;
+const MAX_ROWS: usize = 3;
 
 /// Height of the part; none where nothing was refused.
 pub(super) fn height(model: &Model, state: &ElementsState) -> f32 {
     match (refused(&model.sources), state.refused_are_open) {
         (0, _) => 0.0,
         (_, false) => BAR,
-        (count, true) => BAR + count.min(MOST_ROWS) as f32 * ROW,
+        (count, true) => BAR + count.min(MAX_ROWS) as f32 * ROW,
     }
 }
 
@@ -59,9 +59,9 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, model: &Model, state: &mut ElementsS
     ui.ctx().accesskit_node_builder(response.id, |node| node.set_expanded(is_open));
     ui.painter().rect_filled(bar, 0.0, if response.hovered() { t.bg3 } else { t.bg1 });
     let icon = if is_open { Icon::ChevronDown } else { Icon::ChevronRight };
-    let at = |x: f32| paint::square(pos2(bar.left() + x, bar.center().y), 12.0);
-    icons::paint(ui.painter(), at(PADDING + 4.0), icon, t.t2);
-    icons::paint(ui.painter(), at(PADDING + 24.0), Icon::Warning, t.warn);
+    let area = |x: f32| paint::square(pos2(bar.left() + x, bar.center().y), 12.0);
+    icons::paint(ui.painter(), area(PADDING + 4.0), icon, t.t2);
+    icons::paint(ui.painter(), area(PADDING + 24.0), Icon::Warning, t.warn);
     let room = bar.with_min_x(bar.left() + PADDING + 38.0).with_max_x(bar.right() - PADDING);
     let font = text::sized(13.0, Weight::SemiBold);
     let title = paint::text_in(ui, room, Align2::LEFT_CENTER, &title, font, t.t1);
@@ -89,22 +89,22 @@ fn rows(ui: &mut Ui, rect: Rect, sources: &Sources) {
             for (place, (index, (source, refusal))) in shown.enumerate() {
                 let min = pos2(rect.left(), top + place as f32 * ROW);
                 let row = Rect::from_min_size(min, vec2(rect.width(), ROW));
-                let cell = |from: f32, to: f32, words: &str, colour| {
-                    let room = row.with_min_x(row.left() + from);
-                    let room = room.with_max_x((row.left() + to).min(row.right() - PADDING));
+                let cell = |start: f32, end: f32, words: &str, colour| {
+                    let room = row.with_min_x(row.left() + start);
+                    let room = room.with_max_x((row.left() + end).min(row.right() - PADDING));
                     let left = Align2::LEFT_CENTER;
                     paint::text_in(ui, room, left, words, text::small(), colour);
                 };
                 let line = format!("line {}", format::number(refusal.line as f64, 0));
                 let object = refusal.object.as_deref().unwrap_or("no name");
-                let why = sentence(&refusal.reason.to_string());
+                let reason = sentence(&refusal.reason.to_string());
                 cell(54.0, 150.0, source, t.t1);
                 cell(158.0, 236.0, &line, t.t2);
                 cell(244.0, 400.0, object, t.t1);
-                let at = pos2(row.left() + 414.0, row.center().y);
-                icons::paint(ui.painter(), paint::square(at, 11.0), Icon::Cross, t.bad);
-                cell(428.0, f32::INFINITY, &why, t.t1);
-                let spoken = format!("{source}, {line}, {object}: {why}");
+                let position = pos2(row.left() + 414.0, row.center().y);
+                icons::paint(ui.painter(), paint::square(position, 11.0), Icon::Cross, t.bad);
+                cell(428.0, f32::INFINITY, &reason, t.t1);
+                let spoken = format!("{source}, {line}, {object}: {reason}");
                 paint::name_text(ui, ("refused", index), row, &spoken).on_hover_text(&spoken);
             }
         });

@@ -90,19 +90,19 @@ impl Menu<'_> {
     /// The question whether the set with this epoch is to be used.
     pub(super) fn ask(&self, epoch: Timestamp) -> Question {
         let catalog_number = self.elements.catalog_number();
-        let (which, until, yes, choice) = if self.is_newest(epoch) {
+        let (subject, end_text, yes, choice) = if self.is_newest(epoch) {
             let choice = SetChoice::Newest { catalog_number };
             ("newest set", "", "Use the newest", choice)
         } else {
-            let until = " It stays in use until newer elements arrive or you end it.";
+            let end_text = " It stays in use until newer elements arrive or you end it.";
             let choice = SetChoice::Older { catalog_number, epoch };
-            ("set", until, "Use this set", choice)
+            ("set", end_text, "Use this set", choice)
         };
         let label = self.elements.label();
         let when = format::minute(epoch, self.model.now);
         let effect = self.effect(epoch);
         Question {
-            text: format!("Use the {which} of {when} for {label}? {effect}{until}"),
+            text: format!("Use the {subject} of {when} for {label}? {effect}{end_text}"),
             yes,
             command: UiCommand::Station(Command::UseSet(choice)),
         }
@@ -120,29 +120,30 @@ impl Menu<'_> {
             return "It changes no pass in the next 7 days.".to_owned();
         };
         let shift = detail.sets.iter().find(|shift| shift.set.elements.epoch() == epoch);
-        let Some((shift, off)) = shift.and_then(|shift| Some((shift, shift.off?))) else {
+        let Some((shift, deviation)) = shift.and_then(|shift| Some((shift, shift.deviation?)))
+        else {
             return unknown();
         };
-        let at = format::moment(pass.pass.tca.time, self.model.now);
-        let angle = format::degrees(off.degrees(), 2);
+        let time_text = format::moment(pass.pass.tca.time, self.model.now);
+        let angle = format::degrees(deviation.degrees(), 2);
         let beam = self.model.antenna().map_or_else(String::new, |antenna| {
             let half_deg = antenna.config.beam_width_deg / 2.0;
-            let side = if off.degrees() > half_deg { "more" } else { "less" };
+            let side = if deviation.degrees() > half_deg { "more" } else { "less" };
             format!(
                 ", {side} than half the beamwidth of {} ({})",
                 antenna.config.name,
                 format::degrees(half_deg, 2)
             )
         });
-        let away = format!("up to {angle} away from where the set in use puts it{beam}");
+        let distance = format!("up to {angle} away from where the set in use puts it{beam}");
         let shifted = match shift.late_s {
             Some(late_s) => {
                 let way = if late_s < 0.0 { "earlier" } else { "later" };
                 let time = format::number(late_s.abs(), sets::time_decimals(late_s));
-                format!("{time} s {way} and {away}")
+                format!("{time} s {way} and {distance}")
             }
-            None => format!("{away}, and predicts no pass at that time"),
+            None => format!("{distance}, and predicts no pass at that time"),
         };
-        format!("At the next pass, {at}, this set puts the satellite {shifted}.")
+        format!("At the next pass, {time_text}, this set puts the satellite {shifted}.")
     }
 }

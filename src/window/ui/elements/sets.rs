@@ -27,19 +27,19 @@ const TITLE: f32 = 30.0;
 const HEAD: f32 = 18.0;
 const LINE: f32 = 18.0;
 /// The line about the newest set, while an older one is in use.
-const ASIDE: f32 = 30.0;
+const SIDE_WIDTH: f32 = 30.0;
 
 /// The detail of the object, as far as it is worked out.
 pub(super) fn detail(model: &Model, number: u32) -> Option<&ObjectDetail> {
     let detail = model.catalog_table.detail.as_ref();
-    detail.filter(|of| of.key.elements.catalog_number() == number)
+    detail.filter(|object_detail| object_detail.key.elements.catalog_number() == number)
 }
 
 /// `has_aside`: an older set is in use.
 pub(super) fn height(detail: Option<&ObjectDetail>, has_aside: bool) -> f32 {
     let others = detail.map_or(0, |detail| detail.sets.len());
-    let aside = if has_aside { ASIDE } else { 0.0 };
-    TITLE + HEAD + (others + 1) as f32 * LINE + aside + 8.0
+    let side_width = if has_aside { SIDE_WIDTH } else { 0.0 };
+    TITLE + HEAD + (others + 1) as f32 * LINE + side_width + 8.0
 }
 
 pub(super) fn show(
@@ -57,12 +57,13 @@ pub(super) fn show(
     let font = text::sized(13.0, Weight::SemiBold);
     paint::text_in(ui, title, Align2::LEFT_CENTER, "Stored sets", font, t.t1);
     let pass = detail.and_then(|detail| detail.passes.first());
-    let at = pass.map(|of| format::moment(of.pass.tca.time, model.now));
-    let [shown, spoken] = match at {
+    let time_text = pass.map(|predicted| format::moment(predicted.pass.tca.time, model.now));
+    let [shown, spoken] = match time_text {
         None => ["no pass to compare them at"; 2].map(str::to_owned),
-        Some(at) => {
-            [format!("differences at {at}"), format!("differences from the one in use at {at}")]
-        }
+        Some(time_text) => [
+            format!("differences at {time_text}"),
+            format!("differences from the one in use at {time_text}"),
+        ],
     };
     let room = title.with_min_x(title.left() + 80.0);
     paint::text_in(ui, room, Align2::RIGHT_CENTER, &shown, text::caption(), t.t2);
@@ -74,7 +75,7 @@ pub(super) fn show(
     };
     let head = line(0.0);
     cells(ui, head, ["Epoch", "Source", "Time s", "Angle °"], [t.t3; 4]);
-    let from = catalog.source_of(elements.catalog_number()).unwrap_or_default();
+    let start_text = catalog.source_of(elements.catalog_number()).unwrap_or_default();
     let first = line(HEAD);
     let newest = catalog.set_aside(elements.catalog_number());
     let (icon, colour) = match newest {
@@ -84,15 +85,20 @@ pub(super) fn show(
     cells(
         ui,
         first,
-        [&format::minute(elements.epoch(), model.now), from, "", "in use"],
+        [&format::minute(elements.epoch(), model.now), start_text, "", "in use"],
         [t.t1, t.t2, t.t1, colour],
     );
-    let at = pos2(first.right() - paint::text_width(ui, "in use", text::small()) - 10.0, 0.0);
-    let at = pos2(at.x, first.center().y);
-    icons::paint(ui.painter(), paint::square(at, 11.0), icon, colour);
+    let position = pos2(first.right() - paint::text_width(ui, "in use", text::small()) - 10.0, 0.0);
+    let position = pos2(position.x, first.center().y);
+    icons::paint(ui.painter(), paint::square(position, 11.0), icon, colour);
     let half_beam_deg = model.antenna().map(|antenna| antenna.config.beam_width_deg / 2.0);
     let menu = set_menu::Menu { model, elements, newest, detail };
-    for (index, set) in detail.map(|of| of.sets.as_slice()).unwrap_or_default().iter().enumerate() {
+    for (index, set) in detail
+        .map(|object_detail| object_detail.sets.as_slice())
+        .unwrap_or_default()
+        .iter()
+        .enumerate()
+    {
         let row = line(HEAD + (index + 1) as f32 * LINE);
         let response = one(ui, row, index, set, half_beam_deg, model.now);
         set_menu::show(&response, &menu, set, question);
@@ -100,15 +106,15 @@ pub(super) fn show(
     if let Some(newest) = newest {
         let line = Rect::from_x_y_ranges(
             inner.x_range(),
-            rect.bottom() - 8.0 - ASIDE..=rect.bottom() - 8.0,
+            rect.bottom() - 8.0 - SIDE_WIDTH..=rect.bottom() - 8.0,
         );
-        aside(ui, line, &menu, newest, question);
+        side(ui, line, &menu, newest, question);
     }
     ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, (1.0, t.line));
 }
 
 /// The newest set, which is not in use, and the button that uses it again.
-fn aside(
+fn side(
     ui: &Ui,
     line: Rect,
     menu: &set_menu::Menu<'_>,
@@ -143,13 +149,15 @@ fn one(
     let t = theme::tokens(ui);
     let set = &shift.set;
     let is_outside = shift
-        .off
+        .deviation
         .zip(half_beam_deg)
-        .is_some_and(|(off, half_beam_deg)| off.degrees() > half_beam_deg);
+        .is_some_and(|(deviation, half_beam_deg)| deviation.degrees() > half_beam_deg);
     let time = shift
         .late_s
         .map_or_else(|| "–".to_owned(), |late_s| format::signed(late_s, time_decimals(late_s)));
-    let angle = shift.off.map_or_else(|| "–".to_owned(), |off| format::number(off.degrees(), 2));
+    let angle = shift
+        .deviation
+        .map_or_else(|| "–".to_owned(), |deviation| format::number(deviation.degrees(), 2));
     let colour = if is_outside { t.bad } else { t.t1 };
     let when = format::minute(set.elements.epoch(), now);
     let response = ui.interact(
@@ -162,21 +170,21 @@ fn one(
     }
     cells(ui, row, [&when, &set.source, &time, &angle], [t.t1, t.t2, t.t1, colour]);
     let beam = if is_outside { ", outside the beam" } else { "" };
-    let against = match (shift.late_s, shift.off) {
-        (Some(late_s), Some(off)) => {
+    let difference = match (shift.late_s, shift.deviation) {
+        (Some(late_s), Some(deviation)) => {
             let way = if late_s < 0.0 { "early" } else { "late" };
             let (time, angle) = (
                 format::number(late_s.abs(), time_decimals(late_s)),
-                format::degrees(off.degrees(), 2),
+                format::degrees(deviation.degrees(), 2),
             );
             format!("{time} s {way}, {angle}{beam}")
         }
-        (None, Some(off)) => {
-            format!("no such pass, {}{beam}", format::degrees(off.degrees(), 2))
+        (None, Some(deviation)) => {
+            format!("no such pass, {}{beam}", format::degrees(deviation.degrees(), 2))
         }
         (_, None) => "cannot be compared".to_owned(),
     };
-    let words = format!("Set of {when} from {}: {against}", set.source);
+    let words = format!("Set of {when} from {}: {difference}", set.source);
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &words));
     paint::focus_ring(ui, &response, 3);
     response.on_hover_text(&words)

@@ -38,15 +38,15 @@ pub(super) fn show(
         ui.painter().rect_stroke(place, 4, Stroke::new(1.0, t.edge), StrokeKind::Inside);
     }
     let label = paint::text_in(ui, line, Align2::LEFT_CENTER, "Sources", text::small(), t.t2);
-    let at = pos2(line.right() - 5.0, line.center().y);
+    let position = pos2(line.right() - 5.0, line.center().y);
     let colour = if lock.is_none() { t.t2 } else { t.t3 };
-    icons::paint(ui.painter(), paint::square(at, 10.0), Icon::ChevronDown, colour);
-    let room = line.with_min_x(label.right() + 24.0).with_max_x(at.x - 8.0);
+    icons::paint(ui.painter(), paint::square(position, 10.0), Icon::ChevronDown, colour);
+    let room = line.with_min_x(label.right() + 24.0).with_max_x(position.x - 8.0);
     let colour = if lags.is_some() { t.warn } else { t.t1 };
     let drawn = paint::text_in(ui, room, Align2::RIGHT_CENTER, &value, text::small(), colour);
     if lags.is_some() {
-        let at = pos2(drawn.left() - 11.0, drawn.center().y);
-        icons::paint(ui.painter(), paint::square(at, 12.0), Icon::Warning, t.warn);
+        let position = pos2(drawn.left() - 11.0, drawn.center().y);
+        icons::paint(ui.painter(), paint::square(position, 12.0), Icon::Warning, t.warn);
     }
     paint::focus_ring(ui, &response, 4);
     let hint = lock.map_or_else(|| lags.unwrap_or_else(|| rule(order)), str::to_owned);
@@ -100,14 +100,14 @@ fn lags(catalog: &Catalog, number: u32, order: &[String]) -> Option<String> {
     if in_use == first {
         return None;
     }
-    let why = if catalog.is_chosen(number) {
+    let reason = if catalog.is_chosen(number) {
         "You chose the set in use yourself, which comes before the order.".to_owned()
     } else if catalog.groups_of(number).any(|group| group == first) {
         format!("The elements of {first} are more than {} older than the newest.", lag())
     } else {
         format!("{first} has no elements of this satellite.")
     };
-    Some(format!("{why} In use: {in_use}."))
+    Some(format!("{reason} In use: {in_use}."))
 }
 
 fn rule(order: &[String]) -> String {

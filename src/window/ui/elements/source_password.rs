@@ -29,14 +29,14 @@ impl SourcePassword {
             self.close();
             return;
         };
-        let wanted = SecretWanted {
+        let request = SecretWanted {
             user: user.to_owned(),
             address: SPACE_TRACK_HOST.to_owned(),
             is_passphrase: false,
             refused: None,
             keyring_problem: None,
         };
-        match self.dialog.show(ui, &wanted) {
+        match self.dialog.show(ui, &request) {
             None => {}
             Some(SecretAnswer::Cancelled) => self.close(),
             Some(SecretAnswer::Typed { secret, keep }) => {

@@ -19,7 +19,7 @@ use crate::{
         icons::{self, Icon},
         text::{self, Weight},
         theme,
-        widgets::{button::Button, menu, paint, told::Tone},
+        widgets::{button::Button, menu, paint, status_line::Tone},
     },
 };
 
@@ -29,7 +29,7 @@ const ROW: f32 = 25.0;
 /// Offered times between two requests that nobody asks for, hours.
 const REFRESH_HOURS: [u32; 5] = [2, 4, 6, 12, 24];
 /// More rows scroll.
-const MOST_ROWS: usize = 7;
+const MAX_ROWS: usize = 7;
 /// Below this height of the view the sources are folded unless opened.
 const FOLDED_BELOW: f32 = 760.0;
 /// Width of the table that the columns are laid out for.
@@ -47,24 +47,24 @@ const NEXT: f32 = 826.0;
 const ASK: f32 = 940.0;
 const REMOVE: f32 = 996.0;
 
-/// Height of the sources in a view of height `of`.
-pub(super) fn height(model: &Model, state: &ElementsState, of: f32) -> f32 {
-    if !is_open(state, of) {
+/// Height of the sources in a view of height `max_height`.
+pub(super) fn height(model: &Model, state: &ElementsState, max_height: f32) -> f32 {
+    if !is_open(state, max_height) {
         return BAR;
     }
-    let rows = (model.sources.list.len() + 1).min(MOST_ROWS);
+    let rows = (model.sources.list.len() + 1).min(MAX_ROWS);
     BAR + HEAD + rows as f32 * ROW
 }
 
-fn is_open(state: &ElementsState, of: f32) -> bool {
-    state.sources_are_open.unwrap_or(of >= FOLDED_BELOW)
+fn is_open(state: &ElementsState, max_height: f32) -> bool {
+    state.sources_are_open.unwrap_or(max_height >= FOLDED_BELOW)
 }
 
-/// Draws the sources into `rect`, in a view of height `of`.
+/// Draws the sources into `rect`, in a view of height `max_height`.
 pub(super) fn show(
     ui: &mut Ui,
     rect: Rect,
-    of: f32,
+    max_height: f32,
     model: &Model,
     state: &mut ElementsState,
     question: &mut Option<Question>,
@@ -72,7 +72,7 @@ pub(super) fn show(
 ) {
     let t = theme::tokens(ui);
     let (bar, rest) = rect.split_top_bottom_at_y(rect.top() + BAR);
-    let is_open = is_open(state, of);
+    let is_open = is_open(state, max_height);
     if show_bar(ui, bar, model, is_open) {
         state.sources_are_open = Some(!is_open);
     }
@@ -109,17 +109,18 @@ fn show_bar(ui: &Ui, rect: Rect, model: &Model, is_open: bool) -> bool {
     ui.ctx().accesskit_node_builder(response.id, |node| node.set_expanded(is_open));
     ui.painter().rect_filled(rect, 0.0, if response.hovered() { t.bg3 } else { t.bg1 });
     let icon = if is_open { Icon::ChevronDown } else { Icon::ChevronRight };
-    let at = pos2(rect.left() + PADDING + 4.0, rect.center().y);
-    icons::paint(ui.painter(), paint::square(at, 12.0), icon, t.t2);
-    let room = rect.with_min_x(at.x + 14.0).with_max_x(rect.right() - PADDING);
+    let position = pos2(rect.left() + PADDING + 4.0, rect.center().y);
+    icons::paint(ui.painter(), paint::square(position, 12.0), icon, t.t2);
+    let room = rect.with_min_x(position.x + 14.0).with_max_x(rect.right() - PADDING);
     let font = text::sized(13.0, Weight::SemiBold);
     let title = paint::text_in(ui, room, Align2::LEFT_CENTER, &count, font, t.t1);
     let (mark, colour) = look(tone, ui);
-    let at = pos2(title.right() + 18.0, rect.center().y);
+    let position = pos2(title.right() + 18.0, rect.center().y);
     if tone != Tone::Plain {
-        icons::paint(ui.painter(), paint::square(at, 12.0), mark, colour);
+        icons::paint(ui.painter(), paint::square(position, 12.0), mark, colour);
     }
-    let room = room.with_min_x(if tone == Tone::Plain { at.x - 6.0 } else { at.x + 10.0 });
+    let room =
+        room.with_min_x(if tone == Tone::Plain { position.x - 6.0 } else { position.x + 10.0 });
     paint::text_in(ui, room, Align2::LEFT_CENTER, &words, text::small(), colour);
     paint::focus_ring(ui, &response, 0);
     response.clicked()
@@ -136,8 +137,11 @@ fn worst(model: &Model) -> (Tone, String) {
         })
         .collect();
     for tone in [Tone::Bad, Tone::Caution] {
-        let names: Vec<&str> =
-            states.iter().filter(|(of, _)| *of == tone).map(|(_, name)| *name).collect();
+        let names: Vec<&str> = states
+            .iter()
+            .filter(|(state_tone, _)| *state_tone == tone)
+            .map(|(_, name)| *name)
+            .collect();
         if !names.is_empty() {
             let words = if names.len() == 1 { "needs attention" } else { "need attention" };
             let attention = format!("{} {words}", format::list(&names));
@@ -148,8 +152,8 @@ fn worst(model: &Model) -> (Tone, String) {
             };
         }
     }
-    let asked = || (Tone::Plain, "A server is asked at most once every 2 h.".to_owned());
-    bundled.unwrap_or_else(asked)
+    let request = || (Tone::Plain, "A server is asked at most once every 2 h.".to_owned());
+    bundled.unwrap_or_else(request)
 }
 
 /// The state of the elements that come with the program, by the favourites that use them; `None` if
@@ -162,8 +166,8 @@ fn state_of_bundled(model: &Model) -> Option<(Tone, String)> {
         return is_alone.then(|| (Tone::Plain, format!("{in_use}.")));
     }
     let CatalogState::Ready(catalog) = &model.catalog else { return None };
-    let is_bundled = |of: &&Arc<ListedSatellite>| {
-        catalog.source_of(of.elements.catalog_number()) == Some(BUNDLED_SOURCE)
+    let is_bundled = |listed: &&Arc<ListedSatellite>| {
+        catalog.source_of(listed.elements.catalog_number()) == Some(BUNDLED_SOURCE)
     };
     let used: Vec<&Arc<ListedSatellite>> = favourites.iter().filter(is_bundled).collect();
     let all = favourites.len();
@@ -173,15 +177,16 @@ fn state_of_bundled(model: &Model) -> Option<(Tone, String)> {
         _ => (in_use.to_owned(), ":"),
     };
     for (tone, word) in [(Tone::Bad, "too old"), (Tone::Caution, "getting old")] {
-        let is_so = |of: &&&Arc<ListedSatellite>| words::age_tone(&of.elements, model.now) == tone;
+        let is_so =
+            |listed: &&&Arc<ListedSatellite>| words::age_tone(&listed.elements, model.now) == tone;
         let count = used.iter().filter(is_so).count();
         if count > 0 {
-            let those = if used.len() < all {
+            let subset = if used.len() < all {
                 format!("{count} of them")
             } else {
                 format!("{count} of {all} favourites")
             };
-            return Some((tone, format!("{in_use}{joint} {word} for {those}.")));
+            return Some((tone, format!("{in_use}{joint} {word} for {subset}.")));
         }
     }
     Some((Tone::Plain, format!("{in_use}.")))
@@ -198,15 +203,15 @@ fn look(tone: Tone, ui: &Ui) -> (Icon, Color32) {
 }
 
 /// A place in a row between two ends of the layout.
-fn between(row: Rect, from: f32, to: f32) -> Rect {
+fn segment(row: Rect, start: f32, end: f32) -> Rect {
     let scale = row.width() / WIDTH;
-    row.with_min_x(row.left() + from * scale).with_max_x(row.left() + to * scale)
+    row.with_min_x(row.left() + start * scale).with_max_x(row.left() + end * scale)
 }
 
 fn show_head(ui: &Ui, rect: Rect) {
     let t = theme::tokens(ui);
-    let head = |words, from, to, anchor| {
-        paint::text_in(ui, between(rect, from, to), anchor, words, text::caption(), t.t3);
+    let head = |words, start, end, anchor| {
+        paint::text_in(ui, segment(rect, start, end), anchor, words, text::caption(), t.t3);
     };
     head("Name", NAME, WHERE, Align2::LEFT_CENTER);
     head("Where", WHERE, STATE, Align2::LEFT_CENTER);
@@ -225,7 +230,7 @@ fn in_use(model: &Model) -> Vec<(&str, usize)> {
 }
 
 fn count(in_use: &[(&str, usize)], name: &str) -> usize {
-    in_use.iter().find(|(of, _)| *of == name).map_or(0, |(_, count)| *count)
+    in_use.iter().find(|(subject, _)| *subject == name).map_or(0, |(_, count)| *count)
 }
 
 struct Row<'a> {
@@ -275,7 +280,7 @@ impl Row<'_> {
 
     /// Shows the button that opens the dialog for the password.
     fn password(&self, ui: &Ui, lock: Option<&str>, password: &mut SourcePassword) {
-        let room = between(self.place, PASSWORD, STATE - 8.0);
+        let room = segment(self.place, PASSWORD, STATE - 8.0);
         let place = Rect::from_center_size(room.center(), vec2(room.width(), 20.0));
         let spoken = format!("Password of {}", self.source.name);
         if small_button(ui, place, lock, "Password", &spoken) {
@@ -294,7 +299,7 @@ impl Row<'_> {
         let lock = words::sources_lock(model);
         let is_free = lock.is_none();
         let scale = self.place.width() / WIDTH;
-        let at = |x: f32, width: f32| {
+        let rect = |x: f32, width: f32| {
             let min = pos2(self.place.left() + x * scale, self.place.center().y - 10.0);
             Rect::from_min_size(min, vec2(width, 20.0))
         };
@@ -307,7 +312,7 @@ impl Row<'_> {
         };
         let pause = words::pause(self.report, model.now);
         let fetch_lock = lock.or(pause.as_deref());
-        if small_button(ui, at(ASK, 48.0), fetch_lock, word, &spoken) {
+        if small_button(ui, rect(ASK, 48.0), fetch_lock, word, &spoken) {
             let again = words::ask_again(name, self.report, model.now);
             let forced = again.is_some();
             let command = UiCommand::Station(contract::Command::RefreshSources {
@@ -319,7 +324,7 @@ impl Row<'_> {
                 None => commands.push(command),
             }
         }
-        let place = at(REMOVE, 20.0);
+        let place = rect(REMOVE, 20.0);
         let spoken = format!("Remove {name}");
         let response = paint::control(ui, ("remove", name), place, Role::Button, is_free, &spoken);
         let t = theme::tokens(ui);
@@ -340,7 +345,7 @@ impl Row<'_> {
     /// A click on when the server is asked next offers to ask it regularly.
     fn refresh(&self, ui: &Ui, lock: Option<&str>, commands: &mut Vec<UiCommand>) {
         let Source { name, refresh, .. } = self.source;
-        let place = between(self.place, NEXT - 4.0, ASK - 4.0).shrink2(vec2(0.0, 2.0));
+        let place = segment(self.place, NEXT - 4.0, ASK - 4.0).shrink2(vec2(0.0, 2.0));
         let spoken = format!("Refresh of {name}: {}", words::refresh(*refresh));
         let is_free = lock.is_none();
         let response =
@@ -350,12 +355,12 @@ impl Row<'_> {
             let stroke = Stroke::new(1.0, t.edge);
             ui.painter().rect_stroke(place, 4, stroke, StrokeKind::Inside);
         }
-        let at = pos2(place.right() - 8.0, place.center().y);
+        let position = pos2(place.right() - 8.0, place.center().y);
         let colour = if is_free { t.t2 } else { t.t3 };
-        icons::paint(ui.painter(), paint::square(at, 10.0), Icon::ChevronDown, colour);
+        icons::paint(ui.painter(), paint::square(position, 10.0), Icon::ChevronDown, colour);
         paint::focus_ring(ui, &response, 4);
         let response = match lock {
-            Some(why) => response.on_hover_text(why),
+            Some(reason) => response.on_hover_text(reason),
             None => response,
         };
         menu::show(&response, Popup::menu(&response).accessible_name(&spoken), |ui| {
@@ -390,22 +395,27 @@ impl Cells<'_> {
     fn show(&self, ui: &Ui, row: Rect, salt: &str, spoken: &str, model: &Model) -> egui::Response {
         let t = theme::tokens(ui);
         ui.painter().hline(row.x_range(), row.bottom() - 0.5, (1.0, t.line));
-        let at = paint::square(pos2(row.left() + PADDING + 7.0, row.center().y), 14.0);
-        icons::paint(ui.painter(), at, self.icon, t.t2);
-        let left = |from, to, words: &str, font, colour| {
-            let room = between(row, from, to - 8.0);
+        let rect = paint::square(pos2(row.left() + PADDING + 7.0, row.center().y), 14.0);
+        icons::paint(ui.painter(), rect, self.icon, t.t2);
+        let left = |start, end, words: &str, font, colour| {
+            let room = segment(row, start, end - 8.0);
             paint::text_in(ui, room, Align2::LEFT_CENTER, words, font, colour)
         };
-        let right = |to: f32, words: &str, colour| {
-            let room = between(row, to - 84.0, to);
+        let right = |end: f32, words: &str, colour| {
+            let room = segment(row, end - 84.0, end);
             paint::text_in(ui, room, Align2::RIGHT_CENTER, words, text::small(), colour)
         };
         left(NAME, WHERE, self.name, text::body_medium(), t.t1);
         left(WHERE, self.place_end, self.place, text::small(), t.t2);
         let (tone, words) = &self.state;
         let (mark, colour) = look(*tone, ui);
-        let at = between(row, STATE, WIDTH).left() + 6.0;
-        icons::paint(ui.painter(), paint::square(pos2(at, row.center().y), 12.0), mark, colour);
+        let position = segment(row, STATE, WIDTH).left() + 6.0;
+        icons::paint(
+            ui.painter(),
+            paint::square(pos2(position, row.center().y), 12.0),
+            mark,
+            colour,
+        );
         let colour = if *tone == Tone::Good { t.t1 } else { colour };
         left(STATE + 18.0, NEWEST - 84.0, words, text::small(), colour);
         if let Some(newest) = self.newest {
@@ -418,7 +428,7 @@ impl Cells<'_> {
         right(IN_USE, &format::number(self.in_use as f64, 0), colour);
         let colour = if self.is_due { t.sat } else { t.t2 };
         left(NEXT, ASK, self.next, text::small(), colour);
-        let words = row.with_max_x(between(row, 0.0, ASK).right());
+        let words = row.with_max_x(segment(row, 0.0, ASK).right());
         let response = ui.interact(words, ui.make_persistent_id(("source", salt)), Sense::hover());
         response.widget_info(|| egui::WidgetInfo::labeled(Role::Label, true, spoken));
         response

@@ -89,15 +89,15 @@ fn show_head(ui: &Ui, rect: Rect, rows: &[u32], unit: DistanceUnit, state: &mut 
     }
     for (column, place) in columns::places(rect) {
         let is_sorted = state.question.sort == column;
-        let what = columns::spoken(column);
+        let subject = columns::spoken(column);
         let words = columns::head(column, unit);
         let way = match (is_sorted, state.question.is_descending) {
             (true, false) => ", ascending",
             (true, true) => ", descending",
             (false, _) => "",
         };
-        let name = format!("Sort by {what}{way}");
-        let response = paint::control(ui, ("sort", what), place, Role::Button, true, &name);
+        let name = format!("Sort by {subject}{way}");
+        let response = paint::control(ui, ("sort", subject), place, Role::Button, true, &name);
         let (font, colour) = if is_sorted {
             (text::sized(11.0, Weight::SemiBold), t.t1)
         } else {
@@ -124,11 +124,11 @@ fn show_head(ui: &Ui, rect: Rect, rows: &[u32], unit: DistanceUnit, state: &mut 
     }
 }
 
-fn sort_mark(ui: &Ui, at: egui::Pos2, is_descending: bool) {
+fn sort_mark(ui: &Ui, position: egui::Pos2, is_descending: bool) {
     let t = theme::tokens(ui);
     let down = if is_descending { 2.0 } else { -2.0 };
     let ends = [vec2(-3.5, -down), vec2(0.0, down), vec2(3.5, -down)];
-    let points = ends.map(|by| at + by).to_vec();
+    let points = ends.map(|step| position + step).to_vec();
     ui.painter().line(points, Stroke::new(1.5, t.t1));
 }
 
@@ -184,8 +184,8 @@ impl Draws<'_> {
 
     fn mark(&self, ui: &Ui, rect: Rect, row: &Row<'_>, state: &mut ElementsState) {
         let number = row.elements.catalog_number();
-        let at = pos2(rect.left() + PADDING + BOX / 2.0, rect.center().y);
-        let place = paint::square(at, BOX);
+        let position = pos2(rect.left() + PADDING + BOX / 2.0, rect.center().y);
+        let place = paint::square(position, BOX);
         let is_marked = state.selection.is_marked(number);
         let response = ui.interact(
             place.expand(3.0),
@@ -225,17 +225,17 @@ impl Draws<'_> {
         let sense = if is_free { Sense::CLICK } else { Sense::hover() };
         let response = ui.interact(place, self.list.response.id.with(("star", number)), sense);
         response.widget_info(|| WidgetInfo::labeled(Role::Button, is_free, &name));
-        let at = paint::square(place.center() - vec2(2.0, 0.0), 15.0);
+        let rect = paint::square(place.center() - vec2(2.0, 0.0), 15.0);
         let (icon, colour) = match (priority, response.hovered() && is_free) {
             (Some(_), _) => (Icon::Star, t.sat),
             (None, true) => (Icon::OpenStar, t.t1),
             (None, false) => (Icon::OpenStar, t.t3),
         };
-        icons::paint(ui.painter(), at, icon, colour);
-        if let Some(priority) = priority.filter(|of| *of != Priority::default()) {
-            let at = pos2(at.right() + 1.0, place.center().y);
+        icons::paint(ui.painter(), rect, icon, colour);
+        if let Some(priority) = priority.filter(|level| *level != Priority::default()) {
+            let position = pos2(rect.right() + 1.0, place.center().y);
             let words = priority.number();
-            paint::text(ui, at, Align2::LEFT_CENTER, words, text::caption(), t.t1);
+            paint::text(ui, position, Align2::LEFT_CENTER, words, text::caption(), t.t1);
         }
         if response.on_hover_text(self.lock.unwrap_or(&name)).clicked() {
             favour(vec![number], priority.is_none(), commands);
@@ -254,8 +254,8 @@ fn cell(ui: &Ui, place: Rect, column: Column, row: &Row<'_>) {
             let (icon, colour) = words::age_look(tone, t);
             let drawn = paint::text_in(ui, place, anchor, &words, text::small(), colour);
             if let Some(icon) = icon {
-                let at = pos2(drawn.left() - 12.0, place.center().y);
-                icons::paint(ui.painter(), paint::square(at, 12.0), icon, colour);
+                let position = pos2(drawn.left() - 12.0, place.center().y);
+                icons::paint(ui.painter(), paint::square(position, 12.0), icon, colour);
             }
             return;
         }
@@ -271,8 +271,8 @@ fn cell(ui: &Ui, place: Rect, column: Column, row: &Row<'_>) {
             (text::small(), t.t1)
         }
         Column::From if row.is_older_set => {
-            let at = pos2(place.left() + 6.0, place.center().y);
-            icons::paint(ui.painter(), paint::square(at, 12.0), Icon::Warning, t.warn);
+            let position = pos2(place.left() + 6.0, place.center().y);
+            icons::paint(ui.painter(), paint::square(position, 12.0), Icon::Warning, t.warn);
             let room = place.with_min_x(place.left() + 17.0);
             paint::text_in(ui, room, anchor, &words, text::small(), t.warn);
             return;
@@ -286,8 +286,8 @@ fn cell(ui: &Ui, place: Rect, column: Column, row: &Row<'_>) {
 /// A bar that is full at 90 degrees.
 fn bar(ui: &Ui, place: Rect, degrees: f64) {
     let t = theme::tokens(ui);
-    let at = pos2(place.left(), place.center().y - 3.0);
-    let whole = Rect::from_min_size(at, vec2(columns::BAR, 6.0));
+    let position = pos2(place.left(), place.center().y - 3.0);
+    let whole = Rect::from_min_size(position, vec2(columns::BAR, 6.0));
     ui.painter().rect(whole, 1, t.bg0, Stroke::new(1.0, t.line), StrokeKind::Inside);
     let part = (degrees / 90.0).clamp(0.0, 1.0) as f32;
     let filled = whole.with_max_x(whole.left() + part * whole.width());

@@ -9,7 +9,7 @@ use crate::{
     contract::sources::{SourceWork, Sources},
     model::{
         DistanceUnit, Model,
-        catalog_table::{Among, NEXT_PASSES_H, Question},
+        catalog_table::{NEXT_PASSES_H, Question, Subset},
     },
     orbit::{
         Elements, FETCH_PAUSE, FetchProblem, Heights, RefreshHours, Source, SourcePlace,
@@ -21,7 +21,7 @@ use crate::{
         icons::Icon,
         replay,
         tokens::Tokens,
-        widgets::told::Tone,
+        widgets::status_line::Tone,
         words::{OLD_ELEMENTS_S, sentence},
     },
 };
@@ -75,7 +75,8 @@ pub(super) fn number(number: u32) -> String {
 /// Heights of apogee and perigee, without their unit.
 pub(super) fn heights(heights: Heights, unit: DistanceUnit) -> String {
     let Heights { apogee_km, perigee_km } = heights;
-    let [apogee, perigee] = [apogee_km, perigee_km].map(|of| format::distance_number(of, 0, unit));
+    let [apogee, perigee] =
+        [apogee_km, perigee_km].map(|distance_km| format::distance_number(distance_km, 0, unit));
     format!("{apogee} × {perigee}")
 }
 
@@ -127,13 +128,13 @@ pub(super) fn next_pass(next: Next, now: Timestamp) -> String {
 /// Returns the reason why the table is empty.
 pub(super) fn nothing_found(question: &Question, all: usize) -> String {
     let search = question.search.trim();
-    match (&question.among, search.is_empty()) {
-        (Among::Favourites, true) => {
+    match (&question.scope, search.is_empty()) {
+        (Subset::Favourites, true) => {
             "No favourites yet: click the star of a satellite, or press F.".to_owned()
         }
-        (Among::Old, true) => "No elements are older than 7 d.".to_owned(),
+        (Subset::Old, true) => "No elements are older than 7 d.".to_owned(),
         (_, true) => "There are no objects.".to_owned(),
-        (Among::All, false) => format!("No object matches \"{search}\"."),
+        (Subset::All, false) => format!("No object matches \"{search}\"."),
         (_, false) => {
             let all = objects(all);
             format!("No object matches \"{search}\" here. Choose All to search {all}.")
@@ -159,9 +160,9 @@ pub(super) fn state(
     let sentences = sentences(source, report, now);
     let grave = [Tone::Bad, Tone::Caution]
         .into_iter()
-        .find_map(|tone| sentences.iter().find(|(of, _)| *of == tone));
+        .find_map(|tone| sentences.iter().find(|(one_tone, _)| *one_tone == tone));
     let when = report.and_then(|report| report.as_of);
-    let when = when.map_or_else(String::new, |at| format::moment(at, now));
+    let when = when.map_or_else(String::new, |time| format::moment(time, now));
     match (grave, report) {
         (Some((tone, words)), _) => (*tone, words.trim_end_matches('.').to_owned()),
         (None, Some(report)) if report.refused() > 0 => {
@@ -200,8 +201,8 @@ pub(in crate::ui) fn sentences(
         })
         .collect();
     lines.extend(report.files.iter().filter_map(|file| {
-        let (why, place) = (file.merge.nothing?, file.path.display());
-        Some((Tone::Caution, format!("No elements: {why}: {place}.")))
+        let (nothing, place) = (file.merge.nothing?, file.path.display());
+        Some((Tone::Caution, format!("No elements: {nothing}: {place}.")))
     }));
     if report.objects() > 0 || lines.is_empty() {
         lines.insert(0, holdings(source, report, now));
@@ -219,7 +220,7 @@ pub(in crate::ui) fn sentences(
         lines.push((Tone::Bad, format!("{}{stays}", sentence(&problem.to_string()))));
         lines.extend(advice(problem).map(|words| (Tone::Plain, words.to_owned())));
     }
-    lines.extend(asked(report, now).map(|words| (Tone::Plain, words)));
+    lines.extend(requested(report, now).map(|words| (Tone::Plain, words)));
     lines
 }
 
@@ -293,7 +294,7 @@ fn holdings(source: &Source, report: &SourceReport, now: Timestamp) -> (Tone, St
 }
 
 /// Times of the last and the next permitted request to the server.
-fn asked(report: &SourceReport, now: Timestamp) -> Option<String> {
+fn requested(report: &SourceReport, now: Timestamp) -> Option<String> {
     let next = report.next_request(now)?;
     let last = next.checked_sub(FETCH_PAUSE).ok()?;
     let ago = format::age(seconds_between(last, now));
@@ -362,9 +363,9 @@ pub(super) fn refresh(hours: Option<RefreshHours>) -> String {
     }
 }
 
-fn until_minute(at: Timestamp, now: Timestamp) -> String {
-    let far = seconds_between(at, now).abs() >= DAY_S;
-    if far { format::day(at) } else { format::minute(at, now) }
+fn until_minute(time: Timestamp, now: Timestamp) -> String {
+    let far = seconds_between(time, now).abs() >= DAY_S;
+    if far { format::day(time) } else { format::minute(time, now) }
 }
 
 /// How elements are copied.

@@ -47,9 +47,11 @@ mod tests {
     #[test]
     fn a_distance_has_the_figure_of_its_unit() {
         use DistanceUnit::{Kilometres, Miles, NauticalMiles};
-        let said = [Kilometres, Miles, NauticalMiles].map(|of| distance(1852.0, 0, of));
-        assert_eq!(said, ["1852 km", "1151 mi", "1000 nmi"]);
-        let rates = [Kilometres, Miles, NauticalMiles].map(|of| range_rate(-7.0, of));
+        let texts = [Kilometres, Miles, NauticalMiles]
+            .map(|distance_unit| distance(1852.0, 0, distance_unit));
+        assert_eq!(texts, ["1852 km", "1151 mi", "1000 nmi"]);
+        let rates =
+            [Kilometres, Miles, NauticalMiles].map(|distance_unit| range_rate(-7.0, distance_unit));
         assert_eq!(rates, ["−7.00 km/s", "−4.35 mi/s", "−3.78 nmi/s"]);
         assert_eq!(speed(7.5, Miles), "4.66 mi/s");
     }

@@ -32,26 +32,26 @@ struct Age {
 }
 
 impl List {
-    pub(super) fn of(sheet: &HandOverSheet<'_>) -> Self {
-        let taken = sheet.entries().into_iter().map(|entry| entry.pass.satellite);
+    pub(super) fn new(sheet: &HandOverSheet<'_>) -> Self {
+        let listed_numbers = sheet.entries().into_iter().map(|entry| entry.pass.satellite);
         let left_out = sheet.left_out().into_iter().map(|left| left.pass.satellite);
-        let numbers: BTreeSet<u32> = taken.chain(left_out).collect();
+        let numbers: BTreeSet<u32> = listed_numbers.chain(left_out).collect();
         let own_s = sheet.station.scheduling.max_element_age_d.map(|days| days * DAY_S);
-        let most_s = own_s.map_or(OLD_ELEMENTS_S, |own_s| own_s.min(OLD_ELEMENTS_S));
-        let known = numbers.iter().filter_map(|number| sheet.satellites.get(number));
-        let mut ages: Vec<Age> = known
+        let max_s = own_s.map_or(OLD_ELEMENTS_S, |own_s| own_s.min(OLD_ELEMENTS_S));
+        let satellites = numbers.iter().filter_map(|number| sheet.satellites.get(number));
+        let mut ages: Vec<Age> = satellites
             .map(|(elements, _)| {
-                let seconds = elements.age_s(sheet.from);
-                Age { name: printable(&elements.label()), seconds, is_old: seconds.abs() > most_s }
+                let seconds = elements.age_s(sheet.start);
+                Age { name: printable(&elements.label()), seconds, is_old: seconds.abs() > max_s }
             })
             .collect();
         ages.sort_by(|a, b| b.seconds.total_cmp(&a.seconds).then_with(|| a.name.cmp(&b.name)));
         let old = ages.iter().filter(|age| age.is_old).count();
         let remark = format!(
             "At {}Z, oldest first. {old} of {} older than {} (bold, \u{d7})",
-            format::minute_of_day(sheet.from),
+            format::minute_of_day(sheet.start),
             ages.len(),
-            format::age(most_s),
+            format::age(max_s),
         );
         Self { remark, ages }
     }

@@ -47,9 +47,9 @@ pub(super) struct LaidOut<'a> {
 }
 
 impl Table {
-    pub(super) fn of(sheet: &HandOverSheet<'_>) -> Self {
+    pub(super) fn new(sheet: &HandOverSheet<'_>) -> Self {
         let entries = sheet.entries().into_iter();
-        let mut rows: Vec<Row> = entries.map(|entry| Row::of(sheet, entry)).collect();
+        let mut rows: Vec<Row> = entries.map(|entry| Row::new(sheet, entry)).collect();
         rows.sort_by_key(|row| row.sets_out);
         Self { rows }
     }
@@ -139,7 +139,7 @@ fn pass(row: &Row, is_dense: bool) -> Markup {
     let is_marked = is_dense && !row.shortened.is_empty();
     html! {
         li.pass {
-            (plot::thumbnail(&row.whole, &row.taken))
+            (plot::thumbnail(&row.whole, &row.part))
             div.line {
                 span.name { (row.name) }
                 span.priority { (row.priority) }

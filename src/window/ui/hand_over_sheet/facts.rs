@@ -31,14 +31,14 @@ impl<'a> HandOverSheet<'a> {
     /// The entries that are not over at the start of the sheet, in the order of execution.
     pub(super) fn entries(&self) -> Vec<&'a Entry> {
         let schedule: &'a _ = self.schedule;
-        let within = |entry: &&Entry| entry.end > self.from && entry.start < self.until;
-        schedule.entries.iter().filter(within).collect()
+        let is_shown = |entry: &&Entry| entry.end > self.start && entry.start < self.end;
+        schedule.entries.iter().filter(is_shown).collect()
     }
 
     pub(super) fn left_out(&self) -> Vec<&'a LeftOut> {
         let schedule: &'a _ = self.schedule;
-        let within = |left: &&LeftOut| left.pass.aos >= self.from && left.pass.aos < self.until;
-        schedule.left_out.iter().filter(within).collect()
+        let is_shown = |left: &&LeftOut| left.pass.aos >= self.start && left.pass.aos < self.end;
+        schedule.left_out.iter().filter(is_shown).collect()
     }
 
     /// The pass with this key; `None` where the elements are not known any more.
@@ -54,26 +54,26 @@ impl<'a> HandOverSheet<'a> {
     }
 
     /// Directions from one time to another, at equal intervals.
-    pub(super) fn track(&self, satellite: u32, from: Timestamp, to: Timestamp) -> Vec<AzEl> {
+    pub(super) fn track(&self, satellite: u32, start: Timestamp, end: Timestamp) -> Vec<AzEl> {
         let Some((_, propagator)) = self.satellites.get(&satellite) else { return Vec::new() };
-        let step_s = seconds_between(from, to) / f64::from(POINTS - 1);
-        let times = (0..POINTS).map(|point| add_seconds(from, f64::from(point) * step_s));
-        let looks = times.filter_map(|at| propagator.look_from(self.station.site, at).ok());
+        let step_s = seconds_between(start, end) / f64::from(POINTS - 1);
+        let times = (0..POINTS).map(|point| add_seconds(start, f64::from(point) * step_s));
+        let looks = times.filter_map(|time| propagator.look_from(self.station.site, time).ok());
         looks.map(|look| look.direction).collect()
     }
 
     /// The spans in which the Sun is down, as far as they are on the sheet.
     pub(super) fn nights(&self) -> Vec<[Timestamp; 2]> {
-        let steps = (seconds_between(self.from, self.until) / SUN_STEP_S).ceil() as u32;
+        let steps = (seconds_between(self.start, self.end) / SUN_STEP_S).ceil() as u32;
         let mut nights: Vec<[Timestamp; 2]> = Vec::new();
         let mut is_night = false;
         for step in 0..=steps {
-            let at = add_seconds(self.from, f64::from(step) * SUN_STEP_S).min(self.until);
+            let time = add_seconds(self.start, f64::from(step) * SUN_STEP_S).min(self.end);
             let was_night = is_night;
-            is_night = sun_moon::sun(self.station.site.airless(), at).elevation_deg() < 0.0;
+            is_night = sun_moon::sun(self.station.site.airless(), time).elevation_deg() < 0.0;
             match nights.last_mut().filter(|_| was_night) {
-                Some([_, end]) => *end = at,
-                None if is_night => nights.push([at, at]),
+                Some([_, end]) => *end = time,
+                None if is_night => nights.push([time, time]),
                 None => {}
             }
         }
@@ -84,8 +84,8 @@ impl<'a> HandOverSheet<'a> {
     /// replanned, on the antenna where that is least. `None` if no antenna can take it.
     pub(super) fn price(&self, left: &LeftOut) -> Option<Price<'a>> {
         let schedule: &'a _ = self.schedule;
-        let on = |(antenna, why): &(AntennaId, LeftOutReason)| {
-            let in_the_way = match why {
+        let on = |(antenna, reason): &(AntennaId, LeftOutReason)| {
+            let in_the_way = match reason {
                 LeftOutReason::Overlaps(conflict) | LeftOutReason::SlewTooShort(conflict) => {
                     let mut all = conflict.others.clone();
                     all.push(conflict.pass);
@@ -94,7 +94,8 @@ impl<'a> HandOverSheet<'a> {
                 LeftOutReason::NotFound => Vec::new(),
                 _ => return None,
             };
-            let is_given_up = |it: &&Entry| it.antenna == *antenna && in_the_way.contains(&it.pass);
+            let is_given_up =
+                |other: &&Entry| other.antenna == *antenna && in_the_way.contains(&other.pass);
             let entries = schedule.entries.iter().filter(is_given_up).collect();
             Some(Price { antenna: *antenna, entries })
         };

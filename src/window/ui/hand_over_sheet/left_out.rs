@@ -41,13 +41,13 @@ struct Group {
 }
 
 impl List {
-    pub(super) fn of(sheet: &HandOverSheet<'_>) -> Self {
+    pub(super) fn new(sheet: &HandOverSheet<'_>) -> Self {
         let passes = sheet.left_out();
         let mut groups: Vec<Group> = Vec::new();
         for left in &passes {
             let found = group(sheet, left);
-            let is_same = |it: &&mut Group| {
-                (&it.name, &it.reason, &it.price) == (&found.name, &found.reason, &found.price)
+            let is_same = |one: &&mut Group| {
+                (&one.name, &one.reason, &one.price) == (&found.name, &found.reason, &found.price)
             };
             match groups.iter_mut().find(is_same) {
                 Some(same) => {
@@ -57,7 +57,7 @@ impl List {
                 None => groups.push(found),
             }
         }
-        groups.sort_by_key(|it| (!it.is_conflict, it.priority, it.aos.first().copied()));
+        groups.sort_by_key(|one| (!one.is_conflict, one.priority, one.aos.first().copied()));
         Self { groups, passes: passes.len() }
     }
 
@@ -98,7 +98,7 @@ impl List {
 
 fn group(sheet: &HandOverSheet<'_>, left: &LeftOut) -> Group {
     let number = left.pass.satellite;
-    let reason = words::schedule::why(
+    let reason = words::schedule::left_out_reason(
         words::schedule::Names {
             pass: &|(number, _)| sheet.name(number),
             antenna: &|id| sheet.antenna(id),
@@ -154,7 +154,7 @@ impl Group {
         if let [one] = self.aos[..] {
             return format::second_of_day(one);
         }
-        let times = self.aos.iter().take(TIMES).map(|at| format::minute_of_day(*at));
+        let times = self.aos.iter().take(TIMES).map(|time| format::minute_of_day(*time));
         let mut times: Vec<String> = times.collect();
         let more = self.aos.len().saturating_sub(TIMES);
         times.extend((more > 0).then(|| format!("+{more}")));

@@ -12,19 +12,20 @@ use crate::{
 const ISS: u32 = 25_544;
 const HOSTILE: &str = "<&\"'>]]>\u{0}\u{1b}[2J\u{202e}\u{ffff} \u{1f6f0}漢字漢字 ";
 
-fn from() -> Timestamp {
+fn start() -> Timestamp {
     "2026-08-12T07:00:00Z".parse().unwrap()
 }
 
 fn hours(count: i64) -> Timestamp {
-    from() + SignedDuration::from_hours(count)
+    start() + SignedDuration::from_hours(count)
 }
 
 /// Elements and propagators of satellites in low orbits.
 fn satellites(catalog: &Catalog, count: usize) -> Vec<(Elements, Propagator)> {
-    let low = catalog.iter().filter(|it| (5_400.0..6_900.0).contains(&it.period_s()));
-    let known = low.filter_map(|it| Some((it.clone(), Propagator::new(it).ok()?)));
-    known.take(count).collect()
+    let low = catalog.iter().filter(|elements| (5_400.0..6_900.0).contains(&elements.period_s()));
+    let known_satellites =
+        low.filter_map(|elements| Some((elements.clone(), Propagator::new(elements).ok()?)));
+    known_satellites.take(count).collect()
 }
 
 /// A schedule that takes so many of the passes of a day and leaves out so many more, each for the
@@ -32,9 +33,9 @@ fn satellites(catalog: &Catalog, count: usize) -> Vec<(Elements, Propagator)> {
 fn schedule(
     station: &Station,
     satellites: &[(Elements, Propagator)],
-    (taken, left_out): (usize, usize),
+    (used, left_out): (usize, usize),
 ) -> Schedule {
-    let search = PassSearch::new(station.site, from(), hours(24));
+    let search = PassSearch::new(station.site, start(), hours(24));
     let mut found = Vec::new();
     for (elements, propagator) in satellites {
         let satellite = elements.catalog_number();
@@ -42,30 +43,30 @@ fn schedule(
         found.extend(own.map(|pass| (PassKey { satellite, aos: pass.aos.time }, pass)));
     }
     found.sort_by_key(|(key, _)| (key.aos, key.satellite));
-    assert!(found.len() >= taken + left_out, "{}", found.len());
+    assert!(found.len() >= used + left_out, "{}", found.len());
     let mut schedule = Schedule::default();
-    for (index, (pass, of)) in found.into_iter().take(taken + left_out).enumerate() {
+    for (index, (pass, own_pass)) in found.into_iter().take(used + left_out).enumerate() {
         let antenna = station.antennas[index % station.antennas.len()].id;
         let class = Class::Priority(Priority::default());
-        if schedule.entries.len() < taken {
+        if schedule.entries.len() < used {
             schedule.entries.push(Entry {
                 late_s: if index % 3 == 0 { 73.0 } else { 0.0 },
                 early_s: if index % 4 == 0 { 586.0 } else { 0.0 },
                 slew_s: 41.0,
                 set_up_s: 12.0,
                 spare_s: Some(if index % 5 == 0 { 12.0 } else { 45_296.0 }),
-                ..testing::entry(antenna, pass, of.los.time)
+                ..testing::entry(antenna, pass, own_pass.los.time)
             });
         } else {
-            let with = schedule.entries.last().map_or(pass, |entry| entry.pass);
-            let why = LeftOutReason::Overlaps(Conflict {
-                pass: with,
+            let pass_key = schedule.entries.last().map_or(pass, |entry| entry.pass);
+            let reason = LeftOutReason::Overlaps(Conflict {
+                pass: pass_key,
                 class,
                 missing_s: 482.0,
                 others: vec![],
             });
-            let by_antenna = vec![(antenna, why.clone())];
-            schedule.left_out.push(LeftOut { pass, reason: why, by_antenna });
+            let by_antenna = vec![(antenna, reason.clone())];
+            schedule.left_out.push(LeftOut { pass, reason, by_antenna });
         }
     }
     schedule
@@ -76,11 +77,11 @@ fn printed(
     schedule: &Schedule,
     satellites: &[(Elements, Propagator)],
 ) -> String {
-    let known = satellites
+    let known_satellites = satellites
         .iter()
         .map(|(elements, propagator)| (elements.catalog_number(), (elements, propagator)))
         .collect();
-    HandOverSheet::new(station, schedule, &known, (from(), hours(48)), from()).html()
+    HandOverSheet::new(station, schedule, &known_satellites, (start(), hours(48)), start()).html()
 }
 
 /// The sheet of the demo station with so many passes taken and left out.
@@ -97,14 +98,14 @@ fn dots(page: &str) -> usize {
 
 #[test]
 fn one_page_holds_any_number_of_passes_and_counts_the_rest() {
-    for taken in [0, 1, 20, 21, 45, 60, 100, 200] {
-        let page = sheet((taken, 30));
+    for used in [0, 1, 20, 21, 45, 60, 100, 200] {
+        let page = sheet((used, 30));
         let shown = dots(&page);
-        if shown < taken {
-            assert!(page.contains(&format!(">and {} more in the list<", taken - shown)), "{taken}");
+        if shown < used {
+            assert!(page.contains(&format!(">and {} more in the list<", used - shown)), "{used}");
         }
-        assert!(shown == taken || shown >= 60, "{shown} of {taken}");
-        assert!(page.contains(">Handed over by<") && page.contains(">30 passes, "), "{taken}");
+        assert!(shown == used || shown >= 60, "{shown} of {used}");
+        assert!(page.contains(">Handed over by<") && page.contains(">30 passes, "), "{used}");
     }
 }
 
@@ -114,18 +115,19 @@ fn the_price_of_a_pass_is_what_the_antenna_that_gives_up_least_has_to_drop() {
     let satellites = satellites(&bundled().unwrap(), 10);
     let mut schedule = schedule(&station, &satellites, (3, 1));
     let class = |number| Class::Priority(Priority::try_from(number).unwrap());
-    let said = |schedule: &Schedule| {
+    let first_line = |schedule: &Schedule| {
         let page = printed(&station, schedule, &satellites);
         let mut texts = page.split(['<', '>']);
         texts.find(|text| text.contains(" on ")).map(str::to_owned).unwrap_or_default()
     };
-    let name = |of: &Entry| {
-        let own = satellites.iter().find(|it| it.0.catalog_number() == of.pass.satellite).unwrap();
-        format!("{} {}", own.0.label(), format::minute_of_day(of.pass.aos))
+    let name = |other: &Entry| {
+        let own =
+            satellites.iter().find(|set| set.0.catalog_number() == other.pass.satellite).unwrap();
+        format!("{} {}", own.0.label(), format::minute_of_day(other.pass.aos))
     };
-    let against = |entry: &Entry| {
-        let (with, class) = (entry.pass, entry.class);
-        let conflict = Conflict { pass: with, class, missing_s: 482.0, others: vec![] };
+    let overlap = |entry: &Entry| {
+        let (key, class) = (entry.pass, entry.class);
+        let conflict = Conflict { pass: key, class, missing_s: 482.0, others: vec![] };
         (entry.antenna, LeftOutReason::Overlaps(conflict))
     };
     // The lowest priority, then the shortest.
@@ -134,18 +136,18 @@ fn the_price_of_a_pass_is_what_the_antenna_that_gives_up_least_has_to_drop() {
         entry.counted_s = 100.0 * f64::from(entry.antenna.0);
     }
     let antennas = [0, 1, 2].map(|index: usize| station.antennas[index].name.clone());
-    schedule.left_out[0].by_antenna = schedule.entries.iter().map(against).collect();
+    schedule.left_out[0].by_antenna = schedule.entries.iter().map(overlap).collect();
     let [_, second, _] = &schedule.entries[..] else { panic!("three entries") };
-    assert_eq!(said(&schedule), format!("{} on {}", name(second), antennas[1]));
+    assert_eq!(first_line(&schedule), format!("{} on {}", name(second), antennas[1]));
 
     schedule.left_out[0].by_antenna[2].1 = LeftOutReason::NotFound;
-    assert_eq!(said(&schedule), format!("Nothing on {}", antennas[2]));
+    assert_eq!(first_line(&schedule), format!("Nothing on {}", antennas[2]));
 
     schedule.left_out[0].by_antenna.truncate(1);
-    assert_eq!(said(&schedule), format!("{} on {}", name(&schedule.entries[0]), antennas[0]));
+    assert_eq!(first_line(&schedule), format!("{} on {}", name(&schedule.entries[0]), antennas[0]));
 
     schedule.left_out[0].by_antenna.clear();
-    assert_eq!(said(&schedule), "");
+    assert_eq!(first_line(&schedule), "");
 }
 
 #[test]

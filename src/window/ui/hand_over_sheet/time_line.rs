@@ -35,8 +35,8 @@ impl HandOverSheet<'_> {
         let antennas = &self.station.antennas;
         let more = antennas.len().saturating_sub(LANES);
         let background = html! {
-            @for [from, to] in self.nights() {
-                (plot::filled("shade", [self.x(from), 0.0], [self.x(to) - self.x(from), HEIGHT]))
+            @for [start, end] in self.nights() {
+                (plot::filled("shade", [self.x(start), 0.0], [self.x(end) - self.x(start), HEIGHT]))
             }
             @for hour in self.hours() {
                 (plot::filled("filled", [self.x(hour), 0.0], [0.6, HEIGHT]))
@@ -48,14 +48,14 @@ impl HandOverSheet<'_> {
                     span { (printable(&antenna.name)) }
                     svg viewBox=(format!("0 0 {WIDTH} {HEIGHT}")) preserveAspectRatio="none" {
                         (background)
-                        @for entry in self.entries().into_iter().filter(|it| it.antenna == antenna.id) {
+                        @for entry in self.entries().into_iter().filter(|entry| entry.antenna == antenna.id) {
                             @let go_at = sets_out(entry, antenna.automatic.between_passes);
                             @let busy_s = entry.slew_s + entry.set_up_s;
                             @let moves_from = go_at.max(add_seconds(entry.start, -busy_s));
-                            @let [before, from, to] =
-                                [moves_from, entry.start, entry.end].map(|at| self.x(at));
-                            (plot::filled("filled", [before, 4.4], [from - before, 1.2]))
-                            (plot::filled("filled", [from, 2.5], [(to - from).max(1.0), 5.0]))
+                            @let [departure, start, end] =
+                                [moves_from, entry.start, entry.end].map(|time| self.x(time));
+                            (plot::filled("filled", [departure, 4.4], [start - departure, 1.2]))
+                            (plot::filled("filled", [start, 2.5], [(end - start).max(1.0), 5.0]))
                         }
                     }
                 }
@@ -76,13 +76,13 @@ impl HandOverSheet<'_> {
     }
 
     /// The place of a time that is within the sheet, or of the nearer end of it.
-    fn x(&self, at: Timestamp) -> f64 {
-        self.axis().x_within(at).into()
+    fn x(&self, time: Timestamp) -> f64 {
+        self.axis().x_within(time).into()
     }
 
     fn axis(&self) -> TimeAxis {
         let x = Rangef::new(0.0, WIDTH as f32);
-        TimeAxis::lasting(self.from, seconds_between(self.from, self.until), x)
+        TimeAxis::lasting(self.start, seconds_between(self.start, self.end), x)
     }
 
     /// Full hours within the sheet.

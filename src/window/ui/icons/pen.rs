@@ -27,7 +27,7 @@ impl<'a> Pen<'a> {
         Self { painter, origin, scale: side / GRID, colour }
     }
 
-    fn at(&self, (x, y): (f32, f32)) -> Pos2 {
+    fn point(&self, (x, y): (f32, f32)) -> Pos2 {
         self.origin + vec2(x, y) * self.scale
     }
 
@@ -45,7 +45,7 @@ impl<'a> Pen<'a> {
         let width = self.width(width);
         for pair in points.windows(2) {
             if let [a, b] = pair {
-                let ends = [self.at(*a), self.at(*b)];
+                let ends = [self.point(*a), self.point(*b)];
                 self.painter.line_segment(ends, Stroke::new(width, self.colour));
             }
         }
@@ -54,30 +54,30 @@ impl<'a> Pen<'a> {
             return;
         }
         for point in points {
-            self.painter.circle_filled(self.at(*point), width / 2.0, self.colour);
+            self.painter.circle_filled(self.point(*point), width / 2.0, self.colour);
         }
     }
 
     /// Draws a closed outline.
     pub(super) fn outline(&self, points: &[(f32, f32)]) {
-        let points = points.iter().map(|point| self.at(*point)).collect();
+        let points = points.iter().map(|point| self.point(*point)).collect();
         self.painter.add(Shape::closed_line(points, Stroke::new(self.width(STROKE), self.colour)));
     }
 
     /// Draws a ring.
     pub(super) fn ring(&self, centre: (f32, f32), radius: f32) {
         let stroke = Stroke::new(self.width(STROKE), self.colour);
-        self.painter.circle_stroke(self.at(centre), radius * self.scale, stroke);
+        self.painter.circle_stroke(self.point(centre), radius * self.scale, stroke);
     }
 
     /// Draws a filled disc.
     pub(super) fn disc(&self, centre: (f32, f32), radius: f32) {
-        self.painter.circle_filled(self.at(centre), radius * self.scale, self.colour);
+        self.painter.circle_filled(self.point(centre), radius * self.scale, self.colour);
     }
 
     /// Draws a filled convex shape.
     pub(super) fn filled(&self, points: &[(f32, f32)]) {
-        let points = points.iter().map(|point| self.at(*point)).collect();
+        let points = points.iter().map(|point| self.point(*point)).collect();
         self.painter.add(Shape::convex_polygon(points, self.colour, Stroke::NONE));
     }
 
@@ -86,7 +86,7 @@ impl<'a> Pen<'a> {
     pub(super) fn arc(&self, centre: (f32, f32), radius: f32, from_deg: f32, to_deg: f32) {
         let stroke = Stroke::new(self.width(STROKE), self.colour);
         let points = arc_points(centre, radius, from_deg, to_deg);
-        let points: Vec<Pos2> = points.into_iter().map(|point| self.at(point)).collect();
+        let points: Vec<Pos2> = points.into_iter().map(|point| self.point(point)).collect();
         self.painter.add(Shape::line(points, stroke));
     }
 }

@@ -13,7 +13,7 @@ use crate::{
     },
     model::{
         Model, UiCommand, View,
-        globe::Towards,
+        globe::MapDirection,
         replay::{ReplayCommand, Replayed},
         typed_path::OpenedFile,
     },
@@ -47,7 +47,7 @@ pub(super) enum Act {
     Zoom(isize),
     UsualZoom,
     /// Selects the next satellite on that side of the map.
-    Nearest(Towards),
+    Nearest(MapDirection),
     /// Zooms the map in, or out.
     MapZoom(bool),
     WholeMap,
@@ -104,7 +104,9 @@ impl Act {
                 !matches!(model.view, View::Antennas | View::Map | View::Plan | View::Setup)
             }
             Self::RefreshElements => model.sources.is_free(),
-            Self::Offset(key) => model.antenna().is_some_and(|of| key.offsets(of).is_some()),
+            Self::Offset(key) => {
+                model.antenna().is_some_and(|antenna| key.offsets(antenna).is_some())
+            }
             _ => true,
         }
     }
@@ -146,22 +148,25 @@ impl Act {
             Self::Manual => manual(model, targets, commands),
             Self::Offset(key) => {
                 let step = targets.operate.card.offsets.step;
-                let asked = model.antenna().and_then(|of| Some((of.id(), key.change(of, step)?)));
+                let request = model.antenna().and_then(|model_antenna| {
+                    Some((model_antenna.id(), key.change(model_antenna, step)?))
+                });
                 commands.extend(
-                    asked.map(|(id, change)| {
+                    request.map(|(id, change)| {
                         UiCommand::antenna(id, driver::Command::Offset(change))
                     }),
                 );
             }
-            Self::Rate(by) if targets.operate.sky_time.has_focus => {
-                targets.operate.sky_time.step(model, f64::from(by) * LONG_STEP_S);
+            Self::Rate(amount) if targets.operate.sky_time.has_focus => {
+                targets.operate.sky_time.step(model, f64::from(amount) * LONG_STEP_S);
             }
-            Self::Rate(by) => {
-                let manual = |of: &&AntennaModel| of.snapshot.intent == Intent::Manual;
+            Self::Rate(amount) => {
+                let manual =
+                    |model_antenna: &&AntennaModel| model_antenna.snapshot.intent == Intent::Manual;
                 if let Some(antenna) = model.antenna().filter(manual) {
                     let speeds = antenna.variant().capabilities.jog;
                     let max_deg_s = antenna.config.limits.maximum_rate_deg_s;
-                    targets.operate.card.drive.change_rate(by, speeds, max_deg_s);
+                    targets.operate.card.drive.change_rate(amount, speeds, max_deg_s);
                 }
             }
             Self::SkyOfNow => targets.operate.sky_time.return_to_now(),
@@ -171,17 +176,17 @@ impl Act {
             Self::Zoom(closer) => targets.operate.zoom.change(closer),
             Self::UsualZoom if targets.operate.sky.has_focus => targets.operate.sky.zoom.reset(),
             Self::UsualZoom => targets.operate.zoom.reset(),
-            Self::Nearest(towards) => {
+            Self::Nearest(direction) => {
                 ui.memory_mut(|memory| memory.move_focus(FocusDirection::None));
-                let nearest = targets.map.nearest(model, towards);
+                let nearest = targets.map.nearest(model, direction);
                 commands.extend(nearest.map(UiCommand::SelectSatellite));
             }
             Self::MapZoom(is_closer) => targets.map.change_zoom(is_closer),
             Self::WholeMap => targets.map.reset_zoom(),
             Self::MapLayers => targets.map.toggle_layers(),
-            Self::PlannedPass(by) => {
+            Self::PlannedPass(amount) => {
                 ui.memory_mut(|memory| memory.move_focus(FocusDirection::None));
-                let neighbour = targets.plan.neighbour(model, by);
+                let neighbour = targets.plan.neighbour(model, amount);
                 commands.extend(neighbour.map(UiCommand::SelectPass));
             }
             Self::ChoosePass(take) => targets.plan.choose(model, take, commands),
@@ -202,8 +207,8 @@ impl Act {
             Self::ChooseElements => commands.push(UiCommand::ChooseFile(OpenedFile::Elements)),
             Self::RefreshElements => commands.push(elements::refresh_due(model)),
             Self::Acknowledge => {
-                let seen = model.alarms.newest_unseen().map(contract::Command::AcknowledgeAlarm);
-                commands.extend(seen.map(UiCommand::Station));
+                let command = model.alarms.newest_unseen().map(contract::Command::AcknowledgeAlarm);
+                commands.extend(command.map(UiCommand::Station));
             }
             Self::NextTheme => commands.push(UiCommand::SetTheme(theme::name(ui).next())),
             Self::List => *targets.list_open = true,
@@ -231,13 +236,13 @@ pub(super) enum ReplayKey {
 
 impl ReplayKey {
     fn command(self, model: &Model) -> Option<UiCommand> {
-        let Replayed { at, stretch, .. } = model.replay.as_ref()?;
+        let Replayed { time, stretch, .. } = model.replay.as_ref()?;
         Some(UiCommand::Replay(match self {
             Self::Play => ReplayCommand::PlayOrPause,
             Self::Event { is_next } => ReplayCommand::Event { is_next },
-            Self::By(seconds) => ReplayCommand::To(add_seconds(*at, seconds)),
-            Self::To { end: false } => ReplayCommand::To(stretch.from),
-            Self::To { end: true } => ReplayCommand::To(stretch.until),
+            Self::By(seconds) => ReplayCommand::To(add_seconds(*time, seconds)),
+            Self::To { end: false } => ReplayCommand::To(stretch.start),
+            Self::To { end: true } => ReplayCommand::To(stretch.end),
             Self::Leave => return Some(UiCommand::LeaveReplay),
         }))
     }
@@ -301,7 +306,11 @@ fn manual(model: &Model, targets: &mut KeyTargets<'_>, commands: &mut Vec<UiComm
 /// Focuses the go-to fields. They are open in Position only, which is selected first if
 /// another mode is on.
 fn go_to(model: &Model, targets: &mut KeyTargets<'_>, commands: &mut Vec<UiCommand>) {
-    let Some(antenna) = model.antenna().filter(|of| of.snapshot.link.is_open()) else { return };
+    let Some(antenna) =
+        model.antenna().filter(|model_antenna| model_antenna.snapshot.link.is_open())
+    else {
+        return;
+    };
     let is_tracked = antenna.tracked_name().is_some();
     let intent = antenna.snapshot.intent;
     if is_tracked || matches!(intent, Intent::Standby | Intent::Track) {

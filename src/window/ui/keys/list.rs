@@ -26,11 +26,11 @@ const DOWN: f32 = 24.0;
 
 /// Distance of a list of this width to the left of the middle of the window, so that the antenna
 /// cards of Operate stay free; 0 in a window that has no room for both.
-fn aside(window: f32, width: f32) -> f32 {
+fn side_margin(window: f32, width: f32) -> f32 {
     let room = (window - width) / 2.0;
     let cards = antenna_card::WIDTH * (1 + operate::side_cards(window)) as f32;
-    let aside = (cards + GAP - room).max(0.0);
-    if aside <= room { aside } else { 0.0 }
+    let margin = (cards + GAP - room).max(0.0);
+    if margin <= room { margin } else { 0.0 }
 }
 
 /// Shows the list until Esc, `?`, a click outside or its button closes it.
@@ -41,9 +41,9 @@ pub fn show(ui: &Ui, open: &mut bool) {
     let again =
         |ui: &Ui| ui.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Questionmark));
     let window = ui.ctx().content_rect().width();
-    let aside = aside(window, WIDTH + 2.0 * BORDER);
+    let margin = side_margin(window, WIDTH + 2.0 * BORDER);
     let area = Modal::default_area(Id::unique(ID));
-    let area = area.anchor(Align2::CENTER_CENTER, vec2(-aside, DOWN));
+    let area = area.anchor(Align2::CENTER_CENTER, vec2(-margin, DOWN));
     let modal = modal(ui, ID).area(area).show(ui.ctx(), |ui| {
         let t = theme::tokens(ui);
         ui.spacing_mut().item_spacing.y = 0.0;
@@ -56,15 +56,15 @@ pub fn show(ui: &Ui, open: &mut bool) {
         let rows: Vec<_> = ALL.iter().map(|binding| (binding, does(ui, binding))).collect();
         let height_of = |does: &Galley| (does.size().y + 6.0).max(ROW);
         let whole: f32 = rows.iter().map(|(_, does)| height_of(does)).sum();
-        let mut at = head.left_bottom();
-        let mut lowest = at.y;
+        let mut position = head.left_bottom();
+        let mut lowest = position.y;
         let mut is_second = false;
         for (index, (binding, does)) in rows.into_iter().enumerate() {
-            if !is_second && at.y - head.bottom() >= whole / 2.0 {
+            if !is_second && position.y - head.bottom() >= whole / 2.0 {
                 is_second = true;
-                at = pos2(head.left() + COLUMN + GAP, head.bottom());
+                position = pos2(head.left() + COLUMN + GAP, head.bottom());
             }
-            let row = Rect::from_min_size(at, vec2(COLUMN, height_of(&does)));
+            let row = Rect::from_min_size(position, vec2(COLUMN, height_of(&does)));
             ui.painter().hline(row.x_range(), row.top(), (1.0, t.line));
             let (keys, rest) = row.split_left_right_at_x(row.left() + KEYS);
             let words = in_words(binding);
@@ -78,8 +78,8 @@ pub fn show(ui: &Ui, open: &mut bool) {
                 row,
                 &format!("{words}: {}", binding.does_where()),
             );
-            at.y = row.bottom();
-            lowest = lowest.max(at.y);
+            position.y = row.bottom();
+            lowest = lowest.max(position.y);
         }
         ui.allocate_exact_size(vec2(WIDTH, lowest - head.bottom()), Sense::hover());
         closed
@@ -110,12 +110,12 @@ pub fn in_words(binding: &Binding) -> String {
         return if before.is_empty() { "Arrows".to_owned() } else { format!("{before}arrows") };
     }
     // A comma is a key too.
-    let between = if words.contains(&",") { "   " } else { ", " };
+    let separator = if words.contains(&",") { "   " } else { ", " };
     let runs = words.chunk_by(|one, next| follows(one, next)).flat_map(|run| match run {
         [first, _, .., last] => vec![format!("{first} to {last}")],
         few => few.iter().map(|word| (*word).to_owned()).collect(),
     });
-    format!("{before}{}", runs.collect::<Vec<_>>().join(between))
+    format!("{before}{}", runs.collect::<Vec<_>>().join(separator))
 }
 
 /// Returns `true` if two keys with numbers are next to each other, such as F1 and F2.
@@ -158,7 +158,7 @@ mod tests {
     fn keys_in_a_row_are_named_by_the_first_and_the_last() {
         let all: Vec<String> = ALL.iter().map(in_words).collect();
         for words in ["Ctrl 1 to 8", "F1 to F4", "Space, F, 1 to 5, U", "Up, Down", "T, K"] {
-            assert!(all.iter().any(|of| of == words), "{words}: {all:?}");
+            assert!(all.iter().any(|name| name == words), "{words}: {all:?}");
         }
     }
 }

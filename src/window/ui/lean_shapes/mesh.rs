@@ -17,11 +17,11 @@ pub(super) fn plain(rects: &[Rect], colour: Color32) -> Shape {
 }
 
 /// A line of a pixel or less, which fades over a pixel on both sides.
-pub(super) fn thin_line(from: Pos2, to: Pos2, stroke: Stroke, scale: f32) -> Shape {
-    let side = (to - from).normalized().rot90() / scale;
+pub(super) fn thin_line(start: Pos2, last: Pos2, stroke: Stroke, scale: f32) -> Shape {
+    let side = (last - start).normalized().rot90() / scale;
     let colour = stroke.color.gamma_multiply(stroke.width * scale);
     let mut mesh = Mesh::default();
-    for end in [from, to] {
+    for end in [start, last] {
         mesh.colored_vertex(end - side, Color32::TRANSPARENT);
         mesh.colored_vertex(end, colour);
         mesh.colored_vertex(end + side, Color32::TRANSPARENT);
@@ -37,7 +37,7 @@ pub(super) fn soft(outline: &[Pos2], colour: Color32, scale: f32) -> Shape {
     let half_px = 0.5 / scale;
     let mut mesh = Mesh::default();
     loops(&mut mesh, outline, &[(-half_px, colour), (half_px, Color32::TRANSPARENT)]);
-    inside(&mut mesh, 2, 0, outline.len().saturating_sub(1));
+    fill_inside(&mut mesh, 2, 0, outline.len().saturating_sub(1));
     Shape::mesh(mesh)
 }
 
@@ -67,7 +67,7 @@ pub(super) fn circle(centre: Pos2, radius: f32, scale: f32) -> Vec<Pos2> {
 
 /// The outline of a rectangle with rounded corners, clockwise.
 pub(super) fn rounded(rect: Rect, radius: CornerRadiusF32) -> Vec<Pos2> {
-    let most = rect.size().min_elem() / 2.0;
+    let max = rect.size().min_elem() / 2.0;
     let corners = [
         (rect.left_top(), pos2(1.0, 1.0), radius.nw, 2.0),
         (rect.right_top(), pos2(-1.0, 1.0), radius.ne, 3.0),
@@ -76,7 +76,7 @@ pub(super) fn rounded(rect: Rect, radius: CornerRadiusF32) -> Vec<Pos2> {
     ];
     let mut outline = Vec::with_capacity(24);
     for (corner, inwards, radius, quarter) in corners {
-        let radius = radius.min(most);
+        let radius = radius.min(max);
         if radius < 0.5 {
             outline.push(corner);
             continue;
@@ -123,13 +123,13 @@ fn quad(mesh: &mut Mesh, a: u32, b: u32, c: u32, d: u32) {
 /// Fills between the innermost vertices from `first` to `last`, of which there
 /// is one in `width` vertices: the largest triangle in the middle, then both
 /// sides in the same way.
-fn inside(mesh: &mut Mesh, width: usize, first: usize, last: usize) {
+fn fill_inside(mesh: &mut Mesh, width: usize, first: usize, last: usize) {
     let middle = usize::midpoint(first, last);
     if middle == first {
         return;
     }
     let [a, b, c] = [first, middle, last].map(|corner| (corner * width) as u32);
     mesh.add_triangle(a, b, c);
-    inside(mesh, width, first, middle);
-    inside(mesh, width, middle, last);
+    fill_inside(mesh, width, first, middle);
+    fill_inside(mesh, width, middle, last);
 }

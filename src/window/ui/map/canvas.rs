@@ -19,7 +19,7 @@ use crate::{
 /// Share of the fill of the selected footprint.
 const FILL: f32 = 0.6;
 /// Distance of names from the numbers of the grid, points.
-const BESIDE: f32 = 3.0;
+const MARGIN: f32 = 3.0;
 
 /// Draws the map of the whole world into `rect`, of which `visible` is not covered.
 pub(super) fn show(
@@ -40,10 +40,10 @@ pub(super) fn show(
     let visible = visible.intersect(world);
     ui.shrink_clip_rect(visible);
     let canvas = nodes::canvas(ui, world, model, state);
-    let projection = Projection::of(world, state.zoom);
+    let projection = Projection::new(world, state.zoom);
     paint_map(ui, &projection, visible, model, shown, state, t);
     nodes::marks(&paint::marks_of(ui, &canvas), canvas.id, &projection, model, shown, commands, t);
-    if let Some(place) = canvas.hover_pos().and_then(|at| projection.place(at)) {
+    if let Some(place) = canvas.hover_pos().and_then(|position| projection.place(position)) {
         pointed_at(ui, visible, place, t);
     }
     if canvas.has_focus() {
@@ -64,39 +64,39 @@ fn paint_map(
     let painter = ui.painter();
     let (layers, world) = (state.layers, projection.world);
     ground::paint(painter, *projection, &model.globe, layers, &mut state.land, t);
-    let selected = shown.iter().find(|of| of.is_selected);
-    let others = || shown.iter().filter(|of| !of.is_selected);
+    let selected = shown.iter().find(|satellite| satellite.is_selected);
+    let others = || shown.iter().filter(|satellite| !satellite.is_selected);
     if layers.other_tracks {
-        for of in others() {
-            tracks::paint_other(painter, projection, of, model.now, t);
+        for satellite in others() {
+            tracks::paint_other(painter, projection, satellite, model.now, t);
         }
     }
     let station = model.station.site.point();
     if layers.footprints {
-        for of in others() {
-            outline(ui, projection, &of.footprint, 1.0, ground::edge(of.is_up, t));
+        for satellite in others() {
+            outline(ui, projection, &satellite.footprint, 1.0, ground::edge(satellite.is_up, t));
         }
-        if let Some(of) = selected {
-            let fill = caps::fill(projection, &of.footprint, t.bgsel.gamma_multiply(FILL));
+        if let Some(satellite) = selected {
+            let fill = caps::fill(projection, &satellite.footprint, t.bgsel.gamma_multiply(FILL));
             painter.add(Shape::mesh(fill));
-            outline(ui, projection, &of.footprint, 1.5, t.sat);
-            let rises = Cap { centre: station, radius: of.footprint.radius };
+            outline(ui, projection, &satellite.footprint, 1.5, t.sat);
+            let rises = Cap { centre: station, radius: satellite.footprint.radius };
             for line in caps::outline(projection, &rises) {
                 painter.extend(dashed(&line, 3.0, 3.0, Stroke::new(1.25, t.ok)));
             }
         }
     }
     let laid_out = selected.filter(|_| layers.tracks);
-    let laid_out = laid_out.map(|of| tracks::tracks(projection, of, model.now));
+    let laid_out = laid_out.map(|satellite| tracks::tracks(projection, satellite, model.now));
     if let Some(tracks) = &laid_out {
         tracks::paint(painter, tracks, t);
     }
     let before = std::mem::take(&mut state.labels);
     let mut labels = Labels::new(painter, t, None, visible.shrink(4.0), before);
     if let Some(subsolar) = model.globe.subsolar.filter(|_| layers.terminator) {
-        let at = projection.point(subsolar);
-        marks::sun(painter, at, t);
-        labels.reserve(paint::square(at, 22.0));
+        let position = projection.point(subsolar);
+        marks::sun(painter, position, t);
+        labels.reserve(paint::square(position, 22.0));
     }
     if let Some(tracks) = &laid_out {
         labels::reserve(&mut labels, world, &tracks.flown, 6.0);
@@ -105,7 +105,7 @@ fn paint_map(
     if layers.grid {
         let marks: Vec<Rect> = marks(projection, model, shown).collect();
         for number in grid::numbers(painter, *projection, &marks, t) {
-            labels.keep_off(number.expand(BESIDE));
+            labels.keep_off(number.expand(MARGIN));
         }
     }
     marks(projection, model, shown).for_each(|mark| labels.reserve(mark));
@@ -113,12 +113,12 @@ fn paint_map(
     state.labels = labels.finish();
 
     ground::station(painter, projection.point(station), t);
-    for of in others() {
-        let stands = of.satellite.elements.is_geosynchronous();
-        marks::other(painter, projection.point(of.below.point), stands, t);
+    for satellite in others() {
+        let stands = satellite.satellite.elements.is_geosynchronous();
+        marks::other(painter, projection.point(satellite.below.point), stands, t);
     }
-    if let Some(of) = selected {
-        marks::selected(painter, projection.point(of.below.point), t);
+    if let Some(satellite) = selected {
+        marks::selected(painter, projection.point(satellite.below.point), t);
     }
 }
 
@@ -129,7 +129,8 @@ fn marks<'a>(
     shown: &'a [&GlobeSatellite],
 ) -> impl Iterator<Item = Rect> + 'a {
     let home = paint::square(projection.point(model.station.site.point()), 16.0);
-    let satellites = shown.iter().map(|of| paint::square(projection.point(of.below.point), 8.0));
+    let satellites =
+        shown.iter().map(|satellite| paint::square(projection.point(satellite.below.point), 8.0));
     satellites.chain([home])
 }
 

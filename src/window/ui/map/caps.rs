@@ -14,7 +14,7 @@ pub(super) fn fill(projection: &Projection, cap: &Cap, colour: Color32) -> Mesh 
         for row in cap.rows() {
             let first = mesh.vertices.len() as u32;
             for (longitude, latitude) in ends(centre_deg, &row) {
-                mesh.colored_vertex(projection.at(longitude + turn, latitude), colour);
+                mesh.colored_vertex(projection.point_at(longitude + turn, latitude), colour);
             }
             if let Some(above) = above {
                 mesh.add_triangle(above, above + 1, first);
@@ -53,8 +53,8 @@ pub(super) fn outline(projection: &Projection, cap: &Cap) -> Vec<Vec<Pos2>> {
 
 /// The west and the east end of a row as longitude, which goes on, and latitude.
 fn ends(centre_deg: f32, row: &CapRow) -> [(f32, f32); 2] {
-    let (aside, latitude) = (row.half_width.degrees() as f32, row.latitude.degrees() as f32);
-    [(centre_deg - aside, latitude), (centre_deg + aside, latitude)]
+    let (half_width, latitude) = (row.half_width.degrees() as f32, row.latitude.degrees() as f32);
+    [(centre_deg - half_width, latitude), (centre_deg + half_width, latitude)]
 }
 
 #[cfg(test)]
@@ -74,15 +74,16 @@ mod tests {
     }
 
     fn projection() -> Projection {
-        Projection::of(WORLD, Zoom::default())
+        Projection::new(WORLD, Zoom::default())
     }
 
     /// The area of the mesh within the world, square points.
-    fn holds(mesh: &Mesh, at: Pos2) -> bool {
+    fn holds(mesh: &Mesh, position: Pos2) -> bool {
         mesh.indices.as_chunks::<3>().0.iter().any(|corners| {
             let [a, b, c] = corners.map(|corner| mesh.vertices[corner as usize].pos);
-            let side = |from: Pos2, to: Pos2| {
-                (to.x - from.x) * (at.y - from.y) - (to.y - from.y) * (at.x - from.x)
+            let side = |start: Pos2, end: Pos2| {
+                (end.x - start.x) * (position.y - start.y)
+                    - (end.y - start.y) * (position.x - start.x)
             };
             let sides = [side(a, b), side(b, c), side(c, a)];
             sides.iter().all(|side| *side >= 0.0) || sides.iter().all(|side| *side <= 0.0)
@@ -100,10 +101,10 @@ mod tests {
                 for longitude in (-179..180).step_by(7) {
                     let place =
                         GroundPoint::from_degrees(f64::from(latitude), f64::from(longitude));
-                    let off = (cap.centre.distance(place) - cap.radius).degrees();
-                    if off.abs() > 1.0 {
-                        let at = projection().point(place);
-                        assert_eq!(holds(&mesh, at), off < 0.0, "{cap:?} {place:?}");
+                    let deviation = (cap.centre.distance(place) - cap.radius).degrees();
+                    if deviation.abs() > 1.0 {
+                        let position = projection().point(place);
+                        assert_eq!(holds(&mesh, position), deviation < 0.0, "{cap:?} {place:?}");
                     }
                 }
             }

@@ -16,25 +16,26 @@ const COUNT: usize = 7;
 pub(super) const HEIGHT: f32 = COUNT as f32 * LINE;
 
 /// Draws the lines into `rect`.
-pub(super) fn show(ui: &Ui, rect: Rect, model: &Model, of: &GlobeSatellite) {
+pub(super) fn show(ui: &Ui, rect: Rect, model: &Model, satellite: &GlobeSatellite) {
     let t = theme::tokens(ui);
-    for (index, (name, value)) in facts(model, of).into_iter().enumerate() {
+    for (index, (name, value)) in facts(model, satellite).into_iter().enumerate() {
         let min = pos2(rect.left() + PADDING, rect.top() + index as f32 * LINE);
         let line = Rect::from_min_size(min, vec2(rect.width() - 2.0 * PADDING, LINE));
         paint::fact_in(ui, ("fact", index), line, name, &value, t.t1);
     }
 }
 
-fn facts(model: &Model, of: &GlobeSatellite) -> [(&'static str, String); COUNT] {
-    let direction = of.look.direction;
+fn facts(model: &Model, satellite: &GlobeSatellite) -> [(&'static str, String); COUNT] {
+    let direction = satellite.look.direction;
     let elevation = words::elevation(model.globe.aos_elevation);
     let unit = model.appearance.distances;
     let distance = |km| format::distance(km, 0, unit);
-    let (height, speed) = (distance(of.below.height_km), format::speed(of.speed_km_s, unit));
-    let radius = distance(of.footprint.radius_km());
-    let minutes = format::number(of.satellite.elements.period_s() / 60.0, 1);
+    let (height, speed) =
+        (distance(satellite.below.height_km), format::speed(satellite.speed_km_s, unit));
+    let radius = distance(satellite.footprint.radius_km());
+    let minutes = format::number(satellite.satellite.elements.period_s() / 60.0, 1);
     [
-        ("Sub-satellite point", words::place(of.below.point)),
+        ("Sub-satellite point", words::place(satellite.below.point)),
         ("Height, speed", format!("{height}, {speed}")),
         ("Footprint radius", format!("{radius} at {elevation}")),
         (
@@ -43,11 +44,11 @@ fn facts(model: &Model, of: &GlobeSatellite) -> [(&'static str, String); COUNT] 
                 "az {}, el {}, {}",
                 format::degrees(direction.azimuth_deg(), 1),
                 format::degrees(direction.elevation_deg(), 1),
-                distance(of.look.range_km),
+                distance(satellite.look.range_km),
             ),
         ),
-        ("Heading", words::goes(of.heading).to_owned()),
+        ("Heading", words::goes(satellite.heading).to_owned()),
         ("Period", format!("{minutes} min")),
-        ("Light", words::light(of.is_sunlit).to_owned()),
+        ("Light", words::light(satellite.is_sunlit).to_owned()),
     ]
 }

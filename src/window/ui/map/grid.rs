@@ -23,7 +23,7 @@ fn parallels(projection: Projection) -> impl Iterator<Item = (i32, f32)> {
     (1 - count..count)
         .map(move |index| index * step)
         .filter(move |latitude| latitudes.contains(&(*latitude as f32)))
-        .map(move |latitude| (latitude, projection.at(0.0, latitude as f32).y))
+        .map(move |latitude| (latitude, projection.point_at(0.0, latitude as f32).y))
 }
 
 /// The meridians of the map, of any turn, with their places.
@@ -32,16 +32,16 @@ fn meridians(projection: Projection) -> impl Iterator<Item = (i32, f32)> {
     let [west, east] = projection.longitudes().map(|longitude| longitude / step as f32);
     (west.ceil() as i32..=east.floor() as i32)
         .map(move |index| index * step)
-        .map(move |longitude| (longitude, projection.at(longitude as f32, 0.0).x))
+        .map(move |longitude| (longitude, projection.point_at(longitude as f32, 0.0).x))
 }
 
 /// The lines as dots, the equator whole. A mesh, which is kept.
 pub(super) fn lines(projection: Projection, colour: Color32) -> Mesh {
     let world = projection.world;
     let mut mesh = Mesh::default();
-    let dot = |mesh: &mut Mesh, at: Pos2| {
-        let at = pos2(at.x.floor() + 0.5, at.y.floor() + 0.5);
-        mesh.add_colored_rect(Rect::from_center_size(at, Vec2::splat(1.0)), colour);
+    let dot = |mesh: &mut Mesh, position: Pos2| {
+        let position = pos2(position.x.floor() + 0.5, position.y.floor() + 0.5);
+        mesh.add_colored_rect(Rect::from_center_size(position, Vec2::splat(1.0)), colour);
     };
     for (latitude, y) in parallels(projection) {
         if latitude == 0 {
@@ -72,9 +72,9 @@ pub(super) fn numbers(
 ) -> Vec<Rect> {
     let world = projection.world;
     let mut boxes = Vec::new();
-    let mut number = |at: Pos2, anchor: Align2, words: String| {
+    let mut number = |position: Pos2, anchor: Align2, words: String| {
         let galley = painter.layout_no_wrap(words, text::caption(), t.t3);
-        let place = anchor.anchor_size(at, galley.size());
+        let place = anchor.anchor_size(position, galley.size());
         let ground = place.expand2(vec2(3.0, 0.0));
         if world.contains_rect(ground) && !marks.iter().any(|mark| mark.intersects(ground)) {
             painter.rect_filled(ground, 0.0, t.sky);

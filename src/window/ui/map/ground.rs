@@ -21,11 +21,11 @@ pub(super) fn paint(
     projection: Projection,
     globe: &Globe,
     layers: MapLayers,
-    kept: &mut Option<Land>,
+    land: &mut Option<Land>,
     t: &Tokens,
 ) {
     painter.rect_filled(projection.world, 0.0, t.sky);
-    land::paint(painter, projection, layers.grid, kept, t);
+    land::paint(painter, projection, layers.grid, land, t);
     if layers.terminator
         && let Some(night) = &globe.night
     {
@@ -43,8 +43,9 @@ pub(super) fn terminator(painter: &Painter, line: &[Pos2], t: &Tokens) {
 }
 
 /// The station: an open triangle.
-pub(super) fn station(painter: &Painter, at: Pos2, t: &Tokens) {
-    let corners = vec![at + vec2(0.0, -7.0), at + vec2(6.5, 5.0), at + vec2(-6.5, 5.0)];
+pub(super) fn station(painter: &Painter, position: Pos2, t: &Tokens) {
+    let corners =
+        vec![position + vec2(0.0, -7.0), position + vec2(6.5, 5.0), position + vec2(-6.5, 5.0)];
     for stroke in [Stroke::new(4.0, t.sky), Stroke::new(1.75, t.t1)] {
         painter.add(Shape::closed_line(corners.clone(), stroke));
     }

@@ -32,16 +32,16 @@ const GAP: f32 = 8.0;
 /// Draws the panel.
 pub(super) fn show(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand>) {
     inspector::show_ground(ui, rect);
-    let Some(of) = model.globe.selected() else {
+    let Some(satellite) = model.globe.selected() else {
         let words = "Click a satellite on the map or in the table.";
         return inspector::show_nothing(ui, rect, "No satellite selected", words);
     };
     // The selected pass may be over.
-    let predicted = model.selected_pass().or_else(|| model.pass_of(of.number()));
+    let predicted = model.selected_pass().or_else(|| model.pass_of(satellite.number()));
     let Parts { head, body, foot } = Parts::new(rect, FOOT);
-    show_head(ui, head, model, of, predicted);
+    show_head(ui, head, model, satellite, predicted);
     inspector::show_body(ui, body, "map", |ui| {
-        parts(ui, body.width(), model, of, predicted, commands);
+        parts(ui, body.width(), model, satellite, predicted, commands);
     });
     buttons(ui, foot, commands);
 }
@@ -50,37 +50,37 @@ fn show_head(
     ui: &Ui,
     rect: Rect,
     model: &Model,
-    of: &GlobeSatellite,
+    satellite: &GlobeSatellite,
     predicted: Option<&PredictedPass>,
 ) {
     let (event, countdown) =
-        predicted.map_or(("", "no pass".to_owned()), |predicted| until(predicted, model));
-    let age = format::age(of.satellite.elements.age_s(model.now));
-    let detail = format!("{}, elements {age} old", of.number());
-    let name = of.satellite.short_name();
+        predicted.map_or(("", "no pass".to_owned()), |predicted| end_of_pass(predicted, model));
+    let age = format::age(satellite.satellite.elements.age_s(model.now));
+    let detail = format!("{}, elements {age} old", satellite.number());
+    let name = satellite.satellite.short_name();
     let head = Head { name, detail: &detail, event, countdown: &countdown, indent: 0.0 };
     inspector::show_head(ui, rect, "map", head);
 }
 
 /// The next event of a pass and the time until then.
-fn until(predicted: &PredictedPass, model: &Model) -> (&'static str, String) {
+fn end_of_pass(predicted: &PredictedPass, model: &Model) -> (&'static str, String) {
     let pass = &predicted.pass;
     if predicted.is_always_up() {
         return ("", "always up".to_owned());
     }
-    let (event, at) = if predicted.in_progress(model.now) {
+    let (event, time) = if predicted.in_progress(model.now) {
         ("LOS", pass.los.time)
     } else {
         ("AOS", pass.aos.time)
     };
-    (event, format::countdown(model.now, at))
+    (event, format::countdown(model.now, time))
 }
 
 fn parts(
     ui: &mut Ui,
     width: f32,
     model: &Model,
-    of: &GlobeSatellite,
+    satellite: &GlobeSatellite,
     predicted: Option<&PredictedPass>,
     commands: &mut Vec<UiCommand>,
 ) {
@@ -88,28 +88,30 @@ fn parts(
     let place = |ui: &mut Ui, height: f32| inspector::place(ui, width, height);
     if let Some(predicted) = predicted {
         let plot = place(ui, PLOT);
-        let look = model.sky.selected.map_or(of.look, |selected| selected.look);
+        let look = model.sky.selected.map_or(satellite.look, |selected| selected.look);
         small_sky::show(ui, plot, model, predicted, Some(look));
     }
     let lines = place(ui, facts::HEIGHT + GAP);
-    facts::show(ui, lines, model, of);
+    facts::show(ui, lines, model, satellite);
     ui.painter().hline(lines.x_range(), lines.bottom() - 0.5, (1.0, t.line));
-    if let Some(antenna) = speaker(model, of) {
+    if let Some(antenna) = speaker(model, satellite) {
         let room = ui.available_rect_before_wrap();
-        let at = pos2(room.left() + PADDING, room.top() + GAP);
+        let position = pos2(room.left() + PADDING, room.top() + GAP);
         let name = &antenna.config.name;
         let font = text::sized(13.0, Weight::SemiBold);
-        let head = paint::text(ui, at, Align2::LEFT_TOP, name, font, t.t1);
-        let at = pos2(at.x, head.bottom() + GAP / 2.0);
+        let head = paint::text(ui, position, Align2::LEFT_TOP, name, font, t.t1);
+        let position = pos2(position.x, head.bottom() + GAP / 2.0);
         let spoken = state_sentence(model, antenna);
-        let block = spoken.with(|words| sentence::show_short(ui, at, width - 2.0 * PADDING, words));
+        let block = spoken.with_sentence(|words| {
+            sentence::show_short(ui, position, width - 2.0 * PADDING, words)
+        });
         place(ui, block.bottom() - room.top() + GAP);
     }
     let upcoming = Upcoming {
         title: &format!("Next at {}", model.station.name),
         remark: "",
-        passes: &later_passes(model, of.number()),
-        empty: words::no_later_pass(of, model),
+        passes: &later_passes(model, satellite.number()),
+        empty: words::no_later_pass(satellite, model),
     };
     let list = place(ui, upcoming.height());
     if let Some(pass) = upcoming.show(ui, list, model) {
@@ -130,8 +132,8 @@ pub(super) fn later_passes(model: &Model, number: u32) -> Vec<&PredictedPass> {
 }
 
 /// The antenna whose sentence is shown: that which tracks the satellite, else the selected one.
-fn speaker<'a>(model: &'a Model, of: &GlobeSatellite) -> Option<&'a AntennaModel> {
-    let tracks = |antenna: &&AntennaModel| antenna.tracked_number() == Some(of.number());
+fn speaker<'a>(model: &'a Model, satellite: &GlobeSatellite) -> Option<&'a AntennaModel> {
+    let tracks = |antenna: &&AntennaModel| antenna.tracked_number() == Some(satellite.number());
     model.antennas.iter().find(tracks).or_else(|| model.antenna())
 }
 
@@ -140,13 +142,13 @@ fn buttons(ui: &Ui, rect: Rect, commands: &mut Vec<UiCommand>) {
     ui.painter().rect_filled(rect.with_min_x(rect.left() + 1.0), 0.0, t.bg1);
     let inner = rect.shrink2(vec2(PADDING, 0.0));
     let width = (inner.width() - GAP) / 2.0;
-    let at = |left: f32| Rect::from_min_size(pos2(left, rect.top() + 12.0), vec2(width, BUTTON));
+    let area = |left: f32| Rect::from_min_size(pos2(left, rect.top() + 12.0), vec2(width, BUTTON));
     let plot = Button::normal("Open on sky plot").icon(Icon::CrossHair);
-    if plot.show(ui, "open on sky plot", at(inner.left())).clicked() {
+    if plot.show(ui, "open on sky plot", area(inner.left())).clicked() {
         commands.push(UiCommand::Show(View::Operate));
     }
     let elements = Button::normal("Elements").icon(Icon::Orbit);
-    if elements.show(ui, "map elements", at(inner.right() - width)).clicked() {
+    if elements.show(ui, "map elements", area(inner.right() - width)).clicked() {
         commands.push(UiCommand::Show(View::Elements));
     }
 }

@@ -28,8 +28,8 @@ const TOLERANCE: f32 = 0.4;
 /// Keeps labels away from a line, as far as it is on the map.
 pub(super) fn reserve(labels: &mut Labels<'_>, world: Rect, lines: &[Vec<Pos2>], width: f32) {
     for pair in lines.iter().flat_map(|line| line.windows(2)) {
-        let &[from, to] = pair else { continue };
-        if world.intersects(Rect::from_two_pos(from, to).expand(width)) {
+        let &[start, end] = pair else { continue };
+        if world.intersects(Rect::from_two_pos(start, end).expand(width)) {
             labels.reserve_path(pair, width);
         }
     }
@@ -47,13 +47,13 @@ pub(super) fn add(
     t: &Tokens,
 ) {
     let (selected, others): (Vec<&GlobeSatellite>, Vec<_>) =
-        shown.iter().copied().partition(|of| of.is_selected);
+        shown.iter().copied().partition(|satellite| satellite.is_selected);
     let home = projection.point(model.station.site.point());
-    for of in selected {
-        let name = of.satellite.short_name();
+    for satellite in selected {
+        let name = satellite.satellite.short_name();
         let lines = [(name, text::sized(13.0, Weight::SemiBold), t.sat)];
-        let mark = projection.point(of.below.point);
-        add_one(labels, Key::Selected(of.number()), &lines, mark, 10.0, ALWAYS);
+        let mark = projection.point(satellite.below.point);
+        add_one(labels, Key::Selected(satellite.number()), &lines, mark, 10.0, ALWAYS);
     }
     let lines = [(model.station.name.as_str(), text::small_strong(), t.t1)];
     if labels.bounds().expand(EDGE).contains(home) {
@@ -77,12 +77,12 @@ pub(super) fn add(
         let time = format::minute_in_plot(tick.time, model.now);
         let lines = [(time.as_str(), text::caption(), t.sat)];
         let key = Key::Minute(tick.time.as_second() / 60);
-        add_one(labels, key, &lines, tick.at, 7.0, TOLERANCE);
+        add_one(labels, key, &lines, tick.position, 7.0, TOLERANCE);
     }
-    for of in others.iter().filter(|_| has_names) {
-        let lines = [(of.satellite.short_name(), text::small(), t.t2)];
-        let mark = projection.point(of.below.point);
-        add_one(labels, Key::Other(of.number()), &lines, mark, 6.0, TOLERANCE);
+    for satellite in others.iter().filter(|_| has_names) {
+        let lines = [(satellite.satellite.short_name(), text::small(), t.t2)];
+        let mark = projection.point(satellite.below.point);
+        add_one(labels, Key::Other(satellite.number()), &lines, mark, 6.0, TOLERANCE);
     }
 }
 

@@ -82,12 +82,12 @@ pub(super) fn paint(
     painter: &Painter,
     projection: Projection,
     has_grid: bool,
-    kept: &mut Option<Land>,
+    stored: &mut Option<Land>,
     t: &Tokens,
 ) {
     let pixels_per_point = painter.pixels_per_point();
     let made_of = MadeOf { projection, pixels_per_point, colours: [t.mask, t.hatch, t.grid] };
-    let land = match kept.take() {
+    let land = match stored.take() {
         Some(land) if land.made_of == made_of => land,
         _ => Land::new(made_of),
     };
@@ -96,7 +96,7 @@ pub(super) fn paint(
     if has_grid {
         painter.add(Shape::Mesh(Arc::clone(&land.grid)));
     }
-    *kept = Some(land);
+    *stored = Some(land);
 }
 
 impl Land {
@@ -118,7 +118,7 @@ fn filled(outlines: &Outlines, projection: Projection, colour: Color32) -> Mesh 
     for turn in projection.turns(-180.0, 191.0) {
         let first = mesh.vertices.len() as u32;
         for (longitude, latitude) in outlines.points() {
-            mesh.colored_vertex(projection.at(longitude + turn, latitude), colour);
+            mesh.colored_vertex(projection.point_at(longitude + turn, latitude), colour);
         }
         for [a, b, c] in &outlines.triangles {
             mesh.add_triangle(first + a, first + b, first + c);
@@ -148,14 +148,14 @@ mod tests {
 
     fn is_land(latitude_deg: f32, longitude_deg: f32) -> bool {
         let points: Vec<(f32, f32)> = OUTLINES.points().collect();
-        let at = |corner: u32| points[corner as usize];
+        let point = |corner: u32| points[corner as usize];
         [-360.0, 0.0, 360.0].iter().any(|turn| {
             let here = (longitude_deg + turn, latitude_deg);
             OUTLINES.triangles.iter().any(|[a, b, c]| {
                 let side = |(x, y): (f32, f32), (u, v): (f32, f32)| {
                     (u - x) * (here.1 - y) - (v - y) * (here.0 - x)
                 };
-                let [a, b, c] = [at(*a), at(*b), at(*c)];
+                let [a, b, c] = [point(*a), point(*b), point(*c)];
                 let sides = [side(a, b), side(b, c), side(c, a)];
                 sides.iter().all(|side| *side > 0.0) || sides.iter().all(|side| *side < 0.0)
             })

@@ -40,10 +40,10 @@ pub(super) fn show(ui: &Ui, rect: Rect, model: &Model, layers: MapLayers) {
         if left + width > rect.right() {
             return;
         }
-        let at = pos2(left + SAMPLE / 2.0, rect.center().y);
-        sample(ui.painter(), at, t);
-        let at = pos2(left + SAMPLE + GAP, rect.center().y);
-        paint::text(ui, at, Align2::LEFT_CENTER, words, text::small(), t.t2);
+        let position = pos2(left + SAMPLE / 2.0, rect.center().y);
+        sample(ui.painter(), position, t);
+        let position = pos2(left + SAMPLE + GAP, rect.center().y);
+        paint::text(ui, position, Align2::LEFT_CENTER, words, text::small(), t.t2);
         left += width + STEP;
     }
 }
@@ -61,9 +61,9 @@ fn entries(
     if layers.footprints {
         let elevation = words::elevation(model.globe.aos_elevation);
         entries.push((footprint, format!("footprint at {elevation}")));
-        if let Some(of) = selected {
+        if let Some(satellite) = selected {
             let unit = model.appearance.distances;
-            let height = format::distance(of.below.height_km, 0, unit);
+            let height = format::distance(satellite.below.height_km, 0, unit);
             let name = &model.station.name;
             entries.push((rises, format!("{name} sees a satellite at {height} height")));
         }
@@ -74,26 +74,26 @@ fn entries(
     entries
 }
 
-fn line(at: Pos2) -> [Pos2; 2] {
-    [at - vec2(SAMPLE / 2.0, 0.0), at + vec2(SAMPLE / 2.0, 0.0)]
+fn line(position: Pos2) -> [Pos2; 2] {
+    [position - vec2(SAMPLE / 2.0, 0.0), position + vec2(SAMPLE / 2.0, 0.0)]
 }
 
-fn flown(painter: &Painter, at: Pos2, t: &Tokens) {
-    painter.line_segment(line(at), Stroke::new(2.0, t.sat));
+fn flown(painter: &Painter, position: Pos2, t: &Tokens) {
+    painter.line_segment(line(position), Stroke::new(2.0, t.sat));
 }
 
-fn ahead(painter: &Painter, at: Pos2, t: &Tokens) {
-    painter.extend(dashed(&line(at), 6.5, 3.0, Stroke::new(2.0, t.sat)));
+fn ahead(painter: &Painter, position: Pos2, t: &Tokens) {
+    painter.extend(dashed(&line(position), 6.5, 3.0, Stroke::new(2.0, t.sat)));
 }
 
-fn footprint(painter: &Painter, at: Pos2, t: &Tokens) {
-    painter.circle_stroke(at, 6.0, Stroke::new(1.0, t.t2));
+fn footprint(painter: &Painter, position: Pos2, t: &Tokens) {
+    painter.circle_stroke(position, 6.0, Stroke::new(1.0, t.t2));
 }
 
-fn rises(painter: &Painter, at: Pos2, t: &Tokens) {
-    painter.extend(dashed(&circle(at, 6.0), 3.0, 3.0, Stroke::new(1.25, t.ok)));
+fn rises(painter: &Painter, position: Pos2, t: &Tokens) {
+    painter.extend(dashed(&circle(position, 6.0), 3.0, 3.0, Stroke::new(1.25, t.ok)));
 }
 
-fn terminator(painter: &Painter, at: Pos2, t: &Tokens) {
-    ground::terminator(painter, &line(at), t);
+fn terminator(painter: &Painter, position: Pos2, t: &Tokens) {
+    ground::terminator(painter, &line(position), t);
 }

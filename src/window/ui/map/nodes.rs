@@ -21,10 +21,10 @@ pub(super) fn canvas(ui: &Ui, world: Rect, model: &Model, state: &mut MapState) 
     if response.dragged() {
         state.zoom.drag(response.drag_delta(), world);
     }
-    if let Some(at) = response.hover_pos() {
+    if let Some(position) = response.hover_pos() {
         let points = ui.input(|input| input.smooth_scroll_delta().y);
         if points != 0.0 {
-            state.zoom.turn(points, at, world);
+            state.zoom.turn(points, position, world);
         }
     }
     response
@@ -41,56 +41,64 @@ pub(super) fn marks(
     t: &Tokens,
 ) {
     let station = model.station.site.point();
-    let at = projection.point(station);
-    if projection.world.contains(at) {
+    let position = projection.point(station);
+    if projection.world.contains(position) {
         // Small, so that satellites around it keep the pointer.
-        let place = Rect::from_center_size(at, Vec2::splat(2.0));
+        let place = Rect::from_center_size(position, Vec2::splat(2.0));
         let response = ui.interact(place, canvas.with("station"), Sense::hover());
         let name = format!("Station {}, {}", model.station.name, words::place(station));
         response.widget_info(|| WidgetInfo::labeled(Role::Label, true, &name));
     }
     // The selected satellite comes last, so that it takes the pointer where two overlap.
     let (selected, others): (Vec<&GlobeSatellite>, Vec<_>) =
-        shown.iter().copied().partition(|of| of.is_selected);
-    for of in others.into_iter().chain(selected) {
-        let at = projection.point(of.below.point);
-        if !projection.world.contains(at) {
+        shown.iter().copied().partition(|object| object.is_selected);
+    for object in others.into_iter().chain(selected) {
+        let position = projection.point(object.below.point);
+        if !projection.world.contains(position) {
             continue;
         }
-        satellite(ui, canvas, at, of, model, commands, t);
+        satellite(ui, canvas, position, object, model, commands, t);
     }
 }
 
 fn satellite(
     ui: &Ui,
     canvas: Id,
-    at: Pos2,
-    of: &GlobeSatellite,
+    position: Pos2,
+    object: &GlobeSatellite,
     model: &Model,
     commands: &mut Vec<UiCommand>,
     t: &Tokens,
 ) {
-    let place = Rect::from_center_size(at, Vec2::splat(TARGET));
-    let response = ui.interact(place, canvas.with(("satellite", of.number())), Sense::click());
-    let name =
-        format!("{} on the map, {}", of.satellite.short_name(), words::place(of.below.point));
-    response.widget_info(|| WidgetInfo::selected(Role::ListBoxOption, true, of.is_selected, &name));
-    ui.accesskit_node_builder(response.id, |node| node.set_selected(of.is_selected));
+    let place = Rect::from_center_size(position, Vec2::splat(TARGET));
+    let response = ui.interact(place, canvas.with(("satellite", object.number())), Sense::click());
+    let name = format!(
+        "{} on the map, {}",
+        object.satellite.short_name(),
+        words::place(object.below.point)
+    );
+    response
+        .widget_info(|| WidgetInfo::selected(Role::ListBoxOption, true, object.is_selected, &name));
+    ui.accesskit_node_builder(response.id, |node| node.set_selected(object.is_selected));
     if response.has_focus() {
-        ui.painter().circle_stroke(at, TARGET / 2.0 + 2.0, Stroke::new(2.0, t.sat));
+        ui.painter().circle_stroke(position, TARGET / 2.0 + 2.0, Stroke::new(2.0, t.sat));
     }
-    chosen(&response, of, commands);
+    chosen(&response, object, commands);
     // The arrows lead on from here rather than from node to node.
     if response.clicked() && ui.input(|input| input.pointer.any_released()) {
         response.surrender_focus();
     }
-    response.on_hover_text(words::tip(of, model));
+    response.on_hover_text(words::tip(object, model));
 }
 
 /// Takes a click on a satellite, which selects it, and a double click, which opens the sky plot.
-pub(super) fn chosen(response: &Response, of: &GlobeSatellite, commands: &mut Vec<UiCommand>) {
+pub(super) fn chosen(
+    response: &Response,
+    satellite: &GlobeSatellite,
+    commands: &mut Vec<UiCommand>,
+) {
     if response.clicked() {
-        commands.push(UiCommand::SelectSatellite(of.number()));
+        commands.push(UiCommand::SelectSatellite(satellite.number()));
     }
     if response.double_clicked() {
         commands.push(UiCommand::Show(View::Operate));

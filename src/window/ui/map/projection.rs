@@ -31,8 +31,8 @@ impl Zoom {
         self.keep_inside();
     }
 
-    /// Takes a turn of the wheel over the point `at` of the map, which keeps its place.
-    pub(super) fn turn(&mut self, points: f32, at: Pos2, world: Rect) {
+    /// Takes a turn of the wheel over the point `position` of the map, which keeps its place.
+    pub(super) fn turn(&mut self, points: f32, position: Pos2, world: Rect) {
         /// Points of the wheel for a step.
         const STEP: f32 = 40.0;
         self.wheel = if self.wheel * points < 0.0 { points } else { self.wheel + points };
@@ -41,27 +41,27 @@ impl Zoom {
         }
         let is_closer = self.wheel > 0.0;
         self.wheel = 0.0;
-        let before = Projection::of(world, *self).degrees(at);
+        let before = Projection::new(world, *self).degrees(position);
         self.step(is_closer);
-        let after = Projection::of(world, *self).degrees(at);
+        let after = Projection::new(world, *self).degrees(position);
         self.middle_deg.0 += before.0 - after.0;
         self.middle_deg.1 += before.1 - after.1;
         self.keep_inside();
     }
 
     /// Moves the map by so many points.
-    pub(super) fn drag(&mut self, by: Vec2, world: Rect) {
-        let scale = Projection::of(world, *self).scale;
-        self.middle_deg.0 -= by.x / scale;
-        self.middle_deg.1 += by.y / scale;
+    pub(super) fn drag(&mut self, step: Vec2, world: Rect) {
+        let scale = Projection::new(world, *self).scale;
+        self.middle_deg.0 -= step.x / scale;
+        self.middle_deg.1 += step.y / scale;
         self.keep_inside();
     }
 
     fn keep_inside(&mut self) {
-        let most = 90.0 - 90.0 / self.factor();
+        let max = 90.0 - 90.0 / self.factor();
         let (longitude, latitude) = self.middle_deg;
         self.middle_deg =
-            ((longitude + 180.0).rem_euclid(360.0) - 180.0, latitude.clamp(-most, most));
+            ((longitude + 180.0).rem_euclid(360.0) - 180.0, latitude.clamp(-max, max));
     }
 }
 
@@ -76,13 +76,13 @@ pub(super) struct Projection {
 }
 
 impl Projection {
-    pub(super) fn of(world: Rect, zoom: Zoom) -> Self {
+    pub(super) fn new(world: Rect, zoom: Zoom) -> Self {
         let scale = world.width() / 360.0 * zoom.factor();
         Self { world, scale, middle_deg: zoom.middle_deg }
     }
 
     /// The point of a longitude, of any turn, and a latitude.
-    pub(super) fn at(&self, longitude_deg: f32, latitude_deg: f32) -> Pos2 {
+    pub(super) fn point_at(&self, longitude_deg: f32, latitude_deg: f32) -> Pos2 {
         let (longitude, latitude) = self.middle_deg;
         let centre = self.world.center();
         pos2(
@@ -94,21 +94,21 @@ impl Projection {
     /// The point of a place, on the turn that is nearest to the middle.
     pub(super) fn point(&self, place: GroundPoint) -> Pos2 {
         let middle = Angle::from_degrees(f64::from(self.middle_deg.0));
-        let aside = (place.longitude - middle).wrapped_180() + middle;
-        self.at(aside.degrees() as f32, place.latitude.degrees() as f32)
+        let longitude = (place.longitude - middle).wrapped_180() + middle;
+        self.point_at(longitude.degrees() as f32, place.latitude.degrees() as f32)
     }
 
     /// Longitude, of any turn, and latitude of a point.
-    fn degrees(&self, at: Pos2) -> (f32, f32) {
-        let from_centre = (at - self.world.center()) / self.scale;
+    fn degrees(&self, position: Pos2) -> (f32, f32) {
+        let from_centre = (position - self.world.center()) / self.scale;
         (self.middle_deg.0 + from_centre.x, self.middle_deg.1 - from_centre.y)
     }
 
     /// The place at a point of the map.
-    pub(super) fn place(&self, at: Pos2) -> Option<GroundPoint> {
-        let (longitude, latitude) = self.degrees(at);
+    pub(super) fn place(&self, position: Pos2) -> Option<GroundPoint> {
+        let (longitude, latitude) = self.degrees(position);
         self.world
-            .contains(at)
+            .contains(position)
             .then(|| GroundPoint::from_degrees(f64::from(latitude), f64::from(longitude)))
     }
 
@@ -156,7 +156,9 @@ impl Projection {
             return Vec::new();
         }
         let on_turn = |turn: f32| {
-            line.iter().map(|(longitude, latitude)| self.at(longitude + turn, *latitude)).collect()
+            line.iter()
+                .map(|(longitude, latitude)| self.point_at(longitude + turn, *latitude))
+                .collect()
         };
         self.turns(low, high).map(on_turn).collect()
     }
@@ -180,7 +182,7 @@ mod tests {
 
     #[test]
     fn the_world_fills_the_map() {
-        let whole = Projection::of(WORLD, Zoom::default());
+        let whole = Projection::new(WORLD, Zoom::default());
         assert!(whole.point(place(90.0, -180.0)).distance(WORLD.left_top()) < 1e-3);
         assert!(whole.point(place(0.0, 0.0)).distance(WORLD.center()) < 1e-3);
         assert!(whole.point(place(-90.0, 179.999)).distance(WORLD.right_bottom()) < 0.01);
@@ -191,7 +193,7 @@ mod tests {
 
     #[test]
     fn a_line_across_the_date_line_leaves_at_one_edge_and_comes_in_at_the_other() {
-        let whole = Projection::of(WORLD, Zoom::default());
+        let whole = Projection::new(WORLD, Zoom::default());
         let lines = whole.lines(&[place(0.0, 170.0), place(10.0, -170.0)]);
         assert_eq!(lines.len(), 2);
         for line in &lines {
@@ -202,23 +204,24 @@ mod tests {
         assert_eq!(whole.lines(&[place(0.0, 10.0), place(0.0, 20.0)]).len(), 1);
         assert_eq!(whole.lines(&[]).len(), 0);
         // Twice around the world.
-        let around: Vec<_> = (0..=72).map(|step| place(0.0, f64::from(step) * 10.0)).collect();
-        assert_eq!(whole.lines(&around).len(), 3);
+        let ground_points: Vec<_> =
+            (0..=72).map(|step| place(0.0, f64::from(step) * 10.0)).collect();
+        assert_eq!(whole.lines(&ground_points).len(), 3);
     }
 
     #[test]
     fn the_wheel_keeps_the_place_under_the_pointer() {
         let mut zoom = Zoom::default();
-        let at = pos2(700.0, 200.0);
-        let before = Projection::of(WORLD, zoom).place(at).unwrap();
+        let position = pos2(700.0, 200.0);
+        let before = Projection::new(WORLD, zoom).place(position).unwrap();
         for wheel in [60.0, 25.0, 25.0] {
-            zoom.turn(wheel, at, WORLD);
-            let now = Projection::of(WORLD, zoom).place(at).unwrap();
+            zoom.turn(wheel, position, WORLD);
+            let now = Projection::new(WORLD, zoom).place(position).unwrap();
             assert!(now.distance(before).degrees() < 0.01, "{now:?}");
         }
         assert!((zoom.factor() - 4.0).abs() < 1e-6);
         for _ in 0..5 {
-            zoom.turn(-60.0, at, WORLD);
+            zoom.turn(-60.0, position, WORLD);
         }
         assert!((zoom.factor() - 1.0).abs() < 1e-6);
     }
@@ -227,12 +230,12 @@ mod tests {
     fn the_map_has_no_edge_in_the_east_and_one_at_the_poles() {
         let mut zoom = Zoom::default();
         zoom.drag(vec2(512.0, 300.0), WORLD);
-        let moved = Projection::of(WORLD, zoom);
+        let moved = Projection::new(WORLD, zoom);
         assert!((moved.point(place(0.0, 180.0)).x - WORLD.center().x).abs() < 0.1);
         assert!(moved.point(place(90.0, 180.0)).distance(WORLD.center_top()) < 0.1);
         zoom.step(true);
         zoom.drag(vec2(0.0, 10_000.0), WORLD);
-        let north = Projection::of(WORLD, zoom);
+        let north = Projection::new(WORLD, zoom);
         assert!((north.point(place(90.0, 0.0)).y - WORLD.top()).abs() < 0.1);
     }
 }

@@ -82,7 +82,7 @@ impl Column {
     }
 
     fn head(self, unit: DistanceUnit) -> Cow<'static, str> {
-        let in_unit = |of: &str| Cow::from(format!("{of} {}", format::distance_unit(unit)));
+        let in_unit = |name: &str| Cow::from(format!("{name} {}", format::distance_unit(unit)));
         let words = match self {
             Self::Satellite => "Satellite",
             Self::Latitude => "Latitude",
@@ -99,37 +99,39 @@ impl Column {
         words.into()
     }
 
-    fn cell(self, of: &GlobeSatellite, model: &Model) -> String {
-        let direction = of.look.direction;
+    fn cell(self, satellite: &GlobeSatellite, model: &Model) -> String {
+        let direction = satellite.look.direction;
         let distance = |km| format::distance_number(km, 0, model.appearance.distances);
-        let max = of.next.map(|next| format::degrees(next.max_elevation.degrees(), 0));
+        let max = satellite.next.map(|next| format::degrees(next.max_elevation.degrees(), 0));
         match self {
-            Self::Satellite => of.satellite.short_name().to_owned(),
-            Self::Latitude => words::latitude(of.below.point),
-            Self::Longitude => words::longitude(of.below.point),
-            Self::Height => distance(of.below.height_km),
+            Self::Satellite => satellite.satellite.short_name().to_owned(),
+            Self::Latitude => words::latitude(satellite.below.point),
+            Self::Longitude => words::longitude(satellite.below.point),
+            Self::Height => distance(satellite.below.height_km),
             Self::Azimuth => format::azimuth(direction.azimuth_deg()),
             Self::Elevation => format::degrees(direction.elevation_deg(), 1),
-            Self::Range if direction.elevation_deg() >= 0.0 => distance(of.look.range_km),
+            Self::Range if direction.elevation_deg() >= 0.0 => distance(satellite.look.range_km),
             Self::Range => "–".to_owned(),
-            Self::Goes => words::goes(of.heading).to_owned(),
-            Self::Next => words::next(of, model),
+            Self::Goes => words::goes(satellite.heading).to_owned(),
+            Self::Next => words::next(satellite, model),
             Self::Max => max.unwrap_or_else(|| "–".to_owned()),
-            Self::Light => words::light(of.is_sunlit).to_owned(),
+            Self::Light => words::light(satellite.is_sunlit).to_owned(),
         }
     }
 
-    fn look(self, of: &GlobeSatellite, model: &Model, t: &Tokens) -> (FontId, Color32) {
-        let is_above = of.look.direction.elevation_deg() >= 0.0;
+    fn look(self, satellite: &GlobeSatellite, model: &Model, t: &Tokens) -> (FontId, Color32) {
+        let is_above = satellite.look.direction.elevation_deg() >= 0.0;
         let small = text::small();
         match self {
             Self::Satellite => (text::sized(13.0, Weight::SemiBold), t.t1),
-            Self::Elevation if of.is_up => (text::small_strong(), t.ok),
+            Self::Elevation if satellite.is_up => (text::small_strong(), t.ok),
             Self::Azimuth | Self::Elevation | Self::Range if !is_above => (small, t.t3),
             Self::Goes => (small, t.t2),
-            Self::Next if of.next.is_none() => (small, t.t3),
-            Self::Next if of.next.is_some_and(|next| next.aos <= model.now) => (small, t.sat),
-            Self::Light if of.is_sunlit => (small, t.sun),
+            Self::Next if satellite.next.is_none() => (small, t.t3),
+            Self::Next if satellite.next.is_some_and(|next| next.aos <= model.now) => {
+                (small, t.sat)
+            }
+            Self::Light if satellite.is_sunlit => (small, t.sun),
             Self::Light => (small, t.t3),
             _ => (small, t.t1),
         }
@@ -191,8 +193,8 @@ fn title(ui: &Ui, bar: Rect, is_drawer: bool, is_open: bool) -> (f32, bool) {
         ui.painter().rect_filled(place, 4.0, t.bg3);
     }
     let icon = if is_open { Icon::ChevronDown } else { Icon::ChevronRight };
-    let at = pos2(room.left() + 6.0, bar.center().y);
-    icons::paint(ui.painter(), paint::square(at, 12.0), icon, t.t1);
+    let position = pos2(room.left() + 6.0, bar.center().y);
+    icons::paint(ui.painter(), paint::square(position, 12.0), icon, t.t1);
     let words = room.with_min_x(room.left() + 18.0);
     paint::text_in(ui, words, Align2::LEFT_CENTER, WORDS, font, t.t1);
     paint::focus_ring(ui, &response, 4);
@@ -226,8 +228,8 @@ fn show_head(ui: &Ui, rect: Rect, unit: DistanceUnit) {
         let anchor = if column.is_left() { Align2::LEFT_CENTER } else { Align2::RIGHT_CENTER };
         // The rows are sorted by it.
         let (font, colour) = if column == Column::Elevation {
-            let at = pos2(place.right() + 9.0, rect.center().y);
-            icons::paint(ui.painter(), paint::square(at, 10.0), Icon::ChevronDown, t.t2);
+            let position = pos2(place.right() + 9.0, rect.center().y);
+            icons::paint(ui.painter(), paint::square(position, 10.0), Icon::ChevronDown, t.t2);
             (text::sized(11.0, Weight::SemiBold), t.t1)
         } else {
             (text::caption(), t.t3)
@@ -272,29 +274,29 @@ fn show_row(
     ui: &Ui,
     list: &List,
     rect: Rect,
-    of: &GlobeSatellite,
+    satellite: &GlobeSatellite,
     model: &Model,
     commands: &mut Vec<UiCommand>,
 ) {
     let t = theme::tokens(ui);
-    let spoken = || spoken(of, model);
+    let spoken = || spoken(satellite, model);
     let clear = Color32::TRANSPARENT;
-    let response = list.option(ui, rect, of.number(), of.is_selected, clear, spoken);
+    let response = list.option(ui, rect, satellite.number(), satellite.is_selected, clear, spoken);
     for (column, place) in columns(rect) {
         let anchor = if column.is_left() { Align2::LEFT_CENTER } else { Align2::RIGHT_CENTER };
-        let (font, colour) = column.look(of, model, t);
+        let (font, colour) = column.look(satellite, model, t);
         let paint = match column {
             Column::Satellite => paint::name_in,
             _ => paint::text_in,
         };
-        paint(ui, place, anchor, &column.cell(of, model), font, colour);
+        paint(ui, place, anchor, &column.cell(satellite, model), font, colour);
     }
-    nodes::chosen(&response, of, commands);
+    nodes::chosen(&response, satellite, commands);
 }
 
 /// The row for screen readers.
-fn spoken(of: &GlobeSatellite, model: &Model) -> String {
-    let cell = |column: Column| column.cell(of, model);
+fn spoken(satellite: &GlobeSatellite, model: &Model) -> String {
+    let cell = |column: Column| column.cell(satellite, model);
     format!(
         "{}, {}, {}, height {} {}, azimuth {}, elevation {}, {}, next {}, {}",
         cell(Column::Satellite),
@@ -304,7 +306,7 @@ fn spoken(of: &GlobeSatellite, model: &Model) -> String {
         format::distance_unit(model.appearance.distances),
         cell(Column::Azimuth),
         cell(Column::Elevation),
-        words::motion(of.heading),
+        words::motion(satellite.heading),
         cell(Column::Next),
         cell(Column::Light),
     )

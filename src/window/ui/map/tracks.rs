@@ -26,31 +26,35 @@ pub(super) struct Tracks {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Tick {
     pub(super) time: Timestamp,
-    pub(super) at: Pos2,
+    pub(super) position: Pos2,
     /// Unit vector across the track.
     across: Vec2,
 }
 
 /// Lays out the track of the selected satellite.
-pub(super) fn tracks(projection: &Projection, of: &GlobeSatellite, now: Timestamp) -> Tracks {
-    let split = of.track.partition_point(|point| point.time <= now);
-    let (before, after) = of.track.split_at_checked(split).unwrap_or_default();
-    let here = of.below.point;
+pub(super) fn tracks(
+    projection: &Projection,
+    satellite: &GlobeSatellite,
+    now: Timestamp,
+) -> Tracks {
+    let split = satellite.track.partition_point(|point| point.time <= now);
+    let (before, after) = satellite.track.split_at_checked(split).unwrap_or_default();
+    let here = satellite.below.point;
     let flown: Vec<GroundPoint> = before.iter().map(|point| point.point).chain([here]).collect();
     let ahead: Vec<GroundPoint> =
         [here].into_iter().chain(after.iter().map(|point| point.point)).collect();
     let tick = |pair: &[crate::orbit::TrackPoint]| {
-        let &[from, to] = pair else { return None };
-        if to.time.as_second() % TICK_S != 0 {
+        let &[start, end] = pair else { return None };
+        if end.time.as_second() % TICK_S != 0 {
             return None;
         }
-        let at = projection.point(to.point);
-        let line = projection.lines(&[from.point, to.point]);
+        let position = projection.point(end.point);
+        let line = projection.lines(&[start.point, end.point]);
         let along = line.first().and_then(|line| match line[..] {
-            [from, to] => Some((to - from).normalized()),
+            [start, end] => Some((end - start).normalized()),
             _ => None,
         })?;
-        Some(Tick { time: to.time, at, across: along.rot90() })
+        Some(Tick { time: end.time, position, across: along.rot90() })
     };
     Tracks {
         flown: projection.lines(&flown),
@@ -72,7 +76,7 @@ pub(super) fn paint(painter: &Painter, tracks: &Tracks, t: &Tokens) {
     }
     for tick in &tracks.ticks {
         let half = tick.across * TICK;
-        painter.line_segment([tick.at - half, tick.at + half], Stroke::new(1.5, t.sat));
+        painter.line_segment([tick.position - half, tick.position + half], Stroke::new(1.5, t.sat));
     }
 }
 
@@ -80,13 +84,13 @@ pub(super) fn paint(painter: &Painter, tracks: &Tracks, t: &Tokens) {
 pub(super) fn paint_other(
     painter: &Painter,
     projection: &Projection,
-    of: &GlobeSatellite,
+    satellite: &GlobeSatellite,
     now: Timestamp,
     t: &Tokens,
 ) {
-    let split = of.track.partition_point(|point| point.time <= now);
-    let after = of.track.iter().skip(split).map(|point| point.point);
-    let ahead: Vec<GroundPoint> = [of.below.point].into_iter().chain(after).collect();
+    let split = satellite.track.partition_point(|point| point.time <= now);
+    let after = satellite.track.iter().skip(split).map(|point| point.point);
+    let ahead: Vec<GroundPoint> = [satellite.below.point].into_iter().chain(after).collect();
     if ahead.len() > 1 {
         for line in projection.lines(&ahead) {
             painter.extend(dashed(&line, 1.5, 4.0, Stroke::new(1.25, t.other)));

@@ -31,8 +31,9 @@ pub(super) fn longitude(place: GroundPoint) -> String {
 
 /// The second line of the view bar, such as "13 favourites, 2 above the mask at Şile 1".
 pub(super) fn summary(model: &Model, shown: Shown) -> String {
-    let counted: Vec<_> = model.globe.satellites.iter().filter(|of| shown.counts(of)).collect();
-    let up = counted.iter().filter(|of| of.is_up).count();
+    let counted: Vec<_> =
+        model.globe.satellites.iter().filter(|satellite| shown.counts(satellite)).collect();
+    let up = counted.iter().filter(|satellite| satellite.is_up).count();
     let kind = match (shown, counted.len()) {
         (Shown::Favourites, 1) => "favourite",
         (Shown::Favourites, _) => "favourites",
@@ -74,10 +75,10 @@ pub(super) fn light(is_sunlit: bool) -> &'static str {
 }
 
 /// Start of the next pass, or its end once it is under way.
-pub(super) fn next(of: &GlobeSatellite, model: &Model) -> String {
-    match of.next {
+pub(super) fn next(satellite: &GlobeSatellite, model: &Model) -> String {
+    match satellite.next {
         Some(pass) => times(pass, model.now),
-        None => match Search::of(of, model) {
+        None => match Search::new(satellite, model) {
             Search::None => "not computed".to_owned(),
             Search::UnderWay => "…".to_owned(),
             Search::Done => "none in 48 h".to_owned(),
@@ -86,8 +87,8 @@ pub(super) fn next(of: &GlobeSatellite, model: &Model) -> String {
 }
 
 /// Says that there is no later pass, or why none is known.
-pub(super) fn no_later_pass(of: &GlobeSatellite, model: &Model) -> &'static str {
-    match Search::of(of, model) {
+pub(super) fn no_later_pass(satellite: &GlobeSatellite, model: &Model) -> &'static str {
+    match Search::new(satellite, model) {
         Search::None => "Passes are computed for favourites only.",
         Search::UnderWay => "Passes are being computed.",
         Search::Done => "No later pass in the next 48 h.",
@@ -102,12 +103,13 @@ enum Search {
 }
 
 impl Search {
-    fn of(of: &GlobeSatellite, model: &Model) -> Self {
+    fn new(new: &GlobeSatellite, model: &Model) -> Self {
         let list = &model.pass_lists.favourites;
-        let mut listed = list.satellites.iter().map(|of| of.elements.catalog_number());
+        let mut listed =
+            list.satellites.iter().map(|satellite| satellite.elements.catalog_number());
         match () {
-            () if !of.is_favourite => Self::None,
-            () if list.made_at.is_some() && listed.any(|number| number == of.number()) => {
+            () if !new.is_favourite => Self::None,
+            () if list.made_at.is_some() && listed.any(|number| number == new.number()) => {
                 Self::Done
             }
             () => Self::UnderWay,
@@ -126,16 +128,16 @@ fn times(pass: NextPass, now: Timestamp) -> String {
 }
 
 /// The tool-tip of a satellite.
-pub(super) fn tip(of: &GlobeSatellite, model: &Model) -> String {
-    let direction = of.look.direction;
+pub(super) fn tip(satellite: &GlobeSatellite, model: &Model) -> String {
+    let direction = satellite.look.direction;
     format!(
         "{}\n{}\nHeight {}\nAz {}  El {}\nNext: {}",
-        of.satellite.short_name(),
-        place(of.below.point),
-        format::distance(of.below.height_km, 0, model.appearance.distances),
+        satellite.satellite.short_name(),
+        place(satellite.below.point),
+        format::distance(satellite.below.height_km, 0, model.appearance.distances),
         format::azimuth(direction.azimuth_deg()),
         format::degrees(direction.elevation_deg(), 1),
-        next(of, model),
+        next(satellite, model),
     )
 }
 
@@ -145,14 +147,14 @@ mod tests {
 
     #[test]
     fn a_heading_has_its_wind() {
-        for (degrees, wanted) in [
+        for (degrees, expected) in [
             (0.0, "north"),
             (350.0, "north"),
             (359.9, "north"),
             (44.0, "north-east"),
             (190.0, "south"),
         ] {
-            assert_eq!(goes(Some(Angle::from_degrees(degrees))), wanted, "{degrees}");
+            assert_eq!(goes(Some(Angle::from_degrees(degrees))), expected, "{degrees}");
         }
         assert_eq!(goes(None), "stationary");
     }
@@ -178,7 +180,7 @@ mod tests {
 
     #[test]
     fn an_elevation_has_no_needless_decimals() {
-        let said = |degrees| elevation(Angle::from_degrees(degrees));
-        assert_eq!((said(5.0), said(2.5), said(0.0)), ("5°".into(), "2.5°".into(), "0°".into()));
+        let text = |degrees| elevation(Angle::from_degrees(degrees));
+        assert_eq!((text(5.0), text(2.5), text(0.0)), ("5°".into(), "2.5°".into(), "0°".into()));
     }
 }

@@ -93,7 +93,7 @@ pub(super) fn show(
     let automatic = words::automatic::in_full(model, antenna);
     let offsets = CardOffsets::of(model, antenna);
     let held_head = held_head(model, antenna);
-    state_sentence(model, antenna).with(|sentence| {
+    state_sentence(model, antenna).with_sentence(|sentence| {
         let card = CardModel {
             header: HeaderModel {
                 second_line: &second_line,
@@ -107,7 +107,7 @@ pub(super) fn show(
             go_on: go_on.as_deref(),
 
             axes: AxesTable {
-                wanted,
+                wanted_column: wanted,
                 decimals,
                 predicted_decimals,
                 age: age.as_deref(),
@@ -255,7 +255,7 @@ fn header<'a>(model: &Model, antenna: &'a AntennaModel) -> HeaderModel<'a> {
 /// In a replay: of what time the card is.
 fn recorded(model: &Model) -> Option<String> {
     let replay = model.replay.as_ref()?;
-    Some(format!("as recorded at {}", format::moment(replay.at, replay.at)))
+    Some(format!("as recorded at {}", format::moment(replay.time, replay.time)))
 }
 
 fn link_status(model: &Model, antenna: &AntennaModel) -> LinkStatus {

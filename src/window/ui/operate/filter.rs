@@ -23,7 +23,7 @@ const BUDGET: Duration = Duration::from_millis(5);
 
 /// Inputs that the rows depend on.
 #[derive(Clone, PartialEq)]
-struct Wanted {
+struct FilterQuery {
     text: String,
     arrangement: Arrangement,
     scope: Scope,
@@ -36,7 +36,7 @@ struct Wanted {
 /// The found passes, kept until the list or the filters change.
 #[derive(Default)]
 pub(super) struct FoundPasses {
-    made_of: Option<(Wanted, (usize, usize))>,
+    made_of: Option<(FilterQuery, (usize, usize))>,
     /// Places in the list, in the order of the rows.
     places: Vec<usize>,
     /// The row of each place.
@@ -56,7 +56,7 @@ impl FoundPasses {
             return None;
         }
         let (scope, listed) = (model.list.scope, model.upcoming());
-        let wanted = Wanted {
+        let query = FilterQuery {
             text,
             arrangement: arrangement.clone(),
             scope,
@@ -64,7 +64,7 @@ impl FoundPasses {
             antenna: model.selected_antenna,
             catalog: catalog_id(model),
         };
-        let made_of = (wanted, listed.version());
+        let made_of = (query, listed.version());
         let is_new = self.made_of.as_ref() != Some(&made_of);
         if self.made_of.as_ref().is_none_or(|(before, _)| *before != made_of.0) {
             self.judged.clear();
@@ -99,14 +99,13 @@ impl FoundPasses {
         self.places.iter().copied()
     }
 
-    fn find(&mut self, model: &Model, listed: &UpcomingPasses<'_>, wanted: &Wanted) {
+    fn find(&mut self, model: &Model, listed: &UpcomingPasses<'_>, query: &FilterQuery) {
         let begun = Instant::now();
-        let group = group(model, wanted.arrangement.group.as_deref());
+        let group = group(model, query.arrangement.group.as_deref());
         let mut fitting = Vec::new();
         self.is_whole = true;
         for (place, predicted) in listed.iter().enumerate() {
-            if !is_named(predicted, &wanted.text) || !fits(predicted, model, wanted, group.as_ref())
-            {
+            if !is_named(predicted, &query.text) || !fits(predicted, model, query, group.as_ref()) {
                 continue;
             }
             let key = predicted.key();
@@ -117,7 +116,7 @@ impl FoundPasses {
                     break;
                 }
                 None => {
-                    let judged = is_wanted(predicted, model, &wanted.arrangement);
+                    let judged = is_wanted(predicted, model, &query.arrangement);
                     self.judged.insert(key, judged);
                     judged
                 }
@@ -126,7 +125,7 @@ impl FoundPasses {
                 fitting.push((place, predicted));
             }
         }
-        sort(&mut fitting, wanted.arrangement.order);
+        sort(&mut fitting, query.arrangement.order);
         self.places = fitting.into_iter().map(|(place, _)| place).collect();
         self.rows = self.places.iter().enumerate().map(|(row, place)| (*place, row)).collect();
     }
@@ -142,7 +141,7 @@ fn catalog_id(model: &Model) -> usize {
 /// The catalog numbers of a group; `None` where none is wanted, or it is gone.
 fn group(model: &Model, name: Option<&str>) -> Option<HashSet<u32>> {
     let CatalogState::Ready(catalog) = &model.catalog else { return None };
-    let name = name.filter(|name| catalog.groups().any(|(known, _)| known == *name))?;
+    let name = name.filter(|name| catalog.groups().any(|(group_name, _)| group_name == *name))?;
     Some(catalog.in_group(name).map(crate::orbit::Elements::catalog_number).collect())
 }
 
@@ -156,12 +155,12 @@ fn is_named(predicted: &PredictedPass, text: &str) -> bool {
 fn fits(
     predicted: &PredictedPass,
     model: &Model,
-    wanted: &Wanted,
+    query: &FilterQuery,
     group: Option<&HashSet<u32>>,
 ) -> bool {
     let is_to_come = predicted.pass.aos.time > model.now && !predicted.pass.starts_before;
     group.is_none_or(|group| group.contains(&predicted.number()))
-        && (is_to_come || !wanted.arrangement.to_come)
+        && (is_to_come || !query.arrangement.to_come)
 }
 
 /// Returns `true` if the pass fits the filters that need a computation.

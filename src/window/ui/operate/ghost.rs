@@ -33,7 +33,7 @@ const WIDTH: f32 = 248.0;
 const PADDING: f32 = 10.0;
 const GAP: f32 = 6.0;
 /// Distance of the note from the ghost.
-const BESIDE: f32 = 18.0;
+const MARGIN: f32 = 18.0;
 
 /// The clicked direction, and the path that the session was asked to judge.
 #[derive(Debug, Clone, Default)]
@@ -42,7 +42,7 @@ pub(super) struct GhostState {
     wants_focus: bool,
     /// The direction in the fields in the last frame.
     typed: Option<Target>,
-    asked: Option<(AntennaId, Pointing)>,
+    requested: Option<(AntennaId, Pointing)>,
 }
 
 impl GhostState {
@@ -69,7 +69,7 @@ impl GhostState {
     /// Ends what a session judges.
     pub(super) fn leave(&mut self, commands: &mut Vec<UiCommand>) {
         self.clicked = None;
-        if let Some((antenna, _)) = self.asked.take() {
+        if let Some((antenna, _)) = self.requested.take() {
             commands.push(UiCommand::antenna(antenna, Command::Preview(None)));
         }
     }
@@ -90,7 +90,9 @@ pub(super) fn keep(
     commands: &mut Vec<UiCommand>,
 ) {
     let antenna = model.antenna();
-    let stops = antenna.is_some_and(|of| matches!(of.snapshot.stop, StopState::Stopping { .. }));
+    let stops = antenna.is_some_and(|model_antenna| {
+        matches!(model_antenna.snapshot.stop, StopState::Stopping { .. })
+    });
     if stops || ui.input(|input| input.key_pressed(Key::Escape)) {
         state.ghost.clicked = None;
         state.card.drive.go_to.leave_typed();
@@ -101,19 +103,23 @@ pub(super) fn keep(
         ghost.clicked = None;
     }
     ghost.typed = typed;
-    let can_be_judged = |of: &&AntennaModel| of.snapshot.link.is_open() && of.held_by.is_none();
-    let wanted = antenna
+    let can_be_judged = |model_antenna: &&AntennaModel| {
+        model_antenna.snapshot.link.is_open() && model_antenna.held_by.is_none()
+    };
+    let requested = antenna
         .filter(can_be_judged)
         .and_then(|antenna| Some((antenna.id(), pointing(ghost.target()?))));
-    if wanted == ghost.asked {
+    if requested == ghost.requested {
         return;
     }
-    let is_same = |id: AntennaId| wanted.is_some_and(|(wanted, _)| wanted == id);
-    if let Some((before, _)) = ghost.asked.filter(|(id, _)| !is_same(*id)) {
+    let is_same = |id: AntennaId| requested.is_some_and(|(antenna_id, _)| antenna_id == id);
+    if let Some((before, _)) = ghost.requested.filter(|(id, _)| !is_same(*id)) {
         commands.push(UiCommand::antenna(before, Command::Preview(None)));
     }
-    commands.extend(wanted.map(|(id, to)| UiCommand::antenna(id, Command::Preview(Some(to)))));
-    ghost.asked = wanted;
+    commands.extend(
+        requested.map(|(id, target)| UiCommand::antenna(id, Command::Preview(Some(target)))),
+    );
+    ghost.requested = requested;
 }
 
 /// Result of the session's check of the path to `target`.
@@ -128,7 +134,7 @@ pub(super) fn shown<'a>(antenna: &'a AntennaModel, state: &OperateState) -> Opti
     let elevation_deg = target.elevation_deg.or(measured.map(AzEl::elevation_deg))?;
     let way = judged(antenna, target).map(|preview| &preview.way);
     Some(Ghost {
-        to: AzEl::from_degrees(target.azimuth_deg, elevation_deg),
+        end: AzEl::from_degrees(target.azimuth_deg, elevation_deg),
         way: way.and_then(|way| way.as_ref().ok()).map_or(&[], |way| &way.path),
         is_refused: way.is_some_and(Result::is_err),
     })
@@ -146,27 +152,27 @@ fn found(model: &Model, antenna: &AntennaModel, target: Target) -> (String, bool
         Some(Err(refusal)) => return (words::not_possible(refusal, model.now), false),
         Some(Ok(way)) => way,
     };
-    let mut said = match way.arrives_s {
+    let mut spoken = match way.arrives_s {
         Some(seconds) => format!("Arrives in about {}.", format::duration(seconds.ceil())),
         None => "How long it takes is not known.".to_owned(),
     };
-    said += if way.is_round_a_corner {
+    spoken += if way.is_round_a_corner {
         " The axes move one after the other, to stay clear of forbidden directions."
     } else {
         " The path is clear."
     };
     if let Some(tracked) = antenna.tracked_name() {
         // Writing to a string cannot fail.
-        let _ = write!(said, " It ends the track of {}.", short(tracked));
+        let _ = write!(spoken, " It ends the track of {}.", short(tracked));
     }
-    (said, true)
+    (spoken, true)
 }
 
-/// Shows the note beside the ghost at `at`; a clicked direction is confirmed in it.
+/// Shows the note beside the ghost at `position`; a clicked direction is confirmed in it.
 pub(super) fn note(
     ui: &mut Ui,
     plot: Rect,
-    at: Pos2,
+    position: Pos2,
     model: &Model,
     state: &mut OperateState,
     commands: &mut Vec<UiCommand>,
@@ -176,19 +182,19 @@ pub(super) fn note(
     let t = theme::tokens(ui);
     let can = antenna.variant().capabilities;
     let head = format!("{} to {}", antenna.config.name, format::pointing(pointing(target), can));
-    let (said, is_possible) = found(model, antenna, target);
+    let (text, is_possible) = found(model, antenna, target);
     let width = WIDTH - 2.0 * PADDING;
     let layout =
         |words: &str, font, colour| ui.painter().layout(words.to_owned(), font, colour, width);
     let title = layout(&head, text::small_strong(), t.t1);
-    let sentence = layout(&said, text::small(), if is_possible { t.t2 } else { t.warn });
+    let sentence = layout(&text, text::small(), if is_possible { t.t2 } else { t.warn });
     let buttons = if is_clicked { SMALL_HEIGHT + GAP } else { 0.0 };
     let height = 2.0 * PADDING + title.size().y + GAP + sentence.size().y + buttons;
-    let place = beside(plot.shrink(8.0), at, vec2(WIDTH, height));
+    let place = beside_point(plot.shrink(8.0), position, vec2(WIDTH, height));
 
     // Catches what would fall on the sky below.
     let response = ui.interact(place, ui.make_persistent_id("ghost note"), Sense::click());
-    let spoken = format!("{head}. {said}");
+    let spoken = format!("{head}. {text}");
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, &spoken));
     let edge = if is_possible { t.cmd } else { t.warn };
     ui.painter().rect(place, 6.0, t.bg2, Stroke::new(1.0, edge), StrokeKind::Inside);
@@ -223,18 +229,18 @@ pub(super) fn note(
     }
 }
 
-/// The place of a note of `size` beside `at`: the first of four that has room in `plot`.
-fn beside(plot: Rect, at: Pos2, size: egui::Vec2) -> Rect {
-    let away = vec2(BESIDE, BESIDE);
+/// The place of a note of `size` beside `position`: the first of four that has room in `plot`.
+fn beside_point(plot: Rect, position: Pos2, size: egui::Vec2) -> Rect {
+    let outward = vec2(MARGIN, MARGIN);
     let places = [
-        Rect::from_min_size(at + away, size),
-        Rect::from_min_size(pos2(at.x - away.x - size.x, at.y + away.y), size),
-        Rect::from_min_size(pos2(at.x + away.x, at.y - away.y - size.y), size),
-        Rect::from_min_size(at - away - size, size),
+        Rect::from_min_size(position + outward, size),
+        Rect::from_min_size(pos2(position.x - outward.x - size.x, position.y + outward.y), size),
+        Rect::from_min_size(pos2(position.x + outward.x, position.y - outward.y - size.y), size),
+        Rect::from_min_size(position - outward - size, size),
     ];
     let [first, ..] = places;
-    let inside = places.into_iter().find(|place| plot.contains_rect(*place));
-    inside.unwrap_or_else(|| {
+    let inner = places.into_iter().find(|place| plot.contains_rect(*place));
+    inner.unwrap_or_else(|| {
         let min = first.min.min(plot.max - size).max(plot.min);
         Rect::from_min_size(min, size)
     })
@@ -250,7 +256,7 @@ mod tests {
         let size = vec2(WIDTH, 90.0);
         for x in [101.0, 300.0, 520.0, 699.0] {
             for y in [101.0, 350.0, 599.0] {
-                let place = beside(plot, pos2(x, y), size);
+                let place = beside_point(plot, pos2(x, y), size);
                 assert!(plot.contains_rect(place), "{place} of {x} {y}");
                 assert!(!place.contains(pos2(x, y)), "{place} over {x} {y}");
             }

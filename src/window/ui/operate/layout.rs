@@ -34,7 +34,7 @@ const SIDE_CARDS_FROM: [f32; SIDE_CARDS] = [1800.0, 2400.0];
 
 /// How many cards can stand beside that of the selected antenna in a window of this width.
 pub(in crate::ui) fn side_cards(window: f32) -> usize {
-    SIDE_CARDS_FROM.iter().filter(|from| window >= **from).count()
+    SIDE_CARDS_FROM.iter().filter(|start| window >= **start).count()
 }
 
 /// The parts of the view.
@@ -60,7 +60,7 @@ pub(super) struct Areas {
 
 impl Areas {
     /// `list_width` is the operator's choice, if any.
-    pub(super) fn of(
+    pub(super) fn new(
         window: Rect,
         rect: Rect,
         drawer_open: bool,
@@ -83,27 +83,27 @@ impl Areas {
             .then(|| left.with_max_y(left.top() + banner::LOW_HEIGHT));
         let left = banner.map_or(left, |banner| left.with_min_y(banner.bottom()));
 
-        let usual = if window.width() >= THUMBNAILS_FROM { LIST } else { NARROW_LIST };
-        let most = (left.width() - MIN_SKY).clamp(NARROW_LIST, MAX_LIST);
-        let list_widths = Rangef::new(NARROW_LIST, most);
-        let list_width = list_widths.clamp(list_width.unwrap_or(usual));
+        let default = if window.width() >= THUMBNAILS_FROM { LIST } else { NARROW_LIST };
+        let max = (left.width() - MIN_SKY).clamp(NARROW_LIST, MAX_LIST);
+        let list_widths = Rangef::new(NARROW_LIST, max);
+        let list_width = list_widths.clamp(list_width.unwrap_or(default));
         let thumbnails = list_width >= LIST;
         let header_height = if small { 44.0 } else { pass_header::HEIGHT };
-        let wanted = match window.height() {
+        let requested = match window.height() {
             ..TALL_FROM => SMALL_STRIP,
             TALL_FROM..HIGH_FROM => STRIP,
             _ => HIGH_STRIP,
         };
         let room = left.height() - header_height;
         let sky_time = if tall { SKY_TIME } else { SMALL_SKY_TIME };
-        let strip_height = wanted.max(room - sky_time - MAX_SKY);
+        let strip_height = requested.max(room - sky_time - MAX_SKY);
         let strip = left.with_min_y(left.bottom() - strip_height);
         let above = left.with_max_y(strip.top());
 
-        let beside = if small { above } else { above.with_min_x(above.left() + list_width) };
-        let header = beside.with_max_y(beside.top() + header_height);
+        let area = if small { above } else { above.with_min_x(above.left() + list_width) };
+        let header = area.with_max_y(area.top() + header_height);
         let (sky, sky_time) =
-            beside.with_min_y(header.bottom()).split_top_bottom_at_y(beside.bottom() - sky_time);
+            area.with_min_y(header.bottom()).split_top_bottom_at_y(area.bottom() - sky_time);
         let list = if small {
             // Never over the card, STOP or the button of the legend.
             let drawer = Rect::from_min_size(
@@ -171,20 +171,20 @@ mod tests {
         let window = Rect::from_min_size(pos2(0.0, 0.0), vec2(width, height));
         let (bar, rail) =
             (if height < 800.0 { 48.0 } else { 56.0 }, if width < 1200.0 { 48.0 } else { 72.0 });
-        Areas::of(window, window.with_min_x(rail).with_min_y(bar), false, false, 3, list)
+        Areas::new(window, window.with_min_x(rail).with_min_y(bar), false, false, 3, list)
     }
 
     #[test]
     fn the_reference_window_has_the_reference_places() {
         let areas = areas(1440.0, 900.0);
-        let at = |x: f32, y: f32, w: f32, h: f32| Rect::from_min_size(pos2(x, y), vec2(w, h));
-        assert_eq!(areas.list, Some(at(72.0, 56.0, 320.0, 636.0)));
-        assert_eq!(areas.header, at(392.0, 56.0, 704.0, 56.0));
-        assert_eq!(areas.sky, at(392.0, 112.0, 704.0, 548.0));
-        assert_eq!(areas.sky_time, at(392.0, 660.0, 704.0, 32.0));
-        assert_eq!(areas.card, at(1096.0, 56.0, 344.0, 844.0));
-        assert_eq!(areas.timeline, Some(at(72.0, 692.0, 632.0, 208.0)));
-        assert_eq!(areas.profile, Some(at(704.0, 692.0, 392.0, 208.0)));
+        let rect = |x: f32, y: f32, w: f32, h: f32| Rect::from_min_size(pos2(x, y), vec2(w, h));
+        assert_eq!(areas.list, Some(rect(72.0, 56.0, 320.0, 636.0)));
+        assert_eq!(areas.header, rect(392.0, 56.0, 704.0, 56.0));
+        assert_eq!(areas.sky, rect(392.0, 112.0, 704.0, 548.0));
+        assert_eq!(areas.sky_time, rect(392.0, 660.0, 704.0, 32.0));
+        assert_eq!(areas.card, rect(1096.0, 56.0, 344.0, 844.0));
+        assert_eq!(areas.timeline, Some(rect(72.0, 692.0, 632.0, 208.0)));
+        assert_eq!(areas.profile, Some(rect(704.0, 692.0, 392.0, 208.0)));
     }
 
     #[test]
@@ -198,7 +198,7 @@ mod tests {
 
     #[test]
     fn a_list_that_was_drawn_leaves_the_plot_its_room() {
-        for (window, drawn, wanted) in [
+        for (window, drawn, requested) in [
             (1440.0, 400.0, 400.0),
             (1440.0, 10.0, 264.0),
             (1440.0, 9000.0, 480.0),
@@ -206,9 +206,9 @@ mod tests {
         ] {
             let areas = with_list(window, 900.0, Some(drawn));
             let list = areas.list.unwrap();
-            assert!((list.width() - wanted).abs() < 1e-3, "{drawn}: {list}");
+            assert!((list.width() - requested).abs() < 1e-3, "{drawn}: {list}");
             assert!(areas.sky.width() >= MIN_SKY && areas.sky.left() >= list.right());
-            assert_eq!(areas.thumbnails, wanted >= LIST);
+            assert_eq!(areas.thumbnails, requested >= LIST);
         }
     }
 

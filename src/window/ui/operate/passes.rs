@@ -84,7 +84,7 @@ pub(super) fn list(
         now: model.now,
         rows: found.map_or(passes.len(), FoundPasses::len),
         begun: found.map_or_else(|| passes.begun(model.now), |_| 0),
-        of: passes.len(),
+        total: passes.len(),
         groups: &groups,
         row: &row,
         place: &place,
@@ -95,7 +95,7 @@ pub(super) fn list(
         aos_elevation_deg: model.station.aos_elevation_deg,
         floor_deg: model.station.elevation_floor_deg,
         work,
-        made: listing.made_at.map(|at| (listing.satellites.len(), at)),
+        made: listing.made_at.map(|time| (listing.satellites.len(), time)),
         lock: replay::lock(model),
         thumbnails,
         empty,
@@ -118,9 +118,7 @@ pub(in crate::ui) fn pass_row<'a>(model: &'a Model, predicted: &'a PredictedPass
         Trackability::Whole | Trackability::Loses { .. } => {
             let in_part = match (trackability, predicted.clear_s()) {
                 _ if misses => Verdict::Misses,
-                (Trackability::Loses { seconds, loss: at, .. }, _) => {
-                    Verdict::Loses { seconds, at }
-                }
+                (Trackability::Loses { seconds, loss, .. }, _) => Verdict::Loses { seconds, loss },
                 (_, Some(clear_s)) => Verdict::Blocked {
                     seconds: pass.duration_s() - clear_s,
                     is_whole: clear_s <= 0.0,
@@ -131,10 +129,10 @@ pub(in crate::ui) fn pass_row<'a>(model: &'a Model, predicted: &'a PredictedPass
             let way = || Some(Verdict::Way(way_there(model, antenna?, predicted)?));
             match antenna.and_then(|antenna| left_out(model, antenna, predicted)) {
                 // The way there says the same and what it leaves.
-                Some(why @ (LeftOut::TooFar | LeftOut::UnderWay)) => {
-                    way().unwrap_or(Verdict::LeftOut(why))
+                Some(reason @ (LeftOut::TooFar | LeftOut::UnderWay)) => {
+                    way().unwrap_or(Verdict::LeftOut(reason))
                 }
-                Some(why) => Verdict::LeftOut(why),
+                Some(obstacle) => Verdict::LeftOut(obstacle),
                 None => way().unwrap_or(in_part),
             }
         }
@@ -169,16 +167,16 @@ fn left_out<'a>(
     let (planned, standings) = (model.planned_pass(predicted), model.standings_on(antenna));
     let name = |conflict: &Conflict| {
         let found = model.pass_lists.satellite(conflict.pass.satellite);
-        found.map_or("another pass", |of| of.short_name())
+        found.map_or("another pass", |listed| listed.short_name())
     };
-    let why = match standings.of(&planned) {
+    let reason = match standings.standing(&planned) {
         Standing::TakenBy(other) => {
             return Some(LeftOut::TakenBy(words::schedule::antenna_name(model, other)));
         }
-        Standing::LeftOut(why) => why,
+        Standing::LeftOut(reason) => reason,
         _ => return None,
     };
-    Some(match why {
+    Some(match reason {
         LeftOutReason::Overlaps(conflict) => LeftOut::Overlaps(name(conflict)),
         LeftOutReason::SlewTooShort(conflict) => LeftOut::TooClose(name(conflict)),
         LeftOutReason::TooFar => LeftOut::TooFar,
@@ -188,7 +186,7 @@ fn left_out<'a>(
         | LeftOutReason::Impossible(_)
         | LeftOutReason::OtherAntennas(_)
         | LeftOutReason::MaxPerDay(_) => LeftOut::Limit,
-        LeftOutReason::Off(off) => LeftOut::Off(*off),
+        LeftOutReason::Off(antenna_off) => LeftOut::Off(*antenna_off),
         LeftOutReason::NotFound => LeftOut::WorthLess,
     })
 }
@@ -208,16 +206,16 @@ fn way_there(model: &Model, antenna: &AntennaModel, predicted: &PredictedPass) -
     let has_elevation = antenna.variant().capabilities.has_elevation();
     antenna.snapshot.state.measured?.axes_deg(has_elevation)?;
     let find = || model.planned_from_here(antenna)?.joining(predicted.track());
-    let joining = model.joinings.of(antenna.id(), predicted.key(), model.now, find);
+    let joining = model.joinings.get_or_find(antenna.id(), predicted.key(), model.now, find);
     let is_in_time = joining.is_some_and(|joining| joining.late_s < 1.0);
     (!is_in_time).then_some(WayThere { joining })
 }
 
 /// Why an antenna gets nothing of the selected pass, as a sentence.
 pub(super) fn nothing_left(model: &Model, antenna: &AntennaModel) -> Option<String> {
-    let predicted = model.selected_pass().filter(|of| !is_taken(antenna, of))?;
+    let predicted = model.selected_pass().filter(|other| !is_taken(antenna, other))?;
     let name = predicted.satellite.short_name();
-    let place = model.antennas.iter().position(|of| of.id() == antenna.id())?;
+    let place = model.antennas.iter().position(|candidate| candidate.id() == antenna.id())?;
     match predicted.trackability(place)? {
         Trackability::Nothing => Some(format!("{name} is out of the mount's reach.")),
         Trackability::TooLow => {
@@ -251,16 +249,17 @@ pub(super) fn header(ui: &mut Ui, rect: Rect, model: &Model, small: bool) -> boo
         elements.name().split_once(" (").map_or("", |(_, rest)| rest.trim_end_matches(')'));
     let detail = format!("{other_name} {}", elements.catalog_number());
     let pass = &predicted.pass;
-    let until = |time: Timestamp| format::countdown(model.now, time);
-    let (event, at) = if predicted.in_progress(model.now) {
+    let time_to = |time: Timestamp| format::countdown(model.now, time);
+    let (event, moment) = if predicted.in_progress(model.now) {
         ("LOS", pass.los.time)
     } else {
         ("AOS", pass.aos.time)
     };
     let always = pass.starts_before && pass.ends_after;
-    let (event, countdown) = if always { ("", "always up".to_owned()) } else { (event, until(at)) };
+    let (event, countdown) =
+        if always { ("", "always up".to_owned()) } else { (event, time_to(moment)) };
     let tca =
-        if always || pass.tca.time < model.now { String::new() } else { until(pass.tca.time) };
+        if always || pass.tca.time < model.now { String::new() } else { time_to(pass.tca.time) };
     let [warning, second_line] = second_line(model, predicted);
     pass_header::show(
         ui,
@@ -284,17 +283,17 @@ pub(super) fn header(ui: &mut Ui, rect: Rect, model: &Model, small: bool) -> boo
 fn second_line(model: &Model, predicted: &PredictedPass) -> [String; 2] {
     let age_s = predicted.satellite.elements.age_s(model.now);
     let number = predicted.satellite.elements.catalog_number();
-    let held = model.antenna().and_then(|antenna| {
-        let held = antenna.snapshot.state.on_board.satellite.as_ref()?;
-        let is_same = !held.name.is_empty() && held.catalog_number == number;
-        let word = match (held.name.is_empty(), is_same) {
+    let on_board = model.antenna().and_then(|antenna| {
+        let satellite = antenna.snapshot.state.on_board.satellite.as_ref()?;
+        let is_same = !satellite.name.is_empty() && satellite.catalog_number == number;
+        let word = match (satellite.name.is_empty(), is_same) {
             (true, _) => "has no satellite",
             (false, true) => "has the same satellite",
             (false, false) => "has another satellite",
         };
         Some((is_same, format!("{} {word}", antenna.config.name)))
     });
-    let (same, other) = match held {
+    let (same, other) = match on_board {
         Some((true, words)) => (Some(words), None),
         Some((false, words)) => (None, Some(words)),
         None => (None, None),
@@ -304,10 +303,11 @@ fn second_line(model: &Model, predicted: &PredictedPass) -> [String; 2] {
     let (blocked, mask) = if is_blocked { (mask, None) } else { (None, mask) };
     let age = Some(format!("elements {} old", format::age(age_s)));
     let (old, young) = if age_s > words::OLD_ELEMENTS_S { (age, None) } else { (None, age) };
-    let light = model.sky.selected.map(|of| if of.sunlit { "sunlit" } else { "in shadow" });
+    let light =
+        model.sky.selected.map(|selected| if selected.sunlit { "sunlit" } else { "in shadow" });
     let joined = |parts: &[Option<String>]| {
         let parts: Vec<&str> = parts.iter().flatten().map(String::as_str).collect();
-        parts.join(pass_header::BETWEEN)
+        parts.join(pass_header::SEPARATOR)
     };
     let way = model.antenna().and_then(|antenna| {
         let way = way_there(model, antenna, predicted)?;
@@ -326,8 +326,9 @@ fn clear_of_mask(stretches: &[Pass], now: Timestamp) -> String {
     };
     let parts =
         if stretches.len() > 1 { format!(" in {} parts", stretches.len()) } else { String::new() };
-    let [from, to] = [first.aos.time, last.los.time].map(|time| format::moment(time, now));
-    format!("clear of the mask{parts} {from} to {to}")
+    let [start_text, end_text] =
+        [first.aos.time, last.los.time].map(|time| format::moment(time, now));
+    format!("clear of the mask{parts} {start_text} to {end_text}")
 }
 
 /// Shows the profile of the selected pass, with the time that is `marked` elsewhere; returns
@@ -377,8 +378,8 @@ fn past_tracks(model: &Model) -> Vec<PastModel<'_>> {
     let tracks = antenna.past_tracks.iter().map(|track| PastModel {
         now: model.now,
         name: short(&track.name),
-        from: track.start,
-        until: track.end,
+        start: track.start,
+        end: track.end,
         rms_deg: track.rms.degrees(),
         worst_deg: track.worst.off_beam.degrees(),
         worst_at: track.worst.time,

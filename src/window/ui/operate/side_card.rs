@@ -30,10 +30,10 @@ impl SideCard {
         shown: &[AntennaId],
         commands: &mut Vec<UiCommand>,
     ) -> Option<&'a AntennaModel> {
-        let is_other = |of: &&AntennaModel| !shown.contains(&of.id());
+        let is_other = |model_antenna: &&AntennaModel| !shown.contains(&model_antenna.id());
         let before = self.before.and_then(|id| model.antenna_of(id)).filter(is_other);
-        let behind = model.antennas.iter().skip(model.selected_antenna);
-        let antenna = before.or_else(|| behind.chain(&model.antennas).find(is_other));
+        let next_antennas = model.antennas.iter().skip(model.selected_antenna);
+        let antenna = before.or_else(|| next_antennas.chain(&model.antennas).find(is_other));
         let id = antenna.map(AntennaModel::id);
         if self.shown != id {
             self.leave(commands);

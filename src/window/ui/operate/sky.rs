@@ -16,8 +16,8 @@ use crate::{
     ui::{
         format, menus,
         sky_plot::{
-            self, Bearing, KeepOutMark, Keyholes, Measured, MenuOf, OtherSatellite, SkyScene, Then,
-            Track,
+            self, Bearing, KeepOutMark, Keyholes, LaterScene, Measured, MenuOf, OtherSatellite,
+            SkyScene, Track,
         },
         state_sentence::state_sentence,
         theme,
@@ -38,8 +38,8 @@ pub(super) fn show(
     commands: &mut Vec<UiCommand>,
 ) -> Option<Timestamp> {
     state.sky_time.keep(model);
-    let then = state.sky_time.at();
-    if then.is_some() {
+    let time = state.sky_time.time();
+    if time.is_some() {
         // A click in the sky of now gives no direction in the sky of another time.
         state.ghost.forget_click();
     }
@@ -53,23 +53,23 @@ pub(super) fn show(
     let track = predicted.map(|predicted| track(predicted, look));
     let lost = antenna.and_then(|antenna| lost_for(model, antenna));
     let description = description(model, state);
-    let planned = then.map(|then| sky_time::planned_antennas(model, then));
+    let planned = time.map(|time| sky_time::planned_antennas(model, time));
     let silences = all_antennas::silences(model);
     let layer = state.sky.layers.antennas;
     let antennas = if layer { all_antennas::others(model, &silences) } else { Vec::new() };
     let scene = SkyScene {
-        now: then.unwrap_or(model.now),
+        now: time.unwrap_or(model.now),
         minimum_elevation: Angle::from_degrees(
             antenna.map_or(0.0, |antenna| antenna.config.limits.minimum_elevation_deg),
         ),
         mask: model.station.horizon_mask.as_ref(),
         keep_outs: &antenna.map(|antenna| keep_outs(model, antenna)).unwrap_or_default(),
-        keyholes: antenna.and_then(|antenna| Keyholes::of(&antenna.config.mount)),
+        keyholes: antenna.and_then(|antenna| Keyholes::new(&antenna.config.mount)),
         track,
         others: &others,
         sun: sky.sun.filter(|sun| sun.elevation_deg() > 0.0),
         moon: sky.moon.filter(|moon| moon.elevation_deg() > 0.0),
-        then: planned.as_deref().map(|antennas| Then {
+        later: planned.as_deref().map(|antennas| LaterScene {
             antennas,
             selected: antenna.map(|antenna| antenna.config.name.as_str()),
         }),
@@ -96,25 +96,25 @@ pub(super) fn show(
         description: &description,
     };
     let mut looks_at = None;
-    let mut menu = |ui: &mut Ui, of_node: egui::Id, of: MenuOf| {
-        if then.is_some() {
-            let (MenuOf::Satellite(_, direction) | MenuOf::Sky(direction)) = of;
+    let mut menu = |ui: &mut Ui, of_node: egui::Id, menu_of: MenuOf| {
+        if time.is_some() {
+            let (MenuOf::Satellite(_, direction) | MenuOf::Sky(direction)) = menu_of;
             return menus::direction(ui, of_node, direction);
         }
-        let (looks, direction) = match of {
+        let (looks, direction) = match menu_of {
             MenuOf::Satellite(number, direction) => {
-                let of = (number, direction);
-                (menus::satellite(ui, of_node, model, of, commands), direction)
+                let item = (number, direction);
+                (menus::satellite(ui, of_node, model, item, commands), direction)
             }
             MenuOf::Sky(direction) => (menus::sky(ui, of_node, model, direction), direction),
         };
         looks_at = looks_at.or(looks.then_some(direction));
     };
     let answer = sky_plot::show(ui, rect, &scene, &mut state.sky, &mut menu);
-    if let Some(then) = then {
+    if let Some(time) = time {
         let stroke = Stroke::new(2.0, theme::tokens(ui).warn);
         ui.painter().rect_stroke(rect, 0.0, stroke, StrokeKind::Inside);
-        let pass = answer.chosen.and_then(|number| pass_at(model, number, then));
+        let pass = answer.chosen.and_then(|number| pass_at(model, number, time));
         commands.extend(pass.map(UiCommand::SelectPass));
     } else {
         commands.extend(answer.chosen.map(UiCommand::SelectSatellite));
@@ -123,15 +123,15 @@ pub(super) fn show(
     if answer.takes_click_back {
         state.ghost.forget_click();
     }
-    if then.is_some() {
+    if time.is_some() {
         if answer.clicked.is_some() {
             state.sky_time.refuse_click();
         }
     } else if let (Some(direction), Some(antenna)) = (answer.clicked.or(looks_at), antenna) {
         state.ghost.look_at(direction, antenna);
     }
-    if let Some(at) = answer.ghost_at {
-        ghost::note(ui, rect, at, model, state, commands);
+    if let Some(position) = answer.ghost_at {
+        ghost::note(ui, rect, position, model, state, commands);
     }
     answer.pointed
 }
@@ -148,23 +148,25 @@ fn description(model: &Model, state: &OperateState) -> String {
 
 /// The satellites of `sky` that are not selected.
 fn others(sky: &Sky, selected: Option<u32>) -> Vec<OtherSatellite<'_>> {
-    let seen = sky.satellites.iter();
-    let others = seen.filter(|seen| Some(seen.satellite.elements.catalog_number()) != selected);
-    let others = others.map(|seen| OtherSatellite {
-        catalog_number: seen.satellite.elements.catalog_number(),
-        name: seen.satellite.short_name(),
-        direction: seen.direction,
-        ahead: &seen.ahead,
-        geostationary: seen.satellite.elements.is_geosynchronous(),
+    let satellites = sky.satellites.iter();
+    let others = satellites
+        .filter(|satellite| Some(satellite.satellite.elements.catalog_number()) != selected);
+    let others = others.map(|satellite| OtherSatellite {
+        catalog_number: satellite.satellite.elements.catalog_number(),
+        name: satellite.satellite.short_name(),
+        direction: satellite.direction,
+        ahead: &satellite.ahead,
+        geostationary: satellite.satellite.elements.is_geosynchronous(),
     });
     others.collect()
 }
 
-/// The pass of a satellite that is under way at `at`.
-fn pass_at(model: &Model, number: u32, at: Timestamp) -> Option<PassListKey> {
+/// The pass of a satellite that is under way at `time`.
+fn pass_at(model: &Model, number: u32, time: Timestamp) -> Option<PassListKey> {
     let ahead = model.pass_lists.favourites.upcoming(model.now);
     let mut own = ahead.iter().filter(|predicted| predicted.number() == number);
-    own.find(|of| of.pass.aos.time <= at && at <= of.pass.los.time).map(PredictedPass::key)
+    own.find(|pass| pass.pass.aos.time <= time && time <= pass.pass.los.time)
+        .map(PredictedPass::key)
 }
 
 /// The path of a pass, with the present look angles of its satellite.
@@ -179,7 +181,9 @@ pub(in crate::ui) fn track(predicted: &PredictedPass, look: Option<LookAngles>) 
         los: sample(&predicted.pass.los),
         show_aos: !predicted.pass.starts_before,
         show_los: !predicted.pass.ends_after,
-        position: look.map(|look| look.direction).filter(|at| at.elevation_deg() > 0.0),
+        position: look
+            .map(|look| look.direction)
+            .filter(|direction| direction.elevation_deg() > 0.0),
     }
 }
 
@@ -197,10 +201,11 @@ fn readout(model: &Model, selected: Option<Selected>, full: bool) -> Vec<(&'stat
     let rate = format::range_rate(look.range_rate_km_s, unit);
     let range = ("Range", format!("{range}\n{rate}"));
     let number = model.selected_pass().map(PredictedPass::number);
-    let carriers = model.station.frequencies.iter().filter(|of| Some(of.satellite) == number);
-    let doppler = carriers.map(|of| {
-        let shift_khz = look.doppler_hz(of.mhz * 1e6) / 1e3;
-        let carrier = format!("{} {} MHz", of.name, of.mhz);
+    let carriers =
+        model.station.frequencies.iter().filter(|frequency| Some(frequency.satellite) == number);
+    let doppler = carriers.map(|frequency| {
+        let shift_khz = look.doppler_hz(frequency.mhz * 1e6) / 1e3;
+        let carrier = format!("{} {} MHz", frequency.name, frequency.mhz);
         ("Doppler", format!("{} kHz\n{}", format::signed(shift_khz, 2), carrier.trim()))
     });
     let further = std::iter::once(range).chain(doppler).filter(|_| full);
@@ -231,11 +236,11 @@ pub(in crate::ui) fn lost_for(model: &Model, antenna: &AntennaModel) -> Option<S
 /// The keep-outs that hold for the antenna.
 fn keep_outs<'a>(model: &'a Model, antenna: &AntennaModel) -> Vec<KeepOutMark<'a>> {
     let config = &antenna.config;
-    let hold = model.station.keep_outs.iter().filter(|of| of.holds_for(&config.name));
-    hold.map(|of| KeepOutMark {
-        name: &of.name,
-        zone: &of.zone,
-        margin: of.margin() + config.beam_width() * 0.5,
+    let hold = model.station.keep_outs.iter().filter(|keep_out| keep_out.holds_for(&config.name));
+    hold.map(|keep_out| KeepOutMark {
+        name: &keep_out.name,
+        zone: &keep_out.zone,
+        margin: keep_out.margin() + config.beam_width() * 0.5,
     })
     .collect()
 }
@@ -249,10 +254,10 @@ pub(super) fn bearing<'a>(antenna: &'a AntennaModel, lost: Option<&'a str>) -> O
         (Some(azimuth), None) => (azimuth, None),
         (None, _) => {
             let [azimuth, elevation] = measured.axes;
-            let [from, to] = all_antennas::ends(antenna)?;
+            let [start, last] = all_antennas::ends(antenna)?;
             let (end, limit) = match (azimuth.minus_limit, azimuth.plus_limit) {
-                (true, false) => (from, "CCW limit"),
-                (false, true) => (to, "CW limit"),
+                (true, false) => (start, "CCW limit"),
+                (false, true) => (last, "CW limit"),
                 (true, true) | (false, false) => return None,
             };
             let is_flipped = antenna.config.mount.is_flipped(elevation.angle_deg);

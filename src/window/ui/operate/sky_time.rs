@@ -16,7 +16,7 @@ use crate::{
 #[derive(Debug, Default)]
 pub struct SkyTime {
     /// `None` for now.
-    at: Option<Timestamp>,
+    time: Option<Timestamp>,
     sky: Option<(SkyKey, Sky)>,
     /// The slider had the keyboard focus in the last frame.
     pub has_focus: bool,
@@ -27,7 +27,7 @@ pub struct SkyTime {
 /// Inputs that a sky was computed from.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct SkyKey {
-    at: Timestamp,
+    time: Timestamp,
     site: Site,
     passes_revision: u64,
     selected: Option<PassListKey>,
@@ -35,26 +35,26 @@ struct SkyKey {
 
 impl SkyTime {
     /// The time shown, if it is not now.
-    pub fn at(&self) -> Option<Timestamp> {
-        self.at
+    pub fn time(&self) -> Option<Timestamp> {
+        self.time
     }
 
     pub fn return_to_now(&mut self) {
-        (self.at, self.sky, self.is_click_refused) = (None, None, false);
+        (self.time, self.sky, self.is_click_refused) = (None, None, false);
     }
 
     /// Shows another time, at most the end of the schedule. A time that is over is now.
-    pub fn show_at(&mut self, model: &Model, at: Timestamp) {
+    pub fn show_at(&mut self, model: &Model, time: Timestamp) {
         self.is_click_refused = false;
         match model.schedule_until() {
-            Some(until) if at > model.now => self.at = Some(at.min(until)),
+            Some(end) if time > model.now => self.time = Some(time.min(end)),
             _ => self.return_to_now(),
         }
     }
 
     /// Shows a time so many seconds later, or earlier.
     pub fn step(&mut self, model: &Model, by_s: f64) {
-        self.show_at(model, add_seconds(self.at.unwrap_or(model.now), by_s));
+        self.show_at(model, add_seconds(self.time.unwrap_or(model.now), by_s));
     }
 
     /// A click in the sky of another time points no antenna, and says so.
@@ -65,42 +65,42 @@ impl SkyTime {
     /// Returns to now from a time that is over, or that the schedule does not hold any more, and
     /// computes the sky of the time shown.
     pub(super) fn keep(&mut self, model: &Model) {
-        let Some(at) = self.at else { return };
-        let Some(until) = model.schedule_until().filter(|_| at > model.now) else {
+        let Some(time) = self.time else { return };
+        let Some(end) = model.schedule_until().filter(|_| time > model.now) else {
             return self.return_to_now();
         };
-        let at = at.min(until);
-        self.at = Some(at);
+        let time = time.min(end);
+        self.time = Some(time);
         let key = SkyKey {
-            at,
+            time,
             site: model.station.site,
             passes_revision: model.pass_lists.favourites.revision,
             selected: model.selected_pass().map(PredictedPass::key),
         };
-        if self.sky.as_ref().is_none_or(|(of, _)| *of != key) {
-            self.sky = Some((key, model.sky_at(at)));
+        if self.sky.as_ref().is_none_or(|(sky_key, _)| *sky_key != key) {
+            self.sky = Some((key, model.sky_at(time)));
         }
     }
 
     /// The sky of the time shown, if that is not now.
     pub(super) fn sky(&self) -> Option<&Sky> {
-        let (_, sky) = self.sky.as_ref().filter(|_| self.at.is_some())?;
+        let (_, sky) = self.sky.as_ref().filter(|_| self.time.is_some())?;
         Some(sky)
     }
 
     /// Which time it is, in words.
     pub(super) fn words(&self, model: &Model) -> Option<String> {
-        let at = self.at?;
-        let moment = format::moment(at, model.now);
-        Some(format!("Sky at {moment}, in {}", format::time_left(model.now, at)))
+        let time = self.time?;
+        let moment = format::moment(time, model.now);
+        Some(format!("Sky at {moment}, in {}", format::time_left(model.now, time)))
     }
 }
 
-/// Positions of the antennas in the schedule at `at`.
-pub(super) fn planned_antennas(model: &Model, at: Timestamp) -> Vec<PlannedAntenna<'_>> {
+/// Positions of the antennas in the schedule at `time`.
+pub(super) fn planned_antennas(model: &Model, time: Timestamp) -> Vec<PlannedAntenna<'_>> {
     let antennas = model.antennas.iter().enumerate();
     let planned = antennas.filter_map(|(index, antenna)| {
-        let pose = model.pose_at(antenna, at)?;
+        let pose = model.pose_at(antenna, time)?;
         Some(PlannedAntenna {
             index,
             name: &antenna.config.name,

@@ -30,16 +30,16 @@ pub(super) fn show(
     ui: &mut Ui,
     rect: Rect,
     model: &Model,
-    then: Option<Timestamp>,
+    time: Option<Timestamp>,
     zoom: &mut Zoom,
     commands: &mut Vec<UiCommand>,
 ) {
-    let usual = match (rect.height() < timeline::SMALL_BELOW, rect.width() >= LONG_FROM) {
+    let default = match (rect.height() < timeline::SMALL_BELOW, rect.width() >= LONG_FROM) {
         (true, _) => 4,
         (false, true) => 24,
         (false, false) => 12,
     };
-    let hours = f64::from(zoom.hours(usual));
+    let hours = f64::from(zoom.hours(default));
     let end = add_seconds(model.now, hours * 3600.0);
     let is_planned = model.schedule.made_at.is_some();
     let antennas = model.antennas.iter();
@@ -62,7 +62,7 @@ pub(super) fn show(
     }
     let strip = TimelineModel {
         now: model.now,
-        then,
+        time,
         hours,
         lanes: &lanes,
         main: model.selected_antenna,
@@ -99,17 +99,17 @@ fn bars_of_plan<'a>(
 ) -> Vec<Bar<'a>> {
     let standings = model.standings_on(antenna);
     let ahead = planned.iter().map(|planned| {
-        let standing = standings.of(planned);
+        let standing = standings.standing(planned);
         let mut own = planned.entries.iter().filter(|entry| entry.antenna == antenna.id());
         let loses = own.any(|entry| entry.lost.is_some());
         bar(planned.predicted, State::Plan(standing), loses)
     });
-    let over = model.flown_by(antenna.id()).filter_map(|flown| {
+    let ended = model.flown_by(antenna.id()).filter_map(|flown| {
         let predicted = model.pass_lists.favourites.find(flown.pass);
-        let has_set = predicted.is_none_or(|of| of.pass.los.time <= model.now);
+        let has_set = predicted.is_none_or(|pass| pass.pass.los.time <= model.now);
         has_set.then(|| flown_bar(flown, predicted))
     });
-    over.chain(ahead).collect()
+    ended.chain(ahead).collect()
 }
 
 fn bar<'a>(predicted: &'a PredictedPass, state: State<'a>, loses: bool) -> Bar<'a> {
@@ -126,8 +126,8 @@ fn bar<'a>(predicted: &'a PredictedPass, state: State<'a>, loses: bool) -> Bar<'
 
 /// A pass that has set; `predicted` as long as the list still has it.
 fn flown_bar<'a>(flown: &'a Flown, predicted: Option<&PredictedPass>) -> Bar<'a> {
-    let los = predicted.map(|of| of.pass.los.time);
-    let max = predicted.map(|of| of.pass.max_elevation().degrees());
+    let los = predicted.map(|pass| pass.pass.los.time);
+    let max = predicted.map(|pass| pass.pass.max_elevation().degrees());
     Bar {
         key: flown.pass,
         name: BarName::Known(&flown.name),

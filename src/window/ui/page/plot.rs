@@ -46,7 +46,7 @@ pub(in crate::ui) struct Sky {
 
 impl Sky {
     /// The place of a direction; what lies below the horizon is drawn at it.
-    pub(in crate::ui) fn at(self, direction: AzEl) -> [f64; 2] {
+    pub(in crate::ui) fn point(self, direction: AzEl) -> [f64; 2] {
         let [x, y] = self.centre;
         let from_zenith = (90.0 - direction.elevation_deg()).clamp(0.0, 90.0) / 90.0 * self.radius;
         let (sin, cos) = direction.azimuth.radians().sin_cos();
@@ -67,17 +67,18 @@ impl Sky {
 }
 
 /// A small sky with the track of a pass, and the part that the antenna takes.
-pub(in crate::ui) fn thumbnail(whole: &[AzEl], taken: &[AzEl]) -> Markup {
+pub(in crate::ui) fn thumbnail(whole: &[AzEl], part: &[AzEl]) -> Markup {
     const RADIUS: f64 = 10.0;
     let sky = Sky { centre: [0.0, 0.0], radius: RADIUS };
-    let points = |track: &[AzEl]| track.iter().map(|at| sky.at(*at)).collect::<Vec<_>>();
-    let (whole, taken) = (points(whole), points(taken));
+    let points =
+        |track: &[AzEl]| track.iter().map(|direction| sky.point(*direction)).collect::<Vec<_>>();
+    let (whole, part) = (points(whole), points(part));
     html! {
         svg.sky viewBox="-11 -11 22 22" {
             (sky.rings())
             (line("thin", &whole))
-            (line("thick", &taken))
-            @if let Some(start) = whole.first().or(taken.first()) {
+            (line("thick", &part))
+            @if let Some(start) = whole.first().or(part.first()) {
                 (ring("filled", *start, 1.6))
             }
         }

@@ -92,9 +92,9 @@ fn long_texts_end_before_the_countdowns() {
 
 #[test]
 fn the_words_stay_while_the_figures_count() {
-    let at = |countdown| {
+    let reading = |countdown| {
         let window = window(704.0, HEIGHT, PassHeaderModel { countdown, ..NOAA_20 });
         bounds(&window, "LOS").0
     };
-    assert!((at("T−08:33") - at("T−01:11")).abs() < 1e-6);
+    assert!((reading("T−08:33") - reading("T−01:11")).abs() < 1e-6);
 }

@@ -116,12 +116,12 @@ const CHIPS: [Chip; 6] =
     [Chip::Order, Chip::Group, Chip::Light, Chip::Trackable, Chip::Sunlit, Chip::ToCome];
 
 impl Chip {
-    fn width(self, ui: &Ui, of: &Arrangement) -> f32 {
+    fn width(self, ui: &Ui, arrangement: &Arrangement) -> f32 {
         let drop_down = |words: &str| Button::quiet(words).chevron().width(ui).min(150.0);
         match self {
-            Self::Order => drop_down(of.order.words()),
-            Self::Group => drop_down(of.group.as_deref().unwrap_or(ANY_GROUP)),
-            Self::Light => drop_down(of.light.words()),
+            Self::Order => drop_down(arrangement.order.words()),
+            Self::Group => drop_down(arrangement.group.as_deref().unwrap_or(ANY_GROUP)),
+            Self::Light => drop_down(arrangement.light.words()),
             Self::Sunlit => chip::width(ui, SUNLIT),
             Self::Trackable => chip::width(ui, TRACKABLE),
             Self::ToCome => chip::width(ui, TO_COME),
@@ -130,58 +130,64 @@ impl Chip {
 }
 
 /// The places of the chips from the upper left corner of `room` on, in as many lines as needed.
-fn places(ui: &Ui, room: Rect, of: &Arrangement) -> Vec<(Chip, Rect)> {
-    let mut at = room.min;
+fn places(ui: &Ui, room: Rect, arrangement: &Arrangement) -> Vec<(Chip, Rect)> {
+    let mut position = room.min;
     let place = |chip: &Chip| {
-        let width = chip.width(ui, of);
-        if at.x > room.left() && at.x + width > room.right() {
-            at = pos2(room.left(), at.y + SMALL_HEIGHT + GAP);
+        let width = chip.width(ui, arrangement);
+        if position.x > room.left() && position.x + width > room.right() {
+            position = pos2(room.left(), position.y + SMALL_HEIGHT + GAP);
         }
-        let rect = Rect::from_min_size(at, vec2(width, SMALL_HEIGHT));
-        at.x = rect.right() + GAP;
+        let rect = Rect::from_min_size(position, vec2(width, SMALL_HEIGHT));
+        position.x = rect.right() + GAP;
         (*chip, rect)
     };
     CHIPS.iter().map(place).collect()
 }
 
 /// Height of the chips in a column of this `room`.
-pub(super) fn height(ui: &Ui, room: Rect, of: &Arrangement) -> f32 {
-    let lowest = places(ui, room, of).last().map_or(0.0, |(_, place)| place.bottom());
+pub(super) fn height(ui: &Ui, room: Rect, arrangement: &Arrangement) -> f32 {
+    let lowest = places(ui, room, arrangement).last().map_or(0.0, |(_, place)| place.bottom());
     lowest - room.top()
 }
 
 /// Shows the chips from the upper left corner of `room` on.
-pub(super) fn show(ui: &Ui, room: Rect, model: &PassListModel<'_>, of: &mut Arrangement) {
-    for (chip, place) in places(ui, room, of) {
+pub(super) fn show(ui: &Ui, room: Rect, model: &PassListModel<'_>, arrangement: &mut Arrangement) {
+    for (chip, place) in places(ui, room, arrangement) {
         match chip {
             Chip::Order => {
-                let words = of.order.words();
+                let words = arrangement.order.words();
                 drop_down(ui, place, "order", "Order", words, |ui| {
                     for order in Order::ALL {
-                        ui.selectable_value(&mut of.order, order, order.words());
+                        ui.selectable_value(&mut arrangement.order, order, order.words());
                     }
                 });
             }
             Chip::Group => {
-                let words = of.group.clone().unwrap_or_else(|| ANY_GROUP.to_owned());
+                let words = arrangement.group.clone().unwrap_or_else(|| ANY_GROUP.to_owned());
                 drop_down(ui, place, "group", "Group", &words, |ui| {
-                    ui.selectable_value(&mut of.group, None, ANY_GROUP);
+                    ui.selectable_value(&mut arrangement.group, None, ANY_GROUP);
                     for group in model.groups {
-                        ui.selectable_value(&mut of.group, Some((*group).to_owned()), *group);
+                        ui.selectable_value(
+                            &mut arrangement.group,
+                            Some((*group).to_owned()),
+                            *group,
+                        );
                     }
                 });
             }
             Chip::Light => {
-                let words = of.light.words();
+                let words = arrangement.light.words();
                 drop_down(ui, place, "light", "Time of day", words, |ui| {
                     for light in Light::ALL {
-                        ui.selectable_value(&mut of.light, light, light.words());
+                        ui.selectable_value(&mut arrangement.light, light, light.words());
                     }
                 });
             }
-            Chip::Sunlit => chip::show(ui, "sunlit", place, SUNLIT, &mut of.sunlit),
-            Chip::Trackable => chip::show(ui, "trackable", place, TRACKABLE, &mut of.trackable),
-            Chip::ToCome => chip::show(ui, "to come", place, TO_COME, &mut of.to_come),
+            Chip::Sunlit => chip::show(ui, "sunlit", place, SUNLIT, &mut arrangement.sunlit),
+            Chip::Trackable => {
+                chip::show(ui, "trackable", place, TRACKABLE, &mut arrangement.trackable);
+            }
+            Chip::ToCome => chip::show(ui, "to come", place, TO_COME, &mut arrangement.to_come),
         }
     }
 }

@@ -26,7 +26,7 @@ pub(super) const HEIGHT: f32 = 72.0;
 
 const PADDING: f32 = 16.0;
 const GAP: f32 = 8.0;
-const LEAST_GAP: f32 = 2.0;
+const MIN_GAP: f32 = 2.0;
 /// Centres of the two lines from the top.
 const LINES: [f32; 2] = [20.0, 52.0];
 /// Width of the choice of satellites.
@@ -49,16 +49,16 @@ pub(super) fn show(
     let t = theme::tokens(ui);
     let room = rect.shrink2(vec2(PADDING, 0.0));
     let [first, second] = LINES.map(|down| {
-        let at = room.top() + down - SMALL_HEIGHT / 2.0;
-        Rect::from_min_size(pos2(room.left(), at), vec2(room.width(), SMALL_HEIGHT))
+        let position = room.top() + down - SMALL_HEIGHT / 2.0;
+        Rect::from_min_size(pos2(room.left(), position), vec2(room.width(), SMALL_HEIGHT))
     });
-    let at = first.left_center();
+    let position = first.left_center();
     let title = if room.width() < NARROW { "Passes" } else { "Next passes" };
-    let title = paint::text(ui, at, Align2::LEFT_CENTER, title, text::small_strong(), t.t1);
+    let title = paint::text(ui, position, Align2::LEFT_CENTER, title, text::small_strong(), t.t1);
     let floor = floors(ui, first, model, commands);
     let mut count = format::number(model.rows as f64, 0);
-    if model.rows < model.of {
-        count = format!("{count} of {}", format::number(model.of as f64, 0));
+    if model.rows < model.total {
+        count = format!("{count} of {}", format::number(model.total as f64, 0));
     }
     let decimals = usize::from(model.aos_elevation_deg.fract() != 0.0);
     let aos = format::degrees(model.aos_elevation_deg, decimals);
@@ -86,8 +86,8 @@ pub(super) fn show(
     let span = second.with_min_x(second.right() - span_menu(model).width(ui));
     // In the narrowest list the buttons are narrower and stand closer together.
     let free = span.left() - second.left() - SCOPES;
-    let side = vec2((free / 2.0 - 1.5 * LEAST_GAP).min(SMALL_HEIGHT), SMALL_HEIGHT);
-    let gap = ((free - 2.0 * side.x) / 3.0).clamp(LEAST_GAP, GAP);
+    let side = vec2((free / 2.0 - 1.5 * MIN_GAP).min(SMALL_HEIGHT), SMALL_HEIGHT);
+    let gap = ((free - 2.0 * side.x) / 3.0).clamp(MIN_GAP, GAP);
     let place = Rect::from_min_size(pos2(span.left() - gap - side.x, span.top()), side);
     save(ui, place.translate(vec2(-gap - side.x, 0.0)), model, commands);
     search(ui, place, filter);
@@ -101,7 +101,7 @@ fn floors(ui: &Ui, line: Rect, model: &PassListModel<'_>, commands: &mut Vec<UiC
     let words = |floor_deg: f64| format!("Floor {}", angle(floor_deg));
     let name = format!("Elevation floor: {}", angle(model.floor_deg));
     let (chosen, lock) = (words(model.floor_deg), model.lock);
-    let menu = Menu { salt: "floor", name, chosen, about: FLOOR, lock };
+    let menu = Menu { salt: "floor", name, chosen, description: FLOOR, lock };
     let place = line.with_min_x(line.right() - menu.width(ui));
     menu.show(ui, place, |ui| {
         for floor_deg in FLOORS_DEG {
@@ -121,7 +121,7 @@ fn hours(span_h: u32) -> String {
 fn span_menu(model: &PassListModel<'_>) -> Menu {
     let chosen = hours(model.span_h);
     let name = format!("How far ahead: {chosen}");
-    Menu { salt: "span", name, chosen, about: SPAN, lock: None }
+    Menu { salt: "span", name, chosen, description: SPAN, lock: None }
 }
 
 fn spans(ui: &Ui, place: Rect, model: &PassListModel<'_>, commands: &mut Vec<UiCommand>) {
@@ -200,7 +200,7 @@ struct Menu {
     name: String,
     chosen: String,
     /// The hover text.
-    about: &'static str,
+    description: &'static str,
     /// Reason why nothing can be chosen, shown in place of the hover text.
     lock: Option<&'static str>,
 }
@@ -218,7 +218,7 @@ impl Menu {
     fn show(&self, ui: &Ui, place: Rect, choices: impl FnOnce(&mut Ui)) {
         let shown = self.list().show(ui, place, choices);
         if self.lock.is_none() {
-            shown.on_hover_text(self.about);
+            shown.on_hover_text(self.description);
         }
     }
 }

@@ -19,7 +19,7 @@ pub(super) enum Phase {
 }
 
 impl Phase {
-    pub(super) fn of(row: &PassRow<'_>, now: Timestamp) -> Self {
+    pub(super) fn new(row: &PassRow<'_>, now: Timestamp) -> Self {
         if row.starts_before && row.ends_after {
             Self::AllTheTime
         } else if now < row.aos {
@@ -63,23 +63,23 @@ pub(super) fn azimuths(row: &PassRow<'_>) -> String {
     let end = |outside: bool, azimuth_deg: f64| {
         if outside { "…".to_owned() } else { format::azimuth(azimuth_deg) }
     };
-    let from = end(row.starts_before, row.aos_azimuth_deg);
-    let to = end(row.ends_after, row.los_azimuth_deg);
-    format!("{from} → {to}")
+    let start_text = end(row.starts_before, row.aos_azimuth_deg);
+    let end_text = end(row.ends_after, row.los_azimuth_deg);
+    format!("{start_text} → {end_text}")
 }
 
 /// Duration of the pass, with ">" if one end is outside the list and behind the time clear of
 /// the mask where that is shorter. Empty if both ends are outside.
 pub(super) fn duration(row: &PassRow<'_>) -> String {
-    let known = format::duration(seconds_between(row.aos, row.los));
-    let known = match row.clear_s {
-        Some(clear_s) => format!("clear {} of {known}", format::duration(clear_s)),
-        None => known,
+    let length = format::duration(seconds_between(row.aos, row.los));
+    let length = match row.clear_s {
+        Some(clear_s) => format!("clear {} of {length}", format::duration(clear_s)),
+        None => length,
     };
     match (row.starts_before, row.ends_after) {
-        (false, false) => known,
+        (false, false) => length,
         (true, true) => String::new(),
-        (true, false) | (false, true) => format!("> {known}"),
+        (true, false) | (false, true) => format!("> {length}"),
     }
 }
 
@@ -145,7 +145,7 @@ mod tests {
             max_elevation_deg: 51.6,
             aos_azimuth_deg: 249.0,
             los_azimuth_deg: 46.0,
-            verdict: Some(Verdict::Loses { seconds: 11.4, at: Loss::Keyhole(Angle::ZERO) }),
+            verdict: Some(Verdict::Loses { seconds: 11.4, loss: Loss::Keyhole(Angle::ZERO) }),
             clear_s: None,
             path: &[],
         }
@@ -153,7 +153,7 @@ mod tests {
 
     fn spoken_at(row: &PassRow<'_>, seconds: f64) -> String {
         let now = add_seconds(AOS, seconds);
-        spoken(row, Phase::of(row, now), now)
+        spoken(row, Phase::new(row, now), now)
     }
 
     #[test]
@@ -192,11 +192,11 @@ mod tests {
         let early = row(true, false);
         assert_eq!(azimuths(&early), "… → 046°");
         assert_eq!((duration(&early).as_str(), aos_time(&early, AOS).as_str()), ("> 10:00", "–"));
-        assert_eq!(progress(&early, Phase::of(&early, AOS), AOS), None);
+        assert_eq!(progress(&early, Phase::new(&early, AOS), AOS), None);
         let late = row(false, true);
         assert_eq!(azimuths(&late), "249° → …");
-        assert_eq!(countdown(&late, Phase::of(&late, AOS), AOS).1, "later");
-        assert_eq!(Phase::of(&late, add_seconds(AOS, -1.0)), Phase::Upcoming);
+        assert_eq!(countdown(&late, Phase::new(&late, AOS), AOS).1, "later");
+        assert_eq!(Phase::new(&late, add_seconds(AOS, -1.0)), Phase::Upcoming);
     }
 
     #[test]
@@ -206,19 +206,19 @@ mod tests {
             assert!(spoken_at(&row, seconds).starts_with("ISS, always up, max 52°"));
         }
         assert_eq!(azimuths(&row) + &duration(&row) + &aos_time(&row, AOS), "");
-        assert_eq!(Phase::of(&row, AOS), Phase::AllTheTime);
+        assert_eq!(Phase::new(&row, AOS), Phase::AllTheTime);
     }
 
     #[test]
     fn progress_runs_from_aos_to_los() {
         let row = row(false, false);
-        let at = |seconds| {
+        let progress_at = |seconds| {
             let now = add_seconds(AOS, seconds);
-            progress(&row, Phase::of(&row, now), now)
+            progress(&row, Phase::new(&row, now), now)
         };
-        assert_eq!(at(-1.0), None);
-        assert_eq!(at(0.0), Some(0.0));
-        assert_eq!(at(150.0), Some(0.25));
-        assert_eq!(at(600.0), None);
+        assert_eq!(progress_at(-1.0), None);
+        assert_eq!(progress_at(0.0), Some(0.0));
+        assert_eq!(progress_at(150.0), Some(0.25));
+        assert_eq!(progress_at(600.0), None);
     }
 }

@@ -42,17 +42,17 @@ pub(super) fn paint(
     has_thumbnail: bool,
 ) -> bool {
     let t = theme::tokens(ui);
-    let phase = Phase::of(row, now);
+    let phase = Phase::new(row, now);
     let mut left = rect.left() + PADDING;
     if has_thumbnail {
-        let at =
+        let area =
             paint::square(pos2(left + thumbnail::SIDE / 2.0, rect.center().y), thumbnail::SIDE);
-        thumbnail::paint(ui, at, row.path);
-        left = at.right() + GAP;
+        thumbnail::paint(ui, area, row.path);
+        left = area.right() + GAP;
     }
     let [first, second, third] = LINES.map(|down| {
-        let from = pos2(left, rect.top() + down - 10.0);
-        Rect::from_min_max(from, pos2(rect.right() - PADDING, from.y + 20.0))
+        let start = pos2(left, rect.top() + down - 10.0);
+        Rect::from_min_max(start, pos2(rect.right() - PADDING, start.y + 20.0))
     });
     let name_cut = name_line(ui, first, row, phase, now, t);
     shape_line(ui, second, row, t);
@@ -83,8 +83,8 @@ fn name_line(
     let time = paint::text(ui, rect.right_center(), Align2::RIGHT_CENTER, time, font, colour);
     let mut right = time.left();
     if !word.is_empty() {
-        let at = pos2(right - 6.0, rect.center().y);
-        right = paint::text(ui, at, Align2::RIGHT_CENTER, word, text::caption(), t.t3).left();
+        let position = pos2(right - 6.0, rect.center().y);
+        right = paint::text(ui, position, Align2::RIGHT_CENTER, word, text::caption(), t.t3).left();
     }
     let room = rect.with_max_x(right - COLUMN_GAP);
     let font = text::sized(13.0, Weight::SemiBold);
@@ -99,17 +99,17 @@ fn shape_line(ui: &Ui, rect: Rect, row: &PassRow<'_>, t: &Tokens) {
     let room = rect.with_max_x(rect.left() + AZIMUTHS);
     paint::text_in(ui, room, Align2::LEFT_CENTER, &maximum, small(), t.t2);
     let duration = phase::duration(row);
-    let at = rect.right_center();
-    let duration = paint::text(ui, at, Align2::RIGHT_CENTER, duration, small(), t.t2);
+    let position = rect.right_center();
+    let duration = paint::text(ui, position, Align2::RIGHT_CENTER, duration, small(), t.t2);
     let room = rect.with_min_x(room.right()).with_max_x(duration.left() - COLUMN_GAP);
     paint::text_in(ui, room, Align2::LEFT_CENTER, &phase::azimuths(row), small(), t.t2);
 }
 
 /// Paints verdict and time of AOS. Returns `true` if the verdict was cut.
 fn verdict_line(ui: &Ui, rect: Rect, row: &PassRow<'_>, now: Timestamp, t: &Tokens) -> bool {
-    let at = rect.right_center();
+    let position = rect.right_center();
     let time = phase::aos_time(row, now);
-    let time = paint::text(ui, at, Align2::RIGHT_CENTER, time, text::small(), t.t3);
+    let time = paint::text(ui, position, Align2::RIGHT_CENTER, time, text::small(), t.t3);
     let Some(verdict) = row.verdict else { return false };
     verdict_in(ui, rect.with_max_x(time.left() - COLUMN_GAP), verdict, t)
 }

@@ -25,12 +25,12 @@ pub(super) fn show(
     let list = List::new(ui, rect, "pass list", "Passes", row::HEIGHT);
     let is_news = state.is_news(model.selected);
     let selected = model.selected.filter(|_| is_news).and_then(model.place);
-    let gone = state.rows_gone_above(model);
+    let scrolled = state.rows_gone_above(model);
     let mut scroll = state.scroll;
     if let Some(first) = state.opens_at(model) {
         scroll.set(first as f32 * row::HEIGHT);
-    } else if gone != 0.0 {
-        scroll.set(scroll.offset - gone * row::HEIGHT);
+    } else if scrolled != 0.0 {
+        scroll.set(scroll.offset - scrolled * row::HEIGHT);
     }
     if let Some(place) = selected {
         scroll.bring_into_view(place);
@@ -48,8 +48,8 @@ pub(super) fn show(
 
 /// The pass to which a step leads from the selected one, or the first pass.
 fn stepped<'a>(step: Step, model: &PassListModel<'a>) -> Option<PassRow<'a>> {
-    let from = model.selected.and_then(model.place);
-    let target = from.map_or(Some(0), |from| step.target(from, model.rows))?;
+    let start = model.selected.and_then(model.place);
+    let target = start.map_or(Some(0), |start| step.target(start, model.rows))?;
     (model.row)(target).filter(|pass| model.selected != Some(pass.key))
 }
 
@@ -90,7 +90,7 @@ fn one(
     model: &PassListModel<'_>,
 ) -> Response {
     let is_selected = model.selected == Some(pass.key);
-    let spoken = || phase::spoken(pass, Phase::of(pass, model.now), model.now);
+    let spoken = || phase::spoken(pass, Phase::new(pass, model.now), model.now);
     let clear = egui::Color32::TRANSPARENT;
     let response = list.option(ui, rect, pass.key, is_selected, clear, spoken);
     if ui.is_rect_visible(rect) && row::paint(ui, rect, pass, model.now, model.thumbnails) {

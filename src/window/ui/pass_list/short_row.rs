@@ -40,8 +40,8 @@ pub fn short_row(
     ui.painter().hline(rect.x_range(), rect.top() + 0.5, (1.0, t.line));
     let picture = pos2(rect.left() + PADDING + thumbnail::SIDE / 2.0, rect.center().y);
     thumbnail::paint(ui, paint::square(picture, thumbnail::SIDE), row.path);
-    let line = |from: f32| {
-        let min = pos2(rect.left() + TEXTS, rect.top() + from);
+    let line = |start: f32| {
+        let min = pos2(rect.left() + TEXTS, rect.top() + start);
         Rect::from_min_size(min, vec2(rect.right() - PADDING - min.x, 18.0))
     };
     let left = Align2::LEFT_CENTER;
@@ -58,6 +58,6 @@ pub fn short_row(
 fn shape(row: &PassRow<'_>) -> String {
     let max = format!("max {}", format::degrees(row.max_elevation_deg, 0));
     let parts = [max, phase::azimuths(row), phase::duration(row)];
-    let known: Vec<String> = parts.into_iter().filter(|part| !part.is_empty()).collect();
-    known.join(", ")
+    let shown_parts: Vec<String> = parts.into_iter().filter(|part| !part.is_empty()).collect();
+    shown_parts.join(", ")
 }

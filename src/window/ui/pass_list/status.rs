@@ -28,19 +28,19 @@ pub(super) fn show(ui: &Ui, rect: Rect, model: &PassListModel<'_>, commands: &mu
     let t = theme::tokens(ui);
     let room = rect.shrink2(vec2(PADDING, 0.0));
     ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, (1.0, t.line));
-    let made = model.made.map_or_else(String::new, |(satellites, at)| {
+    let made = model.made.map_or_else(String::new, |(satellites, time)| {
         let count = format::number(satellites as f64, 0);
-        format!("{count} satellites at {}", format::minute(at, model.now))
+        format!("{count} satellites at {}", format::minute(time, model.now))
     });
     let (words, colour, offer) = match model.work {
         Work::Nothing => (made, t.t3, None),
-        Work::UnderWay { done, total: of } => {
-            progress(ui, rect, done, of);
+        Work::UnderWay { done, total } => {
+            progress(ui, rect, done, total);
             let count = |number: usize| format::number(number as f64, 0);
-            let words = if of == 0 {
+            let words = if total == 0 {
                 "Preparing the satellites".to_owned()
             } else {
-                format!("Searched {} of {}", count(done), count(of))
+                format!("Searched {} of {}", count(done), count(total))
             };
             (
                 words,
@@ -50,7 +50,9 @@ pub(super) fn show(ui: &Ui, rect: Rect, model: &PassListModel<'_>, commands: &mu
         }
         Work::Cancelled => {
             let words = match model.made {
-                Some((_, at)) => format!("Cancelled; list of {}", format::minute(at, model.now)),
+                Some((_, time)) => {
+                    format!("Cancelled; list of {}", format::minute(time, model.now))
+                }
                 None => "Cancelled".to_owned(),
             };
             (
@@ -81,9 +83,9 @@ pub(super) fn show(ui: &Ui, rect: Rect, model: &PassListModel<'_>, commands: &mu
     );
 }
 
-fn progress(ui: &Ui, rect: Rect, done: usize, of: usize) {
+fn progress(ui: &Ui, rect: Rect, done: usize, total: usize) {
     let t = theme::tokens(ui);
-    let part = if of == 0 { 0.0 } else { (done as f32 / of as f32).clamp(0.0, 1.0) };
+    let part = if total == 0 { 0.0 } else { (done as f32 / total as f32).clamp(0.0, 1.0) };
     let track = rect.with_min_y(rect.bottom() - BAR);
     ui.painter().rect_filled(track, 0.0, t.line);
     let filled = track.with_max_x(track.left() + part * track.width());

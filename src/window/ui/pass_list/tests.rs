@@ -26,7 +26,7 @@ struct Fixture {
     rows: usize,
     begun: usize,
     /// Number of passes that are over and gone.
-    gone: usize,
+    scrolled: usize,
     scope: Scope,
     span_h: u32,
     work: Work,
@@ -41,11 +41,11 @@ struct Fixture {
 }
 
 impl Fixture {
-    fn with(rows: usize) -> Self {
+    fn new(rows: usize) -> Self {
         Self {
             rows,
             begun: 1,
-            gone: 0,
+            scrolled: 0,
             scope: Scope::Favourites,
             span_h: 48,
             work: Work::Nothing,
@@ -77,7 +77,7 @@ fn pass(index: usize, path: &[Sample]) -> PassRow<'_> {
         los_azimuth_deg: 343.0,
         verdict: match index {
             0 => Some(Verdict::Trackable),
-            1 => Some(Verdict::Loses { seconds: 11.4, at: Loss::Keyhole(Angle::ZERO) }),
+            1 => Some(Verdict::Loses { seconds: 11.4, loss: Loss::Keyhole(Angle::ZERO) }),
             2 => Some(Verdict::OutOfReach),
             _ => None,
         },
@@ -96,20 +96,20 @@ fn window(fixture: Fixture) -> Harness<'static, Fixture> {
         .collect();
     testing::window([width, 636.0], fixture, move |ui, fixture| {
         let highest = Rc::clone(&fixture.highest);
-        let (rows, gone) = (fixture.rows, fixture.gone);
+        let (rows, scrolled) = (fixture.rows, fixture.scrolled);
         let row = |index: usize| {
             highest.set(highest.get().max(index));
-            Some(pass(index + gone, &path))
+            Some(pass(index + scrolled, &path))
         };
         let model = PassListModel {
             now: now(),
             rows: fixture.rows,
             begun: fixture.begun,
-            of: fixture.rows,
+            total: fixture.rows,
             groups: &[],
             row: &row,
-            place: &|key| (0..rows).find(|index| key_of(index + gone) == key),
-            keys: &|| (0..rows).map(|index| key_of(index + gone)).collect(),
+            place: &|key| (0..rows).find(|index| key_of(index + scrolled) == key),
+            keys: &|| (0..rows).map(|index| key_of(index + scrolled)).collect(),
             aos_elevation_deg: 5.0,
             scope: fixture.scope,
             span_h: fixture.span_h,
@@ -150,7 +150,7 @@ fn key_of(index: usize) -> PassListKey {
 
 #[test]
 fn a_row_says_what_it_shows_and_a_click_selects_it() {
-    let mut window = window(Fixture::with(8));
+    let mut window = window(Fixture::new(8));
     window.get_by_label("NOAA 20, LOS T−08:33, max 69°, Trackable");
     let second = "METEOR-M2 4, AOS T−25:41, max 69°, Loses 12 s at keyhole N";
     window.get_by_role_and_label(Role::ListBoxOption, second).click();
@@ -164,7 +164,7 @@ fn a_row_says_what_it_shows_and_a_click_selects_it() {
 
 #[test]
 fn keys_move_the_selection_and_keep_it_in_view() {
-    let mut window = window(Fixture::with(40));
+    let mut window = window(Fixture::new(40));
     window.get_by_role_and_label(Role::ListBox, "Passes").focus();
     window.run();
     window.key_press(Key::ArrowDown);
@@ -187,7 +187,7 @@ fn keys_move_the_selection_and_keep_it_in_view() {
 
 #[test]
 fn tab_walks_from_the_drop_down_to_the_list() {
-    let mut window = window(Fixture::with(8));
+    let mut window = window(Fixture::new(8));
     for _ in 0..6 {
         window.key_press(Key::Tab);
         window.run();
@@ -197,7 +197,7 @@ fn tab_walks_from_the_drop_down_to_the_list() {
 
 #[test]
 fn another_floor_is_chosen_from_the_drop_down() {
-    let mut window = window(Fixture::with(8));
+    let mut window = window(Fixture::new(8));
     window.get_by_role_and_label(Role::ComboBox, "Elevation floor: 10°").click();
     window.run();
     window.get_by_label("Floor 30°").click();
@@ -212,15 +212,15 @@ fn another_floor_is_chosen_from_the_drop_down() {
 #[test]
 fn satellites_and_span_are_chosen_above_the_list() {
     for thumbnails in [true, false] {
-        let mut window = window(Fixture { thumbnails, ..Fixture::with(8) });
+        let mut window = window(Fixture { thumbnails, ..Fixture::new(8) });
         window.get_by_role_and_label(Role::RadioButton, "All").click();
         window.run();
         window.get_by_role_and_label(Role::ComboBox, "How far ahead: 48 h").click();
         window.run();
         window.get_by_label("6 h").click();
         window.run();
-        let wanted = [UiCommand::SetScope(Scope::All), UiCommand::SetSpan(6)];
-        assert_eq!(window.state().actions, wanted);
+        let expected = [UiCommand::SetScope(Scope::All), UiCommand::SetSpan(6)];
+        assert_eq!(window.state().actions, expected);
         window.get_by_role_and_label(Role::RadioButton, "All").click();
         window.run();
         assert_eq!(window.state().actions.len(), 2, "it is chosen already");
@@ -230,7 +230,7 @@ fn satellites_and_span_are_chosen_above_the_list() {
 #[test]
 fn a_search_tells_how_far_it_is_and_can_be_cancelled_and_begun_again() {
     let work = Work::UnderWay { done: 4022, total: 16_089 };
-    let mut window = window(Fixture { scope: Scope::All, work, ..Fixture::with(8) });
+    let mut window = window(Fixture { scope: Scope::All, work, ..Fixture::new(8) });
     window.get_by_label("Searched 4022 of 16\u{2009}089");
     let bar = window.get_by_role(Role::ProgressIndicator);
     assert_eq!(bar.accesskit_node().numeric_value(), Some(25.0));
@@ -252,7 +252,7 @@ fn a_search_tells_how_far_it_is_and_can_be_cancelled_and_begun_again() {
 
 #[test]
 fn of_a_list_that_is_made_it_says_of_what_and_when() {
-    let mut window = window(Fixture { scope: Scope::All, ..Fixture::with(8) });
+    let mut window = window(Fixture { scope: Scope::All, ..Fixture::new(8) });
     window.get_by_label("16\u{2009}089 satellites at 11:06Z");
     window.state_mut().scope = Scope::Favourites;
     window.run();
@@ -261,7 +261,7 @@ fn of_a_list_that_is_made_it_says_of_what_and_when() {
 
 #[test]
 fn the_list_of_all_satellites_opens_where_the_next_pass_begins() {
-    let mut window = window(Fixture { begun: 400, ..Fixture::with(1000) });
+    let mut window = window(Fixture { begun: 400, ..Fixture::new(1000) });
     let first_row = |window: &Harness<'_, Fixture>| window.state().state.top.map(|(row, _)| row);
     assert_eq!(first_row(&window), Some(0));
     window.state_mut().scope = Scope::All;
@@ -277,7 +277,7 @@ fn the_list_of_all_satellites_opens_where_the_next_pass_begins() {
 
 #[test]
 fn what_is_read_stays_where_it_is_when_passes_above_end() {
-    let mut window = window(Fixture::with(1000));
+    let mut window = window(Fixture::new(1000));
     window.state_mut().selected = Some(key_of(500));
     window.run();
     let place = |window: &Harness<'_, Fixture>| {
@@ -287,7 +287,7 @@ fn what_is_read_stays_where_it_is_when_passes_above_end() {
         rows.into_iter().find(selected).map(|row| row.rect())
     };
     let before = place(&window).expect("its row is in view");
-    (window.state_mut().rows, window.state_mut().gone) = (970, 30);
+    (window.state_mut().rows, window.state_mut().scrolled) = (970, 30);
     window.run();
     assert_eq!(place(&window), Some(before));
 }
@@ -295,7 +295,7 @@ fn what_is_read_stays_where_it_is_when_passes_above_end() {
 #[test]
 fn what_is_filtered_begins_at_its_first_hit() {
     for scope in [Scope::Favourites, Scope::All] {
-        let mut window = window(Fixture { scope, begun: 300, ..Fixture::with(900) });
+        let mut window = window(Fixture { scope, begun: 300, ..Fixture::new(900) });
         window.state_mut().selected = Some(pass(880, &[]).key);
         window.run();
         window.get_by_role_and_label(Role::Button, "Filter the list").click();
@@ -316,7 +316,7 @@ fn what_is_filtered_begins_at_its_first_hit() {
 #[test]
 fn a_filter_is_opened_typed_and_closed() {
     for thumbnails in [true, false] {
-        let mut window = window(Fixture { thumbnails, ..Fixture::with(8) });
+        let mut window = window(Fixture { thumbnails, ..Fixture::new(8) });
         assert!(window.query_by_role(Role::TextInput).is_none());
         window.get_by_role_and_label(Role::Button, "Filter the list").click();
         window.run();
@@ -333,7 +333,7 @@ fn a_filter_is_opened_typed_and_closed() {
 #[test]
 fn the_choices_in_the_head_never_touch() {
     for thumbnails in [true, false] {
-        let fixture = Fixture { scope: Scope::All, thumbnails, ..Fixture::with(98_765) };
+        let fixture = Fixture { scope: Scope::All, thumbnails, ..Fixture::new(98_765) };
         let window = window(fixture);
         let place = |name| window.get_by_label(name).rect();
         let count = place("Next passes, 98\u{2009}765 · AOS at 5°");
@@ -345,14 +345,14 @@ fn the_choices_in_the_head_never_touch() {
 
 #[test]
 fn an_empty_list_says_so() {
-    let window = window(Fixture::with(0));
+    let window = window(Fixture::new(0));
     window.get_by_label("No pass above 10° in the next 48 hours.");
     assert!(window.query_by_role(Role::ListBoxOption).is_none());
 }
 
 #[test]
 fn only_rows_in_view_are_asked_for() {
-    let mut window = window(Fixture::with(1000));
+    let mut window = window(Fixture::new(1000));
     window.run();
     window.get_by_label("Next passes, 1000 · AOS at 5°");
     assert!(window.state().highest.get() < 12, "{}", window.state().highest.get());
@@ -362,7 +362,7 @@ fn only_rows_in_view_are_asked_for() {
 #[test]
 fn a_long_name_leaves_the_countdown_alone() {
     for thumbnails in [true, false] {
-        let mut window = window(Fixture { thumbnails, ..Fixture::with(4) });
+        let mut window = window(Fixture { thumbnails, ..Fixture::new(4) });
         window.run();
         let row = window.get_by_label_contains(LONG).rect();
         let texts = painted_texts(&window, row);

@@ -70,7 +70,7 @@ mod tests {
     use super::*;
     use jiff::Timestamp;
 
-    fn at(azimuth_deg: f64, elevation_deg: f64) -> Sample {
+    fn sample(azimuth_deg: f64, elevation_deg: f64) -> Sample {
         let direction = AzEl::from_degrees(azimuth_deg, elevation_deg);
         Sample { time: Timestamp::UNIX_EPOCH, direction }
     }
@@ -87,7 +87,8 @@ mod tests {
 
     #[test]
     fn points_on_each_other_and_directions_without_a_value_are_left_out() {
-        let path = [at(0.0, 10.0), at(0.1, 10.0), at(f64::NAN, 10.0), at(90.0, 10.0)];
+        let path =
+            [sample(0.0, 10.0), sample(0.1, 10.0), sample(f64::NAN, 10.0), sample(90.0, 10.0)];
         assert_eq!(points(&path, Pos2::ZERO, 20.0).len(), 2);
     }
 }

@@ -20,7 +20,7 @@ pub enum Verdict<'a> {
         /// Lost time.
         seconds: f64,
         /// Place where the loss begins.
-        at: Loss,
+        loss: Loss,
     },
     /// The mount tracks the whole pass, but the horizon mask blocks the beam.
     Blocked {
@@ -84,7 +84,7 @@ impl LeftOut<'_> {
 }
 
 /// The azimuth of a keyhole, as a point of the compass where it is one.
-fn towards(degrees: f64) -> String {
+fn text_towards(degrees: f64) -> String {
     match degrees.round() as i32 % 360 {
         0 => "N".to_owned(),
         90 => "E".to_owned(),
@@ -108,12 +108,12 @@ impl Verdict<'_> {
             Self::TooLow => "Below the antenna's minimum elevation".into(),
             Self::InMaintenance => "In maintenance".into(),
             Self::Way(way) => words::capitalised(&way.words()).into(),
-            Self::LeftOut(why) => format!("Left out: {}", why.reason()).into(),
-            Self::Loses { seconds, at } => {
+            Self::LeftOut(reason) => format!("Left out: {}", reason.reason()).into(),
+            Self::Loses { seconds, loss } => {
                 let lost = format::age(seconds.ceil());
-                match at {
+                match loss {
                     Loss::Keyhole(azimuth) => {
-                        format!("Loses {lost} at keyhole {}", towards(azimuth.degrees()))
+                        format!("Loses {lost} at keyhole {}", text_towards(azimuth.degrees()))
                     }
                     Loss::Overhead => format!("Loses {lost} overhead"),
                     Loss::Slew => format!("Loses {lost} at the azimuth unwrap"),
@@ -137,12 +137,12 @@ impl Verdict<'_> {
             Self::OutOfReach => "Out of reach".into(),
             Self::TooLow => "Stays too low".into(),
             Self::Way(way) => words::capitalised(&way.short()).into(),
-            Self::LeftOut(why) => words::capitalised(&why.reason()).into(),
-            Self::Loses { seconds, at } => {
+            Self::LeftOut(reason) => words::capitalised(&reason.reason()).into(),
+            Self::Loses { seconds, loss } => {
                 let lost = format::age(seconds.ceil());
-                match at {
+                match loss {
                     Loss::Keyhole(azimuth) => {
-                        format!("{lost}: keyhole {}", towards(azimuth.degrees()))
+                        format!("{lost}: keyhole {}", text_towards(azimuth.degrees()))
                     }
                     Loss::Overhead => format!("{lost} overhead"),
                     Loss::Slew => format!("{lost} unwrapping"),

@@ -100,11 +100,15 @@ fn title(ui: &Ui, rect: Rect, model: &Model, state: &mut PlanState, commands: &m
             count => format!(", {count} passes changed"),
         };
         let rehearsed = words::rehearsal::in_short(&model.rehearsal, model.now);
-        format!("{times}{changes}{}", rehearsed.map(|it| format!(". {it}")).unwrap_or_default())
+        format!("{times}{changes}{}", rehearsed.map(|text| format!(". {text}")).unwrap_or_default())
     };
     paint::text_in(ui, second, left, &words, small, t.t2);
-    let changed: Vec<String> =
-        model.schedule.changes.iter().map(|of| words::schedule::change(model, of)).collect();
+    let changed: Vec<String> = model
+        .schedule
+        .changes
+        .iter()
+        .map(|change| words::schedule::change(model, change))
+        .collect();
     let response = paint::name_text(ui, "plan summary", second, &words);
     if !changed.is_empty() {
         response.on_hover_text(changed.join("\n"));
@@ -124,7 +128,7 @@ fn spans(
     let segments = SPANS_H.map(|(hours, word)| {
         let state = match lock {
             _ if is_chosen(hours) => Segment::Chosen,
-            Some(why) => Segment::Locked(Some(why)),
+            Some(reason) => Segment::Locked(Some(reason)),
             None => Segment::Free,
         };
         (word, state)
@@ -197,6 +201,7 @@ fn set(
     state: &mut PlanState,
     commands: &mut Vec<UiCommand>,
 ) {
-    let [to, back] = [scheduling, model.station.scheduling].map(contract::Command::SetScheduling);
-    state.change(model, to, back, words, commands);
+    let [command, back] =
+        [scheduling, model.station.scheduling].map(contract::Command::SetScheduling);
+    state.change(model, command, back, words, commands);
 }

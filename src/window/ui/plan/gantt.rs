@@ -66,8 +66,8 @@ pub(super) fn show(
     list.widget_info(|| WidgetInfo::labeled(Role::ListBox, true, "Passes by satellite"));
     if satellites.is_empty() {
         let words = "No satellite is planned. Mark favourites in Elements.";
-        let at = body.left_top() + vec2(PADDING, 8.0);
-        let place = paint::paragraph(ui, at, body.width() - 32.0, words, text::body(), t.t2);
+        let position = body.left_top() + vec2(PADDING, 8.0);
+        let place = paint::paragraph(ui, position, body.width() - 32.0, words, text::body(), t.t2);
         paint::name_text(ui, "nothing planned", place, words);
         return;
     }
@@ -100,7 +100,7 @@ fn day_and_night(ui: &Ui, place: Rect, model: &Model, axis: TimeAxis) {
     let t = theme::tokens(ui);
     ui.painter().rect_filled(place, 0.0, t.bg0);
     for day in model.sky.sun_spans.iter().filter(|span| span.up) {
-        if let Some(x) = axis.range(day.from, day.to) {
+        if let Some(x) = axis.range(day.start, day.end) {
             ui.painter().rect_filled(Rect::from_x_y_ranges(x, place.y_range()), 0.0, t.bg1);
         }
     }
@@ -116,10 +116,10 @@ fn heads(ui: &Ui, head: Rect, place: Rect, axis: TimeAxis) {
     paint::text_in(ui, inner, left, "Priority", text::caption(), t.t3);
     paint::text_in(ui, inner, right, "taken", text::caption(), t.t3);
     let hour_width = axis.hour_width();
-    let every = [1, 2, 3, 6, 12].into_iter().find(|of| hour_width * *of as f32 >= HOUR_APART);
-    for at in axis.multiples(every.unwrap_or(24) * 3600) {
-        let x = axis.x(at);
-        let (word, y) = (format::hour_of_day(at), head.bottom() - HOURS_UP);
+    let every = [1, 2, 3, 6, 12].into_iter().find(|hours| hour_width * *hours as f32 >= HOUR_APART);
+    for time in axis.multiples(every.unwrap_or(24) * 3600) {
+        let x = axis.x(time);
+        let (word, y) = (format::hour_of_day(time), head.bottom() - HOURS_UP);
         if x + 10.0 < place.right() {
             let centre = Align2::CENTER_CENTER;
             paint::text(ui, pos2(x, y), centre, word, text::caption(), t.t3);
@@ -129,10 +129,10 @@ fn heads(ui: &Ui, head: Rect, place: Rect, axis: TimeAxis) {
     let y = head.top() + HEAD / 4.0;
     let days = std::iter::once(axis.start()).chain(axis.multiples(DAY_S));
     let labels: Vec<_> = days
-        .map(|at| {
-            let word = format::weekday(at);
+        .map(|time| {
+            let word = format::weekday(time);
             let width = paint::text_width(ui, &word, font.clone());
-            (axis.x(at).max(place.left()), width, word)
+            (axis.x(time).max(place.left()), width, word)
         })
         .collect();
     // Where two days have no room for both labels, the later one stays: without it, its times would
@@ -165,8 +165,8 @@ fn show_row(
     if is_selected {
         ui.painter().rect_filled(labels, 0.0, t.bgsel);
     }
-    for at in axis.multiples(DAY_S) {
-        ui.painter().vline(axis.x(at), row.y_range(), (1.0, t.edge));
+    for time in axis.multiples(DAY_S) {
+        ui.painter().vline(axis.x(time), row.y_range(), (1.0, t.edge));
     }
     ui.painter().hline(row.x_range(), row.top() + 0.5, (1.0, line));
     let inner = labels.shrink2(vec2(PADDING, 0.0));
@@ -176,14 +176,15 @@ fn show_row(
         let word = satellite.priority.number().to_string();
         paint::text(ui, badge.center(), Align2::CENTER_CENTER, word, text::caption(), t.t1);
     }
-    let taken = satellite.passes.iter().filter(|of| !of.entries.is_empty()).count();
-    let count = format!("{taken} / {}", satellite.passes.len());
+    let used =
+        satellite.passes.iter().filter(|planned_pass| !planned_pass.entries.is_empty()).count();
+    let count = format!("{used} / {}", satellite.passes.len());
     let drawn = paint::text_in(ui, inner, Align2::RIGHT_CENTER, &count, text::small(), t.t2);
     let room = inner.with_min_x(inner.left() + 36.0).with_max_x(drawn.left() - 6.0);
     let font = text::sized(12.0, Weight::Medium);
     paint::name_in(ui, room, Align2::LEFT_CENTER, satellite.name, font, t.t1);
     let spoken = format!(
-        "{}, priority {}, {taken} of {} passes taken",
+        "{}, priority {}, {used} of {} passes taken",
         satellite.name,
         satellite.priority.number(),
         satellite.passes.len()
@@ -255,19 +256,19 @@ fn spoken(model: &Model, planned: &PlannedPass<'_>) -> String {
         Some(Take::Never) => " Never.",
         None => "",
     };
-    let by: Vec<&str> = planned
+    let antennas: Vec<&str> = planned
         .entries
         .iter()
         .map(|entry| words::schedule::antenna_name(model, entry.antenna))
         .collect();
-    let what = match planned.left_out {
-        _ if !by.is_empty() => format!("Taken by {}.", format::list(&by)),
+    let subject = match planned.left_out {
+        _ if !antennas.is_empty() => format!("Taken by {}.", format::list(&antennas)),
         Some(left_out) => {
             format!("Left out: {}.", words::schedule::why_left_out(model, &left_out.reason))
         }
         None => "Not planned yet.".to_owned(),
     };
-    format!("{name}, {times}, {max}. {what}{choice}")
+    format!("{name}, {times}, {max}. {subject}{choice}")
 }
 
 /// Draws the grip above the frame of the part that the lanes show; it or the arrow keys move that.
@@ -297,8 +298,8 @@ fn frame(
         f64::from(by_keys(ui, &response)) * KEY_S
     };
     if by_s != 0.0 {
-        let most = (axis.seconds() - lanes.seconds()).max(0.0);
-        state.lanes_after_s = (state.lanes_after_s + by_s).clamp(0.0, most);
+        let max = (axis.seconds() - lanes.seconds()).max(0.0);
+        state.lanes_after_s = (state.lanes_after_s + by_s).clamp(0.0, max);
         ui.ctx().request_repaint_after_for(
             std::time::Duration::from_millis(16),
             egui::ViewportId::ROOT,

@@ -60,9 +60,9 @@ pub(super) fn show(
 fn show_head(ui: &Ui, rect: Rect, model: &Model, planned: &PlannedPass<'_>) {
     let predicted = planned.predicted;
     let is_up = predicted.in_progress(model.now);
-    let (event, at) =
+    let (event, time) =
         if is_up { ("LOS", predicted.pass.los.time) } else { ("AOS", predicted.pass.aos.time) };
-    let countdown = format::countdown(model.now, at);
+    let countdown = format::countdown(model.now, time);
     let age = format::age(predicted.satellite.elements.age_s(model.now));
     let detail = format!("{}, elements {age} old", predicted.number());
     let name = predicted.satellite.short_name();
@@ -87,9 +87,9 @@ fn parts(
     let pass = &planned.predicted.pass;
     let head = place(ui, LINE);
     sighting(ui, head, ["", "UTC", "Azimuth", "Elevation"], t.t3);
-    for (word, at) in [("AOS", &pass.aos), ("TCA", &pass.tca), ("LOS", &pass.los)] {
+    for (word, point) in [("AOS", &pass.aos), ("TCA", &pass.tca), ("LOS", &pass.los)] {
         let row = place(ui, LINE);
-        event(ui, row, model, word, at);
+        event(ui, row, model, word, point);
     }
     let line = place(ui, GAP);
     ui.painter().hline(line.expand2(vec2(PADDING, 0.0)).x_range(), line.center().y, (1.0, t.line));
@@ -109,8 +109,8 @@ fn parts(
         let text = format!("{}: {words}", antenna.config.name);
         let galley = ui.painter().layout(text.clone(), text::small(), t.t1, room);
         let row = place(ui, galley.size().y + 6.0);
-        let at = pos2(row.left() + 6.0, row.top() + 9.0);
-        icons::paint(ui.painter(), paint::square(at, 12.0), icon, colour);
+        let position = pos2(row.left() + 6.0, row.top() + 9.0);
+        icons::paint(ui.painter(), paint::square(position, 12.0), icon, colour);
         ui.painter().galley(row.min + vec2(20.0, 2.0), galley, t.t1);
         paint::name_text(ui, ("verdict", antenna.id().0), row, &text);
     }
@@ -135,23 +135,23 @@ fn rehearsal(
         return;
     }
     let key = planned.predicted.key();
-    let told: Vec<String> = model
+    let sentences: Vec<String> = model
         .rehearsed(key)
-        .map(|of| {
-            let beside = words::rehearsal::beside_promise(of);
-            let outcome = words::rehearsal::outcome(of, model.now);
-            format!("Rehearsal, {}: {beside}. {outcome}", of.antenna_name)
+        .map(|rehearsed_pass| {
+            let promise = words::rehearsal::beside_promise(rehearsed_pass);
+            let outcome = words::rehearsal::outcome(rehearsed_pass, model.now);
+            format!("Rehearsal, {}: {promise}. {outcome}", rehearsed_pass.antenna_name)
         })
         .collect();
-    for (index, words) in told.iter().enumerate() {
+    for (index, words) in sentences.iter().enumerate() {
         note(ui, width, ("rehearsed", index), words);
     }
     let (row, _) = ui.allocate_exact_size(vec2(width, BUTTON + GAP), Sense::hover());
     let is_free = !matches!(model.rehearsal, RehearsalState::UnderWay(_));
     let lock = replay::lock(model);
     let button = Button::quiet("Rehearse this pass").locked(!is_free).locked_by(lock);
-    let at = row.min + vec2(PADDING, GAP / 2.0);
-    let place = Rect::from_min_size(at, vec2(button.width(ui), BUTTON));
+    let position = row.min + vec2(PADDING, GAP / 2.0);
+    let place = Rect::from_min_size(position, vec2(button.width(ui), BUTTON));
     if button.show(ui, "rehearse pass", place).clicked() {
         commands.push(UiCommand::Rehearse(Some(key)));
     }
@@ -161,17 +161,17 @@ fn sighting(ui: &Ui, row: Rect, words: [&str; 4], colour: egui::Color32) {
     let right = Align2::RIGHT_CENTER;
     let [word, time, azimuth, elevation] = words;
     paint::text_in(ui, row, Align2::LEFT_CENTER, word, text::small(), colour);
-    let at = |x: f32| row.with_max_x(row.right() - x);
-    paint::text_in(ui, at(130.0), right, time, text::small(), colour);
-    paint::text_in(ui, at(64.0), right, azimuth, text::small(), colour);
-    paint::text_in(ui, at(0.0), right, elevation, text::small(), colour);
+    let rect = |x: f32| row.with_max_x(row.right() - x);
+    paint::text_in(ui, rect(130.0), right, time, text::small(), colour);
+    paint::text_in(ui, rect(64.0), right, azimuth, text::small(), colour);
+    paint::text_in(ui, rect(0.0), right, elevation, text::small(), colour);
 }
 
-fn event(ui: &Ui, row: Rect, model: &Model, word: &str, at: &PassPoint) {
+fn event(ui: &Ui, row: Rect, model: &Model, word: &str, point: &PassPoint) {
     let t = theme::tokens(ui);
-    let time = format::moment(at.time, model.now);
-    let azimuth = format::azimuth(at.direction.azimuth_deg());
-    let elevation = format::degrees(at.direction.elevation_deg(), 1);
+    let time = format::moment(point.time, model.now);
+    let azimuth = format::azimuth(point.direction.azimuth_deg());
+    let elevation = format::degrees(point.direction.elevation_deg(), 1);
     sighting(ui, row, [word, &time, &azimuth, &elevation], t.t1);
     let words = format!("{word} {time}, azimuth {azimuth}, elevation {elevation}");
     paint::name_text(ui, ("plan event", word), row, &words);
@@ -210,14 +210,20 @@ fn verdict(
         return (icon, colour, format!("takes it.{}{automatic}", lost.unwrap_or_default()));
     }
     let left_out = planned.left_out.and_then(|left_out| {
-        left_out.by_antenna.iter().find(|(of, _)| *of == id).map(|(_, why)| why)
+        left_out
+            .by_antenna
+            .iter()
+            .find(|(antenna_id, _)| *antenna_id == id)
+            .map(|(_, reason)| reason)
     });
     match left_out {
-        Some(why) => (Icon::Dash, t.t2, format!("{}.", words::schedule::why_left_out(model, why))),
+        Some(reason) => {
+            (Icon::Dash, t.t2, format!("{}.", words::schedule::why_left_out(model, reason)))
+        }
         None if antenna.snapshot.link == LinkState::Off => {
-            let why =
+            let reason =
                 words::schedule::why_left_out(model, &LeftOutReason::Off(AntennaOff::SwitchedOff));
-            (Icon::Dash, t.t2, format!("{why}."))
+            (Icon::Dash, t.t2, format!("{reason}."))
         }
         None if let Some(entry) = planned.entries.first() => {
             let other = words::schedule::antenna_name(model, entry.antenna);
@@ -251,9 +257,9 @@ fn price(
         let ask = UiCommand::Station(contract::Command::PriceSwap(key));
         // Asked once a pass and schedule; the answer wakes the window.
         let id = ui.make_persistent_id("swap asked");
-        let asked = (key, model.schedule.revision);
-        if ui.data(|data| data.get_temp(id)) != Some(asked) {
-            ui.data_mut(|data| data.insert_temp(id, asked));
+        let request = (key, model.schedule.revision);
+        if ui.data(|data| data.get_temp(id)) != Some(request) {
+            ui.data_mut(|data| data.insert_temp(id, request));
             commands.push(ask);
         }
         "Its cost is being worked out.".to_owned()
@@ -328,7 +334,7 @@ fn controls(
     let clicked = segmented::show_commands(ui, "plan priority", place, name, &segments);
     if let Some(priority) = clicked.and_then(|index| Priority::ALL.get(index)) {
         let set = |priority| contract::Command::SetPriority { numbers: vec![number], priority };
-        let (to, back) = (set(*priority), set(present));
-        state.change(model, to, back, "Another priority", commands);
+        let (command, back) = (set(*priority), set(present));
+        state.change(model, command, back, "Another priority", commands);
     }
 }

@@ -46,8 +46,8 @@ pub(super) fn height(lanes: usize) -> f32 {
 
 /// The part of the plan in the lanes.
 pub(super) fn axis(model: &Model, place: Rect, state: &PlanState) -> TimeAxis {
-    let from = add_seconds(model.now, state.lanes_after_s - PAST_S);
-    TimeAxis::lasting(from, state.lanes_h() * 3600.0, place.x_range())
+    let start = add_seconds(model.now, state.lanes_after_s - PAST_S);
+    TimeAxis::lasting(start, state.lanes_h() * 3600.0, place.x_range())
 }
 
 pub(super) fn show(
@@ -70,8 +70,8 @@ pub(super) fn show(
     hours(ui, place(names), axis);
     if model.antennas.is_empty() {
         let words = "No antenna yet. Add one in Preferences or run the set-up.";
-        let at = body.left_top() + vec2(PADDING, 12.0);
-        let drawn = paint::paragraph(ui, at, body.width() - 32.0, words, text::body(), t.t2);
+        let position = body.left_top() + vec2(PADDING, 12.0);
+        let drawn = paint::paragraph(ui, position, body.width() - 32.0, words, text::body(), t.t2);
         paint::name_text(ui, "no lanes", drawn, words);
         return;
     }
@@ -115,7 +115,7 @@ fn title(ui: &Ui, bar: Rect, model: &Model, satellites: &[PlannedSatellite<'_>],
     let drawn = paint::text_in(ui, inner, left, &words, font, t.t1);
     let all: usize = satellites.iter().map(|satellite| satellite.passes.len()).sum();
     let passes = satellites.iter().flat_map(|satellite| &satellite.passes);
-    let taken = passes.filter(|planned| !planned.entries.is_empty()).count();
+    let used = passes.filter(|planned| !planned.entries.is_empty()).count();
     let proof = if model.schedule.made_at.is_none() {
         ""
     } else if model.schedule.schedule.is_proved() {
@@ -123,7 +123,7 @@ fn title(ui: &Ui, bar: Rect, model: &Model, satellites: &[PlannedSatellite<'_>],
     } else {
         ": not proved to be the best"
     };
-    let count = format!("{taken} of {all} passes are taken{proof}");
+    let count = format!("{used} of {all} passes are taken{proof}");
     let room = inner.with_min_x(drawn.right() + 24.0);
     let drawn = paint::text_in(ui, room, left, &count, text::small(), t.t2);
     legend::show(ui, inner.with_min_x(drawn.right() + 24.0));
@@ -143,10 +143,10 @@ fn hours(ui: &Ui, names: Rect, axis: TimeAxis) {
     let t = theme::tokens(ui);
     ui.painter().hline(names.x_range(), names.bottom() - 0.5, (1.0, t.line));
     for time in marks(axis) {
-        let at = pos2(axis.x(time), names.center().y);
-        if at.x + 18.0 < names.right() && at.x - 18.0 > names.left() {
+        let position = pos2(axis.x(time), names.center().y);
+        if position.x + 18.0 < names.right() && position.x - 18.0 > names.left() {
             let word = format::on_axis(time);
-            paint::text(ui, at, Align2::CENTER_CENTER, word, text::caption(), t.t3);
+            paint::text(ui, position, Align2::CENTER_CENTER, word, text::caption(), t.t3);
         }
     }
 }
@@ -182,9 +182,9 @@ fn label(
     let inner = rect.shrink2(vec2(PADDING, 6.0));
     let (first, second) = inner.split_top_bottom_at_fraction(0.5);
     let (glyph, colour) = bar::glyph(model, antenna).look(t);
-    let at = paint::square(pos2(first.left() + 6.0, first.center().y), 12.0);
-    icons::paint(ui.painter(), at, glyph, colour);
-    let room = first.with_min_x(at.right() + 6.0).with_max_x(switch.left() - 70.0);
+    let area = paint::square(pos2(first.left() + 6.0, first.center().y), 12.0);
+    icons::paint(ui.painter(), area, glyph, colour);
+    let room = first.with_min_x(area.right() + 6.0).with_max_x(switch.left() - 70.0);
     let font = text::sized(13.0, Weight::SemiBold);
     paint::text_in(ui, room, Align2::LEFT_CENTER, name, font.clone(), t.t1);
     let is_name_whole = paint::fits(ui, name, font, room);
@@ -194,8 +194,8 @@ fn label(
     };
     let resume = words::automatic::go_on(model, antenna);
     let key = Button::primary(words::automatic::RESUME).locked(model.replay.is_some());
-    let taken = if resume.is_some() { key.width(ui) + 8.0 } else { 0.0 };
-    let room = second.with_max_x(second.right() - taken);
+    let used = if resume.is_some() { key.width(ui) + 8.0 } else { 0.0 };
+    let room = second.with_max_x(second.right() - used);
     paint::text_in(ui, room, Align2::LEFT_CENTER, &standing, text::small(), colour);
     let word = first.with_max_x(switch.left() - 6.0);
     paint::text_in(ui, word, Align2::RIGHT_CENTER, "automatic", text::small(), t.t3);
@@ -243,8 +243,8 @@ fn lane(
     let own = model.day.iter().enumerate().filter(|(_, line)| line.antenna == id);
     for (place_in_day, line) in own {
         let DayEvent::Flown(flown) = &line.event else { continue };
-        let to = add_seconds(flown.pass.1, flown.of_s);
-        let Some(x) = axis.range(flown.pass.1, to) else { continue };
+        let end = add_seconds(flown.pass.1, flown.of_s);
+        let Some(x) = axis.range(flown.pass.1, end) else { continue };
         let rect = band(x);
         let words = words::automatic::flown(flown, model.now);
         let form = if flown.cause.is_none() { BarForm::Done } else { BarForm::Missed };
@@ -312,8 +312,8 @@ fn names(ui: &Ui, place: Rect, bars: &[NamedBar]) {
     let room = |bar: &NamedBar, name: &str| {
         let size = vec2(paint::text_width(ui, name, text::caption()) + 2.0 * NAME_GAP, NAME);
         let half = size.x / 2.0;
-        let left_most = place.left() + half;
-        let x = bar.rect.center().x.clamp(left_most, (place.right() - half).max(left_most));
+        let leftmost = place.left() + half;
+        let x = bar.rect.center().x.clamp(leftmost, (place.right() - half).max(leftmost));
         Align2::CENTER_BOTTOM.anchor_size(pos2(x, bar.rect.top() - 2.0), size)
     };
     let wishes = bars.iter().zip(&shorts);
@@ -345,8 +345,9 @@ fn bar(
     let key = (entry.pass.satellite, entry.pass.aos);
     let name = words::schedule::pass_name(model, key);
     let found = model.pass_lists.find(key);
-    let max =
-        found.map_or(String::new(), |of| format::degrees(of.pass.max_elevation().degrees(), 0));
+    let max = found.map_or(String::new(), |predicted| {
+        format::degrees(predicted.pass.max_elevation().degrees(), 0)
+    });
     let is_selected = model.selected_pass().is_some_and(|selected| {
         selected.number() == key.0 && seconds_between(selected.pass.aos.time, key.1).abs() < 60.0
     });

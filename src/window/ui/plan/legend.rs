@@ -50,8 +50,8 @@ pub(super) fn show(ui: &Ui, rect: Rect) {
         }
         let middle = pos2(left + MARK.x / 2.0, rect.center().y);
         mark(ui, Rect::from_center_size(middle, MARK), t);
-        let at = pos2(left + MARK.x + MARK_GAP, rect.center().y);
-        paint::text(ui, at, Align2::LEFT_CENTER, words, text::small(), t.t2);
+        let position = pos2(left + MARK.x + MARK_GAP, rect.center().y);
+        paint::text(ui, position, Align2::LEFT_CENTER, words, text::small(), t.t2);
         right = left - ENTRY_GAP;
     }
 }

@@ -73,7 +73,7 @@ struct Columns {
 }
 
 impl Columns {
-    fn of(width: f32) -> Self {
+    fn new(width: f32) -> Self {
         if width < ALL_FROM {
             let is_lean = width < LEAN_BELOW;
             let of_room = |x: f32| (!is_lean).then_some(x);
@@ -124,18 +124,18 @@ pub(super) fn show(
     let Some(antenna) = model.antenna() else { return };
     let all = model.listed_passes(antenna);
     let is_taken =
-        |of: &ListedPass<'_>| of.entry.is_some() || matches!(of.standing, Standing::Flown(_));
-    let taken = all.iter().filter(|of| is_taken(of)).count();
-    let counts = [all.len(), taken, all.len() - taken];
-    let columns = Columns::of(rect.width());
+        |pass: &ListedPass<'_>| pass.entry.is_some() || matches!(pass.standing, Standing::Flown(_));
+    let used = all.iter().filter(|pass| is_taken(pass)).count();
+    let counts = [all.len(), used, all.len() - used];
+    let columns = Columns::new(rect.width());
     show_bar(ui, bar, antenna, counts, columns, state);
     heads(ui, head, columns);
     let rows: Vec<&ListedPass<'_>> = all
         .iter()
-        .filter(|of| match state.shown {
+        .filter(|pass| match state.shown {
             Shown::All => true,
-            Shown::Taken => is_taken(of),
-            Shown::LeftOut => !is_taken(of),
+            Shown::Taken => is_taken(pass),
+            Shown::LeftOut => !is_taken(pass),
         })
         .collect();
     ui.painter().rect_filled(body, 0.0, theme::tokens(ui).field);
@@ -156,7 +156,7 @@ fn show_bar(
     ui: &Ui,
     bar: Rect,
     antenna: &AntennaModel,
-    [all, taken, left_out]: [usize; 3],
+    [all, used, left_out]: [usize; 3],
     columns: Columns,
     state: &mut PlanState,
 ) {
@@ -168,13 +168,16 @@ fn show_bar(
     let drawn = paint::text_in(ui, room, Align2::LEFT_CENTER, &words, font, t.t1);
     let choices = [
         (Shown::All, format!("All {all}")),
-        (Shown::Taken, format!("Taken {taken}")),
+        (Shown::Taken, format!("Taken {used}")),
         (Shown::LeftOut, format!("Left out {left_out}")),
     ];
     let segments: Vec<(&str, Segment)> = choices
         .iter()
-        .map(|(of, word)| {
-            (word.as_str(), if *of == state.shown { Segment::Chosen } else { Segment::Free })
+        .map(|(shown_entry, word)| {
+            (
+                word.as_str(),
+                if *shown_entry == state.shown { Segment::Chosen } else { Segment::Free },
+            )
         })
         .collect();
     let min = pos2(drawn.right() + 24.0, bar.center().y - 12.0);
@@ -241,32 +244,32 @@ fn state(
             (Icon::Check, words, t.ok)
         }
         Standing::Flown(flown) => {
-            let [lost, of] = [flown.lost_s(), flown.of_s].map(format::duration);
-            (Icon::Cross, format!("Missed {lost} of {of}"), t.bad)
+            let [lost, name] = [flown.lost_s(), flown.of_s].map(format::duration);
+            (Icon::Cross, format!("Missed {lost} of {name}"), t.bad)
         }
         Standing::Running => {
-            let off = antenna.error().map(|error| error.off_beam.degrees());
-            let words = off.map_or_else(
+            let deviation = antenna.error().map(|error| error.off_beam.degrees());
+            let words = deviation.map_or_else(
                 || "Running".to_owned(),
-                |off| format!("Running, {} off", format::degrees(off, 2)),
+                |deviation| format!("Running, {} off", format::degrees(deviation, 2)),
             );
             (Icon::Disc, words, t.ok)
         }
-        Standing::Proved(at) => {
-            let what = if antenna.variant().capabilities.has_program {
+        Standing::Proved(time) => {
+            let subject = if antenna.variant().capabilities.has_program {
                 "On the unit"
             } else {
                 "On its way"
             };
-            (Icon::Lock, format!("{what}, {}", format::moment(at, model.now)), t.ok)
+            (Icon::Lock, format!("{subject}, {}", format::moment(time, model.now)), t.ok)
         }
-        Standing::Sent(at) => {
-            let words = format!("Sent {}, not verified", format::moment(at, model.now));
+        Standing::Sent(time) => {
+            let words = format!("Sent {}, not verified", format::moment(time, model.now));
             (Icon::ChevronRight, words, t.cmd)
         }
         Standing::Planned(entry) if antenna.operation.is_on() => {
-            let at = sets_out(entry, antenna.config.automatic.between_passes);
-            (Icon::Clock, words::schedule::sets_out(antenna, at, model.now), t.t1)
+            let time = sets_out(entry, antenna.config.automatic.between_passes);
+            (Icon::Clock, words::schedule::sets_out(antenna, time, model.now), t.t1)
         }
         Standing::Planned(_) => (Icon::Clock, "Planned".to_owned(), t.t1),
         Standing::LeftOut(LeftOutReason::UnderWay) => (Icon::Dash, "Not tracked".to_owned(), t.t2),
@@ -283,13 +286,13 @@ fn reason(model: &Model, antenna: &AntennaModel, listed: &ListedPass<'_>) -> (St
             None => (String::new(), false),
             Some(cause) => (words::automatic::miss_cause(cause), true),
         },
-        Standing::LeftOut(why @ LeftOutReason::UnderWay) => {
+        Standing::LeftOut(obstacle @ LeftOutReason::UnderWay) => {
             let cause = words::automatic::not_tracking(&antenna.operation);
             let cause = cause.map_or_else(String::new, |cause| format!(" {cause}"));
-            (format!("{}.{cause}", words::schedule::why_left_out(model, why)), false)
+            (format!("{}.{cause}", words::schedule::why_left_out(model, obstacle)), false)
         }
-        Standing::LeftOut(why) => {
-            (format!("{}.", words::schedule::why_left_out(model, why)), false)
+        Standing::LeftOut(obstacle) => {
+            (format!("{}.", words::schedule::why_left_out(model, obstacle)), false)
         }
         Standing::TakenBy(other) => {
             (format!("{} takes it.", words::schedule::antenna_name(model, other)), false)
@@ -306,8 +309,8 @@ fn reason(model: &Model, antenna: &AntennaModel, listed: &ListedPass<'_>) -> (St
             }
             match always.filter(|choice| choice.take == Take::Always) {
                 Some(choice) => {
-                    let at = format::moment(choice.chosen_at, model.now);
-                    (format!("Always, set {at}."), false)
+                    let time_text = format::moment(choice.chosen_at, model.now);
+                    (format!("Always, set {time_text}."), false)
                 }
                 None => (String::new(), false),
             }
@@ -334,56 +337,64 @@ fn show_row(
     let t = theme::tokens(ui);
     let is_selected = model.selected_pass().is_some_and(|selected| selected.key() == listed.key);
     let (icon, words, colour) = state(model, antenna, listed, t);
-    let (why, is_caution) = reason(model, antenna, listed);
+    let (explanation, is_caution) = reason(model, antenna, listed);
     let max = listed.max_elevation_deg.map(|deg| format::degrees(deg, 0)).unwrap_or_default();
-    let [aos, los] = [listed.key.1, listed.los].map(|at| format::moment(at, model.now));
-    let spoken = format!("{}, {aos} to {los}, {max}. {words}. {why}", listed.name);
+    let [aos, los] = [listed.key.1, listed.los].map(|time| format::moment(time, model.now));
+    let spoken = format!("{}, {aos} to {los}, {max}. {words}. {explanation}", listed.name);
     let is_missed = matches!(listed.standing, Standing::Flown(flown) if flown.cause.is_some());
     let tint = if is_missed { t.badbg } else { Color32::TRANSPARENT };
     let response = list.option(ui, row, listed.key, is_selected, tint, || spoken.clone());
-    let at = |x: f32| row.left() + x;
+    let x_at = |x: f32| row.left() + x;
     let small = text::small();
     let (left, right) = (Align2::LEFT_CENTER, Align2::RIGHT_CENTER);
     icons::paint(
         ui.painter(),
-        paint::square(pos2(at(columns.state) + 6.0, row.center().y), 12.0),
+        paint::square(pos2(x_at(columns.state) + 6.0, row.center().y), 12.0),
         icon,
         colour,
     );
-    let room = row.with_min_x(at(columns.state) + 20.0);
+    let room = row.with_min_x(x_at(columns.state) + 20.0);
     let aos_width = paint::text_width(ui, &aos, small.clone());
-    let room = room.with_max_x(at(columns.aos) - aos_width - 8.0);
+    let room = room.with_max_x(x_at(columns.aos) - aos_width - 8.0);
     paint::text_in(ui, room, left, &words, small.clone(), colour);
-    paint::text_in(ui, row.with_max_x(at(columns.aos)), right, &aos, small.clone(), t.t1);
+    paint::text_in(ui, row.with_max_x(x_at(columns.aos)), right, &aos, small.clone(), t.t1);
     for (end, words, colour) in [(columns.los, &los, t.t2), (columns.max, &max, t.t1)] {
         if let Some(end) = end {
-            paint::text_in(ui, row.with_max_x(at(end)), right, words, small.clone(), colour);
+            paint::text_in(ui, row.with_max_x(x_at(end)), right, words, small.clone(), colour);
         }
     }
     let is_out = listed.entry.is_none() && !matches!(listed.standing, Standing::Flown(_));
-    let room = row.with_min_x(at(columns.name)).with_max_x(at(columns.name_end()));
+    let room = row.with_min_x(x_at(columns.name)).with_max_x(x_at(columns.name_end()));
     let (font, name_colour) =
         if is_out { (text::small(), t.t2) } else { (text::sized(13.0, Weight::SemiBold), t.t1) };
     let is_name_cut = !paint::fits(ui, listed.name, font.clone(), room);
     paint::name_in(ui, room, left, listed.name, font, name_colour);
-    let mut text_from = at(columns.text);
+    let mut text_from = x_at(columns.text);
     match (columns.slew, listed.entry) {
         (Some((slew, spare)), Some(entry)) => {
-            let from = entry.after.map(|after| {
+            let start_text = entry.after.map(|after| {
                 let name = words::schedule::pass_name(model, (after.satellite, after.aos));
                 format!(" from {name}")
             });
-            let words = format!("{}{}", format::duration(entry.slew_s), from.unwrap_or_default());
-            let room = row.with_min_x(at(slew)).with_max_x(at(spare) - 48.0);
+            let words =
+                format!("{}{}", format::duration(entry.slew_s), start_text.unwrap_or_default());
+            let room = row.with_min_x(x_at(slew)).with_max_x(x_at(spare) - 48.0);
             paint::text_in(ui, room, left, &words, small.clone(), t.cmd);
             let waits = matches!(listed.standing, Standing::Planned(_));
             if let Some(spare_s) = entry.spare_at(model.now).filter(|_| waits) {
                 let colour = if spare_s < SHORT_S { t.warn } else { t.t1 };
                 let words = format::duration(spare_s);
-                paint::text_in(ui, row.with_max_x(at(spare)), right, &words, small.clone(), colour);
+                paint::text_in(
+                    ui,
+                    row.with_max_x(x_at(spare)),
+                    right,
+                    &words,
+                    small.clone(),
+                    colour,
+                );
             }
         }
-        (Some((slew, _)), None) if is_out && !columns.has_wide_notes => text_from = at(slew),
+        (Some((slew, _)), None) if is_out && !columns.has_wide_notes => text_from = x_at(slew),
         _ => {}
     }
     let mut end = row.right() - PADDING;
@@ -410,8 +421,8 @@ fn show_row(
     } else {
         t.t2
     };
-    let is_why_cut = !paint::fits(ui, &why, small.clone(), room);
-    paint::text_in(ui, room, left, &why, small, colour);
+    let is_why_cut = !paint::fits(ui, &explanation, small.clone(), room);
+    paint::text_in(ui, room, left, &explanation, small, colour);
     if response.clicked() {
         commands.push(UiCommand::SelectPass(listed.key));
     }
@@ -419,7 +430,7 @@ fn show_row(
         commands.push(UiCommand::Show(crate::model::View::Operate));
     }
     let name = is_name_cut.then_some(listed.name);
-    let cut: Vec<&str> = name.into_iter().chain(is_why_cut.then_some(&*why)).collect();
+    let cut: Vec<&str> = name.into_iter().chain(is_why_cut.then_some(&*explanation)).collect();
     if !cut.is_empty() {
         response.on_hover_text(cut.join("\n"));
     }
@@ -437,11 +448,11 @@ mod tests {
             *width = paint::text_width(ui, "GLOBALSTAR M094", font);
         });
         window.run();
-        let wanted = *window.state();
+        let requested = *window.state();
         for width in [760.0, 968.0, 999.0, 1000.0, 1384.0, 2000.0] {
-            let columns = Columns::of(width);
+            let columns = Columns::new(width);
             let room = columns.name_end() - columns.name;
-            assert!(wanted > 0.0 && room >= wanted, "{room} of {wanted} in {width}");
+            assert!(requested > 0.0 && room >= requested, "{room} of {requested} in {width}");
         }
     }
 }

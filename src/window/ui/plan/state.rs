@@ -51,7 +51,7 @@ pub struct PlanState {
 pub(super) struct Undo {
     pub(super) command: UiCommand,
     pub(super) words: String,
-    since: Timestamp,
+    start: Timestamp,
 }
 
 impl PlanState {
@@ -86,7 +86,7 @@ impl PlanState {
     ) {
         commands.push(UiCommand::Station(command));
         let command = UiCommand::Station(back);
-        self.undo = Some(Undo { command, words: words.to_owned(), since: model.now });
+        self.undo = Some(Undo { command, words: words.to_owned(), start: model.now });
     }
 
     /// The last change was not made.
@@ -95,12 +95,12 @@ impl PlanState {
     }
 
     /// The pass that the list shows before or after the selected one.
-    pub fn neighbour(&self, model: &Model, by: isize) -> Option<PassListKey> {
+    pub fn neighbour(&self, model: &Model, step: isize) -> Option<PassListKey> {
         let all = model.planned_passes();
         let keys: Vec<PassListKey> = all.iter().map(|planned| planned.predicted.key()).collect();
         let selected = model.selected_pass().map(PredictedPass::key);
         let place = keys.iter().position(|key| Some(*key) == selected);
-        let place = place.map_or(Some(0), |place| place.checked_add_signed(by));
+        let place = place.map_or(Some(0), |place| place.checked_add_signed(step));
         keys.get(place?).copied()
     }
 
@@ -120,8 +120,8 @@ impl PlanState {
     ) {
         let present = planned.choice.map(|choice| choice.take);
         if present != take {
-            let (to, back) = (choose(planned, take), choose(planned, present));
-            self.change(model, to, back, "Planned again", commands);
+            let (command, back) = (choose(planned, take), choose(planned, present));
+            self.change(model, command, back, "Planned again", commands);
         }
     }
 
@@ -131,8 +131,8 @@ impl PlanState {
         let key = planned.predicted.key();
         let name = planned.predicted.satellite.short_name();
         let aos = format::moment(key.1, model.now);
-        let known = model.swap_of(key);
-        let price = known.map(|swap| format!(" {}", words::schedule::price(model, swap)));
+        let known_swap = model.swap_of(key);
+        let price = known_swap.map(|swap| format!(" {}", words::schedule::price(model, swap)));
         Some(Question {
             text: format!("Always take {name}, AOS {aos}?{}", price.unwrap_or_default()),
             yes: "Take it",
@@ -149,7 +149,7 @@ impl PlanState {
     }
 
     pub(super) fn forget_old_undo(&mut self, now: Timestamp) {
-        self.undo.take_if(|undo| seconds_between(undo.since, now) >= UNDO_S);
+        self.undo.take_if(|undo| seconds_between(undo.start, now) >= UNDO_S);
     }
 
     pub(super) fn hold(&mut self, antenna: AntennaId) -> &mut HoldState {

@@ -37,7 +37,7 @@ pub(super) fn show(
     let is_replayed = model.replay.is_some();
     let can = antenna.snapshot.lock_out.is_none() && antenna.held_by.is_none() && !is_replayed;
     let locked = replay::locked(name);
-    let about = |words| if is_replayed { &*locked } else { words };
+    let description = |words| if is_replayed { &*locked } else { words };
     let set = |is_on| UiCommand::Station(contract::Command::SetAutomatic { antenna: id, is_on });
     let (fill, line) = if is_on { (t.okbg, t.ok) } else { (t.bg0, t.edge) };
     let mut way = if is_on { 1.0 } else { 0.0 };
@@ -50,16 +50,16 @@ pub(super) fn show(
         if is_enabled && response.clicked() {
             commands.push(set(false));
         }
-        response.on_hover_text(about("Click to switch it off. A pass under way continues."))
+        response.on_hover_text(description("Click to switch it off. A pass under way continues."))
     } else {
         let words = format!("Automatic operation of {name}, off: hold 1 s to switch it on");
         let hold = state.hold(id);
-        let (response, is_held) = hold_button::held(ui, rect, &words, can, hold);
+        let (response, is_held) = hold_button::draw_held(ui, rect, &words, can, hold);
         if is_held {
             commands.push(set(true));
         }
         way = hold_button::part(ui, hold);
-        response.on_hover_text(about("Hold for a second to switch it on."))
+        response.on_hover_text(description("Hold for a second to switch it on."))
     };
     let knob = pos2(egui::lerp(rect.left() + 10.0..=rect.right() - 10.0, way), rect.center().y);
     ui.painter().rect_filled(rect, HEIGHT / 2.0, fill);

@@ -31,7 +31,7 @@ use crate::{
     ui::{
         widgets::{
             form::{LABEL, labelled},
-            told::{self, Tone},
+            status_line::{self, Tone},
         },
         words,
     },
@@ -62,7 +62,7 @@ pub(super) fn show(
     let Some(antenna) = draft.antennas.get(index) else { return };
     let is_used = |(section, _): &(&str, usize)| {
         let mut fields = antenna.fields.iter().zip(&standings);
-        fields.any(|(field, of)| of.is_used && field.section == *section)
+        fields.any(|(field, standing)| standing.is_used && field.section == *section)
     };
     let sections: Vec<_> = antenna.sections().into_iter().filter(is_used).collect();
     let rows: Vec<usize> = sections.iter().map(|(_, rows)| *rows).collect();
@@ -80,15 +80,15 @@ pub(super) fn show(
             let group = format!("antenna {}", id.0);
             let config = antenna.before().clone();
             let mut fit = None;
-            let (form, sought) = ((antenna, &standings[..]), &mut state.sought);
+            let (form, focus_target) = ((antenna, &standings[..]), &mut state.focus_target);
             let peak = &mut state.peak;
             ui.add_enabled_ui(!is_removed, |ui| {
-                form::section(ui, &group, form, section, sought, |ui| {
-                    let known = model.antennas.iter().find(|of| *of.config == config);
-                    if let Some(known) = known.filter(|_| *section == WATCH) {
-                        let words = words::stopping_way(known.snapshot.stopping_way);
+                form::section(ui, &group, form, section, focus_target, |ui| {
+                    let model_antenna = model.antennas.iter().find(|owner| *owner.config == config);
+                    if let Some(model_antenna) = model_antenna.filter(|_| *section == WATCH) {
+                        let words = words::stopping_way(model_antenna.snapshot.stopping_way);
                         form::read_only_row(ui, "Coasting after STOP", &words);
-                        learned_drives(ui, known, commands);
+                        learned_drives(ui, model_antenna, commands);
                     }
                     if *section == POINTING && !is_new {
                         fit = pointing::show(ui, model, id, &config, peak, commands);
@@ -106,8 +106,8 @@ pub(super) fn show(
             let fold = is_fold.then_some(&mut state.preview_is_open);
             preview::card(ui, fold, &value, is_edited, |ui| {
                 let antenna = draft.antennas.get(index);
-                let both = antenna.map(|antenna| (antenna.before(), antenna.read().0));
-                if let Some((was, new)) = &both {
+                let antennas = antenna.map(|antenna| (antenna.before(), antenna.read().0));
+                if let Some((was, new)) = &antennas {
                     reach_and_effect(ui, was, new, effect, is_new);
                 }
             });
@@ -117,13 +117,13 @@ pub(super) fn show(
             if let Some(test) = test {
                 form::card(ui, "Test of the link", |ui| {
                     for (tone, words) in words::link_test(test, model.demo, model.now) {
-                        told::line(ui, tone, &words);
+                        status_line::line(ui, tone, &words);
                     }
                 });
             }
         }
     });
-    if model.mount_effects.wanted() != Some(&question) {
+    if model.mount_effects.requested() != Some(&question) {
         ui.ctx().request_repaint_after_for(DEBOUNCE, egui::ViewportId::ROOT);
         commands.push(UiCommand::ShowTracked(Box::new(question)));
     }

@@ -11,7 +11,7 @@ use crate::{
     ui::words::pointing::pointing_term,
 };
 
-type Of = Description<Antenna>;
+type AntennaDescription = Description<Antenna>;
 
 /// Sections of the page, each of which is a card.
 const MOUNT: &str = "Mount and travel";
@@ -37,39 +37,42 @@ pub(super) fn all(spec: &'static ControllerSpec) -> Vec<Placed<Antenna>> {
     all
 }
 
-fn mount() -> [Of; 7] {
+fn mount() -> [AntennaDescription; 7] {
     [
-        Of::number("Azimuth of the lower axis", ranges::LOWER_AXIS_AZIMUTH_DEG, "°", |antenna| {
-            xy(antenna).map(|[azimuth, ..]| azimuth)
+        AntennaDescription::number(
+            "Azimuth of the lower axis",
+            ranges::LOWER_AXIS_AZIMUTH_DEG,
+            "°",
+            |antenna| xy(antenna).map(|[azimuth, ..]| azimuth),
+        ),
+        AntennaDescription::number("Travel from", ranges::TRAVEL_FROM_DEG, "°", |antenna| {
+            xy(antenna).map(|[_, start, _]| start)
         }),
-        Of::number("Travel from", ranges::TRAVEL_FROM_DEG, "°", |antenna| {
-            xy(antenna).map(|[_, from, _]| from)
+        AntennaDescription::number("Travel to", ranges::TRAVEL_TO_DEG, "°", |antenna| {
+            xy(antenna).map(|[.., end]| end)
         }),
-        Of::number("Travel to", ranges::TRAVEL_TO_DEG, "°", |antenna| {
-            xy(antenna).map(|[.., to]| to)
+        AntennaDescription::number("Azimuth from", ranges::AZIMUTH_FROM_DEG, "°", |antenna| {
+            az_el(antenna).map(|[start, ..]| start)
         }),
-        Of::number("Azimuth from", ranges::AZIMUTH_FROM_DEG, "°", |antenna| {
-            az_el(antenna).map(|[from, ..]| from)
-        }),
-        Of::number("Azimuth to", ranges::AZIMUTH_TO_DEG, "°", |antenna| {
-            az_el(antenna).map(|[_, to, ..]| to)
+        AntennaDescription::number("Azimuth to", ranges::AZIMUTH_TO_DEG, "°", |antenna| {
+            az_el(antenna).map(|[_, end, ..]| end)
         })
         .checked(|antenna| {
-            let [(from, to), _] = antenna.mount.travel_deg();
-            let is_right = ranges::AZIMUTH_SPAN_DEG.contains(&(to - from));
+            let [(start, end), _] = antenna.mount.travel_deg();
+            let is_right = ranges::AZIMUTH_SPAN_DEG.contains(&(end - start));
             is_right.then_some(()).ok_or("must be 1 to 1080° more than Azimuth from")
         }),
-        Of::number("Elevation from", ranges::ELEVATION_FROM_DEG, "°", |antenna| {
-            az_el(antenna).map(|[_, _, from, _]| from)
+        AntennaDescription::number("Elevation from", ranges::ELEVATION_FROM_DEG, "°", |antenna| {
+            az_el(antenna).map(|[_, _, start, _]| start)
         })
         .when(has_elevation),
-        Of::number("Elevation to", ranges::ELEVATION_TO_DEG, "°", |antenna| {
-            az_el(antenna).map(|[.., to]| to)
+        AntennaDescription::number("Elevation to", ranges::ELEVATION_TO_DEG, "°", |antenna| {
+            az_el(antenna).map(|[.., end]| end)
         })
         .when(has_elevation)
         .checked(|antenna| {
-            let [_, (from, to)] = antenna.mount.travel_deg();
-            let is_right = ranges::ELEVATION_SPAN_DEG.contains(&(to - from));
+            let [_, (start, end)] = antenna.mount.travel_deg();
+            let is_right = ranges::ELEVATION_SPAN_DEG.contains(&(end - start));
             is_right.then_some(()).ok_or("must be 1° or more above Elevation from")
         })
         .noted(|antenna| {
@@ -99,56 +102,56 @@ fn az_el(antenna: &mut Antenna) -> Option<[&mut f64; 4]> {
     }
 }
 
-fn beam() -> [Of; 3] {
+fn beam() -> [AntennaDescription; 3] {
     [
-        Of::number("Beamwidth", ranges::BEAM_WIDTH_DEG, "°", |antenna| {
+        AntennaDescription::number("Beamwidth", ranges::BEAM_WIDTH_DEG, "°", |antenna| {
             Some(&mut antenna.beam_width_deg)
         }),
-        Of::number("Park azimuth", ranges::AZIMUTH_DEG, "°", |antenna| {
+        AntennaDescription::number("Park azimuth", ranges::AZIMUTH_DEG, "°", |antenna| {
             Some(&mut antenna.park.azimuth_deg)
         }),
-        Of::number("Park elevation", ranges::ELEVATION_DEG, "°", |antenna| {
+        AntennaDescription::number("Park elevation", ranges::ELEVATION_DEG, "°", |antenna| {
             Some(&mut antenna.park.elevation_deg)
         })
         .when(has_elevation),
     ]
 }
 
-fn limits() -> [Of; 3] {
+fn limits() -> [AntennaDescription; 3] {
     [
-        Of::number("Minimum elevation", ranges::ELEVATION_DEG, "°", |antenna| {
+        AntennaDescription::number("Minimum elevation", ranges::ELEVATION_DEG, "°", |antenna| {
             Some(&mut antenna.limits.minimum_elevation_deg)
         })
-        .about("The antenna is never sent below it."),
-        Of::number("Maximum rate", ranges::MAXIMUM_RATE_DEG_S, "°/s", |antenna| {
+        .described("The antenna is never sent below it."),
+        AntennaDescription::number("Maximum rate", ranges::MAXIMUM_RATE_DEG_S, "°/s", |antenna| {
             Some(&mut antenna.limits.maximum_rate_deg_s)
         }),
-        Of::number("Maximum step", ranges::MAXIMUM_STEP_DEG, "°", |antenna| {
+        AntennaDescription::number("Maximum step", ranges::MAXIMUM_STEP_DEG, "°", |antenna| {
             Some(&mut antenna.limits.maximum_step_deg)
         })
         .when(|antenna| antenna.connection.variant().capabilities.steps),
     ]
 }
 
-fn poll() -> [Of; 2] {
+fn poll() -> [AntennaDescription; 2] {
     [
-        Of::number("Poll at rest", ranges::POLL_HZ, "Hz", |antenna| {
+        AntennaDescription::number("Poll at rest", ranges::POLL_HZ, "Hz", |antenna| {
             Some(&mut antenna.poll.idle_hz)
         }),
-        Of::number("Poll while moving", ranges::POLL_HZ, "Hz", |antenna| {
+        AntennaDescription::number("Poll while moving", ranges::POLL_HZ, "Hz", |antenna| {
             Some(&mut antenna.poll.moving_hz)
         }),
     ]
 }
 
 /// A pointing term of an az/el mount: the difference between the axes and the direction of the beam.
-fn pointing(term: Term) -> Of {
+fn pointing(term: Term) -> AntennaDescription {
     let (range, unit) = if term == Term::ElevationScale {
         (ranges::POINTING_SCALE, "°/°")
     } else {
         (ranges::POINTING_TERM_DEG, "°")
     };
-    let field = Of::number(pointing_term(term), range, unit, move |antenna| {
+    let field = AntennaDescription::number(pointing_term(term), range, unit, move |antenna| {
         Some(model(antenna)?.place(term))
     });
     if term == Term::AzimuthOffset {
@@ -176,18 +179,18 @@ fn about_model(antenna: &Antenna) -> &'static str {
     }
 }
 
-fn follow() -> [Of; 4] {
+fn follow() -> [AntennaDescription; 4] {
     [
-        Of::number("New position every", ranges::FOLLOW_PERIOD_S, "s", |antenna| {
+        AntennaDescription::number("New position every", ranges::FOLLOW_PERIOD_S, "s", |antenna| {
             Some(&mut antenna.follow.period_s)
         }),
-        Of::number("Dead band", ranges::DEAD_BAND_DEG, "°", |antenna| {
+        AntennaDescription::number("Dead band", ranges::DEAD_BAND_DEG, "°", |antenna| {
             Some(&mut antenna.follow.dead_band_deg)
         }),
-        Of::number("Latency", ranges::LATENCY_S, "s", |antenna| {
+        AntennaDescription::number("Latency", ranges::LATENCY_S, "s", |antenna| {
             Some(&mut antenna.follow.latency_s)
         }),
-        Of::choice(
+        AntennaDescription::choice(
             "After a pass",
             &[(0, "Hold"), (1, "Park"), (2, "Wait for the next")],
             &[AfterPass::Hold, AfterPass::Park, AfterPass::Next],
@@ -196,10 +199,10 @@ fn follow() -> [Of; 4] {
     ]
 }
 
-fn upkeep() -> [Of; 4] {
+fn upkeep() -> [AntennaDescription; 4] {
     let has_clock = |antenna: &Antenna| antenna.connection.variant().clock.is_some();
     [
-        Of::choice(
+        AntennaDescription::choice(
             "Clock of the unit",
             &[(0, "Leave alone"), (1, "Set")],
             &[false, true],
@@ -215,11 +218,11 @@ fn upkeep() -> [Of; 4] {
             };
             Some(words.to_owned())
         }),
-        Of::number("Maximum clock error", ranges::CLOCK_LIMIT_S, "s", |antenna| {
+        AntennaDescription::number("Maximum clock error", ranges::CLOCK_LIMIT_S, "s", |antenna| {
             Some(&mut antenna.upkeep.clock_limit_s)
         })
         .when(|antenna| antenna.upkeep.sets_clock && antenna.connection.variant().clock.is_some()),
-        Of::choice(
+        AntennaDescription::choice(
             "Elements on the unit",
             &[(0, "Leave alone"), (1, "Upload newer")],
             &[false, true],
@@ -234,7 +237,7 @@ fn upkeep() -> [Of; 4] {
             };
             Some(words.to_owned())
         }),
-        Of::number("Maximum age of elements", ranges::ELEMENT_AGE_D, "days", |antenna| {
+        AntennaDescription::number("Maximum age of elements", ranges::ELEMENT_AGE_D, "days", |antenna| {
             Some(&mut antenna.upkeep.element_limit_d)
         })
         .when(|antenna| antenna.upkeep.uploads_elements && takes_elements(antenna)),
@@ -245,8 +248,8 @@ fn takes_elements(antenna: &Antenna) -> bool {
     antenna.connection.spec().element_files.is_some()
 }
 
-fn connects_at_start() -> Of {
-    Of::choice(
+fn connects_at_start() -> AntennaDescription {
+    AntennaDescription::choice(
         "When Azel starts",
         &[(0, "Wait for Connect"), (1, "Connect automatically")],
         &[false, true],
@@ -259,13 +262,16 @@ fn connects_at_start() -> Of {
     })
 }
 
-fn outage() -> [Of; 2] {
+fn outage() -> [AntennaDescription; 2] {
     [
-        Of::number("Resume after outages up to", ranges::RESUME_AFTER_S, "s", |antenna| {
-            Some(&mut antenna.resume_after_s)
-        })
+        AntennaDescription::number(
+            "Resume after outages up to",
+            ranges::RESUME_AFTER_S,
+            "s",
+            |antenna| Some(&mut antenna.resume_after_s),
+        )
         .when(takes_positions),
-        Of::choice(
+        AntennaDescription::choice(
             "After a longer outage",
             &[(0, "Stop and ask"), (1, "Keep tracking")],
             &[Resume::Ask, Resume::Continue],
@@ -284,21 +290,23 @@ fn outage() -> [Of; 2] {
     ]
 }
 
-fn watch() -> [Of; 2] {
+fn watch() -> [AntennaDescription; 2] {
     [
-        Of::choice(
+        AntennaDescription::choice(
             "If others enter a keep-out",
             &[(0, "STOP and alarm"), (1, "Alarm only")],
             &[Monitor::Stop, Monitor::Alarm],
             |antenna| &mut antenna.monitor,
         )
-        .about(
+        .described(
             "Also if they come too close to the Sun. Others are the panel, other \
                          programs and the unit's own program; motion commanded by Azel is always \
                          stopped.",
         ),
-        Of::number("Allowed sway", ranges::SWAY_DEG, "°", |antenna| Some(&mut antenna.sway_deg))
-            .about("How much the angle may change between two readings of an antenna at rest."),
+        AntennaDescription::number("Allowed sway", ranges::SWAY_DEG, "°", |antenna| {
+            Some(&mut antenna.sway_deg)
+        })
+        .described("How much the angle may change between two readings of an antenna at rest."),
     ]
 }
 

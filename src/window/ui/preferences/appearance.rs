@@ -26,26 +26,26 @@ pub(super) fn labels() -> Vec<(Cow<'static, str>, Spot)> {
 }
 
 pub(super) fn card_of(ui: &mut Ui, card: usize, model: &Model, commands: &mut Vec<UiCommand>) {
-    let mut wanted = model.appearance;
+    let mut appearance = model.appearance;
     match card {
-        0 => theme_and_size(ui, &mut wanted),
-        1 => times(ui, &mut wanted),
-        _ => units(ui, &mut wanted),
+        0 => theme_and_size(ui, &mut appearance),
+        1 => times(ui, &mut appearance),
+        _ => units(ui, &mut appearance),
     }
-    if wanted != model.appearance {
-        commands.push(UiCommand::SetAppearance(wanted));
+    if appearance != model.appearance {
+        commands.push(UiCommand::SetAppearance(appearance));
     }
 }
 
-fn theme_and_size(ui: &mut Ui, wanted: &mut Appearance) {
-    let now = *wanted;
+fn theme_and_size(ui: &mut Ui, appearance: &mut Appearance) {
+    let now = *appearance;
     form::card(ui, "Theme and size", |ui| {
         let themes =
             [("Dark", ThemeName::Dark), ("Light", ThemeName::Light), ("Night", ThemeName::Night)];
-        choice(ui, THEME, &themes, &mut wanted.theme);
+        choice(ui, THEME, &themes, &mut appearance.theme);
         note(ui, "Night is red only, for dark-adapted eyes.");
         let by_day = [("Off", false), ("Light by day", true)];
-        choice(ui, SUN, &by_day, &mut wanted.light_by_day);
+        choice(ui, SUN, &by_day, &mut appearance.light_by_day);
         note(ui, "While the Sun is up over the station the theme is light.");
         let words = Appearance::SCALES_PERCENT.map(|percent| (format!("{percent} %"), percent));
         let fits = |percent: u32| percent <= now.scale_percent || has_room(ui, percent);
@@ -54,26 +54,26 @@ fn theme_and_size(ui: &mut Ui, wanted: &mut Appearance) {
             .filter(|(_, percent)| fits(*percent))
             .map(|(word, percent)| (word.as_str(), *percent))
             .collect();
-        choice(ui, SCALE, &scales, &mut wanted.scale_percent);
+        choice(ui, SCALE, &scales, &mut appearance.scale_percent);
         if scales.len() < words.len() {
             note(ui, "A larger scale needs a larger window, or part of the view is cut off.");
         }
     });
 }
 
-fn times(ui: &mut Ui, wanted: &mut Appearance) {
+fn times(ui: &mut Ui, appearance: &mut Appearance) {
     form::card(ui, "Times", |ui| {
         let shown = [("Beside UTC", true), ("Not shown", false)];
-        choice(ui, CLOCK, &shown, &mut wanted.local_time);
+        choice(ui, CLOCK, &shown, &mut appearance.local_time);
         note(ui, "In the top bar only. Every other time is UTC.");
     });
 }
 
-fn units(ui: &mut Ui, wanted: &mut Appearance) {
+fn units(ui: &mut Ui, appearance: &mut Appearance) {
     form::card(ui, "Units", |ui| {
         let [one, two, three] = Appearance::ANGLE_DECIMALS;
         let choices = [("0.1°", one), ("0.01°", two), ("0.001°", three)];
-        choice(ui, DECIMALS, &choices, &mut wanted.angle_decimals);
+        choice(ui, DECIMALS, &choices, &mut appearance.angle_decimals);
         note(
             ui,
             "For the angles of the antenna's axes and of the selected satellite. A unit with a \
@@ -84,7 +84,7 @@ fn units(ui: &mut Ui, wanted: &mut Appearance) {
             ("Miles", DistanceUnit::Miles),
             ("Nautical miles", DistanceUnit::NauticalMiles),
         ];
-        choice(ui, DISTANCES, &of_distances, &mut wanted.distances);
+        choice(ui, DISTANCES, &of_distances, &mut appearance.distances);
         note(
             ui,
             "For heights, ranges and their rates. Alarms, files and the altitude of the site stay \
@@ -96,6 +96,6 @@ fn units(ui: &mut Ui, wanted: &mut Appearance) {
 /// Returns `true` if the window is large enough for this scale.
 fn has_room(ui: &Ui, percent: u32) -> bool {
     let view = ui.ctx().content_rect().size() * ui.ctx().zoom_factor();
-    let wanted = Vec2::from(Appearance::MIN_VIEW) * (percent as f32 / 100.0);
-    view.x >= wanted.x && view.y >= wanted.y
+    let size = Vec2::from(Appearance::MIN_VIEW) * (percent as f32 / 100.0);
+    view.x >= size.x && view.y >= size.y
 }

@@ -5,7 +5,7 @@ use crate::{
     contract::antenna::AntennaModel,
     model::Model,
     station::{Entered, Mount, Station},
-    ui::{format, widgets::told::Tone},
+    ui::{format, widgets::status_line::Tone},
 };
 
 /// Slack within which a travel counts as that of the unit, degrees.
@@ -16,7 +16,7 @@ pub(super) struct Checks {
     /// The reason to wait.
     pub(super) busy: Option<String>,
     /// An antenna stands where it must not after the change; saving has to be held.
-    pub(super) inside: Option<String>,
+    pub(super) barrier_problem: Option<String>,
     /// All checks in words, the gravest first.
     pub(super) lines: Vec<(Tone, String)>,
 }
@@ -24,17 +24,19 @@ pub(super) struct Checks {
 impl Checks {
     /// Checks the draft against `station`, which is as saved; `after` is the station of the draft
     /// once every field is right.
-    pub(super) fn of(
+    pub(super) fn new(
         model: &Model,
         station: &Station,
         after: Option<&Station>,
         (draft, before): (&Draft, &Draft),
     ) -> Self {
         let busy = after.and_then(|after| busy(model, station, after));
-        let inside = after.and_then(|after| inside(model, station, after));
+        let barrier_problem = after.and_then(|after| barrier_problem(model, station, after));
         let mut lines = Vec::new();
         lines.extend(unusable(draft).map(|words| (Tone::Bad, words)));
-        lines.extend(busy.iter().chain(&inside).map(|words| (Tone::Caution, words.clone())));
+        lines.extend(
+            busy.iter().chain(&barrier_problem).map(|words| (Tone::Caution, words.clone())),
+        );
         if let Some(after) = after.filter(|_| draft != before) {
             lines.extend(removed(model, after).map(|words| (Tone::Caution, words)));
             lines.extend(beyond_the_unit(model, after).map(|words| (Tone::Caution, words)));
@@ -43,7 +45,7 @@ impl Checks {
                 lines.extend(changed(model, after).map(|words| (Tone::Good, words)));
             }
         }
-        Self { busy, inside, lines }
+        Self { busy, barrier_problem, lines }
     }
 }
 
@@ -70,37 +72,42 @@ fn unusable(draft: &Draft) -> Option<String> {
 /// The rules that are on and cannot act, by the first of them.
 fn idle_rules(draft: &Draft) -> Option<String> {
     let idle = draft.rules.idle(&draft.around_rules());
-    let (number, why) = idle.first()?;
+    let (number, reason) = idle.first()?;
     Some(match idle.len() {
-        1 => format!("Rule {number} cannot act: {why}."),
-        many => format!("{many} rules cannot act: {number}, because {why}, and others."),
+        1 => format!("Rule {number} cannot act: {reason}."),
+        many => format!("{many} rules cannot act: {number}, because {reason}, and others."),
     })
 }
 
 /// Antennas that the station loses. Those of the demonstration are not among its own.
 fn removed(model: &Model, after: &Station) -> impl Iterator<Item = String> {
     let is_kept = |id| after.antennas.iter().any(|antenna| antenna.id == id);
-    let gone = model.antennas.iter().filter(move |of| !model.demo && !is_kept(of.id()));
-    gone.map(|of| format!("{} is removed from the station with its settings.", of.config.name))
+    let missing = model
+        .antennas
+        .iter()
+        .filter(move |model_antenna| !model.demo && !is_kept(model_antenna.id()));
+    missing.map(|model_antenna| {
+        format!("{} is removed from the station with its settings.", model_antenna.config.name)
+    })
 }
 
 /// Antennas whose new travel goes beyond that of their unit.
 fn beyond_the_unit(model: &Model, after: &Station) -> impl Iterator<Item = String> {
     after.antennas.iter().filter_map(|antenna| {
-        let known = model.antenna_of(antenna.id)?;
-        if *known.config == *antenna || matches!(antenna.mount, Mount::Xy { .. }) {
+        let model_antenna = model.antenna_of(antenna.id)?;
+        if *model_antenna.config == *antenna || matches!(antenna.mount, Mount::Xy { .. }) {
             return None;
         }
-        let both = antenna.mount.travel_deg().into_iter().zip(known.snapshot.state.travel_deg);
-        let beyond = both.zip(["azimuth", "elevation"]).find_map(|((typed, unit), axis)| {
+        let pairs = antenna.mount.travel_deg().into_iter().zip(model_antenna.snapshot.state.travel_deg);
+        let outside = pairs.zip(["azimuth", "elevation"]).find_map(|((typed, unit), axis)| {
             let unit = unit?;
             let is_beyond = typed.0 < unit.0 - SAME_DEG || typed.1 > unit.1 + SAME_DEG;
             is_beyond.then_some((axis, unit))
         });
-        let (axis, (from, to)) = beyond?;
-        let [from, to] = [from, to].map(|deg| format::degrees(deg, 0));
+        let (axis, (start, end)) = outside?;
+        let [start_text, end_text] = [start, end].map(|deg| format::degrees(deg, 0));
         Some(format!(
-            "{}: the unit itself turns its {axis} from {from} to {to} and stops there until that \
+            "{}: the unit itself turns its {axis} from {start_text} to {end_text} and stops there until that \
              is changed.",
             antenna.name
         ))
@@ -112,7 +119,7 @@ fn changed(model: &Model, after: &Station) -> impl Iterator<Item = String> {
     after.antennas.iter().filter_map(|antenna| {
         let name = &antenna.name;
         match model.antenna_of(antenna.id) {
-            Some(known) if *known.config == *antenna => None,
+            Some(model_antenna) if *model_antenna.config == *antenna => None,
             Some(_) => Some(format!("{name} does not move. Saving reconnects it.")),
             None => Some(format!("{name} is new. Saving connects it.")),
         }
@@ -124,7 +131,8 @@ fn changed(model: &Model, after: &Station) -> impl Iterator<Item = String> {
 /// of bounds that only tightens never waits.
 fn busy(model: &Model, before: &Station, after: &Station) -> Option<String> {
     // The simulators of the demonstration end with it.
-    let mut antennas = model.antennas.iter().filter(|of| !model.demo && of.is_busy());
+    let mut antennas =
+        model.antennas.iter().filter(|model_antenna| !model.demo && model_antenna.is_busy());
     let loosened = before.loosened_in(after);
     antennas.find_map(|antenna| {
         let name = &antenna.config.name;
@@ -142,16 +150,16 @@ fn busy(model: &Model, before: &Station, after: &Station) -> Option<String> {
 }
 
 /// Warning for an antenna that is inside a keep-out of `after`, but was not in `before`.
-fn inside(model: &Model, before: &Station, after: &Station) -> Option<String> {
+fn barrier_problem(model: &Model, before: &Station, after: &Station) -> Option<String> {
     let holds_in = |station: &Station, antenna: &AntennaModel| {
         let direction = antenna.snapshot.state.measured?.direction()?;
         let half_beam = antenna.config.beam_width() * 0.5;
-        let mut hold = station
-            .keep_outs
-            .iter()
-            .filter(|of| of.entered != Entered::Warn && of.holds_for(&antenna.config.name));
-        let found = hold.find(|of| of.zone.clearance(direction) < of.margin() + half_beam);
-        found.map(|of| of.name.clone())
+        let mut hold = station.keep_outs.iter().filter(|keep_out| {
+            keep_out.entered != Entered::Warn && keep_out.holds_for(&antenna.config.name)
+        });
+        let found = hold
+            .find(|keep_out| keep_out.zone.clearance(direction) < keep_out.margin() + half_beam);
+        found.map(|keep_out| keep_out.name.clone())
     };
     // Those of the demonstration end with it.
     model.antennas.iter().filter(|_| !model.demo).find_map(|antenna| {

@@ -8,9 +8,9 @@ use crate::ui::widgets::paint;
 /// Gap between two columns. The first part of it belongs to the scroll bar.
 const GAP: f32 = 16.0;
 /// Least width of a column.
-const LEAST: f32 = 500.0;
+const MIN_WIDTH: f32 = 500.0;
 /// Greatest width of one of several columns, and of the only one.
-const MOST: [f32; 2] = [592.0, 800.0];
+const MAX_WIDTHS: [f32; 2] = [592.0, 800.0];
 /// A part of a page.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Part {
@@ -33,42 +33,44 @@ pub(super) fn show(
     mut draw: impl FnMut(&mut Ui, Part),
 ) {
     let inner = page.shrink2(vec2(PADDING, 0.0));
-    let fitting = ((inner.width() + GAP) / (LEAST + GAP)).floor().max(1.0) as usize;
+    let fitting = ((inner.width() + GAP) / (MIN_WIDTH + GAP)).floor().max(1.0) as usize;
     let stands_aside = has_aside && fitting > 1;
     let forms = (fitting - usize::from(stands_aside)).min(rows.len()).max(1);
     let count = forms + usize::from(stands_aside);
     let gaps = GAP * (count - 1) as f32;
-    let [one_of_many, only] = MOST;
-    let most = if count > 1 { one_of_many } else { only };
-    let width = most.min((inner.width() - gaps) / count as f32);
+    let [one_of_many, only] = MAX_WIDTHS;
+    let max = if count > 1 { one_of_many } else { only };
+    let width = max.min((inner.width() - gaps) / count as f32);
     let columns = columns_of(rows, forms);
     // The scroll bar stands in the gap, or at the edge of the page.
     let gap = inner.left() + forms as f32 * (width + GAP) - 4.0;
     let right = if stands_aside { gap } else { page.right() - 4.0 };
     scrolled(ui, page.with_min_x(inner.left()).with_max_x(right), (salt, "cards"), |ui| {
         if has_aside && !stands_aside {
-            within(ui, width, |ui| draw(ui, Part::Preview { is_fold: true }));
+            centred(ui, width, |ui| draw(ui, Part::Preview { is_fold: true }));
         }
         ui.horizontal_top(|ui| {
             ui.spacing_mut().item_spacing.x = GAP;
             for column in 0..forms {
-                within(ui, width, |ui| {
+                centred(ui, width, |ui| {
                     ui.spacing_mut().item_spacing.x = 8.0;
-                    for (card, _) in columns.iter().enumerate().filter(|(_, of)| **of == column) {
+                    for (card, _) in
+                        columns.iter().enumerate().filter(|(_, total)| **total == column)
+                    {
                         draw(ui, Part::Card(card));
                     }
                 });
             }
         });
         if has_aside && !stands_aside {
-            within(ui, width, |ui| draw(ui, Part::Findings));
+            centred(ui, width, |ui| draw(ui, Part::Findings));
         }
     });
     if stands_aside {
         let left = inner.left() + forms as f32 * (width + GAP);
         let place = page.with_min_x(left).with_max_x(page.right() - 4.0);
         scrolled(ui, place, (salt, "aside"), |ui| {
-            within(ui, width, |ui| {
+            centred(ui, width, |ui| {
                 draw(ui, Part::Preview { is_fold: false });
                 draw(ui, Part::Findings);
             });
@@ -77,7 +79,7 @@ pub(super) fn show(
 }
 
 /// Shows `content` in a column of this width.
-fn within(ui: &mut Ui, width: f32, content: impl FnOnce(&mut Ui)) {
+fn centred(ui: &mut Ui, width: f32, content: impl FnOnce(&mut Ui)) {
     ui.allocate_ui_with_layout(vec2(width, 0.0), Layout::top_down(Align::Min), |ui| {
         ui.set_width(width);
         content(ui);

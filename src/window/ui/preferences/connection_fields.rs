@@ -11,7 +11,7 @@ use crate::{
     ui::format,
 };
 
-type Of = Description<Antenna>;
+type ConnectionDescription = Description<Antenna>;
 
 /// Section of the name and the connection.
 pub(in crate::ui) const CONNECTION: &str = "Connection";
@@ -23,7 +23,10 @@ pub(in crate::ui) const ADDRESS: usize = 1;
 pub(super) fn unit(spec: &'static ControllerSpec) -> Vec<Placed<Antenna>> {
     let settings = spec.settings.iter().filter(|setting| setting.table.is_none());
     let mut unit = vec![
-        (CONNECTION, Of::text("Name", not_empty, |antenna| Some(&mut antenna.name))),
+        (
+            CONNECTION,
+            ConnectionDescription::text("Name", not_empty, |antenna| Some(&mut antenna.name)),
+        ),
         (CONNECTION, address(spec)),
     ];
     unit.extend(settings.map(|setting| (CONNECTION, field(setting))));
@@ -40,7 +43,7 @@ pub(super) fn not_empty(text: &str) -> Result<(), Unfit> {
     if text.is_empty() { Err(Unfit::Text("must not be empty".to_owned())) } else { Ok(()) }
 }
 
-fn address(spec: &'static ControllerSpec) -> Of {
+fn address(spec: &'static ControllerSpec) -> ConnectionDescription {
     let (label, note) = match spec.link {
         Link::Tcp => (format!("Address of the {}", spec.short_name), None),
         Link::Line { .. } => {
@@ -57,15 +60,17 @@ fn address(spec: &'static ControllerSpec) -> Of {
         }
         Ok(())
     };
-    Of::new(label, Kind::Text(|_| Ok(())), get, put).noted(move |_| note.clone())
+    ConnectionDescription::new(label, Kind::Text(|_| Ok(())), get, put).noted(move |_| note.clone())
 }
 
-fn field(setting: &'static Setting) -> Of {
-    Of::new(
+fn field(setting: &'static Setting) -> ConnectionDescription {
+    ConnectionDescription::new(
         setting.field.label,
         setting.field.kind,
         |antenna| antenna.connection.value(setting).cloned(),
-        |antenna, value| antenna.connection.put(setting, value).map_err(|why| why.to_string()),
+        |antenna, value| {
+            antenna.connection.put(setting, value).map_err(|reason| reason.to_string())
+        },
     )
     .noted(|antenna| {
         let of_setting = antenna.connection.value(setting).and_then(setting.note);
@@ -79,7 +84,8 @@ fn fit(points: &[CountPoint]) -> Option<String> {
     // Two points are always on the line.
     let line = CountLine::from_points(points).ok().filter(|_| points.len() > 2)?;
     let residuals = line.residuals_deg(points);
-    let all: Vec<String> = residuals.iter().map(|off| format::signed(*off, 2)).collect();
+    let all: Vec<String> =
+        residuals.iter().map(|deviation| format::signed(*deviation, 2)).collect();
     let largest =
         points.iter().zip(&residuals).max_by(|(_, a), (_, b)| a.abs().total_cmp(&b.abs()));
     let (point, _) = largest?;

@@ -11,7 +11,7 @@ use super::{
     horizon::draft::Skies,
     notices::NoticesDraft,
     page::Page,
-    rules::{cannot_act::Around, draft::RulesDraft},
+    rules::{cannot_act::RuleContext, draft::RulesDraft},
     satellites::draft::SatellitesDraft,
     search::Spot,
     section::{DraftSection, Finding},
@@ -36,14 +36,14 @@ pub(in crate::ui) struct Draft {
 }
 
 impl Draft {
-    pub(in crate::ui) fn of(station: &Station) -> Self {
+    pub(in crate::ui) fn new(station: &Station) -> Self {
         Self {
-            ground: Typed::of(Ground::of(station), station_fields::all()),
+            ground: Typed::new(Ground::new(station), station_fields::all()),
             antennas: station.antennas.iter().cloned().map(typed).collect(),
-            notices: NoticesDraft::of(&station.notices),
-            skies: Skies::of(station),
-            satellites: SatellitesDraft::of(station),
-            rules: RulesDraft::of(station),
+            notices: NoticesDraft::new(&station.notices),
+            skies: Skies::new(station),
+            satellites: SatellitesDraft::new(station),
+            rules: RulesDraft::new(station),
         }
     }
 
@@ -67,9 +67,10 @@ impl Draft {
     }
 
     fn add(&mut self, antenna: Antenna, now: Timestamp) -> AntennaId {
-        let taken: Vec<&str> = self.antennas.iter().map(Typed::name).collect();
-        let name = Antenna::free_name(&antenna.name, &taken);
-        let ids: Vec<AntennaId> = self.antennas.iter().map(|of| of.before().id).collect();
+        let names: Vec<&str> = self.antennas.iter().map(Typed::name).collect();
+        let name = Antenna::free_name(&antenna.name, &names);
+        let ids: Vec<AntennaId> =
+            self.antennas.iter().map(|typed_antenna| typed_antenna.before().id).collect();
         let second = u32::try_from(now.as_second()).unwrap_or(AntennaId::FIRST.0);
         let id = AntennaId::free(AntennaId(second), &ids);
         let mut antenna = typed(Antenna { id, name, ..antenna });
@@ -144,19 +145,19 @@ impl Draft {
     }
 
     /// The antennas that stay, by their indices.
-    fn kept(&self) -> impl Iterator<Item = (usize, &Typed<Antenna>)> {
+    fn remaining(&self) -> impl Iterator<Item = (usize, &Typed<Antenna>)> {
         self.antennas.iter().enumerate().filter(|(_, antenna)| !antenna.is_removed)
     }
 
     /// The antennas that stay, with their names as typed.
     pub(super) fn antenna_titles(&self) -> Vec<(AntennaId, String)> {
-        let ids = self.kept().map(|(_, antenna)| antenna.before().id);
+        let ids = self.remaining().map(|(_, antenna)| antenna.before().id);
         ids.map(|id| (id, self.antenna_title(id))).collect()
     }
 
     /// Antennas and satellites that the rules name.
-    pub(super) fn around_rules(&self) -> Around<'_> {
-        Around {
+    pub(super) fn around_rules(&self) -> RuleContext<'_> {
+        RuleContext {
             antennas: self.antenna_titles(),
             favourites: self.satellites.favourites(),
             satellites: &self.satellites,
@@ -165,7 +166,7 @@ impl Draft {
 
     /// Names of the antennas before anything was typed.
     pub(super) fn antenna_names(&self) -> Vec<String> {
-        self.kept().map(|(_, antenna)| antenna.before().name.clone()).collect()
+        self.remaining().map(|(_, antenna)| antenna.before().name.clone()).collect()
     }
 
     /// The place as typed, also while the rest is not right yet.
@@ -187,16 +188,16 @@ impl Draft {
     /// Standings of the fields of an antenna.
     pub(in crate::ui) fn antenna_standings(&self, index: usize) -> Vec<Standing> {
         let Some(antenna) = self.antennas.get(index) else { return Vec::new() };
-        let others = self.kept().filter(|(other, _)| *other != index);
-        let taken: Vec<&str> = self.antennas.iter().map(Typed::name).collect();
-        let why = "must differ from those of the other antennas";
-        antenna.standings_among(others.map(|(_, other)| other.name()), &taken, why)
+        let others = self.remaining().filter(|(other, _)| *other != index);
+        let names: Vec<&str> = self.antennas.iter().map(Typed::name).collect();
+        let reason = "must differ from those of the other antennas";
+        antenna.standings_among(others.map(|(_, other)| other.name()), &names, reason)
     }
 
     /// The antenna as it is typed now, if every field is right.
     pub(in crate::ui) fn antenna(&self, index: usize) -> Option<Antenna> {
         let standings = self.antenna_standings(index);
-        let is_right = standings.iter().all(|of| of.problem.is_none());
+        let is_right = standings.iter().all(|standing| standing.problem.is_none());
         Some(self.antennas.get(index).filter(|_| is_right)?.read().0)
     }
 
@@ -215,7 +216,7 @@ impl Draft {
         let names = |antenna: &Typed<Antenna>| {
             (antenna.before().name.clone(), antenna.name().trim().to_owned())
         };
-        self.kept().map(|(_, antenna)| names(antenna)).collect()
+        self.remaining().map(|(_, antenna)| names(antenna)).collect()
     }
 
     /// The station, if every field is right.
@@ -260,7 +261,7 @@ impl DraftSection for Typed<Antenna> {
 
 fn typed(antenna: Antenna) -> Typed<Antenna> {
     let fields = antenna_fields::all(antenna.connection.spec());
-    Typed::of(antenna, fields)
+    Typed::new(antenna, fields)
 }
 
 #[cfg(test)]
@@ -292,30 +293,30 @@ mod tests {
     fn what_was_not_touched_comes_back_as_it_was() {
         let horizon_mask = HorizonMask::parse("0 2.5\n120 -0.3\n240.25 11").ok();
         let station = Station { horizon_mask, ..station() };
-        assert_eq!(Draft::of(&station).read(), Some(station));
+        assert_eq!(Draft::new(&station).read(), Some(station));
     }
 
     #[test]
     fn each_make_can_be_added_and_used_as_it_stands() {
-        let mut draft = Draft::of(&Station::default());
+        let mut draft = Draft::new(&Station::default());
         for spec in SPECS.iter().chain(SPECS) {
             draft.add_antenna(spec, Timestamp::UNIX_EPOCH);
         }
         let station = draft.read().unwrap();
         let specs: Vec<&ControllerSpec> =
-            station.antennas.iter().map(|of| of.connection.spec()).collect();
+            station.antennas.iter().map(|antenna| antenna.connection.spec()).collect();
         assert_eq!(specs, [SPECS, SPECS].concat());
     }
 
     #[test]
     fn a_removed_antenna_is_left_out_and_can_be_taken_back() {
-        let mut draft = Draft::of(&station());
+        let mut draft = Draft::new(&station());
         let whole = draft.read().unwrap();
         "nowhere".clone_into(write(&mut draft.antennas[1], "Address of the Genius"));
         draft.toggle_removed(1);
-        let without = draft.read().unwrap();
-        assert_eq!(without.antennas.len(), whole.antennas.len() - 1);
-        assert!(without.antennas.iter().all(|of| of.name != whole.antennas[1].name));
+        let shortened = draft.read().unwrap();
+        assert_eq!(shortened.antennas.len(), whole.antennas.len() - 1);
+        assert!(shortened.antennas.iter().all(|antenna| antenna.name != whole.antennas[1].name));
         draft.toggle_removed(1);
         assert_eq!(draft.read(), None, "what was typed is still there");
         assert_eq!(write(&mut draft.antennas[1], "Address of the Genius"), "nowhere");
@@ -338,7 +339,7 @@ mod tests {
             (2, "Azimuth counts", "30 90"),
             (2, "Elevation counts", "30 0\n1830"),
         ] {
-            let mut draft = Draft::of(&station());
+            let mut draft = Draft::new(&station());
             typed.clone_into(write(&mut draft.antennas[antenna], label));
             let standings = draft.antenna_standings(antenna);
             let wrong: Vec<&str> = standings
@@ -356,7 +357,7 @@ mod tests {
             (Page::Site, "Altitude", ""),
             (Page::Satellites, "Satellites", "25544, NOAA"),
         ] {
-            let mut draft = Draft::of(&station());
+            let mut draft = Draft::new(&station());
             draft.write(page, label, typed.to_owned());
             assert_eq!(draft.read(), None, "{label}");
         }
@@ -364,7 +365,7 @@ mod tests {
 
     #[test]
     fn one_rotator_has_no_elevation_and_what_was_typed_there_waits() {
-        let mut draft = Draft::of(&station());
+        let mut draft = Draft::new(&station());
         let genius = &mut draft.antennas[1];
         "steep".clone_into(write(genius, "Elevation to"));
         "Only rotator 2".clone_into(write(genius, "Rotators of this antenna"));
@@ -377,7 +378,7 @@ mod tests {
 
     #[test]
     fn what_is_typed_for_an_rc2000c_is_used() {
-        let mut draft = Draft::of(&station());
+        let mut draft = Draft::new(&station());
         let unit = &mut draft.antennas[2];
         "host:4002".clone_into(write(unit, "Port or address"));
         "1200".clone_into(write(unit, "Line speed, baud"));
@@ -394,7 +395,7 @@ mod tests {
 
     #[test]
     fn a_decimal_comma_is_understood() {
-        let mut draft = Draft::of(&Station::default());
+        let mut draft = Draft::new(&Station::default());
         "41,5".clone_into(&mut draft.ground.fields[1].entry.text);
         let site = draft.read().unwrap().site;
         assert!((site.latitude().degrees() - 41.5).abs() < 1e-9);

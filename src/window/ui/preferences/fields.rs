@@ -189,7 +189,7 @@ impl<T> Description<T> {
     }
 
     /// Adds a note below the field that always holds.
-    pub(super) fn about(self, words: &'static str) -> Self {
+    pub(super) fn described(self, words: &'static str) -> Self {
         self.noted(move |_| Some(words.to_owned()))
     }
 
@@ -200,12 +200,12 @@ impl<T> Description<T> {
 
     /// Parses a text into its value.
     fn read(&self, whole: &mut T, text: &str) -> Result<(), Problem> {
-        let value = self.kind.read(text.trim()).map_err(|why| Problem {
-            short: words::unfit_in_short(&why, self.unit),
-            why: words::unfit(&why, self.unit),
+        let value = self.kind.read(text.trim()).map_err(|reason| Problem {
+            short: words::unfit_in_short(&reason, self.unit),
+            reason: words::unfit(&reason, self.unit),
             would_do: None,
         })?;
-        (self.put)(whole, value).map_err(Problem::of)
+        (self.put)(whole, value).map_err(Problem::new)
     }
 
     /// The text of the number next to the typed one that the field can hold.
@@ -239,7 +239,7 @@ impl<T> Field<T> {
 #[derive(Debug, Clone, PartialEq)]
 pub(in crate::ui) struct Problem {
     /// Continues the name of the field to a sentence.
-    pub(super) why: String,
+    pub(super) reason: String,
     /// In a few words, for beside the field.
     pub(super) short: String,
     /// A text that would do.
@@ -247,9 +247,9 @@ pub(in crate::ui) struct Problem {
 }
 
 impl Problem {
-    pub(super) fn of(why: impl Into<String>) -> Self {
-        let why = why.into();
-        Self { short: words::capitalised(&why), why, would_do: None }
+    pub(super) fn new(reason: impl Into<String>) -> Self {
+        let reason = reason.into();
+        Self { short: words::capitalised(&reason), reason, would_do: None }
     }
 }
 
@@ -285,7 +285,7 @@ pub(in crate::ui) struct Typed<T: 'static> {
 
 impl<T: Clone> Typed<T> {
     /// Draft with those of `fields` that `base` has.
-    pub(super) fn of(base: T, fields: Vec<Placed<T>>) -> Self {
+    pub(super) fn new(base: T, fields: Vec<Placed<T>>) -> Self {
         let mut whole = base.clone();
         let fields = fields
             .into_iter()
@@ -345,20 +345,20 @@ impl<T: Clone> Typed<T> {
         self.fields.first().map_or("", |field| &field.entry.text)
     }
 
-    /// State of each field. The name must differ from the `others`, or else, `why`; a name that
-    /// would do is none of the `taken`.
+    /// State of each field. The name must differ from the `others`, or else, `reason`; a name that
+    /// would do is none of the `names`.
     pub(super) fn standings_among<'a>(
         &self,
         mut others: impl Iterator<Item = &'a str>,
-        taken: &[&str],
-        why: &str,
+        names: &[&str],
+        reason: &str,
     ) -> Vec<Standing> {
         let (own, mut standings) = (self.name(), self.read().1);
         if let Some(Standing { problem: problem @ None, .. }) = standings.first_mut()
             && others.any(|other| Antenna::same_name(other, own))
         {
-            let free = Antenna::free_name(own.trim(), taken);
-            *problem = Some(Problem { would_do: Some(free), ..Problem::of(why) });
+            let free = Antenna::free_name(own.trim(), names);
+            *problem = Some(Problem { would_do: Some(free), ..Problem::new(reason) });
         }
         standings
     }
@@ -410,15 +410,16 @@ impl<T: Clone> Typed<T> {
             self.fields.iter().zip(texts).map(read).map(Result::err).collect();
         let described = || self.fields.iter().map(|field| &field.description).zip(&problems);
         // The combined checks say nothing while one of the fields is wrong.
-        let is_whole = described().all(|(of, problem)| problem.is_none() || !(of.is_used)(&whole));
+        let is_whole = described()
+            .all(|(description, problem)| problem.is_none() || !(description.is_used)(&whole));
         let standings = described()
-            .map(|(of, problem)| {
-                if !(of.is_used)(&whole) {
+            .map(|(description, problem)| {
+                if !(description.is_used)(&whole) {
                     return Standing::default();
                 }
-                let together = || (of.check)(&whole).err().filter(|_| is_whole);
-                let problem = problem.clone().or_else(|| together().map(Problem::of));
-                let (is_new, note) = (self.is_new, (of.note)(&whole));
+                let joint_problem = || (description.check)(&whole).err().filter(|_| is_whole);
+                let problem = problem.clone().or_else(|| joint_problem().map(Problem::new));
+                let (is_new, note) = (self.is_new, (description.note)(&whole));
                 Standing { is_used: true, is_new, problem, proved: None, note }
             })
             .collect();

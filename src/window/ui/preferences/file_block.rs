@@ -73,7 +73,7 @@ pub(super) fn show(ui: &Ui, rect: Rect, model: &Model, commands: &mut Vec<UiComm
 
 fn saved(model: &Model) -> String {
     match model.station_saved_at {
-        Some(at) => format!("saved {}", format::moment(at, model.now)),
+        Some(time) => format!("saved {}", format::moment(time, model.now)),
         None => "not saved yet".to_owned(),
     }
 }

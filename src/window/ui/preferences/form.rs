@@ -45,16 +45,16 @@ enum RowAnnotation {
 
 /// The field that a search leads to, until it has the focus.
 #[derive(Default)]
-pub(super) struct Sought(Option<Cow<'static, str>>);
+pub(super) struct FocusTarget(Option<Cow<'static, str>>);
 
-impl Sought {
+impl FocusTarget {
     pub(super) fn new(label: Cow<'static, str>) -> Self {
         Self(Some(label))
     }
 
     /// Returns `true` once for the field with this label.
     pub(super) fn takes(&mut self, label: &str) -> bool {
-        self.0.take_if(|sought| sought == label).is_some()
+        self.0.take_if(|target| target == label).is_some()
     }
 }
 
@@ -74,11 +74,11 @@ pub(super) fn section<T: Clone>(
     group: &str,
     (typed, standings): (&mut Typed<T>, &[Standing]),
     section: &str,
-    sought: &mut Sought,
+    focus_target: &mut FocusTarget,
     more: impl FnOnce(&mut Ui),
 ) {
     card(ui, section, |ui| {
-        rows(ui, group, (typed, standings), section, sought);
+        rows(ui, group, (typed, standings), section, focus_target);
         more(ui);
     });
 }
@@ -89,12 +89,12 @@ pub(super) fn rows<T: Clone>(
     group: &str,
     (typed, standings): (&mut Typed<T>, &[Standing]),
     section: &str,
-    sought: &mut Sought,
+    focus_target: &mut FocusTarget,
 ) {
     for (field, standing) in typed.fields.iter_mut().zip(standings) {
         if standing.is_used && field.section == section {
             let response = row(ui, group, field, standing, RowAnnotation::State);
-            if sought.takes(&field.description.label) {
+            if focus_target.takes(&field.description.label) {
                 focus_to_replace(ui, &response, &field.entry.text);
                 response.scroll_to_me(Some(Align::Center));
             }
@@ -177,7 +177,7 @@ fn row<T>(
             state => state,
         };
         let name = match &standing.problem {
-            Some(problem) => format!("{label} {}.", problem.why),
+            Some(problem) => format!("{label} {}.", problem.reason),
             None => words.clone(),
         };
         parts::state(ui, (group, &*label), state_room(ui, place, end), mark, [&words, &name]);
@@ -185,7 +185,7 @@ fn row<T>(
     if let Some(problem) = standing.problem.as_ref().filter(|_| response.has_focus()) {
         // The cure may be the previous value, which a new station does not have.
         let cure = problem.would_do.as_ref().filter(|_| annotation == RowAnnotation::State);
-        why_below(&response, &label, &problem.why, cure);
+        why_below(&response, &label, &problem.reason, cure);
     }
     if let Some(words) = &standing.note {
         note(ui, words);
@@ -206,9 +206,9 @@ fn state<T>(field: &Field<T>, standing: &Standing) -> (Mark, String) {
 
 /// Says below a field that has the focus why it cannot be used. It lies over the rows, so that
 /// none of them moves.
-fn why_below(response: &Response, label: &str, why: &str, cure: Option<&String>) {
+fn why_below(response: &Response, label: &str, reason: &str, cure: Option<&String>) {
     let cure = cure.map(|text| format!(" Use {text}."));
-    let words = format!("{label} {why}.{}", cure.unwrap_or_default());
+    let words = format!("{label} {reason}.{}", cure.unwrap_or_default());
     let (ctx, layer) = (response.ctx.clone(), response.layer_id);
     let below = Tooltip::always_open(ctx, layer, response.id.with("why"), response.rect);
     below.show(|ui| {
@@ -236,7 +236,7 @@ pub(super) fn custom_row<R>(
     let (result, place) = labelled(ui, label, LABEL, |ui, _| content(ui));
     let room = state_room(ui, place, place.right());
     let (mark, words) = match wrong {
-        Some(why) => (Mark::Invalid, why),
+        Some(reason) => (Mark::Invalid, reason),
         None if is_edited => (Mark::Edited, "Edited"),
         None => return result,
     };
@@ -252,8 +252,8 @@ fn edit<T>(
     annotation: RowAnnotation,
 ) -> Response {
     let t = theme::tokens(ui);
-    let (stroke, margin) =
-        border.map_or((Stroke::new(1.0, t.edge), (11, 3)), |of| (Stroke::new(2.0, of), (10, 2)));
+    let (stroke, margin) = border
+        .map_or((Stroke::new(1.0, t.edge), (11, 3)), |colour| (Stroke::new(2.0, colour), (10, 2)));
     // The focus has a ring of its own around the border.
     let frame = Frame::new()
         .fill(t.field)

@@ -29,7 +29,7 @@ pub(super) fn show(
     let t = theme::tokens(ui);
     ui.painter().rect_filled(rect, 0.0, t.bg1);
     ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, (1.0, t.line));
-    let (title, about) = (state.page.title(draft), about(state.page, model, draft));
+    let (title, description) = (state.page.title(draft), page_summary(state.page, model, draft));
     let right = match state.page {
         Page::Antenna(id) => buttons(ui, rect, id, model, draft, state, commands),
         Page::Rules => add_rule(ui, rect, draft, state),
@@ -40,21 +40,21 @@ pub(super) fn show(
     let font = if rect.height() < HEAD[0] { text::value() } else { text::title() };
     paint::text_in(ui, up, Align2::LEFT_CENTER, &title, font, t.t1);
     let down = room.translate(vec2(0.0, rect.height() * 0.23));
-    paint::text_in(ui, down, Align2::LEFT_CENTER, &about, text::small(), t.t2);
-    let named = paint::name_text(ui, "page", room, &format!("{title}. {about}"));
-    if !paint::fits(ui, &about, text::small(), down) {
-        named.on_hover_text(&about);
+    paint::text_in(ui, down, Align2::LEFT_CENTER, &description, text::small(), t.t2);
+    let named = paint::name_text(ui, "page", room, &format!("{title}. {description}"));
+    if !paint::fits(ui, &description, text::small(), down) {
+        named.on_hover_text(&description);
     }
 }
 
-fn about(page: Page, model: &Model, draft: &Draft) -> String {
-    let about = match page {
+fn page_summary(page: Page, model: &Model, draft: &Draft) -> String {
+    let description = match page {
         Page::Antenna(id) => {
             let index = draft.index(id);
             let antenna = index.and_then(|index| draft.antennas.get(index));
             let is_removed = index.is_some_and(|index| draft.is_removed(index));
             let end = if is_removed { ". It is removed when you save." } else { "" };
-            return antenna.map_or_else(String::new, |of| kind(&of.read().0) + end);
+            return antenna.map_or_else(String::new, |typed| kind(&typed.read().0) + end);
         }
         Page::Site if model.demo => "For your new station; the demo is not changed",
         Page::Site => "Where the station is, and which passes it lists",
@@ -64,7 +64,7 @@ fn about(page: Page, model: &Model, draft: &Draft) -> String {
         Page::Notices => "What is announced on the desktop, and when",
         Page::Appearance => "For this window, applied at once",
     };
-    about.to_owned()
+    description.to_owned()
 }
 
 /// Make and mount of an antenna, and who tracks with it.

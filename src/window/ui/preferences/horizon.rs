@@ -97,7 +97,7 @@ pub(super) struct HorizonState {
     recording: Option<Recording>,
     /// Path of a mask file while it is typed.
     import: Option<String>,
-    told: Option<Result<String, String>>,
+    answer: Option<Result<String, String>>,
 }
 
 impl Default for HorizonState {
@@ -116,7 +116,7 @@ impl Default for HorizonState {
             sun: None,
             recording: None,
             import: None,
-            told: None,
+            answer: None,
         }
     }
 }
@@ -135,9 +135,9 @@ impl HorizonState {
         self.tab = Tab::Table;
     }
 
-    fn begin_drag(&mut self, index: usize, at: Option<(f64, f64)>) {
+    fn begin_drag(&mut self, index: usize, start: Option<(f64, f64)>) {
         self.corner = Some(index);
-        self.drag = at.map(|at| (index, at));
+        self.drag = start.map(|start| (index, start));
     }
 
     /// Antenna whose beam and travel are shown: none of the demonstration, since the page is about
@@ -158,20 +158,23 @@ impl HorizonState {
         if result.is_ok() {
             self.import = None;
         }
-        self.told = Some(result);
+        self.answer = Some(result);
     }
 
     /// Path of the Sun over the site from midnight to midnight UTC.
     fn sun_way(&mut self, site: Site, now: Timestamp) -> &[AzEl] {
         const DAY_S: i64 = 86_400;
         let day = now.as_second().div_euclid(DAY_S);
-        let is_known = self.sun.as_ref().is_some_and(|(of, on, _)| (*of, *on) == (site, day));
+        let is_known = self
+            .sun
+            .as_ref()
+            .is_some_and(|(current_site, on, _)| (*current_site, *on) == (site, day));
         if !is_known {
             let midnight = Timestamp::from_second(day * DAY_S).unwrap_or(now);
-            let at = |step: u16| {
+            let direction = |step: u16| {
                 sun_moon::sun(site, add_seconds(midnight, f64::from(step) * SUN_STEP_S))
             };
-            self.sun = Some((site, day, (0..=144).map(at).collect()));
+            self.sun = Some((site, day, (0..=144).map(direction).collect()));
         }
         self.sun.as_ref().map(|(.., way)| &way[..]).unwrap_or_default()
     }
@@ -199,7 +202,7 @@ pub(super) fn show(
     ui.painter().rect_filled(bar, 0.0, t.bg1);
     ui.painter().hline(bar.x_range(), bar.bottom() - 0.5, (1.0, t.line));
     view_bar(ui, bar, is_wide, model, skies, state, commands);
-    let import = state.import.is_some() || state.told.is_some();
+    let import = state.import.is_some() || state.answer.is_some();
     let (import, rest) = rest.split_top_bottom_at_y(rest.top() + if import { TOOLS } else { 0.0 });
     skyline::exchange(ui, import, state, commands);
     let effect_height = if is_wide { EFFECT } else { 32.0 };
@@ -280,11 +283,11 @@ fn view_bar(
         let antennas = model.antennas.iter().zip(0..);
         let names: Vec<(&str, usize)> =
             antennas.map(|(antenna, index)| (antenna.config.name.as_str(), index)).collect();
-        let wanted: f32 = names
+        let requested: f32 = names
             .iter()
             .map(|(name, _)| paint::text_width(ui, name, text::body_medium()) + 28.0)
             .sum();
-        let width = wanted.min(right.x - bar.left() - 240.0).max(60.0);
+        let width = requested.min(right.x - bar.left() - 240.0).max(60.0);
         let [room] = button::row_before(&mut right, BUTTON, [width]);
         let mut index = shown;
         if segmented::choose(ui, "horizon antenna", room, "Antenna", &names, &mut index) {
@@ -296,12 +299,12 @@ fn view_bar(
         segmented::choose(ui, "horizon tab", place, "Shown", &tabs, &mut state.tab);
     }
     if record.show(ui, "record", record_at).clicked() && state.recording.is_none() {
-        state.recording = Some(Recording::over(&skies.mask));
+        state.recording = Some(Recording::new(&skies.mask));
         state.choose(Chosen::Skyline);
         state.tab = Tab::Table;
     }
     if import.show(ui, "import", import_at).clicked() {
-        state.told = None;
+        state.answer = None;
         state.import = if state.import.is_some() { None } else { Some(String::new()) };
     }
     if export.show(ui, "export", export_at).clicked() {
@@ -313,7 +316,7 @@ fn view_bar(
     // As the other pages, where it has room.
     let font = if above.width() < TITLE_FROM { text::value() } else { text::title() };
     paint::text_in(ui, above, Align2::LEFT_CENTER, "Horizon and keep-outs", font, t.t1);
-    let what = state.shown(model).map_or_else(
+    let subject = state.shown(model).map_or_else(
         || "No antenna yet".to_owned(),
         |antenna| {
             let mount = match antenna.config.mount {
@@ -324,7 +327,7 @@ fn view_bar(
             format!("Shown: {}, {mount}, beam {beam}", antenna.config.name)
         },
     );
-    paint::text_in(ui, below, Align2::LEFT_CENTER, &what, text::small(), t.t2);
+    paint::text_in(ui, below, Align2::LEFT_CENTER, &subject, text::small(), t.t2);
 }
 
 fn tool_bar(ui: &mut Ui, bar: Rect, skies: &mut Skies, state: &mut HorizonState) {
@@ -412,13 +415,13 @@ fn ask_for_effect(
         after: Obstacles {
             mask: skies.read_mask().unwrap_or_else(|_| station.horizon_mask.clone()),
             keep_outs: skies.zones.iter().filter_map(draft::ZoneDraft::keep_out).collect(),
-            sun: skies.sun.kept(),
+            sun: skies.sun.saved(),
         },
         antenna: config.map(|config| config.name.clone()),
         half_beam: config.map_or(Angle::ZERO, |config| config.beam_width() * 0.5),
         site: station.site,
     };
-    if model.obstacle_effects.wanted() != Some(&question) {
+    if model.obstacle_effects.requested() != Some(&question) {
         ui.ctx().request_repaint_after_for(crate::model::effects::DEBOUNCE, egui::ViewportId::ROOT);
         commands.push(UiCommand::ShowEffects(Box::new(question)));
     }

@@ -11,7 +11,7 @@ use super::{
     draft::Draft,
     fields::Counts,
     file_block,
-    form::Sought,
+    form::FocusTarget,
     page::Page,
     search::{Found, Search, Spot, find},
 };
@@ -59,9 +59,9 @@ pub(super) fn show(
         // All pages are about one station, which is not that of the other views.
         let (above, below) = words.shrink2(vec2(0.0, 4.0)).split_top_bottom_at_fraction(0.5);
         paint::text_in(ui, above, Align2::LEFT_CENTER, "Preferences", text::value(), t.t1);
-        let of = "of your new station";
-        paint::text_in(ui, below, Align2::LEFT_CENTER, of, text::small(), t.t2);
-        paint::name_text(ui, "preferences of", words, &format!("Preferences {of}"));
+        let name = "of your new station";
+        paint::text_in(ui, below, Align2::LEFT_CENTER, name, text::small(), t.t2);
+        paint::name_text(ui, "preferences of", words, &format!("Preferences {name}"));
     } else {
         paint::text_in(ui, words, Align2::LEFT_CENTER, "Preferences", text::value(), t.t1);
     }
@@ -148,7 +148,7 @@ fn results(ui: &mut Ui, draft: &Draft, takes_keys: bool, state: &mut Preferences
     let search = &mut state.search;
     search.chosen = search.chosen.saturating_sub(usize::from(up));
     search.chosen = (search.chosen + usize::from(down)).min(last);
-    let mut taken = found.get(search.chosen).filter(|_| enter).cloned();
+    let mut accepted = found.get(search.chosen).filter(|_| enter).cloned();
     for (index, result) in found.into_iter().enumerate() {
         let title = result.page.title(draft);
         let (row, _) = ui.allocate_exact_size(vec2(ui.available_width(), RESULT), Sense::hover());
@@ -160,10 +160,10 @@ fn results(ui: &mut Ui, draft: &Draft, takes_keys: bool, state: &mut Preferences
         paint::text_in(ui, above, Align2::LEFT_CENTER, &result.label, text::body(), t.t1);
         paint::text_in(ui, below, Align2::LEFT_CENTER, &title, text::small(), t.t3);
         if response.on_hover_text(&name).clicked() {
-            taken = Some(result);
+            accepted = Some(result);
         }
     }
-    if let Some(found) = taken {
+    if let Some(found) = accepted {
         go_to(found, state);
     }
 }
@@ -173,7 +173,7 @@ fn go_to(found: Found, state: &mut PreferencesState) {
     state.page = page;
     state.search.text.clear();
     match spot {
-        Spot::Field => state.form.sought = Sought::new(label),
+        Spot::Field => state.form.focus_target = FocusTarget::new(label),
         Spot::Horizon(chosen) => state.horizon.open(chosen),
         Spot::Page => {}
     }
@@ -255,11 +255,12 @@ fn page_row(
     let mut colour = t.t1;
     if let Page::Antenna(id) = page {
         let indent = if row.width() < WIDTH - 8.0 { 4.0 } else { 20.0 };
-        let glyph = model.antenna_of(id).map_or(LinkGlyph::Off, |of| bar::glyph(model, of));
+        let glyph =
+            model.antenna_of(id).map_or(LinkGlyph::Off, |antenna| bar::glyph(model, antenna));
         let (icon, ink) = glyph.look(t);
-        let at = pos2(room.left() + indent + 6.0, room.center().y);
-        icons::paint(ui.painter(), paint::square(at, 12.0), icon, ink);
-        room = room.with_min_x(at.x + 14.0);
+        let position = pos2(room.left() + indent + 6.0, room.center().y);
+        icons::paint(ui.painter(), paint::square(position, 12.0), icon, ink);
+        room = room.with_min_x(position.x + 14.0);
         if draft.index(id).is_some_and(|index| draft.is_removed(index)) {
             colour = t.t3;
         }
@@ -291,18 +292,18 @@ fn line(
 fn tags(ui: &Ui, room: Rect, title: &str, counts: Counts) -> f32 {
     let t = theme::tokens(ui);
     let mut right = room.right();
-    let mut said = Vec::new();
+    let mut sentences = Vec::new();
     for (number, colour, word) in
         [(counts.edited, t.sat, "edited"), (counts.wrong, t.bad, "not valid")]
     {
         if number > 0 {
             right = tag(ui, pos2(right, room.center().y), number, colour) - 4.0;
-            said.push(format!("{number} {word}"));
+            sentences.push(format!("{number} {word}"));
         }
     }
-    if !said.is_empty() {
+    if !sentences.is_empty() {
         let place = room.with_min_x(right);
-        paint::name_text(ui, ("tags", title), place, &format!("{title}: {}", said.join(", ")));
+        paint::name_text(ui, ("tags", title), place, &format!("{title}: {}", sentences.join(", ")));
     }
     right
 }

@@ -8,7 +8,7 @@ use egui::Ui;
 use super::{
     draft::Draft,
     fields::{Description, Placed, Typed, placed},
-    form::{self, Sought},
+    form::{self, FocusTarget},
     search::Spot,
     section::{DraftSection, Finding},
 };
@@ -23,7 +23,7 @@ use crate::{
         format,
         widgets::{
             check_box::CheckBox,
-            told::{self, Tone},
+            status_line::{self, Tone},
         },
         words,
     },
@@ -55,13 +55,13 @@ struct Telling {
 }
 
 impl NoticesDraft {
-    pub(super) fn of(notices: &Notices) -> Self {
+    pub(super) fn new(notices: &Notices) -> Self {
         let telling = Telling {
             notices: notices.clone(),
             is_quiet: notices.quiet.is_some(),
             hours: notices.quiet.unwrap_or(HoursOfDay::NIGHT),
         };
-        Self { telling: Typed::of(telling, fields()), reminders: notices.reminders.clone() }
+        Self { telling: Typed::new(telling, fields()), reminders: notices.reminders.clone() }
     }
 }
 
@@ -94,18 +94,18 @@ impl DraftSection for NoticesDraft {
 
 fn fields() -> Vec<Placed<Telling>> {
     let telling = [
-        flag("Notifications", |telling| &mut telling.notices.notifications).about(
+        flag("Notifications", |telling| &mut telling.notices.notifications).described(
             "The desktop shows new alarms and reminders, and top-priority alarms \
                          even if this is off.",
         ),
         flag("Sounds", |telling| &mut telling.notices.sounds)
-            .about("Top-priority alarms sound even if this is off."),
+            .described("Top-priority alarms sound even if this is off."),
         tones(WARNINGS, |telling| &mut telling.notices.warning_tones)
-            .about("Alarms about something that is wrong now."),
+            .described("Alarms about something that is wrong now."),
         tones(CAUTIONS, |telling| &mut telling.notices.caution_tones)
-            .about("Alarms about something that was not done or will go wrong."),
+            .described("Alarms about something that was not done or will go wrong."),
         tones(BEFORE_PASSES, |telling| &mut telling.notices.reminder_tones),
-        flag("Quiet hours", |telling| &mut telling.is_quiet).about(
+        flag("Quiet hours", |telling| &mut telling.is_quiet).described(
             "No notifications or sounds then, except for top-priority alarms. The \
                          window shows all alarms.",
         ),
@@ -114,10 +114,10 @@ fn fields() -> Vec<Placed<Telling>> {
         Description::time("Quiet to", |telling: &mut Telling| &mut telling.hours.end)
             .when(|telling| telling.is_quiet)
             .checked(|telling| {
-                let HoursOfDay { start: from, end: to } = telling.hours;
-                if from == to { Err("must differ from Quiet from") } else { Ok(()) }
+                let HoursOfDay { start, end } = telling.hours;
+                if start == end { Err("must differ from Quiet from") } else { Ok(()) }
             })
-            .about("By the local time of this computer."),
+            .described("By the local time of this computer."),
     ];
     let before = Description::number(
         "Remind before AOS",
@@ -159,13 +159,13 @@ pub(super) fn card_of(
     card: usize,
     model: &Model,
     draft: &mut Draft,
-    sought: &mut Sought,
+    focus_target: &mut FocusTarget,
     commands: &mut Vec<UiCommand>,
 ) {
     match card {
-        0 => telling(ui, model, draft, sought, commands),
+        0 => telling(ui, model, draft, focus_target, commands),
         1 => never_silenced(ui),
-        _ => reminders(ui, model, draft, sought),
+        _ => reminders(ui, model, draft, focus_target),
     }
 }
 
@@ -173,7 +173,7 @@ fn telling(
     ui: &mut Ui,
     model: &Model,
     draft: &mut Draft,
-    sought: &mut Sought,
+    focus_target: &mut FocusTarget,
     commands: &mut Vec<UiCommand>,
 ) {
     let telling = &mut draft.notices.telling;
@@ -184,14 +184,14 @@ fn telling(
             standing.is_used &= !TONES.contains(&&*field.description.label);
         }
     }
-    form::section(ui, "telling", (telling, &standings), TELLING, sought, |ui| {
+    form::section(ui, "telling", (telling, &standings), TELLING, focus_target, |ui| {
         for missing in words::missing_outlets(&model.outlets) {
             match missing.raw {
                 Some(raw) => {
                     let tip = format!("The system answered: {raw}");
-                    told::line_with_tip(ui, Tone::Caution, &missing.words, &tip);
+                    status_line::line_with_tip(ui, Tone::Caution, &missing.words, &tip);
                 }
-                None => told::line(ui, Tone::Caution, &missing.words),
+                None => status_line::line(ui, Tone::Caution, &missing.words),
             }
         }
         if !has_player {
@@ -222,11 +222,11 @@ fn never_silenced(ui: &mut Ui) {
     });
 }
 
-fn reminders(ui: &mut Ui, model: &Model, draft: &mut Draft, sought: &mut Sought) {
+fn reminders(ui: &mut Ui, model: &Model, draft: &mut Draft, focus_target: &mut FocusTarget) {
     let favourites = draft.satellites.favourites();
     let NoticesDraft { telling, reminders } = &mut draft.notices;
     let standings = telling.read().1;
-    form::section(ui, "reminding", (telling, &standings), REMINDING, sought, |ui| {
+    form::section(ui, "reminding", (telling, &standings), REMINDING, focus_target, |ui| {
         form::remark(
             ui,
             "For the passes of the favourites marked here. An alarm is raised if no antenna is on \

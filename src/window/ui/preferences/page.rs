@@ -40,8 +40,8 @@ impl Page {
     /// The page after this one, and the first after the last.
     pub(super) fn next(self, draft: &Draft) -> Self {
         let all = Self::all(draft);
-        let at = all.iter().position(|page| *page == self);
-        let next = at.and_then(|at| all.get(at + 1)).or(all.first());
+        let index = all.iter().position(|page| *page == self);
+        let next = index.and_then(|index| all.get(index + 1)).or(all.first());
         next.copied().unwrap_or_default()
     }
 

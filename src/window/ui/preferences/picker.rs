@@ -18,19 +18,19 @@ const OFFERED: usize = 6;
 const FIELD: f32 = 160.0;
 
 /// Shows a field for a number or a name, what was found by it, and a list of `favourites`; returns
-/// the satellite that was chosen. Those that are `taken` are not offered.
+/// the satellite that was chosen. Those that are `excluded` are not offered.
 pub(super) fn show(
     ui: &mut Ui,
     model: &Model,
     favourites: &[u32],
-    taken: &[u32],
+    excluded: &[u32],
     search: &mut ObjectSearch,
 ) -> Option<u32> {
     let mut chosen = None;
     ui.vertical(|ui| {
         let is_entered = ui.horizontal(|ui| {
             let is_entered = field(ui, search);
-            chosen = favourite(ui, model, favourites, taken);
+            chosen = favourite(ui, model, favourites, excluded);
             is_entered
         });
         if search.typed.trim().is_empty() {
@@ -40,7 +40,8 @@ pub(super) fn show(
             ui.colored_label(theme::tokens(ui).warn, "There are no elements to search.");
             return;
         };
-        let objects = search.objects(catalog).iter().filter(|(number, _)| !taken.contains(number));
+        let objects =
+            search.objects(catalog).iter().filter(|(number, _)| !excluded.contains(number));
         let objects: Vec<&(u32, String)> = objects.take(OFFERED).collect();
         if objects.is_empty() {
             let words = "No other object has this number or name.";
@@ -74,13 +75,13 @@ fn field(ui: &mut Ui, search: &mut ObjectSearch) -> bool {
     is_entered
 }
 
-fn favourite(ui: &mut Ui, model: &Model, favourites: &[u32], taken: &[u32]) -> Option<u32> {
+fn favourite(ui: &mut Ui, model: &Model, favourites: &[u32], excluded: &[u32]) -> Option<u32> {
     let list =
         DropDown { button: Button::normal("Favourite"), salt: "favourite", name: "Favourite" };
     let (place, _) = ui.allocate_exact_size(vec2(list.width(ui), ROW), egui::Sense::hover());
     let mut chosen = None;
     list.show(ui, place, |ui| {
-        for number in favourites.iter().filter(|number| !taken.contains(number)) {
+        for number in favourites.iter().filter(|number| !excluded.contains(number)) {
             if ui.button(words::satellite(model, *number)).clicked() {
                 chosen = Some(*number);
             }

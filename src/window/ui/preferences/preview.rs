@@ -66,9 +66,9 @@ pub(super) fn cells(ui: &mut Ui, label: &str, was: (String, Color32), new: (Stri
     ui.painter().hline(row.x_range(), row.top(), (1.0, t.line));
     let room = row.with_max_x(row.right() - 2.0 * NUMBER);
     paint::text_in(ui, room, Align2::LEFT_CENTER, label, text::small(), t.t2);
-    let said = format!("{label}: was {}, new {}", was.0, new.0);
+    let spoken = format!("{label}: was {}, new {}", was.0, new.0);
     numbers(ui, row, [new, was], [text::small_strong(), text::small()]);
-    paint::name_text(ui, ("changed", label), row, &said);
+    paint::name_text(ui, ("changed", label), row, &spoken);
 }
 
 /// Numbers in the columns of `row`, from its right end on.

@@ -21,7 +21,7 @@ use crate::{
     station::Station,
     ui::{object_search::ObjectSearch, words},
 };
-use cannot_act::{Around, CannotAct};
+use cannot_act::{CannotAct, RuleContext};
 use decided::{Decided, DecidedPass};
 use draft::RulesDraft;
 
@@ -54,8 +54,8 @@ impl RulesState {
     /// Works out the passes that the rules of `station` decide, unless they are known.
     fn work_out(&mut self, station: Option<Station>, model: &Model) {
         self.decided = station.map(|station| {
-            let known = self.decided.take().filter(|decided| decided.is_of(&station, model));
-            known.unwrap_or_else(|| Decided::of(station, model))
+            let previous = self.decided.take().filter(|decided| decided.is_of(&station, model));
+            previous.unwrap_or_else(|| Decided::new(station, model))
         });
     }
 }
@@ -72,23 +72,28 @@ struct Shown {
 }
 
 impl Shown {
-    fn of(index: usize, rules: &RulesDraft, around: &Around<'_>, model: &Model) -> Option<Self> {
+    fn new(
+        index: usize,
+        rules: &RulesDraft,
+        context: &RuleContext<'_>,
+        model: &Model,
+    ) -> Option<Self> {
         let rule = rules.all().get(index)?;
         let number = rules.number(index);
-        let hindrance = rules.cannot_act(index, around);
-        let counts = |why: &CannotAct| number.is_some() && (rule.is_on || why.is_wrong());
+        let hindrance = rules.cannot_act(index, context);
+        let counts = |reason: &CannotAct| number.is_some() && (rule.is_on || reason.is_wrong());
         Some(Self {
             index,
             number,
             is_on: rule.is_on,
-            sentence: sentence::sentence(rule, around, &|number| words::satellite(model, number)),
-            hindrance: hindrance.filter(counts).map(|why| (why, why.words(around))),
+            sentence: sentence::sentence(rule, context, &|number| words::satellite(model, number)),
+            hindrance: hindrance.filter(counts).map(|reason| (reason, reason.words(context))),
         })
     }
 
     /// The passes that it decides; `None` while not all that is typed can be used.
     fn decided<'a>(&self, state: &'a RulesState) -> Option<&'a [DecidedPass]> {
-        Some(state.decided.as_ref()?.by(self.number? - 1))
+        Some(state.decided.as_ref()?.rule(self.number? - 1))
     }
 }
 
@@ -103,16 +108,16 @@ pub(super) fn show(
     let (antennas, favourites) = (draft.antenna_titles(), draft.satellites.favourites());
     // Borrowed apart from the rules, which change.
     let Draft { satellites, rules, .. } = draft;
-    let around = Around { antennas, favourites, satellites };
-    let wanted = table::height(rules.all().len());
-    let height = wanted.min((rect.height() * TABLE_SHARE).max(table::height(2)));
+    let context = RuleContext { antennas, favourites, satellites };
+    let requested = table::height(rules.all().len());
+    let height = requested.min((rect.height() * TABLE_SHARE).max(table::height(2)));
     let (top, below) = rect.split_top_bottom_at_y(rect.top() + height);
-    table::show(ui, top, model, rules, &around, &mut state.rules);
-    let Some(shown) = Shown::of(state.rules.chosen, rules, &around, model) else { return };
+    table::show(ui, top, model, rules, &context, &mut state.rules);
+    let Some(shown) = Shown::new(state.rules.chosen, rules, &context, model) else { return };
     let below = below.with_min_y(below.top() + PADDING / 2.0);
     columns::show(ui, below, "rules", &CARDS, false, |ui, part| match part {
-        Part::Card(0) => editor::show(ui, model, &shown, (rules, &before.rules), &around, state),
-        Part::Card(_) => editor::decided(ui, model, &shown, &around, &state.rules),
+        Part::Card(0) => editor::show(ui, model, &shown, (rules, &before.rules), &context, state),
+        Part::Card(_) => editor::decided(ui, model, &shown, &context, &state.rules),
         Part::Preview { .. } | Part::Findings => {}
     });
 }

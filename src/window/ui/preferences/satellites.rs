@@ -26,7 +26,7 @@ pub(super) struct SatellitesState {
 }
 
 /// Data that the cards of the page show besides the draft.
-struct Around<'a> {
+struct GroupContext<'a> {
     model: &'a Model,
     favourites: Vec<u32>,
     antennas: Vec<(AntennaId, String)>,
@@ -42,13 +42,13 @@ pub(super) fn show(
     (draft, before): (&mut Draft, &Draft),
     state: &mut FormState,
 ) {
-    let around = Around {
+    let context = GroupContext {
         model,
         favourites: draft.satellites.favourites(),
         antennas: draft.antenna_titles(),
     };
     let sections = draft.satellites.followed.sections();
-    let mut rows = vec![around.favourites.len() + 2, draft.satellites.groups().len() + 2];
+    let mut rows = vec![context.favourites.len() + 2, draft.satellites.groups().len() + 2];
     rows.extend(sections.iter().map(|(_, rows)| *rows));
     let standings = draft.satellites.followed.read().1;
     columns::show(ui, rect, "satellites", &rows, false, |ui, part| {
@@ -57,13 +57,13 @@ pub(super) fn show(
         match card {
             0 => {
                 let drafts = (satellites, &before.satellites);
-                favourites::show(ui, &around, drafts, &mut state.satellites);
+                favourites::show(ui, &context, drafts, &mut state.satellites);
             }
-            1 => groups::show(ui, &around, satellites, state),
+            1 => groups::show(ui, &context, satellites, state),
             card => {
                 let Some((section, _)) = sections.get(card - 2) else { return };
                 let typed = (&mut satellites.followed, &*standings);
-                form::section(ui, "satellites", typed, section, &mut state.sought, |_| {});
+                form::section(ui, "satellites", typed, section, &mut state.focus_target, |_| {});
             }
         }
     });

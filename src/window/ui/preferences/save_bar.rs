@@ -16,7 +16,7 @@ use crate::{
         widgets::{
             button::{self, Button},
             hold_button, paint,
-            told::Tone,
+            status_line::Tone,
         },
     },
 };
@@ -28,7 +28,7 @@ const LINE: f32 = 20.0;
 /// Number of lines of checks that are shown.
 const LINES: usize = 3;
 /// Least width of the outcome.
-const LEAST: f32 = 110.0;
+const MIN_WIDTH: f32 = 110.0;
 /// Width of the button that the operator must hold.
 const HOLD: f32 = 150.0;
 
@@ -51,13 +51,13 @@ pub(super) fn show(
     ui.painter().hline(rect.x_range(), rect.top() + 0.5, (1.0, t.line));
     let read = draft.read();
     let is_edited = draft != before;
-    let checks = Checks::of(model, station, read.as_ref(), (draft, before));
+    let checks = Checks::new(model, station, read.as_ref(), (draft, before));
     // The demo station can be replaced as it is proposed, where the page is about the station.
     let replaces_demo = model.demo && !state.page.is_used_at_once();
     let lock = replay::lock(model);
     let is_free = checks.busy.is_none() && lock.is_none();
     let can_save = read.is_some() && (is_edited || replaces_demo) && is_free;
-    let holds = can_save && checks.inside.is_some();
+    let holds = can_save && checks.barrier_problem.is_some();
     let save = if is_edited { Button::primary } else { Button::normal };
     let save = save(if model.demo { SAVE_IN_DEMO } else { "Save and use" })
         .locked(!can_save)
@@ -68,8 +68,8 @@ pub(super) fn show(
     let right = rect.right_center() - vec2(PADDING, 0.0);
     let [reverting, saving] = button::row(right, [revert.width(ui), width]);
     let room = rect.with_min_x(rect.left() + PADDING).with_max_x(reverting.left() - PADDING);
-    let told = outcome(ui, model, (draft, before), state);
-    lines(ui, room, &checks, told, can_save && !holds);
+    let outcome_text = outcome(ui, model, (draft, before), state);
+    lines(ui, room, &checks, outcome_text, can_save && !holds);
 
     let is_reverted = revert.show(ui, "revert", reverting).clicked();
     let is_pressed = if holds {
@@ -90,36 +90,42 @@ pub(super) fn show(
 
 /// Shows the checks at the left of `room` and the outcome at its right; in a low bar the gravest
 /// check alone, or else the outcome.
-fn lines(ui: &Ui, room: Rect, checks: &Checks, (said, colour): (String, Color32), can_save: bool) {
+fn lines(
+    ui: &Ui,
+    room: Rect,
+    checks: &Checks,
+    (spoken, colour): (String, Color32),
+    can_save: bool,
+) {
     let t = theme::tokens(ui);
     if room.height() < LINE * (LINES + 1) as f32 {
         // A check that is met is no reason to hide what saving does.
         let first = checks.lines.first();
         let gravest = first.filter(|(tone, _)| *tone != Tone::Good);
-        let (tone, words) = gravest.map_or((Tone::Plain, &said), |(tone, words)| (*tone, words));
+        let (tone, words) = gravest.map_or((Tone::Plain, &spoken), |(tone, words)| (*tone, words));
         let (mark, ink) = look(tone, t);
         let words_at = if mark.is_some() { room.with_min_x(room.left() + LINE) } else { room };
         if let Some(mark) = mark {
-            let at = paint::square(room.left_center() + vec2(7.0, 0.0), 13.0);
-            icons::paint(ui.painter(), at, mark, ink);
+            let rect = paint::square(room.left_center() + vec2(7.0, 0.0), 13.0);
+            icons::paint(ui.painter(), rect, mark, ink);
         }
         let ink = if mark.is_some() { ink } else { colour };
         paint::text_in(ui, words_at, Align2::LEFT_CENTER, words, text::small(), ink);
-        let whole = first.map_or_else(|| said.clone(), |(_, first)| format!("{first} {said}"));
+        let whole = first.map_or_else(|| spoken.clone(), |(_, first)| format!("{first} {spoken}"));
         paint::name_text(ui, "outcome", room, &whole).on_hover_text(&whole);
         return;
     }
-    let width = paint::text_width(ui, &said, text::body_medium()).max(LEAST);
+    let width = paint::text_width(ui, &spoken, text::body_medium()).max(MIN_WIDTH);
     let (left, right) = room.split_left_right_at_x((room.right() - width).max(room.center().x));
-    paint::text_in(ui, right, Align2::RIGHT_CENTER, &said, text::body_medium(), colour);
+    paint::text_in(ui, right, Align2::RIGHT_CENTER, &spoken, text::body_medium(), colour);
     if can_save {
         let below = right.translate(vec2(0.0, LINE));
         let words = "Ctrl Enter saves";
         paint::text_in(ui, below, Align2::RIGHT_CENTER, words, text::caption(), t.t3);
     }
-    let named = paint::name_text(ui, "outcome", right, &said);
-    if !paint::fits(ui, &said, text::body_medium(), right) {
-        named.on_hover_text(&said);
+    let named = paint::name_text(ui, "outcome", right, &spoken);
+    if !paint::fits(ui, &spoken, text::body_medium(), right) {
+        named.on_hover_text(&spoken);
     }
     if checks.lines.is_empty() {
         return;
@@ -136,8 +142,8 @@ fn lines(ui: &Ui, room: Rect, checks: &Checks, (said, colour): (String, Color32)
         let row = row();
         let (mark, ink) = look(*tone, t);
         if let Some(mark) = mark {
-            let at = paint::square(row.left_center() + vec2(7.0, 0.0), 13.0);
-            icons::paint(ui.painter(), at, mark, ink);
+            let rect = paint::square(row.left_center() + vec2(7.0, 0.0), 13.0);
+            icons::paint(ui.painter(), rect, mark, ink);
         }
         let ink = if *tone == Tone::Good { t.t1 } else { ink };
         let place = row.with_min_x(row.left() + LINE);
@@ -169,7 +175,7 @@ fn outcome(
 ) -> (String, Color32) {
     let t = theme::tokens(ui);
     match &state.outcome {
-        Some(Err(why)) => (format!("Not saved: {why}."), t.bad),
+        Some(Err(reason)) => (format!("Not saved: {reason}."), t.bad),
         _ if draft != before && model.demo => {
             (format!("{}. {ENDS_THE_DEMO}", changes(draft, before)), t.t1)
         }
@@ -177,7 +183,7 @@ fn outcome(
         _ if state.page.is_used_at_once() => {
             ("Changes on this page are applied at once.".to_owned(), t.t3)
         }
-        Some(Ok(at)) => (format!("Saved {}.", format::moment(*at, model.now)), t.ok),
+        Some(Ok(time)) => (format!("Saved {}.", format::moment(*time, model.now)), t.ok),
         None if model.demo => (ENDS_THE_DEMO.to_owned(), t.t2),
         None => ("Nothing to save.".to_owned(), t.t3),
     }

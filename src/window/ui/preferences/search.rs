@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use super::{appearance, draft::Draft, horizon::Chosen, page::Page, section::DraftSection};
 
 /// Most results that are listed.
-const MOST: usize = 12;
+const MAX_RESULTS: usize = 12;
 
 /// Text of the search, until a result is chosen.
 #[derive(Default)]
@@ -55,7 +55,7 @@ pub(super) fn find(text: &str, draft: &Draft) -> Vec<Found> {
         .filter(|found| has_all(&format!("{} {}", found.label, found.page.title(draft))))
         .partition(|found| has_all(&found.label));
     by_label.extend(by_page);
-    by_label.truncate(MOST);
+    by_label.truncate(MAX_RESULTS);
     by_label
 }
 

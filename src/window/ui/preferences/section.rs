@@ -32,6 +32,6 @@ pub(super) struct Finding {
 
 impl Finding {
     pub(super) fn sentence(&self) -> String {
-        format!("{} {}.", self.label, self.problem.why)
+        format!("{} {}.", self.label, self.problem.reason)
     }
 }

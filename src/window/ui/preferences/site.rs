@@ -25,7 +25,7 @@ use crate::{
     },
     ui::{
         format, text, theme,
-        widgets::told::{self, Tone},
+        widgets::status_line::{self, Tone},
         words,
     },
 };
@@ -57,7 +57,7 @@ pub(super) fn show(
                 group,
                 (&mut draft.ground, &standings),
                 section,
-                &mut state.sought,
+                &mut state.focus_target,
                 |ui| {
                     // In the demonstration, only the record of the demonstration runs.
                     if section == RECORD && !model.demo {
@@ -71,7 +71,7 @@ pub(super) fn show(
             let value = site.map_or_else(String::new, |site| sun_in_short(site, model));
             let fold = is_fold.then_some(&mut state.preview_is_open);
             preview::card(ui, fold, &value, is_edited, |ui| {
-                about(ui, site, model);
+                description(ui, site, model);
                 if let Some(question) = &question {
                     ui.add_space(4.0);
                     passes(ui, question, model);
@@ -81,7 +81,7 @@ pub(super) fn show(
         Part::Findings => findings::show(ui, page, draft),
     });
     if let Some(question) = question
-        && model.site_effects.wanted() != Some(&question)
+        && model.site_effects.requested() != Some(&question)
     {
         ui.ctx().request_repaint_after_for(DEBOUNCE, egui::ViewportId::ROOT);
         commands.push(UiCommand::ShowMoved(Box::new(question)));
@@ -97,9 +97,9 @@ fn question(model: &Model, draft: &Draft, before: &Draft) -> Option<Question> {
     };
     Some(Question {
         satellites: Arc::clone(&favourites.satellites),
-        from: favourites.made_at?,
-        before: Standpoint::of(&station(before)?),
-        after: Standpoint::of(&station(draft)?),
+        start: favourites.made_at?,
+        before: Standpoint::new(&station(before)?),
+        after: Standpoint::new(&station(draft)?),
     })
 }
 
@@ -113,11 +113,11 @@ fn passes(ui: &mut Ui, question: &Question, model: &Model) {
         return;
     };
     preview::heads(ui);
-    let aos = |of: &Tally| {
-        of.first_aos.map_or_else(|| "–".to_owned(), |at| format::moment(at, model.now))
+    let aos = |tally: &Tally| {
+        tally.first_aos.map_or_else(|| "–".to_owned(), |time| format::moment(time, model.now))
     };
-    let highest = |of: &Tally| {
-        if of.count == 0 { "–".to_owned() } else { format::degrees(of.highest_deg, 0) }
+    let highest = |tally: &Tally| {
+        if tally.count == 0 { "–".to_owned() } else { format::degrees(tally.highest_deg, 0) }
     };
     let (old, new) = (&effect.before, &effect.after);
     let rows = [
@@ -154,17 +154,17 @@ fn about_record(ui: &mut Ui, model: &Model) {
         } else {
             "Nothing is recorded: this user has no folder for records."
         };
-        return told::line(ui, Tone::Plain, words);
+        return status_line::line(ui, Tone::Plain, words);
     };
     if let Some(failing) = &record.failing {
-        let since = format::moment(failing.last_write, model.now);
-        let words = format!("Nothing has been recorded since {since}: {}.", failing.reason);
-        told::line(ui, Tone::Bad, &words);
+        let start_text = format::moment(failing.last_write, model.now);
+        let words = format!("Nothing has been recorded since {start_text}: {}.", failing.reason);
+        status_line::line(ui, Tone::Bad, &words);
     } else {
         let size = format::bytes(record.bytes);
-        told::line(ui, Tone::Now, &format!("Recording, {size} so far."));
+        status_line::line(ui, Tone::Now, &format!("Recording, {size} so far."));
     }
-    told::line(ui, Tone::Plain, &record.path.display().to_string());
+    status_line::line(ui, Tone::Plain, &record.path.display().to_string());
 }
 
 fn sun_in_short(site: Site, model: &Model) -> String {
@@ -173,25 +173,25 @@ fn sun_in_short(site: Site, model: &Model) -> String {
 }
 
 /// The Sun at the site, and how far it is from where each unit believes to stand.
-fn about(ui: &mut Ui, site: Option<Site>, model: &Model) {
+fn description(ui: &mut Ui, site: Option<Site>, model: &Model) {
     let Some(site) = site else {
-        told::line(ui, Tone::Plain, "Latitude and longitude do not give a location yet.");
+        status_line::line(ui, Tone::Plain, "Latitude and longitude do not give a location yet.");
         return;
     };
-    let there = words::place(site.latitude().degrees(), site.longitude().degrees());
-    told::line(ui, Tone::Plain, &there);
-    told::line(ui, Tone::Now, &words::sun_there(sun_moon::sun(site, model.now)));
+    let place_text = words::place(site.latitude().degrees(), site.longitude().degrees());
+    status_line::line(ui, Tone::Plain, &place_text);
+    status_line::line(ui, Tone::Now, &words::sun_there(sun_moon::sun(site, model.now)));
     // The antennas of the demonstration do not stand at the new station.
     for antenna in model.antennas.iter().filter(|_| !model.demo) {
         let (tone, words) = distance(site, antenna, model.appearance.distances);
-        told::line(ui, tone, &words);
+        status_line::line(ui, tone, &words);
     }
 }
 
 fn distance(site: Site, antenna: &AntennaModel, unit: DistanceUnit) -> (Tone, String) {
     let name = &antenna.config.name;
-    let Some(told) = antenna.snapshot.state.on_board.place else {
+    let Some(place) = antenna.snapshot.state.on_board.place else {
         return (Tone::Plain, format!("{name} reports no position."));
     };
-    words::off_the_told(name, told.km_from(site), unit)
+    words::off_the_told(name, place.km_from(site), unit)
 }

@@ -37,7 +37,7 @@ pub(in crate::ui) struct Ground {
 }
 
 impl Ground {
-    pub(super) fn of(station: &Station) -> Self {
+    pub(super) fn new(station: &Station) -> Self {
         let site = station.site;
         Self {
             latitude_deg: rounded(site.latitude().degrees()),
@@ -88,7 +88,7 @@ fn rounded(degrees: f64) -> f64 {
     (degrees * 1e7).round() / 1e7
 }
 
-type Of = Description<Ground>;
+type GroundDescription = Description<Ground>;
 
 /// All fields of a station besides its antennas.
 pub(super) fn all() -> Vec<Placed<Ground>> {
@@ -100,34 +100,43 @@ pub(super) fn all() -> Vec<Placed<Ground>> {
     all
 }
 
-fn site() -> [Of; 4] {
+fn site() -> [GroundDescription; 4] {
     [
-        Of::text("Name", not_empty, |ground| Some(&mut ground.station.name)),
-        Of::number(LATITUDE, -90.0..=90.0, "°", |ground| Some(&mut ground.latitude_deg)),
-        Of::number(LONGITUDE, -180.0..=360.0, "°", |ground| Some(&mut ground.longitude_deg)),
-        Of::number("Altitude", -1000.0..=10_000.0, "m", |ground| Some(&mut ground.altitude_m)),
+        GroundDescription::text("Name", not_empty, |ground| Some(&mut ground.station.name)),
+        GroundDescription::number(LATITUDE, -90.0..=90.0, "°", |ground| {
+            Some(&mut ground.latitude_deg)
+        }),
+        GroundDescription::number(LONGITUDE, -180.0..=360.0, "°", |ground| {
+            Some(&mut ground.longitude_deg)
+        }),
+        GroundDescription::number("Altitude", -1000.0..=10_000.0, "m", |ground| {
+            Some(&mut ground.altitude_m)
+        }),
     ]
 }
 
-fn refraction() -> [Of; 5] {
+fn refraction() -> [GroundDescription; 5] {
     const AIR: [Air; 3] = [Air::Standard, Air::Measured, Air::None];
     const IN_PASSES: [bool; 2] = [false, true];
     let is_measured = |ground: &Ground| ground.refraction.air == Air::Measured;
     [
-        Of::choice("Air", &[(0, "Standard"), (1, "Measured"), (2, "None")], &AIR, |ground| {
-            &mut ground.refraction.air
-        })
+        GroundDescription::choice(
+            "Air",
+            &[(0, "Standard"), (1, "Measured"), (2, "None")],
+            &AIR,
+            |ground| &mut ground.refraction.air,
+        )
         .noted(|ground| Some(about_air(ground.refraction.air).to_owned())),
-        Of::number("Pressure", Refraction::PRESSURE_HPA, "hPa", |ground| {
+        GroundDescription::number("Pressure", Refraction::PRESSURE_HPA, "hPa", |ground| {
             Some(&mut ground.refraction.pressure_hpa)
         })
         .when(is_measured)
-        .about("At the height of the site, not reduced to sea level."),
-        Of::number("Temperature", Refraction::TEMPERATURE_C, "°C", |ground| {
+        .described("At the height of the site, not reduced to sea level."),
+        GroundDescription::number("Temperature", Refraction::TEMPERATURE_C, "°C", |ground| {
             Some(&mut ground.refraction.temperature_c)
         })
         .when(is_measured),
-        Of::number("Humidity", Refraction::HUMIDITY_PERCENT, "%", |ground| {
+        GroundDescription::number("Humidity", Refraction::HUMIDITY_PERCENT, "%", |ground| {
             Some(&mut ground.refraction.humidity_percent)
         })
         .when(is_measured)
@@ -135,10 +144,13 @@ fn refraction() -> [Of; 5] {
             let air = ground.refraction.check();
             air.map_err(|_| "with this temperature makes air that does not occur; lower one")
         }),
-        Of::choice("AOS and LOS", &[(0, "Geometric"), (1, "Apparent")], &IN_PASSES, |ground| {
-            &mut ground.refraction.in_passes
-        })
-        .about(
+        GroundDescription::choice(
+            "AOS and LOS",
+            &[(0, "Geometric"), (1, "Apparent")],
+            &IN_PASSES,
+            |ground| &mut ground.refraction.in_passes,
+        )
+        .described(
             "Geometric times are those of other lists. Apparent ones begin some \
                          seconds earlier and end as much later.",
         ),
@@ -156,24 +168,24 @@ fn about_air(air: Air) -> &'static str {
     }
 }
 
-fn passes() -> [Of; 2] {
+fn passes() -> [GroundDescription; 2] {
     [
-        Of::number("AOS elevation", ranges::ELEVATION_DEG, "°", |ground| {
+        GroundDescription::number("AOS elevation", ranges::ELEVATION_DEG, "°", |ground| {
             Some(&mut ground.station.aos_elevation_deg)
         })
-        .about(
+        .described(
             "A pass begins and ends there. The mask and an antenna's own minimum \
                          elevation shorten it.",
         ),
-        Of::number("Elevation floor", ranges::ELEVATION_FLOOR_DEG, "°", |ground| {
+        GroundDescription::number("Elevation floor", ranges::ELEVATION_FLOOR_DEG, "°", |ground| {
             Some(&mut ground.station.elevation_floor_deg)
         })
-        .about("A pass whose maximum stays below it is not listed."),
+        .described("A pass whose maximum stays below it is not listed."),
     ]
 }
 
-fn closing() -> Of {
-    Of::choice(
+fn closing() -> GroundDescription {
+    GroundDescription::choice(
         "When the window closes",
         &[(0, "Ask"), (1, "Stop and hold"), (2, "Park first"), (3, "Let finish")],
         &ON_CLOSE,
@@ -182,16 +194,19 @@ fn closing() -> Of {
     .noted(|ground| Some(about_closing(ground.station.on_close).to_owned()))
 }
 
-fn record() -> [Of; 2] {
+fn record() -> [GroundDescription; 2] {
     [
-        Of::number("Keep positions and traffic", ranges::RAW_DAYS, "days", |ground| {
-            Some(&mut ground.station.record.raw_days)
-        })
-        .about("What was measured, and what went over the links."),
-        Of::number("Keep the rest", ranges::RECORD_YEARS, "years", |ground| {
+        GroundDescription::number(
+            "Keep positions and traffic",
+            ranges::RAW_DAYS,
+            "days",
+            |ground| Some(&mut ground.station.record.raw_days),
+        )
+        .described("What was measured, and what went over the links."),
+        GroundDescription::number("Keep the rest", ranges::RECORD_YEARS, "years", |ground| {
             Some(&mut ground.station.record.years)
         })
-        .about("Reports and tracks of passes, commands, events, alarms, changes."),
+        .described("Reports and tracks of passes, commands, events, alarms, changes."),
     ]
 }
 

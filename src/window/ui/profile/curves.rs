@@ -67,9 +67,9 @@ fn skyline(rect: Rect, axis: &TimeAxis, track: &[Sample], mask: &HorizonMask) ->
 /// The filled area from the bottom of the plot to the skyline.
 fn ground(rect: Rect, skyline: &[Pos2], colour: Color32) -> Mesh {
     let mut mesh = Mesh::default();
-    for (index, at) in (0_u32..).zip(skyline) {
-        mesh.colored_vertex(pos2(at.x, rect.bottom()), colour);
-        mesh.colored_vertex(*at, colour);
+    for (index, position) in (0_u32..).zip(skyline) {
+        mesh.colored_vertex(pos2(position.x, rect.bottom()), colour);
+        mesh.colored_vertex(*position, colour);
         if let Some(before) = (2 * index).checked_sub(2) {
             mesh.add_triangle(before, before + 1, before + 2);
             mesh.add_triangle(before + 1, before + 2, before + 3);
@@ -126,9 +126,9 @@ fn diamond(painter: &Painter, centre: Pos2, fill: Color32, stroke: Stroke) {
 fn label_place(rect: Rect, centre: Pos2, size: Vec2, now_x: f32) -> Rect {
     let distance = DIAMOND + 4.0;
     let y = (centre.y - 7.0).max(rect.top() + size.y / 2.0 + 1.0);
-    let at = |x: f32| Rect::from_min_size(pos2(x, y - size.y / 2.0), size);
-    let left = at(centre.x - distance - size.x);
-    let right = at(centre.x + distance);
+    let area = |x: f32| Rect::from_min_size(pos2(x, y - size.y / 2.0), size);
+    let left = area(centre.x - distance - size.x);
+    let right = area(centre.x + distance);
     let free = |place: &Rect| {
         place.left() >= rect.left()
             && place.right() <= rect.right()
@@ -150,14 +150,14 @@ mod tests {
 
     #[test]
     fn the_mask_fills_what_lies_below_it_along_the_path() {
-        let at = |time: &str, azimuth_deg| Sample {
+        let sample = |time: &str, azimuth_deg| Sample {
             time: time.parse().unwrap(),
             direction: AzEl::from_degrees(azimuth_deg, 20.0),
         };
         let track = [
-            at("2026-11-14T11:00:00Z", 0.0),
-            at("2026-11-14T11:05:00Z", f64::NAN),
-            at("2026-11-14T11:10:00Z", 90.0),
+            sample("2026-11-14T11:00:00Z", 0.0),
+            sample("2026-11-14T11:05:00Z", f64::NAN),
+            sample("2026-11-14T11:10:00Z", 90.0),
         ];
         let axis = super::super::axis(&track, PLOT).unwrap();
         let mask = HorizonMask::from_degrees([(0.0, -2.0), (90.0, 45.0), (180.0, 0.0)]).unwrap();

@@ -11,7 +11,7 @@ pub(super) const HEIGHT: f32 = 32.0;
 /// Dash and gap of the line at half the beam.
 const DASH: (f32, f32) = (4.0, 4.0);
 /// Description of the plot.
-const ABOUT: &str = "Pointing error: the measured angle between the antenna's direction and the \
+const DESCRIPTION: &str = "Pointing error: the measured angle between the antenna's direction and the \
                      satellite. The dashed line is half the beamwidth.";
 /// Gap between the plot and the words beside it.
 const GAP: f32 = 6.0;
@@ -29,7 +29,8 @@ pub(super) fn show(
     ui.painter().hline(rect.x_range(), rect.bottom(), (1.0, t.line));
     let name = pos2(rect.left() - GAP, rect.center().y);
     let name = paint::text(ui, name, Align2::RIGHT_CENTER, "err", text::caption(), t.t2);
-    paint::name_text(ui, "pointing error", name.expand(3.0), ABOUT).on_hover_text(ABOUT);
+    paint::name_text(ui, "pointing error", name.expand(3.0), DESCRIPTION)
+        .on_hover_text(DESCRIPTION);
 
     let errors = || {
         let on_axis = measured.iter().filter(|(time, _)| axis.contains(*time));
@@ -42,8 +43,8 @@ pub(super) fn show(
         let stroke = Stroke::new(1.0, t.cmd);
         dashes::paint(ui.painter(), &line, stroke, DASH);
         let number = format::number(half_beam_deg, 2);
-        let at = pos2(rect.right() + GAP, y);
-        paint::text(ui, at, Align2::LEFT_CENTER, number, text::caption(), t.cmd);
+        let position = pos2(rect.right() + GAP, y);
+        paint::text(ui, position, Align2::LEFT_CENTER, number, text::caption(), t.cmd);
     }
     let painter = ui.painter_at(rect);
     for piece in scale::pieces(errors(), rect, top) {

@@ -33,13 +33,13 @@ pub(super) fn show(ui: &Ui, rect: Rect, name: &str) {
     );
 }
 
-/// Paints an entry that ends at `at` and returns where it begins.
-fn entry(ui: &Ui, at: Pos2, word: &str, colour: Color32, dotted: bool) -> f32 {
+/// Paints an entry that ends at `position` and returns where it begins.
+fn entry(ui: &Ui, position: Pos2, word: &str, colour: Color32, dotted: bool) -> f32 {
     let t = theme::tokens(ui);
-    let words = paint::text(ui, at, Align2::RIGHT_CENTER, word, text::caption(), t.t2);
+    let words = paint::text(ui, position, Align2::RIGHT_CENTER, word, text::caption(), t.t2);
     let end = words.left() - SAMPLE_GAP;
     let start = end - SAMPLE_LENGTH;
-    let line = [pos2(start, at.y), pos2(end, at.y)];
+    let line = [pos2(start, position.y), pos2(end, position.y)];
     if dotted {
         let stroke = Stroke::new(1.5, colour);
         dashes::paint(ui.painter(), &line, stroke, DOTS);

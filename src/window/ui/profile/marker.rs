@@ -23,7 +23,7 @@ const MARK: f32 = 4.0;
 
 /// The time that the operator marks here, with the pointer over `plots` or with the arrow keys;
 /// `cursor` is the time of the keys.
-pub(super) fn asked(
+pub(super) fn requested_time(
     ui: &Ui,
     response: &Response,
     plots: Rect,
@@ -33,14 +33,14 @@ pub(super) fn asked(
 ) -> Option<Timestamp> {
     if response.has_focus() {
         let start = if axis.contains(now) { now } else { axis.start() };
-        let held = cursor.filter(|at| axis.contains(*at)).unwrap_or(start);
-        let moved = add_seconds(held, keys_s(ui, response));
+        let current = cursor.filter(|time| axis.contains(*time)).unwrap_or(start);
+        let moved = add_seconds(current, keys_s(ui, response));
         *cursor = Some(moved.clamp(axis.start(), axis.end()));
     } else {
         *cursor = None;
     }
-    let under = response.hover_pos().filter(|at| plots.contains(*at));
-    under.map(|at| axis.time(at.x)).or(*cursor)
+    let hovered = response.hover_pos().filter(|position| plots.contains(*position));
+    hovered.map(|position| axis.time(position.x)).or(*cursor)
 }
 
 /// Seconds by which the arrow keys of this frame move the time.
@@ -70,7 +70,9 @@ pub(super) fn paint(
     model: &ProfileModel<'_>,
     time: Timestamp,
 ) {
-    let Some(sample) = along::at(model.track, time).filter(|_| axis.contains(time)) else { return };
+    let Some(sample) = along::sample_at(model.track, time).filter(|_| axis.contains(time)) else {
+        return;
+    };
     let t = theme::tokens(ui);
     let x = axis.x(time);
     ui.painter().vline(x, plots.y_range(), Stroke::new(1.0, t.t1));
@@ -81,9 +83,10 @@ pub(super) fn paint(
     let azimuth = format::azimuth(sample.direction.azimuth_deg());
     let elevation = format::degrees(elevation_deg, 1);
     let error = error_at(model, time);
-    let off = error.map(|deg| format!("  err {}", format::degrees(f64::from(deg), 2)));
-    let at = format::moment(time, model.now);
-    let words = format!("{at}  el {elevation}  az {azimuth}{}", off.unwrap_or_default());
+    let deviation_text = error.map(|deg| format!("  err {}", format::degrees(f64::from(deg), 2)));
+    let time_text = format::moment(time, model.now);
+    let words =
+        format!("{time_text}  el {elevation}  az {azimuth}{}", deviation_text.unwrap_or_default());
     let galley = ui.painter().layout_no_wrap(words, text::caption(), t.t1);
     let size = galley.size() + vec2(8.0, 2.0);
     let right = x + GAP + size.x <= plots.right();
@@ -91,16 +94,18 @@ pub(super) fn paint(
     let place = Rect::from_min_size(pos2(left, curves.bottom() - size.y - 2.0), size);
     ui.painter().rect(place, 3.0, t.bg2, Stroke::new(1.0, t.line), StrokeKind::Inside);
     ui.painter().galley(place.min + vec2(4.0, 1.0), galley, t.t1);
-    let off = error.map(|deg| format!(", error {}", format::degrees(f64::from(deg), 2)));
-    let off = off.unwrap_or_default();
-    let name = format!("Profile at {at}: elevation {elevation}, azimuth {azimuth}{off}");
+    let deviation_text = error.map(|deg| format!(", error {}", format::degrees(f64::from(deg), 2)));
+    let deviation_text = deviation_text.unwrap_or_default();
+    let name =
+        format!("Profile at {time_text}: elevation {elevation}, azimuth {azimuth}{deviation_text}");
     paint::name_text(ui, "marked", place, &name);
 }
 
 /// The measured error nearest to `time`, degrees.
 fn error_at(model: &ProfileModel<'_>, time: Timestamp) -> Option<f32> {
-    let away_s = |at: Timestamp| seconds_between(at, time).abs();
-    let near = model.errors.iter().filter(|(at, deg)| deg.is_finite() && away_s(*at) <= NEAR_S);
+    let away_s = |moment: Timestamp| seconds_between(moment, time).abs();
+    let near =
+        model.errors.iter().filter(|(moment, deg)| deg.is_finite() && away_s(*moment) <= NEAR_S);
     let nearest = near.min_by(|(a, _), (b, _)| away_s(*a).total_cmp(&away_s(*b)));
     nearest.map(|(_, deg)| *deg)
 }

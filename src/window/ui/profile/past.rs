@@ -26,8 +26,8 @@ const GAP: f32 = 10.0;
 pub struct PastModel<'a> {
     pub now: Timestamp,
     pub name: &'a str,
-    pub from: Timestamp,
-    pub until: Timestamp,
+    pub start: Timestamp,
+    pub end: Timestamp,
     pub rms_deg: f64,
     pub worst_deg: f64,
     pub worst_at: Timestamp,
@@ -38,7 +38,7 @@ pub struct PastModel<'a> {
 
 impl PastModel<'_> {
     fn words(&self) -> String {
-        let times = format::minutes(self.from, self.until, self.now);
+        let times = format::minutes(self.start, self.end, self.now);
         let rms = format::degrees(self.rms_deg, 2);
         let worst = format::degrees(self.worst_deg, 2);
         format!("{}, {times}: rms {rms}, worst {worst}", self.name)
@@ -75,7 +75,7 @@ pub(super) fn choice(
         ui.style_mut().wrap_mode = Some(TextWrapMode::Extend);
         ui.selectable_value(chosen, None, "The selected pass");
         for track in past {
-            ui.selectable_value(chosen, Some(track.from), track.words());
+            ui.selectable_value(chosen, Some(track.start), track.words());
         }
         close_key::show(ui);
     });
@@ -89,15 +89,15 @@ pub(super) fn show(ui: &Ui, rect: Rect, head: Rect, track: &PastModel<'_>) {
     let title = paint::text_in(ui, head, Align2::LEFT_CENTER, &title, text::small_strong(), t.t1);
     let rms = format::degrees(track.rms_deg, 2);
     let worst = format::degrees(track.worst_deg, 2);
-    let at = format::moment(track.worst_at, track.now);
-    let figures = format!("rms {rms} \u{b7} worst {worst} at {at}");
+    let time_text = format::moment(track.worst_at, track.now);
+    let figures = format!("rms {rms} \u{b7} worst {worst} at {time_text}");
     let room = head.with_min_x(title.right() + GAP);
     paint::text_in(ui, room, Align2::RIGHT_CENTER, &figures, text::caption(), t.t2);
     let plot = Rect::from_min_max(
         pos2(rect.left() + LEFT_SCALE, rect.top() + PLOTS_TOP),
         pos2(rect.right() - RIGHT_SCALE, rect.bottom() - TIMES),
     );
-    let axis = TimeAxis::new(track.from, track.until, plot.x_range());
+    let axis = TimeAxis::new(track.start, track.end, plot.x_range());
     if let Some(axis) = axis.filter(|_| plot.is_positive()) {
         let errors = track.errors.iter();
         let errors: Vec<_> =
@@ -105,12 +105,12 @@ pub(super) fn show(ui: &Ui, rect: Rect, head: Rect, track: &PastModel<'_>) {
         error_plot::show(ui, plot, &axis, &errors, track.half_beam_deg);
     }
     let y = plot.bottom() + TIMES / 2.0;
-    let from = format!("from {}", format::moment(track.from, track.now));
-    let until = format!("to {}", format::moment(track.until, track.now));
+    let start_text = format!("from {}", format::moment(track.start, track.now));
+    let end_text = format!("to {}", format::moment(track.end, track.now));
     let font = text::caption();
-    paint::text(ui, pos2(plot.left(), y), Align2::LEFT_CENTER, from, font.clone(), t.t2);
-    paint::text(ui, pos2(plot.right(), y), Align2::RIGHT_CENTER, until, font, t.t2);
+    paint::text(ui, pos2(plot.left(), y), Align2::LEFT_CENTER, start_text, font.clone(), t.t2);
+    paint::text(ui, pos2(plot.right(), y), Align2::RIGHT_CENTER, end_text, font, t.t2);
     let response = ui.interact(rect, ui.make_persistent_id("past profile"), egui::Sense::hover());
-    let spoken = format!("Past track of {}, worst at {at}.", track.words());
+    let spoken = format!("Past track of {}, worst at {time_text}.", track.words());
     response.widget_info(|| WidgetInfo::labeled(Role::Image, true, &spoken));
 }

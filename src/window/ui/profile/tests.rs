@@ -5,7 +5,7 @@ use crate::{
 };
 use egui_kittest::{Harness, kittest::Queryable as _};
 
-fn at(seconds: f64) -> Timestamp {
+fn time(seconds: f64) -> Timestamp {
     add_seconds("2026-11-14T11:01:53Z".parse().unwrap(), seconds)
 }
 
@@ -17,7 +17,7 @@ fn track() -> Vec<Sample> {
             let elevation_deg = 5.0 + 60.0 * (part * std::f64::consts::PI).sin();
             let azimuth_deg = (300.0 + 120.0 * part).rem_euclid(360.0);
             Sample {
-                time: at(600.0 * part),
+                time: time(600.0 * part),
                 direction: AzEl::from_degrees(azimuth_deg, elevation_deg),
             }
         })
@@ -26,10 +26,10 @@ fn track() -> Vec<Sample> {
 
 fn model<'a>(track: &'a [Sample], errors: &'a [(Timestamp, f32)]) -> ProfileModel<'a> {
     ProfileModel {
-        now: at(200.0),
+        now: time(200.0),
         name: "NOAA 20",
         track,
-        tca: Sample { time: at(300.0), direction: AzEl::from_degrees(0.0, 65.0) },
+        tca: Sample { time: time(300.0), direction: AzEl::from_degrees(0.0, 65.0) },
         cut: false,
         mask: None,
         errors,
@@ -41,22 +41,22 @@ fn model<'a>(track: &'a [Sample], errors: &'a [(Timestamp, f32)]) -> ProfileMode
 type Story = (ProfileState, Option<Timestamp>);
 
 fn window(size: [f32; 2], model: Option<ProfileModel<'_>>) -> Harness<'_, Story> {
-    testing::window(size, Story::default(), move |ui, (state, asked): &mut Story| {
-        *asked =
+    testing::window(size, Story::default(), move |ui, (state, requested): &mut Story| {
+        *requested =
             show(ui, Rect::from_min_size(pos2(0.0, 0.0), size.into()), model.as_ref(), &[], state);
     })
 }
 
 #[test]
 fn the_pointer_marks_a_time_and_reads_the_pass_there() {
-    let (track, errors) = (track(), [(at(149.0), 0.2), (at(190.0), 0.04)]);
+    let (track, errors) = (track(), [(time(149.0), 0.2), (time(190.0), 0.04)]);
     let mut window = window([392.0, 208.0], Some(model(&track, &errors)));
     window.run();
     // A quarter of the way between the two scales.
     window.hover_at(pos2(LEFT_SCALE + (392.0 - LEFT_SCALE - RIGHT_SCALE) / 4.0, 100.0));
     window.run();
-    let asked = window.state().1.unwrap();
-    assert!(asked.duration_since(at(150.0)).as_secs_f64().abs() < 0.5, "{asked}");
+    let requested = window.state().1.unwrap();
+    assert!(requested.duration_since(time(150.0)).as_secs_f64().abs() < 0.5, "{requested}");
     window.get_by_label("Profile at 11:04:23Z: elevation 47.4°, azimuth 330°, error 0.20°");
     window.hover_at(pos2(200.0, 10.0));
     window.run();
@@ -70,23 +70,23 @@ fn arrows_mark_a_time_from_the_present_on() {
     window.run();
     window.get_by_label_contains("NOAA 20 profile").focus();
     window.run();
-    assert_eq!(window.state().1, Some(at(200.0)));
+    assert_eq!(window.state().1, Some(time(200.0)));
     window.key_press(egui::Key::ArrowLeft);
     window.run();
     window.key_press_modifiers(egui::Modifiers::SHIFT, egui::Key::ArrowRight);
     window.run();
-    assert_eq!(window.state().1, Some(at(250.0)));
+    assert_eq!(window.state().1, Some(time(250.0)));
     for _ in 0..9 {
         window.key_press_modifiers(egui::Modifiers::SHIFT, egui::Key::ArrowRight);
         window.run();
     }
-    assert_eq!(window.state().1, Some(at(600.0)), "LOS is the end");
+    assert_eq!(window.state().1, Some(time(600.0)), "LOS is the end");
 }
 
 #[test]
 fn a_time_that_is_marked_in_the_sky_is_read_in_the_profile() {
     let track = track();
-    let marked = Some(at(300.0));
+    let marked = Some(time(300.0));
     let window = window([392.0, 208.0], Some(ProfileModel { marked, ..model(&track, &[]) }));
     window.get_by_label("Profile at 11:06:53Z: elevation 65.0°, azimuth 000°");
     assert_eq!(window.state().1, None);
@@ -94,7 +94,7 @@ fn a_time_that_is_marked_in_the_sky_is_read_in_the_profile() {
 
 #[test]
 fn the_pass_is_told_in_a_sentence() {
-    let errors = [(at(100.0), 0.2), (at(190.0), 0.04), (at(195.0), f32::NAN)];
+    let errors = [(time(100.0), 0.2), (time(190.0), 0.04), (time(195.0), f32::NAN)];
     let track = track();
     let window = window([392.0, 208.0], Some(model(&track, &errors)));
     window.get_by_role_and_label(
@@ -129,7 +129,7 @@ fn numbers_that_are_none_are_survived() {
     let mut track = track();
     track[0].direction = nan;
     track[30].direction = nan;
-    let errors = [(at(10.0), f32::NAN), (at(20.0), f32::INFINITY), (at(-50.0), 0.1)];
+    let errors = [(time(10.0), f32::NAN), (time(20.0), f32::INFINITY), (time(-50.0), 0.1)];
     for half_beam_deg in [f64::NAN, 0.0, -1.0, f64::INFINITY] {
         let tca = Sample { direction: nan, ..track[30] };
         let model = ProfileModel { tca, half_beam_deg, ..model(&track, &errors) };
@@ -140,11 +140,11 @@ fn numbers_that_are_none_are_survived() {
 #[test]
 fn any_size_and_any_name_can_be_shown() {
     let track = track();
-    let errors = [(at(5.0), 0.3)];
+    let errors = [(time(5.0), 0.3)];
     let name = "A satellite with a name that is far too long to be shown in one line of it";
     for size in [[392.0, 208.0], [200.0, 120.0], [60.0, 90.0], [10.0, 10.0]] {
         for now in [-100.0, 0.0, 300.0, 900.0] {
-            let model = ProfileModel { name, now: at(now), ..model(&track, &errors) };
+            let model = ProfileModel { name, now: time(now), ..model(&track, &errors) };
             window(size, Some(model)).get_by_label_contains(name);
         }
     }

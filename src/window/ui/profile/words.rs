@@ -28,10 +28,10 @@ pub(super) fn times(ui: &Ui, plot: Rect, axis: &TimeAxis, model: &ProfileModel<'
     let (begin, end) = ends(model.cut);
     let begin = format!("{begin} {}", format::moment(axis.start(), model.now));
     let end = format!("{end} {}", format::moment(axis.end(), model.now));
-    let at = pos2(plot.left(), y);
-    let begin = paint::text(ui, at, Align2::LEFT_CENTER, begin, text::caption(), colour);
-    let at = pos2(plot.right(), y);
-    let end = paint::text(ui, at, Align2::RIGHT_CENTER, end, text::caption(), colour);
+    let position = pos2(plot.left(), y);
+    let begin = paint::text(ui, position, Align2::LEFT_CENTER, begin, text::caption(), colour);
+    let position = pos2(plot.right(), y);
+    let end = paint::text(ui, position, Align2::RIGHT_CENTER, end, text::caption(), colour);
     if axis.contains(model.tca.time) {
         let words = format!("TCA {}", format::moment(model.tca.time, model.now));
         let half = paint::text_width(ui, &words, text::caption()) / 2.0;

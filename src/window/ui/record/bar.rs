@@ -60,16 +60,16 @@ pub(super) fn show(
     };
     if has_drawer {
         let button = Button::normal("Passes");
-        let at = place(button.width(ui));
-        if button.show(ui, "record passes", at).clicked() {
+        let area = place(button.width(ui));
+        if button.show(ui, "record passes", area).clicked() {
             state.list_is_open = !state.list_is_open;
         }
     }
-    let at = place(if is_wide { TITLE } else { SMALL_TITLE });
-    title(ui, at, model, is_wide, state);
+    let area = place(if is_wide { TITLE } else { SMALL_TITLE });
+    title(ui, area, model, is_wide, state);
     antennas(ui, &mut place, model, is_wide, state);
-    let at = place(if is_wide { SEARCH } else { SEARCH - 48.0 });
-    search(ui, at, state);
+    let area = place(if is_wide { SEARCH } else { SEARCH - 48.0 });
+    search(ui, area, state);
     verdicts(ui, &mut place, state);
     let room = inner.with_min_x(left + GAP);
     let room = export_days(ui, room, model, state);
@@ -102,8 +102,8 @@ fn summary(model: &Model, state: &RecordState) -> String {
     let size = model.record.as_ref().map(|record| format::bytes(record.bytes));
     let mut words = match (page.all, page.start) {
         (0, _) | (_, None) => "No pass yet".to_owned(),
-        (1, Some(since)) => format!("1 pass, {}", format::day(since)),
-        (all, Some(since)) => format!("{all} passes since {}", format::day(since)),
+        (1, Some(start)) => format!("1 pass, {}", format::day(start)),
+        (all, Some(start)) => format!("{all} passes since {}", format::day(start)),
     };
     if state.filters() {
         words = format!("{} of {words}", page.matching);
@@ -131,19 +131,19 @@ fn antennas(
                 .iter()
                 .map(|antenna| (antenna.config.name.as_str(), mark(chosen == Some(antenna.id())))),
         );
-        let at = place(44.0 + ANTENNA * model.antennas.len() as f32);
-        if let Some(index) = segmented::show(ui, "record antenna", at, "Antenna", &segments) {
+        let rect = place(44.0 + ANTENNA * model.antennas.len() as f32);
+        if let Some(index) = segmented::show(ui, "record antenna", rect, "Antenna", &segments) {
             let antenna = index.checked_sub(1).and_then(|index| model.antennas.get(index));
             state.query.antenna = antenna.map(AntennaModel::id);
         }
         return;
     }
-    let of = chosen.and_then(|id| model.antenna_of(id));
-    let word = of.map_or("All antennas", |antenna| &antenna.config.name).to_owned();
+    let model_antenna = chosen.and_then(|id| model.antenna_of(id));
+    let word = model_antenna.map_or("All antennas", |antenna| &antenna.config.name).to_owned();
     let name = format!("Antenna, {word}");
     let list = DropDown { button: Button::normal(&word), salt: "record antenna", name: &name };
-    let at = place(list.width(ui));
-    list.show(ui, at, |ui| {
+    let rect = place(list.width(ui));
+    list.show(ui, rect, |ui| {
         ui.selectable_value(&mut state.query.antenna, None, "All antennas");
         for antenna in &model.antennas {
             let name = antenna.config.name.as_str();
@@ -169,8 +169,8 @@ fn verdicts(ui: &Ui, place: &mut impl FnMut(f32) -> Rect, state: &mut RecordStat
     let word = state.query.kind.map_or("All verdicts", words::listed_kind);
     let name = format!("Verdict, {word}");
     let list = DropDown { button: Button::normal(word), salt: "record verdict", name: &name };
-    let at = place(list.width(ui));
-    list.show(ui, at, |ui| {
+    let rect = place(list.width(ui));
+    list.show(ui, rect, |ui| {
         ui.selectable_value(&mut state.query.kind, None, "All verdicts");
         for kind in KINDS {
             ui.selectable_value(&mut state.query.kind, Some(kind), words::listed_kind(kind));
@@ -202,11 +202,11 @@ fn last_hour(ui: &Ui, room: Rect, model: &Model, commands: &mut Vec<UiCommand>) 
     let min = pos2(room.right() - size.x, room.center().y - BUTTON / 2.0);
     let response = button.show(ui, "replay the last hour", Rect::from_min_size(min, size));
     if response.clicked() {
-        let from = add_seconds(model.now, -3600.0);
+        let start = add_seconds(model.now, -3600.0);
         let name = "the last hour".to_owned();
-        let stretch = Stretch { name, pass: None, from, until: model.now };
-        let at = add_seconds(model.now, -LAST_S);
-        commands.push(UiCommand::BeginReplay(stretch, at));
+        let stretch = Stretch { name, pass: None, start, end: model.now };
+        let time = add_seconds(model.now, -LAST_S);
+        commands.push(UiCommand::BeginReplay(stretch, time));
     }
     if !button.is_locked() {
         response.on_hover_text("The replay begins a minute before the end.");
@@ -219,8 +219,8 @@ fn recording(ui: &Ui, room: Rect, model: &Model) {
     let t = theme::tokens(ui);
     let failing = model.record.as_ref().and_then(|record| record.failing.as_ref());
     let (icon, colour, words) = if let Some(failing) = failing {
-        let since = format::moment(failing.last_write, model.now);
-        (Icon::Warning, t.bad, format!("Nothing recorded since {since}: {}", failing.reason))
+        let start_text = format::moment(failing.last_write, model.now);
+        (Icon::Warning, t.bad, format!("Nothing recorded since {start_text}: {}", failing.reason))
     } else if model.record.is_some() {
         let count = model.antennas.len();
         let antennas = if count == 1 { "antenna" } else { "antennas" };
@@ -236,8 +236,8 @@ fn recording(ui: &Ui, room: Rect, model: &Model) {
     let has_words = width <= room.width() || failing.is_some();
     let width = if has_words { width } else { 12.0 };
     let place = room.with_min_x((room.right() - width).max(room.left()));
-    let at = pos2(place.left() + 6.0, place.center().y);
-    icons::paint(ui.painter(), paint::square(at, 12.0), icon, colour);
+    let position = pos2(place.left() + 6.0, place.center().y);
+    icons::paint(ui.painter(), paint::square(position, 12.0), icon, colour);
     let rest = place.with_min_x(place.left() + 18.0);
     if has_words {
         paint::text_in(ui, rest, Align2::LEFT_CENTER, &words, text::small(), t.t2);

@@ -13,16 +13,16 @@ const NEAR_S: f64 = 2.0;
 
 /// The point of the track at the cursor; that of the worst error until the operator moves it.
 pub(super) fn point<'a>(opened: &'a OpenedPass, state: &RecordState) -> Option<&'a TrackPoint> {
-    if let Some(at) = state.cursor {
-        return nearest(&opened.track, at);
+    if let Some(time) = state.cursor {
+        return nearest(&opened.track, time);
     }
     let worst = opened.pass.report.report.worst;
-    let told = worst.and_then(|worst| nearest(&opened.track, worst.time));
-    told.or_else(|| recorded_track::worst(&opened.track))
+    let track_point = worst.and_then(|worst| nearest(&opened.track, worst.time));
+    track_point.or_else(|| recorded_track::worst(&opened.track))
 }
 
-fn nearest(track: &[TrackPoint], at: Timestamp) -> Option<&TrackPoint> {
-    let apart = |point: &TrackPoint| seconds_between(point.time, at).abs();
+fn nearest(track: &[TrackPoint], time: Timestamp) -> Option<&TrackPoint> {
+    let apart = |point: &TrackPoint| seconds_between(point.time, time).abs();
     let nearest = track.iter().min_by(|a, b| apart(a).total_cmp(&apart(b)))?;
     (apart(nearest) <= NEAR_S).then_some(nearest)
 }

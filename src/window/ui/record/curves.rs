@@ -23,7 +23,7 @@ use crate::{
 };
 
 /// Time that is shown before AOS and after LOS.
-const AROUND: SignedDuration = SignedDuration::from_secs(60);
+const MARGIN: SignedDuration = SignedDuration::from_secs(60);
 const TITLE: f32 = 28.0;
 /// Least heights of both plots.
 const DIRECTION: f32 = 78.0;
@@ -52,7 +52,7 @@ pub(super) fn show(
     ui.painter().vline(rect.left() + 0.5, rect.y_range(), (1.0, t.line));
     let report = &opened.pass.report;
     let plots = rect.with_min_x(rect.left() + LEFT).with_max_x(rect.right() - RIGHT);
-    let (Ok(start), Ok(end)) = (report.start.checked_sub(AROUND), report.end.checked_add(AROUND))
+    let (Ok(start), Ok(end)) = (report.start.checked_sub(MARGIN), report.end.checked_add(MARGIN))
     else {
         return;
     };
@@ -87,8 +87,8 @@ pub(super) fn show(
         commands.push(report::replay_of(&opened.pass, state.cursor));
     }
     let point = cursor::point(opened, state);
-    if let Some(at) = state.cursor.or(point.map(|point| point.time)) {
-        let x = axis.x(at);
+    if let Some(time) = state.cursor.or(point.map(|point| point.time)) {
+        let x = axis.x(time);
         let line = whole.with_max_y(rect.bottom() - 20.0);
         ui.painter().vline(x, line.y_range(), (1.5, t.t1));
         if let Some(point) = point {
@@ -109,12 +109,12 @@ fn follow_pointer(
 ) -> bool {
     let id = ui.make_persistent_id("record cursor");
     let response = ui.interact(rect, id, Sense::click_and_drag());
-    if let Some(at) = response.hover_pos().or(response.interact_pointer_pos()) {
-        state.cursor = Some(axis.time(at.x));
+    if let Some(position) = response.hover_pos().or(response.interact_pointer_pos()) {
+        state.cursor = Some(axis.time(position.x));
     }
     let read_at = state.cursor.or(cursor::point(opened, state).map(|point| point.time));
     if response.has_focus()
-        && let Some(at) = read_at
+        && let Some(time) = read_at
     {
         let by_s = ui.input(|input| {
             let step = if input.modifiers.shift { 10.0 } else { 1.0 };
@@ -124,7 +124,7 @@ fn follow_pointer(
             )
         });
         if by_s != 0.0 {
-            state.cursor = Some(add_seconds(at, by_s).clamp(axis.start(), axis.end()));
+            state.cursor = Some(add_seconds(time, by_s).clamp(axis.start(), axis.end()));
         }
         let filter = egui::EventFilter { horizontal_arrows: true, ..Default::default() };
         ui.memory_mut(|memory| memory.set_focus_lock_filter(id, filter));
@@ -190,17 +190,24 @@ fn directions(ui: &Ui, rect: Rect, axis: &TimeAxis, opened: &OpenedPass) {
         let y = scale::y(rect, part, 1.0);
         ui.painter().hline(rect.x_range(), y, (1.0, t.line));
         let number = |top: f64| format::number(part * top, 0);
-        let at = pos2(rect.left() - GAP, y);
+        let position = pos2(rect.left() - GAP, y);
         paint::text(
             ui,
-            at,
+            position,
             Align2::RIGHT_CENTER,
             number(ELEVATION_TOP_DEG),
             text::caption(),
             t.sat,
         );
-        let at = pos2(rect.right() + GAP, y);
-        paint::text(ui, at, Align2::LEFT_CENTER, number(AZIMUTH_TOP_DEG), text::caption(), t.t2);
+        let position = pos2(rect.right() + GAP, y);
+        paint::text(
+            ui,
+            position,
+            Align2::LEFT_CENTER,
+            number(AZIMUTH_TOP_DEG),
+            text::caption(),
+            t.t2,
+        );
     }
     let painter = ui.painter_at(rect);
     let predicted = || opened.path.iter().map(|sample| (axis.x(sample.time), sample.direction));
@@ -243,8 +250,8 @@ fn errors(ui: &Ui, rect: Rect, axis: &TimeAxis, opened: &OpenedPass) {
         let part = f64::midpoint(value.clamp(-top, top) / top, 1.0);
         egui::lerp(rect.bottom()..=rect.top(), part as f32)
     };
-    let beyond = rect.with_max_y(y(half_beam_deg));
-    ui.painter().rect_filled(beyond, 0.0, t.badbg);
+    let outside = rect.with_max_y(y(half_beam_deg));
+    ui.painter().rect_filled(outside, 0.0, t.badbg);
     grid(ui, rect, axis);
     let step = recorded_track::nice_step(top);
     let lines = (top / step).floor() as i32;
@@ -253,8 +260,8 @@ fn errors(ui: &Ui, rect: Rect, axis: &TimeAxis, opened: &OpenedPass) {
         let value = f64::from(line) * step;
         ui.painter().hline(rect.x_range(), y(value), (1.0, t.line));
         let number = format::number(value, decimals);
-        let at = pos2(rect.left() - GAP, y(value));
-        paint::text(ui, at, Align2::RIGHT_CENTER, number, text::caption(), t.t3);
+        let position = pos2(rect.left() - GAP, y(value));
+        paint::text(ui, position, Align2::RIGHT_CENTER, number, text::caption(), t.t3);
     }
     let edge = y(half_beam_deg);
     let line = [pos2(rect.left(), edge), pos2(rect.right(), edge)];
@@ -290,14 +297,17 @@ fn readout(ui: &Ui, rect: Rect, x: f32, point: &TrackPoint, now: Timestamp) {
     let left = if is_right { x + 10.0 } else { x - 10.0 - READOUT };
     let place = Rect::from_min_size(pos2(left, rect.top() + 4.0), vec2(READOUT, 56.0));
     ui.painter().rect_filled(place, 4.0, t.bg2.gamma_multiply(0.92));
-    let both = |name: &str, satellite: f64, antenna: f64| {
+    let samples = |name: &str, satellite: f64, antenna: f64| {
         let two = |value| format::degrees(value, 2);
         format!("{name} {}  actual {}", two(satellite), two(antenna))
     };
     let lines = [
         (format::moment(point.time, now), text::small_strong()),
-        (both("az", point.satellite.azimuth_deg(), point.antenna.azimuth_deg()), text::small()),
-        (both("el", point.satellite.elevation_deg(), point.antenna.elevation_deg()), text::small()),
+        (samples("az", point.satellite.azimuth_deg(), point.antenna.azimuth_deg()), text::small()),
+        (
+            samples("el", point.satellite.elevation_deg(), point.antenna.elevation_deg()),
+            text::small(),
+        ),
     ];
     let mut top = place.top() + 4.0;
     for (words, font) in lines {

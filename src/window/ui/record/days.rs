@@ -12,7 +12,7 @@ use crate::{
         widgets::{
             button::{self, Button},
             modal::modal,
-            told::{self, Tone},
+            status_line::{self, Tone},
         },
     },
 };
@@ -76,12 +76,12 @@ enum Answer {
 fn content(ui: &mut Ui, dialog: &mut DaysDialog, filters: bool) -> Option<Answer> {
     let t = theme::tokens(ui);
     ui.label(RichText::new("Export the passes of several days").font(text::value()));
-    let which = if filters {
+    let subset = if filters {
         "The passes that the list is filtered to, in one file. Days are those of UTC."
     } else {
         "All recorded passes of these days, in one file. Days are those of UTC."
     };
-    ui.label(RichText::new(which).font(text::small()).color(t.t2));
+    ui.label(RichText::new(subset).font(text::small()).color(t.t2));
     ui.add_space(8.0);
     Grid::new("days").num_columns(2).show(ui, |ui| {
         for (name, typed) in [("First day", &mut dialog.first), ("Last day", &mut dialog.last)] {
@@ -94,7 +94,7 @@ fn content(ui: &mut Ui, dialog: &mut DaysDialog, filters: bool) -> Option<Answer
     let problem = dialog.days().err();
     // Its room is kept free, so that the buttons stay where they are.
     let tone = if problem.is_some() { Tone::Bad } else { Tone::Plain };
-    told::line(ui, tone, problem.unwrap_or_default());
+    status_line::line(ui, tone, problem.unwrap_or_default());
     ui.add_space(8.0);
     let is_locked = problem.is_some();
     let json = Button::primary("Reports (JSON)").locked(is_locked);

@@ -25,11 +25,11 @@ const LANE: f32 = 20.0;
 /// Between a mark and words.
 const GAP: f32 = 6.0;
 /// Room for words right of the lane.
-const BEYOND: f32 = 80.0;
+const MIN_DISTANCE: f32 = 80.0;
 /// In less room words would say nothing.
-const LEAST_ROOM: f32 = 24.0;
+const MIN_ROOM: f32 = 24.0;
 /// A shorter loss would be told as 0:00, seconds.
-const LEAST_S: f64 = 1.0;
+const MIN_S: f64 = 1.0;
 const LANES: [&str; 4] = ["Pass", "Sent", "Link", "Alarm"];
 
 /// Draws the lanes into `rect`; times lie as in `plots` above.
@@ -55,9 +55,9 @@ pub(super) fn show(
     }
     let below = lane(LANES.len());
     for minute in curves::minutes(axis) {
-        let at = pos2(axis.x(minute), below.center().y);
+        let position = pos2(axis.x(minute), below.center().y);
         let words = format::minute_of_day(minute);
-        paint::text(ui, at, Align2::CENTER_CENTER, words, text::caption(), t.t3);
+        paint::text(ui, position, Align2::CENTER_CENTER, words, text::caption(), t.t3);
     }
     link(ui, lane(2), axis, opened);
     for (index, of_lane) in events(model, axis, opened).into_iter().enumerate() {
@@ -68,7 +68,7 @@ pub(super) fn show(
 
 /// A moment with its words.
 struct Moment {
-    at: Timestamp,
+    time: Timestamp,
     words: String,
     colour: Colour,
 }
@@ -83,7 +83,7 @@ enum Colour {
 }
 
 impl Colour {
-    fn of(self, ui: &Ui) -> Color32 {
+    fn in_theme(self, ui: &Ui) -> Color32 {
         let t = theme::tokens(ui);
         match self {
             Self::Satellite => t.sat,
@@ -101,16 +101,16 @@ fn events(model: &Model, axis: &TimeAxis, opened: &OpenedPass) -> [Vec<Moment>; 
         .path
         .iter()
         .max_by(|a, b| a.direction.elevation_deg().total_cmp(&b.direction.elevation_deg()));
-    let of_pass = |at: Timestamp, word: &str| Moment {
-        at,
-        words: format!("{word} {}", format::moment(at, model.now)),
+    let of_pass = |time: Timestamp, word: &str| Moment {
+        time,
+        words: format!("{word} {}", format::moment(time, model.now)),
         colour: Colour::Satellite,
     };
     let mut pass = vec![of_pass(report.start, "AOS")];
     pass.extend(highest.map(|sample| of_pass(sample.time, "TCA")));
     pass.push(of_pass(report.end, "LOS"));
     let mut lanes = [pass, Vec::new(), Vec::new(), Vec::new()];
-    let mut told: Vec<(i64, Alarm)> = Vec::new();
+    let mut announced: Vec<(i64, Alarm)> = Vec::new();
     for row in &opened.entries {
         let (lane, words, colour) = match &*row.kind {
             "command" => (1, command(row), Colour::Sent),
@@ -118,12 +118,14 @@ fn events(model: &Model, axis: &TimeAxis, opened: &OpenedPass) -> [Vec<Moment>; 
             "refusal" => (1, "Refused".to_owned(), Colour::Caution),
             "link" => (2, variant(&row.data).unwrap_or_default(), Colour::Caution),
             "alarm" => match serde_json::from_value::<Alarm>(row.data.clone()) {
-                Ok(of) => {
-                    let words = alarm(&of.kind, &opened.pass.antenna_name, model.now);
-                    let place = told.iter().position(|(run, it)| *run == row.run && it.id == of.id);
-                    let before = place.map(|place| told.swap_remove(place).1);
-                    let change = AlarmChange::new(&of, before.as_ref(), row.time);
-                    told.push((row.run, of));
+                Ok(raised) => {
+                    let words = alarm(&raised.kind, &opened.pass.antenna_name, model.now);
+                    let place = announced
+                        .iter()
+                        .position(|(run, earlier)| *run == row.run && earlier.id == raised.id);
+                    let before = place.map(|place| announced.swap_remove(place).1);
+                    let change = AlarmChange::new(&raised, before.as_ref(), row.time);
+                    announced.push((row.run, raised));
                     let Some(change) = change else { continue };
                     match words::alarm_change(change) {
                         Some(change) => (3, format!("{change}: {words}"), Colour::Quiet),
@@ -136,17 +138,17 @@ fn events(model: &Model, axis: &TimeAxis, opened: &OpenedPass) -> [Vec<Moment>; 
             _ => continue,
         };
         // A gap is noted at its end.
-        let at = row.gap_since().map_or(row.time, |since| since.max(axis.start()));
+        let time = row.gap_since().map_or(row.time, |start| start.max(axis.start()));
         if let Some(lane) = lanes.get_mut(lane) {
-            lane.push(Moment { at, words, colour });
+            lane.push(Moment { time, words, colour });
         }
     }
-    let is_told = |cause: LossCause, seconds: f64| has_positions(cause) && seconds >= LEAST_S;
+    let is_told = |cause: LossCause, seconds: f64| has_positions(cause) && seconds >= MIN_S;
     let longest = report.report.losses.iter();
     let longest = longest.filter(|lost| is_told(lost.cause, lost.seconds()));
     if let Some(alarms) = lanes.last_mut() {
         alarms.extend(longest.map(|lost| Moment {
-            at: lost.start,
+            time: lost.start,
             words: format!(
                 "Beyond half the beamwidth for {}: {}",
                 format::duration(lost.seconds()),
@@ -156,46 +158,47 @@ fn events(model: &Model, axis: &TimeAxis, opened: &OpenedPass) -> [Vec<Moment>; 
         }));
     }
     for lane in &mut lanes {
-        lane.sort_by_key(|moment| moment.at);
+        lane.sort_by_key(|moment| moment.time);
     }
     lanes
 }
 
 /// A STOP with who pressed it, or what became of it.
 fn stop(row: &Row) -> String {
-    match by(row) {
-        Some(by) => format!("STOP (from {})", given_by(by)),
+    match origin_of_row(row) {
+        Some(origin) => format!("STOP (from {})", given_by(origin)),
         None => variant(&row.data).unwrap_or_else(|| "STOP".to_owned()),
     }
 }
 
 fn not_recorded(row: &Row) -> String {
     match row.gap_since() {
-        Some(since) => {
-            let lasted_s = seconds_between(since, row.time);
+        Some(start) => {
+            let lasted_s = seconds_between(start, row.time);
             format!("Not recorded for {}", format::duration(lasted_s))
         }
         None => "Not recorded".to_owned(),
     }
 }
 
-fn by(row: &Row) -> Option<CommandOrigin> {
-    row.data.get("by").cloned().and_then(|by| serde_json::from_value(by).ok())
+fn origin_of_row(row: &Row) -> Option<CommandOrigin> {
+    row.data.get("by").cloned().and_then(|origin| serde_json::from_value(origin).ok())
 }
 
 /// A command in words: what, and who gave it.
 fn command(row: &Row) -> String {
     let command = row.data.get("command");
-    let of_antenna = command.and_then(|command| command.get("Antenna")).and_then(|of| of.get(1));
-    let what = of_antenna.or(command).and_then(variant).unwrap_or_default();
-    match by(row).map(given_by) {
-        Some(by) => format!("{what} (from {by})"),
-        None => what,
+    let of_antenna =
+        command.and_then(|command| command.get("Antenna")).and_then(|parts| parts.get(1));
+    let subject = of_antenna.or(command).and_then(variant).unwrap_or_default();
+    match origin_of_row(row).map(given_by) {
+        Some(name) => format!("{subject} (from {name})"),
+        None => subject,
     }
 }
 
-fn given_by(by: CommandOrigin) -> &'static str {
-    match by {
+fn given_by(origin: CommandOrigin) -> &'static str {
+    match origin {
         CommandOrigin::Window => "the window",
         CommandOrigin::Serve => "azel serve",
         CommandOrigin::Program => "another program",
@@ -206,9 +209,9 @@ fn given_by(by: CommandOrigin) -> &'static str {
 
 /// The name of a variant as words.
 fn variant(value: &serde_json::Value) -> Option<String> {
-    let name = value
-        .as_str()
-        .or_else(|| value.as_object().and_then(|of| of.keys().next()).map(String::as_str))?;
+    let name = value.as_str().or_else(|| {
+        value.as_object().and_then(|fields| fields.keys().next()).map(String::as_str)
+    })?;
     let mut words = String::new();
     for letter in name.chars() {
         if letter.is_uppercase() && !words.is_empty() {
@@ -229,8 +232,8 @@ fn has_positions(cause: LossCause) -> bool {
 fn link(ui: &Ui, lane: Rect, axis: &TimeAxis, opened: &OpenedPass) {
     let t = theme::tokens(ui);
     let report = &opened.pass.report;
-    let bar = |from: Timestamp, until: Timestamp, colour| {
-        let (left, right) = (axis.x(from), axis.x(until).max(axis.x(from) + 2.0));
+    let bar = |start: Timestamp, end: Timestamp, colour| {
+        let (left, right) = (axis.x(start), axis.x(end).max(axis.x(start) + 2.0));
         let place =
             Rect::from_x_y_ranges(left..=right, lane.center().y - 2.5..=lane.center().y + 2.5);
         ui.painter().rect_filled(place, 0.0, colour);
@@ -243,8 +246,8 @@ fn link(ui: &Ui, lane: Rect, axis: &TimeAxis, opened: &OpenedPass) {
     }
 }
 
-fn mark(lane: Rect, axis: &TimeAxis, at: Timestamp) -> Rect {
-    let x = axis.x(at).clamp(lane.left(), lane.right());
+fn mark(lane: Rect, axis: &TimeAxis, time: Timestamp) -> Rect {
+    let x = axis.x(time).clamp(lane.left(), lane.right());
     Rect::from_center_size(pos2(x, lane.center().y), egui::vec2(3.0, 13.0))
 }
 
@@ -258,14 +261,14 @@ fn controls(
     state: &mut RecordState,
 ) {
     for (index, moment) in moments.iter().enumerate() {
-        let mark = mark(lane, axis, moment.at);
+        let mark = mark(lane, axis, moment.time);
         let id = ui.make_persistent_id(("recorded event", number, index));
         let response = ui.interact(mark.expand(4.0), id, Sense::click());
-        let spoken = format!("{}: {}", format::moment(moment.at, now), moment.words);
+        let spoken = format!("{}: {}", format::moment(moment.time, now), moment.words);
         response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &spoken));
         paint::focus_ring(ui, &response, 1);
         if response.clicked() {
-            state.cursor = Some(moment.at);
+            state.cursor = Some(moment.time);
         }
         response.on_hover_text(&spoken);
     }
@@ -274,10 +277,10 @@ fn controls(
 /// Draws the moments of a lane; words only where they do not reach the next.
 fn marks(ui: &Ui, lane: Rect, axis: &TimeAxis, moments: &[Moment]) {
     // From the right: the words of a moment end before those of the next begin.
-    let mut free_to = lane.right() + BEYOND;
+    let mut free_to = lane.right() + MIN_DISTANCE;
     for (index, moment) in moments.iter().enumerate().rev() {
-        let colour = moment.colour.of(ui);
-        let place = mark(lane, axis, moment.at);
+        let colour = moment.colour.in_theme(ui);
+        let place = mark(lane, axis, moment.time);
         let x = place.center().x;
         ui.painter().rect_filled(place, 0.0, colour);
         let font = text::caption();
@@ -285,13 +288,13 @@ fn marks(ui: &Ui, lane: Rect, axis: &TimeAxis, moments: &[Moment]) {
         let before = moments
             .get(..index)
             .and_then(<[Moment]>::last)
-            .map_or(lane.left(), |before| mark(lane, axis, before.at).center().x);
+            .map_or(lane.left(), |before| mark(lane, axis, before.time).center().x);
         let room = if x + GAP + width > free_to && x - GAP - width > before + GAP {
             lane.with_min_x(x - GAP - width).with_max_x(x - GAP)
         } else {
             lane.with_min_x(x + GAP).with_max_x(free_to.max(x + GAP))
         };
-        if room.width() >= LEAST_ROOM {
+        if room.width() >= MIN_ROOM {
             let letters = room.shrink2(egui::vec2(-2.0, 3.0));
             let letters =
                 letters.with_max_x(letters.right().min(letters.left() + width + 2.0 + GAP));

@@ -30,7 +30,8 @@ const CORRECTION: f32 = 72.0;
 
 pub(super) fn height(opened: &OpenedPass) -> f32 {
     let explanations = &opened.pass.report.causes;
-    let rows = explanations.iter().map(|of| of.causes().count()).sum::<usize>() + 2;
+    let rows =
+        explanations.iter().map(|explanation| explanation.causes().count()).sum::<usize>() + 2;
     BAR + HEAD + rows as f32 * ROW + FOOT
 }
 
@@ -54,7 +55,7 @@ pub(super) fn show(
     paint::text_in(ui, inner.with_min_x(drawn.right() + 12.0), left, &note, text::small(), t.t3);
     let (head, mut rest) = rest.split_top_bottom_at_y(rest.top() + HEAD);
     ui.painter().hline(head.x_range(), head.bottom() - 0.5, (1.0, t.line));
-    let columns = Columns::of(rect);
+    let columns = Columns::new(rect);
     for (place, word, anchor) in [
         (columns.cause, "Cause", Align2::LEFT_CENTER),
         (columns.size, "Best value", Align2::RIGHT_CENTER),
@@ -90,25 +91,25 @@ pub(super) fn show(
             paint_stripe(ui, row);
         }
         explained(ui, row, place, &columns, explanation);
-        if let Some(with) = &explanation.partner {
+        if let Some(cause) = &explanation.partner {
             let row = next();
-            cells(ui, row, &columns, [&words::second_cause(with), &words::size(with), ""]);
+            cells(ui, row, &columns, [&words::second_cause(cause), &words::size(cause), ""]);
         }
         let cell = row.with_min_x(columns.correction.0).with_max_x(columns.correction.1);
         let correction = correction(model, &opened.pass, explanation);
-        if let Some(taken) = offered(ui, cell, place, correction) {
-            state.correction = Some(Ok(taken));
+        if let Some(offer) = offered(ui, cell, place, correction) {
+            state.correction = Some(Ok(offer));
         }
     }
-    let together = model.recorded.as_ref().and_then(|recorded| recorded.combined.as_ref());
-    let together = together.and_then(|of| words::explained_together(of, &opened.pass));
-    let mut at = rest.min + vec2(PADDING, 8.0);
-    for (id, words) in [("alike", words::alike(explanations)), ("together", together)] {
+    let combined = model.recorded.as_ref().and_then(|recorded| recorded.combined.as_ref());
+    let combined = combined.and_then(|set| words::explained_together(set, &opened.pass));
+    let mut position = rest.min + vec2(PADDING, 8.0);
+    for (id, words) in [("alike", words::alike(explanations)), ("together", combined)] {
         let Some(words) = words else { continue };
         let width = rest.width() - 2.0 * PADDING;
-        let place = paint::paragraph(ui, at, width, &words, text::small(), t.t3);
+        let place = paint::paragraph(ui, position, width, &words, text::small(), t.t3);
         paint::name_text(ui, id, place, &words);
-        at.y = place.bottom() + 4.0;
+        position.y = place.bottom() + 4.0;
     }
 }
 
@@ -124,9 +125,9 @@ fn offered(
         paint::text_in(ui, cell, Align2::LEFT_CENTER, "–", text::small(), t3);
         return None;
     };
-    let at = Rect::from_center_size(cell.center(), vec2(cell.width(), SMALL_HEIGHT));
-    let response = Button::normal("Apply…").show(ui, ("correct", place), at);
-    let words = words::correction(&correction.how, place == 0);
+    let rect = Rect::from_center_size(cell.center(), vec2(cell.width(), SMALL_HEIGHT));
+    let response = Button::normal("Apply…").show(ui, ("correct", place), rect);
+    let words = words::correction(&correction.method, place == 0);
     response.on_hover_text(words).clicked().then_some(correction)
 }
 
@@ -141,7 +142,7 @@ struct Columns {
 }
 
 impl Columns {
-    fn of(rect: Rect) -> Self {
+    fn new(rect: Rect) -> Self {
         let correction = (rect.right() - PADDING - CORRECTION, rect.right() - PADDING);
         let share = (correction.0 - 12.0 - 48.0, correction.0 - 12.0);
         let bar = (share.0 - 8.0 - SHARE_BAR, share.0 - 8.0);
@@ -160,30 +161,31 @@ impl Columns {
 
 fn cells(ui: &Ui, row: Rect, columns: &Columns, [cause, size, left]: [&str; 3]) {
     let t = theme::tokens(ui);
-    let cell = |(from, to): (f32, f32)| row.with_min_x(from).with_max_x(to);
+    let cell = |(start, end): (f32, f32)| row.with_min_x(start).with_max_x(end);
     paint::text_in(ui, cell(columns.cause), Align2::LEFT_CENTER, cause, text::small_strong(), t.t1);
     paint::text_in(ui, cell(columns.size), Align2::RIGHT_CENTER, size, text::small(), t.t1);
     paint::text_in(ui, cell(columns.left), Align2::RIGHT_CENTER, left, text::small(), t.t1);
 }
 
-fn explained(ui: &Ui, row: Rect, place: usize, columns: &Columns, of: &Explanation) {
+fn explained(ui: &Ui, row: Rect, place: usize, columns: &Columns, explanation: &Explanation) {
     let t = theme::tokens(ui);
-    let (cause, size) = (words::cause(&of.cause), words::size(&of.cause));
-    let left = format::number(of.left_deg, 3);
+    let (cause, size) = (words::cause(&explanation.cause), words::size(&explanation.cause));
+    let left = format::number(explanation.left_deg, 3);
     cells(ui, row, columns, [cause, &size, &left]);
-    let (from, to) = columns.bar;
+    let (start, end) = columns.bar;
     let y = row.center().y;
-    let whole = Rect::from_min_max(pos2(from, y - 4.0), pos2(to, y + 4.0));
+    let whole = Rect::from_min_max(pos2(start, y - 4.0), pos2(end, y + 4.0));
     ui.painter().rect_filled(whole, 1.0, t.bg3);
-    let share = of.share.clamp(0.0, 1.0) as f32;
-    ui.painter().rect_filled(whole.with_max_x(egui::lerp(from..=to, share)), 1.0, t.sat);
-    let words = words::whole_share(of.share);
+    let share = explanation.share.clamp(0.0, 1.0) as f32;
+    ui.painter().rect_filled(whole.with_max_x(egui::lerp(start..=end, share)), 1.0, t.sat);
+    let words = words::whole_share(explanation.share);
     let cell = row.with_min_x(columns.share.0).with_max_x(columns.share.1);
     paint::text_in(ui, cell, Align2::RIGHT_CENTER, &words, text::small_strong(), t.t1);
     let alike = if place > 0 { ", not distinguishable from the best one" } else { "" };
-    let with = of.partner.as_ref();
-    let with = with.map(|of| format!(" {} {}", words::second_cause(of), words::size(of)));
-    let with = with.unwrap_or_default();
-    let spoken = format!("{cause} {size}{with}: explains {words}, {left}° left{alike}");
+    let second = explanation.partner.as_ref();
+    let partner =
+        second.map(|cause| format!(" {} {}", words::second_cause(cause), words::size(cause)));
+    let partner = partner.unwrap_or_default();
+    let spoken = format!("{cause} {size}{partner}: explains {words}, {left}° left{alike}");
     paint::name_text(ui, ("explanation", place), row, &spoken);
 }

@@ -45,8 +45,8 @@ pub(super) fn show(
     if let Some(place) = model.place(opened.pass.antenna) {
         let button = Button::normal("Unit settings");
         let size = vec2(button.width(ui), SMALL_HEIGHT);
-        let at = pos2(inner.right() - size.x, bar.center().y - size.y / 2.0);
-        if button.show(ui, "recorded unit", Rect::from_min_size(at, size)).clicked() {
+        let position = pos2(inner.right() - size.x, bar.center().y - size.y / 2.0);
+        if button.show(ui, "recorded unit", Rect::from_min_size(position, size)).clicked() {
             commands.push(UiCommand::SelectAntenna(place));
             commands.push(UiCommand::Show(View::Antennas));
         }

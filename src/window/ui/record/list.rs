@@ -43,12 +43,12 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, model: &Model, state: &mut RecordSta
     list.show_scrolling(ui, |ui, area| {
         area.show(ui, |ui| {
             let listed = RecordState::listed(model);
-            let day = |of: &Listed<'_>| format::date(of.aos());
+            let day = |entry: &Listed<'_>| format::date(entry.aos());
             for of_day in listed.chunk_by(|a, b| day(a) == day(b)) {
                 let (_, place) = ui.allocate_space(vec2(rect.width(), DAY));
                 head(ui, place, of_day);
-                for of in of_day {
-                    let pass = match of {
+                for entry in of_day {
+                    let pass = match entry {
                         Listed::Tracked(pass) => pass,
                         Listed::NotTracked(pass) => {
                             let (_, place) = ui.allocate_space(vec2(rect.width(), HIGH_ROW));
@@ -79,8 +79,8 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, model: &Model, state: &mut RecordSta
                 };
                 let button = Button::normal(&word);
                 let size = vec2(button.width(ui), 32.0);
-                let at = Rect::from_min_size(place.min + vec2(PADDING, 6.0), size);
-                if button.show(ui, "older passes", at).clicked() {
+                let bounds = Rect::from_min_size(place.min + vec2(PADDING, 6.0), size);
+                if button.show(ui, "older passes", bounds).clicked() {
                     state.list_more();
                 }
             }
@@ -101,8 +101,8 @@ fn head(ui: &Ui, rect: Rect, of_day: &[Listed<'_>]) {
     let t = theme::tokens(ui);
     ui.painter().rect_filled(rect, 0.0, t.bg2);
     let inner = rect.shrink2(vec2(PADDING, 0.0));
-    let day = of_day.first().map_or_else(String::new, |of| format::date(of.aos()));
-    let tracked = of_day.iter().filter_map(|of| match of {
+    let day = of_day.first().map_or_else(String::new, |listed| format::date(listed.aos()));
+    let tracked = of_day.iter().filter_map(|listed| match listed {
         Listed::Tracked(pass) => Some(pass.report.report.verdict),
         Listed::NotTracked(_) => None,
     });
@@ -159,9 +159,9 @@ fn row(
     let name = report.elements.short_name();
     let max = format!("max {}", format::degrees(report.max_elevation_deg, 0));
     let aos = format::moment(report.start, now);
-    let said = words::in_short(&report.report);
+    let text = words::in_short(&report.report);
     let spoken = format!(
-        "{name}, {aos}, {max}, {}: {}, {said}{}",
+        "{name}, {aos}, {max}, {}: {}, {text}{}",
         pass.antenna_name,
         words::verdict(report.report.verdict),
         cause.map_or_else(String::new, |cause| format!(", {cause}"))
@@ -171,7 +171,7 @@ fn row(
     let (icon, colour) = mark(report.report.verdict, t);
     let said_in = if report.report.verdict == PassVerdict::Good { t.t1 } else { colour };
     let lines = Lines { name, max: &max, aos: &aos, antenna: &pass.antenna_name };
-    lines.paint(ui, rect, (icon, colour), (&said, said_in), cause);
+    lines.paint(ui, rect, (icon, colour), (&text, said_in), cause);
     response.clicked()
 }
 
@@ -189,7 +189,7 @@ impl Lines<'_> {
         ui: &Ui,
         rect: Rect,
         (icon, colour): (Icon, Color32),
-        (said, said_in): (&str, Color32),
+        (spoken, said_in): (&str, Color32),
         cause: Option<&str>,
     ) {
         let t = theme::tokens(ui);
@@ -203,12 +203,12 @@ impl Lines<'_> {
         let high = paint::text_in(ui, room, right, self.max, text::small(), t.t2);
         let room = line(16.0).with_max_x(high.left() - 8.0);
         paint::text_in(ui, room, left, self.name, text::sized(13.0, Weight::SemiBold), t.t1);
-        let at = pos2(inner.left() + 7.0, rect.top() + 35.0);
-        icons::paint(ui.painter(), paint::square(at, 13.0), icon, colour);
+        let position = pos2(inner.left() + 7.0, rect.top() + 35.0);
+        icons::paint(ui.painter(), paint::square(position, 13.0), icon, colour);
         let indent = |y: f32| line(y).with_min_x(inner.left() + 20.0);
         let antenna = paint::text_in(ui, indent(35.0), right, self.antenna, text::small(), t.t3);
         let room = indent(35.0).with_max_x(antenna.left() - 8.0);
-        paint::text_in(ui, room, left, said, text::small(), said_in);
+        paint::text_in(ui, room, left, spoken, text::small(), said_in);
         if let Some(cause) = cause {
             paint::text_in(ui, indent(52.0), left, cause, text::small(), t.t2);
         }

@@ -42,7 +42,7 @@ pub(super) fn show(ui: &Ui, rect: Rect, model: &Model, opened: &OpenedPass, stat
     let (title, rest) = rect.split_top_bottom_at_y(rect.top() + TITLE);
     let factor = recorded_track::enlarged(&opened.track);
     let words = format!("Path, {}", recorded_track::enlargement(factor));
-    let in_the_way = InTheWay::of(model, opened);
+    let in_the_way = InTheWay::new(model, opened);
     let room = title.shrink2(egui::vec2(PADDING, 0.0));
     let room = room.with_max_x(in_the_way.legend(ui, room));
     paint::text_in(ui, room, Align2::LEFT_CENTER, &words, text::small_strong(), t.t1);
@@ -61,8 +61,8 @@ pub(super) fn show(ui: &Ui, rect: Rect, model: &Model, opened: &OpenedPass, stat
         grid::keyholes(&painter, dome, &holes, t);
     }
     for (name, azimuth_deg) in [("N", 0.0_f32), ("E", 90.0), ("S", 180.0), ("W", 270.0)] {
-        let at = dome.at(azimuth_deg.to_radians(), -11.0);
-        painter.text(at, Align2::CENTER_CENTER, name, text::small_strong(), t.t1);
+        let position = dome.point_at(azimuth_deg.to_radians(), -11.0);
+        painter.text(position, Align2::CENTER_CENTER, name, text::small_strong(), t.t1);
     }
     let predicted = dome.path(opened.path.iter().map(|sample| sample.direction));
     dashes::paint(&painter, &predicted, Stroke::new(1.5, t.sat), DASH);
@@ -76,23 +76,27 @@ pub(super) fn show(ui: &Ui, rect: Rect, model: &Model, opened: &OpenedPass, stat
         labels.reserve_path(path, 6.0);
     }
     let cursor = cursor::point(opened, state);
-    let cursor = cursor
-        .and_then(|of| Some((of, [dome.visible(of.satellite)?, enlarged_at(dome, of, factor)?])));
+    let cursor = cursor.and_then(|track_point| {
+        Some((
+            track_point,
+            [dome.visible(track_point.satellite)?, enlarged_at(dome, track_point, factor)?],
+        ))
+    });
     for mark in cursor.into_iter().flat_map(|(_, marks)| marks) {
         labels.reserve(paint::square(mark, 10.0));
     }
     ends(ui, &mut labels, &painter, dome, &opened.path, model.now, t);
-    if let Some((point, [at, off])) = cursor {
-        painter.line_segment([at, off], Stroke::new(2.5, t.warn));
-        painter.circle_filled(at, 4.0, t.sat);
-        painter.circle_stroke(off, 4.0, Stroke::new(1.5, t.ant));
+    if let Some((point, [position, deviation])) = cursor {
+        painter.line_segment([position, deviation], Stroke::new(2.5, t.warn));
+        painter.circle_filled(position, 4.0, t.sat);
+        painter.circle_stroke(deviation, 4.0, Stroke::new(1.5, t.ant));
         // The track has a point a second, and the report looked at every position.
         let worst = opened.pass.report.report.worst.filter(|_| state.cursor.is_none());
         let (off_deg, at_time) = worst
             .map_or((point.error.off_deg, point.time), |worst| (worst.error.off_deg, worst.time));
         let words =
             format!("{}, {}", format::degrees(off_deg, 2), format::moment(at_time, model.now));
-        label(&mut labels, Key::Cursor, dome, off, &words, t.warn);
+        label(&mut labels, Key::Cursor, dome, deviation, &words, t.warn);
     }
     grid::label_rings(&mut labels, dome);
     labels.finish();
@@ -112,17 +116,18 @@ struct InTheWay<'a> {
 impl<'a> InTheWay<'a> {
     /// The mask applies only to the site of the pass. An antenna that was removed has no known
     /// keyholes.
-    fn of(model: &'a Model, opened: &OpenedPass) -> Self {
+    fn new(model: &'a Model, opened: &OpenedPass) -> Self {
         // The same place, whatever its refraction is set to since.
         let is_here = opened
             .pass
             .report
             .site
             .is_none_or(|site| site.airless() == model.station.site.airless());
-        let antenna = model.antennas.iter().find(|of| of.id() == opened.pass.antenna);
+        let antenna =
+            model.antennas.iter().find(|model_antenna| model_antenna.id() == opened.pass.antenna);
         Self {
             mask: model.station.horizon_mask.as_ref().filter(|_| is_here),
-            keyholes: antenna.and_then(|antenna| Keyholes::of(&antenna.config.mount)),
+            keyholes: antenna.and_then(|antenna| Keyholes::new(&antenna.config.mount)),
         }
     }
 
@@ -176,21 +181,21 @@ fn ticks(painter: &Painter, dome: Dome, opened: &OpenedPass, factor: u16, t: &To
     for pair in opened.path.windows(2) {
         let [a, b] = pair else { continue };
         if is_minute(a.time, b.time)
-            && let (Some(from), Some(to)) = (dome.visible(a.direction), dome.visible(b.direction))
+            && let (Some(start), Some(end)) = (dome.visible(a.direction), dome.visible(b.direction))
         {
-            let out = (to - from).normalized().rot90();
-            painter.line_segment([to, to - out * TICK], Stroke::new(1.5, t.sat));
+            let out = (end - start).normalized().rot90();
+            painter.line_segment([end, end - out * TICK], Stroke::new(1.5, t.sat));
         }
     }
     for pair in opened.track.windows(2) {
         let [a, b] = pair else { continue };
         let places = (enlarged_at(dome, a, factor), enlarged_at(dome, b, factor));
         if is_minute(a.time, b.time)
-            && let ((Some(_), Some(at)), (Some(from), Some(to))) =
+            && let ((Some(_), Some(position)), (Some(start), Some(end))) =
                 (places, (dome.visible(a.satellite), dome.visible(b.satellite)))
         {
-            let out = (to - from).normalized().rot90();
-            painter.line_segment([at, at + out * TICK], Stroke::new(1.5, t.ant));
+            let out = (end - start).normalized().rot90();
+            painter.line_segment([position, position + out * TICK], Stroke::new(1.5, t.ant));
         }
     }
 }
@@ -208,15 +213,15 @@ fn ends(
     let (Some(first), Some(last)) = (path.first(), path.last()) else { return };
     let ends = [(Key::Aos, "AOS", first), (Key::Los, "LOS", last)];
     let places = ends.map(|(_, _, sample)| dome.point(sample.direction));
-    for at in places.into_iter().flatten() {
-        labels.reserve(paint::square(at, 12.0));
+    for position in places.into_iter().flatten() {
+        labels.reserve(paint::square(position, 12.0));
     }
-    for ((key, word, sample), at) in ends.into_iter().zip(places) {
-        let Some(at) = at else { continue };
-        painter.circle(at, 4.5, t.bg0, Stroke::new(1.5, t.sat));
+    for ((key, word, sample), position) in ends.into_iter().zip(places) {
+        let Some(position) = position else { continue };
+        painter.circle(position, 4.5, t.bg0, Stroke::new(1.5, t.sat));
         let words = format!("{word} {}", format::moment(sample.time, now));
-        label(labels, key, dome, at, &words, t.t1);
-        paint::name_text(ui, ("recorded end", word), paint::square(at, 12.0), &words);
+        label(labels, key, dome, position, &words, t.t1);
+        paint::name_text(ui, ("recorded end", word), paint::square(position, 12.0), &words);
     }
 }
 
@@ -234,7 +239,7 @@ fn label(
         lines: &[(words, text::small(), colour)],
         mark,
         clearance: 9.0,
-        order: &Side::towards(dome.centre - mark),
+        order: &Side::by_nearness(dome.centre - mark),
         tolerance: 1.0,
     });
 }

@@ -43,9 +43,9 @@ pub(super) fn head(
     let inner = rect.shrink2(vec2(PADDING, 0.0));
     let button = Button::normal("Export report").chevron().locked_by(replay::lock(model));
     let size = vec2(button.width(ui), BUTTON);
-    let at =
+    let area =
         Rect::from_min_size(pos2(inner.right() - size.x, rect.center().y - BUTTON / 2.0), size);
-    let response = button.show(ui, "export report", at);
+    let response = button.show(ui, "export report", area);
     menu::show(&response, Popup::menu(&response).accessible_name("Export report"), |ui| {
         for (format, word) in FORMATS {
             if ui.button(word).clicked() {
@@ -55,27 +55,27 @@ pub(super) fn head(
     });
     let button = Button::primary("Replay").locked_by(lock(model));
     let size = vec2(button.width(ui), BUTTON);
-    let at =
-        Rect::from_min_size(pos2(at.left() - 8.0 - size.x, rect.center().y - BUTTON / 2.0), size);
-    if button.show(ui, "replay", at).clicked() {
+    let area =
+        Rect::from_min_size(pos2(area.left() - 8.0 - size.x, rect.center().y - BUTTON / 2.0), size);
+    if button.show(ui, "replay", area).clicked() {
         commands.push(replay_of(pass, None));
     }
-    let room = inner.with_max_x(at.left() - PADDING);
+    let room = inner.with_max_x(area.left() - PADDING);
     let line = |y: f32| {
         Rect::from_x_y_ranges(room.x_range(), rect.top() + y - 12.0..=rect.top() + y + 12.0)
     };
     let left = Align2::LEFT_CENTER;
     let report = &pass.report;
     let name = report.elements.name();
-    let by = format!(
+    let author = format!(
         "{}, {}, {}",
         report.elements.catalog_number(),
         pass.antenna_name,
         words::tracked_by(report.track.tracked_by)
     );
     let drawn = paint::text_in(ui, line(19.0), left, name, text::title(), t.t1);
-    let beside = line(20.0).with_min_x(drawn.right() + 8.0);
-    paint::text_in(ui, beside, left, &by, text::small(), t.t2);
+    let bounds = line(20.0).with_min_x(drawn.right() + 8.0);
+    paint::text_in(ui, bounds, left, &author, text::small(), t.t2);
     let when = format!(
         "{}, {}, max {}",
         format::stretch(report.start, report.end, model.now),
@@ -83,14 +83,14 @@ pub(super) fn head(
         format::degrees(report.max_elevation_deg, 1)
     );
     paint::text_in(ui, line(40.0), left, &when, text::small(), t.t2);
-    paint::name_text(ui, "report head", room, &format!("{name}, {by}, {when}"));
+    paint::name_text(ui, "report head", room, &format!("{name}, {author}, {when}"));
 }
 
-/// Shows the pass again, from `at` on or from shortly before its track.
-pub(super) fn replay_of(pass: &RecordedPass, at: Option<Timestamp>) -> UiCommand {
-    let stretch = Stretch::of(pass);
-    let at = at.unwrap_or(stretch.from);
-    UiCommand::BeginReplay(stretch, at)
+/// Shows the pass again, from `time` on or from shortly before its track.
+pub(super) fn replay_of(pass: &RecordedPass, time: Option<Timestamp>) -> UiCommand {
+    let stretch = Stretch::new(pass);
+    let time = time.unwrap_or(stretch.start);
+    UiCommand::BeginReplay(stretch, time)
 }
 
 pub(super) fn verdict_height(ui: &Ui, width: f32, model: &Model, pass: &RecordedPass) -> f32 {
@@ -107,7 +107,8 @@ pub(super) fn verdict(ui: &Ui, rect: Rect, model: &Model, pass: &RecordedPass) {
     let (_, colour) = list::mark(pass.report.report.verdict, t);
     ui.painter().rect_filled(card.with_max_x(card.left() + 3.0), 1.0, colour);
     let words = words::verdict_sentence(&pass.report, model.now);
-    let at = card.min + vec2(INSET + 2.0, INSET);
-    let place = paint::paragraph(ui, at, card.width() - 2.0 * INSET, &words, text::body(), t.t1);
+    let position = card.min + vec2(INSET + 2.0, INSET);
+    let place =
+        paint::paragraph(ui, position, card.width() - 2.0 * INSET, &words, text::body(), t.t1);
     paint::name_text(ui, "verdict", place, &words);
 }

@@ -30,7 +30,7 @@ pub struct RecordState {
     /// Number of the chosen pass; `None` for the newest.
     chosen: Option<i64>,
     /// Request that the station received last.
-    asked: Option<RecordLook>,
+    record_look: Option<RecordLook>,
     /// The time at which all drawings are read.
     pub(super) cursor: Option<Timestamp>,
     pub(super) list_is_open: bool,
@@ -70,7 +70,7 @@ impl Default for RecordState {
         Self {
             query: PassQuery { count: PAGE, ..PassQuery::default() },
             chosen: None,
-            asked: None,
+            record_look: None,
             cursor: None,
             list_is_open: false,
             scrolls: false,
@@ -171,15 +171,15 @@ impl RecordState {
     /// Asks the station for what is shown, if that is new.
     pub(super) fn ask(&mut self, model: &Model, commands: &mut Vec<UiCommand>) {
         let look = RecordLook { query: self.query.clone(), opened: self.shown(model) };
-        if self.asked.as_ref() != Some(&look) {
-            self.asked = Some(look.clone());
+        if self.record_look.as_ref() != Some(&look) {
+            self.record_look = Some(look.clone());
             commands.push(UiCommand::Station(contract::Command::LookAtRecord(Some(look))));
         }
     }
 
     /// Ends the looking, in another view.
     pub fn leave(&mut self, commands: &mut Vec<UiCommand>) {
-        if self.asked.take().is_some() {
+        if self.record_look.take().is_some() {
             commands.push(UiCommand::Station(contract::Command::LookAtRecord(None)));
         }
     }
@@ -190,7 +190,7 @@ impl RecordState {
             return ("Record", "The record is being read.".to_owned());
         };
         match &recorded.found {
-            Err(why) => ("The record cannot be read", sentence(why)),
+            Err(reason) => ("The record cannot be read", sentence(reason)),
             Ok(found) if found.page.passes.is_empty() && !found.missed.is_empty() => {
                 ("No report", "A pass that was not tracked has no report.".to_owned())
             }

@@ -14,34 +14,40 @@ use crate::{
 
 /// Shows why it has ended. The notice stays until the operator closes it or opens another view:
 /// without it every control would move under the pointer.
-pub fn show(ui: &Ui, rect: Rect, why: &ReplayEnd, now: Timestamp, commands: &mut Vec<UiCommand>) {
+pub fn show(
+    ui: &Ui,
+    rect: Rect,
+    reason: &ReplayEnd,
+    now: Timestamp,
+    commands: &mut Vec<UiCommand>,
+) {
     let t = theme::tokens(ui);
     ui.painter().rect_filled(rect, 0.0, t.warnbg);
     ui.painter().hline(rect.x_range(), rect.top() + 0.5, (1.0, t.warn));
     let close = Button::normal("Close");
-    let at = at_the_end(ui, rect, close);
-    let words = ended(why, now);
-    let room = rect.shrink2(vec2(2.0 * GAP, 0.0)).with_max_x(at.left() - GAP);
+    let area = at_the_end(ui, rect, close);
+    let words = ended(reason, now);
+    let room = rect.shrink2(vec2(2.0 * GAP, 0.0)).with_max_x(area.left() - GAP);
     let font = if rect.height() >= HEIGHT { text::value() } else { text::body_medium() };
     paint::text_in(ui, room, Align2::LEFT_CENTER, &words, font, t.warn);
     paint::name_text(ui, "end of the replay", room, &words);
-    if close.show(ui, "close the end", at).clicked() {
+    if close.show(ui, "close the end", area).clicked() {
         commands.push(UiCommand::CloseReplayEnd);
     }
 }
 
 /// Reason why a replay ended by itself, in a sentence.
-fn ended(why: &ReplayEnd, now: Timestamp) -> String {
-    match why {
+fn ended(reason: &ReplayEnd, now: Timestamp) -> String {
+    match reason {
         ReplayEnd::Stop => "Replay ended: STOP was pressed.".to_owned(),
         ReplayEnd::Alarm => "Replay ended: a top-priority alarm came.".to_owned(),
-        ReplayEnd::Pass { antenna, satellite, from } if *from > now => {
-            let left = format::time_left(now, *from);
+        ReplayEnd::Pass { antenna, satellite, start } if *start > now => {
+            let left = format::time_left(now, *start);
             format!("Replay ended: {antenna} is to track {satellite} in {left}.")
         }
-        ReplayEnd::Pass { antenna, satellite, from } => {
-            let at = format::moment(*from, now);
-            format!("Replay ended: {antenna} was to track {satellite} from {at} on.")
+        ReplayEnd::Pass { antenna, satellite, start } => {
+            let time_text = format::moment(*start, now);
+            format!("Replay ended: {antenna} was to track {satellite} from {time_text} on.")
         }
     }
 }

@@ -25,9 +25,9 @@ const NUMBERS: f64 = 30.0;
 const WORDS: f64 = 62.0;
 const DIRECTION: f64 = 62.0;
 const ERROR: f64 = 92.0;
-const BETWEEN: f64 = 10.0;
+const GAP_S: f64 = 10.0;
 /// Most minutes that are named below the curves.
-const MOST_MINUTES: i64 = 12;
+const MAX_MINUTES: i64 = 12;
 
 /// A plot: a range of values over the time of the pass.
 struct Plot {
@@ -73,8 +73,8 @@ pub(super) fn html(opened: &OpenedPass) -> Markup {
     let half_beam_deg = report.half_beam_deg.max(1e-3);
     let top_deg = recorded_track::error_top_deg(half_beam_deg, &opened.track);
     let elevation = plot(TOP, DIRECTION, [0.0, 90.0]);
-    let azimuth = plot(TOP + DIRECTION + BETWEEN, DIRECTION, [0.0, 360.0]);
-    let error = plot(TOP + 2.0 * (DIRECTION + BETWEEN), ERROR, [-top_deg, top_deg]);
+    let azimuth = plot(TOP + DIRECTION + GAP_S, DIRECTION, [0.0, 360.0]);
+    let error = plot(TOP + 2.0 * (DIRECTION + GAP_S), ERROR, [-top_deg, top_deg]);
     let content = html! {
         svg viewBox=(format!("0 0 {WIDTH} {HEIGHT}")) {
             (direction(&elevation, "elevation °", opened, AzEl::elevation_deg))
@@ -102,11 +102,11 @@ fn direction(plot: &Plot, words: &str, opened: &OpenedPass, value: fn(AzEl) -> f
         }
         (note(plot.top + 7.0, words))
         @for piece in predicted {
-            @let points: Vec<_> = piece.iter().map(|it| place(it.time, of_path(it))).collect();
+            @let points: Vec<_> = piece.iter().map(|sample| place(sample.time, of_path(sample))).collect();
             (plot::line("thin dashed", &points))
         }
         @for piece in measured {
-            @let points: Vec<_> = piece.iter().map(|it| place(it.time, of_track(it))).collect();
+            @let points: Vec<_> = piece.iter().map(|sample| place(sample.time, of_track(sample))).collect();
             (plot::line("thin", &points))
         }
     }
@@ -141,7 +141,7 @@ fn errors(plot: &Plot, half_beam_deg: f64, opened: &OpenedPass) -> Markup {
 /// The full minutes below the last plot.
 fn times(plot: &Plot) -> Markup {
     let minutes = plot.axis.seconds() / 60.0;
-    let every = (minutes / MOST_MINUTES as f64).ceil().max(1.0) as i64;
+    let every = (minutes / MAX_MINUTES as f64).ceil().max(1.0) as i64;
     let bottom = plot.top + plot.height;
     html! {
         @for time in plot.axis.multiples(60 * every) {

@@ -31,11 +31,11 @@ pub(super) fn html(opened: &OpenedPass) -> Markup {
         ("S", [x, y + RADIUS + 10.0]),
         ("W", [x - RADIUS - 8.0, y + 2.5]),
     ];
-    let predicted: Vec<_> = opened.path.iter().map(|sample| sky.at(sample.direction)).collect();
+    let predicted: Vec<_> = opened.path.iter().map(|sample| sky.point(sample.direction)).collect();
     let measured = recorded_track::pieces(&opened.track)
         .map(|piece| piece.iter().map(|point| measured_at(sky, point, factor)).collect::<Vec<_>>());
     let worst = recorded_track::worst(&opened.track);
-    let worst = worst.map(|worst| [sky.at(worst.satellite), measured_at(sky, worst, factor)]);
+    let worst = worst.map(|worst| [sky.point(worst.satellite), measured_at(sky, worst, factor)]);
     let [width, height] = SIZE;
     let content = html! {
         svg viewBox=(format!("0 0 {width} {height}")) {
@@ -64,10 +64,10 @@ pub(super) fn html(opened: &OpenedPass) -> Markup {
 
 /// The place of the antenna, with its error enlarged; within the circle.
 fn measured_at(sky: Sky, point: &TrackPoint, factor: u16) -> [f64; 2] {
-    let [from, to] = [point.satellite, point.antenna].map(|direction| sky.at(direction));
-    let enlarged = |from: f64, to: f64| from + (to - from) * f64::from(factor);
+    let [start, end] = [point.satellite, point.antenna].map(|direction| sky.point(direction));
+    let enlarged = |start: f64, end: f64| start + (end - start) * f64::from(factor);
     let [x, y] =
-        [enlarged(from[0], to[0]) - sky.centre[0], enlarged(from[1], to[1]) - sky.centre[1]];
+        [enlarged(start[0], end[0]) - sky.centre[0], enlarged(start[1], end[1]) - sky.centre[1]];
     let out = (x.hypot(y) / sky.radius).max(1.0);
     [sky.centre[0] + x / out, sky.centre[1] + y / out]
 }
@@ -78,9 +78,9 @@ fn minutes(sky: Sky, opened: &OpenedPass, factor: u16) -> Vec<[[f64; 2]; 2]> {
         before.as_second().div_euclid(60) != time.as_second().div_euclid(60)
     };
     // The unit vector to the left of the way, on paper.
-    let left = |[ax, ay]: [f64; 2], [bx, by]: [f64; 2]| {
-        let length = (bx - ax).hypot(by - ay).max(1e-9);
-        [(by - ay) / length, -(bx - ax) / length]
+    let left = |[ax, ay]: [f64; 2], [bx, step]: [f64; 2]| {
+        let length = (bx - ax).hypot(step - ay).max(1e-9);
+        [(step - ay) / length, -(bx - ax) / length]
     };
     let tick = |[x, y]: [f64; 2], [nx, ny]: [f64; 2], length: f64| {
         [[x, y], [x + nx * length, y + ny * length]]
@@ -88,13 +88,13 @@ fn minutes(sky: Sky, opened: &OpenedPass, factor: u16) -> Vec<[[f64; 2]; 2]> {
     let mut ticks = Vec::new();
     for (a, b) in opened.path.iter().zip(opened.path.iter().skip(1)) {
         if begins_minute(a.time, b.time) {
-            let at = sky.at(b.direction);
-            ticks.push(tick(at, left(sky.at(a.direction), at), TICK));
+            let point = sky.point(b.direction);
+            ticks.push(tick(point, left(sky.point(a.direction), point), TICK));
         }
     }
     for (a, b) in opened.track.iter().zip(opened.track.iter().skip(1)) {
         if begins_minute(a.time, b.time) {
-            let across = left(sky.at(a.satellite), sky.at(b.satellite));
+            let across = left(sky.point(a.satellite), sky.point(b.satellite));
             ticks.push(tick(measured_at(sky, b, factor), across, -TICK));
         }
     }

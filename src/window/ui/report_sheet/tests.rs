@@ -33,13 +33,13 @@ fn opened(late_s: f64, is_measured: impl Fn(u32) -> bool) -> OpenedPass {
     let found = passes(&propagator, &search, &|| false);
     let height = |pass: &&crate::orbit::Pass| pass.max_elevation().degrees();
     let pass = found.iter().max_by(|a, b| height(a).total_cmp(&height(b))).unwrap();
-    let (from, until) = (pass.aos.time, pass.los.time);
-    let at = |time| propagator.look_from(site, time).unwrap().direction;
+    let (begin, end) = (pass.aos.time, pass.los.time);
+    let direction = |time| propagator.look_from(site, time).unwrap().direction;
     let seconds = (0..pass.duration_s() as u32).filter(|second| is_measured(*second));
     let positions: Vec<MeasuredPosition> = seconds
         .map(|second| {
-            let time = add_seconds(from, f64::from(second));
-            let AzEl { azimuth, elevation } = at(add_seconds(time, -late_s));
+            let time = add_seconds(begin, f64::from(second));
+            let AzEl { azimuth, elevation } = direction(add_seconds(time, -late_s));
             let pointing = Pointing { azimuth: Some(azimuth), elevation: Some(elevation) };
             MeasuredPosition { time, pointing }
         })
@@ -61,19 +61,21 @@ fn opened(late_s: f64, is_measured: impl Fn(u32) -> bool) -> OpenedPass {
     let tracked = TrackedPass {
         propagator: &propagator,
         site,
-        start: from,
-        end: until,
+        start: begin,
+        end,
         limits,
         trackability,
         ended: None,
         breaks: &breaks,
     };
-    let points = positions.iter().map(|at| TrackPoint::new(&propagator, site, true, *at));
+    let points = positions
+        .iter()
+        .map(|measured_position| TrackPoint::new(&propagator, site, true, *measured_position));
     let track: Vec<TrackPoint> = points.flatten().collect();
     let measured = track.iter().map(|point| (point.time, point.antenna));
     let steps = (0..=pass.duration_s() as u32 / 2).map(|step| {
-        let time = add_seconds(from, 2.0 * f64::from(step));
-        Sample { time, direction: at(time) }
+        let time = add_seconds(begin, 2.0 * f64::from(step));
+        Sample { time, direction: direction(time) }
     });
     OpenedPass {
         path: steps.collect(),
@@ -82,15 +84,15 @@ fn opened(late_s: f64, is_measured: impl Fn(u32) -> bool) -> OpenedPass {
             antenna: AntennaId(1),
             antenna_name: "North mast".to_owned(),
             report: RecordedReport {
-                start: from,
-                end: until,
+                start: begin,
+                end,
                 planned: None,
                 max_elevation_deg: pass.max_elevation().degrees(),
                 age_days: 0.4,
                 site: Some(site),
                 half_beam_deg: HALF_BEAM_DEG,
                 track: AboutTrack {
-                    begun: add_seconds(from, -30.0),
+                    begun: add_seconds(begin, -30.0),
                     tracked_by: TrackedBy::ProgramTrack,
                     sent: Some(640),
                     offsets: FlownOffsets::default(),

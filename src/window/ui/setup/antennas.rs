@@ -25,7 +25,7 @@ use crate::{
             card,
             form::{GAP, LABEL},
             input::focus_to_replace,
-            told::{Tone, line},
+            status_line::{Tone, line},
         },
         words,
     },
@@ -62,7 +62,7 @@ pub(super) fn show(
             let name = format!("Add {}", spec.name);
             if named(ui, button, ("add", spec.key), true, &name).on_hover_text(&name).clicked() {
                 draft.form.add_antenna(spec, model.now);
-                draft.wants_address = draft.form.antennas.last().map(|of| of.before().id);
+                draft.wants_address = draft.form.antennas.last().map(|typed| typed.before().id);
             }
         }
         if draft.form.antennas.is_empty() {
@@ -80,14 +80,14 @@ pub(super) fn show(
             Tone::Caution | Tone::Bad => silent.push(name),
         }
     }
-    for (names, then) in [
+    for (names, next_words) in [
         (silent, "Azel tries again once you finish."),
         (faulty, "Follow the advice above before you use it."),
     ] {
         if !names.is_empty() {
             ui.add_space(4.0);
             let names = crate::ui::format::list(&names);
-            line(ui, Tone::Caution, &format!("{names}: you can continue. {then}"));
+            line(ui, Tone::Caution, &format!("{names}: you can continue. {next_words}"));
         }
     }
 }
@@ -161,12 +161,12 @@ fn one(
     for (tone, words) in outcome.unwrap_or_default() {
         line(ui, tone, &words);
     }
-    if let Some(LinkTestStage::Done { time: at, .. }) = test.map(|test| &test.stage)
-        && is_news(ui, id, *at)
+    if let Some(LinkTestStage::Done { time, .. }) = test.map(|test| &test.stage)
+        && is_news(ui, id, *time)
     {
         // It may lie below what is in sight, with a warning that nobody should miss.
-        let told = ui.min_rect().with_min_y(top);
-        ui.scroll_to_rect_animation(told, None, ScrollAnimation::none());
+        let answer = ui.min_rect().with_min_y(top);
+        ui.scroll_to_rect_animation(answer, None, ScrollAnimation::none());
     }
     is_removed
 }
@@ -177,12 +177,12 @@ pub(super) fn test_of(antenna: &Antenna) -> UiCommand {
 }
 
 /// Returns `true` once for each outcome of a test.
-fn is_news(ui: &Ui, antenna: AntennaId, at: Timestamp) -> bool {
+fn is_news(ui: &Ui, antenna: AntennaId, time: Timestamp) -> bool {
     let id = ui.make_persistent_id(("outcome in sight", antenna.0));
     ui.data_mut(|data| {
         let before = data.get_temp::<Timestamp>(id);
-        data.insert_temp(id, at);
-        before != Some(at)
+        data.insert_temp(id, time);
+        before != Some(time)
     })
 }
 

@@ -34,8 +34,8 @@ pub(super) struct SetupDraft {
 
 impl SetupDraft {
     /// An empty form; `station` gives what can be proposed.
-    pub(super) fn of(station: Station) -> Self {
-        let mut form = Draft::of(&station);
+    pub(super) fn new(station: Station) -> Self {
+        let mut form = Draft::new(&station);
         for field in form.ground.fields.iter_mut().take(UNKNOWN_FIELDS) {
             field.empty();
         }
@@ -83,7 +83,7 @@ impl SetupDraft {
     /// Name and site, once all of them are right.
     pub(super) fn site(&self) -> Option<(String, Site)> {
         let (ground, standings) = self.form.ground.read();
-        if standings.iter().take(SITE_FIELDS).any(|of| of.problem.is_some()) {
+        if standings.iter().take(SITE_FIELDS).any(|standing| standing.problem.is_some()) {
             return None;
         }
         let station = ground.station()?;
@@ -110,11 +110,15 @@ impl SetupDraft {
     /// the step waits for that test or for an address that can be used.
     pub(super) fn test_typed(&self, model: &Model, commands: &mut Vec<UiCommand>) -> bool {
         let mut antennas = self.form.antennas.iter();
-        let typed = antennas.position(|of| Some(of.before().id) == self.typed_address);
+        let typed = antennas
+            .position(|typed_antenna| Some(typed_antenna.before().id) == self.typed_address);
         let Some(index) = typed else { return false };
         let antenna = self.form.antenna(index);
         // A question may take the panel from somebody at the unit: its button alone asks.
-        if antenna.as_ref().is_some_and(|of| of.connection.variant().capabilities.waits_for_word) {
+        if antenna
+            .as_ref()
+            .is_some_and(|other| other.connection.variant().capabilities.waits_for_word)
+        {
             return false;
         }
         match self.form.test(index, model).map(|test| &test.stage) {
@@ -140,7 +144,7 @@ impl SetupDraft {
 
     /// Antennas whose units told their place, with it.
     pub(super) fn places(&self, model: &Model) -> Vec<(String, Place)> {
-        let told = |index: usize| {
+        let pair = |index: usize| {
             let LinkTestStage::Done { finding: LinkFinding::Reached { state, .. }, .. } =
                 &self.form.test(index, model)?.stage
             else {
@@ -148,14 +152,14 @@ impl SetupDraft {
             };
             Some((self.antenna_name(index), state.on_board.place?))
         };
-        (0..self.form.antennas.len()).filter_map(told).collect()
+        (0..self.form.antennas.len()).filter_map(pair).collect()
     }
 
     /// Distance of the typed place from that of the first unit that told one.
     pub(super) fn off_the_told_km(&self, model: &Model) -> Option<(String, f64)> {
-        let (name, told) = self.places(model).into_iter().next()?;
+        let (name, place) = self.places(model).into_iter().next()?;
         let site = self.place()?;
-        Some((name, told.km_from(site)))
+        Some((name, place.km_from(site)))
     }
 
     /// The station, if all of it is right.
@@ -190,11 +194,12 @@ impl SetupDraft {
             let Some(antenna) = self.form.antenna(index) else {
                 return Some(format!("{name}: a field cannot be used."));
             };
-            let of_demo = |of: &&crate::contract::antenna::AntennaModel| {
-                of.config.connection.spec() == antenna.connection.spec()
-                    && of.config.connection.address == antenna.connection.address
+            let of_demo = |model_antenna: &&crate::contract::antenna::AntennaModel| {
+                model_antenna.config.connection.spec() == antenna.connection.spec()
+                    && model_antenna.config.connection.address == antenna.connection.address
             };
-            let is_of_demo = model.demo && model.antennas.iter().any(|of| of_demo(&of));
+            let is_of_demo =
+                model.demo && model.antennas.iter().any(|model_antenna| of_demo(&model_antenna));
             is_of_demo.then(|| {
                 format!("{name}: this address belongs to the demo station and ends with it.")
             })

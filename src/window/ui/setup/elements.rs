@@ -9,7 +9,7 @@ use crate::{
     ui::{
         elements::{AddState, add_source, source_words},
         text, theme,
-        widgets::{card, told::line},
+        widgets::{card, status_line::line},
         words::sentence,
     },
 };

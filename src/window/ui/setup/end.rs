@@ -9,7 +9,7 @@ use crate::{
         format, text,
         widgets::{
             card,
-            told::{Tone, line},
+            status_line::{Tone, line},
         },
         words::sentence,
     },

@@ -83,10 +83,11 @@ fn column(
     let inner = rect.shrink2(vec2(16.0, 16.0));
     let title = "Set up your station";
     paint::text(ui, inner.min, Align2::LEFT_TOP, title, text::title(), t.t1);
-    let about = "Every step can be skipped and changed later in Preferences.";
-    let at = inner.min + vec2(0.0, 28.0);
-    let about = paint::paragraph(ui, at, inner.width(), about, text::small(), t.t2);
-    let top = about.bottom() + 16.0;
+    let description = "Every step can be skipped and changed later in Preferences.";
+    let position = inner.min + vec2(0.0, 28.0);
+    let description =
+        paint::paragraph(ui, position, inner.width(), description, text::small(), t.t2);
+    let top = description.bottom() + 16.0;
     for (index, step) in Step::NUMBERED.into_iter().enumerate() {
         let min = pos2(rect.left(), top + STEP * index as f32);
         let row = Rect::from_min_size(min, vec2(rect.width(), STEP));
@@ -125,9 +126,9 @@ fn strip(
     let ready = format!("Ready {}", so_far::ready(&parts));
     let room = rect.shrink2(vec2(16.0, 0.0));
     let place = paint::text_in(ui, room, Align2::RIGHT_CENTER, &ready, text::body_medium(), t.t2);
-    let said: Vec<String> =
+    let sentences: Vec<String> =
         parts.iter().map(|part| format!("{}: {}", part.name, part.state)).collect();
-    paint::name_text(ui, "ready", place, &ready).on_hover_text(said.join("\n"));
+    paint::name_text(ui, "ready", place, &ready).on_hover_text(sentences.join("\n"));
     let width = ((place.left() - 16.0 - rect.left()) / Step::NUMBERED.len() as f32).min(190.0);
     for (index, step) in Step::NUMBERED.into_iter().enumerate() {
         let min = pos2(rect.left() + width * index as f32, rect.top());
@@ -155,8 +156,8 @@ fn entry(
     state: &SetupState,
 ) -> bool {
     let is_shown = state.step == step;
-    let why = unadded.filter(|_| !is_shown);
-    let is_enabled = why.is_none();
+    let reason = unadded.filter(|_| !is_shown);
+    let is_enabled = reason.is_none();
     let passed = match passed {
         Passed::NotYet => "",
         Passed::Done => ", done",
@@ -165,8 +166,8 @@ fn entry(
     let name = format!("Step {}: {}{passed}, {detail}", step.number(), step.name());
     let mut response = paint::control(ui, ("step", step), row, Role::Tab, is_enabled, &name);
     response.widget_info(|| WidgetInfo::selected(Role::Tab, is_enabled, is_shown, &name));
-    if let Some(why) = why {
-        response = response.on_hover_text(why);
+    if let Some(reason) = reason {
+        response = response.on_hover_text(reason);
     }
     let is_hovered = is_enabled && response.hovered();
     paint_ground(ui, row, is_shown, is_hovered);
@@ -174,33 +175,33 @@ fn entry(
     response.clicked()
 }
 
-fn show_ring(ui: &Ui, at: egui::Pos2, step: Step, passed: Passed, state: &SetupState) {
+fn show_ring(ui: &Ui, position: egui::Pos2, step: Step, passed: Passed, state: &SetupState) {
     let t = theme::tokens(ui);
     let is_shown = state.step == step;
     let painter = ui.painter();
     let (icon, colour) = match passed {
         _ if is_shown => {
-            painter.circle_filled(at, RING, t.sat);
+            painter.circle_filled(position, RING, t.sat);
             (None, t.onsat)
         }
         Passed::NotYet => {
-            painter.circle_stroke(at, RING, Stroke::new(1.5, t.edge));
+            painter.circle_stroke(position, RING, Stroke::new(1.5, t.edge));
             (None, t.t2)
         }
         Passed::Done => {
-            painter.circle(at, RING, t.okbg, Stroke::new(1.5, t.ok));
+            painter.circle(position, RING, t.okbg, Stroke::new(1.5, t.ok));
             (Some(Icon::Check), t.ok)
         }
         Passed::Skipped => {
-            painter.circle_stroke(at, RING, Stroke::new(1.5, t.t3));
+            painter.circle_stroke(position, RING, Stroke::new(1.5, t.t3));
             (Some(Icon::Dash), t.t3)
         }
     };
     if let Some(icon) = icon {
-        icons::paint(painter, paint::square(at, 14.0), icon, colour);
+        icons::paint(painter, paint::square(position, 14.0), icon, colour);
     } else {
         let number = step.number().to_string();
-        paint::text(ui, at, Align2::CENTER_CENTER, number, text::body_medium(), colour);
+        paint::text(ui, position, Align2::CENTER_CENTER, number, text::body_medium(), colour);
     }
 }
 

@@ -13,7 +13,7 @@ use crate::{
             card,
             form::{LABEL, note, text_field},
             input::focus_to_replace,
-            told::{Tone, line},
+            status_line::{Tone, line},
         },
     },
 };
@@ -38,17 +38,18 @@ pub(super) fn show(ui: &mut Ui, model: &Model, draft: &mut SetupDraft, wants_foc
         fields(ui, draft, 1..super::draft::SITE_FIELDS);
     });
     for (name, place) in draft.places(model) {
-        let there = crate::ui::words::place(place.latitude_deg, place.longitude_deg);
-        if ui.button(format!("Use the location of {name}: {there}")).clicked() {
+        let place_text = crate::ui::words::place(place.latitude_deg, place.longitude_deg);
+        if ui.button(format!("Use the location of {name}: {place_text}")).clicked() {
             draft.put_place(place.latitude_deg, place.longitude_deg, OF_UNIT);
             draft.locator.clear();
         }
     }
     let Some(site) = draft.place() else { return };
     card::show(ui, CARD, |ui| {
-        let there = crate::ui::words::place(site.latitude().degrees(), site.longitude().degrees());
+        let place_text =
+            crate::ui::words::place(site.latitude().degrees(), site.longitude().degrees());
         let t = theme::tokens(ui);
-        ui.label(RichText::new(there).font(text::value()).color(t.t1));
+        ui.label(RichText::new(place_text).font(text::value()).color(t.t1));
         line(ui, Tone::Now, &crate::ui::words::sun_there(sun_moon::sun(site, model.now)));
         if let Some((name, km)) = draft.off_the_told_km(model) {
             let (tone, words) =
@@ -58,10 +59,10 @@ pub(super) fn show(ui: &mut Ui, model: &Model, draft: &mut SetupDraft, wants_foc
     });
 }
 
-fn fields(ui: &mut Ui, draft: &mut SetupDraft, which: std::ops::Range<usize>) -> Vec<Response> {
+fn fields(ui: &mut Ui, draft: &mut SetupDraft, range: std::ops::Range<usize>) -> Vec<Response> {
     let standings = draft.site_standings();
-    let standings = standings.get(which.clone()).unwrap_or_default();
-    let fields = draft.form.ground.fields.get_mut(which).unwrap_or_default();
+    let standings = standings.get(range.clone()).unwrap_or_default();
+    let fields = draft.form.ground.fields.get_mut(range).unwrap_or_default();
     form::fields(ui, "site", fields, standings)
 }
 
@@ -82,7 +83,7 @@ fn locator(ui: &mut Ui, draft: &mut SetupDraft, unit: DistanceUnit) {
             ("A Maidenhead locator fills in latitude and longitude.".to_owned(), t.t3)
         }
         Ok(square) => (words::square(square, unit), t.t3),
-        Err(why) => (format!("Locator {why}."), t.bad),
+        Err(locator_error) => (format!("Locator {locator_error}."), t.bad),
     };
     note(ui, &words, colour);
 }

@@ -15,7 +15,7 @@ use crate::{
         icons::{self, Icon},
         text, theme,
         tokens::Tokens,
-        widgets::{paint, told::Tone},
+        widgets::{paint, status_line::Tone},
         words::OLD_ELEMENTS_S,
     },
 };
@@ -63,7 +63,7 @@ pub(super) fn ready(parts: &[Part]) -> String {
 }
 
 pub(super) fn site(draft: &SetupDraft, progress: Progress) -> (Tone, String) {
-    match (progress.of(Step::Site), draft.site()) {
+    match (progress.outcome(Step::Site), draft.site()) {
         (Passed::Skipped, _) => (Tone::Caution, "skipped: as in the demo".to_owned()),
         (_, Some((_, site))) => {
             let words =
@@ -89,7 +89,7 @@ pub(super) fn elements(model: &Model, draft: &SetupDraft) -> (Tone, String) {
         CatalogState::Ready(catalog) => catalog,
     };
     let chosen = draft.favourites.numbers().into_iter().filter_map(|number| catalog.get(number));
-    let Some(age_s) = chosen.map(|of| of.age_s(model.now)).reduce(f64::max) else {
+    let Some(age_s) = chosen.map(|set| set.age_s(model.now)).reduce(f64::max) else {
         return (Tone::Good, crate::ui::elements::objects(catalog.len()));
     };
     let tone = if age_s > OLD_ELEMENTS_S { Tone::Caution } else { Tone::Good };
@@ -112,8 +112,8 @@ pub(super) fn show(ui: &Ui, rect: Rect, model: &Model, draft: &SetupDraft, progr
         let row = Rect::from_min_size(pos2(inner.left(), top), vec2(inner.width(), ROW));
         ui.painter().hline(row.x_range(), row.top(), (1.0, t.line));
         let (icon, colour) = look(part.tone, t);
-        let at = pos2(row.left() + 6.0, row.center().y);
-        icons::paint(ui.painter(), paint::square(at, 12.0), icon, colour);
+        let position = pos2(row.left() + 6.0, row.center().y);
+        icons::paint(ui.painter(), paint::square(position, 12.0), icon, colour);
         let name = row.with_min_x(row.left() + 24.0).with_max_x(row.left() + 112.0);
         paint::text_in(ui, name, Align2::LEFT_CENTER, &part.name, text::body(), t.t1);
         let state = row.with_min_x(name.right() + 4.0);

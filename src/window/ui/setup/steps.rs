@@ -43,7 +43,7 @@ impl Step {
 
     /// Title, and what the step is for.
     pub(super) fn title(self) -> (&'static str, &'static str) {
-        let about = match self {
+        let description = match self {
             Self::Site => {
                 "Where are the antennas? Passes and directions are computed for this location."
             }
@@ -58,7 +58,7 @@ impl Step {
             }
             Self::End => "This is what Finish saves. Sources that you added are saved already.",
         };
-        (self.name(), about)
+        (self.name(), description)
     }
 }
 
@@ -76,7 +76,7 @@ pub(super) enum Passed {
 pub(super) struct Progress([Passed; Step::NUMBERED.len()]);
 
 impl Progress {
-    pub(super) fn of(self, step: Step) -> Passed {
+    pub(super) fn outcome(self, step: Step) -> Passed {
         self.0.get(step as usize).copied().unwrap_or_default()
     }
 
@@ -89,8 +89,8 @@ impl Progress {
     }
 
     fn set(&mut self, step: Step, passed: Passed) {
-        if let Some(known) = self.0.get_mut(step as usize) {
-            *known = passed;
+        if let Some(state) = self.0.get_mut(step as usize) {
+            *state = passed;
         }
     }
 }

@@ -29,64 +29,72 @@ fn circles(dome: Dome, scene: &SkyScene<'_>) -> impl Iterator<Item = (Pos2, f32)
     let ring = ring(dome, scene) / 2.0;
     let measured = scene.measured.map(|measured| (measured.direction, CROSS_HAIR / 2.0));
     let commanded = scene.commanded.map(|commanded| (commanded, ring));
-    let ghost = scene.ghost.map(|ghost| (ghost.to, ring));
+    let ghost = scene.ghost.map(|ghost| (ghost.end, ring));
     let all = [measured, commanded, ghost].into_iter().flatten();
     all.filter_map(move |(direction, radius)| Some((dome.point(direction)?, radius)))
 }
 
 /// Keeps labels away from the cross-hair and the rings.
 pub(super) fn reserve(dome: Dome, scene: &SkyScene<'_>, labels: &mut Labels<'_>) {
-    for (at, radius) in circles(dome, scene) {
-        labels.reserve(paint::square(at, 2.0 * radius));
+    for (position, radius) in circles(dome, scene) {
+        labels.reserve(paint::square(position, 2.0 * radius));
     }
     if let Some(measured) = scene.measured.filter(|measured| measured.lost.is_some())
-        && let Some(at) = dome.point(measured.direction)
+        && let Some(position) = dome.point(measured.direction)
     {
-        labels.reserve(Rect::from_min_size(at + vec2(NOTE, -2.0 * NOTE), vec2(44.0, 4.0 * NOTE)));
+        labels.reserve(Rect::from_min_size(
+            position + vec2(NOTE, -2.0 * NOTE),
+            vec2(44.0, 4.0 * NOTE),
+        ));
     }
 }
 
 /// Distance of a label from its mark, in points. Clears the antenna if `mark` lies in one of
-/// the antenna's circles; otherwise `usual`.
-pub(super) fn clearance(dome: Dome, scene: &SkyScene<'_>, mark: Pos2, usual: f32) -> f32 {
+/// the antenna's circles; otherwise `default`.
+pub(super) fn clearance(dome: Dome, scene: &SkyScene<'_>, mark: Pos2, default: f32) -> f32 {
     circles(dome, scene)
-        .map(|(at, radius)| (at.distance(mark), radius))
+        .map(|(position, radius)| (position.distance(mark), radius))
         .filter(|(distance, radius)| distance < radius)
         .map(|(distance, radius)| distance + radius + 1.0)
-        .fold(usual, f32::max)
+        .fold(default, f32::max)
 }
 
 /// Sides of a label beside `mark`, and its distance: on the side away from the antenna it clears
 /// the antenna's circles where it is nearest to its own mark.
-pub(super) fn aside(dome: Dome, scene: &SkyScene<'_>, mark: Pos2, usual: f32) -> ([Side; 8], f32) {
-    let (away, clearance) = circles(dome, scene)
-        .map(|(at, radius)| (mark - at, radius + 1.0 - at.distance(mark)))
-        .fold((Vec2::ZERO, usual), |most, next| if next.1 > most.1 { next } else { most });
-    (Side::towards(away), clearance)
+pub(super) fn beam_label_place(
+    dome: Dome,
+    scene: &SkyScene<'_>,
+    mark: Pos2,
+    default: f32,
+) -> ([Side; 8], f32) {
+    let (outward, clearance) = circles(dome, scene)
+        .map(|(position, radius)| (mark - position, radius + 1.0 - position.distance(mark)))
+        .fold((Vec2::ZERO, default), |max, next| if next.1 > max.1 { next } else { max });
+    (Side::by_nearness(outward), clearance)
 }
 
 /// Paints the preview, the commanded ring and the cross-hair, in this order.
 pub(super) fn paint(painter: &Painter, dome: Dome, scene: &SkyScene<'_>, t: &Tokens) {
     let ring = ring(dome, scene);
     if let Some(ghost) = scene.ghost
-        && let Some(to) = dome.point(ghost.to)
+        && let Some(end) = dome.point(ghost.end)
     {
         let way = ghost.way.iter().filter_map(|direction| dome.point(*direction)).collect();
         painter.add(Shape::line(way, Stroke::new(1.0, t.cmd)));
-        marks::ghost(painter, to, ring, ghost.is_refused, t);
+        marks::ghost(painter, end, ring, ghost.is_refused, t);
     }
-    if let Some(at) = scene.commanded.and_then(|commanded| dome.point(commanded)) {
-        marks::commanded(painter, at, ring, t);
+    if let Some(position) = scene.commanded.and_then(|commanded| dome.point(commanded)) {
+        marks::commanded(painter, position, ring, t);
     }
     let Some(measured) = scene.measured else { return };
-    let Some(at) = dome.point(measured.direction) else { return };
+    let Some(position) = dome.point(measured.direction) else { return };
     match measured.lost {
-        None => marks::measured(painter, sharp(at), 1.0, t),
+        None => marks::measured(painter, sharp(position), 1.0, t),
         Some(age) => {
-            marks::lost(painter, at, 1.0, t);
-            let note = |from: Vec2, anchor: Align2, words: &str| {
+            marks::lost(painter, position, 1.0, t);
+            let note = |start: Vec2, anchor: Align2, words: &str| {
                 let galley = painter.layout_no_wrap(words.to_owned(), text::small_strong(), t.t3);
-                let place = anchor.anchor_size(at + from, galley.size());
+                let place = anchor.anchor_size(position + start, galley.size());
                 painter.rect_filled(place.expand(1.0), 0.0, t.sky);
                 painter.galley(place.min, galley, t.t3);
             };
@@ -110,15 +118,15 @@ mod tests {
         let target = AzEl::from_degrees(120.0, 40.0);
         let mark = dome.point(target).unwrap();
         let far = mark + vec2(60.0, 0.0);
-        let with = |beam_deg| SkyScene {
+        let scene = |beam_deg| SkyScene {
             commanded: Some(target),
             beam_width: Angle::from_degrees(beam_deg),
             ..testing::empty()
         };
-        assert!((clearance(dome, &with(0.88), mark, 8.0) - 12.0).abs() < 1e-3);
+        assert!((clearance(dome, &scene(0.88), mark, 8.0) - 12.0).abs() < 1e-3);
         // 20 degrees are 60 points.
-        assert!((clearance(dome, &with(20.0), mark, 8.0) - 31.0).abs() < 1e-3);
-        assert!((clearance(dome, &with(20.0), far, 8.0) - 8.0).abs() < 1e-3);
-        assert!((clearance(dome, &with(f64::NAN), mark, 8.0) - 12.0).abs() < 1e-3);
+        assert!((clearance(dome, &scene(20.0), mark, 8.0) - 31.0).abs() < 1e-3);
+        assert!((clearance(dome, &scene(20.0), far, 8.0) - 8.0).abs() < 1e-3);
+        assert!((clearance(dome, &scene(f64::NAN), mark, 8.0) - 12.0).abs() < 1e-3);
     }
 }

@@ -65,8 +65,8 @@ pub(super) fn paint(painter: &Painter, rect: Rect, scene: &SkyScene<'_>, t: &Tok
         (!shown.any_nan()).then(|| centre + shown)
     };
     for (across, up) in scene.recent_errors {
-        if let Some(at) = point(*across, *up) {
-            painter.circle_filled(at, 1.0, t.t3);
+        if let Some(position) = point(*across, *up) {
+            painter.circle_filled(position, 1.0, t.t3);
         }
     }
     if beam_deg.is_finite() && beam_deg > 0.0 {
@@ -77,8 +77,8 @@ pub(super) fn paint(painter: &Painter, rect: Rect, scene: &SkyScene<'_>, t: &Tok
     marks::selected(painter, centre, t);
     if let Some(measured) = scene.measured.filter(|m| m.lost.is_none() && is_finite(&m.direction)) {
         let (across, up) = error_deg(measured.direction, predicted);
-        if let Some(at) = point(across as f32, up as f32) {
-            marks::measured(&painter.with_clip_rect(view.expand(EDGE)), at, 0.75, t);
+        if let Some(position) = point(across as f32, up as f32) {
+            marks::measured(&painter.with_clip_rect(view.expand(EDGE)), position, 0.75, t);
         }
     }
     let caption = format!(
@@ -86,8 +86,8 @@ pub(super) fn paint(painter: &Painter, rect: Rect, scene: &SkyScene<'_>, t: &Tok
         format::degrees(beam_deg, 2),
         format::number(half, decimals(half))
     );
-    let at = pos2(rect.right() - EDGE, rect.bottom() - EDGE);
-    painter.text(at, Align2::RIGHT_BOTTOM, caption, text::caption(), t.t2);
+    let position = pos2(rect.right() - EDGE, rect.bottom() - EDGE);
+    painter.text(position, Align2::RIGHT_BOTTOM, caption, text::caption(), t.t2);
 }
 
 fn is_finite(direction: &AzEl) -> bool {

@@ -22,17 +22,17 @@ const DASHES: (f32, f32) = (4.0, 3.0);
 
 /// From the zenith to the rim; none when the azimuth is not finite.
 fn ends(dome: Dome, azimuth: Angle) -> Option<[Pos2; 2]> {
-    let towards = outward(azimuth.radians() as f32);
-    azimuth.is_finite().then(|| [dome.centre, dome.centre + towards * dome.radius])
+    let direction = outward(azimuth.radians() as f32);
+    azimuth.is_finite().then(|| [dome.centre, dome.centre + direction * dome.radius])
 }
 
 /// The triangle at the rim, with its tip outwards.
 fn triangle(dome: Dome, azimuth: Angle) -> Option<(Pos2, Vec<Pos2>)> {
     let [_, rim] = ends(dome, azimuth)?;
-    let towards = outward(azimuth.radians() as f32);
-    let aside = towards.rot90() * (SIDE / 2.0);
-    let base = rim - towards * SIDE;
-    Some((rim - towards * (SIDE / 2.0), vec![rim, base + aside, base - aside]))
+    let direction = outward(azimuth.radians() as f32);
+    let sideways = direction.rot90() * (SIDE / 2.0);
+    let base = rim - direction * SIDE;
+    Some((rim - direction * (SIDE / 2.0), vec![rim, base + sideways, base - sideways]))
 }
 
 /// The measured azimuth or the limit, such as "043°" or "at CCW limit".
@@ -60,7 +60,7 @@ pub(super) fn label(labels: &mut Labels<'_>, dome: Dome, scene: &SkyScene<'_>, t
     if let Some(ends) = ends(dome, azimuth) {
         labels.reserve_path(&ends, 4.0);
     }
-    let now = if scene.then.is_some() { " now" } else { "" };
+    let now = if scene.later.is_some() { " now" } else { "" };
     let name = format!("{}{now}", words(bearing));
     let colour = if bearing.lost.is_some() { t.t3 } else { t.ant };
     labels.add(&Label {
@@ -116,9 +116,9 @@ mod tests {
     fn the_line_leads_to_the_rim_and_the_triangle_ends_there() {
         let dome = Dome { centre: pos2(300.0, 300.0), radius: 200.0 };
         let east = Angle::from_degrees(90.0);
-        let [from, to] = ends(dome, east).unwrap();
-        assert_eq!(from, dome.centre);
-        assert!(to.distance(pos2(500.0, 300.0)) < 1e-3, "{to}");
+        let [start, end] = ends(dome, east).unwrap();
+        assert_eq!(start, dome.centre);
+        assert!(end.distance(pos2(500.0, 300.0)) < 1e-3, "{end}");
         let (middle, corners) = triangle(dome, east).unwrap();
         assert!(middle.distance(pos2(494.0, 300.0)) < 1e-3, "{middle}");
         assert!(corners.iter().all(|corner| corner.distance(dome.centre) < 200.1), "{corners:?}");

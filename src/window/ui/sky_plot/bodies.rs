@@ -28,14 +28,14 @@ pub(super) fn sun_and_moon(
     labels: &mut Labels<'_>,
     t: &Tokens,
 ) {
-    let at = |body: Option<AzEl>| body.and_then(|direction| dome.visible(direction));
-    if let Some(at) = at(scene.sun) {
-        marks::sun(painter, at, t);
-        labels.reserve(paint::square(at, 22.0));
+    let mark = |body: Option<AzEl>| body.and_then(|direction| dome.visible(direction));
+    if let Some(position) = mark(scene.sun) {
+        marks::sun(painter, position, t);
+        labels.reserve(paint::square(position, 22.0));
     }
-    if let Some(at) = at(scene.moon) {
-        marks::moon(painter, at, t);
-        labels.reserve(paint::square(at, 16.0));
+    if let Some(position) = mark(scene.moon) {
+        marks::moon(painter, position, t);
+        labels.reserve(paint::square(position, 16.0));
     }
 }
 
@@ -49,7 +49,7 @@ pub(super) fn label_sun_and_moon(
     let live = scene.measured.filter(|measured| measured.lost.is_none());
     let beam = live.map(|measured| measured.direction).or(scene.commanded);
     // The beam of now is no neighbour of the Sun of another time.
-    let beam = beam.filter(|_| scene.then.is_none());
+    let beam = beam.filter(|_| scene.later.is_none());
     let bodies =
         [(Key::Sun, "Sun", scene.sun, 13.0, t.sun), (Key::Moon, "Moon", scene.moon, 9.0, t.moon)];
     for (key, word, direction, clearance, colour) in bodies {
@@ -61,7 +61,7 @@ pub(super) fn label_sun_and_moon(
             Some(distance) => format!("{word} {}", format::degrees(distance, 1)),
             None => word.to_owned(),
         };
-        let (order, clearance) = antenna::aside(dome, scene, mark, clearance);
+        let (order, clearance) = antenna::beam_label_place(dome, scene, mark, clearance);
         labels.add(&Label {
             key,
             lines: &[(&name, text::small(), colour)],
@@ -76,7 +76,7 @@ pub(super) fn label_sun_and_moon(
 /// A satellite above the horizon that is not selected, in the plot.
 pub(super) struct Dot<'a> {
     pub(super) satellite: &'a OtherSatellite<'a>,
-    pub(super) at: Pos2,
+    pub(super) position: Pos2,
     /// Its path of the next minutes.
     ahead: Vec<Pos2>,
 }
@@ -84,8 +84,8 @@ pub(super) struct Dot<'a> {
 /// The satellites that are not selected.
 pub(super) fn dots<'a>(dome: Dome, others: &'a [OtherSatellite<'a>]) -> Vec<Dot<'a>> {
     let dots = others.iter().filter_map(|satellite| {
-        let at = dome.visible(satellite.direction)?;
-        Some(Dot { satellite, at, ahead: dome.path(satellite.ahead.iter().copied()) })
+        let position = dome.visible(satellite.direction)?;
+        Some(Dot { satellite, position, ahead: dome.path(satellite.ahead.iter().copied()) })
     });
     dots.collect()
 }
@@ -99,10 +99,10 @@ pub(super) fn paths(painter: &Painter, dots: &[Dot<'_>], t: &Tokens) {
 
 /// Paints the other satellites, and keeps labels away from them and their paths.
 pub(super) fn others(painter: &Painter, dots: &[Dot<'_>], labels: &mut Labels<'_>, t: &Tokens) {
-    for Dot { satellite, at, ahead } in dots {
+    for Dot { satellite, position, ahead } in dots {
         labels.reserve_path(ahead, 3.0);
-        marks::other(painter, *at, satellite.geostationary, t);
-        labels.reserve(paint::square(*at, 8.0));
+        marks::other(painter, *position, satellite.geostationary, t);
+        labels.reserve(paint::square(*position, 8.0));
     }
 }
 
@@ -114,15 +114,15 @@ pub(super) fn label_others(
     dots: &[Dot<'_>],
     t: &Tokens,
 ) {
-    for Dot { satellite, at, .. } in dots {
+    for Dot { satellite, position, .. } in dots {
         if satellite.direction.elevation_deg() < LOWEST_NAME_DEG {
             continue;
         }
         labels.add(&Label {
             key: Key::Other(satellite.catalog_number),
             lines: &[(satellite.name, text::small(), t.t2)],
-            mark: *at,
-            clearance: antenna::clearance(dome, scene, *at, 6.0),
+            mark: *position,
+            clearance: antenna::clearance(dome, scene, *position, 6.0),
             order: &Side::ORDER,
             tolerance: 0.4,
         });

@@ -46,12 +46,12 @@ pub(super) fn upper_right(ui: &Ui, rect: Rect, layers: &mut Layers, t: &Tokens) 
             close_key::show(ui);
         });
 
-    let beside = button.left_center() - vec2(8.0, 0.0);
+    let position = button.left_center() - vec2(8.0, 0.0);
     let words = "N up, E right";
     let size = vec2(paint::text_width(ui, words, text::small()), 16.0);
-    let ground = Align2::RIGHT_CENTER.anchor_size(beside, size).expand(2.0);
+    let ground = Align2::RIGHT_CENTER.anchor_size(position, size).expand(2.0);
     ui.painter().rect_filled(ground, 0.0, t.bg0);
-    paint::text(ui, beside, Align2::RIGHT_CENTER, words, text::small(), t.t2);
+    paint::text(ui, position, Align2::RIGHT_CENTER, words, text::small(), t.t2);
 }
 
 /// The rectangle of the legend, if nothing lies over it, the plot is high enough and the legend clears
@@ -92,8 +92,8 @@ pub(super) fn lower_left(
     let response = icon_button(ui, "legend", button, "Legend", t);
     let icon = paint::square(button.left_center() + vec2(16.0, 0.0), 14.0);
     icons::paint(ui.painter(), icon, Icon::Info, t.t2);
-    let at = button.left_center() + vec2(29.0, 0.0);
-    paint::text(ui, at, Align2::LEFT_CENTER, "Legend", text::small(), t.t1);
+    let position = button.left_center() + vec2(29.0, 0.0);
+    paint::text(ui, position, Align2::LEFT_CENTER, "Legend", text::small(), t.t1);
     Popup::from_toggle_button_response(&response)
         .accessible_name("Legend of the sky plot")
         .close_behavior(PopupCloseBehavior::CloseOnClickOutside)

@@ -29,15 +29,16 @@ impl Dome {
     /// horizon lies outside the rim.
     pub(in crate::ui) fn point(&self, direction: AzEl) -> Option<Pos2> {
         let finite = direction.azimuth.is_finite() && direction.elevation.is_finite();
-        finite
-            .then(|| self.at(direction.azimuth.radians() as f32, direction.elevation_deg() as f32))
+        finite.then(|| {
+            self.point_at(direction.azimuth.radians() as f32, direction.elevation_deg() as f32)
+        })
     }
 
     /// The direction at a point; none outside the rim.
-    pub(in crate::ui) fn direction(&self, at: Pos2) -> Option<AzEl> {
-        let off = at - self.centre;
-        let from_zenith = f64::from(off.length() / self.radius);
-        let azimuth_deg = f64::from(off.x.atan2(-off.y)).to_degrees().rem_euclid(360.0);
+    pub(in crate::ui) fn direction(&self, position: Pos2) -> Option<AzEl> {
+        let offset = position - self.centre;
+        let from_zenith = f64::from(offset.length() / self.radius);
+        let azimuth_deg = f64::from(offset.x.atan2(-offset.y)).to_degrees().rem_euclid(360.0);
         (from_zenith <= 1.0).then(|| AzEl::from_degrees(azimuth_deg, 90.0 * (1.0 - from_zenith)))
     }
 
@@ -52,7 +53,7 @@ impl Dome {
     }
 
     /// The point at an azimuth in radians and an elevation in degrees.
-    pub(in crate::ui) fn at(&self, azimuth_rad: f32, elevation_deg: f32) -> Pos2 {
+    pub(in crate::ui) fn point_at(&self, azimuth_rad: f32, elevation_deg: f32) -> Pos2 {
         self.centre + outward(azimuth_rad) * self.ring(elevation_deg)
     }
 
@@ -70,13 +71,13 @@ impl Dome {
     pub(in crate::ui) fn clipped(&self, rect: Rect) -> Option<Vec<Pos2>> {
         // Inside the line of the rim.
         let limit = self.radius - 1.0;
-        let inside = |point: Pos2| {
+        let moved_inside = |point: Pos2| {
             let from_centre = point - self.centre;
             let length = from_centre.length();
             if length > limit { self.centre + from_centre * (limit / length) } else { point }
         };
         let corners = [rect.left_top(), rect.right_top(), rect.right_bottom(), rect.left_bottom()];
-        (rect.center().distance(self.centre) < limit).then(|| corners.map(inside).to_vec())
+        (rect.center().distance(self.centre) < limit).then(|| corners.map(moved_inside).to_vec())
     }
 
     /// Returns `true` if a rectangle lies within the rim.
@@ -119,24 +120,24 @@ pub(in crate::ui) fn dashes(path: &[Pos2], dash: f32, gap: f32) -> Vec<Vec<Pos2>
     let mut current: Vec<Pos2> = path.first().copied().into_iter().collect();
     let (mut drawing, mut left) = (true, dash);
     for pair in path.windows(2) {
-        let &[from, to] = pair else { continue };
-        let length = from.distance(to);
+        let &[start, end] = pair else { continue };
+        let length = start.distance(end);
         let mut walked = 0.0;
         while length - walked > left {
             walked += left;
-            let at = from + (to - from) * (walked / length);
+            let position = start + (end - start) * (walked / length);
             if drawing {
-                current.push(at);
+                current.push(position);
                 done.push(std::mem::take(&mut current));
             } else {
-                current.push(at);
+                current.push(position);
             }
             drawing = !drawing;
             left = if drawing { dash } else { gap };
         }
         left -= length - walked;
         if drawing {
-            current.push(to);
+            current.push(end);
         }
     }
     if current.len() > 1 {
@@ -164,20 +165,21 @@ pub(in crate::ui) fn hatch(polygon: &[Pos2], spacing: f32, rising: bool) -> Vec<
     let level = |point: Pos2| point.x + side * point.y;
     let step = spacing * std::f32::consts::SQRT_2;
     let levels = polygon.iter().map(|point| level(*point));
-    let (low, high) =
-        levels.fold((f32::MAX, f32::MIN), |(low, high), at| (low.min(at), high.max(at)));
+    let (low, high) = levels.fold((f32::MAX, f32::MIN), |(low, high), position| {
+        (low.min(position), high.max(position))
+    });
     let mut lines = Vec::new();
-    let mut wanted = (low / step).ceil() * step;
-    while wanted < high {
+    let mut requested = (low / step).ceil() * step;
+    while requested < high {
         let edges = polygon.iter().zip(polygon.iter().cycle().skip(1));
-        let crossings = edges.filter_map(|(from, to)| {
-            let (a, b) = (level(*from) - wanted, level(*to) - wanted);
-            ((a < 0.0) != (b < 0.0)).then(|| from.lerp(*to, a / (a - b)))
+        let crossings = edges.filter_map(|(start, end)| {
+            let (a, b) = (level(*start) - requested, level(*end) - requested);
+            ((a < 0.0) != (b < 0.0)).then(|| start.lerp(*end, a / (a - b)))
         });
         let mut crossings: Vec<Pos2> = crossings.collect();
         crossings.sort_by(|a, b| a.x.total_cmp(&b.x));
         lines.extend(crossings.as_chunks::<2>().0);
-        wanted += step;
+        requested += step;
     }
     lines
 }
@@ -272,8 +274,10 @@ mod tests {
                 .collect();
             let expected = [(0.0, 7.0), (12.0, 19.0), (24.0, 30.0)];
             assert_eq!(ends.len(), expected.len(), "{ends:?}");
-            for (end, wanted) in ends.iter().zip(expected) {
-                assert!((end.0 - wanted.0).abs() < 0.01 && (end.1 - wanted.1).abs() < 0.01);
+            for (end, expected_end) in ends.iter().zip(expected) {
+                assert!(
+                    (end.0 - expected_end.0).abs() < 0.01 && (end.1 - expected_end.1).abs() < 0.01
+                );
             }
         }
     }
@@ -291,16 +295,16 @@ mod tests {
     #[test]
     fn hatches_stay_inside_their_polygon() {
         let square = [pos2(0.0, 0.0), pos2(40.0, 0.0), pos2(40.0, 40.0), pos2(0.0, 40.0)];
-        let around = Rect::from_min_max(pos2(0.0, 0.0), pos2(40.0, 40.0)).expand(0.01);
+        let outer = Rect::from_min_max(pos2(0.0, 0.0), pos2(40.0, 40.0)).expand(0.01);
         assert!(hatch(&[], 5.0, true).is_empty());
         for rising in [false, true] {
             let lines = hatch(&square, 5.0, rising);
             // The diagonal is 56.6 long.
             assert!((10..=12).contains(&lines.len()), "{}", lines.len());
-            for [from, to] in lines {
-                assert!(around.contains(from) && around.contains(to));
-                assert!(((to.y - from.y).abs() - (to.x - from.x).abs()).abs() < 0.01);
-                assert_eq!((to.y - from.y) * (to.x - from.x) < 0.0, rising);
+            for [start, end] in lines {
+                assert!(outer.contains(start) && outer.contains(end));
+                assert!(((end.y - start.y).abs() - (end.x - start.x).abs()).abs() < 0.01);
+                assert_eq!((end.y - start.y) * (end.x - start.x) < 0.0, rising);
             }
         }
     }

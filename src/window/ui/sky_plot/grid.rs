@@ -39,7 +39,7 @@ pub(in crate::ui) fn rings(painter: &Painter, dome: Dome, t: &Tokens) {
     }
     for (index, azimuth_deg) in (0..360_u16).step_by(30).enumerate() {
         let azimuth = f32::from(azimuth_deg).to_radians();
-        let spoke = [dome.at(azimuth, SPOKE_TOP_DEG), dome.at(azimuth, 0.0)];
+        let spoke = [dome.point_at(azimuth, SPOKE_TOP_DEG), dome.point_at(azimuth, 0.0)];
         if index.is_multiple_of(3) {
             painter.line_segment(spoke, thin);
         } else {
@@ -55,9 +55,9 @@ pub(in crate::ui) fn rings(painter: &Painter, dome: Dome, t: &Tokens) {
 /// Paints the numbers of the rings, where nothing else has a place.
 pub(in crate::ui) fn ring_numbers(painter: &Painter, dome: Dome, t: &Tokens) {
     for elevation in RINGS {
-        let at = dome.at(std::f32::consts::FRAC_PI_2, elevation);
+        let position = dome.point_at(std::f32::consts::FRAC_PI_2, elevation);
         let galley = painter.layout_no_wrap(format!("{elevation}°"), text::caption(), t.t3);
-        let place = Rect::from_center_size(at, galley.size());
+        let place = Rect::from_center_size(position, galley.size());
         painter.rect_filled(place.expand2(vec2(3.0, 0.0)), 0.0, t.sky);
         painter.galley(place.min, galley, t.t3);
     }
@@ -68,7 +68,8 @@ pub(in crate::ui) fn label_rings(labels: &mut Labels<'_>, dome: Dome) {
     const SPOKES_DEG: [f32; 10] =
         [90.0, 270.0, 60.0, 120.0, 240.0, 300.0, 30.0, 150.0, 210.0, 330.0];
     for elevation in RINGS {
-        let places = SPOKES_DEG.map(|azimuth_deg| dome.at(azimuth_deg.to_radians(), elevation));
+        let places =
+            SPOKES_DEG.map(|azimuth_deg| dome.point_at(azimuth_deg.to_radians(), elevation));
         labels.add_number(format!("{elevation}°"), &places);
     }
 }
@@ -83,9 +84,9 @@ pub(in crate::ui) fn rim(painter: &Painter, dome: Dome, minimum: Angle, t: &Toke
     }
     painter.circle_stroke(dome.centre, dome.radius, Stroke::new(1.5, t.edge));
     let name_at = |azimuth_deg: u16| {
-        let towards = outward(f32::from(azimuth_deg).to_radians());
-        let foot = dome.centre + towards * dome.radius;
-        painter.line_segment([foot, foot + towards * 5.0], Stroke::new(1.0, t.edge));
+        let direction = outward(f32::from(azimuth_deg).to_radians());
+        let foot = dome.centre + direction * dome.radius;
+        painter.line_segment([foot, foot + direction * 5.0], Stroke::new(1.0, t.edge));
         let (name, font, colour) = match azimuth_deg {
             0 => ("N".to_owned(), text::sized(14.0, Weight::Bold), t.t1),
             90 => ("E".to_owned(), text::sized(14.0, Weight::Bold), t.t1),
@@ -93,7 +94,7 @@ pub(in crate::ui) fn rim(painter: &Painter, dome: Dome, minimum: Angle, t: &Toke
             270 => ("W".to_owned(), text::sized(14.0, Weight::Bold), t.t1),
             _ => (format!("{azimuth_deg:03}"), text::caption(), t.t3),
         };
-        painter.text(foot + towards * NAMES, Align2::CENTER_CENTER, name, font, colour)
+        painter.text(foot + direction * NAMES, Align2::CENTER_CENTER, name, font, colour)
     };
     (0..360).step_by(30).map(name_at).collect()
 }
@@ -101,8 +102,8 @@ pub(in crate::ui) fn rim(painter: &Painter, dome: Dome, minimum: Angle, t: &Toke
 /// The boxes of the azimuth names, as far as their size is known without painting them.
 pub(in crate::ui) fn name_boxes(dome: Dome) -> Vec<Rect> {
     let box_at = |azimuth_deg: u16| {
-        let towards = outward(f32::from(azimuth_deg).to_radians());
-        let centre = dome.centre + towards * (dome.radius + NAMES);
+        let direction = outward(f32::from(azimuth_deg).to_radians());
+        let centre = dome.centre + direction * (dome.radius + NAMES);
         Rect::from_center_size(centre, NAME_SIZE)
     };
     (0..360).step_by(30).map(box_at).collect()
@@ -144,12 +145,12 @@ pub(in crate::ui) fn cap(dome: Dome, azimuth: Angle, radius: Angle) -> Vec<Pos2>
     // Without the ends, which rounding could put below the rim.
     let arc = (1..30_u8).filter_map(|step| {
         let (up, side) = (f64::from(step) * 6.0).to_radians().sin_cos();
-        let towards = along * side + glam::DVec3::Z * up;
-        dome.point(AzEl::from_enu(middle * cos + towards * sin))
+        let direction = along * side + glam::DVec3::Z * up;
+        dome.point(AzEl::from_enu(middle * cos + direction * sin))
     });
     let rim = (0..=10_u8).map(|step| {
         let part = f64::from(step) / 5.0 - 1.0;
-        dome.at((azimuth + radius * part).radians() as f32, 0.0)
+        dome.point_at((azimuth + radius * part).radians() as f32, 0.0)
     });
     arc.chain(rim).collect()
 }

@@ -27,18 +27,19 @@ const PADDING: f32 = 3.0;
 pub(in crate::ui) fn paint(painter: &Painter, dome: Dome, marks: &[KeepOutMark<'_>], t: &Tokens) {
     for mark in marks {
         let area = outline(dome, mark.zone);
-        let around = margin(dome, mark.zone, mark.margin);
+        let points = margin(dome, mark.zone, mark.margin);
         if area.len() < 3 {
             continue;
         }
-        if around.len() > 2 {
+        if points.len() > 2 {
             // Even-odd rule: an area in both outlines is left out.
-            let closed = around.iter().chain(around.first());
-            let both: Vec<Pos2> = closed.chain(&area).chain(area.first()).copied().collect();
+            let closed = points.iter().chain(points.first());
+            let both_outlines: Vec<Pos2> =
+                closed.chain(&area).chain(area.first()).copied().collect();
             let thin = Stroke::new(0.75, t.bad);
-            let lines = hatch(&both, HATCH, true).into_iter();
+            let lines = hatch(&both_outlines, HATCH, true).into_iter();
             painter.extend(lines.map(|line| Shape::line_segment(line, thin)));
-            let ring: Vec<Pos2> = around.iter().chain(around.first()).copied().collect();
+            let ring: Vec<Pos2> = points.iter().chain(points.first()).copied().collect();
             painter.extend(dashed(&ring, 4.0, 3.0, Stroke::new(1.25, t.bad)));
         }
         painter.add(filled(&area, t.keep));
@@ -54,8 +55,8 @@ pub(in crate::ui) fn words(
     t: &Tokens,
 ) -> Vec<Rect> {
     let areas = marks.iter().map(|mark| (mark, outline(dome, mark.zone)));
-    let seen = areas.filter(|(_, area)| area.len() > 2);
-    seen.map(|(mark, area)| label(painter, dome, &area, mark.name, t)).collect()
+    let visible = areas.filter(|(_, area)| area.len() > 2);
+    visible.map(|(mark, area)| label(painter, dome, &area, mark.name, t)).collect()
 }
 
 /// The area of a zone above the horizon.
@@ -85,16 +86,16 @@ fn above_horizon(dome: Dome, directions: impl IntoIterator<Item = AzEl>) -> Vec<
 /// A filled area of any form, in strips: a line covers its rough edges.
 pub(in crate::ui) fn filled(outline: &[Pos2], colour: Color32) -> Mesh {
     let mut mesh = Mesh::default();
-    let (low, high) = outline
-        .iter()
-        .fold((f32::MAX, f32::MIN), |(low, high), at| (low.min(at.y), high.max(at.y)));
+    let (low, high) = outline.iter().fold((f32::MAX, f32::MIN), |(low, high), position| {
+        (low.min(position.y), high.max(position.y))
+    });
     let mut y = low.floor();
     while y < high {
         let middle = y + STRIP / 2.0;
         let edges = outline.iter().zip(outline.iter().cycle().skip(1));
-        let crossings = edges.filter_map(|(from, to)| {
-            let (a, b) = (from.y - middle, to.y - middle);
-            ((a < 0.0) != (b < 0.0)).then(|| from.lerp(*to, a / (a - b)).x)
+        let crossings = edges.filter_map(|(start, end)| {
+            let (a, b) = (start.y - middle, end.y - middle);
+            ((a < 0.0) != (b < 0.0)).then(|| start.lerp(*end, a / (a - b)).x)
         });
         let mut crossings: Vec<f32> = crossings.collect();
         crossings.sort_by(f32::total_cmp);
@@ -115,26 +116,26 @@ fn label(painter: &Painter, dome: Dome, area: &[Pos2], name: &str, t: &Tokens) -
     let below = painter.layout_no_wrap(name.to_owned(), text::caption(), t.t1);
     let size = vec2(head.size().x.max(below.size().x), head.size().y + below.size().y)
         + vec2(2.0 * PADDING, 2.0 * PADDING);
-    let inside = Rect::from_center_size(bounds.center(), size);
+    let inner = Rect::from_center_size(bounds.center(), size);
     let fits = bounds.width() > size.x * 0.8 && bounds.height() > size.y * 0.8;
     let rect = if fits {
-        inside
+        inner
     } else {
-        let towards = (dome.centre - bounds.center()).normalized();
-        let away = (bounds.size() + size) / 2.0;
-        let by = (away.x * towards.x.abs()).max(away.y * towards.y.abs()) + 4.0;
-        inside.translate(towards * by)
+        let direction = (dome.centre - bounds.center()).normalized();
+        let outward = (bounds.size() + size) / 2.0;
+        let step = (outward.x * direction.x.abs()).max(outward.y * direction.y.abs()) + 4.0;
+        inner.translate(direction * step)
     };
     let ground = if fits { t.keep } else { t.sky };
     if let Some(corners) = dome.clipped(rect) {
         painter.add(Shape::convex_polygon(corners, ground, Stroke::NONE));
     }
-    let at = |y: f32, size: egui::Vec2| {
+    let position = |y: f32, size: egui::Vec2| {
         Align2::CENTER_TOP.align_size_within_rect(size, rect.with_min_y(y)).min
     };
     let (first, second) = (rect.top() + PADDING, rect.top() + PADDING + head.size().y);
-    painter.galley(at(first, head.size()), head, t.t1);
-    painter.galley(at(second, below.size()), below, t.t1);
+    painter.galley(position(first, head.size()), head, t.t1);
+    painter.galley(position(second, below.size()), below, t.t1);
     rect
 }
 
@@ -155,8 +156,8 @@ mod tests {
         // East is right; 30 degrees are 90 points from the rim.
         assert!((bounds.right() - 270.0).abs() < 0.5, "{bounds}");
         assert!((bounds.left() - 177.3).abs() < 0.5, "{bounds}");
-        let around = Rect::from_points(&margin(DOME, &mast, Angle::from_degrees(2.0)));
-        assert!(around.left() < bounds.left() - 5.0 && around.right() < 270.5, "{around}");
+        let outer = Rect::from_points(&margin(DOME, &mast, Angle::from_degrees(2.0)));
+        assert!(outer.left() < bounds.left() - 5.0 && outer.right() < 270.5, "{outer}");
     }
 
     #[test]

@@ -128,9 +128,11 @@ impl<'a> Labels<'a> {
     pub(super) fn add_number(&mut self, words: String, places: &[Pos2]) {
         let t = self.tokens;
         let galley = self.painter.layout_no_wrap(words, text::caption(), t.t3);
-        let on = |at: &Pos2| Rect::from_center_size(*at, galley.size() + vec2(6.0, 0.0));
+        let on =
+            |position: &Pos2| Rect::from_center_size(*position, galley.size() + vec2(6.0, 0.0));
         let is_free = |rect: &Rect| {
-            self.bounds.contains_rect(*rect) && !self.texts.iter().any(|of| of.intersects(*rect))
+            self.bounds.contains_rect(*rect)
+                && !self.texts.iter().any(|other| other.intersects(*rect))
         };
         let best = places
             .iter()
@@ -155,12 +157,12 @@ impl<'a> Labels<'a> {
     /// Keeps labels away from a line of `width` points.
     pub(in crate::ui) fn reserve_path(&mut self, path: &[Pos2], width: f32) {
         for pair in path.windows(2) {
-            let &[from, to] = pair else { continue };
-            let steps = (from.distance(to) / width).ceil().clamp(1.0, 500.0) as u16;
+            let &[start, end] = pair else { continue };
+            let steps = (start.distance(end) / width).ceil().clamp(1.0, 500.0) as u16;
             // The last point of a segment is the first one of the next segment.
             for step in 0..steps {
-                let at = from.lerp(to, f32::from(step) / f32::from(steps));
-                self.avoid(Rect::from_center_size(at, Vec2::splat(width)), LINE);
+                let position = start.lerp(end, f32::from(step) / f32::from(steps));
+                self.avoid(Rect::from_center_size(position, Vec2::splat(width)), LINE);
             }
         }
     }
@@ -193,8 +195,8 @@ impl<'a> Labels<'a> {
         // Keep the memory of the first choice: otherwise many small steps would add up
         // unnoticed.
         let chosen = Memory { side: place.side, covered: place.covered };
-        let kept = self.before.get(&label.key).filter(|memory| memory.side == place.side);
-        self.memory.insert(label.key, kept.copied().unwrap_or(chosen));
+        let previous = self.before.get(&label.key).filter(|memory| memory.side == place.side);
+        self.memory.insert(label.key, previous.copied().unwrap_or(chosen));
         if place.covered.min(1.0) > label.tolerance {
             return None;
         }
@@ -210,8 +212,8 @@ impl<'a> Labels<'a> {
     }
 
     fn paint(&mut self, label: &Label<'_>, place: Placement) {
-        let towards = place.side.direction();
-        let align = match towards.x {
+        let direction = place.side.direction();
+        let align = match direction.x {
             x if x < 0.0 => Align::RIGHT,
             x if x > 0.0 => Align::LEFT,
             _ => Align::Center,
@@ -224,9 +226,9 @@ impl<'a> Labels<'a> {
                 // Outside of the rim, too: what a label lies on must not run through it.
                 let is_across = dome.touches(place.rect) && !dome.holds(place.rect);
                 self.grounds.extend(is_across.then(|| on(self.tokens.bg0)));
-                let inside = dome.clipped(place.rect);
-                let sky = |inside| Shape::convex_polygon(inside, self.tokens.sky, Stroke::NONE);
-                self.grounds.extend(inside.map(sky));
+                let points = dome.clipped(place.rect);
+                let sky = |points| Shape::convex_polygon(points, self.tokens.sky, Stroke::NONE);
+                self.grounds.extend(points.map(sky));
             }
             None => self.grounds.push(on(self.tokens.sky)),
         }
@@ -293,7 +295,7 @@ mod tests {
                 lines: &[("1.78°, 01:22:10Z", text::small(), t.t1)],
                 mark,
                 clearance: 9.0,
-                order: &Side::towards(vec2(-1.0, 0.0)),
+                order: &Side::by_nearness(vec2(-1.0, 0.0)),
                 tolerance: 1.0,
             });
         });
@@ -312,7 +314,10 @@ mod tests {
         let few = labelled(60.0);
         assert!([Key::Aos, Key::Los].iter().all(|key| few.contains(key)));
         assert!(minutes(&few) < minutes(&all), "{few:?}");
-        let fewest = labelled(20.0);
-        assert!([Key::Aos, Key::Los].iter().all(|key| fewest.contains(key)), "{fewest:?}");
+        let labels_of_small = labelled(20.0);
+        assert!(
+            [Key::Aos, Key::Los].iter().all(|key| labels_of_small.contains(key)),
+            "{labels_of_small:?}"
+        );
     }
 }

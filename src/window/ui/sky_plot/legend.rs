@@ -29,44 +29,47 @@ pub(super) fn height(scene: &SkyScene<'_>) -> f32 {
     rows(scene).count() as f32 * ROW
 }
 
-/// Paints the legend with its upper left corner at `at`.
-pub(super) fn paint(ui: &Ui, at: Pos2, scene: &SkyScene<'_>, t: &Tokens) {
+/// Paints the legend with its upper left corner at `position`.
+pub(super) fn paint(ui: &Ui, position: Pos2, scene: &SkyScene<'_>, t: &Tokens) {
     for (index, (name, sample)) in rows(scene).enumerate() {
-        let middle = at + vec2(HALF, ROW * (index as f32 + 0.5));
+        let middle = position + vec2(HALF, ROW * (index as f32 + 0.5));
         sample(ui.painter(), middle, t);
-        let beside = middle + vec2(HALF + 10.0, 0.0);
-        let words = paint::text(ui, beside, Align2::LEFT_CENTER, name, text::small(), t.t2);
+        let point = middle + vec2(HALF + 10.0, 0.0);
+        let words = paint::text(ui, point, Align2::LEFT_CENTER, name, text::small(), t.t2);
         if name == KEYHOLE_NAME {
-            let row = words.with_min_x(at.x);
+            let row = words.with_min_x(position.x);
             paint::name_text(ui, "keyhole", row, KEYHOLE).on_hover_text(KEYHOLE);
         }
     }
 }
 
 fn rows(scene: &SkyScene<'_>) -> impl Iterator<Item = (&'static str, Sample)> {
-    let (commanded, measured) = match scene.then {
+    let (commanded, measured) = match scene.later {
         None => ("Commanded", "Measured"),
         Some(_) => ("Commanded now", "Measured now"),
     };
     let always: [(&str, Sample); 5] = [
         ("Satellite", marks::selected),
-        (commanded, |painter, at, t| {
-            painter.circle_stroke(at, 6.5, Stroke::new(2.0, t.cmd));
+        (commanded, |painter, position, t| {
+            painter.circle_stroke(position, 6.5, Stroke::new(2.0, t.cmd));
         }),
-        (measured, |painter, at, t| {
+        (measured, |painter, position, t| {
             for arm in [vec2(1.0, 0.0), vec2(-1.0, 0.0), vec2(0.0, 1.0), vec2(0.0, -1.0)] {
-                painter.line_segment([at + arm * 3.0, at + arm * 8.0], Stroke::new(2.0, t.ant));
+                painter.line_segment(
+                    [position + arm * 3.0, position + arm * 8.0],
+                    Stroke::new(2.0, t.ant),
+                );
             }
         }),
-        ("Planned path", |painter, at, t| {
-            let line = [at - vec2(HALF, 0.0), at + vec2(HALF, 0.0)];
+        ("Planned path", |painter, position, t| {
+            let line = [position - vec2(HALF, 0.0), position + vec2(HALF, 0.0)];
             painter.extend(dashed(&line, 5.0, 2.5, Stroke::new(2.0, t.sat)));
         }),
-        ("Other satellite", |painter, at, t| {
-            marks::other(painter, at, false, t);
+        ("Other satellite", |painter, position, t| {
+            marks::other(painter, position, false, t);
         }),
     ];
-    let planned = scene.then.map(|_| ("Planned antenna", planned as Sample));
+    let planned = scene.later.map(|_| ("Planned antenna", planned as Sample));
     let mask = scene.mask.map(|_| ("Horizon mask", mask as Sample));
     let keyhole = scene.keyholes.map(|_| (KEYHOLE_NAME, keyhole as Sample));
     let mut keep_outs = scene.keep_outs.iter();
@@ -79,29 +82,29 @@ fn rows(scene: &SkyScene<'_>) -> impl Iterator<Item = (&'static str, Sample)> {
     always.into_iter().chain(planned).chain(areas).chain(stop)
 }
 
-fn planned(painter: &Painter, at: Pos2, t: &Tokens) {
-    marks::planned(painter, at, 6.5, t);
+fn planned(painter: &Painter, position: Pos2, t: &Tokens) {
+    marks::planned(painter, position, 6.5, t);
 }
 
-fn stop(painter: &Painter, at: Pos2, t: &Tokens) {
+fn stop(painter: &Painter, position: Pos2, t: &Tokens) {
     let stroke = Stroke::new(3.0, t.bad);
-    let bar = at - vec2(HALF - 1.5, 0.0);
+    let bar = position - vec2(HALF - 1.5, 0.0);
     painter.line_segment([bar - vec2(0.0, 6.0), bar + vec2(0.0, 6.0)], stroke);
-    painter.line_segment([bar, at + vec2(HALF, 0.0)], stroke);
+    painter.line_segment([bar, position + vec2(HALF, 0.0)], stroke);
 }
 
-pub(in crate::ui) fn mask(painter: &Painter, at: Pos2, t: &Tokens) {
-    hatched(painter, at, (t.mask, t.hatch), true);
+pub(in crate::ui) fn mask(painter: &Painter, position: Pos2, t: &Tokens) {
+    hatched(painter, position, (t.mask, t.hatch), true);
 }
 
-pub(in crate::ui) fn keep_out(painter: &Painter, at: Pos2, t: &Tokens) {
-    let area = Rect::from_center_size(at, vec2(2.0 * HALF, 11.0));
+pub(in crate::ui) fn keep_out(painter: &Painter, position: Pos2, t: &Tokens) {
+    let area = Rect::from_center_size(position, vec2(2.0 * HALF, 11.0));
     let stroke = Stroke::new(1.25, t.bad);
     painter.rect(area, 0.0, t.keep, stroke, egui::StrokeKind::Inside);
 }
 
-pub(in crate::ui) fn margin(painter: &Painter, at: Pos2, t: &Tokens) {
-    let area = Rect::from_center_size(at, vec2(2.0 * HALF, 11.0));
+pub(in crate::ui) fn margin(painter: &Painter, position: Pos2, t: &Tokens) {
+    let area = Rect::from_center_size(position, vec2(2.0 * HALF, 11.0));
     let mut ring = vec![area.left_top(), area.right_top(), area.right_bottom(), area.left_bottom()];
     let lines = hatch(&ring, 4.0, true);
     let thin = Stroke::new(0.75, t.bad);
@@ -110,13 +113,13 @@ pub(in crate::ui) fn margin(painter: &Painter, at: Pos2, t: &Tokens) {
     painter.extend(dashed(&ring, 4.0, 3.0, Stroke::new(1.25, t.bad)));
 }
 
-pub(in crate::ui) fn keyhole(painter: &Painter, at: Pos2, t: &Tokens) {
-    hatched(painter, at, (t.warnbg, t.warn), false);
+pub(in crate::ui) fn keyhole(painter: &Painter, position: Pos2, t: &Tokens) {
+    hatched(painter, position, (t.warnbg, t.warn), false);
 }
 
 /// Paints a sample of an area, with its fill and the colour of its lines.
-fn hatched(painter: &Painter, at: Pos2, (fill, ink): (Color32, Color32), rising: bool) {
-    let area = Rect::from_center_size(at, vec2(2.0 * HALF, 11.0));
+fn hatched(painter: &Painter, position: Pos2, (fill, ink): (Color32, Color32), rising: bool) {
+    let area = Rect::from_center_size(position, vec2(2.0 * HALF, 11.0));
     let outline = vec![area.left_top(), area.right_top(), area.right_bottom(), area.left_bottom()];
     let lines = hatch(&outline, 4.0, rising);
     painter.rect_filled(area, 0.0, fill);

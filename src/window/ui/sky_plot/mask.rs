@@ -35,7 +35,7 @@ fn dome_line(dome: Dome, elevation_deg: impl Fn(Angle) -> f32) -> Vec<Pos2> {
     let azimuths = (0..=STEPS).map(|step| f64::from(step) * 360.0 / f64::from(STEPS));
     azimuths
         .map(Angle::from_degrees)
-        .map(|azimuth| dome.at(azimuth.radians() as f32, elevation_deg(azimuth)))
+        .map(|azimuth| dome.point_at(azimuth.radians() as f32, elevation_deg(azimuth)))
         .collect()
 }
 
@@ -80,13 +80,13 @@ mod tests {
         let mask = HorizonMask::from_degrees([(0.0, 10.0), (180.0, 20.0)]).unwrap();
         let lines = hatch(&outline(&mask), HATCH, true);
         assert!(lines.len() > 100, "{}", lines.len());
-        for [from, to] in lines {
+        for [start, end] in lines {
             for share in [0.05, 0.5, 0.95] {
-                let at = from.lerp(to, share).to_vec2();
-                let azimuth = Angle::from_radians(f64::from(at.x.atan2(-at.y)));
-                let elevation_deg = 90.0 - f64::from(at.length()) / 3.0;
+                let offset = start.lerp(end, share).to_vec2();
+                let azimuth = Angle::from_radians(f64::from(offset.x.atan2(-offset.y)));
+                let elevation_deg = 90.0 - f64::from(offset.length()) / 3.0;
                 let highest_deg = mask.elevation_at(azimuth).degrees();
-                assert!(elevation_deg > -0.01 && elevation_deg < highest_deg + 0.01, "{at}");
+                assert!(elevation_deg > -0.01 && elevation_deg < highest_deg + 0.01, "{offset}");
             }
         }
     }
@@ -95,6 +95,6 @@ mod tests {
     fn a_flat_horizon_has_no_hatch() {
         let mask = HorizonMask::from_degrees([(0.0, 0.0)]).unwrap();
         let lines = hatch(&outline(&mask), HATCH, true);
-        assert!(lines.iter().all(|[from, to]| from.distance(*to) < 1e-3));
+        assert!(lines.iter().all(|[start, end]| start.distance(*end) < 1e-3));
     }
 }

@@ -30,14 +30,14 @@ pub(super) fn canvas(
     if response.dragged() {
         zoom.drag(response.drag_delta(), whole);
     }
-    if let Some(at) = response.hover_pos() {
+    if let Some(position) = response.hover_pos() {
         let (points, pinched) =
             ui.input(|input| (input.smooth_scroll_delta().y, input.zoom_delta()));
         if points != 0.0 {
-            zoom.turn(points, at, whole);
+            zoom.turn(points, position, whole);
         }
         if (pinched - 1.0).abs() > f32::EPSILON {
-            zoom.magnify(pinched, at, whole);
+            zoom.magnify(pinched, position, whole);
         }
     }
     response
@@ -60,14 +60,21 @@ pub(super) fn satellites(
         let (number, direction) = (track.catalog_number, track.position?);
         Some((number, track.name, direction, dome.visible(direction)?, true))
     });
-    let others = others.iter().map(|Dot { satellite: of, at, .. }| {
-        (of.catalog_number, of.name, of.direction, *at, false)
-    });
+    let others =
+        others.iter().map(|Dot { satellite: other_satellite, position: point, .. }| {
+            (
+                other_satellite.catalog_number,
+                other_satellite.name,
+                other_satellite.direction,
+                *point,
+                false,
+            )
+        });
     let mut chosen = None;
     // The selected satellite comes last, so that it takes the pointer where two overlap.
-    let inside = others.chain(selected).filter(|(_, _, _, at, _)| rect.contains(*at));
-    for (number, name, direction, at, is_selected) in inside {
-        let place = Rect::from_center_size(at, Vec2::splat(TARGET));
+    let visible = others.chain(selected).filter(|(_, _, _, position, _)| rect.contains(*position));
+    for (number, name, direction, position, is_selected) in visible {
+        let place = Rect::from_center_size(position, Vec2::splat(TARGET));
         let response = ui.interact(place, canvas.with(("satellite", number)), Sense::click());
         response.widget_info(|| {
             let name = spoken(name, direction);
@@ -76,13 +83,13 @@ pub(super) fn satellites(
         ui.accesskit_node_builder(response.id, |node| node.set_selected(is_selected));
         if response.has_focus() {
             let radius = TARGET / 2.0 + 2.0;
-            ui.painter().circle_stroke(at, radius, Stroke::new(2.0, t.sat));
+            ui.painter().circle_stroke(position, radius, Stroke::new(2.0, t.sat));
         }
         if response.clicked() {
             chosen = Some(number);
         }
-        let of = MenuOf::Satellite(number, direction);
-        context_menu::show(ui, &response, |ui| menu(ui, response.id, of));
+        let menu_of = MenuOf::Satellite(number, direction);
+        context_menu::show(ui, &response, |ui| menu(ui, response.id, menu_of));
         if response.hovered() {
             response.on_hover_text(tip(name, direction));
         }
@@ -99,8 +106,8 @@ pub(super) fn events_and_antenna(
     scene: &SkyScene<'_>,
 ) {
     let note = |salt: &str, direction: AzEl, name: &str| {
-        if let Some(at) = dome.point(direction) {
-            name_mark(ui, canvas.with(salt), at, &spoken(name, direction));
+        if let Some(position) = dome.point(direction) {
+            name_mark(ui, canvas.with(salt), position, &spoken(name, direction));
         }
     };
     for event in events {
@@ -118,17 +125,17 @@ pub(super) fn events_and_antenna(
         note("antenna", measured.direction, &name);
     }
     if let Some(bearing) = &scene.bearing
-        && let Some(at) = bearing::mark(dome, bearing)
+        && let Some(position) = bearing::mark(dome, bearing)
     {
         let no_elevation = if bearing.limit.is_none() { ", no elevation" } else { "" };
-        let said = format!("Antenna {}{no_elevation}", bearing::words(bearing));
-        name_mark(ui, canvas.with("bearing"), at, &said);
+        let text = format!("Antenna {}{no_elevation}", bearing::words(bearing));
+        name_mark(ui, canvas.with("bearing"), position, &text);
     }
 }
 
-pub(super) fn name_mark(ui: &Ui, id: Id, at: Pos2, name: &str) {
+pub(super) fn name_mark(ui: &Ui, id: Id, position: Pos2, name: &str) {
     // Small, so that satellites around the node keep the pointer.
-    let place = Rect::from_center_size(at, Vec2::splat(2.0));
+    let place = Rect::from_center_size(position, Vec2::splat(2.0));
     let response = ui.interact(place, id, Sense::hover());
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, name));
 }

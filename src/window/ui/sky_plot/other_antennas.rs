@@ -52,7 +52,7 @@ pub(super) fn label(labels: &mut Labels<'_>, dome: Dome, scene: &SkyScene<'_>, t
         let Some(mark) = antenna.mark(dome) else { continue };
         let lost = antenna.lost().map_or_else(String::new, |age| format!(" ? {age}"));
         let place = antenna.bearing.as_ref().and_then(bearing::place).unwrap_or_default();
-        let now = if scene.then.is_some() { " now" } else { "" };
+        let now = if scene.later.is_some() { " now" } else { "" };
         let name = format!("{}{now} {place}{lost}", antenna.name);
         let colour = if lost.is_empty() { t.t1 } else { t.t3 };
         labels.add(&Label {
@@ -73,17 +73,17 @@ pub(super) fn label_stops(labels: &mut Labels<'_>, dome: Dome, scene: &SkyScene<
         labels.reserve(Rect::from_two_pos(inner, end).expand(BAR));
         let name = format!("{} stop", stop.names);
         let angle = format::azimuth(stop.azimuth.degrees());
-        let both = format!("{name} {angle}");
+        let words = format!("{name} {angle}");
         // Above and below the disc there is no room for two lines outside of the rim.
         let is_beside = (end - dome.centre).x.abs() >= (end - dome.centre).y.abs();
         let two = [(&*name, text::small_strong(), t.bad), (&*angle, text::small(), t.bad)];
-        let one = [(&*both, text::small_strong(), t.bad)];
+        let one = [(&*words, text::small_strong(), t.bad)];
         labels.add(&Label {
             key: Key::Stop(index),
             lines: if is_beside { &two } else { &one },
             mark: end + (end - inner).normalized() * BESIDE_RIM,
             clearance: 2.0 + BAR,
-            order: &Side::towards(end - dome.centre),
+            order: &Side::by_nearness(end - dome.centre),
             tolerance: 0.6,
         });
     }
@@ -91,9 +91,9 @@ pub(super) fn label_stops(labels: &mut Labels<'_>, dome: Dome, scene: &SkyScene<
 
 /// Both ends of the mark across the rim, the outer one last.
 fn ends(dome: Dome, stop: &AzimuthStop<'_>) -> Option<[Pos2; 2]> {
-    let towards = outward(stop.azimuth.radians() as f32);
-    let rim = dome.centre + towards * dome.radius;
-    stop.azimuth.is_finite().then(|| [rim - towards * STOP, rim])
+    let direction = outward(stop.azimuth.radians() as f32);
+    let rim = dome.centre + direction * dome.radius;
+    stop.azimuth.is_finite().then(|| [rim - direction * STOP, rim])
 }
 
 /// Paints the ends of azimuth axes.
@@ -101,9 +101,9 @@ pub(super) fn paint_stops(painter: &Painter, dome: Dome, scene: &SkyScene<'_>, t
     for stop in scene.stops {
         let Some([inner, end]) = ends(dome, stop) else { continue };
         let stroke = Stroke::new(3.0, t.bad);
-        let aside = (end - inner).normalized().rot90() * BAR;
+        let sideways = (end - inner).normalized().rot90() * BAR;
         painter.line_segment([inner, end], stroke);
-        painter.line_segment([end - aside, end + aside], stroke);
+        painter.line_segment([end - sideways, end + sideways], stroke);
     }
 }
 
@@ -113,14 +113,14 @@ pub(super) fn paint(painter: &Painter, dome: Dome, scene: &SkyScene<'_>, t: &Tok
         if let Some(bearing) = &antenna.bearing {
             bearing::paint_one(painter, dome, bearing, 1.0, t);
         }
-        if let Some(at) = antenna.commanded.and_then(|commanded| dome.visible(commanded)) {
-            painter.circle_stroke(at, RING / 2.0, Stroke::new(1.25, t.cmd));
+        if let Some(position) = antenna.commanded.and_then(|commanded| dome.visible(commanded)) {
+            painter.circle_stroke(position, RING / 2.0, Stroke::new(1.25, t.cmd));
         }
         let Some(measured) = antenna.measured else { continue };
-        let Some(at) = dome.visible(measured.direction) else { continue };
+        let Some(position) = dome.visible(measured.direction) else { continue };
         match measured.lost {
-            None => marks::measured(painter, at, SCALE, t),
-            Some(_) => marks::lost(painter, at, SCALE, t),
+            None => marks::measured(painter, position, SCALE, t),
+            Some(_) => marks::lost(painter, position, SCALE, t),
         }
     }
 }
@@ -135,35 +135,37 @@ pub(super) fn nodes(
     t: &Tokens,
 ) -> Option<usize> {
     let mut clicked = None;
-    let mut taken: Vec<Pos2> = Vec::new();
+    let mut points: Vec<Pos2> = Vec::new();
     for antenna in scene.antennas {
-        let Some(at) = antenna.mark(dome).filter(|at| rect.contains(*at)) else { continue };
+        let Some(position) = antenna.mark(dome).filter(|position| rect.contains(*position)) else {
+            continue;
+        };
         let lost = antenna.lost().map(|age| format!(", no reply for {age}")).unwrap_or_default();
         let name = format!("Antenna {}{lost}", antenna.name);
-        let (said, tip) = match (antenna.measured, &antenna.bearing) {
+        let (text, tip) = match (antenna.measured, &antenna.bearing) {
             (Some(measured), _) => {
                 (spoken(&name, measured.direction), tip(&name, measured.direction))
             }
             (None, Some(bearing)) => {
                 let Some(place) = bearing::place(bearing) else { continue };
                 let azimuth = if bearing.limit.is_none() { "azimuth " } else { "" };
-                let said = format!("{name}, {azimuth}{place}");
-                (said.clone(), said)
+                let text = format!("{name}, {azimuth}{place}");
+                (text.clone(), text)
             }
             (None, None) => continue,
         };
         let id = canvas.with(("antenna", antenna.index));
         // Two antennas on one pass point at one place: a click takes the first.
-        if taken.iter().any(|other| other.distance(at) < 2.0 * HALF) {
-            name_mark(ui, id, at, &said);
+        if points.iter().any(|other| other.distance(position) < 2.0 * HALF) {
+            name_mark(ui, id, position, &text);
             continue;
         }
-        taken.push(at);
-        let place = Rect::from_center_size(at, Vec2::splat(HALF));
+        points.push(position);
+        let place = Rect::from_center_size(position, Vec2::splat(HALF));
         let response = ui.interact(place, id, Sense::click());
-        response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &said));
+        response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &text));
         if response.has_focus() {
-            ui.painter().circle_stroke(at, HALF, Stroke::new(2.0, t.sat));
+            ui.painter().circle_stroke(position, HALF, Stroke::new(2.0, t.sat));
         }
         if response.clicked() {
             clicked = Some(antenna.index);

@@ -50,26 +50,26 @@ impl Side {
 
     /// All sides, those nearest to a direction on the screen first; in [`Self::ORDER`] for a
     /// direction without length.
-    pub(in crate::ui) fn towards(direction: Vec2) -> [Self; 8] {
-        let wanted = direction.normalized();
-        let away = |side: &Self| 1.0 - side.direction().normalized().dot(wanted);
+    pub(in crate::ui) fn by_nearness(direction: Vec2) -> [Self; 8] {
+        let target = direction.normalized();
+        let difference = |side: &Self| 1.0 - side.direction().normalized().dot(target);
         let mut order = Self::ORDER;
-        order.sort_by(|a, b| away(a).total_cmp(&away(b)));
+        order.sort_by(|a, b| difference(a).total_cmp(&difference(b)));
         order
     }
 
     /// The side nearest to a direction on the screen.
     pub(in crate::ui) fn nearest(direction: Vec2) -> Self {
-        let [nearest, ..] = Self::towards(direction);
+        let [nearest, ..] = Self::by_nearness(direction);
         nearest
     }
 
     /// The rectangle of a label of `size`, `clearance` points from its mark.
     pub(in crate::ui) fn rect(self, mark: Pos2, size: Vec2, clearance: f32) -> Rect {
-        let towards = self.direction();
-        let diagonal = towards.x != 0.0 && towards.y != 0.0;
+        let direction = self.direction();
+        let diagonal = direction.x != 0.0 && direction.y != 0.0;
         let reach = if diagonal { clearance * 0.7 } else { clearance };
-        Rect::from_center_size(mark + towards * (size / 2.0 + Vec2::splat(reach)), size)
+        Rect::from_center_size(mark + direction * (size / 2.0 + Vec2::splat(reach)), size)
     }
 }
 
@@ -104,11 +104,11 @@ pub(in crate::ui) struct Obstacle {
 pub(super) fn covered(rect: Rect, bounds: Rect, obstacles: &[Obstacle]) -> f32 {
     let area = rect.area().max(f32::EPSILON);
     let shared = |other: Rect| {
-        let both = rect.intersect(other);
-        if both.is_positive() { both.area() } else { 0.0 }
+        let overlap = rect.intersect(other);
+        if overlap.is_positive() { overlap.area() } else { 0.0 }
     };
-    let over: f32 = obstacles.iter().map(|other| other.weight * shared(other.rect)).sum();
-    (over + area - shared(bounds)) / area
+    let overlap_weight: f32 = obstacles.iter().map(|other| other.weight * shared(other.rect)).sum();
+    (overlap_weight + area - shared(bounds)) / area
 }
 
 /// Chooses the first free side in the given order, otherwise the least covered one. A label
@@ -136,11 +136,11 @@ pub(in crate::ui) fn place(
         .iter()
         .map(|side| on(*side))
         .reduce(|best, next| if next.covered + 1e-3 < best.covered { next } else { best })?;
-    let kept = before.filter(|memory| order.contains(&memory.side)).filter(|memory| {
+    let previous = before.filter(|memory| order.contains(&memory.side)).filter(|memory| {
         let now = on(memory.side).covered;
         now <= memory.covered + PATIENCE && (now <= LITTLE || best.covered > 1e-3)
     });
-    Some(kept.map_or(best, |memory| on(memory.side)))
+    Some(previous.map_or(best, |memory| on(memory.side)))
 }
 
 #[cfg(test)]
@@ -215,16 +215,16 @@ mod tests {
         let west = Memory { side: Side::West, covered: 0.0 };
         assert_eq!(placed(&[], Some(west)).side, Side::West);
         let rect = Side::West.rect(MARK, SIZE, 8.0);
-        let over =
+        let overlap =
             |share: f32| [Rect::from_min_size(rect.min, vec2(rect.width() * share, rect.height()))];
-        assert_eq!(placed(&over(0.02), Some(west)).side, Side::West);
-        assert_eq!(placed(&over(0.15), Some(west)).side, Side::East, "a free side");
+        assert_eq!(placed(&overlap(0.02), Some(west)).side, Side::West);
+        assert_eq!(placed(&overlap(0.15), Some(west)).side, Side::East, "a free side");
         let with_all = |share: f32| {
             let others = Side::ORDER.into_iter().filter(|side| *side != Side::West);
             let little = |side: Side| {
                 Rect::from_center_size(side.rect(MARK, SIZE, 8.0).center(), vec2(4.0, 4.0))
             };
-            [over(share).to_vec(), others.map(little).collect()].concat()
+            [overlap(share).to_vec(), others.map(little).collect()].concat()
         };
         assert_eq!(placed(&with_all(0.25), Some(west)).side, Side::West);
         assert_ne!(placed(&with_all(0.35), Some(west)).side, Side::West);
@@ -237,7 +237,7 @@ mod tests {
         assert_eq!(Side::nearest(vec2(3.0, 0.2)), Side::East);
         assert_eq!(Side::nearest(vec2(-1.0, 0.9)), Side::SouthWest);
         assert_eq!(Side::nearest(vec2(0.1, -1.0)), Side::North);
-        assert_eq!(Side::towards(Vec2::ZERO), Side::ORDER);
-        assert_eq!(Side::towards(vec2(0.3, 1.0)).last(), Some(&Side::North));
+        assert_eq!(Side::by_nearness(Vec2::ZERO), Side::ORDER);
+        assert_eq!(Side::by_nearness(vec2(0.3, 1.0)).last(), Some(&Side::North));
     }
 }

@@ -34,7 +34,7 @@ fn marks<'a>(
     dome: Dome,
     scene: &SkyScene<'a>,
 ) -> impl Iterator<Item = (&'a PlannedAntenna<'a>, Pos2)> {
-    let antennas = scene.then.map(|then| then.antennas).unwrap_or_default();
+    let antennas = scene.later.map(|later| later.antennas).unwrap_or_default();
     antennas.iter().filter_map(move |antenna| Some((antenna, antenna.mark(dome)?)))
 }
 
@@ -47,9 +47,9 @@ pub(super) fn reserve(labels: &mut Labels<'_>, dome: Dome, scene: &SkyScene<'_>)
 
 /// Names the marks, and the live mark of the selected antenna.
 pub(super) fn label(labels: &mut Labels<'_>, dome: Dome, scene: &SkyScene<'_>, t: &Tokens) {
-    let Some(then) = scene.then else { return };
+    let Some(later) = scene.later else { return };
     let live = scene.measured.and_then(|measured| dome.visible(measured.direction));
-    if let Some((name, mark)) = then.selected.zip(live) {
+    if let Some((name, mark)) = later.selected.zip(live) {
         let name = format!("{name} now");
         labels.add(&Label {
             key: Key::LiveAntenna,
@@ -68,7 +68,7 @@ pub(super) fn label(labels: &mut Labels<'_>, dome: Dome, scene: &SkyScene<'_>, t
             mark,
             clearance: HALF + 2.0,
             // Inside of the disc there is room.
-            order: &Side::towards(dome.centre - mark),
+            order: &Side::by_nearness(dome.centre - mark),
             tolerance: 1.0,
         });
     }
@@ -76,21 +76,21 @@ pub(super) fn label(labels: &mut Labels<'_>, dome: Dome, scene: &SkyScene<'_>, t
 
 /// Paints the marks.
 pub(super) fn paint(painter: &Painter, dome: Dome, scene: &SkyScene<'_>, t: &Tokens) {
-    for (_, at) in marks(dome, scene) {
-        marks::planned(painter, at, HALF - 2.0, t);
+    for (_, position) in marks(dome, scene) {
+        marks::planned(painter, position, HALF - 2.0, t);
     }
 }
 
 /// Adds a node for each mark.
 pub(super) fn nodes(ui: &Ui, canvas: Id, dome: Dome, scene: &SkyScene<'_>) {
-    for (antenna, at) in marks(dome, scene) {
+    for (antenna, position) in marks(dome, scene) {
         let name = format!("{} planned, {}", antenna.name, antenna.doing);
-        let said = if let Some(direction) = antenna.pointing.direction() {
+        let text = if let Some(direction) = antenna.pointing.direction() {
             spoken(&name, direction)
         } else {
             let azimuth_deg = antenna.pointing.azimuth.map_or(f64::NAN, Angle::degrees);
             format!("{name}, azimuth {}", format::azimuth(azimuth_deg))
         };
-        name_mark(ui, canvas.with(("planned", antenna.index)), at, &said);
+        name_mark(ui, canvas.with(("planned", antenna.index)), position, &text);
     }
 }

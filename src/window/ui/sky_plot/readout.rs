@@ -163,8 +163,8 @@ mod tests {
             let dome = Dome::fitted(Rect::from_min_size(Pos2::ZERO, vec2(width, height)));
             for place in places.iter().flatten() {
                 assert!(place.clamp(dome.centre).distance(dome.centre) > dome.radius);
-                let beyond = place.right() > width || place.left() < 0.0;
-                assert!(!beyond, "{place} in {width} x {height}");
+                let is_outside = place.right() > width || place.left() < 0.0;
+                assert!(!is_outside, "{place} in {width} x {height}");
             }
         }
     }

@@ -29,7 +29,7 @@ pub struct SkyScene<'a> {
     /// The Moon; not drawn below the horizon.
     pub moon: Option<AzEl>,
     /// In the sky of another time; `None` for now.
-    pub then: Option<Then<'a>>,
+    pub later: Option<LaterScene<'a>>,
     /// The commanded direction.
     pub commanded: Option<AzEl>,
     /// Preview of a motion.
@@ -79,7 +79,7 @@ pub struct Keyholes {
 impl Keyholes {
     /// The keyholes where the lower axis dips below the travel; `None` for a mount without
     /// such an axis.
-    pub fn of(mount: &Mount) -> Option<Self> {
+    pub fn new(mount: &Mount) -> Option<Self> {
         let Mount::Xy { lower_axis_azimuth_deg, travel_from_deg, .. } = *mount else {
             return None;
         };
@@ -110,7 +110,7 @@ pub struct Track<'a> {
 /// A direction that the operator looks at before the antenna is sent there.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ghost<'a> {
-    pub to: AzEl,
+    pub end: AzEl,
     /// The way that both axes would take; empty while it is not known.
     pub way: &'a [AzEl],
     /// The antenna would not be sent there.
@@ -153,7 +153,7 @@ pub struct OtherAntenna<'a> {
 
 /// Marks that only the sky of another time shows.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Then<'a> {
+pub struct LaterScene<'a> {
     pub antennas: &'a [PlannedAntenna<'a>],
     /// Name of the selected antenna.
     pub selected: Option<&'a str>,

@@ -38,20 +38,20 @@ pub fn paint_small(painter: &Painter, rect: Rect, scene: &SkyScene<'_>, t: &Toke
         track::paint(painter, &parts, &[], t);
         track::paint_events(painter, dome, &ends(pass), t);
     }
-    if let Some(at) = scene.commanded.and_then(|commanded| dome.visible(commanded)) {
-        marks::commanded(painter, at, RING, t);
+    if let Some(point) = scene.commanded.and_then(|commanded| dome.visible(commanded)) {
+        marks::commanded(painter, point, RING, t);
     }
-    if let Some((measured, at)) =
+    if let Some((measured, point)) =
         scene.measured.and_then(|measured| Some((measured, dome.visible(measured.direction)?)))
     {
         match measured.lost {
-            None => marks::measured(painter, at, 0.6, t),
-            Some(_) => marks::lost(painter, at, 1.0, t),
+            None => marks::measured(painter, point, 0.6, t),
+            Some(_) => marks::lost(painter, point, 1.0, t),
         }
     }
     let position = scene.track.and_then(|track| track.position);
-    if let Some(at) = position.and_then(|position| dome.visible(position)) {
-        marks::selected(painter, at, t);
+    if let Some(point) = position.and_then(|position| dome.visible(position)) {
+        marks::selected(painter, point, t);
     }
 }
 
@@ -75,13 +75,13 @@ fn rings(painter: &Painter, dome: Dome, scene: &SkyScene<'_>, t: &Tokens) {
         painter.extend(dashed(&ring, 2.0, 4.0, Stroke::new(1.0, t.edge)));
     }
     painter.circle_stroke(centre, radius, Stroke::new(1.5, t.edge));
-    let letter = |at: Pos2, letter: &str| {
+    let letter = |position: Pos2, letter: &str| {
         let font = text::sized(12.0, Weight::Bold);
-        painter.text(at, Align2::CENTER_CENTER, letter, font, t.t1);
+        painter.text(position, Align2::CENTER_CENTER, letter, font, t.t1);
     };
-    let away = radius + 11.0;
-    letter(pos2(centre.x, centre.y - away), "N");
-    letter(pos2(centre.x + away, centre.y), "E");
-    letter(pos2(centre.x, centre.y + away), "S");
-    letter(pos2(centre.x - away, centre.y), "W");
+    let distance = radius + 11.0;
+    letter(pos2(centre.x, centre.y - distance), "N");
+    letter(pos2(centre.x + distance, centre.y), "E");
+    letter(pos2(centre.x, centre.y + distance), "S");
+    letter(pos2(centre.x - distance, centre.y), "W");
 }

@@ -137,7 +137,7 @@ fn what_is_not_a_number_is_left_out() {
         sun: Some(NOWHERE),
         moon: Some(NOWHERE),
         commanded: Some(NOWHERE),
-        ghost: Some(Ghost { to: NOWHERE, way: &[NOWHERE, NOWHERE], is_refused: true }),
+        ghost: Some(Ghost { end: NOWHERE, way: &[NOWHERE, NOWHERE], is_refused: true }),
         measured: Some(Measured { direction: NOWHERE, lost: None }),
         predicted: Some(AzEl::from_degrees(0.0, 10.0)),
         recent_errors: &[(f32::NAN, f32::NAN), (f32::INFINITY, 0.0)],
@@ -163,7 +163,7 @@ fn the_sky_may_be_empty() {
 fn texts(harness: &Harness<'_, Story>) -> Vec<(String, Rect)> {
     fn collect(shape: &egui::Shape, found: &mut Vec<(String, Rect)>) {
         match shape {
-            egui::Shape::Vec(shapes) => shapes.iter().for_each(|of| collect(of, found)),
+            egui::Shape::Vec(shapes) => shapes.iter().for_each(|outline| collect(outline, found)),
             egui::Shape::Text(text) => {
                 let place = text.galley.rect.translate(text.pos.to_vec2());
                 found.push((text.galley.text().to_owned(), place));
@@ -182,7 +182,7 @@ fn texts(harness: &Harness<'_, Story>) -> Vec<(String, Rect)> {
 fn vertices(harness: &Harness<'_, Story>) -> Vec<egui::epaint::Vertex> {
     fn collect(shape: &egui::Shape, found: &mut Vec<egui::epaint::Vertex>) {
         match shape {
-            egui::Shape::Vec(shapes) => shapes.iter().for_each(|of| collect(of, found)),
+            egui::Shape::Vec(shapes) => shapes.iter().for_each(|outline| collect(outline, found)),
             egui::Shape::Mesh(mesh) => found.extend(&mesh.vertices),
             _ => {}
         }
@@ -201,8 +201,9 @@ fn plot(harness: &Harness<'_, Story>) -> Rect {
 #[test]
 fn no_label_and_the_beam_view_lie_on_each_other() {
     for turn in (0..360_i16).step_by(15) {
-        let turned =
-            |of: AzEl| AzEl::from_degrees(of.azimuth_deg() + f64::from(turn), of.elevation_deg());
+        let turned = |direction: AzEl| {
+            AzEl::from_degrees(direction.azimuth_deg() + f64::from(turn), direction.elevation_deg())
+        };
         let samples: Vec<_> = testing::pass()
             .into_iter()
             .map(|sample| crate::plan::Sample { direction: turned(sample.direction), ..sample })
@@ -217,7 +218,7 @@ fn no_label_and_the_beam_view_lie_on_each_other() {
         let all = texts(&harness);
         let caption = all.iter().find(|(words, _)| words.starts_with("Beam ")).unwrap().1;
         for (words, place) in all.iter().filter(|(words, _)| !words.starts_with("Beam ")) {
-            let is_clear = |of: Rect| !of.intersect(*place).is_positive();
+            let is_clear = |candidate: Rect| !candidate.intersect(*place).is_positive();
             assert!(is_clear(view) && is_clear(caption), "{turn}: {words:?} at {place:?}");
         }
     }
@@ -234,8 +235,8 @@ fn an_azimuth_stop_touches_no_name_of_the_rim() {
         });
         harness.run();
         let bad = theme::tokens(&harness.ctx).bad;
-        let of_stop = vertices(&harness).into_iter().filter(|of| of.color == bad);
-        let stop = Rect::from_points(&of_stop.map(|of| of.pos).collect::<Vec<_>>());
+        let of_stop = vertices(&harness).into_iter().filter(|vertex| vertex.color == bad);
+        let stop = Rect::from_points(&of_stop.map(|vertex| vertex.pos).collect::<Vec<_>>());
         assert!(stop.is_positive());
         let all = texts(&harness);
         let name = all.iter().find(|(words, _)| words == letter).unwrap().1;
@@ -247,19 +248,19 @@ fn an_azimuth_stop_touches_no_name_of_the_rim() {
 
 #[test]
 fn the_name_of_the_sun_stands_beside_the_sun_also_near_the_beam() {
-    for off in [0.0, 1.0, 2.0, 4.6] {
+    for deviation in [0.0, 1.0, 2.0, 4.6] {
         let beam = AzEl::from_degrees(185.0, 37.0);
-        let sun = AzEl::from_degrees(185.0, 37.0 + off);
+        let sun = AzEl::from_degrees(185.0, 37.0 + deviation);
         let measured = Measured { direction: beam, lost: None };
         let scene = SkyScene { sun: Some(sun), measured: Some(measured), ..testing::empty() };
         let mut harness = story(LARGE, scene);
         harness.run();
         let dome = Dome::fitted(plot(&harness));
-        let at = dome.point(sun).unwrap();
+        let position = dome.point(sun).unwrap();
         let all = texts(&harness);
         let name = all.iter().find(|(words, _)| words.starts_with("Sun ")).unwrap().1;
-        let away = name.clamp(at).distance(at);
-        assert!(away < 34.0, "{off}: {away}");
+        let distance = name.clamp(position).distance(position);
+        assert!(distance < 34.0, "{deviation}: {distance}");
     }
 }
 
@@ -283,8 +284,9 @@ fn a_label_across_the_rim_has_a_ground_on_both_sides_of_it() {
     assert!(!across.is_empty());
     let ground = theme::tokens(&harness.ctx).bg0;
     for (words, place) in across {
-        let is_corner =
-            |of: &egui::epaint::Vertex| of.color == ground && of.pos.distance(place.min) < 4.0;
+        let is_corner = |vertex: &egui::epaint::Vertex| {
+            vertex.color == ground && vertex.pos.distance(place.min) < 4.0
+        };
         let lies_on_it = vertices(&harness).iter().any(is_corner);
         assert!(lies_on_it, "{words:?} at {place:?}");
     }
@@ -305,7 +307,7 @@ fn the_name_of_an_azimuth_stop_stands_outside_of_the_disc() {
         let (_, name) = all.iter().find(|(words, _)| words.contains("stop")).unwrap();
         // Letters are lower than their line, and the corner of a line may touch the rim.
         let nearest = name.shrink2(vec2(0.0, 3.0)).clamp(dome.centre);
-        let least = dome.radius - 4.0;
-        assert!(nearest.distance(dome.centre) > least, "{azimuth}: {name:?}");
+        let min = dome.radius - 4.0;
+        assert!(nearest.distance(dome.centre) > min, "{azimuth}: {name:?}");
     }
 }

@@ -63,7 +63,7 @@ pub(super) fn empty() -> SkyScene<'static> {
         others: &[],
         sun: None,
         moon: None,
-        then: None,
+        later: None,
         commanded: None,
         ghost: None,
         beam_width: Angle::from_degrees(0.88),

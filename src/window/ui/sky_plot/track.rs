@@ -36,7 +36,7 @@ pub(super) struct Parts {
 pub(super) struct Tick {
     /// Minutes since 1970.
     pub(super) minute: i64,
-    pub(super) at: Pos2,
+    pub(super) position: Pos2,
     /// Unit vector across the path, away from the zenith.
     pub(super) across: Vec2,
     /// The tick is long and may have its time beside it.
@@ -90,25 +90,26 @@ pub(super) fn ticks(dome: Dome, track: &Track<'_>) -> Vec<Tick> {
     };
     let mut ticks: Vec<Tick> = Vec::new();
     for pair in track.samples.windows(2) {
-        let &[from, to] = pair else { continue };
+        let &[first, last] = pair else { continue };
         let period_ms = 60_000 * step;
-        let (start, end) = (from.time.as_millisecond(), to.time.as_millisecond());
+        let (start, end) = (first.time.as_millisecond(), last.time.as_millisecond());
         let full_ms = end.div_euclid(period_ms) * period_ms;
         if full_ms <= start {
             continue;
         }
-        let (Some(a), Some(b)) = (dome.visible(from.direction), dome.visible(to.direction)) else {
+        let (Some(a), Some(b)) = (dome.visible(first.direction), dome.visible(last.direction))
+        else {
             continue;
         };
-        let at = a.lerp(b, (full_ms - start) as f32 / (end - start) as f32);
-        let near = |tick: &Tick| tick.at.distance(at) < TICK_DISTANCE;
+        let position = a.lerp(b, (full_ms - start) as f32 / (end - start) as f32);
+        let near = |tick: &Tick| tick.position.distance(position) < TICK_DISTANCE;
         if ticks.last().is_some_and(near) {
             continue;
         }
         let across = (b - a).normalized().rot90();
-        let outwards = if across.dot(at - dome.centre) < 0.0 { -across } else { across };
+        let outwards = if across.dot(position - dome.centre) < 0.0 { -across } else { across };
         let minute = full_ms / 60_000;
-        ticks.push(Tick { minute, at, across: outwards, even: (minute / step) % 2 == 0 });
+        ticks.push(Tick { minute, position, across: outwards, even: (minute / step) % 2 == 0 });
     }
     ticks
 }
@@ -123,15 +124,15 @@ pub(super) fn paint(painter: &Painter, parts: &Parts, ticks: &[Tick], t: &Tokens
     painter.extend(dashed(&backwards, 7.0, 5.0, Stroke::new(2.0, t.sat)));
     for tick in ticks {
         let half = tick.across * if tick.even { 6.0 } else { 4.0 };
-        painter.line_segment([tick.at - half, tick.at + half], Stroke::new(1.5, t.sat));
+        painter.line_segment([tick.position - half, tick.position + half], Stroke::new(1.5, t.sat));
     }
 }
 
 /// Paints the marks of the events.
 pub(super) fn paint_events(painter: &Painter, dome: Dome, events: &[Event], t: &Tokens) {
     for event in events {
-        if let Some(at) = dome.point(event.sample.direction) {
-            marks::event(painter, at, event.form, t.sat, t.sky);
+        if let Some(position) = dome.point(event.sample.direction) {
+            marks::event(painter, position, event.form, t.sat, t.sky);
         }
     }
 }
@@ -162,7 +163,7 @@ pub(super) fn label_events(
             lines: &[(&first, text::small_strong(), t.t1), (&second, text::caption(), t.t2)],
             mark,
             clearance: 9.0,
-            order: &Side::towards(dome.centre - mark),
+            order: &Side::by_nearness(dome.centre - mark),
             tolerance: 1.0,
         });
     }
@@ -178,16 +179,17 @@ pub(super) fn label_minutes(
 ) {
     for tick in ticks.iter().filter(|tick| tick.even) {
         let second = tick.minute * 60;
-        let from = |time: Timestamp| (time.as_second() - second).abs();
-        let beside_event = events.iter().any(|event| from(event.sample.time) < CLEAR_OF_EVENT_S);
-        if beside_event || from(now) < CLEAR_OF_NOW_S {
+        let distance_s = |time: Timestamp| (time.as_second() - second).abs();
+        let beside_event =
+            events.iter().any(|event| distance_s(event.sample.time) < CLEAR_OF_EVENT_S);
+        if beside_event || distance_s(now) < CLEAR_OF_NOW_S {
             continue;
         }
         let Ok(time) = Timestamp::from_second(second) else { continue };
         labels.add(&Label {
             key: Key::Minute(tick.minute),
             lines: &[(&format::minute_of_day(time), text::caption(), t.t2)],
-            mark: tick.at,
+            mark: tick.position,
             clearance: 7.0,
             order: &[Side::nearest(tick.across), Side::nearest(-tick.across)],
             tolerance: 0.4,
@@ -234,7 +236,7 @@ mod tests {
         assert_eq!(ticks.iter().filter(|tick| tick.even).count(), 7);
         for tick in ticks {
             assert!((tick.across.length() - 1.0).abs() < 1e-4);
-            assert!(tick.across.dot(tick.at - DOME.centre) >= 0.0);
+            assert!(tick.across.dot(tick.position - DOME.centre) >= 0.0);
         }
     }
 

@@ -5,7 +5,7 @@ use egui::{Pos2, Vec2};
 use super::geometry::Dome;
 
 /// Largest magnification.
-const MOST: f32 = 8.0;
+const MAX_ZOOM: f32 = 8.0;
 /// Points of the wheel for a magnification of e.
 const POINTS: f32 = 250.0;
 /// Magnification of a key press.
@@ -32,32 +32,32 @@ impl Zoom {
     }
 
     /// The disc, of which `whole` would show everything.
-    pub(super) fn of(self, whole: Dome) -> Dome {
+    pub(super) fn disc(self, whole: Dome) -> Dome {
         let centre = whole.centre + self.shift * whole.radius;
         Dome { centre, radius: whole.radius * self.factor }
     }
 
-    /// Takes a turn of the wheel by `points` at the place `at`, which stays where it is.
-    pub(super) fn turn(&mut self, points: f32, at: Pos2, whole: Dome) {
-        self.magnify((points / POINTS).exp(), at, whole);
+    /// Takes a turn of the wheel by `points` at the place `position`, which stays where it is.
+    pub(super) fn turn(&mut self, points: f32, position: Pos2, whole: Dome) {
+        self.magnify((points / POINTS).exp(), position, whole);
     }
 
-    /// Magnifies by `by` around `at`.
-    pub(super) fn magnify(&mut self, by: f32, at: Pos2, whole: Dome) {
-        if !by.is_finite() {
+    /// Magnifies by `step` around `position`.
+    pub(super) fn magnify(&mut self, step: f32, position: Pos2, whole: Dome) {
+        if !step.is_finite() {
             return;
         }
-        let at = (at - whole.centre) / whole.radius;
-        let of_sky = (at - self.shift) / self.factor;
-        self.factor = (self.factor * by).clamp(1.0, MOST);
-        self.shift = at - of_sky * self.factor;
+        let offset = (position - whole.centre) / whole.radius;
+        let of_sky = (offset - self.shift) / self.factor;
+        self.factor = (self.factor * step).clamp(1.0, MAX_ZOOM);
+        self.shift = offset - of_sky * self.factor;
         self.keep_in_place();
     }
 
     /// Magnifies around the middle of the plot, or makes it smaller.
     pub fn step(&mut self, is_closer: bool) {
-        let by = if is_closer { STEP } else { 1.0 / STEP };
-        let factor = (self.factor * by).clamp(1.0, MOST);
+        let amount = if is_closer { STEP } else { 1.0 / STEP };
+        let factor = (self.factor * amount).clamp(1.0, MAX_ZOOM);
         self.shift *= factor / self.factor;
         self.factor = factor;
         self.keep_in_place();
@@ -76,10 +76,10 @@ impl Zoom {
 
     /// The disc always fills the place of the whole one.
     fn keep_in_place(&mut self) {
-        let most = self.factor - 1.0;
+        let max = self.factor - 1.0;
         let length = self.shift.length();
-        if length > most {
-            self.shift *= most / length;
+        if length > max {
+            self.shift *= max / length;
         }
     }
 }
@@ -93,13 +93,13 @@ mod tests {
 
     #[test]
     fn the_place_under_the_pointer_stays_there() {
-        let at = pos2(380.0, 250.0);
+        let position = pos2(380.0, 250.0);
         let mut zoom = Zoom::default();
-        let before = zoom.of(WHOLE).direction(at).unwrap();
-        zoom.turn(200.0, at, WHOLE);
-        let dome = zoom.of(WHOLE);
+        let before = zoom.disc(WHOLE).direction(position).unwrap();
+        zoom.turn(200.0, position, WHOLE);
+        let dome = zoom.disc(WHOLE);
         assert!(dome.radius > 400.0, "{dome:?}");
-        assert!(dome.direction(at).unwrap().separation(before).degrees() < 1e-3);
+        assert!(dome.direction(position).unwrap().separation(before).degrees() < 1e-3);
     }
 
     #[test]
@@ -108,15 +108,15 @@ mod tests {
         for _ in 0..50 {
             zoom.turn(120.0, pos2(450.0, 300.0), WHOLE);
         }
-        assert!((zoom.of(WHOLE).radius - 1600.0).abs() < 0.1);
+        assert!((zoom.disc(WHOLE).radius - 1600.0).abs() < 0.1);
         zoom.drag(vec2(9000.0, 0.0), WHOLE);
         // The rim reaches the rim of the whole disc and no further.
-        let dome = zoom.of(WHOLE);
+        let dome = zoom.disc(WHOLE);
         assert!((dome.centre.x - dome.radius - 100.0).abs() < 0.1, "{dome:?}");
         for _ in 0..50 {
             zoom.turn(-120.0, pos2(10.0, 20.0), WHOLE);
         }
-        assert_eq!(zoom.of(WHOLE), WHOLE);
+        assert_eq!(zoom.disc(WHOLE), WHOLE);
         assert!(zoom.is_whole());
         zoom.magnify(f32::NAN, WHOLE.centre, WHOLE);
         assert_eq!(zoom, Zoom::default());

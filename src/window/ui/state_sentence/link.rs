@@ -15,7 +15,8 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
     let name = &antenna.config.name;
     let address = &antenna.config.connection.address;
     let state = &antenna.snapshot.state;
-    let unreadable = state.unreadable.and_then(|why| unreadable(model, antenna, why));
+    let unreadable =
+        state.unreadable.and_then(|explanation| unreadable(model, antenna, explanation));
     if unreadable.is_some() {
         return unreadable;
     }
@@ -25,7 +26,7 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
                 .plain(format!("{name} is connected and is being read.")),
         ),
         Answers::InTime => None,
-        Answers::Off => Some(Spoken::new(SentenceKind::Holding).plain(off(antenna))),
+        Answers::Off => Some(Spoken::new(SentenceKind::Holding).plain(switched_off(antenna))),
         Answers::Connecting => Some(
             Spoken::new(SentenceKind::Holding).plain(format!("Connecting to {name} at {address}.")),
         ),
@@ -74,16 +75,16 @@ fn is_stopping(antenna: &AntennaModel) -> bool {
 }
 
 /// The sentence for a link that is off: the reason, and how to connect.
-fn off(antenna: &AntennaModel) -> String {
+fn switched_off(antenna: &AntennaModel) -> String {
     let name = &antenna.config.name;
-    if let Some(HeldBy::Unknown(why)) = &antenna.held_by {
+    if let Some(HeldBy::Unknown(reason)) = &antenna.held_by {
         return format!(
-            "{name} is not connected: Azel could not lock it ({why}), so another program may be driving \
+            "{name} is not connected: Azel could not lock it ({reason}), so another program may be driving \
              it. Free disk space or fix the permissions of the folder of locks."
         );
     }
-    if let Some(by) = &antenna.held_by {
-        return format!("{name} is driven by {by}. Nothing goes to it from here.");
+    if let Some(holder) = &antenna.held_by {
+        return format!("{name} is driven by {holder}. Nothing goes to it from here.");
     }
     if antenna.variant().capabilities.waits_for_word {
         return format!(
@@ -98,7 +99,7 @@ fn off(antenna: &AntennaModel) -> String {
 }
 
 /// The sentence for a unit whose numbers cannot be read.
-fn unreadable(model: &Model, antenna: &AntennaModel, why: &str) -> Option<Spoken> {
+fn unreadable(model: &Model, antenna: &AntennaModel, reason: &str) -> Option<Spoken> {
     let again = match antenna.snapshot.link {
         LinkState::Off | LinkState::Connecting { .. } => return None,
         LinkState::Lost { retry_at, .. } => {
@@ -110,7 +111,7 @@ fn unreadable(model: &Model, antenna: &AntennaModel, why: &str) -> Option<Spoken
     };
     let spoken = Spoken::new(SentenceKind::Fault)
         .plain(format!("The position of {} cannot be read. ", antenna.config.name));
-    Some(what_it_did(spoken, antenna).plain(format!("{why}{again}")))
+    Some(what_it_did(spoken, antenna).plain(format!("{reason}{again}")))
 }
 
 /// Appends the last known activity, which may continue.
@@ -119,8 +120,8 @@ fn what_it_did(spoken: Spoken, antenna: &AntennaModel) -> Spoken {
     let moving = state.measured.is_some_and(|measured| measured.moving());
     if state.program.is_some_and(|program| program.enabled) {
         // A new link forgets the satellite until the unit reports it again.
-        let held = state.on_board.satellite.as_ref().map(|held| held.name.as_str());
-        let name = held.or(antenna.errors_of.as_deref());
+        let current = state.on_board.satellite.as_ref().map(|satellite| satellite.name.as_str());
+        let name = current.or(antenna.errors_of.as_deref());
         return spoken
             .plain("It was tracking ")
             .bold(name.map_or("a satellite", short))

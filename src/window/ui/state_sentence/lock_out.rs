@@ -28,13 +28,13 @@ pub(super) fn sentence(antenna: &AntennaModel) -> Option<Spoken> {
         if snapshot.locking { "Being locked out by " } else { "In maintenance, locked out by " };
     Some(Spoken::new(SentenceKind::Caution).plain(lead).bold(&lock_out.operator).plain(format!(
         " since {}: {}. Only queries and STOP go to it.{after}",
-        since(antenna),
+        start_of_lock_out(antenna),
         lock_out.reason.trim_end_matches('.'),
     )))
 }
 
 /// Start of the lock-out, with the day.
-fn since(antenna: &AntennaModel) -> String {
-    let since = antenna.snapshot.lock_out.as_ref().map(|lock_out| lock_out.start);
-    since.map_or_else(String::new, format::dated)
+fn start_of_lock_out(antenna: &AntennaModel) -> String {
+    let start = antenna.snapshot.lock_out.as_ref().map(|lock_out| lock_out.start);
+    start.map_or_else(String::new, format::dated)
 }

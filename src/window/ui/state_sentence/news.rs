@@ -16,14 +16,14 @@ use crate::{
 const SHOWN_S: f64 = 12.0;
 
 pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> {
-    let (event, at) = antenna.news.as_ref()?;
-    if seconds_between(*at, model.now) > SHOWN_S {
+    let (event, moment) = antenna.news.as_ref()?;
+    if seconds_between(*moment, model.now) > SHOWN_S {
         return None;
     }
     let (now, name) = (model.now, &antenna.config.name);
     let can = antenna.variant().capabilities;
     let caution = Spoken::new(SentenceKind::Caution);
-    let reason = |of| words::reason(of, &model.station);
+    let reason = |barrier| words::reason(barrier, &model.station);
     Some(match event {
         Event::Back { after, found, .. } => {
             let silent = format::age(after.as_secs_f64());
@@ -34,7 +34,7 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
                                         following.")),
                 );
             }
-            let held = antenna.snapshot.state.on_board.satellite.as_ref();
+            let held_satellite = antenna.snapshot.state.on_board.satellite.as_ref();
             let spoken = Spoken::new(match found {
                 Found::Tracking => SentenceKind::Tracking,
                 Found::Moving => SentenceKind::Caution,
@@ -44,7 +44,7 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
             match found {
                 Found::Tracking => spoken
                     .plain("It is still tracking ")
-                    .bold(held.map_or("a satellite", |held| short(&held.name)))
+                    .bold(held_satellite.map_or("a satellite", |held_satellite| short(&held_satellite.name)))
                     .plain("."),
                 Found::Moving => spoken.plain("It is moving, but not by its tracking program."),
                 Found::Still => spoken.plain("It is at rest and tracks nothing."),
@@ -54,12 +54,12 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
             let reason = refusal.barrier().map(reason);
             caution.plain(words::refusal(refusal, now) + &reason.unwrap_or_default())
         }
-        Event::Refused(asked, answer) => {
-            caution.plain(format!("{}: the unit answered {answer}.", words::asked(*asked)))
+        Event::Refused(motion, answer) => {
+            caution.plain(format!("{}: the unit answered {answer}.", words::motion_name(*motion)))
         }
-        Event::Unanswered(asked) => caution.plain(format!(
+        Event::Unanswered(motion) => caution.plain(format!(
             "{}: the unit did not answer and does not move. It is not sent again.",
-            words::asked(*asked)
+            words::motion_name(*motion)
         )),
         Event::OffsetNotTaken(error) => caution.plain(words::offset_not_taken(error)),
         Event::CannotTrack(target, reason) => caution
@@ -79,9 +79,9 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
         Event::TrackingEnded { completed: false } => {
             caution.plain("The unit ended tracking before LOS.")
         }
-        Event::EndedShort { aim, position: at } => caution.plain(format!(
+        Event::EndedShort { aim, position: pointing } => caution.plain(format!(
             "Stopped at {} instead of {}.",
-            format::pointing(*at, can),
+            format::pointing(*pointing, can),
             format::pointing(*aim, can)
         )),
         Event::Safety(matter) => caution

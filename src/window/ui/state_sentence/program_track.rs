@@ -41,8 +41,8 @@ fn following(model: &Model, antenna: &AntennaModel, view: &TrackView, name: &str
             .plain(format!(", which is out of reach. Waiting{}.", place(antenna)));
     }
     let Some(error) = antenna.error() else {
-        let why = missing_angle(antenna).unwrap_or("Its position is being read.");
-        return lead(SentenceKind::Caution).plain(format!(". {why}"));
+        let reason = missing_angle(antenna).unwrap_or("Its position is being read.");
+        return lead(SentenceKind::Caution).plain(format!(". {reason}"));
     };
     let beam_deg = antenna.config.beam_width_deg;
     let off_deg = error.off_beam.degrees();
@@ -51,20 +51,20 @@ fn following(model: &Model, antenna: &AntennaModel, view: &TrackView, name: &str
     } else {
         (SentenceKind::Caution, "outside")
     };
-    if let (SentenceKind::Caution, Some(OnPath::OnItsWay { arrival: until })) = (kind, view.on_path)
-    {
-        let until = until.map_or_else(String::new, |until| {
-            let (at, left) =
-                (format::moment(until, model.now), format::time_left(model.now, until));
-            format!(", expected there at {at}, in {left}")
+    if let (SentenceKind::Caution, Some(OnPath::OnItsWay { arrival: end })) = (kind, view.on_path) {
+        let arrival_words = end.map_or_else(String::new, |arrival| {
+            let (time_text, left) =
+                (format::moment(arrival, model.now), format::time_left(model.now, arrival));
+            format!(", expected there at {time_text}, in {left}")
         });
-        let off = format::degrees(off_deg, 2);
-        return lead(SentenceKind::Commanded)
-            .plain(format!(". The antenna is still turning, {off} off target{until}."));
+        let deviation_text = format::degrees(off_deg, 2);
+        return lead(SentenceKind::Commanded).plain(format!(
+            ". The antenna is still turning, {deviation_text} off target{arrival_words}."
+        ));
     }
-    let beside = if view.offsets.is_none() { "" } else { " with offsets" };
+    let addition = if view.offsets.is_none() { "" } else { " with offsets" };
     lead(kind).plain(format!(
-        " position by position{beside}. The antenna is {} off, {side} its {} beam.",
+        " position by position{addition}. The antenna is {} off, {side} its {} beam.",
         format::degrees(off_deg, 2),
         format::degrees(beam_deg, 2)
     ))

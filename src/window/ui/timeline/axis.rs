@@ -31,8 +31,8 @@ pub(super) fn show(ui: &Ui, scale: &TimeAxis, lanes: Rect, names: Rect) {
     let t = theme::tokens(ui);
     ui.painter().rect_filled(lanes, 0, t.bg0);
     let step_s = if scale.hour_width() >= WIDE_HOUR { HOUR_S / 2 } else { HOUR_S };
-    for at in scale.multiples(step_s) {
-        ui.painter().vline(scale.x(at), lanes.y_range(), (1.0, t.line));
+    for time in scale.multiples(step_s) {
+        ui.painter().vline(scale.x(time), lanes.y_range(), (1.0, t.line));
     }
     for (x, name) in hour_names(ui, scale, names) {
         let place = pos2(x, names.center().y);
@@ -44,8 +44,8 @@ pub(super) fn show(ui: &Ui, scale: &TimeAxis, lanes: Rect, names: Rect) {
 /// of the lane is left out.
 fn hour_names(ui: &Ui, scale: &TimeAxis, names: Rect) -> Vec<(f32, String)> {
     let every_s = named_every_hours(scale.hour_width()) * HOUR_S;
-    let hours = scale.multiples(every_s).filter(|at| is_full_hour(*at));
-    let named = hours.map(|at| (scale.x(at), format::on_axis(at)));
+    let hours = scale.multiples(every_s).filter(|time| is_full_hour(*time));
+    let named = hours.map(|time| (scale.x(time), format::on_axis(time)));
     let fits = |(x, name): &(f32, String)| {
         x + paint::text_width(ui, name, text::caption()) / 2.0 <= names.right()
     };
@@ -56,8 +56,8 @@ fn hour_names(ui: &Ui, scale: &TimeAxis, names: Rect) -> Vec<(f32, String)> {
 /// the sky plot shows.
 pub(super) fn time_lines(ui: &Ui, scale: &TimeAxis, model: &TimelineModel<'_>, y: Rangef) {
     let t = theme::tokens(ui);
-    if let Some(then) = model.then.filter(|then| *then < scale.end()) {
-        let x = scale.x(then);
+    if let Some(time) = model.time.filter(|time| *time < scale.end()) {
+        let x = scale.x(time);
         let line = [pos2(x, y.min), pos2(x, y.max)];
         ui.painter().extend(Shape::dashed_line(&line, Stroke::new(NOW_WIDTH, t.warn), 4.0, 3.0));
     }

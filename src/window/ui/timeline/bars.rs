@@ -34,10 +34,10 @@ const FLOOR: f32 = 4.0;
 /// Room above the highest bar for a name, the sign for lost seconds and the frame.
 const ABOVE: f32 = 25.0;
 
-/// The bar heights that fit `lane`; in a low lane the high bars shrink below `wanted`.
-pub(super) fn fitting(wanted: &RangeInclusive<f32>, lane: Rect) -> RangeInclusive<f32> {
-    let highest = (lane.height() - FLOOR - ABOVE).clamp(LOWEST, *wanted.end());
-    wanted.start().min(highest)..=highest
+/// The bar heights that fit `lane`; in a low lane the high bars shrink below `span`.
+pub(super) fn fitting(span: &RangeInclusive<f32>, lane: Rect) -> RangeInclusive<f32> {
+    let highest = (lane.height() - FLOOR - ABOVE).clamp(LOWEST, *span.end());
+    span.start().min(highest)..=highest
 }
 
 /// From this number of bars on, one stands for all that begin within as many points.
@@ -61,7 +61,7 @@ pub(super) struct Standing<'a> {
 /// the maximum elevation from 0° to 90°. If there are very many, only those that can be told apart.
 pub(super) fn stand<'a>(
     bars: &'a [Bar<'a>],
-    wanted: impl Fn(&Bar<'_>) -> bool,
+    is_shown: impl Fn(&Bar<'_>) -> bool,
     selected: Option<(u32, Timestamp)>,
     scale: &TimeAxis,
     lane: Rect,
@@ -70,7 +70,7 @@ pub(super) fn stand<'a>(
     let floor = lane.bottom() - FLOOR;
     let mut standing: Vec<_> = bars
         .iter()
-        .filter(|bar| wanted(bar))
+        .filter(|bar| is_shown(bar))
         .filter_map(|bar| {
             let x = scale.range(bar.aos, bar.los)?;
             let top = floor - bar_height(bar.max_elevation_deg.unwrap_or_default(), heights);
@@ -209,8 +209,8 @@ impl Standing<'_> {
         let size = vec2(galley.size().x + 2.0 * GAP, galley.size().y);
         let top = self.triangle().map_or(self.rect.top() - FRAME - FRAME_GAP, |sign| sign.top());
         let half = size.x / 2.0;
-        let left_most = room.left() + half;
-        let x = self.rect.center().x.clamp(left_most, (room.right() - half).max(left_most));
+        let leftmost = room.left() + half;
+        let x = self.rect.center().x.clamp(leftmost, (room.right() - half).max(leftmost));
         Align2::CENTER_BOTTOM.anchor_size(pos2(x, top), size)
     }
 }
@@ -264,8 +264,8 @@ fn tool_tip(bar: &Bar<'_>, now: Timestamp, remarks: &str) -> String {
 
 /// The maximum elevation after `separator`; empty where it is not known any more.
 fn max_elevation(bar: &Bar<'_>, separator: &str) -> String {
-    let known = bar.max_elevation_deg.map(|deg| format::degrees(deg, 0));
-    known.map_or_else(String::new, |deg| format!("{separator}max {deg}"))
+    let elevation = bar.max_elevation_deg.map(|deg| format::degrees(deg, 0));
+    elevation.map_or_else(String::new, |deg| format!("{separator}max {deg}"))
 }
 
 #[cfg(test)]

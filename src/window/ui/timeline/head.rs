@@ -48,9 +48,9 @@ fn legend(model: &TimelineModel<'_>) -> Vec<(Mark, &'static str)> {
 /// Shows the head line in `rect`.
 pub(super) fn show(ui: &Ui, rect: Rect, title: &str, model: &TimelineModel<'_>) {
     let t = theme::tokens(ui);
-    let at = pos2(rect.left() + MARGIN, rect.center().y);
+    let position = pos2(rect.left() + MARGIN, rect.center().y);
     let font = text::sized(13.0, Weight::SemiBold);
-    let title = paint::text(ui, at, Align2::LEFT_CENTER, title, font, t.t1);
+    let title = paint::text(ui, position, Align2::LEFT_CENTER, title, font, t.t1);
     let mut right = rect.right() - MARGIN;
     for (mark, words) in legend(model) {
         let width = MARK + MARK_GAP + paint::text_width(ui, words, text::small());
@@ -60,8 +60,8 @@ pub(super) fn show(ui: &Ui, rect: Rect, title: &str, model: &TimelineModel<'_>) 
         }
         let middle = pos2(left + MARK / 2.0, rect.center().y);
         sign(ui, paint::square(middle, MARK), mark);
-        let at = pos2(left + MARK + MARK_GAP, rect.center().y);
-        paint::text(ui, at, Align2::LEFT_CENTER, words, text::small(), t.t2);
+        let position = pos2(left + MARK + MARK_GAP, rect.center().y);
+        paint::text(ui, position, Align2::LEFT_CENTER, words, text::small(), t.t2);
         right = left - ENTRY_GAP;
     }
 }

@@ -25,7 +25,7 @@ pub(in crate::ui) enum Placed {
 }
 
 /// Shifts of a short name to try, in points, best first.
-const ASIDE: [f32; 5] = [0.0, 3.0, -3.0, 6.0, -6.0];
+const OFFSETS: [f32; 5] = [0.0, 3.0, -3.0, 6.0, -6.0];
 
 /// Free room on both sides of a full name, in points.
 const AIR: f32 = 4.0;
@@ -40,21 +40,21 @@ pub(in crate::ui) fn place(wishes: &[Wish], obstacles: &[Rect], room: Rect) -> V
     }
     let clear = |rect: Rect| in_the_way.leave(rect, None);
     let open = |rect: Rect| room.contains_rect(rect) && clear(rect);
-    let mut taken = Columns::new(room);
+    let mut columns = Columns::new(room);
     let mut placed: Vec<Placed> = Vec::with_capacity(wishes.len());
     for wish in wishes {
-        let mut places = ASIDE.iter().map(|step| wish.short.translate(vec2(*step, 0.0)));
-        let place = places.find(|rect| open(*rect) && taken.leave(*rect, None));
+        let mut places = OFFSETS.iter().map(|step| wish.short.translate(vec2(*step, 0.0)));
+        let place = places.find(|rect| open(*rect) && columns.leave(*rect, None));
         if let Some(place) = place {
-            taken.add(place);
+            columns.add(place);
         }
         placed.push(place.map_or(Placed::Out, Placed::Short));
     }
     for (wish, one) in wishes.iter().zip(&mut placed) {
         let Placed::Short(short) = *one else { continue };
         let airy = wish.full.expand2(vec2(AIR, 0.0));
-        if room.contains_rect(wish.full) && clear(airy) && taken.leave(airy, Some(short)) {
-            taken.add(wish.full);
+        if room.contains_rect(wish.full) && clear(airy) && columns.leave(airy, Some(short)) {
+            columns.add(wish.full);
             *one = Placed::Full(wish.full);
         }
     }
@@ -192,9 +192,9 @@ mod tests {
     fn no_two_of_many_names_overlap_and_whoever_is_out_had_no_room() {
         let room = Rect::from_min_max(pos2(100.0, 0.0), pos2(1100.0, 300.0));
         let mut state = 7_u32;
-        let mut drawn = |most: f32| {
+        let mut drawn = |max: f32| {
             state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-            (state >> 8) as f32 / (1 << 24) as f32 * most
+            (state >> 8) as f32 / (1 << 24) as f32 * max
         };
         let wishes: Vec<Wish> =
             (0..400).map(|_| wish(100.0 + drawn(1000.0), drawn(300.0))).collect();
@@ -215,13 +215,20 @@ mod tests {
             let others = rects.iter().enumerate().filter(|(other, _)| *other != index);
             let mut others = others.filter_map(|(_, other)| *other).chain(bars.iter().copied());
             if let Some(rect) = rect {
-                assert!(room.contains_rect(*rect) && !others.any(|it| overlap(it, *rect)));
+                assert!(
+                    room.contains_rect(*rect)
+                        && !others.any(|rect_of_other| overlap(rect_of_other, *rect))
+                );
             } else {
                 let short = wishes[index].short;
-                assert!(!room.contains_rect(short) || others.any(|it| overlap(it, short)));
+                assert!(
+                    !room.contains_rect(short)
+                        || others.any(|rect_of_other| overlap(rect_of_other, short))
+                );
             }
         }
-        let count = |of: fn(&Placed) -> bool| placed.iter().filter(|one| of(one)).count();
+        let count =
+            |is_counted: fn(&Placed) -> bool| placed.iter().filter(|one| is_counted(one)).count();
         let counts = [
             count(|one| matches!(one, Placed::Full(_))),
             count(|one| matches!(one, Placed::Short(_))),

@@ -32,19 +32,19 @@ pub(super) fn bar_height(max_elevation_deg: f64, heights: &RangeInclusive<f32>) 
 mod tests {
     use super::*;
 
-    fn at(text: &str) -> Timestamp {
+    fn time(text: &str) -> Timestamp {
         text.parse().unwrap()
     }
 
     fn half_a_day(now: &str) -> TimeAxis {
-        axis(at(now), 12.0, Rangef::new(100.0, 820.0))
+        axis(time(now), 12.0, Rangef::new(100.0, 820.0))
     }
 
     #[test]
     fn the_axis_begins_ten_minutes_before_the_minute() {
         let shown = half_a_day("2026-11-14T11:06:12.9Z");
-        assert_eq!(shown.start(), at("2026-11-14T10:56:00Z"));
-        assert_eq!(shown.end(), at("2026-11-14T22:56:00Z"));
+        assert_eq!(shown.start(), time("2026-11-14T10:56:00Z"));
+        assert_eq!(shown.end(), time("2026-11-14T22:56:00Z"));
         assert_eq!(half_a_day("2026-11-14T11:06:59Z"), shown);
     }
 

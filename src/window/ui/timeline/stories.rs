@@ -13,16 +13,16 @@ use crate::{model::UiCommand, ui::widgets::testing};
 const FULL: egui::Vec2 = vec2(632.0, 208.0);
 const SMALL: egui::Vec2 = vec2(672.0, 80.0);
 
-fn at(time: &str) -> Timestamp {
+fn time(time: &str) -> Timestamp {
     format!("2026-11-14T{time}Z").parse().unwrap()
 }
 
 fn bar(number: u32, name: &'static str, aos: &str, los: &str, max: f64) -> Bar<'static> {
     Bar {
-        key: (number, at(aos)),
+        key: (number, time(aos)),
         name: BarName::Known(name),
-        aos: at(aos),
-        los: at(los),
+        aos: time(aos),
+        los: time(los),
         max_elevation_deg: Some(max),
         loses: false,
         state: State::Mount { can_track: true },
@@ -49,16 +49,16 @@ type Picked = Option<(u32, Timestamp)>;
 fn window(size: egui::Vec2, bars: Vec<Bar<'static>>) -> Harness<'static, Picked> {
     testing::window(size, None, move |ui, picked: &mut Picked| {
         let model = TimelineModel {
-            now: at("11:06:12"),
+            now: time("11:06:12"),
             hours: if size == SMALL { 4.0 } else { 12.0 },
             lanes: &[Lane { name: "Satrak", bars: bars.clone() }],
             main: 0,
-            then: None,
+            time: None,
             is_planned: false,
             selected: *picked,
             sun: &[
-                SunSpan { from: at("04:10:00"), to: at("14:45:00"), up: true },
-                SunSpan { from: at("14:45:00"), to: at("23:59:00"), up: false },
+                SunSpan { start: time("04:10:00"), end: time("14:45:00"), up: true },
+                SunSpan { start: time("14:45:00"), end: time("23:59:00"), up: false },
             ],
             says: &|_, _| String::new(),
             menu: &|_, _, _, _| {},
@@ -81,7 +81,7 @@ fn a_bar_is_found_by_name_and_a_click_selects_it() {
     assert!(!window.get_by_label(noaa).accesskit_node().is_selected().unwrap_or(false));
     window.get_by_role_and_label(Role::ListBoxOption, noaa).click();
     window.run();
-    assert_eq!(*window.state(), Some((43_013, at("11:01:53"))));
+    assert_eq!(*window.state(), Some((43_013, time("11:01:53"))));
     assert_eq!(window.get_by_label(noaa).accesskit_node().is_selected(), Some(true));
 }
 
@@ -102,7 +102,7 @@ fn tab_walks_in_the_order_of_time_and_enter_selects() {
     window.run();
     window.key_press(Key::Enter);
     window.run();
-    assert_eq!(*window.state(), Some((59_051, at("11:34:54"))));
+    assert_eq!(*window.state(), Some((59_051, time("11:34:54"))));
 }
 
 #[test]
@@ -113,11 +113,11 @@ fn of_two_bars_that_overlap_the_later_is_above_and_both_can_be_clicked() {
     assert!(swot.intersects(metop));
     window.hover_at(metop.left_center() + vec2(1.0, 0.0));
     window.run();
-    let both = swot.intersect(metop).center();
-    click_at(&mut window, both);
-    assert_eq!(*window.state(), Some((38_771, at("17:10:00"))));
+    let middle = swot.intersect(metop).center();
+    click_at(&mut window, middle);
+    assert_eq!(*window.state(), Some((38_771, time("17:10:00"))));
     click_at(&mut window, swot.left_top() + vec2(2.0, 3.0));
-    assert_eq!(*window.state(), Some((54_754, at("17:00:00"))));
+    assert_eq!(*window.state(), Some((54_754, time("17:00:00"))));
 }
 
 fn click_at(window: &mut Harness<'static, Picked>, place: egui::Pos2) {
@@ -169,7 +169,7 @@ fn a_strip_without_passes_or_room_is_fine() {
 fn texts(harness: &Harness<'_, Picked>) -> Vec<(String, Rect)> {
     fn collect(shape: &egui::Shape, found: &mut Vec<(String, Rect)>) {
         match shape {
-            egui::Shape::Vec(shapes) => shapes.iter().for_each(|of| collect(of, found)),
+            egui::Shape::Vec(shapes) => shapes.iter().for_each(|outline| collect(outline, found)),
             egui::Shape::Text(text) => {
                 let place = text.galley.rect.translate(text.pos.to_vec2());
                 found.push((text.galley.text().to_owned(), place));
@@ -191,7 +191,8 @@ fn the_name_of_the_first_bar_stays_clear_of_the_name_of_its_lane() {
         let mut harness = window(size, vec![first]);
         harness.run();
         let all = texts(&harness);
-        let place = |words: &[&str]| all.iter().find(|(of, _)| words.contains(&&**of)).unwrap().1;
+        let place =
+            |words: &[&str]| all.iter().find(|(name, _)| words.contains(&&**name)).unwrap().1;
         let gap = place(&["S6A", "SENTINEL-6A"]).left() - place(&["Satrak"]).right();
         assert!(gap >= 6.0, "{size:?}: {gap}");
     }

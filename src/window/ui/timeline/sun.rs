@@ -21,7 +21,7 @@ pub(super) fn show(
     let t = theme::tokens(ui);
     let mut free_from = words.left();
     for span in spans {
-        let Some(x) = scale.range(span.from, span.to) else {
+        let Some(x) = scale.range(span.start, span.end) else {
             continue;
         };
         let rect = Rect::from_x_y_ranges(x, bar.y_range());
@@ -33,10 +33,10 @@ pub(super) fn show(
         if left < free_from {
             continue;
         }
-        let at = pos2(left, words.center().y);
-        paint::text(ui, at, Align2::LEFT_CENTER, &word, text::caption(), t.t2);
+        let position = pos2(left, words.center().y);
+        paint::text(ui, position, Align2::LEFT_CENTER, &word, text::caption(), t.t2);
         let name = Rect::from_x_y_ranges(left..=left + width, words.y_range());
-        paint::name_text(ui, ("sun", span.from), name, &word);
+        paint::name_text(ui, ("sun", span.start), name, &word);
         free_from = left + width + GAP;
     }
 }
@@ -44,8 +44,8 @@ pub(super) fn show(
 /// The caption of a span: the state at the start of the window, or the change that begins
 /// the span.
 fn caption(span: &SunSpan, scale: &TimeAxis, now: Timestamp) -> String {
-    let began = format::minute(span.from, now);
-    match (span.from > scale.start(), span.up) {
+    let began = format::minute(span.start, now);
+    match (span.start > scale.start(), span.up) {
         (false, true) => "day".to_owned(),
         (false, false) => "night".to_owned(),
         (true, true) => format!("sunrise {began}"),

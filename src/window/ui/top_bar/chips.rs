@@ -42,8 +42,8 @@ pub(super) fn show(
     let shown = how_many_fit(&widths, gap, rect.width(), more_width);
     let hidden = chips.get(shown..).unwrap_or_default();
     let more = if hidden.is_empty() { 0.0 } else { more_width + gap };
-    let taken: f32 = widths.iter().take(shown).map(|width| width + gap).sum::<f32>() + more - gap;
-    let start = rect.right() - taken.max(0.0);
+    let used: f32 = widths.iter().take(shown).map(|width| width + gap).sum::<f32>() + more - gap;
+    let start = rect.right() - used.max(0.0);
     let mut x = start;
     for (index, (chip, width)) in chips.iter().zip(&widths).take(shown).enumerate() {
         let place = Rect::from_min_size(pos2(x, rect.top()), vec2(*width, rect.height()));
@@ -110,10 +110,10 @@ fn more_chip(ui: &Ui, rect: Rect, hidden: &[ChipModel<'_>]) -> Response {
     let (icon, colour) = worst.look(t);
     let glyph = paint::square(pos2(rect.left() + 16.0, rect.center().y), 13.0);
     icons::paint(ui.painter(), glyph, icon, colour);
-    let at = pos2(rect.left() + 28.0, rect.center().y);
+    let position = pos2(rect.left() + 28.0, rect.center().y);
     let font = text::sized(13.0, Weight::SemiBold);
     let count = format!("+{}", hidden.len());
-    let count = paint::text(ui, at, Align2::LEFT_CENTER, count, font.clone(), t.t1);
+    let count = paint::text(ui, position, Align2::LEFT_CENTER, count, font.clone(), t.t1);
     if in_alarm > 0 {
         let room = rect.with_min_x(count.right() + 6.0).with_max_x(rect.right() - 4.0);
         paint::text_in(ui, room, Align2::LEFT_CENTER, link_chip::ALARM, font, t.bad);

@@ -71,8 +71,8 @@ pub(super) fn show(ui: &Ui, rect: Rect, model: &ClockModel<'_>, wide: bool) -> C
     named.on_hover_text(format!("{} UTC\n{local}{}", model.date, model.health.sentence));
     let strong = text::sized(12.0, Weight::SemiBold);
     let two_lines = wide || model.health.mood == ClockMood::Bad;
-    let at = pos2(time.right() + 10.0, rect.center().y - if two_lines { LINE } else { 0.0 });
-    let utc = paint::text(ui, at, Align2::LEFT_CENTER, "UTC", strong, t.t1);
+    let position = pos2(time.right() + 10.0, rect.center().y - if two_lines { LINE } else { 0.0 });
+    let utc = paint::text(ui, position, Align2::LEFT_CENTER, "UTC", strong, t.t1);
     ClockEnds { time: time.right(), utc }
 }
 
@@ -94,11 +94,11 @@ pub(super) fn date(ui: &Ui, rect: Rect, model: &ClockModel<'_>) -> bool {
     paint::text_in(ui, after_utc, Align2::LEFT_CENTER, model.date, text::small(), t.t2);
     let below = rect.translate(vec2(0.0, LINE));
     let place = paint::text_in(ui, below, Align2::LEFT_CENTER, local, text::small(), t.t2);
-    let said = match model.local {
+    let spoken = match model.local {
         Some(local) => format!("{}, local time {local}", model.date),
         None => model.date.to_owned(),
     };
-    paint::name_text(ui, "local", place, &said);
+    paint::name_text(ui, "local", place, &spoken);
     if room_for_health {
         let colour = match model.health.mood {
             ClockMood::Good => t.ok,

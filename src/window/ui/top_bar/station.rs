@@ -44,8 +44,8 @@ pub(super) fn show(
     } else {
         paint::text_in(ui, room, Align2::LEFT_CENTER, model.station, strong, t.t1);
     }
-    let at = pos2(rect.right() - 22.0, rect.center().y);
-    icons::paint(ui.painter(), paint::square(at, 14.0), Icon::ChevronDown, t.t2);
+    let position = pos2(rect.right() - 22.0, rect.center().y);
+    icons::paint(ui.painter(), paint::square(position, 14.0), Icon::ChevronDown, t.t2);
     paint::focus_ring(ui, &response, 5);
     menu::show(
         &response,
@@ -80,11 +80,11 @@ fn menu(ui: &mut Ui, model: &TopBarModel<'_>, commands: &mut Vec<UiCommand>) {
 
 /// The other stations. The one in the window is marked, and a click on it changes nothing.
 fn stations(ui: &mut Ui, model: &TopBarModel<'_>, commands: &mut Vec<UiCommand>) {
-    for known in &model.stations.known {
-        let is_open = !model.demo && model.stations.open.as_ref() == Some(&known.path);
-        let entry = ui.add(Button::selectable(is_open, model.stations.label(known)).truncate());
-        if entry.on_hover_text(known.path.display().to_string()).clicked() && !is_open {
-            let next = NextStation::File(known.path.clone());
+    for station in &model.stations.stations {
+        let is_open = !model.demo && model.stations.open.as_ref() == Some(&station.path);
+        let entry = ui.add(Button::selectable(is_open, model.stations.label(station)).truncate());
+        if entry.on_hover_text(station.path.display().to_string()).clicked() && !is_open {
+            let next = NextStation::File(station.path.clone());
             commands.push(UiCommand::ChooseStation(next));
         }
     }

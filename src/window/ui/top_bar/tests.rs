@@ -81,13 +81,13 @@ fn bar(size: [f32; 2]) -> Harness<'static, Vec<UiCommand>> {
 
 #[test]
 fn stop_stands_at_the_right_end_in_every_size() {
-    for (size, wanted) in [
+    for (size, expected) in [
         ([1440.0, 900.0], Rect::from_min_size(pos2(1280.0, 8.0), stop_button::SIZE)),
         ([1024.0, 640.0], Rect::from_min_size(pos2(896.0, 8.0), stop_button::SMALL_SIZE)),
     ] {
         let mut window = bar(size);
         let stop = window.get_by_label("STOP");
-        assert!(wanted.expand(0.5).contains_rect(stop.rect()), "{:?}", stop.rect());
+        assert!(expected.expand(0.5).contains_rect(stop.rect()), "{:?}", stop.rect());
         stop.click();
         window.run();
         assert_eq!(*window.state(), [UiCommand::Stop]);
@@ -142,11 +142,11 @@ fn an_alarm_is_acknowledged() {
     window.run();
     window.get_by_label("Acknowledge: RC2000C does not reply").click();
     window.run();
-    let wanted = [
+    let expected = [
         UiCommand::Station(contract::Command::OpenedAlarms),
         UiCommand::Station(contract::Command::AcknowledgeAlarm(3)),
     ];
-    assert_eq!(*window.state(), wanted);
+    assert_eq!(*window.state(), expected);
 }
 
 #[test]
@@ -160,6 +160,6 @@ fn the_station_menu_opens_settings_and_changes_the_theme() {
     window.run();
     window.get_by_role_and_label(Role::Button, "Station settings…").click();
     window.run();
-    let wanted = [UiCommand::SetTheme(ThemeName::Night), UiCommand::Show(View::Preferences)];
-    assert_eq!(*window.state(), wanted);
+    let expected = [UiCommand::SetTheme(ThemeName::Night), UiCommand::Show(View::Preferences)];
+    assert_eq!(*window.state(), expected);
 }

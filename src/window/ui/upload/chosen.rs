@@ -17,7 +17,7 @@ use crate::{
         widgets::{
             button::RADIUS,
             card, paint,
-            told::{Tone, line},
+            status_line::{Tone, line},
         },
         words::sentence,
     },
@@ -37,14 +37,14 @@ enum Change {
     Favourites,
 }
 
-/// `held` is the satellite on the unit: it stays the one to follow until the operator marks
+/// `satellite` is the satellite on the unit: it stays the one to follow until the operator marks
 /// another. `None` if it was not read yet. Where it is not in the file, the selected satellite is
 /// to be followed, else the first.
 pub(super) fn show(
     ui: &mut Ui,
     model: &Model,
     catalog: &Arc<Catalog>,
-    held: Option<&HeldSatellite>,
+    satellite: Option<&HeldSatellite>,
     form: &mut Form,
 ) {
     let favourites = &model.station.favourites.numbers();
@@ -53,15 +53,18 @@ pub(super) fn show(
         let is_own = form.numbers.is_some();
         let marked = form.marked;
         let chosen = form.chosen(catalog, favourites);
-        let is_unread = held.is_none();
-        let held = held.filter(|held| held.catalog_number > 0);
-        let held_number = held.map(|held| held.catalog_number);
-        let known = [marked, held_number, model.catalog_table.inspected].into_iter().flatten();
-        let followed = known.clone().find(|number| is_chosen(&chosen, *number));
+        let is_unread = satellite.is_none();
+        let satellite = satellite.filter(|satellite| satellite.catalog_number > 0);
+        let held_number = satellite.map(|satellite| satellite.catalog_number);
+        let known_numbers =
+            [marked, held_number, model.catalog_table.inspected].into_iter().flatten();
+        let followed = known_numbers.clone().find(|number| is_chosen(&chosen, *number));
         let followed = followed.or_else(|| first(&chosen));
         head(ui, &chosen, is_own, &mut change);
-        if let Some(held) = held.filter(|held| followed != Some(held.catalog_number)) {
-            let name = &held.name;
+        if let Some(satellite) =
+            satellite.filter(|satellite| followed != Some(satellite.catalog_number))
+        {
+            let name = &satellite.name;
             let words = format!("The unit holds {name} now, and will follow the one marked here.");
             line(ui, Tone::Caution, &words);
         }
@@ -80,7 +83,7 @@ pub(super) fn show(
         Some(Change::Favourites) => form.numbers = None,
         Some(Change::Follow(number)) => form.marked = Some(number),
         Some(Change::Remove(number)) => {
-            numbers.retain(|known| *known != number);
+            numbers.retain(|other| *other != number);
             form.numbers = Some(numbers);
         }
         Some(Change::Add(number)) => {

@@ -58,7 +58,7 @@ struct Checked {
 
 impl Form {
     /// The form prefilled from the settings of `antenna`, whose unit accepts these files.
-    pub(super) fn of(antenna: &Antenna, takes: &'static ElementFiles) -> Self {
+    pub(super) fn new(antenna: &Antenna, takes: &'static ElementFiles) -> Self {
         let connection = &antenna.connection;
         Self {
             takes,
@@ -141,8 +141,8 @@ impl Form {
         cargo: Result<Cargo, String>,
     ) -> Result<Order, String> {
         let cargo = cargo?;
-        let missing = |typed: &str, what: &str| {
-            if typed.trim().is_empty() { Err(format!("enter {what} to upload")) } else { Ok(()) }
+        let missing = |typed: &str, subject: &str| {
+            if typed.trim().is_empty() { Err(format!("enter {subject} to upload")) } else { Ok(()) }
         };
         missing(&self.file, "the name of the file on the unit")?;
         let file = self.file_name().map_err(|error| error.to_string())?;
@@ -217,7 +217,7 @@ mod tests {
     fn form() -> Form {
         let mut antenna = Antenna::satrak("Satrak", "192.168.10.21:4001");
         antenna.connection.put(&ELEMENT_FILE, "active.txt").unwrap();
-        Form { user: "op".to_owned(), ..Form::of(&antenna, &ELEMENT_FILES) }
+        Form { user: "op".to_owned(), ..Form::new(&antenna, &ELEMENT_FILES) }
     }
 
     fn file() -> Cargo {

@@ -14,7 +14,7 @@ use crate::{
     ui::{
         confirm::Question,
         dialogs, format, text, theme,
-        widgets::told::{Tone, fact, line},
+        widgets::status_line::{Tone, fact, line},
         words::{OLD_ELEMENTS_S, old_algorithms, sentence},
     },
 };
@@ -56,8 +56,8 @@ pub(super) fn show(
 }
 
 fn proved(ui: &mut Ui, model: &Model, proved: &Proved) {
-    let what = if model.uploads.is_roll_back { "Rolled back and verified" } else { "Verified" };
-    let words = format!("{what} {}", format::moment(proved.time, model.now));
+    let subject = if model.uploads.is_roll_back { "Rolled back and verified" } else { "Verified" };
+    let words = format!("{subject} {}", format::moment(proved.time, model.now));
     line(ui, Tone::Good, &words);
     let satellite = &proved.satellite;
     let words = format!(
@@ -98,8 +98,8 @@ fn failed(ui: &mut Ui, model: &Model, failure: &Failure, question: &mut Option<Q
 fn file(ui: &mut Ui, uploaded: &Uploaded) {
     fact(ui, "File", &format!("{}, {} bytes", uploaded.file.as_str(), uploaded.bytes));
     fact(ui, "Unit", &uploaded.unit.to_string());
-    let at = format::dated(uploaded.time);
-    fact(ui, "Read back", &at);
+    let time_text = format::dated(uploaded.time);
+    fact(ui, "Read back", &time_text);
     fact(ui, "SHA-256", &uploaded.sha256.to_string());
 }
 

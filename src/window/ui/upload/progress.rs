@@ -15,7 +15,7 @@ use crate::{
         text, theme,
         widgets::{
             card,
-            told::{Tone, line},
+            status_line::{Tone, line},
         },
     },
 };

@@ -23,7 +23,7 @@ pub(super) fn show(ui: &Ui, model: &Model, state: &mut Questions, commands: &mut
             Ask::AgreeToTracking,
         ),
         Stage::AsksAboutHostKey(key) => yes_or_no(dialogs::host_key(ui, key), Ask::TrustHostKey),
-        Stage::AsksForSecret(wanted) => match state.password.show(ui, wanted) {
+        Stage::AsksForSecret(request) => match state.password.show(ui, request) {
             None => None,
             Some(SecretAnswer::Cancelled) => Some(Ask::Cancel),
             Some(SecretAnswer::Typed { secret, keep }) => Some(Ask::Secret { secret, keep }),

@@ -48,7 +48,7 @@ pub enum Section {
 }
 
 impl Section {
-    pub fn of(state: AlarmState) -> Self {
+    pub fn new(state: AlarmState) -> Self {
         match state {
             AlarmState::New | AlarmState::NewAndOver { .. } | AlarmState::Seen => Self::Open,
             AlarmState::Shelved { .. } => Self::Shelved,
@@ -111,12 +111,12 @@ pub struct AlarmModel<'a> {
 
 impl AlarmModel<'_> {
     fn active(&self) -> usize {
-        self.rows.iter().filter(|row| Section::of(row.state) == Section::Open).count()
+        self.rows.iter().filter(|row| Section::new(row.state) == Section::Open).count()
     }
 
     /// The colour of the gravest alarm that is not shelved.
     fn colour(&self, t: &Tokens) -> Color32 {
-        let open = || self.rows.iter().filter(|row| Section::of(row.state) == Section::Open);
+        let open = || self.rows.iter().filter(|row| Section::new(row.state) == Section::Open);
         if open().any(AlarmRow::is_standing_red) {
             t.bad
         } else if open().next().is_some() {
@@ -145,8 +145,8 @@ pub fn show(
     if response.clicked() && !was_open {
         commands.push(UiCommand::Station(contract::Command::OpenedAlarms));
     }
-    let [small, usual] = WIDTHS;
-    let width = if one_line { small } else { usual };
+    let [small, default] = WIDTHS;
+    let width = if one_line { small } else { default };
     let right = ui.ctx().content_rect().right() - EDGE;
     Popup::from_toggle_button_response(&response)
         .anchor(rect.with_max_x(right).with_max_y(below))
@@ -183,18 +183,18 @@ fn button(ui: &Ui, rect: Rect, model: &AlarmModel<'_>, one_line: bool) -> Respon
     ui.painter().rect(rect, RADIUS, fill, Stroke::new(1.0, border), StrokeKind::Inside);
     if bell_is_lit(ui, model.unopened && new > 0) {
         let inset = if one_line { 16.0 } else { 18.0 };
-        let at = paint::square(pos2(rect.left() + inset, rect.center().y), 16.0);
-        icons::paint(ui.painter(), at, Icon::Bell, colour);
+        let area = paint::square(pos2(rect.left() + inset, rect.center().y), 16.0);
+        icons::paint(ui.painter(), area, Icon::Bell, colour);
     }
     let strong = text::sized(13.0, Weight::SemiBold);
     if one_line {
-        let at = pos2(rect.left() + 30.0, rect.center().y);
-        paint::text(ui, at, Align2::LEFT_CENTER, active, strong, t.t1);
+        let position = pos2(rect.left() + 30.0, rect.center().y);
+        paint::text(ui, position, Align2::LEFT_CENTER, active, strong, t.t1);
     } else {
-        let at = pos2(rect.left() + 32.0, rect.center().y);
-        let up = at - vec2(0.0, 7.0);
+        let position = pos2(rect.left() + 32.0, rect.center().y);
+        let up = position - vec2(0.0, 7.0);
         paint::text(ui, up, Align2::LEFT_CENTER, first, strong, t.t1);
-        let down = at + vec2(0.0, 8.5);
+        let down = position + vec2(0.0, 8.5);
         paint::text(ui, down, Align2::LEFT_CENTER, second, text::small(), t.t2);
     }
     paint::focus_ring(ui, &response, RADIUS);
@@ -223,8 +223,8 @@ fn list(ui: &mut Ui, model: &AlarmModel<'_>, opens: bool, commands: &mut Vec<UiC
         let size_of_line = vec2(ui.available_width(), HEADER_HEIGHT);
         let (rect, _) = ui.allocate_exact_size(size_of_line, Sense::hover());
         let size = vec2(ALL_BUTTON, SMALL_HEIGHT);
-        let at = Rect::from_min_size(pos2(rect.right() - size.x, rect.top()), size);
-        if Button::normal("Acknowledge all").show(ui, "acknowledge all", at).clicked()
+        let bounds = Rect::from_min_size(pos2(rect.right() - size.x, rect.top()), size);
+        if Button::normal("Acknowledge all").show(ui, "acknowledge all", bounds).clicked()
             && let Some(newest) = model.rows.iter().map(|row| row.id).max()
         {
             commands.push(UiCommand::Station(contract::Command::AcknowledgeAlarms { newest }));
@@ -238,7 +238,7 @@ fn list(ui: &mut Ui, model: &AlarmModel<'_>, opens: bool, commands: &mut Vec<UiC
     area.show(ui, |ui| {
         let mut section = Section::Open;
         for (index, alarm) in model.rows.iter().enumerate() {
-            let now = Section::of(alarm.state);
+            let now = Section::new(alarm.state);
             if std::mem::replace(&mut section, now) != now {
                 heading(ui, now);
             } else if index > 0 {
@@ -320,12 +320,12 @@ mod tests {
         let [red, amber] = ROWS;
         let now = jiff::Timestamp::UNIX_EPOCH;
         let shelved = AlarmRow { state: AlarmState::Shelved { end: now }, ..red };
-        let over = AlarmRow { state: AlarmState::NewAndOver { over_since: now }, ..red };
+        let alarm_row = AlarmRow { state: AlarmState::NewAndOver { over_since: now }, ..red };
         let done = AlarmRow { state: AlarmState::Over { over_since: now }, ..red };
         assert_eq!(colour(&[red, amber]), t.bad);
         assert_eq!(colour(&[AlarmRow { state: AlarmState::Seen, ..red }]), t.bad);
         assert_eq!(colour(&[amber, shelved, done]), t.warn);
-        assert_eq!(colour(&[over]), t.warn);
+        assert_eq!(colour(&[alarm_row]), t.warn);
         assert_eq!(colour(&[shelved, done]), t.t2);
     }
 

@@ -61,7 +61,7 @@ pub struct AxisRow<'a> {
 /// The axes of an antenna.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct AxesTable<'a> {
-    pub wanted: WantedColumn,
+    pub wanted_column: WantedColumn,
     /// Decimals of measured and commanded values.
     pub decimals: usize,
     pub predicted_decimals: usize,
@@ -79,7 +79,7 @@ pub fn height(axes: usize) -> f32 {
 /// measured values have a hollow ring before them.
 pub fn show(ui: &Ui, rect: Rect, table: &AxesTable<'_>) {
     let t = theme::tokens(ui);
-    let wanted_word = table.wanted.word();
+    let wanted_word = table.wanted_column.word();
     let actual_word = match table.age {
         Some(age) => format!("{age} old °"),
         None => "Actual °".to_owned(),
@@ -112,15 +112,15 @@ fn measured(table: &AxesTable<'_>) -> String {
 }
 
 fn show_row(ui: &Ui, row: Rect, table: &AxesTable<'_>, axis: &AxisRow<'_>, t: &Tokens) {
-    let &AxesTable { wanted, decimals, predicted_decimals, age, .. } = table;
+    let &AxesTable { wanted_column, decimals, predicted_decimals, age, .. } = table;
     let y = row.center().y;
     let strong = text::sized(15.0, Weight::SemiBold);
     paint::text(ui, pos2(row.left(), y), Align2::LEFT_CENTER, axis.name, strong.clone(), t.t1);
-    let wanted_colour = match wanted {
+    let wanted_colour = match wanted_column {
         WantedColumn::Command => t.cmd,
         WantedColumn::Predicted => t.sat,
     };
-    let wanted_decimals = wanted.decimals(decimals, predicted_decimals);
+    let wanted_decimals = wanted_column.decimals(decimals, predicted_decimals);
     let texts = [
         angle(axis.wanted_deg, wanted_decimals),
         angle(axis.actual_deg, decimals),
@@ -134,8 +134,8 @@ fn show_row(ui: &Ui, row: Rect, table: &AxesTable<'_>, axis: &AxisRow<'_>, t: &T
     for (index, ((part, words), (font, colour))) in
         COLUMNS.iter().zip(&texts).zip(looks).enumerate()
     {
-        let at = pos2(row.left() + part * row.width(), y);
-        let place = paint::text(ui, at, Align2::RIGHT_CENTER, words, font, colour);
+        let position = pos2(row.left() + part * row.width(), y);
+        let place = paint::text(ui, position, Align2::RIGHT_CENTER, words, font, colour);
         if is_old && index == ACTUAL {
             let ring = paint::square(pos2(place.left() - 8.0, y), 9.0);
             icons::paint(ui.painter(), ring, Icon::OpenRing, t.t3);
@@ -147,7 +147,7 @@ fn show_row(ui: &Ui, row: Rect, table: &AxesTable<'_>, axis: &AxisRow<'_>, t: &T
     let name = format!(
         "{}: {} {wanted_text}, actual {actual}{old}, error {error}, rate {rate}",
         axis.name,
-        wanted.word()
+        wanted_column.word()
     );
     paint::name_text(ui, ("axis", axis.name), row, &name);
 }
@@ -187,7 +187,7 @@ mod tests {
             }];
             let rect = Rect::from_min_size(pos2(10.0, 10.0), vec2(312.0, height(1)));
             let table = AxesTable {
-                wanted: WantedColumn::Predicted,
+                wanted_column: WantedColumn::Predicted,
                 decimals: 2,
                 predicted_decimals: 2,
                 age: None,
@@ -210,11 +210,11 @@ mod tests {
 
     #[test]
     fn only_what_is_predicted_has_more_decimals_than_the_unit() {
-        for (wanted, said) in [
+        for (wanted_column, spoken) in [
             (WantedColumn::Command, "Az: Command 173, actual 172, error −1, rate −0.25"),
             (WantedColumn::Predicted, "Az: Predicted 173.00, actual 172, error −1.00, rate −0.25"),
         ] {
-            let window = testing::window([400.0, 200.0], wanted, |ui, wanted| {
+            let window = testing::window([400.0, 200.0], wanted_column, |ui, wanted_column| {
                 let axes = [AxisRow {
                     name: "Az",
                     wanted_deg: Some(173.0),
@@ -224,14 +224,14 @@ mod tests {
                 }];
                 let rect = Rect::from_min_size(pos2(10.0, 10.0), vec2(312.0, height(1)));
                 let table = AxesTable {
-                    wanted: *wanted,
+                    wanted_column: *wanted_column,
                     predicted_decimals: 2,
                     axes: &axes,
                     ..AxesTable::default()
                 };
                 show(ui, rect, &table);
             });
-            window.get_by_label(said);
+            window.get_by_label(spoken);
         }
     }
 }

@@ -86,16 +86,16 @@ pub fn show(ui: &Ui, rect: Rect, model: &BeamModel) {
         |error_deg| format!("{}°", axes_table::angle(Some(error_deg), 2)),
     );
     let strong = text::sized(12.0, Weight::SemiBold);
-    let at = pos2(limit_box.left(), y);
-    paint::text(ui, at, Align2::RIGHT_CENTER, &error, strong, t.t1);
-    let said = model
+    let position = pos2(limit_box.left(), y);
+    paint::text(ui, position, Align2::RIGHT_CENTER, &error, strong, t.t1);
+    let spoken = model
         .error_deg
         .map_or("not known", |error_deg| look(place(error_deg, model.half_beam_deg), t).1);
     paint::name_text(
         ui,
         "beam",
         rect.shrink2(vec2(0.0, 1.0)),
-        &format!("{words} {error} (half beam {half_beam}), {said}"),
+        &format!("{words} {error} (half beam {half_beam}), {spoken}"),
     );
 }
 

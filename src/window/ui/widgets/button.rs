@@ -32,14 +32,21 @@ pub struct Button<'a> {
     text: &'a str,
     weight: Weight,
     locked: bool,
-    why: Option<&'a str>,
+    reason: Option<&'a str>,
     chevron: bool,
     icon: Option<Icon>,
 }
 
 impl<'a> Button<'a> {
     pub fn normal(text: &'a str) -> Self {
-        Self { text, weight: Weight::Normal, locked: false, why: None, chevron: false, icon: None }
+        Self {
+            text,
+            weight: Weight::Normal,
+            locked: false,
+            reason: None,
+            chevron: false,
+            icon: None,
+        }
     }
 
     /// The main action of its place.
@@ -60,8 +67,8 @@ impl<'a> Button<'a> {
 
     /// Locked where there is a reason, which is its tooltip.
     #[must_use]
-    pub fn locked_by(self, why: Option<&'a str>) -> Self {
-        Self { locked: self.locked || why.is_some(), why, ..self }
+    pub fn locked_by(self, reason: Option<&'a str>) -> Self {
+        Self { locked: self.locked || reason.is_some(), reason, ..self }
     }
 
     pub fn is_locked(&self) -> bool {
@@ -110,8 +117,8 @@ impl<'a> Button<'a> {
         };
         let room = rect.shrink2(vec2(6.0, 0.0));
         if self.chevron {
-            let at = pos2(rect.right() - 14.0, rect.center().y);
-            icons::paint(ui.painter(), paint::square(at, 12.0), Icon::ChevronDown, colour);
+            let position = pos2(rect.right() - 14.0, rect.center().y);
+            icons::paint(ui.painter(), paint::square(position, 12.0), Icon::ChevronDown, colour);
             let room = room.with_max_x(rect.right() - 22.0);
             paint::text_in(ui, room, Align2::CENTER_CENTER, self.text, text::body_medium(), colour);
         } else {
@@ -120,13 +127,13 @@ impl<'a> Button<'a> {
             let anchor = Align2::CENTER_CENTER;
             let place = paint::text_in(ui, words, anchor, self.text, text::body_medium(), colour);
             if let Some(icon) = self.icon {
-                let at = pos2(place.left() - ICON / 2.0 - 2.0, rect.center().y);
-                icons::paint(ui.painter(), paint::square(at, 16.0), icon, colour);
+                let position = pos2(place.left() - ICON / 2.0 - 2.0, rect.center().y);
+                icons::paint(ui.painter(), paint::square(position, 16.0), icon, colour);
             }
         }
         paint::focus_ring(ui, &response, RADIUS);
-        match self.why {
-            Some(why) => response.on_hover_text(why),
+        match self.reason {
+            Some(reason) => response.on_hover_text(reason),
             None => response,
         }
     }
@@ -170,11 +177,11 @@ mod tests {
     #[test]
     fn a_click_is_reported_and_a_locked_button_is_silent() {
         let mut window = testing::window([300.0, 100.0], [0, 0], |ui, clicks| {
-            let at = |x| Rect::from_min_size(pos2(x, 20.0), vec2(100.0, HEIGHT));
-            if Button::primary("Track").show(ui, "a", at(10.0)).clicked() {
+            let rect = |x| Rect::from_min_size(pos2(x, 20.0), vec2(100.0, HEIGHT));
+            if Button::primary("Track").show(ui, "a", rect(10.0)).clicked() {
                 clicks[0] += 1;
             }
-            if Button::normal("Go to").locked(true).show(ui, "b", at(130.0)).clicked() {
+            if Button::normal("Go to").locked(true).show(ui, "b", rect(130.0)).clicked() {
                 clicks[1] += 1;
             }
         });

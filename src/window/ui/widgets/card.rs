@@ -4,8 +4,8 @@ use egui::{Frame, Margin, Stroke, Ui};
 
 use crate::ui::theme;
 
-/// Shows `content` in a card at most `most` points wide.
-pub fn show<R>(ui: &mut Ui, most: f32, content: impl FnOnce(&mut Ui) -> R) -> R {
+/// Shows `content` in a card at most `max` points wide.
+pub fn show<R>(ui: &mut Ui, max: f32, content: impl FnOnce(&mut Ui) -> R) -> R {
     let t = theme::tokens(ui);
     Frame::new()
         .fill(t.bg1)
@@ -14,7 +14,7 @@ pub fn show<R>(ui: &mut Ui, most: f32, content: impl FnOnce(&mut Ui) -> R) -> R 
         .inner_margin(Margin::same(16))
         .outer_margin(Margin { bottom: 8, ..Margin::ZERO })
         .show(ui, |ui| {
-            ui.set_width(most.min(ui.available_width()));
+            ui.set_width(max.min(ui.available_width()));
             content(ui)
         })
         .inner

@@ -53,10 +53,11 @@ pub fn entry(ui: &mut Ui, response: Id, words: &str) -> bool {
 
 /// The same for an entry that cannot be chosen where there is a reason, which whoever points at it
 /// reads.
-pub fn entry_locked_by(ui: &mut Ui, response: Id, words: &str, why: Option<&str>) -> bool {
-    let entry = ui.add_enabled(why.is_none(), Button::new(words));
-    let entry = entry.on_disabled_hover_text(why.unwrap_or_default());
-    if why.is_none() && ui.data_mut(|data| data.remove_temp(wants_focus(response)).unwrap_or(false))
+pub fn entry_locked_by(ui: &mut Ui, response: Id, words: &str, reason: Option<&str>) -> bool {
+    let entry = ui.add_enabled(reason.is_none(), Button::new(words));
+    let entry = entry.on_disabled_hover_text(reason.unwrap_or_default());
+    if reason.is_none()
+        && ui.data_mut(|data| data.remove_temp(wants_focus(response)).unwrap_or(false))
     {
         entry.request_focus();
     }

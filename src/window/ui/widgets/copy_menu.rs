@@ -4,11 +4,11 @@ use egui::{Event, Response, Ui};
 
 use super::context_menu;
 
-/// Offers to copy the text of what `response` shows; `what` names it in the menu.
-pub fn offer(ui: &Ui, response: &Response, what: &str, text: impl Fn() -> String) {
+/// Offers to copy the text of what `response` shows; `subject` names it in the menu.
+pub fn offer(ui: &Ui, response: &Response, subject: &str, text: impl Fn() -> String) {
     by_key(ui, response, &text);
     context_menu::show(ui, response, |ui| {
-        if context_menu::entry(ui, response.id, &format!("Copy {what}")) {
+        if context_menu::entry(ui, response.id, &format!("Copy {subject}")) {
             ui.copy_text(text());
         }
     });

@@ -79,14 +79,15 @@ pub fn show(ui: &Ui, rect: Rect, model: &FoldModel<'_>, open: &mut bool) -> bool
     ui.painter().hline(rect.x_range(), rect.top(), (1.0, t.line));
     let y = rect.center().y;
     let chevron = if *open { Icon::ChevronDown } else { Icon::ChevronRight };
-    let at = paint::square(pos2(rect.left() + 18.0, y), 12.0);
-    icons::paint(ui.painter(), at, chevron, t.t2);
-    let at = pos2(rect.left() + 34.0, y);
-    let title = paint::text(ui, at, Align2::LEFT_CENTER, model.title, text::body_medium(), t.t1);
+    let area = paint::square(pos2(rect.left() + 18.0, y), 12.0);
+    icons::paint(ui.painter(), area, chevron, t.t2);
+    let position = pos2(rect.left() + 34.0, y);
+    let title =
+        paint::text(ui, position, Align2::LEFT_CENTER, model.title, text::body_medium(), t.t1);
     let mut right = rect.right() - 12.0;
     if let Some((icon, colour)) = model.mark {
-        let at = paint::square(pos2(right - 6.0, y), 12.0);
-        icons::paint(ui.painter(), at, icon, colour);
+        let area = paint::square(pos2(right - 6.0, y), 12.0);
+        icons::paint(ui.painter(), area, icon, colour);
         right -= 20.0;
     }
     let room = rect.with_min_x(title.right() + 8.0).with_max_x(right);

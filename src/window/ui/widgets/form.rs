@@ -104,7 +104,7 @@ impl Mark {
 /// State of a field with this problem, or else with an edit of the text that it `was`, in words.
 pub fn standing(problem: Option<String>, was: Option<&str>) -> (Mark, String) {
     match (problem, was) {
-        (Some(why), _) => (Mark::Invalid, why),
+        (Some(reason), _) => (Mark::Invalid, reason),
         (None, Some(was)) => {
             let was = if was.is_empty() { "empty" } else { was };
             (Mark::Edited, format!("Edited, was {was}").replace('-', "−"))
@@ -118,8 +118,8 @@ pub fn state(ui: &Ui, salt: impl egui::AsIdSalt, room: Rect, mark: Mark, [words,
     let (icon, colour) = mark.look(theme::tokens(ui));
     let mut place = room;
     if let Some(icon) = icon {
-        let at = paint::square(room.left_center() + vec2(6.0, 0.0), 12.0);
-        icons::paint(ui.painter(), at, icon, colour);
+        let rect = paint::square(room.left_center() + vec2(6.0, 0.0), 12.0);
+        icons::paint(ui.painter(), rect, icon, colour);
         place = room.with_min_x(room.left() + MARK);
     }
     if room.width() >= MIN_STATE {

@@ -204,7 +204,7 @@ fn field_row(
         locked_field(ui, rect, id, &name, shown);
         return false;
     }
-    let refused = state.refusal.as_ref().is_some_and(|(at, _)| *at == field);
+    let refused = state.refusal.as_ref().is_some_and(|(entry, _)| *entry == field);
     let response = AngleField { refused, hint: &commanded, name: &name }.show(ui, id, rect, buffer);
     if state.wants_focus && field == Field::Azimuth {
         state.wants_focus = false;

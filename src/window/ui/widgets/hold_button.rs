@@ -24,8 +24,8 @@ pub enum HoldState {
 
 impl HoldState {
     /// Advances by one frame. Returns `true` once, when the button was held to the end.
-    fn step(&mut self, held: bool, now_s: f64) -> bool {
-        *self = match (*self, held) {
+    fn step(&mut self, is_held: bool, now_s: f64) -> bool {
+        *self = match (*self, is_held) {
             (_, false) => Self::Released,
             (Self::Released, true) => Self::Since(now_s),
             (Self::Since(since_s), true) if now_s - since_s >= HOLD_S => {
@@ -51,7 +51,7 @@ impl HoldState {
 /// an earlier release does nothing. `text` must mention the hold, such as "Hold 1 s to park".
 pub fn show(ui: &Ui, rect: Rect, text: &str, state: &mut HoldState) -> bool {
     let t = theme::tokens(ui);
-    let (response, done) = held(ui, rect, text, true, state);
+    let (response, done) = draw_held(ui, rect, text, true, state);
     ui.painter().rect_filled(rect, RADIUS, t.warnbg);
     let edge = rect.left() + part(ui, state) * rect.width();
     ui.painter_at(rect.with_max_x(edge)).rect_filled(rect, RADIUS, t.bgsel);
@@ -68,7 +68,7 @@ pub fn show(ui: &Ui, rect: Rect, text: &str, state: &mut HoldState) -> bool {
 
 /// A control in `rect` that must be held for a second, by pointer or key; the caller draws it.
 /// Returns `true` once, when it was held to the end. `name` must mention the hold.
-pub fn held(
+pub fn draw_held(
     ui: &Ui,
     rect: Rect,
     name: &str,
@@ -79,10 +79,10 @@ pub fn held(
     let (now_s, keys, window_has_focus) = ui.input(|input| {
         (input.time, input.key_down(Key::Space) || input.key_down(Key::Enter), input.focused)
     });
-    let held = enabled
+    let is_held = enabled
         && window_has_focus
         && (response.is_pointer_button_down_on() || (response.has_focus() && keys));
-    let done = state.step(held, now_s);
+    let done = state.step(is_held, now_s);
     if matches!(state, HoldState::Since(_)) {
         ui.ctx().request_repaint_after_for(FRAME, ViewportId::ROOT);
     }

@@ -88,8 +88,8 @@ impl Input<'_> {
         ui.ctx().accesskit_node_builder(response.id, |node| node.set_value(chosen));
         let stroke = self.stroke(ui);
         ui.painter().rect(self.rect, RADIUS, t.field, stroke, StrokeKind::Inside);
-        let at = pos2(self.rect.right() - 12.0, self.rect.center().y);
-        icons::paint(ui.painter(), paint::square(at, 12.0), Icon::ChevronDown, t.t2);
+        let position = pos2(self.rect.right() - 12.0, self.rect.center().y);
+        icons::paint(ui.painter(), paint::square(position, 12.0), Icon::ChevronDown, t.t2);
         let room = self.rect.shrink2(vec2(INSET, 0.0)).with_max_x(self.rect.right() - 20.0);
         paint::text_in(ui, room, Align2::LEFT_CENTER, chosen, self.font(), t.t1);
         paint::focus_ring(ui, &response, RADIUS);

@@ -33,7 +33,7 @@ pub struct JogModel<'a> {
     /// Directions in which a limit stops the antenna.
     pub blocked: &'a [JogDirection],
     /// The chosen speed as a word or a number; empty where there is no choice.
-    pub asked: &'a str,
+    pub requested: &'a str,
     /// The measured rate of the moving axis.
     pub real_deg_s: Option<f64>,
 }
@@ -69,29 +69,30 @@ pub fn show(
         if free {
             look_at(ui, &mut frame, direction, &response);
         }
-        if !label.about.is_empty() {
-            let about = label.about.clone();
-            ui.ctx().accesskit_node_builder(response.id, |node| node.set_description(about));
+        if !label.description.is_empty() {
+            let description = label.description.clone();
+            ui.ctx().accesskit_node_builder(response.id, |node| node.set_description(description));
         }
         keys.push((direction, label, free, response));
     }
-    frame.blocked = JogDirection::ALL
-        .map(|direction| !keys.iter().any(|(at, _, free, _)| *at == direction && *free));
+    frame.blocked = JogDirection::ALL.map(|direction| {
+        !keys.iter().any(|(jog_direction, _, free, _)| *jog_direction == direction && *free)
+    });
     ui.input(|input| frame.read(input));
     if state.takes_focus(&frame) {
         whole.request_focus();
     }
-    let held = state.step(&frame);
-    if held.is_some() {
+    let held_direction = state.step(&frame);
+    if held_direction.is_some() {
         // Without a frame nothing would report that the key is still held.
         ui.ctx().request_repaint_after_for(WHILE_HELD, ViewportId::ROOT);
     }
     for (direction, label, free, response) in &keys {
-        paint_key(ui, label, *free, model.locked, held == Some(*direction), response);
+        paint_key(ui, label, *free, model.locked, held_direction == Some(*direction), response);
     }
-    paint_middle(ui, rect, model, held.is_some());
+    paint_middle(ui, rect, model, held_direction.is_some());
     paint::focus_ring(ui, &whole, RADIUS);
-    held
+    held_direction
 }
 
 /// The pad as a whole, which can have the focus in place of a single key. The pointer
@@ -129,10 +130,17 @@ fn keeps_arrows(ui: &Ui, response: &Response) -> bool {
     true
 }
 
-fn paint_key(ui: &Ui, label: &KeyLabel, free: bool, locked: bool, held: bool, response: &Response) {
+fn paint_key(
+    ui: &Ui,
+    label: &KeyLabel,
+    free: bool,
+    locked: bool,
+    is_held: bool,
+    response: &Response,
+) {
     let t = theme::tokens(ui);
     let rect = response.rect;
-    let colour = if held {
+    let colour = if is_held {
         ui.painter().rect_filled(rect, RADIUS, t.cmd);
         t.onsat
     } else if free {
@@ -153,21 +161,21 @@ fn paint_key(ui: &Ui, label: &KeyLabel, free: bool, locked: bool, held: bool, re
     paint::focus_ring(ui, response, RADIUS);
 }
 
-fn paint_middle(ui: &Ui, rect: Rect, model: &JogModel<'_>, held: bool) {
+fn paint_middle(ui: &Ui, rect: Rect, model: &JogModel<'_>, is_held: bool) {
     let t = theme::tokens(ui);
     if model.locked {
-        let at = paint::square(rect.center(), 18.0);
-        icons::paint(ui.painter(), at, Icon::Lock, t.t2);
+        let area = paint::square(rect.center(), 18.0);
+        icons::paint(ui.painter(), area, Icon::Lock, t.t2);
         return;
     }
-    let (words, colour) = if held {
+    let (words, colour) = if is_held {
         let real = model.real_deg_s.map_or_else(
             || super::axes_table::UNKNOWN.to_owned(),
             |rate| format!("{rate:+.2}").replace('-', "−"),
         );
         (real, t.t1)
     } else {
-        (model.asked.to_owned(), t.t2)
+        (model.requested.to_owned(), t.t2)
     };
     let font = text::sized(12.0, Weight::SemiBold);
     paint::text(ui, rect.center(), Align2::CENTER_CENTER, words, font, colour);

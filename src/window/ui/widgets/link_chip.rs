@@ -241,9 +241,9 @@ pub fn show(ui: &Ui, rect: Rect, model: &ChipModel<'_>, form: ChipForm) -> Respo
         }
     }
     paint::focus_ring(ui, &response, RADIUS);
-    let about: Vec<&str> =
+    let texts: Vec<&str> =
         model.alarm.into_iter().chain(model.automatic.map(|automatic| automatic.words)).collect();
-    if about.is_empty() { response } else { response.on_hover_text(about.join("\n")) }
+    if texts.is_empty() { response } else { response.on_hover_text(texts.join("\n")) }
 }
 
 /// Paints the tag of automatic operation, dashed while that is suspended.

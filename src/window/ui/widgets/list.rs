@@ -24,7 +24,7 @@ pub struct Scroll {
     /// The offset in which the next frame begins.
     next: Option<f32>,
     /// A row that the next frame brings into view.
-    wanted: Option<usize>,
+    requested: Option<usize>,
 }
 
 impl Scroll {
@@ -35,13 +35,13 @@ impl Scroll {
 
     /// Brings a row into view in the next frame.
     pub fn bring_into_view(&mut self, row: usize) {
-        self.wanted = Some(row);
+        self.requested = Some(row);
     }
 
     /// The offset at which a list with rows of `height` is forced to begin.
     fn take(&mut self, height: f32, view: f32) -> Option<f32> {
         let offset = self.next.take();
-        let Some(row) = self.wanted.take() else { return offset };
+        let Some(row) = self.requested.take() else { return offset };
         let top = row as f32 * height;
         Some(offset.unwrap_or(self.offset).min(top).max(top + height - view))
     }
@@ -57,9 +57,9 @@ pub struct Step {
 }
 
 impl Step {
-    /// The row to which the step leads from row `from` of `rows`.
-    pub fn target(self, from: usize, rows: usize) -> Option<usize> {
-        Some(from.saturating_add_signed(self.rows).min(rows.checked_sub(1)?))
+    /// The row to which the step leads from row `start` of `rows`.
+    pub fn target(self, start: usize, rows: usize) -> Option<usize> {
+        Some(start.saturating_add_signed(self.rows).min(rows.checked_sub(1)?))
     }
 }
 

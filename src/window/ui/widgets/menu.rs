@@ -40,7 +40,10 @@ fn entries(ui: &Ui) -> Vec<Id> {
     let layer = ui.layer_id();
     ui.viewport(|viewport| {
         let widgets = viewport.this_pass.widgets.get_layer(layer);
-        widgets.filter(|of| of.enabled && of.sense.is_focusable()).map(|of| of.id).collect()
+        widgets
+            .filter(|widget| widget.enabled && widget.sense.is_focusable())
+            .map(|widget| widget.id)
+            .collect()
     })
 }
 

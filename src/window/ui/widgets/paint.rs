@@ -17,16 +17,16 @@ const DASH: (f32, f32) = (3.0, 2.0);
 /// Distance and width of the focus ring.
 const FOCUS: f32 = 2.0;
 
-/// Paints one line of text with its `anchor` at `at`, never cut.
+/// Paints one line of text with its `anchor` at `position`, never cut.
 pub fn text(
     ui: &Ui,
-    at: Pos2,
+    position: Pos2,
     anchor: Align2,
     text: impl ToString,
     font: FontId,
     colour: Color32,
 ) -> Rect {
-    ui.painter().text(at, anchor, text, font, colour)
+    ui.painter().text(position, anchor, text, font, colour)
 }
 
 /// Paints one line of text, anchored in `rect` and cut with an ellipsis at its width.
@@ -117,19 +117,26 @@ pub fn name_in(
         return text_in(ui, rect, anchor, name, font, colour);
     }
     let head = name.strip_suffix(number).unwrap_or(name);
-    let cuts = head.char_indices().map(|(at, _)| at).skip(MIN_HEAD_CHARS).collect::<Vec<_>>();
-    let cut = cuts.into_iter().rev().find_map(|at| {
-        let words = format!("{}… {number}", head.get(..at)?.trim_end());
+    let cuts = head.char_indices().map(|(index, _)| index).skip(MIN_HEAD_CHARS).collect::<Vec<_>>();
+    let cut = cuts.into_iter().rev().find_map(|index| {
+        let words = format!("{}… {number}", head.get(..index)?.trim_end());
         fits(&words).then_some(words)
     });
     text_in(ui, rect, anchor, cut.as_deref().unwrap_or(name), font, colour)
 }
 
-/// Paints text from `at` on, wrapped at `width`. Returns the painted rectangle.
-pub fn paragraph(ui: &Ui, at: Pos2, width: f32, text: &str, font: FontId, colour: Color32) -> Rect {
+/// Paints text from `position` on, wrapped at `width`. Returns the painted rectangle.
+pub fn paragraph(
+    ui: &Ui,
+    position: Pos2,
+    width: f32,
+    text: &str,
+    font: FontId,
+    colour: Color32,
+) -> Rect {
     let galley = ui.painter().layout(text.to_owned(), font, colour, width);
-    let rect = Rect::from_min_size(at, galley.size());
-    ui.painter().galley(at, galley, colour);
+    let rect = Rect::from_min_size(position, galley.size());
+    ui.painter().galley(position, galley, colour);
     rect
 }
 
@@ -199,7 +206,9 @@ pub fn follow_focus(ui: &Ui) {
     });
     let Some(id) = focused.filter(|_| focused != before) else { return };
     let widget = ui.ctx().viewport(|viewport| viewport.this_pass.widgets.get(id).copied());
-    let Some(widget) = widget.filter(|of| of.layer_id == ui.layer_id()) else { return };
+    let Some(widget) = widget.filter(|widget_rect| widget_rect.layer_id == ui.layer_id()) else {
+        return;
+    };
     let is_inside = ui.min_rect().contains(widget.rect.center());
     if is_inside && !ui.input(|input| input.pointer.any_down()) {
         ui.scroll_to_rect(widget.rect, None);

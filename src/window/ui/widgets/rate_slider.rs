@@ -26,13 +26,13 @@ pub fn steps(max_deg_s: f64) -> Vec<f64> {
     rates
 }
 
-/// The rate `by` steps away, clamped to the first and the last.
-pub fn stepped(rate_deg_s: f64, by: i32, max_deg_s: f64) -> f64 {
+/// The rate `step` steps away, clamped to the first and the last.
+pub fn stepped(rate_deg_s: f64, step: i32, max_deg_s: f64) -> f64 {
     let rates = steps(max_deg_s);
     let now = nearest(&rates, rate_deg_s);
-    let by_places = by.unsigned_abs() as usize;
-    let wanted = if by < 0 { now.saturating_sub(by_places) } else { now + by_places };
-    rates.get(wanted).copied().unwrap_or(max_deg_s)
+    let by_places = step.unsigned_abs() as usize;
+    let requested = if step < 0 { now.saturating_sub(by_places) } else { now + by_places };
+    rates.get(requested).copied().unwrap_or(max_deg_s)
 }
 
 fn nearest(rates: &[f64], rate: f64) -> usize {
@@ -71,8 +71,9 @@ pub fn show(ui: &Ui, rect: Rect, max_deg_s: f64, locked: bool, rate_deg_s: &mut 
     });
     let part = nearest(&rates, value) as f32 / (rates.len() - 1).max(1) as f32;
     let x = track.left() + part * track.width();
-    let line =
-        |from: f32, to: f32| Rect::from_min_max(pos2(from, y - 1.5), pos2(to.max(from), y + 1.5));
+    let line = |start: f32, end: f32| {
+        Rect::from_min_max(pos2(start, y - 1.5), pos2(end.max(start), y + 1.5))
+    };
     ui.painter().rect_filled(line(track.left(), track.right()), 1.0, t.bg3);
     ui.painter().rect_filled(line(track.left(), x), 1.0, t.edge);
     let stroke = Stroke::new(2.0, if response.hovered() { t.t1 } else { t.t3 });
@@ -84,28 +85,28 @@ pub fn show(ui: &Ui, rect: Rect, max_deg_s: f64, locked: bool, rate_deg_s: &mut 
 }
 
 fn operate(ui: &Ui, response: &Response, track: Rect, rates: &[f64], rate_deg_s: &mut f64) {
-    let most = rates.last().copied().unwrap_or_default();
+    let max = rates.last().copied().unwrap_or_default();
     if (response.is_pointer_button_down_on() || response.clicked())
-        && let Some(at) = response.interact_pointer_pos()
+        && let Some(position) = response.interact_pointer_pos()
     {
-        let part = ((at.x - track.left()) / track.width().max(1.0)).clamp(0.0, 1.0);
+        let part = ((position.x - track.left()) / track.width().max(1.0)).clamp(0.0, 1.0);
         let index = (part * (rates.len() - 1) as f32).round() as usize;
-        *rate_deg_s = rates.get(index).copied().unwrap_or(most);
+        *rate_deg_s = rates.get(index).copied().unwrap_or(max);
     }
-    let mut by = ui.input(|input| {
+    let mut step = ui.input(|input| {
         i32::from(input.has_accesskit_action_request(response.id, Action::Increment))
             - i32::from(input.has_accesskit_action_request(response.id, Action::Decrement))
     });
     if response.has_focus() {
         let filter = EventFilter { horizontal_arrows: true, ..Default::default() };
         ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, filter));
-        by += ui.input_mut(|input| {
+        step += ui.input_mut(|input| {
             i32::from(input.consume_key(Modifiers::NONE, Key::ArrowRight))
                 - i32::from(input.consume_key(Modifiers::NONE, Key::ArrowLeft))
         });
     }
-    if by != 0 {
-        *rate_deg_s = stepped(*rate_deg_s, by, most);
+    if step != 0 {
+        *rate_deg_s = stepped(*rate_deg_s, step, max);
     }
 }
 

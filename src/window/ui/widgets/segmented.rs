@@ -95,18 +95,18 @@ fn show_with(
     let t = theme::tokens(ui);
     let group = ui.interact(rect, ui.make_persistent_id(salt), egui::Sense::hover());
     group.widget_info(|| WidgetInfo::labeled(Role::RadioGroup, true, name));
-    let cells = inside(ui, &group);
+    let cells = inner_ui(ui, &group);
     ui.painter().rect_filled(rect, RADIUS, t.bg2);
-    let wanted: Vec<f32> =
+    let widths: Vec<f32> =
         segments.iter().map(|(word, _)| paint::text_width(ui, word, text::body_medium())).collect();
-    let spare = (rect.width() - wanted.iter().sum::<f32>()) / segments.len().max(1) as f32;
+    let spare = (rect.width() - widths.iter().sum::<f32>()) / segments.len().max(1) as f32;
     let ids: Vec<Id> =
         segments.iter().map(|(word, _)| ui.make_persistent_id((salt, *word))).collect();
     let stop = tab_stop(ui, &ids, segments);
     let mut x = rect.left();
     let (mut clicked, mut focused) = (None, None);
     let mut over_border = Vec::new();
-    for (index, (((word, state), width), id)) in segments.iter().zip(wanted).zip(&ids).enumerate() {
+    for (index, (((word, state), width), id)) in segments.iter().zip(widths).zip(&ids).enumerate() {
         let right = (x + width + spare).min(rect.right());
         let cell = Rect::from_min_max(pos2(x, rect.top()), pos2(right, rect.bottom()));
         let is_free = !state.is_locked();
@@ -118,9 +118,9 @@ fn show_with(
         let response = cells.interact(cell, *id, sense);
         let chosen = matches!(state, Segment::Chosen | Segment::Foreign);
         let is_foreign = *state == Segment::Foreign;
-        let said =
+        let spoken =
             if is_foreign { format!("{word}, not by this console") } else { (*word).to_owned() };
-        response.widget_info(|| WidgetInfo::selected(Role::RadioButton, is_free, chosen, &said));
+        response.widget_info(|| WidgetInfo::selected(Role::RadioButton, is_free, chosen, &spoken));
         let radius = corners(index, segments.len());
         let colour = match state {
             Segment::Chosen => {
@@ -166,12 +166,12 @@ fn show_with(
             ui.painter().rect_stroke(response.rect, radius, stroke, StrokeKind::Inside);
         }
         if state == Segment::Foreign {
-            let inside = response.rect.shrink(1.0);
-            paint::dashed_border(ui, inside, f32::from(RADIUS), Stroke::new(2.0, t.sat));
+            let inner = response.rect.shrink(1.0);
+            paint::dashed_border(ui, inner, f32::from(RADIUS), Stroke::new(2.0, t.sat));
             response.clone().on_hover_text("Not by this console");
         }
-        if let Segment::Locked(Some(why)) = state {
-            response.clone().on_hover_text(why);
+        if let Segment::Locked(Some(reason)) = state {
+            response.clone().on_hover_text(reason);
         }
         paint::focus_ring(ui, &response, RADIUS);
     }
@@ -183,17 +183,17 @@ fn show_with(
 fn tab_stop(ui: &Ui, ids: &[Id], segments: &[(&str, Segment)]) -> Option<usize> {
     let focused = ui.memory(egui::Memory::focused);
     let is_free = |index: &usize| segments.get(*index).is_some_and(|(_, state)| !state.is_locked());
-    let asked = ui.input(|input| {
+    let requested = ui.input(|input| {
         let is_asked = |id: &Id| input.has_accesskit_action_request(*id, Action::Focus);
         ids.iter().position(is_asked).filter(is_free)
     });
     // The toolkit gives it only to what Tab reached before.
-    if let Some(id) = asked.and_then(|asked| ids.get(asked)) {
+    if let Some(id) = requested.and_then(|requested| ids.get(requested)) {
         ui.memory_mut(|memory| memory.request_focus(*id));
     }
     let focused = ids.iter().position(|id| Some(*id) == focused);
     let is_chosen = |(_, state): &(&str, Segment)| *state == Segment::Chosen;
-    asked
+    requested
         .or(focused)
         .filter(is_free)
         .or_else(|| segments.iter().position(is_chosen))
@@ -226,15 +226,15 @@ fn take_arrows(ui: &Ui, index: usize, ids: &[Id], segments: &[(&str, Segment)]) 
 }
 
 /// A place for the segments, whose nodes are children of the node of the group.
-fn inside(ui: &Ui, group: &Response) -> Ui {
+fn inner_ui(ui: &Ui, group: &Response) -> Ui {
     let builder = UiBuilder::new().layer_id(ui.layer_id()).max_rect(group.rect);
     let builder = builder.accessibility_parent(group.id);
-    let mut inside = Ui::new(ui.ctx().clone(), group.id.with("segments"), builder);
-    inside.set_clip_rect(ui.clip_rect());
+    let mut inner = Ui::new(ui.ctx().clone(), group.id.with("segments"), builder);
+    inner.set_clip_rect(ui.clip_rect());
     if !ui.is_enabled() {
-        inside.disable();
+        inner.disable();
     }
-    inside
+    inner
 }
 
 fn corners(index: usize, count: usize) -> CornerRadius {

@@ -141,8 +141,8 @@ impl<K: Copy + Ord, const HAS_BOXES: bool> Selection<K, HAS_BOXES> {
         if !HAS_BOXES && choice != Choice::Toggle {
             self.marked = BTreeSet::from([key]);
         }
-        if let Some((from, to)) = range {
-            let marked = (from.min(to)..=from.max(to)).filter_map(|index| rows.key(index));
+        if let Some((start, end)) = range {
+            let marked = (start.min(end)..=start.max(end)).filter_map(|index| rows.key(index));
             self.marked.extend(marked);
             return;
         }
@@ -157,7 +157,7 @@ impl<K: Copy + Ord, const HAS_BOXES: bool> Selection<K, HAS_BOXES> {
     pub fn go(&mut self, step: Step, rows: &(impl Rows<K> + ?Sized)) -> Option<usize> {
         let place = match self.row.map(|row| rows.place(row)) {
             None => rows.start(),
-            Some(Ok(from)) => step.target(from, rows.count())?,
+            Some(Ok(start)) => step.target(start, rows.count())?,
             Some(Err(next)) => next.min(rows.count().checked_sub(1)?),
         };
         self.choose(rows.key(place)?, step.into(), rows);

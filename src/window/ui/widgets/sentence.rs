@@ -78,22 +78,22 @@ impl Sentence<'_> {
     }
 }
 
-/// Shows the sentence at `at`, wrapped at `width`, with `foot` points of room below it.
+/// Shows the sentence at `position`, wrapped at `width`, with `foot` points of room below it.
 /// Returns the rectangle of the block. Screen readers read the sentence again whenever it
 /// changes.
-pub fn show(ui: &Ui, at: Pos2, width: f32, foot: f32, sentence: &Sentence<'_>) -> Rect {
+pub fn show(ui: &Ui, position: Pos2, width: f32, foot: f32, sentence: &Sentence<'_>) -> Rect {
     let room = if width < SMALL { SMALL_ROOM } else { ROOM };
-    show_in(ui, at, width, (room, foot), sentence)
+    show_in(ui, position, width, (room, foot), sentence)
 }
 
 /// Shows the sentence where nothing below it is held down: as high as two lines, or higher.
-pub fn show_short(ui: &Ui, at: Pos2, width: f32, sentence: &Sentence<'_>) -> Rect {
-    show_in(ui, at, width, (2.0 * LINE, 0.0), sentence)
+pub fn show_short(ui: &Ui, position: Pos2, width: f32, sentence: &Sentence<'_>) -> Rect {
+    show_in(ui, position, width, (2.0 * LINE, 0.0), sentence)
 }
 
 fn show_in(
     ui: &Ui,
-    at: Pos2,
+    position: Pos2,
     width: f32,
     (room, foot): (f32, f32),
     sentence: &Sentence<'_>,
@@ -116,12 +116,12 @@ fn show_in(
         galley = lines(DENSE_LINE);
     }
     let height = (galley.size().y + foot).max(room);
-    let rect = Rect::from_min_size(at, vec2(width, height + 2.0 * padding.y));
+    let rect = Rect::from_min_size(position, vec2(width, height + 2.0 * padding.y));
     ui.painter().rect_filled(rect, RADIUS, t.bg2);
     let bar = Rect::from_min_max(rect.min, pos2(rect.left() + BAR, rect.bottom()));
     let radius = CornerRadius { nw: 3, sw: 3, ne: 0, se: 0 };
     ui.painter().rect_filled(bar, radius, sentence.kind.colour(t));
-    ui.painter().galley(at + padding, galley, t.t1);
+    ui.painter().galley(position + padding, galley, t.t1);
     let response = ui.interact(rect, ui.make_persistent_id("sentence"), Sense::CLICK);
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, sentence.plain_text()));
     ui.ctx().accesskit_node_builder(response.id, |node| node.set_live(Live::Polite));

@@ -37,14 +37,14 @@ pub enum StopLook<'a> {
 
 /// Shows STOP in `rect`; the response reports `clicked` in every state. The sentence of
 /// [`StopLook::NotConfirmed`] is part of the accessible name; the caller shows it beside
-/// the button. `about` tells what it stops, as hover text and for screen readers.
-pub fn show(ui: &Ui, rect: Rect, state: StopLook<'_>, about: &str) -> Response {
+/// the button. `description` tells what it stops, as hover text and for screen readers.
+pub fn show(ui: &Ui, rect: Rect, state: StopLook<'_>, description: &str) -> Response {
     let response = ui.interact(rect, ui.make_persistent_id("stop"), Sense::click());
     // In the frame of the click the model does not know of it yet.
     let is_told = matches!(state, StopLook::NotConfirmed { .. });
     let state = if response.clicked() && !is_told { StopLook::Stopping } else { state };
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, name(state)));
-    ui.ctx().accesskit_node_builder(response.id, |node| node.set_description(about));
+    ui.ctx().accesskit_node_builder(response.id, |node| node.set_description(description));
     let t = theme::tokens(ui);
     let outline = state == StopLook::AllStopped;
     let (fill, colour) = if outline { (Color32::TRANSPARENT, t.bad) } else { (t.stop, t.onstop) };
@@ -62,8 +62,8 @@ pub fn show(ui: &Ui, rect: Rect, state: StopLook<'_>, about: &str) -> Response {
         let cap = vec2(32.0, 18.0);
         let x = rect.center().x - (icon + word + 10.0 + cap.x) / 2.0;
         if icon > 0.0 {
-            let at = paint::square(pos2(x + 9.0, rect.center().y), 20.0);
-            icons::paint(ui.painter(), at, Icon::Octagon, colour);
+            let area = paint::square(pos2(x + 9.0, rect.center().y), 20.0);
+            icons::paint(ui.painter(), area, Icon::Octagon, colour);
         }
         let word_at = pos2(x + icon, rect.center().y);
         paint::text(ui, word_at, Align2::LEFT_CENTER, "STOP", font, colour);
@@ -74,7 +74,7 @@ pub fn show(ui: &Ui, rect: Rect, state: StopLook<'_>, about: &str) -> Response {
         paint::text(ui, key.center(), Align2::CENTER_CENTER, "Esc", font, colour);
     }
     paint::focus_ring(ui, &response, RADIUS);
-    response.on_hover_text(about)
+    response.on_hover_text(description)
 }
 
 fn name(state: StopLook<'_>) -> String {

@@ -96,21 +96,21 @@ pub fn show(ui: &Ui, rect: Rect, model: &TravelModel<'_>) {
     for tick in ticks(model) {
         ui.painter().vline(x(tick), (y - 4.5)..=(y + 4.5), (1.5, t.edge));
     }
-    for (from, to) in [
+    for (start, last) in [
         (track.left(), x(model.travel_deg.0).max(track.left() + 3.0)),
         (x(model.travel_deg.1).min(track.right() - 3.0), track.right()),
     ] {
-        let end = Rect::from_min_max(pos2(from, y - 4.0), pos2(to, y + 4.0));
+        let end = Rect::from_min_max(pos2(start, y - 4.0), pos2(last, y + 4.0));
         ui.painter().rect_filled(end, 0.0, t.keep);
     }
     let number = model.number();
     if let Some(deg) = model.position_deg {
-        if let Some((from, to)) = near_end(deg, model.travel_deg) {
-            let zone = Rect::from_min_max(pos2(x(from), y - 4.0), pos2(x(to), y + 4.0));
+        if let Some((start, last)) = near_end(deg, model.travel_deg) {
+            let zone = Rect::from_min_max(pos2(x(start), y - 4.0), pos2(x(last), y + 4.0));
             hatch(ui, zone, t.warn);
         }
-        let over = model.lower_limit || model.upper_limit;
-        let colour = match (model.is_old, over) {
+        let ended = model.lower_limit || model.upper_limit;
+        let colour = match (model.is_old, ended) {
             (true, _) => t.t3,
             (false, true) => t.bad,
             (false, false) => t.ant,
@@ -178,8 +178,9 @@ mod tests {
 
     #[test]
     fn the_marker_stays_on_the_gauge() {
-        for (deg, wanted) in [(0.0, 0.0), (90.0, 0.5), (180.0, 1.0), (-40.0, 0.0), (900.0, 1.0)] {
-            assert!((part(deg, AXIS.scale_deg) - wanted).abs() < 1e-6, "{deg}");
+        for (deg, requested) in [(0.0, 0.0), (90.0, 0.5), (180.0, 1.0), (-40.0, 0.0), (900.0, 1.0)]
+        {
+            assert!((part(deg, AXIS.scale_deg) - requested).abs() < 1e-6, "{deg}");
         }
         assert!(part(f64::NAN, AXIS.scale_deg).abs() < 1e-6);
         assert!(part(5.0, (10.0, 10.0)).abs() < 1e-6);

@@ -28,14 +28,14 @@ pub fn alarm_times(alarm: &Alarm, now: Timestamp) -> String {
 pub fn alarm_state(state: AlarmState, now: Timestamp) -> String {
     match state {
         AlarmState::New => "new".to_owned(),
-        AlarmState::NewAndOver { over_since: since } => {
-            format!("new, over since {}", format::moment(since, now))
+        AlarmState::NewAndOver { over_since: start } => {
+            format!("new, over since {}", format::moment(start, now))
         }
         AlarmState::Seen => "seen".to_owned(),
-        AlarmState::Over { over_since: since } => {
-            format!("over since {}", format::moment(since, now))
+        AlarmState::Over { over_since: start } => {
+            format!("over since {}", format::moment(start, now))
         }
-        AlarmState::Shelved { end: until } => format!("shelved to {}", format::moment(until, now)),
+        AlarmState::Shelved { end } => format!("shelved to {}", format::moment(end, now)),
     }
 }
 
@@ -64,8 +64,8 @@ pub fn alarm(kind: &AlarmKind, antenna: &str, now: Timestamp) -> String {
              STOP bypasses it.",
             format::age(stood.as_secs_f64())
         ),
-        AlarmKind::StationElsewhere(by) => format!(
-            "This station is open in {by}: nothing is driven from here. Esc stops its antennas \
+        AlarmKind::StationElsewhere(holder) => format!(
+            "This station is open in {holder}: nothing is driven from here. Esc stops its antennas \
              there."
         ),
         AlarmKind::StopNotElsewhere => {
@@ -73,13 +73,13 @@ pub fn alarm(kind: &AlarmKind, antenna: &str, now: Timestamp) -> String {
              panel."
                 .to_owned()
         }
-        AlarmKind::UnitElsewhere(HeldBy::Unknown(why)) => format!(
-            "{antenna} is not connected: Azel could not lock it ({why}), so another program may be \
+        AlarmKind::UnitElsewhere(HeldBy::Unknown(reason)) => format!(
+            "{antenna} is not connected: Azel could not lock it ({reason}), so another program may be \
              driving it. Free disk space or fix the permissions of the folder of locks; Azel tries \
              again each second."
         ),
-        AlarmKind::UnitElsewhere(by) => {
-            format!("{antenna} is driven by {by}: nothing goes to it from here.")
+        AlarmKind::UnitElsewhere(holder) => {
+            format!("{antenna} is driven by {holder}: nothing goes to it from here.")
         }
         AlarmKind::LinkLost(LinkLoss::Unreadable) => {
             format!("{antenna} answers, but its answers cannot be read.")
@@ -117,11 +117,11 @@ pub fn alarm(kind: &AlarmKind, antenna: &str, now: Timestamp) -> String {
             "{antenna} is locked out, but it is not confirmed that its auto-track is off: it may \
              start by itself. Switch it off at the unit."
         ),
-        AlarmKind::Refused(asked, answer) => {
-            format!("{}: {antenna} answered {answer}.", super::asked(*asked))
+        AlarmKind::Refused(motion, answer) => {
+            format!("{}: {antenna} answered {answer}.", super::motion_name(*motion))
         }
-        AlarmKind::Unanswered(asked) => {
-            format!("{}: {antenna} did not answer and does not move.", super::asked(*asked))
+        AlarmKind::Unanswered(motion) => {
+            format!("{}: {antenna} did not answer and does not move.", super::motion_name(*motion))
         }
         AlarmKind::CannotTrack(target, reason) => {
             format!("{antenna} does not track {}: {}.", target.name, super::prepare_error(reason))
@@ -129,25 +129,25 @@ pub fn alarm(kind: &AlarmKind, antenna: &str, now: Timestamp) -> String {
         AlarmKind::CannotProgramTrack(name, problem) => {
             format!("{antenna} does not follow {name}: {}", super::track_problem(problem, now))
         }
-        AlarmKind::OffTarget { deviation: off, cause } => {
-            let off = format::degrees(off.degrees(), 1);
+        AlarmKind::OffTarget { deviation, cause } => {
+            let deviation_text = format::degrees(deviation.degrees(), 1);
             match cause {
                 Some(cause) => {
-                    format!("{antenna} is {off} off its satellite. {}", super::off_because(cause, now))
+                    format!("{antenna} is {deviation_text} off its satellite. {}", super::off_because(cause, now))
                 }
                 None => format!(
-                    "{antenna} is {off} off its satellite. Neither its positions nor the reports of \
+                    "{antenna} is {deviation_text} off its satellite. Neither its positions nor the reports of \
                      the unit tell why: check its drives, and the age of its elements."
                 ),
             }
         }
-        AlarmKind::OffsetsLeft { offsets, reason: why } => super::offsets_left(antenna, *offsets, why, now),
+        AlarmKind::OffsetsLeft { offsets, reason: left } => super::offsets_left(antenna, *offsets, left, now),
         AlarmKind::OffsetNotTaken(error) => {
             format!("{antenna}: {}", super::offset_not_taken(error))
         }
         AlarmKind::UnitDiffers(ranked) => {
-            let why = cause_of(ranked);
-            format!("{antenna}, tracking by itself, would miss its satellite: {why}.")
+            let likely = cause_of(ranked);
+            format!("{antenna}, tracking by itself, would miss its satellite: {likely}.")
         }
         AlarmKind::NotCompared { satellite: Some(name) } => format!(
             "{antenna} tracks {name} by its own program. Azel has no elements of it and cannot \
@@ -162,24 +162,24 @@ pub fn alarm(kind: &AlarmKind, antenna: &str, now: Timestamp) -> String {
              track that is worth less.",
             format::moment(*aos, now)
         ),
-        AlarmKind::NotOnItsWay { pass: (_, aos), name, reason: why } => {
-            let why = why.map_or_else(String::new, |why| format!(" {}", not_ready(why)));
+        AlarmKind::NotOnItsWay { pass: (_, aos), name, reason } => {
+            let cause_words = reason.map_or_else(String::new, |cause| format!(" {}", not_ready(cause)));
             format!(
-                "{antenna} is not on its way to {name}, AOS {}, which the schedule assigns to it.{why}",
+                "{antenna} is not on its way to {name}, AOS {}, which the schedule assigns to it.{cause_words}",
                 format::moment(*aos, now)
             )
         }
-        AlarmKind::AutomaticMoves { time: at, name } => format!(
+        AlarmKind::AutomaticMoves { time: moment, name } => format!(
             "{antenna} will move by itself at {}, for {name}. STOP or Standby prevents it.",
-            format::moment(*at, now)
+            format::moment(*moment, now)
         ),
-        AlarmKind::AutomaticSuspended(by) => format!(
+        AlarmKind::AutomaticSuspended(interruption) => format!(
             "Automatic operation of {antenna} is suspended. {} Resume it on its card or in Plan.",
-            super::automatic::interruption(*by)
+            super::automatic::interruption(*interruption)
         ),
         AlarmKind::AutomaticOff(because) => format!(
             "Automatic operation of {antenna} is off. {} Switch it on again in Plan.",
-            super::automatic::off(*because)
+            super::automatic::off_reason(*because)
         ),
         AlarmKind::TrackingEnded => format!("{antenna} ended tracking before LOS."),
         AlarmKind::EndedShort => format!("{antenna} stopped before it reached its target."),
@@ -198,8 +198,8 @@ pub fn alarm(kind: &AlarmKind, antenna: &str, now: Timestamp) -> String {
              a new one. What was recorded before is not in it: bring the old file back from where it \
              went, under another name."
             .to_owned(),
-        AlarmKind::NoRecord(why) => format!(
-            "Nothing is being recorded: {why}. What was recorded is kept, and Azel tries again \
+        AlarmKind::NoRecord(reason) => format!(
+            "Nothing is being recorded: {reason}. What was recorded is kept, and Azel tries again \
              every 2 s."
         ),
         AlarmKind::BrokeOff(Work::Elements) => {
@@ -245,8 +245,8 @@ pub fn alarm(kind: &AlarmKind, antenna: &str, now: Timestamp) -> String {
                  the elements."
             )
         }
-        AlarmKind::ElementsNotUploaded { reason: why } => format!(
-            "Azel could not upload newer elements to {antenna}: {why}. The unit keeps its current elements. \
+        AlarmKind::ElementsNotUploaded { reason } => format!(
+            "Azel could not upload newer elements to {antenna}: {reason}. The unit keeps its current elements. \
              Azel tries again in an hour. Upload them by hand in Elements to see each step."
         ),
         AlarmKind::NotTaken => {
@@ -256,8 +256,8 @@ pub fn alarm(kind: &AlarmKind, antenna: &str, now: Timestamp) -> String {
         AlarmKind::ClockOff(ahead_s) => {
             format!("The clock of {antenna} is {}.", clock::difference(*ahead_s, now))
         }
-        AlarmKind::Unreadable(why) => {
-            format!("{antenna}: its position cannot be read. {why}")
+        AlarmKind::Unreadable(reason) => {
+            format!("{antenna}: its position cannot be read. {reason}")
         }
         AlarmKind::ClockNotSet => format!("The clock of {antenna} was never set."),
         AlarmKind::Setting(note) => setting_note(note),
@@ -283,10 +283,10 @@ pub fn setting_note(note: &Note) -> String {
     let line = note.line.map_or_else(String::new, |line| format!(" (line {line})"));
     let place = format!("{}{line}", note.place);
     match &note.reason {
-        NoteReason::Invalid(why) => format!("Setting {place} is not used: {why}."),
+        NoteReason::Invalid(reason) => format!("Setting {place} is not used: {reason}."),
         NoteReason::Unknown => format!("Setting {place} is not known."),
-        NoteReason::DoesNotHold { name, reason: why } => {
-            format!("{name} does not apply: {why}. It is {place} in the settings.")
+        NoteReason::DoesNotHold { name, reason: explanation } => {
+            format!("{name} does not apply: {explanation}. It is {place} in the settings.")
         }
     }
 }

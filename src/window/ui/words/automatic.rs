@@ -23,7 +23,7 @@ use crate::{
 pub const RESUME: &str = "Resume";
 
 /// Why automatic operation of an antenna is off, as a sentence.
-pub fn off(because: OffBecause) -> &'static str {
+pub fn off_reason(because: OffBecause) -> &'static str {
     match because {
         OffBecause::NotSwitchedOn => "Nobody has switched it on since the start.",
         OffBecause::Operator => "It was switched off.",
@@ -37,8 +37,8 @@ pub fn off(because: OffBecause) -> &'static str {
 }
 
 /// Cause of an interruption, as a sentence.
-pub fn interruption(by: Interruption) -> &'static str {
-    match by {
+pub fn interruption(kind: Interruption) -> &'static str {
+    match kind {
         Interruption::ByHand => "The antenna was commanded by hand.",
         Interruption::Elsewhere => "The antenna turned without a command from Azel.",
         Interruption::EndedByUnit => {
@@ -53,8 +53,8 @@ pub fn interruption(by: Interruption) -> &'static str {
 }
 
 /// Why a unit cannot begin a pass, as a sentence.
-pub fn not_ready(why: NotReady) -> &'static str {
-    match why {
+pub fn not_ready(reason: NotReady) -> &'static str {
+    match reason {
         NotReady::Fault => "A fault of the unit blocks motion. Clear the fault.",
         NotReady::WouldMiss => {
             "The unit's own clock, site or elements would make it miss the pass. Check them."
@@ -64,8 +64,8 @@ pub fn not_ready(why: NotReady) -> &'static str {
 }
 
 /// The interruption in two or three words.
-fn suspended(by: Interruption) -> &'static str {
-    match by {
+fn suspended(interruption: Interruption) -> &'static str {
+    match interruption {
         Interruption::ByHand => "Suspended by hand.",
         Interruption::Elsewhere => "Suspended by others.",
         Interruption::EndedByUnit => "Suspended by the unit.",
@@ -80,11 +80,11 @@ fn name_of(model: &Model, entry: &Entry) -> String {
 /// State of automatic operation of an antenna, in one line. A time stands before a name, which may
 /// be cut.
 pub fn in_short(model: &Model, antenna: &AntennaModel) -> String {
-    let moment = |at| format::moment(at, model.now);
+    let moment = |time| format::moment(time, model.now);
     match &antenna.operation {
         Operation::Off(OffBecause::NotSwitchedOn | OffBecause::Operator) => "Off.".to_owned(),
-        Operation::Off(because) => format!("Off. {}", off(*because)),
-        Operation::Suspended { interruption: by, .. } => suspended(*by).to_owned(),
+        Operation::Off(because) => format!("Off. {}", off_reason(*because)),
+        Operation::Suspended { interruption, .. } => suspended(*interruption).to_owned(),
         Operation::On(On { doing, .. }) => match doing {
             Doing::Announces { moves_at, .. } => {
                 format!("On. Moves {} unless STOP.", moment(*moves_at))
@@ -94,7 +94,7 @@ pub fn in_short(model: &Model, antenna: &AntennaModel) -> String {
                 let name = schedule::pass_name(model, *pass);
                 match proved_at {
                     None => format!("On. Sent {}: {name}.", moment(*asked_at)),
-                    Some(at) => format!("On. Verified {}: {name}.", moment(*at)),
+                    Some(time) => format!("On. Verified {}: {name}.", moment(*time)),
                 }
             }
             Doing::Rests => model.next_entry(antenna.id()).map_or_else(
@@ -108,12 +108,12 @@ pub fn in_short(model: &Model, antenna: &AntennaModel) -> String {
 /// State of automatic operation of an antenna, and its next action and time, as one or two
 /// sentences; `None` while it is off.
 pub fn in_full(model: &Model, antenna: &AntennaModel) -> Option<String> {
-    let moment = |at| format::moment(at, model.now);
-    let in_time = |at| format!("{}, in {}", moment(at), format::time_left(model.now, at));
+    let moment = |time| format::moment(time, model.now);
+    let in_time = |time| format!("{}, in {}", moment(time), format::time_left(model.now, time));
     let on = match &antenna.operation {
         Operation::Off(_) => return None,
-        Operation::Suspended { interruption: by, .. } => {
-            return Some(format!("Suspended. {}", interruption(*by)));
+        Operation::Suspended { interruption: kind, .. } => {
+            return Some(format!("Suspended. {}", interruption(*kind)));
         }
         Operation::On(on) => on,
     };
@@ -126,7 +126,7 @@ pub fn in_full(model: &Model, antenna: &AntennaModel) -> Option<String> {
         Doing::Takes(taking) => {
             let name = schedule::pass_name(model, taking.pass);
             match (not_tracking(&antenna.operation), taking.proved_at) {
-                (Some(why), _) => format!("{name} is not tracked. {why}"),
+                (Some(reason), _) => format!("{name} is not tracked. {reason}"),
                 (None, None) => {
                     format!("Sent {}, not verified yet: {name}.", moment(taking.asked_at))
                 }
@@ -134,8 +134,8 @@ pub fn in_full(model: &Model, antenna: &AntennaModel) -> Option<String> {
                     format!("Takes {} at {}.", name, in_time(taking.start))
                 }
                 (None, Some(_)) => {
-                    let then = following(model, antenna, taking);
-                    format!("Takes {name} until {}{then}.", moment(taking.end))
+                    let next_words = following(model, antenna, taking);
+                    format!("Takes {name} until {}{next_words}.", moment(taking.end))
                 }
             }
         }
@@ -149,10 +149,10 @@ fn next(model: &Model, antenna: &AntennaModel) -> String {
         return "No pass is planned.".to_owned();
     };
     let policy = between_passes(&model.station, &antenna.config, model.now);
-    let at = Some(sets_out(entry, policy)).filter(|at| *at > model.now);
-    let leaves = at.map_or_else(String::new, |at| {
-        let left = format::time_left(model.now, at);
-        format!(" {}, in {left}.", schedule::sets_out(antenna, at, model.now))
+    let time = Some(sets_out(entry, policy)).filter(|time| *time > model.now);
+    let leaves = time.map_or_else(String::new, |time| {
+        let left = format::time_left(model.now, time);
+        format!(" {}, in {left}.", schedule::sets_out(antenna, time, model.now))
     });
     format!(
         "Next at {}: {}.{leaves}",
@@ -167,8 +167,8 @@ fn following(model: &Model, antenna: &AntennaModel, taking: &Taking) -> String {
     let own = entries.filter(|entry| entry.antenna == antenna.id() && entry.start >= taking.end);
     let next = own.min_by_key(|entry| entry.start);
     next.map_or_else(String::new, |entry| {
-        let at = format::moment(entry.start, model.now);
-        format!(", then {} at {at}", name_of(model, entry))
+        let time_text = format::moment(entry.start, model.now);
+        format!(", then {} at {time_text}", name_of(model, entry))
     })
 }
 
@@ -180,8 +180,8 @@ pub fn go_on(model: &Model, antenna: &AntennaModel) -> Option<String> {
     Some(model.next_entry(antenna.id()).map_or_else(
         || RESUME.to_owned(),
         |entry| {
-            let at = format::moment(entry.start, model.now);
-            format!("Go on with {}, {at}", name_of(model, entry))
+            let time_text = format::moment(entry.start, model.now);
+            format!("Go on with {}, {time_text}", name_of(model, entry))
         },
     ))
 }
@@ -196,14 +196,14 @@ pub fn lost_by_closing(model: &Model) -> Option<String> {
         return None;
     }
     let comes_back = antennas().all(|antenna| antenna.config.automatic.is_on_at_start);
-    let until = if comes_back { "this station runs again" } else { "you switch it on again" };
+    let end_text = if comes_back { "this station runs again" } else { "you switch it on again" };
     let next = antennas().filter_map(|antenna| model.next_entry(antenna.id()));
     let next = next.min_by_key(|entry| entry.start).map_or_else(String::new, |entry| {
-        let at = format::moment(entry.start, model.now);
-        format!(" The next would be {} at {at}.", name_of(model, entry))
+        let time_text = format::moment(entry.start, model.now);
+        format!(" The next would be {} at {time_text}.", name_of(model, entry))
     });
     let names = format::list(&names);
-    Some(format!("Automatic operation of {names} ends: it takes no pass until {until}.{next}"))
+    Some(format!("Automatic operation of {names} ends: it takes no pass until {end_text}.{next}"))
 }
 
 /// State of automatic operation, in a word or two.
@@ -223,13 +223,13 @@ pub fn standing(operation: &Operation) -> &'static str {
 /// Why a pass or a part of it was missed: the end of a sentence.
 pub fn miss_cause(cause: MissCause) -> String {
     let sentence = match cause {
-        MissCause::Off(because) => off(because),
-        MissCause::Suspended(by) => interruption(by),
+        MissCause::Off(because) => off_reason(because),
+        MissCause::Suspended(kind) => interruption(kind),
         MissCause::NotResumed => {
             "After an outage Azel asked whether to continue tracking, and nobody answered."
         }
         MissCause::Refused => "It was refused, or could not be verified.",
-        MissCause::NotReady(why) => not_ready(why),
+        MissCause::NotReady(reason) => not_ready(reason),
         MissCause::OffTarget => "Azel ended the track: the antenna stayed off its target.",
         MissCause::Lost(cause) => lost(cause),
     };
@@ -263,7 +263,7 @@ fn lost(cause: LossCause) -> &'static str {
 pub fn not_tracking(operation: &Operation) -> Option<String> {
     let cause = match operation {
         Operation::Off(because) => MissCause::Off(*because),
-        Operation::Suspended { interruption: by, .. } => MissCause::Suspended(*by),
+        Operation::Suspended { interruption: kind, .. } => MissCause::Suspended(*kind),
         Operation::On(_) => match operation.taking()?.given_up? {
             GivenUp::Refused => MissCause::Refused,
             GivenUp::OffTarget => MissCause::OffTarget,
@@ -295,12 +295,14 @@ pub fn flown_part(flown: &Flown) -> String {
 pub fn day_line(line: &DayLine, now: Timestamp) -> String {
     match &line.event {
         DayEvent::SwitchedOn => "Automatic operation is on.".to_owned(),
-        DayEvent::SwitchedOff(because) => format!("Automatic operation is off. {}", off(*because)),
-        DayEvent::Suspended(by) => {
-            format!("Automatic operation is suspended. {}", interruption(*by))
+        DayEvent::SwitchedOff(because) => {
+            format!("Automatic operation is off. {}", off_reason(*because))
+        }
+        DayEvent::Suspended(kind) => {
+            format!("Automatic operation is suspended. {}", interruption(*kind))
         }
         DayEvent::WentOn => "Automatic operation resumed.".to_owned(),
-        DayEvent::Flown(of) => flown(of, now),
+        DayEvent::Flown(outcome) => flown(outcome, now),
         DayEvent::ClockSet { was_ahead_s } => {
             let was = was_ahead_s.map_or_else(
                 || "was not set".to_owned(),
@@ -310,19 +312,19 @@ pub fn day_line(line: &DayLine, now: Timestamp) -> String {
         }
         DayEvent::ElementsUploaded { file, satellites, old_algorithms } => {
             let noun = if *satellites == 1 { "satellite" } else { "satellites" };
-            let what = format!(
+            let subject = format!(
                 "Azel uploaded the elements of {satellites} {noun} to the unit, as {file}."
             );
             match super::old_algorithms(old_algorithms) {
-                Some(caution) => format!("{what} {caution}"),
-                None => what,
+                Some(caution) => format!("{subject} {caution}"),
+                None => subject,
             }
         }
-        DayEvent::ElementsNotUploaded { reason: why } => {
-            format!("Azel could not upload elements to the unit: {why}.")
+        DayEvent::ElementsNotUploaded { reason } => {
+            format!("Azel could not upload elements to the unit: {reason}.")
         }
-        DayEvent::ClockNotSet { reason: why } => {
-            format!("Azel could not set the unit's clock: {why}.")
+        DayEvent::ClockNotSet { reason } => {
+            format!("Azel could not set the unit's clock: {reason}.")
         }
     }
 }

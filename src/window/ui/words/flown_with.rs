@@ -30,43 +30,46 @@ pub enum FactKind {
 pub fn facts(report: &RecordedReport, now: Timestamp) -> Vec<Fact> {
     let fact = |name, value, kind| Fact { name, value, kind };
     let plain = |name, value| fact(name, value, FactKind::Plain);
-    let about = &report.track;
+    let about_track = &report.track;
     let mut facts = vec![
         plain("Elements of", format::copied(report.elements.epoch())),
         plain("Element age at the pass", format::age(report.age_days * DAY_S)),
-        plain("Tracked by", record::tracked_by(about.tracked_by).to_owned()),
-        plain("Tracked since", format::moment(about.begun, now)),
+        plain("Tracked by", record::tracked_by(about_track.tracked_by).to_owned()),
+        plain("Tracked since", format::moment(about_track.begun, now)),
     ];
-    if let Some(sent) = about.sent {
+    if let Some(sent) = about_track.sent {
         facts.push(plain("Positions sent", sent.to_string()));
     }
-    if let Some((from, offsets)) = about.offsets.changes().last() {
-        let changes = about.offsets.changes().len();
+    if let Some((start, offsets)) = about_track.offsets.changes().last() {
+        let changes = about_track.offsets.changes().len();
         let and = if changes > 1 { format!("the last of {changes}, ") } else { String::new() };
-        let since = format::moment(*from, now);
-        facts.push(plain("Offsets", format!("{} ({and}from {since})", super::offsets(*offsets))));
+        let start_text = format::moment(*start, now);
+        facts.push(plain(
+            "Offsets",
+            format!("{} ({and}from {start_text})", super::offsets(*offsets)),
+        ));
     }
-    if !about.pointing_model.is_none() {
+    if !about_track.pointing_model.is_none() {
         facts.push(plain("Pointing model", "applied".to_owned()));
     }
-    if let Some(ahead_s) = about.unit_clock_ahead_s {
+    if let Some(ahead_s) = about_track.unit_clock_ahead_s {
         let kind = if is_off(ahead_s) { FactKind::Caution } else { FactKind::Plain };
         let way = if ahead_s < 0.0 { "late" } else { "early" };
         let words = format!("{} s {way}", format::number(ahead_s.abs(), 2));
         facts.push(fact("Unit clock", words, kind));
     }
-    let (sync, kind) = match about.sync {
+    let (sync, kind) = match about_track.sync {
         TimeSync::Synchronised => ("synchronised", FactKind::Plain),
         TimeSync::NotSynchronised => ("not synchronised", FactKind::Caution),
         TimeSync::NotKnown => ("not known", FactKind::NotKnown),
     };
     facts.push(fact("Clock of this computer", sync.to_owned(), kind));
-    let known = format!(
+    let text = format!(
         "{} of {}",
         format::duration(report.report.known_s),
         format::duration(report.report.counted_s)
     );
-    facts.push(plain("Position data for", known));
+    facts.push(plain("Position data for", text));
     if let Some(rms) = report.report.rms {
         let two = |a: f64, b: f64| format!("{}, {}", format::degrees(a, 3), format::degrees(b, 3));
         facts.push(plain("Rms in azimuth, elevation", two(rms.azimuth_deg, rms.elevation_deg)));
@@ -77,8 +80,9 @@ pub fn facts(report: &RecordedReport, now: Timestamp) -> Vec<Fact> {
 
 /// First step where the time explains the error, and the clock of the unit was off by then.
 pub fn clock_first(report: &RecordedReport) -> Option<&'static str> {
-    let is_time =
-        |explanation: &Explanation| explanation.causes().any(|of| matches!(of, Cause::Late { .. }));
+    let is_time = |explanation: &Explanation| {
+        explanation.causes().any(|cause| matches!(cause, Cause::Late { .. }))
+    };
     let is_late = report.causes.first().is_some_and(is_time)
         && report.track.unit_clock_ahead_s.is_some_and(is_off);
     is_late.then_some(

@@ -13,7 +13,7 @@ use crate::{
     },
     device::{AntennaState, panel::CheckState},
     station::{ControllerSpec, Link},
-    ui::{format, widgets::told::Tone, words::sentence},
+    ui::{format, widgets::status_line::Tone, words::sentence},
 };
 
 /// A test that is younger has no age.
@@ -46,8 +46,8 @@ fn reached_state(test: &LinkTest) -> Option<&AntennaState> {
     }
 }
 
-fn count(state: &AntennaState, wanted: CheckState) -> usize {
-    state.checks.iter().filter(|check| check.state == wanted).count()
+fn count(state: &AntennaState, check_state: CheckState) -> usize {
+    state.checks.iter().filter(|check| check.state == check_state).count()
 }
 
 /// The state of a test in a few words.
@@ -97,20 +97,20 @@ pub fn link_test(test: &LinkTest, is_demo: bool, now: Timestamp) -> Vec<(Tone, S
             (Tone::Bad, "This is a simulated unit of the demo station, which ends.".to_owned()),
             (Tone::Plain, "Type the address of your unit.".to_owned()),
         ],
-        LinkTestStage::Elsewhere(by) => vec![
-            (Tone::Caution, format!("Not asked: {by} holds this unit.")),
+        LinkTestStage::Elsewhere(holder) => vec![
+            (Tone::Caution, format!("Not asked: {holder} holds this unit.")),
             (Tone::Plain, "Close it there first: a unit obeys one Azel at a time.".to_owned()),
         ],
-        LinkTestStage::Done { finding, time: at } => {
+        LinkTestStage::Done { finding, time } => {
             let mut lines = finding_words(finding, spec, address);
-            lines.push((Tone::Plain, format!("Tested {}.", ago(*at, now))));
+            lines.push((Tone::Plain, format!("Tested {}.", ago(*time, now))));
             lines
         }
     }
 }
 
-fn ago(at: Timestamp, now: Timestamp) -> String {
-    let age_s = seconds_between(at, now);
+fn ago(time: Timestamp, now: Timestamp) -> String {
+    let age_s = seconds_between(time, now);
     if age_s < JUST_NOW_S { "just now".to_owned() } else { format!("{} ago", format::age(age_s)) }
 }
 
@@ -129,7 +129,7 @@ fn finding_words(
              and make sure that nobody uses its panel."
         }
     };
-    let bad = |what: String, check: String| vec![(Tone::Bad, what), (Tone::Plain, check)];
+    let bad = |subject: String, check: String| vec![(Tone::Bad, subject), (Tone::Plain, check)];
     match finding {
         LinkFinding::Reached { after, state } => reached(after.as_millis(), state, spec),
         LinkFinding::Silent => {
@@ -151,7 +151,7 @@ fn finding_words(
 }
 
 fn not_opened(fault: &LinkFault, spec: &ControllerSpec, address: &str) -> Vec<(Tone, String)> {
-    let (what, check) = match fault {
+    let (subject, check) = match fault {
         LinkFault::Refused => (
             format!("{address} refuses the connection."),
             format!(
@@ -178,25 +178,25 @@ fn not_opened(fault: &LinkFault, spec: &ControllerSpec, address: &str) -> Vec<(T
             (format!("{address} cannot be opened: {text}."), "Check the address.".to_owned())
         }
     };
-    vec![(Tone::Bad, what), (Tone::Plain, check.trim().to_owned())]
+    vec![(Tone::Bad, subject), (Tone::Plain, check.trim().to_owned())]
 }
 
 fn reached(after_ms: u128, state: &AntennaState, spec: &ControllerSpec) -> Vec<(Tone, String)> {
-    let said = state.identity.as_deref().or(state.unit_name.as_deref());
-    let said = said.map(|said| format!(", {said}")).unwrap_or_default();
+    let spoken = state.identity.as_deref().or(state.unit_name.as_deref());
+    let spoken = spoken.map(|spoken| format!(", {spoken}")).unwrap_or_default();
     if state.is_other_device {
-        let what = format!("Reached{said}, {after_ms} ms, but this is not the expected unit.");
+        let subject = format!("Reached{spoken}, {after_ms} ms, but this is not the expected unit.");
         let check = format!("Check that a {} answers there and that it needs no code.", spec.name);
-        return vec![(Tone::Caution, what), (Tone::Plain, check)];
+        return vec![(Tone::Caution, subject), (Tone::Plain, check)];
     }
-    let mut lines = vec![(Tone::Good, format!("Reached{said}, {after_ms} ms."))];
+    let mut lines = vec![(Tone::Good, format!("Reached{spoken}, {after_ms} ms."))];
     let mut facts = Vec::new();
     if let Some(direction) = state.measured.and_then(|measured| measured.direction()) {
         facts.push(format!("It pointed at {}.", format::pointing_at(direction)));
     }
     if let Some(own) = state.on_board.place {
-        let there = place(own.latitude_deg, own.longitude_deg);
-        facts.push(format!("Its own location: {there}."));
+        let place_text = place(own.latitude_deg, own.longitude_deg);
+        facts.push(format!("Its own location: {place_text}."));
     }
     if let Some(own) = state.on_board.clock.filter(|own| own.is_set) {
         facts.push(if clock::agrees(own.ahead_s) {
@@ -213,8 +213,8 @@ fn reached(after_ms: u128, state: &AntennaState, spec: &ControllerSpec) -> Vec<(
         .iter()
         .filter(|check| matches!(check.state, CheckState::Caution | CheckState::Fault));
     lines.extend(wrong.map(|check| (Tone::Caution, format!("{}: {}", check.name, check.advice))));
-    if let Some(why) = state.unreadable {
-        lines.push((Tone::Caution, why.to_string()));
+    if let Some(reason) = state.unreadable {
+        lines.push((Tone::Caution, reason.to_string()));
     }
     lines
 }

@@ -6,39 +6,39 @@ use super::{alarm, alarm_times};
 use crate::{
     contract::{Snapshot, alarms::AlarmKind, antenna::AntennaModel, reminders::Reminder},
     desktop::{Missing, Outlets, Sound},
-    model::notices::About,
+    model::notices::NoticeSubject,
     ui::format,
 };
 
 /// Title and text of a notification.
-pub fn notice(about: &About, station: &Snapshot) -> (String, String) {
+pub fn notice(subject: &NoticeSubject, station: &Snapshot) -> (String, String) {
     let (now, antennas) = (station.moment.utc, &station.antennas);
-    let (word, text) = match about {
-        About::Alarm(of) => {
-            let antenna = antennas.iter().find(|antenna| Some(antenna.id()) == of.antenna);
+    let (word, text) = match subject {
+        NoticeSubject::Alarm(raised) => {
+            let antenna = antennas.iter().find(|antenna| Some(antenna.id()) == raised.antenna);
             let name = antenna.map_or("Azel", |antenna| antenna.config.name.as_str());
-            let times = alarm_times(of, now);
-            ("Alarm", format!("{} {times}.", alarm(&of.kind, name, now)))
+            let times = alarm_times(raised, now);
+            ("Alarm", format!("{} {times}.", alarm(&raised.kind, name, now)))
         }
-        About::StationStands(stood) => {
+        NoticeSubject::StationStands(stood) => {
             ("Alarm", alarm(&AlarmKind::StationStands(*stood), "Azel", now))
         }
-        About::Reminder(of) => ("Reminder", reminder(of, antennas, now)),
+        NoticeSubject::Reminder(due) => ("Reminder", reminder(due, antennas, now)),
     };
     (format!("{word}, {}", station.station.name), text)
 }
 
 /// A reminder in words.
-pub fn reminder(of: &Reminder, antennas: &[AntennaModel], now: Timestamp) -> String {
-    let able = antennas.iter().filter(|antenna| of.can_track.contains(&antenna.id()));
+pub fn reminder(due: &Reminder, antennas: &[AntennaModel], now: Timestamp) -> String {
+    let able = antennas.iter().filter(|antenna| due.can_track.contains(&antenna.id()));
     let names: Vec<&str> = able.map(|antenna| antenna.config.name.as_str()).collect();
     let names = if names.is_empty() { "no antenna".to_owned() } else { format::list(&names) };
     format!(
         "{} AOS in {} at {}, max {}, {names} can track it.",
-        of.name,
-        format::time_left(now, of.aos()),
-        format::moment(of.aos(), now),
-        format::degrees(of.max_elevation.degrees(), 0),
+        due.name,
+        format::time_left(now, due.aos()),
+        format::moment(due.aos(), now),
+        format::degrees(due.max_elevation.degrees(), 0),
     )
 }
 
@@ -53,13 +53,13 @@ pub fn trial(sound: Sound) -> (String, String) {
 
 /// Services that the desktop lacks, in sentences.
 pub fn missing_outlets(outlets: &Outlets) -> Vec<MissingOutlet> {
-    let of = |what, missing: &Option<Missing>| {
+    let words_for = |subject, missing: &Option<Missing>| {
         let missing = missing.as_ref()?;
-        let (why, cure) = why_and_cure(missing);
-        Some(MissingOutlet { words: format!("{what}: {why}. {cure}"), raw: raw(missing) })
+        let (reason, cure) = why_and_cure(missing);
+        Some(MissingOutlet { words: format!("{subject}: {reason}. {cure}"), raw: raw(missing) })
     };
-    let notifications = of("The desktop shows no notifications", &outlets.notifications);
-    let sounds = of("Azel cannot play sounds", &outlets.sounds);
+    let notifications = words_for("The desktop shows no notifications", &outlets.notifications);
+    let sounds = words_for("Azel cannot play sounds", &outlets.sounds);
     notifications.into_iter().chain(sounds).collect()
 }
 

@@ -13,11 +13,11 @@ use crate::{
 pub const OFFSETS_NEED_ELEMENTS: &str =
     "Azel has no elements of what the unit tracks, and cannot judge where an offset would lead.";
 
-/// Handling of offsets that a unit adds to its own track; in all, it adds `held`.
-pub fn offsets_on_unit_about(held: &str) -> String {
+/// Handling of offsets that a unit adds to its own track; in all, it adds `current`.
+pub fn offsets_on_unit_about(current: &str) -> String {
     format!(
         "Each step is written to the unit, read back, and taken back after the track. The unit adds \
-         in all: {held}. It holds nothing along or across, and the sign of its time is not \
+         in all: {current}. It holds nothing along or across, and the sign of its time is not \
          documented: for these, follow from here."
     )
 }
@@ -27,12 +27,12 @@ pub fn offsets_on_unit(unit: Option<&device::Offsets>) -> String {
     let Some(unit) = unit else { return "not read yet".to_owned() };
     let step =
         |offset: Offset, value: f64| offset.with_thousandths((value * 1000.0).round() as i32);
-    let each = [
+    let offsets = [
         step(Offset::Time(SignedDuration::ZERO), unit.time_s),
         step(Offset::Azimuth(Angle::ZERO), unit.azimuth_deg),
         step(Offset::Elevation(Angle::ZERO), unit.elevation_deg),
     ];
-    listed(each.into_iter())
+    listed(offsets.into_iter())
 }
 
 /// An offset that was not added to the track of a unit.
@@ -44,15 +44,15 @@ pub fn offset_not_taken(error: &WriteError) -> String {
 pub fn offsets_left(
     antenna: &str,
     added: TrackOffsets,
-    why: &LeftOffsets,
+    left_offsets: &LeftOffsets,
     now: Timestamp,
 ) -> String {
     let added = offsets(added);
-    match why {
-        LeftOffsets::Found { start: since } => format!(
+    match left_offsets {
+        LeftOffsets::Found { start } => format!(
             "The unit of {antenna} still adds {added} to its tracks, written for a pass at {}. Azel \
              takes it back once the unit neither tracks nor is locked out.",
-            format::moment(*since, now)
+            format::moment(*start, now)
         ),
         LeftOffsets::Failed(error) => format!(
             "The unit of {antenna} may still add {added} to its tracks: it was not taken back, since \
@@ -94,7 +94,7 @@ pub fn offsets(offsets: TrackOffsets) -> String {
 }
 
 fn listed(offsets: impl Iterator<Item = Offset>) -> String {
-    let each = offsets.filter(|offset| !offset.is_zero());
+    let nonzero = offsets.filter(|offset| !offset.is_zero());
     let short = |offset| match offset {
         Offset::Time(_) => "time",
         Offset::Along(_) => "along",
@@ -102,8 +102,8 @@ fn listed(offsets: impl Iterator<Item = Offset>) -> String {
         Offset::Azimuth(_) => "az",
         Offset::Elevation(_) => "el",
     };
-    let each = each.map(|offset| format!("{} {}", short(offset), offset_value(offset)));
-    let words: Vec<String> = each.collect();
+    let texts = nonzero.map(|offset| format!("{} {}", short(offset), offset_value(offset)));
+    let words: Vec<String> = texts.collect();
     if words.is_empty() { "none".to_owned() } else { words.join(", ") }
 }
 

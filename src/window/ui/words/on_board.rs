@@ -67,20 +67,22 @@ fn place_words(place: Place) -> String {
 
 /// The amount by which a unit would miss `name`, and the reason.
 pub fn would_miss(name: &str, found: &Supervision, now: Timestamp, unit: DistanceUnit) -> String {
-    let off = format::degrees(found.worst.angle.degrees(), 1);
+    let deviation_text = format::degrees(found.worst.angle.degrees(), 1);
     // In a pass under way the worst may be over.
     let is_ahead = found.worst.time > now;
-    let at = if is_ahead {
+    let time_text = if is_ahead {
         format!(" at {}", format::moment(found.worst.time, now))
     } else {
         String::new()
     };
     match found.causes.first() {
         Some(first) => {
-            let why = super::capitalised(&cause(first, unit));
-            format!("{why}. It would miss {name} by up to {off}{at}.")
+            let reason = super::capitalised(&cause(first, unit));
+            format!("{reason}. It would miss {name} by up to {deviation_text}{time_text}.")
         }
-        None => format!("By its own settings the unit would miss {name} by up to {off}{at}."),
+        None => format!(
+            "By its own settings the unit would miss {name} by up to {deviation_text}{time_text}."
+        ),
     }
 }
 
@@ -99,8 +101,8 @@ pub fn not_known(found: &Supervision) -> Option<String> {
 /// The note on a unit that tracks well enough.
 pub fn within_beam(found: &Supervision, unit: DistanceUnit) -> Option<String> {
     let first = found.causes.first()?;
-    let off = format::degrees(found.worst.angle.degrees(), 2);
-    Some(format!("Up to {off} off: {}.", cause(first, unit)))
+    let deviation_text = format::degrees(found.worst.angle.degrees(), 2);
+    Some(format!("Up to {deviation_text} off: {}.", cause(first, unit)))
 }
 
 /// The note on a unit whose minimum elevation is below that of the station.
@@ -114,7 +116,7 @@ pub fn lower_minimum(unit_deg: f64, station_deg: f64) -> String {
 
 /// The first place where a unit's own program would enter a forbidden zone, and what to do.
 pub fn trespass(trespass: &Trespass, now: Timestamp) -> String {
-    let Trespass { time: at, direction, limit } = trespass;
+    let Trespass { time, direction, limit } = trespass;
     let bound = match limit {
         OffLimits::Elevation { lowest_deg } => {
             format!("below the {} of this antenna", format::degrees(*lowest_deg, 1))
@@ -124,7 +126,7 @@ pub fn trespass(trespass: &Trespass, now: Timestamp) -> String {
     };
     format!(
         "Not sent: at {} the unit would point to {}, {bound}. Follow from here instead.",
-        format::moment(*at, now),
+        format::moment(*time, now),
         pair(*direction)
     )
 }

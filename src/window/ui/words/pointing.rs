@@ -19,8 +19,8 @@ pub fn pointing_term(term: Term) -> &'static str {
     }
 }
 
-pub fn peak_of(of: PeakBody) -> &'static str {
-    match of {
+pub fn peak_of(body: PeakBody) -> &'static str {
+    match body {
         PeakBody::Sun => "Sun",
         PeakBody::Moon => "Moon",
     }
@@ -30,14 +30,14 @@ pub fn peak_of(of: PeakBody) -> &'static str {
 pub fn fitted_to(fit: &PointingFit) -> String {
     let passes =
         if fit.passes == 1 { "1 pass".to_owned() } else { format!("{} passes", fit.passes) };
-    let of = |FittedNoise { kind: of, points, noise_deg }: &FittedNoise| {
+    let words_for = |FittedNoise { kind, points, noise_deg }: &FittedNoise| {
         let peaks = if *points == 1 { "1 peak".to_owned() } else { format!("{points} peaks") };
-        let what = match of {
+        let subject = match kind {
             Kind::Satellite => format!("{passes}, {points} points"),
             Kind::Sun => format!("{peaks} of the Sun"),
             Kind::Moon => format!("{peaks} of the Moon"),
         };
-        format!("{what}, each axis within {noise_deg:.3}° of the model (1 σ).")
+        format!("{subject}, each axis within {noise_deg:.3}° of the model (1 σ).")
     };
-    fit.noise.iter().map(of).collect::<Vec<_>>().join(" ")
+    fit.noise.iter().map(words_for).collect::<Vec<_>>().join(" ")
 }

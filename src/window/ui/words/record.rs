@@ -9,7 +9,7 @@ use crate::{
             ExplainedPasses, ListedKind, OpenedPass, RecordedPass, RecordedReport, TrackedBy,
         },
     },
-    model::correction::How,
+    model::correction::CorrectionMethod,
     plan::pass_report::{
         Axis, Cause, Explained, Explanation, LossCause, LostStretch, PassReport, PassVerdict,
     },
@@ -20,8 +20,8 @@ use crate::{
 const UNTOLD_S: f64 = 10.0;
 
 /// Kind of the track that led the antenna.
-pub fn tracked_by(by: TrackedBy) -> &'static str {
-    match by {
+pub fn tracked_by(way: TrackedBy) -> &'static str {
+    match way {
         TrackedBy::ProgramTrack => "program track",
         TrackedBy::OnBoard => "on-board tracking",
         TrackedBy::Elsewhere => "tracked by the unit, not by Azel",
@@ -33,7 +33,7 @@ pub const NOT_TRACKED: &str = "Not tracked";
 /// A kind of passes, as a choice of the list.
 pub fn listed_kind(kind: ListedKind) -> &'static str {
     match kind {
-        ListedKind::Tracked(of) => verdict(of),
+        ListedKind::Tracked(pass_verdict) => verdict(pass_verdict),
         ListedKind::NotTracked => NOT_TRACKED,
     }
 }
@@ -52,8 +52,8 @@ pub fn verdict(verdict: PassVerdict) -> &'static str {
 /// failure.
 pub fn in_short(report: &PassReport) -> String {
     let lost_s = |is_meant: &dyn Fn(LossCause) -> bool| -> f64 {
-        let meant = report.losses.iter().filter(|lost| is_meant(lost.cause));
-        meant.map(LostStretch::seconds).sum()
+        let intended = report.losses.iter().filter(|lost| is_meant(lost.cause));
+        intended.map(LostStretch::seconds).sum()
     };
     let of_mount_s = lost_s(&LossCause::is_of_mount);
     if let (PassVerdict::Good, Some(worst)) = (report.verdict, &report.worst)
@@ -61,14 +61,14 @@ pub fn in_short(report: &PassReport) -> String {
     {
         let reached_s = report.counted_s - of_mount_s;
         let lost_s = lost_s(&|cause| !cause.is_of_mount());
-        let [reached, inside] = [reached_s, reached_s - lost_s].map(format::duration);
-        let inside = if inside == reached {
+        let [reached, inside_text] = [reached_s, reached_s - lost_s].map(format::duration);
+        let inside_text = if inside_text == reached {
             format!("all {reached}")
         } else {
-            format!("{inside} of {reached}")
+            format!("{inside_text} of {reached}")
         };
         let worst = format::degrees(worst.error.off_deg, 2);
-        return format!("{inside} within reach, worst {worst}");
+        return format!("{inside_text} within reach, worst {worst}");
     }
     let share = share(report.share());
     let not_known_s = report.counted_s - report.known_s;
@@ -204,29 +204,29 @@ pub fn size(cause: &Cause) -> String {
             format!("{} north, {} east", km(*north_km), km(*east_km))
         }
         Cause::SlowDrives { rate_deg_s, .. } => format!("{}°/s", format::number(*rate_deg_s, 2)),
-        Cause::Stuck { start: since, .. } => format!("since {}", format::copied(*since)),
+        Cause::Stuck { start, .. } => format!("since {}", format::copied(*start)),
     }
 }
 
 /// Causes that act together, with their sizes.
-pub fn causes(of: &Explanation) -> String {
-    together(of.causes().map(cause_with_size))
+pub fn causes(explanation: &Explanation) -> String {
+    combined(explanation.causes().map(cause_with_size))
 }
 
-fn cause_with_size(of: &Cause) -> String {
-    match of {
+fn cause_with_size(one: &Cause) -> String {
+    match one {
         Cause::Late { late_s } if *late_s < 0.0 => {
             format!("Antenna {} s early", format::number(-late_s, 2))
         }
         Cause::Late { late_s } => format!("Antenna {} s late", format::number(*late_s, 2)),
-        of => format!("{} {}", cause(of), size(of)),
+        one => format!("{} {}", cause(one), size(one)),
     }
 }
 
 /// A cause as the subject of a sentence.
-fn cause_as_subject(of: &Cause) -> String {
+fn cause_as_subject(cause: &Cause) -> String {
     let deg = |value: f64| format!("{}°", format::signed(value, 2));
-    match of {
+    match cause {
         Cause::Late { late_s } if *late_s < 0.0 => {
             format!("The antenna was {} s early", format::number(-late_s, 2))
         }
@@ -239,25 +239,25 @@ fn cause_as_subject(of: &Cause) -> String {
         Cause::ElevationOffset { offset_deg } => {
             format!("The elevation was off by {}", deg(*offset_deg))
         }
-        Cause::Tilt { .. } => format!("The mount is tilted by {}", size(of)),
-        Cause::AzimuthScale { .. } => format!("The azimuth scale is off by {}", size(of)),
-        Cause::ElevationScale { .. } => format!("The elevation scale is off by {}", size(of)),
+        Cause::Tilt { .. } => format!("The mount is tilted by {}", size(cause)),
+        Cause::AzimuthScale { .. } => format!("The azimuth scale is off by {}", size(cause)),
+        Cause::ElevationScale { .. } => format!("The elevation scale is off by {}", size(cause)),
         Cause::OtherElements { epoch } => {
             format!("The antenna followed older elements, of {}", format::copied(*epoch))
         }
         Cause::Refraction => "The unit left refraction out".to_owned(),
         Cause::OtherSite { .. } => {
-            format!("The unit computes for another site, {}", size(of))
+            format!("The unit computes for another site, {}", size(cause))
         }
         Cause::SlowDrives { axis: None, .. } => {
-            format!("The drives turn no faster than {}", size(of))
+            format!("The drives turn no faster than {}", size(cause))
         }
         Cause::SlowDrives { axis: Some(axis), .. } => {
-            format!("{} turns no faster than {}", axis_as_subject(*axis), size(of))
+            format!("{} turns no faster than {}", axis_as_subject(*axis), size(cause))
         }
-        Cause::Stuck { axis: None, .. } => format!("Both axes stand {}", size(of)),
+        Cause::Stuck { axis: None, .. } => format!("Both axes stand {}", size(cause)),
         Cause::Stuck { axis: Some(axis), .. } => {
-            format!("{} stands {}", axis_as_subject(*axis), size(of))
+            format!("{} stands {}", axis_as_subject(*axis), size(cause))
         }
     }
 }
@@ -272,7 +272,7 @@ fn axis_as_subject(axis: Axis) -> &'static str {
 }
 
 /// Causes that act together.
-fn together(causes: impl Iterator<Item = String>) -> String {
+fn combined(causes: impl Iterator<Item = String>) -> String {
     let mut whole = String::new();
     for cause in causes {
         if whole.is_empty() {
@@ -297,9 +297,9 @@ fn inside_sentence(words: &str) -> String {
 }
 
 /// Share of the error that these causes explain, after them.
-fn explains(by: &Explanation) -> String {
-    let share = whole_share(by.share);
-    if by.partner.is_some() {
+fn explains(explanation: &Explanation) -> String {
+    let share = whole_share(explanation.share);
+    if explanation.partner.is_some() {
         format!("together they explain {share}")
     } else {
         format!("that explains {share}")
@@ -312,7 +312,7 @@ pub fn explained(explained: &Explained, now: Timestamp) -> Option<String> {
     match &explained.causes[..] {
         [] => None,
         [only] => {
-            let causes = together(only.causes().map(|of| cause_now(of, now)));
+            let causes = combined(only.causes().map(|cause| cause_now(cause, now)));
             Some(format!("{causes}: {} of the rms error of {error}.", explains(only)))
         }
         several => Some(format!("The rms error of {error} may come from {}.", one_of(several))),
@@ -321,15 +321,16 @@ pub fn explained(explained: &Explained, now: Timestamp) -> Option<String> {
 
 /// Causes that the positions do not tell apart.
 fn one_of(alike: &[Explanation]) -> String {
-    let mut names: Vec<String> = alike.iter().map(|of| inside_sentence(&names(of))).collect();
+    let mut names: Vec<String> =
+        alike.iter().map(|explanation| inside_sentence(&names(explanation))).collect();
     let last = names.pop().unwrap_or_default();
     if names.is_empty() { last } else { format!("{} or {last}", names.join(", ")) }
 }
 
 /// A cause of a pass under way as the subject of a sentence.
-fn cause_now(of: &Cause, now: Timestamp) -> String {
+fn cause_now(cause: &Cause, now: Timestamp) -> String {
     let deg = |value: f64| format!("{}°", format::signed(value, 2));
-    match of {
+    match cause {
         Cause::Late { late_s } => {
             let way = if *late_s < 0.0 { "early" } else { "late" };
             format!("The antenna is {} s {way}", format::number(late_s.abs(), 2))
@@ -340,14 +341,14 @@ fn cause_now(of: &Cause, now: Timestamp) -> String {
         Cause::ElevationOffset { offset_deg } => {
             format!("The elevation is off by {}", deg(*offset_deg))
         }
-        Cause::Stuck { start: since, axis } => {
-            let since = format::moment(*since, now);
+        Cause::Stuck { start, axis } => {
+            let start_text = format::moment(*start, now);
             match axis {
-                None => format!("Both axes stand since {since}"),
-                Some(axis) => format!("{} stands since {since}", axis_as_subject(*axis)),
+                None => format!("Both axes stand since {start_text}"),
+                Some(axis) => format!("{} stands since {start_text}", axis_as_subject(*axis)),
             }
         }
-        of => cause_as_subject(of),
+        cause => cause_as_subject(cause),
     }
 }
 
@@ -357,7 +358,7 @@ pub fn verdict_sentence(pass: &RecordedReport, now: Timestamp) -> String {
     let Some(worst) = &report.worst else {
         return "No position was measured in this pass.".to_owned();
     };
-    let inside = format!(
+    let inside_text = format!(
         "Within half the beamwidth for {} of {}, worst {} at {}.",
         share(report.share()),
         format::duration(report.counted_s),
@@ -367,12 +368,12 @@ pub fn verdict_sentence(pass: &RecordedReport, now: Timestamp) -> String {
     let explained = match &pass.causes[..] {
         [] => None,
         [only] => {
-            let causes = together(only.causes().map(cause_as_subject));
+            let causes = combined(only.causes().map(cause_as_subject));
             Some(format!(" {causes}; {} of the error.", explains(only)))
         }
         several => Some(format!(" The error may come from {}.", one_of(several))),
     };
-    inside + &explained.unwrap_or_default() + &losses_sentence(&report.losses)
+    inside_text + &explained.unwrap_or_default() + &losses_sentence(&report.losses)
 }
 
 fn losses_sentence(losses: &[LostStretch]) -> String {
@@ -386,11 +387,11 @@ fn losses_sentence(losses: &[LostStretch]) -> String {
             None => causes.push((lost.cause, lost.seconds())),
         }
     }
-    let told = causes.into_iter().enumerate().map(|(place, (cause, seconds))| {
+    let texts = causes.into_iter().enumerate().map(|(place, (cause, seconds))| {
         let lost = if place == 0 { " lost" } else { "" };
         format!("{}{lost} {}", format::duration(seconds), loss_in_sentence(cause))
     });
-    format!(" {}.", format::list(&told.collect::<Vec<_>>()))
+    format!(" {}.", format::list(&texts.collect::<Vec<_>>()))
 }
 
 fn loss_in_sentence(cause: LossCause) -> &'static str {
@@ -420,10 +421,10 @@ pub fn whole_share(share: f64) -> String {
 }
 
 /// Effect of taking a correction over. `is_best`: of the best explanation.
-pub fn correction(how: &How, is_best: bool) -> String {
+pub fn correction(method: &CorrectionMethod, is_best: bool) -> String {
     let key = if is_best { " (C)" } else { "" };
-    match how {
-        How::Settings { values, has_time, .. } => {
+    match method {
+        CorrectionMethod::Settings { values, has_time, .. } => {
             let values = if values.len() == 1 { "value" } else { "values" };
             let sign = if *has_time {
                 " The manual does not say whether a larger time is ahead or behind: if the next \
@@ -436,7 +437,7 @@ pub fn correction(how: &How, is_best: bool) -> String {
                  apply it there.{sign}"
             )
         }
-        How::Remembered(offsets) => {
+        CorrectionMethod::Remembered(offsets) => {
             format!("Asks whether to remember {} for this antenna{key}", super::offsets(*offsets))
         }
     }
@@ -451,21 +452,22 @@ pub fn no_correction(best: Option<&Explanation>) -> String {
 }
 
 /// Explanation of this pass and those before it together; `None` where it is the only one.
-pub fn explained_together(of: &ExplainedPasses, pass: &RecordedPass) -> Option<String> {
-    let since = of.start.map(|since| format!(" from {}", format::date(since))).unwrap_or_default();
-    let (passes, antenna) = (of.passes, &pass.antenna_name);
-    let last = format!("The {passes} passes of {antenna}{since} up to this one, together");
-    let Some(best) = of.explanations.first() else {
-        return (of.passes > 1).then(|| format!("{last}: no cause explains their error."));
+pub fn explained_together(explained: &ExplainedPasses, pass: &RecordedPass) -> Option<String> {
+    let start_text =
+        explained.start.map(|start| format!(" from {}", format::date(start))).unwrap_or_default();
+    let (passes, antenna) = (explained.passes, &pass.antenna_name);
+    let last = format!("The {passes} passes of {antenna}{start_text} up to this one, together");
+    let Some(best) = explained.explanations.first() else {
+        return (explained.passes > 1).then(|| format!("{last}: no cause explains their error."));
     };
     let causes = causes(best);
-    let alike: Vec<String> = of.explanations.iter().skip(1).map(names).collect();
+    let alike: Vec<String> = explained.explanations.iter().skip(1).map(names).collect();
     let open = match &alike[..] {
         [] => String::new(),
         alike => format!(" They cannot tell this from {}.", format::list(alike)),
     };
     let explains = explains(best);
-    (of.passes > 1).then(|| format!("{last}: {causes}; {explains} of their error.{open}"))
+    (explained.passes > 1).then(|| format!("{last}: {causes}; {explains} of their error.{open}"))
 }
 
 /// Why the table of causes of a pass is empty.
@@ -486,39 +488,39 @@ pub fn none_explains(is_measured: bool) -> &'static str {
 }
 
 /// The names of causes that act together.
-fn names(of: &Explanation) -> String {
-    together(of.causes().map(|of| cause(of).to_owned()))
+fn names(explanation: &Explanation) -> String {
+    combined(explanation.causes().map(|one| cause(one).to_owned()))
 }
 
 /// Returns the names of the best explanation and of others that the data cannot rule out, each
 /// once.
 fn names_alike(explanations: &[Explanation]) -> Vec<String> {
-    let mut told: Vec<String> = explanations.first().map(names).into_iter().collect();
+    let mut sentences: Vec<String> = explanations.first().map(names).into_iter().collect();
     for alike in explanations.iter().map(names) {
-        if !told.contains(&alike) {
-            told.push(alike);
+        if !sentences.contains(&alike) {
+            sentences.push(alike);
         }
     }
-    told
+    sentences
 }
 
 /// Causes that the data cannot tell apart, as a sentence; `None` where the best cause stands alone.
 pub fn alike(explanations: &[Explanation]) -> Option<String> {
-    let told = names_alike(explanations);
+    let sentences = names_alike(explanations);
     let alike = || explanations.iter().flat_map(Explanation::causes);
     let has = |is_so: fn(&Cause) -> bool| alike().any(is_so);
-    let tells = if has(|it| matches!(it, Cause::SlowDrives { .. } | Cause::Stuck { .. })) {
+    let tells = if has(|cause| matches!(cause, Cause::SlowDrives { .. } | Cause::Stuck { .. })) {
         "A slower pass"
-    } else if has(|it| matches!(it, Cause::Late { .. }))
-        && has(|it| matches!(it, Cause::OtherElements { .. }))
+    } else if has(|cause| matches!(cause, Cause::Late { .. }))
+        && has(|cause| matches!(cause, Cause::OtherElements { .. }))
     {
         "The clock of the unit, or a pass of another satellite,"
     } else {
         "A pass in another part of the sky"
     };
-    (told.len() > 1).then(|| {
-        let told = format::list(&told);
-        format!("This pass cannot tell these apart: {told}. {tells} can.")
+    (sentences.len() > 1).then(|| {
+        let texts = format::list(&sentences);
+        format!("This pass cannot tell these apart: {texts}. {tells} can.")
     })
 }
 
@@ -528,7 +530,9 @@ fn or_alike(explanations: &[Explanation]) -> String {
     let others: Vec<String> = others.map(|name| inside_sentence(&name)).collect();
     match &others[..] {
         [] => String::new(),
-        [one] if explanations.iter().all(|it| it.partner.is_none()) => format!(" or {one}"),
+        [one] if explanations.iter().all(|explanation| explanation.partner.is_none()) => {
+            format!(" or {one}")
+        }
         [_] => " or another".to_owned(),
         several => format!(" or {} others", several.len()),
     }
@@ -555,26 +559,29 @@ mod tests {
             along_deg: 0.0,
             across_deg: 0.0,
         };
-        let at = |seconds: f64| add_seconds(Timestamp::UNIX_EPOCH, seconds);
+        let time = |seconds: f64| add_seconds(Timestamp::UNIX_EPOCH, seconds);
         let lost =
-            |from_s, until_s, cause| LostStretch { start: at(from_s), end: at(until_s), cause };
+            |from_s, until_s, cause| LostStretch { start: time(from_s), end: time(until_s), cause };
         let report = |verdict, in_beam_s, losses| PassReport {
             verdict,
             counted_s: 600.0,
             known_s: 600.0,
             in_beam_s,
             rms: Some(error(0.1)),
-            worst: Some(WorstError { time: at(10.0), error: error(0.124) }),
+            worst: Some(WorstError { time: time(10.0), error: error(0.124) }),
             losses,
         };
-        let beyond = lost(298.0, 600.0, LossCause::OutOfReach);
-        let good = report(PassVerdict::Good, 298.0, vec![beyond]);
+        let out_of_reach = lost(298.0, 600.0, LossCause::OutOfReach);
+        let good = report(PassVerdict::Good, 298.0, vec![out_of_reach]);
         assert_eq!(in_short(&good), "all 4:58 within reach, worst 0.12°");
         let late = lost(0.0, 1.2, LossCause::LateStart);
-        let good = report(PassVerdict::Good, 296.8, vec![late, beyond]);
+        let good = report(PassVerdict::Good, 296.8, vec![late, out_of_reach]);
         assert_eq!(in_short(&good), "4:57 of 4:58 within reach, worst 0.12°");
-        let poor =
-            report(PassVerdict::Poor, 100.0, vec![lost(0.0, 198.0, LossCause::LateStart), beyond]);
+        let poor = report(
+            PassVerdict::Poor,
+            100.0,
+            vec![lost(0.0, 198.0, LossCause::LateStart), out_of_reach],
+        );
         assert_eq!(in_short(&poor), "16.6 % in beam, worst 0.12°");
         assert_eq!(
             in_short(&report(PassVerdict::Good, 600.0, vec![])),
@@ -588,29 +595,29 @@ mod tests {
         let set = explanation(Cause::OtherElements { epoch: Timestamp::UNIX_EPOCH });
         let slow = explanation(Cause::SlowDrives { rate_deg_s: 1.5, axis: None });
         let azimuth = explanation(Cause::AzimuthOffset { offset_deg: 0.3 });
-        let told = |of: &[Explanation]| alike(of).unwrap_or_default();
-        assert_eq!(told(&[late]), "");
+        let text = |explanations: &[Explanation]| alike(explanations).unwrap_or_default();
+        assert_eq!(text(&[late]), "");
         assert_eq!(or_alike(&[late]), "");
         assert_eq!(
-            told(&[late, set]),
+            text(&[late, set]),
             "This pass cannot tell these apart: Time offset and Other elements. The clock of the \
              unit, or a pass of another satellite, can."
         );
         assert_eq!(or_alike(&[late, set]), " or other elements");
-        assert!(told(&[late, slow]).ends_with("A slower pass can."));
-        assert!(told(&[late, azimuth]).ends_with("A pass in another part of the sky can."));
+        assert!(text(&[late, slow]).ends_with("A slower pass can."));
+        assert!(text(&[late, azimuth]).ends_with("A pass in another part of the sky can."));
         assert_eq!(or_alike(&[late, set, azimuth]), " or 2 others");
-        let said = |causes: &[Explanation]| {
+        let shared = |causes: &[Explanation]| {
             let causes = causes.to_vec();
             explained(&Explained { causes, error_deg: 0.5 }, Timestamp::UNIX_EPOCH)
         };
-        assert_eq!(said(&[]), None);
+        assert_eq!(shared(&[]), None);
         assert_eq!(
-            said(&[late]).as_deref(),
+            shared(&[late]).as_deref(),
             Some("The antenna is 0.40 s late: that explains 97 % of the rms error of 0.50°.")
         );
         assert_eq!(
-            said(&[late, set, azimuth]).as_deref(),
+            shared(&[late, set, azimuth]).as_deref(),
             Some(
                 "The rms error of 0.50° may come from time offset, other elements or azimuth offset."
             )
@@ -618,16 +625,16 @@ mod tests {
         let y = Cause::Stuck { start: Timestamp::UNIX_EPOCH, axis: Some(Axis::Y) };
         assert_eq!(cause(&y), "Y stuck");
         assert_eq!(second_cause(&y), "with Y stuck");
-        let both = Explanation { partner: Some(y), ..explanation(Cause::Refraction) };
+        let combined = Explanation { partner: Some(y), ..explanation(Cause::Refraction) };
         assert_eq!(
-            said(&[both]).as_deref(),
+            shared(&[combined]).as_deref(),
             Some(
                 "The unit left refraction out and Y stands since 00:00:00Z: together they explain 97 % of \
                  the rms error of 0.50°."
             )
         );
         assert_eq!(
-            said(&[late, explanation(y)]).as_deref(),
+            shared(&[late, explanation(y)]).as_deref(),
             Some("The rms error of 0.50° may come from time offset or Y stuck.")
         );
     }

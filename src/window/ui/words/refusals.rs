@@ -22,15 +22,15 @@ pub const HOLD_UNGUARDED: &str = "Hold 1 s to move without the dead-man timer";
 #[allow(clippy::too_many_lines)]
 pub fn refusal(refusal: &Refusal, now: Timestamp) -> String {
     match refusal {
-        Refusal::LockedOut { operator: by, reason } => {
-            format!("Not sent: in maintenance, locked out by {by}: {reason}.")
+        Refusal::LockedOut { operator: author, reason } => {
+            format!("Not sent: in maintenance, locked out by {author}: {reason}.")
         }
-        Refusal::PanelLockedOut { operator: by } => format!(
-            "Not connected: in maintenance by {by}, and even a query would take the panel of \
+        Refusal::PanelLockedOut { operator: author } => format!(
+            "Not connected: in maintenance by {author}, and even a query would take the panel of \
              this unit from the person working at it. STOP still goes out. Remove the lock-out \
              first."
         ),
-        Refusal::Elsewhere(by) => format!("Not sent: {by} drives this unit."),
+        Refusal::Elsewhere(author) => format!("Not sent: {author} drives this unit."),
         Refusal::PositionUnknown => {
             "Not sent: the position of the antenna is not known.".to_owned()
         }
@@ -75,15 +75,15 @@ pub fn refusal(refusal: &Refusal, now: Timestamp) -> String {
             format!("Not sent: the angle of {axis} is not known, so nobody would see it turn.")
         }
         Refusal::OneAxis => "Not sent: this controller turns one axis at a time.".to_owned(),
-        Refusal::Forbidden { barrier, direction: at } => format!(
+        Refusal::Forbidden { barrier, direction } => format!(
             "Not sent: the path leads {}, at {}.",
             super::forbidden(barrier),
-            format::pointing_at(*at)
+            format::pointing_at(*direction)
         ),
         Refusal::Inside(barrier) => format!(
             "Not sent: the antenna is {}. Use \u{201c}{HOLD_WAY_OUT}\u{201d} on its card to allow it for a \
              minute.",
-            super::inside(barrier)
+            super::inside_barrier(barrier)
         ),
         Refusal::Unchecked { axis, barrier } => format!(
             "Not sent: {axis} reports no angle, so the motion may lead {}. Hold \
@@ -97,15 +97,15 @@ pub fn refusal(refusal: &Refusal, now: Timestamp) -> String {
         Refusal::NoRefuge => "Not sent: no clear direction with a clear path to it was found. \
                               Move the antenna by hand."
             .to_owned(),
-        Refusal::Controller(why) => format!("Not sent: {why}."),
-        Refusal::Unseen { reason: why, is_watched, .. } => {
+        Refusal::Controller(explanation) => format!("Not sent: {explanation}."),
+        Refusal::Unseen { reason: explanation, is_watched, .. } => {
             let watched = if *is_watched {
                 "Azel stops the antenna before a forbidden direction"
             } else {
                 "its angles are not known, so somebody has to look at the antenna"
             };
             format!(
-                "Not sent: {why}. Use \u{201c}{HOLD_UNSEEN}\u{201d} on its card to start it \
+                "Not sent: {explanation}. Use \u{201c}{HOLD_UNSEEN}\u{201d} on its card to start it \
                  anyway: {watched}."
             )
         }
@@ -134,8 +134,8 @@ pub fn refusal(refusal: &Refusal, now: Timestamp) -> String {
              azimuth and elevation."
                 .to_owned()
         }
-        Refusal::OffsetTooLarge { max: most } => {
-            format!("Not sent: an offset {} is the largest allowed.", super::offset(*most))
+        Refusal::OffsetTooLarge { max } => {
+            format!("Not sent: an offset {} is the largest allowed.", super::offset(*max))
         }
         Refusal::OrbitUnknown { name } => format!(
             "Not sent: the unit holds {name}, and Azel has no elements of it: where it would point \
@@ -150,10 +150,10 @@ pub fn refusal(refusal: &Refusal, now: Timestamp) -> String {
              Set a shorter window under Antennas.",
             format::number(hours / 24.0, 1)
         ),
-        Refusal::NoDirection { time: at } => format!(
+        Refusal::NoDirection { time: moment } => format!(
             "Not sent: the elements give no direction at {}, so Azel cannot check where the unit would \
              point. Load newer elements or set a shorter window under Antennas.",
-            format::moment(*at, now)
+            format::moment(*moment, now)
         ),
         Refusal::TooLow { highest_deg, lowest_deg } => format!(
             "Not sent: the rest of the pass is not above the {} of this antenna; the pass \
@@ -162,7 +162,7 @@ pub fn refusal(refusal: &Refusal, now: Timestamp) -> String {
             format::degrees(*highest_deg, 1)
         ),
         Refusal::Path(trespass) => super::trespass(trespass, now),
-        Refusal::Setting { field, hindrance: why } => format!("{field} was not sent. {}", hindrance(*why)),
+        Refusal::Setting { field, hindrance: cause } => format!("{field} was not sent. {}", hindrance(*cause)),
     }
 }
 
@@ -170,7 +170,7 @@ pub fn refusal(refusal: &Refusal, now: Timestamp) -> String {
 pub fn not_possible(refusal: &Refusal, now: Timestamp) -> String {
     let words = self::refusal(refusal, now);
     match words.strip_prefix("Not sent: ") {
-        Some(why) => format!("Not possible: {why}"),
+        Some(reason) => format!("Not possible: {reason}"),
         None => words,
     }
 }
@@ -188,8 +188,8 @@ pub fn track_problem(problem: &TrackProblem, now: Timestamp) -> String {
             "an axis reports no angle. Check its sensor and the cable.".to_owned()
         }
         TrackProblem::Orbit(_) => "its elements do not say where it is.".to_owned(),
-        TrackProblem::Refused(why) => {
-            let words = refusal(why, now);
+        TrackProblem::Refused(reason) => {
+            let words = refusal(reason, now);
             words.strip_prefix("Not sent: ").map_or_else(|| words.clone(), str::to_owned)
         }
     }
@@ -198,10 +198,10 @@ pub fn track_problem(problem: &TrackProblem, now: Timestamp) -> String {
 /// The reason why a link is lost.
 pub fn link_loss(loss: &LinkLoss) -> String {
     match loss {
-        LinkLoss::Refused(why) => format!("the connection was not made ({why})"),
+        LinkLoss::Refused(reason) => format!("the connection was not made ({reason})"),
         LinkLoss::ConnectTimeout => "nobody answers at the address".to_owned(),
         LinkLoss::Closed => "the unit closed the connection".to_owned(),
-        LinkLoss::Broken(why) => format!("the connection broke ({why})"),
+        LinkLoss::Broken(reason) => format!("the connection broke ({reason})"),
         LinkLoss::Slept => "this computer slept; the unit is being read again".to_owned(),
         LinkLoss::Unreadable => "the unit's answers cannot be read".to_owned(),
         LinkLoss::OtherDevice => {
@@ -214,10 +214,10 @@ pub fn link_loss(loss: &LinkLoss) -> String {
 /// The reason why a satellite is not on the unit.
 pub fn prepare_error(error: &PrepareError) -> String {
     match error {
-        PrepareError::CannotBeSent(why) => format!("it cannot be sent: {why}"),
+        PrepareError::CannotBeSent(reason) => format!("it cannot be sent: {reason}"),
         PrepareError::Refused(answer) => format!("the unit answered {answer}"),
         PrepareError::Unanswered => "the unit did not answer".to_owned(),
-        PrepareError::Differs { current: held } => format!("the unit still holds {held}"),
+        PrepareError::Differs { current } => format!("the unit still holds {current}"),
         PrepareError::NotOnDevice { file } => {
             format!("the unit has no elements of it in {file}")
         }

@@ -17,7 +17,7 @@ pub fn outcome(pass: &RehearsedPass, now: Timestamp) -> String {
     let cause = match &pass.flown {
         None => Some(match pass.off_reason {
             Some(because) => {
-                format!("Automatic operation was off by then: {}", automatic::off(because))
+                format!("Automatic operation was off by then: {}", automatic::off_reason(because))
             }
             None => "The antenna never set out for it.".to_owned(),
         }),
@@ -25,32 +25,32 @@ pub fn outcome(pass: &RehearsedPass, now: Timestamp) -> String {
             format!("{} lost: {}", format::duration(pass.lost_s()), automatic::miss_cause(cause))
         }),
     };
-    let told: Vec<String> = cause.into_iter().chain(tracked).collect();
-    told.join(" ")
+    let sentences: Vec<String> = cause.into_iter().chain(tracked).collect();
+    sentences.join(" ")
 }
 
 /// Result of the last rehearsal; `None` without one.
-pub fn in_short(of: &RehearsalState, now: Timestamp) -> Option<String> {
-    match of {
+pub fn in_short(rehearsal_state: &RehearsalState, now: Timestamp) -> Option<String> {
+    match rehearsal_state {
         RehearsalState::None => None,
         RehearsalState::UnderWay(_) => Some("Rehearsal under way".to_owned()),
-        RehearsalState::Failed(why) => Some(format!("Rehearsal: {why}")),
-        RehearsalState::Done { rehearsed, at } => {
-            let is_good = |of: &&RehearsedPass| {
-                let report = of.report.as_ref();
+        RehearsalState::Failed(reason) => Some(format!("Rehearsal: {reason}")),
+        RehearsalState::Done { rehearsed, time } => {
+            let is_good = |rehearsed_pass: &&RehearsedPass| {
+                let report = rehearsed_pass.report.as_ref();
                 report.is_some_and(|report| report.report.verdict == PassVerdict::Good)
             };
             let good = rehearsed.passes.iter().filter(is_good).count();
-            let (all, at) = (rehearsed.passes.len(), format::moment(*at, now));
-            Some(format!("Rehearsal of {at}: {good} of {all} good"))
+            let (all, time_text) = (rehearsed.passes.len(), format::moment(*time, now));
+            Some(format!("Rehearsal of {time_text}: {good} of {all} good"))
         }
     }
 }
 
 /// Time that a pass got, and the promised time, for a row.
 pub fn beside_promise(pass: &RehearsedPass) -> String {
-    let [got, promised] = [pass.got_s(), pass.promised_s].map(format::duration);
-    format!("{got} of {promised}")
+    let [reached, promised] = [pass.got_s(), pass.promised_s].map(format::duration);
+    format!("{reached} of {promised}")
 }
 
 /// Verdict on a pass, in a word.

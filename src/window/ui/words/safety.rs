@@ -27,7 +27,7 @@ pub fn forbidden(barrier: &Barrier) -> String {
 }
 
 /// A barrier as the position of an antenna.
-pub fn inside(barrier: &Barrier) -> String {
+pub fn inside_barrier(barrier: &Barrier) -> String {
     match barrier {
         Barrier::KeepOut(name) => format!("inside \u{201c}{name}\u{201d}"),
         Barrier::MinimumElevation | Barrier::Sun | Barrier::Unread(_) => forbidden(barrier),
@@ -41,7 +41,7 @@ pub fn kept_still(antenna: &str, Breach { barrier, unknown_axis, .. }: &Breach) 
             "{antenna} does not move by itself: the setting {setting} could not be read."
         );
     }
-    let place = inside(barrier);
+    let place = inside_barrier(barrier);
     match (unknown_axis, barrier) {
         (Some(axis), _) => {
             format!("{antenna} may be {place}: the angle of {axis} is not known.")
@@ -66,7 +66,7 @@ pub fn way_out(antenna: &str, Breach { barrier, unknown_axis, may_leave }: &Brea
             )
         };
     }
-    let place = inside(barrier);
+    let place = inside_barrier(barrier);
     if let Some(axis) = unknown_axis {
         let unknown = format!("The angle of {axis} is not known: {antenna} may be {place}.");
         return if *may_leave {
@@ -109,8 +109,8 @@ pub const SUN_IS_LIFTED: &str =
 /// none.
 pub fn reason(barrier: &Barrier, station: &Station) -> String {
     let Barrier::KeepOut(name) = barrier else { return String::new() };
-    let keep_out = station.keep_outs.iter().find(|of| of.name == name.as_str());
-    let reason = keep_out.map_or("", |of| of.reason.trim().trim_end_matches('.'));
+    let keep_out = station.keep_outs.iter().find(|zone| zone.name == name.as_str());
+    let reason = keep_out.map_or("", |zone| zone.reason.trim().trim_end_matches('.'));
     if reason.is_empty() {
         return String::new();
     }
@@ -178,19 +178,19 @@ pub const UNGUARDED: &str = "The dead-man timer could not be started: if Azel en
 /// The reason for asking the operator to confirm that the antenna stands still.
 pub fn asks_standing(snapshot: &Snapshot, now: Timestamp) -> Option<String> {
     if let StopState::NotConfirmed { .. } = snapshot.stop {
-        let why = "STOP is repeated until the antenna is known to be at rest. Look at it before \
+        let reason = "STOP is repeated until the antenna is known to be at rest. Look at it before \
                    you confirm.";
-        return Some(why.to_owned());
+        return Some(reason.to_owned());
     }
     let ended = ended_at(snapshot.left_moving?.start, now);
     Some(format!("{ended} while the antenna was moved. Look at it before you confirm."))
 }
 
 /// The end of an earlier run. Its record may be damaged.
-fn ended_at(since: Option<Timestamp>, now: Timestamp) -> String {
-    since.map_or_else(
+fn ended_at(start: Option<Timestamp>, now: Timestamp) -> String {
+    start.map_or_else(
         || "Azel ended at an unknown time".to_owned(),
-        |since| format!("Azel ended at {}", format::moment(since, now)),
+        |start| format!("Azel ended at {}", format::moment(start, now)),
     )
 }
 
@@ -222,8 +222,11 @@ pub fn offsets_owed(unit: &Unit) -> String {
 }
 
 fn at_its_address(Unit { make, address }: &Unit) -> String {
-    let known = SPECS.iter().find(|known| known.key == make);
-    format!("The {} at {address}", known.map_or(make.as_str(), |known| known.name))
+    let controller_spec = SPECS.iter().find(|controller_spec| controller_spec.key == make);
+    format!(
+        "The {} at {address}",
+        controller_spec.map_or(make.as_str(), |controller_spec| controller_spec.name)
+    )
 }
 
 /// The difference of a unit from its earlier state, as a sentence after a blank.
@@ -272,14 +275,14 @@ pub fn safety(matter: &Safety, antenna: &str, now: Timestamp) -> String {
             "{antenna} was stopped by the dead-man timer: Azel was late. Press the key again to \
              move it."
         ),
-        Safety::LeftMoving { start: since, asks: false } => format!(
+        Safety::LeftMoving { start: begin, asks: false } => format!(
             "{} while {antenna} was moved by hand. STOP was sent first.",
-            ended_at(*since, now)
+            ended_at(*begin, now)
         ),
-        Safety::LeftMoving { start: since, asks: true } => format!(
+        Safety::LeftMoving { start: begin, asks: true } => format!(
             "{} while {antenna} was moved by hand, and nobody has seen it at rest since. Press STOP, \
              or confirm that you have seen it at rest.",
-            ended_at(*since, now)
+            ended_at(*begin, now)
         ),
         Safety::NoMark => format!(
             "Azel could not record on disk that {antenna} is moving by hand or still needs a STOP. If \
@@ -309,14 +312,14 @@ pub fn safety(matter: &Safety, antenna: &str, now: Timestamp) -> String {
         }
         Safety::ForeignHands { axis, evidence } => foreign_hands(antenna, axis, *evidence),
         Safety::OffTarget { off_deg, cause } => {
-            let off = format::degrees(*off_deg, 1);
-            let why = match cause {
+            let deviation_text = format::degrees(*off_deg, 1);
+            let reason = match cause {
                 Some(cause) => super::off_because(cause, now),
                 None => "Check its drives, clock and offsets.".to_owned(),
             };
             format!(
-                "{antenna} stayed {off} off its target for too long. Azel stopped it and gave up \
-                 the pass. {why}"
+                "{antenna} stayed {deviation_text} off its target for too long. Azel stopped it and gave up \
+                 the pass. {reason}"
             )
         }
         Safety::Forbidden { barrier, driver, response } => {
@@ -325,12 +328,14 @@ pub fn safety(matter: &Safety, antenna: &str, now: Timestamp) -> String {
                 Mover::Program => "its own program was moving it",
                 Mover::Somebody => "Azel was not moving it",
             };
-            let into = forbidden(barrier);
+            let forbidden_part = forbidden(barrier);
             match response {
                 Response::Stopped => {
-                    format!("{antenna} was stopped before it went {into}; {driver}.")
+                    format!("{antenna} was stopped before it went {forbidden_part}; {driver}.")
                 }
-                Response::Reported => format!("{antenna} is {}; {driver}.", inside(barrier)),
+                Response::Reported => {
+                    format!("{antenna} is {}; {driver}.", inside_barrier(barrier))
+                }
             }
         }
         Safety::ClockStepped { by_s, time } => format!(

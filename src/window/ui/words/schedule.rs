@@ -54,8 +54,8 @@ pub struct Names<'a> {
 }
 
 /// Why a pass is left out, as a sentence without a full stop.
-pub fn why(names: Names<'_>, why: &LeftOutReason) -> String {
-    match why {
+pub fn left_out_reason(names: Names<'_>, reason: &LeftOutReason) -> String {
+    match reason {
         LeftOutReason::Refused(refusal) => refused(*refusal),
         LeftOutReason::Impossible(impossible) => not_possible(impossible),
         LeftOutReason::Off(AntennaOff::LockedOut) => "The unit is locked out".to_owned(),
@@ -68,20 +68,20 @@ pub fn why(names: Names<'_>, why: &LeftOutReason) -> String {
             format!("Your limits or rules allow only {}", format::list(&allowed))
         }
         LeftOutReason::Overlaps(conflict) => {
-            let by = format::duration(conflict.missing_s);
+            let name = format::duration(conflict.missing_s);
             let verb = if conflict.others.is_empty() { "overlaps" } else { "overlap" };
-            format!("{} {verb} by {by}", against(names, conflict))
+            format!("{} {verb} by {name}", conflict_words(names, conflict))
         }
         LeftOutReason::SlewTooShort(conflict) => {
-            let by = format::duration(conflict.missing_s);
-            let against = against(names, conflict);
-            format!("Too close to {against}: {by} short for slew and set-up")
+            let name = format::duration(conflict.missing_s);
+            let conflict_words = conflict_words(names, conflict);
+            format!("Too close to {conflict_words}: {name} short for slew and set-up")
         }
         LeftOutReason::TooFar => "The antenna cannot be there in time".to_owned(),
         LeftOutReason::UnderWay => "The pass is under way".to_owned(),
-        LeftOutReason::MaxPerDay(most) => match most {
+        LeftOutReason::MaxPerDay(max) => match max {
             1 => "One pass of the satellite is already taken that day".to_owned(),
-            most => format!("{most} passes of the satellite are already taken that day"),
+            max => format!("{max} passes of the satellite are already taken that day"),
         },
         LeftOutReason::NotFound => "It would fit, but no better plan was found with it".to_owned(),
     }
@@ -131,7 +131,7 @@ fn not_possible(impossible: &Impossible) -> String {
     }
 }
 
-fn against(names: Names<'_>, conflict: &Conflict) -> String {
+fn conflict_words(names: Names<'_>, conflict: &Conflict) -> String {
     let name = (names.pass)((conflict.pass.satellite, conflict.pass.aos));
     let class = match conflict.class {
         Class::Always => " (always)".to_owned(),
@@ -147,9 +147,9 @@ fn against(names: Names<'_>, conflict: &Conflict) -> String {
 }
 
 /// Why a pass is left out, with the names that the window shows.
-pub fn why_left_out(model: &Model, of: &LeftOutReason) -> String {
+pub fn why_left_out(model: &Model, reason: &LeftOutReason) -> String {
     let antenna = |id| antenna_name(model, id).to_owned();
-    why(Names { pass: &|pass| pass_name(model, pass), antenna: &antenna }, of)
+    left_out_reason(Names { pass: &|pass| pass_name(model, pass), antenna: &antenna }, reason)
 }
 
 /// How a pass stands on an antenna of this name: the end of a sentence.
@@ -161,7 +161,7 @@ pub fn standing(model: &Model, standing: Standing<'_>, antenna: &str) -> String 
         Standing::Sent(_) => format!("planned on {antenna}, sent, not verified"),
         Standing::Planned(_) => format!("planned on {antenna}"),
         Standing::TakenBy(other) => format!("planned on {}", antenna_name(model, other)),
-        Standing::LeftOut(why) => format!("left out: {}", why_left_out(model, why)),
+        Standing::LeftOut(reason) => format!("left out: {}", why_left_out(model, reason)),
         Standing::NotKnown => "not planned yet".to_owned(),
     }
 }
@@ -186,7 +186,7 @@ pub fn pass_name(model: &Model, pass: PassListKey) -> String {
 /// Short name of a satellite, or its catalog number where no pass of it is known.
 pub fn satellite_name(model: &Model, number: u32) -> String {
     let found = model.pass_lists.satellite(number);
-    found.map_or_else(|| number.to_string(), |of| of.short_name().to_owned())
+    found.map_or_else(|| number.to_string(), |listed| listed.short_name().to_owned())
 }
 
 /// Cost of taking a pass, as a sentence.
@@ -196,7 +196,7 @@ pub fn price(model: &Model, swap: &Swap) -> String {
     };
     let (satellite, aos) = swap.pass;
     let own = |change: &&Change| change.pass.satellite != satellite || change.pass.aos != aos;
-    let costs: Vec<String> = changes.iter().filter(own).map(|of| change(model, of)).collect();
+    let costs: Vec<String> = changes.iter().filter(own).map(|one| change(model, one)).collect();
     if costs.is_empty() {
         "No other pass is lost.".to_owned()
     } else {
@@ -213,17 +213,19 @@ pub fn change(model: &Model, change: &Change) -> String {
             format!("{name}, is taken by {}", antenna_name(model, antenna))
         }
         Changed::Dropped { .. } => format!("{name}, is dropped"),
-        Changed::Moved { destination: to, .. } => {
-            format!("{name}, goes to {}", antenna_name(model, to))
+        Changed::Moved { destination: antenna_id, .. } => {
+            format!("{name}, goes to {}", antenna_name(model, antenna_id))
         }
         Changed::Cut { late_s, early_s } => {
-            let by = |seconds: f64, more: &str, less: &str| {
+            let change_words = |seconds: f64, more: &str, less: &str| {
                 let word = if seconds > 0.0 { more } else { less };
                 (seconds.abs() >= 1.0)
                     .then(|| format!("{} {word}", format::duration(seconds.abs())))
             };
-            let starts = by(late_s, "later", "earlier").map(|by| format!("starts {by}"));
-            let ends = by(early_s, "earlier", "later").map(|by| format!("ends {by}"));
+            let starts =
+                change_words(late_s, "later", "earlier").map(|words| format!("starts {words}"));
+            let ends =
+                change_words(early_s, "earlier", "later").map(|words| format!("ends {words}"));
             let cuts: Vec<String> = starts.into_iter().chain(ends).collect();
             format!("{name}, {}", cuts.join(" and "))
         }
@@ -277,13 +279,13 @@ pub fn class_worth(class: &ClassWorth, choose_by: ChooseBy) -> String {
 
 /// Name of an antenna.
 pub fn antenna_name(model: &Model, antenna: AntennaId) -> &str {
-    model.antenna_of(antenna).map_or("an antenna", |of| &of.config.name)
+    model.antenna_of(antenna).map_or("an antenna", |antenna| &antenna.config.name)
 }
 
 /// When an antenna is sent to a pass, in words such as "Loads 12:32:50Z".
-pub fn sets_out(antenna: &AntennaModel, at: Timestamp, now: Timestamp) -> String {
+pub fn sets_out(antenna: &AntennaModel, time: Timestamp, now: Timestamp) -> String {
     let word = if antenna.variant().capabilities.has_program { "Loads" } else { "Sets out" };
-    format!("{word} {}", format::moment(at, now))
+    format!("{word} {}", format::moment(time, now))
 }
 
 #[cfg(test)]
@@ -296,27 +298,27 @@ mod tests {
 
     #[test]
     fn a_limit_names_the_antennas_that_it_allows() {
-        let said = |allowed: &[u32]| {
-            why(
+        let text = |allowed: &[u32]| {
+            left_out_reason(
                 NAMES,
                 &LeftOutReason::OtherAntennas(allowed.iter().map(|id| AntennaId(*id)).collect()),
             )
         };
-        assert_eq!(said(&[2]), "Your limits or rules allow only Antenna 2");
-        assert_eq!(said(&[2, 3]), "Your limits or rules allow only Antenna 2 and Antenna 3");
-        assert_eq!(said(&[]), "Your limits or rules allow no antenna");
+        assert_eq!(text(&[2]), "Your limits or rules allow only Antenna 2");
+        assert_eq!(text(&[2, 3]), "Your limits or rules allow only Antenna 2 and Antenna 3");
+        assert_eq!(text(&[]), "Your limits or rules allow no antenna");
     }
 
     #[test]
     fn a_pass_that_is_too_close_names_the_other_with_its_priority() {
-        let said = |class| {
-            let with = Key { satellite: 1, aos: Timestamp::UNIX_EPOCH };
-            let conflict = Conflict { pass: with, class, missing_s: 80.0, others: vec![] };
-            why(NAMES, &LeftOutReason::SlewTooShort(conflict))
+        let text = |class| {
+            let other = Key { satellite: 1, aos: Timestamp::UNIX_EPOCH };
+            let conflict = Conflict { pass: other, class, missing_s: 80.0, others: vec![] };
+            left_out_reason(NAMES, &LeftOutReason::SlewTooShort(conflict))
         };
         let end = ": 1:20 short for slew and set-up";
         let priority = Class::Priority(Priority::default());
-        assert_eq!(said(priority), format!("Too close to TERRA (priority 3){end}"));
-        assert_eq!(said(Class::All), format!("Too close to TERRA{end}"));
+        assert_eq!(text(priority), format!("Too close to TERRA (priority 3){end}"));
+        assert_eq!(text(Class::All), format!("Too close to TERRA{end}"));
     }
 }

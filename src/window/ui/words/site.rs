@@ -3,7 +3,7 @@
 use crate::{
     astro::AzEl,
     model::DistanceUnit,
-    ui::{format, widgets::told::Tone},
+    ui::{format, widgets::status_line::Tone},
 };
 
 /// Distance from which a typed place differs from a unit's by more than its receiver does.

@@ -14,7 +14,7 @@ use crate::ui::{
     },
 };
 
-const ABOUT: &str = "A wrong value here can make the antenna point wrongly, or move. To unlock for \
+const DESCRIPTION: &str = "A wrong value here can make the antenna point wrongly, or move. To unlock for \
                      10 minutes, type the station name while the antenna is at rest.";
 
 pub(in crate::ui::antennas) fn show(
@@ -33,15 +33,15 @@ pub(in crate::ui::antennas) fn show(
     } else {
         icons::paint(ui.painter(), lock, Icon::Warning, t.warn);
     }
-    let at = rect.with_min_x(rect.left() + 24.0);
-    paint::text_in(ui, at, Align2::LEFT_CENTER, title, text::value(), t.t1);
-    paint::name_text(ui, "service title", at, title);
+    let area = rect.with_min_x(rect.left() + 24.0);
+    paint::text_in(ui, area, Align2::LEFT_CENTER, title, text::value(), t.t1);
+    paint::name_text(ui, "service title", area, title);
     let button = Button::normal(if form.unlock.is_some() { "Lock" } else { "Unlock" });
     let place = rect.with_min_x(rect.right() - button.width(ui));
     let place = place.with_max_y(place.top() + SMALL_HEIGHT);
     if let Some(unlock) = form.unlock {
         let left = format!("Open, locks in {}", format::duration(unlock.left(unit).as_secs_f64()));
-        let room = at.with_max_x(place.left() - 8.0);
+        let room = area.with_max_x(place.left() - 8.0);
         paint::text_in(ui, room, Align2::RIGHT_CENTER, &left, text::small(), t.warn);
         paint::name_text(ui, "countdown", room, &left);
     }
@@ -49,7 +49,7 @@ pub(in crate::ui::antennas) fn show(
         *effects.unlock = true;
     }
     ui.add_space(4.0);
-    row::note(ui, None, ABOUT, t.t2);
+    row::note(ui, None, DESCRIPTION, t.t2);
     row::head(ui);
     for key in section.keys {
         let own_title = unit.description(key).map_or("", |group| group.title);

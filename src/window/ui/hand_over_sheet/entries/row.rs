@@ -12,7 +12,7 @@ use crate::{
 /// Spare time below this is shown as short, seconds.
 const SHORT_S: f64 = 60.0;
 /// Seconds below this are not worth a word.
-const LEAST_S: f64 = 1.0;
+const MIN_S: f64 = 1.0;
 
 pub(super) struct Row {
     /// The day of UTC.
@@ -31,11 +31,11 @@ pub(super) struct Row {
     pub(super) is_spare_short: bool,
     /// Its track over the sky, and the part that the antenna takes.
     pub(super) whole: Vec<AzEl>,
-    pub(super) taken: Vec<AzEl>,
+    pub(super) part: Vec<AzEl>,
 }
 
 impl Row {
-    pub(super) fn of(sheet: &HandOverSheet<'_>, entry: &Entry) -> Self {
+    pub(super) fn new(sheet: &HandOverSheet<'_>, entry: &Entry) -> Self {
         let number = entry.pass.satellite;
         let pass = sheet.pass(entry.pass);
         let whole = pass.map_or((entry.start, entry.end), |pass| (pass.aos.time, pass.los.time));
@@ -44,8 +44,9 @@ impl Row {
                 (pass.tca.direction.azimuth_deg(), pass.max_elevation().degrees());
             format!("{} {}", format::degrees(elevation_deg, 0), format::azimuth(azimuth_deg))
         });
-        let antenna = sheet.station.antennas.iter().find(|it| it.id == entry.antenna);
-        let between = antenna.map_or(BetweenPasses::default(), |it| it.automatic.between_passes);
+        let antenna = sheet.station.antennas.iter().find(|config| config.id == entry.antenna);
+        let between_passes =
+            antenna.map_or(BetweenPasses::default(), |antenna| antenna.automatic.between_passes);
         let priority = match entry.class {
             Class::Always => "A".to_owned(),
             Class::Priority(priority) => priority.number().to_string(),
@@ -53,7 +54,7 @@ impl Row {
                 sheet.station.priority(number).unwrap_or_default().number().to_string()
             }
         };
-        let sets_out = sets_out(entry, between);
+        let sets_out = sets_out(entry, between_passes);
         Self {
             day: format::date(sets_out),
             sets_out,
@@ -68,18 +69,23 @@ impl Row {
             spare: entry.spare_s.map_or_else(|| "\u{2013}".to_owned(), format::duration),
             is_spare_short: entry.spare_s.is_some_and(|spare_s| spare_s < SHORT_S),
             whole: sheet.track(number, whole.0, whole.1),
-            taken: sheet.track(number, entry.start, entry.end),
+            part: sheet.track(number, entry.start, entry.end),
         }
     }
 }
 
 /// Parts that the antenna misses of a pass, and the antenna that takes the rest.
 fn shortened(sheet: &HandOverSheet<'_>, entry: &Entry) -> String {
-    let by = |seconds: f64, word: &str| {
-        (seconds >= LEAST_S).then(|| format!("{word} {}", format::duration(seconds)))
+    let share = |seconds: f64, word: &str| {
+        (seconds >= MIN_S).then(|| format!("{word} {}", format::duration(seconds)))
     };
     let shared = entry.shared_with.map(|other| format!("with {}", sheet.antenna(other)));
     let lost_s = entry.lost.map_or(0.0, |lost| lost.seconds);
-    let parts = [shared, by(entry.late_s, "late"), by(entry.early_s, "early"), by(lost_s, "loses")];
+    let parts = [
+        shared,
+        share(entry.late_s, "late"),
+        share(entry.early_s, "early"),
+        share(lost_s, "loses"),
+    ];
     parts.into_iter().flatten().collect::<Vec<_>>().join(", ")
 }

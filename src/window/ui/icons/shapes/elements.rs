@@ -8,8 +8,8 @@ pub(super) fn draw(pen: &Pen<'_>, icon: Icon) {
         Icon::Star => {
             let star = star();
             for tip in (0..10).step_by(2) {
-                let at = |place: usize| star.get(place % 10).copied().unwrap_or_default();
-                pen.filled(&[at(tip), at(tip + 1), (10.0, 10.6), at(tip + 9)]);
+                let point = |place: usize| star.get(place % 10).copied().unwrap_or_default();
+                pen.filled(&[point(tip), point(tip + 1), (10.0, 10.6), point(tip + 9)]);
             }
         }
         Icon::OpenStar => pen.outline(&star()),

@@ -37,7 +37,7 @@ const MOVES_NOTHING: &str = "The slider moves no antenna. To point an antenna, g
 /// Shows the row in `rect`.
 pub(in crate::ui::operate) fn show(ui: &Ui, rect: Rect, model: &Model, state: &mut SkyTime) {
     let t = theme::tokens(ui);
-    let before = state.at;
+    let before = state.time;
     let ground = if before.is_some() { t.warnbg } else { t.bg1 };
     ui.painter().rect_filled(rect, 0.0, ground);
     ui.painter().hline(rect.x_range(), rect.top() + 0.5, (1.0, t.line));
@@ -47,7 +47,7 @@ pub(in crate::ui::operate) fn show(ui: &Ui, rect: Rect, model: &Model, state: &m
     );
     slider(ui, track, model, state);
     let mut room = rect.with_min_x(track.right() + KNOB + GAP).with_max_x(rect.right() - EDGE);
-    if state.at.is_some() {
+    if state.time.is_some() {
         let button = Button::normal("Now");
         let size = vec2(button.width(ui), SMALL_HEIGHT);
         let place = Align2::RIGHT_CENTER.align_size_within_rect(size, room);
@@ -57,7 +57,7 @@ pub(in crate::ui::operate) fn show(ui: &Ui, rect: Rect, model: &Model, state: &m
         room.max.x = place.left() - GAP;
     }
     say(ui, room, model, state);
-    if state.at != before {
+    if state.time != before {
         // The plot is drawn before the row.
         ui.request_repaint_after_for(NEXT_FRAME, egui::ViewportId::ROOT);
     }
@@ -85,17 +85,17 @@ fn say(ui: &Ui, room: Rect, model: &Model, state: &SkyTime) {
 
 fn slider(ui: &Ui, track: Rect, model: &Model, state: &mut SkyTime) {
     let t = theme::tokens(ui);
-    let until = model.schedule_until();
+    let end = model.schedule_until();
     let id = ui.make_persistent_id("sky time slider");
-    let sense = if until.is_some() { Sense::click_and_drag() } else { Sense::hover() };
+    let sense = if end.is_some() { Sense::click_and_drag() } else { Sense::hover() };
     let response = ui.interact(track.expand2(vec2(KNOB, -GRIP)), id, sense);
-    if let Some(until) = until {
-        operate(ui, &response, track, model, until, state);
+    if let Some(end) = end {
+        operate(ui, &response, track, model, end, state);
     }
     state.has_focus = response.has_focus();
-    let span_s = until.map_or(1.0, |until| seconds_between(model.now, until));
-    let after_s = state.at.map_or(0.0, |at| seconds_between(model.now, at));
-    let is_open = until.is_some();
+    let span_s = end.map_or(1.0, |end| seconds_between(model.now, end));
+    let after_s = state.time.map_or(0.0, |time| seconds_between(model.now, time));
+    let is_open = end.is_some();
     response.widget_info(|| WidgetInfo::slider(is_open, after_s, "Time of the sky"));
     ui.ctx().accesskit_node_builder(id, |node| {
         node.set_min_numeric_value(0.0);
@@ -107,12 +107,12 @@ fn slider(ui: &Ui, track: Rect, model: &Model, state: &mut SkyTime) {
     });
     let y = track.center().y;
     let x = track.left() + (after_s / span_s) as f32 * track.width();
-    let line = |from: f32, to: f32| Rect::from_x_y_ranges(from..=to, y - 1.5..=y + 1.5);
-    let base = if state.at.is_some() { t.edge } else { t.bg3 };
+    let line = |start: f32, last: f32| Rect::from_x_y_ranges(start..=last, y - 1.5..=y + 1.5);
+    let base = if state.time.is_some() { t.edge } else { t.bg3 };
     ui.painter().rect_filled(line(track.left(), track.right()), 1.0, base);
     ui.painter().rect_filled(line(track.left(), x), 1.0, t.warn);
     if is_open {
-        let colour = match (state.at.is_some(), response.hovered()) {
+        let colour = match (state.time.is_some(), response.hovered()) {
             (true, _) => t.warn,
             (false, true) => t.t1,
             (false, false) => t.t3,
@@ -127,7 +127,7 @@ fn operate(
     response: &Response,
     track: Rect,
     model: &Model,
-    until: Timestamp,
+    end: Timestamp,
     state: &mut SkyTime,
 ) {
     let pressed = response.is_pointer_button_down_on() || response.clicked();
@@ -135,7 +135,7 @@ fn operate(
         // The keys work from the first touch on.
         response.request_focus();
         let share = f64::from((pointer.x - track.left()) / track.width().max(1.0));
-        let span_s = seconds_between(model.now, until);
+        let span_s = seconds_between(model.now, end);
         state.show_at(model, add_seconds(model.now, share.clamp(0.0, 1.0) * span_s));
     }
     let mut steps = ui.input(|input| {
@@ -150,7 +150,7 @@ fn operate(
                 - i32::from(input.consume_key(Modifiers::NONE, Key::ArrowLeft))
         });
         if ui.input_mut(|input| input.consume_key(Modifiers::NONE, Key::End)) {
-            state.show_at(model, until);
+            state.show_at(model, end);
         }
     }
     if steps != 0 {

@@ -62,12 +62,12 @@ fn lost(tally: &Tally) -> String {
 }
 
 fn sentence(effect: &Effect<Question>, is_new: bool) -> String {
-    let of = effect.ways.len();
+    let total = effect.ways.len();
     let (old, new) = (&effect.before, &effect.after);
-    if of == 0 {
+    if total == 0 {
         return "No pass of a favourite in the next 48 h.".to_owned();
     }
-    let now = format!("{} of {of} passes are tracked in full", new.whole);
+    let now = format!("{} of {total} passes are tracked in full", new.whole);
     let passes = |count| if count == 1 { "1 pass".to_owned() } else { format!("{count} passes") };
     let gained_s = old.lost_s - new.lost_s;
     match new.whole.cmp(&old.whole) {

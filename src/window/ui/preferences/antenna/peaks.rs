@@ -12,7 +12,7 @@ use crate::{
     station::AntennaId,
     ui::{
         format, record, text, theme,
-        widgets::told::{self, Tone},
+        widgets::status_line::{self, Tone},
         words::pointing::peak_of,
     },
 };
@@ -25,16 +25,16 @@ const ANGLE: f32 = 72.0;
 /// A peak being entered; empty fields mean "now".
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(in crate::ui::preferences) struct TypedPeak {
-    of: PeakBody,
-    at: String,
+    body: PeakBody,
+    time_text: String,
     azimuth: String,
     elevation: String,
 }
 
 impl Default for TypedPeak {
     fn default() -> Self {
-        let [at, azimuth, elevation] = [const { String::new() }; 3];
-        Self { of: PeakBody::Sun, at, azimuth, elevation }
+        let [time_text, azimuth, elevation] = [const { String::new() }; 3];
+        Self { body: PeakBody::Sun, time_text, azimuth, elevation }
     }
 }
 
@@ -42,24 +42,24 @@ impl TypedPeak {
     /// Returns the peak, with the current time and angles for empty fields; or the reason why there
     /// is none.
     fn read(&self, now: Timestamp, measured: Option<[f64; 2]>) -> Result<Peak, String> {
-        let at = match self.at.trim() {
+        let time = match self.time_text.trim() {
             "" => now,
             typed => typed
                 .parse()
                 .map_err(|_| "A time is written as 2026-11-30 12:00:00Z.".to_owned())?,
         };
-        if at > now {
+        if time > now {
             return Err("This time is yet to come.".to_owned());
         }
         // The measured angles are valid only for now.
         let [azimuth, elevation] = measured
-            .filter(|_| self.at.trim().is_empty())
+            .filter(|_| self.time_text.trim().is_empty())
             .map_or([None; 2], |[azimuth, elevation]| [Some(azimuth), Some(elevation)]);
         let azimuths = Peak::AZIMUTHS_DEG;
         let elevations = Peak::ELEVATIONS_DEG;
         Ok(Peak {
-            body: self.of,
-            time: at,
+            body: self.body,
+            time,
             azimuth_deg: angle("azimuth", &self.azimuth, azimuth, &azimuths)?,
             elevation_deg: angle("elevation", &self.elevation, elevation, &elevations)?,
         })
@@ -78,8 +78,9 @@ fn angle(
         (typed, _) => number(typed),
     };
     read.filter(|deg| range.contains(deg)).ok_or_else(|| {
-        let (from, to) = (format::degrees(*range.start(), 0), format::degrees(*range.end(), 0));
-        format!("The {name} is a number from {from} to {to}.")
+        let (start_text, end_text) =
+            (format::degrees(*range.start(), 0), format::degrees(*range.end(), 0));
+        format!("The {name} is a number from {start_text} to {end_text}.")
     })
 }
 
@@ -114,16 +115,16 @@ pub(super) fn show(
         });
     }
     let measured = measured(model, id);
-    let hints = measured.map(|deg| deg.map(|of| format::number(of, 2)));
+    let hints = measured.map(|deg| deg.map(|angle| format::number(angle, 2)));
     ui.horizontal_wrapped(|ui| {
-        for of in [PeakBody::Sun, PeakBody::Moon] {
-            ui.radio_value(&mut typed.of, of, peak_of(of));
+        for body in [PeakBody::Sun, PeakBody::Moon] {
+            ui.radio_value(&mut typed.body, body, peak_of(body));
         }
-        let is_now = typed.at.trim().is_empty();
+        let is_now = typed.time_text.trim().is_empty();
         let words = ["az °", "el °"].map(str::to_owned);
         let [azimuth, elevation] = hints.filter(|_| is_now).unwrap_or(words);
         for (name, text, hint, width) in [
-            ("Time of the peak", &mut typed.at, "now".to_owned(), TIME),
+            ("Time of the peak", &mut typed.time_text, "now".to_owned(), TIME),
             ("Azimuth at the peak", &mut typed.azimuth, azimuth, ANGLE),
             ("Elevation at the peak", &mut typed.elevation, elevation, ANGLE),
         ] {
@@ -139,18 +140,18 @@ pub(super) fn show(
             && add.clicked()
         {
             change(PeakChange::Added(peak));
-            *typed = TypedPeak { of: typed.of, ..TypedPeak::default() };
+            *typed = TypedPeak { body: typed.body, ..TypedPeak::default() };
         }
     });
     match typed.read(model.now, measured) {
         _ if model.replay.is_some() => {}
         _ if lock.is_some() => {
-            told::line(ui, Tone::Plain, "Nothing is recorded: no peak can be kept.");
+            status_line::line(ui, Tone::Plain, "Nothing is recorded: no peak can be kept.");
         }
-        Err(why) => told::line(ui, Tone::Plain, &why),
+        Err(reason) => status_line::line(ui, Tone::Plain, &reason),
         Ok(peak) => {
             if let Some(far) = far(&peak, model) {
-                told::line(ui, Tone::Caution, &far);
+                status_line::line(ui, Tone::Caution, &far);
             }
         }
     }
@@ -159,7 +160,7 @@ pub(super) fn show(
 /// A button whose tooltip is the reason why it is locked.
 fn with_reason(button: Response, lock: Option<&'static str>) -> Response {
     match lock {
-        Some(why) => button.on_disabled_hover_text(why),
+        Some(reason) => button.on_disabled_hover_text(reason),
         None => button,
     }
 }
@@ -172,10 +173,10 @@ fn measured(model: &Model, id: AntennaId) -> Option<[f64; 2]> {
 }
 
 fn in_words(peak: &Peak, model: &Model) -> String {
-    let (of, at) = (peak_of(peak.body), format::moment(peak.time, model.now));
+    let (name, time_text) = (peak_of(peak.body), format::moment(peak.time, model.now));
     let [azimuth, elevation] =
         [peak.azimuth_deg, peak.elevation_deg].map(|deg| format::degrees(deg, 2));
-    format!("{of}, {at}: az {azimuth}, el {elevation}")
+    format!("{name}, {time_text}: az {azimuth}, el {elevation}")
 }
 
 /// Says that a peak is far from where the Sun or the Moon was.
@@ -183,9 +184,10 @@ fn far(peak: &Peak, model: &Model) -> Option<String> {
     let point = peak.point(model.station.site);
     let off_deg = point.direction.separation(point.measured).degrees();
     (off_deg > FAR_DEG).then(|| {
-        let of = peak_of(peak.body);
-        let (off, at) = (format::degrees(off_deg, 0), format::pointing_at(point.direction));
-        format!("The {of} was at {at} then: that is {off} from there.")
+        let name = peak_of(peak.body);
+        let (deviation_text, time_text) =
+            (format::degrees(off_deg, 0), format::pointing_at(point.direction));
+        format!("The {name} was at {time_text} then: that is {deviation_text} from there.")
     })
 }
 
@@ -197,9 +199,9 @@ mod tests {
         "2026-11-30T12:00:00Z".parse().unwrap()
     }
 
-    fn typed(at: &str, azimuth: &str, elevation: &str) -> TypedPeak {
-        let [at, azimuth, elevation] = [at, azimuth, elevation].map(str::to_owned);
-        TypedPeak { of: PeakBody::Moon, at, azimuth, elevation }
+    fn typed(time_text: &str, azimuth: &str, elevation: &str) -> TypedPeak {
+        let [time_text, azimuth, elevation] = [time_text, azimuth, elevation].map(str::to_owned);
+        TypedPeak { body: PeakBody::Moon, time_text, azimuth, elevation }
     }
 
     #[test]
@@ -210,8 +212,8 @@ mod tests {
             Peak { body: PeakBody::Moon, time: now(), azimuth_deg: 180.5, elevation_deg: 30.25 };
         assert_eq!(read(typed("", "", "")), Ok(peak));
         assert_eq!(read(typed("", "181", "")), Ok(Peak { azimuth_deg: 181.0, ..peak }));
-        let at = "2026-11-30T11:00:00Z".parse().unwrap();
-        let earlier = Peak { time: at, azimuth_deg: -170.0, elevation_deg: 20.0, ..peak };
+        let time = "2026-11-30T11:00:00Z".parse().unwrap();
+        let earlier = Peak { time, azimuth_deg: -170.0, elevation_deg: 20.0, ..peak };
         assert_eq!(read(typed("2026-11-30 11:00:00Z", "-170", " 20 ")), Ok(earlier));
         assert!(read(typed("2026-11-30 11:00:00Z", "", "")).is_err(), "that is not of then");
         assert!(typed("", "", "").read(now(), None).is_err());
@@ -219,14 +221,14 @@ mod tests {
 
     #[test]
     fn what_cannot_be_is_not_read() {
-        for (at, azimuth, elevation) in [
+        for (time_text, azimuth, elevation) in [
             ("noon", "1", "2"),
             ("2026-12-01 00:00:00Z", "1", "2"),
             ("", "721", "2"),
             ("", "1", "x"),
         ] {
-            let read = typed(at, azimuth, elevation).read(now(), Some([1.0, 2.0]));
-            assert!(read.is_err(), "{at} {azimuth} {elevation}");
+            let read = typed(time_text, azimuth, elevation).read(now(), Some([1.0, 2.0]));
+            assert!(read.is_err(), "{time_text} {azimuth} {elevation}");
         }
     }
 }

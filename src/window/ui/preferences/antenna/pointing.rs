@@ -14,7 +14,7 @@ use crate::{
         preferences::fields::Typed,
         replay::LOCKED,
         text, theme,
-        widgets::told::{self, Tone},
+        widgets::status_line::{self, Tone},
         words::pointing::{fitted_to, pointing_term},
     },
 };
@@ -45,11 +45,11 @@ pub(super) fn show(
     let PointingFitted { found, .. } = fitted?;
     match found {
         None => {
-            told::line(ui, Tone::Plain, "Reading the record.");
+            status_line::line(ui, Tone::Plain, "Reading the record.");
             None
         }
-        Some(Err(why)) => {
-            told::line(ui, Tone::Bad, &format!("No model: {why}."));
+        Some(Err(reason)) => {
+            status_line::line(ui, Tone::Bad, &format!("No model: {reason}."));
             None
         }
         Some(Ok(fit)) => match terms(ui, antenna, fit, can_fit)? {
@@ -90,26 +90,32 @@ fn terms(ui: &mut Ui, antenna: &Antenna, fit: &PointingFit, can_fit: bool) -> Op
             ui.label(RichText::new(head).font(text::small()).color(t.t3));
         }
         ui.end_row();
-        for of in &fit.terms {
-            let now = written(of.term, antenna.pointing_model.term(of.term));
-            let value = of.value.map_or_else(|| "–".to_owned(), |value| written(of.term, value));
-            let half = of.half_of_95_percent;
-            let half = half.map_or_else(|| "–".to_owned(), |half| written(of.term, half));
-            let colour = if may_be_zero(of) { t.warn } else { t.t1 };
-            let cells =
-                [(pointing_term(of.term), t.t2), (&*now, t.t2), (&*value, t.t1), (&*half, colour)];
+        for fitted in &fit.terms {
+            let now = written(fitted.term, antenna.pointing_model.term(fitted.term));
+            let value =
+                fitted.value.map_or_else(|| "–".to_owned(), |value| written(fitted.term, value));
+            let half = fitted.half_of_95_percent;
+            let half = half.map_or_else(|| "–".to_owned(), |half| written(fitted.term, half));
+            let colour = if may_be_zero(fitted) { t.warn } else { t.t1 };
+            let cells = [
+                (pointing_term(fitted.term), t.t2),
+                (&*now, t.t2),
+                (&*value, t.t1),
+                (&*half, colour),
+            ];
             for (words, colour) in cells {
                 ui.label(RichText::new(words).font(text::small()).color(colour));
             }
             ui.end_row();
         }
     });
-    let is_fitted = |of: &&FittedTerm| !fit.excluded.contains(&of.term);
+    let is_fitted = |fitted: &&FittedTerm| !fit.excluded.contains(&fitted.term);
     for words in fit.terms.iter().filter(is_fitted).filter_map(not_told) {
         line(ui, &words);
     }
-    let of_unknown = |of: &&FittedTerm| of.value.is_some() && of.half_of_95_percent.is_none();
-    let shared = fit.terms.iter().filter(of_unknown).map(|of| pointing_term(of.term));
+    let of_unknown =
+        |fitted: &&FittedTerm| fitted.value.is_some() && fitted.half_of_95_percent.is_none();
+    let shared = fit.terms.iter().filter(of_unknown).map(|fitted| pointing_term(fitted.term));
     let shared: Vec<&str> = shared.collect();
     if !shared.is_empty() {
         let terms = format::list(&shared);
@@ -124,9 +130,9 @@ fn terms(ui: &mut Ui, antenna: &Antenna, fit: &PointingFit, can_fit: bool) -> Op
         let terms: Vec<&str> = fit.excluded.iter().map(|term| pointing_term(*term)).collect();
         line(ui, &format!("Left at 0, as you wanted: {}.", format::list(&terms).to_lowercase()));
     }
-    let may_go = without(fit);
+    let may_go = without_term(fit);
     if may_go.is_some() {
-        told::line(ui, Tone::Caution, UNCERTAIN);
+        status_line::line(ui, Tone::Caution, UNCERTAIN);
     }
     ui.horizontal(|ui| {
         let fill_in = ui.button("Fill in").on_hover_text("Nothing is used before you save.");
@@ -142,30 +148,31 @@ fn terms(ui: &mut Ui, antenna: &Antenna, fit: &PointingFit, can_fit: bool) -> Op
 }
 
 /// The terms to leave out so that none is left that may be zero, if there is one.
-fn without(fit: &PointingFit) -> Option<Vec<Term>> {
-    let zero: Vec<Term> = fit.terms.iter().filter(|of| may_be_zero(of)).map(|of| of.term).collect();
+fn without_term(fit: &PointingFit) -> Option<Vec<Term>> {
+    let zero: Vec<Term> =
+        fit.terms.iter().filter(|fitted| may_be_zero(fitted)).map(|fitted| fitted.term).collect();
     (!zero.is_empty()).then(|| [&fit.excluded[..], &zero].concat())
 }
 
 /// The terms of such a fit may have errors that cancel each other in these passes alone.
-fn may_be_zero(of: &FittedTerm) -> bool {
-    of.value.zip(of.half_of_95_percent).is_some_and(|(value, half)| value.abs() < half)
+fn may_be_zero(fitted: &FittedTerm) -> bool {
+    fitted.value.zip(fitted.half_of_95_percent).is_some_and(|(value, half)| value.abs() < half)
 }
 
-fn not_told(of: &FittedTerm) -> Option<String> {
-    if of.value.is_some() {
+fn not_told(fitted: &FittedTerm) -> Option<String> {
+    if fitted.value.is_some() {
         return None;
     }
-    let with: Vec<&str> = of.not_told_from.iter().map(|term| pointing_term(*term)).collect();
-    let (term, with) = (pointing_term(of.term), format::list(&with).to_lowercase());
-    Some(format!("{term} cannot be told from {with} in these passes: it is left at 0."))
+    let others: Vec<&str> = fitted.not_told_from.iter().map(|term| pointing_term(*term)).collect();
+    let (term, others) = (pointing_term(fitted.term), format::list(&others).to_lowercase());
+    Some(format!("{term} cannot be told from {others} in these passes: it is left at 0."))
 }
 
 /// Types the terms into the fields of the model. One that the record cannot tell is zero.
 pub(super) fn fill_in(antenna: &mut Typed<Antenna>, fit: &PointingFit) {
-    for of in &fit.terms {
-        let value = of.value.unwrap_or_default();
-        antenna.type_in(pointing_term(of.term), number(of.term, value));
+    for fitted in &fit.terms {
+        let value = fitted.value.unwrap_or_default();
+        antenna.type_in(pointing_term(fitted.term), number(fitted.term, value));
     }
 }
 

@@ -33,13 +33,13 @@ pub(super) fn plot(ui: &mut Ui, was: &Antenna, new: &Antenna) {
     let dome = Dome::fitted(rect);
     let painter = ui.painter_at(rect);
     grid::disc(&painter, dome, t);
-    let (before, travel) = (Travel::of(was), Travel::of(new));
+    let (before, travel) = (Travel::new(was), Travel::new(new));
     if let Some(travel) = travel {
         painter.add(travel.area(dome, t));
     }
     grid::rings(&painter, dome, t);
     grid::ring_numbers(&painter, dome, t);
-    if let Some(holes) = Keyholes::of(&new.mount) {
+    if let Some(holes) = Keyholes::new(&new.mount) {
         grid::keyholes(&painter, dome, &holes, t);
     }
     grid::rim(&painter, dome, Angle::from_degrees(new.limits.minimum_elevation_deg), t);
@@ -49,8 +49,9 @@ pub(super) fn plot(ui: &mut Ui, was: &Antenna, new: &Antenna) {
     if let Some(travel) = travel {
         travel.paint_ends(&painter, dome, Stroke::new(2.0, t.bad));
     }
-    if let Some(at) = dome.visible(new.park_direction()) {
-        let corners = [vec2(0.0, -6.0), vec2(6.0, 5.0), vec2(-6.0, 5.0)].map(|corner| at + corner);
+    if let Some(position) = dome.visible(new.park_direction()) {
+        let corners =
+            [vec2(0.0, -6.0), vec2(6.0, 5.0), vec2(-6.0, 5.0)].map(|corner| position + corner);
         painter.add(Shape::closed_line(corners.to_vec(), Stroke::new(1.5, t.t1)));
     }
 }
@@ -70,7 +71,7 @@ struct Travel {
 }
 
 impl Travel {
-    fn of(antenna: &Antenna) -> Option<Self> {
+    fn new(antenna: &Antenna) -> Option<Self> {
         let Mount::AzEl { .. } = antenna.mount else { return None };
         let [azimuth, (lowest, highest)] = antenna.mount.travel_deg();
         let whole = (0.0, 90.0);
@@ -92,7 +93,7 @@ impl Travel {
             let azimuth_deg = self.azimuth.0 + span_deg * f64::from(step) / f64::from(steps);
             let azimuth = (azimuth_deg.to_radians() as f32).rem_euclid(TAU);
             for elevation_deg in [self.elevation.0, self.elevation.1] {
-                mesh.colored_vertex(dome.at(azimuth, elevation_deg as f32), t.bgsel);
+                mesh.colored_vertex(dome.point_at(azimuth, elevation_deg as f32), t.bgsel);
             }
             if step > 0 {
                 let first = 2 * (step - 1);
@@ -107,7 +108,7 @@ impl Travel {
     fn paint_ends(&self, painter: &Painter, dome: Dome, stroke: Stroke) {
         for azimuth_deg in [self.azimuth.0, self.azimuth.1] {
             let azimuth = (azimuth_deg.to_radians() as f32).rem_euclid(TAU);
-            let (foot, out) = (dome.at(azimuth, 0.0), outward(azimuth));
+            let (foot, out) = (dome.point_at(azimuth, 0.0), outward(azimuth));
             let across = out.rot90() * (STOP / 2.0);
             painter.line_segment([foot - out * STOP, foot], stroke);
             painter.line_segment([foot - across, foot + across], stroke);
@@ -118,11 +119,11 @@ impl Travel {
 fn sentence(antenna: &Antenna) -> String {
     let is_within = antenna.mount.reaches(antenna.park_direction());
     let park = if is_within { "" } else { " The park position lies outside the travel." };
-    let Some(travel) = Travel::of(antenna) else {
+    let Some(travel) = Travel::new(antenna) else {
         return format!("An X/Y mount: it is too slow inside the hatched keyholes.{park}");
     };
-    let (from, to) = travel.azimuth;
-    let [from, to] = [from, to].map(|deg| format::degrees(deg, 0));
+    let (start, end) = travel.azimuth;
+    let [start_text, end_text] = [start, end].map(|deg| format::degrees(deg, 0));
     let span_deg = travel.span_deg();
     let reach = if span_deg > 360.0 {
         format!(
@@ -134,5 +135,5 @@ fn sentence(antenna: &Antenna) -> String {
     } else {
         String::new()
     };
-    format!("Azimuth from {from} to {to}.{reach}{park}")
+    format!("Azimuth from {start_text} to {end_text}.{reach}{park}")
 }

@@ -55,7 +55,7 @@ pub(super) struct Corner {
 pub(super) struct Cell {
     pub(super) entry: Entry,
     /// Last valid value.
-    kept: f64,
+    saved: f64,
     range: (f64, f64),
 }
 
@@ -71,12 +71,12 @@ impl Cell {
     fn new(value: f64, is_saved: bool, range: &RangeInclusive<f64>) -> Self {
         let entry = if is_saved { Entry::saved } else { Entry::added };
         let range = (*range.start(), *range.end());
-        Self { entry: entry(written(value)), kept: value, range }
+        Self { entry: entry(written(value)), saved: value, range }
     }
 
     /// Last valid value.
-    pub(super) fn kept(&self) -> f64 {
-        self.kept
+    pub(super) fn saved(&self) -> f64 {
+        self.saved
     }
 
     fn typed(&self) -> Option<f64> {
@@ -86,21 +86,21 @@ impl Cell {
 
     /// Adopts the typed text if it is valid.
     pub(super) fn take(&mut self) {
-        self.kept = self.typed().unwrap_or(self.kept);
+        self.saved = self.typed().unwrap_or(self.saved);
     }
 
     /// Sets a value, clamped to the range.
     pub(super) fn set(&mut self, value: f64) {
         let (low, high) = self.range;
-        self.kept = value.clamp(low, high);
-        self.entry.text = written(self.kept);
+        self.saved = value.clamp(low, high);
+        self.entry.text = written(self.saved);
     }
 
     /// Problem of the typed text, and the value used instead.
     pub(super) fn problem(&self) -> Option<String> {
         let (low, high) = self.range;
         self.typed().is_none().then(|| {
-            let words = format!("{low} to {high}. The plot keeps {}°.", written(self.kept));
+            let words = format!("{low} to {high}. The plot keeps {}°.", written(self.saved));
             words.replace('-', "−")
         })
     }
@@ -123,10 +123,10 @@ fn written(value: f64) -> String {
 }
 
 impl Corner {
-    fn new(at: (f64, f64), is_saved: bool) -> Self {
+    fn new(point: (f64, f64), is_saved: bool) -> Self {
         Self {
-            azimuth: Cell::new(at.0, is_saved, &AZIMUTH),
-            elevation: Cell::new(at.1, is_saved, &ranges::CORNER_ELEVATION_DEG),
+            azimuth: Cell::new(point.0, is_saved, &AZIMUTH),
+            elevation: Cell::new(point.1, is_saved, &ranges::CORNER_ELEVATION_DEG),
         }
     }
 
@@ -135,8 +135,8 @@ impl Corner {
         Self::new((azimuth_deg, elevation_deg), false)
     }
 
-    pub(super) fn at(&self) -> (f64, f64) {
-        (self.azimuth.kept, self.elevation.kept)
+    pub(super) fn point(&self) -> (f64, f64) {
+        (self.azimuth.saved, self.elevation.saved)
     }
 
     pub(super) fn problem(&self) -> Option<String> {
@@ -155,7 +155,7 @@ impl Corner {
 }
 
 impl ZoneDraft {
-    fn of(keep_out: &KeepOut) -> Self {
+    fn new(keep_out: &KeepOut) -> Self {
         let corners = KeepOut::corners_deg(&keep_out.zone);
         let margin_deg = keep_out.margin_deg;
         Self {
@@ -164,7 +164,7 @@ impl ZoneDraft {
             antenna: keep_out.antenna.clone(),
             entered: keep_out.entered,
             margin: Cell::new(margin_deg, true, &ranges::MARGIN_DEG),
-            corners: corners.into_iter().map(|at| Corner::new(at, true)).collect(),
+            corners: corners.into_iter().map(|point| Corner::new(point, true)).collect(),
             was: Some(Box::new(keep_out.clone())),
         }
     }
@@ -177,23 +177,23 @@ impl ZoneDraft {
             antenna: None,
             entered: Entered::Hard,
             margin: Cell::new(KeepOut::DEFAULT_MARGIN_DEG, false, &ranges::MARGIN_DEG),
-            corners: corners.iter().map(|at| Corner::new(*at, false)).collect(),
+            corners: corners.iter().map(|point| Corner::new(*point, false)).collect(),
             was: None,
         }
     }
 
     /// A copy with another name, as a new keep-out.
     pub(super) fn copied(&self, name: String) -> Self {
-        let corners: Vec<(f64, f64)> = self.corners.iter().map(Corner::at).collect();
+        let corners: Vec<(f64, f64)> = self.corners.iter().map(Corner::point).collect();
         let mut copy = Self::added(name, &corners);
-        copy.margin.set(self.margin.kept);
+        copy.margin.set(self.margin.saved);
         let (reason, antenna) = (self.reason.clone(), self.antenna.clone());
         Self { reason, antenna, entered: self.entered, ..copy }
     }
 
     /// Corners as plotted.
     pub(super) fn corners_deg(&self) -> Vec<(f64, f64)> {
-        self.corners.iter().map(Corner::at).collect()
+        self.corners.iter().map(Corner::point).collect()
     }
 
     /// Zone as plotted, or the reason why the corners make none.
@@ -209,7 +209,7 @@ impl ZoneDraft {
             reason: self.reason.trim().to_owned(),
             entered: self.entered,
             antenna: self.antenna.clone(),
-            margin_deg: self.margin.kept,
+            margin_deg: self.margin.saved,
             zone: self.zone().ok()?,
         })
     }
@@ -221,19 +221,19 @@ impl ZoneDraft {
     /// Number of changed values.
     pub(super) fn edits(&self) -> usize {
         let Some(was) = &self.was else { return 1 };
-        let gone = KeepOut::corners_deg(&was.zone).len().saturating_sub(self.corners.len());
-        let corners = self.corners.iter().flat_map(|of| [&of.azimuth, &of.elevation]);
+        let removed = KeepOut::corners_deg(&was.zone).len().saturating_sub(self.corners.len());
+        let corners = self.corners.iter().flat_map(|corner| [&corner.azimuth, &corner.elevation]);
         corners.chain([&self.margin]).filter(|cell| cell.is_edited()).count()
             + usize::from(was.name != self.name)
             + usize::from(was.reason != self.reason)
             + usize::from(was.antenna != self.antenna)
             + usize::from(was.entered != self.entered)
-            + gone
+            + removed
     }
 }
 
 impl SunDraft {
-    fn of(sun: Option<SunAvoidance>) -> Self {
+    fn new(sun: Option<SunAvoidance>) -> Self {
         const DEFAULT_RADIUS_DEG: f64 = 5.0;
         let radius = sun.map_or(DEFAULT_RADIUS_DEG, |sun| sun.radius_deg);
         let ahead = sun.map_or(SunAvoidance::DEFAULT_AHEAD_MIN, |sun| sun.ahead_min);
@@ -245,9 +245,9 @@ impl SunDraft {
     }
 
     /// Avoidance as plotted.
-    pub(super) fn kept(&self) -> Option<SunAvoidance> {
+    pub(super) fn saved(&self) -> Option<SunAvoidance> {
         self.is_on
-            .then_some(SunAvoidance { radius_deg: self.radius.kept, ahead_min: self.ahead.kept })
+            .then_some(SunAvoidance { radius_deg: self.radius.saved, ahead_min: self.ahead.saved })
     }
 
     fn problem(&self) -> Option<String> {
@@ -257,11 +257,11 @@ impl SunDraft {
 }
 
 impl Skies {
-    pub(in crate::ui::preferences) fn of(station: &Station) -> Self {
+    pub(in crate::ui::preferences) fn new(station: &Station) -> Self {
         Self {
             mask: station.horizon_mask.as_ref().map(ToString::to_string).unwrap_or_default(),
-            zones: station.keep_outs.iter().map(ZoneDraft::of).collect(),
-            sun: SunDraft::of(station.sun_avoidance),
+            zones: station.keep_outs.iter().map(ZoneDraft::new).collect(),
+            sun: SunDraft::new(station.sun_avoidance),
         }
     }
 
@@ -275,9 +275,9 @@ impl Skies {
     }
 
     /// An unused name for a new keep-out.
-    pub(super) fn free_name(&self, wanted: &str) -> String {
+    pub(super) fn free_name(&self, expected: &str) -> String {
         let others: Vec<&str> = self.zones.iter().map(|zone| &*zone.name).collect();
-        Antenna::free_name(wanted, &others)
+        Antenna::free_name(expected, &others)
     }
 
     /// Problem that prevents saving a keep-out, apart from its cells.
@@ -290,15 +290,16 @@ impl Skies {
         if others.any(|(_, other)| Antenna::same_name(&other.name, &zone.name)) {
             return Some("Another keep-out has this name.".to_owned());
         }
-        let is_there = |name: &String| antennas.iter().any(|of| Antenna::same_name(of, name));
+        let is_there =
+            |name: &String| antennas.iter().any(|subject| Antenna::same_name(subject, name));
         if let Some(name) = zone.antenna.as_ref().filter(|name| !is_there(name)) {
             return Some(format!("No antenna is called {name}."));
         }
         let before = self.zones.iter().take(index).map(|other| other.corners.len());
-        if let Some(why) = KeepOut::excess(before, zone.corners.len()) {
-            return Some(words::sentence(&why));
+        if let Some(reason) = KeepOut::excess(before, zone.corners.len()) {
+            return Some(words::sentence(&reason));
         }
-        zone.zone().err().map(|why| format!("{why}."))
+        zone.zone().err().map(|reason| format!("{reason}."))
     }
 
     /// All problems with their places, for the message beside Save.
@@ -333,13 +334,13 @@ impl Skies {
 
     /// Number of values that differ from `before`.
     fn edited(&self, before: &Self) -> usize {
-        let gone = before
+        let removed = before
             .zones
             .iter()
             .filter(|old| !self.zones.iter().any(|new| new.was.is_some() && new.was == old.was));
         usize::from(self.mask != before.mask)
             + self.zones.iter().map(ZoneDraft::edits).sum::<usize>()
-            + gone.count()
+            + removed.count()
             + usize::from(self.sun != before.sun)
     }
 
@@ -362,7 +363,7 @@ impl Skies {
         }
         station.horizon_mask = moved.read_mask().ok()?;
         station.keep_outs = moved.zones.iter().map(ZoneDraft::keep_out).collect::<Option<_>>()?;
-        station.sun_avoidance = moved.sun.kept();
+        station.sun_avoidance = moved.sun.saved();
         Some(())
     }
 }
@@ -374,7 +375,7 @@ impl DraftSection for Skies {
 
     fn findings(&self, draft: &Draft) -> Vec<Finding> {
         let problems = self.problems(&draft.antenna_names()).into_iter();
-        problems.map(|label| Finding { label, problem: Problem::of("is not valid") }).collect()
+        problems.map(|label| Finding { label, problem: Problem::new("is not valid") }).collect()
     }
 
     /// The items of the page by their names.
@@ -419,20 +420,20 @@ mod tests {
 
     #[test]
     fn what_was_not_touched_is_put_back_as_it_was() {
-        let skies = Skies::of(&station());
+        let skies = Skies::new(&station());
         let mut empty = Station::default();
         assert_eq!(skies.put_renamed_into(&mut empty, &[]), Some(()));
         assert_eq!(empty, station());
-        assert_eq!(skies.edited(&Skies::of(&station())), 0);
+        assert_eq!(skies.edited(&Skies::new(&station())), 0);
     }
 
     #[test]
     fn a_wrong_cell_keeps_its_text_and_the_plot_its_value() {
-        let mut skies = Skies::of(&station());
+        let mut skies = Skies::new(&station());
         let cell = &mut skies.zones[0].corners[1].elevation;
         "97".clone_into(&mut cell.entry.text);
         cell.take();
-        assert!((cell.kept() - 16.0).abs() < 1e-12);
+        assert!((cell.saved() - 16.0).abs() < 1e-12);
         assert_eq!(cell.problem().unwrap(), "−90 to 90. The plot keeps 16.0°.");
         assert_eq!(skies.problems(&[]), ["mast, corner 2"]);
         assert_eq!(skies.put_renamed_into(&mut Station::default(), &[]), None);
@@ -440,12 +441,12 @@ mod tests {
         "17,5".clone_into(&mut cell.entry.text);
         cell.take();
         assert_eq!(cell.state(), (Mark::Edited, "Edited, was 16.0".to_owned()));
-        assert_eq!(skies.edited(&Skies::of(&station())), 1);
+        assert_eq!(skies.edited(&Skies::new(&station())), 1);
     }
 
     #[test]
     fn a_keep_out_follows_the_new_name_of_its_antenna_and_misses_a_gone_one() {
-        let mut skies = Skies::of(&station());
+        let mut skies = Skies::new(&station());
         skies.zones[0].antenna = Some("Satrak".to_owned());
         let mut renamed =
             Station { antennas: vec![Antenna::satrak("Big dish", "h:4001")], ..Station::default() };
@@ -458,7 +459,7 @@ mod tests {
 
     #[test]
     fn a_station_has_no_more_keep_outs_than_can_be_judged_in_time() {
-        let mut skies = Skies::of(&station());
+        let mut skies = Skies::new(&station());
         while skies.zones.len() < KeepOut::MAX_NUMBER {
             let name = skies.free_name("mast");
             let copy = skies.zones[0].copied(name);
@@ -471,8 +472,8 @@ mod tests {
         skies.zones.truncate(KeepOut::MAX_NUMBER);
         let all: usize = skies.zones.iter().map(|zone| zone.corners.len()).sum();
         for _ in all..KeepOut::MAX_CORNERS_IN_ALL {
-            let fewest = skies.zones.iter().position(|zone| zone.corners.len() < 100).unwrap();
-            skies.zones[fewest].split(0).unwrap();
+            let min = skies.zones.iter().position(|zone| zone.corners.len() < 100).unwrap();
+            skies.zones[min].split(0).unwrap();
         }
         let limit = "All keep-outs have 800 corners at most.";
         let last = skies.zones.len() - 1;
@@ -483,7 +484,7 @@ mod tests {
 
     #[test]
     fn names_are_unique_and_not_empty() {
-        let mut skies = Skies::of(&station());
+        let mut skies = Skies::new(&station());
         let name = skies.free_name("mast");
         assert_eq!(name, "mast 2");
         let copy = skies.zones[0].copied(name);
@@ -493,8 +494,8 @@ mod tests {
         assert_eq!(skies.problems(&[]), ["mast", "MAST"]);
         " ".clone_into(&mut skies.zones[1].name);
         assert_eq!(skies.problems(&[]), ["keep-out"]);
-        assert_eq!(skies.edited(&Skies::of(&station())), 1, "a new one");
+        assert_eq!(skies.edited(&Skies::new(&station())), 1, "a new one");
         skies.zones.clear();
-        assert_eq!(skies.edited(&Skies::of(&station())), 1, "one is gone");
+        assert_eq!(skies.edited(&Skies::new(&station())), 1, "one is gone");
     }
 }

@@ -9,14 +9,14 @@ use crate::{
 };
 
 /// Fewest corners of a keep-out.
-pub(super) const FEWEST: usize = crate::astro::MIN_CORNERS;
+pub(super) const MIN_CORNERS: usize = crate::astro::MIN_CORNERS;
 
 /// Direction under a point of the plot in degrees, with the azimuth counted nearest to
 /// `near_deg`. Points outside the rim are on the horizon.
-pub(super) fn under(dome: Dome, at: Pos2, near_deg: f64) -> (f64, f64) {
-    let off = at - dome.centre;
-    let azimuth_deg = f64::from(off.x.atan2(-off.y)).to_degrees();
-    let elevation_deg = 90.0 - f64::from(off.length() / dome.radius) * 90.0;
+pub(super) fn position_under(dome: Dome, position: Pos2, near_deg: f64) -> (f64, f64) {
+    let offset = position - dome.centre;
+    let azimuth_deg = f64::from(offset.x.atan2(-offset.y)).to_degrees();
+    let elevation_deg = 90.0 - f64::from(offset.length() / dome.radius) * 90.0;
     (counted_near(azimuth_deg, near_deg), elevation_deg.clamp(0.0, 90.0))
 }
 
@@ -32,15 +32,19 @@ pub(super) fn snapped((azimuth_deg, elevation_deg): (f64, f64), is_coarse: bool)
     (round(azimuth_deg), round(elevation_deg))
 }
 
-/// Keeps the coordinate that changed less at its value in `from`.
-pub(super) fn along_one_axis(from: (f64, f64), to: (f64, f64)) -> (f64, f64) {
-    if (to.0 - from.0).abs() >= (to.1 - from.1).abs() { (to.0, from.1) } else { (from.0, to.1) }
+/// Keeps the coordinate that changed less at its value in `start`.
+pub(super) fn along_one_axis(start: (f64, f64), end: (f64, f64)) -> (f64, f64) {
+    if (end.0 - start.0).abs() >= (end.1 - start.1).abs() {
+        (end.0, start.1)
+    } else {
+        (start.0, end.1)
+    }
 }
 
 /// Place of a direction in the plot; below the horizon at the rim.
 pub(super) fn place(dome: Dome, (azimuth_deg, elevation_deg): (f64, f64)) -> Pos2 {
     let azimuth = Angle::from_degrees(azimuth_deg).radians() as f32;
-    dome.at(azimuth, elevation_deg.max(0.0) as f32)
+    dome.point_at(azimuth, elevation_deg.max(0.0) as f32)
 }
 
 impl ZoneDraft {
@@ -56,8 +60,8 @@ impl ZoneDraft {
         if self.corners.len() >= crate::astro::MAX_CORNERS {
             return None;
         }
-        let at = self.middle(corner)?;
-        let (azimuth_deg, elevation_deg) = snapped(at, false);
+        let middle_point = self.middle(corner)?;
+        let (azimuth_deg, elevation_deg) = snapped(middle_point, false);
         self.corners.insert(corner + 1, Corner::added(azimuth_deg, elevation_deg));
         Some(corner + 1)
     }
@@ -68,39 +72,40 @@ impl ZoneDraft {
             let middle = zone.middle_of_edge(corner)?;
             return Some((middle.azimuth.degrees(), middle.elevation_deg()));
         }
-        let from = self.corners.get(corner)?.at();
-        let to = self.corners.get((corner + 1) % self.corners.len())?.at();
-        Some((f64::midpoint(from.0, to.0), f64::midpoint(from.1, to.1)))
+        let start = self.corners.get(corner)?.point();
+        let end = self.corners.get((corner + 1) % self.corners.len())?.point();
+        Some((f64::midpoint(start.0, end.0), f64::midpoint(start.1, end.1)))
     }
 
     /// Removes a corner if enough remain.
     pub(super) fn remove(&mut self, corner: usize) -> bool {
-        let can = self.corners.len() > FEWEST && corner < self.corners.len();
+        let can = self.corners.len() > MIN_CORNERS && corner < self.corners.len();
         if can {
             self.corners.remove(corner);
         }
         can
     }
 
-    /// Corner after which a new one at `at` belongs: the beginning of the nearest edge in the
+    /// Corner after which a new one at `position` belongs: the beginning of the nearest edge in the
     /// plot.
-    pub(super) fn nearest_edge(&self, dome: Dome, at: Pos2) -> Option<usize> {
-        let places: Vec<Pos2> = self.corners.iter().map(|of| place(dome, of.at())).collect();
+    pub(super) fn nearest_edge(&self, dome: Dome, position: Pos2) -> Option<usize> {
+        let places: Vec<Pos2> =
+            self.corners.iter().map(|corner| place(dome, corner.point())).collect();
         let edges = places.iter().zip(places.iter().cycle().skip(1)).enumerate();
-        let away = |(_, (from, to)): &(usize, (&Pos2, &Pos2))| {
-            let along = **to - **from;
-            let share = (at - **from).dot(along) / along.length_sq().max(1e-6);
-            at.distance(**from + along * share.clamp(0.0, 1.0))
+        let distance = |(_, (start, end)): &(usize, (&Pos2, &Pos2))| {
+            let along = **end - **start;
+            let share = (position - **start).dot(along) / along.length_sq().max(1e-6);
+            position.distance(**start + along * share.clamp(0.0, 1.0))
         };
-        edges.min_by(|a, b| away(a).total_cmp(&away(b))).map(|(index, _)| index)
+        edges.min_by(|a, b| distance(a).total_cmp(&distance(b))).map(|(index, _)| index)
     }
 }
 
 /// Corners of a box between two directions, the shorter way around.
-pub(super) fn rectangle(from: (f64, f64), to: (f64, f64)) -> Option<[(f64, f64); 4]> {
-    let to_azimuth = counted_near(to.0, from.0);
-    let (left, right) = (from.0.min(to_azimuth), from.0.max(to_azimuth));
-    let (low, high) = (from.1.min(to.1), from.1.max(to.1));
+pub(super) fn rectangle(start: (f64, f64), end: (f64, f64)) -> Option<[(f64, f64); 4]> {
+    let to_azimuth = counted_near(end.0, start.0);
+    let (left, right) = (start.0.min(to_azimuth), start.0.max(to_azimuth));
+    let (low, high) = (start.1.min(end.1), start.1.max(end.1));
     let has_area = right - left >= 1.0 && high - low >= 1.0;
     has_area.then_some([(left, low), (left, high), (right, high), (right, low)])
 }
@@ -159,10 +164,10 @@ mod tests {
         for (azimuth, elevation, near) in
             [(370.0, 20.0, 350.0), (-10.0, 0.0, 0.0), (90.0, 45.0, 80.0)]
         {
-            let found = under(DOME, place(DOME, (azimuth, elevation)), near);
+            let found = position_under(DOME, place(DOME, (azimuth, elevation)), near);
             assert!((found.0 - azimuth).abs() < 1e-3 && (found.1 - elevation).abs() < 1e-3);
         }
-        assert!(under(DOME, pos2(500.0, 100.0), 90.0).1.abs() < 1e-9);
+        assert!(position_under(DOME, pos2(500.0, 100.0), 90.0).1.abs() < 1e-9);
         assert_eq!(snapped((10.26, 5.74), true), (10.5, 5.5));
         assert_eq!(along_one_axis((10.0, 5.0), (12.0, 6.0)), (12.0, 5.0));
     }
@@ -179,7 +184,7 @@ mod tests {
         let mut zone = ZoneDraft::added("box".to_owned(), &FIRST_BOX);
         assert_eq!(zone.nearest_edge(DOME, place(DOME, (180.0, 25.0))), Some(1));
         assert_eq!(zone.split(1), Some(2));
-        assert_eq!(zone.corners[2].at(), (180.0, 20.0));
+        assert_eq!(zone.corners[2].point(), (180.0, 20.0));
         assert!(zone.remove(2) && zone.remove(0));
         assert!(!zone.remove(0));
         assert_eq!(zone.corners.len(), 3);
@@ -187,7 +192,7 @@ mod tests {
 
     #[test]
     fn a_skyline_of_points_becomes_the_text() {
-        let mut skies = Skies::of(&Station::default());
+        let mut skies = Skies::new(&Station::default());
         assert!(skies.set_skyline(vec![(370.0, 4.0), (90.0, 2.5)]));
         assert_eq!(skies.skyline(), [(10.0, 4.0), (90.0, 2.5)]);
         assert!(skies.set_skyline(vec![(10.0, 4.0), (370.0, 2.5)]), "a wall");

@@ -10,29 +10,30 @@ use crate::{
 
 /// First the effect of the selected keep-out, or of all; then the total, now and as saved.
 pub(super) fn lines(effect: &Effect<Question>, zone: Option<&str>) -> [String; 2] {
-    let of = effect.ways.len();
-    if of == 0 {
+    let total = effect.ways.len();
+    if total == 0 {
         return ["No pass of a favourite in the next 48 h.".to_owned(), String::new()];
     }
     let toll = |tally: &Tally, obstacles: &Obstacles| {
-        let place = obstacles.keep_outs.iter().position(|of| Some(&*of.name) == zone)?;
+        let place =
+            obstacles.keep_outs.iter().position(|keep_out| Some(&*keep_out.name) == zone)?;
         tally.of_each.get(place).map(|toll| (toll.passes, toll.time_s))
     };
     let after = toll(&effect.after, &effect.question.after);
-    let (who, (passes, time_s)) = if let (Some(name), Some(toll)) = (zone, after) {
+    let (subject, (passes, time_s)) = if let (Some(name), Some(toll)) = (zone, after) {
         (format!("{name} blocks"), toll)
     } else {
         let sun = if effect.after.of_sun.is_some() { " and the Sun" } else { "" };
         (format!("Keep-outs{sun} block"), (effect.after.touched, effect.after.lost_s))
     };
     let blocks = match passes {
-        0 => format!("{who} none of the {of} passes in the next 48 h."),
+        0 => format!("{subject} none of the {total} passes in the next 48 h."),
         1 => format!(
-            "{who} part of 1 of the {of} passes in the next 48 h, {}.",
+            "{subject} part of 1 of the {total} passes in the next 48 h, {}.",
             format::duration(time_s)
         ),
         _ => format!(
-            "{who} part of {passes} of the {of} passes in the next 48 h, about {} each.",
+            "{subject} part of {passes} of the {total} passes in the next 48 h, about {} each.",
             format::duration(time_s / passes as f64)
         ),
     };

@@ -56,7 +56,7 @@ mod tests {
 
     #[test]
     fn steps_are_undone_and_done_again() {
-        let mut now = Skies::of(&Station::default());
+        let mut now = Skies::new(&Station::default());
         let mut history = History::default();
         history.settle(&now);
         assert!(!history.can_undo());

@@ -106,7 +106,7 @@ fn table(ui: &mut Ui, model: &Model, skies: &mut Skies, state: &mut HorizonState
         let Some(zone) = skies.zones.get(index) else { continue };
         let toll = effect.and_then(|effect| {
             let keep_outs = &effect.question.after.keep_outs;
-            let place = keep_outs.iter().position(|of| of.name == zone.name.trim())?;
+            let place = keep_outs.iter().position(|keep_out| keep_out.name == zone.name.trim())?;
             effect.after.of_each.get(place)
         });
         let kind = match zone.entered {
@@ -118,12 +118,12 @@ fn table(ui: &mut Ui, model: &Model, skies: &mut Skies, state: &mut HorizonState
             zone.name.clone(),
             kind.to_owned(),
             zone.corners.len().to_string(),
-            format::degrees(zone.margin.kept(), 1),
+            format::degrees(zone.margin.saved(), 1),
             toll.map_or_else(dash, |toll| toll.passes.to_string()),
         ];
         choice(ui, cells, Chosen::Zone(index), &zone.reason, state, t);
     }
-    let kind = match skies.sun.kept() {
+    let kind = match skies.sun.saved() {
         Some(sun) => format!("Keep away, {}", format::degrees(sun.radius_deg, 1)),
         None => "Keep away, off".to_owned(),
     };
@@ -157,7 +157,7 @@ fn dash() -> String {
 fn choice(
     ui: &mut Ui,
     cells: [String; 5],
-    of: Chosen,
+    chosen: Chosen,
     reason: &str,
     state: &mut HorizonState,
     t: &Tokens,
@@ -165,7 +165,7 @@ fn choice(
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::click());
     let response =
         if reason.is_empty() { response } else { response.on_hover_text(reason.to_owned()) };
-    let is_chosen = state.chosen == of;
+    let is_chosen = state.chosen == chosen;
     let [name, kind, points, margin, blocks] = &cells;
     let words = format!("{name}, {kind}, {points} points, margin {margin}, blocks {blocks}");
     response.widget_info(|| WidgetInfo::selected(Role::ListBoxOption, true, is_chosen, &words));
@@ -178,7 +178,7 @@ fn choice(
     line(ui, rect, cells.map(|cell| (cell, colours.next().unwrap_or(t.t1))), &font);
     paint::focus_ring(ui, &response, 0);
     if response.clicked() {
-        state.choose(of);
+        state.choose(chosen);
     }
 }
 
@@ -225,13 +225,13 @@ fn margin_sum(antenna: Option<&AntennaModel>, own_deg: f64) -> (String, String) 
     let overshoot = format::degrees(stopping_way.overrun_s * fastest_deg_s, 1);
     let words =
         format!("°   beam {} + overshoot {overshoot} + {own}", format::degrees(half_deg, 2));
-    let about = format!(
+    let description = format!(
         "An antenna at rest is kept {} away: half the beamwidth plus your margin. A moving one is \
          stopped earlier, by the angle that it coasts after STOP: {overshoot} at full speed. {}",
         format::degrees(half_deg + own_deg, 2),
         words::stopping_way(stopping_way)
     );
-    (words, about)
+    (words, description)
 }
 
 fn zone(
@@ -266,8 +266,8 @@ fn zone(
     } else {
         format!("{edits} edits")
     };
-    let beside = place.right_center() + vec2(12.0, 0.0);
-    paint::text(ui, beside, Align2::LEFT_CENTER, tag, text::caption(), t.sat);
+    let position = place.right_center() + vec2(12.0, 0.0);
+    paint::text(ui, position, Align2::LEFT_CENTER, tag, text::caption(), t.sat);
     let (delete, copy) = (Button::quiet("Delete"), Button::normal("Copy"));
     let widths = [copy.width(ui), delete.width(ui)];
     let [copying, deleting] = button::row_before(&mut head.right_center(), SMALL_HEIGHT, widths);
@@ -296,13 +296,13 @@ fn zone(
     labelled(ui, "Safety margin", |ui, place| {
         let rect = place.with_max_x(place.left() + 72.0);
         cell(ui, rect, "Safety margin", &mut zone.margin, t);
-        let behind = place.with_min_x(rect.right() + 8.0);
-        if let Some(why) = zone.margin.problem() {
-            return form::state(ui, "margin", behind, Mark::Invalid, [&why, &why]);
+        let background = place.with_min_x(rect.right() + 8.0);
+        if let Some(reason) = zone.margin.problem() {
+            return form::state(ui, "margin", background, Mark::Invalid, [&reason, &reason]);
         }
-        let (words, about) = margin_sum(state.shown(model), zone.margin.kept());
-        paint::text_in(ui, behind, Align2::LEFT_CENTER, &words, text::small(), t.t3);
-        paint::name_text(ui, "margin sum", behind, &words).on_hover_text(about);
+        let (words, description) = margin_sum(state.shown(model), zone.margin.saved());
+        paint::text_in(ui, background, Align2::LEFT_CENTER, &words, text::small(), t.t3);
+        paint::name_text(ui, "margin sum", background, &words).on_hover_text(description);
     });
     labelled(ui, "When entered", |ui, place| {
         let all = [
@@ -332,7 +332,7 @@ fn points(ui: &mut Ui, zone: &mut ZoneDraft, state: &mut HorizonState, t: &Token
     let head = row(ui, 28.0);
     paint::text_in(ui, head, Align2::LEFT_CENTER, "Points", text::body_medium(), t.t1);
     let (add, remove) = (Button::normal("Add"), Button::quiet("Remove"));
-    let can_remove = state.corner.is_some() && zone.corners.len() > edit::FEWEST;
+    let can_remove = state.corner.is_some() && zone.corners.len() > edit::MIN_CORNERS;
     let remove = remove.locked(!can_remove);
     let widths = [add.width(ui), remove.width(ui)];
     let [adding, removing] = button::row_before(&mut head.right_center(), SMALL_HEIGHT, widths);
@@ -348,9 +348,9 @@ fn points(ui: &mut Ui, zone: &mut ZoneDraft, state: &mut HorizonState, t: &Token
             rect.with_min_x(left + 216.0),
         )
     };
-    let (number, azimuth, elevation, behind) = columns(names);
+    let (number, azimuth, elevation, background) = columns(names);
     for (rect, words) in
-        [(number, "#"), (azimuth, "Azimuth °"), (elevation, "Elevation °"), (behind, "State")]
+        [(number, "#"), (azimuth, "Azimuth °"), (elevation, "Elevation °"), (background, "State")]
     {
         paint::text_in(ui, rect, Align2::LEFT_CENTER, words, text::caption(), t.t3);
     }
@@ -360,7 +360,7 @@ fn points(ui: &mut Ui, zone: &mut ZoneDraft, state: &mut HorizonState, t: &Token
         if is_chosen {
             ui.painter().rect_filled(rect.expand2(vec2(PADDING, 0.0)), 0.0, t.bgsel);
         }
-        let (number, azimuth, elevation, behind) = columns(rect);
+        let (number, azimuth, elevation, background) = columns(rect);
         let place = index + 1;
         let salt = ("choose corner", index);
         let choosing =
@@ -368,16 +368,16 @@ fn points(ui: &mut Ui, zone: &mut ZoneDraft, state: &mut HorizonState, t: &Token
         let words = place.to_string();
         paint::text_in(ui, number, Align2::LEFT_CENTER, &words, text::small(), t.t2);
         paint::focus_ring(ui, &choosing, 2);
-        let within = |rect: Rect| rect.shrink2(vec2(0.0, 2.5));
+        let inset = |rect: Rect| rect.shrink2(vec2(0.0, 2.5));
         let name = format!("Azimuth of corner {place}");
-        let one = cell(ui, within(azimuth), &name, &mut corner.azimuth, t);
+        let one = cell(ui, inset(azimuth), &name, &mut corner.azimuth, t);
         let name = format!("Elevation of corner {place}");
-        let other = cell(ui, within(elevation), &name, &mut corner.elevation, t);
+        let other = cell(ui, inset(elevation), &name, &mut corner.elevation, t);
         if one || other || choosing.clicked() {
             state.corner = Some(index);
         }
         let (mark, words) = corner.state();
-        form::state(ui, ("corner", index), behind, mark, [&words, &words]);
+        form::state(ui, ("corner", index), background, mark, [&words, &words]);
     }
     let corner = state.corner.unwrap_or(zone.corners.len().saturating_sub(1));
     if is_added {
@@ -403,12 +403,12 @@ fn sun(ui: &mut Ui, skies: &mut Skies) {
             let rect = place.with_max_x(place.left() + 72.0);
             let name = format!("{label} of the Sun avoidance");
             cell(ui, rect, &name, field, t);
-            let behind = place.with_min_x(rect.right() + 8.0);
-            let unit_place = behind.with_max_x(behind.left() + 28.0);
+            let background = place.with_min_x(rect.right() + 8.0);
+            let unit_place = background.with_max_x(background.left() + 28.0);
             paint::text_in(ui, unit_place, Align2::LEFT_CENTER, unit, text::small(), t.t3);
-            let behind = behind.with_min_x(behind.left() + 36.0);
+            let background = background.with_min_x(background.left() + 36.0);
             let (mark, words) = field.state();
-            form::state(ui, label, behind, mark, [&words, &words]);
+            form::state(ui, label, background, mark, [&words, &words]);
         });
     }
 }

@@ -55,7 +55,14 @@ pub(super) fn show(
     let name = "Horizon and keep-outs of the site";
     canvas.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, name));
     scene::paint_sky(ui, rect, dome, model, skies, state, antenna);
-    draw::draw_on_canvas(ui, &canvas, dome, skies, state, antenna.map(|of| &*of.config));
+    draw::draw_on_canvas(
+        ui,
+        &canvas,
+        dome,
+        skies,
+        state,
+        antenna.map(|model_antenna| &*model_antenna.config),
+    );
     let marks = &mut paint::marks_of(ui, &canvas);
     match state.chosen {
         Chosen::Zone(index) => handles::zone_handles(marks, dome, index, skies, state, t),
@@ -81,9 +88,9 @@ pub(super) fn show(
     // In a low window the plot reaches up to the line: the hint takes two of them beside its top.
     let is_beside = dome.centre.y - dome.radius - NAMES < line.bottom();
     if is_beside {
-        let at = line.left_top() + vec2(0.0, 8.0);
+        let position = line.left_top() + vec2(0.0, 8.0);
         let width = dome.centre.x - line.left() - NAMES;
-        paint::paragraph(ui, at, width, hint, text::small(), t.t3);
+        paint::paragraph(ui, position, width, hint, text::small(), t.t3);
     } else {
         let room = line.with_max_x(line.right() - 90.0);
         paint::text_in(ui, room, Align2::LEFT_CENTER, hint, text::small(), t.t3);
@@ -93,11 +100,12 @@ pub(super) fn show(
 }
 
 /// A label with a background, kept inside the plot.
-fn label(ui: &Ui, at: Pos2, anchor: Align2, words: &str, colour: egui::Color32, t: &Tokens) {
+fn label(ui: &Ui, position: Pos2, anchor: Align2, words: &str, colour: egui::Color32, t: &Tokens) {
     let galley = ui.painter().layout_no_wrap(words.to_owned(), text::small(), colour);
-    let wanted = anchor.anchor_size(at, galley.size());
-    let seen = ui.clip_rect().shrink(4.0);
-    let place = wanted.translate(wanted.min.clamp(seen.min, seen.max - galley.size()) - wanted.min);
+    let bounds = anchor.anchor_size(position, galley.size());
+    let visible = ui.clip_rect().shrink(4.0);
+    let place =
+        bounds.translate(bounds.min.clamp(visible.min, visible.max - galley.size()) - bounds.min);
     ui.painter().rect_filled(place.expand(2.0), 0.0, t.sky);
     ui.painter().galley(place.min, galley, colour);
 }
@@ -114,19 +122,19 @@ fn show_legend(ui: &Ui, rect: Rect, dome: Dome, t: &Tokens) {
         ("Horizon mask", legend::mask),
         ("Keep-out", legend::keep_out),
         ("Safety margin", legend::margin),
-        ("End of travel", |painter, at, t| {
-            let line = [at - vec2(10.0, 0.0), at + vec2(10.0, 0.0)];
+        ("End of travel", |painter, position, t| {
+            let line = [position - vec2(10.0, 0.0), position + vec2(10.0, 0.0)];
             painter.extend(dashed(&line, 1.5, 4.0, Stroke::new(1.25, t.warn)));
         }),
-        ("Sun avoidance", |painter, at, t| {
-            painter.extend(dashed(&circle(at, 6.0), 3.0, 2.0, Stroke::new(1.25, t.sun)));
+        ("Sun avoidance", |painter, position, t| {
+            painter.extend(dashed(&circle(position, 6.0), 3.0, 2.0, Stroke::new(1.25, t.sun)));
         }),
-        ("Path of the Sun today", |painter, at, t| {
-            let line = [at - vec2(10.0, 0.0), at + vec2(10.0, 0.0)];
+        ("Path of the Sun today", |painter, position, t| {
+            let line = [position - vec2(10.0, 0.0), position + vec2(10.0, 0.0)];
             painter.extend(dashed(&line, 1.5, 4.0, Stroke::new(1.0, t.sun)));
         }),
-        ("Blocked part of a pass", |painter, at, t| {
-            let line = [at - vec2(10.0, 0.0), at + vec2(10.0, 0.0)];
+        ("Blocked part of a pass", |painter, position, t| {
+            let line = [position - vec2(10.0, 0.0), position + vec2(10.0, 0.0)];
             painter.line_segment(line, Stroke::new(1.5, t.warn));
         }),
     ];
@@ -144,7 +152,7 @@ fn show_legend(ui: &Ui, rect: Rect, dome: Dome, t: &Tokens) {
     for (index, (name, sample)) in rows.into_iter().enumerate() {
         let middle = corner + vec2(10.0, ROW * (index as f32 + 0.5));
         sample(ui.painter(), middle, t);
-        let beside = middle + vec2(20.0, 0.0);
-        ui.painter().text(beside, Align2::LEFT_CENTER, name, text::small(), t.t2);
+        let point = middle + vec2(20.0, 0.0);
+        ui.painter().text(point, Align2::LEFT_CENTER, name, text::small(), t.t2);
     }
 }

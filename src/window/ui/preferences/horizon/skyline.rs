@@ -35,7 +35,7 @@ pub(super) struct Recording {
 }
 
 impl Recording {
-    pub(super) fn over(mask: &str) -> Self {
+    pub(super) fn new(mask: &str) -> Self {
         Self { marks: Vec::new(), before: mask.to_owned(), is_over: false }
     }
 
@@ -46,7 +46,7 @@ impl Recording {
             rounded(direction.azimuth_deg()).rem_euclid(360.0),
             rounded(direction.elevation_deg()),
         );
-        self.marks.retain(|(azimuth_deg, _)| away(*azimuth_deg, mark.0) >= REPLACES_DEG);
+        self.marks.retain(|(azimuth_deg, _)| distance_deg(*azimuth_deg, mark.0) >= REPLACES_DEG);
         self.marks.push(mark);
     }
 
@@ -56,16 +56,16 @@ impl Recording {
             self.marks.iter().map(|(azimuth_deg, _)| *azimuth_deg).collect();
         azimuths.sort_by(f64::total_cmp);
         let next = azimuths.iter().cycle().skip(1);
-        let gaps = azimuths.iter().zip(next).map(|(from, to)| {
-            let width = (to - from).rem_euclid(360.0);
-            (*from, *to, if width == 0.0 { 360.0 } else { width })
+        let gaps = azimuths.iter().zip(next).map(|(start, end)| {
+            let width = (end - start).rem_euclid(360.0);
+            (*start, *end, if width == 0.0 { 360.0 } else { width })
         });
         let widest = gaps.max_by(|a, b| a.2.total_cmp(&b.2))?;
         (widest.2 > GAP_DEG).then_some((widest.0, widest.1))
     }
 }
 
-fn away(a_deg: f64, b_deg: f64) -> f64 {
+fn distance_deg(a_deg: f64, b_deg: f64) -> f64 {
     Angle::from_degrees(a_deg - b_deg).wrapped_180().abs().degrees()
 }
 
@@ -77,8 +77,8 @@ pub(super) fn form(ui: &mut Ui, skies: &mut Skies) {
     let read = skies.read_mask();
     let hint = "Azimuth and elevation, one point per line. Tables from other programs also work.";
     pane::lines(ui, "Horizon mask", hint, &mut skies.mask, read.is_err());
-    if let Err(why) = read {
-        let words = format!("{}. The plot shows no skyline.", words::capitalised(&why));
+    if let Err(reason) = read {
+        let words = format!("{}. The plot shows no skyline.", words::capitalised(&reason));
         let words = words.replace('-', "−");
         let line = row(ui, 28.0);
         paint::named_text_in(
@@ -120,7 +120,7 @@ fn markable(model: &Model, state: &HorizonState) -> Result<AzEl, String> {
 /// Steps of a recording; Azel moves nothing.
 pub(super) fn record(ui: &mut Ui, model: &Model, skies: &mut Skies, state: &mut HorizonState) {
     let t = theme::tokens(ui);
-    let at = markable(model, state);
+    let direction = markable(model, state);
     let Some(recording) = &mut state.recording else { return };
     ui.add_space(8.0);
     let head = row(ui, 28.0);
@@ -132,7 +132,7 @@ pub(super) fn record(ui: &mut Ui, model: &Model, skies: &mut Skies, state: &mut 
         says(ui, "recorded", &words, (Icon::Info, t.sat), t.t1);
         let buttons = row(ui, HEIGHT + 8.0);
         let (new, old) = (Button::primary("Keep the new one"), Button::normal("Keep the old one"));
-        let (first, second) = beside(buttons, new.width(ui), old.width(ui));
+        let (first, second) = columns(buttons, new.width(ui), old.width(ui));
         let keeps_new = new.show(ui, "keep new", first).clicked();
         let keeps_old = old.show(ui, "keep old", second).clicked();
         if keeps_old {
@@ -145,34 +145,37 @@ pub(super) fn record(ui: &mut Ui, model: &Model, skies: &mut Skies, state: &mut 
     }
     let words = "Point the antenna by hand to where the sky begins, by camera or by noise level.";
     says(ui, "step 1", words, (Icon::Check, t.ok), t.t2);
-    let (words, icon) = match &at {
-        Ok(at) => {
-            let here = plot::direction((at.azimuth_deg(), at.elevation_deg()));
+    let (words, icon) = match &direction {
+        Ok(direction) => {
+            let here = plot::direction((direction.azimuth_deg(), direction.elevation_deg()));
             (
                 format!("Mark it with Enter. It is at {here}. {count} marked."),
                 (Icon::CrossHair, t.cmd),
             )
         }
-        Err(why) => (format!("{why} {count} marked."), (Icon::Warning, t.warn)),
+        Err(reason) => (format!("{reason} {count} marked."), (Icon::Warning, t.warn)),
     };
     says(ui, "step 2", &words, icon, t.t1);
     let words = "Jog to the next azimuth in Operate. Azel moves nothing by itself here.";
     says(ui, "step 3", words, (Icon::Dash, t.t3), t.t2);
-    if let Some((from, to)) = recording.gap().filter(|_| count > 1) {
+    if let Some((start, last)) = recording.gap().filter(|_| count > 1) {
         let words = format!(
-            "Nothing is marked from {from:.0}° to {to:.0}°: a straight line is drawn there."
+            "Nothing is marked from {start:.0}° to {last:.0}°: a straight line is drawn there."
         );
         says(ui, "gap", &words, (Icon::Warning, t.warn), t.warn);
     }
     let buttons = row(ui, HEIGHT + 8.0);
-    let label = match &at {
-        Ok(at) => format!("Mark {}", plot::direction((at.azimuth_deg(), at.elevation_deg()))),
+    let label = match &direction {
+        Ok(direction) => format!(
+            "Mark {}",
+            plot::direction((direction.azimuth_deg(), direction.elevation_deg()))
+        ),
         Err(_) => "Mark".to_owned(),
     };
-    let mark = Button::primary(&label).locked(at.is_err());
+    let mark = Button::primary(&label).locked(direction.is_err());
     let undo = Button::normal("Undo point").locked(count == 0);
     let end = Button::normal("End");
-    let (first, second) = beside(buttons, mark.width(ui), undo.width(ui));
+    let (first, second) = columns(buttons, mark.width(ui), undo.width(ui));
     let third =
         Rect::from_min_size(second.right_top() + vec2(8.0, 0.0), vec2(end.width(ui), HEIGHT));
     let is_free = !ui.text_edit_focused() && ui.memory(|memory| memory.focused().is_none());
@@ -180,8 +183,8 @@ pub(super) fn record(ui: &mut Ui, model: &Model, skies: &mut Skies, state: &mut 
     let marks = mark.show(ui, "mark", first).clicked() || enter;
     let undoes = undo.show(ui, "undo point", second).clicked();
     let ends = end.show(ui, "end", third).clicked();
-    if let (true, Ok(at)) = (marks, at) {
-        recording.mark(at);
+    if let (true, Ok(direction)) = (marks, direction) {
+        recording.mark(direction);
     } else if undoes {
         recording.marks.pop();
     }
@@ -199,7 +202,7 @@ pub(super) fn record(ui: &mut Ui, model: &Model, skies: &mut Skies, state: &mut 
     }
 }
 
-fn beside(row: Rect, first: f32, second: f32) -> (Rect, Rect) {
+fn columns(row: Rect, first: f32, second: f32) -> (Rect, Rect) {
     let top = row.top() + 8.0;
     let one = Rect::from_min_size(pos2(row.left(), top), vec2(first, HEIGHT));
     (one, Rect::from_min_size(pos2(one.right() + 8.0, top), vec2(second, HEIGHT)))
@@ -250,18 +253,18 @@ pub(super) fn exchange(
             commands.push(UiCommand::ImportMask(PathBuf::from(path.trim())));
         }
         right = right.max(field.right() + 8.0);
-        told(ui, row.with_min_x(field.right() + 8.0).with_max_x(right), state);
+        draw_answer(ui, row.with_min_x(field.right() + 8.0).with_max_x(right), state);
     } else {
-        told(ui, row.with_max_x(right), state);
+        draw_answer(ui, row.with_max_x(right), state);
     }
     if closes {
-        (state.import, state.told) = (None, None);
+        (state.import, state.answer) = (None, None);
     }
 }
 
-fn told(ui: &Ui, room: Rect, state: &HorizonState) {
+fn draw_answer(ui: &Ui, room: Rect, state: &HorizonState) {
     let t = theme::tokens(ui);
-    let (words, colour) = match &state.told {
+    let (words, colour) = match &state.answer {
         Some(Ok(words)) => (words, t.ok),
         Some(Err(words)) => (words, t.bad),
         None => return,
@@ -275,7 +278,7 @@ mod tests {
 
     #[test]
     fn a_second_mark_nearby_replaces_the_first_and_gaps_are_named() {
-        let mut recording = Recording::over("0 3");
+        let mut recording = Recording::new("0 3");
         for (azimuth, elevation) in [(359.5, 4.0), (100.0, 5.0), (0.504, 6.006)] {
             recording.mark(AzEl::from_degrees(azimuth, elevation));
         }

@@ -1,13 +1,13 @@
 //! Reasons why a rule cannot act; some of them keep it from being saved.
 
-use super::draft::{Of, RuleDraft, RulesDraft};
+use super::draft::{DraftSubject, RuleDraft, RulesDraft};
 use crate::{
     station::{AntennaId, HoursOfDay},
     ui::preferences::satellites::draft::SatellitesDraft,
 };
 
 /// Antennas and satellites that the rules name, as edited.
-pub(in crate::ui::preferences) struct Around<'a> {
+pub(in crate::ui::preferences) struct RuleContext<'a> {
     /// The antennas that stay.
     pub(in crate::ui::preferences) antennas: Vec<(AntennaId, String)>,
     /// Catalog numbers.
@@ -30,24 +30,24 @@ pub(super) enum CannotAct {
     Behind(usize),
 }
 
-impl Around<'_> {
+impl RuleContext<'_> {
     pub(super) fn antenna(&self, id: AntennaId) -> Option<&str> {
-        let known = self.antennas.iter().find(|(known, _)| *known == id);
-        known.map(|(_, name)| name.as_str())
+        let other = self.antennas.iter().find(|(antenna_id, _)| *antenna_id == id);
+        other.map(|(_, name)| name.as_str())
     }
 
     /// Name of a group that stays.
     pub(super) fn group(&self, index: usize) -> Option<String> {
-        let mut kept = self.satellites.kept();
-        kept.find(|(known, _)| *known == index).map(|(_, group)| group.title())
+        let mut remaining = self.satellites.remaining();
+        remaining.find(|(other, _)| *other == index).map(|(_, group)| group.title())
     }
 
     /// The satellites of a rule; `None` for all.
-    fn members(&self, of: Of) -> Option<Vec<u32>> {
-        match of {
-            Of::All => None,
-            Of::Satellite(number) => Some(number.into_iter().collect()),
-            Of::Group(group) => {
+    fn members(&self, subject: DraftSubject) -> Option<Vec<u32>> {
+        match subject {
+            DraftSubject::All => None,
+            DraftSubject::Satellite(number) => Some(number.into_iter().collect()),
+            DraftSubject::Group(group) => {
                 let members = group.and_then(|group| self.satellites.members(group));
                 Some(members.unwrap_or_default().to_vec())
             }
@@ -62,14 +62,14 @@ impl CannotAct {
     }
 
     /// Begins in the middle of a sentence.
-    pub(super) fn words(self, around: &Around<'_>) -> String {
+    pub(super) fn words(self, context: &RuleContext<'_>) -> String {
         match self {
             Self::NoAntenna => "its antenna is removed".to_owned(),
             Self::NoSatellite => "it names no satellite".to_owned(),
             Self::NoGroup => "it names a group that does not exist".to_owned(),
             Self::Hours => "its hours are not valid".to_owned(),
             Self::EmptyGroup(group) => {
-                let name = around.group(group).unwrap_or_default();
+                let name = context.group(group).unwrap_or_default();
                 format!("the group {name} has no satellites")
             }
             Self::NoFavourite => {
@@ -82,63 +82,73 @@ impl CannotAct {
 
 impl RulesDraft {
     /// Why a rule cannot act, once it is on.
-    pub(super) fn cannot_act(&self, index: usize, around: &Around<'_>) -> Option<CannotAct> {
+    pub(super) fn cannot_act(&self, index: usize, context: &RuleContext<'_>) -> Option<CannotAct> {
         let rule = self.all().get(index)?;
-        wrong(rule, around).or_else(|| self.in_vain(index, rule, around))
+        wrong(rule, context).or_else(|| self.in_vain(index, rule, context))
     }
 
     /// Numbers of the rules that are on and cannot act although they can be saved, and why.
-    pub(in crate::ui::preferences) fn idle(&self, around: &Around<'_>) -> Vec<(usize, String)> {
+    pub(in crate::ui::preferences) fn idle(
+        &self,
+        context: &RuleContext<'_>,
+    ) -> Vec<(usize, String)> {
         let on = self.all().iter().enumerate().filter(|(_, rule)| rule.is_on);
-        let of = |index: usize| {
+        let members = |index: usize| {
             let number = self.number(index)?;
-            let why = self.cannot_act(index, around).filter(|why| !why.is_wrong())?;
-            Some((number, why.words(around)))
+            let reason = self.cannot_act(index, context).filter(|reason| !reason.is_wrong())?;
+            Some((number, reason.words(context)))
         };
-        on.filter_map(|(index, _)| of(index)).collect()
+        on.filter_map(|(index, _)| members(index)).collect()
     }
 
-    fn in_vain(&self, index: usize, rule: &RuleDraft, around: &Around<'_>) -> Option<CannotAct> {
-        let members = around.members(rule.of);
-        match (rule.of, &members) {
-            (Of::Group(Some(group)), Some(members)) if members.is_empty() => {
+    fn in_vain(
+        &self,
+        index: usize,
+        rule: &RuleDraft,
+        context: &RuleContext<'_>,
+    ) -> Option<CannotAct> {
+        let members = context.members(rule.subject);
+        match (rule.subject, &members) {
+            (DraftSubject::Group(Some(group)), Some(members)) if members.is_empty() => {
                 return Some(CannotAct::EmptyGroup(group));
             }
-            (_, Some(members)) if !members.iter().any(|of| around.favourites.contains(of)) => {
+            (_, Some(members))
+                if !members.iter().any(|total| context.favourites.contains(total)) =>
+            {
                 return Some(CannotAct::NoFavourite);
             }
             _ => {}
         }
         let mut earlier = self.all().iter().enumerate().take(index);
         let hides = |other: &RuleDraft| {
-            let acts = other.is_on && !other.is_removed && wrong(other, around).is_none();
-            acts && covers(other, rule, around)
+            let acts = other.is_on && !other.is_removed && wrong(other, context).is_none();
+            acts && covers(other, rule, context)
         };
-        let (by, _) = earlier.find(|(_, other)| hides(other))?;
-        self.number(by).map(CannotAct::Behind)
+        let (earlier_index, _) = earlier.find(|(_, other)| hides(other))?;
+        self.number(earlier_index).map(CannotAct::Behind)
     }
 }
 
 /// Why a rule could not be read back from the station file.
-pub(super) fn wrong(rule: &RuleDraft, around: &Around<'_>) -> Option<CannotAct> {
-    if rule.antenna.is_some_and(|id| around.antenna(id).is_none()) {
+pub(super) fn wrong(rule: &RuleDraft, context: &RuleContext<'_>) -> Option<CannotAct> {
+    if rule.antenna.is_some_and(|id| context.antenna(id).is_none()) {
         return Some(CannotAct::NoAntenna);
     }
-    match rule.of {
-        Of::Satellite(None) => return Some(CannotAct::NoSatellite),
-        Of::Group(group) if group.and_then(|group| around.group(group)).is_none() => {
+    match rule.subject {
+        DraftSubject::Satellite(None) => return Some(CannotAct::NoSatellite),
+        DraftSubject::Group(group) if group.and_then(|group| context.group(group)).is_none() => {
             return Some(CannotAct::NoGroup);
         }
-        Of::All | Of::Satellite(_) | Of::Group(_) => {}
+        DraftSubject::All | DraftSubject::Satellite(_) | DraftSubject::Group(_) => {}
     }
     let is_wrong = rule.typed.read().1.iter().any(|standing| standing.problem.is_some());
     is_wrong.then_some(CannotAct::Hours)
 }
 
 /// Returns `true` if `first` applies wherever `second` does.
-fn covers(first: &RuleDraft, second: &RuleDraft, around: &Around<'_>) -> bool {
+fn covers(first: &RuleDraft, second: &RuleDraft, context: &RuleContext<'_>) -> bool {
     let [one, other] = [first, second].map(|rule| rule.typed.read().0);
-    let has_satellites = match (around.members(first.of), around.members(second.of)) {
+    let has_satellites = match (context.members(first.subject), context.members(second.subject)) {
         (None, _) => true,
         (Some(_), None) => false,
         (Some(first), Some(second)) => second.iter().all(|number| first.contains(number)),
@@ -158,6 +168,6 @@ fn covers(first: &RuleDraft, second: &RuleDraft, around: &Around<'_>) -> bool {
 fn is_within(inner: HoursOfDay, outer: HoursOfDay) -> bool {
     const DAY_MIN: i32 = 24 * 60;
     let minute = |time: jiff::civil::Time| i32::from(time.hour()) * 60 + i32::from(time.minute());
-    let after = |from, to| (minute(to) - minute(from)).rem_euclid(DAY_MIN);
+    let after = |start, end| (minute(end) - minute(start)).rem_euclid(DAY_MIN);
     after(outer.start, inner.start) + after(inner.start, inner.end) <= after(outer.start, outer.end)
 }

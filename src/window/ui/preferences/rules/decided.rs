@@ -29,19 +29,19 @@ pub(super) struct DecidedPass {
 pub(super) struct Decided {
     station: Station,
     passes: Arc<Vec<PredictedPass>>,
-    at: Timestamp,
+    time: Timestamp,
     of_rules: Vec<Vec<DecidedPass>>,
 }
 
 impl Decided {
-    pub(super) fn of(station: Station, model: &Model) -> Self {
+    pub(super) fn new(station: Station, model: &Model) -> Self {
         let list = &model.pass_lists.favourites;
         let mut of_rules: Vec<Vec<DecidedPass>> = station.rules.iter().map(|_| vec![]).collect();
         for predicted in list.upcoming_within(model.now, AHEAD_H).iter() {
             let (number, pass) = (predicted.number(), &predicted.pass);
-            let at = (pass.tca.time, sun_is(&station, pass.tca.time));
+            let moment = (pass.tca.time, sun_is(&station, pass.tca.time));
             for antenna in &station.antennas {
-                let rule = deciding_rule(&station, number, at, antenna.id);
+                let rule = deciding_rule(&station, number, moment, antenna.id);
                 let Some(of_rule) = rule.and_then(|rule| of_rules.get_mut(rule)) else { continue };
                 match of_rule.last_mut() {
                     Some(last) if last.satellite == number && last.aos == pass.aos.time => {
@@ -56,18 +56,18 @@ impl Decided {
                 }
             }
         }
-        Self { station, passes: Arc::clone(&list.passes), at: model.now, of_rules }
+        Self { station, passes: Arc::clone(&list.passes), time: model.now, of_rules }
     }
 
     pub(super) fn is_of(&self, station: &Station, model: &Model) -> bool {
-        let age_s = (model.now.as_second() - self.at.as_second()).abs();
+        let age_s = (model.now.as_second() - self.time.as_second()).abs();
         self.station == *station
             && age_s < KEPT_S
             && Arc::ptr_eq(&self.passes, &model.pass_lists.favourites.passes)
     }
 
     /// The passes that the rule at this place decides, by AOS.
-    pub(super) fn by(&self, place: usize) -> &[DecidedPass] {
+    pub(super) fn rule(&self, place: usize) -> &[DecidedPass] {
         self.of_rules.get(place).map(Vec::as_slice).unwrap_or_default()
     }
 }

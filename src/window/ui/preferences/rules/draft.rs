@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use super::cannot_act::{self, Around};
+use super::cannot_act::{self, RuleContext};
 use crate::{
     station::{AntennaId, AutomationRule, HoursOfDay, RuleAction, RuleSubject, Station, SunIs},
     ui::preferences::{
@@ -15,7 +15,7 @@ use crate::{
 
 /// Sections of the fields of a rule.
 pub(super) const WHEN: &str = "When";
-pub(super) const THEN: &str = "Then";
+pub(super) const ACTION_LABEL: &str = "Then";
 
 /// The rules in their order; those that saving removes keep their place until then.
 #[derive(PartialEq)]
@@ -27,12 +27,12 @@ pub(super) struct Conditions {
     pub(super) is_by_hours: bool,
     /// They wait here while the rule holds at all hours.
     pub(super) hours: HoursOfDay,
-    pub(super) then: RuleAction,
+    pub(super) action: RuleAction,
 }
 
 /// The satellites of a rule.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Of {
+pub(super) enum DraftSubject {
     All,
     /// `None` until one is chosen.
     Satellite(Option<u32>),
@@ -46,7 +46,7 @@ pub(super) struct RuleDraft {
     was: Option<usize>,
     pub(super) is_on: bool,
     pub(super) antenna: Option<AntennaId>,
-    pub(super) of: Of,
+    pub(super) subject: DraftSubject,
     pub(super) typed: Typed<Conditions>,
     pub(super) is_removed: bool,
 }
@@ -58,24 +58,24 @@ impl Conditions {
 }
 
 impl RuleDraft {
-    fn of(rule: &AutomationRule, was: Option<usize>, station: &Station) -> Self {
-        let group = |name: &String| station.groups.iter().position(|of| of.name == *name);
+    fn new(rule: &AutomationRule, was: Option<usize>, station: &Station) -> Self {
+        let group = |name: &String| station.groups.iter().position(|members| members.name == *name);
         let conditions = Conditions {
             sun: rule.sun,
             is_by_hours: rule.hours.is_some(),
             hours: rule.hours.unwrap_or(HoursOfDay::NIGHT),
-            then: rule.action,
+            action: rule.action,
         };
         Self {
             was,
             is_on: rule.is_on,
             antenna: rule.antenna,
-            of: match &rule.subject {
-                None => Of::All,
-                Some(RuleSubject::Satellite(number)) => Of::Satellite(Some(*number)),
-                Some(RuleSubject::Group(name)) => Of::Group(group(name)),
+            subject: match &rule.subject {
+                None => DraftSubject::All,
+                Some(RuleSubject::Satellite(number)) => DraftSubject::Satellite(Some(*number)),
+                Some(RuleSubject::Group(name)) => DraftSubject::Group(group(name)),
             },
-            typed: Typed::of(conditions, fields()),
+            typed: Typed::new(conditions, fields()),
             is_removed: false,
         }
     }
@@ -95,32 +95,32 @@ impl RuleDraft {
         self.typed.edited()
             + usize::from(was.is_on != self.is_on)
             + usize::from(was.antenna != self.antenna)
-            + usize::from(was.of != self.of)
+            + usize::from(was.subject != self.subject)
     }
 
     /// The rule as typed. `None` where it would not be one of the station file.
-    fn read(&self, around: &Around<'_>) -> Option<AutomationRule> {
-        let of = match self.of {
-            Of::All => None,
-            Of::Satellite(number) => Some(RuleSubject::Satellite(number?)),
-            Of::Group(group) => Some(RuleSubject::Group(around.group(group?)?)),
+    fn read(&self, context: &RuleContext<'_>) -> Option<AutomationRule> {
+        let rule_subject = match self.subject {
+            DraftSubject::All => None,
+            DraftSubject::Satellite(number) => Some(RuleSubject::Satellite(number?)),
+            DraftSubject::Group(group) => Some(RuleSubject::Group(context.group(group?)?)),
         };
         let conditions = self.typed.read().0;
         Some(AutomationRule {
             is_on: self.is_on,
             antenna: self.antenna,
-            subject: of,
+            subject: rule_subject,
             sun: conditions.sun,
             hours: conditions.hours(),
-            action: conditions.then,
+            action: conditions.action,
         })
     }
 }
 
 impl RulesDraft {
-    pub(in crate::ui::preferences) fn of(station: &Station) -> Self {
+    pub(in crate::ui::preferences) fn new(station: &Station) -> Self {
         let rules = station.rules.iter().enumerate();
-        Self(rules.map(|(index, rule)| RuleDraft::of(rule, Some(index), station)).collect())
+        Self(rules.map(|(index, rule)| RuleDraft::new(rule, Some(index), station)).collect())
     }
 
     pub(super) fn all(&self) -> &[RuleDraft] {
@@ -137,14 +137,14 @@ impl RulesDraft {
             sun: None,
             is_by_hours: false,
             hours: HoursOfDay::NIGHT,
-            then: RuleAction::Leave,
+            action: RuleAction::Leave,
         };
         self.0.push(RuleDraft {
             was: None,
             is_on: false,
             antenna: None,
-            of: Of::All,
-            typed: Typed::of(conditions, fields()),
+            subject: DraftSubject::All,
+            typed: Typed::new(conditions, fields()),
             is_removed: false,
         });
         self.0.len() - 1
@@ -157,8 +157,8 @@ impl RulesDraft {
             was: None,
             is_on: false,
             antenna: rule.antenna,
-            of: rule.of,
-            typed: Typed::of(rule.typed.read().0, fields()),
+            subject: rule.subject,
+            typed: Typed::new(rule.typed.read().0, fields()),
             is_removed: false,
         };
         self.0.insert(index + 1, copy);
@@ -166,10 +166,10 @@ impl RulesDraft {
     }
 
     /// Moves a rule to another place.
-    pub(super) fn reorder(&mut self, from: usize, to: usize) {
-        if from < self.0.len() && to < self.0.len() {
-            let rule = self.0.remove(from);
-            self.0.insert(to, rule);
+    pub(super) fn reorder(&mut self, start: usize, end: usize) {
+        if start < self.0.len() && end < self.0.len() {
+            let rule = self.0.remove(start);
+            self.0.insert(end, rule);
         }
     }
 
@@ -191,23 +191,23 @@ impl RulesDraft {
     }
 
     /// The rules that would not be read back from the station file.
-    pub(super) fn wrong(&self, around: &Around<'_>) -> Vec<Finding> {
-        let of = |index: usize| {
+    pub(super) fn wrong(&self, context: &RuleContext<'_>) -> Vec<Finding> {
+        let frequency = |index: usize| {
             let number = self.number(index)?;
-            let why = cannot_act::wrong(self.0.get(index)?, around)?;
-            let problem = Problem::of(format!("cannot be saved: {}", why.words(around)));
+            let reason = cannot_act::wrong(self.0.get(index)?, context)?;
+            let problem = Problem::new(format!("cannot be saved: {}", reason.words(context)));
             Some(Finding { label: format!("Rule {number}"), problem })
         };
-        (0..self.0.len()).filter_map(of).collect()
+        (0..self.0.len()).filter_map(frequency).collect()
     }
 
     /// The rules, if all of them are right.
-    pub(super) fn read(&self, around: &Around<'_>) -> Option<Vec<AutomationRule>> {
-        if !self.wrong(around).is_empty() {
+    pub(super) fn read(&self, context: &RuleContext<'_>) -> Option<Vec<AutomationRule>> {
+        if !self.wrong(context).is_empty() {
             return None;
         }
-        let kept = self.0.iter().filter(|rule| !rule.is_removed);
-        kept.map(|rule| rule.read(around)).collect()
+        let remaining = self.0.iter().filter(|rule| !rule.is_removed);
+        remaining.map(|rule| rule.read(context)).collect()
     }
 }
 
@@ -255,18 +255,18 @@ fn fields() -> Vec<Placed<Conditions>> {
                 .in_unit("UTC")
                 .when(|conditions| conditions.is_by_hours)
                 .checked(|conditions| {
-                    let HoursOfDay { start: from, end: to } = conditions.hours;
-                    if from == to { Err("must differ from From") } else { Ok(()) }
+                    let HoursOfDay { start, end } = conditions.hours;
+                    if start == end { Err("must differ from From") } else { Ok(()) }
                 }),
         ],
     );
     fields.extend(placed(
-        THEN,
+        ACTION_LABEL,
         [Description::choice(
             "Then",
             &[(0, "Take"), (1, "Leave"), (2, "Park")],
             &THENS,
-            |conditions: &mut Conditions| &mut conditions.then,
+            |conditions: &mut Conditions| &mut conditions.action,
         )],
     ));
     fields

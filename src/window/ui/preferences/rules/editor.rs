@@ -4,8 +4,8 @@ use egui::{Frame, Label, Margin, RichText, Sense, Ui, vec2};
 
 use super::{
     RulesState, Shown,
-    cannot_act::{Around, CannotAct},
-    draft::{Of, RuleDraft, RulesDraft, THEN, WHEN},
+    cannot_act::{CannotAct, RuleContext},
+    draft::{ACTION_LABEL, DraftSubject, RuleDraft, RulesDraft, WHEN},
 };
 use crate::{
     model::Model,
@@ -19,7 +19,7 @@ use crate::{
             drop_down::DropDown,
             form::ROW,
             paint, segmented,
-            told::{self, Tone},
+            status_line::{self, Tone},
         },
         words,
     },
@@ -33,7 +33,7 @@ pub(super) fn show(
     model: &Model,
     shown: &Shown,
     (rules, before): (&mut RulesDraft, &RulesDraft),
-    around: &Around<'_>,
+    context: &RuleContext<'_>,
     state: &mut FormState,
 ) {
     let title = match shown.number {
@@ -45,16 +45,16 @@ pub(super) fn show(
         let Some(rule) = rules.get_mut(shown.index) else { return };
         let was = rule.was_in(before);
         let is_other_antenna = was.is_some_and(|was| was.antenna != rule.antenna);
-        let is_of_others = was.is_some_and(|was| was.of != rule.of);
+        let is_of_others = was.is_some_and(|was| was.subject != rule.subject);
         ui.add_enabled_ui(!rule.is_removed, |ui| {
-            let why = shown.hindrance.as_ref().map(|(why, _)| *why);
-            antenna(ui, rule, around, (why, is_other_antenna));
+            let reason = shown.hindrance.as_ref().map(|(reason, _)| *reason);
+            antenna(ui, rule, context, (reason, is_other_antenna));
             let search = &mut state.rules.search;
-            satellites(ui, model, rule, around, (why, is_of_others), search);
+            satellites(ui, model, rule, context, (reason, is_of_others), search);
             let standings = rule.typed.read().1;
-            for section in [WHEN, THEN] {
+            for section in [WHEN, ACTION_LABEL] {
                 let typed = (&mut rule.typed, &*standings);
-                form::rows(ui, "rule", typed, section, &mut state.sought);
+                form::rows(ui, "rule", typed, section, &mut state.focus_target);
             }
         });
         ui.add_space(4.0);
@@ -66,12 +66,12 @@ fn buttons(ui: &mut Ui, shown: &Shown, rules: &mut RulesDraft, state: &mut Rules
     let (index, last) = (shown.index, rules.all().len().saturating_sub(1));
     let is_removed = shown.number.is_none();
     ui.horizontal(|ui| {
-        for (word, to) in
+        for (word, end) in
             [("Move up", index.saturating_sub(1)), ("Move down", (index + 1).min(last))]
         {
-            if ui.add_enabled(to != index, egui::Button::new(word)).clicked() {
-                rules.reorder(index, to);
-                state.chosen = to;
+            if ui.add_enabled(end != index, egui::Button::new(word)).clicked() {
+                rules.reorder(index, end);
+                state.chosen = end;
             }
         }
         if ui.add_enabled(!is_removed, egui::Button::new("Duplicate")).clicked()
@@ -92,15 +92,15 @@ fn buttons(ui: &mut Ui, shown: &Shown, rules: &mut RulesDraft, state: &mut Rules
 fn antenna(
     ui: &mut Ui,
     rule: &mut RuleDraft,
-    around: &Around<'_>,
-    (why, is_edited): (Option<CannotAct>, bool),
+    context: &RuleContext<'_>,
+    (reason, is_edited): (Option<CannotAct>, bool),
 ) {
-    let wrong = (why == Some(CannotAct::NoAntenna)).then_some("Is removed");
+    let wrong = (reason == Some(CannotAct::NoAntenna)).then_some("Is removed");
     form::custom_row(ui, ("rule", "Antenna"), wrong, is_edited, |ui| {
-        let chosen = rule.antenna.map_or("All", |id| around.antenna(id).unwrap_or("Removed"));
+        let chosen = rule.antenna.map_or("All", |id| context.antenna(id).unwrap_or("Removed"));
         drop_down(ui, "antenna", chosen, &format!("Antenna, {chosen}"), |ui| {
             ui.selectable_value(&mut rule.antenna, None, "All");
-            for (id, name) in &around.antennas {
+            for (id, name) in &context.antennas {
                 ui.selectable_value(&mut rule.antenna, Some(*id), name);
             }
         });
@@ -114,9 +114,9 @@ fn drop_down(
     name: &str,
     list: impl FnOnce(&mut Ui),
 ) {
-    const LEAST: f32 = 160.0;
+    const MIN_WIDTH: f32 = 160.0;
     let drop_down = DropDown { button: Button::normal(chosen), salt, name };
-    let size = vec2(drop_down.width(ui).max(LEAST), ROW);
+    let size = vec2(drop_down.width(ui).max(MIN_WIDTH), ROW);
     let (place, _) = ui.allocate_exact_size(size, Sense::hover());
     drop_down.show(ui, place, list);
 }
@@ -125,64 +125,69 @@ fn satellites(
     ui: &mut Ui,
     model: &Model,
     rule: &mut RuleDraft,
-    around: &Around<'_>,
-    (why, is_edited): (Option<CannotAct>, bool),
+    context: &RuleContext<'_>,
+    (reason, is_edited): (Option<CannotAct>, bool),
     search: &mut ObjectSearch,
 ) {
     const KINDS: [(&str, u8); 3] = [("All", 0), ("One", 1), ("Group", 2)];
     const WIDTH: f32 = 160.0;
-    let wrong = match why {
+    let wrong = match reason {
         Some(CannotAct::NoSatellite) => Some("Choose one"),
         Some(CannotAct::NoGroup) => Some("Choose a group"),
         _ => None,
     };
     form::custom_row(ui, ("rule", "Satellites"), wrong, is_edited, |ui| {
         ui.vertical(|ui| {
-            let present = match rule.of {
-                Of::All => 0,
-                Of::Satellite(_) => 1,
-                Of::Group(_) => 2,
+            let present = match rule.subject {
+                DraftSubject::All => 0,
+                DraftSubject::Satellite(_) => 1,
+                DraftSubject::Group(_) => 2,
             };
             let mut kind = present;
             let (place, _) = ui.allocate_exact_size(vec2(WIDTH, ROW), Sense::hover());
             segmented::choose(ui, "of", place, "Satellites", &KINDS, &mut kind);
             match kind {
                 _ if kind == present => {}
-                0 => rule.of = Of::All,
-                1 => rule.of = Of::Satellite(None),
-                _ => rule.of = Of::Group(None),
+                0 => rule.subject = DraftSubject::All,
+                1 => rule.subject = DraftSubject::Satellite(None),
+                _ => rule.subject = DraftSubject::Group(None),
             }
-            match rule.of {
-                Of::All => {}
-                Of::Satellite(number) => {
+            match rule.subject {
+                DraftSubject::All => {}
+                DraftSubject::Satellite(number) => {
                     if let Some(number) = number {
                         let name = words::satellite(model, number);
                         let words = format!("{name}, {number}");
                         ui.label(RichText::new(words).font(text::body_medium()));
                     }
-                    let taken: Vec<u32> = number.into_iter().collect();
-                    let found = picker::show(ui, model, &around.favourites, &taken, search);
+                    let numbers: Vec<u32> = number.into_iter().collect();
+                    let found = picker::show(ui, model, &context.favourites, &numbers, search);
                     if found.is_some() {
-                        rule.of = Of::Satellite(found);
+                        rule.subject = DraftSubject::Satellite(found);
                     }
                 }
-                Of::Group(group) => choose_group(ui, group, rule, around),
+                DraftSubject::Group(group) => choose_group(ui, group, rule, context),
             }
         });
     });
 }
 
-fn choose_group(ui: &mut Ui, group: Option<usize>, rule: &mut RuleDraft, around: &Around<'_>) {
-    if around.satellites.kept().next().is_none() {
+fn choose_group(
+    ui: &mut Ui,
+    group: Option<usize>,
+    rule: &mut RuleDraft,
+    context: &RuleContext<'_>,
+) {
+    if context.satellites.remaining().next().is_none() {
         let words = "There are no groups. Add one in Satellites and priorities.";
         ui.label(RichText::new(words).font(text::small()).color(theme::tokens(ui).warn));
         return;
     }
-    let chosen = group.and_then(|group| around.group(group));
+    let chosen = group.and_then(|group| context.group(group));
     let chosen = chosen.unwrap_or_else(|| "Choose a group".to_owned());
     drop_down(ui, "group", &chosen, &format!("Group, {chosen}"), |ui| {
-        for (index, group) in around.satellites.kept() {
-            ui.selectable_value(&mut rule.of, Of::Group(Some(index)), group.title());
+        for (index, group) in context.satellites.remaining() {
+            ui.selectable_value(&mut rule.subject, DraftSubject::Group(Some(index)), group.title());
         }
     });
 }
@@ -195,9 +200,9 @@ fn sentence(ui: &mut Ui, shown: &Shown) {
         ui.set_width(ui.available_width());
         let words = RichText::new(&shown.sentence).font(text::body()).color(t.t1);
         ui.add(Label::new(words).wrap());
-        if let Some((why, words)) = &shown.hindrance {
-            let tone = if why.is_wrong() { Tone::Bad } else { Tone::Caution };
-            told::line(ui, tone, &format!("It cannot act: {words}."));
+        if let Some((reason, words)) = &shown.hindrance {
+            let tone = if reason.is_wrong() { Tone::Bad } else { Tone::Caution };
+            status_line::line(ui, tone, &format!("It cannot act: {words}."));
         }
     });
 }
@@ -207,7 +212,7 @@ pub(super) fn decided(
     ui: &mut Ui,
     model: &Model,
     shown: &Shown,
-    around: &Around<'_>,
+    context: &RuleContext<'_>,
     state: &RulesState,
 ) {
     form::card(ui, "Passes it decides, next 48 h", |ui| {
@@ -218,11 +223,11 @@ pub(super) fn decided(
             Some([]) => "None.",
             Some(_) => "Sun and hours are those at TCA, the middle of the pass.",
         };
-        told::line(ui, Tone::Plain, words);
+        status_line::line(ui, Tone::Plain, words);
         let passes = passes.unwrap_or_default();
         for pass in passes.iter().take(LISTED) {
-            let of = |id| around.antenna(id).map(str::to_owned);
-            let antennas: Vec<String> = pass.antennas.iter().copied().filter_map(of).collect();
+            let name = |id| context.antenna(id).map(str::to_owned);
+            let antennas: Vec<String> = pass.antennas.iter().copied().filter_map(name).collect();
             let words = [
                 format::moment(pass.aos, model.now),
                 words::satellite(model, pass.satellite),
@@ -232,7 +237,7 @@ pub(super) fn decided(
             line(ui, &words);
         }
         if passes.len() > LISTED {
-            told::line(ui, Tone::Plain, &format!("And {} more.", passes.len() - LISTED));
+            status_line::line(ui, Tone::Plain, &format!("And {} more.", passes.len() - LISTED));
         }
     });
 }

@@ -1,8 +1,8 @@
 //! A rule as one sentence, made from its fields.
 
 use super::{
-    cannot_act::Around,
-    draft::{Of, RuleDraft},
+    cannot_act::RuleContext,
+    draft::{DraftSubject, RuleDraft},
 };
 use crate::{
     station::{HoursOfDay, RuleAction, SunIs},
@@ -12,25 +12,27 @@ use crate::{
 /// The rule as a sentence. `name` gives the name of a satellite.
 pub(super) fn sentence(
     rule: &RuleDraft,
-    around: &Around<'_>,
+    context: &RuleContext<'_>,
     name: &dyn Fn(u32) -> String,
 ) -> String {
-    let passes = passes(rule, around, name);
-    let then = rule.typed.read().0.then;
-    let does = match (rule.antenna.map(|id| around.antenna(id)), then) {
+    let passes = passes(rule, context, name);
+    let action = rule.typed.read().0.action;
+    let does = match (rule.antenna.map(|id| context.antenna(id)), action) {
         (None, RuleAction::Take) => format!("any antenna may take {passes}, whatever their limits"),
-        (None, RuleAction::Leave) if rule.of == Of::All => "no antenna takes any pass".to_owned(),
+        (None, RuleAction::Leave) if rule.subject == DraftSubject::All => {
+            "no antenna takes any pass".to_owned()
+        }
         (None, RuleAction::Leave) => format!("no antenna takes {passes}"),
-        (None, RuleAction::Park) if rule.of == Of::All => {
+        (None, RuleAction::Park) if rule.subject == DraftSubject::All => {
             "all antennas are parked and take no passes".to_owned()
         }
         (None, RuleAction::Park) => format!("no antenna takes {passes}, but none is parked"),
-        (Some(antenna), then) => {
+        (Some(antenna), action) => {
             let antenna = antenna.unwrap_or("an antenna that is removed");
-            match then {
+            match action {
                 RuleAction::Take => format!("{antenna} may take {passes}, whatever their limits"),
                 RuleAction::Leave => format!("{antenna} leaves {passes} out"),
-                RuleAction::Park if rule.of == Of::All => {
+                RuleAction::Park if rule.subject == DraftSubject::All => {
                     format!("{antenna} is parked and takes no passes")
                 }
                 RuleAction::Park => format!("{antenna} leaves {passes} out, but is not parked"),
@@ -42,12 +44,12 @@ pub(super) fn sentence(
     format!("{}.", words::capitalised(&whole))
 }
 
-fn passes(rule: &RuleDraft, around: &Around<'_>, name: &dyn Fn(u32) -> String) -> String {
-    match rule.of {
-        Of::All => "all passes".to_owned(),
-        Of::Satellite(Some(number)) => format!("passes of {}", name(number)),
-        Of::Satellite(None) => "passes of a satellite yet to be chosen".to_owned(),
-        Of::Group(group) => match group.and_then(|group| around.group(group)) {
+fn passes(rule: &RuleDraft, context: &RuleContext<'_>, name: &dyn Fn(u32) -> String) -> String {
+    match rule.subject {
+        DraftSubject::All => "all passes".to_owned(),
+        DraftSubject::Satellite(Some(number)) => format!("passes of {}", name(number)),
+        DraftSubject::Satellite(None) => "passes of a satellite yet to be chosen".to_owned(),
+        DraftSubject::Group(group) => match group.and_then(|group| context.group(group)) {
             Some(group) => format!("passes of the group {group}"),
             None => "passes of a group yet to be chosen".to_owned(),
         },
@@ -62,8 +64,8 @@ fn when(rule: &RuleDraft) -> String {
         SunIs::Down => "while the Sun is down".to_owned(),
     });
     let hours = conditions.hours().map(|hours| {
-        let [from, to] = [hours.start, hours.end].map(HoursOfDay::time_text);
-        format!("from {from} to {to} UTC")
+        let [start_text, end_text] = [hours.start, hours.end].map(HoursOfDay::time_text);
+        format!("from {start_text} to {end_text} UTC")
     });
     sun.into_iter().chain(hours).collect::<Vec<_>>().join(", ")
 }
@@ -71,15 +73,17 @@ fn when(rule: &RuleDraft) -> String {
 /// The conditions of a rule in a few words.
 pub(super) fn when_in_short(
     rule: &RuleDraft,
-    around: &Around<'_>,
+    context: &RuleContext<'_>,
     name: &dyn Fn(u32) -> String,
 ) -> String {
     let conditions = rule.typed.read().0;
-    let of = match rule.of {
-        Of::All => None,
-        Of::Satellite(number) => Some(number.map_or_else(|| "no satellite".to_owned(), name)),
-        Of::Group(group) => {
-            let group = group.and_then(|group| around.group(group));
+    let subject = match rule.subject {
+        DraftSubject::All => None,
+        DraftSubject::Satellite(number) => {
+            Some(number.map_or_else(|| "no satellite".to_owned(), name))
+        }
+        DraftSubject::Group(group) => {
+            let group = group.and_then(|group| context.group(group));
             Some(group.unwrap_or_else(|| "no group".to_owned()))
         }
     };
@@ -88,19 +92,19 @@ pub(super) fn when_in_short(
         SunIs::Down => "Sun down".to_owned(),
     });
     let hours = conditions.hours().map(|hours| {
-        let [from, to] = [hours.start, hours.end].map(HoursOfDay::time_text);
-        format!("{from} to {to} UTC")
+        let [start_text, end_text] = [hours.start, hours.end].map(HoursOfDay::time_text);
+        format!("{start_text} to {end_text} UTC")
     });
-    let parts: Vec<String> = of.into_iter().chain(sun).chain(hours).collect();
+    let parts: Vec<String> = subject.into_iter().chain(sun).chain(hours).collect();
     if parts.is_empty() { "always".to_owned() } else { parts.join(", ") }
 }
 
 /// Effect of a rule, in a few words.
 pub(super) fn then_in_short(rule: &RuleDraft) -> &'static str {
-    match (rule.typed.read().0.then, rule.of) {
+    match (rule.typed.read().0.action, rule.subject) {
         (RuleAction::Take, _) => "take, whatever the limits",
         (RuleAction::Leave, _) => "leave out",
-        (RuleAction::Park, Of::All) => "park, take nothing",
+        (RuleAction::Park, DraftSubject::All) => "park, take nothing",
         (RuleAction::Park, _) => "leave out, do not park",
     }
 }

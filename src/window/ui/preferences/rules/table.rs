@@ -7,7 +7,7 @@ use egui::{
 
 use super::{
     RulesState, Shown,
-    cannot_act::Around,
+    cannot_act::RuleContext,
     draft::RulesDraft,
     sentence::{then_in_short, when_in_short},
 };
@@ -34,26 +34,26 @@ struct Columns {
     switch: Rect,
     antenna: Rect,
     when: Rect,
-    then: Rect,
+    action: Rect,
     last: Rect,
 }
 
 impl Columns {
-    fn of(row: Rect) -> Self {
+    fn new(row: Rect) -> Self {
         let inner = row.with_min_x(row.left() + PADDING).with_max_x(row.right() - PADDING);
         let (left, width) = (inner.left(), inner.width());
-        let from = |left: f32, right: f32| inner.with_min_x(left).with_max_x(right - 8.0);
+        let columns = |left: f32, right: f32| inner.with_min_x(left).with_max_x(right - 8.0);
         let antenna = left + 92.0;
         let rest = antenna + (width * 0.09).max(92.0);
         let share = (inner.right() - rest) / 10.0;
         let switch = pos2(left + 66.0, row.center().y);
         Self {
-            grip: from(left - 6.0, left + 22.0),
-            number: from(left + 16.0, left + 44.0),
+            grip: columns(left - 6.0, left + 22.0),
+            number: columns(left + 16.0, left + 44.0),
             switch: Rect::from_center_size(switch, SWITCH.into()),
-            antenna: from(antenna, rest),
-            when: from(rest, rest + 3.4 * share),
-            then: from(rest + 3.4 * share, rest + 6.2 * share),
+            antenna: columns(antenna, rest),
+            when: columns(rest, rest + 3.4 * share),
+            action: columns(rest + 3.4 * share, rest + 6.2 * share),
             last: inner.with_min_x(rest + 6.2 * share),
         }
     }
@@ -68,21 +68,21 @@ pub(super) fn show(
     rect: Rect,
     model: &Model,
     rules: &mut RulesDraft,
-    around: &Around<'_>,
+    context: &RuleContext<'_>,
     state: &mut RulesState,
 ) {
     let t = theme::tokens(ui);
     ui.painter().rect_filled(rect, 0.0, t.bg1);
     ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, (1.0, t.line));
     let (head, body) = rect.split_top_bottom_at_y(rect.top() + HEAD);
-    let columns = Columns::of(head);
+    let columns = Columns::new(head);
     let left = Align2::LEFT_CENTER;
     for (place, anchor, words) in [
         (columns.number, Align2::RIGHT_CENTER, "#"),
         (columns.switch, left, "On"),
         (columns.antenna, left, "Antenna"),
         (columns.when, left, "When"),
-        (columns.then, left, "Then"),
+        (columns.action, left, "Then"),
         (columns.last, Align2::RIGHT_CENTER, "Next 48 h"),
     ] {
         paint::text_in(ui, place, anchor, words, text::caption(), t.t3);
@@ -101,10 +101,10 @@ pub(super) fn show(
             let size = vec2(ui.available_width(), ROW * rules.all().len() as f32);
             let (all, _) = ui.allocate_exact_size(size, Sense::hover());
             for index in 0..rules.all().len() {
-                let Some(shown) = Shown::of(index, rules, around, model) else { continue };
+                let Some(shown) = Shown::new(index, rules, context, model) else { continue };
                 let top = all.top() + ROW * index as f32;
                 let row = all.with_min_y(top).with_max_y(top + ROW);
-                draw(ui, row, model, &shown, rules, around, state);
+                draw(ui, row, model, &shown, rules, context, state);
             }
             drag(ui, all, rules, state);
             ring(ui, all, rules.all().len());
@@ -122,12 +122,12 @@ fn draw(
     model: &Model,
     shown: &Shown,
     rules: &mut RulesDraft,
-    around: &Around<'_>,
+    context: &RuleContext<'_>,
     state: &mut RulesState,
 ) {
     let t = theme::tokens(ui);
     let response = choice(ui, row, shown, state);
-    let columns = Columns::of(row);
+    let columns = Columns::new(row);
     let index = shown.index;
     let Some(rule) = rules.get_mut(index) else { return };
     let is_idle = !rule.is_on || rule.is_removed;
@@ -135,11 +135,11 @@ fn draw(
     let left = Align2::LEFT_CENTER;
     let number = shown.number.map_or_else(|| "–".to_owned(), |number| number.to_string());
     paint::text_in(ui, columns.number, Align2::RIGHT_CENTER, &number, text::small(), t.t2);
-    let antenna = rule.antenna.map_or("all", |id| around.antenna(id).unwrap_or("removed"));
+    let antenna = rule.antenna.map_or("all", |id| context.antenna(id).unwrap_or("removed"));
     paint::text_in(ui, columns.antenna, left, antenna, text::body_medium(), ink);
-    let when = when_in_short(rule, around, &|number| words::satellite(model, number));
+    let when = when_in_short(rule, context, &|number| words::satellite(model, number));
     paint::text_in(ui, columns.when, left, &when, text::body(), ink);
-    paint::text_in(ui, columns.then, left, then_in_short(rule), text::body(), ink);
+    paint::text_in(ui, columns.action, left, then_in_short(rule), text::body(), ink);
     last(ui, columns.last, shown, is_idle, rule.is_removed, state);
     if rule.is_removed {
         ui.painter().hline(columns.when.x_range(), row.center().y, (1.0, t.t3));
@@ -152,7 +152,7 @@ fn draw(
 
 /// Paints the ring of the row that has the focus, over the grounds of its neighbours.
 fn ring(ui: &Ui, all: Rect, rules: usize) {
-    let focused = (0..rules).find(|index| ui.memory(|of| of.has_focus(id_of(ui, *index))));
+    let focused = (0..rules).find(|index| ui.memory(|memory| memory.has_focus(id_of(ui, *index))));
     let Some(index) = focused else { return };
     let top = all.top() + ROW * index as f32;
     let row = all.with_min_y(top).with_max_y(top + ROW);
@@ -167,15 +167,15 @@ fn choice(ui: &Ui, row: Rect, shown: &Shown, state: &mut RulesState) -> Response
     let name = match (&shown.number, &shown.hindrance) {
         (None, _) => format!("Removed when you save: {}", shown.sentence),
         (Some(number), None) => format!("Rule {number}: {}", shown.sentence),
-        (Some(number), Some((_, why))) => {
-            format!("Rule {number}: {} It cannot act: {why}.", shown.sentence)
+        (Some(number), Some((_, reason))) => {
+            format!("Rule {number}: {} It cannot act: {reason}.", shown.sentence)
         }
     };
     let response = ui.interact(row, id_of(ui, shown.index), Sense::click());
     let role = Role::RadioButton;
     response.widget_info(|| WidgetInfo::selected(role, true, is_chosen, &name));
     let ground = match &shown.hindrance {
-        Some((why, _)) if why.is_wrong() => Some(t.badbg),
+        Some((reason, _)) if reason.is_wrong() => Some(t.badbg),
         Some(_) => Some(t.warnbg),
         None if is_chosen => Some(t.bgsel),
         None => response.hovered().then_some(t.bg3),
@@ -187,7 +187,7 @@ fn choice(ui: &Ui, row: Rect, shown: &Shown, state: &mut RulesState) -> Response
         list::paint_stripe(ui, row);
     }
     list::paint_divider(ui, row);
-    if state.wants_focus.take_if(|wanted| *wanted == shown.index).is_some() {
+    if state.wants_focus.take_if(|requested| *requested == shown.index).is_some() {
         response.request_focus();
     }
     if response.gained_focus() && !ui.input(|input| input.pointer.any_down()) {
@@ -205,7 +205,9 @@ fn last(ui: &Ui, place: Rect, shown: &Shown, is_idle: bool, is_removed: bool, st
     let t = theme::tokens(ui);
     let (words, ink) = match (&shown.hindrance, shown.decided(state)) {
         _ if is_removed => ("removed when you save".to_owned(), t.t3),
-        (Some((why, words)), _) => (words.clone(), if why.is_wrong() { t.bad } else { t.warn }),
+        (Some((reason, words)), _) => {
+            (words.clone(), if reason.is_wrong() { t.bad } else { t.warn })
+        }
         _ if is_idle => ("off".to_owned(), t.t3),
         (None, None) => ("–".to_owned(), t.t3),
         (None, Some([])) => ("no pass".to_owned(), t.t2),
@@ -213,10 +215,10 @@ fn last(ui: &Ui, place: Rect, shown: &Shown, is_idle: bool, is_removed: bool, st
         (None, Some(passes)) => (format!("{} passes", passes.len()), t.t2),
     };
     let room = place.with_min_x(place.left() + 18.0);
-    let said = paint::text_in(ui, room, Align2::RIGHT_CENTER, &words, text::small(), ink);
+    let label = paint::text_in(ui, room, Align2::RIGHT_CENTER, &words, text::small(), ink);
     if shown.hindrance.is_some() && !is_removed {
-        let at = paint::square(pos2(said.left() - 10.0, place.center().y), 12.0);
-        icons::paint(ui.painter(), at, Icon::Warning, ink);
+        let rect = paint::square(pos2(label.left() - 10.0, place.center().y), 12.0);
+        icons::paint(ui.painter(), rect, Icon::Warning, ink);
     }
     let name = format!("Next 48 h: {words}");
     let named = paint::name_text(ui, ("decides", shown.index), place, &name);
@@ -252,8 +254,8 @@ fn grip(ui: &Ui, rect: Rect, index: usize, state: &mut RulesState) {
     let ink = if response.hovered() || state.dragged == Some(index) { t.t1 } else { t.t3 };
     for x in [-3.0, 3.0] {
         for y in [-5.0, 0.0, 5.0] {
-            let at = pos2(rect.left() + 8.0 + x, rect.center().y + y);
-            ui.painter().circle_filled(at, 1.2, ink);
+            let position = pos2(rect.left() + 8.0 + x, rect.center().y + y);
+            ui.painter().circle_filled(position, 1.2, ink);
         }
     }
     if response.drag_started() {
@@ -264,18 +266,18 @@ fn grip(ui: &Ui, rect: Rect, index: usize, state: &mut RulesState) {
 
 /// Lets the rule that is dragged follow the pointer.
 fn drag(ui: &Ui, all: Rect, rules: &mut RulesDraft, state: &mut RulesState) {
-    let Some(from) = state.dragged else { return };
+    let Some(start) = state.dragged else { return };
     let pointer = ui.input(|input| input.pointer.latest_pos().filter(|_| input.pointer.any_down()));
     let Some(pointer) = pointer else {
         state.dragged = None;
         return;
     };
     let last = rules.all().len().saturating_sub(1);
-    let to = (((pointer.y - all.top()) / ROW).max(0.0) as usize).min(last);
-    if to != from {
-        rules.reorder(from, to);
-        state.dragged = Some(to);
-        state.chosen = to;
+    let end = (((pointer.y - all.top()) / ROW).max(0.0) as usize).min(last);
+    if end != start {
+        rules.reorder(start, end);
+        state.dragged = Some(end);
+        state.chosen = end;
     }
 }
 
@@ -293,15 +295,15 @@ fn keys(
     let filter = EventFilter { vertical_arrows: true, ..EventFilter::default() };
     ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, filter));
     let last = rules.all().len().saturating_sub(1);
-    for (key, to) in
+    for (key, end) in
         [(Key::ArrowUp, index.saturating_sub(1)), (Key::ArrowDown, (index + 1).min(last))]
     {
         let moves = ui.input_mut(|input| input.consume_key(Modifiers::ALT, key));
         if moves {
-            rules.reorder(index, to);
+            rules.reorder(index, end);
         }
         if moves || ui.input_mut(|input| input.consume_key(Modifiers::NONE, key)) {
-            state.choose(to);
+            state.choose(end);
         }
     }
     if ui.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Delete))

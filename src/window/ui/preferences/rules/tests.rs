@@ -1,6 +1,6 @@
 use super::{
-    cannot_act::{Around, CannotAct},
-    draft::{Of, RulesDraft},
+    cannot_act::{CannotAct, RuleContext},
+    draft::{DraftSubject, RulesDraft},
     sentence::{sentence, then_in_short, when_in_short},
 };
 use crate::{
@@ -36,9 +36,9 @@ fn of_satellite(number: u32) -> AutomationRule {
     AutomationRule { subject: Some(RuleSubject::Satellite(number)), ..rule() }
 }
 
-fn hours(from: &str, to: &str) -> HoursOfDay {
+fn hours(start_text: &str, end_text: &str) -> HoursOfDay {
     let time = |text| HoursOfDay::read_time(text).unwrap();
-    HoursOfDay { start: time(from), end: time(to) }
+    HoursOfDay { start: time(start_text), end: time(end_text) }
 }
 
 fn group(name: &str, satellites: &[u32]) -> SatelliteGroup {
@@ -59,27 +59,27 @@ fn station(rules: Vec<AutomationRule>) -> Station {
     }
 }
 
-fn with<R>(station: &Station, see: impl FnOnce(&mut RulesDraft, &Around<'_>) -> R) -> R {
-    let mut draft = Draft::of(station);
-    let mut rules = std::mem::replace(&mut draft.rules, RulesDraft::of(&Station::default()));
+fn with_draft<R>(station: &Station, see: impl FnOnce(&mut RulesDraft, &RuleContext<'_>) -> R) -> R {
+    let mut draft = Draft::new(station);
+    let mut rules = std::mem::replace(&mut draft.rules, RulesDraft::new(&Station::default()));
     see(&mut rules, &draft.around_rules())
 }
 
-fn said(rule: AutomationRule) -> String {
+fn text(rule: AutomationRule) -> String {
     let name = |number: u32| if number == ISS { "ISS".to_owned() } else { number.to_string() };
-    with(&station(vec![rule]), |rules, around| sentence(&rules.all()[0], around, &name))
+    with_draft(&station(vec![rule]), |rules, context| sentence(&rules.all()[0], context, &name))
 }
 
 /// Why the last of these rules cannot act.
 fn hindrance(rules: Vec<AutomationRule>) -> Option<CannotAct> {
     let last = rules.len() - 1;
-    with(&station(rules), |rules, around| rules.cannot_act(last, around))
+    with_draft(&station(rules), |rules, context| rules.cannot_act(last, context))
 }
 
 #[test]
 fn a_rule_is_one_sentence_made_from_its_fields() {
     let genius = Some(GENIUS);
-    for (rule, wanted) in [
+    for (rule, expected) in [
         (rule(), "No antenna takes any pass."),
         (
             AutomationRule { action: RuleAction::Take, ..of_satellite(ISS) },
@@ -112,7 +112,7 @@ fn a_rule_is_one_sentence_made_from_its_fields() {
             "No antenna takes passes of ISS, but none is parked.",
         ),
     ] {
-        assert_eq!(said(rule), wanted);
+        assert_eq!(text(rule), expected);
     }
 }
 
@@ -120,9 +120,9 @@ fn a_rule_is_one_sentence_made_from_its_fields() {
 fn the_table_says_a_rule_in_a_few_words() {
     let name = |number: u32| number.to_string();
     let words = |rule| {
-        with(&station(vec![rule]), |rules, around| {
+        with_draft(&station(vec![rule]), |rules, context| {
             let rule = &rules.all()[0];
-            (when_in_short(rule, around, &name), then_in_short(rule))
+            (when_in_short(rule, context, &name), then_in_short(rule))
         })
     };
     assert_eq!(words(rule()), ("always".to_owned(), "leave out"));
@@ -147,43 +147,43 @@ fn a_rule_that_names_nothing_planned_cannot_act() {
 
 #[test]
 fn a_rule_is_hidden_by_an_earlier_one_that_holds_wherever_it_does() {
-    let behind = Some(CannotAct::Behind(1));
+    let hidden = Some(CannotAct::Behind(1));
     let night = AutomationRule { hours: Some(hours("22:00", "06:00")), ..rule() };
     let late = AutomationRule { hours: Some(hours("23:30", "06:00")), ..rule() };
     let early = AutomationRule { hours: Some(hours("06:00", "07:00")), ..rule() };
     let genius = AutomationRule { antenna: Some(GENIUS), ..rule() };
     let satrak = AutomationRule { antenna: Some(AntennaId(1)), ..rule() };
     let by_day = AutomationRule { sun: Some(SunIs::Up), ..rule() };
-    let off = AutomationRule { is_on: false, ..rule() };
-    for (first, second, wanted) in [
-        (rule(), rule(), behind),
-        (rule(), night.clone(), behind),
+    let disabled = AutomationRule { is_on: false, ..rule() };
+    for (first, second, obstacle) in [
+        (rule(), rule(), hidden),
+        (rule(), night.clone(), hidden),
         (night.clone(), rule(), None),
-        (night.clone(), late.clone(), behind),
+        (night.clone(), late.clone(), hidden),
         (late, night.clone(), None),
         (night, early, None),
-        (genius.clone(), genius.clone(), behind),
+        (genius.clone(), genius.clone(), hidden),
         (genius.clone(), rule(), None),
-        (rule(), genius.clone(), behind),
+        (rule(), genius.clone(), hidden),
         (satrak, genius, None),
         (by_day.clone(), rule(), None),
-        (by_day.clone(), by_day, behind),
-        (off, rule(), None),
-        (of_group("Weather"), of_satellite(NOAA_20), behind),
+        (by_day.clone(), by_day, hidden),
+        (disabled, rule(), None),
+        (of_group("Weather"), of_satellite(NOAA_20), hidden),
         (of_group("Weather"), of_satellite(ISS), None),
         (of_satellite(NOAA_20), of_group("Weather"), None),
         (of_group("Weather"), rule(), None),
         (of_group("Empty"), of_group("Weather"), None),
     ] {
         let rules = vec![first, second];
-        assert_eq!(hindrance(rules.clone()), wanted, "{rules:?}");
+        assert_eq!(hindrance(rules.clone()), obstacle, "{rules:?}");
     }
 }
 
 #[test]
 fn a_rule_whose_antenna_or_group_is_removed_cannot_be_saved() {
     let genius = AutomationRule { antenna: Some(GENIUS), ..rule() };
-    let mut draft = Draft::of(&station(vec![of_group("Weather"), genius.clone()]));
+    let mut draft = Draft::new(&station(vec![of_group("Weather"), genius.clone()]));
     let whole = draft.read().unwrap();
     assert_eq!(whole.rules, [of_group("Weather"), genius]);
     draft.toggle_removed(1);
@@ -194,15 +194,15 @@ fn a_rule_whose_antenna_or_group_is_removed_cannot_be_saved() {
     assert_eq!(draft.read().unwrap().rules, [of_group("Weather")]);
     draft.satellites.group_mut(0).unwrap().is_removed = true;
     assert_eq!(draft.read(), None);
-    draft.rules.get_mut(0).unwrap().of = Of::Satellite(None);
+    draft.rules.get_mut(0).unwrap().subject = DraftSubject::Satellite(None);
     assert_eq!(draft.read(), None);
-    draft.rules.get_mut(0).unwrap().of = Of::Satellite(Some(ISS));
+    draft.rules.get_mut(0).unwrap().subject = DraftSubject::Satellite(Some(ISS));
     assert_eq!(draft.read().unwrap().rules, [of_satellite(ISS)]);
 }
 
 #[test]
 fn a_rule_follows_the_new_name_of_its_group() {
-    let mut draft = Draft::of(&station(vec![of_group("Weather")]));
+    let mut draft = Draft::new(&station(vec![of_group("Weather")]));
     draft.satellites.group_mut(0).unwrap().rename("Clouds");
     let station = draft.read().unwrap();
     assert_eq!(station.rules, [of_group("Clouds")]);
@@ -214,17 +214,17 @@ fn a_rule_follows_the_new_name_of_its_group() {
 #[test]
 fn another_order_is_one_edit_and_duplicates_are_off() {
     let saved = station(vec![of_satellite(ISS), of_group("Weather"), rule()]);
-    let before = RulesDraft::of(&saved);
-    with(&saved, |rules, around| {
+    let before = RulesDraft::new(&saved);
+    with_draft(&saved, |rules, context| {
         let edited = |rules: &RulesDraft| rules.edited(&before);
         assert_eq!(edited(rules), 0);
         rules.reorder(2, 0);
         assert_eq!(edited(rules), 1);
         let copy = rules.duplicate(0).unwrap();
         assert_eq!((copy, edited(rules)), (1, 2));
-        let read = rules.read(around).unwrap();
-        let off = AutomationRule { is_on: false, ..rule() };
-        assert_eq!(read, [rule(), off, of_satellite(ISS), of_group("Weather")]);
+        let read = rules.read(context).unwrap();
+        let disabled = AutomationRule { is_on: false, ..rule() };
+        assert_eq!(read, [rule(), disabled, of_satellite(ISS), of_group("Weather")]);
         rules.get_mut(0).unwrap().is_removed = true;
         assert_eq!((rules.number(0), rules.number(1), edited(rules)), (None, Some(1), 3));
     });
@@ -232,12 +232,12 @@ fn another_order_is_one_edit_and_duplicates_are_off() {
 
 #[test]
 fn limits_do_not_name_an_antenna_that_is_removed() {
-    let mut of = station(Vec::new());
-    of.groups[0].limits.antennas = Some(vec![AntennaId(1), GENIUS]);
+    let mut changed = station(Vec::new());
+    changed.groups[0].limits.antennas = Some(vec![AntennaId(1), GENIUS]);
     let limits = PassLimits { antennas: Some(vec![GENIUS]), ..PassLimits::default() };
-    of.favourites.set_limits(ISS, limits);
-    let mut draft = Draft::of(&of);
-    assert_eq!(draft.read(), Some(of));
+    changed.favourites.set_limits(ISS, limits);
+    let mut draft = Draft::new(&changed);
+    assert_eq!(draft.read(), Some(changed));
     draft.toggle_removed(1);
     let station = draft.read().unwrap();
     assert_eq!(station.groups[0].limits.antennas, Some(vec![AntennaId(1)]));

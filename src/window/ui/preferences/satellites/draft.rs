@@ -56,11 +56,11 @@ pub(super) struct OfGroups {
 }
 
 impl GroupDraft {
-    fn of(group: &SatelliteGroup) -> Self {
+    fn new(group: &SatelliteGroup) -> Self {
         let named = Named { name: group.name.clone(), priority: group.priority };
         Self {
             was: Some(group.clone()),
-            named: Typed::of(named, fields()),
+            named: Typed::new(named, fields()),
             satellites: group.satellites.clone(),
             limits: group.limits.clone(),
             is_removed: false,
@@ -70,7 +70,7 @@ impl GroupDraft {
     fn added(name: String) -> Self {
         Self {
             was: None,
-            named: Typed::of(Named { name, priority: None }, fields()),
+            named: Typed::new(Named { name, priority: None }, fields()),
             satellites: Vec::new(),
             limits: PassLimits::default(),
             is_removed: false,
@@ -117,17 +117,17 @@ fn fields() -> Vec<Placed<Named>> {
             &PRIORITIES,
             |named: &mut Named| &mut named.priority,
         )
-        .about("For those of its satellites that have none of their own."),
+        .described("For those of its satellites that have none of their own."),
     ];
     placed(GROUP, fields)
 }
 
 impl SatellitesDraft {
-    pub(in crate::ui::preferences) fn of(station: &Station) -> Self {
+    pub(in crate::ui::preferences) fn new(station: &Station) -> Self {
         Self {
-            followed: Typed::of(Followed::of(station), followed::fields()),
+            followed: Typed::new(Followed::new(station), followed::fields()),
             own: station.favourites.clone(),
-            groups: station.groups.iter().map(GroupDraft::of).collect(),
+            groups: station.groups.iter().map(GroupDraft::new).collect(),
         }
     }
 
@@ -157,7 +157,9 @@ impl SatellitesDraft {
     }
 
     /// The groups that stay, by their indices.
-    pub(in crate::ui::preferences) fn kept(&self) -> impl Iterator<Item = (usize, &GroupDraft)> {
+    pub(in crate::ui::preferences) fn remaining(
+        &self,
+    ) -> impl Iterator<Item = (usize, &GroupDraft)> {
         self.groups.iter().enumerate().filter(|(_, group)| !group.is_removed)
     }
 
@@ -169,8 +171,8 @@ impl SatellitesDraft {
 
     /// Adds a group without satellites and returns its index.
     pub(super) fn add_group(&mut self) -> usize {
-        let taken: Vec<&str> = self.names().collect();
-        let name = Antenna::free_name("Group", &taken);
+        let names: Vec<&str> = self.names().collect();
+        let name = Antenna::free_name("Group", &names);
         self.groups.push(GroupDraft::added(name));
         self.groups.len() - 1
     }
@@ -178,7 +180,7 @@ impl SatellitesDraft {
     /// Returns the settings that a satellite gets from its groups.
     pub(super) fn of_groups(&self, number: u32) -> OfGroups {
         let mut found = OfGroups { priority: None, limits: PassLimits::default() };
-        for (_, group) in self.kept().filter(|(_, group)| group.satellites.contains(&number)) {
+        for (_, group) in self.remaining().filter(|(_, group)| group.satellites.contains(&number)) {
             let priority = || group.priority().map(|priority| (priority, group.title()));
             found.priority = found.priority.or_else(priority);
             found.limits = found.limits.or(&group.limits);
@@ -193,15 +195,15 @@ impl SatellitesDraft {
     /// Standings of the fields of a group: its name differs from those of the others as well.
     pub(super) fn standings(&self, index: usize) -> Vec<Standing> {
         let Some(group) = self.groups.get(index) else { return Vec::new() };
-        let others = self.kept().filter(|(other, _)| *other != index);
-        let taken: Vec<&str> = self.names().collect();
-        let why = "must differ from those of the other groups";
-        group.named.standings_among(others.map(|(_, other)| other.named.name()), &taken, why)
+        let others = self.remaining().filter(|(other, _)| *other != index);
+        let names: Vec<&str> = self.names().collect();
+        let reason = "must differ from those of the other groups";
+        group.named.standings_among(others.map(|(_, other)| other.named.name()), &names, reason)
     }
 
     /// The groups whose names cannot be used.
     fn groups_findings(&self) -> impl Iterator<Item = Finding> {
-        self.kept().filter_map(|(index, group)| {
+        self.remaining().filter_map(|(index, group)| {
             let problem =
                 self.standings(index).into_iter().find_map(|standing| standing.problem)?;
             Some(Finding { label: format!("Name of the group {}", group.title()), problem })
@@ -230,7 +232,7 @@ impl DraftSection for SatellitesDraft {
     fn labels(&self) -> Vec<(Cow<'static, str>, Spot)> {
         let mut all = self.followed.used_labels();
         all.extend(search::on_page(&super::LABELS));
-        all.extend(self.kept().map(|(_, group)| (group.title().into(), Spot::Page)));
+        all.extend(self.remaining().map(|(_, group)| (group.title().into(), Spot::Page)));
         all
     }
 
@@ -244,7 +246,7 @@ impl DraftSection for SatellitesDraft {
             return None;
         }
         let ids: Vec<AntennaId> = station.antennas.iter().map(|antenna| antenna.id).collect();
-        let kept = |limits: &PassLimits| PassLimits {
+        let with_antennas = |limits: &PassLimits| PassLimits {
             antennas: limits
                 .antennas
                 .as_ref()
@@ -255,14 +257,14 @@ impl DraftSection for SatellitesDraft {
         (station.favourites, station.frequencies) = (favourites, frequencies);
         for number in station.favourites.numbers() {
             let own = self.own(number);
-            station.favourites.put(Favourite { limits: kept(&own.limits), ..own });
+            station.favourites.put(Favourite { limits: with_antennas(&own.limits), ..own });
         }
         let group = |(_, group): (usize, &GroupDraft)| {
             let Named { name, priority } = group.named.read().0;
             let satellites = group.satellites.clone();
-            SatelliteGroup { name, satellites, priority, limits: kept(&group.limits) }
+            SatelliteGroup { name, satellites, priority, limits: with_antennas(&group.limits) }
         };
-        station.groups = self.kept().map(group).collect();
+        station.groups = self.remaining().map(group).collect();
         Some(())
     }
 }

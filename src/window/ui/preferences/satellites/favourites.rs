@@ -2,7 +2,7 @@
 
 use egui::{Align2, Rect, Sense, Stroke, StrokeKind, Ui, vec2};
 
-use super::{Around, SatellitesState, draft::SatellitesDraft};
+use super::{GroupContext, SatellitesState, draft::SatellitesDraft};
 use crate::{
     station::Priority,
     ui::{
@@ -23,14 +23,14 @@ const ROW: f32 = 32.0;
 const HEAD: f32 = 20.0;
 const PRIORITY: f32 = 176.0;
 /// Width of what holds for a favourite without a priority of its own.
-const USUAL: f32 = 76.0;
+const DEFAULTS_WIDTH: f32 = 76.0;
 /// Width of the limits, and in a wide row.
 const LIMITS: [f32; 2] = [112.0, 240.0];
 const WIDE: f32 = 640.0;
 
 pub(super) fn show(
     ui: &mut Ui,
-    around: &Around<'_>,
+    context: &GroupContext<'_>,
     (draft, before): (&mut SatellitesDraft, &SatellitesDraft),
     state: &mut SatellitesState,
 ) {
@@ -39,13 +39,13 @@ pub(super) fn show(
             ui,
             "1 is taken first. A favourite without its own priority has its group's, else 3.",
         );
-        if !around.favourites.is_empty() {
+        if !context.favourites.is_empty() {
             head(ui);
         }
-        for number in &around.favourites {
-            ui.push_id(number, |ui| row(ui, around, *number, (draft, before), state));
+        for number in &context.favourites {
+            ui.push_id(number, |ui| row(ui, context, *number, (draft, before), state));
         }
-        if around.favourites.is_empty() {
+        if context.favourites.is_empty() {
             form::remark(
                 ui,
                 "There are no favourites. Mark some in Elements, or name them by number here.",
@@ -60,11 +60,11 @@ fn columns(row: Rect) -> [Rect; 4] {
         let centre = egui::pos2(row.right() - right - width / 2.0, row.center().y);
         Rect::from_center_size(centre, vec2(width, SMALL_HEIGHT))
     };
-    let [usual_limits, wide_limits] = LIMITS;
-    let limits = if row.width() < WIDE { usual_limits } else { wide_limits };
-    let priority = from_right(limits + USUAL + 2.0 * GAP, PRIORITY);
+    let [default_limits, wide_limits] = LIMITS;
+    let limits = if row.width() < WIDE { default_limits } else { wide_limits };
+    let priority = from_right(limits + DEFAULTS_WIDTH + 2.0 * GAP, PRIORITY);
     let name = row.with_max_x(priority.left() - GAP);
-    [name, priority, from_right(limits + GAP, USUAL), from_right(0.0, limits)]
+    [name, priority, from_right(limits + GAP, DEFAULTS_WIDTH), from_right(0.0, limits)]
 }
 
 /// Column headings.
@@ -81,18 +81,18 @@ fn head(ui: &mut Ui) {
 
 fn row(
     ui: &mut Ui,
-    around: &Around<'_>,
+    context: &GroupContext<'_>,
     number: u32,
     (draft, before): (&mut SatellitesDraft, &SatellitesDraft),
     state: &mut SatellitesState,
 ) {
     let t = theme::tokens(ui);
-    let name = words::satellite(around.model, number);
+    let name = words::satellite(context.model, number);
     let (mut own, of_groups) = (draft.own(number), draft.of_groups(number));
     let width = ui.available_width();
     let (row, _) = ui.allocate_exact_size(vec2(width, ROW), Sense::hover());
     ui.painter().hline(row.x_range(), row.top(), (1.0, t.line));
-    let [name_at, priority_at, usual_at, limits_at] = columns(row);
+    let [name_at, priority_at, defaults_rect, limits_at] = columns(row);
     paint::text_in(ui, name_at, Align2::LEFT_CENTER, &name, text::body_medium(), t.t1);
     paint::name_text(ui, "name", name_at, &name).on_hover_text(format!("{name}, {number}"));
 
@@ -110,15 +110,15 @@ fn row(
         paint::name_text(ui, "edited", name_at, &format!("{name}: edited"));
     }
     if own.priority.is_none() {
-        let usual = of_groups.priority.as_ref().map_or_else(
+        let default = of_groups.priority.as_ref().map_or_else(
             || format!("{}, default", Priority::default().number()),
             |(priority, group)| format!("{}, {group}", priority.number()),
         );
-        paint::text_in(ui, usual_at, Align2::LEFT_CENTER, &usual, text::small(), t.t2);
-        paint::name_text(ui, "usual", usual_at, &format!("Priority of {name}: {usual}"));
+        paint::text_in(ui, defaults_rect, Align2::LEFT_CENTER, &default, text::small(), t.t2);
+        paint::name_text(ui, "usual", defaults_rect, &format!("Priority of {name}: {default}"));
     }
     let all = own.limits.or(&of_groups.limits);
-    let in_short = pass_limits::in_short(&all, &around.antennas);
+    let in_short = pass_limits::in_short(&all, &context.antennas);
     let words = if in_short.is_empty() { "No limits" } else { &in_short };
     let is_open = state.favourite == Some(number);
     let button = Button::normal(words).chevron();
@@ -134,7 +134,7 @@ fn row(
         state.favourite = (!is_open).then_some(number);
     }
     if is_open {
-        limits_form(ui, around).show(ui, &mut own.limits, &all);
+        limits_form(ui, context).show(ui, &mut own.limits, &all);
         ui.add_space(GAP);
     }
     if own != draft.own(number) {
@@ -142,18 +142,18 @@ fn row(
     }
 }
 
-pub(super) fn limits_form<'a>(ui: &Ui, around: &'a Around<'_>) -> LimitsForm<'a> {
+pub(super) fn limits_form<'a>(ui: &Ui, context: &'a GroupContext<'_>) -> LimitsForm<'a> {
     LimitsForm {
         width: ui.available_width(),
         label_width: LABEL + GAP,
-        antennas: &around.antennas,
+        antennas: &context.antennas,
         lock: None,
     }
 }
 
 fn choose_priority(ui: &Ui, place: Rect, name: &str, priority: &mut Option<Priority>) {
     let choices: Vec<(Option<Priority>, String)> = std::iter::once((None, "Default".to_owned()))
-        .chain(Priority::ALL.map(|of| (Some(of), of.number().to_string())))
+        .chain(Priority::ALL.map(|level| (Some(level), level.number().to_string())))
         .collect();
     let choices: Vec<(&str, Option<Priority>)> =
         choices.iter().map(|(priority, word)| (word.as_str(), *priority)).collect();

@@ -6,7 +6,7 @@ use crate::{
     ui::preferences::fields::{Description, Placed, placed},
 };
 
-type Of = Description<Followed>;
+type FollowedDescription = Description<Followed>;
 
 /// Sections of the fields, each of which is a card.
 const SATELLITES: &str = "Satellites";
@@ -19,7 +19,7 @@ pub(super) struct Followed {
 }
 
 impl Followed {
-    pub(super) fn of(station: &Station) -> Self {
+    pub(super) fn new(station: &Station) -> Self {
         Self { favourites: station.favourites.clone(), frequencies: station.frequencies.clone() }
     }
 }
@@ -30,32 +30,32 @@ pub(super) fn fields() -> Vec<Placed<Followed>> {
     all
 }
 
-fn satellites() -> Of {
-    Of::new(
+fn satellites() -> FollowedDescription {
+    FollowedDescription::new(
         "Satellites",
         Kind::Text(|_| Ok(())),
         |followed| Some(Value::Text(favourites(followed))),
         put_favourites,
     )
     .wrapped()
-    .about("The favourites, by their catalogue numbers.")
+    .described("The favourites, by their catalogue numbers.")
 }
 
-fn frequencies() -> Of {
-    Of::new(
+fn frequencies() -> FollowedDescription {
+    FollowedDescription::new(
         "Frequencies",
         Kind::Text(|text| Frequency::read_list(text).map(drop)),
         |followed| Some(Value::Text(Frequency::list_text(&followed.frequencies))),
         |followed, value| {
             if let Value::Text(text) = value {
                 followed.frequencies =
-                    Frequency::read_list(&text).map_err(|why| why.to_string())?;
+                    Frequency::read_list(&text).map_err(|reason| reason.to_string())?;
             }
             Ok(())
         },
     )
     .of_lines("Number, MHz, name, one per line")
-    .about("For the Doppler shift; a satellite may have several.")
+    .described("For the Doppler shift; a satellite may have several.")
 }
 
 /// Catalog numbers, separated by commas.

@@ -3,7 +3,7 @@
 use egui::{Align2, Rect, Sense, Ui, pos2, vec2};
 
 use super::{
-    Around,
+    GroupContext,
     draft::{GROUP, GroupDraft, SatellitesDraft},
     favourites::limits_form,
 };
@@ -24,7 +24,7 @@ const ROW: f32 = 32.0;
 
 pub(super) fn show(
     ui: &mut Ui,
-    around: &Around<'_>,
+    context: &GroupContext<'_>,
     draft: &mut SatellitesDraft,
     state: &mut FormState,
 ) {
@@ -35,9 +35,9 @@ pub(super) fn show(
         );
         for index in 0..draft.groups().len() {
             ui.push_id(index, |ui| {
-                row(ui, around, index, draft, state);
+                row(ui, context, index, draft, state);
                 if state.satellites.group == Some(index) {
-                    edit(ui, around, index, draft, state);
+                    edit(ui, context, index, draft, state);
                 }
             });
         }
@@ -49,7 +49,7 @@ pub(super) fn show(
 
 fn row(
     ui: &mut Ui,
-    around: &Around<'_>,
+    context: &GroupContext<'_>,
     index: usize,
     draft: &mut SatellitesDraft,
     state: &mut FormState,
@@ -79,8 +79,8 @@ fn row(
     let problem = problem.filter(|_| !group.is_removed);
     let summary = match &problem {
         _ if group.is_removed => "removed when you save".to_owned(),
-        Some(problem) => format!("cannot be saved, its name {}", problem.why),
-        None => in_short(group, around),
+        Some(problem) => format!("cannot be saved, its name {}", problem.reason),
+        None => in_short(group, context),
     };
     let head = row.with_max_x(place.left() - 8.0).shrink2(vec2(0.0, 3.0));
     let name = format!("Group {title}: {summary}");
@@ -91,13 +91,13 @@ fn row(
     if response.hovered() && can_open {
         ui.painter().rect_filled(head, 4.0, t.bg3);
     }
-    let at = paint::square(pos2(head.left() + 10.0, head.center().y), 12.0);
+    let rect = paint::square(pos2(head.left() + 10.0, head.center().y), 12.0);
     let (icon, colour) = match (problem.is_some(), is_open) {
         (true, _) => (Icon::Warning, t.bad),
         (false, true) => (Icon::ChevronDown, t.t2),
         (false, false) => (Icon::ChevronRight, t.t2),
     };
-    icons::paint(ui.painter(), at, icon, colour);
+    icons::paint(ui.painter(), rect, icon, colour);
     let room = head.with_min_x(head.left() + 24.0);
     let ink = if group.is_removed { t.t3 } else { t.t1 };
     let named = paint::text_in(ui, room, Align2::LEFT_CENTER, &title, text::body_medium(), ink);
@@ -113,14 +113,14 @@ fn row(
 }
 
 /// The group in a few words, such as "2 satellites, priority 1, by night".
-fn in_short(group: &GroupDraft, around: &Around<'_>) -> String {
+fn in_short(group: &GroupDraft, context: &GroupContext<'_>) -> String {
     let satellites = match group.satellites.len() {
         0 => "no satellites".to_owned(),
         1 => "1 satellite".to_owned(),
         many => format!("{many} satellites"),
     };
     let priority = group.priority().map(|priority| format!("priority {}", priority.number()));
-    let limits = pass_limits::in_short(&group.limits, &around.antennas);
+    let limits = pass_limits::in_short(&group.limits, &context.antennas);
     let limits = Some(limits).filter(|limits| !limits.is_empty());
     let parts = [Some(satellites), priority, limits];
     parts.into_iter().flatten().collect::<Vec<_>>().join(", ")
@@ -128,7 +128,7 @@ fn in_short(group: &GroupDraft, around: &Around<'_>) -> String {
 
 fn edit(
     ui: &mut Ui,
-    around: &Around<'_>,
+    context: &GroupContext<'_>,
     index: usize,
     draft: &mut SatellitesDraft,
     state: &mut FormState,
@@ -136,33 +136,33 @@ fn edit(
     let standings = draft.standings(index);
     let Some(group) = draft.group_mut(index).filter(|group| !group.is_removed) else { return };
     ui.add_space(4.0);
-    form::rows(ui, "group", (&mut group.named, &standings), GROUP, &mut state.sought);
+    form::rows(ui, "group", (&mut group.named, &standings), GROUP, &mut state.focus_target);
     form::custom_row(ui, ("group", "Satellites"), None, group.has_other_satellites(), |ui| {
         ui.vertical(|ui| {
-            members(ui, around, &group.title(), &mut group.satellites);
-            let (favourites, taken) = (&around.favourites, &group.satellites);
+            members(ui, context, &group.title(), &mut group.satellites);
+            let (favourites, taken_numbers) = (&context.favourites, &group.satellites);
             let search = &mut state.satellites.search;
-            let added = picker::show(ui, around.model, favourites, taken, search);
+            let added = picker::show(ui, context.model, favourites, taken_numbers, search);
             group.satellites.extend(added);
         });
     });
     let all = group.limits.clone();
-    limits_form(ui, around).show(ui, &mut group.limits, &all);
+    limits_form(ui, context).show(ui, &mut group.limits, &all);
     ui.add_space(8.0);
 }
 
 /// Shows the satellites of a group; a click removes one.
-fn members(ui: &mut Ui, around: &Around<'_>, group: &str, satellites: &mut Vec<u32>) {
+fn members(ui: &mut Ui, context: &GroupContext<'_>, group: &str, satellites: &mut Vec<u32>) {
     let mut removed = None;
     ui.horizontal_wrapped(|ui| {
         for number in &*satellites {
-            let name = words::satellite(around.model, *number);
+            let name = words::satellite(context.model, *number);
             let response = ui.button(format!("{name} ×"));
             response.widget_info(|| {
                 let spoken = format!("Remove {name} from {group}");
                 egui::WidgetInfo::labeled(egui::Role::Button, true, spoken)
             });
-            let is_favourite = around.favourites.contains(number);
+            let is_favourite = context.favourites.contains(number);
             let more =
                 if is_favourite { "" } else { ". Not a favourite: its passes are not planned" };
             if response.on_hover_text(format!("{number}, click to remove{more}")).clicked() {

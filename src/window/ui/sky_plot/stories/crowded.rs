@@ -4,8 +4,9 @@ use super::*;
 
 /// A crowded sky: a pass, two satellites, the Moon, an antenna at the zenith and one at the rim.
 fn crowded(turn: i16) -> Harness<'static, Story> {
-    let turned =
-        move |of: AzEl| AzEl::from_degrees(of.azimuth_deg() + f64::from(turn), of.elevation_deg());
+    let turned = move |direction: AzEl| {
+        AzEl::from_degrees(direction.azimuth_deg() + f64::from(turn), direction.elevation_deg())
+    };
     let samples: Vec<_> = testing::pass()
         .into_iter()
         .map(|sample| crate::plan::Sample { direction: turned(sample.direction), ..sample })
@@ -42,9 +43,9 @@ fn no_text_of_a_crowded_sky_lies_on_another() {
     for turn in (0..360_i16).step_by(10) {
         let all = texts(&crowded(turn));
         for (index, (words, place)) in all.iter().enumerate() {
-            for (other, at) in &all[index + 1..] {
+            for (other, rect) in &all[index + 1..] {
                 // Letters are lower than their line.
-                let [one, two] = [place, at].map(|of| of.shrink2(vec2(2.0, 3.5)));
+                let [one, two] = [place, rect].map(|mark| mark.shrink2(vec2(2.0, 3.5)));
                 assert!(!one.intersect(two).is_positive(), "{turn}: {words:?} on {other:?}");
             }
         }
@@ -66,8 +67,8 @@ fn turned_pass(turn: i16) -> Vec<crate::plan::Sample> {
 /// Returns `true` where the path runs through a text.
 fn crosses(path: &[Pos2], text: Rect) -> bool {
     let letters = text.shrink2(vec2(0.0, 3.0));
-    let at = |pair: &[Pos2], step: u8| pair[0].lerp(pair[1], f32::from(step) / 20.0);
-    path.windows(2).any(|pair| (0..=20).any(|step| letters.contains(at(pair, step))))
+    let position = |pair: &[Pos2], step: u8| pair[0].lerp(pair[1], f32::from(step) / 20.0);
+    path.windows(2).any(|pair| (0..=20).any(|step| letters.contains(position(pair, step))))
 }
 
 #[test]
@@ -85,13 +86,13 @@ fn the_number_of_a_ring_lies_on_no_track_and_no_text() {
             let path = dome.path(samples.iter().map(|sample| sample.direction));
             let all = texts(&harness);
             for number in ["30°", "60°"] {
-                let (_, at) = all.iter().find(|(words, _)| words == number).expect(number);
-                assert!(!crosses(&path, *at), "{size:?} {turn}: {number} at {at:?}");
-                let letters = at.shrink2(vec2(0.0, 2.0));
+                let (_, rect) = all.iter().find(|(words, _)| words == number).expect(number);
+                assert!(!crosses(&path, *rect), "{size:?} {turn}: {number} at {rect:?}");
+                let letters = rect.shrink2(vec2(0.0, 2.0));
                 let other = all.iter().find(|(words, other)| {
                     words != number && other.shrink2(vec2(0.0, 2.0)).intersects(letters)
                 });
-                assert_eq!(other, None, "{size:?} {turn}: {number} at {at:?}");
+                assert_eq!(other, None, "{size:?} {turn}: {number} at {rect:?}");
             }
         }
     }
@@ -133,7 +134,7 @@ fn the_ground_of_a_label_covers_no_mark() {
         for clipped in &harness.output().shapes {
             flatten(&clipped.shape, &mut flat);
         }
-        let of_mark = |mesh: &egui::Mesh| mesh.vertices.iter().any(|of| of.color == t.moon);
+        let of_mark = |mesh: &egui::Mesh| mesh.vertices.iter().any(|vertex| vertex.color == t.moon);
         let first_mark = flat.iter().position(|shape| match shape {
             egui::Shape::Circle(circle) => circle.fill == t.other,
             egui::Shape::Mesh(mesh) => of_mark(mesh),
@@ -151,7 +152,7 @@ fn the_ground_of_a_label_covers_no_mark() {
 
 fn flatten(shape: &egui::Shape, found: &mut Vec<egui::Shape>) {
     match shape {
-        egui::Shape::Vec(shapes) => shapes.iter().for_each(|of| flatten(of, found)),
+        egui::Shape::Vec(shapes) => shapes.iter().for_each(|outline| flatten(outline, found)),
         other => found.push(other.clone()),
     }
 }

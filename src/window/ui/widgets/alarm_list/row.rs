@@ -60,8 +60,8 @@ pub(super) fn show(ui: &mut Ui, row: &AlarmRow<'_>, commands: &mut Vec<UiCommand
     let count = buttons.len() as f32;
     let of_buttons = count * (SMALL_HEIGHT + BUTTON_GAP) - BUTTON_GAP;
     let of_text = words.size().y + GAP + times.size().y;
-    let wanted = of_text.max(of_buttons) + 2.0 * PADDING;
-    let size = vec2(whole, wanted.max(HEIGHT));
+    let requested = of_text.max(of_buttons) + 2.0 * PADDING;
+    let size = vec2(whole, requested.max(HEIGHT));
     let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
     mark(ui, rect.translate(vec2(indent, 0.0)), row, t);
     let room = Rect::from_min_size(
@@ -73,12 +73,12 @@ pub(super) fn show(ui: &mut Ui, row: &AlarmRow<'_>, commands: &mut Vec<UiCommand
     let being: Option<u64> = ui.data(|data| data.get_temp(shelving));
     let mut top = rect.center().y - of_buttons / 2.0;
     for button in buttons {
-        let at = Rect::from_min_size(
+        let area = Rect::from_min_size(
             pos2(rect.right() - RIGHT - BUTTON, top),
             vec2(BUTTON, SMALL_HEIGHT),
         );
         top += SMALL_HEIGHT + BUTTON_GAP;
-        let pressed = Button::normal(button.words).show(ui, (button.words, row.id), at);
+        let pressed = Button::normal(button.words).show(ui, (button.words, row.id), area);
         if pressed.accessible_name(format!("{}: {}", button.words, row.text)).clicked() {
             match button.command {
                 Some(command) => commands.push(command),
@@ -140,9 +140,9 @@ fn choose_time(ui: &mut Ui, row: &AlarmRow<'_>, commands: &mut Vec<UiCommand>) -
             ShelveTime::OneHour => "1 h",
             ShelveTime::EightHours => "8 h",
         };
-        let at = Rect::from_min_size(pos2(left, rect.top()), vec2(width, SMALL_HEIGHT));
+        let area = Rect::from_min_size(pos2(left, rect.top()), vec2(width, SMALL_HEIGHT));
         left += width + BUTTON_GAP;
-        let pressed = Button::normal(words).show(ui, (words, row.id), at);
+        let pressed = Button::normal(words).show(ui, (words, row.id), area);
         if pressed.accessible_name(format!("Shelve for {words}: {}", row.text)).clicked() {
             let shelve = contract::Command::ShelveAlarm { id: row.id, time };
             commands.push(UiCommand::Station(shelve));

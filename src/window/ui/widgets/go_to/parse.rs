@@ -54,14 +54,14 @@ mod tests {
 
     #[test]
     fn point_comma_and_both_minus_signs_are_read() {
-        for (text, wanted) in [
+        for (text, requested) in [
             ("185.5", 185.5),
             (" 185,50° ", 185.5),
             ("-3", -3.0),
             ("−3,25", -3.25),
             ("360.0", 360.0),
         ] {
-            assert!((read(text).expect(text) - wanted).abs() < 1e-9, "{text}");
+            assert!((read(text).expect(text) - requested).abs() < 1e-9, "{text}");
         }
     }
 

@@ -23,7 +23,7 @@ pub(super) enum Focus {
 /// The held key, kept from frame to frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct JogState {
-    held: Option<(JogDirection, Source)>,
+    held_jog: Option<(JogDirection, Source)>,
     focus: bool,
     wish: Wish,
 }
@@ -98,7 +98,10 @@ impl Frame {
     }
 
     fn is_blocked(&self, direction: JogDirection) -> bool {
-        JogDirection::ALL.iter().zip(self.blocked).any(|(at, blocked)| *at == direction && blocked)
+        JogDirection::ALL
+            .iter()
+            .zip(self.blocked)
+            .any(|(jog_direction, blocked)| *jog_direction == direction && blocked)
     }
 
     fn keeps(&self, direction: JogDirection, source: Source) -> bool {
@@ -135,17 +138,17 @@ impl JogState {
     pub(super) fn step(&mut self, frame: &Frame) -> Option<JogDirection> {
         self.focus = frame.focus.is_some() && !frame.window_lost;
         if frame.locked || frame.window_lost || frame.escape {
-            self.held = None;
+            self.held_jog = None;
             return None;
         }
-        self.held = self
-            .held
+        self.held_jog = self
+            .held_jog
             .filter(|(direction, source)| frame.keeps(*direction, *source))
             .or_else(|| frame.new_press())
             .filter(|(direction, source)| {
                 !frame.is_blocked(*direction) && frame.keeps(*direction, *source)
             });
-        self.held.map(|(direction, _)| direction)
+        self.held_jog.map(|(direction, _)| direction)
     }
 
     /// Gives the pad the keyboard focus as soon as the pad is free. Moves nothing.
@@ -174,6 +177,6 @@ impl JogState {
     }
 
     pub fn is_held(self) -> bool {
-        self.held.is_some()
+        self.held_jog.is_some()
     }
 }

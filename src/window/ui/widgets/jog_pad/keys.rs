@@ -64,7 +64,7 @@ pub struct KeyLabel {
     /// The axis and direction, for screen readers.
     pub name: String,
     /// Further description of the key; may be empty.
-    pub about: String,
+    pub description: String,
 }
 
 impl JogKeys {
@@ -85,10 +85,10 @@ impl JogKeys {
             (Self::Az, YPlus | YMinus) => return None,
         };
         let name = if name.is_empty() { format!("{word} {mark}") } else { name.to_owned() };
-        let about = match self {
+        let description = match self {
             Self::Xy { .. } => format!("{mark}: towards {word}"),
             Self::AzEl | Self::AzOther(_) | Self::Az => String::new(),
         };
-        Some(KeyLabel { mark, word, name, about })
+        Some(KeyLabel { mark, word, name, description })
     }
 }

@@ -8,7 +8,7 @@ struct Pad {
     state: JogState,
     locked: bool,
     blocked: Vec<JogDirection>,
-    held: Option<JogDirection>,
+    direction: Option<JogDirection>,
 }
 
 const XY: JogKeys = JogKeys::Xy { x_plus: "E", x_minus: "W", y_plus: "N", y_minus: "S" };
@@ -19,11 +19,11 @@ fn pad(pad: Pad) -> Harness<'static, Pad> {
         let model = JogModel {
             locked: pad.locked,
             blocked: &pad.blocked,
-            asked: "0.50",
+            requested: "0.50",
             real_deg_s: Some(0.48),
             keys: XY,
         };
-        pad.held = show(ui, rect, &model, &mut pad.state);
+        pad.direction = show(ui, rect, &model, &mut pad.state);
     });
     window.run();
     window
@@ -36,39 +36,39 @@ fn key_at(window: &Harness<'_, Pad>, name: &str) -> Pos2 {
 #[test]
 fn a_pointer_holds_a_key_until_it_is_released() {
     let mut window = pad(Pad::default());
-    let at = key_at(&window, "Jog X+");
-    window.drag_at(at);
+    let position = key_at(&window, "Jog X+");
+    window.drag_at(position);
     window.step();
-    assert_eq!(window.state().held, Some(JogDirection::XPlus));
+    assert_eq!(window.state().direction, Some(JogDirection::XPlus));
     // Ten seconds with a slightly moving pointer.
     for _ in 0..40 {
-        window.hover_at(at + vec2(9.0, 3.0));
+        window.hover_at(position + vec2(9.0, 3.0));
         window.step();
-        assert_eq!(window.state().held, Some(JogDirection::XPlus));
+        assert_eq!(window.state().direction, Some(JogDirection::XPlus));
     }
-    window.drop_at(at);
+    window.drop_at(position);
     window.step();
-    assert_eq!(window.state().held, None);
+    assert_eq!(window.state().direction, None);
 }
 
 #[test]
 fn losing_the_window_releases_and_only_a_new_press_holds_again() {
     let mut window = pad(Pad::default());
-    let at = key_at(&window, "Jog Y−");
-    window.drag_at(at);
+    let position = key_at(&window, "Jog Y−");
+    window.drag_at(position);
     window.step();
-    assert_eq!(window.state().held, Some(JogDirection::YMinus));
+    assert_eq!(window.state().direction, Some(JogDirection::YMinus));
     window.input_mut().focused = false;
     window.step();
-    assert_eq!(window.state().held, None);
+    assert_eq!(window.state().direction, None);
     window.input_mut().focused = true;
     window.step();
-    assert_eq!(window.state().held, None, "the old press must not move metal again");
-    window.drop_at(at);
+    assert_eq!(window.state().direction, None, "the old press must not move metal again");
+    window.drop_at(position);
     window.step();
-    window.drag_at(at);
+    window.drag_at(position);
     window.step();
-    assert_eq!(window.state().held, Some(JogDirection::YMinus));
+    assert_eq!(window.state().direction, Some(JogDirection::YMinus));
 }
 
 #[test]
@@ -76,10 +76,10 @@ fn a_pointer_that_leaves_the_window_releases() {
     let mut window = pad(Pad::default());
     window.drag_at(key_at(&window, "Jog X−"));
     window.step();
-    assert_eq!(window.state().held, Some(JogDirection::XMinus));
+    assert_eq!(window.state().direction, Some(JogDirection::XMinus));
     window.event(Event::PointerGone);
     window.step();
-    assert_eq!(window.state().held, None);
+    assert_eq!(window.state().direction, None);
 }
 
 #[test]
@@ -87,18 +87,18 @@ fn arrow_keys_jog_only_with_the_focus_on_the_pad() {
     let mut window = pad(Pad::default());
     window.key_down(Key::ArrowRight);
     window.step();
-    assert_eq!(window.state().held, None);
+    assert_eq!(window.state().direction, None);
     window.key_up(Key::ArrowRight);
     window.get_by_label("Jog Y+").focus();
     window.run();
     window.key_down(Key::ArrowRight);
     window.step();
-    assert_eq!(window.state().held, Some(JogDirection::XPlus));
+    assert_eq!(window.state().direction, Some(JogDirection::XPlus));
     window.step();
-    assert_eq!(window.state().held, Some(JogDirection::XPlus));
+    assert_eq!(window.state().direction, Some(JogDirection::XPlus));
     window.key_up(Key::ArrowRight);
     window.step();
-    assert_eq!(window.state().held, None);
+    assert_eq!(window.state().direction, None);
 }
 
 #[test]
@@ -108,10 +108,10 @@ fn space_holds_the_key_with_the_focus() {
     window.run();
     window.key_down(Key::Space);
     window.run_steps(2);
-    assert_eq!(window.state().held, Some(JogDirection::XMinus));
+    assert_eq!(window.state().direction, Some(JogDirection::XMinus));
     window.key_up(Key::Space);
     window.step();
-    assert_eq!(window.state().held, None);
+    assert_eq!(window.state().direction, None);
 }
 
 #[test]
@@ -120,11 +120,11 @@ fn a_pad_that_is_given_the_keyboard_jogs_with_the_arrows_alone() {
     window.state_mut().state.focus();
     window.run();
     assert!(window.get_by_label("Jog with the arrow keys").is_focused());
-    assert_eq!(window.state().held, None, "the keyboard alone moves nothing");
+    assert_eq!(window.state().direction, None, "the keyboard alone moves nothing");
     for key in [Key::Enter, Key::Space] {
         window.key_down(key);
         window.run_steps(2);
-        assert_eq!(window.state().held, None, "{key:?} names no direction");
+        assert_eq!(window.state().direction, None, "{key:?} names no direction");
         window.key_up(key);
     }
     for (key, direction) in
@@ -132,10 +132,10 @@ fn a_pad_that_is_given_the_keyboard_jogs_with_the_arrows_alone() {
     {
         window.key_down(key);
         window.run_steps(2);
-        assert_eq!(window.state().held, Some(direction));
+        assert_eq!(window.state().direction, Some(direction));
         window.key_up(key);
         window.step();
-        assert_eq!(window.state().held, None);
+        assert_eq!(window.state().direction, None);
     }
 }
 
@@ -148,7 +148,7 @@ fn an_arrow_that_is_already_down_does_not_jog_when_the_keyboard_comes() {
     window.state_mut().locked = false;
     window.run_steps(3);
     assert!(window.get_by_label("Jog with the arrow keys").is_focused());
-    assert_eq!(window.state().held, None);
+    assert_eq!(window.state().direction, None);
 }
 
 #[test]
@@ -175,16 +175,16 @@ fn losing_the_window_or_the_right_to_jog_takes_the_keyboard_away() {
         window.run();
         window.key_down(Key::ArrowUp);
         window.step();
-        assert_eq!(window.state().held, Some(JogDirection::YPlus));
+        assert_eq!(window.state().direction, Some(JogDirection::YPlus));
         window.input_mut().focused = !loses_window;
         window.state_mut().locked = !loses_window;
         window.run_steps(2);
-        assert_eq!(window.state().held, None);
+        assert_eq!(window.state().direction, None);
         window.input_mut().focused = true;
         window.state_mut().locked = false;
         window.run_steps(2);
         assert!(!window.get_by_label("Jog with the arrow keys").is_focused());
-        assert_eq!(window.state().held, None);
+        assert_eq!(window.state().direction, None);
     }
 }
 
@@ -195,13 +195,13 @@ fn losing_the_window_ends_a_jog_by_keyboard() {
     window.run();
     window.key_down(Key::ArrowUp);
     window.step();
-    assert_eq!(window.state().held, Some(JogDirection::YPlus));
+    assert_eq!(window.state().direction, Some(JogDirection::YPlus));
     window.input_mut().focused = false;
     window.step();
-    assert_eq!(window.state().held, None);
+    assert_eq!(window.state().direction, None);
     window.input_mut().focused = true;
     window.run_steps(2);
-    assert_eq!(window.state().held, None);
+    assert_eq!(window.state().direction, None);
 }
 
 #[test]
@@ -211,21 +211,21 @@ fn escape_ends_a_jog() {
     window.step();
     window.key_press(Key::Escape);
     window.run_steps(2);
-    assert_eq!(window.state().held, None);
+    assert_eq!(window.state().direction, None);
 }
 
 #[test]
 fn a_limit_blocks_its_own_direction_only() {
     let mut window = pad(Pad { blocked: vec![JogDirection::XPlus], ..Pad::default() });
-    let at = key_at(&window, "Jog X+");
-    window.drag_at(at);
+    let position = key_at(&window, "Jog X+");
+    window.drag_at(position);
     window.step();
-    assert_eq!(window.state().held, None);
-    window.drop_at(at);
+    assert_eq!(window.state().direction, None);
+    window.drop_at(position);
     window.step();
     window.drag_at(key_at(&window, "Jog X−"));
     window.step();
-    assert_eq!(window.state().held, Some(JogDirection::XMinus));
+    assert_eq!(window.state().direction, Some(JogDirection::XMinus));
 }
 
 #[test]
@@ -233,10 +233,10 @@ fn a_limit_that_is_reached_ends_the_jog() {
     let mut window = pad(Pad::default());
     window.drag_at(key_at(&window, "Jog X+"));
     window.step();
-    assert_eq!(window.state().held, Some(JogDirection::XPlus));
+    assert_eq!(window.state().direction, Some(JogDirection::XPlus));
     window.state_mut().blocked.push(JogDirection::XPlus);
     window.step();
-    assert_eq!(window.state().held, None);
+    assert_eq!(window.state().direction, None);
 }
 
 #[test]
@@ -244,7 +244,7 @@ fn a_locked_pad_does_nothing() {
     let mut window = pad(Pad { locked: true, ..Pad::default() });
     window.drag_at(key_at(&window, "Jog Y+"));
     window.run_steps(2);
-    assert_eq!(window.state().held, None);
+    assert_eq!(window.state().direction, None);
 }
 
 #[test]

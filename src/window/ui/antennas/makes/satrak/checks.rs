@@ -40,8 +40,8 @@ fn show_check(ui: &mut Ui, check: &Check) {
     };
     let word = if check.unit_text.is_empty() { word } else { check.unit_text.as_ref() };
     let is_good = check.state == CheckState::Good;
-    let about = if is_good { check.when_good } else { "" };
-    row::plain(ui, check.name, about, Some((Some(icon), word, colour)));
+    let description = if is_good { check.when_good } else { "" };
+    row::plain(ui, check.name, description, Some((Some(icon), word, colour)));
     if matches!(check.state, CheckState::Caution | CheckState::Fault) {
         row::note(ui, None, check.advice, t.t2);
     }

@@ -47,9 +47,9 @@ fn difference(ui: &mut Ui, unit: &ShownUnit<'_>) {
     let t = theme::tokens(ui);
     let clock = unit.antenna.snapshot.state.on_board.clock.filter(|clock| clock.is_set);
     let Some(clock) = clock else { return row::plain(ui, DIFFERENCE, "not known", None) };
-    let off = (Some(Icon::Warning), "Off", t.warn);
+    let disabled = (Some(Icon::Warning), "Off", t.warn);
     let words = words::compared_clock(clock.ahead_s);
-    row::plain(ui, DIFFERENCE, &words, clock.is_surely_off().then_some(off));
+    row::plain(ui, DIFFERENCE, &words, clock.is_surely_off().then_some(disabled));
 }
 
 /// Error of the beam due to the clock.
@@ -63,8 +63,8 @@ fn effect(ui: &mut Ui, unit: &ShownUnit<'_>) {
         return row::plain(ui, LABEL, "select a pass", None);
     };
     let off_deg = (ahead_s * rate_deg_s).abs();
-    let off = format::degrees(off_deg, 1);
-    let value = format!("{off} along the path of {}", predicted.satellite.short_name());
+    let deviation_text = format::degrees(off_deg, 1);
+    let value = format!("{deviation_text} along the path of {}", predicted.satellite.short_name());
     let verdict = if off_deg <= unit.antenna.config.beam_width_deg / 2.0 {
         (Some(Icon::Check), "Inside beam", t.t3)
     } else {
@@ -76,22 +76,22 @@ fn effect(ui: &mut Ui, unit: &ShownUnit<'_>) {
 /// Pass of the satellite that is tracked, else of the one on the unit, else the selected pass.
 fn predicted_pass<'a>(unit: &ShownUnit<'a>) -> Option<&'a PredictedPass> {
     let model = unit.model;
-    let held = || {
+    let current_number = || {
         let number = unit.values(FILE.key).and_then(|values| CATALOG_NUMBER.get(values))?;
         u32::try_from(number).ok()
     };
-    let number = unit.antenna.tracked_number().or_else(held);
+    let number = unit.antenna.tracked_number().or_else(current_number);
     number.and_then(|number| model.pass_of(number)).or_else(|| model.selected_pass())
 }
 
 /// Angular rate of the satellite at its highest, degrees per second.
 fn rate_at_tca(model: &Model, predicted: &PredictedPass) -> Option<f64> {
     let tca = predicted.pass.tca.time;
-    let at = |seconds| {
+    let look = |seconds| {
         let time = add_seconds(tca, seconds);
         predicted.satellite.propagator.look_from(model.station.site, time).ok()
     };
-    Some(at(-0.5)?.direction.separation(at(0.5)?.direction).degrees())
+    Some(look(-0.5)?.direction.separation(look(0.5)?.direction).degrees())
 }
 
 fn set(ui: &mut Ui, unit: &ShownUnit<'_>, form: &mut Form, commands: &mut Vec<UiCommand>) {
@@ -109,28 +109,28 @@ fn set(ui: &mut Ui, unit: &ShownUnit<'_>, form: &mut Form, commands: &mut Vec<Ui
     let size = vec2(ui.available_width(), SMALL_HEIGHT);
     let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
     let mut left = rect.left();
-    for (words, from) in [("Set from GPS", FROM_GPS), ("Set from this PC", FROM_THIS_PC)] {
+    for (words, start) in [("Set from GPS", FROM_GPS), ("Set from this PC", FROM_THIS_PC)] {
         let button = Button::normal(words).locked(refusal.is_some());
         let size = vec2(button.width(ui), SMALL_HEIGHT);
         let place = Rect::from_min_size(pos2(left, rect.top()), size);
         left = place.right() + 8.0;
         if button.show(ui, words, place).clicked() {
-            let values = Values::from([SET_FROM.entry(from)]);
+            let values = Values::from([SET_FROM.entry(start)]);
             form.begin_report();
             form.send(unit, &CLOCK, values, commands);
         }
     }
     let outcome =
         CLOCK.field(SET_FROM.name).and_then(|field| form.draft(CLOCK.key).outcome(field, None));
-    let said = match (refusal, outcome) {
+    let spoken = match (refusal, outcome) {
         (Some(refusal), _) => refusal.to_owned(),
-        (None, Some(Outcome::Taken(at) | Outcome::Verified(at))) => {
-            format!("Set and read back {}", format::moment(at, unit.model.now))
+        (None, Some(Outcome::Taken(time) | Outcome::Verified(time))) => {
+            format!("Set and read back {}", format::moment(time, unit.model.now))
         }
         (None, Some(Outcome::Rejected)) => "Not set. See below.".to_owned(),
         (None, None) => String::new(),
     };
-    if !said.is_empty() {
-        row::said(ui, rect.with_min_x(left), &said, text::small(), t.t2, &said);
+    if !spoken.is_empty() {
+        row::status_text(ui, rect.with_min_x(left), &spoken, text::small(), t.t2, &spoken);
     }
 }

@@ -33,27 +33,27 @@ fn site_check(ui: &mut Ui, unit: &ShownUnit<'_>) {
     let Some(away_km) = place(unit).map(|place| distance_km(place, unit.model.station.site)) else {
         return row::plain(ui, "Distance to site", "not known", None);
     };
-    let away = format::distance(away_km, 1, unit.model.appearance.distances);
-    let words = format!("{away} from the station's site");
+    let distance = format::distance(away_km, 1, unit.model.appearance.distances);
+    let words = format!("{distance} from the station's site");
     if away_km <= FAR_KM {
         let verdict = Some((Some(Icon::Check), "Agrees", t.t3));
         return row::plain(ui, "Distance to site", &words, verdict);
     }
     row::plain(ui, "Distance to site", &words, Some((Some(Icon::Warning), "Differs", t.warn)));
-    let why = "The unit tracks from its own location and Azel predicts from the station's: one \
+    let reason = "The unit tracks from its own location and Azel predicts from the station's: one \
                of them is wrong.";
-    row::note(ui, Some(Icon::Warning), why, t.warn);
+    row::note(ui, Some(Icon::Warning), reason, t.warn);
 }
 
 /// Place that the unit uses: that of its receiver, or the one it was given.
 fn place(unit: &ShownUnit<'_>) -> Option<Site> {
-    let given = unit.values(GPS.key)?;
-    let is_automatic = IS_AUTOMATIC.get(given) == Some(true);
+    let reported = unit.values(GPS.key)?;
+    let is_automatic = IS_AUTOMATIC.get(reported) == Some(true);
     let from_gps = unit
         .values(RECEIVER.key)
         .filter(|receiver| is_automatic && IS_VALID.get(receiver) == Some(true));
     let altitude_m = unit.model.station.site.altitude_m();
-    let values = from_gps.unwrap_or(given);
+    let values = from_gps.unwrap_or(reported);
     Site::new(LATITUDE_DEG.get(values)?, LONGITUDE_DEG.get(values)?, altitude_m).ok()
 }
 

@@ -17,18 +17,18 @@ use crate::{
 /// Offers the minimum elevation of the station as the new value.
 pub(super) fn show(ui: &mut Ui, unit: &ShownUnit<'_>, form: &mut Form) {
     let station_deg = unit.antenna.config.limits.minimum_elevation_deg;
-    let held = unit.values(GENERAL.key).and_then(|held| MINIMUM_ELEVATION_DEG.get(held));
-    let Some(unit_deg) = held else { return };
+    let current = unit.values(GENERAL.key).and_then(|current| MINIMUM_ELEVATION_DEG.get(current));
+    let Some(unit_deg) = current else { return };
     if unit_deg >= station_deg {
         return;
     }
     let t = theme::tokens(ui);
     let station = format::degrees(station_deg, 1);
-    let why = format!(
+    let reason = format!(
         "Minimum elevation: the unit points as low as {}, but the station's minimum is {station}.",
         format::degrees(unit_deg, 1)
     );
-    row::note(ui, Some(Icon::Warning), &why, t.warn);
+    row::note(ui, Some(Icon::Warning), &reason, t.warn);
     let (rect, _) =
         ui.allocate_exact_size(vec2(ui.available_width(), SMALL_HEIGHT), Sense::hover());
     let words = format!("Use the station's {station}");

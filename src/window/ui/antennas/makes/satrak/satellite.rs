@@ -62,14 +62,14 @@ fn test_from_here(
     shown: &'static str,
     effects: &mut CardEffects<'_>,
 ) {
-    let (Some(group), Some(held)) = (source(shown), unit.values(shown)) else { return };
+    let (Some(group), Some(current)) = (source(shown), unit.values(shown)) else { return };
     let draft = form.draft(shown);
     let text = |key: &str| {
-        group.field(key).map_or_else(String::new, |field| draft.text(field, Some(held)))
+        group.field(key).map_or_else(String::new, |field| draft.text(field, Some(current)))
     };
     // A password that nobody typed is the one on the unit.
-    let password = match (text(PASSWORD.name), PASSWORD.get(held)) {
-        (typed, Some(held)) if typed.is_empty() => held.reveal().to_owned(),
+    let password = match (text(PASSWORD.name), PASSWORD.get(current)) {
+        (typed, Some(secret)) if typed.is_empty() => secret.reveal().to_owned(),
         (typed, _) => typed,
     };
     let [url, address, port, user, file, satellite] =
@@ -121,13 +121,13 @@ fn tabs(
     let mut tab = shown;
     let name = "Source of the elements";
     let is_clicked = segmented::choose(ui, "source", place, name, &tabs, &mut tab);
-    let word = |of: &str| source(of).map_or("", |group| group.title);
+    let word = |subject: &str| source(subject).map_or("", |group| group.title);
     let elsewhere = SOURCES.iter().filter(|group| group.key != shown);
     let edited: Vec<&str> = elsewhere
         .filter(|group| form.count(unit, &[group.key]).edited > 0)
         .map(|group| group.title)
         .collect();
-    let said = match used {
+    let spoken = match used {
         _ if !edited.is_empty() => format!("Also edited: {}", edited.join(" and ")),
         Some(used) if used == shown => format!("{} is in use", word(used)),
         Some(used) => format!("{} is in use, not {}", word(used), word(shown)),
@@ -145,7 +145,14 @@ fn tabs(
         icon,
         colour,
     );
-    row::said(ui, room.with_min_x(room.left() + 20.0), &said, text::small(), t.t2, &said);
+    row::status_text(
+        ui,
+        room.with_min_x(room.left() + 20.0),
+        &spoken,
+        text::small(),
+        t.t2,
+        &spoken,
+    );
     is_clicked.then_some(tab)
 }
 
@@ -163,8 +170,8 @@ fn use_it(
     let values = again(group, unit.values(group.key));
     let is_free = form.count(unit, &[group.key]) == Count::default();
     let hindrance = unit.hindrance().map(words::hindrance);
-    let refusal = if let Some(why) = &hindrance {
-        Some(why.as_str())
+    let refusal = if let Some(reason) = &hindrance {
+        Some(reason.as_str())
     } else if !is_free {
         Some("Apply selects it and sends the edits.")
     } else if !unit.is_fresh(group.key) || values.is_empty() {
@@ -180,14 +187,14 @@ fn use_it(
         form.send(unit, group, values, effects.commands);
     }
     let room = place.with_min_x(place.right() + 8.0).with_max_x(rect.right());
-    let said = refusal.unwrap_or("Sends its values unchanged, which selects it as the source.");
-    row::said(ui, room, said, text::small(), t.t3, said);
+    let spoken = refusal.unwrap_or("Sends its values unchanged, which selects it as the source.");
+    row::status_text(ui, room, spoken, text::small(), t.t3, spoken);
 }
 
 /// The first value unchanged: enough to send the whole group again.
-fn again(group: &Group, held: Option<&Values>) -> Values {
+fn again(group: &Group, current: Option<&Values>) -> Values {
     let plain = |kind: &Kind| !matches!(kind, Kind::Password(_));
     let editable = group.fields.iter().filter(|f| f.access == Access::Edit && plain(&f.kind));
-    let value = editable.filter_map(|field| Some((field.key, held?.get(field.key)?.clone())));
+    let value = editable.filter_map(|field| Some((field.key, current?.get(field.key)?.clone())));
     value.take(1).collect()
 }

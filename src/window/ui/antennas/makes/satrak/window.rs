@@ -47,10 +47,10 @@ pub(super) fn show(
 /// Switch for automatic tracking. It asks first, for the antenna may start by itself.
 fn automatic(ui: &mut Ui, unit: &ShownUnit<'_>, form: &mut Form, commands: &mut Vec<UiCommand>) {
     let t = theme::tokens(ui);
-    let at = Columns::of(row::take(ui));
+    let columns = Columns::new(row::take(ui));
     let program = unit.antenna.snapshot.state.program.filter(|_| unit.is_open());
     let auto = program.map(|program| program.auto);
-    paint::text_in(ui, at.label, Align2::LEFT_CENTER, AUTO, text::small(), t.t1);
+    paint::text_in(ui, columns.label, Align2::LEFT_CENTER, AUTO, text::small(), t.t1);
     let value = match auto {
         Some(Some(true)) => "On",
         Some(Some(false)) => "Off",
@@ -58,8 +58,8 @@ fn automatic(ui: &mut Ui, unit: &ShownUnit<'_>, form: &mut Form, commands: &mut 
         None => "–",
     };
     let name = format!("{AUTO}, on the unit: {value}");
-    row::said(ui, at.on_unit, value, text::small(), t.t2, &name);
-    let place = at.new.with_max_x(at.state.right());
+    row::status_text(ui, columns.on_unit, value, text::small(), t.t2, &name);
+    let place = columns.new.with_max_x(columns.state.right());
     let send = |on| UiCommand::antenna(unit.antenna.id(), Command::AutoTrack(on));
     if auto == Some(Some(true)) {
         let button = Button::normal("Switch off");
@@ -90,8 +90,8 @@ fn automatic(ui: &mut Ui, unit: &ShownUnit<'_>, form: &mut Form, commands: &mut 
 
 /// Reason of a refused request for it, taken from the events.
 fn refusal(unit: &ShownUnit<'_>, form: &Form) -> Option<String> {
-    let asked = form.auto_asked?;
-    let (event, _) = unit.antenna.news.as_ref().filter(|(_, at)| *at >= asked)?;
+    let requested = form.auto_asked?;
+    let (event, _) = unit.antenna.news.as_ref().filter(|(_, time)| *time >= requested)?;
     match event {
         Event::NotSent(refusal) => Some(words::refusal(refusal, unit.model.now)),
         Event::Refused(MotionRequest::Motion(Motion::EnableAuto), answer) => {
@@ -132,7 +132,7 @@ fn take_from_pass(ui: &mut Ui, unit: &ShownUnit<'_>, form: &mut Form) {
             }
         },
     );
-    row::said(ui, room, &words, text::small(), t.t3, &words);
+    row::status_text(ui, room, &words, text::small(), t.t3, &words);
     let (true, Ok((start, stop))) = (clicked, window) else { return };
     // The unit accepts no time in the past.
     for (key, time) in [(START, start.max(unit.model.now)), (STOP, stop)] {

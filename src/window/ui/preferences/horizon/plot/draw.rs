@@ -30,23 +30,23 @@ pub(super) fn draw_on_canvas(
     state: &mut HorizonState,
     antenna: Option<&Antenna>,
 ) {
-    let Some(at) = canvas.interact_pointer_pos() else { return };
+    let Some(position) = canvas.interact_pointer_pos() else { return };
     let is_alt = ui.input(|input| input.modifiers.alt);
     let coarse = state.snaps;
-    let direction = edit::snapped(edit::under(dome, at, 180.0), coarse);
+    let direction = edit::snapped(edit::position_under(dome, position, 180.0), coarse);
     match state.tool {
         Tool::Select if canvas.clicked() => {
             if let (Chosen::Zone(index), true) = (state.chosen, is_alt)
                 && let Some(zone) = skies.zones.get_mut(index)
-                && let Some(edge) = zone.nearest_edge(dome, at)
+                && let Some(edge) = zone.nearest_edge(dome, position)
                 && let Some(added) = zone.split(edge)
             {
-                let near = zone.corners.get(edge).map_or(180.0, |of| of.azimuth.kept());
-                zone.put(added, edit::snapped(edit::under(dome, at, near), coarse));
+                let near = zone.corners.get(edge).map_or(180.0, |corner| corner.azimuth.saved());
+                zone.put(added, edit::snapped(edit::position_under(dome, position, near), coarse));
                 state.corner = Some(added);
                 return;
             }
-            let (azimuth_deg, elevation_deg) = edit::under(dome, at, 180.0);
+            let (azimuth_deg, elevation_deg) = edit::position_under(dome, position, 180.0);
             let direction = AzEl::from_degrees(azimuth_deg, elevation_deg);
             if let Some(found) = skies.zone_at(direction, |zone| holds_for(zone, antenna)) {
                 state.choose(Chosen::Zone(found));
@@ -60,30 +60,35 @@ pub(super) fn draw_on_canvas(
             }
         }
         Tool::Polygon => {
-            let is_round = state.drawing.len() >= edit::FEWEST
-                && state.drawing.first().is_some_and(|of| place(dome, *of).distance(at) < HANDLE);
+            let is_round = state.drawing.len() >= edit::MIN_CORNERS
+                && state
+                    .drawing
+                    .first()
+                    .is_some_and(|corner| place(dome, *corner).distance(position) < HANDLE);
             if canvas.double_clicked() || (canvas.clicked() && is_round) {
                 let corners = std::mem::take(&mut state.drawing);
                 add_zone(skies, state, &corners);
             } else if canvas.clicked() {
                 let near = state.drawing.last().map_or(180.0, |last| last.0);
-                state.drawing.push(edit::snapped(edit::under(dome, at, near), coarse));
+                state
+                    .drawing
+                    .push(edit::snapped(edit::position_under(dome, position, near), coarse));
                 // Both clicks of a double click are at the same place.
                 state.drawing.dedup();
             }
         }
         Tool::Rectangle => {
             if canvas.drag_started() {
-                let press = ui.input(|input| input.pointer.press_origin()).unwrap_or(at);
-                let from = edit::snapped(edit::under(dome, press, 180.0), coarse);
-                state.drawing = vec![from, from];
+                let press = ui.input(|input| input.pointer.press_origin()).unwrap_or(position);
+                let start = edit::snapped(edit::position_under(dome, press, 180.0), coarse);
+                state.drawing = vec![start, start];
             }
-            if let Some(from) = state.drawing.first().copied() {
-                let to = edit::snapped(edit::under(dome, at, from.0), coarse);
-                state.drawing = vec![from, to];
+            if let Some(start) = state.drawing.first().copied() {
+                let end = edit::snapped(edit::position_under(dome, position, start.0), coarse);
+                state.drawing = vec![start, end];
                 if canvas.drag_stopped() {
                     state.drawing.clear();
-                    if let Some(corners) = edit::rectangle(from, to) {
+                    if let Some(corners) = edit::rectangle(start, end) {
                         add_zone(skies, state, &corners);
                     }
                 }
@@ -95,7 +100,7 @@ pub(super) fn draw_on_canvas(
 
 /// Adds a keep-out of at least three corners and selects it.
 fn add_zone(skies: &mut Skies, state: &mut HorizonState, corners: &[(f64, f64)]) {
-    if corners.len() < edit::FEWEST {
+    if corners.len() < edit::MIN_CORNERS {
         return;
     }
     let name = skies.free_name("Keep-out");
@@ -106,7 +111,7 @@ fn add_zone(skies: &mut Skies, state: &mut HorizonState, corners: &[(f64, f64)])
 
 pub(super) fn paint_drawing(ui: &Ui, dome: Dome, state: &HorizonState, t: &Tokens) {
     let corners = match (state.tool, &state.drawing[..]) {
-        (Tool::Rectangle, [from, to]) => edit::rectangle(*from, *to).map(Vec::from),
+        (Tool::Rectangle, [start, end]) => edit::rectangle(*start, *end).map(Vec::from),
         (Tool::Polygon, corners) => Some(corners.to_vec()),
         _ => None,
     };
@@ -114,9 +119,9 @@ pub(super) fn paint_drawing(ui: &Ui, dome: Dome, state: &HorizonState, t: &Token
     if state.tool == Tool::Rectangle {
         path.extend(path.first().copied());
     }
-    for at in &path {
+    for position in &path {
         let stroke = Stroke::new(1.5, t.sat);
-        ui.painter().rect(paint::square(*at, HANDLE), 0.0, t.bg0, stroke, StrokeKind::Inside);
+        ui.painter().rect(paint::square(*position, HANDLE), 0.0, t.bg0, stroke, StrokeKind::Inside);
     }
     ui.painter().extend(dashed(&path, 4.0, 3.0, Stroke::new(1.5, t.sat)));
 }

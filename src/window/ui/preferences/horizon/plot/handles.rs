@@ -34,14 +34,14 @@ pub(super) fn zone_handles(
     let Some(zone) = skies.zones.get_mut(index) else { return };
     for corner in 0..zone.corners.len() {
         let Some(middle) = zone.middle(corner) else { continue };
-        let at = place(dome, middle);
+        let position = place(dome, middle);
         let name = format!("Middle of edge {} of {}", corner + 1, zone.name.trim());
-        let response = handle(ui, ("middle", corner), at, &name);
-        ui.painter().circle(at, MIDDLE / 2.0, t.bg0, Stroke::new(1.25, t.sat));
+        let response = handle(ui, ("middle", corner), position, &name);
+        ui.painter().circle(position, MIDDLE / 2.0, t.bg0, Stroke::new(1.25, t.sat));
         if response.drag_started()
             && let Some(added) = zone.split(corner)
         {
-            state.begin_drag(added, zone.corners.get(added).map(Corner::at));
+            state.begin_drag(added, zone.corners.get(added).map(Corner::point));
             break;
         }
     }
@@ -50,22 +50,28 @@ pub(super) fn zone_handles(
     let mut added = None;
     for number in 0..count {
         let Some(corner) = zone.corners.get(number) else { continue };
-        let (azimuth_deg, elevation_deg) = corner.at();
-        let at = place(dome, (azimuth_deg, elevation_deg));
+        let (azimuth_deg, elevation_deg) = corner.point();
+        let position = place(dome, (azimuth_deg, elevation_deg));
         let words = direction((azimuth_deg, elevation_deg));
         let name = format!("Corner {} of {}, {words}", number + 1, zone.name.trim());
-        let response = handle(ui, ("corner", number), at, &name);
+        let response = handle(ui, ("corner", number), position, &name);
         let is_chosen = state.corner == Some(number);
         if is_chosen {
-            ui.painter().rect_filled(paint::square(at, CHOSEN), 0.0, t.sat);
+            ui.painter().rect_filled(paint::square(position, CHOSEN), 0.0, t.sat);
             let side =
-                if at.x > dome.centre.x { Align2::RIGHT_BOTTOM } else { Align2::LEFT_BOTTOM };
-            let off = vec2(if at.x > dome.centre.x { -12.0 } else { 12.0 }, -6.0);
+                if position.x > dome.centre.x { Align2::RIGHT_BOTTOM } else { Align2::LEFT_BOTTOM };
+            let offset = vec2(if position.x > dome.centre.x { -12.0 } else { 12.0 }, -6.0);
             let words = format!("{words}\npoint {} of {count}", number + 1);
-            label(ui, at + off, side, &words, t.sat, t);
+            label(ui, position + offset, side, &words, t.sat, t);
         } else {
             let stroke = Stroke::new(1.5, t.sat);
-            ui.painter().rect(paint::square(at, HANDLE), 0.0, t.bg0, stroke, StrokeKind::Inside);
+            ui.painter().rect(
+                paint::square(position, HANDLE),
+                0.0,
+                t.bg0,
+                stroke,
+                StrokeKind::Inside,
+            );
         }
         paint::focus_ring(ui, &response, 2);
         if response.clicked() || response.drag_started() {
@@ -111,13 +117,13 @@ pub(super) fn skyline_handles(
     }
     let mut changed = None;
     for (index, point) in points.iter().enumerate() {
-        let at = place(dome, *point);
+        let position = place(dome, *point);
         let name = format!("Skyline point {}, {}", index + 1, direction(*point));
-        let response = handle(ui, ("skyline", index), at, &name);
+        let response = handle(ui, ("skyline", index), position, &name);
         let is_chosen = state.corner == Some(index);
         let fill = if is_chosen { t.sat } else { t.bg0 };
         let stroke = Stroke::new(1.5, if is_chosen { t.sat } else { t.t2 });
-        ui.painter().circle(at, POINT / 2.0, fill, stroke);
+        ui.painter().circle(position, POINT / 2.0, fill, stroke);
         paint::focus_ring(ui, &response, 2);
         if response.clicked() || response.drag_started() {
             state.corner = Some(index);
@@ -129,14 +135,14 @@ pub(super) fn skyline_handles(
         if response.has_focus() {
             let (step, keys) = keys(ui, &response);
             let moved = step.map(|(right, up)| Some((point.0 + right, point.1 + up)));
-            changed = changed.or(moved.or(keys.removes.then_some(None)).map(|to| (index, to)));
+            changed = changed.or(moved.or(keys.removes.then_some(None)).map(|end| (index, end)));
         }
     }
-    if let Some((index, to)) = changed {
-        match to {
-            Some(to) => {
+    if let Some((index, end)) = changed {
+        match end {
+            Some(end) => {
                 if let Some(point) = points.get_mut(index) {
-                    *point = to;
+                    *point = end;
                 }
             }
             None => {
@@ -148,8 +154,8 @@ pub(super) fn skyline_handles(
 }
 
 /// A mark that can be dragged, clicked and reached with Tab.
-fn handle(ui: &Ui, salt: (&str, usize), at: Pos2, name: &str) -> Response {
-    let rect = paint::square(at, GRIP);
+fn handle(ui: &Ui, salt: (&str, usize), position: Pos2, name: &str) -> Response {
+    let rect = paint::square(position, GRIP);
     let response = ui.interact(rect, ui.make_persistent_id(salt), Sense::click_and_drag());
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, name));
     response
@@ -167,7 +173,7 @@ fn keys(ui: &Ui, response: &Response) -> (Option<(f64, f64)>, Keys) {
     ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, filter));
     ui.input_mut(|input| {
         let mut step = None;
-        for (modifiers, by) in
+        for (modifiers, amount) in
             [(Modifiers::NONE, 0.5), (Modifiers::SHIFT, 5.0), (Modifiers::COMMAND, 0.1)]
         {
             for (key, right, up) in [
@@ -177,7 +183,7 @@ fn keys(ui: &Ui, response: &Response) -> (Option<(f64, f64)>, Keys) {
                 (Key::ArrowDown, 0.0, -1.0),
             ] {
                 if input.modifiers.matches_exact(modifiers) && input.consume_key(modifiers, key) {
-                    step = Some((right * by, up * by));
+                    step = Some((right * amount, up * amount));
                 }
             }
         }
@@ -191,8 +197,8 @@ fn keys(ui: &Ui, response: &Response) -> (Option<(f64, f64)>, Keys) {
 
 /// Moves the dragged mark to the pointer.
 pub(super) fn continue_drag(ui: &Ui, dome: Dome, skies: &mut Skies, state: &mut HorizonState) {
-    let Some((index, from)) = state.drag else { return };
-    let (at, is_down, shift) = ui.input(|input| {
+    let Some((index, start)) = state.drag else { return };
+    let (position, is_down, shift) = ui.input(|input| {
         let pointer = &input.pointer;
         (pointer.interact_pos(), pointer.button_down(PointerButton::Primary), input.modifiers.shift)
     });
@@ -200,34 +206,36 @@ pub(super) fn continue_drag(ui: &Ui, dome: Dome, skies: &mut Skies, state: &mut 
         state.drag = None;
         return;
     }
-    let Some(at) = at else { return };
+    let Some(position) = position else { return };
     let near = match state.chosen {
         Chosen::Zone(zone) => {
             let zone = skies.zones.get(zone);
-            zone.and_then(|of| of.corners.get(index)).map_or(from.0, |of| of.azimuth.kept())
+            zone.and_then(|zone_draft| zone_draft.corners.get(index))
+                .map_or(start.0, |corner| corner.azimuth.saved())
         }
-        Chosen::Skyline | Chosen::Sun => from.0,
+        Chosen::Skyline | Chosen::Sun => start.0,
     };
-    let mut to = edit::snapped(edit::under(dome, at, near), state.snaps);
+    let mut end = edit::snapped(edit::position_under(dome, position, near), state.snaps);
     if shift {
-        to = edit::along_one_axis(from, to);
+        end = edit::along_one_axis(start, end);
     }
     match state.chosen {
         Chosen::Zone(zone) => {
             if let Some(zone) = skies.zones.get_mut(zone) {
-                zone.put(index, to);
+                zone.put(index, end);
             }
         }
         Chosen::Skyline | Chosen::Sun => {
             let mut points = skies.skyline();
             if let Some(point) = points.get_mut(index) {
-                *point = to;
+                *point = end;
             }
             if skies.set_skyline(points) {
                 // Points stay in the order of their azimuths.
-                let azimuth_deg = to.0.rem_euclid(360.0);
-                let place = skies.skyline().iter().position(|of| (of.0 - azimuth_deg).abs() < 1e-9);
-                state.drag = place.map(|place| (place, from));
+                let azimuth_deg = end.0.rem_euclid(360.0);
+                let place =
+                    skies.skyline().iter().position(|vertex| (vertex.0 - azimuth_deg).abs() < 1e-9);
+                state.drag = place.map(|place| (place, start));
                 state.corner = place;
             }
         }

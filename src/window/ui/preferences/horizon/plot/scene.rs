@@ -81,7 +81,7 @@ pub(super) fn paint_sky(
         .map(|(draft, zone)| KeepOutMark {
             name: draft.name.trim(),
             zone,
-            margin: half_beam + Angle::from_degrees(draft.margin.kept()),
+            margin: half_beam + Angle::from_degrees(draft.margin.saved()),
         })
         .collect();
     keep_outs::paint(painter, dome, &marks, t);
@@ -92,22 +92,23 @@ pub(super) fn paint_sky(
     for zone in skies.zones.iter().filter(|zone| zone.zone().is_err()) {
         let corners = zone.corners_deg();
         let path: Vec<Pos2> =
-            corners.iter().chain(corners.first()).map(|at| place(dome, *at)).collect();
+            corners.iter().chain(corners.first()).map(|corner| place(dome, *corner)).collect();
         painter.extend(dashed(&path, 4.0, 3.0, Stroke::new(1.5, t.bad)));
     }
     sun(ui, rect, dome, model, skies, state, t);
     if let Some(antenna) = antenna
-        && let Some(direction) = antenna.snapshot.state.measured.and_then(|of| of.direction())
-        && let Some(at) = dome.visible(direction)
+        && let Some(direction) =
+            antenna.snapshot.state.measured.and_then(|measured| measured.direction())
+        && let Some(position) = dome.visible(direction)
     {
-        marks::measured(painter, at, 0.75, t);
+        marks::measured(painter, position, 0.75, t);
         let words = format!(
             "{}\n{}, {}",
             antenna.config.name,
             format::degrees(direction.azimuth_deg(), 1),
             format::degrees(direction.elevation_deg(), 1)
         );
-        label(ui, at + vec2(24.0, 8.0), Align2::LEFT_TOP, &words, t.t1, t);
+        label(ui, position + vec2(24.0, 8.0), Align2::LEFT_TOP, &words, t.t1, t);
     }
 }
 
@@ -121,7 +122,7 @@ pub(super) fn holds_for(zone: &ZoneDraft, antenna: Option<&Antenna>) -> bool {
 /// Effect of the keep-out with this name on the passes.
 fn toll_of<'a>(effect: &'a Effect<Question>, name: Option<&str>) -> Option<&'a Toll> {
     let keep_outs = &effect.question.after.keep_outs;
-    let place = keep_outs.iter().position(|of| Some(&*of.name) == name)?;
+    let place = keep_outs.iter().position(|keep_out| Some(&*keep_out.name) == name)?;
     effect.after.of_each.get(place)
 }
 
@@ -140,7 +141,7 @@ fn path(
 fn passes(ui: &Ui, dome: Dome, effect: &Effect<Question>, chosen: Option<&str>, t: &Tokens) {
     let toll = toll_of(effect, chosen);
     let touched =
-        |way: usize| toll.is_some_and(|toll| toll.blocked.iter().any(|(of, _)| *of == way));
+        |way: usize| toll.is_some_and(|toll| toll.blocked.iter().any(|(total, _)| *total == way));
     for is_touched in [false, true] {
         let colour = if is_touched { t.other } else { t.grid };
         for way in (0..effect.ways.len()).filter(|way| touched(*way) == is_touched) {
@@ -162,7 +163,7 @@ fn blocked(ui: &Ui, dome: Dome, effect: &Effect<Question>, chosen: Option<&str>,
 /// Draws the ends of the travel.
 fn travel(ui: &Ui, dome: Dome, config: &Antenna, t: &Tokens) {
     let painter = ui.painter();
-    if let Some(holes) = Keyholes::of(&config.mount) {
+    if let Some(holes) = Keyholes::new(&config.mount) {
         grid::keyholes(painter, dome, &holes, t);
     }
     let Mount::AzEl { azimuth_from_deg, azimuth_to_deg, elevation_from_deg, .. } = config.mount
@@ -176,16 +177,16 @@ fn travel(ui: &Ui, dome: Dome, config: &Antenna, t: &Tokens) {
     if azimuth_to_deg - azimuth_from_deg < 360.0 {
         for end_deg in [azimuth_from_deg, azimuth_to_deg] {
             let azimuth = end_deg.to_radians() as f32;
-            let spoke = [dome.at(azimuth, 87.0), dome.at(azimuth, 0.0)];
+            let spoke = [dome.point_at(azimuth, 87.0), dome.point_at(azimuth, 0.0)];
             painter.extend(dashed(&spoke, 1.5, 4.0, Stroke::new(1.25, t.warn)));
         }
     }
     for end_deg in [azimuth_from_deg, azimuth_to_deg] {
-        let towards = outward(end_deg.to_radians() as f32);
-        let foot = dome.centre + towards * dome.radius;
+        let direction = outward(end_deg.to_radians() as f32);
+        let foot = dome.centre + direction * dome.radius;
         let stroke = Stroke::new(3.0, t.bad);
-        painter.line_segment([foot - towards * 12.0, foot + towards * 13.0], stroke);
-        let across = towards.rot90() * 7.0;
+        painter.line_segment([foot - direction * 12.0, foot + direction * 13.0], stroke);
+        let across = direction.rot90() * 7.0;
         painter.line_segment([foot - across, foot + across], stroke);
     }
 }
@@ -206,17 +207,17 @@ fn sun(
         ui.painter().extend(dashed(part, 1.5, 4.0, Stroke::new(1.0, t.sun)));
     }
     let Some(direction) = model.sky.sun.filter(|sun| sun.elevation_deg() > 0.0) else { return };
-    let Some(at) = dome.visible(direction) else { return };
-    marks::sun(ui.painter(), at, t);
-    let Some(avoidance) = skies.sun.kept() else { return };
+    let Some(position) = dome.visible(direction) else { return };
+    marks::sun(ui.painter(), position, t);
+    let Some(avoidance) = skies.sun.saved() else { return };
     let radius = Angle::from_degrees(avoidance.radius_deg);
-    let around =
+    let horizon =
         (0..=72_u8).map(|step| direction.displaced(f64::from(step) * 5.0, avoidance.radius_deg));
-    let ring: Vec<Pos2> = around.filter_map(|of| dome.point(of)).collect();
+    let ring: Vec<Pos2> = horizon.filter_map(|ring_direction| dome.point(ring_direction)).collect();
     ui.painter().extend(dashed(&ring, 4.0, 3.0, Stroke::new(1.25, t.sun)));
     let words = format!("Sun {}", format::degrees(avoidance.radius_deg, 1));
-    let beside = at + vec2(dome.length(radius).max(10.0) + 6.0, 0.0);
-    if rect.contains(beside) {
-        label(ui, beside, Align2::LEFT_CENTER, &words, t.sun, t);
+    let point = position + vec2(dome.length(radius).max(10.0) + 6.0, 0.0);
+    if rect.contains(point) {
+        label(ui, point, Align2::LEFT_CENTER, &words, t.sun, t);
     }
 }

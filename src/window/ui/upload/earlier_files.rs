@@ -16,7 +16,7 @@ use crate::{
         widgets::{
             card,
             fold::{self, FoldModel},
-            told::{Tone, line},
+            status_line::{Tone, line},
         },
         words::sentence,
     },
@@ -35,17 +35,17 @@ pub(super) fn show(
     commands: &mut Vec<UiCommand>,
 ) {
     let (Ok(unit), Ok(file)) = (form.peer(), form.file_name()) else { return };
-    let of = (unit.to_string(), file.as_str().to_owned());
-    let kept = &model.uploads.kept_files;
-    if kept.origin != of {
-        let (unit, file) = of;
+    let origin = (unit.to_string(), file.as_str().to_owned());
+    let kept_files = &model.uploads.kept_files;
+    if kept_files.origin != origin {
+        let (unit, file) = origin;
         commands.push(UiCommand::Station(contract::Command::Upload(Ask::ListKept { unit, file })));
         return;
     }
     let t = theme::tokens(ui);
     card::show(ui, f32::INFINITY, |ui| {
         // Closed, the list leaves the room below to the satellites.
-        if let Some(Ok(list)) = &kept.list
+        if let Some(Ok(list)) = &kept_files.list
             && !list.is_empty()
         {
             let size = vec2(ui.available_width(), fold::HEIGHT);
@@ -61,11 +61,14 @@ pub(super) fn show(
             return;
         }
         ui.label(RichText::new(TITLE).font(text::value()));
-        match &kept.list {
+        match &kept_files.list {
             None => line(ui, Tone::Plain, "The list is being read."),
             Some(Err(problem)) => line(ui, Tone::Bad, &sentence(problem)),
             Some(Ok(_)) => {
-                let words = format!("No earlier copy of {} from {}.", kept.origin.1, kept.origin.0);
+                let words = format!(
+                    "No earlier copy of {} from {}.",
+                    kept_files.origin.1, kept_files.origin.0
+                );
                 ui.label(RichText::new(words).font(text::small()).color(t.t3));
             }
         }
@@ -82,7 +85,7 @@ fn one(
 ) {
     let t = theme::tokens(ui);
     let file = &entry.file;
-    let at = format::dated(file.time);
+    let time_text = format::dated(file.time);
     let origin = match file.origin {
         Origin::Found => "was on the unit",
         Origin::Uploaded => "sent from here",
@@ -91,7 +94,7 @@ fn one(
         ui.separator();
     }
     ui.horizontal_wrapped(|ui| {
-        ui.label(RichText::new(&at).font(text::body_medium()));
+        ui.label(RichText::new(&time_text).font(text::body_medium()));
         ui.label(RichText::new(origin).font(text::small()).color(t.t2));
     });
     let hash: String = file.sha256.to_string().chars().take(HASH_DIGITS).collect();
@@ -104,11 +107,11 @@ fn one(
         Err(problem) => return line(ui, Tone::Bad, &sentence(problem)),
     }
     let can = order.is_ok() && !model.uploads.stage.is_open();
-    if named(ui, can, "Put back…", &format!("Put back the file of {at}, {origin}, {hash}"))
+    if named(ui, can, "Put back…", &format!("Put back the file of {time_text}, {origin}, {hash}"))
         && let Ok(order) = order
     {
         let text = format!(
-            "Put {} of {at} back on {}? It is uploaded, compared and verified like any other.",
+            "Put {} of {time_text} back on {}? It is uploaded, compared and verified like any other.",
             file.file, order.unit
         );
         let begin = Ask::Begin(Box::new(order));

@@ -9,17 +9,17 @@ use crate::{
     orbit::Refusal,
     ui::{
         format,
-        widgets::told::{Tone, line},
+        widgets::status_line::{Tone, line},
         words::OLD_ELEMENTS_S,
     },
 };
 
 /// Maximum number of refused objects listed.
-const TOLD: usize = 3;
+const MAX_TOLD: usize = 3;
 
-/// Shows the sentences about `view`, fetched at `at`, for `satellite`.
-pub(super) fn show(ui: &mut Ui, view: &UnitView, satellite: &str, at: Timestamp, now: Timestamp) {
-    for (tone, words) in sentences(view, satellite, at, now) {
+/// Shows the sentences about `view`, fetched at `time`, for `satellite`.
+pub(super) fn show(ui: &mut Ui, view: &UnitView, satellite: &str, time: Timestamp, now: Timestamp) {
+    for (tone, words) in sentences(view, satellite, time, now) {
         line(ui, tone, &words);
     }
 }
@@ -27,7 +27,7 @@ pub(super) fn show(ui: &mut Ui, view: &UnitView, satellite: &str, at: Timestamp,
 fn sentences(
     view: &UnitView,
     satellite: &str,
-    at: Timestamp,
+    time: Timestamp,
     now: Timestamp,
 ) -> Vec<(Tone, String)> {
     let mut lines = vec![found(view, satellite, now)];
@@ -41,13 +41,13 @@ fn sentences(
             let object = refusal.object.as_deref().unwrap_or("an object");
             format!("{object} in line {}: {}", refusal.line, refusal.reason)
         };
-        let told: Vec<String> = view.refused.iter().take(TOLD).map(one).collect();
-        let words = format!("{refused} objects cannot be read: {}.", told.join("; "));
+        let texts: Vec<String> = view.refused.iter().take(MAX_TOLD).map(one).collect();
+        let words = format!("{refused} objects cannot be read: {}.", texts.join("; "));
         lines.push((Tone::Caution, words));
     }
     let words = format!(
         "Fetched {}: {} bytes, {} objects, SHA-256 {}.",
-        format::moment(at, now),
+        format::moment(time, now),
         view.bytes,
         view.objects,
         view.sha256
@@ -60,7 +60,7 @@ fn found(view: &UnitView, satellite: &str, now: Timestamp) -> (Tone, String) {
     match &view.satellite {
         SatelliteMatch::Found(object) => {
             let age_s = seconds_between(object.epoch, now);
-            let words = format!("The unit will find {}.", of(object, now));
+            let words = format!("The unit will find {}.", new(object, now));
             let tone = if view.is_tle { Tone::Good } else { Tone::Plain };
             if age_s > OLD_ELEMENTS_S {
                 (Tone::Caution, format!("{words} They are old."))
@@ -69,7 +69,7 @@ fn found(view: &UnitView, satellite: &str, now: Timestamp) -> (Tone, String) {
             }
         }
         SatelliteMatch::Several(objects) => {
-            let list: Vec<String> = objects.iter().map(|object| of(object, now)).collect();
+            let list: Vec<String> = objects.iter().map(|object| new(object, now)).collect();
             let words = format!(
                 "Several objects have this name; the unit takes one of them: {}.",
                 list.join("; ")
@@ -89,7 +89,7 @@ fn found(view: &UnitView, satellite: &str, now: Timestamp) -> (Tone, String) {
     }
 }
 
-fn of(object: &FileObject, now: Timestamp) -> String {
+fn new(object: &FileObject, now: Timestamp) -> String {
     format!(
         "{} ({}), elements of {}, {} old",
         object.name,
