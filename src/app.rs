@@ -12,7 +12,7 @@ mod export;
 mod folder;
 pub mod frames;
 mod intake;
-mod known;
+mod known_stations;
 mod log_file;
 mod mask_file;
 mod memory;
@@ -36,7 +36,7 @@ use std::{
 pub use self::running_station::RunningStation;
 use self::{
     catalog_table::CatalogWork, change::Change, effects::EffectsJobs, export::ExportWork,
-    folder::FolderWork, intake::IntakeWork, known::KnownWork, log_file::LogWork,
+    folder::FolderWork, intake::IntakeWork, known_stations::KnownWork, log_file::LogWork,
     mask_file::MaskWork, memory::Keeper, notifier::Notifier, open_file::OpenWork,
     place::PlaceWatch, rehearsal::RehearsalWork, replay::Replay,
 };

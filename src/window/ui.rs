@@ -1,7 +1,6 @@
 //! Views and widgets: they draw and queue commands, nothing else.
 
 pub mod along;
-pub mod antenna_card;
 pub mod antennas;
 pub mod banner;
 pub mod bar;

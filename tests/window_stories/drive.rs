@@ -207,6 +207,20 @@ fn a_mode_is_one_click_but_for_park_which_is_held() {
 }
 
 #[test]
+fn an_arrow_key_that_passes_over_a_mode_does_not_command_it() {
+    for size in rig::sizes() {
+        let mut window = rig::window(size, rig::model(states::holding()));
+        window.get_by_role_and_label(Role::RadioButton, "Standby").focus();
+        settle(&mut window);
+        window.key_press(Key::ArrowRight);
+        assert_eq!(asked(&mut window), []);
+        assert!(window.get_by_role_and_label(Role::RadioButton, "Manual").is_focused());
+        window.key_press(Key::Enter);
+        assert_eq!(asked(&mut window), [antenna(Command::Manual)]);
+    }
+}
+
+#[test]
 fn a_jog_lasts_as_long_as_its_key_is_held() {
     for size in rig::sizes() {
         let mut window = rig::window(size, rig::model(states::manual()));

@@ -287,9 +287,7 @@ fn views_of(place: &str) -> Vec<View> {
         return vec![View::Elements, View::Console];
     }
     let one = match place.split(['/', '.']).next().unwrap() {
-        "operate" | "antenna_card" | "pass_list" | "profile" | "sky_plot" | "timeline" => {
-            View::Operate
-        }
+        "operate" | "pass_list" | "profile" | "sky_plot" | "timeline" => View::Operate,
         "elements" => View::Elements,
         "antennas" => View::Antennas,
         "console" => View::Console,

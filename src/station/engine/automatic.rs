@@ -5,9 +5,9 @@ mod at_start;
 mod auto_track;
 mod clock_stop;
 mod day;
+mod observation;
 mod operation;
 mod resumption;
-mod seen;
 mod upkeep;
 
 use std::path::PathBuf;
@@ -21,9 +21,9 @@ pub(super) use self::{
 };
 use self::{
     clock_stop::ClockStop,
+    observation::seen,
     operation::{Act, LATE_S, Outcome, Seen, WINDOW_STEP_S, Wishes},
     resumption::Resumption,
-    seen::seen,
     upkeep::UpkeepWork,
 };
 use super::{Antenna, CurrentRequest, Engine, StationClaim, handle::Stopped};

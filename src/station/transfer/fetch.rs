@@ -2,7 +2,7 @@
 //! beforehand what the unit will get.
 
 mod ftp;
-mod seen;
+mod unit_reading;
 mod web;
 
 use rustls::{RootCertStore, pki_types::CertificateDer};
@@ -17,7 +17,7 @@ use crate::{
     contract::transfer::{FileProtocol, OldAlgorithm, Peer},
     library::system_authorities,
 };
-pub use seen::what_a_unit_sees;
+pub use unit_reading::what_a_unit_sees;
 
 /// Source of a unit's elements on the network.
 #[derive(Debug, Clone)]

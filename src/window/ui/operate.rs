@@ -1,7 +1,7 @@
 //! The Operate view, for watching and driving the antennas.
 
 mod all_antennas;
-mod card;
+pub mod card;
 mod divider;
 mod filter;
 mod ghost;
@@ -18,25 +18,18 @@ use egui::{Rect, Role, Sense, Ui, WidgetInfo};
 use jiff::Timestamp;
 
 use super::{
-    antenna_card::{self, CardState, LiveNow},
-    banner,
-    confirm::Question,
-    pass_header,
-    pass_list::PassListState,
-    profile::ProfileState,
-    sky_plot::SkyPlotState,
-    theme,
-    timeline::Zoom,
+    banner, confirm::Question, pass_header, pass_list::PassListState, profile::ProfileState,
+    sky_plot::SkyPlotState, theme, timeline::Zoom,
 };
 use crate::{
     contract::{
         antenna::AntennaModel,
-        driver::Command,
         passes::{PassListKey, PredictedPass},
     },
     model::{Model, UiCommand},
     station::AntennaId,
 };
+use card::CardState;
 use ghost::GhostState;
 pub(super) use layout::side_cards;
 use layout::{Areas, SIDE_CARDS};
@@ -56,8 +49,6 @@ pub struct OperateState {
     pub card: CardState,
     /// The strip of the demo station, or its room, is in the window.
     pub has_banner: bool,
-    /// In a replay: the live station.
-    pub live: Option<LiveNow>,
     /// The pass list lies over the plot, in a small window.
     pub drawer_open: bool,
     /// Number of hours in the timeline.
@@ -113,19 +104,19 @@ impl OperateState {
         for card in &mut self.side_cards {
             card.leave(commands);
         }
-        if self.card.hide().is_some()
-            && let Some(antenna) = self.shown_antenna
-        {
-            commands.push(UiCommand::antenna(antenna, Command::EndJog));
-        }
+        self.card.hide(self.shown_antenna, commands);
     }
 }
 
-/// Draws the view into `rect` of the `window`.
+/// Draws the view into `rect` of the `window`. `live` is the station that `model` shows, or the live
+/// one if that is a replay.
+// The window, the state, and the receivers of requests.
+#[allow(clippy::too_many_arguments)]
 pub fn show(
     ui: &mut Ui,
     window: Rect,
     rect: Rect,
+    live: &Model,
     model: &Model,
     state: &mut OperateState,
     question: &mut Option<Question>,
@@ -203,7 +194,7 @@ pub fn show(
         let is_one_of_several = cards.len() > 1;
         for (place, (antenna, card)) in places.zip(cards) {
             let is_selected = antenna.id() == selected.id();
-            let live = state.live.as_ref().filter(|_| is_selected);
+            let live = (is_selected && model.replay.is_some()).then_some(live);
             card::show(ui, place, model, antenna, &on_cards, live, card, question, commands);
             if is_one_of_several && is_selected {
                 let edge = place.with_max_y(place.top() + SELECTED_EDGE);

@@ -6,7 +6,6 @@ use egui::{Rect, Ui, UiBuilder, pos2};
 use jiff::Timestamp;
 
 use super::{
-    antenna_card::LiveNow,
     antennas,
     banner::{self, BannerRoom},
     bar,
@@ -151,7 +150,7 @@ impl Views {
         let mut body = window.with_min_y(top.bottom());
         let is_low = window.height() < top_bar::SMALL_BELOW;
         let has_banner = self.banner.is_taken(model);
-        (self.operate.has_banner, self.operate.live) = (has_banner, LiveNow::of(live, model));
+        self.operate.has_banner = has_banner;
         if has_banner && !is_low {
             let strip = body.with_max_y(body.top() + banner::height(model));
             banner::show(ui, strip, model, commands);
@@ -170,7 +169,7 @@ impl Views {
         match model.view {
             View::Operate => {
                 let (state, question) = (&mut self.operate, &mut self.question);
-                operate::show(ui, window, rest, model, state, question, commands);
+                operate::show(ui, window, rest, live, model, state, question, commands);
             }
             View::Plan => plan::show(ui, window, rest, model, &mut self.plan, commands),
             View::Elements => {

@@ -24,7 +24,6 @@ pub mod link_chip;
 pub mod list;
 pub mod menu;
 pub mod modal;
-pub mod mode_selector;
 pub mod paint;
 pub mod rate_slider;
 pub mod segmented;

@@ -5,7 +5,7 @@ use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 use azel::{
     model::ThemeName,
-    ui::{antenna_card, theme, tokens, top_bar},
+    ui::{operate::card, theme, tokens, top_bar},
 };
 
 use crate::window_stories::{
@@ -62,7 +62,7 @@ pub(super) fn check(window: &mut Window, findings: &mut Findings) {
     // The top bar, and the card of Operate.
     let [width, height] = LARGE;
     let bar = Rect::from_min_size(Pos2::ZERO, vec2(width, top_bar::HEIGHT));
-    let card = Rect::from_min_max(pos2(width - antenna_card::WIDTH, 0.0), pos2(width, height));
+    let card = Rect::from_min_max(pos2(width - card::WIDTH, 0.0), pos2(width, height));
     let safety_data = [bar, card];
     for name in [ThemeName::Light, ThemeName::Night, ThemeName::Dark] {
         theme::set(&window.ctx, name);

@@ -18,7 +18,11 @@ use crate::{
         typed_path::OpenedFile,
     },
     station::Take,
-    ui::{antenna_card::OffsetStep, elements, operate::LONG_STEP_S, replay, second_step, theme},
+    ui::{
+        elements,
+        operate::{LONG_STEP_S, card::OffsetStep},
+        replay, second_step, theme,
+    },
 };
 
 /// Effect of a key.

@@ -6,7 +6,7 @@ use egui::{Align2, Galley, Id, Key, Modal, Modifiers, Rect, Sense, Ui, pos2, vec
 
 use super::{ALL, Binding, CTRL_SHIFT};
 use crate::ui::{
-    antenna_card, operate, text, theme,
+    operate, text, theme,
     widgets::{button::Button, modal::modal, paint},
 };
 
@@ -28,7 +28,7 @@ const DOWN: f32 = 24.0;
 /// cards of Operate stay free; 0 in a window that has no room for both.
 fn side_margin(window: f32, width: f32) -> f32 {
     let room = (window - width) / 2.0;
-    let cards = antenna_card::WIDTH * (1 + operate::side_cards(window)) as f32;
+    let cards = operate::card::WIDTH * (1 + operate::side_cards(window)) as f32;
     let margin = (cards + GAP - room).max(0.0);
     if margin <= room { margin } else { 0.0 }
 }

@@ -142,9 +142,8 @@ pub(super) fn shown<'a>(antenna: &'a AntennaModel, state: &OperateState) -> Opti
 
 /// Sentence in the note, and whether the antenna can be sent.
 fn found(model: &Model, antenna: &AntennaModel, target: Target) -> (String, bool) {
-    let has_checks = !antenna.snapshot.state.checks.is_empty();
     let in_replay = replay::locked(&antenna.config.name);
-    if let Some(lock) = Locks::of(model, antenna, has_checks, &in_replay).track {
+    if let Some(lock) = Locks::of(model, antenna, &in_replay).track {
         return (lock.to_owned(), false);
     }
     let way = match judged(antenna, target).map(|preview| &preview.way) {

@@ -2,7 +2,7 @@
 
 use egui::{Rangef, Rect, pos2, vec2};
 
-use super::{antenna_card, pass_header};
+use super::{card, pass_header};
 use crate::ui::{banner, sky_plot::LEGEND_FOOT, top_bar};
 
 const LIST: f32 = 320.0;
@@ -70,7 +70,7 @@ impl Areas {
     ) -> Self {
         let small = window.width() < DRAWER_BELOW;
         let tall = window.height() >= TALL_FROM;
-        let card_width = if small { antenna_card::SMALL_WIDTH } else { antenna_card::WIDTH };
+        let card_width = if small { card::SMALL_WIDTH } else { card::WIDTH };
         let count = side_cards(window.width()).min(antennas.saturating_sub(1));
         let last = rect.with_min_x(rect.right() - card_width);
         let card = last.translate(vec2(-card_width * count as f32, 0.0));

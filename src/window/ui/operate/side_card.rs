@@ -1,10 +1,10 @@
 //! The card of one more antenna beside that of the selected one, in a wide window.
 
+use super::card::CardState;
 use crate::{
-    contract::{antenna::AntennaModel, driver::Command},
+    contract::antenna::AntennaModel,
     model::{Model, UiCommand},
     station::AntennaId,
-    ui::antenna_card::CardState,
 };
 
 /// The antenna of the card, and its state.
@@ -49,10 +49,6 @@ impl SideCard {
 
     /// Releases a key that is held on the card.
     pub(super) fn leave(&mut self, commands: &mut Vec<UiCommand>) {
-        if self.card.hide().is_some()
-            && let Some(antenna) = self.shown
-        {
-            commands.push(UiCommand::antenna(antenna, Command::EndJog));
-        }
+        self.card.hide(self.shown, commands);
     }
 }

@@ -16,15 +16,6 @@ const TICK_PART: f64 = 0.727;
 /// An error from this part of half the beam on is near the edge.
 const NEAR_EDGE: f64 = 0.8;
 
-/// Pointing error and beam width.
-#[derive(Debug, Clone, Copy)]
-pub struct BeamModel {
-    /// Angle between the beam axis and the satellite, in degrees.
-    pub error_deg: Option<f64>,
-    /// Half the beam width.
-    pub half_beam_deg: f64,
-}
-
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Place {
     Inside,
@@ -56,13 +47,14 @@ const NUMBER: f32 = 99.0;
 const NAMED_NUMBER: f32 = 156.0;
 const NAMED_FROM: f32 = 300.0;
 
-/// Shows words, bar and number in `rect`.
-pub fn show(ui: &Ui, rect: Rect, model: &BeamModel) {
+/// Shows words, bar and number in `rect`. `error_deg` is the angle between the beam axis and the
+/// satellite.
+pub fn show(ui: &Ui, rect: Rect, error_deg: Option<f64>, half_beam_deg: f64) {
     let t = theme::tokens(ui);
     let y = rect.center().y;
     let words = "Off beam axis";
     paint::text(ui, rect.left_center(), Align2::LEFT_CENTER, words, text::small(), t.t2);
-    let half_beam = format!("{}°", axes_table::angle(Some(model.half_beam_deg), 2));
+    let half_beam = format!("{}°", axes_table::angle(Some(half_beam_deg), 2));
     let (limit, number) = if rect.width() < NAMED_FROM {
         (format!(" of {half_beam}"), NUMBER)
     } else {
@@ -71,9 +63,9 @@ pub fn show(ui: &Ui, rect: Rect, model: &BeamModel) {
     let bar_left = rect.left() + 92.0;
     let bar = Rect::from_min_max(pos2(bar_left, y - 3.0), pos2(rect.right() - number, y + 3.0));
     ui.painter().rect_filled(bar, 0.0, t.bg3);
-    if let Some(error_deg) = model.error_deg {
-        let (colour, _) = look(place(error_deg, model.half_beam_deg), t);
-        let width = filled_part(error_deg, model.half_beam_deg) * bar.width();
+    if let Some(error_deg) = error_deg {
+        let (colour, _) = look(place(error_deg, half_beam_deg), t);
+        let width = filled_part(error_deg, half_beam_deg) * bar.width();
         ui.painter().rect_filled(bar.with_max_x(bar.left() + width), 0.0, colour);
     }
     let tick = bar.left() + TICK_PART as f32 * bar.width();
@@ -81,16 +73,15 @@ pub fn show(ui: &Ui, rect: Rect, model: &BeamModel) {
 
     let limit_box =
         paint::text(ui, rect.right_center(), Align2::RIGHT_CENTER, &limit, text::small(), t.t2);
-    let error = model.error_deg.map_or_else(
+    let error = error_deg.map_or_else(
         || axes_table::UNKNOWN.to_owned(),
         |error_deg| format!("{}°", axes_table::angle(Some(error_deg), 2)),
     );
     let strong = text::sized(12.0, Weight::SemiBold);
     let position = pos2(limit_box.left(), y);
     paint::text(ui, position, Align2::RIGHT_CENTER, &error, strong, t.t1);
-    let spoken = model
-        .error_deg
-        .map_or("not known", |error_deg| look(place(error_deg, model.half_beam_deg), t).1);
+    let spoken =
+        error_deg.map_or("not known", |error_deg| look(place(error_deg, half_beam_deg), t).1);
     paint::name_text(
         ui,
         "beam",

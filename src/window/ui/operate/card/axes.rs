@@ -1,82 +1,91 @@
 //! The axes of an antenna as the card shows them.
 
+use egui::Ui;
+
+use super::Cursor;
 use crate::{
     astro::Angle,
     contract::antenna::AntennaModel,
-    device::{AxisMotion, Capabilities, JogSpeeds, Measured, Pointing, SecondAxis},
+    device::{AxisMotion, JogSpeeds, Pointing, SecondAxis},
+    model::Model,
     station::Mount,
     ui::{
         format,
         widgets::{
-            axes_table::AxisRow,
+            axes_table::{self, AxesTable, AxisRow, WantedColumn},
             jog_pad::{JogDirection, JogKeys},
-            travel_gauge::TravelModel,
         },
     },
 };
 
-pub(super) type Row = AxisRow<'static>;
+/// Direction in which the antenna is to point.
+fn demanded(antenna: &AntennaModel) -> Option<Pointing> {
+    antenna.snapshot.aim.or(antenna.prediction.map(|prediction| prediction.direction.into()))
+}
 
-/// Rows of the axes table.
-pub(super) fn table(antenna: &AntennaModel) -> Vec<Row> {
-    let snapshot = &antenna.snapshot;
-    let actual = snapshot.state.measured.map(|measured| measured.pointing);
-    let wanted = snapshot.aim.or(antenna.prediction.map(|prediction| prediction.direction.into()));
-    let is_live = antenna.is_live();
+/// Source of that direction.
+fn wanted_column(antenna: &AntennaModel) -> WantedColumn {
+    if antenna.snapshot.aim.is_none() && antenna.prediction.is_some() {
+        WantedColumn::Predicted
+    } else {
+        WantedColumn::Command
+    }
+}
+
+/// Azimuth and elevation, degrees.
+fn in_degrees(pointing: Option<Pointing>) -> [Option<f64>; 2] {
+    let azimuth = pointing.and_then(|at| at.azimuth).map(Angle::wrapped_360);
+    [azimuth, pointing.and_then(|at| at.elevation)].map(|angle| angle.map(Angle::degrees))
+}
+
+/// The direction in which the antenna is to point, degrees, and the decimals to show it with.
+pub(super) fn commanded(model: &Model, antenna: &AntennaModel) -> ([Option<f64>; 2], usize) {
+    let predicted = model.appearance.angle_decimals as usize;
+    let of_unit = format::decimals(antenna.variant().capabilities, predicted);
+    (in_degrees(demanded(antenna)), wanted_column(antenna).decimals(of_unit, predicted))
+}
+
+/// Shows the table of the axes.
+pub(super) fn show(ui: &Ui, at: &mut Cursor, model: &Model, antenna: &AntennaModel) {
+    let can = antenna.variant().capabilities;
+    let (is_live, measured) = (antenna.is_live(), antenna.snapshot.state.measured);
+    let (demanded, actual) = (demanded(antenna), measured.map(|measured| measured.pointing));
+    let off = |angle: fn(Pointing) -> Option<Angle>| {
+        let (demanded, actual) = demanded.zip(actual).filter(|_| is_live)?;
+        Some((angle(actual)? - angle(demanded)?).wrapped_180().degrees())
+    };
     let rates = antenna.rates_deg_s.filter(|_| is_live);
-    let error = wanted.zip(actual).filter(|_| is_live).map(|(wanted, actual)| {
-        let off = |actual: Option<Angle>, wanted: Option<Angle>| {
-            Some((actual? - wanted?).wrapped_180().degrees())
-        };
-        (off(actual.azimuth, wanted.azimuth), off(actual.elevation, wanted.elevation))
-    });
-    let azimuth_deg = |at: Pointing| at.azimuth.map(|azimuth| azimuth.wrapped_360().degrees());
-    let elevation_deg = |at: Pointing| at.elevation.map(Angle::degrees);
+    let ([wanted_az, wanted_el], [actual_az, actual_el]) =
+        (in_degrees(demanded), in_degrees(actual));
     let azimuth = AxisRow {
         name: "Az",
-        wanted_deg: wanted.and_then(azimuth_deg),
-        actual_deg: actual.and_then(azimuth_deg),
-        error_deg: error.and_then(|(azimuth, _)| azimuth),
+        wanted_deg: wanted_az,
+        actual_deg: actual_az,
+        error_deg: off(|at| at.azimuth),
         rate_deg_s: rates.map(|(azimuth, _)| azimuth),
     };
     let elevation = AxisRow {
         name: "El",
-        wanted_deg: wanted.and_then(elevation_deg),
-        actual_deg: actual.and_then(elevation_deg),
-        error_deg: error.and_then(|(_, elevation)| elevation),
+        wanted_deg: wanted_el,
+        actual_deg: actual_el,
+        error_deg: off(|at| at.elevation),
         rate_deg_s: rates.map(|(_, elevation)| elevation),
     };
-    let has_elevation = antenna.variant().capabilities.has_elevation();
-    std::iter::once(azimuth).chain(has_elevation.then_some(elevation)).collect()
-}
-
-/// Travel gauges, with the ends that the unit keeps to where it tells them. A rotator that turns something else gets none.
-pub(super) fn travel(antenna: &AntennaModel) -> Vec<TravelModel<'static>> {
-    let can = antenna.variant().capabilities;
-    let state = &antenna.snapshot.state;
-    let mount = antenna.config.mount;
-    let [whole_deg, within_deg] =
-        [mount, mount.clipped(state.travel_deg)].map(|it| it.travel_deg());
-    let gauge = |index: usize| {
-        let axis = state.measured.and_then(|measured| measured.axes.get(index).copied());
-        let (name, whole_deg) = (can.axes.get(index)?, *whole_deg.get(index)?);
-        let scale_deg = match mount {
-            Mount::Xy { .. } => (0.0, 180.0),
-            Mount::AzEl { .. } => whole_deg,
-        };
-        Some(TravelModel {
-            name,
-            scale_deg,
-            travel_deg: *within_deg.get(index)?,
-            position_deg: axis.and_then(|axis| axis.angle_deg),
-            is_old: !antenna.is_live(),
-            decimals: format::decimals(can, 1),
-            lower_limit: axis.is_some_and(|axis| axis.minus_limit),
-            upper_limit: axis.is_some_and(|axis| axis.plus_limit),
-            turns: whole_deg.1 - whole_deg.0 > 360.0,
-        })
+    let rows = [azimuth, elevation];
+    let axes = if can.has_elevation() { &rows[..] } else { &rows[..1] };
+    let age = measured.filter(|_| !is_live).map(|measured| {
+        let age = model.steady.saturating_duration_since(measured.requested);
+        format::age(age.as_secs_f64())
+    });
+    let predicted_decimals = model.appearance.angle_decimals as usize;
+    let table = AxesTable {
+        wanted_column: wanted_column(antenna),
+        decimals: format::decimals(can, predicted_decimals),
+        predicted_decimals,
+        age: age.as_deref(),
+        axes,
     };
-    (0..can.axis_count()).filter_map(gauge).collect()
+    axes_table::show(ui, at.take(axes_table::height(axes.len())), &table);
 }
 
 /// The pair of axes that the jog keys turn.
@@ -105,7 +114,9 @@ fn xy_keys(lower_axis_azimuth_deg: f64) -> JogKeys {
 }
 
 /// Directions in which a limit switch is set, or whose axis has no known angle or is absent.
-pub(super) fn blocked(measured: Measured, can: Capabilities) -> Vec<JogDirection> {
+pub(super) fn blocked(antenna: &AntennaModel) -> Vec<JogDirection> {
+    let can = antenna.variant().capabilities;
+    let Some(measured) = antenna.snapshot.state.measured else { return Vec::new() };
     let unseen = measured.axes.map(|axis| axis.angle_deg.is_none() && !can.ends_jogs);
     let [x, y] = measured.axes;
     let [x_unseen, y_unseen] = unseen;
@@ -154,24 +165,4 @@ pub(super) fn rate_of_jog(antenna: &AntennaModel) -> Option<f64> {
     let (azimuth, elevation) = antenna.rates_deg_s?;
     let [x, _] = jog;
     if x == 0.0 { can.has_elevation().then_some(elevation) } else { Some(azimuth) }
-}
-
-#[cfg(test)]
-mod tests {
-    use std::sync::Arc;
-
-    use super::*;
-    use crate::{
-        contract::driver::{LinkState, Snapshot},
-        station::Antenna,
-    };
-
-    #[test]
-    fn the_travel_ends_where_the_unit_says_so() {
-        let mut snapshot = Snapshot::before_anything(LinkState::Off);
-        snapshot.state.travel_deg = [None, Some((5.0, 120.0))];
-        let antenna = AntennaModel::new(Antenna::genius("Mast", ""), Arc::new(snapshot));
-        let ends_deg: Vec<_> = travel(&antenna).into_iter().map(|axis| axis.travel_deg).collect();
-        assert_eq!(ends_deg, [(0.0, 360.0), (5.0, 90.0)]);
-    }
 }

@@ -11,13 +11,13 @@ use crate::{
 };
 
 /// The lock of all controls for moving by hand while a target is tracked.
-pub(in crate::ui::operate) const TRACKING: &str =
-    "Locked while tracking. Choose Manual or Position.";
+const TRACKING: &str = "Locked while tracking. Choose Manual or Position.";
 const LATE: &str = "Locked: the unit answers late.";
 const SILENT: &str = "Locked: the unit does not answer.";
 const STANDBY: &str = "Locked in Standby. Choose Manual or Position.";
 
 /// The reasons why controls are locked, each in a sentence.
+#[derive(Default)]
 pub(in crate::ui::operate) struct Locks<'a> {
     /// For all controls.
     pub(in crate::ui::operate) link: Option<&'a str>,
@@ -31,12 +31,10 @@ pub(in crate::ui::operate) struct Locks<'a> {
 }
 
 impl<'a> Locks<'a> {
-    /// `has_checks`: the card has a section that names faults. `in_replay`: the reason in a replay,
-    /// in which nothing can be asked of a unit.
+    /// `in_replay`: the reason in a replay, in which nothing can be asked of a unit.
     pub(in crate::ui::operate) fn of(
         model: &Model,
         antenna: &AntennaModel,
-        has_checks: bool,
         in_replay: &'a str,
     ) -> Self {
         if model.replay.is_some() {
@@ -58,7 +56,7 @@ impl<'a> Locks<'a> {
             LinkState::Up { .. } | LinkState::Stale { .. } => None,
             LinkState::Connecting { .. } | LinkState::Lost { .. } => Some(SILENT),
         };
-        let fault = fault(antenna, has_checks);
+        let fault = fault(antenna);
         let maintenance =
             snapshot.lock_out.is_some().then_some("Locked: the unit is in maintenance.");
         let link = maintenance.or(link);
@@ -81,7 +79,9 @@ impl<'a> Locks<'a> {
         };
         let action = match intent {
             Intent::Manual | Intent::Position => None,
-            _ => Some("Motion is locked. Choose Manual or Position."),
+            Intent::Standby | Intent::Track | Intent::Park => {
+                Some("Motion is locked. Choose Manual or Position.")
+            }
         };
         let blind = no_direction(antenna);
         // A late reply must not change the layout of the card.
@@ -108,13 +108,14 @@ fn no_motion(model: &Model, antenna: &AntennaModel, motion: Motion) -> Option<&'
 }
 
 /// The reason why the unit locks motion, if it does.
-fn fault(antenna: &AntennaModel, has_checks: bool) -> Option<&'static str> {
+fn fault(antenna: &AntennaModel) -> Option<&'static str> {
     let state = &antenna.snapshot.state;
     if state.motion_lock != Some(true) {
         return None;
     }
     let is_named = state.checks.iter().any(Check::forbids_motion);
-    Some(match (is_named, has_checks) {
+    // Without checks, the card has no section that names faults.
+    Some(match (is_named, !state.checks.is_empty()) {
         (true, _) => "Locked by a fault. See Faults.",
         (false, false) => "Locked by the unit. See what it reports.",
         // It tells that it has a fault, but the list of its faults has not come.

@@ -1,97 +1,216 @@
-//! Offsets of a track as the card shows them.
+//! Offsets while tracking: a line each with keys for less and more, zero and undo.
 
-use super::Locks;
+use egui::{Align2, Color32, Rect, Ui, vec2};
+
+use super::{Card, Cursor, remark};
 use crate::{
-    contract::antenna::AntennaModel,
-    model::Model,
+    astro::{Offset, TrackOffsets},
+    contract::{
+        self,
+        antenna::AntennaModel,
+        driver::{Command, OffsetChange, TrackView},
+    },
+    model::UiCommand,
     station::OffsetsSubject,
     ui::{
-        antenna_card::{OffsetsIn, OffsetsModel},
+        icons::Icon,
         state_sentence::short,
+        text, theme,
+        widgets::{
+            button::{Button, SMALL_HEIGHT},
+            fold::Fold,
+            paint,
+            segmented::{self, Segment},
+        },
         words,
     },
 };
 
-/// Values that the section borrows.
-pub(super) struct CardOffsets<'a> {
-    /// Subjects that Azel can remember the offsets in force for, and whether that would be new.
-    keep: Vec<(OffsetsSubject, &'a str, bool)>,
-    /// Offsets on the unit, in words.
-    on_unit: String,
-    /// Offsets that are still on the unit although no track needs them, in words.
-    left: Option<String>,
+const KEY: f32 = 36.0;
+const GAP: f32 = 4.0;
+/// Width of the choice of steps.
+const STEPS: f32 = 132.0;
+
+/// Size of a step, in thousandths of a degree or of a second.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum OffsetStep {
+    Fine,
+    #[default]
+    Medium,
+    Coarse,
 }
 
-impl<'a> CardOffsets<'a> {
-    pub(super) fn of(model: &Model, antenna: &'a AntennaModel) -> Self {
-        let of_unit = antenna.snapshot.state.on_board.offsets.as_ref();
-        Self {
-            keep: kept(model, antenna),
-            on_unit: words::offsets_on_unit(of_unit),
-            left: left(antenna),
-        }
-    }
+impl OffsetStep {
+    const ALL: [(Self, &'static str); 3] =
+        [(Self::Fine, "0.01"), (Self::Medium, "0.1"), (Self::Coarse, "1")];
 
-    pub(super) fn left(&self) -> Option<&str> {
-        self.left.as_deref()
-    }
-
-    /// The offsets of the track that runs, from here or on board.
-    pub(super) fn model<'b>(
-        &'b self,
-        antenna: &AntennaModel,
-        locks: &Locks<'b>,
-    ) -> Option<OffsetsModel<'b>> {
-        let can = antenna.variant().capabilities;
-        if !antenna.follows() {
-            return self.on_unit(antenna, locks);
-        }
-        let track = antenna.snapshot.program_track.as_ref()?;
-        Some(OffsetsModel {
-            offsets: track.offsets,
-            can_undo: track.can_undo,
-            locked: locks.link,
-            of: OffsetsIn::Azel {
-                target_moves: track.target_moves,
-                has_elevation: can.has_elevation(),
-                keep: &self.keep,
-            },
-        })
-    }
-
-    fn on_unit<'b>(
-        &'b self,
-        antenna: &AntennaModel,
-        locks: &Locks<'b>,
-    ) -> Option<OffsetsModel<'b>> {
-        antenna.variant().track_offsets.filter(|_| antenna.tracks())?;
-        let snapshot = &antenna.snapshot;
-        let added = snapshot.unit_offsets.as_ref();
-        let unknown = snapshot.on_board.is_none().then_some(words::OFFSETS_NEED_ELEMENTS);
-        Some(OffsetsModel {
-            offsets: added.map(|unit| unit.offsets).unwrap_or_default(),
-            can_undo: added.is_some_and(|unit| unit.can_undo),
-            locked: locks.link.or(unknown),
-            of: OffsetsIn::Unit {
-                held: &self.on_unit,
-                is_changing: added.is_some_and(|unit| unit.is_changing),
-            },
+    /// A step of the kind of `offset`.
+    pub fn of(self, offset: Offset) -> Offset {
+        offset.with_thousandths(match self {
+            Self::Fine => 10,
+            Self::Medium => 100,
+            Self::Coarse => 1000,
         })
     }
 }
 
-fn kept<'a>(model: &Model, antenna: &'a AntennaModel) -> Vec<(OffsetsSubject, &'a str, bool)> {
-    let Some(track) = &antenna.snapshot.program_track else { return Vec::new() };
-    let of_satellite =
-        track.catalog_number.map(|number| (OffsetsSubject::Satellite(number), short(&track.name)));
-    let of_antenna = (OffsetsSubject::Antenna(antenna.id()), &*antenna.config.name);
-    let each = of_satellite.into_iter().chain([of_antenna]);
-    let differs = |of: OffsetsSubject| of.part(track.offsets) != model.station.kept_offsets(of);
-    each.map(|(of, name)| (of, name, differs(of))).collect()
+/// The section, and the chosen step.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct OffsetsState {
+    pub(super) fold: Fold,
+    pub step: OffsetStep,
 }
 
-fn left(antenna: &AntennaModel) -> Option<String> {
+/// The offsets of the track that runs, from here or on board, and whether there is a change to be
+/// undone; `None` while nothing is tracked that takes offsets.
+pub(super) fn in_force(antenna: &AntennaModel) -> Option<(TrackOffsets, bool)> {
+    if let Some(track) = followed(antenna) {
+        return Some((track.offsets, track.can_undo));
+    }
+    antenna.variant().track_offsets.filter(|_| antenna.tracks())?;
+    let unit = antenna.snapshot.unit_offsets.as_ref();
+    Some(unit.map(|unit| (unit.offsets, unit.can_undo)).unwrap_or_default())
+}
+
+/// The track for which Azel sends position after position.
+fn followed(antenna: &AntennaModel) -> Option<&TrackView> {
+    antenna.snapshot.program_track.as_ref().filter(|_| antenna.follows())
+}
+
+fn is_offered(antenna: &AntennaModel, offset: Offset) -> bool {
+    match (offset, followed(antenna)) {
+        (Offset::Along(_) | Offset::Across(_), Some(track)) => track.target_moves,
+        (Offset::Elevation(_), Some(_)) => antenna.variant().capabilities.has_elevation(),
+        (Offset::Time(_), Some(_)) | (Offset::Azimuth(_), _) | (Offset::Elevation(_), None) => true,
+        (Offset::Time(_) | Offset::Along(_) | Offset::Across(_), None) => false,
+    }
+}
+
+/// Offsets that are still on the unit although no track needs them, in words.
+pub(super) fn left(antenna: &AntennaModel) -> Option<String> {
     let unit = antenna.snapshot.unit_offsets.as_ref()?;
     let is_left = unit.left.is_some() && !unit.offsets.is_none() && !unit.is_changing;
     is_left.then(|| words::offsets(unit.offsets))
+}
+
+/// The value and mark of the section's line, if there are offsets to change.
+pub(super) fn in_words(
+    ui: &Ui,
+    antenna: &AntennaModel,
+) -> Option<(String, Option<(Icon, Color32)>)> {
+    let (offsets, _) = in_force(antenna)?;
+    let mark = (!offsets.is_none()).then_some((Icon::Sliders, theme::tokens(ui).cmd));
+    let unit = antenna.snapshot.unit_offsets.as_ref().filter(|_| followed(antenna).is_none());
+    let changing = if unit.is_some_and(|unit| unit.is_changing) { ", being set" } else { "" };
+    Some((format!("{}{changing}", words::offsets(offsets)), mark))
+}
+
+/// Shows the section. Call only while there are offsets to change.
+pub(super) fn show(ui: &Ui, at: &mut Cursor, card: &mut Card<'_>, state: &mut OffsetsState) {
+    let (antenna, t) = (card.antenna, theme::tokens(ui));
+    let (offsets, can_undo) = in_force(antenna).unwrap_or_default();
+    let (followed, snapshot) = (followed(antenna), &antenna.snapshot);
+    let needs_elements = followed.is_none() && snapshot.on_board.is_none();
+    let locked = card.locks.link.or(needs_elements.then_some(words::OFFSETS_NEED_ELEMENTS));
+    at.skip(4.0);
+    for offset in offsets.components().into_iter().filter(|offset| is_offered(antenna, *offset)) {
+        row(ui, at.take(SMALL_HEIGHT), offset, locked.is_some(), state.step, card);
+        at.skip(GAP);
+    }
+    let row = at.take(SMALL_HEIGHT);
+    let head = paint::text(ui, row.left_center(), Align2::LEFT_CENTER, "Step", text::small(), t.t2);
+    let choice = row.with_min_x(head.right() + 8.0);
+    let choice = choice.with_max_x(choice.left() + STEPS);
+    let segment =
+        |(step, word)| (word, if step == state.step { Segment::Chosen } else { Segment::Free });
+    let segments = OffsetStep::ALL.map(segment);
+    let name = "Step, degrees or seconds";
+    if let Some(index) = segmented::show(ui, "offset step", choice, name, &segments) {
+        state.step = OffsetStep::ALL.get(index).map_or(state.step, |(step, _)| *step);
+    }
+    let mut right = row.right();
+    for (word, change, is_free, name) in [
+        ("Undo", OffsetChange::Undo, can_undo, "Undo the last offset"),
+        ("Zero", OffsetChange::Zero, !offsets.is_none(), "All offsets to zero"),
+    ] {
+        let button = Button::normal(word).locked(!is_free || locked.is_some());
+        let width = (button.width(ui) - 8.0).min(56.0);
+        let place = row.with_min_x(right - width).with_max_x(right);
+        right = place.left() - GAP;
+        let response = button.show(ui, ("offset", word), place).accessible_name(name);
+        if response.clicked() {
+            card.ask(Command::Offset(change));
+        }
+    }
+    at.skip(GAP);
+    if let Some(track) = followed {
+        keep(ui, at.take(SMALL_HEIGHT), track, card);
+        at.skip(GAP);
+    } else {
+        let on_unit = words::offsets_on_unit(snapshot.state.on_board.offsets.as_ref());
+        let words = words::offsets_on_unit_about(&on_unit);
+        let taken = paint::paragraph(ui, at.at(), at.width(), &words, text::small(), t.t2);
+        paint::name_text(ui, "offsets on the unit", taken, &words);
+        at.y = taken.bottom() + GAP;
+    }
+    if let Some(why) = locked {
+        remark(ui, at, "offsets locked", Icon::Lock, t.t2, why);
+        at.skip(1.0);
+    }
+    at.skip(4.0);
+}
+
+/// A button for each subject that Azel can remember the offsets of the track for.
+fn keep(ui: &Ui, row: Rect, track: &TrackView, card: &mut Card<'_>) {
+    let t = theme::tokens(ui);
+    let words = "Remember for";
+    let head = paint::text(ui, row.left_center(), Align2::LEFT_CENTER, words, text::small(), t.t2);
+    let room = row.with_min_x(head.right() + 8.0);
+    let width = (room.width() - GAP) / 2.0;
+    let mut left = room.left();
+    let of_satellite =
+        track.catalog_number.map(|number| (OffsetsSubject::Satellite(number), short(&track.name)));
+    let of_antenna = (OffsetsSubject::Antenna(card.antenna.id()), &*card.antenna.config.name);
+    for (of, name) in of_satellite.into_iter().chain([of_antenna]) {
+        let differs = of.part(track.offsets) != card.model.station.kept_offsets(of);
+        let place = room.with_min_x(left).with_max_x(left + width);
+        left = place.right() + GAP;
+        let about = match of {
+            OffsetsSubject::Satellite(_) => {
+                format!("Remember time, along and across the track for {name}")
+            }
+            OffsetsSubject::Antenna(_) => format!("Remember azimuth and elevation for {name}"),
+        };
+        let said = if differs { about } else { format!("{about}: remembered already") };
+        let response = Button::normal(name).locked(!differs).show(ui, ("keep", name), place);
+        let response = response.on_hover_text(&said).accessible_name(said);
+        if response.clicked() {
+            let keep = contract::Command::KeepOffsets { subject: of, offsets: track.offsets };
+            card.commands.push(UiCommand::Station(keep));
+        }
+    }
+}
+
+/// Name, less, value and more.
+fn row(ui: &Ui, row: Rect, offset: Offset, is_locked: bool, step: OffsetStep, card: &mut Card<'_>) {
+    let t = theme::tokens(ui);
+    let (name, value) = (words::offset_name(offset), words::offset_value(offset));
+    let colour = if offset.is_zero() { t.t2 } else { t.t1 };
+    paint::text(ui, row.left_center(), Align2::LEFT_CENTER, name, text::small(), t.t2);
+    let more = row.with_min_x(row.right() - KEY);
+    let less = more.translate(vec2(-KEY - GAP, 0.0));
+    let shown = row.with_min_x(row.left() + 84.0).with_max_x(less.left() - 12.0);
+    let font = text::body_medium();
+    paint::text(ui, shown.right_center(), Align2::RIGHT_CENTER, &value, font, colour);
+    paint::name_text(ui, ("offset value", name), shown, &format!("{name} offset: {value}"));
+    let by = step.of(offset);
+    for (place, mark, by, word) in [(less, "−", -by, "less"), (more, "+", by, "more")] {
+        let button = Button::normal(mark).locked(is_locked);
+        let said = format!("{name} offset, {word}");
+        let response = button.show(ui, ("offset", name, mark), place).accessible_name(said);
+        if response.clicked() {
+            response.request_focus();
+            card.ask(Command::Offset(OffsetChange::Step(by)));
+        }
+    }
 }

@@ -1,51 +1,51 @@
 //! The controls for a unit without a connection.
 
-use egui::{Align2, Role, Stroke, StrokeKind, Ui, pos2, vec2};
+use egui::{Align2, Rect, Role, Stroke, StrokeKind, Ui, pos2, vec2};
 
-use super::{CardAction, Cursor, HeaderModel};
-use crate::ui::{
-    icons::{self, Icon},
-    text::{self, Weight},
-    theme,
-    widgets::{
-        button::{self, Button},
-        paint,
+use super::{Card, Cursor};
+use crate::{
+    contract::{antenna::AntennaModel, driver::Command},
+    model::UiCommand,
+    ui::{
+        icons::{self, Icon},
+        text::{self, Weight},
+        theme,
+        widgets::{
+            button::{self, Button},
+            paint,
+        },
     },
 };
 
 /// Shows Connect and a separate STOP: the one in the top bar leaves this unit alone.
-pub(super) fn show(
-    ui: &Ui,
-    at: &mut Cursor,
-    model: &HeaderModel<'_>,
-    actions: &mut Vec<CardAction>,
-) {
+pub(super) fn show(ui: &Ui, at: &mut Cursor, card: &mut Card<'_>) {
+    let is_locked = card.model.replay.is_some();
     let row = at.take(button::HEIGHT);
     let (connect, stop) = row.split_left_right_at_fraction(0.4);
     if Button::primary("Connect")
-        .locked(model.is_replayed())
+        .locked(is_locked)
         .show(ui, "connect", connect.with_max_x(connect.right() - 4.0))
         .clicked()
     {
-        actions.push(CardAction::Connect);
+        card.ask(Command::Connect);
     }
-    if stop_key(ui, stop.with_min_x(stop.left() + 4.0), model) {
-        actions.push(CardAction::Stop);
+    if stop_key(ui, stop.with_min_x(stop.left() + 4.0), card.antenna, is_locked) {
+        card.commands.push(UiCommand::StopAntenna(card.antenna.id()));
     }
     at.skip(6.0);
 }
 
 /// Shows what STOP does with such a unit.
-pub(super) fn about(ui: &Ui, at: &mut Cursor, model: &HeaderModel<'_>) {
+pub(super) fn about(ui: &Ui, at: &mut Cursor, antenna: &AntennaModel) {
     let t = theme::tokens(ui);
-    let about = about_stop(model);
+    let about = about_stop(antenna);
     let words = paint::paragraph(ui, at.at(), at.width(), &about, text::small(), t.t2);
     paint::name_text(ui, "about stop of a released unit", words, &about);
     at.y = words.bottom() + 6.0;
 }
 
-fn about_stop(model: &HeaderModel<'_>) -> String {
-    let does = if model.takes_panel {
+fn about_stop(antenna: &AntennaModel) -> String {
+    let does = if antenna.variant().capabilities.waits_for_word {
         "takes control from anybody at its panel, and disconnects"
     } else {
         "disconnects again"
@@ -56,12 +56,12 @@ fn about_stop(model: &HeaderModel<'_>) -> String {
     )
 }
 
-fn stop_key(ui: &Ui, rect: egui::Rect, model: &HeaderModel<'_>) -> bool {
+fn stop_key(ui: &Ui, rect: Rect, antenna: &AntennaModel, is_locked: bool) -> bool {
     let t = theme::tokens(ui);
-    let (name, about) = (format!("Connect and STOP {}", model.name), about_stop(model));
-    let (is_enabled, colour) = if model.is_replayed() { (false, t.t3) } else { (true, t.bad) };
+    let (name, about) = (format!("Connect and STOP {}", antenna.config.name), about_stop(antenna));
+    let colour = if is_locked { t.t3 } else { t.bad };
     let response =
-        paint::control(ui, "stop a released unit", rect, Role::Button, is_enabled, &name);
+        paint::control(ui, "stop a released unit", rect, Role::Button, !is_locked, &name);
     ui.ctx().accesskit_node_builder(response.id, |node| node.set_description(&*about));
     // The fill of STOP is that of the one in the top bar alone.
     let border = Stroke::new(2.0, colour);

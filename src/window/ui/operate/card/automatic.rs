@@ -3,15 +3,19 @@
 
 use egui::{Rect, Role, Ui, WidgetInfo, pos2, text::LayoutJob, vec2};
 
-use super::{CardAction, CardModel, Cursor};
-use crate::ui::{
-    text, theme,
-    widgets::{
-        button::{Button, SMALL_HEIGHT},
-        link_chip::{self, TAG},
-        paint,
+use super::Cursor;
+use crate::{
+    contract::{self, antenna::AntennaModel, automatic::Operation},
+    model::{Model, UiCommand},
+    ui::{
+        text, theme,
+        widgets::{
+            button::{Button, SMALL_HEIGHT},
+            link_chip::{self, TAG},
+            paint,
+        },
+        words,
     },
-    words,
 };
 
 /// Space between the tag and the words.
@@ -19,10 +23,16 @@ const GAP: f32 = 8.0;
 /// Rows that the words of a countdown have, so that nothing below moves when they change.
 const ROWS: usize = 2;
 
-pub(super) fn show(ui: &Ui, at: &mut Cursor, model: &CardModel<'_>, actions: &mut Vec<CardAction>) {
-    let Some(automatic) = model.automatic else { return };
+pub(super) fn show(
+    ui: &Ui,
+    at: &mut Cursor,
+    model: &Model,
+    antenna: &AntennaModel,
+    commands: &mut Vec<UiCommand>,
+) {
+    let Some(said) = words::automatic::in_full(model, antenna) else { return };
     let t = theme::tokens(ui);
-    let is_suspended = automatic.is_suspended;
+    let is_suspended = matches!(antenna.operation, Operation::Suspended { .. });
     let colour = if is_suspended { t.warn } else { t.t1 };
     let width = at.width() - TAG.x - GAP;
     let font = text::small();
@@ -32,22 +42,22 @@ pub(super) fn show(ui: &Ui, at: &mut Cursor, model: &CardModel<'_>, actions: &mu
         ui.painter().layout_job(job)
     };
     // The reason of a suspension is shown whole.
-    let words = layout(automatic.words, if is_suspended { usize::MAX } else { ROWS });
+    let words = layout(&said, if is_suspended { usize::MAX } else { ROWS });
     let is_cut = words.elided;
     let room = if is_suspended { words.size().y } else { layout("\n", ROWS).size().y };
     let row = at.take(room.max(TAG.y));
     link_chip::automatic_tag(ui, Rect::from_min_size(row.left_top(), TAG), is_suspended);
     ui.painter().galley(pos2(row.left() + TAG.x + GAP, row.top()), words, colour);
-    let spoken = format!("Automatic operation: {}", automatic.words);
+    let spoken = format!("Automatic operation: {said}");
     let named = paint::name_text(ui, "automatic", row, &spoken);
     if is_cut {
         named.on_hover_text(&spoken);
     }
-    if let Some(go_on) = model.go_on {
+    if let Some(go_on) = words::automatic::go_on(model, antenna) {
         at.skip(4.0);
         let row = at.take(SMALL_HEIGHT);
-        let is_locked = model.header.is_replayed();
-        let whole = Button::normal(go_on).locked(is_locked);
+        let is_locked = model.replay.is_some();
+        let whole = Button::normal(&go_on).locked(is_locked);
         let has_room = whole.width(ui) <= row.width();
         let button = if has_room { whole } else { Button::normal(words::automatic::RESUME) };
         let button = button.locked(is_locked);
@@ -56,7 +66,8 @@ pub(super) fn show(ui: &Ui, at: &mut Cursor, model: &CardModel<'_>, actions: &mu
         let said = format!("{go_on}: automatic operation is suspended");
         response.widget_info(|| WidgetInfo::labeled(Role::Button, !is_locked, &said));
         if response.clicked() {
-            actions.push(CardAction::GoOn);
+            let go_on = contract::Command::GoOn(antenna.id());
+            commands.push(UiCommand::Station(go_on));
         }
         if !has_room {
             response.on_hover_text(said);

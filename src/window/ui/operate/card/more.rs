@@ -4,14 +4,17 @@ use std::collections::BTreeMap;
 
 use egui::{Align2, Rect, Ui, pos2, vec2};
 
-use super::{CardAction, Cursor};
+use super::{Card, Cursor, Locks, remark};
 use crate::{
+    contract::driver::Command,
     device::{
         panel::{Act, Action},
         settings::{Field, Values},
     },
+    model::UiCommand,
     ui::{
-        icons::{self, Icon},
+        confirm::Question,
+        icons::Icon,
         text, theme,
         widgets::{
             button::{Button, SMALL_HEIGHT},
@@ -26,23 +29,6 @@ use crate::{
 const GAP: f32 = 8.0;
 /// Maximum part of the width for the label of a field.
 const LABEL: f32 = 0.42;
-
-/// The actions of a unit.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct MoreModel<'a> {
-    /// All actions of the unit.
-    pub actions: &'static [Action],
-    /// The reason why no action is available now.
-    pub locked: Option<&'a str>,
-    /// The reason why no action that moves metal is available now.
-    pub moves_locked: Option<&'a str>,
-}
-
-impl<'a> MoreModel<'a> {
-    fn lock(&self, action: &Action) -> Option<&'a str> {
-        self.locked.or(self.moves_locked.filter(|_| action.moves))
-    }
-}
 
 /// Input for the actions. No `Debug`: it may contain a password.
 #[derive(Clone, Default)]
@@ -69,29 +55,38 @@ impl MoreState {
     }
 }
 
-/// The names of the actions, for the fold.
-pub(super) fn in_words(model: &MoreModel<'_>) -> String {
-    let labels: Vec<&str> = model.actions.iter().map(|action| action.label).collect();
-    labels.join(", ")
+/// Shows the actions, and starts one, after its question if it has one.
+pub(super) fn show(ui: &mut Ui, at: &mut Cursor, card: &mut Card<'_>, state: &mut MoreState) {
+    let actions = card.antenna.variant().actions;
+    let Some((action, act)) = list(ui, at, actions, &card.locks, state) else { return };
+    match action.question {
+        Some(text) => {
+            let command = UiCommand::antenna(card.antenna.id(), Command::Act(act));
+            *card.question = Some(Question { text: text.to_owned(), yes: action.label, command });
+        }
+        None => card.ask(Command::Act(act)),
+    }
 }
 
-/// Shows the actions, those without input side by side.
-pub(super) fn show(
+/// Shows the actions, those without input side by side. Returns the one to start, with its input.
+fn list(
     ui: &mut Ui,
     at: &mut Cursor,
-    model: &MoreModel<'_>,
+    actions: &'static [Action],
+    locks: &Locks<'_>,
     state: &mut MoreState,
-    actions: &mut Vec<CardAction>,
-) {
+) -> Option<(&'static Action, Act)> {
     at.skip(4.0);
-    let moves_locked =
-        model.moves_locked.filter(|_| model.actions.iter().any(|action| action.moves));
-    if let Some(why) = model.locked.or(moves_locked) {
-        say(ui, at, "locked actions", Icon::Lock, why, theme::tokens(ui).t2);
+    let moves_locked = locks.action.filter(|_| actions.iter().any(|action| action.moves));
+    if let Some(why) = locks.link.or(moves_locked) {
+        remark(ui, at, "locked actions", Icon::Lock, theme::tokens(ui).t2, why);
+        at.skip(GAP);
     }
     let mut right_end = at.right;
-    for action in model.actions {
-        let button = Button::normal(action.label).locked(model.lock(action).is_some());
+    let mut asked = None;
+    for action in actions {
+        let is_locked = locks.link.is_some() || locks.action.is_some() && action.moves;
+        let button = Button::normal(action.label).locked(is_locked);
         let width = button.width(ui).min(at.width());
         if action.fields.is_empty() {
             // Beside the previous one, if there is room.
@@ -102,7 +97,7 @@ pub(super) fn show(
             let min = pos2(right_end + GAP, at.y - SMALL_HEIGHT - GAP);
             let place = Rect::from_min_size(min, vec2(width, SMALL_HEIGHT));
             right_end = place.right();
-            ask(ui, place, button, action, state, actions);
+            asked = asked.or(ask(ui, place, button, action, state));
         } else {
             right_end = at.right;
             for field in action.fields {
@@ -111,24 +106,17 @@ pub(super) fn show(
             }
             let row = at.take(SMALL_HEIGHT);
             at.skip(GAP);
-            ask(ui, row.with_min_x(row.right() - width), button, action, state, actions);
+            let place = row.with_min_x(row.right() - width);
+            asked = asked.or(ask(ui, place, button, action, state));
         }
         let refusal = state.refused.as_ref().filter(|(key, _)| *key == action.key);
         if let Some((_, words)) = refusal {
             right_end = at.right;
-            say(ui, at, "refused action", Icon::Warning, words, theme::tokens(ui).bad);
+            remark(ui, at, "refused action", Icon::Warning, theme::tokens(ui).bad, words);
+            at.skip(GAP);
         }
     }
-}
-
-/// Shows a sentence with its mark.
-fn say(ui: &Ui, at: &mut Cursor, salt: &str, icon: Icon, words: &str, colour: egui::Color32) {
-    let mark = paint::square(pos2(at.left + 7.0, at.y + 8.0), 13.0);
-    icons::paint(ui.painter(), mark, icon, colour);
-    let start = at.at() + vec2(20.0, 0.0);
-    let taken = paint::paragraph(ui, start, at.width() - 20.0, words, text::small(), colour);
-    paint::name_text(ui, salt, taken, words);
-    at.y = taken.bottom() + GAP;
+    asked
 }
 
 fn ask(
@@ -137,15 +125,17 @@ fn ask(
     button: Button<'_>,
     action: &'static Action,
     state: &mut MoreState,
-    actions: &mut Vec<CardAction>,
-) {
+) -> Option<(&'static Action, Act)> {
     let response = button.show(ui, ("action", action.key), place).on_hover_text(action.description);
     if !response.clicked() {
-        return;
+        return None;
     }
     match state.read(action) {
-        Ok(act) => actions.push(CardAction::Act(act)),
-        Err(why) => state.refused = Some((action.key, why)),
+        Ok(act) => Some((action, act)),
+        Err(why) => {
+            state.refused = Some((action.key, why));
+            None
+        }
     }
 }
 
@@ -225,15 +215,15 @@ mod tests {
     struct Story {
         moves_locked: Option<&'static str>,
         state: MoreState,
-        asked: Vec<CardAction>,
+        asked: Vec<Act>,
     }
 
     fn section(story: Story) -> Harness<'static, Story> {
         let mut window = testing::window([320.0, 220.0], story, |ui, story| {
-            let mut at = Cursor { left: 10.0, right: 290.0, y: 4.0 };
-            let model =
-                MoreModel { actions: ACTIONS, locked: None, moves_locked: story.moves_locked };
-            show(ui, &mut at, &model, &mut story.state, &mut story.asked);
+            let mut at = Cursor::new(ui.max_rect());
+            let locks = Locks { action: story.moves_locked, ..Locks::default() };
+            let asked = list(ui, &mut at, ACTIONS, &locks, &mut story.state);
+            story.asked.extend(asked.map(|(_, act)| act));
         });
         window.run();
         window
@@ -254,7 +244,7 @@ mod tests {
         window.get_by_label("Turn the other").click();
         window.run();
         let values = Values::from([("to", Value::Integer(270)), ("way", Value::Choice(0))]);
-        assert_eq!(window.state().asked, [CardAction::Act(Act { action: "turn", values })]);
+        assert_eq!(window.state().asked, [Act { action: "turn", values }]);
     }
 
     #[test]
@@ -279,6 +269,6 @@ mod tests {
         window.get_by_label("Reset alarms").click();
         window.run();
         let reset = Act { action: "reset", values: Values::default() };
-        assert_eq!(window.state().asked, [CardAction::Act(reset)]);
+        assert_eq!(window.state().asked, [reset]);
     }
 }

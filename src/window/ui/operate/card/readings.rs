@@ -98,7 +98,7 @@ mod tests {
             Reading::new("Alarm", "none"),
         ];
         let window = testing::window([320.0, 120.0], readings, |ui, readings| {
-            let mut at = Cursor { left: 10.0, right: 310.0, y: 4.0 };
+            let mut at = Cursor::new(ui.max_rect());
             show(ui, &mut at, readings, true);
             assert_eq!(in_words(ui, readings).0, "AGC 43 %");
             assert_eq!(in_words(ui, readings.get(2..).unwrap_or_default()).0, "Alarm none");

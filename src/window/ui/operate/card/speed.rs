@@ -2,7 +2,6 @@
 
 use egui::{Rect, Ui};
 
-use super::DriveModel;
 use crate::{
     device::{JogSpeed, JogSpeeds},
     ui::{
@@ -45,15 +44,21 @@ pub(super) fn stepped(chosen_deg_s: f64, by: i32, speeds: JogSpeeds, max_deg_s: 
     named.get(wanted).map_or(chosen_deg_s, |speed| speed.share * max_deg_s)
 }
 
-/// Shows the choice in `rect`; changes `chosen_deg_s`.
-pub(super) fn show(ui: &Ui, rect: Rect, model: &DriveModel<'_>, chosen_deg_s: &mut f64) {
-    let max_deg_s = model.max_deg_s;
-    match model.speeds {
+/// Shows the choice in `rect`, a slider `is_locked` or not; changes `chosen_deg_s`.
+pub(super) fn show(
+    ui: &Ui,
+    rect: Rect,
+    speeds: JogSpeeds,
+    max_deg_s: f64,
+    is_locked: bool,
+    chosen_deg_s: &mut f64,
+) {
+    match speeds {
         JogSpeeds::AnyRate => {
-            rate_slider::show(ui, rect, max_deg_s, model.jog_locked.is_some(), chosen_deg_s);
+            rate_slider::show(ui, rect, max_deg_s, is_locked, chosen_deg_s);
         }
         JogSpeeds::Named(named @ [_, _, ..]) => {
-            let now = model.speeds.nearest(*chosen_deg_s, max_deg_s);
+            let now = speeds.nearest(*chosen_deg_s, max_deg_s);
             let segment = |speed: &JogSpeed| {
                 let is_chosen = Some(*speed) == now;
                 (speed.name, if is_chosen { Segment::Chosen } else { Segment::Free })

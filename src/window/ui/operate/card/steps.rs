@@ -2,15 +2,18 @@
 
 use egui::{Align2, Event, EventFilter, Rect, Response, Ui, pos2, vec2};
 
-use super::{CardAction, Cursor, DriveModel};
-use crate::ui::{
-    text, theme,
-    widgets::{
-        angle_field::AngleField,
-        button::{Button, SMALL_HEIGHT},
-        go_to::parse,
-        jog_pad::{JogDirection, JogState},
-        paint,
+use super::{Card, Cursor, axes};
+use crate::{
+    contract::{antenna::AntennaModel, driver::Command},
+    ui::{
+        text, theme,
+        widgets::{
+            angle_field::AngleField,
+            button::{Button, SMALL_HEIGHT},
+            go_to::parse,
+            jog_pad::{JogDirection, JogState},
+            paint,
+        },
     },
 };
 
@@ -39,7 +42,8 @@ impl Default for StepState {
 
 impl StepState {
     /// The size in degrees, or the reason why the input is invalid.
-    pub(super) fn size_deg(&self, max_deg: f64) -> Result<f64, String> {
+    pub(super) fn size_deg(&self, antenna: &AntennaModel) -> Result<f64, String> {
+        let max_deg = antenna.config.limits.maximum_step_deg;
         parse::angle(&self.typed, "Step", (MIN_DEG, max_deg))
     }
 }
@@ -48,16 +52,15 @@ impl StepState {
 pub(super) fn show(
     ui: &mut Ui,
     at: &mut Cursor,
-    model: &DriveModel<'_>,
-    max_deg: f64,
+    card: &mut Card<'_>,
     state: &mut StepState,
     jog: JogState,
-    actions: &mut Vec<CardAction>,
 ) {
+    let (keys, blocked) = (axes::keys(card.antenna), axes::blocked(card.antenna));
     let row = at.take(SMALL_HEIGHT);
     let t = theme::tokens(ui);
     paint::text(ui, row.left_center(), Align2::LEFT_CENTER, "Step", text::small(), t.t2);
-    let size = state.size_deg(max_deg);
+    let size = state.size_deg(card.antenna);
     let field = row.with_min_x(row.left() + LABEL).with_max_x(row.left() + LABEL + FIELD);
     let id = ui.make_persistent_id("step size");
     AngleField { refused: size.is_err(), hint: "", name: "Step size, degrees" }.show(
@@ -73,13 +76,13 @@ pub(super) fn show(
     let mut asked = None;
     let keys: Vec<_> = ORDER
         .into_iter()
-        .filter_map(|direction| Some((direction, model.keys.label(direction)?)))
+        .filter_map(|direction| Some((direction, keys.label(direction)?)))
         .collect();
     let mut left = row.right() + GAP - keys.len() as f32 * (KEY + GAP);
     for (direction, label) in keys {
         let place = Rect::from_min_size(pos2(left, row.top()), vec2(KEY, SMALL_HEIGHT));
         left = place.right() + GAP;
-        let free = size.is_ok() && !model.blocked.contains(&direction);
+        let free = size.is_ok() && !blocked.contains(&direction);
         let button = Button::normal(label.word).locked(!free);
         let response = button.show(ui, ("step", direction), place);
         let response = response.accessible_name(format!("Step {}", label.name));
@@ -93,11 +96,11 @@ pub(super) fn show(
         asked = asked.or_else(|| arrow(ui));
     }
     if let (Some(direction), Ok(step_deg)) = (asked, size)
-        && !model.blocked.contains(&direction)
+        && !blocked.contains(&direction)
         && !jog.is_held()
     {
         let (x, y) = direction.signs();
-        actions.push(CardAction::Step { x, y, step_deg });
+        card.ask(Command::Step { steps_deg: [x, y].map(|sign| f64::from(sign) * step_deg) });
     }
 }
 

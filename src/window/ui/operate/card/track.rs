@@ -1,0 +1,343 @@
+//! The tracked and the selected satellite, and the holds before tracking.
+
+use egui::{Align2, Rect, Ui, pos2, vec2};
+
+use super::{
+    Card, CardState, Cursor,
+    follow::{self, follow_into_sun},
+    modes, remark,
+};
+use crate::{
+    astro::time::seconds_between,
+    contract::{
+        self,
+        antenna::AntennaModel,
+        driver::{Command, Intent},
+        passes::PredictedPass,
+    },
+    model::{Model, UiCommand},
+    plan::pass_report::Explained,
+    ui::{
+        format,
+        icons::Icon,
+        operate::passes,
+        state_sentence::short,
+        text, theme,
+        widgets::{
+            button::{self, Button},
+            hold_button::{self, HoldState},
+            paint,
+        },
+        words,
+    },
+};
+
+/// Minimum width of the satellite on the left.
+const MIN_HELD: f32 = 88.0;
+
+/// Open questions.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct TrackState {
+    parking: bool,
+    /// The Sun was chosen and waits for a hold.
+    asks_sun: bool,
+    hold: HoldState,
+    tracking: HoldState,
+}
+
+/// A request that takes a hold.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Question {
+    Park,
+    Sun,
+}
+
+impl TrackState {
+    /// Opens the question about parking, or drops the questions that are open.
+    pub(super) fn ask_to_park(&mut self, parking: bool) {
+        (self.parking, self.asks_sun, self.hold) = (parking, false, HoldState::default());
+    }
+
+    /// The note on the open question, if any: the park position, or following the Sun.
+    pub(super) fn about_the_question(&self, card: &Card<'_>) -> Option<String> {
+        match self.question(card)? {
+            Question::Park => Some(words::parks_at(card.antenna)),
+            Question::Sun => sun_avoidance(card),
+        }
+    }
+
+    fn question(&self, card: &Card<'_>) -> Option<Question> {
+        if !offers_track(card.antenna) {
+            return None;
+        }
+        let sun = (self.asks_sun && sun_avoidance(card).is_some()).then_some(Question::Sun);
+        self.parking.then_some(Question::Park).or(sun)
+    }
+}
+
+fn offers_track(antenna: &AntennaModel) -> bool {
+    modes::offers(antenna.variant().capabilities, Intent::Track)
+}
+
+/// Returns `true` if program track can be asked for.
+fn can_follow(card: &Card<'_>) -> bool {
+    card.antenna.variant().capabilities.takes_positions && card.locks.track.is_none()
+}
+
+/// Sentence about the Sun avoidance that following the Sun lifts.
+fn sun_avoidance(card: &Card<'_>) -> Option<String> {
+    let sun = card.model.station.sun_avoidance.filter(|_| can_follow(card))?;
+    Some(words::sun_lifted(&card.antenna.config.name, sun.radius_deg))
+}
+
+/// Tracks the selected pass; `is_agreed`: although the unit would miss it.
+pub(super) fn track_selected(card: &mut Card<'_>, is_agreed: bool) {
+    let antenna = card.antenna.id();
+    let pass = card.model.selected_pass().map(PredictedPass::key);
+    let track = |pass| contract::Command::Track { antenna, pass, is_agreed };
+    card.commands.extend(pass.map(track).map(UiCommand::Station));
+}
+
+/// Shows the tracked and the selected satellite, or a question in their place.
+pub(super) fn row(ui: &Ui, at: &mut Cursor, card: &mut Card<'_>, state: &mut CardState) {
+    if !offers_track(card.antenna) {
+        return;
+    }
+    at.skip(8.0);
+    let mut row = at.take(button::HEIGHT);
+    if let Some(question) = state.track.question(card) {
+        return question_row(ui, row, question, card, &mut state.track);
+    }
+    let key = row.with_min_x(row.right() - follow::WIDTH);
+    let can_follow = can_follow(card);
+    if can_follow {
+        row.max.x -= follow::WIDTH + 4.0;
+    }
+    satellite_row(ui, row, card, &mut state.track.tracking);
+    if can_follow {
+        let typed = state.drive.go_to.previewed();
+        follow::show(ui, key, card, typed, &mut state.track.asks_sun);
+    }
+}
+
+/// Shows the notes on tracking, and the switch for automatic starting. A refusal that is shown above
+/// as the lock of the jog is left out.
+pub(super) fn notes(ui: &Ui, at: &mut Cursor, card: &mut Card<'_>, state: &TrackState) {
+    let (model, antenna) = (card.model, card.antenna);
+    // An open question is about something else.
+    if !offers_track(antenna) || state.question(card).is_some() {
+        return;
+    }
+    if let Some(refusal) = card.locks.track {
+        if card.locks.jog != Some(refusal) {
+            caution_row(ui, at, "track refusal", refusal);
+        }
+    } else {
+        let cautions = [
+            ("nothing left", passes::nothing_left(model, antenna)),
+            ("misses", missed(model, antenna)),
+            ("track note", note(model, antenna)),
+        ];
+        for (salt, words) in cautions {
+            if let Some(words) = words {
+                caution_row(ui, at, salt, &words);
+            }
+        }
+    }
+    let program = antenna.snapshot.state.program.filter(|_| antenna.snapshot.link.is_open());
+    if let Some(on) = program.and_then(|program| program.auto) {
+        at.skip(4.0);
+        let row = at.take(button::SMALL_HEIGHT);
+        auto_track_row(ui, row, on, card);
+    }
+}
+
+/// The reason why the unit would miss the selected satellite.
+fn missed(model: &Model, antenna: &AntennaModel) -> Option<String> {
+    let (found, selected) = (antenna.misses()?, model.selected_pass()?);
+    let name = selected.satellite.short_name();
+    let why = words::would_miss(name, found, model.now, model.appearance.distances);
+    Some(format!("{why} Follow it from here instead."))
+}
+
+/// A further note on how the unit tracks.
+fn note(model: &Model, antenna: &AntennaModel) -> Option<String> {
+    if antenna.snapshot.sun_lifted {
+        return Some(words::SUN_IS_LIFTED.to_owned());
+    }
+    let half_beam_deg = antenna.config.beam_width_deg / 2.0;
+    let off_deg = antenna.error().map(|error| error.off_beam.degrees());
+    // The search for a cause looks at minutes, and would tell of an error that is over.
+    let is_over = |explained: &&Explained| {
+        explained.error_deg > half_beam_deg && off_deg.is_some_and(|off| off <= half_beam_deg)
+    };
+    let explained = antenna.explained.as_ref().filter(|explained| !is_over(explained));
+    let explained = explained.and_then(|explained| words::record::explained(explained, model.now));
+    let Some(found) = antenna.supervision() else { return explained };
+    let lowest_deg = antenna.config.limits.minimum_elevation_deg;
+    let lower = found.lower_minimum_deg.map(|deg| words::lower_minimum(deg, lowest_deg));
+    // Beside a larger error, the small one that is known would look like its cause.
+    let is_off = off_deg.is_some_and(|off| off > half_beam_deg);
+    let off = words::within_beam(found, model.appearance.distances);
+    let off = off.filter(|_| found.is_within_beam && !is_off);
+    let said = explained.into_iter().chain(off).chain(lower).chain(words::not_known(found));
+    let said: Vec<String> = said.collect();
+    (!said.is_empty()).then(|| said.join(" "))
+}
+
+fn question_row(
+    ui: &Ui,
+    row: Rect,
+    question: Question,
+    card: &mut Card<'_>,
+    state: &mut TrackState,
+) {
+    let words = match question {
+        Question::Park => "Hold 1 s to park",
+        Question::Sun => "Hold 1 s to follow the Sun",
+    };
+    let words = match card.antenna.tracked_name() {
+        Some(name) => format!("{words}, ending {}", short(name)),
+        None => words.to_owned(),
+    };
+    let cancel = Button::quiet("Cancel");
+    let split = row.right() - cancel.width(ui);
+    let hold = row.with_max_x(split - 8.0);
+    if hold_button::show(ui, hold, &words, &mut state.hold) {
+        match question {
+            Question::Park => card.ask(Command::Park),
+            Question::Sun => follow_into_sun(card),
+        }
+        *state = TrackState::default();
+    }
+    if cancel.show(ui, "cancel question", row.with_min_x(split)).clicked() {
+        *state = TrackState::default();
+    }
+}
+
+/// Shows the unit's satellite on the left, and on the right the selected one or the button
+/// to track it.
+fn satellite_row(ui: &Ui, row: Rect, card: &mut Card<'_>, hold: &mut HoldState) {
+    let (model, antenna) = (card.model, card.antenna);
+    let is_locked = card.locks.track.is_some();
+    let chosen = model.selected_pass().map(|predicted| predicted.satellite.short_name());
+    let misses = antenna.misses().is_some() && chosen.is_some() && !is_locked;
+    let (held_name, tracks_selected) = held(model, antenna);
+    let selected = chosen.filter(|_| !tracks_selected);
+    let words = selected.map(|selected| format!("Track {selected}")).unwrap_or_default();
+    let is_useless = passes::nothing_left(model, antenna).is_some();
+    let button = if is_useless { Button::normal } else { Button::primary };
+    let button = button(&words).locked(is_locked);
+    let held_width = match selected {
+        // The text on the hold button is long.
+        Some(_) if misses => 0.36 * row.width(),
+        Some(_) => (row.width() - button.width(ui)).clamp(MIN_HELD, 0.45 * row.width()),
+        None => 0.45 * row.width(),
+    };
+    let held = row.with_max_x(row.left() + held_width - 8.0);
+    let head = held_head(model, antenna);
+    two_lines(ui, "held", held, Align2::LEFT_CENTER, &head, held_name);
+    let rest = row.with_min_x(held.right() + 8.0);
+    let Some(selected) = selected else {
+        let name = chosen.unwrap_or("none");
+        let head = if chosen.is_some() { "Selected and tracked" } else { "Selected" };
+        two_lines(ui, "selected", rest, Align2::RIGHT_CENTER, head, name);
+        return;
+    };
+    if misses {
+        if hold_button::show(ui, rest, "Hold 1 s to track anyway", hold) {
+            track_selected(card, true);
+        }
+        return;
+    }
+    let whole = button.width(ui);
+    let width = whole.min(rest.width());
+    let mut response = button.show(ui, "track", row.with_min_x(row.right() - width));
+    if width < whole {
+        response = response.on_hover_text(selected);
+    }
+    if response.clicked() {
+        track_selected(card, false);
+    }
+}
+
+/// The caption of the satellite on the left: whose it is, and how long ago it was read, if that is not
+/// what the unit answers now.
+fn held_head(model: &Model, antenna: &AntennaModel) -> String {
+    let snapshot = &antenna.snapshot;
+    if snapshot.program_track.is_some() || !antenna.variant().capabilities.has_program {
+        return "Azel follows".to_owned();
+    }
+    let state = &snapshot.state;
+    let is_read = state.on_board.satellite.is_some();
+    let last = state.last_satellite.as_ref().filter(|_| state.unreadable.is_none());
+    match last {
+        Some(last) if !(is_read && antenna.answers(model.steady).is_current()) => {
+            let age_s = seconds_between(last.read_at, model.now).max(0.0);
+            format!("On the unit {} ago", format::age(age_s))
+        }
+        Some(_) | None => "On the unit".to_owned(),
+    }
+}
+
+/// The satellite whose elements the unit holds, or the target of program track; or that there is none,
+/// or that it was not read yet. And `true` if the antenna tracks the selected satellite now.
+fn held<'a>(model: &Model, antenna: &'a AntennaModel) -> (&'a str, bool) {
+    let state = &antenna.snapshot.state;
+    let selected = model.selected_pass().map(PredictedPass::number);
+    let is_selected = |number: Option<u32>| number.is_some() && number == selected;
+    let followed = antenna.snapshot.program_track.as_ref();
+    if followed.is_some() || !antenna.variant().capabilities.has_program {
+        let name = followed.map_or("nothing", |followed| short(&followed.name));
+        return (name, is_selected(followed.and_then(|followed| followed.catalog_number)));
+    }
+    // An unreadable reply may pass for a name.
+    let is_readable = state.unreadable.is_none();
+    let held = state.on_board.satellite.as_ref().filter(|_| is_readable);
+    let last = state.last_satellite.as_ref().filter(|_| is_readable);
+    let name = match held.map(|held| &held.name).or(last.map(|last| &last.name)) {
+        None => "not read yet",
+        Some(name) if name.is_empty() => "no satellite",
+        Some(name) => short(name),
+    };
+    let number = held.map(|held| held.catalog_number);
+    (name, is_selected(number) && is_selected(antenna.tracked_number()))
+}
+
+/// Shows a small caption over a name.
+fn two_lines(ui: &Ui, salt: &str, room: Rect, anchor: Align2, head: &str, name: &str) {
+    let t = theme::tokens(ui);
+    let up = room.translate(vec2(0.0, -8.0));
+    paint::text_in(ui, up, anchor, head, text::caption(), t.t3);
+    let down = room.translate(vec2(0.0, 8.0));
+    paint::name_in(ui, down, anchor, name, text::body_medium(), t.t1);
+    let words = format!("{head}: {name}");
+    let named = paint::name_text(ui, salt, room, &words);
+    let fits = |words: &str, font| paint::fits(ui, words, font, room);
+    if !fits(head, text::caption()) || !fits(name, text::body_medium()) {
+        named.on_hover_text(words);
+    }
+}
+
+/// Shows a refusal or a note.
+fn caution_row(ui: &Ui, at: &mut Cursor, salt: &str, words: &str) {
+    at.skip(2.0);
+    remark(ui, at, salt, Icon::Warning, theme::tokens(ui).warn, words);
+}
+
+fn auto_track_row(ui: &Ui, row: Rect, on: bool, card: &mut Card<'_>) {
+    let (t, is_locked) = (theme::tokens(ui), card.model.replay.is_some());
+    let (state, word) =
+        if on { ("Auto-track: on", "Switch off") } else { ("Auto-track: off", "Switch on…") };
+    paint::text(ui, row.left_center(), Align2::LEFT_CENTER, state, text::small(), t.t2);
+    let button = Button::normal(word).locked(is_locked);
+    let place = row.with_min_x(row.right() - button.width(ui));
+    let said = Rect::from_min_max(row.min, pos2(place.left() - 8.0, row.bottom()));
+    paint::name_text(ui, "auto-track state", said, state);
+    let response = button.show(ui, "auto-track", place);
+    let said = format!("Auto-track: {}", if on { "switch off" } else { "switch on" });
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, !is_locked, &said));
+    if response.clicked() {
+        card.ask(Command::AutoTrack(!on));
+    }
+}
