@@ -8,7 +8,7 @@ use azel::{
     model::{Model, UiCommand},
     station::AntennaId,
 };
-use egui::Role;
+use egui::{Key, Role};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 use crate::window_stories::{
@@ -114,6 +114,21 @@ fn each_card_drives_its_own_antenna() {
             window.drop_at(place);
             assert_eq!(asked(&mut window), [UiCommand::antenna(id, Command::Standby)]);
         }
+    }
+}
+
+#[test]
+fn each_card_locks_out_its_own_antenna() {
+    let mut window = rig::window(WIDE[0], three());
+    for index in [0, 1] {
+        let name = window.state().model.antennas[index].config.name.clone();
+        for key in [format!("Link of {name}"), "Lock out…".to_owned()] {
+            window.get_by_role_and_label(Role::Button, &key).click_accesskit();
+            settle(&mut window);
+        }
+        window.get_by_label(&format!("Lock out {name}"));
+        window.key_press(Key::Escape);
+        assert_eq!(asked(&mut window), []);
     }
 }
 

@@ -39,15 +39,16 @@ enum MaintenanceAnswer {
 }
 
 impl MaintenanceDialog {
-    /// Shows the dialog, if it is open, at the centre of the window.
+    /// Shows the dialog about `antenna`, if it is open, at the centre of the window.
     pub fn show(
         dialog: &mut Option<Self>,
         ui: &Ui,
         model: &Model,
+        antenna: &AntennaModel,
         question: &mut Option<Question>,
         commands: &mut Vec<UiCommand>,
     ) {
-        let (Some(open), Some(antenna)) = (dialog.as_mut(), model.antenna()) else { return };
+        let Some(open) = dialog.as_mut() else { return };
         let for_antenna = |command| UiCommand::antenna(antenna.id(), command);
         let lock_out = antenna.snapshot.lock_out.clone();
         let shown = modal(ui, "maintenance").show(ui.ctx(), |ui| {

@@ -194,7 +194,7 @@ pub(super) fn show(
         upper(ui, &mut at, &mut card, live, state);
         lower::show(ui, &mut at, &mut card, on_cards, state);
     });
-    MaintenanceDialog::show(&mut state.maintenance, ui, model, question, commands);
+    MaintenanceDialog::show(&mut state.maintenance, ui, model, antenna, question, commands);
 }
 
 /// Draws the part that always stays in sight.
