@@ -92,7 +92,7 @@ pub struct App {
     /// `None` where Azel reports nothing to the desktop.
     notifier: Option<Notifier>,
     /// The attention last reported to the station.
-    told: contract::Attention,
+    attention: contract::Attention,
     /// Everything to be done before closing is done.
     closes: bool,
     /// The operator or the operating system has decided to close: no question is asked.
@@ -133,10 +133,10 @@ impl App {
             ..
         } = begun;
         let clock = outside.clock.clone();
-        let keeper = Keeper::beside(settings.station_path().as_deref());
+        let keeper = Keeper::new(settings.station_path().as_deref());
         ui::theme::install(ctx, keeper.memory.appearance.theme);
         let library = settings.library_path();
-        let (log_work, mask_work) = (LogWork::beside(library.clone()), MaskWork::beside(library));
+        let (log_work, mask_work) = (LogWork::new(library.clone()), MaskWork::new(library));
         let mut model = Model::before_anything(clock.now());
         (model.list, model.view) = (keeper.memory.list, keeper.memory.view);
         // The list outlives the folder that the program was started in.
@@ -144,7 +144,7 @@ impl App {
         model.stations.open = settings.station_path().map(whole);
         let folder = model.stations.open.as_deref().and_then(Path::parent).map(Path::to_path_buf);
         let known_work;
-        (known_work, model.stations.stations) = KnownWork::beside(folder.as_deref());
+        (known_work, model.stations.stations) = KnownWork::new(folder.as_deref());
         Self {
             model,
             views: ui::Views::new(keeper.memory.views.clone()),
@@ -171,7 +171,7 @@ impl App {
             place_watch: PlaceWatch::default(),
             opens_set_up: true,
             notifier: None,
-            told: contract::Attention::default(),
+            attention: contract::Attention::default(),
             closes: false,
             may_close,
             told_to_end,
@@ -261,8 +261,8 @@ impl App {
         let last = self.keeper.memory.antenna.as_deref();
         let mut antennas = self.model.antennas.iter();
         let place = antennas.position(|antenna| Some(antenna.config.name.as_str()) == last);
-        let most = self.model.antennas.len().saturating_sub(1);
-        self.model.selected_antenna = place.unwrap_or(self.model.selected_antenna).min(most);
+        let last_index = self.model.antennas.len().saturating_sub(1);
+        self.model.selected_antenna = place.unwrap_or(self.model.selected_antenna).min(last_index);
     }
 
     /// Reports to the station the list and the pass that the operator looks at.
@@ -270,8 +270,8 @@ impl App {
         let (list, selected) = (self.model.list, self.model.selected);
         let attention = contract::Attention { list, selected };
         let look = contract::Command::Look(attention);
-        if attention != self.told && self.station.client().send(look).is_ok() {
-            self.told = attention;
+        if attention != self.attention && self.station.client().send(look).is_ok() {
+            self.attention = attention;
         }
     }
 

@@ -121,24 +121,24 @@ impl Cli {
     pub fn run(self) -> anyhow::Result<ExitCode> {
         if self.demo && self.command.is_some() {
             let text = "the argument '--demo' opens the window and cannot be used with a command";
-            return told(Err(Self::command().error(ErrorKind::ArgumentConflict, text).into()));
+            return reported(Err(Self::command().error(ErrorKind::ArgumentConflict, text).into()));
         }
         match self.command {
             None => window::run(self.station, self.demo)?,
             Some(Command::Passes(options)) => {
-                return told(passes::run(self.station.as_deref(), &options));
+                return reported(passes::run(self.station.as_deref(), &options));
             }
             Some(Command::Check(options)) => {
                 return check::run(self.station.as_deref(), &options);
             }
             Some(Command::Look(options)) => {
-                return told(look::run(self.station.as_deref(), &options));
+                return reported(look::run(self.station.as_deref(), &options));
             }
             Some(Command::Plan(options)) => {
-                return told(plan::run(self.station.as_deref(), &options));
+                return reported(plan::run(self.station.as_deref(), &options));
             }
             Some(Command::Rehearse(options)) => {
-                return told(rehearse::run(self.station.as_deref(), &options));
+                return reported(rehearse::run(self.station.as_deref(), &options));
             }
             Some(Command::Serve(options)) => {
                 return serve::run(
@@ -151,7 +151,7 @@ impl Cli {
             }
             Some(Command::Log(options)) => return record::run(self.station, &options),
             Some(Command::Pointing(options)) => {
-                return told(pointing::run(self.station.as_deref(), &options));
+                return reported(pointing::run(self.station.as_deref(), &options));
             }
             #[cfg(unix)]
             Some(Command::Stop(options)) => return remote::stop(self.station, &options),
@@ -181,7 +181,7 @@ impl Cli {
 
 /// Reports an error in the command line that the parser did not see, in the style of the
 /// parser.
-fn told(result: anyhow::Result<ExitCode>) -> anyhow::Result<ExitCode> {
+fn reported(result: anyhow::Result<ExitCode>) -> anyhow::Result<ExitCode> {
     result.or_else(|error| {
         let error = error.downcast::<clap::Error>()?;
         error.print()?;

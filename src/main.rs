@@ -7,13 +7,13 @@ use clap::Parser as _;
 
 /// The error with its causes. Some errors already hold the words of their cause.
 fn in_words(error: &anyhow::Error) -> String {
-    error.chain().map(ToString::to_string).fold(String::new(), |said, cause| {
-        if said.is_empty() {
+    error.chain().map(ToString::to_string).fold(String::new(), |text, cause| {
+        if text.is_empty() {
             cause
-        } else if said.contains(&cause) {
-            said
+        } else if text.contains(&cause) {
+            text
         } else {
-            format!("{said}: {cause}")
+            format!("{text}: {cause}")
         }
     })
 }

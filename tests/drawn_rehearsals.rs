@@ -231,7 +231,7 @@ fn draw(seed: u64) -> Draw {
     let rehearsal = Rehearsal {
         station,
         elements: Arc::clone(&ELEMENTS),
-        from: start + minute.minutes(),
+        start: start + minute.minutes(),
         hours: 1.0,
         seed,
         mechanics,

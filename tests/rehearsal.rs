@@ -46,7 +46,7 @@ fn rehearsal(hours: f64, faults: &[&str]) -> Rehearsal {
     Rehearsal {
         station: Station::demo(&addresses),
         elements: Arc::clone(&ELEMENTS),
-        from: "2026-08-12T11:03:00Z".parse().unwrap(),
+        start: "2026-08-12T11:03:00Z".parse().unwrap(),
         hours,
         seed: 1,
         mechanics: Mechanics::default(),
@@ -171,5 +171,5 @@ fn its_time_is_told_as_it_passes() {
     let what = rehearsal(0.01, &[]);
     run(&what, &|now| seen.borrow_mut().push(now), &|| false).unwrap();
     let seen = seen.into_inner();
-    assert!(seen.is_sorted() && seen.iter().filter(|now| **now > what.from).count() > 10);
+    assert!(seen.is_sorted() && seen.iter().filter(|now| **now > what.start).count() > 10);
 }

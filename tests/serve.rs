@@ -173,7 +173,7 @@ fn named<'a>(station: &'a Snapshot, name: &str) -> &'a AntennaModel {
 }
 
 fn status(client: &Client, name: &str) -> AntennaStatus {
-    AntennaStatus::of(named(&client.snapshot(), name))
+    AntennaStatus::new(named(&client.snapshot(), name))
 }
 
 fn id(client: &Client, name: &str) -> AntennaId {

@@ -65,7 +65,7 @@ impl Station {
     fn library_with(&self, passwords: impl PasswordStore + 'static) -> Library {
         let access = SpaceTrackAccess::new(self.numbers.clone(), Arc::new(passwords));
         let library = Library::open(self.path(), LIMITS).unwrap();
-        library.with_space_track(access.at(&self.server.url()))
+        library.with_space_track(access.with_server(&self.server.url()))
     }
 
     /// Asks `after_s` seconds after the start; returns whether something new came.
@@ -207,7 +207,8 @@ fn without_a_password_or_favourites_no_server_is_asked() {
 fn a_password_goes_to_no_other_computer_in_the_open() {
     let folder = tempfile::tempdir().unwrap();
     let passwords = |_: &str| -> Result<Secret, FetchProblem> { unreachable!("not asked for") };
-    let access = SpaceTrackAccess::new(vec![5], Arc::new(passwords)).at("http://example.org");
+    let access =
+        SpaceTrackAccess::new(vec![5], Arc::new(passwords)).with_server("http://example.org");
     let mut library = Library::open(folder.path(), LIMITS).unwrap().with_space_track(access);
     library.refresh(&[source()], start(), true, &|| false).unwrap();
     let (_, reports) = library.load(&[source()]);

@@ -85,7 +85,7 @@ fn another_answer_than_the_file_is_told() {
     let moved = answer("301 Moved", "Location: https://example.org/new\r\n", b"");
     let error = get(moved, LIMITS, &nobody).unwrap_err();
     assert!(
-        matches!(&error, FetchError::Redirected { to } if to == "https://example.org/new"),
+        matches!(&error, FetchError::Redirected { destination } if destination == "https://example.org/new"),
         "{error}"
     );
 }

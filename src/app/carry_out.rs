@@ -28,8 +28,10 @@ impl App {
     /// Shows STOP as pressed from this frame on.
     fn show_stopped(&mut self, stopped: &Stopped) {
         let antennas = self.model.shown_mut().antennas.iter_mut();
-        for antenna in antennas.filter(|of| stopped.antennas.contains(&of.id())) {
-            antenna.stop_pressed = Some(stopped.at);
+        for antenna in
+            antennas.filter(|model_antenna| stopped.antennas.contains(&model_antenna.id()))
+        {
+            antenna.stop_pressed = Some(stopped.instant);
         }
     }
 
@@ -43,7 +45,7 @@ impl App {
                 ctx.send_viewport_cmd(egui::ViewportCommand::Close);
             }
             UiCommand::SelectPass(key) => model.choose_pass(key),
-            UiCommand::BeginReplay(stretch, at) => self.begin_replay(stretch, at),
+            UiCommand::BeginReplay(stretch, time) => self.begin_replay(stretch, time),
             UiCommand::CloseReplayEnd => model.replay_end = None,
             // The views have asked, or there is nothing to track it with; there is no replay.
             UiCommand::AskToTrack(_) | UiCommand::Replay(_) | UiCommand::LeaveReplay => {}

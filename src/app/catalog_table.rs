@@ -33,10 +33,12 @@ impl CatalogWork {
         }
         let inputs = model.catalog_table.inputs(catalog, &model.station);
         let is_known =
-            model.catalog_table.answer.as_ref().is_some_and(|known| known.inputs == inputs);
+            model.catalog_table.answer.as_ref().is_some_and(|answer| answer.inputs == inputs);
         if !is_known && self.rows.as_ref().is_none_or(|(begun, _)| *begun != inputs) {
-            let (asked, now) = (inputs.clone(), model.now);
-            let job = Job::start("azel-catalog", Arc::clone(wake), move |_| arrange(asked, now));
+            let (requested_inputs, now) = (inputs.clone(), model.now);
+            let job = Job::start("azel-catalog", Arc::clone(wake), move |_| {
+                arrange(requested_inputs, now)
+            });
             self.rows = Some((inputs, Some(job)));
         }
         let key = NextKey::new(catalog, &model.station);
@@ -45,9 +47,9 @@ impl CatalogWork {
         };
         let is_known = model.catalog_table.next.as_ref().is_some_and(is_young);
         if !is_known && self.next.as_ref().is_none_or(|(begun, _)| *begun != key) {
-            let (asked, now) = (key.clone(), model.now);
+            let (next_key, now) = (key.clone(), model.now);
             let job = Job::start("azel-next-passes", Arc::clone(wake), move |cancelled| {
-                NextPasses::search(asked, now, cancelled)
+                NextPasses::search(next_key, now, cancelled)
             });
             self.next = Some((key, Some(job)));
         }
@@ -57,9 +59,9 @@ impl CatalogWork {
         let detail = model.catalog_table.detail.as_ref();
         let is_known = detail.is_some_and(|detail| detail.is_of(&key, model.now));
         if !is_known && self.detail.as_ref().is_none_or(|(begun, _)| *begun != key) {
-            let (asked, now) = (key.clone(), model.now);
+            let (detail_key, now) = (key.clone(), model.now);
             let job = Job::start("azel-object", Arc::clone(wake), move |cancelled| {
-                ObjectDetail::new(asked, now, cancelled)
+                ObjectDetail::new(detail_key, now, cancelled)
             });
             self.detail = Some((key, Some(job)));
         }

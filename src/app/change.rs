@@ -28,7 +28,7 @@ pub(super) struct Target {
 /// Why a station that was chosen is not opened.
 pub(super) struct Refused {
     path: PathBuf,
-    why: CannotOpen,
+    cannot_open: CannotOpen,
 }
 
 /// How far a change of the station has got.
@@ -52,7 +52,7 @@ impl App {
     /// present one.
     #[must_use]
     pub fn with_stations_in(mut self, folder: PathBuf) -> Self {
-        (self.known_work, self.model.stations.stations) = KnownWork::beside(Some(&folder));
+        (self.known_work, self.model.stations.stations) = KnownWork::new(Some(&folder));
         self.stations_folder = Some(folder);
         self
     }
@@ -96,12 +96,12 @@ impl App {
         match Job::take(&mut job) {
             None => return job.map(Change::Looking),
             Some(Ok(Ok(target))) => return Some(Change::Found(target)),
-            Some(Ok(Err(Refused { path, why }))) => {
-                tracing::warn!("a station is not opened: {why}");
-                self.model.stations.refused = Some(why.to_string());
-                if matches!(why, CannotOpen::Missing(_)) {
-                    let known = &mut self.model.stations.stations;
-                    self.known_work.forget(path, known, &self.wake);
+            Some(Ok(Err(Refused { path, cannot_open }))) => {
+                tracing::warn!("a station is not opened: {cannot_open}");
+                self.model.stations.refused = Some(cannot_open.to_string());
+                if matches!(cannot_open, CannotOpen::Missing(_)) {
+                    let stations = &mut self.model.stations.stations;
+                    self.known_work.forget(path, stations, &self.wake);
                 }
             }
             Some(Err(broke_off)) => self.model.stations.refused = Some(broke_off.to_string()),
@@ -164,10 +164,10 @@ impl App {
         let Target { settings, opens_set_up, .. } = target;
         let (of_station, outside) = (settings.clone(), self.outside.clone());
         let wake = Arc::clone(&self.wake);
-        let mut old = std::mem::replace(&mut self.keeper, Keeper::beside(None));
+        let mut old = std::mem::replace(&mut self.keeper, Keeper::new(None));
         let work = move |_: &(dyn Fn() -> bool + Sync)| {
             old.finish(&wake);
-            let keeper = Keeper::beside(of_station.station_path().as_deref());
+            let keeper = Keeper::new(of_station.station_path().as_deref());
             Ok((Handle::start(of_station, outside, wake)?, keeper))
         };
         let job = Job::start("azel-station-start", Arc::clone(&self.wake), work);
@@ -180,24 +180,26 @@ impl App {
         *self.client.lock().unwrap_or_else(PoisonError::into_inner) = station.client().clone();
         self.station = station;
         let library = settings.library_path();
-        self.log_work = LogWork::beside(library.clone());
-        self.mask_work = MaskWork::beside(library);
+        self.log_work = LogWork::new(library.clone());
+        self.mask_work = MaskWork::new(library);
         (self.effects_jobs, self.catalog_work) = Default::default();
         self.intake_work = super::IntakeWork::default();
         self.rehearsal_work = super::RehearsalWork::default();
-        let known = std::mem::take(&mut self.model.stations.stations);
+        let stations = std::mem::take(&mut self.model.stations.stations);
         self.model = Model::before_anything(self.clock.now());
         (self.model.list, self.model.view) = (keeper.memory.list, keeper.memory.view);
-        (self.model.stations.stations, self.model.stations.open) = (known, settings.station_path());
+        (self.model.stations.stations, self.model.stations.open) =
+            (stations, settings.station_path());
         self.views = ui::Views::new(keeper.memory.views.clone());
         (self.keeper, self.settings) = (keeper, settings);
         self.place_watch = PlaceWatch::default();
-        (self.told, self.closes) = (contract::Attention::default(), false);
+        (self.attention, self.closes) = (contract::Attention::default(), false);
         if self.notifier.is_some() {
             let client = self.station.client().clone();
             let notifier = Notifier::start(client, Desktop::default(), Wake::clone(&self.wake));
-            let told = |error: &io::Error| tracing::error!(%error, "no thread for the desktop");
-            self.notifier = notifier.inspect_err(told).ok();
+            let log_error =
+                |error: &io::Error| tracing::error!(%error, "no thread for the desktop");
+            self.notifier = notifier.inspect_err(log_error).ok();
         }
     }
 
@@ -226,13 +228,13 @@ fn look(next: NextStation, settings: Settings, folder: Option<&Path>) -> Result<
             let settings = Settings { path: Some(path.clone()), ..settings };
             match look_at(&settings) {
                 Ok(name) => Ok(Target { name, settings, opens_set_up: true }),
-                Err(why) => Err(Refused { path, why }),
+                Err(cannot_open) => Err(Refused { path, cannot_open }),
             }
         }
     }
 }
 
 /// Without a station there is nothing to show, and nothing to stop.
-fn broke_down(why: &str) -> ! {
-    std::panic::resume_unwind(Box::new(format!("the station did not start: {why}")))
+fn broke_down(reason: &str) -> ! {
+    std::panic::resume_unwind(Box::new(format!("the station did not start: {reason}")))
 }

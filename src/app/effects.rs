@@ -44,10 +44,10 @@ fn work<Q: Compare>(
     wake: &Wake,
 ) {
     let end = match begun.take() {
-        Some((of, at, job)) => {
+        Some((asked_question, asked_revision, job)) => {
             let mut job = Some(job);
             let end = Job::take(&mut job);
-            *begun = job.map(|job| (of, at, job));
+            *begun = job.map(|job| (asked_question, asked_revision, job));
             end
         }
         None => None,
@@ -58,25 +58,27 @@ fn work<Q: Compare>(
         Some(Err(_)) => effects.requested = None,
         None => {}
     }
-    let Some((question, since)) = &effects.requested else { return };
+    let Some((question, start)) = &effects.requested else { return };
     let revision = listing.revision;
-    let known = effects.effect.as_ref().filter(|effect| effect.revision == revision);
-    let is_answered = known.is_some_and(|effect| effect.question == *question);
-    let is_begun = begun.as_ref().is_some_and(|(of, at, _)| of == question && *at == revision);
-    let is_early = now.steady.saturating_duration_since(*since) < DEBOUNCE;
+    let current = effects.effect.as_ref().filter(|effect| effect.revision == revision);
+    let is_answered = current.is_some_and(|effect| effect.question == *question);
+    let is_begun = begun
+        .as_ref()
+        .is_some_and(|(other, begun_revision, _)| other == question && *begun_revision == revision);
+    let is_early = now.steady.saturating_duration_since(*start) < DEBOUNCE;
     if is_answered || is_begun || is_early {
         return;
     }
-    let known = known.map(|effect| Arc::clone(&effect.ways));
-    let passes = if known.is_some() {
+    let pass_tracks = current.map(|effect| Arc::clone(&effect.ways));
+    let passes = if pass_tracks.is_some() {
         Vec::new()
     } else {
         listing.upcoming(now.utc).iter().cloned().collect()
     };
-    let asked = question.clone();
+    let requested = question.clone();
     let job = move |cancelled: &(dyn Fn() -> bool + Sync)| {
-        let ways = known.unwrap_or_else(|| ways::<Q>(&passes, cancelled));
-        Effect::new(asked, &ways, revision)
+        let ways = pass_tracks.unwrap_or_else(|| ways::<Q>(&passes, cancelled));
+        Effect::new(requested, &ways, revision)
     };
     // Replacing the job of an older question cancels it.
     *begun = Some((question.clone(), revision, Job::start("azel-effects", Arc::clone(wake), job)));

@@ -46,7 +46,7 @@ use crate::{
 /// Seconds between two look angles, the smallest first.
 const STEPS_S: [f64; 3] = [1.0, 10.0, 60.0];
 /// Most rows of a table of look angles, unless the largest step takes more.
-const MOST_ROWS: f64 = 3600.0;
+const MAX_ROWS: f64 = 3600.0;
 
 /// Result of a request to save a file.
 #[derive(Debug, PartialEq, Eq)]
@@ -99,8 +99,8 @@ impl App {
     /// written.
     pub(super) fn save_export(&mut self, export: Export, typed: Option<TypedPath>) {
         if self.export_work.job.is_some() {
-            let why = "another file is being saved; its dialog may be behind this window";
-            return self.views.file_saved(Err(why.to_owned()));
+            let reason = "another file is being saved; its dialog may be behind this window";
+            return self.views.file_saved(Err(reason.to_owned()));
         }
         let model = &self.model;
         let order = Order {
@@ -129,7 +129,7 @@ impl App {
             Ok(Outcome::Cancelled) => {}
             Ok(Outcome::Saved(file)) => self.views.file_saved(Ok(file)),
             Ok(Outcome::AsksForPath(request)) => self.views.ask_for_path(request),
-            Err(why) => self.views.file_saved(Err(why)),
+            Err(reason) => self.views.file_saved(Err(reason)),
         }
     }
 }
@@ -156,7 +156,7 @@ impl Order {
             Ok(None) => Ok(Outcome::Cancelled),
             Ok(Some(path)) => {
                 let (text, left_out) =
-                    self.text().map_err(|why| format!("{why}: {}", path.display()))?;
+                    self.text().map_err(|reason| format!("{reason}: {}", path.display()))?;
                 match whole_file::replace_for_others(&path, &text) {
                     Ok(()) => Ok(Outcome::Saved(SavedFile { path, left_out })),
                     Err(error) => Err(format!("{error}: {}", path.display())),
@@ -172,8 +172,8 @@ impl Order {
     /// Saves to a path that was typed, or asks for it again.
     fn save_as(&self, typed: TypedPath) -> Result<Outcome, String> {
         let TypedPath { path, replaces } = typed;
-        let why = if let Some(why) = unusable(&path) {
-            why
+        let reason = if let Some(reason) = unusable(&path) {
+            reason
         } else if !path.parent().is_some_and(Path::is_dir) {
             // Otherwise a mistyped folder would be created.
             "there is no such folder"
@@ -188,12 +188,12 @@ impl Order {
                 }
             });
         };
-        Ok(self.ask_for_path(path, false, why.to_owned()))
+        Ok(self.ask_for_path(path, false, reason.to_owned()))
     }
 
-    fn ask_for_path(&self, path: PathBuf, replaces: bool, why: String) -> Outcome {
+    fn ask_for_path(&self, path: PathBuf, replaces: bool, reason: String) -> Outcome {
         let purpose = PathPurpose::Save { export: self.export.clone(), replaces };
-        Outcome::AsksForPath(PathRequest { purpose, path, reason: why })
+        Outcome::AsksForPath(PathRequest { purpose, path, reason })
     }
 
     /// The name that the dialog offers.
@@ -214,13 +214,13 @@ impl Order {
             }
             Export::HandOverSheet => format!("hand-over-{}.html", stamp(self.now)),
             Export::Report { format } => {
-                let from = self.opened().map(|opened| opened.pass.report.start);
+                let start = self.opened().map(|opened| opened.pass.report.start);
                 let extension = match format {
                     ReportFormat::Csv => "csv",
                     ReportFormat::Json => "json",
                     ReportFormat::Html => "html",
                 };
-                format!("pass-{}.{extension}", stamp(from.unwrap_or(self.now)))
+                format!("pass-{}.{extension}", stamp(start.unwrap_or(self.now)))
             }
             Export::Days { first, last, format, .. } => {
                 let extension = match format {
@@ -281,10 +281,10 @@ impl Order {
     ) -> Result<Vec<OpenedPass>, String> {
         let path = self.record.as_deref().ok_or("nothing is recorded")?;
         let begins = |day: Date| day.to_zoned(TimeZone::UTC).map(|day| day.timestamp());
-        let within = begins(first)
-            .and_then(|from| Ok(from..begins(last.tomorrow()?)?))
+        let span = begins(first)
+            .and_then(|start| Ok(start..begins(last.tomorrow()?)?))
             .map_err(|error| error.to_string())?;
-        let passes = record::passes_within(path, query, &within, self.station.site);
+        let passes = record::passes_within(path, query, &span, self.station.site);
         let passes = passes.map_err(|error| error.to_string())?;
         if passes.is_empty() {
             return Err("no pass was recorded on these days".to_owned());
@@ -332,11 +332,11 @@ impl Order {
     fn query(&self) -> PassQuery {
         let station = &self.station;
         let hours = jiff::SignedDuration::from_hours(i64::from(self.span_h));
-        let to = self.now.saturating_add(hours).unwrap_or(Timestamp::MAX);
+        let end = self.now.saturating_add(hours).unwrap_or(Timestamp::MAX);
         let search = PassSearch {
             aos_elevation: station.aos_elevation(),
             floor: station.elevation_floor(),
-            ..PassSearch::new(station.site, self.now, to)
+            ..PassSearch::new(station.site, self.now, end)
         };
         // The mask moves no AOS in a list.
         PassQuery { search, mask: None }
@@ -348,16 +348,19 @@ impl Order {
         format: ListFormat,
         out: &mut Vec<u8>,
     ) -> Result<(), String> {
-        let gone = || "the pass is not in the list any more".to_owned();
-        let predicted = self.lists.find(pass).ok_or_else(gone)?;
+        let missing = || "the pass is not in the list any more".to_owned();
+        let predicted = self.lists.find(pass).ok_or_else(missing)?;
         let satellite = satellite(predicted)?;
-        let (from, to) = (predicted.pass.aos.time, predicted.pass.los.time);
-        let whole_s = seconds_between(from, to);
-        let fits = |step_s: &f64| whole_s / step_s <= MOST_ROWS;
+        let (start, end) = (predicted.pass.aos.time, predicted.pass.los.time);
+        let whole_s = seconds_between(start, end);
+        let fits = |step_s: &f64| whole_s / step_s <= MAX_ROWS;
         let [.., largest_s] = STEPS_S;
         let step_s = STEPS_S.into_iter().find(fits).unwrap_or(largest_s);
-        let mut carriers =
-            self.station.frequencies.iter().filter(|of| of.satellite == predicted.number());
+        let mut carriers = self
+            .station
+            .frequencies
+            .iter()
+            .filter(|frequency| frequency.satellite == predicted.number());
         // The table has one column of Doppler shifts.
         let carrier_hz = match (carriers.next(), carriers.next()) {
             (Some(only), None) => Some(only.mhz * 1e6),
@@ -366,7 +369,7 @@ impl Order {
         let list = LookList {
             satellite: &satellite,
             site: self.station.site,
-            start: from,
+            start,
             count: (whole_s / step_s) as u32 + 1,
             step_s,
             carrier_hz,
@@ -377,20 +380,25 @@ impl Order {
     fn write_schedule(&self, format: EventFormat, out: &mut Vec<u8>) -> Result<(), String> {
         let name = |number: u32| {
             let found = self.lists.satellite(number);
-            found.map_or_else(|| number.to_string(), |of| of.elements.name().to_owned())
+            found.map_or_else(|| number.to_string(), |listed| listed.elements.name().to_owned())
         };
         let schedule = &self.schedule.schedule;
-        let taken = schedule.entries.iter().map(|entry| entry.pass.satellite);
+        let taken_numbers = schedule.entries.iter().map(|entry| entry.pass.satellite);
         let left_out = schedule.left_out.iter().map(|left| left.pass.satellite);
-        let names = taken.clone().chain(left_out).map(|number| (number, name(number))).collect();
-        let taken: BTreeSet<u32> = taken.collect();
+        let names =
+            taken_numbers.clone().chain(left_out).map(|number| (number, name(number))).collect();
+        let taken_set: BTreeSet<u32> = taken_numbers.collect();
         let favourites = self.lists.favourites.passes.iter();
         let planned: Vec<&PredictedPass> =
-            favourites.filter(|pass| taken.contains(&pass.number())).collect();
+            favourites.filter(|pass| taken_set.contains(&pass.number())).collect();
         let satellites = satellites(&planned)?;
         let passes: Vec<ExportedPass<'_>> = exported(&planned, &satellites).collect();
-        let antennas: BTreeMap<AntennaId, String> =
-            self.station.antennas.iter().map(|it| (it.id, it.name.clone())).collect();
+        let antennas: BTreeMap<AntennaId, String> = self
+            .station
+            .antennas
+            .iter()
+            .map(|configured| (configured.id, configured.name.clone()))
+            .collect();
         let names_in_reasons = words::schedule::Names {
             pass: &|(number, _)| name(number),
             antenna: &|id| antennas.get(&id).cloned().unwrap_or_default(),
@@ -411,14 +419,17 @@ impl Order {
 
     fn write_sheet(&self, out: &mut Vec<u8>) -> Result<(), String> {
         let schedule = &self.schedule.schedule;
-        let taken = schedule.entries.iter().map(|entry| entry.pass.satellite);
+        let taken_numbers = schedule.entries.iter().map(|entry| entry.pass.satellite);
         let left_out = schedule.left_out.iter().map(|left| left.pass.satellite);
-        let known = taken.chain(left_out).filter_map(|number| self.lists.satellite(number));
-        let satellites = known
-            .map(|it| (it.elements.catalog_number(), (&it.elements, &it.propagator)))
+        let known_satellites =
+            taken_numbers.chain(left_out).filter_map(|number| self.lists.satellite(number));
+        let satellites = known_satellites
+            .map(|listed| {
+                (listed.elements.catalog_number(), (&listed.elements, &listed.propagator))
+            })
             .collect();
-        let until = self.schedule.end.unwrap_or(self.now);
-        let span = (self.now, until);
+        let end = self.schedule.end.unwrap_or(self.now);
+        let span = (self.now, end);
         let sheet = HandOverSheet::new(&self.station, schedule, &satellites, span, self.now);
         in_words(out.write_all(sheet.html().as_bytes()))
     }

@@ -24,7 +24,7 @@ impl App {
     pub(super) fn take_folder(&mut self) {
         match Job::take(&mut self.folder_work.job) {
             None | Some(Ok(Ok(()))) => {}
-            Some(Ok(Err(why))) => self.views.folder_not_opened(&why.to_string()),
+            Some(Ok(Err(not_opened))) => self.views.folder_not_opened(&not_opened.to_string()),
             Some(Err(broke_off)) => self.views.folder_not_opened(&broke_off.to_string()),
         }
     }

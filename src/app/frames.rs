@@ -17,10 +17,10 @@ pub fn draw_once(ctx: &Context, draw: impl Fn(RequestRepaintInfo) + Send + Sync 
     let only_releases = Arc::<AtomicBool>::default();
     ctx.add_plugin(KeyReleases(Arc::clone(&only_releases)));
     ctx.set_request_repaint_callback(|_| {});
-    ctx.set_repaint_observer(move |asked| {
+    ctx.set_repaint_observer(move |request| {
         // The first request of a frame with input is for the frame after that input.
-        if !(asked.delay.is_zero() && only_releases.swap(false, Ordering::Relaxed)) {
-            draw(asked);
+        if !(request.delay.is_zero() && only_releases.swap(false, Ordering::Relaxed)) {
+            draw(request);
         }
     });
 }

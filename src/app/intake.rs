@@ -19,20 +19,20 @@ pub(super) struct IntakeWork {
 impl App {
     /// Begins to read what is offered, unless it is the same as before.
     pub(super) fn offer_elements(&mut self, offers: Vec<Offer>, is_dropped: bool) {
-        if let Some(known) = self.model.intake.as_mut().filter(|known| known.offers == offers) {
-            known.is_dropped |= is_dropped;
+        if let Some(intake) = self.model.intake.as_mut().filter(|intake| intake.offers == offers) {
+            intake.is_dropped |= is_dropped;
             return;
         }
         let catalog = match &self.model.catalog {
             CatalogState::Ready(catalog) => Some(Arc::clone(catalog)),
             CatalogState::Loading | CatalogState::Failed => None,
         };
-        let asked = offers.clone();
+        let list = offers.clone();
         self.intake_work.judging =
             Some(Job::start("azel-intake", Arc::clone(&self.wake), move |cancelled| {
-                let wanted = asked.iter().take_while(|_| !cancelled());
+                let remaining = list.iter().take_while(|_| !cancelled());
                 let judge = |bytes: &[u8]| Judged::new(bytes, catalog.as_deref());
-                wanted
+                remaining
                     .map(|offer| match offer {
                         Offer::Text(text) => judge(text.as_bytes()),
                         Offer::File(path) => match read_element_file(path) {

@@ -32,30 +32,30 @@ pub(super) struct KnownWork {
 
 impl KnownWork {
     /// Keeps the file in `folder`; returns what stands in it.
-    pub(super) fn beside(folder: Option<&Path>) -> (Self, Vec<KnownStation>) {
+    pub(super) fn new(folder: Option<&Path>) -> (Self, Vec<KnownStation>) {
         let path = folder.map(|folder| folder.join(FILE));
-        let known = path.as_deref().map(read).unwrap_or_default();
-        (Self { path, job: None }, known)
+        let stations = path.as_deref().map(read).unwrap_or_default();
+        (Self { path, job: None }, stations)
     }
 
-    /// Puts `station` at the head of `known` and of the file, unless it stands there.
+    /// Puts `station` at the head of `stations` and of the file, unless it stands there.
     pub(super) fn put_first(
         &mut self,
         station: KnownStation,
-        known: &mut Vec<KnownStation>,
+        stations: &mut Vec<KnownStation>,
         wake: &Wake,
     ) {
-        if known.first() == Some(&station) {
+        if stations.first() == Some(&station) {
             return;
         }
-        first(&station, known);
-        self.change(wake, move |known| first(&station, known));
+        first(&station, stations);
+        self.change(wake, move |stations| first(&station, stations));
     }
 
     /// Forgets the station at `path`.
-    pub(super) fn forget(&mut self, path: PathBuf, known: &mut Vec<KnownStation>, wake: &Wake) {
-        known.retain(|known| known.path != path);
-        self.change(wake, move |known| known.retain(|known| known.path != path));
+    pub(super) fn forget(&mut self, path: PathBuf, stations: &mut Vec<KnownStation>, wake: &Wake) {
+        stations.retain(|station| station.path != path);
+        self.change(wake, move |stations| stations.retain(|station| station.path != path));
     }
 
     /// Changes the file as it is now: other windows write it too.
@@ -70,17 +70,17 @@ impl KnownWork {
             if let Some(before) = before {
                 before.wait(WAIT);
             }
-            let mut known = read(&path);
-            change(&mut known);
-            write(&known, &path);
+            let mut stations = read(&path);
+            change(&mut stations);
+            write(&stations, &path);
         }));
     }
 }
 
-fn first(station: &KnownStation, known: &mut Vec<KnownStation>) {
-    known.retain(|known| known.path != station.path);
-    known.insert(0, station.clone());
-    known.truncate(MAX);
+fn first(station: &KnownStation, stations: &mut Vec<KnownStation>) {
+    stations.retain(|known_station| known_station.path != station.path);
+    stations.insert(0, station.clone());
+    stations.truncate(MAX);
 }
 
 fn read(path: &Path) -> Vec<KnownStation> {
@@ -94,12 +94,12 @@ fn read(path: &Path) -> Vec<KnownStation> {
     stations.into_iter().flatten().filter_map(station).take(MAX).collect()
 }
 
-fn write(known: &[KnownStation], path: &Path) {
+fn write(stations: &[KnownStation], path: &Path) {
     #[derive(Serialize)]
     struct File<'a> {
         station: &'a [KnownStation],
     }
-    let written = toml::to_string_pretty(&File { station: known })
+    let written = toml::to_string_pretty(&File { station: stations })
         .map_err(std::io::Error::other)
         .and_then(|text| whole_file::replace(path, text.as_bytes()));
     if let Err(error) = written {
@@ -117,16 +117,16 @@ mod tests {
         KnownStation { name: name.to_owned(), path: format!("/{name}.toml").into() }
     }
 
-    fn names(known: &[KnownStation]) -> Vec<&str> {
-        known.iter().map(|known| known.name.as_str()).collect()
+    fn names(stations: &[KnownStation]) -> Vec<&str> {
+        stations.iter().map(|station| station.name.as_str()).collect()
     }
 
     #[test]
     fn the_last_used_station_comes_first_and_a_second_window_adds_to_the_same_file() {
         let folder = tempfile::tempdir().unwrap();
         let wake: Wake = std::sync::Arc::new(|| {});
-        let (mut first, mut of_first) = KnownWork::beside(Some(folder.path()));
-        let (mut second, mut of_second) = KnownWork::beside(Some(folder.path()));
+        let (mut first, mut of_first) = KnownWork::new(Some(folder.path()));
+        let (mut second, mut of_second) = KnownWork::new(Some(folder.path()));
         for name in ["Hill", "Mast", "Hill"] {
             first.put_first(station(name), &mut of_first, &wake);
         }
@@ -134,10 +134,10 @@ mod tests {
         second.put_first(station("Field"), &mut of_second, &wake);
         second.job.take().unwrap().wait(PATIENCE);
         assert_eq!(names(&of_first), ["Hill", "Mast"]);
-        assert_eq!(names(&KnownWork::beside(Some(folder.path())).1), ["Field", "Hill", "Mast"]);
+        assert_eq!(names(&KnownWork::new(Some(folder.path())).1), ["Field", "Hill", "Mast"]);
         first.forget("/Hill.toml".into(), &mut of_first, &wake);
         first.job.take().unwrap().wait(PATIENCE);
-        assert_eq!(names(&KnownWork::beside(Some(folder.path())).1), ["Field", "Mast"]);
+        assert_eq!(names(&KnownWork::new(Some(folder.path())).1), ["Field", "Mast"]);
         for number in 0..20 {
             first.put_first(station(&number.to_string()), &mut of_first, &wake);
         }
@@ -153,7 +153,7 @@ mod tests {
             ("[[station", 0),
         ] {
             fs::write(folder.path().join(FILE), text).unwrap();
-            assert_eq!(KnownWork::beside(Some(folder.path())).1.len(), left, "{text}");
+            assert_eq!(KnownWork::new(Some(folder.path())).1.len(), left, "{text}");
         }
     }
 }

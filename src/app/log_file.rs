@@ -16,7 +16,7 @@ pub(super) struct LogWork {
 
 impl LogWork {
     /// Uses a folder beside that of the elements.
-    pub(super) fn beside(library: Option<PathBuf>) -> Self {
+    pub(super) fn new(library: Option<PathBuf>) -> Self {
         Self { folder: library.map(|library| library.with_file_name("console")), job: None }
     }
 }

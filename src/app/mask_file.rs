@@ -23,7 +23,7 @@ pub(super) struct MaskWork {
 
 impl MaskWork {
     /// Uses a folder beside that of the elements.
-    pub(super) fn beside(library: Option<PathBuf>) -> Self {
+    pub(super) fn new(library: Option<PathBuf>) -> Self {
         Self { folder: library.map(|library| library.with_file_name("horizon")), job: None }
     }
 }
@@ -33,15 +33,15 @@ impl App {
     pub(super) fn import_mask(&mut self, path: PathBuf) {
         self.begin_mask_work(move |_| match read(&path) {
             Ok((mask, form)) => MaskNews::Read(mask, form),
-            Err(why) => MaskNews::Failed(format!("{why}: {}", path.display())),
+            Err(reason) => MaskNews::Failed(format!("{reason}: {}", path.display())),
         });
     }
 
     /// Begins to write a mask as a table.
     pub(super) fn export_mask(&mut self, mask: &HorizonMask) {
         let Some(folder) = &self.mask_work.folder else {
-            let why = "this user has no folder for data".to_owned();
-            return self.views.mask_news(MaskNews::Failed(why));
+            let reason = "this user has no folder for data".to_owned();
+            return self.views.mask_news(MaskNews::Failed(reason));
         };
         let name = format!("horizon-{}.csv", self.model.now.strftime("%Y%m%dT%H%M%SZ"));
         let (path, text) = (folder.join(name), mask.to_csv());

@@ -202,31 +202,31 @@ fn arrangement(table: Option<&toml::Table>) -> Arrangement {
 }
 
 fn layers(table: Option<&toml::Table>) -> Layers {
-    let usual = Layers::default();
-    let Some(table) = table else { return usual };
-    let shown = |key: &str, usual| flag(table, key).unwrap_or(usual);
+    let defaults = Layers::default();
+    let Some(table) = table else { return defaults };
+    let shown = |key: &str, default| flag(table, key).unwrap_or(default);
     Layers {
-        others: shown("others", usual.others),
-        names: shown("names", usual.names),
-        sun_and_moon: shown("sun_and_moon", usual.sun_and_moon),
-        keyholes: shown("keyholes", usual.keyholes),
-        mask: shown("mask", usual.mask),
-        keep_outs: shown("keep_outs", usual.keep_outs),
-        antennas: shown("antennas", usual.antennas),
+        others: shown("others", defaults.others),
+        names: shown("names", defaults.names),
+        sun_and_moon: shown("sun_and_moon", defaults.sun_and_moon),
+        keyholes: shown("keyholes", defaults.keyholes),
+        mask: shown("mask", defaults.mask),
+        keep_outs: shown("keep_outs", defaults.keep_outs),
+        antennas: shown("antennas", defaults.antennas),
     }
 }
 
 fn map_layers(table: Option<&toml::Table>) -> MapLayers {
-    let usual = MapLayers::default();
-    let Some(table) = table else { return usual };
-    let shown = |key: &str, usual| flag(table, key).unwrap_or(usual);
+    let defaults = MapLayers::default();
+    let Some(table) = table else { return defaults };
+    let shown = |key: &str, default| flag(table, key).unwrap_or(default);
     MapLayers {
-        tracks: shown("tracks", usual.tracks),
-        other_tracks: shown("other_tracks", usual.other_tracks),
-        footprints: shown("footprints", usual.footprints),
-        terminator: shown("terminator", usual.terminator),
-        names: shown("names", usual.names),
-        grid: shown("grid", usual.grid),
+        tracks: shown("tracks", defaults.tracks),
+        other_tracks: shown("other_tracks", defaults.other_tracks),
+        footprints: shown("footprints", defaults.footprints),
+        terminator: shown("terminator", defaults.terminator),
+        names: shown("names", defaults.names),
+        grid: shown("grid", defaults.grid),
     }
 }
 
@@ -263,13 +263,13 @@ pub(super) struct Keeper {
 impl Keeper {
     /// The memory of a station file; without a station file nothing is kept. A station without a
     /// memory of its own begins as the usual one beside it looks.
-    pub(super) fn beside(station: Option<&Path>) -> Self {
+    pub(super) fn new(station: Option<&Path>) -> Self {
         let path = station.map(memory_path);
-        let usual = station.map(|station| station.with_file_name(FILE));
+        let default_path = station.map(|station| station.with_file_name(FILE));
         let file = path.as_deref().map(read).unwrap_or_default();
-        let memory = match (path.as_deref(), usual.as_deref()) {
-            (Some(path), Some(usual)) if !path.exists() => {
-                Memory::of_file(&read(usual)).of_another_station()
+        let memory = match (path.as_deref(), default_path.as_deref()) {
+            (Some(path), Some(default_path)) if !path.exists() => {
+                Memory::of_file(&read(default_path)).of_another_station()
             }
             _ => Memory::of_file(&file),
         };
@@ -357,7 +357,7 @@ mod tests {
     }
 
     fn keeper(folder: &tempfile::TempDir) -> Keeper {
-        Keeper::beside(Some(&folder.path().join("deep/station.toml")))
+        Keeper::new(Some(&folder.path().join("deep/station.toml")))
     }
 
     fn silent() -> Wake {
@@ -381,18 +381,18 @@ mod tests {
     #[test]
     fn each_station_has_a_memory_of_its_own_and_begins_as_the_usual_one_looks() {
         let folder = tempfile::tempdir().unwrap();
-        let at = |name: &str| Keeper::beside(Some(&folder.path().join(name)));
-        let mut usual = at("station.toml");
-        usual.memory = other();
-        usual.finish(&silent());
-        let mut hill = at("hill.toml");
+        let keeper = |name: &str| Keeper::new(Some(&folder.path().join(name)));
+        let mut first = keeper("station.toml");
+        first.memory = other();
+        first.finish(&silent());
+        let mut hill = keeper("hill.toml");
         assert_eq!(hill.memory.views, other().views);
         assert_eq!(hill.memory, other().of_another_station());
         hill.memory.appearance.theme = ThemeName::Light;
         hill.finish(&silent());
         assert!(folder.path().join("hill.window.toml").exists());
-        assert_eq!(at("hill.toml").memory.appearance.theme, ThemeName::Light);
-        assert_eq!(at("station.toml").memory, other());
+        assert_eq!(keeper("hill.toml").memory.appearance.theme, ThemeName::Light);
+        assert_eq!(keeper("station.toml").memory, other());
     }
 
     #[test]
@@ -411,7 +411,7 @@ mod tests {
     fn a_wrong_part_costs_only_itself() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("window.toml");
-        for (text, wanted) in [
+        for (text, memory) in [
             ("theme = 'night'\nstrip_hours = -3\nfaults_open = 'yes'\nnew = 1", {
                 let theme = ThemeName::Night;
                 let appearance = Appearance { theme, ..Appearance::default() };
@@ -453,7 +453,7 @@ mod tests {
             ("theme = \"", Memory::default()),
         ] {
             fs::write(&path, text).unwrap();
-            assert_eq!(Memory::of_file(&read(&path)), wanted, "{text}");
+            assert_eq!(Memory::of_file(&read(&path)), memory, "{text}");
         }
         fs::write(&path, [0xFF, 0xFE]).unwrap();
         assert_eq!(Memory::of_file(&read(&path)), Memory::default());
@@ -466,7 +466,7 @@ mod tests {
         let text = "antenna = 'Mast'\nlater = 1\nkeys = [['operate', 'N', 'J']]\ncolumns = ['age']\n\
                     strip_hours = 24\n[layers]\nclouds = true\nnames = true\n";
         fs::write(&path, text).unwrap();
-        let mut keeper = Keeper::beside(Some(&folder.path().join("station.toml")));
+        let mut keeper = Keeper::new(Some(&folder.path().join("station.toml")));
         keeper.memory.antenna = None;
         keeper.memory.views.strip_hours = None;
         keeper.memory.views.layers.names = false;
@@ -476,8 +476,8 @@ mod tests {
         let layers = file.get("layers").and_then(toml::Value::as_table).unwrap();
         let flags = ["clouds", "names"].map(|key| layers.get(key).and_then(toml::Value::as_bool));
         assert_eq!(flags, [Some(true), Some(false)]);
-        for gone in ["keys", "columns", "antenna", "strip_hours"] {
-            assert_eq!(file.get(gone), None, "{gone}");
+        for removed in ["keys", "columns", "antenna", "strip_hours"] {
+            assert_eq!(file.get(removed), None, "{removed}");
         }
     }
 

@@ -35,19 +35,19 @@ impl Notifier {
     pub fn start(station: Client, desktop: Desktop, wake: Wake) -> io::Result<Self> {
         let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
         let (tell_outlets, outlets) = watch::channel(Outlets::default());
-        let (trials, asked) = mpsc::channel(1);
+        let (trials, receiver) = mpsc::channel(1);
         thread::Builder::new().name("azel-notifier".to_owned()).spawn(move || {
-            let told = |outlets: &Outlets| {
-                let is_news = tell_outlets.send_if_modified(|known| {
-                    let is_news = known != outlets;
-                    known.clone_from(outlets);
+            let notify = |outlets: &Outlets| {
+                let is_news = tell_outlets.send_if_modified(|last_outlets| {
+                    let is_news = last_outlets != outlets;
+                    last_outlets.clone_from(outlets);
                     is_news
                 });
                 if is_news {
                     wake();
                 }
             };
-            runtime.block_on(tell_all(station, desktop, asked, told));
+            runtime.block_on(tell_all(station, desktop, receiver, notify));
         })?;
         Ok(Self { outlets, trials })
     }
@@ -67,18 +67,18 @@ async fn tell_all(
     mut station: Client,
     mut desktop: Desktop,
     mut trials: mpsc::Receiver<Sound>,
-    told: impl Fn(&Outlets),
+    notify: impl Fn(&Outlets),
 ) {
     let (mut teller, mut stood) = (Teller::default(), None);
     desktop.look().await;
-    told(desktop.outlets());
+    notify(desktop.outlets());
     loop {
         let snapshot = station.snapshot();
         let news = teller.look(&snapshot, stood, &TimeZone::system());
         if !news.notices.is_empty() {
             let notifications = notifications(&news.notices, &snapshot);
             desktop.tell(&notifications, sound(&news.notices)).await;
-            told(desktop.outlets());
+            notify(desktop.outlets());
         }
         desktop.close(&news.ended).await;
         tokio::select! {
@@ -89,7 +89,7 @@ async fn tell_all(
             },
             Some(sound) = trials.recv() => {
                 desktop.tell(&[trial(sound)], Some(sound)).await;
-                told(desktop.outlets());
+                notify(desktop.outlets());
             }
         }
     }
@@ -105,10 +105,11 @@ fn notifications(news: &[Notice], station: &Snapshot) -> Vec<Notification> {
     shown.map(|notice| notification(&notice.subject, station)).collect()
 }
 
-fn notification(about: &NoticeSubject, station: &Snapshot) -> Notification {
-    let (title, text) = words::notice(about, station);
-    let urgency = if about.has_top_priority() { Urgency::Critical } else { Urgency::Normal };
-    let number = match about {
+fn notification(notice_subject: &NoticeSubject, station: &Snapshot) -> Notification {
+    let (title, text) = words::notice(notice_subject, station);
+    let urgency =
+        if notice_subject.has_top_priority() { Urgency::Critical } else { Urgency::Normal };
+    let number = match notice_subject {
         NoticeSubject::Alarm(alarm) => Some(alarm.row),
         NoticeSubject::StationStands(_) | NoticeSubject::Reminder(_) => None,
     };

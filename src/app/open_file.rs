@@ -67,8 +67,8 @@ impl App {
 
     fn begin_to_open(&mut self, work: impl FnOnce() -> Outcome + Send + 'static) {
         if self.open_work.job.is_some() {
-            let why = "Another file is being opened; its dialog may be behind this window.";
-            return self.views.not_opened(why);
+            let reason = "Another file is being opened; its dialog may be behind this window.";
+            return self.views.not_opened(reason);
         }
         self.open_work.job = Some(Job::start("azel-open", Arc::clone(&self.wake), move |_| work()));
     }
@@ -115,16 +115,16 @@ fn choose(
 }
 
 fn take_typed(file: OpenedFile, path: PathBuf) -> Outcome {
-    let why = match unusable(&path) {
-        Some(why) => why,
+    let reason = match unusable(&path) {
+        Some(reason) => reason,
         None if !path.exists() => "there is no such file",
         None => return Outcome::Chosen(file, vec![path]),
     };
-    ask_for_path(file, path, why.to_owned())
+    ask_for_path(file, path, reason.to_owned())
 }
 
-fn ask_for_path(file: OpenedFile, path: PathBuf, why: String) -> Outcome {
-    Outcome::AsksForPath(PathRequest { purpose: PathPurpose::Open(file), path, reason: why })
+fn ask_for_path(file: OpenedFile, path: PathBuf, reason: String) -> Outcome {
+    Outcome::AsksForPath(PathRequest { purpose: PathPurpose::Open(file), path, reason })
 }
 
 /// Why a typed path cannot be that of a file.

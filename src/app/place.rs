@@ -15,7 +15,8 @@ const SETTLED: Duration = Duration::from_secs(1);
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) struct Place {
     /// Position of the frame; `None` where the desktop does not report it.
-    at: Option<[i32; 2]>,
+    #[serde(rename = "at")]
+    position: Option<[i32; 2]>,
     /// Size of the content.
     size: [u32; 2],
     is_maximized: bool,
@@ -33,7 +34,7 @@ pub(super) struct PlaceWatch {
 }
 
 impl Place {
-    fn of(ctx: &Context, before: Option<Self>) -> Option<Self> {
+    fn new(ctx: &Context, before: Option<Self>) -> Option<Self> {
         ctx.input(|input| {
             let viewport = input.viewport();
             if viewport.minimized == Some(true) || viewport.fullscreen == Some(true) {
@@ -44,26 +45,28 @@ impl Place {
             if let Some(before) = before.filter(|_| is_maximized) {
                 return Some(Self { is_maximized, ..before });
             }
-            let at = viewport.outer_rect.map(|outer| [outer.left() as i32, outer.top() as i32]);
+            let position =
+                viewport.outer_rect.map(|outer| [outer.left() as i32, outer.top() as i32]);
             let size = [inner.width() as u32, inner.height() as u32];
-            Some(Self { at, size, is_maximized })
+            Some(Self { position, size, is_maximized })
         })
     }
 
     /// No larger than the screen that shows most of it, and wholly on that one.
     fn fitted(self, screens: &[Rect]) -> Self {
         let size = vec2(self.size[0] as f32, self.size[1] as f32);
-        let at = self.at.map(|[x, y]| pos2(x as f32, y as f32));
+        let position = self.position.map(|[x, y]| pos2(x as f32, y as f32));
         let shown = |screen: &&Rect| {
-            let both = at.map(|at| Rect::from_min_size(at, size).intersect(**screen));
-            both.map_or(0.0, |both| both.width().max(0.0) * both.height().max(0.0))
+            let visible =
+                position.map(|position| Rect::from_min_size(position, size).intersect(**screen));
+            visible.map_or(0.0, |visible| visible.width().max(0.0) * visible.height().max(0.0))
         };
         let best = screens.iter().max_by(|one, other| shown(one).total_cmp(&shown(other)));
         let Some(screen) = best else { return self };
         let size = size.min(screen.size());
-        let at = at.map(|at| at.clamp(screen.min, screen.max - size));
+        let position = position.map(|position| position.clamp(screen.min, screen.max - size));
         Self {
-            at: at.map(|at| [at.x as i32, at.y as i32]),
+            position: position.map(|position| [position.x as i32, position.y as i32]),
             size: [size.x as u32, size.y as u32],
             ..self
         }
@@ -76,11 +79,11 @@ impl App {
         if std::mem::replace(&mut self.place_watch.is_restored, true) {
             return;
         }
-        let Some(kept) = self.keeper.memory.place else { return };
-        let place = kept.fitted(&screens(ctx, frame));
+        let Some(saved) = self.keeper.memory.place else { return };
+        let place = saved.fitted(&screens(ctx, frame));
         let size = Vec2::from(place.size.map(|length| length as f32));
         let mut commands = vec![ViewportCommand::InnerSize(size)];
-        if let Some([x, y]) = place.at {
+        if let Some([x, y]) = place.position {
             commands.push(ViewportCommand::OuterPosition(pos2(x as f32, y as f32)));
         }
         if place.is_maximized {
@@ -94,13 +97,13 @@ impl App {
     /// Keeps the place of the window once the operator has changed it.
     pub(super) fn watch_place(&mut self, ctx: &Context) {
         let (watch, now) = (&mut self.place_watch, self.model.steady);
-        let Some(place) = Place::of(ctx, watch.last.map(|(place, _)| place)) else { return };
-        let since = match watch.last {
-            Some((last, since)) if last == place => since,
+        let Some(place) = Place::new(ctx, watch.last.map(|(place, _)| place)) else { return };
+        let start = match watch.last {
+            Some((last, start)) if last == place => start,
             _ => now,
         };
-        watch.last = Some((place, since));
-        if now.saturating_duration_since(since) < SETTLED {
+        watch.last = Some((place, start));
+        if now.saturating_duration_since(start) < SETTLED {
             return;
         }
         if *watch.first.get_or_insert(place) != place {
@@ -114,8 +117,9 @@ impl App {
 fn screens(ctx: &Context, frame: &eframe::Frame) -> Vec<Rect> {
     let Some(window) = frame.winit_window() else { return Vec::new() };
     let points = 1.0 / ctx.pixels_per_point();
-    let screen = |at: winit::dpi::PhysicalPosition<i32>, size: winit::dpi::PhysicalSize<u32>| {
-        let min = pos2(at.x as f32, at.y as f32) * points;
+    let screen = |corner: winit::dpi::PhysicalPosition<i32>,
+                  size: winit::dpi::PhysicalSize<u32>| {
+        let min = pos2(corner.x as f32, corner.y as f32) * points;
         Rect::from_min_size(min, vec2(size.width as f32, size.height as f32) * points)
     };
     let monitors = window.available_monitors();
@@ -128,7 +132,7 @@ mod tests {
     use super::*;
 
     fn place(x: i32, y: i32, width: u32, height: u32) -> Place {
-        Place { at: Some([x, y]), size: [width, height], is_maximized: false }
+        Place { position: Some([x, y]), size: [width, height], is_maximized: false }
     }
 
     fn screen(x: f32, width: f32, height: f32) -> Rect {
@@ -138,7 +142,7 @@ mod tests {
     #[test]
     fn a_window_fits_the_screens_that_are_there() {
         let two = [screen(0.0, 1920.0, 1080.0), screen(1920.0, 1440.0, 900.0)];
-        for (kept, screens, fitted) in [
+        for (saved, screens, fitted) in [
             (place(100, 50, 1440, 900), &two[..], place(100, 50, 1440, 900)),
             (place(2000, 0, 1300, 800), &two, place(2000, 0, 1300, 800)),
             // Its screen is gone.
@@ -147,9 +151,9 @@ mod tests {
             (place(-500, -90, 1440, 900), &two, place(0, 0, 1440, 900)),
             (place(7, 7, 1440, 900), &[], place(7, 7, 1440, 900)),
         ] {
-            assert_eq!(kept.fitted(screens), fitted, "{kept:?} {screens:?}");
+            assert_eq!(saved.fitted(screens), fitted, "{saved:?} {screens:?}");
         }
-        let nowhere = Place { at: None, ..place(0, 0, 4000, 3000) };
+        let nowhere = Place { position: None, ..place(0, 0, 4000, 3000) };
         assert_eq!(nowhere.fitted(&two[..1]), Place { size: [1920, 1080], ..nowhere });
     }
 }

@@ -42,22 +42,22 @@ impl App {
         if pass.is_some() && predicted.is_none() {
             return;
         }
-        let from = predicted.map_or(model.now, |it| {
-            let before = crate::astro::time::add_seconds(it.pass.aos.time, -BEFORE_S);
+        let start = predicted.map_or(model.now, |chosen| {
+            let before = crate::astro::time::add_seconds(chosen.pass.aos.time, -BEFORE_S);
             before.max(model.now)
         });
-        let until = predicted.map_or_else(|| model.plan_until(), |it| it.pass.los.time);
-        let hours = (seconds_between(from, until) / 3600.0).max(SHORTEST_H);
+        let end = predicted.map_or_else(|| model.plan_until(), |chosen| chosen.pass.los.time);
+        let hours = (seconds_between(start, end) / 3600.0).max(SHORTEST_H);
         let mut station = Station::clone(&model.station);
         if let Some(key) = pass {
             // Others might take it instead.
             let own = model.antennas_of(key);
             station.antennas.retain(|antenna| own.contains(&antenna.id));
         }
-        let what = Rehearsal {
+        let rehearsal = Rehearsal {
             station,
             elements: Arc::clone(catalog),
-            from,
+            start,
             hours,
             seed: SEED,
             mechanics: Mechanics::default(),
@@ -65,13 +65,13 @@ impl App {
             speed: None,
         };
         let share = Arc::<AtomicU64>::default();
-        let told = Arc::clone(&share);
+        let shown_share = Arc::clone(&share);
         let work = move |is_cancelled: &(dyn Fn() -> bool + Sync)| {
             let tell = |now: Timestamp| {
-                let share = seconds_between(what.from, now) / (what.hours * 3600.0);
-                told.store(share.clamp(0.0, 1.0).to_bits(), Ordering::Relaxed);
+                let share = seconds_between(rehearsal.start, now) / (rehearsal.hours * 3600.0);
+                shown_share.store(share.clamp(0.0, 1.0).to_bits(), Ordering::Relaxed);
             };
-            run(&what, &tell, is_cancelled)
+            run(&rehearsal, &tell, is_cancelled)
         };
         let job = Some(Job::start("azel-rehearsal", Arc::clone(&self.wake), work));
         self.rehearsal_work = RehearsalWork { job, share };

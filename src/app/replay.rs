@@ -14,7 +14,7 @@ use jiff::Timestamp;
 
 use self::{
     ending::why_over,
-    room::{Answer, Asked, Found, Room, Scene, Wanted},
+    room::{Answer, FilmTarget, Found, Room, RoomRequest, Scene},
 };
 use super::{App, catalog_table::CatalogWork, effects::EffectsJobs};
 use crate::{
@@ -32,7 +32,7 @@ use crate::{
             JumpNews, ReplayCommand, ReplayEnd, ReplayProblem, Replayed, Stretch, StretchPass,
         },
     },
-    record::Beside,
+    record::Neighbour,
     station::AntennaId,
     ui,
 };
@@ -41,28 +41,28 @@ use crate::{
 const STEP_S: f64 = 0.05;
 
 impl App {
-    /// Shows a stretch of the record again, from `at` on.
-    pub(super) fn begin_replay(&mut self, stretch: Stretch, at: Timestamp) {
+    /// Shows a stretch of the record again, from `time` on.
+    pub(super) fn begin_replay(&mut self, stretch: Stretch, time: Timestamp) {
         let Some(record) = &self.model.record else { return };
         let views = ui::Views::new(self.views.stored());
         let (path, wake) = (record.path.clone(), Arc::clone(&self.wake));
         self.model.replay_end = None;
-        self.replay = Some(Replay::begin(path, stretch, at, &self.model, views, wake));
+        self.replay = Some(Replay::begin(path, stretch, time, &self.model, views, wake));
     }
 
     /// Shows the live station again, and why.
-    pub(super) fn leave_replay(&mut self, why: Option<ReplayEnd>) {
+    pub(super) fn leave_replay(&mut self, reason: Option<ReplayEnd>) {
         let Some(replay) = self.replay.take() else { return };
         replay.end();
-        self.model.replay_end = why;
+        self.model.replay_end = reason;
     }
 
     pub(super) fn go_on_with_replay(&mut self) {
         let Some(replay) = &mut self.replay else { return };
         replay.think(self.model.steady);
-        let why = why_over(replay.begun_at, &self.model);
-        if why.is_some() {
-            self.leave_replay(why);
+        let reason = why_over(replay.begun_at, &self.model);
+        if reason.is_some() {
+            self.leave_replay(reason);
         }
     }
 
@@ -71,11 +71,11 @@ impl App {
         let Some(replay) = &mut self.replay else { return };
         match replay.carry_out(command) {
             None => {}
-            Some(Beyond::Stop) => self.stop_all(),
-            Some(Beyond::StopAntenna(antenna)) => self.stop_one(antenna),
-            Some(Beyond::Leave) => self.leave_replay(None),
-            Some(Beyond::Show(view)) => self.show_view(view),
-            Some(Beyond::Appear(appearance)) => {
+            Some(RoomEdge::Stop) => self.stop_all(),
+            Some(RoomEdge::StopAntenna(antenna)) => self.stop_one(antenna),
+            Some(RoomEdge::Leave) => self.leave_replay(None),
+            Some(RoomEdge::Show(view)) => self.show_view(view),
+            Some(RoomEdge::Appear(appearance)) => {
                 replay.appear(appearance);
                 self.change_appearance(appearance, ctx);
             }
@@ -84,7 +84,7 @@ impl App {
 }
 
 /// Action that leads out of a replay.
-pub(super) enum Beyond {
+pub(super) enum RoomEdge {
     /// STOP of the live station.
     Stop,
     /// STOP of one of its antennas.
@@ -105,7 +105,7 @@ pub(super) struct Replay {
     /// Its work, which gives it back unless it breaks off.
     job: Option<Job<(Box<Room>, Answer)>>,
     /// The moment to show next.
-    wanted: Option<Wanted>,
+    requested: Option<FilmTarget>,
     /// The pass whose antenna is still to be selected, once the station of its time is known.
     unselected: Option<StretchPass>,
     /// The stretch whose passes are marked.
@@ -124,26 +124,26 @@ impl Replay {
     pub(super) fn begin(
         path: PathBuf,
         stretch: Stretch,
-        at: Timestamp,
+        time: Timestamp,
         live: &Model,
         views: ui::Views,
         wake: Wake,
     ) -> Self {
-        let now = Moment { utc: at, steady: live.steady };
+        let now = Moment { utc: time, steady: live.steady };
         let mut model = Model::before_anything(now);
         (model.view, model.appearance, model.list) = (live.view, live.appearance, live.list);
         // The film has the elements of the favourites.
         model.list.scope = Scope::Favourites;
         model.selected_antenna = live.selected_antenna;
         let unselected = stretch.pass;
-        model.replay = Some(Replayed::begin(stretch, at));
+        model.replay = Some(Replayed::begin(stretch, time));
         Self {
             model,
             views,
             begun_at: live.now,
             room: Some(Box::new(Room::new(path))),
             job: None,
-            wanted: Some(Wanted::At(at)),
+            requested: Some(FilmTarget::At(time)),
             unselected,
             marked: None,
             moved_at: live.steady,
@@ -185,24 +185,24 @@ impl Replay {
 
     /// Carries out a command of the views of the replay, or returns what leads out of it. All others
     /// end here.
-    pub(super) fn carry_out(&mut self, command: UiCommand) -> Option<Beyond> {
+    pub(super) fn carry_out(&mut self, command: UiCommand) -> Option<RoomEdge> {
         let model = &mut self.model;
         match command {
-            UiCommand::Stop => return Some(Beyond::Stop),
-            UiCommand::StopAntenna(antenna) => return Some(Beyond::StopAntenna(antenna)),
-            UiCommand::LeaveReplay => return Some(Beyond::Leave),
+            UiCommand::Stop => return Some(RoomEdge::Stop),
+            UiCommand::StopAntenna(antenna) => return Some(RoomEdge::StopAntenna(antenna)),
+            UiCommand::LeaveReplay => return Some(RoomEdge::Leave),
             UiCommand::Replay(command) => self.change(command),
             // The set-up is of the live station.
             UiCommand::Show(View::Setup) => {}
             UiCommand::Show(view) => {
                 model.view = view;
-                return Some(Beyond::Show(view));
+                return Some(RoomEdge::Show(view));
             }
             UiCommand::SetTheme(theme) => {
                 let appearance = Appearance { theme, light_by_day: false, ..model.appearance };
-                return Some(Beyond::Appear(appearance));
+                return Some(RoomEdge::Appear(appearance));
             }
-            UiCommand::SetAppearance(appearance) => return Some(Beyond::Appear(appearance)),
+            UiCommand::SetAppearance(appearance) => return Some(RoomEdge::Appear(appearance)),
             UiCommand::SelectPass(pass) => model.choose_pass(pass),
             UiCommand::SelectSatellite(number) => {
                 if let Some(pass) = model.pass_of(number).map(PredictedPass::key) {
@@ -211,10 +211,10 @@ impl Replay {
             }
             UiCommand::SelectAntenna(index) => model.select_antenna(index),
             UiCommand::SetSpan(span_h) => model.list.set_span_h(span_h),
-            UiCommand::ShowEffects(asked) => model.obstacle_effects.ask(*asked, model.steady),
-            UiCommand::ShowTracked(asked) => model.mount_effects.ask(*asked, model.steady),
-            UiCommand::ShowMoved(asked) => model.site_effects.ask(*asked, model.steady),
-            UiCommand::ShowCatalog(asked) => model.catalog_table.question = asked,
+            UiCommand::ShowEffects(question) => model.obstacle_effects.ask(*question, model.steady),
+            UiCommand::ShowTracked(question) => model.mount_effects.ask(*question, model.steady),
+            UiCommand::ShowMoved(question) => model.site_effects.ask(*question, model.steady),
+            UiCommand::ShowCatalog(question) => model.catalog_table.question = question,
             UiCommand::InspectObject(number) => model.catalog_table.inspected = Some(number),
             UiCommand::Station(Command::LookAtRecord(look)) => {
                 if look.is_none() {
@@ -240,30 +240,30 @@ impl Replay {
         }
         match command {
             ReplayCommand::Pass { is_next } => {
-                let pass = replay.stretch.pass.map(|pass| Beside::Pass(pass.id));
-                let of = pass.unwrap_or(Beside::Moment(replay.time));
-                self.wanted = Some(Wanted::Pass { of, is_next });
+                let pass = replay.stretch.pass.map(|pass| Neighbour::Pass(pass.id));
+                let reference = pass.unwrap_or(Neighbour::Moment(replay.time));
+                self.requested = Some(FilmTarget::Pass { reference, is_next });
             }
             ReplayCommand::PlayOrPause => {
                 let is_forward = replay.speed > 0;
-                if let Some(ReplayProblem::NoFilm { start: from, end: until }) = replay.problem {
+                if let Some(ReplayProblem::NoFilm { start: begin, end }) = replay.problem {
                     // On the other side it goes on.
-                    self.wanted = Some(Wanted::At(if is_forward { until } else { from }));
+                    self.requested = Some(FilmTarget::At(if is_forward { end } else { begin }));
                 } else if !replay.plays && replay.is_at_end() {
                     let stretch = &replay.stretch;
                     let start = if replay.speed < 0 { stretch.end } else { stretch.start };
-                    self.wanted = Some(Wanted::At(start));
+                    self.requested = Some(FilmTarget::At(start));
                 }
                 replay.plays = !replay.plays;
             }
             ReplayCommand::Speed(speed) => replay.speed = speed,
             ReplayCommand::Event { is_next } => {
                 replay.plays = false;
-                self.wanted = Some(Wanted::Event { from: replay.time, is_next });
+                self.requested = Some(FilmTarget::Event { start: replay.time, is_next });
             }
-            ReplayCommand::To(at) => {
-                let at = at.clamp(replay.stretch.start, replay.stretch.end);
-                self.wanted = Some(Wanted::At(at));
+            ReplayCommand::To(time) => {
+                let time = time.clamp(replay.stretch.start, replay.stretch.end);
+                self.requested = Some(FilmTarget::At(time));
             }
         }
     }
@@ -295,35 +295,34 @@ impl Replay {
         }
     }
 
-    fn take_moment(&mut self, Found { at, stretch, hole, skipped, scene }: Found) {
+    fn take_moment(&mut self, Found { time, stretch, hole, skipped, scene }: Found) {
         if let Some(stretch) = &stretch {
             self.model.drop_choice();
             self.unselected = stretch.pass;
         }
         if let Some(replay) = &mut self.model.replay {
-            replay.time = at;
-            replay.stretch = stretch.unwrap_or_else(|| replay.stretch.clone().around_time(at));
-            let skipped =
-                skipped.map(|(from, until)| JumpNews::Skipped { start: from, end: until });
+            replay.time = time;
+            replay.stretch = stretch.unwrap_or_else(|| replay.stretch.clone().around_time(time));
+            let skipped = skipped.map(|(start, end)| JumpNews::Skipped { start, end });
             replay.news = skipped.or(replay.news.take());
             replay.problem = None;
         }
         match scene {
             Ok(Some(scene)) => {
-                self.take_scene(at, scene);
-                if let Some((from, until)) = hole {
-                    self.tell(ReplayProblem::NoFilm { start: from, end: until });
+                self.take_scene(time, scene);
+                if let Some((start, end)) = hole {
+                    self.tell(ReplayProblem::NoFilm { start, end });
                 }
             }
             Ok(None) => {
                 // Nothing of another moment may stand under this time.
-                let moment = Moment { utc: at, steady: self.model.steady };
+                let moment = Moment { utc: time, steady: self.model.steady };
                 self.take_scene(
-                    at,
+                    time,
                     Scene { shown: Snapshot::before_anything(moment), wires: Vec::new() },
                 );
                 self.tell(match hole {
-                    Some((from, until)) => ReplayProblem::NoFilm { start: from, end: until },
+                    Some((start, end)) => ReplayProblem::NoFilm { start, end },
                     None => ReplayProblem::NothingYet,
                 });
             }
@@ -331,15 +330,18 @@ impl Replay {
         }
     }
 
-    fn take_scene(&mut self, at: Timestamp, Scene { mut shown, wires }: Scene) {
+    fn take_scene(&mut self, time: Timestamp, Scene { mut shown, wires }: Scene) {
         let model = &mut self.model;
         // The record is read by itself, and a closing is of the live station.
         (shown.recorded, shown.closing) = (model.recorded.clone(), None);
         // Ages are those of that moment.
-        let passed = at.duration_since(shown.moment.utc).try_into().unwrap_or_default();
-        (model.now, model.steady) = (at, shown.moment.steady + passed);
+        let passed = time.duration_since(shown.moment.utc).try_into().unwrap_or_default();
+        (model.now, model.steady) = (time, shown.moment.steady + passed);
         model.take(Arc::new(shown), |antenna| {
-            wires.iter().find(|(of, _)| *of == antenna).map(|(_, wire)| wire.clone())
+            wires
+                .iter()
+                .find(|(antenna_id, _)| *antenna_id == antenna)
+                .map(|(_, wire)| wire.clone())
         });
         if !model.antennas.is_empty()
             && let Some(pass) = self.unselected.take()
@@ -362,7 +364,7 @@ impl Replay {
     fn move_on(&mut self, now: Instant) {
         let passed_s = now.saturating_duration_since(self.moved_at).as_secs_f64();
         let Some(replay) = &mut self.model.replay else { return };
-        if !replay.plays || self.wanted.is_some() {
+        if !replay.plays || self.requested.is_some() {
             self.moved_at = now;
             return;
         }
@@ -374,27 +376,28 @@ impl Replay {
             replay.plays = false;
             return;
         }
-        let at = add_seconds(replay.time, passed_s * f64::from(replay.speed));
-        let at = at.clamp(replay.stretch.start, replay.stretch.end);
-        self.wanted = Some(Wanted::At(at));
+        let time = add_seconds(replay.time, passed_s * f64::from(replay.speed));
+        let time = time.clamp(replay.stretch.start, replay.stretch.end);
+        self.requested = Some(FilmTarget::At(time));
     }
 
     /// Begins to read what is wanted, unless something is being read.
     fn ask(&mut self) {
-        let is_read =
-            |of: &RecordLook| self.model.recorded.as_ref().is_some_and(|it| it.look == *of);
+        let is_read = |record_look: &RecordLook| {
+            self.model.recorded.as_ref().is_some_and(|recorded| recorded.look == *record_look)
+        };
         let look = self.look.as_ref().filter(|look| !is_read(look)).cloned();
         let stretch = self.model.replay.as_ref().map(|replay| &replay.stretch);
         let unmarked = stretch.filter(|stretch| self.marked.as_ref() != Some(stretch)).cloned();
-        if self.wanted.is_none() && look.is_none() && unmarked.is_none() {
+        if self.requested.is_none() && look.is_none() && unmarked.is_none() {
             return;
         }
         let Some(mut room) = self.room.take() else { return };
         self.marked = unmarked.clone().or(self.marked.take());
-        let asked = Asked { wanted: self.wanted.take(), look, unmarked };
+        let request = RoomRequest { target: self.requested.take(), look, unmarked };
         let site = self.model.station.site;
         self.job = Some(Job::start("azel-replay", Arc::clone(&self.wake), move |_| {
-            let answer = room.answer(asked, site);
+            let answer = room.answer(request, site);
             (room, answer)
         }));
     }

@@ -131,14 +131,14 @@ mod tests {
             let wake = wake(Arc::clone(&window), Arc::new(is_lively.into()));
             // Before there is a window, nothing is to be drawn.
             wake();
-            let (ctx, asked) = (Context::default(), Arc::<Mutex<Vec<_>>>::default());
-            let told = Arc::clone(&asked);
+            let (ctx, delays) = (Context::default(), Arc::<Mutex<Vec<_>>>::default());
+            let notified = Arc::clone(&delays);
             ctx.set_request_repaint_callback(move |request| {
-                told.lock().unwrap().push(request.delay);
+                notified.lock().unwrap().push(request.delay);
             });
             window.set(ctx).unwrap();
             wake();
-            assert_eq!(*asked.lock().unwrap(), [soon]);
+            assert_eq!(*delays.lock().unwrap(), [soon]);
         }
     }
 }

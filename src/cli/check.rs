@@ -22,8 +22,8 @@ pub(super) struct Options {
 
 /// Exit code 0 if the whole file can be used, 3 if entries cannot, 1 if the file cannot be read.
 pub(super) fn run(station_file: Option<&Path>, options: &Options) -> anyhow::Result<ExitCode> {
-    let usual = station::settings_path();
-    let path = options.file.as_deref().or(station_file).or(usual.as_deref());
+    let default_path = station::settings_path();
+    let path = options.file.as_deref().or(station_file).or(default_path.as_deref());
     let path = path.context("this user has no folder for settings")?;
     let loaded = station::load(path, SPECS)?;
     let mut out = io::stdout().lock();

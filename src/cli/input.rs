@@ -99,10 +99,10 @@ pub(super) fn exit_code(is_complete: bool) -> ExitCode {
     if is_complete { ExitCode::SUCCESS } else { ExitCode::from(NOT_ALL) }
 }
 
-/// Warns on standard error about elements too far from the time between `from` and `to`.
-pub(super) fn caution(satellites: &[Satellite], from: Timestamp, to: Timestamp) {
+/// Warns on standard error about elements too far from the time between `start` and `end`.
+pub(super) fn caution(satellites: &[Satellite], start: Timestamp, end: Timestamp) {
     let elements = satellites.iter().map(|satellite| &satellite.elements);
-    if let Some(sentence) = age::caution(elements, from, to) {
+    if let Some(sentence) = age::caution(elements, start, end) {
         note(&sentence);
     }
 }

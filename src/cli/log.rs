@@ -68,7 +68,7 @@ impl Log {
     /// Starts the log of this process, filtered by `AZEL_LOG`, or by `default` if that is
     /// missing, empty or invalid. The log reports an invalid filter.
     pub fn start(default: Targets) -> io::Result<Self> {
-        let log = Self { lines: Lines::to(standard(io::stderr())?, of_dropped_in_log)? };
+        let log = Self { lines: Lines::writing_to(standard(io::stderr())?, of_dropped_in_log)? };
         let chosen = env::var_os(FILTER).filter(|filter| !filter.is_empty());
         let (filter, is_invalid) = match chosen.as_deref().map(parse) {
             Some(Some(filter)) => (filter, false),
@@ -113,10 +113,13 @@ fn of_dropped_in_log(dropped: u64) -> String {
 impl Lines {
     /// Queue of lines for standard output.
     pub fn to_standard_output(of_dropped: OfDropped) -> io::Result<Self> {
-        Self::to(standard(io::stdout())?, of_dropped)
+        Self::writing_to(standard(io::stdout())?, of_dropped)
     }
 
-    fn to(mut sink: impl Write + Send + 'static, of_dropped: OfDropped) -> io::Result<Self> {
+    fn writing_to(
+        mut sink: impl Write + Send + 'static,
+        of_dropped: OfDropped,
+    ) -> io::Result<Self> {
         let queue = Arc::<Queue>::default();
         let far = Arc::clone(&queue);
         thread::Builder::new().name("azel-log".to_owned()).spawn(move || {
@@ -138,9 +141,9 @@ impl Lines {
         self.finish_within(FAREWELL);
     }
 
-    fn finish_within(&self, most: Duration) {
+    fn finish_within(&self, timeout: Duration) {
         let is_pending = |waiting: &mut Waiting| waiting.is_writing || !waiting.text.is_empty();
-        drop(self.queue.written.wait_timeout_while(self.queue.lock(), most, is_pending));
+        drop(self.queue.written.wait_timeout_while(self.queue.lock(), timeout, is_pending));
     }
 }
 
@@ -260,7 +263,7 @@ mod tests {
         let (open, opened) = sync_channel(1);
         let text = Arc::default();
         let sink = Sink { reached: reach, opened, is_open: false, text: Arc::clone(&text) };
-        (Lines::to(sink, of_dropped_in_log).unwrap(), reached, open, text)
+        (Lines::writing_to(sink, of_dropped_in_log).unwrap(), reached, open, text)
     }
 
     #[test]
@@ -293,10 +296,13 @@ mod tests {
         let text = text.lock().unwrap();
         let starts: Vec<&str> =
             text.lines().map(|line| line.split(" x").next().unwrap_or(line)).collect();
-        let ["first", kept @ .., notice, last] = &starts[..] else { panic!("{starts:?}") };
-        let dropped = 20 - kept.len();
+        let ["first", retained @ .., notice, last] = &starts[..] else { panic!("{starts:?}") };
+        let dropped = 20 - retained.len();
         assert!(dropped > 0);
-        assert_eq!(*kept, (0..kept.len()).map(|number| number.to_string()).collect::<Vec<_>>());
+        assert_eq!(
+            *retained,
+            (0..retained.len()).map(|number| number.to_string()).collect::<Vec<_>>()
+        );
         assert!(notice.contains(&format!("WARN azel::cli::log: {dropped} lines")), "{notice}");
         assert_eq!(*last, "after");
     }

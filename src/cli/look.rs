@@ -16,7 +16,7 @@ use crate::{
 };
 
 /// Maximum number of names listed if several satellites match.
-const MOST_NAMED: usize = 10;
+const MAX_NAMED: usize = 10;
 
 /// Refraction in look angles, for `--help`.
 const APPARENT: &str = "Directions are apparent, where an antenna has to point: with the refraction \
@@ -29,8 +29,8 @@ pub(super) struct Options {
     #[command(flatten)]
     input: InputOptions,
     /// First instant: `now`, a date (0 h UTC), or a time with Z or an offset
-    #[arg(long, value_name = "TIME", default_value = "now", value_parser = input::instant)]
-    from: Timestamp,
+    #[arg(long = "from", value_name = "TIME", default_value = "now", value_parser = input::instant)]
+    start: Timestamp,
     /// How long, in minutes
     #[arg(long, value_name = "MIN", default_value_t = 15.0, value_parser = input::minutes, allow_negative_numbers = true)]
     minutes: f64,
@@ -52,17 +52,17 @@ pub(super) fn run(station: Option<&Path>, options: &Options) -> anyhow::Result<E
     options.input.check("look", station)?;
     let site = options.input.place(station)?.site;
     let site = options.elevations.map_or(site, |kind| kind.in_looks(site));
-    let Satellites { list, is_complete } = options.input.satellites(station, options.from)?;
+    let Satellites { list, is_complete } = options.input.satellites(station, options.start)?;
     let [satellite] = &list[..] else { bail!("{}", too_many(&list)) };
-    let (from, length_s) = (options.from, options.minutes * 60.0);
-    input::caution(&list, from, time::add_seconds(from, length_s));
-    if let Err(error) = satellite.propagator.state_at(from) {
+    let (start, length_s) = (options.start, options.minutes * 60.0);
+    input::caution(&list, start, time::add_seconds(start, length_s));
+    if let Err(error) = satellite.propagator.state_at(start) {
         bail!("{}: {error}", satellite.elements.label());
     }
     let list = LookList {
         satellite,
         site,
-        start: from,
+        start,
         // Rounding of the division must not cost the last row.
         count: (length_s / options.step + 1e-9) as u32 + 1,
         step_s: options.step,
@@ -73,12 +73,12 @@ pub(super) fn run(station: Option<&Path>, options: &Options) -> anyhow::Result<E
 }
 
 fn too_many(list: &[Satellite]) -> String {
-    let named = list.iter().take(MOST_NAMED).map(|satellite| {
+    let named = list.iter().take(MAX_NAMED).map(|satellite| {
         let elements = &satellite.elements;
         format!("{} {}", elements.catalog_number(), elements.name()).trim_end().to_owned()
     });
     let named: Vec<String> = named.collect();
-    let more = if list.len() > MOST_NAMED { ", ..." } else { "" };
+    let more = if list.len() > MAX_NAMED { ", ..." } else { "" };
     format!(
         "{} satellites are meant, and one is looked at; --catalog-number names it: {}{more}",
         list.len(),

@@ -24,10 +24,10 @@ pub(super) fn nothing_paints() -> String {
     } else {
         ("OpenGL", "A build with `--features wgpu` uses Vulkan instead.")
     };
-    let why = || {
+    let problem = || {
         format!("The window could not be opened, because this display offers no {missing}. {cure}")
     };
-    no_library().unwrap_or_else(why)
+    no_library().unwrap_or_else(problem)
 }
 
 /// The sentence for `error`, as the window toolkit says it.
@@ -67,14 +67,16 @@ fn without_place(error: &str) -> &str {
 fn missing(folders: &[PathBuf]) -> Vec<(&'static str, &'static str)> {
     // An empty file is no library.
     let is_there = |name: &&str| {
-        let has = |folder: &PathBuf| folder.join(name).metadata().is_ok_and(|it| it.len() > 0);
+        let has = |folder: &PathBuf| {
+            folder.join(name).metadata().is_ok_and(|metadata| metadata.len() > 0)
+        };
         folders.iter().any(has)
     };
-    let gone = |names: &[&'static str]| match names {
+    let left_out = |names: &[&'static str]| match names {
         [first, ..] if !names.iter().any(is_there) => Some(*first),
         _ => None,
     };
-    OF_X11.iter().filter_map(|(names, package)| Some((gone(names)?, *package))).collect()
+    OF_X11.iter().filter_map(|(names, package)| Some((left_out(names)?, *package))).collect()
 }
 
 /// Where the loader looks for libraries on the usual distributions.

@@ -51,8 +51,8 @@ pub(super) struct Options {
     #[command(flatten)]
     input: InputOptions,
     /// Start of the window: `now`, a date (0 h UTC), or a time with Z or an offset
-    #[arg(long, value_name = "TIME", default_value = "now", value_parser = input::instant)]
-    from: Timestamp,
+    #[arg(long = "from", value_name = "TIME", default_value = "now", value_parser = input::instant)]
+    start: Timestamp,
     /// Length of the window in hours
     #[arg(long, value_name = "H", default_value_t = 24.0, value_parser = input::hours, allow_negative_numbers = true)]
     hours: f64,
@@ -98,12 +98,12 @@ pub(super) fn run(station: Option<&Path>, options: &Options) -> anyhow::Result<E
     }
     let place = options.input.place(station)?;
     let angle = |own: Option<f64>, of_place| own.map_or(of_place, Angle::from_degrees);
-    let (from, to) = (options.from, time::add_seconds(options.from, options.hours * 3600.0));
+    let (start, end) = (options.start, time::add_seconds(options.start, options.hours * 3600.0));
     let site = options.elevations.map_or(Ok(place.site), |kind| kind.in_passes(place.site))?;
     let search = PassSearch {
         site,
-        start: from,
-        end: to,
+        start,
+        end,
         aos_elevation: angle(options.aos, place.aos_elevation),
         floor: angle(options.floor, place.floor),
     };
@@ -123,7 +123,7 @@ fn write_passes(
 ) -> anyhow::Result<ExitCode> {
     let PassQuery { search, mask } = query;
     let Satellites { list: satellites, is_complete } =
-        options.input.satellites(station, options.from)?;
+        options.input.satellites(station, options.start)?;
     input::caution(&satellites, search.start, search.end);
     let progress = Progress::new(satellites.len());
     let mut found = found_passes(&satellites, search, &|done| progress.show(done), &|| false);
@@ -136,8 +136,8 @@ fn write_passes(
     found.retain(|pass| pass.duration_s() >= options.min_duration);
     progress.end();
 
-    let most = options.max_passes.map_or(usize::MAX, |most| most as usize);
-    let rows = found.in_order().take(most).filter_map(|(index, pass)| {
+    let max = options.max_passes.map_or(usize::MAX, |max| max as usize);
+    let rows = found.in_order().take(max).filter_map(|(index, pass)| {
         let satellite = satellites.get(index)?;
         Some(ExportedPass { satellite, pass })
     });

@@ -29,7 +29,7 @@ use crate::{
 };
 
 /// Least part of a pass that is worth taking, seconds.
-const LEAST_PART_S: f64 = 60.0;
+const MIN_PART_S: f64 = 60.0;
 
 #[derive(Debug, Args)]
 #[command(after_help = EXIT_CODES)]
@@ -37,8 +37,8 @@ pub(super) struct Options {
     #[command(flatten)]
     input: InputOptions,
     /// Start of the schedule: `now`, a date (0 h UTC), or a time with Z or an offset
-    #[arg(long, value_name = "TIME", default_value = "now", value_parser = input::instant)]
-    from: Timestamp,
+    #[arg(long = "from", value_name = "TIME", default_value = "now", value_parser = input::instant)]
+    start: Timestamp,
     /// Length of the schedule in hours
     #[arg(long, value_name = "H", default_value_t = 24.0, value_parser = input::hours, allow_negative_numbers = true)]
     hours: f64,
@@ -46,8 +46,8 @@ pub(super) struct Options {
     #[arg(long, value_enum)]
     choose_by: Option<Rule>,
     /// Passes may be shortened to this share, 0 to 1; as the station file says without it
-    #[arg(long, value_name = "SHARE", value_parser = input::share)]
-    least_share: Option<f64>,
+    #[arg(long = "least-share", value_name = "SHARE", value_parser = input::share)]
+    min_share: Option<f64>,
     /// Passes may be handed from one antenna to another where they may be shortened
     #[arg(long)]
     hand_over: bool,
@@ -94,9 +94,9 @@ impl Rule {
 /// How passes are planned: as the station file says, unless the command line says otherwise.
 fn scheduling(station: &Station, options: &Options) -> Scheduling {
     let own = station.scheduling;
-    let partly = options.least_share.map(|share| Partly {
+    let partly = options.min_share.map(|share| Partly {
         min_percent: 100.0 * share,
-        min_s: own.partly.map_or(LEAST_PART_S, |partly| partly.min_s),
+        min_s: own.partly.map_or(MIN_PART_S, |partly| partly.min_s),
     });
     Scheduling {
         choose_by: options.choose_by.map_or(own.choose_by, Rule::choose_by),
@@ -115,17 +115,17 @@ pub(super) fn run(station: Option<&Path>, options: &Options) -> anyhow::Result<E
     let scheduling = scheduling(&station, options);
     let station = Station { site: place.site, scheduling, ..station };
     let Satellites { list: mut satellites, is_complete } =
-        options.input.satellites(Some(path), options.from)?;
+        options.input.satellites(Some(path), options.start)?;
     options.input.keep_planned(&mut satellites, &station.favourites);
-    let (from, to) = (options.from, time::add_seconds(options.from, options.hours * 3600.0));
-    input::caution(&satellites, from, to);
+    let (start, end) = (options.start, time::add_seconds(options.start, options.hours * 3600.0));
+    input::caution(&satellites, start, end);
 
     let antennas: Vec<PlannedAntenna> = station
         .antennas
         .iter()
-        .map(|antenna| PlannedAntenna::from_station(&station, antenna, options.from))
+        .map(|antenna| PlannedAntenna::from_station(&station, antenna, options.start))
         .collect();
-    let query = PassQuery { search: search(&station, from, to), mask: None };
+    let query = PassQuery { search: search(&station, start, end), mask: None };
     let found = planned_passes(&satellites, &query.search);
     let candidates = candidates(&station, &antennas, &found);
     let schedule = plan(&Request {
@@ -147,7 +147,7 @@ pub(super) fn run(station: Option<&Path>, options: &Options) -> anyhow::Result<E
         Format::Csv => list(EventFormat::Csv),
         Format::Json => list(EventFormat::Json),
         Format::Ics => list(EventFormat::Ics),
-        Format::Html => write_sheet(&station, &schedule, &satellites, (from, to), now),
+        Format::Html => write_sheet(&station, &schedule, &satellites, (start, end), now),
     };
     written.context("The schedule cannot be written")?;
     Ok(input::exit_code(is_complete))
@@ -163,11 +163,16 @@ fn write_list(
 ) -> io::Result<()> {
     let names: BTreeMap<u32, String> = satellites
         .iter()
-        .map(|it| (it.elements.catalog_number(), it.elements.name().to_owned()))
+        .map(|satellite| {
+            (satellite.elements.catalog_number(), satellite.elements.name().to_owned())
+        })
         .collect();
     let name = |number: u32| names.get(&number).cloned().unwrap_or_else(|| number.to_string());
-    let antennas: BTreeMap<AntennaId, String> =
-        station.antennas.iter().map(|it| (it.id, it.name.clone())).collect();
+    let antennas: BTreeMap<AntennaId, String> = station
+        .antennas
+        .iter()
+        .map(|configured| (configured.id, configured.name.clone()))
+        .collect();
     let names_in_reasons = words::schedule::Names {
         pass: &|(number, _)| name(number),
         antenna: &|id| antennas.get(&id).cloned().unwrap_or_default(),
@@ -193,17 +198,19 @@ fn write_sheet(
 ) -> io::Result<()> {
     let satellites = satellites
         .iter()
-        .map(|it| (it.elements.catalog_number(), (&it.elements, &it.propagator)))
+        .map(|satellite| {
+            (satellite.elements.catalog_number(), (&satellite.elements, &satellite.propagator))
+        })
         .collect();
     let sheet = HandOverSheet::new(station, schedule, &satellites, span, now);
     written(|out| out.write_all(sheet.html().as_bytes()))
 }
 
-fn search(station: &Station, from: Timestamp, to: Timestamp) -> PassSearch {
+fn search(station: &Station, start: Timestamp, end: Timestamp) -> PassSearch {
     PassSearch {
         aos_elevation: station.aos_elevation(),
         floor: station.elevation_floor(),
-        ..PassSearch::new(station.site, from, to)
+        ..PassSearch::new(station.site, start, end)
     }
 }
 

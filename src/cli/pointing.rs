@@ -29,11 +29,11 @@ pub(super) struct Options {
     #[arg(long, value_name = "NAME")]
     antenna: Option<String>,
     /// Only passes that end at this time or later, and peaks that were entered: `now`, a date (0 h UTC), or a time with Z or an offset
-    #[arg(long, value_name = "TIME", value_parser = input::instant)]
-    from: Option<Timestamp>,
+    #[arg(long = "from", value_name = "TIME", value_parser = input::instant)]
+    start: Option<Timestamp>,
     /// Only those up to this time, in the same forms
-    #[arg(long, value_name = "TIME", value_parser = input::instant)]
-    to: Option<Timestamp>,
+    #[arg(long = "to", value_name = "TIME", value_parser = input::instant)]
+    end: Option<Timestamp>,
     /// A peak of the Sun's noise besides those entered in Preferences: when it was, and the angles of
     /// the axes there, in degrees; may be repeated
     #[arg(long, value_name = "TIME,AZ,EL", value_parser = sun_peak, allow_negative_numbers = true)]
@@ -64,9 +64,9 @@ fn moon_peak(text: &str) -> Result<Peak, String> {
     peak(PeakBody::Moon, text)
 }
 
-fn peak(of: PeakBody, text: &str) -> Result<Peak, String> {
+fn peak(body: PeakBody, text: &str) -> Result<Peak, String> {
     let parts: Vec<&str> = text.split(',').collect();
-    let [at, azimuth, elevation] = parts.as_slice() else {
+    let [time_text, azimuth, elevation] = parts.as_slice() else {
         return Err("not a time, an azimuth and an elevation, with commas between".to_owned());
     };
     let angle = |text: &str, range: RangeInclusive<f64>| {
@@ -76,8 +76,8 @@ fn peak(of: PeakBody, text: &str) -> Result<Peak, String> {
         })
     };
     Ok(Peak {
-        body: of,
-        time: input::instant(at.trim())?,
+        body,
+        time: input::instant(time_text.trim())?,
         azimuth_deg: angle(azimuth, Peak::AZIMUTHS_DEG)?,
         elevation_deg: angle(elevation, Peak::ELEVATIONS_DEG)?,
     })
@@ -87,8 +87,8 @@ pub(super) fn run(station: Option<&Path>, options: &Options) -> anyhow::Result<E
     let own = station::settings_path().filter(|_| station.is_none());
     let path = station.or(own.as_deref()).context("this user has no folder for settings")?;
     let unusable = || format!("The station file {} cannot be used", path.display());
-    let of = station::load(path, SPECS).with_context(unusable)?.station;
-    let antenna = chosen(&of, options.antenna.as_deref())?;
+    let loaded = station::load(path, SPECS).with_context(unusable)?.station;
+    let antenna = chosen(&loaded, options.antenna.as_deref())?;
     if matches!(antenna.mount, Mount::Xy { .. }) {
         bail!(
             "{} has an X/Y mount. The terms of this model are those of an azimuth axis and an \
@@ -100,19 +100,19 @@ pub(super) fn run(station: Option<&Path>, options: &Options) -> anyhow::Result<E
         Some(file) => file.clone(),
         None => record_of(Some(path.to_owned()))?,
     };
-    let within = options.from.unwrap_or(Timestamp::MIN)..=options.to.unwrap_or(Timestamp::MAX);
+    let span = options.start.unwrap_or(Timestamp::MIN)..=options.end.unwrap_or(Timestamp::MAX);
     let entered = read_peaks(&record).context("The peaks in the record cannot be read")?;
-    let entered = entered.for_antenna(antenna.id).filter(|peak| within.contains(&peak.time));
+    let entered = entered.for_antenna(antenna.id).filter(|peak| span.contains(&peak.time));
     let peaks: Vec<Peak> = entered.chain(&options.sun).chain(&options.moon).copied().collect();
-    let fit = fit_pointing(&record, antenna.id, of.site, &within, &peaks, Vec::new())
+    let fit = fit_pointing(&record, antenna.id, loaded.site, &span, &peaks, Vec::new())
         .with_context(|| format!("{} has no pointing model", antenna.name))?;
-    let causes = explain_passes(&record, antenna.id, antenna.mount, of.site, &within)
+    let causes = explain_passes(&record, antenna.id, antenna.mount, loaded.site, &span)
         .with_context(|| format!("The passes of {} cannot be read", antenna.name))?;
-    let told = Told { antenna: &antenna.name, fit: &fit, causes };
+    let output = JsonOutput { antenna: &antenna.name, fit: &fit, causes };
     let written = match options.format {
-        Format::Table => written(|out| table(&told, out)),
+        Format::Table => written(|out| table(&output, out)),
         Format::Json => written(|out| {
-            serde_json::to_writer_pretty(&mut *out, &told)?;
+            serde_json::to_writer_pretty(&mut *out, &output)?;
             writeln!(out)
         }),
     };
@@ -126,7 +126,8 @@ pub(super) fn run(station: Option<&Path>, options: &Options) -> anyhow::Result<E
 
 fn chosen<'a>(station: &'a Station, name: Option<&str>) -> anyhow::Result<&'a Antenna> {
     let names = || {
-        let names: Vec<&str> = station.antennas.iter().map(|it| it.name.as_str()).collect();
+        let names: Vec<&str> =
+            station.antennas.iter().map(|configured| configured.name.as_str()).collect();
         names.join(", ")
     };
     match (name, station.antennas.as_slice()) {
@@ -142,44 +143,48 @@ fn chosen<'a>(station: &'a Station, name: Option<&str>) -> anyhow::Result<&'a An
 
 /// The model as it is written.
 #[derive(Serialize)]
-struct Told<'a> {
+struct JsonOutput<'a> {
     antenna: &'a str,
     #[serde(flatten)]
     fit: &'a PointingFit,
     causes: ExplainedPasses,
 }
 
-fn table(Told { antenna, fit, causes }: &Told<'_>, out: &mut impl Write) -> io::Result<()> {
-    let of = |kind: Kind| match kind {
+fn table(
+    JsonOutput { antenna, fit, causes }: &JsonOutput<'_>,
+    out: &mut impl Write,
+) -> io::Result<()> {
+    let name = |kind: Kind| match kind {
         Kind::Satellite => "satellites",
         Kind::Sun => "Sun",
         Kind::Moon => "Moon",
     };
     writeln!(out, "{antenna}, recorded passes: {}", fit.passes)?;
     for noise in &fit.noise {
-        let (of, points, noise_deg) = (of(noise.kind), noise.points, noise.noise_deg);
-        writeln!(out, "Points on {of}: {points}, noise of an axis {noise_deg:.4}°")?;
+        let (name, points, noise_deg) = (name(noise.kind), noise.points, noise.noise_deg);
+        writeln!(out, "Points on {name}: {points}, noise of an axis {noise_deg:.4}°")?;
     }
     writeln!(out, "\n{:<20}  {:>11}  {:>9}", "Term", "Value", "95 %")?;
-    for of in &fit.terms {
-        write!(out, "{:<20}", pointing_term(of.term))?;
+    for fitted in &fit.terms {
+        write!(out, "{:<20}", pointing_term(fitted.term))?;
         // As in the fields of Preferences.
-        let (unit, digits) = if of.term == Term::ElevationScale { ("°/°", 6) } else { ("°", 4) };
-        if let Some(value) = of.value {
-            let half = of.half_of_95_percent.map(|half| format!("±{half:.digits$}{unit}"));
+        let (unit, digits) =
+            if fitted.term == Term::ElevationScale { ("°/°", 6) } else { ("°", 4) };
+        if let Some(value) = fitted.value {
+            let half = fitted.half_of_95_percent.map(|half| format!("±{half:.digits$}{unit}"));
             let half = half.unwrap_or_else(|| "not known".to_owned());
             writeln!(out, "  {value:>+10.digits$}{unit}  {half}")?;
         } else {
-            let with: Vec<&str> =
-                of.not_told_from.iter().map(|term| pointing_term(*term)).collect();
-            writeln!(out, "  not told from: {}", with.join(", "))?;
+            let others: Vec<&str> =
+                fitted.not_told_from.iter().map(|term| pointing_term(*term)).collect();
+            writeln!(out, "  not told from: {}", others.join(", "))?;
         }
     }
     writeln!(out, "\nCauses in the last {} of these passes", causes.passes)?;
     writeln!(out, "{:<40}  {:>9}  {:>9}", "Cause", "Residual", "Explained")?;
-    for of in &causes.explanations {
-        let (left, share) = (of.left_deg, words::whole_share(of.share));
-        writeln!(out, "{:<40}  {left:>8.3}°  {share:>9}", words::causes(of))?;
+    for explanation in &causes.explanations {
+        let (left, share) = (explanation.left_deg, words::whole_share(explanation.share));
+        writeln!(out, "{:<40}  {left:>8.3}°  {share:>9}", words::causes(explanation))?;
     }
     if causes.explanations.is_empty() {
         writeln!(out, "{}", words::none_explains(causes.passes > 0))?;

@@ -30,11 +30,11 @@ const LATE: SignedDuration = SignedDuration::from_secs(2);
 pub(super) struct Options {
     /// Start of the rows: `now`, a date (0 h UTC), or a time with Z or an offset [default: the
     /// beginning; with --follow, now]
-    #[arg(long, value_name = "TIME", value_parser = input::instant)]
-    from: Option<Timestamp>,
+    #[arg(long = "from", value_name = "TIME", value_parser = input::instant)]
+    start: Option<Timestamp>,
     /// End of the rows, exclusive, in the same forms
-    #[arg(long, value_name = "TIME", value_parser = input::instant)]
-    to: Option<Timestamp>,
+    #[arg(long = "to", value_name = "TIME", value_parser = input::instant)]
+    end: Option<Timestamp>,
     /// Only rows of this antenna
     #[arg(long, value_name = "NAME")]
     antenna: Option<String>,
@@ -81,18 +81,18 @@ pub(super) fn run(station: Option<PathBuf>, options: &Options) -> anyhow::Result
     }
     let unread = || format!("The record at {} cannot be read", path.display());
     let mut record = Record::open(&path).with_context(unread)?;
-    let is_raw = |what: &RowKind| matches!(what, RowKind::Position | RowKind::Frame);
-    let what = if options.kind.is_empty() {
-        RowKind::all().filter(|what| !is_raw(what)).collect()
+    let is_raw = |row_kind: &RowKind| matches!(row_kind, RowKind::Position | RowKind::Frame);
+    let row_kinds = if options.kind.is_empty() {
+        RowKind::all().filter(|row_kind| !is_raw(row_kind)).collect()
     } else {
         options.kind.iter().map(|kind| kind.0).collect()
     };
     let begins = options.follow.then(Timestamp::now);
     let query = Query {
-        from: options.from.or(begins),
-        to: options.to,
+        start: options.start.or(begins),
+        end: options.end,
         antenna: options.antenna.clone(),
-        what,
+        row_kinds,
     };
     let unwritten = || format!("Printing the record at {} failed", path.display());
     written(|out| write(&mut record, &query, options.follow, out)).with_context(unwritten)?;
@@ -120,7 +120,7 @@ fn write(
         io::copy(&mut lines, out)?;
         out.flush()?;
         // What was measured at the end is written a little later.
-        let is_over = query.to.is_some_and(|to| Timestamp::now().duration_since(to) > LATE);
+        let is_over = query.end.is_some_and(|end| Timestamp::now().duration_since(end) > LATE);
         if !follow || is_over {
             return Ok(());
         }

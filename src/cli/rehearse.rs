@@ -42,8 +42,8 @@ pub(super) struct Options {
     #[command(flatten)]
     input: InputOptions,
     /// Start of the rehearsal: `now`, a date (0 h UTC), or a time with Z or an offset
-    #[arg(long, value_name = "TIME", default_value = "now", value_parser = input::instant)]
-    from: Timestamp,
+    #[arg(long = "from", value_name = "TIME", default_value = "now", value_parser = input::instant)]
+    start: Timestamp,
     /// Length of the rehearsal in hours; passes that have begun by then are rehearsed to their end
     #[arg(long, value_name = "H", default_value_t = 24.0, value_parser = input::hours, allow_negative_numbers = true)]
     hours: f64,
@@ -84,13 +84,13 @@ pub(super) fn run(station: Option<&Path>, options: &Options) -> anyhow::Result<E
     let place = options.input.place(Some(path))?;
     let station = station::load(path, SPECS).with_context(unusable)?.station;
     let Satellites { mut list, is_complete } =
-        options.input.satellites(Some(path), options.from)?;
+        options.input.satellites(Some(path), options.start)?;
     options.input.keep_planned(&mut list, &station.favourites);
     // Automatic operation takes passes of favourites alone.
-    let numbers: Vec<u32> = list.iter().map(|it| it.elements.catalog_number()).collect();
+    let numbers: Vec<u32> = list.iter().map(|object| object.elements.catalog_number()).collect();
     let favourites = station.favourites.with_numbers(&numbers);
-    let to = time::add_seconds(options.from, options.hours * 3600.0);
-    input::caution(&list, options.from, to);
+    let end = time::add_seconds(options.start, options.hours * 3600.0);
+    input::caution(&list, options.start, end);
     let mut elements = Catalog::default();
     let read = list.into_iter().map(|satellite| satellite.elements).collect();
     elements.merge(ReadReport { elements: read, ..ReadReport::default() }, "rehearsal");
@@ -100,7 +100,7 @@ pub(super) fn run(station: Option<&Path>, options: &Options) -> anyhow::Result<E
         &Rehearsal {
             station: Station { site: place.site, favourites, ..station },
             elements: Arc::new(elements),
-            from: options.from,
+            start: options.start,
             hours: options.hours,
             seed: options.seed,
             mechanics: options.mechanics,
@@ -117,8 +117,9 @@ pub(super) fn run(station: Option<&Path>, options: &Options) -> anyhow::Result<E
     }
     for line in &rehearsed.interruptions {
         let name = names.iter().find(|(id, _)| *id == line.antenna).map(|(_, name)| name.as_str());
-        let (at, words) = (civil(line.time, "%Y-%m-%dT%H:%M:%SZ"), day_line(line, line.time));
-        input::note(&format!("{}, {at}: {words}", name.unwrap_or_default()));
+        let (time_text, words) =
+            (civil(line.time, "%Y-%m-%dT%H:%M:%SZ"), day_line(line, line.time));
+        input::note(&format!("{}, {time_text}: {words}", name.unwrap_or_default()));
     }
     let written = match options.format {
         ListFormat::Table => written(|out| table(&rehearsed, out)),
@@ -136,7 +137,10 @@ fn table(rehearsed: &Rehearsed, out: &mut impl Write) -> io::Result<()> {
     let width = |name: fn(&RehearsedPass) -> &str| {
         rehearsed.passes.iter().map(|pass| name(pass).chars().count()).max().unwrap_or(0).max(9)
     };
-    let (antennas, names) = (width(|it| &it.antenna_name), width(|it| &it.satellite_name));
+    let (antennas, names) = (
+        width(|rehearsed_pass| &rehearsed_pass.antenna_name),
+        width(|rehearsed_pass| &rehearsed_pass.satellite_name),
+    );
     writeln!(
         out,
         "{:<antennas$}  {:<names$}  {:<19}  {:<8}  {:>7}  {:>6}  {:>6}  {:>6}  {:<8}  Outcome",

@@ -62,16 +62,16 @@ pub(super) struct LockOutOptions {
     #[arg(long, value_name = "NAME")]
     antenna: String,
     /// Why it is locked out
-    #[arg(long, value_name = "TEXT", required_unless_present = "off", value_parser = NonEmptyStringValueParser::new())]
+    #[arg(long, value_name = "TEXT", required_unless_present = "lift", value_parser = NonEmptyStringValueParser::new())]
     reason: Option<String>,
     /// Who locks it out; the user by default
-    #[arg(long, value_name = "WHO", value_parser = NonEmptyStringValueParser::new())]
-    by: Option<String>,
+    #[arg(long = "by", value_name = "WHO", value_parser = NonEmptyStringValueParser::new())]
+    operator: Option<String>,
     /// Take the lock-out off
-    #[arg(long, conflicts_with_all = ["reason", "by"])]
-    off: bool,
+    #[arg(long = "off", conflicts_with_all = ["reason", "operator"])]
+    lift: bool,
     /// With --off: who locked it out, as `azel status` says
-    #[arg(long, value_name = "WHO", requires = "off")]
+    #[arg(long, value_name = "WHO", requires = "lift")]
     locked_by: Option<String>,
 }
 
@@ -94,9 +94,9 @@ pub(super) fn stop(station: Option<PathBuf>, options: &StopOptions) -> anyhow::R
                 for antenna in &antennas {
                     let word = if antenna.proved { "stands" } else { "NOT known to stand" };
                     say(&format!("{}: {word}", antenna.antenna))?;
-                    if let Some(why) = &antenna.not_on_disk {
+                    if let Some(reason) = &antenna.not_on_disk {
                         say(&format!(
-                            "STOP of {} is sent, NOT on disk, and lost when Azel ends: {why}",
+                            "STOP of {} is sent, NOT on disk, and lost when Azel ends: {reason}",
                             antenna.antenna
                         ))?;
                     }
@@ -112,8 +112,8 @@ pub(super) fn stop(station: Option<PathBuf>, options: &StopOptions) -> anyhow::R
                 are_proved = false;
                 stopped += 1;
             }
-            Outcome::NotReached(why) => {
-                say(&format!("NOT reached: {holder} has the station or a unit of it ({why})"))?;
+            Outcome::NotReached(reason) => {
+                say(&format!("NOT reached: {holder} has the station or a unit of it ({reason})"))?;
                 are_proved = false;
                 stopped += 1;
             }
@@ -157,13 +157,13 @@ pub(super) fn status(
 
 fn sentence(antenna: &AntennaStatus) -> String {
     let link = format!("link {:?}", antenna.link).to_lowercase();
-    let age = |at: Timestamp| Timestamp::now().duration_since(at).as_secs_f64();
+    let age = |time: Timestamp| Timestamp::now().duration_since(time).as_secs_f64();
     let parts = [
         Some(link),
         Some(antenna.intent.clone()),
         antenna.azimuth_deg.map(|azimuth| format!("azimuth {azimuth:.1}°")),
         antenna.elevation_deg.map(|elevation| format!("elevation {elevation:.1}°")),
-        antenna.measured_at.map(|at| format!("measured {:.1} s ago", age(at))),
+        antenna.measured_at.map(|time| format!("measured {:.1} s ago", age(time))),
         antenna.moves.map(|moves| if moves { "moves" } else { "stands" }.to_owned()),
         antenna.tracks.as_ref().map(|name| format!("tracks {name}")),
         match antenna.automatic {
@@ -172,7 +172,7 @@ fn sentence(antenna: &AntennaStatus) -> String {
             AutomaticStatus::Suspended => Some("automatic operation suspended".to_owned()),
         },
         antenna.owes_stop.then(|| "STOP IS NOT PROVED".to_owned()),
-        antenna.locked_out.as_ref().map(|by| format!("locked out by {by}")),
+        antenna.locked_out.as_ref().map(|author| format!("locked out by {author}")),
     ];
     let parts: Vec<String> = parts.into_iter().flatten().collect();
     format!("{}: {}", antenna.antenna, parts.join(", "))
@@ -206,9 +206,9 @@ pub(super) fn lock_out(
     station: Option<PathBuf>,
     options: &LockOutOptions,
 ) -> anyhow::Result<ExitCode> {
-    let by = options.by.clone().or_else(|| std::env::var("USER").ok());
+    let name = options.operator.clone().or_else(|| std::env::var("USER").ok());
     let lock_out = options.reason.clone().map(|reason| LockOut {
-        operator: by.unwrap_or_else(|| "the command line".to_owned()),
+        operator: name.unwrap_or_else(|| "the command line".to_owned()),
         reason,
         start: Timestamp::now(),
     });
@@ -225,8 +225,10 @@ pub(super) fn lock_out(
                      start by itself."
                 ))?,
             }
-            if let Some(why) = &not_on_disk {
-                say(&format!("This change is NOT on disk and is lost when Azel ends: {why}"))?;
+            if let Some(explanation) = &not_on_disk {
+                say(&format!(
+                    "This change is NOT on disk and is lost when Azel ends: {explanation}"
+                ))?;
             }
             let is_good = proved && not_on_disk.is_none();
             Ok(if is_good { ExitCode::SUCCESS } else { ExitCode::from(NOT_PROVED) })
@@ -244,12 +246,12 @@ fn ask(station: Option<PathBuf>, ask: &Ask) -> anyhow::Result<Answer> {
         match outcome {
             Outcome::Answered(answer) => return Ok(answer),
             Outcome::Signalled => {}
-            Outcome::NotReached(why) => silent = Some((holder, why)),
+            Outcome::NotReached(reason) => silent = Some((holder, reason)),
         }
     }
-    let Some((holder, why)) = silent else { return Err(nobody(&path)) };
+    let Some((holder, reason)) = silent else { return Err(nobody(&path)) };
     let holder = holder.map_or_else(|| "another Azel".to_owned(), |holder| holder.to_string());
-    bail!("{holder} has {} open and did not answer: {why}", path.display())
+    bail!("{holder} has {} open and did not answer: {reason}", path.display())
 }
 
 /// Folders of locks and sockets, and the station file.
@@ -269,7 +271,7 @@ fn nobody(path: &Path) -> anyhow::Error {
 
 fn expected(answer: Answer) -> anyhow::Result<Answer> {
     match answer {
-        Answer::Refused(why) => Err(anyhow!("Refused: {why}.")),
+        Answer::Refused(reason) => Err(anyhow!("Refused: {reason}.")),
         answer => Ok(answer),
     }
 }

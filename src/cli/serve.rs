@@ -64,12 +64,13 @@ pub enum Format {
 
 /// Report of an event at a station.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Told {
+pub struct Announcement {
     pub time: Timestamp,
     /// Name of the antenna, if the event has one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub antenna: Option<String>,
-    pub about: About,
+    #[serde(rename = "about")]
+    pub subject: AnnouncedSubject,
     /// Event in words.
     pub text: String,
 }
@@ -77,7 +78,7 @@ pub struct Told {
 /// Subject of a report.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
-pub enum About {
+pub enum AnnouncedSubject {
     /// The station as a whole.
     Station,
     /// A link came or went.
@@ -95,7 +96,7 @@ pub enum About {
     AlarmOver,
 }
 
-impl Told {
+impl Announcement {
     fn line(&self, format: Format) -> String {
         match format {
             Format::Json => serde_json::to_string(self).unwrap_or_default(),
@@ -163,7 +164,9 @@ pub(super) fn run(
             let _ = end.send(Wake::End);
         },
     )?;
-    let ended = until_the_end(station, &woken, &mut |told: &Told| lines.say(&told.line(format)));
+    let ended = until_the_end(station, &woken, &mut |announcement: &Announcement| {
+        lines.say(&announcement.line(format));
+    });
     lines.finish();
     if ended.broke_down {
         bail!("the station broke down");
@@ -211,7 +214,7 @@ pub struct Ended {
 pub fn until_the_end(
     mut station: Handle,
     woken: &mpsc::Receiver<Wake>,
-    tell: &mut dyn FnMut(&Told),
+    tell: &mut dyn FnMut(&Announcement),
 ) -> Ended {
     let mut reporter = Reporter::default();
     loop {
@@ -224,17 +227,17 @@ pub fn until_the_end(
             break;
         }
     }
-    let how = match CloseHow::from_station(&station.snapshot().station) {
+    let choice = match CloseHow::from_station(&station.snapshot().station) {
         // Parking takes longer than the operating system waits.
         None | Some(CloseHow::Hold | CloseHow::Park) => CloseHow::Hold,
         Some(CloseHow::Leave) => CloseHow::Leave,
     };
-    say(tell, None, About::Station, "Ends.".to_owned());
+    say(tell, None, AnnouncedSubject::Station, "Ends.".to_owned());
     // A station that does not take it has stopped, or has broken down: see below.
     let serve = station.client().clone().acting_for(CommandOrigin::Serve);
-    let _ = serve.send(Command::CloseAfter(how));
+    let _ = serve.send(Command::CloseAfter(choice));
     let end = Instant::now() + ENDS_WITHIN;
-    let is_left = |stake: &Stake| how == CloseHow::Leave && matches!(stake, Stake::OnBoard(_));
+    let is_left = |stake: &Stake| choice == CloseHow::Leave && matches!(stake, Stake::OnBoard(_));
     let open = |antenna: &AntennaModel| antenna.stake().is_some_and(|stake| !is_left(&stake));
     let (mut may_end, mut is_passed) = (false, false);
     loop {
@@ -244,7 +247,7 @@ pub fn until_the_end(
         station.take();
         let snapshot = Arc::clone(station.snapshot());
         reporter.tell(&snapshot, tell);
-        may_end |= std::iter::from_fn(|| station.next_event()).any(|told| told == Event::MayEnd);
+        may_end |= std::iter::from_fn(|| station.next_event()).any(|event| event == Event::MayEnd);
         if station.stood_for().is_some() && !std::mem::replace(&mut is_passed, true) {
             // The station does not carry the command out: STOP goes past it.
             station.client().stop_all();
@@ -254,7 +257,7 @@ pub fn until_the_end(
         if (may_end && stand) || left.is_zero() || broke_down {
             // A snapshot of a station that does not respond proves nothing.
             let names = snapshot.antennas.iter().filter(|antenna| is_passed || open(antenna));
-            let not_proved = names.map(|of| of.config.name.clone()).collect();
+            let not_proved = names.map(|model_antenna| model_antenna.config.name.clone()).collect();
             return Ended { not_proved, broke_down };
         }
     }
@@ -270,81 +273,90 @@ struct Reporter {
 }
 
 impl Reporter {
-    fn tell(&mut self, station: &Snapshot, tell: &mut dyn FnMut(&Told)) {
+    fn tell(&mut self, station: &Snapshot, tell: &mut dyn FnMut(&Announcement)) {
         if !std::mem::replace(&mut self.begun, true) {
             let count = station.antennas.len();
             let plural = if count == 1 { "" } else { "s" };
             let text = format!("{}, {count} antenna{plural}.", station.station.name);
-            say(tell, None, About::Station, text);
+            say(tell, None, AnnouncedSubject::Station, text);
         }
         let now = AntennaStatus::of_all(station);
         for status in &now {
             let before = self.antennas.get(&status.antenna);
-            for (about, text) in changes(before, status) {
-                say(tell, Some(&status.antenna), about, text);
+            for (subject, text) in changes(before, status) {
+                say(tell, Some(&status.antenna), subject, text);
             }
         }
         self.antennas = now.into_iter().map(|status| (status.antenna.clone(), status)).collect();
         self.tell_alarms(station, tell);
     }
 
-    fn tell_alarms(&mut self, station: &Snapshot, tell: &mut dyn FnMut(&Told)) {
+    fn tell_alarms(&mut self, station: &Snapshot, tell: &mut dyn FnMut(&Announcement)) {
         let mut standing = BTreeSet::new();
         for alarm in station.alarms.list().iter().filter(|alarm| !alarm.is_over()) {
             standing.insert(alarm.id);
             if self.alarms.contains_key(&alarm.id) {
                 continue;
             }
-            let antenna =
-                alarm.antenna.and_then(|id| station.antennas.iter().find(|of| of.id() == id));
+            let antenna = alarm.antenna.and_then(|id| {
+                station.antennas.iter().find(|model_antenna| model_antenna.id() == id)
+            });
             let name = antenna.map(|antenna| antenna.config.name.clone());
             let text =
                 words::alarm(&alarm.kind, name.as_deref().unwrap_or("Azel"), Timestamp::now());
-            say(tell, name.as_deref(), About::Alarm, text.clone());
+            say(tell, name.as_deref(), AnnouncedSubject::Alarm, text.clone());
             self.alarms.insert(alarm.id, (name, text));
         }
-        let over: Vec<u64> =
+        let ended: Vec<u64> =
             self.alarms.keys().filter(|id| !standing.contains(id)).copied().collect();
-        for id in over {
+        for id in ended {
             if let Some((name, text)) = self.alarms.remove(&id) {
-                say(tell, name.as_deref(), About::AlarmOver, format!("Over: {text}"));
+                say(tell, name.as_deref(), AnnouncedSubject::AlarmOver, format!("Over: {text}"));
             }
         }
     }
 }
 
-fn say(tell: &mut dyn FnMut(&Told), antenna: Option<&str>, about: About, text: String) {
+fn say(
+    tell: &mut dyn FnMut(&Announcement),
+    antenna: Option<&str>,
+    subject: AnnouncedSubject,
+    text: String,
+) {
     let antenna = antenna.map(str::to_owned);
-    tell(&Told { time: Timestamp::now(), antenna, about, text });
+    tell(&Announcement { time: Timestamp::now(), antenna, subject, text });
 }
 
 /// Differences between two states of an antenna, in words.
-fn changes(before: Option<&AntennaStatus>, now: &AntennaStatus) -> Vec<(About, String)> {
-    let mut told = Vec::new();
+fn changes(before: Option<&AntennaStatus>, now: &AntennaStatus) -> Vec<(AnnouncedSubject, String)> {
+    let mut announcements = Vec::new();
     if before.map(|before| before.link) != Some(now.link) {
-        told.push((About::Link, link(now.link).to_owned()));
+        announcements.push((AnnouncedSubject::Link, link(now.link).to_owned()));
     }
-    let known = before.is_some();
+    let is_known = before.is_some();
     let was = |differs: fn(&AntennaStatus, &AntennaStatus) -> bool| {
         before.is_some_and(|before| differs(before, now))
     };
     if was(|before, now| before.owes_stop != now.owes_stop) {
         let text = if now.owes_stop { "STOP, not confirmed yet." } else { "STOP is confirmed." };
-        told.push((About::Stop, text.to_owned()));
+        announcements.push((AnnouncedSubject::Stop, text.to_owned()));
     }
-    if !known || was(|before, now| before.locked_out != now.locked_out) {
+    if !is_known || was(|before, now| before.locked_out != now.locked_out) {
         match &now.locked_out {
-            Some(by) => told.push((About::LockOut, format!("Locked out by {by}"))),
-            None if known => told.push((About::LockOut, "Not locked out any more.".to_owned())),
+            Some(author) => {
+                announcements.push((AnnouncedSubject::LockOut, format!("Locked out by {author}")));
+            }
+            None if is_known => announcements
+                .push((AnnouncedSubject::LockOut, "Not locked out any more.".to_owned())),
             None => {}
         }
     }
     if was(|before, now| before.intent != now.intent) {
-        told.push((About::Intent, format!("Intent: {}.", now.intent)));
+        announcements.push((AnnouncedSubject::Intent, format!("Intent: {}.", now.intent)));
     }
     if before.and_then(|before| before.tracks.as_ref()) != now.tracks.as_ref() {
-        told.push((
-            About::Track,
+        announcements.push((
+            AnnouncedSubject::Track,
             now.tracks.as_ref().map_or_else(
                 || "Tracks nothing any more.".to_owned(),
                 |name| format!("Tracks {name}."),
@@ -360,9 +372,9 @@ fn changes(before: Option<&AntennaStatus>, now: &AntennaStatus) -> Vec<(About, S
             _ => String::new(),
         };
         let verb = if moves { "Moves" } else { "Stands" };
-        told.push((About::Motion, format!("{verb}{place}.")));
+        announcements.push((AnnouncedSubject::Motion, format!("{verb}{place}.")));
     }
-    told
+    announcements
 }
 
 fn link(link: LinkStatus) -> &'static str {

@@ -50,7 +50,7 @@ pub(super) fn run(simulator: &Simulator) -> anyhow::Result<()> {
         let serving = simulator.command.start(&simulator.arguments)?.await?;
         tokio::select! {
             () = serving => Ok(()),
-            told = driver::told_to_end() => Ok(told?),
+            result = driver::told_to_end() => Ok(result?),
         }
     })
 }

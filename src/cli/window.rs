@@ -25,7 +25,7 @@ use crate::{
 };
 
 /// Usual size of the window, in points.
-const USUAL: Vec2 = vec2(1440.0, 900.0);
+const DEFAULT_SIZE: Vec2 = vec2(1440.0, 900.0);
 /// Minimum size of the window, in points: everything is drawn smaller there.
 const SMALLEST: Vec2 = vec2(
     Appearance::MIN_VIEW[0] * Appearance::MIN_ZOOM,
@@ -34,7 +34,7 @@ const SMALLEST: Vec2 = vec2(
 /// Height left for the title bar, in points; X11 tells it only once the window is there.
 const TITLE_BAR: f32 = 40.0;
 /// Size of the block that tells the allocator to keep free memory, in bytes.
-const KEPT: usize = 4 << 20;
+const MAX_BYTES: usize = 4 << 20;
 /// Part of the panic of the window toolkit without a library.
 const NO_LIBRARY: &str = "could not be loaded";
 
@@ -60,7 +60,7 @@ pub(super) fn run(station: Option<PathBuf>, demo: bool) -> anyhow::Result<()> {
     let options = eframe::NativeOptions {
         viewport: egui::ViewportBuilder::default()
             .with_app_id("azel")
-            .with_inner_size(USUAL)
+            .with_inner_size(DEFAULT_SIZE)
             .with_min_inner_size(SMALLEST)
             // The toolkit would unpack its own, a megabyte.
             .with_icon(egui::IconData::default()),
@@ -73,7 +73,7 @@ pub(super) fn run(station: Option<PathBuf>, demo: bool) -> anyhow::Result<()> {
     let hook = panic::take_hook();
     panic::set_hook(Box::new(|panic| {
         // A missing library is reported as a sentence below.
-        if !panic.payload_as_str().is_some_and(|why| why.contains(NO_LIBRARY)) {
+        if !panic.payload_as_str().is_some_and(|explanation| explanation.contains(NO_LIBRARY)) {
             tracing::error!("{panic}");
         }
     }));
@@ -93,17 +93,17 @@ pub(super) fn run(station: Option<PathBuf>, demo: bool) -> anyhow::Result<()> {
     let outcome = panic::catch_unwind(AssertUnwindSafe(|| show(options, begin, create)));
     panic::set_hook(hook);
     match outcome {
-        Ok(result) => result.map_err(|why| anyhow!(why)),
+        Ok(result) => result.map_err(|explanation| anyhow!(explanation)),
         Err(panic) => {
-            let why = panic
+            let explanation = panic
                 .downcast_ref::<String>()
                 .cloned()
                 .or_else(|| panic.downcast_ref::<&str>().map(|&text| text.to_owned()))
                 .unwrap_or_else(|| "unknown reason".to_owned());
-            if why.contains(NO_LIBRARY) {
-                bail!(no_window::reason(&why));
+            if explanation.contains(NO_LIBRARY) {
+                bail!(no_window::reason(&explanation));
             }
-            bail!("The window broke down: {why}")
+            bail!("The window broke down: {explanation}")
         }
     }
 }
@@ -121,11 +121,11 @@ fn show(
     let begun = begin().map_err(|error| not_started(&error))?;
     let is_jogging = begun.is_jogging();
     let draws = Mutex::new(events.create_proxy());
-    let draw = move |asked: egui::RequestRepaintInfo| {
+    let draw = move |request_repaint_info: egui::RequestRepaintInfo| {
         let event = UserEvent::RequestRepaint {
-            viewport_id: asked.viewport_id,
-            when: Instant::now() + asked.delay,
-            cumulative_pass_nr: asked.current_cumulative_pass_nr,
+            viewport_id: request_repaint_info.viewport_id,
+            when: Instant::now() + request_repaint_info.delay,
+            cumulative_pass_nr: request_repaint_info.current_cumulative_pass_nr,
         };
         // Without its loop the window is gone.
         let _ = draws.lock().unwrap_or_else(PoisonError::into_inner).send_event(event);
@@ -156,7 +156,7 @@ fn show(
 /// size (`M_MMAP_THRESHOLD` in mallopt(3)). The price is that blocks of up to that size come from the
 /// heap then, and are not given back one by one. Other allocators are not changed by it.
 fn keep_freed_memory() {
-    drop(std::hint::black_box(Vec::<u8>::with_capacity(KEPT)));
+    drop(std::hint::black_box(Vec::<u8>::with_capacity(MAX_BYTES)));
 }
 
 /// The sentence for a station that cannot start: no fault of the window.
@@ -166,7 +166,7 @@ fn not_started(error: &io::Error) -> String {
 
 /// Size of a window that stays clear of the panels of a desktop with `room` points for it.
 fn fitting(room: Vec2) -> Vec2 {
-    (room - vec2(0.0, TITLE_BAR)).min(USUAL).max(SMALLEST)
+    (room - vec2(0.0, TITLE_BAR)).min(DEFAULT_SIZE).max(SMALLEST)
 }
 
 fn has_display() -> bool {
@@ -181,7 +181,7 @@ mod tests {
 
     #[test]
     fn the_first_window_stays_clear_of_the_panels_of_the_desktop() {
-        assert_eq!(fitting(vec2(2560.0, 1400.0)), USUAL);
+        assert_eq!(fitting(vec2(2560.0, 1400.0)), DEFAULT_SIZE);
         assert_eq!(fitting(vec2(1440.0, 860.0)), vec2(1440.0, 820.0));
         assert_eq!(fitting(vec2(1366.0, 728.0)), vec2(1366.0, 688.0));
         assert_eq!(fitting(vec2(800.0, 480.0)), vec2(800.0, 440.0));

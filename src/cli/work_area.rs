@@ -28,8 +28,8 @@ impl WorkArea {
         let root = connection.setup().roots.get(screen)?.root;
         let name = connection.intern_atom(true, b"_NET_WORKAREA").ok()?.reply().ok()?;
         let kind = AtomEnum::CARDINAL;
-        let asked = connection.get_property(false, root, name.atom, kind, 0, 4).ok()?;
-        let values: Vec<u32> = asked.reply().ok()?.value32()?.collect();
+        let cookie = connection.get_property(false, root, name.atom, kind, 0, 4).ok()?;
+        let values: Vec<u32> = cookie.reply().ok()?.value32()?.collect();
         Self::of_values(&values)
     }
 
@@ -58,8 +58,8 @@ mod tests {
     fn an_area_is_taken_as_the_desktop_tells_it_or_not_at_all() {
         let area = WorkArea::of_values(&[0, 28, 2880, 1744]).unwrap();
         assert_eq!(area.points(2.0), vec2(1440.0, 872.0));
-        for told in [&[][..], &[0, 28, 2880], &[0, 0, 0, 0]] {
-            assert_eq!(WorkArea::of_values(told), None);
+        for numbers in [&[][..], &[0, 28, 2880], &[0, 0, 0, 0]] {
+            assert_eq!(WorkArea::of_values(numbers), None);
         }
     }
 }

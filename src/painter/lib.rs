@@ -64,7 +64,8 @@ struct Canvas {
 
 impl Canvas {
     fn paint(&mut self, mesh: &Mesh, texture: &Texture, clip: Rect, scale: f32) {
-        let edge = |at: f32, side: usize| ((at * scale).round().max(0.0) as usize).min(side);
+        let edge =
+            |position: f32, side: usize| ((position * scale).round().max(0.0) as usize).min(side);
         let columns = edge(clip.left(), self.width)..edge(clip.right(), self.width);
         let rows = edge(clip.top(), self.height)..edge(clip.bottom(), self.height);
         for corners in mesh.indices.chunks_exact(3) {

@@ -23,8 +23,8 @@ impl Texture {
             return;
         };
         for (row, line) in image.pixels.chunks_exact(width.max(1)).enumerate() {
-            let from = (top + row) * self.width + left;
-            if let Some(place) = self.pixels.get_mut(from..from + width) {
+            let start = (top + row) * self.width + left;
+            if let Some(place) = self.pixels.get_mut(start..start + width) {
                 place.copy_from_slice(line);
             }
         }
@@ -33,8 +33,8 @@ impl Texture {
     /// The colour at `uv`, premultiplied, 0 to 1 in each channel, between the four nearest texels.
     pub(crate) fn sample(&self, uv: Pos2) -> [f32; 4] {
         let split = |part: f32, side: usize| {
-            let at = (part * side as f32 - 0.5).clamp(0.0, side.saturating_sub(1) as f32);
-            (at as usize, at.fract())
+            let position = (part * side as f32 - 0.5).clamp(0.0, side.saturating_sub(1) as f32);
+            (position as usize, position.fract())
         };
         let ((column, right), (row, down)) = (split(uv.x, self.width), split(uv.y, self.height));
         let mut sum = [0.0; 4];

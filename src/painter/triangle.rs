@@ -65,15 +65,19 @@ impl<'a> Triangle<'a> {
             let weights = [side(b, c, x, y), side(c, a, x, y), side(a, b, x, y)];
             if let [Some(first), Some(second), Some(third)] = weights {
                 let weights = [first, second, third].map(|weight| weight as f32 / self.area as f32);
-                *pixel = over(self.colour(weights), *pixel);
+                *pixel = blended(self.colour(weights), *pixel);
             }
         }
     }
 
     /// The premultiplied colour where the corners have these weights, 0 to 255.
     fn colour(&self, weights: [f32; 3]) -> [f32; 4] {
-        let mixed = |of: &dyn Fn(&Corner) -> f32| -> f32 {
-            self.corners.iter().zip(weights).map(|(corner, weight)| of(corner) * weight).sum()
+        let mixed = |mixed_value: &dyn Fn(&Corner) -> f32| -> f32 {
+            self.corners
+                .iter()
+                .zip(weights)
+                .map(|(corner, weight)| mixed_value(corner) * weight)
+                .sum()
         };
         let texel = self.plain.unwrap_or_else(|| {
             self.texture.sample(pos2(mixed(&|corner| corner.u), mixed(&|corner| corner.v)))
@@ -98,27 +102,28 @@ fn middle(pixel: usize) -> i64 {
 
 /// The pixels between the first and last of `ends`, in parts of pixels, within `whole`.
 fn span(ends: [i64; 3], whole: &Range<usize>) -> Range<usize> {
-    let [from, to] =
-        ends.iter().fold([i64::MAX, i64::MIN], |[from, to], end| [from.min(*end), to.max(*end)]);
+    let [first, last] = ends
+        .iter()
+        .fold([i64::MAX, i64::MIN], |[first, last], end| [first.min(*end), last.max(*end)]);
     let pixel = |end: i64| usize::try_from(end.div_euclid(PARTS)).unwrap_or(0);
-    let start = pixel(from).clamp(whole.start, whole.end);
-    start..(pixel(to) + 1).clamp(start, whole.end)
+    let start = pixel(first).clamp(whole.start, whole.end);
+    start..(pixel(last) + 1).clamp(start, whole.end)
 }
 
 /// How far a point is inside the edge between two corners, as twice an area; `None` outside. A point
 /// on the edge belongs to one of the two triangles beside it: the one below or to the right.
-fn side(from: Corner, to: Corner, x: i64, y: i64) -> Option<i64> {
-    let inside = (to.x - from.x) * (y - from.y) - (to.y - from.y) * (x - from.x);
-    let owns_edge = to.y < from.y || (to.y == from.y && to.x > from.x);
-    (inside > 0 || (inside == 0 && owns_edge)).then_some(inside)
+fn side(corner: Corner, next: Corner, x: i64, y: i64) -> Option<i64> {
+    let product = (next.x - corner.x) * (y - corner.y) - (next.y - corner.y) * (x - corner.x);
+    let owns_edge = next.y < corner.y || (next.y == corner.y && next.x > corner.x);
+    (product > 0 || (product == 0 && owns_edge)).then_some(product)
 }
 
 /// A premultiplied colour over another one.
-fn over(colour: [f32; 4], below: Color32) -> Color32 {
-    let through = 1.0 - colour[3] / 255.0;
+fn blended(colour: [f32; 4], below: Color32) -> Color32 {
+    let transparency = 1.0 - colour[3] / 255.0;
     let mut mixed = [0; 4];
     for ((mixed, above), below) in mixed.iter_mut().zip(colour).zip(below.to_array()) {
-        *mixed = (above + f32::from(below) * through + 0.5) as u8;
+        *mixed = (above + f32::from(below) * transparency + 0.5) as u8;
     }
     let [red, green, blue, alpha] = mixed;
     Color32::from_rgba_premultiplied(red, green, blue, alpha)

@@ -197,8 +197,8 @@ struct Engine {
     /// The station file could not be read: only the operator may replace it.
     settings_unread: bool,
     /// The request that is carried out.
-    asked: Option<CurrentRequest>,
-    told: Vec<Event>,
+    current_request: Option<CurrentRequest>,
+    events: Vec<Event>,
     outbox: Outbox,
     /// Handed to the socket.
     #[cfg_attr(not(unix), allow(dead_code, reason = "there is no socket"))]
@@ -210,7 +210,7 @@ struct Engine {
 #[derive(Debug, Clone, Copy)]
 struct CurrentRequest {
     number: u64,
-    by: CommandOrigin,
+    origin: CommandOrigin,
 }
 
 /// One antenna and its session.
@@ -286,9 +286,9 @@ impl Engine {
         let clock = outside.clock.clone();
         let link_test_runner = link_tests::Runner::new(outside, Arc::clone(&wake));
         let places = Places::new(settings_path.as_deref(), settings.library.clone());
-        let given = settings.elements.clone();
-        let has_given_elements = given.is_some();
-        let catalog = given.map_or(CatalogState::Loading, CatalogState::Ready);
+        let loaded = settings.elements.clone();
+        let has_given_elements = loaded.is_some();
+        let catalog = loaded.map_or(CatalogState::Loading, CatalogState::Ready);
         let upload_places = settings.upload_places.clone().or_else(uploads::Places::of_this_user);
         let passwords = upload_places.as_ref().map(Passwords::new);
         let upload_runner =
@@ -342,7 +342,7 @@ impl Engine {
             clock_watch: ClockWatch::default(),
             wake,
             woken,
-            copy_work: CopyWork::beside(settings_path.as_deref()),
+            copy_work: CopyWork::new(settings_path.as_deref()),
             settings_path,
             places,
             elements_job: None,
@@ -365,8 +365,8 @@ impl Engine {
             left_units: Vec::new(),
             claims_looked_at: 0,
             settings_unread: false,
-            asked: None,
-            told: Vec::new(),
+            current_request: None,
+            events: Vec::new(),
             outbox,
             client: client.clone(),
             publish,
@@ -401,7 +401,7 @@ impl Engine {
                     // for it.
                     match self.clock.timeout(BREATH, inbox.recv()).await {
                         Ok(None) => break,
-                        taken => taken.ok().flatten(),
+                        lock_result => lock_result.ok().flatten(),
                     }
                 }
                 () = self.clock.sleep(to_next_second(self.clock.utc())) => {
@@ -469,8 +469,8 @@ impl Engine {
 
     fn take_request(&mut self, request: Request) {
         let is_jog = request.is_jog();
-        let Request { command, by, number, at } = request;
-        let age = self.steady.saturating_duration_since(at);
+        let Request { command, origin, number, instant } = request;
+        let age = self.steady.saturating_duration_since(instant);
         if is_jog && age > JOG_LEASE {
             // The key may be up by now; its release comes next.
             return;
@@ -479,10 +479,10 @@ impl Engine {
             tracing::error!(?command, ?age, "too late to be carried out");
             return self.alarms.raise(None, AlarmKind::NotTaken, self.now);
         }
-        self.note_command(&command, by);
-        self.asked = Some(CurrentRequest { number, by });
+        self.note_command(&command, origin);
+        self.current_request = Some(CurrentRequest { number, origin });
         self.carry_out(command);
-        self.asked = None;
+        self.current_request = None;
     }
 
     fn set_time(&mut self) {
@@ -541,7 +541,7 @@ impl Engine {
         self.recording.film(&snapshot);
         self.publish.send_replace(Published { snapshot, ends });
         // The published snapshot now shows what the events are about.
-        for event in std::mem::take(&mut self.told) {
+        for event in std::mem::take(&mut self.events) {
             if self.outbox.events.try_send(event).is_err() {
                 tracing::warn!("an event is not told: nobody reads them");
             }
@@ -550,7 +550,7 @@ impl Engine {
 
     /// Sends an event to the client with the next publication.
     fn tell(&mut self, event: Event) {
-        self.told.push(event);
+        self.events.push(event);
     }
 }
 

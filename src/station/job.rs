@@ -64,13 +64,13 @@ impl<T: Send + 'static> Job<T> {
     ) -> Self {
         let (send, result) = mpsc::sync_channel(1);
         let cancelled = Arc::new(AtomicBool::new(false));
-        let (asked, wake_without) = (Arc::clone(&cancelled), Arc::clone(&wake));
+        let (is_cancelled, wake_without) = (Arc::clone(&cancelled), Arc::clone(&wake));
         let whole = move || {
             // Dropped in the order result, wake, also where the work panics: whoever is
             // woken finds the end of the work.
             let _wake = WakeAtEnd(wake);
             let send = send;
-            let outcome = work(&|| asked.load(Ordering::Relaxed));
+            let outcome = work(&|| is_cancelled.load(Ordering::Relaxed));
             // Nobody may be waiting any more.
             let _ = send.send(outcome);
         };
@@ -85,8 +85,8 @@ impl<T: Send + 'static> Job<T> {
     }
 
     /// Waits for the end of the work, at most this long.
-    pub fn wait(&self, most: Duration) -> Option<T> {
-        self.result.recv_timeout(most).ok()
+    pub fn wait(&self, timeout: Duration) -> Option<T> {
+        self.result.recv_timeout(timeout).ok()
     }
 
     /// The end of the work, once; `None` while it goes on.

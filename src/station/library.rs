@@ -149,7 +149,7 @@ impl Library {
                 return (SourceReport { is_set_aside: true, ..no_report(source) }, epochs);
             }
             let load = || self.load_one(source, catalog, &mut epochs);
-            (reading.during(source, load), epochs)
+            (reading.while_reading(source, load), epochs)
         };
         let read: Vec<(SourceReport, Epochs)> = sources.iter().map(report).collect();
         // Only now: a later source may have newer sets than an earlier one.
@@ -228,8 +228,8 @@ impl Library {
             SourcePlace::Folder(path) => element_files(path).map_err(|error| (path.clone(), error)),
             SourcePlace::Web(_) | SourcePlace::SpaceTrack(_) => {
                 let record = key(source).and_then(|key| self.index.get(&key));
-                let kept = record.filter(|record| record.confirmed_at.is_some());
-                Ok(kept.map(|record| self.folder.join(&record.file)).into_iter().collect())
+                let confirmed = record.filter(|record| record.confirmed_at.is_some());
+                Ok(confirmed.map(|record| self.folder.join(&record.file)).into_iter().collect())
             }
         }
     }
@@ -260,10 +260,10 @@ impl Library {
             }
             // Dropped once the index is saved.
             let mut _lock = None;
-            let asked = match &source.place {
+            let permission = match &source.place {
                 SourcePlace::SpaceTrack(user) => match Lock::try_take(&self.folder, VISIT_LOCK) {
-                    Ok(Some(taken)) => {
-                        _lock = Some(taken);
+                    Ok(Some(lock)) => {
+                        _lock = Some(lock);
                         // Another process may have asked since the index was read.
                         self.index = Index::load(&self.folder)?;
                         if !self.may_ask(source, &key, now, forced) {
@@ -276,7 +276,7 @@ impl Library {
                 },
                 _ => self.refresh_one(&source.name, &key, now),
             };
-            let problem = match asked {
+            let problem = match permission {
                 Ok(is_new) => {
                     renewed += usize::from(is_new);
                     None
@@ -388,8 +388,8 @@ impl Library {
         let record = record.clone();
         let path = self.folder.join(&record.file);
         let stored = disk::read(&path, self.limits.bytes).ok();
-        let known = stored.as_ref().map(|_| &record);
-        match fetch(url, known, self.limits, &self.authorities)? {
+        let cached = stored.as_ref().map(|_| &record);
+        match fetch(url, cached, self.limits, &self.authorities)? {
             ServerAnswer::NotModified => {
                 self.index.entry(url, name, now).confirmed_at = Some(now);
                 Ok(false)

@@ -29,10 +29,13 @@ static UNITS: &[(&str, units::Make)] = &[
 /// Where the antenna leaves open which file of elements its unit uses, it is told.
 pub fn unit_in_memory(
     antenna: &mut Antenna,
-    around: &Surroundings<'_>,
+    surroundings: &Surroundings<'_>,
 ) -> Option<Arc<dyn InMemory>> {
     let key = antenna.connection.spec().key;
-    UNITS.iter().find(|(known, _)| *known == key).map(|(_, make)| make(antenna, around))
+    UNITS
+        .iter()
+        .find(|(candidate, _)| *candidate == key)
+        .map(|(_, make)| make(antenna, surroundings))
 }
 
 #[cfg(test)]

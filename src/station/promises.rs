@@ -28,7 +28,7 @@ pub enum FileState {
 
 /// Progress of the newest request for a file.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Kept {
+pub enum PromisedFile {
     OnDisk,
     Pending,
     /// The disk did not take it, for this reason.
@@ -69,7 +69,7 @@ struct Requested {
 
 impl Default for Promises {
     fn default() -> Self {
-        Self::over(to_disk)
+        Self::new(to_disk)
     }
 }
 
@@ -81,7 +81,7 @@ impl fmt::Debug for Promises {
 
 impl Promises {
     /// Promises that `disk` writes.
-    pub(crate) fn over(
+    pub(crate) fn new(
         disk: impl Fn(&Path, &FileState) -> io::Result<()> + Send + Sync + 'static,
     ) -> Self {
         let shared = Shared {
@@ -100,8 +100,8 @@ impl Promises {
         let (promises, path) = (self.clone(), path.to_owned());
         let run = move || {
             work.run();
-            if let Kept::Failed(why) = promises.kept(&path) {
-                tracing::error!(why, "a promise is not on the disk");
+            if let PromisedFile::Failed(reason) = promises.promised(&path) {
+                tracing::error!(reason, "a promise is not on the disk");
             }
         };
         match Handle::try_current() {
@@ -134,10 +134,10 @@ impl Promises {
         }
         let mut files = self.files();
         loop {
-            match kept(&files, path) {
-                Kept::OnDisk => return Ok(()),
-                Kept::Failed(why) => return Err(why),
-                Kept::Pending => {
+            match promised(&files, path) {
+                PromisedFile::OnDisk => return Ok(()),
+                PromisedFile::Failed(reason) => return Err(reason),
+                PromisedFile::Pending => {
                     let woken = self.shared.written.wait(files);
                     files = woken.unwrap_or_else(PoisonError::into_inner);
                 }
@@ -145,8 +145,8 @@ impl Promises {
         }
     }
 
-    pub fn kept(&self, path: &Path) -> Kept {
-        kept(&self.files(), path)
+    pub fn promised(&self, path: &Path) -> PromisedFile {
+        promised(&self.files(), path)
     }
 
     /// Waits until no request for these files is pending.
@@ -155,7 +155,7 @@ impl Promises {
             let changed = self.shared.changed.notified();
             tokio::pin!(changed);
             changed.as_mut().enable();
-            if paths.iter().all(|path| self.kept(path) != Kept::Pending) {
+            if paths.iter().all(|path| self.promised(path) != PromisedFile::Pending) {
                 return;
             }
             changed.await;
@@ -184,12 +184,12 @@ impl Promises {
     }
 }
 
-fn kept(files: &BTreeMap<PathBuf, Requested>, path: &Path) -> Kept {
-    let Some(file) = files.get(path) else { return Kept::OnDisk };
+fn promised(files: &BTreeMap<PathBuf, Requested>, path: &Path) -> PromisedFile {
+    let Some(file) = files.get(path) else { return PromisedFile::OnDisk };
     match &file.failure {
-        _ if file.is_busy => Kept::Pending,
-        Some(why) => Kept::Failed(why.clone()),
-        None => Kept::Pending,
+        _ if file.is_busy => PromisedFile::Pending,
+        Some(reason) => PromisedFile::Failed(reason.clone()),
+        None => PromisedFile::Pending,
     }
 }
 

@@ -26,7 +26,7 @@ pub mod testing;
 mod tests;
 mod writer;
 
-pub use along::{Beside, neighbour, times_between, times_of_pass};
+pub use along::{Neighbour, neighbour, times_between, times_of_pass};
 pub use causes::explain_passes;
 pub use entry::{Entry, Kind};
 pub use film::{Film, FilmError, Parts, Picture, Shown};

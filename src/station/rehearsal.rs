@@ -49,7 +49,7 @@ pub struct Rehearsal {
     /// Its antennas are copied; nothing of its file is touched.
     pub station: Station,
     pub elements: Arc<Catalog>,
-    pub from: Timestamp,
+    pub start: Timestamp,
     pub hours: f64,
     pub seed: u64,
     /// Imperfections of all axes.
@@ -79,7 +79,7 @@ pub enum RehearsalError {
 
 /// Rehearses on this thread. `tell` is called with the time of the rehearsal as it passes.
 pub fn run(
-    what: &Rehearsal,
+    rehearsal: &Rehearsal,
     tell: &dyn Fn(Timestamp),
     is_cancelled: &dyn Fn() -> bool,
 ) -> Result<Rehearsed, RehearsalError> {
@@ -90,40 +90,47 @@ pub fn run(
         tokio::runtime::Builder::new_current_thread().enable_time().start_paused(true).build()?;
     let folder = tempfile::tempdir()?;
     let rehearsed = runtime.block_on(async {
-        let start = add_seconds(what.from, -LEAD_S);
+        let start = add_seconds(rehearsal.start, -LEAD_S);
         let clock = Clock::at_speed(start, NonZeroU32::MIN);
-        let mut station = what.station.clone();
+        let mut station = rehearsal.station.clone();
         // An upload would go to a real server.
         for antenna in &mut station.antennas {
             antenna.upkeep.uploads_elements = false;
         }
-        let (units, left_out) =
-            Units::of(&mut station, &what.elements, what.mechanics, what.seed, &clock)?;
+        let (units, left_out) = Units::new(
+            &mut station,
+            &rehearsal.elements,
+            rehearsal.mechanics,
+            rehearsal.seed,
+            &clock,
+        )?;
         let units = Arc::new(units);
-        for fault in &what.faults {
-            units.suffer(fault, what.from, &clock)?;
+        for fault in &rehearsal.faults {
+            units.suffer(fault, rehearsal.start, &clock)?;
         }
         let path = folder.path().join("station.toml");
         station::save(&station, &path, SPECS)?;
-        let (reports, told) = mpsc::channel(REPORTS);
+        let (reports, receiver) = mpsc::channel(REPORTS);
         let settings = Settings {
             path: Some(path),
             library: Some(folder.path().join("elements")),
             upload_places: Some(upload_places(folder.path())),
-            elements: Some(Arc::clone(&what.elements)),
+            elements: Some(Arc::clone(&rehearsal.elements)),
             reports: Some(reports),
             ..Settings::default()
         };
         let (running, run) = InPlace::start(&settings, units.outside(&clock))?;
         let client = running.client().clone();
         switch_on(&client, &station.antennas);
-        let passes = Passes::new(what.from, add_seconds(what.from, what.hours * 3600.0));
-        let watch = Watch { client, told, passes, pace: Pace::new(start, what.speed) };
+        let passes =
+            Passes::new(rehearsal.start, add_seconds(rehearsal.start, rehearsal.hours * 3600.0));
+        let watch =
+            Watch { client, notes: receiver, passes, pace: Pace::new(start, rehearsal.speed) };
         let mut run = pin!(run);
         tokio::select! {
             biased;
             watched = watch.until_the_end(tell, is_cancelled) => {
-                watched.map(|passes| passes.rehearsed(what, &station, left_out))
+                watched.map(|passes| passes.rehearsed(rehearsal, &station, left_out))
             }
             () = &mut run => Err(RehearsalError::BrokeDown),
         }
@@ -138,7 +145,7 @@ fn upload_places(folder: &std::path::Path) -> uploads::Places {
     let session = Arc::<MemoryKeyring>::default();
     uploads::Places {
         known_hosts: KnownHosts::new(folder.join("known_hosts")),
-        kept: KeptFiles::new(folder.join("uploads")),
+        kept_files: KeptFiles::new(folder.join("uploads")),
         keyring: session.clone(),
         session,
         limits: Limits::default(),
@@ -163,7 +170,7 @@ fn switch_on(client: &Client, antennas: &[Antenna]) {
 /// Watches a rehearsed station.
 struct Watch {
     client: Client,
-    told: mpsc::Receiver<PassNote>,
+    notes: mpsc::Receiver<PassNote>,
     passes: Passes,
     pace: Pace,
 }
@@ -181,7 +188,7 @@ impl Watch {
             let snapshot = self.client.snapshot();
             self.look(&snapshot);
             let now = snapshot.moment.utc;
-            let over_s = seconds_between(self.passes.until(), now);
+            let over_s = seconds_between(self.passes.end(), now);
             if over_s > LONGEST_PASS_S || over_s > 0.0 && self.passes.are_over(now) {
                 return Ok(self.passes);
             }
@@ -194,7 +201,7 @@ impl Watch {
     fn look(&mut self, snapshot: &Snapshot) {
         self.passes.take_plan(snapshot);
         self.passes.take_day(&snapshot.day);
-        while let Ok(note) = self.told.try_recv() {
+        while let Ok(note) = self.notes.try_recv() {
             self.passes.take_report(note);
         }
     }

@@ -250,12 +250,12 @@ pub trait Device: Send {
         PROMPT
     }
 
-    /// Reads the group with this key anew; the result appears in [`AntennaState::held`].
+    /// Reads the group with this key anew; the result appears in [`AntennaState::groups`].
     /// Without [`Variant::groups`], neither this method nor the others about settings are
     /// called.
     fn read_group(&mut self, _group: &str) {}
 
-    /// Records a change that is not sent, with the reason, in [`AntennaState::held`].
+    /// Records a change that is not sent, with the reason, in [`AntennaState::groups`].
     fn refuse_change(&mut self, _change: Change, _why: WriteError, _now: Moment) {}
 
     /// Locks or unlocks the settings. While they are locked, changes that wait end with
@@ -316,11 +316,11 @@ pub trait Controller: Device {
     fn prepare(&mut self, _target: TrackTarget) {}
 
     /// Writes new values of a group to the unit and reads them back. Progress and outcome
-    /// appear in [`AntennaState::held`].
+    /// appear in [`AntennaState::groups`].
     fn write_settings(&mut self, _change: Change, _now: Moment) {}
 
     /// Writes offsets of the track that the unit computes, also while it tracks, and reads them
-    /// back. Progress and outcome appear in [`AntennaState::held`]; a halt voids what is not sent.
+    /// back. Progress and outcome appear in [`AntennaState::groups`]; a halt voids what is not sent.
     /// Not called without [`Variant::track_offsets`].
     fn shift_track(&mut self, _change: Change, _now: Moment) {}
 

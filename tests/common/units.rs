@@ -151,7 +151,7 @@ pub(crate) async fn until_looking<T>(
 pub(crate) fn antenna(client: &Client, name: &str) -> Option<(AntennaId, AntennaStatus)> {
     let snapshot = client.snapshot();
     let antenna = snapshot.antennas.iter().find(|antenna| antenna.config.name == name)?;
-    Some((antenna.id(), AntennaStatus::of(antenna)))
+    Some((antenna.id(), AntennaStatus::new(antenna)))
 }
 
 /// Waits until the antenna has been measured; connects an RC2000C for it.

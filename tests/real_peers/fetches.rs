@@ -113,7 +113,8 @@ fn an_ftp_server_that_stalls_or_hangs_up_is_left() {
     let silent = TcpListener::bind("127.0.0.1:0").unwrap();
     let asked = source(FileProtocol::Ftp, "op", silent.local_addr().unwrap());
     let error = get(&asked, &trust(&[]), limits).unwrap_err();
-    let ConnectError::Interrupted { step: ConnectStep::Handshake, by, .. } = connect_error(&error)
+    let ConnectError::Interrupted { step: ConnectStep::Handshake, interruption: by, .. } =
+        connect_error(&error)
     else {
         panic!("{error}")
     };
@@ -124,7 +125,10 @@ fn an_ftp_server_that_stalls_or_hangs_up_is_left() {
         let asked = source(FileProtocol::Ftp, &server.user.name, link.address());
         let error = get(&asked, &trust(&[]), limits).unwrap_err();
         match (then, connect_error(&error)) {
-            (Then::Stall, ConnectError::Interrupted { step: ConnectStep::LogIn, by, .. }) => {
+            (
+                Then::Stall,
+                ConnectError::Interrupted { step: ConnectStep::LogIn, interruption: by, .. },
+            ) => {
                 assert_eq!(*by, late);
             }
             (Then::Cut, ConnectError::Failed { step: ConnectStep::LogIn, .. }) => {}

@@ -131,7 +131,9 @@ fn a_server_that_says_nothing_is_left_and_one_that_is_not_there_too() {
     let log_in = Duration::from_millis(500);
     let limits = Limits { log_in, ..LIMITS };
     let error = unit.open_as(&unit.login(), address, limits).err().unwrap();
-    let ConnectError::Interrupted { step, by, .. } = &error else { panic!("{error}") };
+    let ConnectError::Interrupted { step, interruption: by, .. } = &error else {
+        panic!("{error}")
+    };
     assert_eq!((*step, *by), (ConnectStep::Handshake, Interruption::TimedOut(log_in)));
     drop(silent);
     let error = unit.open_as(&unit.login(), address, limits).err().unwrap();

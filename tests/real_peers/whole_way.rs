@@ -68,7 +68,7 @@ impl Fixture {
         let keyring = Arc::new(MemoryKeyring::default());
         let places = Places {
             known_hosts: files.known.clone(),
-            kept: KeptFiles::new(folder.path().join("uploads")),
+            kept_files: KeptFiles::new(folder.path().join("uploads")),
             keyring: Arc::clone(&keyring) as _,
             session: Arc::default(),
             limits: LIMITS,

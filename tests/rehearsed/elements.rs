@@ -70,7 +70,7 @@ fn a_rehearsal_keeps_its_elements_though_a_satellite_prefers_a_source() {
     let what = Rehearsal {
         station,
         elements: Arc::new(elements),
-        from,
+        start: from,
         hours: 0.2,
         seed: 7,
         mechanics: Mechanics::default(),

@@ -35,7 +35,7 @@ fn rehearse(station: &Station, antenna: &str, start: &str, hours: f64, passes: u
     let what = Rehearsal {
         station,
         elements: Arc::new(bundled().unwrap()),
-        from: start.parse().unwrap(),
+        start: start.parse().unwrap(),
         hours,
         seed: 7,
         mechanics,

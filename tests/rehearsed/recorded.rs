@@ -45,7 +45,7 @@ pub(super) fn path_in(folder: &Path) -> PathBuf {
 
 pub(super) fn rows_in(folder: &Path, what: RowKind) -> Vec<Row> {
     let mut rows = Vec::new();
-    let query = Query { what: vec![what], ..Query::default() };
+    let query = Query { row_kinds: vec![what], ..Query::default() };
     let Ok(mut record) = Record::open(&path_in(folder)) else { return rows };
     let read = record.read(&query, &mut |row| {
         rows.push(row);

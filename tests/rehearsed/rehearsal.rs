@@ -77,7 +77,7 @@ fn check(names: &[&str], hours: f64, least: usize) {
     let what = Rehearsal {
         station: station.clone(),
         elements: Arc::new(bundled().unwrap()),
-        from,
+        start: from,
         hours,
         seed: 7,
         mechanics: Mechanics::default(),

@@ -132,7 +132,7 @@ async fn a_pass_is_shown_again_as_it_was_at_every_recorded_event() {
     let (filmed_from, _) = projector.film().span().unwrap().unwrap();
     let mut compared = 0;
     let mut compare = |at: Timestamp, live: &Snapshot| {
-        let again = projector.at(at).unwrap().unwrap();
+        let again = projector.seek(at).unwrap().unwrap();
         assert_eq!(told(&again), told(live), "at {at}");
         compared += 1;
     };
@@ -149,7 +149,7 @@ async fn a_pass_is_shown_again_as_it_was_at_every_recorded_event() {
         if *event <= filmed_from {
             continue;
         }
-        let again = film.at(*event).unwrap().unwrap();
+        let again = film.seek(*event).unwrap().unwrap();
         assert_eq!(told(&again), told(before), "before {event}");
         assert_eq!(modelled(*event, &again), modelled(*event, before), "at {event}");
     }

@@ -62,7 +62,7 @@ impl Scene {
         let folder = folder_of(station);
         let older =
             before.map(|set| OlderSet { elements: set.clone(), source: "before".to_owned() });
-        History::beside(&folder.path().join("elements")).add(older.as_slice()).unwrap();
+        History::new(&folder.path().join("elements")).add(older.as_slice()).unwrap();
         Self::begun(units, clock, folder, Keeps { record: true, ..Keeps::default() })
     }
 
@@ -126,7 +126,7 @@ fn upload_places(folder: &Path) -> uploads::Places {
     let session = Arc::<MemoryKeyring>::default();
     uploads::Places {
         known_hosts: KnownHosts::new(folder.join("known_hosts")),
-        kept: KeptFiles::new(folder.join("uploads")),
+        kept_files: KeptFiles::new(folder.join("uploads")),
         keyring: session.clone(),
         session,
         limits: Limits::default(),

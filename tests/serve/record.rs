@@ -33,7 +33,7 @@ fn place(units: &Units) -> PathBuf {
 
 pub(crate) fn rows(path: &Path, what: RowKind) -> Vec<Row> {
     let mut rows = Vec::new();
-    let query = Query { what: vec![what], ..Query::default() };
+    let query = Query { row_kinds: vec![what], ..Query::default() };
     let Ok(mut record) = Record::open(path) else { return rows };
     let read = record.read(&query, &mut |row| {
         rows.push(row);

@@ -210,7 +210,7 @@ fn a_pass_under_way_is_reported_before_a_station_of_ones_own_comes_into_use() {
     let own = station::Station { antennas: Vec::new(), ..station::Station::default() };
     client.send(contract::Command::SaveStation(Box::new(own))).unwrap();
     wait_until("the station of one's own", || !client.snapshot().demo);
-    let query = Query { what: vec![RowKind::Pass], ..Query::default() };
+    let query = Query { row_kinds: vec![RowKind::Pass], ..Query::default() };
     let mut passes = Vec::new();
     let mut record = Record::open(&engine::demo_record_path(&records)).unwrap();
     let mut take = |row: Row| {

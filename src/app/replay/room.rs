@@ -14,22 +14,22 @@ use crate::{
     },
     engine::{film::Projector, recorded::read_record},
     model::replay::{JumpNews, Stretch},
-    record::{self, Beside, FilmError},
+    record::{self, FilmError, Neighbour},
     station::AntennaId,
 };
 
 /// Moment to find.
 #[derive(Debug, Clone, Copy)]
-pub(super) enum Wanted {
+pub(super) enum FilmTarget {
     At(Timestamp),
     /// The next event after this moment, or the one before.
     Event {
-        from: Timestamp,
+        start: Timestamp,
         is_next: bool,
     },
     /// The beginning of the next pass, or of the one before.
     Pass {
-        of: Beside,
+        reference: Neighbour,
         is_next: bool,
     },
 }
@@ -46,8 +46,8 @@ type Hole = (Timestamp, Timestamp);
 
 /// Requests to a [`Room`].
 #[derive(Default)]
-pub(super) struct Asked {
-    pub(super) wanted: Option<Wanted>,
+pub(super) struct RoomRequest {
+    pub(super) target: Option<FilmTarget>,
     pub(super) look: Option<RecordLook>,
     /// The stretch whose passes are to be marked.
     pub(super) unmarked: Option<Stretch>,
@@ -64,7 +64,7 @@ pub(super) struct Answer {
 
 /// A moment.
 pub(super) struct Found {
-    pub(super) at: Timestamp,
+    pub(super) time: Timestamp,
     /// The stretch that is shown from then on, where that is another one.
     pub(super) stretch: Option<Stretch>,
     /// The stretch around it of which there is no film.
@@ -85,11 +85,11 @@ impl Room {
         Self { path, projector: None }
     }
 
-    pub(super) fn answer(&mut self, asked: Asked, site: Site) -> Answer {
-        let Asked { wanted, look, unmarked } = asked;
+    pub(super) fn answer(&mut self, request: RoomRequest, site: Site) -> Answer {
+        let RoomRequest { target, look, unmarked } = request;
         Answer {
             recorded: look.map(|look| read_record(&self.path, look, site)),
-            found: wanted.map(|wanted| self.find(wanted)),
+            found: target.map(|target| self.find(target)),
             passes: unmarked.map(|stretch| {
                 let passes = self.passes(&stretch, site);
                 (stretch, passes)
@@ -118,50 +118,54 @@ impl Room {
         Ok(self.projector.insert(projector))
     }
 
-    fn find(&mut self, wanted: Wanted) -> Result<Found, JumpNews> {
-        let (stretch, moment) = match wanted {
-            Wanted::At(at) => (None, Ok((at, None))),
-            Wanted::Event { from, is_next } => match self.event(from, is_next).transpose() {
-                None => return Err(JumpNews::NoEvent { is_next }),
-                // Where the film cannot be read, it stands still and says so.
-                Some(moment) => (None, moment.map_err(|error| (from, error))),
-            },
-            Wanted::Pass { of, is_next } => {
-                let pass = record::neighbour(&self.path, of, is_next);
+    fn find(&mut self, target: FilmTarget) -> Result<Found, JumpNews> {
+        let (stretch, moment) = match target {
+            FilmTarget::At(time) => (None, Ok((time, None))),
+            FilmTarget::Event { start: begin, is_next } => {
+                match self.event(begin, is_next).transpose() {
+                    None => return Err(JumpNews::NoEvent { is_next }),
+                    // Where the film cannot be read, it stands still and says so.
+                    Some(moment) => (None, moment.map_err(|error| (begin, error))),
+                }
+            }
+            FilmTarget::Pass { reference, is_next } => {
+                let pass = record::neighbour(&self.path, reference, is_next);
                 let pass = pass.map_err(|error| JumpNews::Failed(error.to_string()))?;
                 let stretch = Stretch::new(&pass.ok_or(JumpNews::NoPass { is_next })?);
-                let from = stretch.start;
-                (Some(stretch), Ok((from, None)))
+                let start = stretch.start;
+                (Some(stretch), Ok((start, None)))
             }
         };
         Ok(match moment {
-            Ok((at, skipped)) => {
-                let hole = self.projector().and_then(|projector| projector.film().hole_at(at));
-                Found { at, stretch, hole: hole.ok().flatten(), skipped, scene: self.scene(at) }
+            Ok((time, skipped)) => {
+                let hole = self.projector().and_then(|projector| projector.film().hole_at(time));
+                Found { time, stretch, hole: hole.ok().flatten(), skipped, scene: self.scene(time) }
             }
-            Err((at, error)) => Found { at, stretch, hole: None, skipped: None, scene: Err(error) },
+            Err((time, error)) => {
+                Found { time, stretch, hole: None, skipped: None, scene: Err(error) }
+            }
         })
     }
 
     /// The moment of the next event, or of the one before, and what was passed over on the way.
     fn event(
         &mut self,
-        from: Timestamp,
+        start: Timestamp,
         is_next: bool,
     ) -> Result<Option<(Timestamp, Option<Hole>)>, FilmError> {
         let film = self.projector()?.film();
-        let Some(event) = film.event(from, is_next)? else { return Ok(None) };
+        let Some(event) = film.event(start, is_next)? else { return Ok(None) };
         let shown = film.shown_from(event)?;
         // The picture that shows an event shows the ones shortly before it as well.
-        let at = if is_next || shown < from { shown } else { event };
-        let skipped = film.hole(from.min(at), from.max(at))?;
-        Ok(Some((at, skipped)))
+        let time = if is_next || shown < start { shown } else { event };
+        let skipped = film.hole(start.min(time), start.max(time))?;
+        Ok(Some((time, skipped)))
     }
 
-    fn scene(&mut self, at: Timestamp) -> Result<Option<Scene>, FilmError> {
+    fn scene(&mut self, time: Timestamp) -> Result<Option<Scene>, FilmError> {
         let projector = self.projector()?;
-        let Some(shown) = projector.at(at)? else { return Ok(None) };
-        let wires = projector.wires(&shown, at)?;
+        let Some(shown) = projector.seek(time)? else { return Ok(None) };
+        let wires = projector.wires(&shown, time)?;
         Ok(Some(Scene { shown, wires }))
     }
 }

@@ -13,17 +13,17 @@ use crate::{
 };
 
 fn replay() -> Replay {
-    let at: Timestamp = "2026-11-14T19:00:00Z".parse().unwrap();
-    let live = Model::before_anything(Moment { utc: at, steady: Instant::now() });
-    let (from, until) = (add_seconds(at, -60.0), add_seconds(at, 60.0));
-    let stretch = Stretch { name: "the record".to_owned(), pass: None, start: from, end: until };
+    let time: Timestamp = "2026-11-14T19:00:00Z".parse().unwrap();
+    let live = Model::before_anything(Moment { utc: time, steady: Instant::now() });
+    let (start, end) = (add_seconds(time, -60.0), add_seconds(time, 60.0));
+    let stretch = Stretch { name: "the record".to_owned(), pass: None, start, end };
     let path = PathBuf::from("no record");
-    Replay::begin(path, stretch, at, &live, ui::Views::default(), Arc::new(|| {}))
+    Replay::begin(path, stretch, time, &live, ui::Views::default(), Arc::new(|| {}))
 }
 
 /// Reading ended for this reason, and no key makes the replay look as if it went on.
-fn is_not_read(mut replay: Replay, why: &str) {
-    let problem = Some(ReplayProblem::NotRead(why.to_owned()));
+fn is_not_read(mut replay: Replay, reason: &str) {
+    let problem = Some(ReplayProblem::NotRead(reason.to_owned()));
     let shown = |replay: &Replay| replay.model.replay.clone().unwrap();
     assert_eq!((shown(&replay).problem, shown(&replay).plays), (problem.clone(), false));
     replay.change(ReplayCommand::PlayOrPause);
@@ -67,8 +67,8 @@ fn a_command_given_in_a_replay_ends_there() {
 }
 
 /// The station of a film, with two antennas.
-fn scene(at: Timestamp) -> Scene {
-    let mut shown = Snapshot::before_anything(Moment { utc: at, steady: Instant::now() });
+fn scene(time: Timestamp) -> Scene {
+    let mut shown = Snapshot::before_anything(Moment { utc: time, steady: Instant::now() });
     shown.antennas = ["North", "South"]
         .into_iter()
         .enumerate()
@@ -85,16 +85,16 @@ fn scene(at: Timestamp) -> Scene {
 #[test]
 fn the_replay_of_another_report_selects_its_antenna() {
     let mut replay = replay();
-    let at = replay.begun_at;
+    let time = replay.begun_at;
     let mut turn_to = |antenna: Option<u32>| {
         let stretch = antenna.map(|number| {
             let antenna = AntennaId(number);
             let pass = Some(StretchPass { id: 1, satellite: 25_544, antenna });
-            let (from, until) = (add_seconds(at, -60.0), add_seconds(at, 60.0));
-            Stretch { name: "ISS".to_owned(), pass, start: from, end: until }
+            let (start, end) = (add_seconds(time, -60.0), add_seconds(time, 60.0));
+            Stretch { name: "ISS".to_owned(), pass, start, end }
         });
-        let scene = Ok(Some(scene(at)));
-        replay.take_moment(Found { at, stretch, hole: None, skipped: None, scene });
+        let scene = Ok(Some(scene(time)));
+        replay.take_moment(Found { time, stretch, hole: None, skipped: None, scene });
         replay.model.antenna().map(|antenna| antenna.config.name.clone())
     };
     let [north, south] = ["North", "South"].map(|name| Some(name.to_owned()));
@@ -103,20 +103,24 @@ fn the_replay_of_another_report_selects_its_antenna() {
     assert_eq!(turn_to(Some(10)), north);
     assert_eq!(turn_to(Some(12)), north, "its antenna is no longer there");
     assert!(replay.carry_out(UiCommand::SelectAntenna(1)).is_none());
-    let again = Found { at, stretch: None, hole: None, skipped: None, scene: Ok(Some(scene(at))) };
+    let again =
+        Found { time, stretch: None, hole: None, skipped: None, scene: Ok(Some(scene(time))) };
     replay.take_moment(again);
     assert_eq!(replay.model.selected_antenna, 1, "the operator chose it");
 }
 
 #[test]
 fn the_replay_of_a_report_begins_with_its_antenna() {
-    let at: Timestamp = "2026-11-14T19:00:00Z".parse().unwrap();
-    let live = Model::before_anything(Moment { utc: at, steady: Instant::now() });
+    let time: Timestamp = "2026-11-14T19:00:00Z".parse().unwrap();
+    let live = Model::before_anything(Moment { utc: time, steady: Instant::now() });
     let pass = Some(StretchPass { id: 1, satellite: 25_544, antenna: AntennaId(11) });
-    let stretch = Stretch { name: "ISS".to_owned(), pass, start: at, end: add_seconds(at, 60.0) };
+    let stretch =
+        Stretch { name: "ISS".to_owned(), pass, start: time, end: add_seconds(time, 60.0) };
     let path = PathBuf::from("no record");
-    let mut replay = Replay::begin(path, stretch, at, &live, ui::Views::default(), Arc::new(|| {}));
-    let found = Found { at, stretch: None, hole: None, skipped: None, scene: Ok(Some(scene(at))) };
+    let mut replay =
+        Replay::begin(path, stretch, time, &live, ui::Views::default(), Arc::new(|| {}));
+    let found =
+        Found { time, stretch: None, hole: None, skipped: None, scene: Ok(Some(scene(time))) };
     replay.take_moment(found);
     assert_eq!(replay.model.selected_antenna, 1);
 }

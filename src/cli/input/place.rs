@@ -34,8 +34,8 @@ impl InputOptions {
         let station = station.map(|path| read_station(path, !is_whole)).transpose()?;
         let of_station = station.as_ref().map(|station| station.site);
         let [lat, lon, alt] = own;
-        let or_station = |value: Option<f64>, of: &dyn Fn(Site) -> f64| {
-            value.or_else(|| of_station.map(of)).context("The site is not known.")
+        let or_station = |value: Option<f64>, default_at: &dyn Fn(Site) -> f64| {
+            value.or_else(|| of_station.map(default_at)).context("The site is not known.")
         };
         let site = Site::new(
             or_station(lat, &|site| site.latitude().degrees())?,
@@ -60,8 +60,8 @@ fn read_station(path: &Path, needs_site: bool) -> anyhow::Result<Station> {
             || (needs_site && place.starts_with("site"))
     };
     for note in &loaded.notes {
-        if let (true, NoteReason::Invalid(why)) = (is_needed(&note.place), &note.reason) {
-            return Err(anyhow!("{}: {why}", note.place)).with_context(unusable);
+        if let (true, NoteReason::Invalid(reason)) = (is_needed(&note.place), &note.reason) {
+            return Err(anyhow!("{}: {reason}", note.place)).with_context(unusable);
         }
     }
     // If it is missing the reader uses the default, which is right only for a window that

@@ -42,21 +42,21 @@ struct Merged {
 }
 
 impl InputOptions {
-    /// Reads the requested satellites for use from `from` on; an error if there are none.
+    /// Reads the requested satellites for use from `start` on; an error if there are none.
     pub(in crate::cli) fn satellites(
         &self,
         station: Option<&Path>,
-        from: Timestamp,
+        start: Timestamp,
     ) -> anyhow::Result<Satellites> {
-        let mut said = Said { errors: io::stderr().lock(), is_complete: true };
-        let mut files = self.own_files(&mut said);
+        let mut notes = Notes { errors: io::stderr().lock(), is_complete: true };
+        let mut files = self.own_files(&mut notes);
         let mut older_sets = None;
         let mut orders = SourceOrders::default();
         let mut sources: BTreeMap<PathBuf, String> = BTreeMap::new();
         if let Some(station) = station
             && (self.elements.is_empty() || !self.group.is_empty())
         {
-            sources = self.library_files(station, &mut said)?;
+            sources = self.library_files(station, &mut notes)?;
             files.extend(sources.keys().cloned());
             orders = source_orders(station);
             older_sets = library_folder().map(|folder| Exceptions::load(&folder));
@@ -67,7 +67,7 @@ impl InputOptions {
         files.dedup();
         let mut catalog = Catalog::default();
         // For a time in the past, sets that are newer than that time are less exact.
-        catalog.set_time(from.min(Timestamp::now()));
+        catalog.set_time(start.min(Timestamp::now()));
         catalog.set_orders(orders);
         let mut merged = Vec::new();
         for path in &files {
@@ -79,7 +79,7 @@ impl InputOptions {
                     let summary = catalog.merge(report, sources.get(path).unwrap_or(&file));
                     merged.push(Merged { file, summary, holds_elements });
                 }
-                Err(error) => said.unusable(&format!("{file} cannot be read: {error}")),
+                Err(error) => notes.unusable(&format!("{file} cannot be read: {error}")),
             }
         }
         if let Some(older_sets) = &older_sets {
@@ -87,15 +87,15 @@ impl InputOptions {
         }
         let has_choice = |number| older_sets.as_ref().is_some_and(|sets| sets.has(number));
         catalog.apply_orders(has_choice);
-        let asked = Asked::new(self, &catalog);
+        let request = SearchRequest::new(self, &catalog);
         for file in &merged {
-            said.file(file, &asked);
+            notes.file(file, &request);
         }
-        for missing in &asked.missing {
-            said.unusable(missing);
+        for missing in &request.missing {
+            notes.unusable(missing);
         }
         let requested: Vec<&Elements> =
-            catalog.iter().filter(|elements| asked.holds(elements)).collect();
+            catalog.iter().filter(|elements| request.holds(elements)).collect();
         let prepared = |elements: &&Elements| {
             let satellite = Satellite::new((*elements).clone());
             satellite.map_err(|reason| format!("{}: {reason}", elements.label()))
@@ -105,16 +105,16 @@ impl InputOptions {
         requested.par_iter().map(prepared).collect_into_vec(&mut list);
         let list: Vec<Satellite> = list
             .into_iter()
-            .filter_map(|satellite| satellite.map_err(|sentence| said.unusable(&sentence)).ok())
+            .filter_map(|satellite| satellite.map_err(|sentence| notes.unusable(&sentence)).ok())
             .collect();
         if list.is_empty() {
             bail!("There are no elements to compute with.");
         }
-        Ok(Satellites { list, is_complete: said.is_complete })
+        Ok(Satellites { list, is_complete: notes.is_complete })
     }
 
     /// Files of `--elements`, and those in its folders.
-    fn own_files(&self, said: &mut Said) -> Vec<PathBuf> {
+    fn own_files(&self, notes: &mut Notes) -> Vec<PathBuf> {
         let mut files = Vec::new();
         for path in &self.elements {
             if !path.is_dir() {
@@ -123,11 +123,11 @@ impl InputOptions {
             }
             match element_files(path) {
                 Ok(found) if found.is_empty() => {
-                    said.unusable(&format!("{}: no element files in it", path.display()));
+                    notes.unusable(&format!("{}: no element files in it", path.display()));
                 }
                 Ok(found) => files.extend(found),
                 Err(error) => {
-                    said.unusable(&format!("{} cannot be read: {error}", path.display()));
+                    notes.unusable(&format!("{} cannot be read: {error}", path.display()));
                 }
             }
         }
@@ -138,7 +138,7 @@ impl InputOptions {
     fn library_files(
         &self,
         station: &Path,
-        said: &mut Said,
+        notes: &mut Notes,
     ) -> anyhow::Result<BTreeMap<PathBuf, String>> {
         let sources = load_sources(&station.with_file_name("sources.toml"))?;
         let names = || sources.iter().map(|source| source.name.as_str()).collect::<Vec<_>>();
@@ -158,13 +158,13 @@ impl InputOptions {
         for source in sources.iter().filter(is_asked) {
             match library.files_of(source) {
                 Ok(found) if found.is_empty() => {
-                    said.unusable(&format!("{}: nothing of this source is held", source.name));
+                    notes.unusable(&format!("{}: nothing of this source is held", source.name));
                 }
                 Ok(found) => {
                     files.extend(found.into_iter().map(|file| (file, source.name.clone())));
                 }
                 Err((folder, error)) => {
-                    said.unusable(&format!("{} cannot be read: {error}", folder.display()));
+                    notes.unusable(&format!("{} cannot be read: {error}", folder.display()));
                 }
             }
         }
@@ -187,7 +187,7 @@ fn bytes_of(file: &Path) -> io::Result<Vec<u8>> {
 }
 
 /// Requested objects.
-struct Asked<'a> {
+struct SearchRequest<'a> {
     numbers: &'a [u32],
     /// In lower case.
     names: Vec<String>,
@@ -197,26 +197,26 @@ struct Asked<'a> {
     missing: Vec<String>,
 }
 
-impl<'a> Asked<'a> {
+impl<'a> SearchRequest<'a> {
     fn new(options: &'a InputOptions, catalog: &Catalog) -> Self {
         let numbers = &options.catalog_number[..];
         let names = options.name.iter().map(|name| name.to_lowercase()).collect();
-        let mut asked = Self { numbers, names, found: Vec::new(), missing: Vec::new() };
-        if asked.is_everything() {
-            return asked;
+        let mut request = Self { numbers, names, found: Vec::new(), missing: Vec::new() };
+        if request.is_everything() {
+            return request;
         }
-        let found = catalog.iter().filter(|elements| asked.holds(elements));
+        let found = catalog.iter().filter(|elements| request.holds(elements));
         let found: Vec<String> = found.map(|elements| elements.name().to_lowercase()).collect();
         for number in numbers.iter().filter(|number| catalog.get(**number).is_none()) {
-            asked.missing.push(format!("{number}: no elements of this object"));
+            request.missing.push(format!("{number}: no elements of this object"));
         }
-        for (name, lower) in options.name.iter().zip(&asked.names) {
+        for (name, lower) in options.name.iter().zip(&request.names) {
             if !found.iter().any(|found| found.contains(lower)) {
-                asked.missing.push(format!("{name}: no elements of an object of this name"));
+                request.missing.push(format!("{name}: no elements of an object of this name"));
             }
         }
-        asked.found = found;
-        asked
+        request.found = found;
+        request
     }
 
     fn is_everything(&self) -> bool {
@@ -251,26 +251,26 @@ impl<'a> Asked<'a> {
 }
 
 /// Standard error, and whether anything unusable was reported there.
-struct Said {
+struct Notes {
     errors: io::StderrLock<'static>,
     is_complete: bool,
 }
 
-impl Said {
+impl Notes {
     /// Reports the unusable sets of a file, and the oddities of usable ones.
-    fn file(&mut self, merged: &Merged, asked: &Asked<'_>) {
+    fn file(&mut self, merged: &Merged, request: &SearchRequest<'_>) {
         let Merged { file, summary, holds_elements } = merged;
         let object =
             |object: &Option<String>| object.clone().unwrap_or_else(|| "unnamed object".to_owned());
         // Any object may have been in a file without elements.
         let concerns =
-            |object: &Option<String>| !holds_elements || asked.concerns(object.as_deref());
+            |object: &Option<String>| !holds_elements || request.concerns(object.as_deref());
         for Refusal { line, object: name, reason } in &summary.refused {
             if concerns(name) {
                 self.unusable(&format!("{file}:{line}: {}: {reason}", object(name)));
             }
         }
-        if summary.refused_unlisted > 0 && (asked.is_everything() || !holds_elements) {
+        if summary.refused_unlisted > 0 && (request.is_everything() || !holds_elements) {
             self.unusable(&format!("{file}: {} more were refused", summary.refused_unlisted));
         }
         if let Some(nothing) = summary.nothing {

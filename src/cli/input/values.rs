@@ -72,12 +72,12 @@ pub(in crate::cli) fn duration_s(text: &str) -> Result<f64, String> {
     }
 }
 
-fn above_zero(text: &str, most: f64, unit: &str) -> Result<f64, String> {
+fn above_zero(text: &str, max: f64, unit: &str) -> Result<f64, String> {
     let value = number(text)?;
-    if value > 0.0 && value <= most {
+    if value > 0.0 && value <= max {
         Ok(value)
     } else {
-        Err(format!("not between 0 and {most} {unit}"))
+        Err(format!("not between 0 and {max} {unit}"))
     }
 }
 

@@ -23,7 +23,7 @@ use tokio::sync::Notify;
 use crate::{
     clock::Instant,
     contract::driver::Unit,
-    promises::{FileState, Kept, Promises},
+    promises::{FileState, PromisedFile, Promises},
 };
 pub(super) use shifted_track::{AddedTo, ShiftedTrack};
 
@@ -300,8 +300,8 @@ impl Debts {
     }
 
     /// Progress of the file that says that `unit` may be moving.
-    pub(super) fn mark_kept(&self, unit: &Unit) -> Kept {
-        self.path(unit, STOP).map_or(Kept::OnDisk, |path| self.promises.kept(&path))
+    pub(super) fn mark_kept(&self, unit: &Unit) -> PromisedFile {
+        self.path(unit, STOP).map_or(PromisedFile::OnDisk, |path| self.promises.promised(&path))
     }
 
     /// Returns `true` if an earlier run may have left `unit` moving. Blocks.

@@ -208,8 +208,8 @@ impl KeepAlarms for Alarms {
         // An end that far ahead comes from a clock that was ahead.
         let latest = now.checked_add(ShelveTime::EightHours.duration()).ok();
         let is_up = |alarm: &Alarm| {
-            let until = alarm.shelved_until;
-            until.is_some_and(|until| until <= now || latest.is_some_and(|latest| until > latest))
+            let shelved_until = alarm.shelved_until;
+            shelved_until.is_some_and(|end| end <= now || latest.is_some_and(|latest| end > latest))
         };
         let stands = |alarm: &Alarm| is_up(alarm) && !alarm.is_over() && !is_momentary(&alarm.kind);
         self.unopened |= self.list.iter().any(stands);
@@ -220,10 +220,10 @@ impl KeepAlarms for Alarms {
                 alarm.over_since.get_or_insert(now);
             }
         });
-        let day = |at: Timestamp| at.to_zoned(TimeZone::UTC).date();
+        let day = |time: Timestamp| time.to_zoned(TimeZone::UTC).date();
         let today = day(now);
         let is_old = |alarm: &Alarm| {
-            alarm.is_done() && alarm.over_since.is_some_and(|since| day(since) < today)
+            alarm.is_done() && alarm.over_since.is_some_and(|start| day(start) < today)
         };
         if self.list.iter().any(is_old) {
             Arc::make_mut(&mut self.list).retain(|alarm| !is_old(alarm));
@@ -238,12 +238,12 @@ fn acknowledge(alarm: &mut Alarm, now: Timestamp) {
     }
 }
 
-/// Changes the alarms for which `wanted` returns `true`. The list stays shared if there
+/// Changes the alarms for which `is_changed` returns `true`. The list stays shared if there
 /// are none.
-fn change(alarms: &mut Alarms, wanted: impl Fn(&Alarm) -> bool, change: impl Fn(&mut Alarm)) {
-    if alarms.list.iter().any(&wanted) {
+fn change(alarms: &mut Alarms, is_changed: impl Fn(&Alarm) -> bool, change: impl Fn(&mut Alarm)) {
+    if alarms.list.iter().any(&is_changed) {
         let list = Arc::make_mut(&mut alarms.list);
-        list.iter_mut().filter(|alarm| wanted(alarm)).for_each(change);
+        list.iter_mut().filter(|alarm| is_changed(alarm)).for_each(change);
     }
 }
 

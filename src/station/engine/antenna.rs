@@ -34,7 +34,7 @@ pub fn refresh<'a>(
     let is_told = |pressed: &Instant| match antenna.snapshot.stop {
         StopState::Ready => false,
         StopState::Stopping { .. } | StopState::NotConfirmed { .. } => true,
-        StopState::Stopped { time: at } => at >= *pressed,
+        StopState::Stopped { time: instant } => instant >= *pressed,
     };
     antenna.stop_pressed = antenna.stop_pressed.filter(|pressed| !is_told(pressed));
     let Some(measured) = antenna.snapshot.state.measured else { return };
@@ -50,7 +50,7 @@ pub fn refresh<'a>(
         // error.
         antenna.tracked_number().filter(|_| is_on_course(antenna)).and_then(|number| {
             let propagator = &followed(number)?.propagator;
-            let satellite = |at| Some(propagator.look_from(site, at).ok()?.direction);
+            let satellite = |time| Some(propagator.look_from(site, time).ok()?.direction);
             let is_up = satellite(measured.time)?.elevation_deg() >= 0.0;
             let direction = antenna.snapshot.meant_offsets().demanded(measured.time, satellite)?;
             is_up.then_some(Prediction {
@@ -95,10 +95,12 @@ fn take_rate(antenna: &mut AntennaModel, recent: &mut Recent, measured: Measured
         {
             return None;
         }
-        let (now, then) = (measured.pointing, before.pointing);
-        let azimuth = (now.azimuth? - then.azimuth?).wrapped_180();
-        let elevation =
-            now.elevation.zip(then.elevation).map(|(now, then)| (now - then).degrees() / span_s);
+        let (now, earlier) = (measured.pointing, before.pointing);
+        let azimuth = (now.azimuth? - earlier.azimuth?).wrapped_180();
+        let elevation = now
+            .elevation
+            .zip(earlier.elevation)
+            .map(|(now, earlier)| (now - earlier).degrees() / span_s);
         Some((azimuth.degrees() / span_s, elevation.unwrap_or_default()))
     });
     recent.0.push_back(measured);

@@ -21,8 +21,8 @@ pub(super) use self::{
 };
 use self::{
     clock_stop::ClockStop,
-    observation::seen,
-    operation::{Act, LATE_S, Outcome, Seen, WINDOW_STEP_S, Wishes},
+    observation::observe,
+    operation::{Act, LATE_S, Observation, Outcome, WINDOW_STEP_S, Wishes},
     resumption::Resumption,
     upkeep::UpkeepWork,
 };
@@ -51,7 +51,7 @@ pub(super) struct AtWork {
     /// out.
     flight: Option<Flight>,
     /// State that was last reported.
-    told: Option<Operation>,
+    operation: Option<Operation>,
     /// Auto-track was switched on for a pass that the unit holds, and nobody has touched it since.
     has_auto_track_on: bool,
     /// After a crash it waits to be switched on again.
@@ -91,19 +91,19 @@ impl Engine {
     /// Switches automatic operation on, unless something forbids it.
     pub(super) fn set_automatic(&mut self, index: usize, is_on: bool) {
         let Some(antenna) = self.antennas.get_mut(index) else { return };
-        let of = Some(antenna.shown.id());
+        let antenna_id = Some(antenna.shown.id());
         antenna.at_work.resumption = None;
         let operation = &mut antenna.shown.operation;
         if !is_on {
             operation.switch_off(OffBecause::Operator);
             let is_that = |kind: &AlarmKind| matches!(kind, AlarmKind::AutomaticOff(_));
-            self.alarms.clear(of, self.now, is_that);
+            self.alarms.clear(antenna_id, self.now, is_that);
         } else if operation.is_on() {
             // It is at work.
         } else if antenna.shown.held_by.is_none() && antenna.shown.snapshot.lock_out.is_none() {
             *operation = Operation::switched_on();
             let is_that = |kind: &AlarmKind| matches!(kind, AlarmKind::AutomaticOff(_));
-            self.alarms.clear(of, self.now, is_that);
+            self.alarms.clear(antenna_id, self.now, is_that);
         }
     }
 
@@ -179,8 +179,8 @@ impl Engine {
         let Some(path) = self.last_run_path() else { return };
         let text = self.last_run.text().map_err(|error| error.to_string());
         let promises = self.driver.debts().promises();
-        let kept = text.and_then(|text| promises.put_and_wait(&path, FileState::Holds(text)));
-        if let Err(error) = kept {
+        let result = text.and_then(|text| promises.put_and_wait(&path, FileState::Holds(text)));
+        if let Err(error) = result {
             tracing::error!(error, "automatic operation will be off at the next start");
             // A full disk lets files go.
             if let Err(error) = std::fs::remove_file(&path) {
@@ -291,12 +291,13 @@ impl Engine {
 
     /// Does what is due. A STOP since `turn` was drawn voids what is sent here.
     pub(super) fn run_automatic(&mut self, turn: u64) {
-        self.asked = Some(CurrentRequest { number: turn, by: CommandOrigin::Station });
+        self.current_request =
+            Some(CurrentRequest { number: turn, origin: CommandOrigin::Station });
         self.limit_rule_upload();
         for index in 0..self.antennas.len() {
             self.run_automatic_of(index);
         }
-        self.asked = None;
+        self.current_request = None;
         for index in 0..self.antennas.len() {
             self.tell_automatic(index);
         }
@@ -307,9 +308,9 @@ impl Engine {
         let Some(antenna) = self.antennas.get(index) else { return };
         let duties = self.duties(&antenna.shown);
         let wishes = self.wishes(&antenna.shown);
-        let mut seen = seen(&antenna.shown, self.steady);
-        seen.may_be_planned = seen.offers.is_some() && self.scheduler.is_at_work();
-        self.fly(index, &duties, seen);
+        let mut observation = observe(&antenna.shown, self.steady);
+        observation.may_be_planned = observation.offers.is_some() && self.scheduler.is_at_work();
+        self.fly(index, &duties, observation);
         let now = self.now;
         let Some(antenna) = self.antennas.get_mut(index) else { return };
         // The antennas come to their end by the word of the operator who closes the station.
@@ -320,7 +321,7 @@ impl Engine {
         }
         let operation = &mut antenna.shown.operation;
         let was_proved = operation.is_proved();
-        let act = operation.step(&duties, seen, wishes, now);
+        let act = operation.step(&duties, observation, wishes, now);
         if operation.taking().is_some() {
             // From now on the schedule keeps what is being taken.
             antenna.at_work.interrupted = None;
@@ -349,71 +350,75 @@ impl Engine {
     fn duties(&self, antenna: &AntennaModel) -> Vec<Duty> {
         let id = antenna.id();
         let entries = self.schedule.schedule.entries.iter().filter(|entry| entry.antenna == id);
-        let between = self.between(antenna);
-        entries.map(|entry| duty(entry, between)).collect()
+        let between_passes = self.between_passes(antenna);
+        entries.map(|entry| duty(entry, between_passes)).collect()
     }
 
-    fn between(&self, antenna: &AntennaModel) -> BetweenPasses {
+    fn between_passes(&self, antenna: &AntennaModel) -> BetweenPasses {
         between_passes(&self.station, &antenna.config, self.now)
     }
 
     fn wishes(&self, antenna: &AntennaModel) -> Wishes {
         let scheduling = self.station.scheduling;
-        let parks = self.between(antenna) == BetweenPasses::Park && antenna.can_park();
+        let parks = self.between_passes(antenna) == BetweenPasses::Park && antenna.can_park();
         Wishes {
             parks_within_s: parks.then(|| parks_within_s(&antenna.config)),
             longest_rest_s: scheduling.warn_after_rest_min * 60.0,
             announced_for_s: scheduling.warning_s,
-            held: self.last_run.held_by(antenna.id()),
+            pass_list_key: self.last_run.held_by(antenna.id()),
         }
     }
 
     /// Follows the pass of the schedule that is under way.
-    fn fly(&mut self, index: usize, duties: &[Duty], seen: Seen) {
+    fn fly(&mut self, index: usize, duties: &[Duty], observation: Observation) {
         let now = self.now;
         let name = |pass: PassListKey| {
             let found = self.pass_lists.find(pass);
-            found.map_or_else(|| pass.0.to_string(), |of| of.satellite.short_name().to_owned())
+            found.map_or_else(
+                || pass.0.to_string(),
+                |predicted| predicted.satellite.short_name().to_owned(),
+            )
         };
-        let is_due = |duty: &&Duty| duty.go_at <= now && now < duty.until;
+        let is_due = |duty: &&Duty| duty.go_at <= now && now < duty.end;
         let due = duties.iter().find(is_due).map(|duty| (*duty, name(duty.pass)));
         let Some(antenna) = self.antennas.get_mut(index) else { return };
         let (shown, flight) = (&antenna.shown, &mut antenna.at_work.flight);
-        let why = shown.operation.not_ready().or(seen.not_ready);
+        let reason = shown.operation.not_ready().or(observation.not_ready);
         if let Some(flight) = flight {
-            flight.see(&shown.operation, seen, now);
+            flight.see(&shown.operation, observation, now);
         }
         // Its antenna would set out later only by a clock that was set back. A pass that the
         // schedule gives up before it begins is not missed.
         let is_planned =
             |flight: &Flight| duties.iter().any(|duty| is_same_pass(duty.pass, flight.duty.pass));
         flight.take_if(|flight| {
-            now < flight.duty.go_at || now < flight.duty.from && !is_planned(flight)
+            now < flight.duty.go_at || now < flight.duty.start && !is_planned(flight)
         });
-        let ended = flight.take_if(|flight| now >= flight.duty.until);
+        let ended = flight.take_if(|flight| now >= flight.duty.end);
         let is_off = matches!(shown.operation, Operation::Off(_));
         if flight.is_none() && (!is_off || ended.is_some()) {
             *flight = due.map(|(duty, name)| Flight::new(duty, name));
         }
         let late = flight.as_ref().filter(|flight| {
-            let until_s = seconds_between(now, flight.duty.from);
-            let is_on_its_way = seen.takes == Some(flight.duty.pass.0);
-            let has_time_left = seconds_between(now, flight.duty.until) > WINDOW_STEP_S;
-            let is_late = until_s <= LATE_S || why.is_some();
+            let until_s = seconds_between(now, flight.duty.start);
+            let is_on_its_way = observation.takes == Some(flight.duty.pass.0);
+            let has_time_left = seconds_between(now, flight.duty.end) > WINDOW_STEP_S;
+            let is_late = until_s <= LATE_S || reason.is_some();
             shown.operation.is_on() && is_late && has_time_left && !is_on_its_way
         });
         let late = late.map(|flight| (flight.duty.pass, flight.name().to_owned()));
-        let of = Some(shown.id());
-        self.alarms.clear(of, now, |kind| match kind {
-            AlarmKind::NotOnItsWay { pass, reason: known, .. } => {
-                *known != why || late.as_ref().is_none_or(|(late, _)| !is_same_pass(*late, *pass))
+        let antenna_id = Some(shown.id());
+        self.alarms.clear(antenna_id, now, |kind| match kind {
+            AlarmKind::NotOnItsWay { pass, reason: raised, .. } => {
+                *raised != reason
+                    || late.as_ref().is_none_or(|(late, _)| !is_same_pass(*late, *pass))
             }
             _ => false,
         });
         if let Some((pass, name)) = late {
-            self.alarms.raise(of, AlarmKind::NotOnItsWay { pass, name, reason: why }, now);
+            self.alarms.raise(antenna_id, AlarmKind::NotOnItsWay { pass, name, reason }, now);
         }
-        if let (Some(flight), Some(id)) = (ended, of) {
+        if let (Some(flight), Some(id)) = (ended, antenna_id) {
             self.end_flight(id, flight);
         }
     }
@@ -429,7 +434,7 @@ impl Engine {
         let Some(antenna) = self.antennas.get_mut(index) else { return };
         let id = antenna.shown.id();
         let operation = antenna.shown.operation.clone();
-        let before = antenna.at_work.told.replace(operation.clone());
+        let before = antenna.at_work.operation.replace(operation.clone());
         let announced = match &operation {
             Operation::On(On { doing: Doing::Announces { moves_at, pass }, .. }) => {
                 Some((*moves_at, *pass))
@@ -439,10 +444,11 @@ impl Engine {
         self.alarms.clear(Some(id), self.now, |kind| {
             matches!(kind, AlarmKind::AutomaticMoves { .. }) && announced.is_none()
         });
-        if let Some((at, pass)) = announced {
+        if let Some((time, pass)) = announced {
             let name = self.pass_lists.find(pass);
-            let name = name.map_or_else(String::new, |of| of.satellite.short_name().to_owned());
-            self.alarms.raise(Some(id), AlarmKind::AutomaticMoves { time: at, name }, self.now);
+            let name = name
+                .map_or_else(String::new, |predicted| predicted.satellite.short_name().to_owned());
+            self.alarms.raise(Some(id), AlarmKind::AutomaticMoves { time, name }, self.now);
         }
         if !matches!(operation, Operation::Suspended { .. }) {
             let is_that = |kind: &AlarmKind| matches!(kind, AlarmKind::AutomaticSuspended(_));
@@ -454,11 +460,15 @@ impl Engine {
             | (Operation::Suspended { .. }, Operation::Suspended { .. }) => return,
             (Operation::Suspended { .. }, Operation::On(_)) => DayEvent::WentOn,
             (_, Operation::On(_)) => DayEvent::SwitchedOn,
-            (_, Operation::Suspended { interruption: by, .. }) => {
-                if *by != Interruption::ByHand {
-                    self.alarms.raise(Some(id), AlarmKind::AutomaticSuspended(*by), self.now);
+            (_, Operation::Suspended { interruption, .. }) => {
+                if *interruption != Interruption::ByHand {
+                    self.alarms.raise(
+                        Some(id),
+                        AlarmKind::AutomaticSuspended(*interruption),
+                        self.now,
+                    );
                 }
-                DayEvent::Suspended(*by)
+                DayEvent::Suspended(*interruption)
             }
             (Operation::Off(before), Operation::Off(now)) if before == now => return,
             (_, Operation::Off(because)) => {
@@ -497,20 +507,20 @@ impl Engine {
         self.keep_last_run();
     }
 
-    fn note_day(&mut self, antenna: AntennaId, what: DayEvent) {
-        tracing::info!(?antenna, ?what, "automatic operation");
-        let line = DayLine { time: self.now, antenna, event: what };
+    fn note_day(&mut self, antenna: AntennaId, day_event: DayEvent) {
+        tracing::info!(?antenna, ?day_event, "automatic operation");
+        let line = DayLine { time: self.now, antenna, event: day_event };
         self.recording.day_line(&line, self.clock.now());
         day::add(&mut self.day, line);
     }
 }
 
-fn duty(entry: &Entry, between: BetweenPasses) -> Duty {
+fn duty(entry: &Entry, between_passes: BetweenPasses) -> Duty {
     Duty {
         pass: (entry.pass.satellite, entry.pass.aos),
-        from: entry.start,
-        until: entry.end,
-        go_at: sets_out(entry, between),
+        start: entry.start,
+        end: entry.end,
+        go_at: sets_out(entry, between_passes),
         counted_s: entry.counted_s,
         lost_at: entry.lost.map(|lost| lost.loss),
         begins_late: entry.late_s > 0.0,

@@ -42,13 +42,13 @@ impl Engine {
         self.leave_to_operator(&command);
         match command {
             Command::Antenna(id, driver::Command::WriteSettings(change)) => {
-                self.with(id, |engine, index| engine.write_settings(index, change));
+                self.with_antenna(id, |engine, index| engine.write_settings(index, change));
             }
             Command::Antenna(id, driver::Command::LockOut(lock_out)) => {
-                self.with(id, |engine, index| engine.set_lock_out(index, Some(lock_out)));
+                self.with_antenna(id, |engine, index| engine.set_lock_out(index, Some(lock_out)));
             }
             Command::Antenna(id, driver::Command::Unlock) => {
-                self.with(id, |engine, index| engine.set_lock_out(index, None));
+                self.with_antenna(id, |engine, index| engine.set_lock_out(index, None));
             }
             Command::Antenna(id, mut command) => {
                 if let driver::Command::ProgramTrack(follow)
@@ -56,18 +56,18 @@ impl Engine {
                 {
                     self.begin_with_offsets(id, follow);
                 }
-                self.with(id, |engine, index| engine.send(index, command));
+                self.with_antenna(id, |engine, index| engine.send(index, command));
             }
             Command::Track { antenna, pass, is_agreed } => {
-                self.with(antenna, |engine, index| engine.track(index, pass, is_agreed));
+                self.with_antenna(antenna, |engine, index| engine.track(index, pass, is_agreed));
             }
             Command::ProgramTrackPass { antenna, pass } => {
-                self.with(antenna, |engine, index| engine.follow_pass(index, pass));
+                self.with_antenna(antenna, |engine, index| engine.follow_pass(index, pass));
             }
             Command::SetAutomatic { antenna, is_on } => {
-                self.with(antenna, |engine, index| engine.set_automatic(index, is_on));
+                self.with_antenna(antenna, |engine, index| engine.set_automatic(index, is_on));
             }
-            Command::GoOn(antenna) => self.with(antenna, Self::go_on),
+            Command::GoOn(antenna) => self.with_antenna(antenna, Self::go_on),
             Command::ChoosePass { satellite, tca, take } => {
                 let now = self.now;
                 self.change_station(|station| station.choose_pass(satellite, tca, take, now));
@@ -81,9 +81,9 @@ impl Engine {
             Command::SetScheduling(scheduling) => {
                 self.change_station(|station| station.scheduling = scheduling);
             }
-            Command::SaveSettings(id) => self.with(id, Self::save_copy),
-            Command::CompareSettings(id) => self.with(id, Self::open_copies),
-            Command::ReadCopy { antenna, path } => self.with(antenna, |engine, index| {
+            Command::SaveSettings(id) => self.with_antenna(id, Self::save_copy),
+            Command::CompareSettings(id) => self.with_antenna(id, Self::open_copies),
+            Command::ReadCopy { antenna, path } => self.with_antenna(antenna, |engine, index| {
                 if let Some(antenna) = engine.antennas.get(index) {
                     engine.copy_work.read(path, &antenna.shown);
                 }
@@ -111,12 +111,12 @@ impl Engine {
                 station.frequencies.retain(|frequency| frequency.satellite != satellite);
                 station.frequencies.extend(frequencies);
             }),
-            Command::KeepOffsets { subject: of, offsets } => {
-                self.change_station(|station| station.keep_offsets(of, offsets));
+            Command::KeepOffsets { subject: offsets_subject, offsets } => {
+                self.change_station(|station| station.keep_offsets(offsets_subject, offsets));
                 self.tell_first_offsets();
             }
-            Command::CopyElements { name, origin: from } => {
-                let copy = Some((name, from));
+            Command::CopyElements { name, origin } => {
+                let copy = Some((name, origin));
                 self.begin_elements(Task { copy, ..Task::default() });
             }
             Command::SetRefresh { name, hours } => {
@@ -128,7 +128,7 @@ impl Engine {
             }
             Command::ListOlderSets(number) => self.list_older_sets(number),
             Command::LookAtRecord(look) => self.look_at_record(look),
-            Command::FitPointing(antenna, without) => self.fit_pointing(antenna, without),
+            Command::FitPointing(antenna, excluded) => self.fit_pointing(antenna, excluded),
             Command::ChangePeaks(antenna, change) => self.change_peaks(antenna, change),
             Command::UseSet(choice) => {
                 self.begin_elements(Task { set: Some(choice), ..Task::default() });
@@ -161,7 +161,7 @@ impl Engine {
             Command::TestSource(ask) => self.source_test_runner.ask(ask, &mut self.source_tests),
             Command::TestLink(antenna) => self.test_link(*antenna),
             Command::Upload(ask) => self.ask_about_upload(ask),
-            Command::CloseAfter(how) => self.close_after(how),
+            Command::CloseAfter(close_choice) => self.close_after(close_choice),
             Command::StayOpen => self.closing = None,
             Command::Look(attention) => self.attention = attention,
         }
@@ -170,13 +170,14 @@ impl Engine {
     /// Returns `true` if STOP voids the command: a later one of its antenna, or of any antenna for a
     /// command that concerns them all.
     fn is_void(&self, command: &Command) -> bool {
-        let Some(asked) = self.asked.filter(|_| command.row().void_after_stop) else {
+        let Some(current_request) = self.current_request.filter(|_| command.row().void_after_stop)
+        else {
             return false;
         };
         let one = command.antenna();
         let mut concerned =
             self.antennas.iter().filter(|antenna| one.is_none_or(|one| antenna.shown.id() == one));
-        concerned.any(|antenna| antenna.handle.stopper().is_void(asked.number))
+        concerned.any(|antenna| antenna.handle.stopper().is_void(current_request.number))
     }
 
     /// Returns `true` if another Azel drives the antenna, and then shows the refusal on it.
@@ -189,8 +190,8 @@ impl Engine {
         };
         let Some(place) = place else { return false };
         let Some(antenna) = self.antennas.get_mut(place) else { return false };
-        let Some(by) = &antenna.shown.held_by else { return false };
-        let refusal = driver::Refusal::Elsewhere(by.to_string());
+        let Some(holder) = &antenna.shown.held_by else { return false };
+        let refusal = driver::Refusal::Elsewhere(holder.to_string());
         antenna.shown.news = Some((driver::Event::NotSent(refusal), self.now));
         true
     }
@@ -210,7 +211,7 @@ impl Engine {
     }
 
     /// Runs `work` with the index of an antenna, if the station still has it.
-    fn with(&mut self, id: AntennaId, work: impl FnOnce(&mut Self, usize)) {
+    fn with_antenna(&mut self, id: AntennaId, work: impl FnOnce(&mut Self, usize)) {
         if let Some(index) = self.place(id) {
             work(self, index);
         }
@@ -221,8 +222,8 @@ impl Engine {
         if let Some(antenna) = self.antennas.get(index) {
             let (id, stopper) = (antenna.shown.id(), antenna.handle.stopper());
             let stopped = Stopped {
-                at: self.steady,
-                by: CommandOrigin::Station,
+                instant: self.steady,
+                origin: CommandOrigin::Station,
                 antennas: vec![id],
                 elsewhere: Vec::new(),
                 tracked: stopper.tracks().then_some(id).into_iter().collect(),
@@ -238,7 +239,7 @@ impl Engine {
         self.note_sent(index, &command);
         let number = self.number();
         let Some(antenna) = self.antennas.get_mut(index) else { return };
-        let of = Some(antenna.shown.id());
+        let antenna_id = Some(antenna.shown.id());
         // Another command is the operator's answer to the question.
         if !command.row().in_replay {
             antenna.shown.asks_unseen = None;
@@ -248,7 +249,7 @@ impl Engine {
             // The operator vouches for standstill, whatever the unit reports.
             driver::Command::SeenStanding => {
                 let alarms = &mut self.alarms;
-                alarms.clear(of, self.now, |kind| *kind == AlarmKind::StopNotConfirmed);
+                alarms.clear(antenna_id, self.now, |kind| *kind == AlarmKind::StopNotConfirmed);
             }
             _ => {}
         }
@@ -258,12 +259,13 @@ impl Engine {
         if matches!(command, driver::Command::Standby | driver::Command::EndJog) {
             self.stop_one(index);
         }
-        self.alarms.raise(of, AlarmKind::NotTaken, self.now);
+        self.alarms.raise(antenna_id, AlarmKind::NotTaken, self.now);
     }
 
     /// Number of what is carried out, for the sessions.
     pub(super) fn number(&self) -> u64 {
-        self.asked.map_or_else(|| self.driver.orders().next(), |asked| asked.number)
+        self.current_request
+            .map_or_else(|| self.driver.orders().next(), |current_request| current_request.number)
     }
 
     /// Tracks a pass of the schedule.
@@ -272,10 +274,10 @@ impl Engine {
         let (site, now) = (self.station.site, self.now);
         let Some(antenna) = self.antennas.get(index) else { return };
         let config = &antenna.shown.config;
-        let cut = |(from, until): (Timestamp, Timestamp)| {
-            let from = if duty.begins_late { from.max(duty.from) } else { from };
-            let until = if duty.ends_early { until.min(duty.until) } else { until };
-            (from, until)
+        let cut = |(start, end): (Timestamp, Timestamp)| {
+            let start = if duty.begins_late { start.max(duty.start) } else { start };
+            let end = if duty.ends_early { end.min(duty.end) } else { end };
+            (start, end)
         };
         if antenna.shown.variant().capabilities.has_program {
             return match on_board::pass_for(predicted, config, site, now) {
@@ -338,7 +340,7 @@ impl Engine {
         if self.elements_job.is_some() || self.sources.is_locked {
             return;
         }
-        let is_soon = |at: Timestamp| seconds_between(at, self.now).abs() < REFRESH_PAUSE_S;
+        let is_soon = |time: Timestamp| seconds_between(time, self.now).abs() < REFRESH_PAUSE_S;
         if self.refreshed_at.is_some_and(is_soon) {
             return;
         }
@@ -471,8 +473,8 @@ impl Engine {
                 let name = &antenna.shown.config.name;
                 Err(format!("{name} moves or tracks: stop it before the site is changed"))
             }
-            _ if let StationClaim::Theirs(by) = &self.station_claim => {
-                Err(format!("it is open in {by}: save it there, or close it there first"))
+            _ if let StationClaim::Theirs(holder) = &self.station_claim => {
+                Err(format!("it is open in {holder}: save it there, or close it there first"))
             }
             // Nobody has seen its content here, so a save would replace it unseen.
             Some(path) if self.settings_unread && path.exists() => Err(format!(

@@ -28,7 +28,7 @@ use crate::{
 /// A lock that another process has.
 #[derive(Debug, Clone)]
 pub(super) struct Elsewhere {
-    pub(super) by: HeldBy,
+    pub(super) holder: HeldBy,
     /// Name of the lock; `None` where no lock could be tried.
     pub(super) lock: Option<String>,
 }
@@ -114,7 +114,7 @@ impl Claims {
     fn lock(&self, name: &str, antenna: Option<&str>) -> Result<Arc<Lock>, Unclaimed> {
         let mut locks = unpoisoned(&self.locks);
         if let Some(lock) = locks.get(name).and_then(Weak::upgrade) {
-            return match taken(&lock) {
+            return match holder_elsewhere(&lock) {
                 Some(elsewhere) => Err(Unclaimed::Held(elsewhere)),
                 None => Ok(lock),
             };
@@ -128,7 +128,9 @@ impl Claims {
         };
         let text = serde_json::to_string(&me).map_err(|error| Unclaimed::Io(error.into()))?;
         let lock = Lock::take(name, text, &self.folders).map_err(|error| match error {
-            NotLocked::Held(by) => Unclaimed::Held(Elsewhere { by, lock: Some(name.to_owned()) }),
+            NotLocked::Held(holder) => {
+                Unclaimed::Held(Elsewhere { holder, lock: Some(name.to_owned()) })
+            }
             NotLocked::Io(error) => Unclaimed::Io(error),
         })?;
         let lock = Arc::new(lock);
@@ -161,12 +163,12 @@ impl UnitClaim {
         refused.or_else(|| {
             let places = unpoisoned(&self.places);
             let mut locks = std::iter::once(&self.written).chain(places.iter());
-            locks.find_map(|lock| taken(lock))
+            locks.find_map(|lock| holder_elsewhere(lock))
         })
     }
 
     fn lock_places(&self, endpoints: &[Endpoint]) -> Result<(), Unclaimed> {
-        if let Some(elsewhere) = taken(&self.written) {
+        if let Some(elsewhere) = holder_elsewhere(&self.written) {
             return Err(Unclaimed::Held(elsewhere));
         }
         let mut names: Vec<String> = endpoints.iter().map(place_lock).collect();
@@ -186,7 +188,7 @@ impl UnitLock for Option<Claim> {
         let Some(claim) = self else { return Ok(()) };
         claim.lock_places(endpoints).map_err(|error| match error {
             Unclaimed::Held(elsewhere) => {
-                let text = format!("{} has the unit", elsewhere.by);
+                let text = format!("{} has the unit", elsewhere.holder);
                 *unpoisoned(&claim.elsewhere) = Some(elsewhere);
                 io::Error::other(text)
             }
@@ -196,9 +198,9 @@ impl UnitLock for Option<Claim> {
 }
 
 /// A lock that another process took when its file was removed.
-pub(super) fn taken(lock: &Lock) -> Option<Elsewhere> {
-    let by = lock.taken_by()?;
-    Some(Elsewhere { by, lock: Some(lock.name().to_owned()) })
+pub(super) fn holder_elsewhere(lock: &Lock) -> Option<Elsewhere> {
+    let holder = lock.taken_by()?;
+    Some(Elsewhere { holder, lock: Some(lock.name().to_owned()) })
 }
 
 /// The other Azel that holds the station file at `path`, if any does.
@@ -252,9 +254,9 @@ pub(super) fn place_lock(endpoint: &Endpoint) -> String {
     digest("unit", endpoint.key().as_bytes())
 }
 
-pub(super) fn digest(kind: &str, of: &[u8]) -> String {
+pub(super) fn digest(kind: &str, bytes: &[u8]) -> String {
     let mut name = format!("{kind}-");
-    for byte in Sha256::digest(of).iter().take(8) {
+    for byte in Sha256::digest(bytes).iter().take(8) {
         // Writing to a text cannot fail.
         let _ = write!(name, "{byte:02x}");
     }
@@ -282,8 +284,8 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let (first, second) = (claims(folder.path()), claims(folder.path()));
         let path = folder.path().join("station.toml");
-        let held = first.station(&path).ok().unwrap();
-        let Err(Unclaimed::Held(Elsewhere { by: HeldBy::Azel(Some(holder)), .. })) =
+        let lock = first.station(&path).ok().unwrap();
+        let Err(Unclaimed::Held(Elsewhere { holder: HeldBy::Azel(Some(holder)), .. })) =
             second.station(&path)
         else {
             panic!("free")
@@ -294,7 +296,7 @@ mod tests {
         assert_eq!(holder_of_station(&run, &folder.path().join("other.toml")), None);
         // The holder may claim again, and holds it until the last clone is gone.
         let again = first.station(&path).ok().unwrap();
-        drop(held);
+        drop(lock);
         assert!(second.station(&path).is_err());
         drop(again);
         assert_eq!(holder_of_station(&run, &path), None);
@@ -308,8 +310,8 @@ mod tests {
         let me = std::process::id();
         let dish = Antenna::satrak("Dish", &format!("Unit-{me}.Invalid:4001"));
         let other = Antenna::satrak("Other", &format!("unit-{me}.invalid:4001 "));
-        let held = first.unit(&dish, None).ok().unwrap();
-        let Err(Unclaimed::Held(Elsewhere { by: HeldBy::Azel(Some(holder)), .. })) =
+        let unit_claim = first.unit(&dish, None).ok().unwrap();
+        let Err(Unclaimed::Held(Elsewhere { holder: HeldBy::Azel(Some(holder)), .. })) =
             second.unit(&other, None)
         else {
             panic!("free")
@@ -318,7 +320,7 @@ mod tests {
         assert!(
             second.unit(&Antenna::satrak("Dish", &format!("unit-{me}.invalid:1")), None).is_ok()
         );
-        drop(held);
+        drop(unit_claim);
     }
 
     #[test]
@@ -326,8 +328,8 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let (first, second) = (claims(folder.path()), claims(folder.path()));
         let (_listener, port) = port();
-        let held = first.unit(&Antenna::satrak("Dish", &format!("127.0.0.1:{port}")), None);
-        assert!(held.is_ok());
+        let unit_claim = first.unit(&Antenna::satrak("Dish", &format!("127.0.0.1:{port}")), None);
+        assert!(unit_claim.is_ok());
         let other = Antenna::genius("Mast", &format!("[::1]:{port}"));
         assert!(matches!(second.unit(&other, None), Err(Unclaimed::Held(_))));
     }
@@ -338,7 +340,7 @@ mod tests {
         let (first, second) = (claims(folder.path()), claims(folder.path()));
         let (_listener, port) = port();
         let dish = Antenna::satrak("Dish", &format!("127.0.0.1:{port}"));
-        let held = first.unit(&dish, None).ok().unwrap();
+        let unit_claim = first.unit(&dish, None).ok().unwrap();
         // Nothing is known of the name before it is looked up.
         let other = Antenna::satrak("Dish", &format!("name-{port}.invalid:4001"));
         let claim = second.unit(&other, None).ok().unwrap();
@@ -349,7 +351,7 @@ mod tests {
         let lock = claim.elsewhere().unwrap().lock;
         drop(claim);
         assert!(second.unit(&other, lock.as_deref()).is_err(), "it is still held");
-        drop(held);
+        drop(unit_claim);
         let claim = second.unit(&other, lock.as_deref()).ok().unwrap();
         assert!(first.unit(&dish, None).is_err());
         assert!(Some(claim).lock(&endpoints).is_ok());

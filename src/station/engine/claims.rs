@@ -5,7 +5,7 @@ use std::{io, path::Path, sync::Arc};
 
 use super::{
     Engine, Hold, StationClaim,
-    claim::{Claim, Claims, Elsewhere, LockFolders, Unclaimed, station_lock, taken},
+    claim::{Claim, Claims, Elsewhere, LockFolders, Unclaimed, holder_elsewhere, station_lock},
 };
 #[cfg(unix)]
 use super::{
@@ -28,7 +28,7 @@ use crate::{
 pub(super) struct NoClaims {
     folders: LockFolders,
     kind: HolderKind,
-    why: String,
+    reason: String,
 }
 
 /// Locks that can be made, and the courier that takes STOP to the processes that have others.
@@ -39,17 +39,17 @@ pub(super) struct ClaimsInUse {
 }
 
 /// The holder by the name that it gave before, where its files are gone for a moment.
-fn with_name(by: HeldBy, known: Option<&HeldBy>) -> HeldBy {
-    match (by, known) {
-        (HeldBy::Azel(None), Some(known @ HeldBy::Azel(_))) => known.clone(),
-        (by, _) => by,
+fn with_name(holder: HeldBy, name_source: Option<&HeldBy>) -> HeldBy {
+    match (holder, name_source) {
+        (HeldBy::Azel(None), Some(name_source @ HeldBy::Azel(_))) => name_source.clone(),
+        (holder, _) => holder,
     }
 }
 
 impl Engine {
     /// Sets up the claims and claims the station file before it is read.
-    pub(super) fn take_claims(&mut self, wanted: Option<(LockFolders, HolderKind)>) {
-        let Some((folders, kind)) = wanted else { return };
+    pub(super) fn take_claims(&mut self, folders_and_kind: Option<(LockFolders, HolderKind)>) {
+        let Some((folders, kind)) = folders_and_kind else { return };
         #[cfg(unix)]
         let socket = {
             let path = self.settings_path.as_deref();
@@ -70,7 +70,7 @@ impl Engine {
                 }));
             }
             Err(error) => {
-                let no_claims = NoClaims { folders, kind, why: error.to_string() };
+                let no_claims = NoClaims { folders, kind, reason: error.to_string() };
                 let is_news = self.claims.replace(Err(no_claims)).is_none();
                 if is_news {
                     self.tell_unclaimed("Azel can lock no unit, so it connects to none; check the disk and the folder of locks", &error);
@@ -93,8 +93,8 @@ impl Engine {
                 #[cfg(unix)]
                 let served = in_use.claims.socket().and_then(|(folder, socket)| {
                     let served = super::socket::serve(folder, socket, self.client.clone());
-                    let what = "other programs reach this one by signals only";
-                    served.inspect_err(|error| self.tell_unclaimed(what, error)).ok()
+                    let subject = "other programs reach this one by signals only";
+                    served.inspect_err(|error| self.tell_unclaimed(subject, error)).ok()
                 });
                 self.station_claim = StationClaim::Ours {
                     claim,
@@ -104,7 +104,7 @@ impl Engine {
                 self.alarms
                     .clear(None, self.now, |kind| matches!(kind, AlarmKind::StationElsewhere(_)));
             }
-            Err(Unclaimed::Held(Elsewhere { by, .. })) => self.leave_station(by),
+            Err(Unclaimed::Held(Elsewhere { holder, .. })) => self.leave_station(holder),
             Err(Unclaimed::Io(error)) => {
                 self.tell_unclaimed("the station file is not kept from other programs", &error);
             }
@@ -112,18 +112,18 @@ impl Engine {
     }
 
     /// Leaves the station to another process.
-    fn leave_station(&mut self, by: HeldBy) {
-        let known = match &self.station_claim {
-            StationClaim::Theirs(known) => Some(known),
+    fn leave_station(&mut self, holder: HeldBy) {
+        let station_holder = match &self.station_claim {
+            StationClaim::Theirs(station_holder) => Some(station_holder),
             StationClaim::None | StationClaim::Ours { .. } => None,
         };
-        let by = with_name(by, known);
-        self.alarms.raise(None, AlarmKind::StationElsewhere(by.clone()), self.now);
-        self.station_claim = StationClaim::Theirs(by);
+        let holder = with_name(holder, station_holder);
+        self.alarms.raise(None, AlarmKind::StationElsewhere(holder.clone()), self.now);
+        self.station_claim = StationClaim::Theirs(holder);
     }
 
-    fn tell_unclaimed(&mut self, what: &str, error: &io::Error) {
-        let text = format!("{what}: {error}");
+    fn tell_unclaimed(&mut self, subject: &str, error: &io::Error) {
+        let text = format!("{subject}: {error}");
         let kind = AlarmKind::Settings(text.clone());
         // Each attempt fails for the same reason.
         if self.alarms.list().iter().any(|alarm| alarm.kind == kind && !alarm.is_over()) {
@@ -140,14 +140,16 @@ impl Engine {
         antenna: &station::Antenna,
         also: Option<&str>,
     ) -> Result<Option<Claim>, Elsewhere> {
-        if let StationClaim::Theirs(by) = &self.station_claim {
+        if let StationClaim::Theirs(holder) = &self.station_claim {
             let lock = self.settings_path.as_deref().map(station_lock);
-            return Err(Elsewhere { by: by.clone(), lock });
+            return Err(Elsewhere { holder: holder.clone(), lock });
         }
-        let unknown = |why: String| Elsewhere { by: HeldBy::Unknown(why), lock: None };
+        let unknown = |reason: String| Elsewhere { holder: HeldBy::Unknown(reason), lock: None };
         let claims = match &self.claims {
             None => return Ok(None),
-            Some(Err(NoClaims { why, .. })) => return Err(unknown(why.clone())),
+            Some(Err(NoClaims { reason: explanation, .. })) => {
+                return Err(unknown(explanation.clone()));
+            }
             Some(Ok(in_use)) => &in_use.claims,
         };
         match claims.unit(antenna, also) {
@@ -188,8 +190,8 @@ impl Engine {
         }
         self.claims_looked_at = self.now.as_second();
         if let Some(Err(NoClaims { folders, kind, .. })) = &self.claims {
-            let wanted = (folders.clone(), *kind);
-            self.take_claims(Some(wanted));
+            let request = (folders.clone(), *kind);
+            self.take_claims(Some(request));
         } else if matches!(self.station_claim, StationClaim::None)
             && self.demo.is_none()
             && self.settings_path.as_deref().is_some_and(Path::exists)
@@ -200,9 +202,9 @@ impl Engine {
             in_use.claims.renew();
         }
         if let StationClaim::Ours { claim, .. } = &self.station_claim
-            && let Some(Elsewhere { by, .. }) = taken(claim)
+            && let Some(Elsewhere { holder, .. }) = holder_elsewhere(claim)
         {
-            self.leave_station(by);
+            self.leave_station(holder);
             for index in 0..self.antennas.len() {
                 self.leave_unit(index, None);
             }
@@ -230,20 +232,25 @@ impl Engine {
         let Some(antenna) = self.antennas.get_mut(index) else { return };
         let Hold::Elsewhere(lock) = &antenna.hold else { return };
         let (config, lock) = (Arc::clone(&antenna.shown.config), lock.clone());
-        let of = Some(config.id);
+        let antenna_id = Some(config.id);
         match self.claim_unit(&config, lock.as_deref()) {
             Ok(claim) => {
                 // The previous holder may have locked the unit out.
                 self.load_lock_outs();
                 self.reopen(index, Ok(claim));
-                self.alarms.clear(of, self.now, |kind| matches!(kind, AlarmKind::UnitElsewhere(_)));
+                self.alarms.clear(antenna_id, self.now, |kind| {
+                    matches!(kind, AlarmKind::UnitElsewhere(_))
+                });
             }
-            Err(Elsewhere { by, lock }) => {
+            Err(Elsewhere { holder: lock_holder, lock }) => {
                 let antenna = self.antennas.get(index);
-                let by = with_name(by, antenna.and_then(|antenna| antenna.shown.held_by.as_ref()));
-                self.alarms.raise(of, AlarmKind::UnitElsewhere(by.clone()), self.now);
+                let holder = with_name(
+                    lock_holder,
+                    antenna.and_then(|antenna| antenna.shown.held_by.as_ref()),
+                );
+                self.alarms.raise(antenna_id, AlarmKind::UnitElsewhere(holder.clone()), self.now);
                 if let Some(antenna) = self.antennas.get_mut(index) {
-                    antenna.shown.held_by = Some(by);
+                    antenna.shown.held_by = Some(holder);
                     antenna.hold = Hold::Elsewhere(lock);
                 }
             }
@@ -258,7 +265,7 @@ impl Engine {
         let owes_stop = self.driver.debts().owes(&Unit::new(&config));
         let claim = match elsewhere {
             Some(elsewhere) => {
-                let kind = AlarmKind::UnitElsewhere(elsewhere.by.clone());
+                let kind = AlarmKind::UnitElsewhere(elsewhere.holder.clone());
                 self.alarms.raise(Some(config.id), kind, self.now);
                 Err(elsewhere)
             }

@@ -19,7 +19,7 @@ const STEP_S: f64 = 1.0;
 /// The check under way, and the time of the last one.
 #[derive(Default)]
 pub(super) struct ClockWatch {
-    asked: Option<Instant>,
+    checked: Option<Instant>,
     job: Option<Job<TimeSync>>,
     /// Set from a clock step until the time service answers: automatic operation waits.
     pub(super) is_in_doubt: bool,
@@ -38,7 +38,7 @@ impl ClockWatch {
 
     /// Discards the earlier check, so that the next poll starts a new one.
     pub(super) fn ask_again(&mut self) {
-        (self.asked, self.job) = (None, None);
+        (self.checked, self.job) = (None, None);
     }
 
     /// Returns a new answer once it has come, and starts the next check when it is due.
@@ -49,9 +49,10 @@ impl ClockWatch {
         wake: &Wake,
     ) -> Option<TimeSync> {
         let answer = Job::take(&mut self.job).map(|end| end.unwrap_or(TimeSync::NotKnown));
-        let due = self.asked.is_none_or(|asked| now.saturating_duration_since(asked) >= PERIOD);
+        let due =
+            self.checked.is_none_or(|checked| now.saturating_duration_since(checked) >= PERIOD);
         if due && self.job.is_none() {
-            self.asked = Some(now);
+            self.checked = Some(now);
             let ask = move |_: &(dyn Fn() -> bool + Sync)| time_sync();
             self.job = Some(Job::start("azel-clock-watch", Wake::clone(wake), ask));
         }

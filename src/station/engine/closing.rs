@@ -22,19 +22,19 @@ const TAKEN_IN: Duration = Duration::from_secs(2);
 
 impl Engine {
     /// Carries out the operator's choice and closes when it is done.
-    pub(super) fn close_after(&mut self, how: CloseHow) {
+    pub(super) fn close_after(&mut self, choice: CloseHow) {
         let mut waits_for = Vec::new();
         for index in 0..self.antennas.len() {
             let Some(antenna) = self.antennas.get_mut(index) else { continue };
             let antenna = &mut antenna.shown;
             let id = antenna.id();
             let Some(stake) = antenna.stake() else { continue };
-            if how == CloseHow::Leave && matches!(stake, Stake::OnBoard(_)) {
+            if choice == CloseHow::Leave && matches!(stake, Stake::OnBoard(_)) {
                 continue;
             }
             // Also where the end is given up: the operator has ended the track.
             antenna.operation.suspend(Interruption::ByHand, self.now);
-            if how == CloseHow::Park && antenna.can_park() {
+            if choice == CloseHow::Park && antenna.can_park() {
                 self.send(index, Command::Park);
                 waits_for.push((id, CloseCondition::Parked));
                 continue;
@@ -47,15 +47,17 @@ impl Engine {
                 waits_for.push((id, CloseCondition::Still));
             }
         }
-        self.closing = Some(Closing { choice: how, waits_for, start: self.steady });
+        self.closing = Some(Closing { choice, waits_for, start: self.steady });
     }
 
     /// Takes an event of an antenna that the closing waits for.
     pub(super) fn take_closing_event(&mut self, id: AntennaId, event: &Event) {
         let Some(closing) = &mut self.closing else { return };
-        let Some(place) = closing.waits_for.iter().position(|(of, _)| *of == id) else { return };
-        let Some((_, wanted)) = closing.waits_for.get(place) else { return };
-        let is_done = match (wanted, event) {
+        let Some(place) = closing.waits_for.iter().position(|(antenna, _)| *antenna == id) else {
+            return;
+        };
+        let Some((_, condition)) = closing.waits_for.get(place) else { return };
+        let is_done = match (condition, event) {
             (CloseCondition::Still, Event::Stopped)
             | (CloseCondition::Parked, Event::Arrived(_)) => true,
             (_, Event::StopNotConfirmed)
@@ -81,11 +83,11 @@ impl Engine {
     pub(super) fn watch_closing(&mut self) {
         let Some(closing) = &self.closing else { return };
         let age = self.steady.saturating_duration_since(closing.start);
-        let fails = |(id, wanted): &(AntennaId, CloseCondition)| {
+        let fails = |(id, condition): &(AntennaId, CloseCondition)| {
             let Some(antenna) = self.place(*id).and_then(|place| self.antennas.get(place)) else {
                 return false;
             };
-            match wanted {
+            match condition {
                 CloseCondition::Still => age > STOPPED_IN,
                 CloseCondition::Parked => {
                     age > TAKEN_IN && antenna.shown.snapshot.intent != Intent::Park

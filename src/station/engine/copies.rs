@@ -53,7 +53,7 @@ pub(super) struct CopyWork {
 
 impl CopyWork {
     /// Copies go to a folder beside the station file.
-    pub(super) fn beside(station: Option<&Path>) -> Self {
+    pub(super) fn new(station: Option<&Path>) -> Self {
         let folder = station.map(|station| station.with_file_name("settings-copies"));
         Self { folder, ..Self::default() }
     }
@@ -68,11 +68,11 @@ impl CopyWork {
             controller: antenna.spec().key.to_owned(),
             saved_at: now,
         };
-        let held: &GroupStates = &antenna.snapshot.state.groups;
-        if held.values().all(|state| state.last_read.is_none()) {
+        let current: &GroupStates = &antenna.snapshot.state.groups;
+        if current.values().all(|state| state.last_read.is_none()) {
             return Err(format!("nothing was read from {name} yet"));
         }
-        let text = SettingsCopy::text(&head, antenna.groups(), held);
+        let text = SettingsCopy::text(&head, antenna.groups(), current);
         let stamp = now.strftime("%Y%m%dT%H%M%SZ");
         let path = folder.join(format!("{}-{stamp}.toml", slug(name)));
         self.queue.push(Task::Save { antenna: name.clone(), text, path });
@@ -110,11 +110,13 @@ impl CopyWork {
 
 /// Outcome of a job that breaks off, for those who wait for it.
 fn broken(task: &Task) -> Outcome {
-    let why = BrokeOff.to_string();
+    let reason = BrokeOff.to_string();
     match task {
-        Task::Save { antenna, .. } => Outcome::Saved { antenna: antenna.clone(), result: Err(why) },
+        Task::Save { antenna, .. } => {
+            Outcome::Saved { antenna: antenna.clone(), result: Err(reason) }
+        }
         Task::List { .. } => Outcome::Listed(Vec::new()),
-        Task::Read { path, .. } => Outcome::Read(path.clone(), Err(why)),
+        Task::Read { path, .. } => Outcome::Read(path.clone(), Err(reason)),
     }
 }
 
@@ -136,7 +138,8 @@ fn carry_out(task: Task, folder: Option<&Path>) -> Outcome {
             let copy = text(&path).map_err(|error| error.to_string()).and_then(|text| {
                 SettingsCopy::read(&text, controller, groups).map_err(|error| error.to_string())
             });
-            let copy = copy.map_err(|why| format!("{} cannot be used: {why}", path.display()));
+            let copy =
+                copy.map_err(|reason| format!("{} cannot be used: {reason}", path.display()));
             Outcome::Read(path, copy)
         }
     }
@@ -198,7 +201,7 @@ mod tests {
         let path = folder.path().join("x.toml");
         fs::write(&path, "a = 1").unwrap();
         let task = Task::Read { path: path.clone(), controller: "satrak", groups: &[] };
-        let Outcome::Read(_, Err(why)) = carry_out(task, None) else { panic!("it is none") };
-        assert!(why.contains("x.toml") && why.contains("version"), "{why}");
+        let Outcome::Read(_, Err(reason)) = carry_out(task, None) else { panic!("it is none") };
+        assert!(reason.contains("x.toml") && reason.contains("version"), "{reason}");
     }
 }

@@ -39,7 +39,7 @@ impl Demo {
         };
         let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
         let (end, ended) = tokio::sync::oneshot::channel::<()>();
-        let (tell, told) = mpsc::sync_channel(1);
+        let (tell, receiver) = mpsc::sync_channel(1);
         thread::Builder::new().name("azel-simulators".to_owned()).spawn(move || {
             runtime.block_on(async {
                 let (addresses, serving) = match serve(satrak).await {
@@ -54,8 +54,8 @@ impl Demo {
                 }
             });
         })?;
-        let gone = |_| io::Error::other("the simulators broke down");
-        let addresses = told.recv().map_err(gone)??;
+        let broken = |_| io::Error::other("the simulators broke down");
+        let addresses = receiver.recv().map_err(broken)??;
         Ok(Self { addresses, _end: end })
     }
 }

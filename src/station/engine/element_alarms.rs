@@ -79,12 +79,13 @@ fn max_age_d(scheduling: &Scheduling) -> f64 {
 /// newer elements.
 fn concerned(schedule: &Schedule, automatic: &[AntennaId]) -> Vec<(u32, Timestamp)> {
     let entries = schedule.entries.iter().filter(|entry| automatic.contains(&entry.antenna));
-    let taken = entries.map(|entry| (entry.pass.satellite, entry.start));
-    let is_old =
-        |why: &LeftOutReason| matches!(why, LeftOutReason::Refused(Refusal::OldElements { .. }));
+    let passes = entries.map(|entry| (entry.pass.satellite, entry.start));
+    let is_old = |reason: &LeftOutReason| {
+        matches!(reason, LeftOutReason::Refused(Refusal::OldElements { .. }))
+    };
     let is_left_out = |left: &&LeftOut| is_old(&left.reason) && !automatic.is_empty();
     let left_out = schedule.left_out.iter().filter(is_left_out);
-    taken.chain(left_out.map(|left| (left.pass.satellite, left.pass.aos))).collect()
+    passes.chain(left_out.map(|left| (left.pass.satellite, left.pass.aos))).collect()
 }
 
 /// Returns an alarm if elements are too old for their passes.
@@ -93,9 +94,9 @@ fn elements_old_alarm(
     max_days: f64,
     passes: impl Iterator<Item = (u32, Timestamp)>,
 ) -> Option<AlarmKind> {
-    let is_old = |(satellite, from): &(u32, Timestamp)| {
+    let is_old = |(satellite, start): &(u32, Timestamp)| {
         let elements = catalog.get(*satellite);
-        elements.is_some_and(|elements| elements.epoch_distance_s(*from) > max_days * DAY_S)
+        elements.is_some_and(|elements| elements.epoch_distance_s(*start) > max_days * DAY_S)
     };
     let old: BTreeSet<u32> = passes.filter(is_old).map(|(satellite, _)| satellite).collect();
     let name = catalog.get(*old.first()?)?.short_name().to_owned();
@@ -118,7 +119,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let (mut engine, _) = station(folder.path());
         let refused = Some(FetchProblem::LogIn);
-        for (failures, fetch_problem, wanted) in [
+        for (failures, fetch_problem, is_expected) in [
             (0, None, false),
             (1, None, false),
             (2, None, true),
@@ -143,7 +144,7 @@ mod tests {
             let is_source_alarm = |kind: &AlarmKind| matches!(kind, AlarmKind::SourceFails { .. });
             let mut alarms = engine.alarms.list().iter();
             let stands = alarms.any(|alarm| is_source_alarm(&alarm.kind) && !alarm.is_over());
-            assert_eq!(stands, wanted, "{failures}");
+            assert_eq!(stands, is_expected, "{failures}");
         }
     }
 
@@ -164,9 +165,9 @@ mod tests {
             )
         };
         assert_eq!(alarm(&[(NOAA_20, 6.9), (SUOMI_NPP, 0.0)]), None);
-        let both = [(NOAA_20, 6.0), (NOAA_20, 7.1), (SUOMI_NPP, 8.0), (NOAA_20, 9.0)];
-        let Some(AlarmKind::ElementsOld { others: 1, .. }) = alarm(&both) else {
-            panic!("{:?}", alarm(&both));
+        let two_satellites = [(NOAA_20, 6.0), (NOAA_20, 7.1), (SUOMI_NPP, 8.0), (NOAA_20, 9.0)];
+        let Some(AlarmKind::ElementsOld { others: 1, .. }) = alarm(&two_satellites) else {
+            panic!("{:?}", alarm(&two_satellites));
         };
         assert_eq!(alarm(&[(1, 100.0); 0]), None);
     }

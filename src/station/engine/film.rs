@@ -60,14 +60,14 @@ struct DrawnAntenna {
 }
 
 impl Picture for Snapshot {
-    fn at(&self) -> Moment {
+    fn moment(&self) -> Moment {
         self.moment
     }
 
     fn draw(&self, parts: &mut Parts) -> serde_json::Result<Value> {
         // All fields by name: a new one has to be drawn as well.
         let Self {
-            moment: at,
+            moment,
             time_sync,
             station,
             station_saved_at,
@@ -97,7 +97,7 @@ impl Picture for Snapshot {
         } = self;
         let drawn = Drawn {
             antennas: (antennas.iter())
-                .map(|antenna| DrawnAntenna::of(antenna, parts))
+                .map(|antenna| DrawnAntenna::new(antenna, parts))
                 .collect::<Result<_, _>>()?,
             station: parts.number(station)?,
             satellites: parts.number_with(&pass_lists.favourites.satellites, |satellites| {
@@ -129,7 +129,7 @@ impl Picture for Snapshot {
                 alarms: alarms.clone(),
                 record: record.clone(),
                 closing: closing.clone(),
-                ..Self::before_anything(*at)
+                ..Self::before_anything(*moment)
             },
         };
         serde_json::to_value(drawn)
@@ -190,7 +190,7 @@ fn without_unchanged(
 }
 
 impl DrawnAntenna {
-    fn of(antenna: &AntennaModel, parts: &mut Parts) -> serde_json::Result<Self> {
+    fn new(antenna: &AntennaModel, parts: &mut Parts) -> serde_json::Result<Self> {
         let (whole, newest) = antenna.errors.chunks();
         Ok(Self {
             chunks: whole.map(|chunk| parts.number(chunk)).collect::<Result<_, _>>()?,
@@ -206,7 +206,7 @@ impl DrawnAntenna {
 pub struct Projector {
     film: Film,
     /// Parts of the last pictures by run and number.
-    parts: HashMap<(i64, i64), Kept>,
+    parts: HashMap<(i64, i64), StoredPart>,
     lists: Option<PredictedAgain>,
     wires: Wires,
 }
@@ -215,10 +215,10 @@ pub struct Projector {
 #[derive(Default)]
 struct Wires {
     logs: Vec<(AntennaId, WireLog)>,
-    until: Timestamp,
+    end: Timestamp,
 }
 
-struct Kept {
+struct StoredPart {
     part: Arc<dyn Any + Send + Sync>,
     is_shown: bool,
 }
@@ -247,9 +247,9 @@ impl Projector {
         &mut self.film
     }
 
-    /// The snapshot that the station showed at `at`; `None` before the first.
-    pub fn at(&mut self, at: Timestamp) -> Result<Option<Snapshot>, FilmError> {
-        let Some(shown) = self.film.at(at)? else { return Ok(None) };
+    /// The snapshot that the station showed at `time`; `None` before the first.
+    pub fn seek(&mut self, time: Timestamp) -> Result<Option<Snapshot>, FilmError> {
+        let Some(shown) = self.film.seek(time)? else { return Ok(None) };
         let run = shown.run;
         let Drawn {
             mut shown,
@@ -270,25 +270,31 @@ impl Projector {
             copies,
         } = drawn(shown.picture)?;
         let station = self.part_with(run, station, |content| {
-            let mut from = serde_json::Deserializer::from_slice(content);
-            written::station::deserialize::<_, Station>(&mut from)
+            let mut deserializer = serde_json::Deserializer::from_slice(content);
+            written::station::deserialize::<_, Station>(&mut deserializer)
         })?;
         let elements = self.part(run, satellites)?;
         for (antenna, drawn) in shown.antennas.iter_mut().zip(antennas) {
-            let chunks: Vec<_> =
-                drawn.chunks.iter().map(|of| self.part(run, *of)).collect::<Result<_, _>>()?;
+            let chunks: Vec<_> = drawn
+                .chunks
+                .iter()
+                .map(|chunk| self.part(run, *chunk))
+                .collect::<Result<_, _>>()?;
             antenna.errors = Errors::of_chunks(chunks, drawn.newest);
-            let tracks: Vec<Arc<PastTrack>> =
-                drawn.past_tracks.iter().map(|of| self.part(run, *of)).collect::<Result<_, _>>()?;
+            let tracks: Vec<Arc<PastTrack>> = drawn
+                .past_tracks
+                .iter()
+                .map(|chunk| self.part(run, *chunk))
+                .collect::<Result<_, _>>()?;
             antenna.past_tracks = tracks.into_iter().collect();
         }
         shown.sources = self.part(run, sources)?;
-        shown.older_sets = older_sets.map(|of| self.part(run, of)).transpose()?;
-        shown.pointing_fitted = pointing_fitted.map(|of| self.part(run, of)).transpose()?;
-        shown.peaks = peaks.map(|of| self.part(run, of)).transpose()?.unwrap_or_default();
+        shown.older_sets = older_sets.map(|chunk| self.part(run, chunk)).transpose()?;
+        shown.pointing_fitted = pointing_fitted.map(|chunk| self.part(run, chunk)).transpose()?;
+        shown.peaks = peaks.map(|chunk| self.part(run, chunk)).transpose()?.unwrap_or_default();
         shown.reminders = self.part(run, reminders)?;
         shown.schedule = self.part(run, schedule)?;
-        shown.swap = swap.map(|of| self.part(run, of)).transpose()?;
+        shown.swap = swap.map(|chunk| self.part(run, chunk)).transpose()?;
         shown.day = self.part(run, day)?;
         shown.uploads = self.part(run, uploads)?;
         shown.source_tests = self.part(run, source_tests)?;
@@ -296,31 +302,31 @@ impl Projector {
         shown.copies = self.part(run, copies)?;
         self.predict(&mut shown, &station, elements);
         shown.station = station;
-        self.parts.retain(|_, kept| std::mem::take(&mut kept.is_shown));
+        self.parts.retain(|_, stored| std::mem::take(&mut stored.is_shown));
         Ok(Some(shown))
     }
 
-    /// The lines on the links of the antennas of `shown`, of some minutes up to `at`.
+    /// The lines on the links of the antennas of `shown`, of some minutes up to `time`.
     pub fn wires(
         &mut self,
         shown: &Snapshot,
-        at: Timestamp,
+        time: Timestamp,
     ) -> Result<Vec<(AntennaId, WireLog)>, FilmError> {
         let wires = &mut self.wires;
-        let passed_s = seconds_between(wires.until, at);
+        let passed_s = seconds_between(wires.end, time);
         let antennas = shown.antennas.iter().map(AntennaModel::id);
         let goes_on = (0.0..WIRE_S).contains(&passed_s)
             && antennas.clone().eq(wires.logs.iter().map(|(antenna, _)| *antenna));
         if !goes_on {
             wires.logs = antennas.map(|antenna| (antenna, WireLog::default())).collect();
-            wires.until = add_seconds(at, -WIRE_S);
+            wires.end = add_seconds(time, -WIRE_S);
         }
         for (antenna, log) in &wires.logs {
-            for line in self.film.lines(*antenna, wires.until, at)? {
+            for line in self.film.lines(*antenna, wires.end, time)? {
                 log.push(line);
             }
         }
-        wires.until = at;
+        wires.end = time;
         Ok(wires.logs.clone())
     }
 
@@ -337,14 +343,14 @@ impl Projector {
         number: i64,
         read: impl FnOnce(&[u8]) -> serde_json::Result<T>,
     ) -> Result<Arc<T>, FilmError> {
-        if let Some(kept) = self.parts.get_mut(&(run, number))
-            && let Ok(part) = Arc::clone(&kept.part).downcast()
+        if let Some(stored) = self.parts.get_mut(&(run, number))
+            && let Ok(part) = Arc::clone(&stored.part).downcast()
         {
-            kept.is_shown = true;
+            stored.is_shown = true;
             return Ok(part);
         }
         let part = Arc::new(read(&self.film.part(run, number)?)?);
-        self.parts.insert((run, number), Kept { part: part.clone(), is_shown: true });
+        self.parts.insert((run, number), StoredPart { part: part.clone(), is_shown: true });
         Ok(part)
     }
 

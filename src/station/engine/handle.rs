@@ -39,9 +39,9 @@ const STANDS: Duration = Duration::from_secs(2);
 /// of the request.
 pub(super) struct Request {
     pub(super) command: Command,
-    pub(super) by: CommandOrigin,
+    pub(super) origin: CommandOrigin,
     pub(super) number: u64,
-    pub(super) at: Instant,
+    pub(super) instant: Instant,
 }
 
 impl Request {
@@ -71,9 +71,9 @@ pub(super) struct Urgent {
 /// A STOP that was already sent to the sessions.
 #[derive(Debug, Clone)]
 pub struct Stopped {
-    pub at: Instant,
+    pub instant: Instant,
     /// Origin of the STOP.
-    pub by: CommandOrigin,
+    pub origin: CommandOrigin,
     /// Antennas that it was sent to.
     pub antennas: Vec<AntennaId>,
     /// Antennas that another Azel drives; the STOP is passed on to it.
@@ -113,7 +113,7 @@ pub struct Client {
     orders: Orders,
     published: watch::Receiver<Published>,
     clock: Clock,
-    by: CommandOrigin,
+    origin: CommandOrigin,
 }
 
 impl Client {
@@ -123,15 +123,15 @@ impl Client {
         orders: Orders,
         published: watch::Receiver<Published>,
         clock: Clock,
-        by: CommandOrigin,
+        origin: CommandOrigin,
     ) -> Self {
-        Self { requests, urgent: Arc::default(), woken, orders, published, clock, by }
+        Self { requests, urgent: Arc::default(), woken, orders, published, clock, origin }
     }
 
     /// The same for somebody else, as the record tells it.
     #[must_use]
-    pub fn acting_for(self, by: CommandOrigin) -> Self {
-        Self { by, ..self }
+    pub fn acting_for(self, origin: CommandOrigin) -> Self {
+        Self { origin, ..self }
     }
 
     /// Time by the clocks of the station.
@@ -148,7 +148,12 @@ impl Client {
             self.urgent().has_turned_away = true;
             return Err(command);
         };
-        place.send(Request { command, by: self.by, number, at: self.clock.now().steady });
+        place.send(Request {
+            command,
+            origin: self.origin,
+            number,
+            instant: self.clock.now().steady,
+        });
         Ok(())
     }
 
@@ -167,8 +172,8 @@ impl Client {
         // The present antennas of the station, whatever is displayed.
         let ends = Arc::clone(&self.published.borrow().ends);
         let mut stopped = Stopped {
-            at: self.clock.now().steady,
-            by: self.by,
+            instant: self.clock.now().steady,
+            origin: self.origin,
             antennas: Vec::new(),
             elsewhere: Vec::new(),
             tracked: Vec::new(),
@@ -176,8 +181,8 @@ impl Client {
             newest_session: ends.iter().map(|ends| ends.session).max().unwrap_or_default(),
         };
         let mut is_elsewhere = false;
-        for AntennaEnds { id, stopper, is_elsewhere: held, .. } in ends.iter() {
-            if *held && one.is_none_or(|one| *id == one) {
+        for AntennaEnds { id, stopper, is_elsewhere: is_held, .. } in ends.iter() {
+            if *is_held && one.is_none_or(|one| *id == one) {
                 is_elsewhere = true;
                 stopped.elsewhere.push(*id);
             } else if one.map_or_else(|| stopper.is_wanted(), |one| *id == one) {
@@ -255,8 +260,8 @@ impl Handle {
             let _ = tell_ended.send(());
             at_end();
         })?;
-        let gone = |_| io::Error::other("the station broke down");
-        let client = begin.recv().map_err(gone)??;
+        let broken = |_| io::Error::other("the station broke down");
+        let client = begin.recv().map_err(broken)??;
         let shown = client.published.borrow().clone();
         Ok(Self { client, requests, shown, events, ended })
     }
@@ -290,8 +295,8 @@ impl Handle {
 
     /// The wire log of an antenna.
     pub fn wire(&self, antenna: AntennaId) -> Option<WireLog> {
-        let of = self.shown.ends.iter().find(|ends| ends.id == antenna);
-        of.map(|ends| ends.wire.clone())
+        let antenna_ends = self.shown.ends.iter().find(|ends| ends.id == antenna);
+        antenna_ends.map(|ends| ends.wire.clone())
     }
 
     /// Takes the oldest unread event.

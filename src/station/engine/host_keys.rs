@@ -38,15 +38,15 @@ pub(super) enum Decision {
 
 /// Starts writing the decision to the file of known hosts. The job returns why that failed.
 pub(super) fn decide(
-    known: &KnownHosts,
+    known_hosts: &KnownHosts,
     decision: Decision,
     wake: Wake,
 ) -> Job<Result<(), String>> {
-    let known = known.clone();
+    let known_hosts = known_hosts.clone();
     Job::start("azel-known-hosts", wake, move |_| {
         let done = match &decision {
-            Decision::Trust(offered) => known.pin(offered),
-            Decision::Forget(peer) => known.forget(&peer.host, peer.port),
+            Decision::Trust(offered) => known_hosts.pin(offered),
+            Decision::Forget(peer) => known_hosts.forget(&peer.host, peer.port),
         };
         done.map_err(|error| error.to_string())
     })

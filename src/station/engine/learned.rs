@@ -8,7 +8,7 @@ use super::Engine;
 use crate::{
     clock::Instant,
     contract::driver::{AxisLessons, Unit},
-    promises::{FileState, Kept},
+    promises::{FileState, PromisedFile},
     station,
 };
 
@@ -87,15 +87,15 @@ impl LearnedDrives {
     }
 
     fn axes(&self, unit: &Unit) -> [AxisLessons; 2] {
-        let known = self.units.iter().find(|known| known.belongs_to(unit));
-        known.map(|known| known.axis).unwrap_or_default()
+        let unit_drives = self.units.iter().find(|unit_drives| unit_drives.belongs_to(unit));
+        unit_drives.map(|unit_drives| unit_drives.axis).unwrap_or_default()
     }
 
     fn note(&mut self, unit: Unit, axis: [AxisLessons; 2]) {
-        let place = self.units.iter().position(|known| known.belongs_to(&unit));
+        let place = self.units.iter().position(|unit_drives| unit_drives.belongs_to(&unit));
         let is_learned = axis != <[AxisLessons; 2]>::default();
         match (place.and_then(|place| self.units.get_mut(place)), place) {
-            (Some(known), _) if is_learned => known.axis = axis,
+            (Some(unit_drives), _) if is_learned => unit_drives.axis = axis,
             (_, Some(place)) => {
                 self.units.remove(place);
             }
@@ -156,7 +156,7 @@ impl Engine {
         self.note_learned_drives();
         let promises = self.driver.debts().promises();
         let LearnedDrives { units, requested, .. } = &self.learned_drives;
-        let has_failed = matches!(promises.kept(&path), Kept::Failed(_));
+        let has_failed = matches!(promises.promised(&path), PromisedFile::Failed(_));
         if units == requested && !has_failed {
             return;
         }

@@ -14,7 +14,7 @@ use crate::{
 };
 
 /// Maximum number of tests that are kept.
-const KEPT: usize = 16;
+const MAX_TESTS: usize = 16;
 
 /// Runs the tests, each on a thread of its own.
 pub(super) struct Runner {
@@ -30,11 +30,11 @@ impl Runner {
 
     /// Starts a test; `lock` keeps other programs off the unit until it ends.
     fn begin(&mut self, antenna: &Antenna, lock: Arc<dyn UnitLock>) {
-        let (of, outside) = (antenna.clone(), self.outside.clone());
+        let (config, outside) = (antenna.clone(), self.outside.clone());
         let work = move |_: &(dyn Fn() -> bool + Sync)| {
             let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build();
             let Ok(runtime) = runtime else { return not_begun() };
-            let finding = runtime.block_on(test_link(&of, &outside, lock));
+            let finding = runtime.block_on(test_link(&config, &outside, lock));
             // A port that does not open, or a name that is not found, holds up nothing.
             runtime.shutdown_background();
             finding
@@ -45,14 +45,14 @@ impl Runner {
 
     /// Takes the outcomes that have come in.
     pub(super) fn poll(&mut self, shown: &mut [LinkTest]) {
-        let at = self.outside.clock.utc();
+        let time = self.outside.clock.utc();
         for (id, job) in &mut self.under_way {
             let Some(end) = Job::take(job) else { continue };
             let finding = end.unwrap_or_else(|broke_off| {
                 LinkFinding::NotOpened(LinkFault::Other(broke_off.to_string()))
             });
             if let Some(test) = shown.iter_mut().find(|test| test.antenna.id == *id) {
-                test.stage = LinkTestStage::Done { finding, time: at };
+                test.stage = LinkTestStage::Done { finding, time };
             }
         }
         self.under_way.retain(|(_, job)| job.is_some());
@@ -70,15 +70,15 @@ impl Engine {
     pub(super) fn test_link(&mut self, antenna: Antenna) {
         let tests = &self.link_tests;
         let place = tests.iter().position(|test| test.antenna.id == antenna.id);
-        let known = place.and_then(|place| tests.get(place));
-        if known.is_some_and(|known| known.stage == LinkTestStage::Working) {
+        let link_test = place.and_then(|place| tests.get(place));
+        if link_test.is_some_and(|link_test| link_test.stage == LinkTestStage::Working) {
             return;
         }
         let unit = Unit::new(&antenna);
         let is_ours = self
             .antennas
             .iter()
-            .any(|of| of.shown.held_by.is_none() && Unit::new(&of.shown.config) == unit);
+            .any(|other| other.shown.held_by.is_none() && Unit::new(&other.shown.config) == unit);
         let stage = if is_ours {
             LinkTestStage::InUse
         } else {
@@ -87,12 +87,12 @@ impl Engine {
                     self.link_test_runner.begin(&antenna, Arc::new(claim));
                     LinkTestStage::Working
                 }
-                Err(elsewhere) => LinkTestStage::Elsewhere(elsewhere.by),
+                Err(elsewhere) => LinkTestStage::Elsewhere(elsewhere.holder),
             }
         };
         if let Some(place) = place {
             self.link_tests.remove(place);
-        } else if self.link_tests.len() >= KEPT {
+        } else if self.link_tests.len() >= MAX_TESTS {
             self.link_tests.remove(0);
         }
         self.link_tests.push(LinkTest { antenna, stage });

@@ -81,9 +81,9 @@ impl Engine {
         }
         let now = self.now;
         self.alarms.clear(None, self.now, |kind| matches!(kind, AlarmKind::LockOuts(_)));
-        if let Err(why) = saved {
-            tracing::error!("{why}");
-            let text = format!("what is locked out is not kept for the next start: {why}");
+        if let Err(reason) = saved {
+            tracing::error!("{reason}");
+            let text = format!("what is locked out is not kept for the next start: {reason}");
             self.alarms.raise(None, AlarmKind::LockOuts(text), now);
         }
     }
@@ -95,12 +95,12 @@ impl Engine {
         if antenna.shown.held_by.is_some() {
             return;
         }
-        let wanted = self.lock_outs.find(&antenna.shown.config.connection);
-        let told = antenna.handle.snapshot();
-        if told.lock_out.as_ref() == wanted {
+        let lock_out = self.lock_outs.find(&antenna.shown.config.connection);
+        let snapshot = antenna.handle.snapshot();
+        if snapshot.lock_out.as_ref() == lock_out {
             return;
         }
-        let command = wanted.cloned().map_or(Command::Unlock, Command::LockOut);
+        let command = lock_out.cloned().map_or(Command::Unlock, Command::LockOut);
         if antenna.handle.send(command).is_err() {
             tracing::warn!(
                 antenna = antenna.shown.config.name,

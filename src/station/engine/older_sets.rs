@@ -13,25 +13,25 @@ use crate::{
 /// The reading of older sets.
 #[derive(Default)]
 pub(super) struct Reading {
-    wanted: Option<u32>,
+    requested: Option<u32>,
     job: Option<Job<OlderSets>>,
 }
 
 impl Engine {
     /// Reads the older sets of another object.
     pub(super) fn list_older_sets(&mut self, catalog_number: u32) {
-        self.older_reading.wanted = Some(catalog_number);
+        self.older_reading.requested = Some(catalog_number);
         self.read_older_sets();
     }
 
     /// Reads the older sets of the same object anew.
     pub(super) fn read_older_sets(&mut self) {
-        let Some(catalog_number) = self.older_reading.wanted else { return };
+        let Some(catalog_number) = self.older_reading.requested else { return };
         let Some(folder) = self.places.library() else { return };
-        let history = History::beside(folder);
+        let history = History::new(folder);
         let read = move |_: &(dyn Fn() -> bool + Sync)| OlderSets {
             catalog_number,
-            sets: history.of(catalog_number),
+            sets: history.sets_of(catalog_number),
         };
         self.older_reading.job = Some(Job::start("azel-older-sets", Arc::clone(&self.wake), read));
     }
@@ -65,15 +65,15 @@ fn choose(
     folder: &Path,
     catalog: &Catalog,
 ) -> Result<(), String> {
-    let kept = match choice {
+    let result = match choice {
         SetChoice::Older { catalog_number, epoch } => {
-            let gone = || format!("{catalog_number}: the chosen set is not held any more");
-            let newest = catalog.get(catalog_number).ok_or_else(gone)?.epoch();
-            let held = History::beside(folder).of(catalog_number);
-            let set = held.into_iter().find(|set| set.elements.epoch() == epoch);
-            exceptions.begin(set.ok_or_else(gone)?, newest)
+            let missing = || format!("{catalog_number}: the chosen set is not held any more");
+            let newest = catalog.get(catalog_number).ok_or_else(missing)?.epoch();
+            let older_sets = History::new(folder).sets_of(catalog_number);
+            let set = older_sets.into_iter().find(|set| set.elements.epoch() == epoch);
+            exceptions.begin(set.ok_or_else(missing)?, newest)
         }
         SetChoice::Newest { catalog_number } => exceptions.end(catalog_number),
     };
-    kept.map_err(|error| format!("the choice of a set is not kept: {error}"))
+    result.map_err(|error| format!("the choice of a set is not kept: {error}"))
 }

@@ -31,15 +31,15 @@ pub(super) fn pass_for(
     site: Site,
     now: Timestamp,
 ) -> Result<OnBoardPass, Refusal> {
-    let (from, until) = window(predicted, antenna, site, now)?;
+    let (start, end) = window(predicted, antenna, site, now)?;
     let elements = predicted.satellite.elements.clone();
     let target = TrackTarget {
         catalog_number: elements.catalog_number(),
         name: elements.name().to_owned(),
         element_file: antenna.connection.element_file(),
         // For a pass under way the window begins now.
-        start: from.max(add_seconds(now, -1.0)),
-        end: until,
+        start: start.max(add_seconds(now, -1.0)),
+        end,
     };
     Ok(OnBoardPass { target, elements, site, is_agreed: false })
 }
@@ -85,16 +85,16 @@ impl Engine {
         }
         let selected = self.attention.selected.and_then(|key| self.pass(key));
         let predicted = selected.or_else(|| self.pass_lists.next(self.now))?;
-        let of = (predicted.key(), rounded(unit));
-        if let Some(before) = antenna.judged.as_ref().filter(|judged| judged.basis == of) {
+        let basis = (predicted.key(), rounded(unit));
+        if let Some(before) = antenna.judged.as_ref().filter(|judged| judged.basis == basis) {
             return Some(before.clone());
         }
         let pass = pass_for(predicted, &antenna.config, self.station.site, self.now);
         let judge = pass
             .ok()
             .and_then(|pass| Judge::new(pass, Ability::from_antenna(&antenna.config)).ok());
-        let found = judge.map(|judge| Arc::new(judge.supervise(&of.1, false)));
-        Some(Judged { found, basis: of })
+        let found = judge.map(|judge| Arc::new(judge.supervise(&basis.1, false)));
+        Some(Judged { found, basis })
     }
 }
 
@@ -104,18 +104,18 @@ impl Engine {
         let CatalogState::Ready(catalog) = &self.catalog else { return };
         let Some(antenna) = self.antennas.get_mut(index) else { return };
         let shown = &mut antenna.shown;
-        let held = shown.snapshot.state.on_board.satellite.as_ref();
-        let elements = held.and_then(|held| catalog.get(held.catalog_number));
+        let satellite = shown.snapshot.state.on_board.satellite.as_ref();
+        let elements = satellite.and_then(|satellite| catalog.get(satellite.catalog_number));
         let site = self.station.site;
         let is_told = match (elements, &shown.orbit) {
-            (Some(elements), Some(told)) => told.elements == *elements && told.site == site,
+            (Some(elements), Some(orbit)) => orbit.elements == *elements && orbit.site == site,
             (None, None) => true,
             _ => false,
         };
         if is_told {
             return;
         }
-        let orbit = elements.map(|it| Arc::new(KnownOrbit { elements: it.clone(), site }));
+        let orbit = elements.map(|set| Arc::new(KnownOrbit { elements: set.clone(), site }));
         shown.orbit.clone_from(&orbit);
         antenna.handle.know_orbit(orbit);
     }
@@ -123,47 +123,51 @@ impl Engine {
     /// Raises and clears alarms about on-board track, present or judged.
     pub(super) fn watch_on_board(&mut self, index: usize) {
         let Some(Antenna { shown: antenna, .. }) = self.antennas.get(index) else { return };
-        let (alarms, now, of) = (&mut self.alarms, self.now, Some(antenna.id()));
+        let (alarms, now, antenna_id) = (&mut self.alarms, self.now, Some(antenna.id()));
         let on_board = antenna.snapshot.on_board.as_ref().and_then(|view| {
-            let off = view.missing?;
-            Some((off, view.found.cause_of(off).cloned()))
+            let deviation = view.missing?;
+            Some((deviation, view.found.cause_of(deviation).cloned()))
         });
         let from_here = antenna.snapshot.program_track.as_ref().and_then(|view| view.missing);
-        let missed = on_board.or(from_here.map(|off| (off, None))).map(|(off, reported)| {
-            let cause = off_because(antenna, off, reported.map(OffTargetCause::Reported));
-            AlarmKind::OffTarget { deviation: off, cause }
-        });
+        let missed =
+            on_board.or(from_here.map(|angle| (angle, None))).map(|(deviation, reported)| {
+                let cause = off_because(antenna, deviation, reported.map(OffTargetCause::Reported));
+                AlarmKind::OffTarget { deviation, cause }
+            });
         let is_missed = |kind: &AlarmKind| matches!(kind, AlarmKind::OffTarget { .. });
-        alarms.follow(of, now, missed, is_missed);
+        alarms.follow(antenna_id, now, missed, is_missed);
         let differs = antenna.misses().and_then(|found| found.causes.first());
         // Two causes of nearly the same size would ring in turn: the standing one goes on.
         let standing = antenna.misses().into_iter().flat_map(|found| &found.causes).find(|cause| {
             let kind = AlarmKind::UnitDiffers((*cause).clone());
-            let is_large =
-                differs.is_some_and(|first| first.max_error.is_none_or(|off| cause.can_make(off)));
-            is_large && alarms.stands(of, &kind)
+            let is_large = differs.is_some_and(|first| {
+                first.max_error.is_none_or(|max_error| cause.can_make(max_error))
+            });
+            is_large && alarms.stands(antenna_id, &kind)
         });
         let differs = standing.or(differs).cloned().map(AlarmKind::UnitDiffers);
-        alarms.follow(of, now, differs, |kind| matches!(kind, AlarmKind::UnitDiffers(_)));
+        alarms.follow(antenna_id, now, differs, |kind| matches!(kind, AlarmKind::UnitDiffers(_)));
         let left = antenna.snapshot.unit_offsets.as_ref();
         let left = left.and_then(|unit| Some((unit.offsets, unit.left.clone()?)));
         let left = left.filter(|(offsets, _)| !offsets.is_none());
-        let left = left.map(|(offsets, why)| AlarmKind::OffsetsLeft { offsets, reason: why });
-        alarms.follow(of, now, left, |kind| matches!(kind, AlarmKind::OffsetsLeft { .. }));
+        let left = left.map(|(offsets, reason)| AlarmKind::OffsetsLeft { offsets, reason });
+        alarms.follow(antenna_id, now, left, |kind| matches!(kind, AlarmKind::OffsetsLeft { .. }));
         let is_loading = matches!(self.catalog, CatalogState::Loading);
         let not_compared = not_compared(antenna).filter(|_| !is_loading);
-        alarms.follow(of, now, not_compared, |kind| matches!(kind, AlarmKind::NotCompared { .. }));
+        alarms.follow(antenna_id, now, not_compared, |kind| {
+            matches!(kind, AlarmKind::NotCompared { .. })
+        });
     }
 }
 
-/// Why the antenna is `off` its satellite: what its positions show, such as an axis that stands, or
+/// Why the antenna is `deviation` its satellite: what its positions show, such as an axis that stands, or
 /// else what the unit reports of itantenna.
 pub(super) fn off_because(
     antenna: &AntennaModel,
-    off: Angle,
+    deviation: Angle,
     reported: Option<OffTargetCause>,
 ) -> Option<OffTargetCause> {
-    let explained = antenna.explained.as_ref().filter(|explained| explained.can_make(off));
+    let explained = antenna.explained.as_ref().filter(|explained| explained.can_make(deviation));
     explained.cloned().map(OffTargetCause::Measured).or(reported)
 }
 
@@ -176,8 +180,8 @@ fn not_compared(antenna: &AntennaModel) -> Option<AlarmKind> {
         return None;
     }
     match &state.on_board.satellite {
-        Some(held) if held.catalog_number == 0 && held.name.is_empty() => None,
-        Some(held) => Some(AlarmKind::NotCompared { satellite: Some(held.name.clone()) }),
+        Some(unnamed) if unnamed.catalog_number == 0 && unnamed.name.is_empty() => None,
+        Some(named) => Some(AlarmKind::NotCompared { satellite: Some(named.name.clone()) }),
         // A unit that takes satellites from here soon reports which one it holds.
         None if antenna.variant().capabilities.has_program => None,
         None => Some(AlarmKind::NotCompared { satellite: None }),

@@ -16,8 +16,8 @@ pub enum CannotOpen {
     Missing(PathBuf),
     #[error(transparent)]
     Unread(LoadError),
-    #[error("it is open in {by}, close it there first: {}", path.display())]
-    Held { by: HeldBy, path: PathBuf },
+    #[error("it is open in {holder}, close it there first: {}", path.display())]
+    Held { holder: HeldBy, path: PathBuf },
 }
 
 /// Returns the name of the station that `settings` would open.
@@ -28,8 +28,8 @@ pub fn look_at(settings: &Settings) -> Result<String, CannotOpen> {
         error => CannotOpen::Unread(error),
     })?;
     let folders = settings.claims.as_ref().map(|(folders, _)| folders);
-    if let Some(by) = folders.and_then(|folders| holder_of_station(folders, &path)) {
-        return Err(CannotOpen::Held { by, path });
+    if let Some(holder) = folders.and_then(|folders| holder_of_station(folders, &path)) {
+        return Err(CannotOpen::Held { holder, path });
     }
     Ok(loaded.station.name)
 }

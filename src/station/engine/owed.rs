@@ -23,7 +23,9 @@ impl Engine {
     /// where it owes that, if no antenna has the unit: each has a session that ends once it is paid.
     pub(super) fn pay_left_debts(&mut self) {
         let debts = self.driver.debts();
-        let has_it = |unit: &Unit| self.station.antennas.iter().any(|of| Unit::new(of) == *unit);
+        let has_it = |unit: &Unit| {
+            self.station.antennas.iter().any(|configured| Unit::new(configured) == *unit)
+        };
         let left: BTreeSet<Unit> =
             debts.with_auto_track().into_iter().chain(debts.left_moving()).collect();
         for unit in left.into_iter().filter(|unit| !has_it(unit)) {
@@ -65,8 +67,8 @@ pub(super) fn strangers<'a>(
     debts: &Debts,
     antennas: impl Iterator<Item = &'a Antenna>,
 ) -> Vec<AlarmKind> {
-    let known: Vec<Unit> = antennas.map(Unit::new).collect();
-    let is_strange = |unit: &Unit| !known.contains(unit);
+    let units: Vec<Unit> = antennas.map(Unit::new).collect();
+    let is_strange = |unit: &Unit| !units.contains(unit);
     let stops: BTreeSet<Unit> = debts.units().into_iter().chain(debts.left_moving()).collect();
     let stops = stops.into_iter().filter(is_strange).map(AlarmKind::Owed);
     let auto_track = debts.with_auto_track().into_iter().filter(is_strange);
@@ -100,24 +102,24 @@ mod tests {
 
     #[test]
     fn a_unit_of_no_antenna_is_named_until_its_debts_are_paid() {
-        let kept = Antenna::satrak("Dish", "10.0.0.5:4001");
-        let gone = Antenna::genius("Mast", "10.0.0.6:9006");
+        let present = Antenna::satrak("Dish", "10.0.0.5:4001");
+        let removed = Antenna::genius("Mast", "10.0.0.6:9006");
         let left = Antenna::satrak("Dish", "10.0.0.7:4001");
         let debts = Debts::default();
-        for antenna in [&kept, &left] {
+        for antenna in [&present, &left] {
             debts.owe_auto_track_off(&Unit::new(antenna));
         }
-        for antenna in [&kept, &gone] {
+        for antenna in [&present, &removed] {
             debts.owe(&Unit::new(antenna));
         }
         let mut alarms = Alarms::default();
         for _ in 0..3 {
-            let strangers = strangers(&debts, std::iter::once(&kept));
+            let strangers = strangers(&debts, std::iter::once(&present));
             tell(&mut alarms, strangers, Timestamp::UNIX_EPOCH);
         }
-        let wanted =
-            [AlarmKind::Owed(Unit::new(&gone)), AlarmKind::AutoTrackOwed(Unit::new(&left))];
-        assert_eq!(standing(&alarms), wanted.iter().collect::<Vec<_>>());
+        let expected =
+            [AlarmKind::Owed(Unit::new(&removed)), AlarmKind::AutoTrackOwed(Unit::new(&left))];
+        assert_eq!(standing(&alarms), expected.iter().collect::<Vec<_>>());
         tell(&mut alarms, Vec::new(), Timestamp::UNIX_EPOCH);
         assert!(standing(&alarms).is_empty());
     }
@@ -135,9 +137,9 @@ mod tests {
         left("10.0.0.5:4001").unwrap();
         left("10.0.0.7:4001").unwrap();
         let debts = Debts::marked_in(Some(folder.path().to_owned()));
-        let kept = Antenna::satrak("Dish", "10.0.0.5:4001");
+        let present = Antenna::satrak("Dish", "10.0.0.5:4001");
         let mut alarms = Alarms::default();
-        let strangers = strangers(&debts, std::iter::once(&kept));
+        let strangers = strangers(&debts, std::iter::once(&present));
         tell(&mut alarms, strangers, Timestamp::UNIX_EPOCH);
         let stranger = Antenna::satrak("Dish", "10.0.0.7:4001");
         assert_eq!(standing(&alarms), [&AlarmKind::OffsetsOwed(Unit::new(&stranger))]);

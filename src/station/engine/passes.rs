@@ -55,14 +55,14 @@ impl Searches {
 
     /// Made anew where the catalog or the station is another.
     fn key_of_favourites(&mut self, catalog: &Arc<Catalog>, station: &Arc<Station>) -> SearchKey {
-        let is_of = |(of, key): &(Arc<Station>, SearchKey)| {
-            Arc::ptr_eq(of, station) && Arc::ptr_eq(&key.catalog, catalog)
+        let is_of = |(searched, key): &(Arc<Station>, SearchKey)| {
+            Arc::ptr_eq(searched, station) && Arc::ptr_eq(&key.catalog, catalog)
         };
-        let known = self.key.take().filter(is_of);
-        let known = known
+        let previous = self.key.take().filter(is_of);
+        let previous = previous
             .unwrap_or_else(|| (Arc::clone(station), SearchKey::of_favourites(catalog, station)));
-        let key = known.1.clone();
-        self.key = Some(known);
+        let key = previous.1.clone();
+        self.key = Some(previous);
         key
     }
 

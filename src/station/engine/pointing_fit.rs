@@ -39,7 +39,7 @@ enum PeaksState {
     Reading(Job<Result<Peaks, RecordError>>),
     Unread {
         again: Instant,
-        why: String,
+        reason: String,
     },
     Known,
 }
@@ -64,13 +64,13 @@ impl PointingWork {
                 Counting::Peaks(self.peaks.for_antenna(antenna).copied().collect())
             }
             PeaksState::Reading(_) => Counting::NotYet,
-            PeaksState::Unread { why, .. } => Counting::Unread(why.clone()),
+            PeaksState::Unread { reason, .. } => Counting::Unread(reason.clone()),
         }
     }
 
     fn take_peaks(&mut self, again: Instant) {
         let PeaksState::Reading(job) = &self.peaks_state else { return };
-        let why = match job.end() {
+        let reason = match job.end() {
             None => return,
             Some(Ok(Ok(mut read))) => {
                 // Peaks that were entered during the read.
@@ -83,7 +83,7 @@ impl PointingWork {
             Some(Ok(Err(error))) => error.to_string(),
             Some(Err(error)) => error.to_string(),
         };
-        self.peaks_state = PeaksState::Unread { again, why };
+        self.peaks_state = PeaksState::Unread { again, reason };
     }
 }
 
@@ -117,8 +117,8 @@ impl Engine {
     }
 
     /// Publishes the pointing model that fits the recorded passes and the peaks of `antenna` best,
-    /// `without` some terms.
-    pub(super) fn fit_pointing(&mut self, antenna: AntennaId, without: Vec<Term>) {
+    /// `excluded` some terms.
+    pub(super) fn fit_pointing(&mut self, antenna: AntennaId, excluded: Vec<Term>) {
         let path = self.record_file();
         let work = &mut self.pointing_work;
         (work.job, work.waiting) = (None, None);
@@ -129,18 +129,19 @@ impl Engine {
         let peaks = match work.counting(antenna) {
             Counting::Peaks(peaks) => peaks,
             Counting::NotYet => {
-                work.waiting = Some((antenna, without));
+                work.waiting = Some((antenna, excluded));
                 return work.tell(antenna, None);
             }
-            Counting::Unread(why) => {
-                let found = Err(format!("the peaks of the Sun and the Moon cannot be read: {why}"));
+            Counting::Unread(reason) => {
+                let found =
+                    Err(format!("the peaks of the Sun and the Moon cannot be read: {reason}"));
                 return work.tell(antenna, Some(found));
             }
         };
         let site = self.station.site;
         let job = Job::start("azel-fit-pointing", Arc::clone(&self.wake), move |_| {
             let all = Timestamp::MIN..=Timestamp::MAX;
-            let fit = record::fit_pointing(&path, antenna, site, &all, &peaks, without);
+            let fit = record::fit_pointing(&path, antenna, site, &all, &peaks, excluded);
             PointingFitted { antenna, found: Some(fit.map_err(|error| error.to_string())) }
         });
         work.job = Some(job);
@@ -153,9 +154,9 @@ impl Engine {
         }
         self.pointing_work.take_peaks(self.steady + AGAIN);
         if !matches!(self.pointing_work.peaks_state, PeaksState::Reading(_))
-            && let Some((antenna, without)) = self.pointing_work.waiting.take()
+            && let Some((antenna, excluded)) = self.pointing_work.waiting.take()
         {
-            self.fit_pointing(antenna, without);
+            self.fit_pointing(antenna, excluded);
         }
         let work = &mut self.pointing_work;
         match Job::take(&mut work.job) {
@@ -180,8 +181,8 @@ mod tests {
     const ANTENNA: AntennaId = AntennaId(3);
 
     fn peaks() -> (Peak, Peaks) {
-        let at = Timestamp::UNIX_EPOCH;
-        let peak = Peak { body: PeakBody::Sun, time: at, azimuth_deg: 100.0, elevation_deg: 20.0 };
+        let time = Timestamp::UNIX_EPOCH;
+        let peak = Peak { body: PeakBody::Sun, time, azimuth_deg: 100.0, elevation_deg: 20.0 };
         let mut peaks = Peaks::default();
         peaks.change(ANTENNA, PeakChange::Added(peak));
         (peak, peaks)

@@ -10,7 +10,7 @@ use super::{
         lock::{file_path, holder_of},
         place_lock, socket_path, station_lock, written_lock,
     },
-    socket::{Answer, Ask, Asked, send},
+    socket::{Answer, Ask, Connection, send},
 };
 use crate::{
     contract::claim::{HeldBy, Holder},
@@ -55,7 +55,7 @@ enum Evidence {
 
 /// A question on its way, or the outcome where it did not leave.
 pub(super) enum Delivered {
-    Asked(Asked),
+    Asked(Connection),
     Over(Outcome),
 }
 
@@ -81,11 +81,12 @@ pub fn ask_station(
         let mut tasks = JoinSet::new();
         // The lock file of an older version may be gone while its socket is there.
         for folder in folders.paths() {
-            let Ok(asked) = send(&socket_path(folder, path), ask).await else { continue };
-            let is_behind =
-                |holder: &LockHolder| holder.process.is_some() && holder.process == asked.process;
+            let Ok(connection) = send(&socket_path(folder, path), ask).await else { continue };
+            let is_behind = |holder: &LockHolder| {
+                holder.process.is_some() && holder.process == connection.process
+            };
             let holder = holders.iter().position(is_behind).map(|place| holders.swap_remove(place));
-            tasks.spawn(outcome(holder, ask.clone(), Delivered::Asked(asked)));
+            tasks.spawn(outcome(holder, ask.clone(), Delivered::Asked(connection)));
         }
         for holder in holders {
             let delivered = holder.deliver(ask).await;
@@ -105,8 +106,9 @@ pub fn stop_units(folders: &LockFolders, antennas: &[Antenna]) -> io::Result<Vec
             let places = places.iter().map(place_lock);
             for lock in std::iter::once(written_lock(antenna)).chain(places) {
                 for holder in holders(folders, &lock).await {
-                    let is_same = |known: &LockHolder| {
-                        known.process == holder.process && known.antenna() == holder.antenna()
+                    let is_same = |lock_holder: &LockHolder| {
+                        lock_holder.process == holder.process
+                            && lock_holder.antenna() == holder.antenna()
                     };
                     if !all.iter().any(is_same) {
                         all.push(holder);
@@ -133,7 +135,7 @@ fn blocking<T>(work: impl Future<Output = T>) -> io::Result<T> {
 pub(super) async fn holders(folders: &LockFolders, lock: &str) -> Vec<LockHolder> {
     let mut holders: Vec<LockHolder> = Vec::new();
     let mut add = |new: LockHolder| {
-        if !holders.iter().any(|known| known.process == new.process) {
+        if !holders.iter().any(|lock_holder| lock_holder.process == new.process) {
             holders.push(new);
         }
     };
@@ -167,7 +169,7 @@ impl LockHolder {
             None => Err(io::Error::new(io::ErrorKind::NotFound, "it names no socket")),
         };
         match sent {
-            Ok(asked) => Delivered::Asked(asked),
+            Ok(connection) => Delivered::Asked(connection),
             Err(error) => Delivered::Over(self.without_answer(ask, &error).await),
         }
     }
@@ -221,7 +223,7 @@ impl LockHolder {
 pub(super) async fn outcome(holder: Option<LockHolder>, ask: Ask, delivered: Delivered) -> Reached {
     let outcome = match delivered {
         Delivered::Over(outcome) => outcome,
-        Delivered::Asked(asked) => match (asked.answer().await, &holder) {
+        Delivered::Asked(connection) => match (connection.answer().await, &holder) {
             (Ok(answer), _) => Outcome::Answered(answer),
             (Err(error), Some(holder)) => holder.without_answer(&ask, &error).await,
             (Err(error), None) => Outcome::NotReached(error.to_string()),
@@ -290,8 +292,8 @@ mod linux {
     /// file with this inode. Some file systems show another device than the file has.
     pub(super) fn is_lock(line: &str, process: u32, inode: u64) -> bool {
         let words: Vec<&str> = line.split_whitespace().collect();
-        let [_, "FLOCK", _, "WRITE", by, file, ..] = words.as_slice() else { return false };
-        by.parse() == Ok(process)
+        let [_, "FLOCK", _, "WRITE", name, file, ..] = words.as_slice() else { return false };
+        name.parse() == Ok(process)
             && file.rsplit(':').next().and_then(|last| last.parse().ok()) == Some(inode)
     }
 

@@ -21,9 +21,9 @@ const UNTIL_WRITTEN: Duration = Duration::from_secs(1);
 
 /// `None` where the entry has another form, as an older program wrote it.
 fn missed_pass(entry: MissedEntry) -> Option<MissedPass> {
-    let MissedEntry { id, at, antenna, antenna_name, flown } = entry;
+    let MissedEntry { id, time, antenna, antenna_name, flown } = entry;
     let flown = serde_json::from_value(flown).ok()?;
-    Some(MissedPass { id, time: at, antenna, antenna_name, flown })
+    Some(MissedPass { id, time, antenna, antenna_name, flown })
 }
 
 /// Reads the record at `path`. Reports without a site are of an antenna at `site`.
@@ -43,7 +43,7 @@ fn have_same_passes(one: &Recorded, other: &Recorded) -> bool {
 #[derive(Default)]
 pub(super) struct RecordReading {
     pub(super) found: Option<Arc<Recorded>>,
-    wanted: Option<RecordLook>,
+    record_look: Option<RecordLook>,
     job: Option<Job<Recorded>>,
     explaining: Option<Job<Option<ExplainedPasses>>>,
     /// When a new pass will be in the file.
@@ -56,7 +56,7 @@ impl Engine {
         if look.is_none() {
             self.record_reading.found = None;
         }
-        self.record_reading.wanted = look;
+        self.record_reading.record_look = look;
         self.read_record();
     }
 
@@ -67,7 +67,7 @@ impl Engine {
 
     fn read_record(&mut self) {
         self.record_reading.due = None;
-        let Some(look) = self.record_reading.wanted.clone() else {
+        let Some(look) = self.record_reading.record_look.clone() else {
             self.record_reading.job = None;
             return;
         };
@@ -96,26 +96,26 @@ impl Engine {
                 self.explain_together();
             }
         }
-        if let Some(Ok(together)) = Job::take(&mut self.record_reading.explaining)
+        if let Some(Ok(combined)) = Job::take(&mut self.record_reading.explaining)
             && let Some(found) = &mut self.record_reading.found
         {
-            Arc::make_mut(found).combined = together;
+            Arc::make_mut(found).combined = combined;
         }
     }
 
     fn explain_together(&mut self) {
         let reading = &mut self.record_reading;
         reading.explaining = None;
-        let found = reading.found.as_ref().and_then(|of| of.found.as_ref().ok());
+        let found = reading.found.as_ref().and_then(|recorded| recorded.found.as_ref().ok());
         let Some(opened) = found.and_then(|found| found.opened.as_ref()) else { return };
-        let (antenna, until) = (opened.pass.antenna, opened.pass.report.end);
-        let configured = self.station.antennas.iter().find(|of| of.id == antenna);
+        let (antenna, end) = (opened.pass.antenna, opened.pass.report.end);
+        let configured = self.station.antennas.iter().find(|one| one.id == antenna);
         // An antenna that has left the station has no known mount.
-        let (Some(of), Some(path)) = (configured, self.record_file()) else { return };
-        let (mount, site) = (of.mount, self.station.site);
+        let (Some(config), Some(path)) = (configured, self.record_file()) else { return };
+        let (mount, site) = (config.mount, self.station.site);
         let job = Job::start("azel-explain-passes", Arc::clone(&self.wake), move |_| {
             let explained =
-                record::explain_passes(&path, antenna, mount, site, &(Timestamp::MIN..=until));
+                record::explain_passes(&path, antenna, mount, site, &(Timestamp::MIN..=end));
             explained.inspect_err(|error| tracing::error!(%error, "passes not explained")).ok()
         });
         self.record_reading.explaining = Some(job);
@@ -161,8 +161,8 @@ mod tests {
         let in_part = Flown { pass: (8, now.utc), in_beam_s: 10.0, ..missed.clone() };
         let antenna = AntennaId(3);
         let recorder = Recorder::start(path.clone(), clock, Retention::default()).unwrap();
-        for of in [&missed, &in_part] {
-            let line = DayLine { time: now.utc, antenna, event: DayEvent::Flown(of.clone()) };
+        for flown in [&missed, &in_part] {
+            let line = DayLine { time: now.utc, antenna, event: DayEvent::Flown(flown.clone()) };
             recorder.note(Entry::new(now, Some(antenna), Kind::Day, &line));
         }
         recorder.flush();

@@ -78,9 +78,9 @@ pub(super) struct Recording {
     /// Passes that are tracked, and the reports that are worked on.
     followed: Vec<Followed>,
     /// Passes that are reported before their LOS, because they were over for their antenna.
-    told: Vec<(AntennaId, u32, Timestamp)>,
+    announced: Vec<(AntennaId, u32, Timestamp)>,
     /// Tracks of no pass, with the time of the last search for one.
-    sought: Vec<((AntennaId, u32), Timestamp)>,
+    lookups: Vec<((AntennaId, u32), Timestamp)>,
     reports: Vec<Option<Job<Finished>>>,
     /// The second in which tracks were last looked at.
     looked_at: i64,
@@ -131,10 +131,10 @@ impl Recording {
     }
 
     /// Records the session that begins for an antenna.
-    pub(super) fn follow(&self, config: &station::Antenna, handle: &AntennaHandle, at: Moment) {
+    pub(super) fn follow(&self, config: &station::Antenna, handle: &AntennaHandle, moment: Moment) {
         let Some((_, recorder)) = &self.recorder else { return };
         recorder.follow(RecordedSession {
-            at,
+            moment,
             antenna: config.id,
             name: config.name.clone(),
             make: config.connection.spec().key,
@@ -143,15 +143,15 @@ impl Recording {
         });
     }
 
-    pub(super) fn day_line(&self, line: &DayLine, at: Moment) {
-        self.note(at, Some(line.antenna), Kind::Day, line);
+    pub(super) fn day_line(&self, line: &DayLine, moment: Moment) {
+        self.note(moment, Some(line.antenna), Kind::Day, line);
     }
 
-    pub(super) fn event(&mut self, antenna: AntennaId, event: &Event, at: Moment) {
-        self.note(at, Some(antenna), kind_of(event), event);
-        if let Some(why) = ended_by(event) {
+    pub(super) fn event(&mut self, antenna: AntennaId, event: &Event, moment: Moment) {
+        self.note(moment, Some(antenna), kind_of(event), event);
+        if let Some(loss_cause) = ended_by(event) {
             for pass in self.followed.iter_mut().filter(|pass| pass.antenna == antenna) {
-                pass.breaks.note_stop(at.utc, why);
+                pass.breaks.note_stop(moment.utc, loss_cause);
             }
         }
     }
@@ -165,13 +165,13 @@ impl Recording {
 
     fn note(
         &self,
-        at: Moment,
+        moment: Moment,
         antenna: Option<AntennaId>,
         kind: Kind,
         data: &impl serde::Serialize,
     ) {
         if let Some((_, recorder)) = &self.recorder {
-            recorder.note(Entry::new(at, antenna, kind, data));
+            recorder.note(Entry::new(moment, antenna, kind, data));
         }
     }
 
@@ -192,9 +192,9 @@ impl Engine {
     /// The record of the station in use, whoever writes it.
     pub(super) fn record_file(&self) -> Option<PathBuf> {
         let folder = self.recording.folder.as_deref();
-        folder.zip(self.settings_path.as_deref()).map(|(folder, of)| match self.demo {
+        folder.zip(self.settings_path.as_deref()).map(|(folder, path)| match self.demo {
             Some(_) => demo_record_path(folder),
-            None => record_path(folder, of),
+            None => record_path(folder, path),
         })
     }
 
@@ -205,7 +205,9 @@ impl Engine {
             .record_file()
             .filter(|_| !matches!(self.station_claim, super::StationClaim::Theirs(_)));
         match (path, &self.recording.recorder) {
-            (Some(path), Some((at, recorder))) if path == *at => recorder.keep(station.record),
+            (Some(path), Some((open_path, recorder))) if path == *open_path => {
+                recorder.keep(station.record);
+            }
             (path, before) => {
                 if before.is_some() {
                     self.report_last_passes();
@@ -218,27 +220,27 @@ impl Engine {
         }
         self.record_has_grown();
         self.read_peaks();
-        let at = self.clock.now();
+        let moment = self.clock.now();
         let now = serde_json::to_value(station).unwrap_or_default();
         let before = std::mem::replace(&mut self.recording.station, now);
         let now = &self.recording.station;
         if before.is_null() {
-            self.recording.note(at, None, Kind::Station, &json!({ "station": now }));
+            self.recording.note(moment, None, Kind::Station, &json!({ "station": now }));
         } else if before != *now {
             let changes = differences(&before, now);
-            self.recording.note(at, None, Kind::Station, &json!({ "changes": changes }));
+            self.recording.note(moment, None, Kind::Station, &json!({ "changes": changes }));
         }
     }
 
     /// Records a command of a client. A held jog key counts once.
-    pub(super) fn note_command(&mut self, command: &Command, by: CommandOrigin) {
+    pub(super) fn note_command(&mut self, command: &Command, origin: CommandOrigin) {
         match command {
             command if command.only_looks() => return,
             Command::Antenna(id, contract::driver::Command::Jog { .. }) => {
-                let held = self.recording.jog.replace((*id, self.steady));
+                let previous = self.recording.jog.replace((*id, self.steady));
                 let lease = driver::JOG_LEASE;
-                let is_held = held.is_some_and(|(held, at)| {
-                    held == *id && self.steady.saturating_duration_since(at) <= lease
+                let is_held = previous.is_some_and(|(antenna, instant)| {
+                    antenna == *id && self.steady.saturating_duration_since(instant) <= lease
                 });
                 if is_held {
                     return;
@@ -246,22 +248,24 @@ impl Engine {
             }
             _ => self.recording.jog = None,
         }
-        let at = self.clock.now();
-        let data = json!({ "by": by, "command": command });
-        self.recording.note(at, command.antenna(), Kind::Command, &data);
+        let moment = self.clock.now();
+        let data = json!({ "by": origin, "command": command });
+        self.recording.note(moment, command.antenna(), Kind::Command, &data);
     }
 
     /// Records a command that goes to a session. A client's command was recorded when it came,
     /// unless the client named only a pass.
     pub(super) fn note_sent(&self, index: usize, command: &contract::driver::Command) {
         use crate::contract::driver::Command::{ProgramTrack, ProgramTrackIntoSun, Track};
-        let by = self.asked.map_or(CommandOrigin::Station, |asked| asked.by);
+        let origin = self
+            .current_request
+            .map_or(CommandOrigin::Station, |current_request| current_request.origin);
         let is_track = matches!(command, Track(_) | ProgramTrack(_) | ProgramTrackIntoSun(_));
-        if by != CommandOrigin::Station && !is_track {
+        if origin != CommandOrigin::Station && !is_track {
             return;
         }
         let Some(id) = self.antennas.get(index).map(|antenna| antenna.shown.id()) else { return };
-        let data = json!({ "by": by, "command": { "Antenna": [id, command] } });
+        let data = json!({ "by": origin, "command": { "Antenna": [id, command] } });
         self.recording.note(self.clock.now(), Some(id), Kind::Command, &data);
     }
 
@@ -278,14 +282,14 @@ impl Engine {
                 pass.breaks.note_stop(now, LossCause::Stopped);
             }
         }
-        let at = Moment { steady: stopped.at, utc: self.now };
+        let moment = Moment { steady: stopped.instant, utc: self.now };
         let data = json!({
-            "by": stopped.by,
+            "by": stopped.origin,
             "antennas": stopped.antennas,
             "elsewhere": stopped.elsewhere,
             "is_for_all": stopped.is_for_all,
         });
-        self.recording.note(at, None, Kind::Stop, &data);
+        self.recording.note(moment, None, Kind::Stop, &data);
     }
 
     /// Records what this turn has changed, and watches over the record.
@@ -311,63 +315,70 @@ impl Engine {
         if self.recording.status.as_deref() != Some(&status) {
             self.recording.status = Some(Arc::new(status));
         }
-        let at = self.clock.now();
-        self.note_clock(at);
-        self.note_alarms(at);
-        self.note_schedule(at);
+        let moment = self.clock.now();
+        self.note_clock(moment);
+        self.note_alarms(moment);
+        self.note_schedule(moment);
         for antenna in &self.antennas {
-            note_antenna(&mut self.recording, antenna, at);
+            note_antenna(&mut self.recording, antenna, moment);
         }
-        self.recording.states.retain(|id, _| self.antennas.iter().any(|it| it.shown.id() == *id));
+        self.recording
+            .states
+            .retain(|id, _| self.antennas.iter().any(|other| other.shown.id() == *id));
     }
 
-    fn note_clock(&mut self, at: Moment) {
+    fn note_clock(&mut self, moment: Moment) {
         let asleep = self.clock.asleep();
-        let now = (at, asleep, self.time_sync);
+        let now = (moment, asleep, self.time_sync);
         let Some((before, slept, sync)) = self.recording.clock.replace(now) else {
-            return self.recording.note(at, None, Kind::Clock, &json!({ "sync": self.time_sync }));
+            return self.recording.note(
+                moment,
+                None,
+                Kind::Clock,
+                &json!({ "sync": self.time_sync }),
+            );
         };
-        let passed = at.steady.saturating_duration_since(before.steady);
+        let passed = moment.steady.saturating_duration_since(before.steady);
         let expected_s = (passed + asleep.saturating_sub(slept)).as_secs_f64();
-        let set_by_s = seconds_between(before.utc, at.utc) - expected_s;
+        let set_by_s = seconds_between(before.utc, moment.utc) - expected_s;
         if set_by_s.abs() > CLOCK_SET_S || sync != self.time_sync {
             let data = json!({ "sync": self.time_sync, "set_by_s": set_by_s });
-            self.recording.note(at, None, Kind::Clock, &data);
+            self.recording.note(moment, None, Kind::Clock, &data);
         }
     }
 
-    fn note_alarms(&mut self, at: Moment) {
+    fn note_alarms(&mut self, moment: Moment) {
         let list = self.alarms.list();
         // How long something stands grows with every turn.
         let story = |alarm: &Alarm| {
             (alarm.id, alarm.acknowledged, alarm.over_since, alarm.shelved_until, alarm.count)
         };
-        let known = &self.recording.alarms;
-        if list.iter().map(story).eq(known.iter().map(story)) {
+        let alarms = &self.recording.alarms;
+        if list.iter().map(story).eq(alarms.iter().map(story)) {
             return;
         }
         for alarm in list {
-            let before = known.iter().find(|before| before.id == alarm.id);
+            let before = alarms.iter().find(|before| before.id == alarm.id);
             if before.is_none_or(|before| story(before) != story(alarm)) {
-                self.recording.note(at, alarm.antenna, Kind::Alarm, alarm);
+                self.recording.note(moment, alarm.antenna, Kind::Alarm, alarm);
             }
         }
         self.recording.alarms = list.to_vec();
     }
 }
 
-fn note_antenna(recording: &mut Recording, antenna: &Antenna, at: Moment) {
+fn note_antenna(recording: &mut Recording, antenna: &Antenna, moment: Moment) {
     let id = antenna.shown.id();
-    let state = State::of(&antenna.shown);
+    let state = State::new(&antenna.shown);
     if recording.states.get(&id) != Some(&state) {
-        recording.note(at, Some(id), Kind::State, &state);
+        recording.note(moment, Some(id), Kind::State, &state);
         recording.states.insert(id, state);
     }
-    for (group, held) in &*antenna.shown.snapshot.state.groups {
-        let Some(written) = &held.written else { continue };
+    for (group, group_state) in &*antenna.shown.snapshot.state.groups {
+        let Some(written) = &group_state.written else { continue };
         if recording.written.insert((id, group), written.time) != Some(written.time) {
             let data = json!({ "group": group, "written": written });
-            recording.note(at, Some(id), Kind::Setting, &data);
+            recording.note(moment, Some(id), Kind::Setting, &data);
         }
     }
 }

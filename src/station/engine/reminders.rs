@@ -36,11 +36,11 @@ impl Engine {
 }
 
 /// Adds the reminders that are due, and drops those of passes that are over.
-fn refresh(known: &mut Vec<Reminder>, station: &Station, passes: &PassList, now: Timestamp) {
+fn refresh(reminders: &mut Vec<Reminder>, station: &Station, passes: &PassList, now: Timestamp) {
     let notices = &station.notices;
     let is_marked =
         |number: u32| station.favourites.contains(number) && notices.reminders.contains(&number);
-    known.retain(|reminder| reminder.los > now && is_marked(reminder.pass.0));
+    reminders.retain(|reminder| reminder.los > now && is_marked(reminder.pass.0));
     if notices.reminders.is_empty() {
         return;
     }
@@ -51,8 +51,8 @@ fn refresh(known: &mut Vec<Reminder>, station: &Station, passes: &PassList, now:
         let is_due = now < aos;
         // A new list may have the pass at a slightly different time.
         let is_it = |reminder: &Reminder| reminder.pass.0 == number && aos < reminder.los;
-        if is_due && is_marked(number) && !known.iter().any(is_it) {
-            known.push(reminder(predicted, station));
+        if is_due && is_marked(number) && !reminders.iter().any(is_it) {
+            reminders.push(reminder(predicted, station));
         }
     }
 }
@@ -118,11 +118,11 @@ mod tests {
         let station = Station { notices, ..Station::demo(&DemoAddresses::default()) };
         let elements = bundled().unwrap().get(ISS).unwrap().clone();
         let propagator = Propagator::new(&elements).unwrap();
-        let from: Timestamp = "2026-08-12T00:00:00Z".parse().unwrap();
+        let start: Timestamp = "2026-08-12T00:00:00Z".parse().unwrap();
         let observer = Arc::new(Observer::from_station(&station));
         let search = PassSearch {
             aos_elevation: observer.aos_elevation,
-            ..PassSearch::new(station.site, from, from + 12.hours())
+            ..PassSearch::new(station.site, start, start + 12.hours())
         };
         let found = passes(&propagator, &search, &|| false);
         let satellite = Arc::new(ListedSatellite { elements, propagator });
@@ -138,42 +138,42 @@ mod tests {
         let (mut station, list) = desk();
         let first = &list.passes[0];
         let (aos, los) = (first.pass.aos.time, first.pass.los.time);
-        let mut known = Vec::new();
-        let mut at = |station: &Station, list: &PassList, now| {
-            refresh(&mut known, station, list, now);
-            known.iter().map(Reminder::aos).collect::<Vec<_>>()
+        let mut reminders = Vec::new();
+        let mut schedule_at = |station: &Station, list: &PassList, now| {
+            refresh(&mut reminders, station, list, now);
+            reminders.iter().map(Reminder::aos).collect::<Vec<_>>()
         };
-        assert_eq!(at(&station, &list, aos - 301.seconds()), []);
-        assert_eq!(at(&station, &list, aos - 300.seconds()), [aos]);
+        assert_eq!(schedule_at(&station, &list, aos - 301.seconds()), []);
+        assert_eq!(schedule_at(&station, &list, aos - 300.seconds()), [aos]);
         // The next search finds the pass a little later.
         let mut pass = first.pass;
         pass.aos.time += 2.seconds();
         let observer = Arc::new(Observer::from_station(&station));
         let again = PredictedPass::new(Arc::clone(&first.satellite), pass, observer);
         let renewed = PassList { passes: Arc::new(vec![again]), ..PassList::default() };
-        assert_eq!(at(&station, &renewed, aos - 60.seconds()), [aos]);
-        assert_eq!(at(&station, &list, los - 1.second()), [aos]);
-        assert_eq!(at(&station, &list, los), []);
+        assert_eq!(schedule_at(&station, &renewed, aos - 60.seconds()), [aos]);
+        assert_eq!(schedule_at(&station, &list, los - 1.second()), [aos]);
+        assert_eq!(schedule_at(&station, &list, los), []);
 
         station.notices.reminder_min = 20.0;
         let next = list.passes[1].pass.aos.time;
-        assert_eq!(at(&station, &list, next - 20.minutes()), [next]);
+        assert_eq!(schedule_at(&station, &list, next - 20.minutes()), [next]);
         station.notices.reminders.clear();
-        assert_eq!(at(&station, &list, next - 19.minutes()), []);
+        assert_eq!(schedule_at(&station, &list, next - 19.minutes()), []);
         station.notices.reminders.insert(ISS);
         station.favourites = Favourites::default();
-        assert_eq!(at(&station, &list, next - 18.minutes()), []);
+        assert_eq!(schedule_at(&station, &list, next - 18.minutes()), []);
     }
 
     #[test]
     fn a_pass_that_no_antenna_takes_is_an_alarm_until_one_does_or_until_los() {
         let (station, list) = desk();
         let aos = list.passes[0].pass.aos.time;
-        let mut known = Vec::new();
+        let mut reminders = Vec::new();
         let mut alarms = Alarms::default();
         let mut standing = |now, takes: bool| {
-            refresh(&mut known, &station, &list, now);
-            watch(&mut alarms, &known, |number| takes && number == ISS, now);
+            refresh(&mut reminders, &station, &list, now);
+            watch(&mut alarms, &reminders, |number| takes && number == ISS, now);
             let stands = |alarm: &&crate::contract::alarms::Alarm| !alarm.is_over();
             alarms.list().iter().filter(stands).count()
         };
@@ -219,11 +219,11 @@ mod tests {
         let (mut station, list) = desk();
         let found = reminder(&list.passes[0], &station);
         let able = |index| {
-            let of = list.passes[0].trackability(index);
-            matches!(of, Some(Trackability::Whole | Trackability::Loses { .. }))
+            let trackability = list.passes[0].trackability(index);
+            matches!(trackability, Some(Trackability::Whole | Trackability::Loses { .. }))
         };
         let antennas = station.antennas.iter().enumerate().filter(|(index, _)| able(*index));
-        assert_eq!(found.can_track, antennas.map(|(_, of)| of.id).collect::<Vec<_>>());
+        assert_eq!(found.can_track, antennas.map(|(_, antenna)| antenna.id).collect::<Vec<_>>());
         assert!(!found.can_track.is_empty() && found.name == "ISS");
         station.antennas.clear();
         assert_eq!(reminder(&list.passes[0], &station).can_track, []);

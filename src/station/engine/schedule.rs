@@ -38,7 +38,7 @@ pub(super) struct Inputs {
     /// Revision of `passes`.
     revision: u64,
     /// Antennas that take no passes.
-    off: Vec<(AntennaId, AntennaOff)>,
+    disabled: Vec<(AntennaId, AntennaOff)>,
     /// Satellites that antennas track without automatic operation.
     tracked: Vec<Tracked>,
     /// Passes that antennas were taking before the start of this run and may resume.
@@ -52,13 +52,13 @@ struct Tracked {
     antenna: AntennaId,
     satellite: u32,
     /// Begin of the pass that its unit was asked for.
-    from: Option<Timestamp>,
+    start: Option<Timestamp>,
 }
 
 impl PartialEq for Inputs {
     fn eq(&self, other: &Self) -> bool {
         self.revision == other.revision
-            && self.off == other.off
+            && self.disabled == other.disabled
             && self.tracked == other.tracked
             && self.interrupted == other.interrupted
             && self.placed == other.placed
@@ -69,7 +69,7 @@ impl PartialEq for Inputs {
 /// The schedule that is made, or was made last.
 struct Begun {
     inputs: Inputs,
-    at: Timestamp,
+    time: Timestamp,
     /// The entries that it keeps.
     fixed: Vec<Entry>,
 }
@@ -106,28 +106,28 @@ impl Engine {
             return;
         }
         let antennas = self.planned_antennas(&inputs);
-        let (wanted, now) = (inputs.clone(), self.now);
+        let (search_inputs, now) = (inputs.clone(), self.now);
         let (previous, fixed) = (Arc::clone(&self.schedule), self.fixed());
-        let kept = fixed.clone();
+        let entries = fixed.clone();
         let job = Job::start("azel-schedule", Arc::clone(&self.wake), move |_| {
-            make(&wanted, &antennas, &previous.schedule, &kept, now)
+            make(&search_inputs, &antennas, &previous.schedule, &entries, now)
         });
         self.scheduler.running = Some(job);
-        self.scheduler.begun = Some(Begun { inputs, at: now, fixed });
+        self.scheduler.begun = Some(Begun { inputs, time: now, fixed });
     }
 
     /// Returns the inputs from which a schedule follows now; `None` before the passes are known.
     fn schedule_inputs(&self) -> Option<Inputs> {
         let list = &self.pass_lists.favourites;
         list.made_at?;
-        let off = self.antennas.iter().filter_map(|antenna| {
+        let disabled = self.antennas.iter().filter_map(|antenna| {
             let snapshot = &antenna.shown.snapshot;
-            let off = match snapshot.link {
+            let antenna_off = match snapshot.link {
                 _ if snapshot.lock_out.is_some() => AntennaOff::LockedOut,
                 LinkState::Off => AntennaOff::SwitchedOff,
                 _ => return None,
             };
-            Some((antenna.shown.id(), off))
+            Some((antenna.shown.id(), antenna_off))
         });
         let tracked = self.antennas.iter().filter_map(|antenna| {
             let shown = &antenna.shown;
@@ -137,8 +137,8 @@ impl Engine {
             let is_by_hand = !shown.operation.is_on() || shown.tracks_unasked();
             let target = shown.snapshot.target.as_ref();
             let target = target.filter(|target| target.catalog_number == satellite);
-            let from = target.map(|target| target.start);
-            is_by_hand.then_some(Tracked { antenna: shown.id(), satellite, from })
+            let start = target.map(|target| target.start);
+            is_by_hand.then_some(Tracked { antenna: shown.id(), satellite, start })
         });
         let is_placed = |antenna: &&super::Antenna| stands_deg(&antenna.shown).is_some();
         let placed = self.antennas.iter().filter(is_placed);
@@ -147,7 +147,7 @@ impl Engine {
             station: Arc::clone(&self.station),
             passes: Arc::clone(&list.passes),
             revision: list.revision,
-            off: off.collect(),
+            disabled: disabled.collect(),
             tracked: tracked.collect(),
             interrupted: self.interrupted_passes(),
             placed: placed.collect(),
@@ -160,7 +160,10 @@ impl Engine {
         // Not those of the last schedule: an antenna may have begun to track since.
         let Some(mut inputs) = self.schedule_inputs() else { return };
         let mut listed = inputs.passes.iter();
-        let Some(tca) = listed.find(|of| of.key() == pass).map(|of| of.pass.tca.time) else {
+        let Some(tca) = listed
+            .find(|predicted| predicted.key() == pass)
+            .map(|predicted| predicted.pass.tca.time)
+        else {
             return;
         };
         let mut station = Station::clone(&inputs.station);
@@ -187,7 +190,7 @@ impl Engine {
         let Ok(schedule) = end else {
             return self.alarms.raise(None, kind, self.now);
         };
-        self.alarms.clear(None, self.now, |known| *known == kind);
+        self.alarms.clear(None, self.now, |alarm_kind| *alarm_kind == kind);
         let fixed = self.fixed();
         let begun =
             self.scheduler.begun.take_if(|begun| gives_away(&schedule, &begun.fixed, &fixed));
@@ -201,13 +204,13 @@ impl Engine {
         } else {
             Vec::new()
         };
-        let begun = self.scheduler.begun.as_ref().map(|begun| begun.at);
+        let begun = self.scheduler.begun.as_ref().map(|begun| begun.time);
         let span_s = self.station.scheduling.span_h * 3600.0;
         self.schedule = Arc::new(Planned {
             schedule,
             revision: before.revision + 1,
             made_at: begun,
-            end: begun.map(|at| add_seconds(at, span_s)),
+            end: begun.map(|time| add_seconds(time, span_s)),
             changes,
         });
     }
@@ -216,10 +219,10 @@ impl Engine {
         let planned = |antenna: &super::Antenna| {
             let shown = &antenna.shown;
             let config = &shown.config;
-            let off = inputs.off.iter().find(|(id, _)| *id == config.id);
+            let disabled = inputs.disabled.iter().find(|(id, _)| *id == config.id);
             PlannedAntenna {
                 stands_deg: stands_deg(shown),
-                off_reason: off.map(|(_, off)| *off),
+                off_reason: disabled.map(|(_, antenna_off)| *antenna_off),
                 reach: Reach::from_station(&self.station, config, shown.snapshot.rates_deg_s),
                 ..PlannedAntenna::from_station(&self.station, config, self.now)
             }
@@ -243,7 +246,7 @@ impl Engine {
     fn fixed(&self) -> Vec<Entry> {
         let entries = self.schedule.schedule.entries.iter();
         let is_taken = |entry: &&Entry| {
-            let antenna = self.antennas.iter().find(|of| of.shown.id() == entry.antenna);
+            let antenna = self.antennas.iter().find(|other| other.shown.id() == entry.antenna);
             let taking = antenna.and_then(|antenna| antenna.shown.operation.taking());
             taking.is_some_and(|taking| {
                 is_same_pass(taking.pass, (entry.pass.satellite, entry.pass.aos))
@@ -265,7 +268,7 @@ fn stands_deg(shown: &AntennaModel) -> Option<[f64; 2]> {
 fn gives_away(schedule: &Schedule, begun: &[Entry], fixed: &[Entry]) -> bool {
     let is_in = |entries: &[Entry], entry: &Entry| {
         entries.iter().any(|other| {
-            let key = |of: &Entry| (of.pass.satellite, of.pass.aos);
+            let key = |one: &Entry| (one.pass.satellite, one.pass.aos);
             other.antenna == entry.antenna
                 && is_same_pass(key(other), key(entry))
                 && seconds_between(other.end, entry.end).abs() < MOVED_S
@@ -290,9 +293,12 @@ fn make(
         antennas,
         max_age_s: scheduling.max_element_age_d.map(|days| days * DAY_S),
     };
-    let ahead = inputs.passes.iter().filter(|of| of.pass.los.time > now && of.pass.aos.time < end);
+    let ahead = inputs
+        .passes
+        .iter()
+        .filter(|listed| listed.pass.los.time > now && listed.pass.aos.time < end);
     // Skip satellites that never set.
-    let ahead: Vec<&PredictedPass> = ahead.filter(|it| !it.is_always_up()).collect();
+    let ahead: Vec<&PredictedPass> = ahead.filter(|listed| !listed.is_always_up()).collect();
     let candidates: Vec<Candidate> = ahead
         .par_iter()
         .map(|predicted| {
@@ -305,7 +311,7 @@ fn make(
         let antenna = antennas.iter().find(|antenna| antenna.id == tracked.antenna)?;
         let own =
             candidates.iter().filter(|candidate| candidate.key.satellite == tracked.satellite);
-        let ahead = own.filter(|candidate| tracked.from.is_none_or(|from| candidate.los > from));
+        let ahead = own.filter(|candidate| tracked.start.is_none_or(|start| candidate.los > start));
         let pass = ahead.min_by_key(|candidate| candidate.key.aos)?;
         pass.under_way(antenna, scheduling.choose_by, now)
     });
@@ -322,7 +328,8 @@ fn make(
         };
         candidates.iter().find(key)?.resumed(&antenna, scheduling.choose_by)
     });
-    let is_kept = |entry: &Entry| fixed.iter().any(|kept| kept.antenna == entry.antenna);
+    let is_kept =
+        |entry: &Entry| fixed.iter().any(|fixed_entry| fixed_entry.antenna == entry.antenna);
     let resumed = resumed.filter(|entry| !is_kept(entry));
     let fixed: Vec<Entry> = fixed.iter().cloned().chain(under_way).chain(resumed).collect();
     plan(&Request {
@@ -341,26 +348,27 @@ mod tests {
     use super::*;
     use crate::plan::schedule::{Class, testing};
 
-    fn at(second: f64) -> Timestamp {
+    fn time(second: f64) -> Timestamp {
         add_seconds(Timestamp::UNIX_EPOCH, second)
     }
 
     fn entry(antenna: u32, satellite: u32, to_s: f64) -> Entry {
-        let pass = schedule::PassKey { satellite, aos: at(100.0) };
-        Entry { class: Class::Fixed, ..testing::entry(AntennaId(antenna), pass, at(to_s)) }
+        let pass = schedule::PassKey { satellite, aos: time(100.0) };
+        Entry { class: Class::Fixed, ..testing::entry(AntennaId(antenna), pass, time(to_s)) }
     }
 
     #[test]
     fn a_schedule_gives_away_nothing_that_was_begun_while_it_was_made() {
-        let of = |entries: &[Entry]| Schedule { entries: entries.to_vec(), ..Schedule::default() };
-        let taken = entry(1, 7, 700.0);
-        let fixed = [taken.clone()];
-        assert!(!gives_away(&of(&fixed), &[], &fixed));
+        let schedule =
+            |entries: &[Entry]| Schedule { entries: entries.to_vec(), ..Schedule::default() };
+        let first_entry = entry(1, 7, 700.0);
+        let fixed = [first_entry.clone()];
+        assert!(!gives_away(&schedule(&fixed), &[], &fixed));
         let newer = entry(1, 7, 700.4);
-        assert!(!gives_away(&of(&[newer]), &[], &fixed), "by newer elements");
+        assert!(!gives_away(&schedule(&[newer]), &[], &fixed), "by newer elements");
         for other in [entry(2, 7, 700.0), entry(1, 8, 700.0), entry(1, 7, 400.0)] {
-            assert!(gives_away(&of(&[other]), &[], &fixed));
+            assert!(gives_away(&schedule(&[other]), &[], &fixed));
         }
-        assert!(!gives_away(&of(&[]), &fixed, &fixed), "it was known");
+        assert!(!gives_away(&schedule(&[]), &fixed, &fixed), "it was known");
     }
 }

@@ -108,26 +108,26 @@ pub struct Stopped {
 }
 
 /// A question that was sent.
-pub(super) struct Asked {
+pub(super) struct Connection {
     /// Process behind the socket, where the system tells it.
     pub(super) process: Option<u32>,
     stream: UnixStream,
 }
 
 /// Sends `ask` to the process that serves the socket at `path`.
-pub(super) async fn send(path: &Path, ask: &Ask) -> io::Result<Asked> {
+pub(super) async fn send(path: &Path, ask: &Ask) -> io::Result<Connection> {
     let mut text = serde_json::to_string(ask)?;
     text.push('\n');
     timeout(ASKS_WITHIN, async {
         let mut stream = UnixStream::connect(path).await?;
         let process = stream.peer_cred()?.pid().and_then(|process| u32::try_from(process).ok());
         stream.write_all(text.as_bytes()).await?;
-        Ok(Asked { process, stream })
+        Ok(Connection { process, stream })
     })
     .await?
 }
 
-impl Asked {
+impl Connection {
     pub(super) async fn answer(self) -> io::Result<Answer> {
         let mut line = String::new();
         let mut reader = BufReader::new(self.stream);
@@ -228,7 +228,7 @@ fn file_id(path: &Path) -> io::Result<(u64, u64)> {
 }
 
 async fn accept(mut door: Door, mut station: Client, closed: oneshot::Receiver<()>) {
-    let asked = station.clone();
+    let client = station.clone();
     let ended = async {
         tokio::select! {
             () = async { while station.changed().await {} } => {}
@@ -249,7 +249,7 @@ async fn accept(mut door: Door, mut station: Client, closed: oneshot::Receiver<(
         };
         match accepted {
             Ok((stream, _)) => {
-                let station = asked.clone();
+                let station = client.clone();
                 tokio::spawn(async move {
                     if let Err(error) = converse(stream, station).await {
                         tracing::warn!(%error, "a program at the socket");
@@ -316,22 +316,22 @@ async fn stop(antenna: Option<&str>, mut station: Client) -> Answer {
             None => return unknown(name),
         },
     };
-    let (pressed, elsewhere) = (stopped.at, stopped.elsewhere.clone());
+    let (pressed, elsewhere) = (stopped.instant, stopped.elsewhere.clone());
     let outcome = |antenna: &AntennaModel| match antenna.snapshot.stop {
-        StopState::Stopped { time: at } if at >= pressed => Some(true),
-        StopState::NotConfirmed { start: since } if since >= pressed => Some(false),
+        StopState::Stopped { time: instant } if instant >= pressed => Some(true),
+        StopState::NotConfirmed { start } if start >= pressed => Some(false),
         _ => None,
     };
     let end = Instant::now() + PROVED_WITHIN;
-    let mut told: Vec<(AntennaId, Option<bool>)> =
+    let mut outcomes: Vec<(AntennaId, Option<bool>)> =
         stopped.antennas.into_iter().map(|id| (id, None)).collect();
     let snapshot = loop {
         let snapshot = station.snapshot();
-        for (id, proved) in &mut told {
+        for (id, proved) in &mut outcomes {
             let antenna = snapshot.antennas.iter().find(|antenna| antenna.id() == *id);
             *proved = proved.or_else(|| antenna.and_then(outcome));
         }
-        let is_over = told.iter().all(|(_, proved)| proved.is_some());
+        let is_over = outcomes.iter().all(|(_, proved)| proved.is_some());
         if is_over || !timeout_at(end, station.changed()).await.unwrap_or_default() {
             break snapshot;
         }
@@ -340,13 +340,13 @@ async fn stop(antenna: Option<&str>, mut station: Client) -> Answer {
     let name = |id| antenna(id).map_or_else(String::new, |antenna| antenna.config.name.clone());
     let not_on_disk = |id| antenna(id)?.snapshot.not_on_disk.clone();
     // STOP was passed on to the Azel that drives these; its outcome is not known here.
-    told.extend(elsewhere.into_iter().map(|id| (id, Some(false))));
+    outcomes.extend(elsewhere.into_iter().map(|id| (id, Some(false))));
     let stopped = |(id, proved): (AntennaId, Option<bool>)| Stopped {
         antenna: name(id),
         proved: proved.unwrap_or_default(),
         not_on_disk: not_on_disk(id),
     };
-    Answer::Stopped(told.into_iter().map(stopped).collect())
+    Answer::Stopped(outcomes.into_iter().map(stopped).collect())
 }
 
 async fn set_lock_out(
@@ -359,13 +359,13 @@ async fn set_lock_out(
     let antenna = snapshot.antennas.iter().find(|antenna| antenna.id() == id);
     let standing = antenna.and_then(|antenna| antenna.snapshot.lock_out.clone());
     match standing {
-        Some(LockOut { operator: by, reason, .. }) if lock_out.is_some() => {
-            return Answer::Refused(format!("it is locked out already by {by}: {reason}"));
+        Some(LockOut { operator: name, reason, .. }) if lock_out.is_some() => {
+            return Answer::Refused(format!("it is locked out already by {name}: {reason}"));
         }
-        Some(LockOut { operator: by, reason, .. }) if locked_by != Some(by.as_str()) => {
+        Some(LockOut { operator: name, reason, .. }) if locked_by != Some(name.as_str()) => {
             return Answer::Refused(format!(
-                "it is locked out by {by}: {reason}. Ask {by}, then repeat the command with \
-                 --locked-by \"{by}\""
+                "it is locked out by {name}: {reason}. Ask {name}, then repeat the command with \
+                 --locked-by \"{name}\""
             ));
         }
         Some(_) | None => {}
@@ -374,7 +374,7 @@ async fn set_lock_out(
     if station.send(Command::Antenna(id, command)).is_err() {
         return Answer::Refused("Azel is too busy to take it".to_owned());
     }
-    let asked = station.now();
+    let moment = station.now();
     let end = Instant::now() + LOCKED_WITHIN;
     loop {
         let snapshot = station.snapshot();
@@ -382,13 +382,13 @@ async fn set_lock_out(
         let Some(antenna) = antenna else {
             return Answer::Refused("the antenna is not in the station any more".to_owned());
         };
-        if let Some(by) = &antenna.held_by {
-            return Answer::Refused(format!("{by} drives it: lock it out there"));
+        if let Some(holder) = &antenna.held_by {
+            return Answer::Refused(format!("{holder} drives it: lock it out there"));
         }
         let shown = &antenna.snapshot;
         let is_so = shown.lock_out == lock_out;
         let stands = shown.state.measured.is_some_and(|measured| {
-            shown.link.is_open() && measured.requested >= asked.steady && !measured.moving()
+            shown.link.is_open() && measured.requested >= moment.steady && !measured.moving()
         });
         if is_so && (lock_out.is_none() || !shown.locking && stands) {
             return Answer::LockOut { proved: true, not_on_disk: not_on_disk(&snapshot) };
@@ -406,7 +406,7 @@ async fn set_lock_out(
 /// Why the next start would not know the present lock-outs.
 fn not_on_disk(snapshot: &Snapshot) -> Option<String> {
     snapshot.alarms.list().iter().find_map(|alarm| match &alarm.kind {
-        AlarmKind::LockOuts(why) => Some(why.clone()),
+        AlarmKind::LockOuts(reason) => Some(reason.clone()),
         _ => None,
     })
 }
@@ -418,18 +418,20 @@ async fn set_automatic(antenna: AntennaId, is_on: bool, mut station: Client) -> 
     let end = Instant::now() + ASKS_WITHIN;
     loop {
         let snapshot = station.snapshot();
-        let Some(shown) = snapshot.antennas.iter().find(|of| of.id() == antenna) else {
+        let Some(shown) =
+            snapshot.antennas.iter().find(|model_antenna| model_antenna.id() == antenna)
+        else {
             return Answer::Refused("the antenna is not in the station any more".to_owned());
         };
         if shown.operation.is_on() == is_on {
             let waits_for_connect = shown.snapshot.link == LinkState::Off;
             return Answer::Automatic { waits_for_connect };
         }
-        if let Some(by) = &shown.held_by {
-            return Answer::Refused(format!("{by} drives it: switch it on there"));
+        if let Some(holder) = &shown.held_by {
+            return Answer::Refused(format!("{holder} drives it: switch it on there"));
         }
-        if let Some(LockOut { operator: by, reason, .. }) = &shown.snapshot.lock_out {
-            return Answer::Refused(format!("it is locked out by {by}: {reason}"));
+        if let Some(LockOut { operator: name, reason, .. }) = &shown.snapshot.lock_out {
+            return Answer::Refused(format!("it is locked out by {name}: {reason}"));
         }
         if !timeout_at(end, station.changed()).await.unwrap_or_default() {
             return Answer::Refused("the station did not take it".to_owned());

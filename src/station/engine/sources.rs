@@ -121,12 +121,12 @@ pub(super) fn start(
 }
 
 /// The list on disk with a source of these elements, which are copied into the library.
-fn with_copy(places: &Places, name: &str, from: &Copied) -> Result<Vec<Source>, String> {
+fn with_copy(places: &Places, name: &str, copied: &Copied) -> Result<Vec<Source>, String> {
     let path = places.list.as_deref().ok_or("this user has no folder for settings")?;
     let folder = places.library.as_deref().ok_or("this user has no folder for data")?;
     let mut list = load_sources(path).map_err(|error| error.to_string())?;
     let read;
-    let bytes = match from {
+    let bytes = match copied {
         Copied::Text(text) => text.as_bytes(),
         Copied::File(file) => {
             let in_words = |error| format!("cannot be read: {error}: {}", file.display());
@@ -163,12 +163,12 @@ fn keep_superseded(places: &Places, catalog: &mut Catalog, before: Option<&Catal
             sets.push(OlderSet { elements: old.clone(), source: source.to_owned() });
         }
     }
-    let aside = catalog.all_set_aside().map(|(elements, source)| OlderSet {
+    let set_aside = catalog.all_set_aside().map(|(elements, source)| OlderSet {
         elements: elements.clone(),
         source: source.to_owned(),
     });
-    sets.extend(aside);
-    if let Err(error) = History::beside(folder).add(&sets) {
+    sets.extend(set_aside);
+    if let Err(error) = History::new(folder).add(&sets) {
         tracing::warn!(%error, "older sets are not kept");
     }
 }
@@ -182,7 +182,7 @@ fn carry_out(
 ) -> Outcome {
     let mut sources = Sources::default();
     let copied = match &task.copy {
-        Some((name, from)) => with_copy(places, name, from).map(Some),
+        Some((name, copy)) => with_copy(places, name, copy).map(Some),
         None => Ok(task.list.clone()),
     };
     let list = copied.unwrap_or_else(|problem| {
@@ -254,33 +254,34 @@ fn read(
         library = library.with_space_track(access);
     }
     let list = &sources.list;
-    let asked: Vec<Source> =
+    let read_sources: Vec<Source> =
         list.iter().filter(|source| task.ask.contains(&source.name)).cloned().collect();
-    let now = if task.awaits_log_in { after_pause(&library, &asked, now, cancelled) } else { now };
+    let now =
+        if task.awaits_log_in { after_pause(&library, &read_sources, now, cancelled) } else { now };
     // The stored elements stay in use if the disk is full.
-    let refreshed = library.refresh(&asked, now, task.forced, cancelled);
+    let refreshed = library.refresh(&read_sources, now, task.forced, cancelled);
     sources.problems.extend(refreshed.err().map(in_words));
     library.read_again(list, &task.ask);
     Ok(library.load_into(list, catalog))
 }
 
-/// Waits until the servers of `asked` take another log-in, and returns the time then: a password may
+/// Waits until the servers of `sources` take another log-in, and returns the time then: a password may
 /// be typed within seconds after a refused one. Does not wait for the end of longer limits.
 fn after_pause(
     library: &Library,
-    asked: &[Source],
+    sources: &[Source],
     now: Timestamp,
     cancelled: &dyn Fn() -> bool,
 ) -> Timestamp {
-    let is_near = |at: &Timestamp| *at > now && at.duration_since(now) <= LOG_IN_PAUSE;
-    let times = asked.iter().filter_map(|source| library.not_before(source, now)).filter(is_near);
-    let Some(at) = times.max() else { return now };
-    let pause = Duration::try_from(at.duration_since(now)).unwrap_or_default();
+    let is_near = |time: &Timestamp| *time > now && time.duration_since(now) <= LOG_IN_PAUSE;
+    let times = sources.iter().filter_map(|source| library.not_before(source, now)).filter(is_near);
+    let Some(time) = times.max() else { return now };
+    let pause = Duration::try_from(time.duration_since(now)).unwrap_or_default();
     let start = std::time::Instant::now();
     while start.elapsed() < pause && !cancelled() {
         std::thread::sleep(Duration::from_millis(50));
     }
-    at
+    time
 }
 
 #[cfg(test)]
@@ -365,9 +366,9 @@ mod tests {
             assert_eq!(outcome.sources.reports[0].objects(), 1);
             assert!(outcome.sources.is_free());
         }
-        let gone = fixture.run(&Task { list: Some(Vec::new()), ..Task::default() });
-        assert!(iss_epoch(&gone.catalog) < own_epoch());
-        assert!(gone.sources.list.is_empty());
+        let removed = fixture.run(&Task { list: Some(Vec::new()), ..Task::default() });
+        assert!(iss_epoch(&removed.catalog) < own_epoch());
+        assert!(removed.sources.list.is_empty());
     }
 
     #[test]
@@ -392,8 +393,8 @@ mod tests {
         let list = Some(vec![fixture.newer_file()]);
         let mut after = fixture.run(&Task { list, ..Task::default() }).catalog;
         keep_superseded(&fixture.places, &mut after, Some(&before));
-        let history = History::beside(&fixture.folder.path().join("data"));
-        let older = history.of(ISS);
+        let history = History::new(&fixture.folder.path().join("data"));
+        let older = history.sets_of(ISS);
         assert_eq!(older.len(), 1, "once, though both catalogs had it");
         assert_eq!(older[0].source, crate::orbit::BUNDLED_SOURCE);
         assert_eq!(older[0].elements.epoch(), iss_epoch(&before));
@@ -514,15 +515,16 @@ mod tests {
         let own = fixture.newer_file();
         let SourcePlace::File(path) = &own.place else { unreachable!() };
         let text = fs::read_to_string(path).unwrap();
-        for (name, from) in [("Own, 1", Copied::File(path.clone())), ("pasted", Copied::Text(text))]
+        for (name, copied) in
+            [("Own, 1", Copied::File(path.clone())), ("pasted", Copied::Text(text))]
         {
-            let copy = Some((name.to_owned(), from.clone()));
+            let copy = Some((name.to_owned(), copied.clone()));
             let outcome = fixture.run(&Task { copy, ..Task::default() });
             assert_eq!(outcome.sources.problems, [""; 0]);
             fs::write(path, "").unwrap();
             let outcome = fixture.run(&Task::default());
             assert_eq!(iss_epoch(&outcome.catalog), own_epoch());
-            let copy = Some((name.to_owned(), from));
+            let copy = Some((name.to_owned(), copied));
             let again = fixture.run(&Task { copy, ..Task::default() });
             assert!(!again.sources.problems.is_empty(), "the name is taken");
         }
@@ -601,8 +603,8 @@ mod tests {
         let of_list = problems(None);
         assert!(!of_list.is_empty());
         let not_held = SetChoice::Older { catalog_number: ISS, epoch: own_epoch() };
-        let both = problems(Some(not_held));
-        assert_eq!(both.strip_prefix(&*of_list).map(<[String]>::len), Some(1), "{both:?}");
+        let texts = problems(Some(not_held));
+        assert_eq!(texts.strip_prefix(&*of_list).map(<[String]>::len), Some(1), "{texts:?}");
     }
 
     #[test]

@@ -68,7 +68,7 @@ pub enum LinkStatus {
 }
 
 impl LinkStatus {
-    pub fn of(antenna: &AntennaModel) -> Self {
+    pub fn new(antenna: &AntennaModel) -> Self {
         match antenna.snapshot.link {
             _ if antenna.held_by.is_some() => Self::Elsewhere,
             LinkState::Off => Self::Off,
@@ -83,19 +83,19 @@ impl LinkStatus {
 impl AntennaStatus {
     /// Status of all antennas.
     pub fn of_all(station: &Snapshot) -> Vec<Self> {
-        station.antennas.iter().map(Self::of).collect()
+        station.antennas.iter().map(Self::new).collect()
     }
 
-    pub fn of(antenna: &AntennaModel) -> Self {
+    pub fn new(antenna: &AntennaModel) -> Self {
         let snapshot = &antenna.snapshot;
         let measured = snapshot.state.measured;
         let by_unit = snapshot.state.program.filter(|program| program.enabled);
-        let held = by_unit.and(snapshot.state.on_board.satellite.as_ref());
+        let satellite = by_unit.and(snapshot.state.on_board.satellite.as_ref());
         let followed = snapshot.program_track.as_ref().map(|following| following.name.clone());
         let lock_out = snapshot.lock_out.as_ref();
         Self {
             antenna: antenna.config.name.clone(),
-            link: LinkStatus::of(antenna),
+            link: LinkStatus::new(antenna),
             intent: format!("{:?}", snapshot.intent).to_lowercase(),
             azimuth_deg: measured
                 .and_then(|measured| measured.pointing.azimuth)
@@ -105,7 +105,7 @@ impl AntennaStatus {
                 .map(Angle::degrees),
             measured_at: measured.map(|measured| measured.time),
             moves: measured.map(|measured| measured.moving()),
-            tracks: followed.or_else(|| held.map(|held| held.name.clone())),
+            tracks: followed.or_else(|| satellite.map(|satellite| satellite.name.clone())),
             owes_stop: matches!(
                 snapshot.stop,
                 StopState::Stopping { .. } | StopState::NotConfirmed { .. }

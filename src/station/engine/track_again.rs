@@ -26,13 +26,13 @@ impl Engine {
             | Command::ProgramTrackPass { antenna, pass } => {
                 let Some(predicted) = self.pass_lists.find(*pass) else { return };
                 let name = predicted.satellite.short_name().to_owned();
-                let until = predicted.pass.los.time;
-                (*antenna, Some(TrackAgain { name, command: command.clone(), end: until }))
+                let end = predicted.pass.los.time;
+                (*antenna, Some(TrackAgain { name, command: command.clone(), end }))
             }
             Command::Antenna(antenna, driver::Command::ProgramTrack(follow)) => {
                 let name = follow.target.name().into_owned();
-                let until = end_of(follow, self.now);
-                (*antenna, Some(TrackAgain { name, command: command.clone(), end: until }))
+                let end = end_of(follow, self.now);
+                (*antenna, Some(TrackAgain { name, command: command.clone(), end }))
             }
             Command::Antenna(antenna, other) if chooses_something_else(other) => (*antenna, None),
             _ => return,
@@ -50,10 +50,10 @@ impl Engine {
 
     /// Offers a target that waits for the operator's decision like one that STOP has ended.
     pub(super) fn offer_resume(&mut self, index: usize, name: &str) {
-        let until = add_seconds(self.now, OFFERED_S);
+        let end = add_seconds(self.now, OFFERED_S);
         let Some(antenna) = self.antennas.get_mut(index) else { return };
         let command = Command::Antenna(antenna.shown.id(), driver::Command::Resume);
-        antenna.shown.track_again = Some(TrackAgain { name: name.to_owned(), command, end: until });
+        antenna.shown.track_again = Some(TrackAgain { name: name.to_owned(), command, end });
     }
 
     /// Records a STOP that has gone to the sessions.
@@ -82,14 +82,14 @@ impl Engine {
             }
             let shown = &mut antenna.shown;
             shown.asks_unseen = None;
-            shown.stop_pressed = Some(stopped.at);
-            shown.last_stop = Some(stopped.at);
+            shown.stop_pressed = Some(stopped.instant);
+            shown.last_stop = Some(stopped.instant);
             if !stopped.tracked.contains(&id) {
                 continue;
             }
             shown.track_again = shown.ordered_track.take().map(|ordered| {
-                let until = ordered.end.min(latest);
-                TrackAgain { end: until, ..ordered }
+                let end = ordered.end.min(latest);
+                TrackAgain { end, ..ordered }
             });
         }
     }

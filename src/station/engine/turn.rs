@@ -94,7 +94,7 @@ impl Engine {
         if self.searches.broke_off() {
             self.alarms.raise(None, kind, self.now);
         } else {
-            self.alarms.clear(None, self.now, |known| *known == kind);
+            self.alarms.clear(None, self.now, |alarm_kind| *alarm_kind == kind);
         }
     }
 
@@ -194,8 +194,8 @@ impl Engine {
         let Some(shown) = self.antennas.get(index).map(|antenna| &antenna.shown) else { return };
         if let Event::Safety(Safety::OffTarget { off_deg, cause }) = &mut event {
             let reported = cause.take().map(|cause| *cause);
-            let off = Angle::from_degrees(*off_deg);
-            *cause = off_because(shown, off, reported).map(Box::new);
+            let deviation = Angle::from_degrees(*off_deg);
+            *cause = off_because(shown, deviation, reported).map(Box::new);
         }
         let id = shown.id();
         let antenna = Some(id);
@@ -239,71 +239,71 @@ impl Engine {
         let loses_positions =
             snapshot.link.is_open() && snapshot.state.traffic.loses_positions(self.steady);
         antenna.shown.loses_positions = loses_positions;
-        let (alarms, now, of) = (&mut self.alarms, self.now, Some(antenna.shown.id()));
+        let (alarms, now, antenna_id) = (&mut self.alarms, self.now, Some(antenna.shown.id()));
         if snapshot.stop == StopState::Ready
             && snapshot.state.measured.is_some_and(|measured| !measured.moving())
         {
-            alarms.clear(of, now, |kind| *kind == AlarmKind::StopNotConfirmed);
+            alarms.clear(antenna_id, now, |kind| *kind == AlarmKind::StopNotConfirmed);
         }
         if let LinkState::Lost { reason, .. } = &snapshot.link {
-            alarms.restate(of, &AlarmKind::LinkLost(reason.clone()));
+            alarms.restate(antenna_id, &AlarmKind::LinkLost(reason.clone()));
         }
         match snapshot.left_moving {
-            Some(LeftMoving { start: since }) => {
-                let matter = Safety::LeftMoving { start: since, asks: true };
-                alarms.raise(of, AlarmKind::Safety(matter), now);
+            Some(LeftMoving { start }) => {
+                let matter = Safety::LeftMoving { start, asks: true };
+                alarms.raise(antenna_id, AlarmKind::Safety(matter), now);
             }
-            None => alarms.clear(of, now, |kind| {
+            None => alarms.clear(antenna_id, now, |kind| {
                 matches!(kind, AlarmKind::Safety(Safety::LeftMoving { asks: true, .. }))
             }),
         }
         let silent = AlarmKind::Safety(Safety::SilentInMotion);
         if snapshot.silent {
-            alarms.raise(of, silent, now);
+            alarms.raise(antenna_id, silent, now);
         } else {
-            alarms.clear(of, now, |kind| *kind == silent);
+            alarms.clear(antenna_id, now, |kind| *kind == silent);
         }
         if loses_positions {
-            alarms.raise(of, AlarmKind::LosesPositions, now);
+            alarms.raise(antenna_id, AlarmKind::LosesPositions, now);
         } else {
-            alarms.clear(of, now, |kind| *kind == AlarmKind::LosesPositions);
+            alarms.clear(antenna_id, now, |kind| *kind == AlarmKind::LosesPositions);
         }
         if !snapshot.locking {
-            alarms.clear(of, now, |kind| *kind == AlarmKind::LockOutUnproved);
+            alarms.clear(antenna_id, now, |kind| *kind == AlarmKind::LockOutUnproved);
         }
         let checks = &snapshot.state.checks;
         if snapshot.link == LinkState::Off {
             // No such alarms are wanted while the unit is left to others.
-            alarms.clear(of, now, |kind| {
+            alarms.clear(antenna_id, now, |kind| {
                 matches!(kind, AlarmKind::LinkLost(_) | AlarmKind::Check(_))
             });
         } else {
             for check in checks.iter() {
                 if matches!(check.state, CheckState::Caution | CheckState::Fault) {
-                    alarms.raise(of, AlarmKind::Check(check.clone()), now);
+                    alarms.raise(antenna_id, AlarmKind::Check(check.clone()), now);
                 }
             }
             alarms.clear(
-                of,
+                antenna_id,
                 now,
                 |kind| matches!(kind, AlarmKind::Check(old) if is_over(old, checks)),
             );
         }
-        if let Some(why) = snapshot.state.unreadable {
-            alarms.raise(of, AlarmKind::Unreadable(why), now);
+        if let Some(explanation) = snapshot.state.unreadable {
+            alarms.raise(antenna_id, AlarmKind::Unreadable(explanation), now);
         } else {
-            alarms.clear(of, now, |kind| matches!(kind, AlarmKind::Unreadable(_)));
+            alarms.clear(antenna_id, now, |kind| matches!(kind, AlarmKind::Unreadable(_)));
         }
         if let Some(clock) = snapshot.state.on_board.clock {
             if clock.is_set && clock.is_surely_off() {
-                alarms.raise(of, AlarmKind::ClockOff(clock.ahead_s), now);
+                alarms.raise(antenna_id, AlarmKind::ClockOff(clock.ahead_s), now);
             } else if !clock.is_set || !clock.may_be_off() {
-                alarms.clear(of, now, |kind| matches!(kind, AlarmKind::ClockOff(_)));
+                alarms.clear(antenna_id, now, |kind| matches!(kind, AlarmKind::ClockOff(_)));
             }
             if clock.is_set {
-                alarms.clear(of, now, |kind| *kind == AlarmKind::ClockNotSet);
+                alarms.clear(antenna_id, now, |kind| *kind == AlarmKind::ClockNotSet);
             } else {
-                alarms.raise(of, AlarmKind::ClockNotSet, now);
+                alarms.raise(antenna_id, AlarmKind::ClockNotSet, now);
             }
         }
     }

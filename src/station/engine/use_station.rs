@@ -92,8 +92,8 @@ impl Engine {
         let mut before = std::mem::take(&mut self.antennas);
         // The alarms of a unit end with it; a STOP that it is owed is an alarm of its own.
         let is_same = |new: &&station::Antenna| {
-            let known = before.iter().find(|antenna| antenna.shown.id() == new.id);
-            known.is_some_and(|known| Unit::new(&known.shown.config) == Unit::new(new))
+            let previous = before.iter().find(|antenna| antenna.shown.id() == new.id);
+            previous.is_some_and(|previous| Unit::new(&previous.shown.config) == Unit::new(new))
         };
         let same: Vec<AntennaId> =
             station.antennas.iter().filter(is_same).map(|antenna| antenna.id).collect();
@@ -126,9 +126,9 @@ impl Engine {
         }
         for config in &station.antennas {
             let bounds = Bounds::new(&station, config);
-            let kept = before.iter().position(|antenna| *antenna.shown.config == *config);
-            let antenna = if let Some(kept) = kept {
-                let antenna = before.swap_remove(kept);
+            let position = before.iter().position(|antenna| *antenna.shown.config == *config);
+            let antenna = if let Some(place) = position {
+                let antenna = before.swap_remove(place);
                 antenna.handle.keep_within(bounds);
                 antenna
             } else {
@@ -184,8 +184,8 @@ impl Engine {
                 let handle = self.driver.open(&opened, bounds, learned, lock_out, lock);
                 (handle, None, Hold::Ours(claim))
             }
-            Err(Elsewhere { by, lock }) => {
-                (Driver::leave_alone(&config), Some(by), Hold::Elsewhere(lock))
+            Err(Elsewhere { holder, lock }) => {
+                (Driver::leave_alone(&config), Some(holder), Hold::Elsewhere(lock))
             }
         };
         self.recording.follow(&config, &handle, self.clock.now());

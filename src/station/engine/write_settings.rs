@@ -20,7 +20,7 @@ impl Engine {
     fn needs_copy(&self, index: usize, change: &Change) -> bool {
         let Some(antenna) = self.antennas.get(index) else { return false };
         let group = antenna.shown.groups().iter().find(|group| group.key == change.group);
-        change.is_unlocked && group.is_some_and(|it| it.guard(&change.values) == Guard::Service)
+        change.is_unlocked && group.is_some_and(|one| one.guard(&change.values) == Guard::Service)
     }
 
     /// Sends a change to the session; a service setting only after a copy was saved.
@@ -30,14 +30,15 @@ impl Engine {
         }
         let Some(antenna) = self.antennas.get(index) else { return };
         let name = antenna.shown.config.name.clone();
-        if let Some(waiting) = self.copy_work.waiting.as_mut().filter(|it| it.antenna == name) {
+        if let Some(waiting) = self.copy_work.waiting.as_mut().filter(|entry| entry.antenna == name)
+        {
             return waiting.changes.push(change);
         }
         match self.copy_work.save(&antenna.shown, self.now) {
             Ok(()) => {
                 self.copy_work.waiting = Some(Waiting { antenna: name, changes: vec![change] });
             }
-            Err(why) => self.service_not_sent(index, &not_saved(&why)),
+            Err(reason) => self.service_not_sent(index, &not_saved(&reason)),
         }
     }
 
@@ -50,19 +51,19 @@ impl Engine {
         }
     }
 
-    fn service_not_sent(&mut self, index: usize, why: &str) {
-        let text = format!("no service setting was sent, because {why}");
+    fn service_not_sent(&mut self, index: usize, reason: &str) {
+        let text = format!("no service setting was sent, because {reason}");
         tracing::error!("{text}");
-        let of = self.antennas.get(index).map(|antenna| antenna.shown.id());
-        self.alarms.raise(of, AlarmKind::Settings(text), self.now);
+        let antenna_id = self.antennas.get(index).map(|antenna| antenna.shown.id());
+        self.alarms.raise(antenna_id, AlarmKind::Settings(text), self.now);
     }
 
     /// Saves the settings that were read from an antenna's unit.
     pub(super) fn save_copy(&mut self, index: usize) {
         let Some(antenna) = self.antennas.get(index) else { return };
-        if let Err(why) = self.copy_work.save(&antenna.shown, self.now) {
-            let (antenna, at) = (antenna.shown.config.name.clone(), self.now);
-            self.copies.saved = Some(Saving { antenna, time: at, result: Err(why) });
+        if let Err(reason) = self.copy_work.save(&antenna.shown, self.now) {
+            let (antenna, time) = (antenna.shown.config.name.clone(), self.now);
+            self.copies.saved = Some(Saving { antenna, time, result: Err(reason) });
         }
     }
 
@@ -98,13 +99,13 @@ impl Engine {
 
     /// Sends the changes that waited for the copy of `antenna`, unless the copy failed.
     fn after_copy(&mut self, antenna: &str, failure: Option<String>) {
-        let Some(waiting) = self.copy_work.waiting.take_if(|it| it.antenna == antenna) else {
+        let Some(waiting) = self.copy_work.waiting.take_if(|entry| entry.antenna == antenna) else {
             return;
         };
         let names = self.antennas.iter().map(|antenna| antenna.shown.config.name.as_str());
         let Some(index) = names.into_iter().position(|name| name == antenna) else { return };
         match failure {
-            Some(why) => self.service_not_sent(index, &not_saved(&why)),
+            Some(reason) => self.service_not_sent(index, &not_saved(&reason)),
             None => {
                 for change in waiting.changes {
                     self.send(index, driver::Command::WriteSettings(change));
@@ -114,6 +115,6 @@ impl Engine {
     }
 }
 
-fn not_saved(why: &str) -> String {
-    format!("the old values could not be saved first: {why}")
+fn not_saved(reason: &str) -> String {
+    format!("the old values could not be saved first: {reason}")
 }

@@ -30,9 +30,9 @@ pub(super) fn read(path: &Path, limit: u64) -> io::Result<File> {
 }
 
 /// Reads to the end. Beyond `limit` bytes returns an error of kind `FileTooLarge`.
-pub fn read_limited(from: impl io::Read, limit: u64) -> io::Result<Vec<u8>> {
+pub fn read_limited(reader: impl io::Read, limit: u64) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
-    from.take(limit.saturating_add(1)).read_to_end(&mut bytes)?;
+    reader.take(limit.saturating_add(1)).read_to_end(&mut bytes)?;
     if bytes.len() as u64 > limit {
         return Err(io::Error::new(
             io::ErrorKind::FileTooLarge,
@@ -46,8 +46,9 @@ pub fn read_limited(from: impl io::Read, limit: u64) -> io::Result<Vec<u8>> {
 pub(super) fn files(folder: &Path, endings: &[&str]) -> io::Result<Vec<PathBuf>> {
     let is_wanted = |path: &PathBuf| {
         let ending = path.extension().and_then(OsStr::to_str);
-        ending.is_some_and(|ending| endings.iter().any(|known| known.eq_ignore_ascii_case(ending)))
-            && path.is_file()
+        ending.is_some_and(|ending| {
+            endings.iter().any(|candidate| candidate.eq_ignore_ascii_case(ending))
+        }) && path.is_file()
     };
     let entries: Result<Vec<_>, _> = fs::read_dir(folder)?.collect();
     let mut paths: Vec<PathBuf> =

@@ -29,7 +29,9 @@ impl Exception {
     /// Returns `true` if a set has come to `catalog` that is newer than there was. A newest set whose
     /// epoch lay too far ahead counts as older than any current one.
     fn is_over(&self, catalog: &Catalog) -> bool {
-        catalog.get(self.number()).is_some_and(|held| catalog.is_better(held.epoch(), self.newest))
+        catalog
+            .get(self.number())
+            .is_some_and(|elements| catalog.is_better(elements.epoch(), self.newest))
     }
 }
 
@@ -60,24 +62,24 @@ impl Exceptions {
     /// Uses `set` until a set that is newer than `newest` comes.
     pub fn begin(&mut self, set: OlderSet, newest: Timestamp) -> io::Result<()> {
         let new = Exception { set, newest };
-        self.list.retain(|known| known.number() != new.number());
+        self.list.retain(|exception| exception.number() != new.number());
         self.list.push(new);
         self.save()
     }
 
     /// Uses the newest set of an object again.
     pub fn end(&mut self, catalog_number: u32) -> io::Result<()> {
-        self.retain(|known| known.number() != catalog_number)
+        self.retain(|exception| exception.number() != catalog_number)
     }
 
     /// Forgets the exceptions that newer sets in `catalog` have ended.
     pub fn forget_ended(&mut self, catalog: &Catalog) -> io::Result<()> {
-        self.retain(|known| !known.is_over(catalog))
+        self.retain(|exception| !exception.is_over(catalog))
     }
 
     /// Returns `true` if the operator has chosen the set of this object.
     pub fn has(&self, catalog_number: u32) -> bool {
-        self.list.iter().any(|known| known.number() == catalog_number)
+        self.list.iter().any(|exception| exception.number() == catalog_number)
     }
 
     /// Puts the older sets in use in `catalog`, which holds all newest sets.

@@ -42,19 +42,19 @@ pub(super) fn host(url: &str) -> String {
     uri.and_then(|uri| uri.host().map(str::to_lowercase)).unwrap_or_default()
 }
 
-/// Requests `url` once, conditionally if `known` is given. Follows no redirection: an
+/// Requests `url` once, conditionally if `record` is given. Follows no redirection: an
 /// address that has moved is for the operator to look at.
 pub(super) fn fetch(
     url: &str,
-    known: Option<&Record>,
+    record: Option<&Record>,
     limits: Limits,
     authorities: &RootCerts,
 ) -> Result<ServerAnswer, FetchProblem> {
     let agent = agent(url, limits, authorities)?;
     let mut request = agent.get(url);
     for (name, value) in [
-        (header::IF_NONE_MATCH, known.and_then(|known| known.etag.as_deref())),
-        (header::IF_MODIFIED_SINCE, known.and_then(|known| known.last_modified.as_deref())),
+        (header::IF_NONE_MATCH, record.and_then(|record| record.etag.as_deref())),
+        (header::IF_MODIFIED_SINCE, record.and_then(|record| record.last_modified.as_deref())),
     ] {
         if let Some(value) = value {
             request = request.header(name, value);
@@ -63,7 +63,7 @@ pub(super) fn fetch(
     let response = request.call().map_err(|error| unanswered(&error, &agent, url))?;
     match response.status().as_u16() {
         200 => {}
-        304 if known.is_some() => return Ok(ServerAnswer::NotModified),
+        304 if record.is_some() => return Ok(ServerAnswer::NotModified),
         status => return Err(FetchProblem::Answer(status)),
     }
     let mark = |name| {
@@ -145,7 +145,9 @@ pub(super) fn unanswered(error: &ureq::Error, agent: &Agent, url: &str) -> Fetch
         Some(rustls::Error::InvalidCertificate(CertificateError::UnknownIssuer)) => {
             FetchProblem::UnknownAuthority
         }
-        Some(rustls::Error::InvalidCertificate(why)) => FetchProblem::Certificate(why.to_string()),
+        Some(rustls::Error::InvalidCertificate(certificate_error)) => {
+            FetchProblem::Certificate(certificate_error.to_string())
+        }
         _ => FetchProblem::Unreachable(format!("{error}{}", way(agent, url))),
     }
 }
@@ -168,7 +170,7 @@ mod tests {
     #[test]
     fn a_proxy_that_cannot_be_used_is_named() {
         let unusable = |name: &'static str, value: &'static str| {
-            proxy(|asked| (asked == name).then(|| value.to_owned())).err()
+            proxy(|expected| (expected == name).then(|| value.to_owned())).err()
         };
         let named = |name: &str| Some(FetchProblem::Proxy(name.to_owned()));
         assert_eq!(unusable("ALL_PROXY", "socks5://127.0.0.1:1080"), None);

@@ -17,7 +17,7 @@ use crate::{contract::older_sets::OlderSet, whole_file};
 /// Name of the file in the folder of the library.
 const NAME: &str = "older-sets.gz";
 /// Sets that are kept of each object, besides the one in use.
-const MOST: usize = 4;
+const MAX_SETS: usize = 4;
 /// A file that unpacks to more is not one of ours.
 const MAX_UNPACKED: u64 = 1 << 28;
 
@@ -32,12 +32,12 @@ type Lines = Vec<(i64, String)>;
 
 impl History {
     /// The history of the library in `folder`, which need not exist yet.
-    pub fn beside(folder: &Path) -> Self {
+    pub fn new(folder: &Path) -> Self {
         Self { path: folder.join(NAME) }
     }
 
     /// The older sets of an object, the newest first.
-    pub fn of(&self, catalog_number: u32) -> Vec<OlderSet> {
+    pub fn sets_of(&self, catalog_number: u32) -> Vec<OlderSet> {
         let text = self.text();
         let lines = text.lines().filter_map(parts);
         let own = lines.filter(|(number, ..)| *number == catalog_number);
@@ -52,29 +52,30 @@ impl History {
         if sets.is_empty() {
             return Ok(());
         }
-        let mut known: BTreeMap<u32, Lines> = BTreeMap::new();
+        let mut stored: BTreeMap<u32, Lines> = BTreeMap::new();
         for (number, epoch, set) in self.text().lines().filter_map(parts) {
-            known.entry(number).or_default().push((epoch, set.to_owned()));
+            stored.entry(number).or_default().push((epoch, set.to_owned()));
         }
         let mut is_changed = false;
         for set in sets {
-            let lines = known.entry(set.elements.catalog_number()).or_default();
+            let lines = stored.entry(set.elements.catalog_number()).or_default();
             let epoch = set.elements.epoch().as_microsecond();
-            let is_too_old = lines.len() >= MOST && lines.iter().all(|(other, _)| *other > epoch);
+            let is_too_old =
+                lines.len() >= MAX_SETS && lines.iter().all(|(other, _)| *other > epoch);
             if is_too_old || lines.iter().any(|(other, _)| *other == epoch) {
                 continue;
             }
             lines.push((epoch, serde_json::to_string(set)?));
             lines.sort_by_key(|(epoch, _)| std::cmp::Reverse(*epoch));
-            lines.truncate(MOST);
+            lines.truncate(MAX_SETS);
             is_changed = true;
         }
-        if is_changed { self.save(&known) } else { Ok(()) }
+        if is_changed { self.save(&stored) } else { Ok(()) }
     }
 
-    fn save(&self, known: &BTreeMap<u32, Lines>) -> io::Result<()> {
+    fn save(&self, stored: &BTreeMap<u32, Lines>) -> io::Result<()> {
         let mut packed = GzEncoder::new(Vec::new(), Compression::fast());
-        for (number, lines) in known {
+        for (number, lines) in stored {
             for (epoch, set) in lines {
                 writeln!(packed, "{number} {epoch} {set}")?;
             }
@@ -147,17 +148,17 @@ mod tests {
 
     fn days(history: &History) -> Vec<i8> {
         let day = |set: &OlderSet| set.elements.epoch().to_zoned(jiff::tz::TimeZone::UTC).day();
-        history.of(ISS).iter().map(day).collect()
+        history.sets_of(ISS).iter().map(day).collect()
     }
 
     #[test]
     fn the_newest_sets_of_an_object_are_kept_once() {
         let folder = tempfile::tempdir().unwrap();
-        let history = History::beside(&folder.path().join("deep"));
-        assert_eq!(history.of(ISS), []);
+        let history = History::new(&folder.path().join("deep"));
+        assert_eq!(history.sets_of(ISS), []);
         history.add(&[set(3, "weather"), set(1, "own"), set(3, "other")]).unwrap();
-        assert_eq!(history.of(ISS), [set(3, "weather"), set(1, "own")]);
-        assert_eq!(history.of(43_013), []);
+        assert_eq!(history.sets_of(ISS), [set(3, "weather"), set(1, "own")]);
+        assert_eq!(history.sets_of(43_013), []);
         history.add(&[set(2, "own"), set(4, "own"), set(5, "own"), set(1, "own")]).unwrap();
         assert_eq!(days(&history), [5, 4, 3, 2]);
         let written = fs::metadata(folder.path().join("deep").join(NAME)).unwrap();
@@ -169,7 +170,7 @@ mod tests {
     #[test]
     fn a_damaged_file_gives_way_to_the_one_before_it_and_a_bad_line_costs_itself() {
         let folder = tempfile::tempdir().unwrap();
-        let history = History::beside(folder.path());
+        let history = History::new(folder.path());
         history.add(&[set(1, "own")]).unwrap();
         history.add(&[set(2, "own")]).unwrap();
         let path = folder.path().join(NAME);

@@ -44,7 +44,7 @@ impl Lock {
         for _ in 0..MAX_TRIES {
             match Self::try_take(folder, name) {
                 Ok(None) => thread::sleep(RETRY),
-                taken => return taken.ok().flatten(),
+                lock_result => return lock_result.ok().flatten(),
             }
         }
         None

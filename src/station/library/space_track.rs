@@ -71,7 +71,7 @@ impl SpaceTrackAccess {
 
     /// Asks another server, for tests. Like all addresses it must be `https` or on this computer.
     #[must_use]
-    pub fn at(self, server: &str) -> Self {
+    pub fn with_server(self, server: &str) -> Self {
         Self { server: server.to_owned(), ..self }
     }
 
@@ -98,8 +98,8 @@ pub(super) fn key(user: &str) -> String {
 
 /// Limits that the requests of `record` have begun.
 pub(super) fn limits(record: &Record) -> Vec<RequestLimit> {
-    let log_in = record.asked_at().map(|at| RequestLimit { time: at, pause: LOG_IN_PAUSE });
-    let query = record.queried_at.map(|at| RequestLimit { time: at, pause: QUERY_PAUSE });
+    let log_in = record.asked_at().map(|time| RequestLimit { time, pause: LOG_IN_PAUSE });
+    let query = record.queried_at.map(|time| RequestLimit { time, pause: QUERY_PAUSE });
     log_in.into_iter().chain(query).collect()
 }
 

@@ -54,9 +54,11 @@ impl SetAside {
     }
 
     /// Removes the sources named in `but`, and those that are no longer in `list`.
-    pub(super) fn keep(&mut self, list: &[Source], but: &[String]) {
+    pub(super) fn keep(&mut self, list: &[Source], except_sources: &[String]) {
         let before = self.list.source.len();
-        self.list.source.retain(|held| list.contains(held) && !but.contains(&held.name));
+        self.list
+            .source
+            .retain(|source| list.contains(source) && !except_sources.contains(&source.name));
         if self.list.source.len() != before {
             warn(&self.path, self.save());
         }
@@ -84,11 +86,11 @@ impl Reading {
     /// `set_aside`.
     pub(super) fn begin(folder: &Path, set_aside: &mut SetAside) -> Self {
         let path = folder.join(READING);
-        let taken = Lock::try_take(folder, READING).and_then(|mut lock| {
+        let newest = Lock::try_take(folder, READING).and_then(|mut lock| {
             lock.as_mut().map_or(Ok(()), |lock| take_over(lock.file(), set_aside))?;
             Ok(lock)
         });
-        let lock = taken.unwrap_or_else(|error| {
+        let lock = newest.unwrap_or_else(|error| {
             warn(&path, Err(error));
             None
         });
@@ -96,7 +98,7 @@ impl Reading {
     }
 
     /// Runs `read` with `source` in the note.
-    pub(super) fn during<T>(&mut self, source: &Source, read: impl FnOnce() -> T) -> T {
+    pub(super) fn while_reading<T>(&mut self, source: &Source, read: impl FnOnce() -> T) -> T {
         self.note(&toml::to_string(source).unwrap_or_default());
         let outcome = read();
         self.note("");
@@ -154,7 +156,7 @@ mod tests {
     fn end_in(folder: &Path, source: &Source) {
         let (_, mut reading) = begin(folder);
         let ends = || panic!("on purpose");
-        catch_unwind(AssertUnwindSafe(|| reading.during(source, ends))).unwrap_err();
+        catch_unwind(AssertUnwindSafe(|| reading.while_reading(source, ends))).unwrap_err();
     }
 
     #[test]
@@ -162,13 +164,13 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let folder = &folder.path().join("deep");
         let list = [Source::celestrak("weather"), Source::celestrak("noaa")];
-        assert_eq!(begin(folder).1.during(&list[0], || 7), 7);
+        assert_eq!(begin(folder).1.while_reading(&list[0], || 7), 7);
         assert!(begin(folder).0.list.source.is_empty());
         end_in(folder, &list[1]);
 
         let (mut set_aside, mut reading) = begin(folder);
         assert_eq!([&list[0], &list[1]].map(|source| set_aside.contains(source)), [false, true]);
-        reading.during(&list[0], || ());
+        reading.while_reading(&list[0], || ());
         drop(reading);
         set_aside.keep(&list, &[]);
         assert!(begin(folder).0.contains(&list[1]));
@@ -182,10 +184,10 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let source = Source::celestrak("weather");
         let (_, mut first) = begin(folder.path());
-        first.during(&source, || {
+        first.while_reading(&source, || {
             let (set_aside, mut second) = begin(folder.path());
             assert!(!set_aside.contains(&source));
-            second.during(&source, || ());
+            second.while_reading(&source, || ());
         });
         drop(first);
         assert!(begin(folder.path()).0.list.source.is_empty());

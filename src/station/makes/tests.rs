@@ -31,8 +31,9 @@ fn each_make_fits_what_it_says_of_itself() {
         }
         let tables = spec.settings.chunk_by(|a, b| a.table == b.table);
         let tables = tables.map(|settings| settings[0].table.map(|table| table.key));
-        let beside = spec.settings.iter().filter(|setting| setting.table.is_none());
-        let mut names: Vec<&str> = tables.flatten().chain(beside.map(|of| of.field.key)).collect();
+        let others = spec.settings.iter().filter(|setting| setting.table.is_none());
+        let mut names: Vec<&str> =
+            tables.flatten().chain(others.map(|other| other.field.key)).collect();
         names.extend(["controller", "address"]);
         let count = names.len();
         names.sort_unstable();
@@ -54,7 +55,7 @@ fn what_a_setting_cannot_hold_changes_nothing() {
     );
     let speeds = "must be one of 300, 600, 1200, 2400, 4800, 9600";
     assert_eq!(put(&mut connection, &BAUD, Value::Choice(19_200)), speeds);
-    let why = connection.put(&ROTATORS, Rotators::First).unwrap_err();
-    assert_eq!(why.to_string(), "is no setting of \"rc2000c\"");
+    let reason = connection.put(&ROTATORS, Rotators::First).unwrap_err();
+    assert_eq!(reason.to_string(), "is no setting of \"rc2000c\"");
     assert_eq!(connection, before);
 }

@@ -40,36 +40,36 @@ pub struct Surroundings<'a> {
 /// file of elements its unit uses, it is told.
 pub(super) type Make = fn(&mut Antenna, &Surroundings<'_>) -> Arc<dyn InMemory>;
 
-pub(super) fn satrak(antenna: &mut Antenna, around: &Surroundings<'_>) -> Arc<dyn InMemory> {
+pub(super) fn satrak(antenna: &mut Antenna, surroundings: &Surroundings<'_>) -> Arc<dyn InMemory> {
     if antenna.connection.text(&ELEMENT_FILE).is_empty() {
         // Cannot fail: it accepts any text.
         antenna.connection.put(&ELEMENT_FILE, satrak::BUNDLED_FILE).ok();
     }
     let file = antenna.connection.text(&ELEMENT_FILE).to_owned();
-    let usual = satrak::Options::new(around.site, around.clock.utc());
+    let base = satrak::Options::new(surroundings.site, surroundings.clock.utc());
     let (lower_axis, ends_deg) = match antenna.mount {
         Mount::Xy { lower_axis_azimuth_deg, travel_from_deg, travel_to_deg } => {
             (Angle::from_degrees(lower_axis_azimuth_deg), [travel_from_deg, travel_to_deg])
         }
-        Mount::AzEl { .. } => (usual.lower_axis, usual.ends_deg),
+        Mount::AzEl { .. } => (base.lower_axis, base.ends_deg),
     };
     let options = satrak::Options {
-        elements: BTreeMap::from([(file, around.elements.to_vec())]),
+        elements: BTreeMap::from([(file, surroundings.elements.to_vec())]),
         lower_axis,
         ends_deg,
         full_rate_deg_s: antenna.limits.maximum_rate_deg_s,
         minimum_elevation_deg: antenna.limits.minimum_elevation_deg,
-        mechanics: around.mechanics,
-        seed: around.seed,
-        ..usual
+        mechanics: surroundings.mechanics,
+        seed: surroundings.seed,
+        ..base
     };
-    let unit = satrak::Control::on_clock(&options, around.clock.clone());
+    let unit = satrak::Control::on_clock(&options, surroundings.clock.clone());
     let axes = axes_from_azel(antenna.park_direction(), lower_axis);
     unit.place([90.0 + axes.lower.degrees(), 90.0 + axes.upper.degrees()]);
     Arc::new(unit)
 }
 
-pub(super) fn genius(antenna: &mut Antenna, around: &Surroundings<'_>) -> Arc<dyn InMemory> {
+pub(super) fn genius(antenna: &mut Antenna, surroundings: &Surroundings<'_>) -> Arc<dyn InMemory> {
     let [azimuth_deg, elevation_deg] = antenna.mount.travel_deg();
     let full_rate_deg_s = antenna.limits.maximum_rate_deg_s;
     let park = antenna.park;
@@ -101,11 +101,11 @@ pub(super) fn genius(antenna: &mut Antenna, around: &Surroundings<'_>) -> Arc<dy
     };
     let options = rotator_genius::Options {
         rotators,
-        mechanics: around.mechanics,
-        seed: around.seed,
+        mechanics: surroundings.mechanics,
+        seed: surroundings.seed,
         ..rotator_genius::Options::default()
     };
-    Arc::new(rotator_genius::Control::on_clock(&options, around.clock.clone()))
+    Arc::new(rotator_genius::Control::on_clock(&options, surroundings.clock.clone()))
 }
 
 fn whole(degrees: f64) -> WholeDegrees {
@@ -115,31 +115,31 @@ fn whole(degrees: f64) -> WholeDegrees {
 /// The ends of a travel on a circle of 0 to 360 degrees, the counter-clockwise one first; equal ones
 /// leave a whole turn.
 fn ends_of_circle((from_deg, to_deg): (f64, f64)) -> (WholeDegrees, WholeDegrees) {
-    let from = from_deg.rem_euclid(360.0);
+    let start = from_deg.rem_euclid(360.0);
     let span = (to_deg - from_deg).min(360.0);
-    let to = from + span;
-    (whole(from), whole(if to > 360.0 { to - 360.0 } else { to }))
+    let end = start + span;
+    (whole(start), whole(if end > 360.0 { end - 360.0 } else { end }))
 }
 
-pub(super) fn rc2000c(antenna: &mut Antenna, around: &Surroundings<'_>) -> Arc<dyn InMemory> {
+pub(super) fn rc2000c(antenna: &mut Antenna, surroundings: &Surroundings<'_>) -> Arc<dyn InMemory> {
     let connection = &antenna.connection;
     let calibration = Calibration::from_connection(connection);
-    let usual = rc2000c::Options::default();
+    let base = rc2000c::Options::default();
     let [azimuth_deg, elevation_deg] = antenna.mount.travel_deg();
     let rate_deg_s = antenna.limits.maximum_rate_deg_s;
     let azimuth = counted(&calibration.azimuth, azimuth_deg, rate_deg_s);
     let elevation = counted(&calibration.elevation, elevation_deg, rate_deg_s);
     let address = u8::try_from(connection.whole(&BUS_ADDRESS)).ok();
     let options = rc2000c::Options {
-        address: address.and_then(|number| Address::new(number).ok()).unwrap_or(usual.address),
+        address: address.and_then(|number| Address::new(number).ok()).unwrap_or(base.address),
         baud: connection.whole(&BAUD),
-        azimuth: azimuth.unwrap_or(usual.azimuth),
-        elevation: elevation.unwrap_or(usual.elevation),
-        mechanics: around.mechanics,
-        seed: around.seed,
-        ..usual
+        azimuth: azimuth.unwrap_or(base.azimuth),
+        elevation: elevation.unwrap_or(base.elevation),
+        mechanics: surroundings.mechanics,
+        seed: surroundings.seed,
+        ..base
     };
-    let unit = rc2000c::Control::on_clock(&options, around.clock.clone());
+    let unit = rc2000c::Control::on_clock(&options, surroundings.clock.clone());
     let counts = |points: &[CountPoint], deg| CountLine::from_points(points).ok()?.counts(deg);
     let park = antenna.park;
     let azimuth = counts(&calibration.azimuth, park.azimuth_deg);
@@ -157,9 +157,9 @@ fn counted(
     rate_deg_s: f64,
 ) -> Option<rc2000c::AxisOptions> {
     let line = CountLine::from_points(points).ok()?;
-    let (from, to) = (line.counts(from_deg)?, line.counts(to_deg)?);
-    let travel: RangeInclusive<u16> = from.min(to)..=from.max(to);
-    let counts_per_deg = f64::from(from.abs_diff(to)) / (to_deg - from_deg);
+    let (start, end) = (line.counts(from_deg)?, line.counts(to_deg)?);
+    let travel: RangeInclusive<u16> = start.min(end)..=start.max(end);
+    let counts_per_deg = f64::from(start.abs_diff(end)) / (to_deg - from_deg);
     let full_rate_counts_s = rate_deg_s * counts_per_deg;
     Some(rc2000c::AxisOptions { travel, full_rate_counts_s, counts_per_deg })
 }

@@ -20,7 +20,7 @@ impl SlowDisk {
         let (begin, begun) = mpsc::sync_channel(100);
         let (go_on, released) = mpsc::sync_channel::<()>(100);
         let released = Mutex::new(released);
-        let promises = Promises::over(move |path, state| {
+        let promises = Promises::new(move |path, state| {
             begin.send(state.clone()).unwrap();
             // An error means that the test lets everything go on.
             let _ = released.lock().unwrap().recv();
@@ -42,7 +42,7 @@ impl SlowDisk {
 /// A disk that is full while `is_full` says so.
 pub(crate) fn full_disk(is_full: &Arc<AtomicBool>) -> Promises {
     let is_full = Arc::clone(is_full);
-    Promises::over(move |path, state| match state {
+    Promises::new(move |path, state| match state {
         FileState::Holds(_) | FileState::HoldsAndKeepsOld(_) if is_full.load(Ordering::Relaxed) => {
             Err(io::ErrorKind::StorageFull.into())
         }
@@ -61,7 +61,7 @@ fn a_late_write_brings_no_removed_promise_back() {
     assert_eq!(disk.begun(), holds("a"));
     promises.put(&path, FileState::Absent);
     assert_eq!(promises.read(&path).unwrap(), None);
-    assert_eq!(promises.kept(&path), Kept::Pending);
+    assert_eq!(promises.promised(&path), PromisedFile::Pending);
     disk.go_on();
     assert_eq!(disk.begun(), FileState::Absent);
     disk.go_on();
@@ -88,7 +88,7 @@ fn a_late_removal_takes_no_newer_promise_away() {
     disk.go_on();
     assert_eq!(promises.finish(&path, None), Ok(()));
     assert_eq!(fs::read_to_string(&path).unwrap(), "second");
-    assert_eq!(promises.kept(&path), Kept::OnDisk);
+    assert_eq!(promises.promised(&path), PromisedFile::OnDisk);
 }
 
 #[test]
@@ -98,7 +98,7 @@ fn one_file_waits_for_no_other() {
     let (begin, begun) = mpsc::sync_channel(1);
     let (go_on, released) = mpsc::sync_channel::<()>(1);
     let (released, hangs) = (Mutex::new(released), slow.clone());
-    let promises = Promises::over(move |path, state| {
+    let promises = Promises::new(move |path, state| {
         if path == hangs {
             begin.send(()).unwrap();
             let _ = released.lock().unwrap().recv();
@@ -110,7 +110,7 @@ fn one_file_waits_for_no_other() {
     promises.put(&slow, holds("a"));
     begun.recv().unwrap();
     assert_eq!(promises.put_and_wait(&fast, holds("b")), Ok(()));
-    assert_eq!((slow.exists(), promises.kept(&slow)), (false, Kept::Pending));
+    assert_eq!((slow.exists(), promises.promised(&slow)), (false, PromisedFile::Pending));
     drop(go_on);
     assert_eq!(promises.finish(&slow, None), Ok(()));
 }
@@ -123,9 +123,9 @@ fn a_full_disk_is_told_with_its_reason_and_the_next_request_is_tried() {
     let promises = full_disk(&is_full);
     promises.put_and_wait(&path, holds("old")).unwrap();
     is_full.store(true, Ordering::Relaxed);
-    let why = promises.put_and_wait(&path, holds("new")).unwrap_err();
-    assert!(why.contains("no storage space"), "{why}");
-    assert_eq!(promises.kept(&path), Kept::Failed(why));
+    let reason = promises.put_and_wait(&path, holds("new")).unwrap_err();
+    assert!(reason.contains("no storage space"), "{reason}");
+    assert_eq!(promises.promised(&path), PromisedFile::Failed(reason));
     assert_eq!(fs::read_to_string(&path).unwrap(), "old");
     is_full.store(false, Ordering::Relaxed);
     promises.put_and_wait(&path, holds("newer")).unwrap();
@@ -138,12 +138,12 @@ fn work_that_never_runs_or_breaks_off_is_a_failure() {
     let path = folder.path().join("a.toml");
     let promises = Promises::default();
     drop(promises.request(&path, holds("a")));
-    assert!(matches!(promises.kept(&path), Kept::Failed(_)));
+    assert!(matches!(promises.promised(&path), PromisedFile::Failed(_)));
     promises.put_and_wait(&path, holds("a")).unwrap();
 
-    let breaks = Promises::over(|_, _| panic!("a bug"));
+    let breaks = Promises::new(|_, _| panic!("a bug"));
     let work = breaks.request(&path, holds("b")).unwrap();
     std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| work.run())).unwrap_err();
-    assert!(matches!(breaks.kept(&path), Kept::Failed(_)));
+    assert!(matches!(breaks.promised(&path), PromisedFile::Failed(_)));
     assert_eq!(fs::read_to_string(&path).unwrap(), "a");
 }

@@ -17,7 +17,7 @@ use crate::{
 
 /// From where the next pass is sought, or the one before.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Beside {
+pub enum Neighbour {
     /// From the pass with this number. The same pass, tracked by another antenna, is passed over.
     Pass(i64),
     /// From a moment. A pass under way is the next one.
@@ -28,20 +28,20 @@ pub enum Beside {
 /// an antenna at `site`.
 pub fn times_between(
     path: &Path,
-    from: Timestamp,
-    until: Timestamp,
+    start: Timestamp,
+    end: Timestamp,
     site: Site,
 ) -> Result<Vec<PassTimes>, RecordError> {
     let db = file::open_to_read(path)?;
-    let latest = until.checked_add(LONGEST).unwrap_or(Timestamp::MAX);
+    let latest = end.checked_add(LONGEST).unwrap_or(Timestamp::MAX);
     let sql = format!(
         "SELECT {COLUMNS} FROM pass WHERE until_us BETWEEN :from AND :latest AND from_us < :until \
          ORDER BY until_us"
     );
     let mut statement = db.prepare(&sql)?;
     let found = read_passes(statement.query(named_params! {
-        ":from": from.as_microsecond(),
-        ":until": until.as_microsecond(),
+        ":from": start.as_microsecond(),
+        ":until": end.as_microsecond(),
         ":latest": latest.as_microsecond(),
     })?)?;
     Ok(found.iter().map(|pass| times_of(pass, site)).collect())
@@ -53,31 +53,32 @@ pub fn times_of_pass(path: &Path, id: i64, site: Site) -> Result<Option<PassTime
     Ok(passes.pass(id)?.map(|pass| times_of(&pass, site)))
 }
 
-/// The pass after `of`, or before it, of any antenna.
+/// The pass after `reference`, or before it, of any antenna.
 pub fn neighbour(
     path: &Path,
-    of: Beside,
+    reference: Neighbour,
     is_next: bool,
 ) -> Result<Option<RecordedPass>, RecordError> {
     let db = file::open_to_read(path)?;
-    let known = match of {
-        Beside::Moment(at) => Some((0, at.as_microsecond(), at.as_microsecond())),
-        Beside::Pass(id) => db
+    let found = match reference {
+        Neighbour::Moment(time) => Some((0, time.as_microsecond(), time.as_microsecond())),
+        Neighbour::Pass(id) => db
             .query_row("SELECT satellite, from_us, until_us FROM pass WHERE id = ?1", [id], |row| {
                 Ok((row.get(0)?, row.get(1)?, row.get(2)?))
             })
             .optional()?,
     };
-    let Some((satellite, from_us, until_us)) = known else { return Ok(None) };
+    let Some((satellite, from_us, until_us)) = found else { return Ok(None) };
     let (side, order) = if is_next { (">", "ASC") } else { ("<", "DESC") };
     let sql = format!(
         "SELECT {COLUMNS} FROM pass WHERE until_us {side} :until \
          AND NOT (satellite = :satellite AND from_us < :until AND until_us > :from) \
          ORDER BY until_us {order} LIMIT 1"
     );
-    let of = named_params! { ":satellite": satellite, ":from": from_us, ":until": until_us };
+    let parameters =
+        named_params! { ":satellite": satellite, ":from": from_us, ":until": until_us };
     let mut statement = db.prepare(&sql)?;
-    let mut rows = statement.query(of)?;
+    let mut rows = statement.query(parameters)?;
     rows.next()?.map_or(Ok(None), read_pass)
 }
 

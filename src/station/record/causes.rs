@@ -19,30 +19,30 @@ const PASSES: u32 = 30;
 const APART_S: f64 = 5.0;
 
 /// Finds the causes of the errors of the newest passes of `antenna`, on this mount, in the record
-/// at `path` that end `within` a time. Other elements, which are each satellite's own, are left to
+/// at `path` that end `span` a time. Other elements, which are each satellite's own, are left to
 /// the single passes. Reports without a site are of an antenna at `site`.
 pub fn explain_passes(
     path: &Path,
     antenna: AntennaId,
     mount: Mount,
     site: Site,
-    within: &RangeInclusive<Timestamp>,
+    span: &RangeInclusive<Timestamp>,
 ) -> Result<ExplainedPasses, RecordError> {
     if !path.exists() {
         return Ok(ExplainedPasses { passes: 0, start: None, explanations: Vec::new() });
     }
     let record = Passes::open(path, site)?;
     let mut flown: Vec<(Propagator, Site, PathSource, Vec<MeasuredPosition>)> = Vec::new();
-    let mut since = None;
+    let mut begin = None;
     let mut half_beam_deg = 0.0_f64;
-    for RecordedPass { id, report, .. } in record.newest(antenna, within, PASSES)? {
+    for RecordedPass { id, report, .. } in record.newest(antenna, span, PASSES)? {
         let Ok(propagator) = Propagator::new(&report.elements) else { continue };
         let site = record.site_of(&report);
         let points = thinned(&report, &record.points(id)?);
         let compared = |flown| report.track.compared(&propagator, site, flown);
         let points: Vec<MeasuredPosition> = points.into_iter().map(compared).collect();
         if !points.is_empty() {
-            since = Some(report.end);
+            begin = Some(report.end);
             half_beam_deg = half_beam_deg.max(report.half_beam_deg);
             flown.push((propagator, site, report.track.path_source(site), points));
         }
@@ -60,7 +60,7 @@ pub fn explain_passes(
     );
     Ok(ExplainedPasses {
         passes: flown.len(),
-        start: since,
+        start: begin,
         explanations: evidence.explanations(&[]),
     })
 }

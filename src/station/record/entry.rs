@@ -8,7 +8,7 @@ use crate::{clock::Moment, station::AntennaId};
 /// An entry of the record, other than measured positions and lines on a link.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Entry {
-    pub at: Moment,
+    pub moment: Moment,
     /// `None` where it concerns the whole station.
     pub antenna: Option<AntennaId>,
     pub kind: Kind,
@@ -17,12 +17,17 @@ pub struct Entry {
 
 impl Entry {
     /// An entry with `data` as JSON. Secrets have no JSON of their own, so none gets in.
-    pub fn new(at: Moment, antenna: Option<AntennaId>, kind: Kind, data: &impl Serialize) -> Self {
+    pub fn new(
+        moment: Moment,
+        antenna: Option<AntennaId>,
+        kind: Kind,
+        data: &impl Serialize,
+    ) -> Self {
         let data = serde_json::to_value(data).unwrap_or_else(|error| {
             tracing::error!(%error, ?kind, "an entry of the record without its content");
             Value::Null
         });
-        Self { at, antenna, kind, data }
+        Self { moment, antenna, kind, data }
     }
 }
 

@@ -19,7 +19,7 @@ use crate::clock::Moment;
 
 /// Picture of a station at one moment.
 pub trait Picture: Send + Sync {
-    fn at(&self) -> Moment;
+    fn moment(&self) -> Moment;
 
     /// All of it as JSON, with the numbers of its large parts in their places.
     fn draw(&self, parts: &mut Parts) -> serde_json::Result<Value>;
@@ -29,7 +29,7 @@ pub trait Picture: Send + Sync {
 #[derive(Default)]
 pub struct Parts {
     /// By address, which nothing else has while the part is held here.
-    known: HashMap<usize, Known>,
+    by_address: HashMap<usize, StoredPart>,
     last: i64,
     /// Parts that are not written yet.
     new: Vec<(i64, Vec<u8>)>,
@@ -39,7 +39,7 @@ pub struct Parts {
     same: Vec<String>,
 }
 
-struct Known {
+struct StoredPart {
     number: i64,
     is_shown: bool,
     _held: Arc<dyn Any + Send + Sync>,
@@ -69,41 +69,41 @@ impl Parts {
         write: impl FnOnce(&T) -> serde_json::Result<Vec<u8>>,
     ) -> serde_json::Result<i64> {
         let address = Arc::as_ptr(part).addr();
-        if let Some(known) = self.known.get_mut(&address) {
-            known.is_shown = true;
-            return Ok(known.number);
+        if let Some(part_entry) = self.by_address.get_mut(&address) {
+            part_entry.is_shown = true;
+            return Ok(part_entry.number);
         }
         let content = write(part)?;
         self.last += 1;
         self.new.push((self.last, content));
-        let known = Known { number: self.last, is_shown: true, _held: part.clone() };
-        self.known.insert(address, known);
+        let part_entry = StoredPart { number: self.last, is_shown: true, _held: part.clone() };
+        self.by_address.insert(address, part_entry);
         Ok(self.last)
     }
 
     /// Returns `true` if the last picture of the reel had the same at this place (a JSON pointer):
     /// then it need not be drawn, and anything may stand there.
-    pub fn is_same<T>(&mut self, place: String, what: &Arc<T>) -> bool
+    pub fn is_same<T>(&mut self, place: String, part: &Arc<T>) -> bool
     where
         T: ?Sized + Send + Sync + 'static,
     {
-        let address = Arc::as_ptr(what).addr();
+        let address = Arc::as_ptr(part).addr();
         let is_same = self.placed.get(&place).is_some_and(|before| before.address == address);
         if is_same {
             self.same.push(place.clone());
         }
-        let placed = Placed { address, is_shown: true, _held: Box::new(Arc::clone(what)) };
+        let placed = Placed { address, is_shown: true, _held: Box::new(Arc::clone(part)) };
         self.placed.insert(place, placed);
         is_same
     }
 
     /// Lets go of what the last picture does not show.
     fn next_picture(&mut self) {
-        self.known.retain(|_, known| std::mem::take(&mut known.is_shown));
+        self.by_address.retain(|_, part_entry| std::mem::take(&mut part_entry.is_shown));
         self.placed.retain(|_, placed| std::mem::take(&mut placed.is_shown));
     }
 
     fn numbers(&self) -> impl Iterator<Item = i64> {
-        self.known.values().map(|known| known.number)
+        self.by_address.values().map(|part_entry| part_entry.number)
     }
 }

@@ -26,7 +26,7 @@ pub(super) enum Order {
 /// A session to be recorded.
 pub struct RecordedSession {
     /// When it began.
-    pub at: Moment,
+    pub moment: Moment,
     pub antenna: AntennaId,
     /// Name of the antenna.
     pub name: String,

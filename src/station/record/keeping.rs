@@ -36,13 +36,13 @@ pub(super) const TRUSTED_AFTER: Duration = Duration::from_hours(24);
 /// gone on for a day since it was doubted, from run to run, or this run has lasted `ran`. By a wrong
 /// clock everything could be old.
 pub(super) fn trusts(db: &Connection, now_us: i64, ran: Duration) -> Result<bool, RecordError> {
-    let known = db
+    let found = db
         .query_row("SELECT trusted_us, doubted_us FROM clock", [], |row| {
             Ok((row.get(0)?, row.get(1)?))
         })
         .optional()?;
     let (noted, doubted): (Option<i64>, Option<i64>) =
-        known.map_or((None, None), |(trusted, doubted)| (Some(trusted), doubted));
+        found.map_or((None, None), |(trusted, doubted)| (Some(trusted), doubted));
     let (ahead_us, is_long) =
         (noted.map(|noted| now_us.saturating_sub(noted)), ran >= TRUSTED_AFTER);
     if ahead_us.is_some_and(|ahead_us| ahead_us > LONGEST_PAUSE_US) && !is_long {
@@ -141,8 +141,8 @@ fn remove_raw(
         .optional()?
         .flatten();
     let Some(oldest) = oldest.filter(|oldest| *oldest < before) else { return Ok(false) };
-    let until = before.min(oldest.saturating_add(SLICE_US));
+    let end = before.min(oldest.saturating_add(SLICE_US));
     db.prepare_cached(&format!("DELETE FROM {table} WHERE antenna = ?1 AND utc_us < ?2"))?
-        .execute(params![antenna, until])?;
+        .execute(params![antenna, end])?;
     Ok(true)
 }

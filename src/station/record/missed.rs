@@ -18,7 +18,7 @@ pub struct MissedEntry {
     /// Number of the entry.
     pub id: i64,
     /// When the pass was over for the antenna.
-    pub at: Timestamp,
+    pub time: Timestamp,
     pub antenna: AntennaId,
     /// Name of the antenna at the time.
     pub antenna_name: String,
@@ -38,7 +38,7 @@ pub fn missed(
     }
     // Older ones come with the older passes.
     let is_whole = page.matching <= query.count;
-    let since = page.passes.last().filter(|_| !is_whole).map(|pass| pass.report.end);
+    let start = page.passes.last().filter(|_| !is_whole).map(|pass| pass.report.end);
     let db = file::open_to_read(path)?;
     // A pass with time in the beam and no report was tracked while nothing could be recorded.
     let mut statement = db.prepare(
@@ -58,7 +58,7 @@ pub fn missed(
          ORDER BY utc_us DESC LIMIT :count",
     )?;
     let mut rows = statement.query(named_params! {
-        ":since": since.map_or(i64::MIN, Timestamp::as_microsecond),
+        ":since": start.map_or(i64::MIN, Timestamp::as_microsecond),
         ":antenna": query.antenna.map(|antenna| antenna.0),
         ":text": query.text.trim(),
         ":count": query.count,
@@ -70,7 +70,7 @@ pub fn missed(
         let Ok(flown) = serde_json::from_str(&flown) else { continue };
         found.push(MissedEntry {
             id: row.get(0)?,
-            at: file::time_of(1, row.get(1)?)?,
+            time: file::time_of(1, row.get(1)?)?,
             antenna: AntennaId(row.get(2)?),
             antenna_name: row.get::<_, Option<String>>(3)?.unwrap_or_default(),
             flown,

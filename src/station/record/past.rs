@@ -37,7 +37,7 @@ pub(super) const LONGEST: SignedDuration = SignedDuration::from_hours(24);
 /// Time between two directions of the predicted path, seconds.
 const STEP_S: f64 = 2.0;
 /// Kinds of entries that tell what happened in a pass.
-const TOLD: [Kind; 7] =
+const SHOWN_KINDS: [Kind; 7] =
     [Kind::Command, Kind::Stop, Kind::Refusal, Kind::Link, Kind::Alarm, Kind::Day, Kind::Gap];
 
 /// The value of the column `verdict`; an empty text, which no row has, for passes that were not
@@ -54,16 +54,16 @@ pub fn passes(path: &Path, query: &PassQuery) -> Result<PassPage, RecordError> {
     page(&file::open_to_read(path)?, query)
 }
 
-/// The passes that `query` finds in the record at `path` with their AOS `within` a time, all that can
+/// The passes that `query` finds in the record at `path` with their AOS `span` a time, all that can
 /// be read, in order of AOS. Reports without a site are of an antenna at `site`.
 pub fn passes_within(
     path: &Path,
     query: &PassQuery,
-    within: &Range<Timestamp>,
+    span: &Range<Timestamp>,
     site: Site,
 ) -> Result<Vec<OpenedPass>, RecordError> {
     let passes = Passes::open(path, site)?;
-    passes.within(query, within)?.into_iter().map(|pass| passes.opened(pass)).collect()
+    passes.in_span(query, span)?.into_iter().map(|pass| passes.opened(pass)).collect()
 }
 
 /// The pass with this number, if the record at `path` has it. Reports without a site are of an
@@ -78,16 +78,16 @@ fn track_of(
     flown: &[MeasuredPosition],
     propagator: &Propagator,
     site: Site,
-    about: &AboutTrack,
+    about_track: &AboutTrack,
 ) -> Vec<TrackPoint> {
     let has_elevation = flown.iter().any(|flown| flown.pointing.elevation.is_some());
     let point = |flown: &MeasuredPosition| {
         let point = |flown| TrackPoint::new(propagator, site, has_elevation, flown);
-        let compared = point(about.compared(propagator, site, *flown))?;
-        if about.offsets.changes().is_empty() {
+        let compared = point(about_track.compared(propagator, site, *flown))?;
+        if about_track.offsets.changes().is_empty() {
             return Some(compared);
         }
-        let TrackPoint { antenna, .. } = point(about.on_the_sky(*flown))?;
+        let TrackPoint { antenna, .. } = point(about_track.on_the_sky(*flown))?;
         Some(TrackPoint { antenna, ..compared })
     };
     flown.iter().filter_map(point).collect()
@@ -118,7 +118,7 @@ pub(super) const COLUMNS: &str = "id, antenna, (SELECT name FROM antenna AS a WH
     ORDER BY since_us > pass.until_us, abs(since_us - pass.until_us) LIMIT 1), report";
 
 /// Condition of a query on a pass.
-const WANTED: &str = "(:antenna IS NULL OR antenna = :antenna) \
+const MATCHES: &str = "(:antenna IS NULL OR antenna = :antenna) \
     AND (:kind IS NULL OR verdict = :kind) \
     AND (instr(lower(name), lower(:text)) > 0 OR CAST(satellite AS TEXT) = :text \
          OR instr(strftime('%Y-%m-%d', from_us / 1000000, 'unixepoch'), :text) = 1)";
@@ -133,34 +133,34 @@ impl Passes {
         report.site.unwrap_or(self.site.airless())
     }
 
-    /// The newest passes of an antenna that end `within` a time and can be read, the newest first.
+    /// The newest passes of an antenna that end within `span` and can be read, the newest first.
     pub(super) fn newest(
         &self,
         antenna: AntennaId,
-        within: &RangeInclusive<Timestamp>,
+        span: &RangeInclusive<Timestamp>,
         count: u32,
     ) -> Result<Vec<RecordedPass>, RecordError> {
         let mut statement = self.db.prepare(&format!(
             "SELECT {COLUMNS} FROM pass WHERE antenna = ?1 AND until_us BETWEEN ?2 AND ?3 \
              ORDER BY until_us DESC LIMIT ?4"
         ))?;
-        let (from, to) = (within.start().as_microsecond(), within.end().as_microsecond());
-        read_passes(statement.query((antenna.0, from, to, count))?)
+        let (start, end) = (span.start().as_microsecond(), span.end().as_microsecond());
+        read_passes(statement.query((antenna.0, start, end, count))?)
     }
 
-    fn within(
+    fn in_span(
         &self,
         query: &PassQuery,
-        within: &Range<Timestamp>,
+        span: &Range<Timestamp>,
     ) -> Result<Vec<RecordedPass>, RecordError> {
-        let latest = within.end.checked_add(LONGEST).unwrap_or(Timestamp::MAX);
+        let latest = span.end.checked_add(LONGEST).unwrap_or(Timestamp::MAX);
         let mut statement = self.db.prepare(&format!(
             "SELECT {COLUMNS} FROM pass WHERE until_us BETWEEN :from AND :latest \
-             AND from_us >= :from AND from_us < :to AND {WANTED} ORDER BY from_us"
+             AND from_us >= :from AND from_us < :to AND {MATCHES} ORDER BY from_us"
         ))?;
         read_passes(statement.query(named_params! {
-            ":from": within.start.as_microsecond(),
-            ":to": within.end.as_microsecond(),
+            ":from": span.start.as_microsecond(),
+            ":to": span.end.as_microsecond(),
             ":latest": latest.as_microsecond(),
             ":antenna": query.antenna.map(|antenna| antenna.0),
             ":kind": query.kind.map(verdict_of),
@@ -188,25 +188,25 @@ impl Passes {
             Err(_) => (Vec::new(), Vec::new()),
         };
         let query = Query {
-            from: report.start.min(report.track.begun).checked_sub(BEFORE).ok(),
-            to: report.end.checked_add(AFTER).ok(),
+            start: report.start.min(report.track.begun).checked_sub(BEFORE).ok(),
+            end: report.end.checked_add(AFTER).ok(),
             antenna: Some(pass.antenna_name.clone()),
-            what: TOLD.into_iter().map(RowKind::Entry).collect(),
+            row_kinds: SHOWN_KINDS.into_iter().map(RowKind::Entry).collect(),
         };
         let mut entries = read::entries(&self.db, &query)?;
-        if let Some(to) = query.to {
-            entries.extend(self.gap_across(to)?);
+        if let Some(end) = query.end {
+            entries.extend(self.gap_across(end)?);
         }
         Ok(OpenedPass { pass, track, path, entries })
     }
 
-    /// The gap that had begun by `at` and ended later. A gap is noted at its end, and no two of them
+    /// The gap that had begun by `time` and ended later. A gap is noted at its end, and no two of them
     /// overlap.
-    fn gap_across(&self, at: Timestamp) -> Result<Option<Row>, RecordError> {
-        let what = vec![RowKind::Entry(Kind::Gap)];
-        let query = Query { from: Some(at), what, ..Query::default() };
+    fn gap_across(&self, time: Timestamp) -> Result<Option<Row>, RecordError> {
+        let row_kinds = vec![RowKind::Entry(Kind::Gap)];
+        let query = Query { start: Some(time), row_kinds, ..Query::default() };
         let next = read::entries(&self.db, &query)?.into_iter().next();
-        Ok(next.filter(|gap| gap.gap_since().is_some_and(|since| since < at)))
+        Ok(next.filter(|gap| gap.gap_since().is_some_and(|start| start < time)))
     }
 
     /// The measured track of a pass beside the one that led the antenna. Elements that cannot be
@@ -244,7 +244,7 @@ fn page(db: &Connection, query: &PassQuery) -> Result<PassPage, RecordError> {
     let text = query.text.trim();
     let of_query = named_params! { ":antenna": antenna, ":kind": kind, ":text": text };
     let matching =
-        db.query_row(&format!("SELECT count(*) FROM pass WHERE {WANTED}"), of_query, |row| {
+        db.query_row(&format!("SELECT count(*) FROM pass WHERE {MATCHES}"), of_query, |row| {
             row.get(0)
         })?;
     let (all, since_us): (u32, Option<i64>) =
@@ -258,7 +258,7 @@ fn page(db: &Connection, query: &PassQuery) -> Result<PassPage, RecordError> {
         ..PassPage::default()
     };
     let mut statement = db.prepare(&format!(
-        "SELECT {COLUMNS} FROM pass WHERE {WANTED} ORDER BY until_us DESC LIMIT {}",
+        "SELECT {COLUMNS} FROM pass WHERE {MATCHES} ORDER BY until_us DESC LIMIT {}",
         query.count
     ))?;
     let mut rows = statement.query(of_query)?;

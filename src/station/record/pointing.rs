@@ -24,36 +24,36 @@ const NEAR_DEG: f64 = 10.0;
 pub enum CannotFitPointing {
     #[error("the record cannot be read: {0}")]
     Record(#[from] RecordError),
-    #[error("{why} in {passes} recorded passes")]
-    Points { passes: usize, why: CannotFit },
+    #[error("{cannot_fit} in {passes} recorded passes")]
+    Points { passes: usize, cannot_fit: CannotFit },
 }
 
-/// Fits the model of `antenna`, `without` some terms, to its passes in the record at `path` that end
-/// `within` a time, and to `peaks`. Reports without a site are of an antenna at `site`.
+/// Fits the model of `antenna`, `excluded` some terms, to its passes in the record at `path` that end
+/// `span` a time, and to `peaks`. Reports without a site are of an antenna at `site`.
 pub fn fit_pointing(
     path: &Path,
     antenna: AntennaId,
     site: Site,
-    within: &RangeInclusive<Timestamp>,
+    span: &RangeInclusive<Timestamp>,
     peaks: &[Peak],
-    without: Vec<Term>,
+    excluded: Vec<Term>,
 ) -> Result<PointingFit, CannotFitPointing> {
     let peaks: Vec<Point> = peaks.iter().map(|peak| peak.point(site)).collect();
     let mut runs: Vec<Vec<Point>> = Vec::new();
     if path.exists() {
         let record = Passes::open(path, site)?;
-        for pass in record.newest(antenna, within, u32::MAX)? {
+        for pass in record.newest(antenna, span, u32::MAX)? {
             let run = thinned(&record.led_track(&pass)?, &pass.report.track.pointing_model);
             if !run.is_empty() {
                 runs.push(run);
             }
         }
     }
-    let terms: Vec<Term> = Term::ALL.into_iter().filter(|term| !without.contains(term)).collect();
+    let terms: Vec<Term> = Term::ALL.into_iter().filter(|term| !excluded.contains(term)).collect();
     let all = runs.iter().map(Vec::as_slice).chain(peaks.chunks(1));
     let fit = pointing::fit(all, &terms)
-        .map_err(|why| CannotFitPointing::Points { passes: runs.len(), why })?;
-    Ok(fitted(runs.len(), &fit, without))
+        .map_err(|cannot_fit| CannotFitPointing::Points { passes: runs.len(), cannot_fit })?;
+    Ok(fitted(runs.len(), &fit, excluded))
 }
 
 fn thinned(track: &[TrackPoint], flown_with: &PointingModel) -> Vec<Point> {
@@ -69,7 +69,7 @@ fn thinned(track: &[TrackPoint], flown_with: &PointingModel) -> Vec<Point> {
     apart(near, APART_S, |point| point.time).map(point).collect()
 }
 
-fn fitted(passes: usize, fit: &Fit, without: Vec<Term>) -> PointingFit {
+fn fitted(passes: usize, fit: &Fit, excluded: Vec<Term>) -> PointingFit {
     let term = |term: Term| {
         let interval = fit.interval(term);
         let alike = fit.alike.iter().find(|alike| alike.term == term);
@@ -88,7 +88,7 @@ fn fitted(passes: usize, fit: &Fit, without: Vec<Term>) -> PointingFit {
     PointingFit {
         passes,
         noise: fit.noise.iter().map(noise).collect(),
-        excluded: without,
+        excluded,
         terms: Term::ALL.map(term).into(),
     }
 }

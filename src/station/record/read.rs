@@ -50,13 +50,13 @@ impl RowKind {
 #[derive(Debug, Clone, Default)]
 pub struct Query {
     /// From this time on.
-    pub from: Option<Timestamp>,
+    pub start: Option<Timestamp>,
     /// Before this time.
-    pub to: Option<Timestamp>,
+    pub end: Option<Timestamp>,
     /// Name of the antenna, now or at the time. Gaps, and STOPs that were pressed for it, count
     /// among its entries.
     pub antenna: Option<String>,
-    pub what: Vec<RowKind>,
+    pub row_kinds: Vec<RowKind>,
 }
 
 /// Rows of the antenna of a query.
@@ -153,11 +153,12 @@ fn rows(
     (before, now): (&Place, &Place),
     take: &mut dyn FnMut(Row) -> bool,
 ) -> Result<(), RecordError> {
-    let from_us = query.from.map_or(EARLIEST_US, Timestamp::as_microsecond);
-    let to_us = query.to.map_or(LATEST_US, Timestamp::as_microsecond);
+    let from_us = query.start.map_or(EARLIEST_US, Timestamp::as_microsecond);
+    let to_us = query.end.map_or(LATEST_US, Timestamp::as_microsecond);
     let mut parts = Vec::new();
-    let is_entry = |what: &&RowKind| matches!(what, RowKind::Entry(_));
-    let kinds: Vec<&str> = query.what.iter().filter(is_entry).map(|what| what.word()).collect();
+    let is_entry = |row_kind: &&RowKind| matches!(row_kind, RowKind::Entry(_));
+    let kinds: Vec<&str> =
+        query.row_kinds.iter().filter(is_entry).map(|row_kind| row_kind.word()).collect();
     if !kinds.is_empty() {
         parts.push(format!(
             "SELECT utc_us, run, steady_us, antenna, kind, data, NULL AS b, NULL AS c, \
@@ -167,7 +168,7 @@ fn rows(
             kinds.join("', '")
         ));
     }
-    if query.what.contains(&RowKind::Pass) {
+    if query.row_kinds.contains(&RowKind::Pass) {
         parts.push(format!(
             "SELECT until_us AS utc_us, run, NULL AS steady_us, antenna, 'pass' AS kind, \
                  report, satellite, name, NULL, NULL, NULL, NULL FROM pass \
@@ -186,12 +187,12 @@ fn rows(
             }
         }
     };
-    if query.what.contains(&RowKind::Position) {
+    if query.row_kinds.contains(&RowKind::Position) {
         let select = "SELECT utc_us, run, steady_us, antenna, 'position' AS kind, azimuth, \
                           elevation, axis_1, axis_2, motion_1, motion_2, limits FROM position";
         of_antennas(select, &now.position_us, &before.position_us);
     }
-    if query.what.contains(&RowKind::Frame) {
+    if query.row_kinds.contains(&RowKind::Frame) {
         let select = "SELECT utc_us, run, NULL AS steady_us, antenna, 'frame' AS kind, \
                           is_sent, bytes, length, fault, meaning, reply_us, NULL FROM frame";
         of_antennas(select, &now.frame_us, &before.frame_us);

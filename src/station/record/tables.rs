@@ -29,25 +29,25 @@ pub(super) struct Tables<'a> {
 
 impl Tables<'_> {
     fn steady_us(&self, steady: Instant) -> i64 {
-        let since = steady.saturating_duration_since(self.begun.steady);
-        i64::try_from(since.as_micros()).unwrap_or(i64::MAX)
+        let elapsed = steady.saturating_duration_since(self.begun.steady);
+        i64::try_from(elapsed.as_micros()).unwrap_or(i64::MAX)
     }
 
     pub(super) fn antenna(&self, session: &RecordedSession) -> Result<(), RecordError> {
-        self.tx
-            .prepare_cached("INSERT OR REPLACE INTO antenna VALUES (?1, ?2, ?3, ?4)")?
-            .execute(params![
+        self.tx.prepare_cached("INSERT OR REPLACE INTO antenna VALUES (?1, ?2, ?3, ?4)")?.execute(
+            params![
                 session.antenna.0,
-                session.at.utc.as_microsecond(),
+                session.moment.utc.as_microsecond(),
                 session.name,
                 session.make,
-            ])?;
+            ],
+        )?;
         Ok(())
     }
 
     pub(super) fn entry(&self, entry: &Entry) -> Result<(), RecordError> {
         let antenna = entry.antenna.map(|antenna| antenna.0);
-        let utc_us = entry.at.utc.as_microsecond();
+        let utc_us = entry.moment.utc.as_microsecond();
         self.tx
             .prepare_cached(
                 "INSERT INTO event (utc_us, steady_us, run, antenna, kind, data) \
@@ -55,7 +55,7 @@ impl Tables<'_> {
             )?
             .execute(params![
                 utc_us,
-                self.steady_us(entry.at.steady),
+                self.steady_us(entry.moment.steady),
                 self.run,
                 antenna,
                 entry.kind.word(),
@@ -98,15 +98,15 @@ impl Tables<'_> {
     pub(super) fn gap(
         &self,
         missed: Missed,
-        since: Timestamp,
-        at: Moment,
+        start: Timestamp,
+        moment: Moment,
     ) -> Result<(), RecordError> {
         let Missed { entries, positions, frames, pictures } = missed;
         let data = json!({
-            "since": since, "entries": entries, "positions": positions, "frames": frames,
+            "since": start, "entries": entries, "positions": positions, "frames": frames,
             "pictures": pictures,
         });
-        self.entry(&Entry { at, antenna: None, kind: Kind::Gap, data })
+        self.entry(&Entry { moment, antenna: None, kind: Kind::Gap, data })
     }
 
     pub(super) fn positions(

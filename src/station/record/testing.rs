@@ -27,21 +27,24 @@ use crate::{
 pub const POINTS: usize = 60;
 
 /// A pass of ten minutes, of which the second minute was lost.
-pub fn note(antenna: AntennaId, satellite: u32, from: Timestamp) -> PassNote {
+pub fn note(antenna: AntennaId, satellite: u32, start: Timestamp) -> PassNote {
     let elements = bundled().unwrap().get(satellite).unwrap().clone();
     let propagator = Propagator::new(&elements).unwrap();
     let point = |second| {
-        let time = add_seconds(from, second);
+        let time = add_seconds(start, second);
         let direction =
             propagator.look_from(crate::astro::Site::default(), time).unwrap().direction;
         MeasuredPosition { time, pointing: Pointing::from(direction) }
     };
     let points = (0..POINTS).map(|second| point(second as f64)).collect();
-    let lost =
-        LostStretch { start: from + 1.minutes(), end: from + 2.minutes(), cause: LossCause::Slew };
+    let lost = LostStretch {
+        start: start + 1.minutes(),
+        end: start + 2.minutes(),
+        cause: LossCause::Slew,
+    };
     let report = RecordedReport {
-        start: from,
-        end: from + 10.minutes(),
+        start,
+        end: start + 10.minutes(),
         planned: None,
         max_elevation_deg: 50.0,
         age_days: 0.5,
@@ -49,7 +52,7 @@ pub fn note(antenna: AntennaId, satellite: u32, from: Timestamp) -> PassNote {
         site: None,
         half_beam_deg: 0.5,
         track: AboutTrack {
-            begun: from,
+            begun: start,
             tracked_by: TrackedBy::ProgramTrack,
             sent: None,
             offsets: FlownOffsets::default(),
@@ -78,7 +81,7 @@ pub fn record(path: &Path, notes: impl IntoIterator<Item = PassNote>) {
     let recorder = Recorder::start(path.to_owned(), clock.clone(), Retention::default()).unwrap();
     for note in notes {
         recorder.follow(RecordedSession {
-            at: clock.now(),
+            moment: clock.now(),
             antenna: note.antenna,
             name: "Dish".to_owned(),
             make: "satrak",

@@ -54,13 +54,13 @@ struct Logs {
 
 impl Logs {
     fn followed_by(recorder: &Recorder) -> Self {
-        Self::of(DISH, recorder)
+        Self::new(DISH, recorder)
     }
 
-    fn of(antenna: AntennaId, recorder: &Recorder) -> Self {
+    fn new(antenna: AntennaId, recorder: &Recorder) -> Self {
         let (wire, positions) = (WireLog::default(), PositionLog::default());
         recorder.follow(RecordedSession {
-            at: clock().now(),
+            moment: clock().now(),
             antenna,
             name: "Dish".to_owned(),
             make: "satrak",
@@ -83,7 +83,7 @@ impl Logs {
         self.position_at(start(), azimuth_deg);
     }
 
-    fn position_at(&mut self, at: Timestamp, azimuth_deg: f64) {
+    fn position_at(&mut self, time: Timestamp, azimuth_deg: f64) {
         self.steady += Duration::from_millis(100);
         let axis = |angle_deg| Axis {
             angle_deg,
@@ -93,7 +93,7 @@ impl Logs {
             minus_limit: true,
         };
         self.positions.push(Measured {
-            time: at,
+            time,
             requested: self.steady,
             received: self.steady,
             pointing: Pointing { azimuth: Some(Angle::from_degrees(azimuth_deg)), elevation: None },
@@ -103,8 +103,8 @@ impl Logs {
 }
 
 fn entry(number: u32) -> Entry {
-    let at = Moment { steady: Instant::now(), utc: start() };
-    Entry::new(at, Some(DISH), Kind::Event, &json!({ "number": number }))
+    let moment = Moment { steady: Instant::now(), utc: start() };
+    Entry::new(moment, Some(DISH), Kind::Event, &json!({ "number": number }))
 }
 
 fn rows_of(path: &Path, query: &Query) -> Vec<Row> {
@@ -117,8 +117,8 @@ fn rows_of(path: &Path, query: &Query) -> Vec<Row> {
     rows
 }
 
-fn rows(path: &Path, what: RowKind) -> Vec<Row> {
-    rows_of(path, &Query { what: vec![what], ..Query::default() })
+fn rows(path: &Path, row_kind: RowKind) -> Vec<Row> {
+    rows_of(path, &Query { row_kinds: vec![row_kind], ..Query::default() })
 }
 
 fn events(path: &Path) -> Vec<u64> {
@@ -150,22 +150,27 @@ fn entries_positions_and_lines_are_read_as_they_were_noted() {
         })
     );
     let frames = rows(&path, RowKind::Frame);
-    let told = |name: &str| -> Vec<&Value> { frames.iter().map(|row| &row.data[name]).collect() };
-    assert_eq!(told("bytes"), [r"?P\\\r", r"?P\r", "?P"]);
+    let frames_named =
+        |name: &str| -> Vec<&Value> { frames.iter().map(|row| &row.data[name]).collect() };
+    assert_eq!(frames_named("bytes"), [r"?P\\\r", r"?P\r", "?P"]);
     // Most lines are good questions for the position, and their bytes say the same.
     let asks = json!("Asks for the position");
-    assert_eq!(told("meaning"), [&asks, &Value::Null, &asks]);
-    assert_eq!(told("fault"), [&Value::Null, &Value::Null, &json!("Unfinished")]);
+    assert_eq!(frames_named("meaning"), [&asks, &Value::Null, &asks]);
+    assert_eq!(frames_named("fault"), [&Value::Null, &Value::Null, &json!("Unfinished")]);
     assert_eq!(events(&path), [7]);
     // Antenna and time choose.
-    let of_kinds = |antenna: &str, from: Option<Timestamp>, what: Vec<RowKind>| {
-        rows_of(&path, &Query { antenna: Some(antenna.to_owned()), from, what, to: None }).len()
+    let of_kinds = |antenna: &str, begin: Option<Timestamp>, row_kinds: Vec<RowKind>| {
+        rows_of(
+            &path,
+            &Query { antenna: Some(antenna.to_owned()), start: begin, row_kinds, end: None },
+        )
+        .len()
     };
-    let of = |antenna: &str, from| of_kinds(antenna, from, RowKind::all().collect());
+    let rows = |antenna: &str, begin| of_kinds(antenna, begin, RowKind::all().collect());
     let raw = || vec![RowKind::Position, RowKind::Frame];
-    assert_eq!((of("Dish", None), of("Mast", None)), (5, 0));
+    assert_eq!((rows("Dish", None), rows("Mast", None)), (5, 0));
     assert_eq!((of_kinds("Dish", None, raw()), of_kinds("Mast", None, raw())), (4, 0));
-    assert_eq!(of("Dish", Some(start() + Duration::from_secs(1))), 0);
+    assert_eq!(rows("Dish", Some(start() + Duration::from_secs(1))), 0);
 }
 
 #[test]
@@ -176,7 +181,7 @@ fn a_reader_goes_on_where_it_has_ended() {
     recorder.note(entry(1));
     recorder.flush();
     let mut record = Record::open(&path).unwrap();
-    let query = Query { what: vec![RowKind::Entry(Kind::Event)], ..Query::default() };
+    let query = Query { row_kinds: vec![RowKind::Entry(Kind::Event)], ..Query::default() };
     let read = |record: &mut Record| {
         let mut numbers = Vec::new();
         let take = &mut |row: Row| {
@@ -200,12 +205,12 @@ fn what_one_antenna_measured_before_another_and_told_later_is_read_too() {
     let path = folder.path().join("a.sqlite");
     let recorder = recorder(&path);
     let mut first = Logs::followed_by(&recorder);
-    let mut second = Logs::of(AntennaId(5), &recorder);
+    let mut second = Logs::new(AntennaId(5), &recorder);
     first.position_at(start() + Duration::from_secs(1), 10.0);
     second.position_at(start(), 20.0);
     recorder.flush();
     let mut record = Record::open(&path).unwrap();
-    let query = Query { what: vec![RowKind::Position], ..Query::default() };
+    let query = Query { row_kinds: vec![RowKind::Position], ..Query::default() };
     let azimuths = |record: &mut Record| {
         let mut found = Vec::new();
         let take = &mut |row: Row| {
@@ -262,7 +267,7 @@ fn what_did_not_fit_is_counted_and_marked() {
     recorder.flush();
     let gaps = rows(&path, RowKind::Entry(Kind::Gap));
     let [gap] = &gaps[..] else { panic!("{gaps:?}") };
-    let counts = ["frames", "positions", "entries"].map(|of| gap.data[of].as_u64().unwrap());
+    let counts = ["frames", "positions", "entries"].map(|name| gap.data[name].as_u64().unwrap());
     assert_eq!(counts, [7, 0, 0]);
     assert_eq!(rows(&path, RowKind::Frame).len(), MAX_LINES);
     recorder.flush();
@@ -279,9 +284,9 @@ fn a_file_that_is_no_record_is_kept_beside_a_new_one() {
     recorder.flush();
     recorder.flush();
     assert_eq!(events(&path), [1]);
-    let kept = fs::read_dir(folder.path()).unwrap().map(|file| file.unwrap().path());
-    let kept = kept.filter(|file| file.to_string_lossy().contains("unreadable"));
-    let texts: Vec<String> = kept.map(|file| fs::read_to_string(file).unwrap()).collect();
+    let files = fs::read_dir(folder.path()).unwrap().map(|file| file.unwrap().path());
+    let files = files.filter(|file| file.to_string_lossy().contains("unreadable"));
+    let texts: Vec<String> = files.map(|file| fs::read_to_string(file).unwrap()).collect();
     assert!(matches!(&texts[..], [text] if text.starts_with("letters")), "{texts:?}");
 }
 

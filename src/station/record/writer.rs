@@ -58,7 +58,7 @@ fn file_id(path: &Path) -> Option<FileId> {
 
 /// A session, and how far it is recorded.
 struct Source {
-    of: RecordedSession,
+    recorded_session: RecordedSession,
     is_named: bool,
     next_line: u64,
     next_position: u64,
@@ -127,7 +127,7 @@ impl Writer {
     /// Writes until the station ends.
     pub(super) fn run(mut self, orders: &mpsc::Receiver<Order>) {
         self.queue(Entry {
-            at: self.begun,
+            moment: self.begun,
             antenna: None,
             kind: Kind::Run,
             data: json!({ "begun": env!("CARGO_PKG_VERSION") }),
@@ -159,14 +159,14 @@ impl Writer {
                 Err(mpsc::RecvTimeoutError::Disconnected) => break,
             }
         }
-        let at = self.clock.now();
+        let moment = self.clock.now();
         let data = json!({ "ended": true });
-        self.queue(Entry { at, antenna: None, kind: Kind::Run, data });
+        self.queue(Entry { moment, antenna: None, kind: Kind::Run, data });
         self.write();
         if let Some((db, run)) = self.open.take() {
             let ended = db.execute(
                 "UPDATE run SET ended_us = ?1 WHERE id = ?2",
-                params![at.utc.as_microsecond(), run],
+                params![moment.utc.as_microsecond(), run],
             );
             if let Err(error) = ended {
                 tracing::warn!(%error, "the end of this run is not in the record");
@@ -192,16 +192,16 @@ impl Writer {
                 if locked(&self.shared.status).failing.take().is_some() {
                     tracing::warn!("the record goes on");
                 }
-                if self.looked_at.is_none_or(|at| at.elapsed() >= LOOK) {
+                if self.looked_at.is_none_or(|instant| instant.elapsed() >= LOOK) {
                     self.look_after_file();
                 }
                 true
             }
             Err(error) => {
                 self.open = None;
-                let since = self.written_at;
+                let start = self.written_at;
                 let failing = Failing {
-                    last_write: since,
+                    last_write: start,
                     reason: error.to_string(),
                     waiting: self.waiting.len() as u64,
                 };
@@ -239,22 +239,26 @@ impl Writer {
             missed.positions += news.first_position - source.next_position;
         }
         let tx = db.transaction()?;
-        let to = Tables { tx: &tx, run: *run, begun: self.begun };
+        let tables = Tables { tx: &tx, run: *run, begun: self.begun };
         if missed != Missed::default() {
-            to.gap(missed, self.written_at, self.clock.now())?;
+            tables.gap(missed, self.written_at, self.clock.now())?;
         }
         for (source, news) in self.sources.iter().zip(&news) {
             if !source.is_named {
-                to.antenna(&source.of)?;
+                tables.antenna(&source.recorded_session)?;
             }
-            to.frames(source.of.antenna, &news.lines)?;
-            to.positions(source.of.antenna, news.first_position, &news.positions)?;
+            tables.frames(source.recorded_session.antenna, &news.lines)?;
+            tables.positions(
+                source.recorded_session.antenna,
+                news.first_position,
+                &news.positions,
+            )?;
         }
         for entry in &self.waiting {
-            to.entry(entry)?;
+            tables.entry(entry)?;
         }
         for pass in &self.passes {
-            to.pass(pass)?;
+            tables.pass(pass)?;
         }
         self.camera.write(&tx, *run)?;
         tx.commit()?;
@@ -291,11 +295,11 @@ impl Writer {
                 }
             }
         }
-        let at = self.clock.now();
-        locked(&self.shared.status).removed = Some(at.utc);
+        let moment = self.clock.now();
+        locked(&self.shared.status).removed = Some(moment.utc);
         tracing::error!(path = %self.path.display(), "somebody has removed the record");
         let data = json!({ "previous_record": "removed" });
-        self.queue(Entry { at, antenna: None, kind: Kind::Run, data });
+        self.queue(Entry { moment, antenna: None, kind: Kind::Run, data });
     }
 
     fn open_file(&mut self) -> Result<(Connection, i64), RecordError> {
@@ -326,13 +330,13 @@ impl Writer {
 
     /// Keeps a file that is no record under another name, so that a new one can begin.
     fn set_aside(&self) {
-        let aside = format!("unreadable-{}", self.clock.utc().as_second());
-        let aside = self.path.with_added_extension(aside);
+        let suffix = format!("unreadable-{}", self.clock.utc().as_second());
+        let backup = self.path.with_added_extension(suffix);
         for part in ["", "-wal", "-shm"] {
-            let from = with_ending(&self.path, part);
-            if from.exists() {
-                let to = with_ending(&aside, part);
-                if let Err(error) = fs::rename(&from, &to) {
+            let source = with_ending(&self.path, part);
+            if source.exists() {
+                let target = with_ending(&backup, part);
+                if let Err(error) = fs::rename(&source, &target) {
                     tracing::error!(%error, "the unreadable record stays in its place");
                 }
             }
@@ -362,10 +366,10 @@ impl Writer {
     /// more may be left.
     fn remove_old(&self, now: Moment) -> Result<bool, RecordError> {
         let Some((db, _)) = &self.open else { return Ok(false) };
-        let since = |at| now.steady.saturating_duration_since(at);
-        let is_set = self.clock_set_at.is_some_and(|at| since(at) < keeping::TRUSTED_AFTER);
+        let elapsed = |time| now.steady.saturating_duration_since(time);
+        let is_set = self.clock_set_at.is_some_and(|time| elapsed(time) < keeping::TRUSTED_AFTER);
         let now_us = now.utc.as_microsecond();
-        if is_set || !keeping::trusts(db, now_us, since(self.begun.steady))? {
+        if is_set || !keeping::trusts(db, now_us, elapsed(self.begun.steady))? {
             return Ok(false);
         }
         keeping::remove_old(db, *locked(&self.shared.keeping), now_us)
@@ -373,30 +377,31 @@ impl Writer {
 }
 
 impl Source {
-    fn new(of: RecordedSession) -> Self {
-        Self { of, is_named: false, next_line: 0, next_position: 0 }
+    fn new(session: RecordedSession) -> Self {
+        Self { recorded_session: session, is_named: false, next_line: 0, next_position: 0 }
     }
 
     fn news(&self) -> News {
         // Before the logs are read: what is written to them afterwards is not lost.
-        let is_last = self.of.wire.is_alone();
-        let mut lines = self.of.wire.copy_from(self.next_line);
+        let is_last = self.recorded_session.wire.is_alone();
+        let mut lines = self.recorded_session.wire.copy_from(self.next_line);
         while let Some(last) = lines.last() {
-            let more = self.of.wire.copy_from(last.number + 1);
+            let more = self.recorded_session.wire.copy_from(last.number + 1);
             if more.is_empty() {
                 break;
             }
             lines.extend(more);
         }
-        let (first_position, positions) = self.of.positions.read_from(self.next_position);
+        let (first_position, positions) =
+            self.recorded_session.positions.read_from(self.next_position);
         News { lines, first_position, positions, is_last }
     }
 }
 
 /// Size of the file and its log, bytes.
 fn size(path: &Path) -> u64 {
-    let of = |path: &Path| fs::metadata(path).map_or(0, |file| file.len());
-    of(path) + of(&with_ending(path, "-wal"))
+    let bytes = |path: &Path| fs::metadata(path).map_or(0, |file| file.len());
+    bytes(path) + bytes(&with_ending(path, "-wal"))
 }
 
 /// The path with `ending` straight after its name, as SQLite names its log.

@@ -27,8 +27,8 @@ fn is_pass(pass: &RehearsedPass, antenna: AntennaId, satellite: u32, aos: Timest
 
 /// The passes of a rehearsal that goes on.
 pub(super) struct Passes {
-    from: Timestamp,
-    until: Timestamp,
+    start: Timestamp,
+    end: Timestamp,
     list: Vec<RehearsedPass>,
     /// Revision of the plan that was looked at last.
     revision: u64,
@@ -39,10 +39,10 @@ pub(super) struct Passes {
 }
 
 impl Passes {
-    pub(super) fn new(from: Timestamp, until: Timestamp) -> Self {
+    pub(super) fn new(start: Timestamp, end: Timestamp) -> Self {
         Self {
-            from,
-            until,
+            start,
+            end,
             list: Vec::new(),
             revision: 0,
             interruptions: Vec::new(),
@@ -50,14 +50,16 @@ impl Passes {
         }
     }
 
-    pub(super) fn until(&self) -> Timestamp {
-        self.until
+    pub(super) fn end(&self) -> Timestamp {
+        self.end
     }
 
     /// Returns `true` if no pass goes on at `now`.
     pub(super) fn are_over(&self, now: Timestamp) -> bool {
-        let is_over = |it: &RehearsedPass| {
-            it.is_given_up || seconds_between(it.end.max(it.los), now) > REPORTED_AFTER_S
+        let is_over = |rehearsed_pass: &RehearsedPass| {
+            rehearsed_pass.is_given_up
+                || seconds_between(rehearsed_pass.end.max(rehearsed_pass.los), now)
+                    > REPORTED_AFTER_S
         };
         self.list.iter().all(is_over)
     }
@@ -73,14 +75,18 @@ impl Passes {
             pass.is_given_up = true;
         }
         let entries = planned.schedule.entries.iter();
-        for entry in entries.filter(|it| self.from <= it.start && it.start < self.until) {
+        for entry in entries.filter(|entry| self.start <= entry.start && entry.start < self.end) {
             let PassKey { satellite, aos } = entry.pass;
-            match self.list.iter_mut().find(|it| is_pass(it, entry.antenna, satellite, aos)) {
-                Some(known) => {
-                    (known.start, known.end) = (entry.start, entry.end);
-                    known.is_given_up = false;
+            match self
+                .list
+                .iter_mut()
+                .find(|rehearsed_pass| is_pass(rehearsed_pass, entry.antenna, satellite, aos))
+            {
+                Some(recorded) => {
+                    (recorded.start, recorded.end) = (entry.start, entry.end);
+                    recorded.is_given_up = false;
                 }
-                None => self.list.push(new(entry, snapshot)),
+                None => self.list.push(planned_pass(entry, snapshot)),
             }
         }
     }
@@ -88,8 +94,8 @@ impl Passes {
     /// Takes what is new in the list of the day.
     pub(super) fn take_day(&mut self, day: &[DayLine]) {
         // Lines of one turn have the same time, and come together.
-        let since = self.day_until;
-        let news = day.iter().filter(|line| since.is_none_or(|since| line.time > since));
+        let start = self.day_until;
+        let news = day.iter().filter(|line| start.is_none_or(|start| line.time > start));
         for line in news {
             match &line.event {
                 DayEvent::SwitchedOff(_) | DayEvent::Suspended(_) => {
@@ -104,23 +110,27 @@ impl Passes {
                 DayEvent::Flown(flown) => self.take_flown(line.antenna, flown),
             }
         }
-        self.day_until = day.last().map(|line| line.time).or(since);
+        self.day_until = day.last().map(|line| line.time).or(start);
     }
 
     fn take_flown(&mut self, antenna: AntennaId, flown: &Flown) {
         let (satellite, aos) = flown.pass;
-        if let Some(pass) = self.list.iter_mut().find(|it| is_pass(it, antenna, satellite, aos)) {
+        if let Some(pass) = self
+            .list
+            .iter_mut()
+            .find(|rehearsed_pass| is_pass(rehearsed_pass, antenna, satellite, aos))
+        {
             pass.flown = Some(flown.clone());
         }
     }
 
     pub(super) fn take_report(&mut self, note: PassNote) {
         let report = note.report;
-        let is_its = |it: &&mut RehearsedPass| {
-            it.antenna == note.antenna
-                && it.satellite == report.elements.catalog_number()
-                && it.start < report.end
-                && report.start < it.end
+        let is_its = |rehearsed_pass: &&mut RehearsedPass| {
+            rehearsed_pass.antenna == note.antenna
+                && rehearsed_pass.satellite == report.elements.catalog_number()
+                && rehearsed_pass.start < report.end
+                && report.start < rehearsed_pass.end
         };
         if let Some(pass) = self.list.iter_mut().find(is_its) {
             pass.report = Some(report);
@@ -129,27 +139,27 @@ impl Passes {
 
     pub(super) fn rehearsed(
         self,
-        what: &Rehearsal,
+        rehearsal: &Rehearsal,
         station: &Station,
         left_out: Vec<String>,
     ) -> Rehearsed {
         let Self { list: mut passes, interruptions, .. } = self;
         for pass in &mut passes {
             let antenna = station.antennas.iter().find(|antenna| antenna.id == pass.antenna);
-            let off = interruptions.iter().filter(|line| line.antenna == pass.antenna);
-            let off =
-                off.filter(|line| line.time <= pass.end).filter_map(|line| match line.event {
+            let lines = interruptions.iter().filter(|line| line.antenna == pass.antenna);
+            let reasons =
+                lines.filter(|line| line.time <= pass.end).filter_map(|line| match line.event {
                     DayEvent::SwitchedOff(because) => Some(because),
                     _ => None,
                 });
-            pass.off_reason = off.reduce(|_, later| later).filter(|_| pass.flown.is_none());
+            pass.off_reason = reasons.reduce(|_, later| later).filter(|_| pass.flown.is_none());
             pass.antenna_name = antenna.map(|antenna| antenna.name.clone()).unwrap_or_default();
         }
         passes.sort_by_key(|pass| (pass.start, pass.antenna, pass.satellite));
         Rehearsed {
-            start: what.from,
-            hours: what.hours,
-            seed: what.seed,
+            start: rehearsal.start,
+            hours: rehearsal.hours,
+            seed: rehearsal.seed,
             passes,
             interruptions,
             left_out,
@@ -157,17 +167,17 @@ impl Passes {
     }
 }
 
-fn new(entry: &Entry, snapshot: &Snapshot) -> RehearsedPass {
+fn planned_pass(entry: &Entry, snapshot: &Snapshot) -> RehearsedPass {
     let PassKey { satellite, aos } = entry.pass;
     let predicted = snapshot.pass_lists.find((satellite, aos));
-    let name = predicted.map(|of| of.satellite.short_name().to_owned());
+    let name = predicted.map(|predicted| predicted.satellite.short_name().to_owned());
     RehearsedPass {
         antenna: entry.antenna,
         antenna_name: String::new(),
         satellite,
         satellite_name: name.unwrap_or_else(|| satellite.to_string()),
         aos,
-        los: predicted.map_or(entry.end, |of| of.pass.los.time),
+        los: predicted.map_or(entry.end, |predicted| predicted.pass.los.time),
         start: entry.start,
         end: entry.end,
         promised_s: entry.counted_s,

@@ -39,7 +39,7 @@ pub(super) struct Units(Vec<Linked>);
 impl Units {
     /// Units for the antennas of a station. Antennas of a make without a simulator are taken from the
     /// station; their names are returned.
-    pub(super) fn of(
+    pub(super) fn new(
         station: &mut Station,
         catalog: &Catalog,
         mechanics: Mechanics,
@@ -66,8 +66,8 @@ impl Units {
             // Each has other numbers than its neighbour.
             let seed = seed.rotate_left(16) ^ u64::from(antenna.id.0);
             let clock = clock.clone();
-            let around = Surroundings { site, clock, elements: &elements, mechanics, seed };
-            let unit = makes::unit_in_memory(antenna, &around);
+            let surroundings = Surroundings { site, clock, elements: &elements, mechanics, seed };
+            let unit = makes::unit_in_memory(antenna, &surroundings);
             antenna.park = park;
             let (id, name) = (antenna.id, antenna.name.clone());
             let has_unit = unit.is_some();
@@ -91,7 +91,7 @@ impl Units {
         let dial = Arc::new(move |antenna: &Antenna, _: Arc<dyn UnitLock>| {
             let linked = units.0.iter().find(|linked| linked.id == antenna.id).cloned();
             let dial: Dial = Box::new(move || {
-                let linked = linked.clone().filter(|it| !it.is_down.load(Ordering::Relaxed));
+                let linked = linked.clone().filter(|one| !one.is_down.load(Ordering::Relaxed));
                 Box::pin(async move { linked.map(Linked::connected).ok_or_else(refused) })
             });
             dial
@@ -99,26 +99,26 @@ impl Units {
         Outside { dial, ..Outside::from(clock.clone()) }
     }
 
-    /// Lets units have a fault when its time comes. `from` is the start of the rehearsal.
+    /// Lets units have a fault when its time comes. `start` is the start of the rehearsal.
     pub(super) fn suffer(
         &self,
         fault: &Fault,
-        from: Timestamp,
+        start: Timestamp,
         clock: &Clock,
     ) -> Result<(), RehearsalError> {
         let name = fault.antenna.as_deref();
         let is_meant = |linked: &&Linked| name.is_none_or(|name| linked.antenna == name);
-        let meant: Vec<&Linked> = self.0.iter().filter(is_meant).collect();
-        if let Some(name) = name.filter(|_| meant.is_empty()) {
+        let linkeds: Vec<&Linked> = self.0.iter().filter(is_meant).collect();
+        if let Some(name) = name.filter(|_| linkeds.is_empty()) {
             return Err(RehearsalError::UnknownAntenna(name.to_owned()));
         }
         let can_all: Vec<&Linked> =
-            meant.into_iter().filter(|linked| linked.set(fault.kind, false)).collect();
+            linkeds.into_iter().filter(|linked| linked.set(fault.kind, false)).collect();
         if can_all.is_empty() {
             let name = name.unwrap_or("any antenna").to_owned();
             return Err(RehearsalError::ImpossibleFault(name));
         }
-        let begins = add_seconds(from, fault.after.as_secs_f64());
+        let begins = add_seconds(start, fault.after.as_secs_f64());
         for linked in can_all {
             let (linked, fault, clock) = (linked.clone(), fault.clone(), clock.clone());
             tokio::spawn(async move {

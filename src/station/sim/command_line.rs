@@ -48,7 +48,7 @@ pub(super) trait Simulated: Args + 'static {
 }
 
 impl Command {
-    pub(super) const fn of<S: Simulated>(name: &'static str) -> Self {
+    pub(super) const fn new<S: Simulated>(name: &'static str) -> Self {
         Self {
             name,
             arguments: S::augment_args,

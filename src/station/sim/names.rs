@@ -1,28 +1,28 @@
 //! Names of quirks and faults.
 
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("unknown {what} {name:?}; known are {}", known.join(", "))]
+#[error("unknown {subject} {name:?}; known are {}", valid.join(", "))]
 pub struct UnknownName {
     /// Kind of name that was expected.
-    pub what: &'static str,
+    pub subject: &'static str,
     /// Name as given.
     pub name: String,
     /// All known names.
-    pub known: Vec<&'static str>,
+    pub valid: Vec<&'static str>,
 }
 
 /// Implements parsing and formatting by name for types with a table `ALL` of values and
 /// names.
 macro_rules! named {
-    ($($type:ident is $what:literal),* $(,)?) => {$(
+    ($($type:ident is $subject:literal),* $(,)?) => {$(
         impl std::str::FromStr for $type {
             type Err = $crate::sim::UnknownName;
             fn from_str(name: &str) -> Result<Self, Self::Err> {
-                let found = Self::ALL.iter().find(|(_, known)| *known == name);
+                let found = Self::ALL.iter().find(|(_, valid)| *valid == name);
                 found.map(|(value, _)| *value).ok_or_else(|| $crate::sim::UnknownName {
-                    what: $what,
+                    subject: $subject,
                     name: name.to_owned(),
-                    known: Self::ALL.iter().map(|(_, known)| *known).collect(),
+                    valid: Self::ALL.iter().map(|(_, name)| *name).collect(),
                 })
             }
         }

@@ -17,20 +17,20 @@ impl Prng {
         mixed ^ (mixed >> 31)
     }
 
-    /// Random number from `least` to `most`, both included.
-    pub(super) fn between(&mut self, least: u64, most: u64) -> u64 {
-        let span = most.saturating_sub(least).saturating_add(1);
-        least.saturating_add(self.next() % span)
+    /// Random number from `min` to `max`, both included.
+    pub(super) fn in_range(&mut self, min: u64, max: u64) -> u64 {
+        let span = max.saturating_sub(min).saturating_add(1);
+        min.saturating_add(self.next() % span)
     }
 
     /// Evenly distributed from -1 to 1.
     pub(super) fn even(&mut self) -> f64 {
-        self.between(0, 2_000_000) as f64 / 1e6 - 1.0
+        self.in_range(0, 2_000_000) as f64 / 1e6 - 1.0
     }
 
     /// From the normal distribution of standard deviation 1, nearly: the sum of twelve even ones.
     pub(super) fn normal(&mut self) -> f64 {
-        let even = |_| self.between(0, 1_000_000) as f64 / 1e6;
+        let even = |_| self.in_range(0, 1_000_000) as f64 / 1e6;
         (0..12).map(even).sum::<f64>() - 6.0
     }
 }
@@ -43,7 +43,7 @@ mod tests {
     fn numbers_repeat_and_stay_between_their_bounds() {
         let draw = |seed| {
             let mut prng = Prng::new(seed);
-            (0..200).map(|_| prng.between(3, 9)).collect::<Vec<_>>()
+            (0..200).map(|_| prng.in_range(3, 9)).collect::<Vec<_>>()
         };
         assert_eq!(draw(1), draw(1));
         assert_ne!(draw(1), draw(2));
@@ -51,7 +51,7 @@ mod tests {
             assert!(draw(1).contains(&number));
         }
         assert!(draw(1).iter().all(|number| (3..=9).contains(number)));
-        assert_eq!(Prng::new(1).between(5, 5), 5);
+        assert_eq!(Prng::new(1).in_range(5, 5), 5);
         let mut prng = Prng::new(1);
         let normal: Vec<f64> = (0..2000).map(|_| prng.normal()).collect();
         let mean = normal.iter().sum::<f64>() / 2000.0;

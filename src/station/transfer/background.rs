@@ -37,10 +37,10 @@ impl<T: Send + 'static> Transfer<T> {
         let cancel = CancellationToken::new();
         let cancelled = cancel.clone();
         thread::Builder::new().name(name.to_owned()).spawn(move || {
-            let told = wake.clone();
+            let notify = wake.clone();
             let tell = Box::new(move |progress| {
                 send_progress.send_replace(Some(progress));
-                told();
+                notify();
             });
             let outcome = runtime.block_on(work(tell, cancelled));
             // The receiver may be gone already.

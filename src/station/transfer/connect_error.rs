@@ -32,8 +32,10 @@ pub enum ConnectError {
     #[error("cannot reach it: {source}; check address, port and cable: {peer}")]
     Unreachable { source: io::Error, peer: Peer },
     /// Cancelled, or no answer in time.
-    #[error("gave up while {step}: {by}; check that the right service listens there: {peer}")]
-    Interrupted { step: ConnectStep, by: Interruption, peer: Peer },
+    #[error(
+        "gave up while {step}: {interruption}; check that the right service listens there: {peer}"
+    )]
+    Interrupted { step: ConnectStep, interruption: Interruption, peer: Peer },
     /// The other side speaks another protocol, or hung up.
     #[error("failed while {step}: {reason}; check that the right service listens there: {peer}")]
     Failed {

@@ -11,7 +11,7 @@ use tokio_util::sync::CancellationToken;
 
 use super::{
     ConnectError, FolderError, Interruption, KnownHosts, Limits, Login, Proof, folder::Folder as _,
-    limits::within, open_sftp,
+    limits::with_timeout, open_sftp,
 };
 use crate::{
     contract::transfer::{FileProtocol, OldAlgorithm, Peer},
@@ -80,10 +80,10 @@ pub enum FetchError {
     #[error("no answer ({0}); check address and link")]
     NoAnswer(String),
     /// The server redirects the request; it is unknown whether the unit would follow.
-    #[error("the server redirects to {to}; give the unit that address")]
+    #[error("the server redirects to {destination}; give the unit that address")]
     Redirected {
         /// New address.
-        to: String,
+        destination: String,
     },
     /// An HTTP answer other than the file.
     #[error("the server answered {status} instead of the file; check the address")]
@@ -138,9 +138,9 @@ pub async fn fetch(
             let login = Login { user: user.clone(), proof };
             let (folder, name) = file.rsplit_once('/').unwrap_or((".", file));
             let folder = if folder.is_empty() { "/" } else { folder };
-            let known = &trust.known_hosts;
-            let mut folder = open_sftp(peer, folder, &login, known, limits, cancel).await?;
-            let found = within(limits.file, cancel, folder.read(name, &mut |_| {})).await??;
+            let known_hosts = &trust.known_hosts;
+            let mut folder = open_sftp(peer, folder, &login, known_hosts, limits, cancel).await?;
+            let found = with_timeout(limits.file, cancel, folder.read(name, &mut |_| {})).await??;
             let bytes = found.ok_or(FetchError::NoFile)?.bytes;
             Ok(Fetched { bytes, old_algorithms: folder.old_algorithms().to_vec() })
         }

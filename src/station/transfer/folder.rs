@@ -32,14 +32,14 @@ pub(super) trait Folder {
     /// Removes the file `name`; succeeds if there is none.
     async fn remove(&mut self, name: &str) -> Result<(), FolderError>;
 
-    /// Renames the file `from` to `to`, which must be free.
-    async fn rename(&mut self, from: &str, to: &str) -> Result<(), FolderError>;
+    /// Renames the file `source` to `destination`, which must be free.
+    async fn rename(&mut self, source: &str, destination: &str) -> Result<(), FolderError>;
 
     /// Returns `true` if [`Self::replace`] works in this folder.
     fn can_replace(&self) -> bool;
 
-    /// Replaces the file `to` by `from` in one step.
-    async fn replace(&mut self, from: &str, to: &str) -> Result<(), FolderError>;
+    /// Replaces the file `destination` by `source` in one step.
+    async fn replace(&mut self, source: &str, destination: &str) -> Result<(), FolderError>;
 }
 
 /// Reason why an operation in a folder failed.

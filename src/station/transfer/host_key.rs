@@ -152,8 +152,8 @@ impl KnownHosts {
             let entry: Option<Entry> = line.parse().ok();
             entry.is_none_or(|entry| entry.marker().is_some() || !names(&entry, &address))
         };
-        let kept: String = text.lines().filter(is_kept).flat_map(|line| [line, "\n"]).collect();
-        self.write(&kept)
+        let lines: String = text.lines().filter(is_kept).flat_map(|line| [line, "\n"]).collect();
+        self.write(&lines)
     }
 
     /// Algorithms of the pinned keys of the host.

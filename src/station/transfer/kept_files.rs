@@ -26,8 +26,8 @@ const MAX: usize = 20;
 struct List {
     version: u32,
     /// Oldest first.
-    #[serde(default)]
-    kept: Vec<KeptFile>,
+    #[serde(rename = "kept", default)]
+    kept_files: Vec<KeptFile>,
 }
 
 /// Reason why a file was not kept, or cannot be restored.
@@ -72,17 +72,17 @@ impl KeptFiles {
 
     /// Kept versions of `file` on `unit`, newest first.
     pub fn list(&self, unit: &str, file: &str) -> Result<Vec<KeptFile>, KeptError> {
-        let mut kept = self.load()?.kept;
-        kept.retain(|one| one.unit == unit && one.file == file);
-        kept.reverse();
-        Ok(kept)
+        let mut kept_files = self.load()?.kept_files;
+        kept_files.retain(|one| one.unit == unit && one.file == file);
+        kept_files.reverse();
+        Ok(kept_files)
     }
 
-    /// Content of `kept`, checked, to be put back on the unit.
-    pub fn read(&self, kept: &KeptFile) -> Result<TleFile, KeptError> {
-        let path = self.content(kept.sha256);
+    /// Content of `kept_file`, checked, to be put back on the unit.
+    pub fn read(&self, kept_file: &KeptFile) -> Result<TleFile, KeptError> {
+        let path = self.content(kept_file.sha256);
         let bytes = fs::read(&path).map_err(disk_error(&path))?;
-        if FileHash::new(&bytes) != kept.sha256 {
+        if FileHash::new(&bytes) != kept_file.sha256 {
             return Err(KeptError::Changed { path });
         }
         Ok(TleFile::from_bytes(bytes))
@@ -94,30 +94,31 @@ impl KeptFiles {
         unit: &str,
         file: &str,
         bytes: &[u8],
-        at: Timestamp,
+        time: Timestamp,
         origin: Origin,
     ) -> Result<(), KeptError> {
         let mut list = self.load()?;
         let is_of_file = |one: &KeptFile| one.unit == unit && one.file == file;
         let sha256 = FileHash::new(bytes);
-        let newest = list.kept.iter().rfind(|one| is_of_file(one));
+        let newest = list.kept_files.iter().rfind(|one| is_of_file(one));
         let is_held = newest.is_some_and(|newest| newest.sha256 == sha256);
         let path = self.content(sha256);
         if is_held && origin == Origin::Found && path.is_file() {
             return Ok(());
         }
         whole_file::replace(&path, bytes).map_err(disk_error(&path))?;
-        list.kept.push(KeptFile {
+        list.kept_files.push(KeptFile {
             unit: unit.to_owned(),
             file: file.to_owned(),
             sha256,
             bytes: bytes.len() as u64,
-            time: at,
+            time,
             origin,
         });
-        let too_many = list.kept.iter().filter(|one| is_of_file(one)).count().saturating_sub(MAX);
+        let too_many =
+            list.kept_files.iter().filter(|one| is_of_file(one)).count().saturating_sub(MAX);
         let mut dropped = Vec::new();
-        list.kept.retain(|one| {
+        list.kept_files.retain(|one| {
             let is_old = is_of_file(one) && dropped.len() < too_many;
             if is_old {
                 dropped.push(one.sha256);
@@ -131,7 +132,8 @@ impl KeptFiles {
 
     /// Removes contents that the list no longer names.
     fn clear(&self, dropped: &[FileHash], list: &List) {
-        let needed: BTreeSet<_> = list.kept.iter().map(|one| one.sha256.to_string()).collect();
+        let needed: BTreeSet<_> =
+            list.kept_files.iter().map(|one| one.sha256.to_string()).collect();
         for hash in dropped.iter().filter(|hash| !needed.contains(&hash.to_string())) {
             let path = self.content(*hash);
             if let Err(error) = fs::remove_file(&path) {
@@ -152,7 +154,7 @@ impl KeptFiles {
         let path = self.index();
         let text = match fs::read_to_string(&path) {
             Err(error) if error.kind() == io::ErrorKind::NotFound => {
-                return Ok(List { version: VERSION, kept: Vec::new() });
+                return Ok(List { version: VERSION, kept_files: Vec::new() });
             }
             other => other.map_err(disk_error(&path))?,
         };
@@ -182,20 +184,20 @@ mod tests {
 
     const UNIT: &str = "unit:22";
 
-    fn at(minute: usize) -> Timestamp {
+    fn time(minute: usize) -> Timestamp {
         format!("2026-08-12T12:{minute:02}:00Z").parse().unwrap()
     }
 
     fn files() -> (tempfile::TempDir, KeptFiles) {
         let folder = tempfile::tempdir().unwrap();
-        let kept = KeptFiles::new(folder.path().join("uploads"));
-        (folder, kept)
+        let kept_files = KeptFiles::new(folder.path().join("uploads"));
+        (folder, kept_files)
     }
 
     #[test]
     fn files_come_back_newest_first_and_by_unit_and_name() {
-        let (_folder, kept) = files();
-        assert_eq!(kept.list(UNIT, "a.txt").unwrap(), []);
+        let (_folder, kept_files) = files();
+        assert_eq!(kept_files.list(UNIT, "a.txt").unwrap(), []);
         for (minute, (unit, file, bytes, origin)) in [
             (UNIT, "a.txt", "one", Origin::Found),
             (UNIT, "a.txt", "two", Origin::Uploaded),
@@ -206,41 +208,43 @@ mod tests {
         .into_iter()
         .enumerate()
         {
-            kept.keep(unit, file, bytes.as_bytes(), at(minute), origin).unwrap();
+            kept_files.keep(unit, file, bytes.as_bytes(), time(minute), origin).unwrap();
         }
-        let list = kept.list(UNIT, "a.txt").unwrap();
-        let seen: Vec<_> = list.iter().map(|one| (one.origin, one.time, one.bytes)).collect();
-        assert_eq!(seen, [(Origin::Uploaded, at(1), 3), (Origin::Found, at(0), 3)]);
-        assert_eq!(kept.read(&list[1]).unwrap().bytes(), b"one");
-        assert_eq!(kept.list("other:22", "a.txt").unwrap().len(), 1);
+        let list = kept_files.list(UNIT, "a.txt").unwrap();
+        let shown: Vec<_> = list.iter().map(|one| (one.origin, one.time, one.bytes)).collect();
+        assert_eq!(shown, [(Origin::Uploaded, time(1), 3), (Origin::Found, time(0), 3)]);
+        assert_eq!(kept_files.read(&list[1]).unwrap().bytes(), b"one");
+        assert_eq!(kept_files.list("other:22", "a.txt").unwrap().len(), 1);
     }
 
     #[test]
     fn the_oldest_give_way() {
-        let (_folder, kept) = files();
-        kept.keep("other:22", "a.txt", b"0", at(0), Origin::Uploaded).unwrap();
+        let (_folder, kept_files) = files();
+        kept_files.keep("other:22", "a.txt", b"0", time(0), Origin::Uploaded).unwrap();
         for minute in 0..MAX + 3 {
             let bytes = minute.to_string();
-            kept.keep(UNIT, "a.txt", bytes.as_bytes(), at(minute), Origin::Uploaded).unwrap();
+            kept_files
+                .keep(UNIT, "a.txt", bytes.as_bytes(), time(minute), Origin::Uploaded)
+                .unwrap();
         }
-        let list = kept.list(UNIT, "a.txt").unwrap();
-        assert_eq!((list.len(), list[MAX - 1].time), (MAX, at(3)));
-        let exists = |bytes: &str| kept.content(FileHash::new(bytes.as_bytes())).is_file();
+        let list = kept_files.list(UNIT, "a.txt").unwrap();
+        assert_eq!((list.len(), list[MAX - 1].time), (MAX, time(3)));
+        let exists = |bytes: &str| kept_files.content(FileHash::new(bytes.as_bytes())).is_file();
         assert!(!exists("1") && !exists("2") && exists("3"));
         assert!(exists("0"), "another unit still names it");
     }
 
     #[test]
     fn what_was_changed_on_disk_is_not_put_back() {
-        let (_folder, kept) = files();
-        kept.keep(UNIT, "a.txt", b"one", at(0), Origin::Uploaded).unwrap();
-        let one = kept.list(UNIT, "a.txt").unwrap().remove(0);
-        fs::write(kept.content(one.sha256), "onf").unwrap();
-        assert!(matches!(kept.read(&one), Err(KeptError::Changed { .. })));
-        fs::write(kept.index(), "version = 2").unwrap();
-        assert!(matches!(kept.list(UNIT, "a.txt"), Err(KeptError::Newer { found: 2, .. })));
-        fs::write(kept.index(), "version").unwrap();
-        let refused = kept.keep(UNIT, "a.txt", b"two", at(1), Origin::Found);
+        let (_folder, kept_files) = files();
+        kept_files.keep(UNIT, "a.txt", b"one", time(0), Origin::Uploaded).unwrap();
+        let one = kept_files.list(UNIT, "a.txt").unwrap().remove(0);
+        fs::write(kept_files.content(one.sha256), "onf").unwrap();
+        assert!(matches!(kept_files.read(&one), Err(KeptError::Changed { .. })));
+        fs::write(kept_files.index(), "version = 2").unwrap();
+        assert!(matches!(kept_files.list(UNIT, "a.txt"), Err(KeptError::Newer { found: 2, .. })));
+        fs::write(kept_files.index(), "version").unwrap();
+        let refused = kept_files.keep(UNIT, "a.txt", b"two", time(1), Origin::Found);
         assert!(matches!(refused, Err(KeptError::Syntax { .. })));
     }
 }

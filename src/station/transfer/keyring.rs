@@ -130,7 +130,8 @@ pub struct SystemKeyring;
 
 impl SystemKeyring {
     fn entry(account: &Account) -> Result<keyring::v1::Entry, KeyringError> {
-        keyring::v1::Entry::new(SERVICE, &account.to_string()).map_err(|error| told(&error))
+        keyring::v1::Entry::new(SERVICE, &account.to_string())
+            .map_err(|error| keyring_error(&error))
     }
 }
 
@@ -139,24 +140,26 @@ impl Keyring for SystemKeyring {
         match Self::entry(account)?.get_password() {
             Ok(secret) => Ok(Some(secret.into())),
             Err(Error::NoEntry) => Ok(None),
-            Err(error) => Err(told(&error)),
+            Err(error) => Err(keyring_error(&error)),
         }
     }
 
     fn set(&self, account: &Account, secret: &SecretString) -> Result<(), KeyringError> {
-        Self::entry(account)?.set_password(secret.expose_secret()).map_err(|error| told(&error))
+        Self::entry(account)?
+            .set_password(secret.expose_secret())
+            .map_err(|error| keyring_error(&error))
     }
 
     fn remove(&self, account: &Account) -> Result<(), KeyringError> {
         match Self::entry(account)?.delete_credential() {
             Ok(()) | Err(Error::NoEntry) => Ok(()),
-            Err(error) => Err(told(&error)),
+            Err(error) => Err(keyring_error(&error)),
         }
     }
 }
 
 /// Azel's own words: some errors carry the secret that could not be decoded.
-fn told(error: &Error) -> KeyringError {
+fn keyring_error(error: &Error) -> KeyringError {
     match error {
         Error::PlatformFailure(cause) => KeyringError::Missing(cause.to_string()),
         Error::NoDefaultStore => KeyringError::Missing("none answers".to_owned()),
@@ -165,8 +168,8 @@ fn told(error: &Error) -> KeyringError {
             KeyringError::Refused("the entry is not text".to_owned())
         }
         Error::Ambiguous(_) => KeyringError::Refused("there are several entries".to_owned()),
-        Error::TooLong(what, most) => {
-            KeyringError::Refused(format!("{what} is longer than {most} characters"))
+        Error::TooLong(subject, max) => {
+            KeyringError::Refused(format!("{subject} is longer than {max} characters"))
         }
         _ => KeyringError::Refused("the entry cannot be used".to_owned()),
     }
@@ -263,7 +266,7 @@ mod tests {
 
     #[test]
     fn errors_carry_no_secret() {
-        let error = told(&Error::BadEncoding(b"hunter2".to_vec()));
+        let error = keyring_error(&Error::BadEncoding(b"hunter2".to_vec()));
         assert!(matches!(error, KeyringError::Refused(_)));
         assert!(
             !format!("{error} {error:?}").contains("hunter")

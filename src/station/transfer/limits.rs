@@ -43,7 +43,7 @@ pub enum Interruption {
 }
 
 /// Waits for `work`, at most for `limit`, and not beyond `cancel`.
-pub(super) async fn within<T>(
+pub(super) async fn with_timeout<T>(
     limit: Duration,
     cancel: &CancellationToken,
     work: impl Future<Output = T>,
@@ -65,11 +65,11 @@ mod tests {
     async fn a_wait_ends_by_answer_by_limit_or_by_cancel() {
         let limit = Duration::from_millis(1500);
         let cancel = CancellationToken::new();
-        assert_eq!(within(limit, &cancel, async { 7 }).await, Ok(7));
-        let late = within(limit, &cancel, pending::<()>()).await.unwrap_err();
+        assert_eq!(with_timeout(limit, &cancel, async { 7 }).await, Ok(7));
+        let late = with_timeout(limit, &cancel, pending::<()>()).await.unwrap_err();
         assert_eq!(late, Interruption::TimedOut(limit));
         assert_eq!(late.to_string(), "no answer within 1.5 s");
         cancel.cancel();
-        assert_eq!(within(limit, &cancel, async { 7 }).await, Err(Interruption::Cancelled));
+        assert_eq!(with_timeout(limit, &cancel, async { 7 }).await, Err(Interruption::Cancelled));
     }
 }

@@ -28,9 +28,10 @@ pub enum Proof {
 
 /// Returns `true` if `password` is the factory setting of every unit of a make. Tell its user to
 /// change it.
-pub fn is_factory_password(password: &SecretString, of: &ElementFiles) -> bool {
-    let salted = SecretString::from(format!("{}:{}", of.factory_user, password.expose_secret()));
-    FileHash::new(salted.expose_secret().as_bytes()).to_string() == of.factory_digest
+pub fn is_factory_password(password: &SecretString, element_files: &ElementFiles) -> bool {
+    let salted =
+        SecretString::from(format!("{}:{}", element_files.factory_user, password.expose_secret()));
+    FileHash::new(salted.expose_secret().as_bytes()).to_string() == element_files.factory_digest
 }
 
 #[cfg(test)]

@@ -39,9 +39,9 @@ pub struct SftpFolder {
 
 impl SftpFolder {
     pub(super) async fn open(ssh: Ssh, path: &str, limits: Limits) -> Result<Self, String> {
-        let told = |error: russh::Error| format!("no file transfer there ({error})");
-        let channel = ssh.handle.channel_open_session().await.map_err(told)?;
-        channel.request_subsystem(true, "sftp").await.map_err(told)?;
+        let problem = |error: russh::Error| format!("no file transfer there ({error})");
+        let channel = ssh.handle.channel_open_session().await.map_err(problem)?;
+        channel.request_subsystem(true, "sftp").await.map_err(problem)?;
         // In whole seconds; Azel's own limit ends before it.
         let request_timeout_secs = limits.request.as_secs() + 2;
         let config = Config { request_timeout_secs, ..Config::default() };
@@ -85,7 +85,7 @@ impl SftpFolder {
         &self,
         request: impl Future<Output = Result<T, Error>>,
     ) -> Result<T, FolderError> {
-        self.answer(request).await?.map_err(|error| told(error, self.limits.request))
+        self.answer(request).await?.map_err(|error| folder_error(error, self.limits.request))
     }
 
     /// Transfers a whole file, one way.
@@ -100,17 +100,17 @@ impl SftpFolder {
     async fn read_all(&self, handle: &str, tell: Tell<'_>) -> Result<Vec<u8>, FolderError> {
         let mut bytes = Vec::new();
         loop {
-            let from = bytes.len() as u64;
-            if from > self.limits.file_bytes {
+            let start = bytes.len() as u64;
+            if start > self.limits.file_bytes {
                 return Err(FolderError::TooLarge(self.limits.file_bytes));
             }
-            match self.answer(self.sftp.read(handle, from, CHUNK_BYTES as u32)).await? {
+            match self.answer(self.sftp.read(handle, start, CHUNK_BYTES as u32)).await? {
                 Ok(data) if data.data.is_empty() => return Ok(bytes),
                 Ok(data) => bytes.extend_from_slice(&data.data),
                 Err(Error::Status(status)) if status.status_code == StatusCode::Eof => {
                     return Ok(bytes);
                 }
-                Err(error) => return Err(told(error, self.limits.request)),
+                Err(error) => return Err(folder_error(error, self.limits.request)),
             }
             tell(bytes.len() as u64);
         }
@@ -135,14 +135,14 @@ impl SftpFolder {
     }
 
     /// Turns a refusal into [`FolderError::DiskFull`] if that is its cause.
-    async fn explain(&self, error: FolderError, wanted: usize) -> FolderError {
+    async fn explain(&self, error: FolderError, requested: usize) -> FolderError {
         if !self.can_tell_space || !matches!(error, FolderError::Refused(_)) {
             return error;
         }
         match self.ask(self.sftp.statvfs(self.path.as_str())).await {
             Ok(space) => {
                 let free_bytes = space.blocks_avail.saturating_mul(space.fragment_size);
-                if free_bytes < wanted as u64 {
+                if free_bytes < requested as u64 {
                     FolderError::DiskFull { free_bytes }
                 } else {
                     error
@@ -213,20 +213,22 @@ impl Folder for SftpFolder {
         }
     }
 
-    async fn rename(&mut self, from: &str, to: &str) -> Result<(), FolderError> {
-        self.ask(self.sftp.rename(self.path(from), self.path(to))).await.map(|_| ())
+    async fn rename(&mut self, source: &str, destination: &str) -> Result<(), FolderError> {
+        self.ask(self.sftp.rename(self.path(source), self.path(destination))).await.map(|_| ())
     }
 
     fn can_replace(&self) -> bool {
         self.can_replace
     }
 
-    async fn replace(&mut self, from: &str, to: &str) -> Result<(), FolderError> {
-        let names: Vec<u8> =
-            [self.path(from), self.path(to)].iter().flat_map(|path| string(path)).collect();
+    async fn replace(&mut self, source: &str, destination: &str) -> Result<(), FolderError> {
+        let names: Vec<u8> = [self.path(source), self.path(destination)]
+            .iter()
+            .flat_map(|path| string(path))
+            .collect();
         match self.ask(self.sftp.extended(POSIX_RENAME, names)).await? {
             Packet::Status(status) if status.status_code == StatusCode::Ok => Ok(()),
-            Packet::Status(status) => Err(told(Error::Status(status), self.limits.request)),
+            Packet::Status(status) => Err(folder_error(Error::Status(status), self.limits.request)),
             _ => Err(FolderError::Lost),
         }
     }
@@ -237,7 +239,7 @@ fn string(text: &str) -> impl Iterator<Item = u8> {
     (text.len() as u32).to_be_bytes().into_iter().chain(text.bytes())
 }
 
-fn told(error: Error, limit: Duration) -> FolderError {
+fn folder_error(error: Error, limit: Duration) -> FolderError {
     match error {
         Error::Status(status) => match status.status_code {
             StatusCode::NoSuchFile => FolderError::Missing,

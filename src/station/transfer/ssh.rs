@@ -22,7 +22,7 @@ use tokio_util::sync::CancellationToken;
 
 use super::{
     ConnectError, ConnectStep, Interruption, KeyFileProblem, KeyVerdict, KnownHosts, Limits, Login,
-    OfferedKey, Proof, SftpFolder, limits::within,
+    OfferedKey, Proof, SftpFolder, limits::with_timeout,
 };
 use crate::contract::transfer::{AlgorithmPart, OldAlgorithm, Peer};
 
@@ -33,22 +33,22 @@ pub(super) struct Ssh {
     pub(super) old_algorithms: Vec<OldAlgorithm>,
 }
 
-/// Opens `folder` on `peer` as `login`. `known` decides about the host's key before any
+/// Opens `folder` on `peer` as `login`. `known_hosts` decides about the host's key before any
 /// secret is sent; an unknown key is returned as an error, to be shown, pinned and tried
 /// again. Call it within a runtime that runs no session: unlocking a key takes a while.
 pub async fn open_sftp(
     peer: &Peer,
     folder: &str,
     login: &Login,
-    known: &KnownHosts,
+    known_hosts: &KnownHosts,
     limits: Limits,
     cancel: &CancellationToken,
 ) -> Result<SftpFolder, ConnectError> {
-    let ssh = connect(peer, login, known, limits, cancel).await?;
+    let ssh = connect(peer, login, known_hosts, limits, cancel).await?;
     let opening = SftpFolder::open(ssh, folder, limits);
-    within(limits.log_in, cancel, opening)
+    with_timeout(limits.log_in, cancel, opening)
         .await
-        .map_err(|by| interrupted(ConnectStep::OpenFiles, by, peer))?
+        .map_err(|interruption| interrupted(ConnectStep::OpenFiles, interruption, peer))?
         .map_err(|reason| failed(ConnectStep::OpenFiles, &reason, peer))
 }
 
@@ -57,11 +57,11 @@ pub async fn open_sftp(
 /// [`open_sftp`].
 pub async fn check_host_key(
     peer: &Peer,
-    known: &KnownHosts,
+    known_hosts: &KnownHosts,
     limits: Limits,
     cancel: &CancellationToken,
 ) -> Result<Vec<OldAlgorithm>, ConnectError> {
-    let ssh = shake_hands(peer, known, limits, cancel).await?;
+    let ssh = shake_hands(peer, known_hosts, limits, cancel).await?;
     // The connection may be gone already; then an error says nothing new.
     let _ = ssh.handle.disconnect(Disconnect::ByApplication, "", "").await;
     Ok(ssh.old_algorithms)
@@ -70,18 +70,19 @@ pub async fn check_host_key(
 /// Connects to a host with the right key, without logging in.
 async fn shake_hands(
     peer: &Peer,
-    known: &KnownHosts,
+    known_hosts: &KnownHosts,
     limits: Limits,
     cancel: &CancellationToken,
 ) -> Result<Ssh, ConnectError> {
-    let config = config(&known.algorithms(&peer.host, peer.port)?);
+    let config = config(&known_hosts.algorithms(&peer.host, peer.port)?);
     let stream = dial(peer, limits, cancel).await?;
     let old = Arc::new(OnceLock::new());
-    let judge = Judge { known: known.clone(), peer: peer.clone(), old: Arc::clone(&old) };
+    let judge =
+        Judge { known_hosts: known_hosts.clone(), peer: peer.clone(), old: Arc::clone(&old) };
     let shaking = client::connect_stream(Arc::new(config), stream, judge);
-    let handle = within(limits.log_in, cancel, shaking)
+    let handle = with_timeout(limits.log_in, cancel, shaking)
         .await
-        .map_err(|by| interrupted(ConnectStep::Handshake, by, peer))?
+        .map_err(|interruption| interrupted(ConnectStep::Handshake, interruption, peer))?
         .map_err(|error| match error {
             Refused::Key(error) => error,
             Refused::Ssh(russh::Error::NoCommonAlgo { kind, theirs, .. }) => {
@@ -104,7 +105,7 @@ async fn shake_hands(
 async fn connect(
     peer: &Peer,
     login: &Login,
-    known: &KnownHosts,
+    known_hosts: &KnownHosts,
     limits: Limits,
     cancel: &CancellationToken,
 ) -> Result<Ssh, ConnectError> {
@@ -113,10 +114,10 @@ async fn connect(
         Proof::Password(_) => None,
         Proof::KeyFile { path, passphrase } => Some(private_key(path, passphrase.as_ref())?),
     };
-    let mut ssh = shake_hands(peer, known, limits, cancel).await?;
-    let result = within(limits.log_in, cancel, log_in(&mut ssh.handle, login, key))
+    let mut ssh = shake_hands(peer, known_hosts, limits, cancel).await?;
+    let result = with_timeout(limits.log_in, cancel, log_in(&mut ssh.handle, login, key))
         .await
-        .map_err(|by| interrupted(ConnectStep::LogIn, by, peer))?
+        .map_err(|interruption| interrupted(ConnectStep::LogIn, interruption, peer))?
         .map_err(|error| failed(ConnectStep::LogIn, &error, peer))?;
     match result {
         AuthResult::Success => Ok(ssh),
@@ -141,16 +142,20 @@ pub(super) async fn dial(
 ) -> Result<TcpStream, ConnectError> {
     let dialling = TcpStream::connect((peer.host.as_str(), peer.port));
     let unreachable = |source| ConnectError::Unreachable { source, peer: peer.clone() };
-    let stream = within(limits.connect, cancel, dialling)
+    let stream = with_timeout(limits.connect, cancel, dialling)
         .await
-        .map_err(|by| interrupted(ConnectStep::Connect, by, peer))?
+        .map_err(|interruption| interrupted(ConnectStep::Connect, interruption, peer))?
         .map_err(unreachable)?;
     stream.set_nodelay(true).map_err(unreachable)?;
     Ok(stream)
 }
 
-pub(super) fn interrupted(step: ConnectStep, by: Interruption, peer: &Peer) -> ConnectError {
-    ConnectError::Interrupted { step, by, peer: peer.clone() }
+pub(super) fn interrupted(
+    step: ConnectStep,
+    interruption: Interruption,
+    peer: &Peer,
+) -> ConnectError {
+    ConnectError::Interrupted { step, interruption, peer: peer.clone() }
 }
 
 pub(super) fn failed(step: ConnectStep, reason: &impl ToString, peer: &Peer) -> ConnectError {
@@ -293,7 +298,7 @@ fn private_key(path: &Path, passphrase: Option<&SecretString>) -> Result<Private
 
 /// Checks the host's key.
 pub(super) struct Judge {
-    known: KnownHosts,
+    known_hosts: KnownHosts,
     peer: Peer,
     /// Set by the first key exchange. Later ones agree on the same algorithms.
     old: Arc<OnceLock<Vec<OldAlgorithm>>>,
@@ -331,7 +336,8 @@ impl client::Handler for Judge {
     ) -> Result<bool, Self::Error> {
         let PublicKeyOrCertificate::PublicKey { key, .. } = offered else { return Ok(false) };
         let offered = Box::new(OfferedKey::new(&self.peer.host, self.peer.port, key.clone()));
-        let verdict = self.known.check(&offered).map_err(|error| Refused::Key(error.into()))?;
+        let verdict =
+            self.known_hosts.check(&offered).map_err(|error| Refused::Key(error.into()))?;
         Err(Refused::Key(match verdict {
             KeyVerdict::Pinned => return Ok(true),
             KeyVerdict::Unknown => ConnectError::UnknownHostKey(offered),

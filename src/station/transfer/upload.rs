@@ -24,13 +24,13 @@ pub struct Upload {
     pub elements: TleFile,
 }
 
-/// Carries out `upload` in `folder`. Afterwards `kept` has both the old and the new file.
+/// Carries out `upload` in `folder`. Afterwards `kept_files` has both the old and the new file.
 /// `tell` is called with the progress. A cancel is obeyed until the new file takes its
 /// place.
 pub async fn upload(
     folder: &mut SftpFolder,
     upload: Upload,
-    kept: &KeptFiles,
+    kept_files: &KeptFiles,
     clock: &Clock,
     tell: &mut dyn FnMut(Progress),
     cancel: &CancellationToken,
@@ -38,10 +38,10 @@ pub async fn upload(
     let Upload { unit, file, elements } = upload;
     let (name, address) = (file.as_str(), unit.to_string());
     let put = Put { folder, file: name, new: elements.bytes(), tell, cancel };
-    put.run(&mut |old| kept.keep(&address, name, old, clock.utc(), Origin::Found)).await?;
-    let at = clock.utc();
+    put.run(&mut |old| kept_files.keep(&address, name, old, clock.utc(), Origin::Found)).await?;
+    let time = clock.utc();
     // The unit has the file either way; only a later roll-back to it is lost.
-    if let Err(error) = kept.keep(&address, name, elements.bytes(), at, Origin::Uploaded) {
+    if let Err(error) = kept_files.keep(&address, name, elements.bytes(), time, Origin::Uploaded) {
         tracing::warn!(%error, file = name, "the uploaded file was not kept on this computer");
     }
     let sha256 = elements.hash();
@@ -49,7 +49,7 @@ pub async fn upload(
     Ok(Uploaded {
         bytes: elements.bytes().len() as u64,
         sha256,
-        time: at,
+        time,
         objects: elements.objects().to_vec(),
         unit,
         file,

@@ -218,8 +218,8 @@ fn show_head(ui: &mut Ui, id: egui::Id, step: Step) {
     let sense = if has_focus { Sense::focusable_noninteractive() } else { Sense::hover() };
     let response = ui.interact(place, id, sense);
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Heading, true, title));
-    let rich_text = RichText::new(description).font(text::body()).color(t.t2);
-    ui.add(egui::Label::new(rich_text).wrap());
+    let paragraph = RichText::new(description).font(text::body()).color(t.t2);
+    ui.add(egui::Label::new(paragraph).wrap());
 }
 
 fn take_keys(

@@ -8,7 +8,7 @@ use super::{Debts, OFFSETS, Record, file};
 use crate::{
     astro::{Angle, Offset, TrackOffsets},
     contract::driver::Unit,
-    promises::{FileState, Kept},
+    promises::{FileState, PromisedFile},
 };
 
 /// Maximum number of values that a unit may hold from here.
@@ -114,8 +114,8 @@ impl Debts {
     }
 
     /// Progress of the file of offsets.
-    pub(in crate::driver) fn shifted_kept(&self, unit: &Unit) -> Kept {
-        self.path(unit, OFFSETS).map_or(Kept::OnDisk, |path| self.promises.kept(&path))
+    pub(in crate::driver) fn shifted_kept(&self, unit: &Unit) -> PromisedFile {
+        self.path(unit, OFFSETS).map_or(PromisedFile::OnDisk, |path| self.promises.promised(&path))
     }
 
     /// Looks again for offsets that an earlier run left, since another Azel may have driven the
@@ -171,7 +171,7 @@ mod tests {
         let shifted = ShiftedTrack { track, ..put(azimuth(-0.1), &[azimuth(0.1), azimuth(0.2)]) };
         let first = debts();
         first.set_shifted(&unit(), Some(shifted.clone()));
-        assert_eq!(first.shifted_kept(&unit()), Kept::OnDisk);
+        assert_eq!(first.shifted_kept(&unit()), PromisedFile::OnDisk);
         let second = debts();
         let found = ShiftedTrack { is_found: true, ..shifted };
         assert_eq!(second.shifted(&unit()), Some(found.clone()));

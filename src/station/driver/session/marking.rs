@@ -10,7 +10,7 @@ use crate::{
     astro::time::seconds_between,
     clock::{Instant, Moment},
     driver::debts::Mark,
-    promises::Kept,
+    promises::PromisedFile,
 };
 
 /// A slower disk must not keep the operator from moving the antenna.
@@ -75,12 +75,12 @@ impl Marking {
         };
         let is_late = now.steady.saturating_duration_since(*first) >= MAX;
         match debts.mark_kept() {
-            Kept::OnDisk => {
+            PromisedFile::OnDisk => {
                 *is_reported = false;
                 Progress::Settled
             }
-            Kept::Pending if !is_late => Progress::Pending,
-            Kept::Pending | Kept::Failed(_) => {
+            PromisedFile::Pending if !is_late => Progress::Pending,
+            PromisedFile::Pending | PromisedFile::Failed(_) => {
                 if std::mem::replace(is_reported, true) {
                     Progress::Settled
                 } else {
@@ -106,9 +106,9 @@ impl Marking {
     pub(super) fn refresh(&mut self, debts: &UnitDebts, now: Moment) {
         let State::Put { last, .. } = self.0 else { return };
         let after = match debts.mark_kept() {
-            Kept::OnDisk => REFRESH,
-            Kept::Failed(_) => AGAIN,
-            Kept::Pending => return,
+            PromisedFile::OnDisk => REFRESH,
+            PromisedFile::Failed(_) => AGAIN,
+            PromisedFile::Pending => return,
         };
         if now.steady.saturating_duration_since(last) >= after {
             self.put(debts, now);
@@ -120,17 +120,17 @@ impl Marking {
         let State::Put { first, .. } = self.0 else { return None };
         let is_late = now.saturating_duration_since(first) >= MAX;
         match debts.mark_kept() {
-            Kept::OnDisk => None,
-            Kept::Pending => is_late.then(|| "the disk has not taken it yet".to_owned()),
-            Kept::Failed(reason) => Some(reason),
+            PromisedFile::OnDisk => None,
+            PromisedFile::Pending => is_late.then(|| "the disk has not taken it yet".to_owned()),
+            PromisedFile::Failed(reason) => Some(reason),
         }
     }
 
     /// When to check again whether the mark is on the disk.
     pub(super) fn due(&self, debts: &UnitDebts, now: Instant) -> Option<Instant> {
         let State::Put { first, .. } = self.0 else { return None };
-        let is_awaited =
-            now.saturating_duration_since(first) < MAX && debts.mark_kept() == Kept::Pending;
+        let is_awaited = now.saturating_duration_since(first) < MAX
+            && debts.mark_kept() == PromisedFile::Pending;
         is_awaited.then_some(now + LOOK)
     }
 

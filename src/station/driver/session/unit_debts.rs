@@ -8,7 +8,7 @@ use crate::{
     clock::Instant,
     contract::driver::Unit,
     driver::debts::{Debts, Mark, ShiftedTrack},
-    promises::Kept,
+    promises::PromisedFile,
 };
 
 /// Debts to the unit, also from other sessions and earlier runs.
@@ -81,7 +81,7 @@ impl UnitDebts {
         self.debts.mark(&self.unit, self.number, mark);
     }
 
-    pub(super) fn mark_kept(&self) -> Kept {
+    pub(super) fn mark_kept(&self) -> PromisedFile {
         self.debts.mark_kept(&self.unit)
     }
 
@@ -113,7 +113,7 @@ impl UnitDebts {
         self.debts.set_shifted(&self.unit, shifted);
     }
 
-    pub(super) fn shifted_kept(&self) -> Kept {
+    pub(super) fn shifted_kept(&self) -> PromisedFile {
         self.debts.shifted_kept(&self.unit)
     }
 }

@@ -18,7 +18,7 @@ use crate::{
     },
     driver::{debts::ShiftedTrack, gate::Shift},
     plan::{OnBoardPass, on_board::Judge},
-    promises::Kept,
+    promises::PromisedFile,
 };
 pub(super) use shifting::Shifting;
 use shifting::{Certainty, Step};
@@ -178,13 +178,13 @@ impl Session {
         match self.unit_offsets.step() {
             Step::None => {}
             Step::Marking { wanted } => match self.owed.debts().shifted_kept() {
-                Kept::Pending => return,
-                Kept::Failed(_) => {
+                PromisedFile::Pending => return,
+                PromisedFile::Failed(_) => {
                     self.unit_offsets.end_step();
                     self.forget_wanted();
                     self.tell(Event::OffsetRefused(Refusal::NoOffsetsRecord));
                 }
-                Kept::OnDisk => {
+                PromisedFile::OnDisk => {
                     self.unit_offsets.end_step();
                     if self.unit_offsets.wanted() == Some(wanted) {
                         self.write_shift(fields, now);

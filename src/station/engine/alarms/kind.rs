@@ -55,12 +55,9 @@ pub(super) fn is_momentary(kind: &AlarmKind) -> bool {
 /// error of an antenna that is off its satellite stays, and so does a cause once it is known.
 pub(super) fn restated(standing: &AlarmKind, present: &AlarmKind) -> Option<AlarmKind> {
     match (standing, present) {
-        (
-            AlarmKind::OffTarget { deviation: off, cause: before },
-            AlarmKind::OffTarget { cause, .. },
-        ) => {
+        (AlarmKind::OffTarget { deviation, cause: before }, AlarmKind::OffTarget { cause, .. }) => {
             let is_news = cause.is_some() && cause != before;
-            is_news.then(|| AlarmKind::OffTarget { deviation: *off, cause: cause.clone() })
+            is_news.then(|| AlarmKind::OffTarget { deviation: *deviation, cause: cause.clone() })
         }
         _ => (same_matter(standing, present) && standing != present).then(|| present.clone()),
     }
@@ -146,8 +143,8 @@ pub fn alarm_of(event: &Event) -> Option<AlarmKind> {
         Event::AutoStaysOn => AlarmKind::AutoStaysOn,
         Event::AutoTrackNotKnown => AlarmKind::AutoTrackNotKnown,
         Event::LockOutUnproved => AlarmKind::LockOutUnproved,
-        Event::Refused(asked, code) => AlarmKind::Refused(asked, code),
-        Event::Unanswered(asked) => AlarmKind::Unanswered(asked),
+        Event::Refused(motion, code) => AlarmKind::Refused(motion, code),
+        Event::Unanswered(motion) => AlarmKind::Unanswered(motion),
         Event::OffsetNotTaken(error) => AlarmKind::OffsetNotTaken(error),
         Event::CannotTrack(target, reason) => AlarmKind::CannotTrack(target, reason),
         Event::CannotProgramTrack(name, problem) => AlarmKind::CannotProgramTrack(name, problem),

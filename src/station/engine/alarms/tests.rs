@@ -55,8 +55,8 @@ fn a_cause_that_is_found_later_comes_into_the_alarm_that_stands() {
     let mut alarms = Alarms::default();
     let is_missed = |kind: &AlarmKind| matches!(kind, AlarmKind::OffTarget { .. });
     let missed = |off_deg, cause| {
-        let off = crate::astro::Angle::from_degrees(off_deg);
-        Some(AlarmKind::OffTarget { deviation: off, cause })
+        let deviation = crate::astro::Angle::from_degrees(off_deg);
+        Some(AlarmKind::OffTarget { deviation, cause })
     };
     let cause = OffTargetCause::Measured(Explained { causes: Vec::new(), error_deg: 0.9 });
     for (off_deg, cause) in [(0.8, None), (0.9, Some(cause.clone())), (0.7, None)] {
@@ -102,22 +102,22 @@ fn states(alarms: &Alarms) -> Vec<AlarmState> {
 
 #[test]
 fn an_alarm_has_four_states_and_says_since_when_it_is_over() {
-    let over = time() + 8.seconds();
+    let end = time() + 8.seconds();
     let mut alarms = Alarms::default();
     alarms.raise(LOST_OF, LOST, time());
     assert_eq!(states(&alarms), [AlarmState::New]);
     alarms.acknowledge(alarms.newest_unseen().unwrap(), time());
     assert_eq!(states(&alarms), [AlarmState::Seen]);
-    alarms.clear(LOST_OF, over, |_| true);
-    assert_eq!(states(&alarms), [AlarmState::Over { over_since: over }]);
+    alarms.clear(LOST_OF, end, |_| true);
+    assert_eq!(states(&alarms), [AlarmState::Over { over_since: end }]);
 
     let mut alarms = Alarms::default();
     alarms.raise(LOST_OF, LOST, time());
-    alarms.clear(LOST_OF, over, |_| true);
-    alarms.clear(LOST_OF, over + 1.hour(), |_| true);
-    assert_eq!(states(&alarms), [AlarmState::NewAndOver { over_since: over }]);
-    alarms.acknowledge(alarms.newest_unseen().unwrap(), over + 1.minute());
-    assert_eq!(states(&alarms), [AlarmState::Over { over_since: over }]);
+    alarms.clear(LOST_OF, end, |_| true);
+    alarms.clear(LOST_OF, end + 1.hour(), |_| true);
+    assert_eq!(states(&alarms), [AlarmState::NewAndOver { over_since: end }]);
+    alarms.acknowledge(alarms.newest_unseen().unwrap(), end + 1.minute());
+    assert_eq!(states(&alarms), [AlarmState::Over { over_since: end }]);
 }
 
 #[test]
@@ -174,23 +174,23 @@ fn an_alarm_on_the_shelf_is_quiet_and_comes_back_when_its_time_is_up() {
     alarms.raise(LOST_OF, LOST, time());
     alarms.unopened = false;
     alarms.shelve(0, ShelveTime::TenMinutes, time());
-    let until = time() + 10.minutes();
+    let end = time() + 10.minutes();
     alarms.clear(LOST_OF, time(), |_| true);
     alarms.raise(LOST_OF, LOST, time() + 1.minute());
-    alarms.pass_time(until - 1.second());
-    assert_eq!(states(&alarms), [AlarmState::Shelved { end: until }]);
+    alarms.pass_time(end - 1.second());
+    assert_eq!(states(&alarms), [AlarmState::Shelved { end }]);
     assert_eq!((alarms.newest_unseen(), alarms.unopened), (None, false));
-    alarms.pass_time(until);
+    alarms.pass_time(end);
     assert_eq!((states(&alarms), alarms.unopened), (vec![AlarmState::New], true));
 
     let id = alarms.newest_unseen().unwrap();
-    alarms.shelve(id, ShelveTime::OneHour, until);
+    alarms.shelve(id, ShelveTime::OneHour, end);
     alarms.unshelve(id);
     assert_eq!(states(&alarms), [AlarmState::Seen]);
-    alarms.shelve(id, ShelveTime::OneHour, until);
-    alarms.clear(LOST_OF, until, |_| true);
-    alarms.pass_time(until + 2.hours());
-    assert_eq!(states(&alarms), [AlarmState::Over { over_since: until }]);
+    alarms.shelve(id, ShelveTime::OneHour, end);
+    alarms.clear(LOST_OF, end, |_| true);
+    alarms.pass_time(end + 2.hours());
+    assert_eq!(states(&alarms), [AlarmState::Over { over_since: end }]);
 }
 
 #[test]
@@ -236,8 +236,8 @@ fn the_first_cause_comes_first_and_what_follows_behind_it() {
     alarms.raise(Some(AntennaId(2)), AlarmKind::ClockNotSet, time());
     let order: Vec<(u64, Option<u64>)> =
         alarms.in_order().iter().map(|placed| (placed.alarm.id, placed.follows)).collect();
-    let wanted = [(2, None), (3, Some(2)), (4, Some(2)), (5, None), (1, None), (0, None)];
-    assert_eq!(order, wanted);
+    let expected = [(2, None), (3, Some(2)), (4, Some(2)), (5, None), (1, None), (0, None)];
+    assert_eq!(order, expected);
 }
 
 #[test]
@@ -324,10 +324,10 @@ fn a_check_is_over_when_it_is_told_to_be_good_or_worse() {
 #[test]
 fn a_check_that_is_told_in_other_words_is_the_same_matter() {
     let check = Check::new("X position sensor", CheckState::Fault, "Look at it.");
-    let told = Check { unit_text: "Not connected".into(), ..check.clone() };
+    let disconnected = Check { unit_text: "Not connected".into(), ..check.clone() };
     let mut alarms = Alarms::default();
     alarms.raise(Some(AntennaId::FIRST), AlarmKind::Check(check), time());
-    alarms.raise(Some(AntennaId::FIRST), AlarmKind::Check(told), time());
+    alarms.raise(Some(AntennaId::FIRST), AlarmKind::Check(disconnected), time());
     assert_eq!(alarms.list().len(), 1);
 }
 

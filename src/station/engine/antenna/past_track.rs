@@ -6,7 +6,7 @@ use crate::{
 };
 
 /// A track with fewer samples is not worth a look.
-const FEWEST: usize = 5;
+const MIN_POINTS: usize = 5;
 
 /// Interval of the samples that are kept, seconds: a profile shows no more, and the samples of ten polls
 /// a second would fill megabytes.
@@ -17,7 +17,7 @@ pub(super) fn past_track(name: String, errors: &Errors) -> Option<PastTrack> {
     let (first, last) = (*errors.iter().next()?, *errors.back()?);
     let finite = || errors.iter().filter(|error| error.off_beam.is_finite());
     let count = finite().count();
-    if count < FEWEST {
+    if count < MIN_POINTS {
         return None;
     }
     let squares: f64 = finite().map(|error| error.off_beam.degrees().powi(2)).sum();

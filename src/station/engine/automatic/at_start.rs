@@ -34,14 +34,15 @@ pub(in crate::engine) struct LastRun {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) station: Option<FileHash>,
     /// The pass that was proved last, by antenna: its unit may still be at work on it.
-    held: Vec<Held>,
+    #[serde(rename = "held")]
+    helds: Vec<HeldPass>,
     /// The last verified upload to each antenna's unit.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     unit_elements: Vec<UnitElements>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-struct Held {
+struct HeldPass {
     antenna: AntennaId,
     satellite: u32,
     aos: Timestamp,
@@ -92,18 +93,18 @@ impl LastRun {
 
     /// The pass that this antenna's unit was last proved to be on its way to.
     pub(super) fn held_by(&self, antenna: AntennaId) -> Option<PassListKey> {
-        let held = self.held.iter().find(|held| held.antenna == antenna)?;
-        Some((held.satellite, held.aos))
+        let held_pass = self.helds.iter().find(|held_pass| held_pass.antenna == antenna)?;
+        Some((held_pass.satellite, held_pass.aos))
     }
 
     pub(super) fn holds(&mut self, antenna: AntennaId, (satellite, aos): PassListKey) {
-        self.held.retain(|held| held.antenna != antenna);
-        self.held.push(Held { antenna, satellite, aos });
+        self.helds.retain(|held_pass| held_pass.antenna != antenna);
+        self.helds.push(HeldPass { antenna, satellite, aos });
     }
 
     /// The last verified upload to the unit of this antenna at this address.
     pub(super) fn unit_elements(&self, antenna: AntennaId, address: &str) -> Option<&UnitElements> {
-        let is_it = |known: &&UnitElements| known.antenna == antenna && known.address == address;
+        let is_it = |entry: &&UnitElements| entry.antenna == antenna && entry.address == address;
         self.unit_elements.iter().find(is_it)
     }
 
@@ -118,13 +119,13 @@ impl LastRun {
     ) {
         let mut epochs: BTreeMap<u32, Timestamp> =
             objects.iter().map(|object| (object.catalog_number, object.epoch)).collect();
-        if is_roll_back && let Some(known) = self.unit_elements(antenna, address) {
-            for (number, epoch) in &known.epochs {
+        if is_roll_back && let Some(unit_elements) = self.unit_elements(antenna, address) {
+            for (number, epoch) in &unit_elements.epochs {
                 let newest = epochs.entry(*number).or_insert(*epoch);
                 *newest = (*newest).max(*epoch);
             }
         }
-        self.unit_elements.retain(|known| known.antenna != antenna);
+        self.unit_elements.retain(|unit_elements| unit_elements.antenna != antenna);
         self.unit_elements.push(UnitElements {
             antenna,
             address: address.to_owned(),
@@ -136,7 +137,7 @@ impl LastRun {
     /// Records that automatic operation of this antenna is on or off.
     pub(super) fn note_switch(&mut self, antenna: AntennaId, is_on: bool) {
         for list in [&mut self.switched_on, &mut self.switched_off] {
-            list.retain(|known| *known != antenna);
+            list.retain(|antenna_id| *antenna_id != antenna);
         }
         if is_on { &mut self.switched_on } else { &mut self.switched_off }.push(antenna);
     }

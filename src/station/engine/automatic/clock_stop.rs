@@ -15,20 +15,21 @@ const SAME_STEP: Duration = Duration::from_secs(1);
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct ClockStop {
     stepped: Option<Instant>,
-    asked: Option<Instant>,
+    requested: Option<Instant>,
 }
 
 impl ClockStop {
-    pub(super) fn take_step(&mut self, at: Instant) {
-        self.stepped = Some(at);
+    pub(super) fn take_step(&mut self, instant: Instant) {
+        self.stepped = Some(instant);
     }
 
     /// Takes the question of a session, which an outage may cause too.
-    pub(super) fn take_question(&mut self, at: Instant) {
-        let is_by_step =
-            self.stepped.is_some_and(|stepped| at.saturating_duration_since(stepped) < SAME_STEP);
+    pub(super) fn take_question(&mut self, instant: Instant) {
+        let is_by_step = self
+            .stepped
+            .is_some_and(|stepped| instant.saturating_duration_since(stepped) < SAME_STEP);
         if is_by_step {
-            self.asked = Some(at);
+            self.requested = Some(instant);
         }
     }
 }
@@ -41,8 +42,8 @@ impl Engine {
         let (now, steady) = (self.now, self.steady);
         let Some(antenna) = self.antennas.get_mut(index) else { return };
         // The clock watch of this turn may have looked before the step.
-        let is_later = |asked: Instant| asked < steady;
-        if !antenna.at_work.clock_stop.asked.is_some_and(is_later) {
+        let is_later = |request_time: Instant| request_time < steady;
+        if !antenna.at_work.clock_stop.requested.is_some_and(is_later) {
             return;
         }
         let track = antenna.shown.snapshot.program_track.as_ref();

@@ -3,7 +3,7 @@
 
 use jiff::{Timestamp, tz::TimeZone};
 
-use super::operation::{Duty, Seen, is_same_pass};
+use super::operation::{Duty, Observation, is_same_pass};
 use crate::{
     astro::time::seconds_between,
     contract::automatic::{DayLine, Flown, GivenUp, MissCause, NotReady, Operation},
@@ -29,14 +29,14 @@ pub(in crate::engine) struct Flight {
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Hindered {
-    from: Timestamp,
-    until: Timestamp,
-    by: MissCause,
+    start: Timestamp,
+    end: Timestamp,
+    miss_cause: MissCause,
 }
 
 impl Flight {
     pub(super) fn new(duty: Duty, name: String) -> Self {
-        let seen_to = duty.from;
+        let seen_to = duty.start;
         Self { duty, name, proved_at: None, seen_to, hindered: Vec::new() }
     }
 
@@ -45,33 +45,37 @@ impl Flight {
     }
 
     /// Looks at automatic operation of the antenna at `now`.
-    pub(super) fn see(&mut self, operation: &Operation, seen: Seen, now: Timestamp) {
+    pub(super) fn see(&mut self, operation: &Operation, observation: Observation, now: Timestamp) {
         let taking = operation.taking();
         let taking = taking.filter(|taking| is_same_pass(taking.pass, self.duty.pass));
         self.proved_at = self.proved_at.or(taking.and_then(|taking| taking.proved_at));
-        let (from, until) = (self.seen_to, now.min(self.duty.until));
-        if from >= until {
+        let (start, end) = (self.seen_to, now.min(self.duty.end));
+        if start >= end {
             return;
         }
-        self.seen_to = until;
-        let by = match operation {
+        self.seen_to = end;
+        let miss_cause = match operation {
             Operation::Off(because) => Some(MissCause::Off(*because)),
-            Operation::Suspended { interruption: by, .. } => Some(MissCause::Suspended(*by)),
+            Operation::Suspended { interruption, .. } => Some(MissCause::Suspended(*interruption)),
             // Its link tells why.
-            Operation::On(_) if !seen.is_live => None,
-            Operation::On(_) if seen.awaits_operator => Some(MissCause::NotResumed),
-            Operation::On(_) => match (seen.not_ready, taking.and_then(|taking| taking.given_up)) {
-                (Some(why), _) => Some(MissCause::NotReady(why)),
-                (None, Some(GivenUp::WouldMiss)) => Some(MissCause::NotReady(NotReady::WouldMiss)),
-                (None, Some(GivenUp::Refused)) => Some(MissCause::Refused),
-                (None, Some(GivenUp::OffTarget)) => Some(MissCause::OffTarget),
-                (None, None) => None,
-            },
+            Operation::On(_) if !observation.is_live => None,
+            Operation::On(_) if observation.awaits_operator => Some(MissCause::NotResumed),
+            Operation::On(_) => {
+                match (observation.not_ready, taking.and_then(|taking| taking.given_up)) {
+                    (Some(not_ready), _) => Some(MissCause::NotReady(not_ready)),
+                    (None, Some(GivenUp::WouldMiss)) => {
+                        Some(MissCause::NotReady(NotReady::WouldMiss))
+                    }
+                    (None, Some(GivenUp::Refused)) => Some(MissCause::Refused),
+                    (None, Some(GivenUp::OffTarget)) => Some(MissCause::OffTarget),
+                    (None, None) => None,
+                }
+            }
         };
-        let Some(by) = by else { return };
+        let Some(miss_cause) = miss_cause else { return };
         match self.hindered.last_mut() {
-            Some(last) if last.by == by && last.until == from => last.until = until,
-            _ => self.hindered.push(Hindered { from, until, by }),
+            Some(last) if last.miss_cause == miss_cause && last.end == start => last.end = end,
+            _ => self.hindered.push(Hindered { start, end, miss_cause }),
         }
     }
 
@@ -87,8 +91,8 @@ impl Flight {
 
     /// The cause of most of what was lost, apart from what the mount had to lose.
     fn cause(&self, report: Option<&PassReport>) -> MissCause {
-        let Duty { from, until, .. } = self.duty;
-        let nothing = [LostStretch { start: from, end: until, cause: LossCause::NotMeasured }];
+        let Duty { start, end, .. } = self.duty;
+        let nothing = [LostStretch { start, end, cause: LossCause::NotMeasured }];
         let losses = report.map_or(&nothing[..], |report| &report.losses);
         let could_be_had = losses.iter().filter(|lost| !lost.cause.is_of_mount());
         let by_far = self.longest(could_be_had).or_else(|| self.longest(losses.iter()));
@@ -99,7 +103,7 @@ impl Flight {
         let mut seconds: Vec<(MissCause, f64)> = Vec::new();
         let mut add = |cause: MissCause, lost_s: f64| match seconds
             .iter_mut()
-            .find(|(known, _)| *known == cause)
+            .find(|(miss_cause, _)| *miss_cause == cause)
         {
             Some((_, sum_s)) => *sum_s += lost_s,
             None => seconds.push((cause, lost_s)),
@@ -107,10 +111,10 @@ impl Flight {
         for lost in losses {
             let mut left_s = lost.seconds();
             for hindered in &self.hindered {
-                let (from, until) = (hindered.from.max(lost.start), hindered.until.min(lost.end));
-                let common_s = seconds_between(from, until).max(0.0);
+                let (start, end) = (hindered.start.max(lost.start), hindered.end.min(lost.end));
+                let common_s = seconds_between(start, end).max(0.0);
                 if common_s > 0.0 {
-                    add(hindered.by, common_s);
+                    add(hindered.miss_cause, common_s);
                     left_s -= common_s;
                 }
             }
@@ -123,9 +127,9 @@ impl Flight {
 
 /// Adds a line, and drops those of earlier days (UTC).
 pub(super) fn add(list: &mut Vec<DayLine>, line: DayLine) {
-    let day = |at: Timestamp| at.to_zoned(TimeZone::UTC).date();
+    let day = |time: Timestamp| time.to_zoned(TimeZone::UTC).date();
     let today = day(line.time);
-    list.retain(|known| day(known.time) == today);
+    list.retain(|day_line| day(day_line.time) == today);
     if list.len() >= MAX {
         list.remove(0);
     }
@@ -143,16 +147,16 @@ mod tests {
         station::AntennaId,
     };
 
-    fn at(second: f64) -> Timestamp {
+    fn time(second: f64) -> Timestamp {
         add_seconds(Timestamp::UNIX_EPOCH, second)
     }
 
     fn flight() -> Flight {
         let duty = Duty {
-            pass: (7, at(100.0)),
-            from: at(100.0),
-            until: at(200.0),
-            go_at: at(50.0),
+            pass: (7, time(100.0)),
+            start: time(100.0),
+            end: time(200.0),
+            go_at: time(50.0),
             counted_s: 100.0,
             lost_at: None,
             begins_late: false,
@@ -165,9 +169,9 @@ mod tests {
     fn report(losses: &[(f64, f64, LossCause)]) -> PassReport {
         let losses: Vec<LostStretch> = losses
             .iter()
-            .map(|(from, until, cause)| LostStretch {
-                start: at(*from),
-                end: at(*until),
+            .map(|(start, end, cause)| LostStretch {
+                start: time(*start),
+                end: time(*end),
                 cause: *cause,
             })
             .collect();
@@ -186,8 +190,8 @@ mod tests {
     /// Looks once a second at automatic operation.
     fn see(flight: &mut Flight, seconds: std::ops::Range<i32>, operation: &Operation) {
         for second in seconds {
-            let seen = Seen { is_live: true, ..Seen::default() };
-            flight.see(operation, seen, at(f64::from(second)));
+            let observation = Observation { is_live: true, ..Observation::default() };
+            flight.see(operation, observation, time(f64::from(second)));
         }
     }
 
@@ -204,12 +208,12 @@ mod tests {
     fn the_cause_is_that_of_most_of_what_could_be_had() {
         use LossCause::{LateStart, LinkLost, NotCommanded, OutsideBeam, Slew};
         let on = Operation::switched_on();
-        let off = Operation::Off(OffBecause::Stop);
-        let by = Interruption::ByHand;
-        let suspended = Operation::Suspended { interruption: by, start: at(0.0) };
-        let lost = |seen: &[(std::ops::Range<i32>, &Operation)], losses| {
+        let switched_off = Operation::Off(OffBecause::Stop);
+        let interruption = Interruption::ByHand;
+        let suspended = Operation::Suspended { interruption, start: time(0.0) };
+        let lost = |losses_of: &[(std::ops::Range<i32>, &Operation)], losses| {
             let mut flight = flight();
-            for (seconds, operation) in seen {
+            for (seconds, operation) in losses_of {
                 see(&mut flight, seconds.clone(), operation);
             }
             let flown = flight.end(Some(&report(losses)));
@@ -220,12 +224,12 @@ mod tests {
         assert_eq!(lost(&all, &without_link), (60.0, Some(MissCause::Lost(LinkLost))));
         let late = [(100.0, 110.0, LateStart), (120.0, 160.0, Slew)];
         assert_eq!(lost(&all, &late), (50.0, Some(MissCause::Lost(LateStart))));
-        let stopped = [(90..141, &on), (141..210, &off)];
+        let stopped = [(90..141, &on), (141..210, &switched_off)];
         let losses = [(100.0, 110.0, LateStart), (140.0, 200.0, NotCommanded)];
         assert_eq!(lost(&stopped, &losses), (70.0, Some(MissCause::Off(OffBecause::Stop))));
         let by_hand = [(90..111, &on), (111..210, &suspended)];
         let losses = [(100.0, 200.0, NotCommanded)];
-        assert_eq!(lost(&by_hand, &losses), (100.0, Some(MissCause::Suspended(by))));
+        assert_eq!(lost(&by_hand, &losses), (100.0, Some(MissCause::Suspended(interruption))));
     }
 
     #[test]
@@ -233,9 +237,9 @@ mod tests {
         let text = |cause: MissCause| serde_json::to_string(&cause).unwrap();
         let lost = MissCause::Lost(LossCause::LinkLost);
         let refused = MissCause::Refused;
-        let off = MissCause::Off(OffBecause::Stop);
+        let miss_cause = MissCause::Off(OffBecause::Stop);
         for (cause, written) in
-            [(lost, "\"link_lost\""), (refused, "\"refused\""), (off, "{\"off\":\"stop\"}")]
+            [(lost, "\"link_lost\""), (refused, "\"refused\""), (miss_cause, "{\"off\":\"stop\"}")]
         {
             assert_eq!(serde_json::from_str::<MissCause>(written).unwrap(), cause);
             assert_eq!(text(cause), written);
@@ -246,7 +250,7 @@ mod tests {
     fn the_list_is_that_of_one_day() {
         let mut list = Vec::new();
         let line = |second: f64| DayLine {
-            time: at(second),
+            time: time(second),
             antenna: AntennaId(1),
             event: DayEvent::SwitchedOn,
         };

@@ -1,6 +1,6 @@
 //! State of an antenna that automatic operation looks at, taken from its snapshot.
 
-use super::operation::Seen;
+use super::operation::Observation;
 use crate::{
     clock::Instant,
     contract::{
@@ -11,20 +11,20 @@ use crate::{
     device::Axis,
 };
 
-pub(super) fn seen(antenna: &AntennaModel, now: Instant) -> Seen {
+pub(super) fn observe(antenna: &AntennaModel, now: Instant) -> Observation {
     let snapshot = &antenna.snapshot;
     let moves = snapshot.state.measured.is_some_and(|measured| measured.moving());
     let stops =
         matches!(snapshot.stop, StopState::Stopping { .. } | StopState::NotConfirmed { .. });
     let takes = antenna.tracked_number().filter(|_| !antenna.tracks_unasked());
     // Somebody has given the unit another satellite than it was asked to track from here.
-    let asked = snapshot.target.as_ref().map(|target| target.catalog_number);
+    let requested = snapshot.target.as_ref().map(|target| target.catalog_number);
     let is_replaced = antenna.is_live()
         && snapshot.intent == Intent::Track
         && !snapshot.pending
         && snapshot.state.program.is_some_and(|program| program.enabled)
-        && asked.is_some_and(|asked| takes.is_some_and(|takes| takes != asked));
-    Seen {
+        && requested.is_some_and(|requested| takes.is_some_and(|takes| takes != requested));
+    Observation {
         is_live: antenna.is_live(),
         is_silent: antenna.is_silent(now),
         is_locked_out: snapshot.lock_out.is_some(),

@@ -52,22 +52,24 @@ fn is_final(reason: GivenUp) -> bool {
 pub struct Duty {
     pub pass: PassListKey,
     /// First and last moment that count.
-    pub from: Timestamp,
-    pub until: Timestamp,
+    #[serde(rename = "from")]
+    pub start: Timestamp,
+    #[serde(rename = "until")]
+    pub end: Timestamp,
     /// When the antenna is sent there, at the latest.
     pub go_at: Timestamp,
     /// Seconds between them that count.
     pub counted_s: f64,
     /// Where the mount loses some of the pass.
     pub lost_at: Option<Loss>,
-    /// A part of the pass is left out before `from`, or after `until`.
+    /// A part of the pass is left out before `start`, or after `end`.
     pub begins_late: bool,
     pub ends_early: bool,
 }
 
 /// State of the antenna at one moment, as far as it is known.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(in crate::engine) struct Seen {
+pub(in crate::engine) struct Observation {
     /// The unit answers in time.
     pub(in crate::engine) is_live: bool,
     /// No reply has come for longer than a hiccup of the link lasts.
@@ -105,7 +107,7 @@ pub(in crate::engine) struct Wishes {
     pub(in crate::engine) announced_for_s: f64,
     /// The pass that automatic operation proved last, in this run or the one before: the unit may
     /// go on with it on its own.
-    pub(in crate::engine) held: Option<PassListKey>,
+    pub(in crate::engine) pass_list_key: Option<PassListKey>,
 }
 
 /// Action of the station for automatic operation.
@@ -155,7 +157,7 @@ pub(in crate::engine) trait Operate {
     /// Ends it, unless it is off.
     fn switch_off(&mut self, because: OffBecause);
 
-    fn suspend(&mut self, by: Interruption, now: Timestamp);
+    fn suspend(&mut self, interruption: Interruption, now: Timestamp);
 
     /// The operator lets it go on.
     fn go_on(&mut self, now: Timestamp);
@@ -169,7 +171,13 @@ pub(in crate::engine) trait Operate {
 
     /// Returns the action for `now`. `duties` are in the order of time; those that are over are
     /// ignored.
-    fn step(&mut self, duties: &[Duty], seen: Seen, wishes: Wishes, now: Timestamp) -> Option<Act>;
+    fn step(
+        &mut self,
+        duties: &[Duty],
+        observation: Observation,
+        wishes: Wishes,
+        now: Timestamp,
+    ) -> Option<Act>;
 }
 
 impl Operate for Operation {
@@ -203,9 +211,9 @@ impl Operate for Operation {
         }
     }
 
-    fn suspend(&mut self, by: Interruption, now: Timestamp) {
+    fn suspend(&mut self, interruption: Interruption, now: Timestamp) {
         if self.is_on() {
-            *self = Self::Suspended { interruption: by, start: now };
+            *self = Self::Suspended { interruption, start: now };
         }
     }
 
@@ -259,48 +267,54 @@ impl Operate for Operation {
         }
     }
 
-    fn step(&mut self, duties: &[Duty], seen: Seen, wishes: Wishes, now: Timestamp) -> Option<Act> {
-        if seen.is_locked_out {
+    fn step(
+        &mut self,
+        duties: &[Duty],
+        observation: Observation,
+        wishes: Wishes,
+        now: Timestamp,
+    ) -> Option<Act> {
+        if observation.is_locked_out {
             self.switch_off(OffBecause::LockedOut);
         }
         let Self::On(active) = self else { return None };
-        see(active, seen, now);
-        if let Some(duty) = found_at_work(active, duties, seen, wishes, now) {
+        see(active, observation, now);
+        if let Some(duty) = found_at_work(active, duties, observation, wishes, now) {
             take(active, duty, 1, now);
             return Some(Act::TakeOver(duty));
         }
-        if seen.is_moved_elsewhere {
-            if is_moved_for_long(active, now) && !seen.may_be_planned {
+        if observation.is_moved_elsewhere {
+            if is_moved_for_long(active, now) && !observation.may_be_planned {
                 self.suspend(Interruption::Elsewhere, now);
             }
             return None;
         }
-        if seen.turns_unasked {
+        if observation.turns_unasked {
             return None;
         }
-        let act = step(active, duties, seen, wishes, now);
+        let act = step(active, duties, observation, wishes, now);
         end_after_failures(self);
         act
     }
 }
 
 /// Brings the activity up to date.
-fn see(active: &mut On, seen: Seen, now: Timestamp) {
+fn see(active: &mut On, observation: Observation, now: Timestamp) {
     forget_the_future(active, now);
-    if !seen.is_moved_elsewhere {
+    if !observation.is_moved_elsewhere {
         active.moves_since = None;
     } else if active.moves_since.is_none() {
         active.moves_since = Some(now);
     }
     if let Doing::Takes(taking) = &mut active.doing {
-        if seen.takes == Some(taking.pass.0) && seen.is_live {
-            if seen.moves {
+        if observation.takes == Some(taking.pass.0) && observation.is_live {
+            if observation.moves {
                 active.moved_at = Some(now);
             }
             if taking.attempt == Attempt::NotBegun {
                 taking.attempt = Attempt::Begun;
             }
-            if seen.is_proved && taking.proved_at.is_none() {
+            if observation.is_proved && taking.proved_at.is_none() {
                 taking.proved_at = Some(now);
                 taking.requests = 0;
                 taking.given_up = taking.given_up.filter(|given_up| is_final(*given_up));
@@ -318,8 +332,8 @@ fn see(active: &mut On, seen: Seen, now: Timestamp) {
 
 /// Drops times of the old clock after it was set back.
 fn forget_the_future(active: &mut On, now: Timestamp) {
-    active.moved_at = active.moved_at.filter(|at| *at <= now);
-    active.moves_since = active.moves_since.filter(|since| *since <= now);
+    active.moved_at = active.moved_at.filter(|time| *time <= now);
+    active.moves_since = active.moves_since.filter(|start| *start <= now);
     if matches!(&active.doing, Doing::Takes(taking) if taking.asked_at > now) {
         active.doing = Doing::Rests;
     }
@@ -329,55 +343,58 @@ fn forget_the_future(active: &mut On, now: Timestamp) {
 fn found_at_work(
     active: &On,
     duties: &[Duty],
-    seen: Seen,
+    observation: Observation,
     wishes: Wishes,
     now: Timestamp,
 ) -> Option<Duty> {
-    let is_free = !matches!(active.doing, Doing::Takes(_)) && seen.can_be_sent;
-    let held = wishes.held.filter(|held| is_free && seen.offers == Some(held.0))?;
-    let is_it = |duty: &&Duty| is_same_pass(duty.pass, held) && now < duty.until;
+    let is_free = !matches!(active.doing, Doing::Takes(_)) && observation.can_be_sent;
+    let held_pass = wishes
+        .pass_list_key
+        .filter(|held_pass| is_free && observation.offers == Some(held_pass.0))?;
+    let is_it = |duty: &&Duty| is_same_pass(duty.pass, held_pass) && now < duty.end;
     duties.iter().find(is_it).copied()
 }
 
 fn is_moved_for_long(active: &On, now: Timestamp) -> bool {
-    active.moves_since.is_some_and(|since| seconds_between(since, now) >= COASTS_S)
+    active.moves_since.is_some_and(|start| seconds_between(start, now) >= COASTS_S)
 }
 
 /// Seconds since the last motion.
 fn rest_s(active: &On, now: Timestamp) -> f64 {
-    active.moved_at.map_or(f64::INFINITY, |at| seconds_between(at, now))
+    active.moved_at.map_or(f64::INFINITY, |time| seconds_between(time, now))
 }
 
 fn step(
     active: &mut On,
     duties: &[Duty],
-    seen: Seen,
+    observation: Observation,
     wishes: Wishes,
     now: Timestamp,
 ) -> Option<Act> {
     if let Doing::Takes(taking) = &active.doing {
-        return again(active, *taking, duties, seen, wishes, now);
+        return again(active, *taking, duties, observation, wishes, now);
     }
-    let left = |duty: &&Duty| seconds_between(now, duty.until) > WORTH_S;
+    let left = |duty: &&Duty| seconds_between(now, duty.end) > WORTH_S;
     let next = duties.iter().find(left).copied();
     let Some(duty) = next else {
         if matches!(active.doing, Doing::Announces { .. }) {
             active.doing = Doing::Rests;
         }
-        return park(active, None, seen, wishes, now);
+        return park(active, None, observation, wishes, now);
     };
     // The operator has it tracked already, from here.
-    if seen.is_live && seen.takes == Some(duty.pass.0) && now >= duty.go_at {
+    if observation.is_live && observation.takes == Some(duty.pass.0) && now >= duty.go_at {
         take(active, duty, 1, now);
         return None;
     }
-    keep_announcement(active, duty, seen, wishes, now);
+    keep_announcement(active, duty, observation, wishes, now);
     let is_announced = rest_s(active, now) >= wishes.longest_rest_s;
     let lead_s = if is_announced { wishes.announced_for_s } else { 0.0 };
     if seconds_between(now, duty.go_at) > lead_s {
-        return park(active, Some(duty), seen, wishes, now);
+        return park(active, Some(duty), observation, wishes, now);
     }
-    let can_be_made = seen.is_live && seen.can_be_sent && seen.not_ready.is_none();
+    let can_be_made =
+        observation.is_live && observation.can_be_sent && observation.not_ready.is_none();
     match &active.doing {
         Doing::Announces { moves_at, pass } if is_same_pass(*pass, duty.pass) => {
             let is_over = now >= *moves_at;
@@ -401,22 +418,32 @@ fn step(
 
 /// An announcement stands only while its motion can be made and is still the next. One late reply
 /// does not end it: with frequent ones, the warning would begin again for ever.
-fn keep_announcement(active: &mut On, next: Duty, seen: Seen, wishes: Wishes, now: Timestamp) {
+fn keep_announcement(
+    active: &mut On,
+    next: Duty,
+    observation: Observation,
+    wishes: Wishes,
+    now: Timestamp,
+) {
     let Doing::Announces { pass, .. } = &active.doing else { return };
     let is_near = seconds_between(now, next.go_at) <= wishes.announced_for_s;
     let is_it = is_same_pass(*pass, next.pass) && is_near;
-    if !is_it || seen.is_silent || !seen.can_be_sent || seen.not_ready.is_some() {
+    if !is_it
+        || observation.is_silent
+        || !observation.can_be_sent
+        || observation.not_ready.is_some()
+    {
         active.doing = Doing::Rests;
     }
 }
 
 fn take(active: &mut On, duty: Duty, requests: u8, now: Timestamp) {
-    let Duty { pass, from, until, .. } = duty;
+    let Duty { pass, start, end, .. } = duty;
     active.moved_at = Some(now);
     active.doing = Doing::Takes(Taking {
         pass,
-        start: from,
-        end: until,
+        start,
+        end,
         asked_at: now,
         requests,
         attempt: Attempt::NotBegun,
@@ -431,18 +458,18 @@ fn again(
     active: &mut On,
     taking: Taking,
     duties: &[Duty],
-    seen: Seen,
+    observation: Observation,
     wishes: Wishes,
     now: Timestamp,
 ) -> Option<Act> {
     let is_asked = seconds_between(taking.asked_at, now) < LATE_S;
-    let is_idle = seen.takes != Some(taking.pass.0) && !seen.moves;
+    let is_idle = observation.takes != Some(taking.pass.0) && !observation.moves;
     // Somebody may stand beside the unit to repair it: announce its next motion.
-    if seen.not_ready.is_some() && is_idle && !is_skipped(&taking) {
+    if observation.not_ready.is_some() && is_idle && !is_skipped(&taking) {
         (active.doing, active.moved_at) = (Doing::Rests, None);
         return None;
     }
-    let is_ready = seen.is_live && seen.can_be_sent;
+    let is_ready = observation.is_live && observation.can_be_sent;
     if is_skipped(&taking) || is_asked || !is_idle || !is_ready {
         return None;
     }
@@ -457,7 +484,7 @@ fn again(
         active.failures += 1;
         return None;
     }
-    let is_worth_it = seconds_between(now, duty.until) > WORTH_S;
+    let is_worth_it = seconds_between(now, duty.end) > WORTH_S;
     is_worth_it.then(|| {
         take(active, *duty, taking.requests + 1, now);
         Act::Take(*duty)
@@ -468,7 +495,7 @@ fn again(
 fn judge_again(active: &mut On, duty: Duty, wishes: Wishes, now: Timestamp) -> Option<Act> {
     let is_announced = rest_s(active, now) >= wishes.longest_rest_s;
     let Doing::Takes(taking) = &mut active.doing else { return None };
-    if seconds_between(now, duty.until) <= WORTH_S {
+    if seconds_between(now, duty.end) <= WORTH_S {
         return None;
     }
     let attempt = mem::replace(&mut taking.attempt, Attempt::NotBegun);
@@ -496,7 +523,7 @@ fn judge_again(active: &mut On, duty: Duty, wishes: Wishes, now: Timestamp) -> O
 fn park(
     active: &mut On,
     next: Option<Duty>,
-    seen: Seen,
+    observation: Observation,
     wishes: Wishes,
     now: Timestamp,
 ) -> Option<Act> {
@@ -504,9 +531,10 @@ fn park(
     let has_time = next.is_none_or(|duty| seconds_between(now, duty.go_at) > park_s);
     // After a rest, or before its first pass, it stays where it is: parking is not announced.
     let is_awake =
-        active.moved_at.is_some_and(|at| seconds_between(at, now) < wishes.longest_rest_s);
+        active.moved_at.is_some_and(|time| seconds_between(time, now) < wishes.longest_rest_s);
     let is_due = matches!(active.doing, Doing::Rests) && is_awake;
-    if !has_time || !is_due || !seen.is_live || !seen.can_be_sent || seen.moves {
+    if !has_time || !is_due || !observation.is_live || !observation.can_be_sent || observation.moves
+    {
         return None;
     }
     active.doing = Doing::Parks;

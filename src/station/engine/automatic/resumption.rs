@@ -133,7 +133,7 @@ impl Engine {
         let ready_since = is_ready.then_some(resumption.ready_since.unwrap_or(self.steady));
         let is_due = shown.is_live()
             && ready_since
-                .is_some_and(|since| self.steady.saturating_duration_since(since) >= RESTS_FOR);
+                .is_some_and(|start| self.steady.saturating_duration_since(start) >= RESTS_FOR);
         if let Some(antenna) = self.antennas.get_mut(index) {
             antenna.at_work.resumption = Some(Resumption { ready_since });
         }

@@ -44,8 +44,8 @@ fn a_stop_before_the_first_turn_keeps_it_off_at_the_next_start() {
     let (mut engine, left) = station(folder.path());
     assert!(engine.antennas[0].shown.operation.is_on());
     engine.note_stop(&Stopped {
-        at: engine.steady,
-        by: CommandOrigin::Window,
+        instant: engine.steady,
+        origin: CommandOrigin::Window,
         antennas: Vec::new(),
         elsewhere: Vec::new(),
         tracked: Vec::new(),

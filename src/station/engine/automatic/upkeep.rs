@@ -95,7 +95,7 @@ impl Engine {
         let clock = shown.snapshot.state.on_board.clock?;
         let is_due = is_clock_off(&shown.config.upkeep, clock, self.now)
             && work.setting.is_none()
-            && work.next_setting.is_none_or(|at| self.steady >= at)
+            && work.next_setting.is_none_or(|instant| self.steady >= instant)
             && !is_kept_by_unit(setting, shown)
             && self.time_sync == TimeSync::Synchronised
             && self.is_between_passes(shown, MIN_TIME_FOR_CLOCK_S);
@@ -138,7 +138,7 @@ impl Engine {
         let groups = &antenna.shown.snapshot.state.groups;
         let written = groups.get(change.group).and_then(|group| group.written.as_ref());
         let answer = written.filter(|written| written.change.ticket == change.ticket);
-        let what = match answer {
+        let day_event = match answer {
             Some(written) => match &written.result {
                 Ok(()) => DayEvent::ClockSet { was_ahead_s: change.was_ahead_s },
                 // At the end of a pass the unit may still be stopped.
@@ -148,7 +148,7 @@ impl Engine {
                     work.next_setting = Some(steady + RETRY_AT_REST);
                     return;
                 }
-                Err(why) => DayEvent::ClockNotSet { reason: why.to_string() },
+                Err(reason) => DayEvent::ClockNotSet { reason: reason.to_string() },
             },
             None if steady.saturating_duration_since(change.sent) > ANSWER_TIMEOUT => {
                 DayEvent::ClockNotSet {
@@ -159,7 +159,7 @@ impl Engine {
         };
         antenna.at_work.upkeep.setting = None;
         let id = antenna.shown.id();
-        self.note_day(id, what);
+        self.note_day(id, day_event);
     }
 }
 

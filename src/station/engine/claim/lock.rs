@@ -31,7 +31,7 @@ pub(in crate::engine) struct Lock {
     text: String,
     files: Mutex<Vec<LockFile>>,
     /// The process that has locked a file in place of one that was removed.
-    taken: Mutex<Option<HeldBy>>,
+    mutex: Mutex<Option<HeldBy>>,
     machine: machine::Name,
 }
 
@@ -52,11 +52,11 @@ impl Lock {
             }
         }
         let mut others = folders.others.iter().map(|folder| file_path(folder, name));
-        if let Some(by) = others.find_map(|path| holder_of(&path)) {
-            return Err(NotLocked::Held(by));
+        if let Some(holder) = others.find_map(|path| holder_of(&path)) {
+            return Err(NotLocked::Held(holder));
         }
         let (name, files) = (name.to_owned(), Mutex::new(files));
-        Ok(Self { name, text, files, taken: Mutex::default(), machine })
+        Ok(Self { name, text, files, mutex: Mutex::default(), machine })
     }
 
     pub(in crate::engine) fn name(&self) -> &str {
@@ -66,18 +66,18 @@ impl Lock {
     /// The process that has locked a file in place of one that was removed. Both processes believe
     /// then that they hold the lock; the other one may be too old to give it up.
     pub(in crate::engine) fn taken_by(&self) -> Option<HeldBy> {
-        unpoisoned(&self.taken).clone()
+        unpoisoned(&self.mutex).clone()
     }
 
     /// Makes and locks again the files that were removed.
     pub(super) fn renew(&self) {
         self.machine.drain();
-        let mut taken = None;
+        let mut holder = None;
         let mut files = unpoisoned(&self.files);
         for file in files.iter_mut().filter(|file| !file.is_in_place()) {
             match LockFile::take(&file.folder, &self.name, &self.text) {
                 Ok(renewed) => *file = renewed,
-                Err(NotLocked::Held(by)) => taken = Some(by),
+                Err(NotLocked::Held(other)) => holder = Some(other),
                 Err(NotLocked::Io(error)) if !file.is_loss_told => {
                     tracing::warn!(%error, path = %file.path.display(), "a lock file is gone");
                     file.is_loss_told = true;
@@ -85,7 +85,7 @@ impl Lock {
                 Err(NotLocked::Io(_)) => {}
             }
         }
-        *unpoisoned(&self.taken) = taken;
+        *unpoisoned(&self.mutex) = holder;
     }
 }
 
@@ -122,8 +122,8 @@ impl LockFile {
     fn is_in_place(&self) -> bool {
         use std::os::unix::fs::MetadataExt as _;
         let file_id = |metadata: fs::Metadata| (metadata.dev(), metadata.ino());
-        let there = fs::metadata(&self.path).map(file_id);
-        matches!((self.file.metadata().map(file_id), there), (Ok(ours), Ok(there)) if ours == there)
+        let current = fs::metadata(&self.path).map(file_id);
+        matches!((self.file.metadata().map(file_id), current), (Ok(ours), Ok(current)) if ours == current)
     }
 
     /// An open file cannot be removed here.
@@ -244,14 +244,14 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let name = name(folder.path());
         let (one, two) = (folder.path().join("one"), folder.path().join("two"));
-        let held = take(&name, &one.clone().into()).ok().unwrap();
+        let lock = take(&name, &one.clone().into()).ok().unwrap();
         assert!(matches!(take(&name, &two.clone().into()), Err(NotLocked::Held(_))));
         fs::remove_dir_all(&one).unwrap();
         assert!(matches!(take(&name, &one.clone().into()), Err(NotLocked::Held(_))));
-        held.renew();
+        lock.renew();
         assert!(holder_of(&file_path(&one, &name)).is_some());
-        assert_eq!(held.taken_by(), None);
-        drop(held);
+        assert_eq!(lock.taken_by(), None);
+        drop(lock);
         assert!(take(&name, &two.into()).is_ok());
     }
 
@@ -277,16 +277,16 @@ mod tests {
     fn a_file_that_another_process_locks_in_place_of_a_removed_one_is_noticed() {
         let folder = tempfile::tempdir().unwrap();
         let name = name(folder.path());
-        let held = take(&name, &folder.path().to_owned().into()).ok().unwrap();
+        let lock = take(&name, &folder.path().to_owned().into()).ok().unwrap();
         let path = file_path(folder.path(), &name);
         fs::remove_file(&path).unwrap();
         let other = File::create(&path).unwrap();
         other.try_lock().unwrap();
-        held.renew();
-        assert_eq!(held.taken_by(), Some(HeldBy::Azel(None)));
+        lock.renew();
+        assert_eq!(lock.taken_by(), Some(HeldBy::Azel(None)));
         drop(other);
-        held.renew();
-        assert_eq!(held.taken_by(), None);
+        lock.renew();
+        assert_eq!(lock.taken_by(), None);
         assert!(holder_of(&path).is_some());
     }
 }

@@ -28,7 +28,7 @@ pub(in crate::engine) struct Search {
 
 struct Running {
     key: SearchKey,
-    at: Timestamp,
+    time: Timestamp,
     progress: Arc<Progress>,
     job: Option<Job<Found>>,
 }
@@ -39,7 +39,7 @@ impl Search {
         let work = match (&self.running, &self.halted) {
             (Some(Running { progress, .. }), _) => Work::UnderWay {
                 done: progress.done.load(Ordering::Relaxed),
-                total: progress.of.load(Ordering::Relaxed),
+                total: progress.total.load(Ordering::Relaxed),
             },
             (None, Some(_)) => Work::Cancelled,
             (None, None) => Work::Nothing,
@@ -67,7 +67,7 @@ impl Search {
     /// key or has grown old.
     pub(super) fn refresh(&mut self, key: &SearchKey, now: Timestamp, wake: &Wake) {
         self.take_finished();
-        let is_young = |at: Timestamp| seconds_between(at, now).abs() < STALE_S;
+        let is_young = |time: Timestamp| seconds_between(time, now).abs() < STALE_S;
         let fresh = self.made_of.as_ref() == Some(key) && self.list.made_at.is_some_and(is_young);
         if fresh || self.halted.as_ref().is_some_and(|halted| halted != key) {
             self.halted = None;
@@ -96,11 +96,11 @@ impl Search {
         let prepared = self.made_of.as_ref().filter(is_prepared);
         let prepared = prepared.map(|_| Arc::clone(&self.list.satellites));
         let progress = Arc::new(Progress::default());
-        let (wanted, told, shown) = (key.clone(), Arc::clone(&progress), Arc::clone(wake));
+        let (search_key, counter, shown) = (key.clone(), Arc::clone(&progress), Arc::clone(wake));
         let job = Job::start("azel-passes", Arc::clone(wake), move |cancelled| {
-            search(&wanted, prepared, now, &told, &shown, cancelled)
+            search(&search_key, prepared, now, &counter, &shown, cancelled)
         });
-        self.running = Some(Running { key: key.clone(), at: now, progress, job: Some(job) });
+        self.running = Some(Running { key: key.clone(), time: now, progress, job: Some(job) });
     }
 
     fn take_finished(&mut self) {
@@ -115,13 +115,13 @@ impl Search {
             return;
         };
         self.broke_off = false;
-        let Some(Running { key, at, .. }) = self.running.take() else { return };
+        let Some(Running { key, time, .. }) = self.running.take() else { return };
         self.made_of = Some(key);
         self.list = PassList {
             satellites: found.satellites,
             passes: Arc::new(found.passes),
             revision: self.list.revision + 1,
-            made_at: Some(at),
+            made_at: Some(time),
             work: Work::Nothing,
         };
     }
@@ -134,9 +134,9 @@ pub(super) fn again(
     made_at: Option<Timestamp>,
 ) -> PassList {
     let satellites = Arc::new(elements.iter().filter_map(prepared).collect());
-    let Some(at) = made_at else { return PassList { satellites, ..PassList::default() } };
+    let Some(time) = made_at else { return PassList { satellites, ..PassList::default() } };
     let nobody: Wake = Arc::new(|| {});
-    let found = search(key, Some(satellites), at, &Progress::default(), &nobody, &|| false);
+    let found = search(key, Some(satellites), time, &Progress::default(), &nobody, &|| false);
     PassList {
         satellites: found.satellites,
         passes: Arc::new(found.passes),

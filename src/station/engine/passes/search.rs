@@ -59,8 +59,8 @@ impl SearchKey {
     fn satellites(&self) -> Vec<Arc<ListedSatellite>> {
         match &self.scope {
             SearchScope::Favourites(numbers) => {
-                let known = numbers.iter().filter_map(|number| self.catalog.get(*number));
-                known.filter_map(prepared).collect()
+                let elements = numbers.iter().filter_map(|number| self.catalog.get(*number));
+                elements.filter_map(prepared).collect()
             }
             SearchScope::All => {
                 let all: Vec<&Elements> = self.catalog.iter().collect();
@@ -86,7 +86,7 @@ pub(super) fn prepared(elements: &Elements) -> Option<Arc<ListedSatellite>> {
 #[derive(Default)]
 pub(super) struct Progress {
     pub(super) done: AtomicUsize,
-    pub(super) of: AtomicUsize,
+    pub(super) total: AtomicUsize,
 }
 
 /// Result of a search.
@@ -105,14 +105,14 @@ pub(super) fn search(
     cancelled: &(dyn Fn() -> bool + Sync),
 ) -> Found {
     let satellites = satellites.unwrap_or_else(|| Arc::new(key.satellites()));
-    progress.of.store(satellites.len(), Ordering::Relaxed);
+    progress.total.store(satellites.len(), Ordering::Relaxed);
     let observer = &key.observer;
     let span_s = f64::from(key.span_h) * 3600.0;
-    let (from, to) = (add_seconds(now, -LOOK_BACK_S), add_seconds(now, span_s));
+    let (start, end) = (add_seconds(now, -LOOK_BACK_S), add_seconds(now, span_s));
     let window = PassSearch {
         aos_elevation: observer.aos_elevation,
         floor: key.floor,
-        ..PassSearch::new(observer.site, from, to)
+        ..PassSearch::new(observer.site, start, end)
     };
     let step = (satellites.len() / STEPS).max(1);
     let tell = |done: usize| {

@@ -139,8 +139,12 @@ fn what_never_sets_stands_behind_the_passes_of_favourites_whatever_the_span() {
         assert_eq!((last.number(), listed.row(last.key())), (METEOSAT_12, Some(listed.len() - 1)));
         let end = add_seconds(now(), f64::from(span_h) * 3600.0);
         let others = || listed.iter().take(listed.len() - 1);
-        assert!(others().all(|of| of.number() == ISS && of.pass.aos.time < end));
-        assert!(others().enumerate().all(|(row, of)| listed.row(of.key()) == Some(row)));
+        assert!(
+            others().all(|predicted| predicted.number() == ISS && predicted.pass.aos.time < end)
+        );
+        assert!(
+            others().enumerate().all(|(row, predicted)| listed.row(predicted.key()) == Some(row))
+        );
     }
 }
 
@@ -258,28 +262,34 @@ fn the_rows_are_the_passes_that_are_neither_over_nor_too_late() {
     fixture.finish();
     let favourites = &fixture.pass_lists.favourites;
     for (after_h, span_h) in [(0, 6), (5, 12), (20, 48), (47, 1), (49, 6)] {
-        let from = add_seconds(now(), f64::from(after_h) * 3600.0);
-        let end = add_seconds(from, f64::from(span_h) * 3600.0);
-        let begins_in_time = |of: &PredictedPass| of.is_always_up() || of.pass.aos.time < end;
-        let is_listed = |of: &&PredictedPass| of.pass.los.time > from && begins_in_time(of);
+        let start = add_seconds(now(), f64::from(after_h) * 3600.0);
+        let end = add_seconds(start, f64::from(span_h) * 3600.0);
+        let begins_in_time = |pass: &PredictedPass| pass.is_always_up() || pass.pass.aos.time < end;
+        let is_listed = |candidate: &&PredictedPass| {
+            candidate.pass.los.time > start && begins_in_time(candidate)
+        };
         let expected: Vec<PassListKey> =
             favourites.passes.iter().filter(is_listed).map(PredictedPass::key).collect();
-        let listed = favourites.upcoming_within(from, span_h);
+        let listed = favourites.upcoming_within(start, span_h);
         assert_eq!(listed.iter().map(PredictedPass::key).collect::<Vec<_>>(), expected);
         let rows: Vec<PassListKey> =
             (0..listed.len()).filter_map(|row| listed.get(row)).map(PredictedPass::key).collect();
         assert_eq!(rows, expected);
         for predicted in &*favourites.passes {
             let key = predicted.key();
-            assert_eq!(listed.row(key), expected.iter().position(|of| *of == key), "{after_h} h");
+            assert_eq!(
+                listed.row(key),
+                expected.iter().position(|other| *other == key),
+                "{after_h} h"
+            );
         }
-        let dated = favourites.passes.iter().filter(|of| !of.is_always_up() && is_listed(of));
-        let is_begun = |of: &&PredictedPass| is_listed(of) && of.pass.aos.time <= from;
-        let dated_passes = favourites.passes.iter().filter(|of| !of.is_always_up());
-        assert_eq!(listed.begun(from), dated_passes.filter(is_begun).count(), "{after_h} h");
-        let until = favourites.upcoming(from);
+        let dated = favourites.passes.iter().filter(|pass| !pass.is_always_up() && is_listed(pass));
+        let is_begun = |pass: &&PredictedPass| is_listed(pass) && pass.pass.aos.time <= start;
+        let dated_passes = favourites.passes.iter().filter(|candidate| !candidate.is_always_up());
+        assert_eq!(listed.begun(start), dated_passes.filter(is_begun).count(), "{after_h} h");
+        let upcoming = favourites.upcoming(start);
         assert!(
-            until.starting_before(end).map(PredictedPass::key).eq(dated.map(PredictedPass::key))
+            upcoming.starting_before(end).map(PredictedPass::key).eq(dated.map(PredictedPass::key))
         );
     }
 }
@@ -287,7 +297,7 @@ fn the_rows_are_the_passes_that_are_neither_over_nor_too_late() {
 #[test]
 fn a_pass_cut_at_the_start_of_the_list_is_found_whenever_it_began_in_an_older_one() {
     let bundled = bundled().unwrap();
-    let half_a_day = |of: &&Elements| (11.0..13.0).contains(&(of.period_s() / 3600.0));
+    let half_a_day = |set: &&Elements| (11.0..13.0).contains(&(set.period_s() / 3600.0));
     let elements: Vec<Elements> = bundled.iter().filter(half_a_day).cloned().collect();
     let fixture = Fixture::new();
     let key = SearchKey::of_favourites(&fixture.catalog, &fixture.station);

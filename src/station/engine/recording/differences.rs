@@ -55,7 +55,7 @@ mod tests {
         let was = json!({ "name": "A", "site": { "lat": 1.0, "lon": 2.0 }, "list": [1, 2] });
         let is = json!({ "name": "A", "site": { "lat": 1.5, "lon": 2.0 }, "list": [1], "new": 3 });
         let found = differences(&was, &is);
-        let places: Vec<&str> = found.iter().map(|it| &*it.place).collect();
+        let places: Vec<&str> = found.iter().map(|difference| &*difference.place).collect();
         assert_eq!(places, ["list[1]", "site.lat", "new"]);
         assert_eq!((found[1].was, found[1].is), (Some(&json!(1.0)), Some(&json!(1.5))));
         assert_eq!((found[0].is, found[2].was), (None, None));

@@ -37,8 +37,8 @@ impl Engine {
         }
         for antenna in &mut self.antennas {
             let shown = &mut antenna.shown;
-            let of = |pass: &&Followed| pass.antenna == shown.id() && now <= pass.until;
-            let pass = self.recording.followed.iter().find(of).filter(|_| shown.tracks());
+            let is_current = |pass: &&Followed| pass.antenna == shown.id() && now <= pass.end;
+            let pass = self.recording.followed.iter().find(is_current).filter(|_| shown.tracks());
             shown.explained = pass.and_then(|pass| pass.live.found.clone());
         }
     }
@@ -51,31 +51,31 @@ impl Followed {
             let (found, others) = end.unzip();
             (self.live.found, self.live.others) = (found.flatten(), others);
         }
-        let is_due = self.live.begun.is_none_or(|at| seconds_between(at, now) >= EVERY_S);
-        if !is_due || self.live.job.is_some() || now > self.until {
+        let is_due = self.live.begun.is_none_or(|time| seconds_between(time, now) >= EVERY_S);
+        if !is_due || self.live.job.is_some() || now > self.end {
             return;
         }
         self.live.begun = Some(now);
-        let since = add_seconds(now, -SINCE_S);
-        let young = self.flown.iter().rev().take_while(|flown| flown.time >= since).copied();
+        let start = add_seconds(now, -SINCE_S);
+        let young = self.flown.iter().rev().take_while(|flown| flown.time >= start).copied();
         let mut young: Vec<MeasuredPosition> = young.collect();
         young.reverse();
         let (propagator, site) = (self.propagator.clone(), self.site);
-        let about = self.about.clone();
+        let about_track = self.about_track.clone();
         let (limits, breaks) = (self.limits, self.breaks.clone());
         let trackability = self.live.trackability.unwrap_or_else(|| self.trackability());
         self.live.trackability = Some(trackability);
-        let from = since.max(self.from);
+        let begin = start.max(self.start);
         let (elements, others) = (self.elements.clone(), self.live.others.take());
-        let history = library.map(History::beside);
+        let history = library.map(History::new);
         self.live.job = Some(Job::start("azel-explain", Wake::clone(wake), move |_| {
             for flown in &mut young {
-                *flown = about.compared(&propagator, site, *flown);
+                *flown = about_track.compared(&propagator, site, *flown);
             }
             let tracked = TrackedPass {
                 propagator: &propagator,
                 site,
-                start: from,
+                start: begin,
                 end: now,
                 limits,
                 trackability,
@@ -87,7 +87,7 @@ impl Followed {
             let evidence = Evidence::new(mount, has_elevation, half_beam).with_pass(
                 &propagator,
                 site,
-                about.path_source(site),
+                about_track.path_source(site),
                 tracked.judged(&report, &young),
             );
             let others = others.unwrap_or_else(|| others_of(&elements, history.as_ref()));

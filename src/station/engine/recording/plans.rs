@@ -26,20 +26,22 @@ enum Planning<'a> {
 struct News<'a> {
     revision: u64,
     new: Vec<&'a Planning<'a>>,
-    gone: Vec<PassKey>,
+    #[serde(rename = "gone")]
+    removed: Vec<PassKey>,
     changes: &'a [Change],
 }
 
 /// The passes of a schedule, by pass and by the antenna that takes it.
 fn passes(planned: &Planned) -> BTreeMap<(PassKey, Option<AntennaId>), Planning<'_>> {
     let Schedule { entries, left_out, .. } = &planned.schedule;
-    let taken = entries.iter().map(|it| ((it.pass, Some(it.antenna)), Planning::Taken(it)));
-    let left_out = left_out.iter().map(|it| ((it.pass, None), Planning::LeftOut(it)));
-    taken.chain(left_out).collect()
+    let taken_passes =
+        entries.iter().map(|entry| ((entry.pass, Some(entry.antenna)), Planning::Taken(entry)));
+    let left_out = left_out.iter().map(|left| ((left.pass, None), Planning::LeftOut(left)));
+    taken_passes.chain(left_out).collect()
 }
 
 impl Engine {
-    pub(super) fn note_schedule(&mut self, at: Moment) {
+    pub(super) fn note_schedule(&mut self, moment: Moment) {
         let planned = &self.schedule;
         let before = std::mem::replace(&mut self.recording.schedule, Arc::clone(planned));
         if planned.revision == before.revision {
@@ -50,12 +52,12 @@ impl Engine {
             .filter(|(key, planning)| was.get(*key) != Some(planning))
             .map(|(_, planning)| planning)
             .collect();
-        let gone: Vec<PassKey> =
+        let removed: Vec<PassKey> =
             was.keys().filter(|key| !is.contains_key(*key)).map(|(pass, _)| *pass).collect();
-        if !new.is_empty() || !gone.is_empty() {
+        if !new.is_empty() || !removed.is_empty() {
             let Planned { revision, ref changes, .. } = **planned;
-            let news = News { revision, new, gone, changes };
-            self.recording.note(at, None, Kind::Schedule, &news);
+            let news = News { revision, new, removed, changes };
+            self.recording.note(moment, None, Kind::Schedule, &news);
         }
     }
 }

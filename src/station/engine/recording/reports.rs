@@ -67,13 +67,13 @@ pub(super) struct Followed {
     pub(super) propagator: Propagator,
     pub(super) site: Site,
     /// AOS and LOS above the antenna's own minimum elevation.
-    pub(super) from: Timestamp,
-    pub(super) until: Timestamp,
+    pub(super) start: Timestamp,
+    pub(super) end: Timestamp,
     max_elevation_deg: f64,
     /// When the program ended, if that was before the pass was over.
     ended: Option<Timestamp>,
     pub(super) limits: MountLimits,
-    pub(super) about: AboutTrack,
+    pub(super) about_track: AboutTrack,
     pub(super) breaks: Breaks,
     positions: PositionLog,
     next_position: u64,
@@ -109,7 +109,7 @@ impl Engine {
         }
         self.recording.looked_at = self.now.as_second();
         let now = self.now;
-        self.recording.told.retain(|(_, _, until)| now <= *until);
+        self.recording.announced.retain(|(_, _, end)| now <= *end);
         for index in 0..self.antennas.len() {
             self.take_up_passes(index);
         }
@@ -189,17 +189,17 @@ impl Engine {
 
     fn look_at_passes(&mut self) {
         for pass in &mut self.recording.followed {
-            let antenna = self.antennas.iter().find(|of| of.shown.id() == pass.antenna);
+            let antenna = self.antennas.iter().find(|other| other.shown.id() == pass.antenna);
             pass.look(antenna, self.time_sync, self.now, self.steady);
         }
     }
 
     fn begin_reports(&mut self, is_ready: impl Fn(&Followed) -> bool) {
         let wants_reports = self.recording.wants_reports();
-        let Recording { followed, reports, told, .. } = &mut self.recording;
+        let Recording { followed, reports, announced, .. } = &mut self.recording;
         for pass in followed.extract_if(.., |pass| is_ready(pass)) {
-            told.push((pass.antenna, pass.elements.catalog_number(), pass.until));
-            let history = self.places.library().map(History::beside);
+            announced.push((pass.antenna, pass.elements.catalog_number(), pass.end));
+            let history = self.places.library().map(History::new);
             reports.push(Some(pass.report(history, wants_reports, &self.wake)));
         }
     }
@@ -217,7 +217,7 @@ impl Engine {
         for pass in followed.iter_mut().filter(own) {
             let number = pass.elements.catalog_number();
             let is_its = |duty: &Duty| {
-                duty.pass.0 == number && duty.from <= pass.until && pass.from <= duty.until
+                duty.pass.0 == number && duty.start <= pass.end && pass.start <= duty.end
             };
             pass.planned = duty.filter(is_its);
         }
@@ -228,8 +228,8 @@ impl Engine {
                 || pass.flight.is_some()
         });
         if let Some(duty) = duty {
-            let middle_s = seconds_between(duty.from, duty.until) / 2.0;
-            self.take_up_pass(index, duty.pass.0, add_seconds(duty.from, middle_s), Some(duty));
+            let middle_s = seconds_between(duty.start, duty.end) / 2.0;
+            self.take_up_pass(index, duty.pass.0, add_seconds(duty.start, middle_s), Some(duty));
         }
         if let Some(number) = tracked {
             self.take_up_pass(index, number, now, None);
@@ -237,54 +237,55 @@ impl Engine {
     }
 
     /// Takes up the pass of a satellite at a time, if it is a new one.
-    fn take_up_pass(&mut self, index: usize, number: u32, at: Timestamp, planned: Option<Duty>) {
+    fn take_up_pass(&mut self, index: usize, number: u32, time: Timestamp, planned: Option<Duty>) {
         let Some(antenna) = self.antennas.get(index) else { return };
         let (shown, now) = (&antenna.shown, self.now);
         let id = shown.id();
         let is_known = |pass: &Followed| {
-            pass.antenna == id && pass.elements.catalog_number() == number && at <= pass.until
+            pass.antenna == id && pass.elements.catalog_number() == number && time <= pass.end
         };
-        let is_told =
-            |told: &(AntennaId, u32, Timestamp)| told.0 == id && told.1 == number && at <= told.2;
+        let is_told = |entry: &(AntennaId, u32, Timestamp)| {
+            entry.0 == id && entry.1 == number && time <= entry.2
+        };
         let recording = &mut self.recording;
-        if recording.followed.iter().any(is_known) || recording.told.iter().any(is_told) {
+        if recording.followed.iter().any(is_known) || recording.announced.iter().any(is_told) {
             return;
         }
-        let sought = (id, number);
-        let is_soon = |(of, at): &(_, Timestamp)| {
-            *of == sought && seconds_between(*at, now).abs() < SOUGHT_AGAIN_S
+        let key = (id, number);
+        let is_soon = |(pass_key, time): &(_, Timestamp)| {
+            *pass_key == key && seconds_between(*time, now).abs() < SOUGHT_AGAIN_S
         };
-        if recording.sought.iter().any(is_soon) {
+        if recording.lookups.iter().any(is_soon) {
             return;
         }
         let CatalogState::Ready(catalog) = &self.catalog else { return };
         let Some(elements) = catalog.get(number) else { return };
         let Ok(propagator) = Propagator::new(elements) else { return };
         let limits = mount_limits(&shown.config);
-        let about = about(shown, now, self.time_sync);
-        let led_from = about.led_from(self.station.site);
+        let about_track = track_conditions(shown, now, self.time_sync);
+        let led_from = about_track.led_from(self.station.site);
         let lowest_deg = led_from.pass_elevation(limits.min_elevation).degrees();
         let lowest = self.station.aos_elevation_deg.max(lowest_deg);
         let search = PassSearch {
             aos_elevation: Angle::from_degrees(lowest),
             ..PassSearch::new(
                 self.station.site,
-                add_seconds(at, -REACH_S),
-                add_seconds(at, REACH_S),
+                add_seconds(time, -REACH_S),
+                add_seconds(time, REACH_S),
             )
         };
         let found = passes(&propagator, &search, &|| false);
-        let is_it = |pass: &&crate::orbit::Pass| pass.aos.time <= at && at <= pass.los.time;
+        let is_it = |pass: &&crate::orbit::Pass| pass.aos.time <= time && time <= pass.los.time;
         let Some(pass) = found.iter().find(is_it) else {
-            recording.sought.retain(|((antenna, _), _)| *antenna != sought.0);
-            return recording.sought.push((sought, now));
+            recording.lookups.retain(|((antenna, _), _)| *antenna != key.0);
+            return recording.lookups.push((key, now));
         };
         // A satellite that never rises was up before the track: nobody lost that time.
-        let from = if pass.starts_before { now } else { pass.aos.time };
+        let start = if pass.starts_before { now } else { pass.aos.time };
         let mut breaks = Breaks::default();
         let commanded = recording.commanded.get(&id).filter(|(commanded, _)| *commanded == number);
-        if let Some((_, since)) = commanded {
-            breaks.note_commanded(*since, true);
+        if let Some((_, begin)) = commanded {
+            breaks.note_commanded(*begin, true);
         }
         breaks.note_commanded(now, commanded.is_some());
         let followed = Followed {
@@ -295,12 +296,12 @@ impl Engine {
             elements: elements.clone(),
             propagator,
             site: self.station.site,
-            from,
-            until: pass.los.time,
+            start,
+            end: pass.los.time,
             max_elevation_deg: pass.max_elevation().degrees(),
             ended: None,
             limits,
-            about,
+            about_track,
             breaks,
             positions: antenna.handle.positions().clone(),
             next_position: 0,
@@ -316,7 +317,7 @@ pub(super) fn others_of(
     elements: &Elements,
     history: Option<&History>,
 ) -> Vec<(Timestamp, Propagator)> {
-    let sets = history.map_or_else(Vec::new, |of| of.of(elements.catalog_number()));
+    let sets = history.map_or_else(Vec::new, |stored| stored.sets_of(elements.catalog_number()));
     let others = sets.iter().filter(|set| set.elements.epoch() != elements.epoch());
     let others =
         others.filter_map(|set| Some((set.elements.epoch(), Propagator::new(&set.elements).ok()?)));
@@ -324,7 +325,7 @@ pub(super) fn others_of(
 }
 
 /// Returns the description of a track that begins now.
-fn about(antenna: &AntennaModel, begun: Timestamp, sync: TimeSync) -> AboutTrack {
+fn track_conditions(antenna: &AntennaModel, begun: Timestamp, sync: TimeSync) -> AboutTrack {
     let tracked_by = match () {
         () if antenna.follows() => TrackedBy::ProgramTrack,
         () if antenna.tracks_unasked() => TrackedBy::Elsewhere,
@@ -349,14 +350,14 @@ fn about(antenna: &AntennaModel, begun: Timestamp, sync: TimeSync) -> AboutTrack
 impl Followed {
     /// The part of the pass that counts: the part that the plan gives to the antenna, or all.
     fn counted(&self) -> (Timestamp, Timestamp) {
-        self.planned.map_or((self.from, self.until), |duty| (duty.from, duty.until))
+        self.planned.map_or((self.start, self.end), |duty| (duty.start, duty.end))
     }
 
     /// Seconds since the pass is over for its antenna; negative before.
     fn is_over_since(&self, now: Timestamp) -> f64 {
         let is_under_way = self.planned.is_some() && self.flight.is_none();
-        let until = if is_under_way { self.until } else { self.counted().1 };
-        seconds_between(until, now)
+        let end = if is_under_way { self.end } else { self.counted().1 };
+        seconds_between(end, now)
     }
 
     /// Takes what is new of the pass.
@@ -369,8 +370,8 @@ impl Followed {
             }
             let snapshot = &antenna.shown.snapshot;
             let lost_since = match snapshot.link {
-                LinkState::Lost { start: since, .. } => {
-                    Some(add_seconds(now, -steady.saturating_duration_since(since).as_secs_f64()))
+                LinkState::Lost { start, .. } => {
+                    Some(add_seconds(now, -steady.saturating_duration_since(start).as_secs_f64()))
                 }
                 LinkState::Off
                 | LinkState::Connecting { .. }
@@ -383,30 +384,31 @@ impl Followed {
             let shown = &antenna.shown;
             let tracks = shown.tracks() && shown.tracked_number() == Some(number);
             if tracks && !self.has_tracked {
-                (self.has_tracked, self.about) = (true, about(shown, now, sync));
+                (self.has_tracked, self.about_track) = (true, track_conditions(shown, now, sync));
             }
             // Before AOS and after LOS it counts for other passes.
             let is_of_this = |view: &&TrackView| {
                 view.catalog_number == Some(number) && view.phase == TrackPhase::Tracking
             };
             if let Some(view) = view.filter(is_of_this) {
-                self.about.sent = Some(view.stats.commands);
-                self.about.offsets.note(now, view.offsets);
+                self.about_track.sent = Some(view.stats.commands);
+                self.about_track.offsets.note(now, view.offsets);
             }
             if tracks && !shown.follows() {
-                self.about.offsets.note(now, snapshot.meant_offsets());
+                self.about_track.offsets.note(now, snapshot.meant_offsets());
             }
-            self.about.unit_place = snapshot.state.on_board.place.or(self.about.unit_place);
+            self.about_track.unit_place =
+                snapshot.state.on_board.place.or(self.about_track.unit_place);
             let clock = snapshot.state.on_board.clock.filter(|clock| clock.is_set);
-            self.about.unit_clock_ahead_s =
-                clock.map(|clock| clock.ahead_s).or(self.about.unit_clock_ahead_s);
+            self.about_track.unit_clock_ahead_s =
+                clock.map(|clock| clock.ahead_s).or(self.about_track.unit_clock_ahead_s);
         }
         if sync == TimeSync::NotSynchronised {
-            self.about.sync = sync;
+            self.about_track.sync = sync;
         }
         let (first, positions) = self.positions.read_from(self.next_position);
         self.next_position = first + positions.len() as u64;
-        let near = add_seconds(self.from, -APART_S)..=add_seconds(self.until, APART_S);
+        let near = add_seconds(self.start, -APART_S)..=add_seconds(self.end, APART_S);
         let own = positions.iter().filter(|measured| {
             near.contains(&measured.time) && self.breaks.was_commanded(measured.time)
         });
@@ -422,30 +424,30 @@ impl Followed {
     }
 
     fn finish(mut self, history: Option<&History>, wants_note: bool) -> Finished {
-        let compared = |flown| self.about.compared(&self.propagator, self.site, flown);
+        let compared = |flown| self.about_track.compared(&self.propagator, self.site, flown);
         let flown: Vec<MeasuredPosition> = self.flown.iter().copied().map(compared).collect();
-        let (from, until) = self.counted();
+        let (start, end) = self.counted();
         let tracked = TrackedPass {
             propagator: &self.propagator,
             site: self.site,
-            start: from,
-            end: until,
+            start,
+            end,
             limits: self.limits,
             trackability: self.trackability(),
             ended: self.ended,
             breaks: &self.breaks,
         };
         let report = tracked.report(&flown);
-        let told = self.flight.take().map(|flight| (self.antenna, flight.end(Some(&report))));
+        let outcome = self.flight.take().map(|flight| (self.antenna, flight.end(Some(&report))));
         if !wants_note || !self.has_tracked {
-            return Finished { note: None, flown: told };
+            return Finished { note: None, flown: outcome };
         }
         let has_elevation = self.limits.has_elevation;
         let half_beam = self.limits.half_beam;
         let evidence = Evidence::new(self.limits.mount, has_elevation, half_beam).with_pass(
             &self.propagator,
             self.site,
-            self.about.path_source(self.site),
+            self.about_track.path_source(self.site),
             tracked.judged(&report, &flown),
         );
         let had_no_effect = report.losses.iter().any(|lost| lost.cause == LossCause::NoEffect);
@@ -456,25 +458,25 @@ impl Followed {
                 evidence.explanations(&others_of(&self.elements, history))
             }
         };
-        let middle = add_seconds(self.from, seconds_between(self.from, self.until) / 2.0);
-        let within = |flown: &&MeasuredPosition| (self.from..=self.until).contains(&flown.time);
-        let points = self.flown.iter().filter(within).copied();
+        let middle = add_seconds(self.start, seconds_between(self.start, self.end) / 2.0);
+        let is_inside = |flown: &&MeasuredPosition| (self.start..=self.end).contains(&flown.time);
+        let points = self.flown.iter().filter(is_inside).copied();
         let points = apart(points, POINT_S, |flown| flown.time).collect();
         let report = RecordedReport {
-            start: self.from,
-            end: self.until,
-            planned: self.planned.map(|duty| PlannedPart { start: duty.from, end: duty.until }),
+            start: self.start,
+            end: self.end,
+            planned: self.planned.map(|duty| PlannedPart { start: duty.start, end: duty.end }),
             max_elevation_deg: self.max_elevation_deg,
             age_days: self.elements.age_s(middle) / 86_400.0,
             half_beam_deg: self.limits.half_beam.degrees(),
             elements: self.elements,
             site: Some(self.site),
-            track: self.about,
+            track: self.about_track,
             report,
             causes,
         };
         let note = PassNote { antenna: self.antenna, report, points };
-        Finished { note: Some(note), flown: told }
+        Finished { note: Some(note), flown: outcome }
     }
 
     /// The part that counts and that the mount can track. The plan says how much the mount loses, and why.
@@ -488,12 +490,12 @@ impl Followed {
         });
         let alone = trackability(&samples.collect::<Vec<_>>(), self.limits);
         let Some(duty) = self.planned else { return alone };
-        let Some(at) = duty.lost_at else { return Trackability::Whole };
-        let (from, until) = match alone {
-            Trackability::Loses { start: from, end: until, .. } => (from, until),
+        let Some(loss) = duty.lost_at else { return Trackability::Whole };
+        let (start, end) = match alone {
+            Trackability::Loses { start, end, .. } => (start, end),
             Trackability::Whole | Trackability::Nothing | Trackability::TooLow => (first, last),
         };
         let seconds = (seconds_between(first, last) - duty.counted_s).max(0.0);
-        Trackability::Loses { seconds, loss: at, start: from, end: until }
+        Trackability::Loses { seconds, loss, start, end }
     }
 }

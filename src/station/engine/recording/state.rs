@@ -36,7 +36,8 @@ pub(super) struct State {
     is_unproved: bool,
     is_silent: bool,
     left_moving: Option<LeftMoving>,
-    inside: Option<Breach>,
+    #[serde(rename = "inside")]
+    breach: Option<Breach>,
     lock_out: Option<LockOut>,
     operation: Operation,
     /// Names of the checks that are not good.
@@ -45,14 +46,14 @@ pub(super) struct State {
 }
 
 impl State {
-    pub(super) fn of(antenna: &AntennaModel) -> Self {
+    pub(super) fn new(antenna: &AntennaModel) -> Self {
         let snapshot = &antenna.snapshot;
         let program = snapshot.state.program;
         let bad = |state| matches!(state, CheckState::Caution | CheckState::Fault);
         let checks = snapshot.state.checks.iter().filter(|check| bad(check.state));
         let is_tracked = antenna.tracked_name().is_some() || antenna.tracked_number().is_some();
         Self {
-            link: LinkStatus::of(antenna),
+            link: LinkStatus::new(antenna),
             intent: snapshot.intent,
             is_pending: snapshot.pending,
             moves: snapshot.state.measured.map(|measured| measured.moving()),
@@ -61,7 +62,7 @@ impl State {
             program_track: snapshot.program_track.as_ref().map(|view| view.phase),
             offsets: (snapshot.program_track.as_ref().map(|view| view.offsets))
                 .or(snapshot.unit_offsets.as_ref().map(|unit| unit.offsets)),
-            on_board_track: program.filter(|it| it.enabled).map(|program| program.phase),
+            on_board_track: program.filter(|current| current.enabled).map(|program| program.phase),
             auto_track: program.and_then(|program| program.auto),
             stop: match snapshot.stop {
                 StopState::Ready => "ready",
@@ -72,7 +73,7 @@ impl State {
             is_unproved: snapshot.unproved,
             is_silent: snapshot.silent,
             left_moving: snapshot.left_moving,
-            inside: snapshot.breach.clone(),
+            breach: snapshot.breach.clone(),
             lock_out: snapshot.lock_out.clone(),
             operation: antenna.operation.clone().without_motion(),
             faults: checks.map(|check| check.name.to_string()).collect(),

@@ -31,10 +31,10 @@ pub(in crate::engine) struct Passwords {
 impl Passwords {
     pub(in crate::engine) fn new(places: &uploads::Places) -> Self {
         let keyring = TimedKeyring::new(Arc::clone(&places.keyring), KEYRING_LIMIT);
-        Self::over(keyring, Arc::clone(&places.session))
+        Self::with_keyring(keyring, Arc::clone(&places.session))
     }
 
-    pub(super) fn over(keyring: TimedKeyring, session: Arc<MemoryKeyring>) -> Self {
+    pub(super) fn with_keyring(keyring: TimedKeyring, session: Arc<MemoryKeyring>) -> Self {
         Self { keyring, session, unproved: Arc::default(), problems: Arc::default() }
     }
 
@@ -125,7 +125,7 @@ pub(super) mod tests {
 
     pub(in crate::engine::sources) fn passwords(keyring: Arc<dyn Keyring>) -> Passwords {
         let keyring = TimedKeyring::new(keyring, Duration::from_millis(50));
-        Passwords::over(keyring, Arc::default())
+        Passwords::with_keyring(keyring, Arc::default())
     }
 
     #[test]
@@ -150,14 +150,14 @@ pub(super) mod tests {
     fn a_refused_password_is_dropped_and_replaces_no_kept_one() {
         let keyring = Arc::new(MemoryKeyring::default());
         let passwords = passwords(Arc::clone(&keyring) as Arc<dyn Keyring>);
-        let [kept, wrong, newer] = ["kept", "wrong", "newer"].map(Secret::new);
-        keyring.set(&account("op"), kept.inner()).unwrap();
+        let [secret, wrong, newer] = ["kept", "wrong", "newer"].map(Secret::new);
+        keyring.set(&account("op"), secret.inner()).unwrap();
         passwords.take("op", &wrong, true);
         passwords.refused("op", &wrong);
         passwords.accepted("op", &wrong);
-        assert_eq!(passwords.get("op"), Ok(kept.clone()), "a kept password outlasts a wrong one");
+        assert_eq!(passwords.get("op"), Ok(secret.clone()), "a kept password outlasts a wrong one");
         passwords.take("op", &newer, false);
-        passwords.refused("op", &kept);
+        passwords.refused("op", &secret);
         assert_eq!(passwords.get("op"), Ok(newer), "typed since");
     }
 }

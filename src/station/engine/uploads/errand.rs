@@ -130,7 +130,7 @@ impl Attempt<'_> {
         let (order, places) = (self.order, self.places);
         let elements = match &order.cargo {
             Cargo::New(file) => file.clone(),
-            Cargo::Kept(kept) => match places.kept.read(kept) {
+            Cargo::Kept(kept_file) => match places.kept_files.read(kept_file) {
                 Ok(file) => file,
                 Err(error) => return Outcome::Failed(error.to_string()),
             },
@@ -143,8 +143,8 @@ impl Attempt<'_> {
             (None, None) => {
                 // Check the host first: it must be the right one before a password is typed
                 // for it.
-                let known = &places.known_hosts;
-                return match check_host_key(&order.unit, known, places.limits, cancel).await {
+                let known_hosts = &places.known_hosts;
+                return match check_host_key(&order.unit, known_hosts, places.limits, cancel).await {
                     Ok(old_algorithms) => {
                         self.old_algorithms = old_algorithms;
                         Outcome::Secret { refused: None }
@@ -154,8 +154,9 @@ impl Attempt<'_> {
             }
         };
         let login = Login { user: order.user.clone(), proof };
-        let (known, limits) = (&places.known_hosts, places.limits);
-        let opened = open_sftp(&order.unit, &order.folder, &login, known, limits, cancel).await;
+        let (known_hosts, limits) = (&places.known_hosts, places.limits);
+        let opened =
+            open_sftp(&order.unit, &order.folder, &login, known_hosts, limits, cancel).await;
         let mut folder = match opened {
             Ok(folder) => folder,
             Err(error) => return self.refused(error),
@@ -166,8 +167,8 @@ impl Attempt<'_> {
             // The keyring in memory never fails.
             let _ = places.session.set(&account(order), secret);
         }
-        let wanted = Upload { unit: order.unit.clone(), file: order.file.clone(), elements };
-        match upload(&mut folder, wanted, &places.kept, clock, tell, cancel).await {
+        let request = Upload { unit: order.unit.clone(), file: order.file.clone(), elements };
+        match upload(&mut folder, request, &places.kept_files, clock, tell, cancel).await {
             Ok(uploaded) => Outcome::Uploaded(Box::new(uploaded)),
             Err(error) if matches!(error.reason, UploadReason::Cancelled) => {
                 Outcome::Cancelled(error.state.to_string())
@@ -192,7 +193,7 @@ impl Attempt<'_> {
                 self.forget();
                 Outcome::Secret { refused: Some(error.to_string()) }
             }
-            ConnectError::Interrupted { by: Interruption::Cancelled, .. } => {
+            ConnectError::Interrupted { interruption: Interruption::Cancelled, .. } => {
                 Outcome::Cancelled("nothing was changed on the unit".to_owned())
             }
             _ => Outcome::Failed(error.to_string()),

@@ -79,8 +79,9 @@ impl Flow {
         shown.is_roll_back = matches!(order.cargo, Cargo::Kept(_));
         shown.warnings.clear();
         *self = Self { order: Some(order), selections: self.selections, ..Self::default() };
-        if let Some(why) = &unit.locked_out {
-            let text = format!("nothing was sent, the unit is in maintenance, locked out by {why}");
+        if let Some(reason) = &unit.locked_out {
+            let text =
+                format!("nothing was sent, the unit is in maintenance, locked out by {reason}");
             fail(shown, text);
             return None;
         }
@@ -242,7 +243,7 @@ impl Flow {
                         Some(problem) => format!("the keyring gave no password: {problem}"),
                         None => "no password or passphrase is in the keyring".to_owned(),
                     };
-                    let text = refused.map(|why| format!("the log-in failed: {why}"));
+                    let text = refused.map(|reason| format!("the log-in failed: {reason}"));
                     fail(shown, text.unwrap_or_else(missing));
                     return None;
                 }
@@ -289,15 +290,15 @@ impl Flow {
         shown: &mut Uploads,
     ) -> Option<Next> {
         let order = self.order.as_ref()?;
-        let (wanted, takes) = (order.satellite, order.takes);
-        let Some(satellite) = pick(&uploaded, wanted, unit.held).cloned() else {
+        let (requested, takes) = (order.satellite, order.takes);
+        let Some(satellite) = pick(&uploaded, requested, unit.current).cloned() else {
             fail_after(shown, "the file holds no elements that Azel can read".to_owned(), uploaded);
             return None;
         };
         self.selections += 1;
         let ticket = TICKETS + self.selections;
         let file = uploaded.file.as_str().to_owned();
-        let selection = Selection { ticket, takes, since: unit.at, file, satellite };
+        let selection = Selection { ticket, takes, start: unit.time, file, satellite };
         self.selection = Some(selection.clone());
         shown.stage = Stage::Selecting(uploaded);
         self.awaits_rest = unit.busy.is_some();
@@ -318,8 +319,8 @@ impl Flow {
     pub(super) fn answered(&mut self, unit: &UnitNow, shown: &mut Uploads) {
         let selection = self.selection.as_ref();
         let end = selection.zip(unit.answer.as_ref()).and_then(|(one, answer)| one.end(answer));
-        if let Some((at, result)) = end {
-            self.selected(result, at, shown);
+        if let Some((time, result)) = end {
+            self.selected(result, time, shown);
         }
     }
 
@@ -327,7 +328,7 @@ impl Flow {
     pub(super) fn selected(
         &mut self,
         result: Result<(), String>,
-        at: Timestamp,
+        time: Timestamp,
         shown: &mut Uploads,
     ) {
         let Some(selection) = self.selection.take() else { return };
@@ -336,7 +337,7 @@ impl Flow {
             Ok(()) => {
                 let satellite = selection.satellite;
                 shown.stage =
-                    Stage::Proved(Box::new(Proved { uploaded: *uploaded, satellite, time: at }));
+                    Stage::Proved(Box::new(Proved { uploaded: *uploaded, satellite, time }));
             }
             Err(text) => fail_after(shown, text, uploaded),
         }

@@ -10,7 +10,7 @@ pub struct Places {
     /// Pinned host keys.
     pub known_hosts: KnownHosts,
     /// Previous files of every unit.
-    pub kept: KeptFiles,
+    pub kept_files: KeptFiles,
     /// Secrets that the operator wants to keep.
     pub keyring: Arc<dyn Keyring>,
     /// Secrets that are kept until the program ends.
@@ -24,7 +24,7 @@ impl Places {
     pub fn of_this_user() -> Option<Self> {
         Some(Self {
             known_hosts: KnownHosts::of_this_user()?,
-            kept: KeptFiles::of_this_user()?,
+            kept_files: KeptFiles::of_this_user()?,
             keyring: Arc::new(SystemKeyring),
             session: Arc::default(),
             limits: Limits::default(),
@@ -34,10 +34,10 @@ impl Places {
 
 impl fmt::Debug for Places {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { known_hosts, kept, limits, .. } = self;
+        let Self { known_hosts, kept_files, limits, .. } = self;
         f.debug_struct("Places")
             .field("known_hosts", known_hosts)
-            .field("kept", kept)
+            .field("kept", kept_files)
             .field("limits", limits)
             .finish_non_exhaustive()
     }

@@ -120,7 +120,7 @@ impl Runner {
         shown: &mut Uploads,
     ) -> Option<SessionRequest> {
         match Job::take(&mut self.listing) {
-            Some(Ok(kept)) => shown.kept_files = kept,
+            Some(Ok(kept_files)) => shown.kept_files = kept_files,
             Some(Err(broke_off)) => shown.kept_files.list = Some(Err(broke_off.to_string())),
             None => {}
         }
@@ -152,9 +152,9 @@ impl Runner {
             self.keeping = Some(errand::keep_secret(places, account(order), secret, wake));
         }
         let next = self.flow.reported(report, unit, shown);
-        let kept = shown.kept_files.origin.clone();
-        if !kept.1.is_empty() {
-            self.list(kept.0, kept.1, shown);
+        let origin = shown.kept_files.origin.clone();
+        if !origin.1.is_empty() {
+            self.list(origin.0, origin.1, shown);
         }
         next
     }
@@ -164,10 +164,10 @@ impl Runner {
             self.selecting_since = None;
             return;
         }
-        let since = *self.selecting_since.get_or_insert(steady);
+        let start = *self.selecting_since.get_or_insert(steady);
         self.flow.answered(unit, shown);
         let is_open = matches!(shown.stage, Stage::Selecting(_));
-        if is_open && steady.saturating_duration_since(since) > SELECTING {
+        if is_open && steady.saturating_duration_since(start) > SELECTING {
             self.not_selected("the unit did not say whether it uses the file".to_owned(), shown);
         }
     }
@@ -208,21 +208,21 @@ impl Runner {
     }
 
     fn list(&mut self, unit: String, file: String, shown: &mut Uploads) {
-        let of = (unit, file);
-        if shown.kept_files.origin != of {
-            shown.kept_files = KeptFiles { origin: of.clone(), list: None };
+        let origin = (unit, file);
+        if shown.kept_files.origin != origin {
+            shown.kept_files = KeptFiles { origin: origin.clone(), list: None };
         }
         let Some(places) = &self.places else { return };
-        let kept = places.kept.clone();
+        let kept_files = places.kept_files.clone();
         self.listing = Some(Job::start("azel-kept-uploads", Arc::clone(&self.wake), move |_| {
-            let (unit, file) = &of;
-            let list = kept.list(unit, file).map_err(|error| error.to_string());
+            let (unit, file) = &origin;
+            let list = kept_files.list(unit, file).map_err(|error| error.to_string());
             let entry = |file| {
-                let objects = kept.read(&file).map(|content| content.objects().to_vec());
+                let objects = kept_files.read(&file).map(|content| content.objects().to_vec());
                 KeptEntry { file, objects: objects.map_err(|error| error.to_string()) }
             };
             let list = list.map(|files| files.into_iter().map(entry).collect());
-            KeptFiles { origin: of, list: Some(list) }
+            KeptFiles { origin, list: Some(list) }
         }));
     }
 }

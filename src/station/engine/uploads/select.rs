@@ -36,7 +36,7 @@ fn busy(antenna: &AntennaModel) -> Option<Busy> {
 #[derive(Debug, Clone, Default)]
 pub(in crate::engine) struct UnitNow {
     /// Time of this state.
-    pub(super) at: Timestamp,
+    pub(super) time: Timestamp,
     /// Why the operator must agree before the unit is set to use a file.
     pub(super) busy: Option<Busy>,
     /// Holder and reason of a lock-out.
@@ -46,7 +46,7 @@ pub(in crate::engine) struct UnitNow {
     /// Automatic operation is on and asks nothing of the antenna.
     pub(super) is_idle: bool,
     /// Catalog number of the satellite that the unit holds.
-    pub(super) held: Option<u32>,
+    pub(super) current: Option<u32>,
     /// Answer to the last finished selection.
     pub(super) answer: Option<Answer>,
 }
@@ -56,7 +56,7 @@ pub(in crate::engine) struct UnitNow {
 pub(super) struct Answer {
     written: Arc<Written>,
     /// Values that the unit holds now.
-    held: Option<HeldGroup>,
+    group: Option<HeldGroup>,
     checks: Arc<[Check]>,
     /// Time at which the checks were read.
     checked_at: Option<Timestamp>,
@@ -64,30 +64,30 @@ pub(super) struct Answer {
 
 impl UnitNow {
     /// The state known to the session of `antenna`.
-    pub(in crate::engine) fn of(
+    pub(in crate::engine) fn new(
         antenna: Option<&AntennaModel>,
-        at: Timestamp,
+        time: Timestamp,
         steady: Instant,
     ) -> Self {
-        let Some(antenna) = antenna else { return Self { at, ..Self::default() } };
+        let Some(antenna) = antenna else { return Self { time, ..Self::default() } };
         let state = &antenna.snapshot.state;
         let takes = antenna.spec().element_files;
         let group = takes.and_then(|takes| state.groups.get(takes.group));
         let answer = group.and_then(|group| {
             Some(Answer {
                 written: group.written.clone()?,
-                held: group.last_read.clone(),
+                group: group.last_read.clone(),
                 checks: Arc::clone(&state.checks),
                 checked_at: state.checked_at,
             })
         });
-        let held = state.on_board.satellite.as_ref().map(|held| held.catalog_number);
+        let current = state.on_board.satellite.as_ref().map(|satellite| satellite.catalog_number);
         let locked_out = antenna.snapshot.lock_out.as_ref();
         let locked_out =
             locked_out.map(|lock_out| format!("{}: {}", lock_out.operator, lock_out.reason));
         let hindrance = antenna.snapshot.hindrance(antenna.variant().capabilities, steady);
         let is_idle = antenna.operation.is_idle();
-        Self { at, busy: busy(antenna), locked_out, hindrance, is_idle, held, answer }
+        Self { time, busy: busy(antenna), locked_out, hindrance, is_idle, current, answer }
     }
 
     /// Returns `true` if a rule may change what the unit tracks from.
@@ -103,7 +103,7 @@ pub(in crate::engine) struct Selection {
     pub(super) ticket: u64,
     pub(super) takes: &'static ElementFiles,
     /// Time of the selection.
-    pub(super) since: Timestamp,
+    pub(super) start: Timestamp,
     pub(super) file: String,
     pub(super) satellite: FileObject,
 }
@@ -134,14 +134,14 @@ impl Selection {
 
     fn judge(&self, answer: &Answer) -> Result<(), &'static str> {
         let number = answer
-            .held
+            .group
             .as_ref()
-            .filter(|held| held.read_at >= self.since)
-            .and_then(|held| self.takes.found(&held.values));
+            .filter(|group| group.read_at >= self.start)
+            .and_then(|group| self.takes.found(&group.values));
         if number != Some(self.satellite.catalog_number.into()) {
             return Err("the unit names another object than the one that was chosen");
         }
-        if answer.checked_at.is_none_or(|read_at| read_at < self.since) {
+        if answer.checked_at.is_none_or(|read_at| read_at < self.start) {
             return Err("the unit did not tell its checks after it was told to use the file");
         }
         let is_bad = |check: &Check| {
@@ -154,16 +154,16 @@ impl Selection {
     }
 }
 
-/// The satellite of `uploaded` to use: the `wanted` one, else the one that the unit holds,
+/// The satellite of `uploaded` to use: the `chosen` one, else the one that the unit holds,
 /// else the first.
 pub(super) fn pick(
     uploaded: &Uploaded,
-    wanted: Option<u32>,
-    held: Option<u32>,
+    chosen: Option<u32>,
+    current: Option<u32>,
 ) -> Option<&FileObject> {
     let objects = &uploaded.objects;
     let find = |number: u32| objects.iter().find(|object| object.catalog_number == number);
-    wanted.and_then(find).or_else(|| held.and_then(find)).or(objects.first())
+    chosen.and_then(find).or_else(|| current.and_then(find)).or(objects.first())
 }
 
 #[cfg(test)]
@@ -190,7 +190,7 @@ mod tests {
         Selection {
             ticket: TICKETS + 1,
             takes: &ELEMENT_FILES,
-            since: time(0),
+            start: time(0),
             file: "active.txt".to_owned(),
             satellite,
         }
@@ -205,7 +205,7 @@ mod tests {
         let values = [CATALOG_NUMBER.entry(NUMBER.into())].into();
         Answer {
             written: Arc::new(Written { change, time: time(3), result }),
-            held: Some(HeldGroup { values, read_at: time(1) }),
+            group: Some(HeldGroup { values, read_at: time(1) }),
             checks: checks(CheckState::Good),
             checked_at: Some(time(2)),
         }
@@ -235,11 +235,11 @@ mod tests {
         let missing = Answer { checks: checks(CheckState::Fault), ..answer(Ok(())) };
         assert!(problem(&missing).contains("does not find the satellite"));
         let mut wrong = answer(Ok(()));
-        let held = wrong.held.as_mut().unwrap();
-        held.values.extend([CATALOG_NUMBER.entry(0)]);
+        let group = wrong.group.as_mut().unwrap();
+        group.values.extend([CATALOG_NUMBER.entry(0)]);
         assert!(problem(&wrong).contains("another object"));
         let stale = answer(Ok(()));
-        let held = stale.held.clone().map(|held| HeldGroup { read_at: time(-1), ..held });
-        assert!(problem(&Answer { held, ..stale }).contains("another object"));
+        let group = stale.group.clone().map(|group| HeldGroup { read_at: time(-1), ..group });
+        assert!(problem(&Answer { group, ..stale }).contains("another object"));
     }
 }

@@ -17,14 +17,14 @@ impl Engine {
     pub(in crate::engine) fn ask_about_upload(&mut self, ask: Ask) {
         let (antennas, now, steady) = (&self.antennas, self.now, self.steady);
         let find = |name: &str| antennas.iter().find(|one| one.shown.config.name == name);
-        let unit_of = |name: &str| UnitNow::of(find(name).map(|one| &one.shown), now, steady);
+        let unit_of = |name: &str| UnitNow::new(find(name).map(|one| &one.shown), now, steady);
         let request = self.upload_runner.ask(ask, unit_of, &mut self.uploads);
         self.tell_unit(request);
     }
 
     pub(in crate::engine) fn poll_uploads(&mut self) {
         let antenna = self.upload_antenna().map(|antenna| &antenna.shown);
-        let unit = UnitNow::of(antenna, self.now, self.steady);
+        let unit = UnitNow::new(antenna, self.now, self.steady);
         let was_open = self.uploads.stage.is_open();
         let request = self.upload_runner.poll(&unit, self.steady, &mut self.uploads);
         self.tell_unit(request);
@@ -45,17 +45,17 @@ impl Engine {
         let Some(target) = self.upload_runner.order().map(target) else { return };
         let file = target.file.clone();
         self.note_upload(&config, target, objects);
-        if config.connection.element_file().is_none_or(|known| known == file) {
+        if config.connection.element_file().is_none_or(|configured| configured == file) {
             return;
         }
         let (id, mut config) = (config.id, config);
-        if let Err(why) = Arc::make_mut(&mut config).connection.use_element_file(&file) {
-            tracing::error!(file, ?why, "the element file cannot be set");
+        if let Err(reason) = Arc::make_mut(&mut config).connection.use_element_file(&file) {
+            tracing::error!(file, ?reason, "the element file cannot be set");
             return;
         }
         self.change_station(|station| {
-            if let Some(known) = station.antennas.iter_mut().find(|antenna| antenna.id == id) {
-                known.connection = config.connection.clone();
+            if let Some(configured) = station.antennas.iter_mut().find(|antenna| antenna.id == id) {
+                configured.connection = config.connection.clone();
             }
         });
         let is_kept = self.station.antennas.contains(&*config);
@@ -80,7 +80,8 @@ impl Engine {
         let Some(request) = request else { return };
         let name = &self.uploads.antenna;
         let place = self.antennas.iter().position(|one| one.shown.config.name == *name);
-        let Some((place, antenna)) = place.and_then(|at| Some((at, self.antennas.get_mut(at)?)))
+        let Some((place, antenna)) =
+            place.and_then(|index| Some((index, self.antennas.get_mut(index)?)))
         else {
             let text = "the antenna is not in the station any more".to_owned();
             return self.upload_runner.not_selected(text, &mut self.uploads);

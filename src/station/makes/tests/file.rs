@@ -105,8 +105,8 @@ fn a_bad_field_costs_only_itself() {
             "elevtion"
         ]
     );
-    let NoteReason::Invalid(why) = &notes[1].reason else { panic!("{:?}", notes[1]) };
-    assert_eq!(why, "line 2 does not hold an azimuth and an elevation in degrees");
+    let NoteReason::Invalid(reason) = &notes[1].reason else { panic!("{:?}", notes[1]) };
+    assert_eq!(reason, "line 2 does not hold an azimuth and an elevation in degrees");
     assert_eq!(notes[5].reason, NoteReason::Unknown);
 }
 
@@ -141,8 +141,8 @@ fn a_second_antenna_of_the_same_name_gets_a_name_of_its_own() {
     assert_eq!(names, ["Mast", " MAST 2", "Mast 3"]);
     assert_eq!(notes.len(), 1);
     assert_eq!(notes[0].place, "antenna[2].name");
-    let NoteReason::Invalid(why) = &notes[0].reason else { panic!("{:?}", notes[0]) };
-    assert_eq!(why, "another antenna has it too, this one is called Mast 3");
+    let NoteReason::Invalid(reason) = &notes[0].reason else { panic!("{:?}", notes[0]) };
+    assert_eq!(reason, "another antenna has it too, this one is called Mast 3");
 }
 
 #[test]
@@ -166,9 +166,9 @@ fn what_cannot_be_read_is_left_alone() {
 fn a_failed_save_keeps_the_old_file() {
     let (folder, path) = written("name = 'Old'");
     // A folder of that name cannot be replaced by a file.
-    let taken = folder.path().join("taken");
-    fs::create_dir_all(taken.join("inside")).unwrap();
-    assert!(matches!(save(&Station::default(), &taken, SPECS), Err(SaveError::Write { .. })));
+    let occupied = folder.path().join("taken");
+    fs::create_dir_all(occupied.join("inside")).unwrap();
+    assert!(matches!(save(&Station::default(), &occupied, SPECS), Err(SaveError::Write { .. })));
     assert_eq!(load(&path).unwrap().station.name, "Old");
 }
 
@@ -222,14 +222,14 @@ fn antenna(text: &str) -> (Antenna, Vec<String>) {
 
 #[test]
 fn a_bad_field_of_an_rc2000c_costs_only_itself() {
-    let usual = Antenna::rc2000c("RC2000C", "COM3");
+    let bare_antenna = Antenna::rc2000c("RC2000C", "COM3");
     let (read, places) = antenna(
         "[antenna.connection]\ncontroller = 'rc2000c'\naddress = 'COM3'\nbaud = 19200\n\
          bus_address = 48\nelement_file = 'x'\n[antenna.connection.calibration]\n\
          azimuth = [{ counts = 30, degrees = 90 }]\n\
          elevation = [{ counts = 70000, degrees = 0 }, { counts = 1, degrees = 9 }]\n",
     );
-    assert_eq!(read, usual);
+    assert_eq!(read, bare_antenna);
     assert_eq!(
         places,
         [
@@ -253,13 +253,13 @@ fn a_bad_field_of_an_rc2000c_costs_only_itself() {
 
 #[test]
 fn a_bad_field_of_a_genius_costs_only_itself() {
-    let usual = Antenna::genius("Genius", "h:9006");
+    let bare_antenna = Antenna::genius("Genius", "h:9006");
     let (read, places) = antenna(
         "[antenna.connection]\ncontroller = 'genius'\naddress = 'h:9006'\nrotators = 'both'\n\
          [antenna.mount]\ntype = 'xy'\nelevation_from_deg = 95\n\
          [antenna.follow]\nperiod_s = 0\ndead_band_deg = -1\nlatency_s = 'none'\nafter = 3\n",
     );
-    assert_eq!(read, usual);
+    assert_eq!(read, bare_antenna);
     assert_eq!(
         places,
         [

@@ -108,8 +108,8 @@ fn keep_outs_beyond_the_largest_number_do_not_hold_and_forbid_motion() {
     let Loaded { station, notes } = load(&path).unwrap();
     assert_eq!(station.keep_outs.len(), KeepOut::MAX_NUMBER);
     let [note] = notes.as_slice() else { panic!("{notes:?}") };
-    let NoteReason::DoesNotHold { name, reason: why } = &note.reason else { panic!("{note:?}") };
-    assert_eq!((name.as_str(), why.as_str()), ("mast 33", "a station has 32 keep-outs at most"));
+    let NoteReason::DoesNotHold { name, reason } = &note.reason else { panic!("{note:?}") };
+    assert_eq!((name.as_str(), reason.as_str()), ("mast 33", "a station has 32 keep-outs at most"));
     assert_eq!(station.unread.len(), 1, "it forbids motion");
     save(&station, &path, SPECS).unwrap();
     assert!(fs::read_to_string(&path).unwrap().contains("mast 33"), "nothing is lost");
@@ -131,9 +131,9 @@ fn keep_outs_have_no_more_corners_than_can_be_judged_in_time() {
     let Loaded { station, notes } = load(&path).unwrap();
     assert_eq!(station.keep_outs.len(), 8);
     let [note] = notes.as_slice() else { panic!("{notes:?}") };
-    let NoteReason::DoesNotHold { name, reason: why } = &note.reason else { panic!("{note:?}") };
+    let NoteReason::DoesNotHold { name, reason } = &note.reason else { panic!("{note:?}") };
     let limit = "all keep-outs have 800 corners at most";
-    assert_eq!((name.as_str(), why.as_str()), ("mast 9", limit));
+    assert_eq!((name.as_str(), reason.as_str()), ("mast 9", limit));
     assert_eq!(station.unread.len(), 1, "it forbids motion");
 }
 

@@ -14,10 +14,10 @@ const ANTENNA: &str = "[[antenna]]\nid = 4\nname = 'Dish'\n[antenna.connection]\
 fn they_come_back_as_they_were_remembered() {
     let (_folder, path) = written(ANTENNA);
     let mut station = load(&path).unwrap().station;
-    let with = |step| TrackOffsets::NONE.plus(step).unwrap();
-    let along = with(Offset::Along(Angle::from_degrees(-0.3)));
+    let with_step = |step| TrackOffsets::NONE.plus(step).unwrap();
+    let along = with_step(Offset::Along(Angle::from_degrees(-0.3)));
     station.keep_offsets(OffsetsSubject::Satellite(25_544), along);
-    let azimuth = with(Offset::Azimuth(Angle::from_degrees(0.1)));
+    let azimuth = with_step(Offset::Azimuth(Angle::from_degrees(0.1)));
     station.keep_offsets(OffsetsSubject::Antenna(AntennaId(4)), azimuth);
     station::save(&station, &path, SPECS).unwrap();
     let text = std::fs::read_to_string(&path).unwrap();

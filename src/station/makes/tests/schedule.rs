@@ -184,10 +184,10 @@ fn a_rule_holds_by_its_antenna_its_hours_of_utc_and_the_sun() {
         hours: Some(HoursOfDay::NIGHT),
         action: RuleAction::Leave,
     };
-    let at = |text: &str| text.parse().unwrap();
-    let night = at("2026-08-12T23:00:00Z");
+    let time = |text: &str| text.parse().unwrap();
+    let night = time("2026-08-12T23:00:00Z");
     assert!(rule.holds_at(night, SunIs::Down) && !rule.holds_at(night, SunIs::Up));
-    assert!(!rule.holds_at(at("2026-08-12T12:00:00Z"), SunIs::Down));
+    assert!(!rule.holds_at(time("2026-08-12T12:00:00Z"), SunIs::Down));
     assert!(rule.is_for(AntennaId(4)) && !rule.is_for(AntennaId(5)));
     assert!(!AutomationRule { is_on: false, ..rule }.holds_at(night, SunIs::Down));
 }

@@ -31,7 +31,7 @@ pub(in crate::record) struct Camera {
     written: Vec<u8>,
     waiting: Vec<u8>,
     /// Reels that are over, whole, with their numbers and times.
-    over: Vec<(i64, [i64; 2], Vec<u8>)>,
+    pending: Vec<(i64, [i64; 2], Vec<u8>)>,
     /// Pictures that were dropped since the last write.
     pub(in crate::record) dropped: u64,
     /// Pictures since the last write.
@@ -41,8 +41,8 @@ pub(in crate::record) struct Camera {
 impl Camera {
     /// Takes a picture.
     pub(in crate::record) fn take(&mut self, picture: &dyn Picture) {
-        let at = picture.at().utc;
-        let at_us = at.as_microsecond();
+        let time = picture.moment().utc;
+        let at_us = time.as_microsecond();
         let has_jumped = at_us < self.until_us;
         let is_over = (at_us - self.begun_us) as f64 > REEL_S * 1e6;
         if !self.last.is_null() && (has_jumped || is_over) {
@@ -69,23 +69,23 @@ impl Camera {
         if self.last.is_null() {
             (self.begun_us, self.until_us) = (at_us, at_us);
         }
-        if let Some(patch) = Patch::between(&self.last, &drawn) {
-            let nanosecond = i64::try_from(at.as_nanosecond()).unwrap_or(i64::MAX);
+        if let Some(patch) = Patch::difference(&self.last, &drawn) {
+            let nanosecond = i64::try_from(time.as_nanosecond()).unwrap_or(i64::MAX);
             // Neither can fail: a vector takes everything, and the patch is JSON already.
             let _ = serde_json::to_writer(&mut self.waiting, &(nanosecond, patch));
             self.waiting.push(b'\n');
         }
         for (place, standing) in same {
-            if let Some(at) = drawn.pointer_mut(&place) {
-                *at = standing;
+            if let Some(target) = drawn.pointer_mut(&place) {
+                *target = standing;
             }
         }
         self.last = drawn;
         self.until_us = at_us;
         self.count += 1;
         let parts: usize = self.parts.new.iter().map(|(_, content)| content.len()).sum();
-        let over: usize = self.over.iter().map(|(.., lines)| lines.len()).sum();
-        if self.waiting.len() + parts + over > MAX_WAITING {
+        let pending: usize = self.pending.iter().map(|(.., lines)| lines.len()).sum();
+        if self.waiting.len() + parts + pending > MAX_WAITING {
             self.dropped += self.count;
             self.begin_anew();
         }
@@ -112,7 +112,7 @@ impl Camera {
     fn end_reel(&mut self) {
         let mut lines = std::mem::take(&mut self.written);
         lines.append(&mut self.waiting);
-        self.over.push((self.reel, [self.begun_us, self.until_us], lines));
+        self.pending.push((self.reel, [self.begun_us, self.until_us], lines));
         self.last = Value::Null;
         self.parts.placed.clear();
         self.reel += 1;
@@ -135,7 +135,7 @@ impl Camera {
             "INSERT INTO reel (run, number, piece, from_us, until_us, pictures) \
              VALUES (?1, ?2, ?3, ?4, ?5, ?6)",
         )?;
-        for (number, [from_us, until_us], lines) in &self.over {
+        for (number, [from_us, until_us], lines) in &self.pending {
             // All at once takes less than its pieces.
             tx.prepare_cached("DELETE FROM reel WHERE run = ?1 AND number = ?2")?
                 .execute(params![run, number])?;
@@ -146,7 +146,7 @@ impl Camera {
             let lines = deflated(&self.waiting)?;
             piece.execute(params![run, self.reel, self.piece, from_us, until_us, lines])?;
         }
-        if !self.over.is_empty() {
+        if !self.pending.is_empty() {
             let mut shown =
                 tx.prepare_cached("UPDATE part SET until_us = ?1 WHERE run = ?2 AND number = ?3")?;
             for number in self.parts.numbers() {
@@ -159,7 +159,7 @@ impl Camera {
     /// Marks the pending content as written to disk.
     pub(in crate::record) fn is_written(&mut self) {
         self.parts.new.clear();
-        self.over.clear();
+        self.pending.clear();
         if !self.waiting.is_empty() {
             self.written.append(&mut self.waiting);
             self.piece += 1;

@@ -35,19 +35,19 @@ pub(super) struct Misfit;
 
 impl Patch {
     /// Returns the patch that turns `old` into `new`; `None` where they are the same.
-    pub(super) fn between(old: &Value, new: &Value) -> Option<Self> {
+    pub(super) fn difference(old: &Value, new: &Value) -> Option<Self> {
         match (old, new) {
             (Value::Object(old), Value::Object(new)) => {
                 let mut fields = BTreeMap::new();
                 for (name, new) in new {
                     let patch = match old.get(name) {
-                        Some(old) => Self::between(old, new),
+                        Some(old) => Self::difference(old, new),
                         None => Some(Self::Put(new.clone())),
                     };
                     fields.extend(patch.map(|patch| (name.clone(), patch)));
                 }
-                let gone = old.keys().filter(|name| !new.contains_key(*name));
-                fields.extend(gone.map(|name| (name.clone(), Self::Gone)));
+                let removed = old.keys().filter(|name| !new.contains_key(*name));
+                fields.extend(removed.map(|name| (name.clone(), Self::Gone)));
                 (!fields.is_empty()).then_some(Self::Fields(fields))
             }
             (Value::Array(old), Value::Array(new)) => Self::between_lists(old, new),
@@ -60,7 +60,7 @@ impl Patch {
             return None;
         }
         let slides = |dropped: &usize| {
-            old.get(*dropped..).is_some_and(|kept| !kept.is_empty() && new.starts_with(kept))
+            old.get(*dropped..).is_some_and(|values| !values.is_empty() && new.starts_with(values))
         };
         if let Some(dropped) = (0..=MAX_DROPPED).find(slides) {
             let put = new.iter().skip(old.len() - dropped);
@@ -70,7 +70,8 @@ impl Patch {
             return Some(Self::Put(new.into()));
         }
         let pairs = old.iter().zip(new).enumerate();
-        let items = pairs.filter_map(|(at, (old, new))| Some((at, Self::between(old, new)?)));
+        let items =
+            pairs.filter_map(|(index, (old, new))| Some((index, Self::difference(old, new)?)));
         Some(Self::Items(items.collect()))
     }
 
@@ -88,8 +89,8 @@ impl Patch {
                 }
             }
             (Self::Items(items), Value::Array(list)) => {
-                for (at, patch) in items {
-                    patch.apply(list.get_mut(at).ok_or(Misfit)?)?;
+                for (index, patch) in items {
+                    patch.apply(list.get_mut(index).ok_or(Misfit)?)?;
                 }
             }
             (Self::Slide(dropped, put), Value::Array(list)) => {
@@ -138,7 +139,7 @@ mod tests {
         #[test]
         fn a_patch_makes_the_new_value_of_the_old(old in any_value(), new in any_value()) {
             let mut value = old.clone();
-            if let Some(patch) = Patch::between(&old, &new) {
+            if let Some(patch) = Patch::difference(&old, &new) {
                 prop_assert_ne!(&old, &new);
                 written(&patch).apply(&mut value).unwrap();
             }
@@ -149,7 +150,7 @@ mod tests {
         fn a_patch_of_something_else_is_harmless(
             old in any_value(), new in any_value(), mut other in any_value()
         ) {
-            if let Some(patch) = Patch::between(&old, &new) {
+            if let Some(patch) = Patch::difference(&old, &new) {
                 let _ = patch.apply(&mut other);
             }
         }
@@ -159,7 +160,7 @@ mod tests {
     fn of_a_list_that_slides_only_what_is_new_is_written() {
         let (old, new) =
             (json!({"a": [1, 2, 3], "b": {"c": 0}}), json!({"a": [2, 3, 4], "b": {"c": 1}}));
-        let patch = Patch::between(&old, &new).unwrap();
+        let patch = Patch::difference(&old, &new).unwrap();
         let text = serde_json::to_string(&patch).unwrap();
         assert_eq!(text, r#"{"f":{"a":{"s":[1,[4]]},"b":{"f":{"c":{"=":1}}}}}"#);
     }

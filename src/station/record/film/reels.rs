@@ -96,19 +96,19 @@ impl Film {
         Ok(time(ends.0).zip(time(ends.1)))
     }
 
-    /// Returns the picture that was shown at `at`: the last one that is not later.
-    pub fn at(&mut self, at: Timestamp) -> Result<Option<Shown<'_>>, FilmError> {
-        let at_ns = i64::try_from(at.as_nanosecond()).unwrap_or(i64::MAX);
+    /// Returns the picture that was shown at `time`: the last one that is not later.
+    pub fn seek(&mut self, time: Timestamp) -> Result<Option<Shown<'_>>, FilmError> {
+        let at_ns = i64::try_from(time.as_nanosecond()).unwrap_or(i64::MAX);
         let holds = |reel: &Reel| {
             let first = reel.pictures.first().is_some_and(|(first, _)| *first <= at_ns);
             first && reel.pictures.last().is_some_and(|(last, _)| *last > at_ns)
         };
         if !self.reel.as_ref().is_some_and(holds) {
-            self.load(at)?;
+            self.load(time)?;
             // The first picture of a reel may be later in the same microsecond.
             let first = self.reel.as_ref().and_then(|reel| reel.pictures.first());
             if first.is_some_and(|(first, _)| *first > at_ns) {
-                self.load(add_seconds(at, -1e-6))?;
+                self.load(add_seconds(time, -1e-6))?;
             }
         }
         let Some(reel) = &mut self.reel else { return Ok(None) };
@@ -117,7 +117,7 @@ impl Film {
     }
 
     /// Takes the reel of a moment, or what was added to it since.
-    fn load(&mut self, at: Timestamp) -> Result<(), FilmError> {
+    fn load(&mut self, time: Timestamp) -> Result<(), FilmError> {
         // A clock that was read to the nanosecond is a little before its microsecond.
         // The same reel may be written again as fewer pieces that hold more.
         let sql = "SELECT run, number, count(*), max(until_us) FROM reel JOIN (SELECT run, number FROM reel \
@@ -126,7 +126,7 @@ impl Film {
         let found = self
             .db
             .prepare_cached(sql)?
-            .query_row([at.as_microsecond()], |row| {
+            .query_row([time.as_microsecond()], |row| {
                 Ok((row.get(0)?, row.get(1)?, (row.get(2)?, row.get(3)?)))
             })
             .optional()?;
@@ -164,22 +164,22 @@ impl Film {
         inflated(&content.ok_or(FilmError::Damaged)?)
     }
 
-    /// Time of the first event after `at`, or of the last one before it.
-    pub fn event(&self, at: Timestamp, is_after: bool) -> Result<Option<Timestamp>, FilmError> {
+    /// Time of the first event after `time`, or of the last one before it.
+    pub fn event(&self, time: Timestamp, is_after: bool) -> Result<Option<Timestamp>, FilmError> {
         let sql = if is_after {
             "SELECT min(utc_us) FROM event WHERE utc_us > ?1"
         } else {
             "SELECT max(utc_us) FROM event WHERE utc_us < ?1"
         };
         let us: Option<i64> =
-            self.db.prepare_cached(sql)?.query_row([at.as_microsecond()], |row| row.get(0))?;
+            self.db.prepare_cached(sql)?.query_row([time.as_microsecond()], |row| row.get(0))?;
         Ok(us.and_then(|us| Timestamp::from_microsecond(us).ok()))
     }
 
-    /// Time of the first picture that shows what was recorded at `at`.
-    pub fn shown_from(&mut self, at: Timestamp) -> Result<Timestamp, FilmError> {
-        self.load(at)?;
-        let at_ns = i64::try_from(at.as_nanosecond()).unwrap_or(i64::MAX);
+    /// Time of the first picture that shows what was recorded at `moment`.
+    pub fn shown_from(&mut self, moment: Timestamp) -> Result<Timestamp, FilmError> {
+        self.load(moment)?;
+        let at_ns = i64::try_from(moment.as_nanosecond()).unwrap_or(i64::MAX);
         let in_reel = self.reel.as_ref().and_then(|reel| {
             let place = reel.pictures.partition_point(|(time, _)| *time < at_ns);
             reel.pictures.get(place).map(|(time, _)| *time)
@@ -191,19 +191,19 @@ impl Film {
         let next: Option<i64> = self
             .db
             .prepare_cached("SELECT min(from_us) FROM reel WHERE from_us > ?1")?
-            .query_row([at.as_microsecond()], |row| row.get(0))?;
+            .query_row([moment.as_microsecond()], |row| row.get(0))?;
         // Its first picture is within this microsecond.
-        Ok(next.and_then(|us| Timestamp::from_microsecond(us + 1).ok()).unwrap_or(at))
+        Ok(next.and_then(|us| Timestamp::from_microsecond(us + 1).ok()).unwrap_or(moment))
     }
 
     /// Returns the last gap of the film between two moments: the program did not run, pictures were
     /// lost, or the film is not kept any more.
     pub fn hole(
         &self,
-        from: Timestamp,
-        until: Timestamp,
+        start: Timestamp,
+        last: Timestamp,
     ) -> Result<Option<(Timestamp, Timestamp)>, FilmError> {
-        let (from_us, until_us) = (from.as_microsecond(), until.as_microsecond());
+        let (from_us, until_us) = (start.as_microsecond(), last.as_microsecond());
         let begin = format!(
             "SELECT from_us FROM reel WHERE from_us > ?1 AND from_us <= ?2 AND NOT {FOLLOWS} \
              ORDER BY from_us DESC LIMIT 1"
@@ -223,9 +223,9 @@ impl Film {
         Ok(time(end).zip(time(begin)))
     }
 
-    /// Returns the gap of the film around `at`.
-    pub fn hole_at(&self, at: Timestamp) -> Result<Option<(Timestamp, Timestamp)>, FilmError> {
-        let at_us = at.as_microsecond();
+    /// Returns the gap of the film around `moment`.
+    pub fn hole_at(&self, moment: Timestamp) -> Result<Option<(Timestamp, Timestamp)>, FilmError> {
+        let at_us = moment.as_microsecond();
         let before = "SELECT max(of.until_us) FROM reel AS of JOIN (SELECT run, number FROM reel \
                       WHERE from_us <= ?1 ORDER BY from_us DESC LIMIT 1) AS last \
                       ON of.run = last.run AND of.number = last.number";
@@ -243,7 +243,7 @@ impl Film {
         let (ended_us, begun_us, follows) = match (ended_us, next) {
             (Some(ended_us), Some((begun_us, follows))) => (ended_us, begun_us, follows),
             // Before all film that is kept.
-            (None, Some((begun_us, _))) => return Ok(Some(at).zip(time(begun_us + 1))),
+            (None, Some((begun_us, _))) => return Ok(Some(moment).zip(time(begun_us + 1))),
             (_, None) => return Ok(None),
         };
         let is_between = !follows && ended_us < at_us;
@@ -251,22 +251,22 @@ impl Film {
         Ok(time(ended_us).zip(time(begun_us + 1)).filter(|_| is_between))
     }
 
-    /// The lines on the link of an antenna after `from`, up to `until`, oldest first.
+    /// The lines on the link of an antenna after `start`, up to `last`, oldest first.
     pub fn lines(
         &self,
         antenna: AntennaId,
-        from: Timestamp,
-        until: Timestamp,
+        start: Timestamp,
+        end: Timestamp,
     ) -> Result<Vec<WireLine>, FilmError> {
         let mut statement = self.db.prepare_cached(
             "SELECT utc_us, is_sent, bytes, length, fault, meaning, reply_us FROM frame \
              WHERE antenna = ?1 AND utc_us > ?2 AND utc_us <= ?3 ORDER BY utc_us, number",
         )?;
-        let span = params![antenna.0, from.as_microsecond(), until.as_microsecond()];
+        let span = params![antenna.0, start.as_microsecond(), end.as_microsecond()];
         let mut rows = statement.query(span)?;
         let mut lines = Vec::new();
         while let Some(row) = rows.next()? {
-            let at = file::time_of(0, row.get(0)?)?;
+            let time = file::time_of(0, row.get(0)?)?;
             let bytes: Vec<u8> = row.get(2)?;
             let length: Option<i64> = row.get(3)?;
             let fault: Option<String> = row.get(4)?;
@@ -277,9 +277,11 @@ impl Film {
             let good = Ok(Finding::Unchecked);
             let finding = fault.map_or(good, |fault| serde_json::from_str(&fault))?;
             lines.push(WireLine {
-                time: at,
+                time,
                 direction: if is_sent { Direction::Sent } else { Direction::Received },
-                length: length.and_then(|of| of.try_into().ok()).unwrap_or(bytes.len()),
+                length: length
+                    .and_then(|stored_length| stored_length.try_into().ok())
+                    .unwrap_or(bytes.len()),
                 is_shortened: length.is_some(),
                 bytes: bytes.into(),
                 finding,

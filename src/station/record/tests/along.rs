@@ -10,7 +10,7 @@ use crate::{
     contract::record::{ListedKind, PassQuery},
     plan::pass_report::PassVerdict,
     record::{
-        Beside, Entry, Kind, PassNote, missed, neighbour, passes, passes_within, testing,
+        Entry, Kind, Neighbour, PassNote, missed, neighbour, passes, passes_within, testing,
         times_between, times_of_pass,
     },
     station::AntennaId,
@@ -19,13 +19,13 @@ use crate::{
 const NOAA_20: u32 = 43013;
 const ISS: u32 = 25544;
 
-fn at(minute: i64) -> Timestamp {
+fn time(minute: i64) -> Timestamp {
     start() + minute.minutes()
 }
 
 /// A pass from `minute` on.
 fn note(antenna: AntennaId, satellite: u32, minute: i64) -> PassNote {
-    testing::note(antenna, satellite, at(minute))
+    testing::note(antenna, satellite, time(minute))
 }
 
 #[test]
@@ -41,19 +41,19 @@ fn each_pass_is_the_neighbour_of_the_next_and_other_antennas_count_once() {
         note(DISH, ISS, 95),
     ];
     testing::record(&path, notes);
-    let from = |of, is_next| {
-        let pass = neighbour(&path, of, is_next).unwrap();
+    let found = |reference, is_next| {
+        let pass = neighbour(&path, reference, is_next).unwrap();
         pass.map(|pass| (pass.id, pass.report.start))
     };
-    assert_eq!(from(Beside::Pass(1), true), Some((2, at(60))));
-    assert_eq!(from(Beside::Pass(2), true), Some((4, at(95))), "not the same pass again");
-    assert_eq!(from(Beside::Pass(4), false), Some((3, at(61))));
-    assert_eq!(from(Beside::Pass(3), false), Some((1, at(0))));
-    assert_eq!(from(Beside::Pass(1), false), None);
-    assert_eq!(from(Beside::Pass(4), true), None);
-    assert_eq!(from(Beside::Moment(at(65)), true), Some((2, at(60))), "the one under way");
-    assert_eq!(from(Beside::Moment(at(65)), false), Some((1, at(0))));
-    assert_eq!(from(Beside::Pass(77), true), None, "no such pass");
+    assert_eq!(found(Neighbour::Pass(1), true), Some((2, time(60))));
+    assert_eq!(found(Neighbour::Pass(2), true), Some((4, time(95))), "not the same pass again");
+    assert_eq!(found(Neighbour::Pass(4), false), Some((3, time(61))));
+    assert_eq!(found(Neighbour::Pass(3), false), Some((1, time(0))));
+    assert_eq!(found(Neighbour::Pass(1), false), None);
+    assert_eq!(found(Neighbour::Pass(4), true), None);
+    assert_eq!(found(Neighbour::Moment(time(65)), true), Some((2, time(60))), "the one under way");
+    assert_eq!(found(Neighbour::Moment(time(65)), false), Some((1, time(0))));
+    assert_eq!(found(Neighbour::Pass(77), true), None, "no such pass");
 }
 
 #[test]
@@ -62,23 +62,23 @@ fn a_stretch_has_the_times_of_the_passes_in_it() {
     let path = folder.path().join("record.sqlite");
     testing::record(&path, [note(DISH, ISS, 0), note(DISH, NOAA_20, 60), note(DISH, ISS, 95)]);
     let site = Site::default();
-    let marks = times_between(&path, at(5), at(65), site).unwrap();
+    let marks = times_between(&path, time(5), time(65), site).unwrap();
     let [iss, noaa] = &marks[..] else { panic!("{marks:?}") };
-    assert_eq!((&*iss.name, iss.aos, iss.los), ("ISS", at(0), at(10)));
-    assert_eq!(noaa.aos, at(60));
-    assert_eq!(noaa.lost, [(at(61), at(62))]);
+    assert_eq!((&*iss.name, iss.aos, iss.los), ("ISS", time(0), time(10)));
+    assert_eq!(noaa.aos, time(60));
+    assert_eq!(noaa.lost, [(time(61), time(62))]);
     let tca = noaa.tca.unwrap();
-    assert!((at(60)..=at(70)).contains(&tca), "{tca}");
-    assert_eq!(times_between(&path, at(20), at(50), site).unwrap(), []);
+    assert!((time(60)..=time(70)).contains(&tca), "{tca}");
+    assert_eq!(times_between(&path, time(20), time(50), site).unwrap(), []);
     assert_eq!(times_of_pass(&path, 2, site).unwrap().as_ref(), Some(noaa));
     assert_eq!(times_of_pass(&path, 9, site).unwrap(), None);
 }
 
 /// Entry of the outcome of a pass that began at `minute`, written eleven minutes later.
 fn day_line(satellite: u32, name: &str, minute: i64) -> Entry {
-    let over = Moment { utc: at(minute + 11), steady: Instant::now() };
-    let flown = json!({ "pass": [satellite, at(minute)], "name": name });
-    Entry::new(over, Some(DISH), Kind::Day, &json!({ "what": { "flown": flown } }))
+    let moment = Moment { utc: time(minute + 11), steady: Instant::now() };
+    let flown = json!({ "pass": [satellite, time(minute)], "name": name });
+    Entry::new(moment, Some(DISH), Kind::Day, &json!({ "what": { "flown": flown } }))
 }
 
 #[test]
@@ -100,10 +100,10 @@ fn a_pass_that_was_to_be_tracked_and_has_no_report_is_missed() {
     let found = |query: PassQuery| {
         let page = passes(&path, &query).unwrap();
         let missed = missed(&path, &query, &page).unwrap();
-        missed.into_iter().map(|of| of.at).collect::<Vec<_>>()
+        missed.into_iter().map(|missed_entry| missed_entry.time).collect::<Vec<_>>()
     };
     let all = PassQuery { count: 10, ..PassQuery::default() };
-    let (old, new) = (at(-589), at(71));
+    let (old, new) = (time(-589), time(71));
     assert_eq!(found(all.clone()), [new, old], "another antenna tracked the last one");
     let page = PassQuery { count: 1, ..all.clone() };
     assert_eq!(found(page), [new], "as far back as the page");
@@ -127,19 +127,23 @@ fn the_passes_within_a_time_are_found_by_their_aos_however_many() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("record.sqlite");
     let recorder = recorder(&path);
-    for (antenna, satellite, from) in
+    for (antenna, satellite, start) in
         [(5, NOAA_20, 900), (3, ISS, 300), (3, ISS, -1), (3, ISS, 1000), (3, NOAA_20, 0)]
     {
-        recorder.note_pass(note(AntennaId(antenna), satellite, from));
+        recorder.note_pass(note(AntennaId(antenna), satellite, start));
     }
     recorder.flush();
     let found = |query: PassQuery| {
-        let passes = passes_within(&path, &query, &(at(0)..at(1000)), Site::default()).unwrap();
+        let passes = passes_within(&path, &query, &(time(0)..time(1000)), Site::default()).unwrap();
         passes.iter().map(|opened| opened.pass.report.start).collect::<Vec<_>>()
     };
     let all = PassQuery { count: 1, ..PassQuery::default() };
-    assert_eq!(found(all.clone()), [at(0), at(300), at(900)], "in order, and not the newest alone");
+    assert_eq!(
+        found(all.clone()),
+        [time(0), time(300), time(900)],
+        "in order, and not the newest alone"
+    );
     let of_one = PassQuery { antenna: Some(AntennaId(5)), ..all.clone() };
-    assert_eq!(found(of_one), [at(900)]);
-    assert_eq!(found(PassQuery { text: "noaa".to_owned(), ..all }), [at(0), at(900)]);
+    assert_eq!(found(of_one), [time(900)]);
+    assert_eq!(found(PassQuery { text: "noaa".to_owned(), ..all }), [time(0), time(900)]);
 }

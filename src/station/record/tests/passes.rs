@@ -23,16 +23,16 @@ fn a_pass_that_ends_with_a_time_is_fitted_and_explained_in_it() {
         elevation_from_deg: 0.0,
         elevation_to_deg: 90.0,
     };
-    let passes = |to: Timestamp| {
-        let within = start()..=to;
-        let fitted = match fit_pointing(&path, DISH, site, &within, &[], Vec::new()) {
+    let passes = |end: Timestamp| {
+        let span = start()..=end;
+        let fitted = match fit_pointing(&path, DISH, site, &span, &[], Vec::new()) {
             Ok(fit) => fit.passes,
             Err(CannotFitPointing::Points { passes, .. }) => passes,
             Err(CannotFitPointing::Record(error)) => panic!("{error}"),
         };
-        [fitted, explain_passes(&path, DISH, mount, site, &within).unwrap().passes]
+        [fitted, explain_passes(&path, DISH, mount, site, &span).unwrap().passes]
     };
-    let until = start() + 10.minutes();
-    assert_eq!(passes(until), [1; 2]);
-    assert_eq!(passes(until - 1.seconds()), [0; 2]);
+    let last = start() + 10.minutes();
+    assert_eq!(passes(last), [1; 2]);
+    assert_eq!(passes(last - 1.seconds()), [0; 2]);
 }

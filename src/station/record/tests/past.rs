@@ -13,12 +13,12 @@ use crate::{
 
 const NOAA_20: u32 = 43013;
 
-fn at(minute: i64) -> Timestamp {
+fn time(minute: i64) -> Timestamp {
     start() + minute.minutes()
 }
 
 fn of_all(minute: i64, kind: Kind, data: &Value) -> Entry {
-    Entry::new(Moment { utc: at(minute), steady: Instant::now() }, None, kind, data)
+    Entry::new(Moment { utc: time(minute), steady: Instant::now() }, None, kind, data)
 }
 
 fn stop(minute: i64, antennas: &[u64], elsewhere: &[u64]) -> Entry {
@@ -26,17 +26,16 @@ fn stop(minute: i64, antennas: &[u64], elsewhere: &[u64]) -> Entry {
     of_all(minute, Kind::Stop, &data)
 }
 
-fn gap(since: i64, until: i64) -> Entry {
-    let data =
-        json!({"since": at(since), "entries": 0, "positions": 9, "frames": 0, "pictures": 0});
-    of_all(until, Kind::Gap, &data)
+fn gap(start_minute: i64, end: i64) -> Entry {
+    let data = json!({"since": time(start_minute), "entries": 0, "positions": 9, "frames": 0, "pictures": 0});
+    of_all(end, Kind::Gap, &data)
 }
 
 #[test]
 fn gaps_and_stops_that_were_pressed_for_an_antenna_are_told_of_its_pass() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("record.sqlite");
-    testing::record(&path, [testing::note(DISH, NOAA_20, at(0))]);
+    testing::record(&path, [testing::note(DISH, NOAA_20, time(0))]);
     let recorder = recorder(&path);
     let (dish, other) = (u64::from(DISH.0), u64::from(DISH.0) + 1);
     for entry in [
@@ -52,16 +51,16 @@ fn gaps_and_stops_that_were_pressed_for_an_antenna_are_told_of_its_pass() {
     }
     recorder.flush();
     let opened = open_pass(&path, 1, Site::default()).unwrap().unwrap();
-    let told = |rows: &[Row]| -> Vec<(String, Timestamp)> {
+    let events = |rows: &[Row]| -> Vec<(String, Timestamp)> {
         rows.iter().map(|row| (row.kind.clone(), row.time)).collect()
     };
     let expected = [("gap", -3), ("stop", 1), ("stop", 3), ("gap", 30)]
-        .map(|(of, time)| (of.to_owned(), at(time)));
-    assert_eq!(told(&opened.entries), expected);
+        .map(|(name, minute)| (name.to_owned(), time(minute)));
+    assert_eq!(events(&opened.entries), expected);
     // The one who looks through the log of an antenna wants them as well.
     let query = Query {
         antenna: Some("Dish".to_owned()),
-        what: vec![RowKind::Entry(Kind::Stop), RowKind::Entry(Kind::Gap)],
+        row_kinds: vec![RowKind::Entry(Kind::Stop), RowKind::Entry(Kind::Gap)],
         ..Query::default()
     };
     assert_eq!(rows_of(&path, &query).len(), 6, "all but the STOP of the other antenna");

@@ -173,7 +173,7 @@ impl<U: Unit> Control<U> {
 
     /// Random number in `range`.
     pub(super) fn random(&self, range: &RangeInclusive<u64>) -> u64 {
-        self.lock().prng.between(*range.start(), *range.end())
+        self.lock().prng.in_range(*range.start(), *range.end())
     }
 
     /// Changes when all clients must be dropped.

@@ -77,9 +77,9 @@ impl Axis {
         seed: u64,
         has_limit_alarm: bool,
     ) -> Self {
-        let [least, most] = [*options.travel.start(), *options.travel.end()].map(f64::from);
+        let [min, max] = [*options.travel.start(), *options.travel.end()].map(f64::from);
         Self {
-            counts: f64::from(counts).max(least).min(most),
+            counts: f64::from(counts).max(min).min(max),
             rate_counts_s: 0.0,
             goal: Goal::Still,
             obeyed: Goal::Still,
@@ -89,7 +89,7 @@ impl Axis {
             sensor: Sensor::new(mechanics, seed),
             counts_per_deg: options.counts_per_deg,
             coasting_s: mechanics.coasting_s(COAST_S),
-            travel: least..=most,
+            travel: min..=max,
             full_rate_counts_s: options.full_rate_counts_s,
             strength: 1.0,
             has_limit_alarm,
@@ -307,12 +307,12 @@ impl Axis {
 
     /// Fastest rate from which the axis can still halt at `target`.
     fn approach(&self, target: f64, step_s: f64) -> f64 {
-        let away = target - self.counts;
+        let distance = target - self.counts;
         // Less than the actual braking, so that the braking never falls behind.
         let brake = 0.8 * self.coast_counts_s2();
         let half = brake * step_s / 2.0;
-        let fastest = (half * half + 2.0 * brake * away.abs()).sqrt() - half;
-        fastest.min(away.abs() / step_s).min(self.fast_counts_s()).copysign(away)
+        let fastest = (half * half + 2.0 * brake * distance.abs()).sqrt() - half;
+        fastest.min(distance.abs() / step_s).min(self.fast_counts_s()).copysign(distance)
     }
 }
 

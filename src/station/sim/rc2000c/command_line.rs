@@ -9,7 +9,7 @@ use crate::sim::{
 };
 
 /// `azel simulate rc2000`.
-pub const COMMAND: Command = Command::of::<Arguments>("rc2000");
+pub const COMMAND: Command = Command::new::<Arguments>("rc2000");
 
 /// Research Concepts RC2000C on raw TCP, as behind a serial server, or on a pseudo-terminal
 #[derive(Debug, clap::Args)]

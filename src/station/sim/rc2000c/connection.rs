@@ -112,11 +112,11 @@ impl Wire<Rc2000c> for Line {
         let longest_gap = LONGEST_GAP.max(self.character_time * LONGEST_GAP_CHARACTERS);
         let now = control.clock().now().steady;
         let is_quiet = self.last_read.is_some_and(|last| now - last > longest_gap);
-        let mut seen = if is_quiet { self.decoder.line_is_quiet() } else { Vec::new() };
+        let mut frames = if is_quiet { self.decoder.line_is_quiet() } else { Vec::new() };
         self.last_read = Some(now);
         self.decoder.push(bytes);
-        seen.extend(self.decoder.by_ref());
-        for frame in seen {
+        frames.extend(self.decoder.by_ref());
+        for frame in frames {
             match frame {
                 Ok(frame) if frame.header() == Header::Command => {
                     self.carry_out(&frame, control, switches, replies);

@@ -94,7 +94,7 @@ impl Feed {
     }
 
     pub(super) fn advance(&mut self, step_s: f64) {
-        let most = RATE_UNITS_S * step_s;
+        let max = RATE_UNITS_S * step_s;
         match &mut self.goal {
             Goal::Still => {}
             Goal::Jog(sense, left_s) => {
@@ -106,7 +106,7 @@ impl Feed {
                 }
             }
             Goal::Position(target) => {
-                self.units += (*target - self.units).clamp(-most, most);
+                self.units += (*target - self.units).clamp(-max, max);
                 if (*target - self.units).abs() < 0.5 {
                     self.goal = Goal::Still;
                 }

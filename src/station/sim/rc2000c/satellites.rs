@@ -72,7 +72,7 @@ impl StoredSatellite {
             own.into_iter()
                 .zip(counts)
                 .zip(window)
-                .all(|((own, at), most)| own.abs_diff(at) <= most)
+                .all(|((own, target), max)| own.abs_diff(target) <= max)
         };
         if is_within(ON_COUNTS) {
             Some(Closeness::On)
@@ -95,10 +95,10 @@ impl StoredSatellite {
     /// Level of the receiver at a position of the antenna, 0 to 1023.
     pub(super) fn agc(&self, counts: [u16; 2]) -> u16 {
         let [az, el] = counts;
-        let away = f64::from(self.az_counts.abs_diff(az))
+        let distance = f64::from(self.az_counts.abs_diff(az))
             .hypot(f64::from(self.el_counts.abs_diff(el)))
             / BEAM_COUNTS;
-        (NOISE_AGC + (MAX_AGC - NOISE_AGC) * (-away * away).exp()).round() as u16
+        (NOISE_AGC + (MAX_AGC - NOISE_AGC) * (-distance * distance).exp()).round() as u16
     }
 }
 

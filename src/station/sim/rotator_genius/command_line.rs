@@ -9,7 +9,7 @@ use crate::sim::{
 };
 
 /// `azel simulate genius`.
-pub const COMMAND: Command = Command::of::<Arguments>("genius");
+pub const COMMAND: Command = Command::new::<Arguments>("genius");
 
 /// 4O3A Rotator Genius on TCP, with two rotators
 #[derive(Debug, clap::Args)]

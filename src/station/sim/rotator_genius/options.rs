@@ -175,8 +175,8 @@ mod tests {
         let rotator = RotatorNumber::One;
         let target = WholeDegrees::saturating(300);
         let go_to = Request::Motion(Motion::GoTo { rotator, target });
-        let to = Acknowledgement::GoTo { target: None };
-        let accepted = Reply::Acknowledgement { request: to, is_accepted: true };
+        let acknowledgement = Acknowledgement::GoTo { target: None };
+        let accepted = Reply::Acknowledgement { request: acknowledgement, is_accepted: true };
         assert_eq!(ask(&mut first, go_to).await, Some(accepted));
         drop(first);
         let served_again = async {

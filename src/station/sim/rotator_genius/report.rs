@@ -132,11 +132,11 @@ mod tests {
 
     #[test]
     fn the_limit_byte_has_its_forms() {
-        for (quirks, inside, outside) in
+        for (quirks, in_force, outside) in
             [(&[][..], 0, b'1'), (&[Quirk::LimitAscii], b'0', b'1'), (&[Quirk::LimitBinary], 0, 1)]
         {
             let quirks = quirks.iter().copied().collect();
-            assert_eq!(limit_byte(false, &quirks), inside);
+            assert_eq!(limit_byte(false, &quirks), in_force);
             assert_eq!(limit_byte(true, &quirks), outside);
         }
     }

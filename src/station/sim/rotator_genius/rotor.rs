@@ -238,7 +238,7 @@ impl Rotor {
             self.cut_power();
         }
         let rate = self.full_rate_deg_s * self.strength;
-        let wanted = match self.powered {
+        let requested = match self.powered {
             Moving::Stopped => 0.0,
             Moving::Clockwise => rate,
             Moving::CounterClockwise => -rate,
@@ -247,7 +247,7 @@ impl Rotor {
         let is_coasting = self.powered == Moving::Stopped;
         let ramp_s = if is_coasting { self.mechanics.coasting_s(own_s) } else { own_s };
         let ramp = self.full_rate_deg_s / ramp_s * step_s;
-        self.rate_deg_s += (wanted - self.rate_deg_s).clamp(-ramp, ramp);
+        self.rate_deg_s += (requested - self.rate_deg_s).clamp(-ramp, ramp);
         if self.is_stuck {
             self.rate_deg_s = 0.0;
         }
@@ -258,10 +258,10 @@ impl Rotor {
     /// Returns `true` if the target is within the stop offset, or passed.
     fn has_arrived(&self) -> bool {
         let Drive::To { target, direction, .. } = self.drive else { return false };
-        let away = self.travel.place(degrees(target)) - self.place_deg;
+        let distance = self.travel.place(degrees(target)) - self.place_deg;
         let left = match direction {
-            Direction::Clockwise => away,
-            Direction::CounterClockwise => -away,
+            Direction::Clockwise => distance,
+            Direction::CounterClockwise => -distance,
         };
         left <= f64::from(self.stop_offset_deg)
     }

@@ -26,12 +26,12 @@ impl Travel {
     /// Place with the direction of `place`: on the travel, or as near to one of its ends as
     /// possible.
     pub(super) fn nearest(&self, place: f64) -> f64 {
-        let most = self.span_deg + (360.0 - self.span_deg) / 2.0;
-        if (most - 360.0..=most).contains(&place) {
+        let max = self.span_deg + (360.0 - self.span_deg) / 2.0;
+        if (max - 360.0..=max).contains(&place) {
             return place;
         }
         let clockwise = place.rem_euclid(360.0);
-        if clockwise > most { clockwise - 360.0 } else { clockwise }
+        if clockwise > max { clockwise - 360.0 } else { clockwise }
     }
 
     /// Azimuth or elevation at a place, 0 to 360 degrees.
@@ -52,7 +52,7 @@ mod tests {
 
     #[test]
     fn an_arc_runs_clockwise_over_north_too() {
-        for (cw, ccw, inside, outside) in [
+        for (cw, ccw, in_force, outside) in [
             (359.0, 0.0, vec![0.0, 180.0, 359.0, 359.6], vec![]),
             (350.0, 10.0, vec![10.0, 180.0, 350.0], vec![0.0, 9.0, 351.0, 360.0]),
             (360.0, 0.0, vec![0.0, 180.0, 360.0], vec![]),
@@ -62,7 +62,7 @@ mod tests {
             (270.0, 90.0, vec![90.0, 180.0, 270.0], vec![0.0, 89.0, 271.0]),
         ] {
             let travel = Travel::new(cw, ccw);
-            for angle in inside {
+            for angle in in_force {
                 assert!(travel.contains(travel.place(angle)), "{cw} {ccw} {angle}");
             }
             for angle in outside {

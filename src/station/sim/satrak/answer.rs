@@ -67,8 +67,8 @@ impl Value {
     /// With one to three decimals, as many as needed.
     pub(super) fn decimal(value: f64) -> Self {
         let (Self::Decimal(text) | Self::Text(text)) = Self::fixed(value, 3);
-        let kept = text.strip_suffix("00").or(text.strip_suffix('0')).unwrap_or(&text);
-        Self::Decimal(kept.to_owned())
+        let trimmed = text.strip_suffix("00").or(text.strip_suffix('0')).unwrap_or(&text);
+        Self::Decimal(trimmed.to_owned())
     }
 
     /// Hour, minute, second, day, month, year.

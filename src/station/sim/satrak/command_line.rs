@@ -15,7 +15,7 @@ use crate::{
 };
 
 /// `azel simulate satrak`.
-pub const COMMAND: Command = Command::of::<Arguments>("satrak");
+pub const COMMAND: Command = Command::new::<Arguments>("satrak");
 
 /// SVS Satrak on TCP, with an X/Y mount and on-board tracking; its element file is active.txt
 #[derive(Debug, clap::Args)]

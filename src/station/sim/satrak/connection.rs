@@ -77,9 +77,9 @@ fn reply_bytes(payload: &str, number: u64, switches: &Switches) -> Vec<u8> {
     if has(Fault::BadChecksum) && is_third {
         // Changes the digit before the line end, whatever its case.
         let from_end = if switches.has_quirk(Quirk::LfOnly) { 2 } else { 3 };
-        let at = frame.len().saturating_sub(from_end);
+        let index = frame.len().saturating_sub(from_end);
         let digit = frame.iter().enumerate();
-        bytes.extend(digit.map(|(here, byte)| if here == at { byte ^ 1 } else { *byte }));
+        bytes.extend(digit.map(|(here, byte)| if here == index { byte ^ 1 } else { *byte }));
     } else {
         bytes.extend(frame);
     }

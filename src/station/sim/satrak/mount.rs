@@ -144,8 +144,8 @@ mod tests {
             let angles = run(&mut mount, 40.0);
             assert!((mount.x.angle_deg() - target).abs() < 1e-9, "{target}");
             assert!(!mount.is_moving(), "{target}");
-            let most = angles.iter().map(|angle| (angle - 90.0).abs()).fold(0.0, f64::max);
-            assert!(most <= (target - 90.0).abs() + 0.01, "{target} {most}");
+            let max = angles.iter().map(|angle| (angle - 90.0).abs()).fold(0.0, f64::max);
+            assert!(max <= (target - 90.0).abs() + 0.01, "{target} {max}");
         }
     }
 
@@ -232,15 +232,15 @@ mod tests {
         assert!((mount.x.angle_deg() - deg - 2.5).abs() < 0.2, "at full rate");
         run(&mut mount, 5.0);
         assert!(!mount.is_moving());
-        let from = mount.x.angle_deg();
+        let start = mount.x.angle_deg();
         for step in 0..200 {
-            let target = from + 2.0 * f64::from(step) * STEP_S;
+            let target = start + 2.0 * f64::from(step) * STEP_S;
             mount.follow([target, 90.0], STEP_S);
             mount.advance(STEP_S);
-            let off = target - mount.x.angle_deg();
+            let deviation = target - mount.x.angle_deg();
             match step {
-                0..10 => assert!((mount.x.angle_deg() - from).abs() < 1e-9, "{step}"),
-                100.. => assert!(off.abs() < 0.01, "{step} {off}"),
+                0..10 => assert!((mount.x.angle_deg() - start).abs() < 1e-9, "{step}"),
+                100.. => assert!(deviation.abs() < 0.01, "{step} {deviation}"),
                 _ => {}
             }
         }

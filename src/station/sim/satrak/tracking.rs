@@ -30,8 +30,8 @@ impl Target {
     }
 
     /// Geometric: the document of the unit knows no refraction.
-    pub(super) fn direction(&self, site: Site, at: Timestamp) -> Result<AzEl, PropagationError> {
-        Ok(self.propagator.look_from(site.airless(), at)?.direction)
+    pub(super) fn direction(&self, site: Site, time: Timestamp) -> Result<AzEl, PropagationError> {
+        Ok(self.propagator.look_from(site.airless(), time)?.direction)
     }
 }
 
@@ -133,8 +133,8 @@ impl Tracking {
         if !is_active || elapsed < self.held_until {
             return None;
         }
-        let at = shifted(rtc.max(window.start()), settings.time_offset_ms);
-        Some(target.direction(site, at).map(|direction| with_offsets(direction, settings)))
+        let time = shifted(rtc.max(window.start()), settings.time_offset_ms);
+        Some(target.direction(site, time).map(|direction| with_offsets(direction, settings)))
     }
 
     /// Highest elevation in the window, degrees.
@@ -147,7 +147,7 @@ impl Tracking {
             .step_by(SAMPLE_S as usize)
             .take(MAX_SAMPLES)
             .filter_map(|second| Timestamp::from_second(second).ok())
-            .filter_map(|at| target.direction(site, at).ok())
+            .filter_map(|time| target.direction(site, time).ok())
             .map(AzEl::elevation_deg)
             .reduce(f64::max)
     }
@@ -176,13 +176,13 @@ pub(super) fn shifted(time: Timestamp, by_ms: i64) -> Timestamp {
 mod tests {
     use super::*;
 
-    fn at(second: i64) -> Timestamp {
+    fn time(second: i64) -> Timestamp {
         Timestamp::from_second(1_500_000_000 + second).unwrap()
     }
 
     fn windowed() -> Tracking {
         let mut tracking = Tracking::default();
-        tracking.set_window(TrackWindow::new(at(100), at(200)).unwrap());
+        tracking.set_window(TrackWindow::new(time(100), time(200)).unwrap());
         tracking
     }
 
@@ -190,22 +190,22 @@ mod tests {
     fn the_window_passes_through_its_states() {
         let mut tracking = windowed();
         tracking.enable();
-        let mut seen = Vec::new();
+        let mut pulses = Vec::new();
         for second in [0, 39, 40, 99, 100, 199, 200, 500] {
-            tracking.update(at(second), 60_000);
-            seen.push(tracking.state(at(second), 60_000).code());
+            tracking.update(time(second), 60_000);
+            pulses.push(tracking.state(time(second), 60_000).code());
         }
-        assert_eq!(seen, [0, 0, 3, 3, 1, 1, 2, 2]);
+        assert_eq!(pulses, [0, 0, 3, 3, 1, 1, 2, 2]);
         assert!(!tracking.is_enabled);
-        tracking.set_window(TrackWindow::new(at(600), at(700)).unwrap());
-        assert_eq!(tracking.state(at(610), 0), TrackState::NotInTrackTime);
+        tracking.set_window(TrackWindow::new(time(600), time(700)).unwrap());
+        assert_eq!(tracking.state(time(610), 0), TrackState::NotInTrackTime);
     }
 
     #[test]
     fn without_a_satellite_auto_track_does_not_start() {
         let mut tracking = windowed();
         tracking.is_auto = true;
-        tracking.update(at(150), 0);
-        assert!(!tracking.is_enabled && !tracking.is_ready(at(150)));
+        tracking.update(time(150), 0);
+        assert!(!tracking.is_enabled && !tracking.is_ready(time(150)));
     }
 }

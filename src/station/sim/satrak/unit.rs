@@ -212,8 +212,8 @@ impl Satrak {
 
     /// Time that the unit's clock has gained since it was set.
     fn drifted(&self) -> SignedDuration {
-        let Some((gains_s_day, since)) = self.drift else { return SignedDuration::ZERO };
-        let days = self.elapsed.saturating_sub(since).as_secs_f64() / 86_400.0;
+        let Some((gains_s_day, elapsed)) = self.drift else { return SignedDuration::ZERO };
+        let days = self.elapsed.saturating_sub(elapsed).as_secs_f64() / 86_400.0;
         SignedDuration::try_from_secs_f64(gains_s_day * days).unwrap_or(SignedDuration::ZERO)
     }
 
@@ -284,7 +284,8 @@ impl Satrak {
     /// Returns `true` if the unit reports this fault.
     fn has_fault(&self, kind: FaultKind) -> bool {
         let is_outdated = || {
-            let age = self.tracking.target.as_ref().map(|of| self.rtc().duration_since(of.epoch));
+            let age =
+                self.tracking.target.as_ref().map(|target| self.rtc().duration_since(target.epoch));
             age.is_some_and(|age| age > self.outdated_after)
         };
         self.injected.contains(&kind)

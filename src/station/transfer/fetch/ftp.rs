@@ -24,7 +24,7 @@ use crate::{
     contract::transfer::Peer,
     transfer::{
         ConnectError, ConnectStep, Limits,
-        limits::within,
+        limits::with_timeout,
         ssh::{dial, failed, interrupted},
     },
 };
@@ -51,13 +51,13 @@ pub(super) async fn fetch(
     let data = Peer { host: address.ip().to_string(), port: peer.port };
     let tls = roots.map(tls_connector).transpose()?;
     let step = ConnectStep::Handshake;
-    let mut ftp = within(limits.log_in, cancel, greet(stream, tls.clone(), peer))
+    let mut ftp = with_timeout(limits.log_in, cancel, greet(stream, tls.clone(), peer))
         .await
-        .map_err(|by| interrupted(step, by, peer))??;
+        .map_err(|interruption| interrupted(step, interruption, peer))??;
     let step = ConnectStep::LogIn;
-    within(limits.log_in, cancel, ftp.login(user, password.expose_secret()))
+    with_timeout(limits.log_in, cancel, ftp.login(user, password.expose_secret()))
         .await
-        .map_err(|by| interrupted(step, by, peer))?
+        .map_err(|interruption| interrupted(step, interruption, peer))?
         .map_err(|error| match error {
             FtpError::UnexpectedResponse(_) => ConnectError::LoginRefused {
                 user: user.to_owned(),
@@ -72,7 +72,7 @@ pub(super) async fn fetch(
         let stream = open_data(&mut ftp, data, limits, cancel).await?;
         retrieve(&mut ftp, file, (stream, tls, peer), limits).await
     };
-    within(limits.file, cancel, work).await?
+    with_timeout(limits.file, cancel, work).await?
 }
 
 fn tls_connector(roots: RootCertStore) -> Result<TlsConnector, FetchError> {
@@ -90,13 +90,13 @@ async fn greet(
     peer: &Peer,
 ) -> Result<AsyncRustlsFtpStream, FetchError> {
     let step = ConnectStep::Handshake;
-    let told = |error: FtpError| match error {
+    let problem = |error: FtpError| match error {
         FtpError::SecureError(reason) => FetchError::Tls(reason),
         error => failed(step, &error, peer).into(),
     };
-    let ftp = AsyncRustlsFtpStream::connect_with_stream(stream).await.map_err(told)?;
+    let ftp = AsyncRustlsFtpStream::connect_with_stream(stream).await.map_err(problem)?;
     let Some(tls) = tls else { return Ok(ftp) };
-    ftp.into_secure(AsyncRustlsConnector::from(tls), &peer.host).await.map_err(told)
+    ftp.into_secure(AsyncRustlsConnector::from(tls), &peer.host).await.map_err(problem)
 }
 
 fn in_words(error: FtpError) -> FetchError {

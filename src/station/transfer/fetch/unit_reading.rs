@@ -41,15 +41,17 @@ pub fn what_a_unit_sees(bytes: &[u8], satellite: &str) -> UnitView {
 
 /// Names that differ only in case or blanks, or that contain the wanted name or are
 /// contained in it.
-fn similar(elements: &[Elements], wanted: &str) -> Vec<String> {
+fn similar(elements: &[Elements], expected: &str) -> Vec<String> {
     let plain = |name: &str| {
         let letters = name.chars().filter(|letter| letter.is_alphanumeric());
         letters.flat_map(char::to_lowercase).collect::<String>()
     };
-    let wanted = plain(wanted);
+    let expected = plain(expected);
     let is_similar = |name: &&str| {
         let name = plain(name);
-        !wanted.is_empty() && !name.is_empty() && (name.contains(&wanted) || wanted.contains(&name))
+        !expected.is_empty()
+            && !name.is_empty()
+            && (name.contains(&expected) || expected.contains(&name))
     };
     let names = elements.iter().map(Elements::name).filter(is_similar);
     names.take(MAX_SIMILAR).map(str::to_owned).collect()
@@ -94,10 +96,10 @@ TEST 1B\r
 
     #[test]
     fn a_satellite_that_is_missing_is_told_with_the_names_it_may_have() {
-        for wanted in ["test 1", "TEST-1", "TEST"] {
-            let view = what_a_unit_sees(SETS.as_bytes(), wanted);
+        for expected in ["test 1", "TEST-1", "TEST"] {
+            let view = what_a_unit_sees(SETS.as_bytes(), expected);
             let similar = vec!["TEST 1".to_owned()];
-            assert_eq!(view.satellite, SatelliteMatch::Missing { similar }, "{wanted}");
+            assert_eq!(view.satellite, SatelliteMatch::Missing { similar }, "{expected}");
             assert_eq!(view.epoch(), None);
         }
         let none = SatelliteMatch::Missing { similar: Vec::new() };

@@ -11,7 +11,7 @@ use ureq::{
 use super::FetchError;
 use crate::{
     library::disk::read_limited,
-    transfer::{Limits, limits::within},
+    transfer::{Limits, limits::with_timeout},
 };
 
 /// Requests `url` once. A redirection is reported, not followed.
@@ -29,7 +29,7 @@ pub(super) async fn fetch(
     }
     // After a cancel the thread ends by its own time limit; nobody waits for it.
     let asking = tokio::task::spawn_blocking(move || ask(&uri, limits));
-    within(limits.file, cancel, asking)
+    with_timeout(limits.file, cancel, asking)
         .await?
         .unwrap_or_else(|_| Err(FetchError::NoAnswer("the fetch was interrupted".to_owned())))
 }
@@ -50,9 +50,12 @@ fn ask(uri: &Uri, limits: Limits) -> Result<Vec<u8>, FetchError> {
     match response.status().as_u16() {
         200 => {}
         status @ 300..400 => {
-            let to = response.headers().get(header::LOCATION).and_then(|to| to.to_str().ok());
-            return Err(to.map_or(FetchError::Status { status }, |to| FetchError::Redirected {
-                to: to.to_owned(),
+            let destination = response
+                .headers()
+                .get(header::LOCATION)
+                .and_then(|header_value| header_value.to_str().ok());
+            return Err(destination.map_or(FetchError::Status { status }, |destination| {
+                FetchError::Redirected { destination: destination.to_owned() }
             }));
         }
         status => return Err(FetchError::Status { status }),

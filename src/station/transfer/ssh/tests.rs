@@ -79,11 +79,11 @@ async fn logged_in_with(
             let _ = session.await;
         }
     });
-    let known = KnownHosts::new(folder.path().join("known_hosts"));
-    known.pin(&OfferedKey::new(&peer.host, peer.port, key.public_key().clone())).unwrap();
+    let known_hosts = KnownHosts::new(folder.path().join("known_hosts"));
+    known_hosts.pin(&OfferedKey::new(&peer.host, peer.port, key.public_key().clone())).unwrap();
     let login = Login { user: "op".to_owned(), proof: Proof::Password("word".into()) };
     let cancel = CancellationToken::new();
-    let ssh = connect(&peer, &login, &known, Limits::default(), &cancel).await?;
+    let ssh = connect(&peer, &login, &known_hosts, Limits::default(), &cancel).await?;
     Ok(ssh.old_algorithms)
 }
 

@@ -41,12 +41,12 @@ impl<F: Folder> Put<'_, F> {
         keep_old: &mut dyn FnMut(&[u8]) -> Result<(), KeptError>,
     ) -> Result<(), UploadError> {
         let old = self.read_old().await.map_err(as_before(UploadStep::ReadOld))?;
-        self.at(UploadStep::KeepOld);
+        self.advance(UploadStep::KeepOld);
         if let Some(old) = &old {
             keep_old(&old.bytes).map_err(|error| as_before(UploadStep::KeepOld)(error.into()))?;
         }
         self.write(old.as_ref().and_then(|old| old.mode)).await?;
-        self.at(UploadStep::Replace);
+        self.advance(UploadStep::Replace);
         let (file, new_name, old_name) = (self.file, new_name(self.file), old_name(self.file));
         if self.folder.can_replace() {
             self.swap_at_once(&new_name).await?;
@@ -66,10 +66,10 @@ impl<F: Folder> Put<'_, F> {
         if let Some(old) = self.read(UploadStep::ReadOld, self.file).await? {
             return Ok(Some(old));
         }
-        let aside = old_name(self.file);
-        let old = self.read(UploadStep::ReadOld, &aside).await?;
+        let old_path = old_name(self.file);
+        let old = self.read(UploadStep::ReadOld, &old_path).await?;
         if old.is_some() {
-            self.folder.rename(&aside, self.file).await?;
+            self.folder.rename(&old_path, self.file).await?;
             tracing::info!(file = self.file, "an interrupted upload was repaired on the unit");
         }
         Ok(old)
@@ -89,7 +89,7 @@ impl<F: Folder> Put<'_, F> {
     }
 
     async fn send(&mut self, name: &str, mode: Option<u32>) -> Result<(), UploadReason> {
-        self.at(UploadStep::Write);
+        self.advance(UploadStep::Write);
         let mut tell = teller(self.tell, UploadStep::Write, self.new.len());
         let writing = async {
             self.folder.remove(name).await?;
@@ -119,7 +119,7 @@ impl<F: Folder> Put<'_, F> {
         old_name: &str,
     ) -> Result<(), UploadError> {
         let step = UploadStep::Replace;
-        let aside = FolderState::OldAside { name: old_name.to_owned() };
+        let state = FolderState::OldAside { name: old_name.to_owned() };
         if has_old {
             // The file at that name is older than the one in its place.
             let moving = async {
@@ -129,7 +129,7 @@ impl<F: Folder> Put<'_, F> {
             match moving.await {
                 Ok(()) => {}
                 Err(error) if error.ends_connection() => {
-                    return Err(UploadError { step, reason: error.into(), state: aside });
+                    return Err(UploadError { step, reason: error.into(), state });
                 }
                 Err(error) => return Err(self.withdraw(step, error.into()).await),
             }
@@ -138,7 +138,7 @@ impl<F: Folder> Put<'_, F> {
         let is_lost = error.ends_connection();
         if has_old {
             if is_lost || self.folder.rename(old_name, self.file).await.is_err() {
-                return Err(UploadError { step, reason: error.into(), state: aside });
+                return Err(UploadError { step, reason: error.into(), state });
             }
         } else if is_lost {
             return Err(UploadError { step, reason: error.into(), state: FolderState::OldOrNew });
@@ -149,7 +149,7 @@ impl<F: Folder> Put<'_, F> {
     /// Proves the new file. Cannot be cancelled: it is in its place already.
     async fn prove(&mut self) -> Result<(), UploadError> {
         let step = UploadStep::Prove;
-        self.at(step);
+        self.advance(step);
         let found = {
             let mut tell = teller(self.tell, step, self.new.len());
             self.folder.read(self.file, &mut tell).await
@@ -179,12 +179,12 @@ impl<F: Folder> Put<'_, F> {
         step: UploadStep,
         name: &str,
     ) -> Result<Option<FolderFile>, UploadReason> {
-        self.at(step);
+        self.advance(step);
         let mut tell = teller(self.tell, step, self.new.len());
         unless_cancelled(self.cancel, self.folder.read(name, &mut tell)).await
     }
 
-    fn at(&mut self, step: UploadStep) {
+    fn advance(&mut self, step: UploadStep) {
         teller(self.tell, step, self.new.len())(0);
     }
 

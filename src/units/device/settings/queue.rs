@@ -5,7 +5,7 @@ use std::collections::VecDeque;
 use super::{Change, Group, SettingsWrite, WriteAction, WriteError, WriteStep};
 use crate::{clock::Moment, device::AntennaState};
 
-/// The changes of one unit. [`AntennaState::held`] shows the step of each.
+/// The changes of one unit. [`AntennaState::groups`] shows the step of each.
 #[derive(Debug)]
 pub(crate) struct ChangeQueue {
     groups: &'static [&'static Group],

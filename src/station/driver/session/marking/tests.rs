@@ -48,7 +48,7 @@ fn leave_tried_mark(folder: &Path, age_s: i64, tried: Option<i64>) -> Timestamp 
     );
     debts.mark(&Unit::new(&antenna()), 0, mark);
     // The worker writes it.
-    while debts.mark_kept(&Unit::new(&antenna())) == Kept::Pending {
+    while debts.mark_kept(&Unit::new(&antenna())) == PromisedFile::Pending {
         std::thread::yield_now();
     }
     ago(age_s)
@@ -126,7 +126,7 @@ async fn where_another_may_have_the_panel_a_mark_asks_however_young_it_is() {
     let debts = Debts::marked_in(Some(folder.path().to_owned()));
     let since = START - SignedDuration::from_secs(20);
     debts.mark(&Unit::new(&horn), 0, Mark { since: Some(since), tried: None });
-    while debts.mark_kept(&Unit::new(&horn)) == Kept::Pending {
+    while debts.mark_kept(&Unit::new(&horn)) == PromisedFile::Pending {
         std::thread::yield_now();
     }
     let clock = Clock::at_speed(START, NonZeroU32::MIN);

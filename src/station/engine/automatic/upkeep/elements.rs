@@ -41,7 +41,7 @@ const UPLOAD_TIMEOUT: Duration = Duration::from_mins(30);
 /// An upload that a rule has begun.
 pub(in crate::engine) struct RuleUpload {
     pub(in crate::engine) antenna: AntennaId,
-    since: Instant,
+    start: Instant,
 }
 
 impl Engine {
@@ -56,7 +56,7 @@ impl Engine {
         }
         let is_due = self.rule_upload.is_none()
             && self.demo.is_none()
-            && antenna.at_work.upkeep.next_check.is_none_or(|at| steady >= at)
+            && antenna.at_work.upkeep.next_check.is_none_or(|instant| steady >= instant)
             && self.is_between_passes(shown, MIN_TIME_FOR_UPLOAD_S);
         if !is_due {
             return;
@@ -66,10 +66,10 @@ impl Engine {
         self.check_elements_after(id, CHECK_PERIOD);
         match needed {
             Ok(None) => self.clear_upload_alarm(id),
-            Err(why) => self.note_upload_failure(id, why),
+            Err(reason) => self.note_upload_failure(id, reason),
             Ok(Some(order)) => {
                 if !self.is_blocked(index) && self.prepare_for_settings(index) {
-                    self.rule_upload = Some(RuleUpload { antenna: id, since: steady });
+                    self.rule_upload = Some(RuleUpload { antenna: id, start: steady });
                     self.check_elements_after(id, RETRY);
                     self.ask_about_upload(Ask::Begin(Box::new(order)));
                     self.end_rule_upload();
@@ -90,8 +90,8 @@ impl Engine {
         if work.blocked >= MAX_BLOCKED {
             work.blocked = 0;
             let id = antenna.shown.id();
-            let why = format!("an upload to {} is still open", self.uploads.antenna);
-            self.note_upload_failure(id, why);
+            let reason = format!("an upload to {} is still open", self.uploads.antenna);
+            self.note_upload_failure(id, reason);
         }
         true
     }
@@ -143,7 +143,7 @@ impl Engine {
     /// Cancels the upload of a rule once its antenna is needed, the rule is off or the station closes.
     pub(in crate::engine) fn limit_rule_upload(&mut self) {
         let Some(upload) = &self.rule_upload else { return };
-        let (id, since) = (upload.antenna, upload.since);
+        let (id, start) = (upload.antenna, upload.start);
         let entries = &self.schedule.schedule.entries;
         let is_wanted = |shown: &AntennaModel| {
             shown.config.name == self.uploads.antenna
@@ -158,7 +158,7 @@ impl Engine {
         if !continues && self.uploads.stage.can_cancel() {
             self.ask_about_upload(Ask::Cancel);
         }
-        if self.steady.saturating_duration_since(since) > UPLOAD_TIMEOUT {
+        if self.steady.saturating_duration_since(start) > UPLOAD_TIMEOUT {
             let text = "it did not end within half an hour. Is the keyring locked?".to_owned();
             self.upload_runner.give_up(text, &mut self.uploads);
         }
@@ -177,18 +177,18 @@ impl Engine {
                 let file = proved.uploaded.file.as_str().to_owned();
                 let satellites = proved.uploaded.objects.len();
                 let old_algorithms = old_algorithms(&self.uploads).to_vec();
-                let what = DayEvent::ElementsUploaded { file, satellites, old_algorithms };
-                self.note_day(id, what);
+                let day_event = DayEvent::ElementsUploaded { file, satellites, old_algorithms };
+                self.note_day(id, day_event);
             }
             Stage::Failed(failure) => {
-                let (why, is_cancel) = (failure.text.clone(), failure.is_cancel);
+                let (reason, is_cancel) = (failure.text.clone(), failure.is_cancel);
                 // The window offers what an operator can do about an order by hand.
                 mem::take(&mut self.uploads.stage);
                 if is_cancel {
-                    self.note_day(id, DayEvent::ElementsNotUploaded { reason: why });
+                    self.note_day(id, DayEvent::ElementsNotUploaded { reason });
                     self.check_elements_after(id, CHECK_PERIOD);
                 } else {
-                    self.note_upload_failure(id, why);
+                    self.note_upload_failure(id, reason);
                 }
             }
             Stage::Idle
@@ -201,20 +201,20 @@ impl Engine {
     }
 
     fn check_elements_after(&mut self, id: AntennaId, wait: Duration) {
-        let at = self.steady + wait;
+        let instant = self.steady + wait;
         if let Some(antenna) = self.antennas.iter_mut().find(|antenna| antenna.shown.id() == id) {
-            antenna.at_work.upkeep.next_check = Some(at);
+            antenna.at_work.upkeep.next_check = Some(instant);
         }
     }
 
-    fn note_upload_failure(&mut self, id: AntennaId, why: String) {
+    fn note_upload_failure(&mut self, id: AntennaId, reason: String) {
         self.check_elements_after(id, RETRY);
         self.alarms.raise(
             Some(id),
-            AlarmKind::ElementsNotUploaded { reason: why.clone() },
+            AlarmKind::ElementsNotUploaded { reason: reason.clone() },
             self.now,
         );
-        self.note_day(id, DayEvent::ElementsNotUploaded { reason: why });
+        self.note_day(id, DayEvent::ElementsNotUploaded { reason });
     }
 
     fn clear_upload_alarm(&mut self, id: AntennaId) {
@@ -234,7 +234,7 @@ fn chosen<'a>(
         let Ok(alone) = TleFile::new([elements], takes) else { continue };
         let Some(object) = alone.objects().first().cloned() else { continue };
         // The unit looks for a satellite by its name.
-        if chosen.iter().all(|(known, _)| known.name != object.name) {
+        if chosen.iter().all(|(chosen_object, _)| chosen_object.name != object.name) {
             chosen.push((object, elements));
         }
     }
@@ -367,10 +367,13 @@ mod tests {
         engine.uploads.is_roll_back = true;
         engine.note_upload(&config, target(), &[object(1, 9.0), object(3, 7.0)]);
         let read = LastRun::load(&left);
-        let known = read.unit_elements(config.id, &config.connection.address).unwrap();
-        let wanted = [object(1, 10.0), object(2, 11.0), object(3, 7.0)];
-        assert_eq!(known.epochs, wanted.map(|object| (object.catalog_number, object.epoch)));
-        assert_eq!(known.target, target());
+        let unit_elements = read.unit_elements(config.id, &config.connection.address).unwrap();
+        let objects = [object(1, 10.0), object(2, 11.0), object(3, 7.0)];
+        assert_eq!(
+            unit_elements.epochs,
+            objects.map(|object| (object.catalog_number, object.epoch))
+        );
+        assert_eq!(unit_elements.target, target());
         assert!(read.unit_elements(config.id, "another:4001").is_none());
         assert!(read.unit_elements(AntennaId(2), &config.connection.address).is_none());
     }
@@ -382,7 +385,7 @@ mod tests {
         Arc::make_mut(&mut shown.config).upkeep.uploads_elements = true;
         engine.uploads.antenna.clone_from(&shown.config.name);
         engine.uploads.stage = Stage::Working { progress: None, is_cancelled: false };
-        engine.rule_upload = Some(RuleUpload { antenna: AntennaId(1), since: engine.steady });
+        engine.rule_upload = Some(RuleUpload { antenna: AntennaId(1), start: engine.steady });
         engine
     }
 

@@ -19,7 +19,7 @@ const NOAA_20: u32 = 43_013;
 fn runner(folder: &tempfile::TempDir) -> (Runner, SourceTests, mpsc::Receiver<()>) {
     let places = Places {
         known_hosts: KnownHosts::new(folder.path().join("known_hosts")),
-        kept: KeptFiles::new(folder.path().join("uploads")),
+        kept_files: KeptFiles::new(folder.path().join("uploads")),
         keyring: Arc::new(MemoryKeyring::default()),
         session: Arc::default(),
         limits: Limits { connect: Duration::from_secs(2), ..Limits::default() },

@@ -182,14 +182,14 @@ fn a_password_is_asked_for_and_asked_again_when_it_is_wrong() {
     let mut fixture = Fixture::default();
     assert_eq!(assert_runs(fixture.begin()).secret, None);
     fixture.reported(Outcome::Secret { refused: None });
-    let Stage::AsksForSecret(wanted) = &fixture.shown.stage else { panic!() };
-    assert_eq!((wanted.user.as_str(), wanted.address.as_str()), ("op", "192.168.10.21:22"));
+    let Stage::AsksForSecret(request) = &fixture.shown.stage else { panic!() };
+    assert_eq!((request.user.as_str(), request.address.as_str()), ("op", "192.168.10.21:22"));
     let wrong = Secret::new("tr0ub4dor");
     let errand = assert_runs(fixture.flow.type_secret(wrong.clone(), true, &mut fixture.shown));
     assert_eq!(errand.secret, Some(wrong));
     fixture.reported(Outcome::Secret { refused: Some("log-in refused".to_owned()) });
-    let Stage::AsksForSecret(wanted) = &fixture.shown.stage else { panic!() };
-    assert_eq!(wanted.refused.as_deref(), Some("log-in refused"));
+    let Stage::AsksForSecret(request) = &fixture.shown.stage else { panic!() };
+    assert_eq!(request.refused.as_deref(), Some("log-in refused"));
     assert!(!format!("{:?}", fixture.shown).contains("tr0ub4dor"));
     let right = Secret::new("hunter2");
     assert_runs(fixture.flow.type_secret(right.clone(), true, &mut fixture.shown));
@@ -209,8 +209,8 @@ fn a_missing_keyring_is_remembered_while_the_password_is_typed_again() {
     fixture.flow.reported(first, &fixture.unit, &mut fixture.shown);
     fixture.flow.type_secret(Secret::new("tr0ub4dor"), false, &mut fixture.shown);
     fixture.reported(Outcome::Secret { refused: Some("log-in refused".to_owned()) });
-    let Stage::AsksForSecret(wanted) = &fixture.shown.stage else { panic!() };
-    assert_eq!(wanted.keyring_problem.as_deref(), Some("no keyring"));
+    let Stage::AsksForSecret(request) = &fixture.shown.stage else { panic!() };
+    assert_eq!(request.keyring_problem.as_deref(), Some("no keyring"));
 }
 
 #[test]
@@ -275,13 +275,13 @@ fn known_hosts_that_cannot_be_written_end_it() {
 fn a_cancel_is_told_until_the_file_takes_its_place() {
     let mut fixture = Fixture::default();
     fixture.begin();
-    let at = |step| Stage::Working {
+    let stage = |step| Stage::Working {
         progress: Some(Progress { step, done_bytes: 0, file_bytes: 9 }),
         is_cancelled: false,
     };
-    fixture.shown.stage = at(UploadStep::Replace);
+    fixture.shown.stage = stage(UploadStep::Replace);
     assert!(!fixture.flow.cancel(&mut fixture.shown));
-    fixture.shown.stage = at(UploadStep::Write);
+    fixture.shown.stage = stage(UploadStep::Write);
     assert!(fixture.flow.cancel(&mut fixture.shown));
     assert!(!fixture.flow.cancel(&mut fixture.shown), "once is enough");
     fixture.reported(Outcome::Cancelled("the unit has its old file".to_owned()));
@@ -325,7 +325,7 @@ fn the_factory_s_password_is_warned_about_once() {
 
 #[test]
 fn a_roll_back_takes_the_satellite_that_the_unit_holds_or_the_first() {
-    let kept = KeptFile {
+    let kept_file = KeptFile {
         unit: peer().to_string(),
         file: "active.txt".to_owned(),
         sha256: uploaded().sha256,
@@ -333,10 +333,10 @@ fn a_roll_back_takes_the_satellite_that_the_unit_holds_or_the_first() {
         time: now(),
         origin: Origin::Found,
     };
-    for (held, picked) in [(Some(NOAA_20), NOAA_20), (Some(7), ISS), (None, ISS)] {
+    for (current, picked) in [(Some(NOAA_20), NOAA_20), (Some(7), ISS), (None, ISS)] {
         let mut fixture = Fixture::default();
-        fixture.unit.held = held;
-        let back = Order { cargo: Cargo::Kept(kept.clone()), satellite: None, ..order() };
+        fixture.unit.current = current;
+        let back = Order { cargo: Cargo::Kept(kept_file.clone()), satellite: None, ..order() };
         assert_runs(fixture.flow.begin(back, &fixture.unit, &mut fixture.shown));
         assert!(fixture.shown.is_roll_back);
         let selection = selection(fixture.reported(Outcome::Uploaded(uploaded())));

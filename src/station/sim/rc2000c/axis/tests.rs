@@ -26,10 +26,10 @@ fn an_auto_move_ramps_and_halts_at_its_count_without_overshoot() {
     for target in [1001, 1005, 1400, 1830, 30] {
         let mut axis = axis();
         axis.auto_move(target);
-        let seen = run(&mut axis, 40.0);
+        let positions = run(&mut axis, 40.0);
         assert_eq!((axis.counts(), axis.drive()), (target, AxisDrive::Still), "{target}");
         assert!(!axis.is_turning());
-        let farthest = seen.iter().map(|counts| (counts - 1000.0).abs()).fold(0.0, f64::max);
+        let farthest = positions.iter().map(|counts| (counts - 1000.0).abs()).fold(0.0, f64::max);
         assert!(farthest <= (f64::from(target) - 1000.0).abs() + ARRIVED_COUNTS, "{target}");
     }
 }
@@ -38,8 +38,8 @@ fn an_auto_move_ramps_and_halts_at_its_count_without_overshoot() {
 fn rates_and_ramps_stay_within_their_bounds() {
     let mut axis = axis();
     axis.jog(Sense::Positive, Speed::Fast, 3.0);
-    let seen = run(&mut axis, 6.0);
-    let rates: Vec<f64> = seen.windows(2).map(|pair| (pair[1] - pair[0]) / STEP_S).collect();
+    let positions = run(&mut axis, 6.0);
+    let rates: Vec<f64> = positions.windows(2).map(|pair| (pair[1] - pair[0]) / STEP_S).collect();
     assert!(rates.iter().all(|rate| (0.0..=axis.fast_counts_s() + 1e-9).contains(rate)));
     let jumps = rates.windows(2).map(|pair| (pair[1] - pair[0]) / STEP_S);
     assert!(jumps.into_iter().all(|jump| jump.abs() <= axis.ramp_counts_s2() + 1e-6));

@@ -16,13 +16,13 @@ use crate::sim::rc2000c::Options;
 type Client = testing::Client<Decoder>;
 
 impl Client {
-    fn of(control: &Control) -> Self {
+    fn attached(control: &Control) -> Self {
         Self::connect(control, Decoder::new(Address::FACTORY), Decoder::push)
     }
 
     fn new() -> (Self, Control) {
         let control = Control::new(&Options::default());
-        (Self::of(&control), control)
+        (Self::attached(&control), control)
     }
 
     async fn send(&mut self, request: Request) {

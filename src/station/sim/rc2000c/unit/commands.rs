@@ -80,7 +80,7 @@ impl Rc2000c {
         match motion {
             Motion::AutoMove(auto_move) => self.auto_move(&auto_move),
             Motion::Jog(jog) => self.jog(jog),
-            Motion::Polarization(wanted) => self.turn(wanted),
+            Motion::Polarization(polarization_move) => self.turn(polarization_move),
             Motion::ResetDrive(DriveReset::Azimuth) => {
                 self.azimuth.reset();
                 Ok(())
@@ -110,8 +110,8 @@ impl Rc2000c {
             return self.go_to(az_counts, el_counts);
         }
         let (name, polarity) = auto_move.to_satellite().ok_or(Refused)?;
-        let known = self.satellites.iter().find(|satellite| satellite.name == name);
-        let satellite = *known.ok_or(Refused)?;
+        let stored_satellite = self.satellites.iter().find(|satellite| satellite.name == name);
+        let satellite = *stored_satellite.ok_or(Refused)?;
         if polarity.is_some() && self.is_auto_polarization {
             return Err(Refused);
         }
@@ -169,9 +169,9 @@ impl Rc2000c {
         Ok(())
     }
 
-    fn turn(&mut self, wanted: PolarizationMove) -> Result<(), Refused> {
+    fn turn(&mut self, polarization_move: PolarizationMove) -> Result<(), Refused> {
         let is_peaking = self.tracking.as_ref().is_some_and(Tracking::is_peaking);
-        let sense = match wanted {
+        let sense = match polarization_move {
             _ if self.is_auto_polarization => return Err(Refused),
             PolarizationMove::ToStored(_) if self.satellites.is_empty() => return Err(Refused),
             PolarizationMove::ToStored(polarity) => {

@@ -57,8 +57,8 @@ impl Rc2000c {
                 code,
                 is_automatic: self.is_auto_polarization,
             }),
-            azimuth_drive: self.told(self.azimuth.drive()),
-            elevation_drive: self.told(self.elevation.drive()),
+            azimuth_drive: self.reported(self.azimuth.drive()),
+            elevation_drive: self.reported(self.elevation.drive()),
             polarization_motion: self.feed.motion(),
             alarm: self.alarm(),
             track: (!is_older).then(|| self.track_report()),
@@ -66,7 +66,7 @@ impl Rc2000c {
         }
     }
 
-    fn told(&self, drive: AxisDrive) -> AxisDrive {
+    fn reported(&self, drive: AxisDrive) -> AxisDrive {
         if self.faults.contains(&Fault::FalseRest) { AxisDrive::Still } else { drive }
     }
 
@@ -75,11 +75,11 @@ impl Rc2000c {
         axis: &Axis,
         counts: u16,
         tenths: i16,
-        [least, most]: [LimitEnd; 2],
+        [min, max]: [LimitEnd; 2],
     ) -> Position {
         let end = match axis.limit() {
-            Some(Sense::Negative) => least,
-            Some(Sense::Positive) => most,
+            Some(Sense::Negative) => min,
+            Some(Sense::Positive) => max,
             None if self.quirks.contains(&Quirk::AngleDisplay) => {
                 return Position::TenthsOfDegree(tenths);
             }
@@ -136,8 +136,8 @@ impl Rc2000c {
 
 /// Azimuth and elevation in tenths of a degree, as the display computes them.
 fn angles([az_counts, el_counts]: [u16; 2]) -> [i16; 2] {
-    let from = |counts: u16, zero: i32| (i32::from(counts) - zero) * 100 / DISPLAY_GAIN;
-    let azimuth = (1800 + from(az_counts, AZIMUTH_CENTRE)).rem_euclid(3600);
-    [azimuth, from(el_counts, ELEVATION_ZERO)]
+    let relative = |counts: u16, zero: i32| (i32::from(counts) - zero) * 100 / DISPLAY_GAIN;
+    let azimuth = (1800 + relative(az_counts, AZIMUTH_CENTRE)).rem_euclid(3600);
+    [azimuth, relative(el_counts, ELEVATION_ZERO)]
         .map(|tenths| i16::try_from(tenths).unwrap_or(i16::MAX))
 }

@@ -53,24 +53,24 @@ enum Event {
 }
 
 fn event() -> impl Strategy<Value = Event> {
-    let known = [&COMMANDS[..], &REST[..]].concat();
+    let commands = [&COMMANDS[..], &REST[..]].concat();
     prop_oneof![
-        8 => prop::sample::select(known).prop_map(|command| Event::Command(command.to_owned())),
+        8 => prop::sample::select(commands).prop_map(|command| Event::Command(command.to_owned())),
         2 => "[0-7][ -~]{0,12}".prop_map(Event::Command),
         8 => (0_u64..20_000).prop_map(|ms| Event::Wait(Duration::from_millis(ms))),
         1 => (0..Quirk::ALL.len(), any::<bool>())
-            .prop_map(|(at, is_on)| Event::Quirk(Quirk::ALL[at].0, is_on)),
+            .prop_map(|(index, is_on)| Event::Quirk(Quirk::ALL[index].0, is_on)),
         2 => (0..Fault::ALL.len(), prop::bool::weighted(0.3))
-            .prop_map(|(at, is_on)| Event::Fault(Fault::ALL[at].0, is_on)),
+            .prop_map(|(index, is_on)| Event::Fault(Fault::ALL[index].0, is_on)),
         1 => Just(Event::Panel),
     ]
 }
 
-fn switch<T: Ord>(set: &mut BTreeSet<T>, what: T, is_on: bool) {
+fn switch<T: Ord>(set: &mut BTreeSet<T>, item: T, is_on: bool) {
     if is_on {
-        set.insert(what);
+        set.insert(item);
     } else {
-        set.remove(&what);
+        set.remove(&item);
     }
 }
 

@@ -21,13 +21,13 @@ const TWO: RotatorNumber = RotatorNumber::Two;
 type Client = testing::Client<Decoder>;
 
 impl Client {
-    fn of(control: &Control) -> Self {
+    fn attached(control: &Control) -> Self {
         Self::connect(control, Decoder::new(), Decoder::push)
     }
 
     fn new(options: &Options) -> (Self, Control) {
         let control = Control::new(options);
-        (Self::of(&control), control)
+        (Self::attached(&control), control)
     }
 
     async fn send(&mut self, request: &Request) {
@@ -55,7 +55,11 @@ impl Client {
             Request::Read => panic!("a read has no acknowledgement"),
         };
         match self.ask(request).await {
-            Said::Acknowledgement { request: to, is_accepted } if to == expected => is_accepted,
+            Said::Acknowledgement { request: acknowledgement, is_accepted }
+                if acknowledgement == expected =>
+            {
+                is_accepted
+            }
             other => panic!("{other:?}"),
         }
     }
@@ -85,7 +89,7 @@ fn rotate(rotator: RotatorNumber, direction: Direction) -> Request {
 }
 
 /// Options with an azimuth and an elevation rotator.
-fn both() -> Options {
+fn both_limits() -> Options {
     Options {
         rotators: [RotatorOptions::default(), RotatorOptions::elevation()],
         ..Options::default()

@@ -49,13 +49,13 @@ fn some_day() -> Timestamp {
 type Client = testing::Client<Decoder>;
 
 impl Client {
-    fn of(control: &Control) -> Self {
+    fn attached(control: &Control) -> Self {
         Self::connect(control, Decoder::new(), Decoder::push)
     }
 
     fn new(options: &Options) -> (Self, Control) {
         let control = Control::new(options);
-        (Self::of(&control), control)
+        (Self::attached(&control), control)
     }
 
     async fn send(&mut self, payload: &str) {

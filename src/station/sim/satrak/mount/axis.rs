@@ -58,7 +58,7 @@ impl Axis {
     ) -> Self {
         let ends_deg = [lower_deg.min(upper_deg), upper_deg.max(lower_deg)];
         Self {
-            angle_deg: within(ends_deg, ZENITH_DEG),
+            angle_deg: clamped(ends_deg, ZENITH_DEG),
             rate_deg_s: 0.0,
             goal: Goal::Still,
             dead_time: CommandDelay::new(mechanics),
@@ -75,7 +75,7 @@ impl Axis {
     }
 
     pub(super) fn place(&mut self, angle_deg: f64) {
-        self.angle_deg = within(self.ends_deg, angle_deg);
+        self.angle_deg = clamped(self.ends_deg, angle_deg);
         self.rate_deg_s = 0.0;
         self.goal = Goal::Still;
         self.dead_time.clear();
@@ -152,11 +152,11 @@ impl Axis {
     }
 
     pub(super) fn go_to(&mut self, angle_deg: f64) {
-        self.dead_time.command(Goal::Angle(within(self.ends_deg, angle_deg)));
+        self.dead_time.command(Goal::Angle(clamped(self.ends_deg, angle_deg)));
     }
 
     pub(super) fn follow(&mut self, angle_deg: f64, step_s: f64) {
-        let angle = within(self.ends_deg, angle_deg);
+        let angle = clamped(self.ends_deg, angle_deg);
         let newest = match self.dead_time.newest_mut() {
             Some(newest) => newest,
             None => &mut self.goal,
@@ -179,7 +179,7 @@ impl Axis {
             return;
         }
         let max_rate = self.max_rate_deg_s();
-        let wanted = match self.goal {
+        let requested = match self.goal {
             Goal::Still => 0.0,
             Goal::Rate(rate) => rate,
             Goal::Angle(_) if self.must_run_on() => max_rate.copysign(self.rate_deg_s),
@@ -191,8 +191,8 @@ impl Axis {
             Goal::Rate(_) | Goal::Angle(_) | Goal::Follow(..) => self.ramp_deg_s2(),
         };
         let ramp = ramp_deg_s2 * step_s;
-        let wanted = wanted.clamp(-max_rate, max_rate);
-        self.rate_deg_s += (wanted - self.rate_deg_s).clamp(-ramp, ramp);
+        let requested = requested.clamp(-max_rate, max_rate);
+        self.rate_deg_s += (requested - self.rate_deg_s).clamp(-ramp, ramp);
         self.angle_deg += self.gear.turn(self.rate_deg_s * step_s);
         if let Goal::Angle(angle) = self.goal
             && !self.must_run_on()
@@ -204,7 +204,7 @@ impl Axis {
             self.goal = Goal::Still;
         }
         if !self.reaches(self.angle_deg) {
-            self.angle_deg = within(self.ends_deg, self.angle_deg);
+            self.angle_deg = clamped(self.ends_deg, self.angle_deg);
             self.rate_deg_s = 0.0;
             if matches!(self.goal, Goal::Rate(_)) {
                 self.goal = Goal::Still;
@@ -219,15 +219,15 @@ impl Axis {
 
     /// Fastest rate from which the axis can still halt at `angle_deg`.
     fn approach(&self, angle_deg: f64, step_s: f64) -> f64 {
-        let away = angle_deg - self.angle_deg;
+        let distance = angle_deg - self.angle_deg;
         // A little less than the ramp, so that the braking never falls behind.
         let brake = 0.9 * self.ramp_deg_s2();
         let half = brake * step_s / 2.0;
-        let fastest = (half * half + 2.0 * brake * away.abs()).sqrt() - half;
-        fastest.min(away.abs() / step_s).copysign(away)
+        let fastest = (half * half + 2.0 * brake * distance.abs()).sqrt() - half;
+        fastest.min(distance.abs() / step_s).copysign(distance)
     }
 }
 
-fn within([lowest_deg, highest_deg]: [f64; 2], angle_deg: f64) -> f64 {
+fn clamped([lowest_deg, highest_deg]: [f64; 2], angle_deg: f64) -> f64 {
     angle_deg.max(lowest_deg).min(highest_deg)
 }

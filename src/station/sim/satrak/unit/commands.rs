@@ -144,8 +144,8 @@ impl Satrak {
             self.end_tracking();
         }
         let file = self.elements.get(choice.file.as_str());
-        let wanted = choice.name.as_str();
-        let found = file.and_then(|file| file.iter().find(|set| set.name().trim() == wanted));
+        let expected = choice.name.as_str();
+        let found = file.and_then(|file| file.iter().find(|set| set.name().trim() == expected));
         self.tracking.target = found.and_then(|elements| Target::new(elements).ok());
         let is_satellite_missing = file.is_some() && self.tracking.target.is_none();
         for (kind, is_set) in [

@@ -28,8 +28,9 @@ impl Satrak {
             Query::ImageStatus => vec![Value::text(0)],
             Query::Reduction => {
                 let ratio = self.memory.reduction;
-                let (x, y) =
-                    ratio.map_or((DEFAULT_REDUCTION, DEFAULT_REDUCTION), |it| (it.x(), it.y()));
+                let (x, y) = ratio.map_or((DEFAULT_REDUCTION, DEFAULT_REDUCTION), |reduction| {
+                    (reduction.x(), reduction.y())
+                });
                 vec![Value::text(x), Value::text(y)]
             }
         };
@@ -56,15 +57,15 @@ impl Satrak {
             Value::text(state.code()),
             Value::flag(self.is_clock_from_gps),
             Value::text(waited.as_secs()),
-            Value::text(self.told(x.motion()).code()),
-            Value::text(self.told(y.motion()).code()),
+            Value::text(self.reported(x.motion()).code()),
+            Value::text(self.reported(y.motion()).code()),
             Value::fixed(x_deg, 1),
             Value::fixed(y_deg, 1),
             Value::flag(self.tracking.is_auto),
         ]
     }
 
-    fn told(&self, motion: AxisMotion) -> AxisMotion {
+    fn reported(&self, motion: AxisMotion) -> AxisMotion {
         if self.rests_falsely { AxisMotion::Still } else { motion }
     }
 
@@ -85,7 +86,8 @@ impl Satrak {
         let window = self.tracking.window;
         // A new unit shows the start of its calendar twice.
         let unset = jiff::Timestamp::from_second(946_684_800).unwrap_or_default();
-        let (start, stop) = window.map_or((unset, unset), |it| (it.start(), it.stop()));
+        let (start, stop) = window
+            .map_or((unset, unset), |track_window| (track_window.start(), track_window.stop()));
         [Value::time(start), Value::time(stop)].concat()
     }
 

@@ -29,7 +29,7 @@ struct Memory {
     can_replace: bool,
     /// Request that fails, counted from now on, and its failure.
     fault: Option<(usize, Fault)>,
-    asked: usize,
+    requested: usize,
     cancel: CancellationToken,
     is_gone: bool,
     /// The disk corrupts the bytes written.
@@ -41,11 +41,11 @@ impl Memory {
         &mut self,
         carry_out: impl FnOnce(&mut BTreeMap<String, Vec<u8>>) -> T,
     ) -> Result<T, FolderError> {
-        self.asked += 1;
+        self.requested += 1;
         if self.is_gone {
             return Err(FolderError::Lost);
         }
-        match self.fault.filter(|(at, _)| *at == self.asked) {
+        match self.fault.filter(|(index, _)| *index == self.requested) {
             None => Ok(carry_out(&mut self.files)),
             Some((_, Fault::Refused)) => Err(FolderError::Denied),
             Some((_, Fault::LostBefore)) => {
@@ -103,19 +103,19 @@ impl Folder for Memory {
         self.request(|files| files.remove(name)).await.map(|_| ())
     }
 
-    async fn rename(&mut self, from: &str, to: &str) -> Result<(), FolderError> {
-        assert!(!self.files.contains_key(to), "{to} is taken");
-        self.replace(from, to).await
+    async fn rename(&mut self, source: &str, destination: &str) -> Result<(), FolderError> {
+        assert!(!self.files.contains_key(destination), "{destination} is taken");
+        self.replace(source, destination).await
     }
 
     fn can_replace(&self) -> bool {
         self.can_replace
     }
 
-    async fn replace(&mut self, from: &str, to: &str) -> Result<(), FolderError> {
+    async fn replace(&mut self, source: &str, destination: &str) -> Result<(), FolderError> {
         self.request(|files| {
-            let bytes = files.remove(from).unwrap();
-            files.insert(to.to_owned(), bytes);
+            let bytes = files.remove(source).unwrap();
+            files.insert(destination.to_owned(), bytes);
         })
         .await
     }
@@ -123,16 +123,16 @@ impl Folder for Memory {
 
 /// Uploads [`NEW`]; also returns the kept old file.
 async fn put(folder: &mut Memory) -> (Result<(), UploadError>, Option<Vec<u8>>) {
-    let mut kept = None;
+    let mut previous = None;
     let cancel = folder.cancel.clone();
     let put = Put { folder, file: FILE, new: NEW, tell: &mut |_| {}, cancel: &cancel };
     let result = put
         .run(&mut |old| {
-            kept = Some(old.to_vec());
+            previous = Some(old.to_vec());
             Ok(())
         })
         .await;
-    (result, kept)
+    (result, previous)
 }
 
 fn folder(can_replace: bool, old: Option<&[u8]>) -> Memory {
@@ -142,15 +142,15 @@ fn folder(can_replace: bool, old: Option<&[u8]>) -> Memory {
 
 /// Checks that the state in the error is true.
 fn assert_state(folder: &Memory, error: &UploadError, old: Option<&[u8]>) {
-    let (in_place, beside) = (folder.holds(FILE), folder.holds(&new_name(FILE)));
-    let aside = folder.holds(&old_name(FILE));
+    let (in_place, new_file) = (folder.holds(FILE), folder.holds(&new_name(FILE)));
+    let old_file = folder.holds(&old_name(FILE));
     match &error.state {
         FolderState::AsBefore => {
-            assert_eq!((in_place, beside), (old, None));
+            assert_eq!((in_place, new_file), (old, None));
         }
         FolderState::Leftover { .. } => assert_eq!(in_place, old),
         FolderState::OldOrNew => assert!(in_place == old || in_place == Some(NEW)),
-        FolderState::OldAside { .. } => assert!(in_place == old || aside == old),
+        FolderState::OldAside { .. } => assert!(in_place == old || old_file == old),
         FolderState::NewUnproved => assert_eq!(in_place, Some(NEW)),
     }
 }
@@ -161,21 +161,21 @@ async fn whatever_breaks_the_old_file_is_not_lost_and_the_next_upload_mends_all(
     for can_replace in [true, false] {
         for old in [Some(OLD), None] {
             for fault in [Fault::Refused, Fault::LostBefore, Fault::LostAfter, Fault::Cancelled] {
-                for at in 1.. {
+                for index in 1.. {
                     let mut folder = folder(can_replace, old);
-                    folder.fault = Some((at, fault));
-                    let (result, kept) = put(&mut folder).await;
-                    if folder.asked < at {
+                    folder.fault = Some((index, fault));
+                    let (result, previous) = put(&mut folder).await;
+                    if folder.requested < index {
                         break;
                     }
-                    let case = format!("{can_replace} {fault:?} {at}");
+                    let case = format!("{can_replace} {fault:?} {index}");
                     match result {
                         // Too late to cancel, or only the last tidying failed.
                         Ok(()) => assert_eq!(folder.holds(FILE), Some(NEW), "{case}"),
                         Err(error) => {
                             broken += 1;
                             assert_state(&folder, &error, old);
-                            assert!(error.step < UploadStep::Write || kept.as_deref() == old);
+                            assert!(error.step < UploadStep::Write || previous.as_deref() == old);
                             let is_cancel = matches!(error.reason, UploadReason::Cancelled);
                             assert_eq!(is_cancel, fault == Fault::Cancelled, "{case}: {error}");
                             assert!(!is_cancel || error.state == FolderState::AsBefore, "{case}");
@@ -185,9 +185,9 @@ async fn whatever_breaks_the_old_file_is_not_lost_and_the_next_upload_mends_all(
                     folder.cancel = CancellationToken::new();
                     let before = folder.holds(FILE).or(folder.holds(&old_name(FILE)));
                     let before = before.map(<[u8]>::to_vec);
-                    let (result, kept) = put(&mut folder).await;
+                    let (result, previous) = put(&mut folder).await;
                     result.unwrap();
-                    assert_eq!(kept, before, "{case}");
+                    assert_eq!(previous, before, "{case}");
                     assert_eq!(folder.files.len(), 1, "{case}: something was left behind");
                     assert_eq!(folder.holds(FILE), Some(NEW), "{case}");
                 }
@@ -204,7 +204,7 @@ async fn nothing_is_written_when_the_old_file_cannot_be_kept() {
     let put = Put { folder: &mut folder, file: FILE, new: NEW, tell: &mut |_| {}, cancel: &cancel };
     let error = put.run(&mut |_| Err(KeptError::Changed { path: "old".into() })).await.unwrap_err();
     assert!(matches!(error.reason, UploadReason::Keep(_)), "{error}");
-    assert_eq!((folder.asked, folder.holds(FILE)), (1, Some(OLD)));
+    assert_eq!((folder.requested, folder.holds(FILE)), (1, Some(OLD)));
 }
 
 #[tokio::test]
@@ -243,15 +243,15 @@ async fn what_reads_back_as_something_else_in_its_place_is_no_proof() {
         async fn remove(&mut self, name: &str) -> Result<(), FolderError> {
             self.0.remove(name).await
         }
-        async fn rename(&mut self, from: &str, to: &str) -> Result<(), FolderError> {
-            self.0.rename(from, to).await
+        async fn rename(&mut self, source: &str, destination: &str) -> Result<(), FolderError> {
+            self.0.rename(source, destination).await
         }
         fn can_replace(&self) -> bool {
             true
         }
-        async fn replace(&mut self, from: &str, to: &str) -> Result<(), FolderError> {
-            self.0.replace(from, to).await?;
-            self.0.files.insert(to.to_owned(), b"of another console".to_vec());
+        async fn replace(&mut self, source: &str, destination: &str) -> Result<(), FolderError> {
+            self.0.replace(source, destination).await?;
+            self.0.files.insert(destination.to_owned(), b"of another console".to_vec());
             Ok(())
         }
     }
@@ -267,15 +267,15 @@ async fn what_reads_back_as_something_else_in_its_place_is_no_proof() {
 async fn progress_goes_through_all_steps_in_order() {
     let mut folder = folder(false, Some(OLD));
     let cancel = CancellationToken::new();
-    let mut told = Vec::new();
-    let mut tell = |progress| told.push(progress);
+    let mut progresses = Vec::new();
+    let mut tell = |progress| progresses.push(progress);
     let put = Put { folder: &mut folder, file: FILE, new: NEW, tell: &mut tell, cancel: &cancel };
     put.run(&mut |_| Ok(())).await.unwrap();
-    assert!(told.is_sorted_by_key(|progress: &Progress| progress.step), "{told:?}");
-    let written = told.iter().filter(|progress| progress.step == UploadStep::Write);
+    assert!(progresses.is_sorted_by_key(|progress: &Progress| progress.step), "{progresses:?}");
+    let written = progresses.iter().filter(|progress| progress.step == UploadStep::Write);
     let written: Vec<_> = written.map(|progress| progress.done_bytes).collect();
     assert_eq!(written, [0, NEW.len() as u64 / 2, NEW.len() as u64]);
-    let mut steps: Vec<_> = told.iter().map(|progress| progress.step).collect();
+    let mut steps: Vec<_> = progresses.iter().map(|progress| progress.step).collect();
     steps.dedup();
     assert_eq!(steps.len(), 6);
 }

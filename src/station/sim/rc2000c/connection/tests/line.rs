@@ -89,10 +89,10 @@ async fn a_command_in_two_halves_is_whole_unless_the_line_was_quiet_between() {
 async fn a_reply_takes_the_time_of_its_characters() {
     for (baud, expected_ms) in [(9600, 15 + 44), (300, 15 + 1433)] {
         let control = Control::new(&Options { baud, ..Options::default() });
-        let mut client = Client::of(&control);
-        let asked = Instant::now();
+        let mut client = Client::attached(&control);
+        let request_time = Instant::now();
         client.status().await;
-        let took_ms = (Instant::now() - asked).as_millis();
+        let took_ms = (Instant::now() - request_time).as_millis();
         assert!((expected_ms..expected_ms + 3).contains(&took_ms), "{baud}: {took_ms}");
     }
 }
@@ -154,8 +154,8 @@ async fn each_fault_of_the_line_does_as_it_says() {
         let mut whole = 0;
         for _ in 0..6 {
             client.send(POLL).await;
-            let seen = client.receive().await;
-            whole += usize::from(matches!(seen, Some(Ok(_))));
+            let frame = client.receive().await;
+            whole += usize::from(matches!(frame, Some(Ok(_))));
             // The rest of a broken frame, up to the quiet of the line.
             while client.receive().await.is_some() {}
             client.decoder.line_is_quiet();

@@ -11,8 +11,8 @@ fn jog(direction: Direction, speed: Speed, ms: u64) -> Request {
     Request::Motion(Motion::Jog(jog))
 }
 
-fn turn(wanted: PolarizationMove) -> Request {
-    Request::Motion(Motion::Polarization(wanted))
+fn turn(polarization_move: PolarizationMove) -> Request {
+    Request::Motion(Motion::Polarization(polarization_move))
 }
 
 fn reset(drive: DriveReset) -> Request {
@@ -27,7 +27,7 @@ async fn a_jog_ends_by_itself_and_the_axis_runs_out_untold() {
     drop(client);
     // Rounded up to 900 ms.
     seconds(0.9).await;
-    let mut client = Client::of(&control);
+    let mut client = Client::attached(&control);
     let status = client.status().await;
     assert!(!status.is_moving() && control.state().is_turning);
     seconds(2.0).await;
@@ -172,8 +172,8 @@ async fn the_polarization_turns_by_jogs_and_to_stored_places() {
     client.status_after(Request::Motion(Motion::AutoMove(half))).await;
     seconds(3.0).await;
     assert_eq!(client.status().await.feed.units(), Some(500));
-    let beyond = AutoMove::polarization(PolarizationUnits::new(662).unwrap());
-    client.refused(Request::Motion(Motion::AutoMove(beyond))).await;
+    let out_of_range = AutoMove::polarization(PolarizationUnits::new(662).unwrap());
+    client.refused(Request::Motion(Motion::AutoMove(out_of_range))).await;
 }
 
 #[tokio::test(start_paused = true)]

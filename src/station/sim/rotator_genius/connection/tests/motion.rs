@@ -4,7 +4,7 @@ use super::*;
 
 #[tokio::test(start_paused = true)]
 async fn a_go_to_shows_its_target_and_arrives() {
-    let (mut client, _control) = Client::new(&both());
+    let (mut client, _control) = Client::new(&both_limits());
     assert!(client.accepts(go_to(ONE, 220)).await);
     seconds(3).await;
     let rotator = client.rotator(ONE).await;
@@ -20,7 +20,7 @@ async fn a_go_to_shows_its_target_and_arrives() {
 
 #[tokio::test(start_paused = true)]
 async fn a_rotation_inside_the_limits_ends_at_the_limit() {
-    let (mut client, _control) = Client::new(&both());
+    let (mut client, _control) = Client::new(&both_limits());
     for (direction, moving, limit) in [
         (Direction::Clockwise, Moving::Clockwise, angle(359)),
         (Direction::CounterClockwise, Moving::CounterClockwise, angle(0)),
@@ -38,7 +38,7 @@ async fn a_rotation_inside_the_limits_ends_at_the_limit() {
 
 #[tokio::test(start_paused = true)]
 async fn outside_the_limits_only_stop_ends_a_rotation_and_its_client_may_leave() {
-    let mut options = both();
+    let mut options = both_limits();
     options.rotators[0].limit_cw = angle(90);
     let (mut client, control) = Client::new(&options);
     assert_eq!(client.rotator(ONE).await.is_outside_limits, Some(true));
@@ -52,7 +52,7 @@ async fn outside_the_limits_only_stop_ends_a_rotation_and_its_client_may_leave()
     seconds(60).await;
     let state = *control.state().rotator(ONE);
     assert!(state.is_turning && state.is_outside_limits && state.angle_deg > 90.0, "{state:?}");
-    let mut client = Client::of(&control);
+    let mut client = Client::attached(&control);
     assert!(client.accepts(Request::Stop).await);
     seconds(2).await;
     let stood = control.state();
@@ -63,7 +63,7 @@ async fn outside_the_limits_only_stop_ends_a_rotation_and_its_client_may_leave()
 
 #[tokio::test(start_paused = true)]
 async fn stop_stops_both_rotators_which_then_coast() {
-    let (mut client, control) = Client::new(&both());
+    let (mut client, control) = Client::new(&both_limits());
     assert!(client.accepts(rotate(ONE, Direction::CounterClockwise)).await);
     assert!(client.accepts(go_to(TWO, 90)).await);
     seconds(5).await;
@@ -98,7 +98,7 @@ async fn a_rotator_without_a_sensor_refuses_to_move() {
 
 #[tokio::test(start_paused = true)]
 async fn a_sensor_that_fails_on_the_way_ends_the_motion() {
-    let (mut client, control) = Client::new(&both());
+    let (mut client, control) = Client::new(&both_limits());
     assert!(client.accepts(go_to(ONE, 300)).await);
     seconds(5).await;
     control.set_fault(Fault::NoSensor(ONE), true);
@@ -111,7 +111,7 @@ async fn a_sensor_that_fails_on_the_way_ends_the_motion() {
 
 #[tokio::test(start_paused = true)]
 async fn a_configuration_is_read_back_with_a_shorter_name() {
-    let mut options = both();
+    let mut options = both_limits();
     options.rotators[0].name = "Long name 12".to_owned();
     let (mut client, _control) = Client::new(&options);
     let before = client.rotator(ONE).await;

@@ -59,8 +59,8 @@ async fn every_command_is_answered_and_settings_are_remembered() {
 #[tokio::test(start_paused = true)]
 async fn each_quirk_changes_the_bytes_as_it_says() {
     let (mut client, control) = Client::new(&options(some_day()));
-    let usual = client.raw("STATUS?").await;
-    assert_eq!(usual, "$STATUS?,0,0.00,90.00,0,0,0,0,0,0,0,0,0,0,90.0,90.0,0*12\r\n");
+    let default = client.raw("STATUS?").await;
+    assert_eq!(default, "$STATUS?,0,0.00,90.00,0,0,0,0,0,0,0,0,0,0,90.0,90.0,0*12\r\n");
     for (quirk, request, bytes) in [
         (Quirk::NoComma, "STATUS?", "$STATUS?0,0.00,90.00,0,0,0,0,0,0,0,0,0,0,90.0,90.0,0*"),
         (Quirk::Fields15, "STATUS?", "$STATUS?,0,0.00,90.00,0,0,0,0,0,0,0,0,0,0,90.0,90.0*"),
@@ -72,11 +72,11 @@ async fn each_quirk_changes_the_bytes_as_it_says() {
         (Quirk::DecimalComma, "STATUS?", "$STATUS?,0,0,00,90,00,0,0,0,0,0,0,0,0,0,0,90,0,90,0,0*"),
     ] {
         control.set_quirk(quirk, true);
-        let seen = client.raw(request).await;
-        assert!(seen.starts_with(bytes), "{quirk}: {seen}");
+        let reply = client.raw(request).await;
+        assert!(reply.starts_with(bytes), "{quirk}: {reply}");
         control.set_quirk(quirk, false);
     }
-    assert_eq!(client.raw("STATUS?").await, usual);
+    assert_eq!(client.raw("STATUS?").await, default);
     control.set_quirk(Quirk::DecimalComma, true);
     let error = Said::parse(&client.ask("STATUS?").await).unwrap_err();
     assert!(matches!(error, ReplyError::Count { looks_like_decimal_commas: true, .. }));
@@ -98,13 +98,13 @@ async fn each_fault_of_the_line_does_as_it_says() {
 
     for (fault, lost) in [(Fault::DropReply, None), (Fault::BadChecksum, Some(()))] {
         control.set_fault(fault, true);
-        let mut seen = Vec::new();
+        let mut frames = Vec::new();
         for _ in 0..6 {
             client.send("STOP=").await;
-            seen.push(client.receive().await.map(|frame| frame.map_err(|_| ())));
+            frames.push(client.receive().await.map(|frame| frame.map_err(|_| ())));
         }
-        let bad = seen.iter().filter(|frame| **frame == lost.map(Err)).count();
-        assert_eq!(bad, 2, "{fault}: {seen:?}");
+        let bad = frames.iter().filter(|frame| **frame == lost.map(Err)).count();
+        assert_eq!(bad, 2, "{fault}: {frames:?}");
         control.set_fault(fault, false);
     }
 
@@ -124,8 +124,8 @@ async fn each_fault_of_the_line_does_as_it_says() {
     control.set_fault(Fault::Merge, true);
     client.send("STOP=").await;
     client.send("TRACK=,0").await;
-    let both = client.raw("VERSION?").await;
-    assert_eq!(both.matches('$').count(), 3, "{both}");
+    let reply = client.raw("VERSION?").await;
+    assert_eq!(reply.matches('$').count(), 3, "{reply}");
 }
 
 #[tokio::test(start_paused = true)]

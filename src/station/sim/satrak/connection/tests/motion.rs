@@ -14,7 +14,7 @@ async fn a_move_lasts_until_stop_and_survives_its_client() {
     seconds(10).await;
     let after = control.state();
     assert!(after.is_moving && (after.x_deg - before - 20.0).abs() < 0.2, "{after:?}");
-    let mut client = Client::of(&control);
+    let mut client = Client::attached(&control);
     client.done("STOP=").await;
     seconds(1).await;
     let status = client.status().await;

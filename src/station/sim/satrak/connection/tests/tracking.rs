@@ -5,10 +5,10 @@ use super::*;
 /// A pass high enough to be worth tracking, and low enough for an X/Y mount.
 fn iss_pass() -> Pass {
     let propagator = Propagator::new(&iss()).unwrap();
-    let from = iss().epoch();
-    let to = time::add_seconds(from, 3.0 * time::DAY_S);
+    let start = iss().epoch();
+    let end = time::add_seconds(start, 3.0 * time::DAY_S);
     let aos_elevation = Angle::from_degrees(10.0);
-    let search = PassSearch { aos_elevation, ..PassSearch::new(site(), from, to) };
+    let search = PassSearch { aos_elevation, ..PassSearch::new(site(), start, end) };
     passes(&propagator, &search, &|| false)
         .into_iter()
         .find(|pass| pass.max_elevation().degrees() > 40.0)
@@ -46,13 +46,14 @@ async fn tracking_follows_the_satellite_through_the_window() {
     while started.elapsed() < whole {
         let status = client.status().await;
         states.push(status.track_state.code());
-        let at = time::add_seconds(start, started.elapsed().as_secs_f64());
-        if status.track_state == TrackState::InTrackTime && at < pass.los.time {
-            let seen = control.state();
-            let wanted = propagator.look_from(site().airless(), at).unwrap().direction;
-            let error = AzEl::from_degrees(seen.az_deg, seen.el_deg).separation(wanted).degrees();
+        let time = time::add_seconds(start, started.elapsed().as_secs_f64());
+        if status.track_state == TrackState::InTrackTime && time < pass.los.time {
+            let snapshot = control.state();
+            let expected = propagator.look_from(site().airless(), time).unwrap().direction;
+            let error =
+                AzEl::from_degrees(snapshot.az_deg, snapshot.el_deg).separation(expected).degrees();
             // The set-up took a few replies, a fraction of a second.
-            assert!(error < 0.2, "{error} at {at}");
+            assert!(error < 0.2, "{error} at {time}");
             samples += 1;
         }
         seconds(1).await;
@@ -179,12 +180,12 @@ async fn offsets_act_at_once_on_a_track_that_runs() {
     ] {
         client.done(request).await;
         seconds(2).await;
-        let at = time::add_seconds(start, started.elapsed().as_secs_f64());
-        let wanted = propagator.look_from(site().airless(), at).unwrap().direction;
-        let seen = control.state();
-        let beside = (Angle::from_degrees(seen.az_deg) - wanted.azimuth).wrapped_180();
-        assert!((beside.degrees() - azimuth_deg).abs() < 0.2, "{request}: {beside:?}");
-        let above_deg = seen.el_deg - wanted.elevation_deg();
+        let time = time::add_seconds(start, started.elapsed().as_secs_f64());
+        let expected = propagator.look_from(site().airless(), time).unwrap().direction;
+        let snapshot = control.state();
+        let difference = (Angle::from_degrees(snapshot.az_deg) - expected.azimuth).wrapped_180();
+        assert!((difference.degrees() - azimuth_deg).abs() < 0.2, "{request}: {difference:?}");
+        let above_deg = snapshot.el_deg - expected.elevation_deg();
         assert!((above_deg - elevation_deg).abs() < 0.2, "{request}: {above_deg}");
     }
 }
