@@ -22,6 +22,7 @@ pub struct AutomationRule {
     /// By UTC; `None` for all hours.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub hours: Option<HoursOfDay>,
+    #[serde(rename = "then")]
     pub action: RuleAction,
 }
 

@@ -299,7 +299,7 @@ impl Slew {
         }
         // While its angles change the motion is not over, whatever the flags say.
         let last_turn = turned.map_or(begun, |turned| turned.max(begun));
-        let is_near = at.separation(aim).is_some_and(|off| off <= within);
+        let is_near = at.deviation(aim).is_some_and(|off| off <= within);
         let arrival = match leg {
             Some(Leg { then: Some(then), .. }) if is_near => Arrival::Leg(then),
             Some(Leg { then: None, .. }) if is_near => Arrival::Short { aim: end },

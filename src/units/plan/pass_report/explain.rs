@@ -136,7 +136,7 @@ pub struct Explanation {
     #[serde(flatten)]
     pub cause: Cause,
     /// The cause that acts together with it; `None` if it acts alone.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(rename = "with", default, skip_serializing_if = "Option::is_none")]
     pub partner: Option<Cause>,
     /// Root mean square of what is left, degrees.
     pub left_deg: f64,
