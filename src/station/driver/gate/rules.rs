@@ -328,7 +328,7 @@ fn the_operator_answers_for_an_unseen_end(
     match situation.gate.controller.lead_of(act) {
         Lead::Unseen(reason) if !situation.is_agreed => {
             let is_watched = situation.intervals.is_some_and(|axes| axes.unknown().is_none());
-            Err(Refusal::Unseen { act: act.clone(), reason: reason, is_watched })
+            Err(Refusal::Unseen { act: act.clone(), reason, is_watched })
         }
         _ => Ok(()),
     }

@@ -106,7 +106,7 @@ impl Gate {
         };
         let error = WriteError::Hindered { field: field.key, hindrance };
         self.controller.refuse_change(change, error, now);
-        Err(Refusal::Setting { field: field.label, hindrance: hindrance })
+        Err(Refusal::Setting { field: field.label, hindrance })
     }
 
     /// Puts a target on the unit, or returns the reason not to: with auto-track on, the

@@ -218,7 +218,7 @@ impl Contact {
                 let as_of = asked.map_or(last, |asked| asked.min(last));
                 self.link = LinkState::Stale { as_of };
             }
-            (LinkState::Stale { .. }, false) => self.link = LinkState::Up { start: start },
+            (LinkState::Stale { .. }, false) => self.link = LinkState::Up { start },
             (LinkState::Off | LinkState::Connecting { .. } | LinkState::Lost { .. }, _)
             | (LinkState::Up { .. }, false) => {}
         }
