@@ -3,6 +3,7 @@
 mod parity;
 pub mod rc2000c;
 pub mod rotator_genius;
+pub mod rotctld;
 pub mod satrak;
 
 pub use parity::Parity;

@@ -1,0 +1,25 @@
+//! Codec of Hamlib's rotctld protocol (TCP port 4533), for a server and for a client.
+//!
+//! A server cuts bytes into [`Line`]s, reads each line as a [`Command`] and answers it with a
+//! [`Reply`]. A client sends [`Request`]s, one at a time, and reads the lines of each answer with
+//! a [`Reader`]. Nothing here does I/O, knows the time or fails on any input.
+//!
+//! Facts come from rotctld 4.5.4, tried byte by byte, and from the source of Hamlib 4.7. Hamlib
+//! reads characters where this codec reads lines: no client is known that sends a command without
+//! its line feed, and in Hamlib surplus arguments are carried out as further commands.
+
+mod command;
+mod error_code;
+mod lines;
+mod position;
+mod reader;
+mod reply;
+mod request;
+
+pub use command::{Command, Format};
+pub use error_code::ErrorCode;
+pub use lines::{Line, Lines, MAX_LINE_BYTES};
+pub use position::{Limits, Position, PositionError};
+pub use reader::{Answer, MAX_STATE_LINES, Reader, UnreadableAnswer};
+pub use reply::Reply;
+pub use request::{Motion, Request, Sense, Speed, StatusWord};

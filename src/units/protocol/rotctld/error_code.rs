@@ -1,0 +1,95 @@
+//! Codes of `RPRT`: 0 for success, negative for an error.
+
+use std::fmt;
+
+/// An error that a server answers or a client reads; the number in `RPRT -1` without its sign.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub struct ErrorCode(i32);
+
+impl ErrorCode {
+    /// A parameter is no number, or outside of the range of the antenna.
+    // Hamlib has -21 for a limit since 4.6, but SDRangel 7 looks its text up in a list of 18.
+    pub const INVALID: Self = Self(1);
+    /// The server does not know the command.
+    pub const NOT_IMPLEMENTED: Self = Self(4);
+    /// There is no current position.
+    pub const TIMED_OUT: Self = Self(5);
+    /// The rotator does not answer the server.
+    pub const IO: Self = Self(6);
+    /// The antenna may not be moved by this client, now.
+    pub const REJECTED: Self = Self(9);
+    /// The antenna has no such function.
+    pub const NOT_AVAILABLE: Self = Self(11);
+
+    /// Code of the number after `RPRT`; `None` for success.
+    pub const fn from_report(number: i32) -> Option<Self> {
+        match number.checked_abs() {
+            Some(0) => None,
+            Some(code) => Some(Self(code)),
+            None => Some(Self(i32::MAX)),
+        }
+    }
+
+    /// Number after `RPRT`, negative.
+    pub const fn report(self) -> i32 {
+        -self.0
+    }
+
+    /// Meaning by Hamlib's list.
+    const fn meaning(self) -> Option<&'static str> {
+        Some(match self.0 {
+            1 => "invalid parameter",
+            2 => "invalid configuration",
+            3 => "out of memory",
+            4 => "not implemented",
+            5 => "timed out",
+            6 => "I/O error",
+            7 => "internal error",
+            8 => "protocol error",
+            9 => "rejected",
+            10 => "truncated",
+            11 => "not available",
+            12 => "VFO not targetable",
+            13 => "bus error",
+            14 => "bus busy",
+            15 => "invalid argument",
+            16 => "invalid VFO",
+            17 => "out of domain",
+            18 => "deprecated",
+            19 => "security error",
+            20 => "power off",
+            21 => "limit exceeded",
+            22 => "access denied",
+            _ => return None,
+        })
+    }
+}
+
+impl fmt::Display for ErrorCode {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.meaning() {
+            Some(meaning) => write!(f, "{meaning} ({})", self.report()),
+            None => write!(f, "error {}", self.report()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_report_of_zero_is_no_error() {
+        assert_eq!(ErrorCode::from_report(0), None);
+        assert_eq!(ErrorCode::from_report(-9), Some(ErrorCode::REJECTED));
+        // The sign was missing in some releases of Hamlib.
+        assert_eq!(ErrorCode::from_report(9), Some(ErrorCode::REJECTED));
+        assert_eq!(ErrorCode::from_report(i32::MIN).unwrap().report(), -i32::MAX);
+    }
+
+    #[test]
+    fn an_error_has_words_and_number() {
+        assert_eq!(ErrorCode::REJECTED.to_string(), "rejected (-9)");
+        assert_eq!(ErrorCode::from_report(-77).unwrap().to_string(), "error -77");
+    }
+}
