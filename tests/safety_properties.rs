@@ -44,7 +44,7 @@
 //! sessions. `AZEL_SEED` repeats a run; a case that fails prints its own seed, and `AZEL_SEED=<that> AZEL_CASES=1` runs it
 //! alone.
 
-mod cases;
+pub(crate) mod cases;
 mod deeds;
 mod judge;
 mod line;

@@ -1,11 +1,12 @@
 //! Every command and event of a station survives serialization.
 
 use azel::{
-    astro::{Angle, Offset, TrackOffsets},
+    astro::{Angle, AzEl, Offset, TrackOffsets},
     contract::{
         Attention, Command, Event,
         alarms::ShelveTime,
         closing::CloseHow,
+        control::ClientCommand,
         driver::{self, OffsetChange},
         older_sets::SetChoice,
         passes::{ListChoice, Scope},
@@ -93,6 +94,7 @@ fn commands_of_antennas() -> Vec<driver::Command> {
         C::Track(Box::new(pass)),
         C::ProgramTrack(Box::new(track())),
         C::ProgramTrackIntoSun(Box::new(track())),
+        C::EndAtTarget,
         C::Resume,
         C::Offset(OffsetChange::Step(Offset::Along(Angle::from_degrees(-0.1)))),
         C::Offset(OffsetChange::Zero),
@@ -131,6 +133,7 @@ fn commands_of_antennas() -> Vec<driver::Command> {
             | C::TakeOver
             | C::ProgramTrack(_)
             | C::ProgramTrackIntoSun(_)
+            | C::EndAtTarget
             | C::Resume
             | C::Offset(_)
             | C::FirstOffsets(_)
@@ -241,6 +244,14 @@ fn what_is_asked_of_a_station_comes_back() {
         Command::TestLink(Box::new(SPECS[0].antenna("Dish", "host:1"))),
         Command::CloseAfter(CloseHow::Leave),
         Command::StayOpen,
+        Command::Client(ANTENNA, ClientCommand::Point(AzEl::from_degrees(100.0, 20.0))),
+        Command::Client(
+            ANTENNA,
+            ClientCommand::Turn { rates_deg_s: [1.5, -0.5], is_repeated: true },
+        ),
+        Command::TakeControl(ANTENNA),
+        Command::ReleaseControl(ANTENNA),
+        Command::HandOver { antenna: ANTENNA, client: "[::1]:4533".parse().unwrap(), always: true },
         Command::Look(Attention { list: ListChoice::default(), selected: Some(pass) }),
     ];
     for command in commands {

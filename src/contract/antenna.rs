@@ -16,6 +16,7 @@ use crate::{
     automatic::{OffBecause, Operation},
     claim::HeldBy,
     clock::Instant,
+    control::Control,
     device::{OnBoard, Phase, Variant, panel::Act, settings::Group},
     driver::{Event, Intent, LinkState, Snapshot},
     passes::PassListKey,
@@ -83,6 +84,9 @@ pub struct AntennaModel {
     pub held_by: Option<HeldBy>,
     /// Automatic operation.
     pub operation: Operation,
+    /// The party whose commands may move it, and the programs that are connected to its port.
+    #[serde(default)]
+    pub control: Control,
     /// Orbit by which its session judges on-board track.
     pub orbit: Option<Arc<KnownOrbit>>,
 }
@@ -111,6 +115,7 @@ impl AntennaModel {
             held_by: None,
             operation: Operation::Off(OffBecause::NotSwitchedOn),
             orbit: None,
+            control: Control::default(),
         }
     }
 

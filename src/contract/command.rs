@@ -1,6 +1,6 @@
 //! Commands of clients to a station.
 
-use std::path::PathBuf;
+use std::{net::SocketAddr, path::PathBuf};
 
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
@@ -10,7 +10,8 @@ use crate::{
     alarms::ShelveTime,
     astro::{Term, TrackOffsets},
     closing::CloseHow,
-    driver::{self, Effect, Row},
+    control::ClientCommand,
+    driver::{self, Effect, Row, TakesControl},
     older_sets::SetChoice,
     orbit::{RefreshHours, Source},
     passes::{ListChoice, PassListKey, Scope},
@@ -174,6 +175,19 @@ pub enum Command {
     SaveStation(#[serde(with = "written::station")] Box<Station>),
     /// About an upload of elements to a unit.
     Upload(uploads::Ask),
+    /// From a program that is connected to the port of this antenna.
+    Client(AntennaId, ClientCommand),
+    /// Take control of this antenna from whoever has it. Its way to a fixed direction goes on.
+    TakeControl(AntennaId),
+    /// Leave the control of this antenna to whoever asks first.
+    ReleaseControl(AntennaId),
+    /// Let this program point the antenna, and hand control to it.
+    HandOver {
+        antenna: AntennaId,
+        client: SocketAddr,
+        /// Let all programs at its address point the antenna from now on.
+        always: bool,
+    },
     /// About a test of an element source that a unit shall use.
     TestSource(TestAsk),
     /// Ask the unit of this antenna, which the station need not have, and hang up.
@@ -201,7 +215,11 @@ impl Command {
             | Self::Track { antenna, .. }
             | Self::ProgramTrackPass { antenna, .. }
             | Self::SetAutomatic { antenna, .. }
-            | Self::GoOn(antenna) => Some(*antenna),
+            | Self::GoOn(antenna)
+            | Self::Client(antenna, _)
+            | Self::TakeControl(antenna)
+            | Self::ReleaseControl(antenna)
+            | Self::HandOver { antenna, .. } => Some(*antenna),
             // Those of an antenna among these read, save and compare what is known here.
             Self::SaveSettings(_)
             | Self::CompareSettings(_)
@@ -254,17 +272,37 @@ impl Command {
             Self::SetAutomatic { is_on: true, .. }
             | Self::GoOn(_)
             | Self::Upload(uploads::Ask::AgreeToTracking) => {
-                Row { ends_automatic: false, ..Row::STATION_MOVES }
+                Row { takes_control: TakesControl::FromClients, ..Row::STATION_MOVES }
             }
             Self::SetAutomatic { is_on: false, .. }
+            | Self::Client(_, ClientCommand::Stop)
             | Self::CloseAfter(CloseHow::Hold | CloseHow::Leave) => {
                 Row { effect: Effect::Stops, ..Row::OF_STATION }
             }
             // The operator may choose again while it closes.
             Self::CloseAfter(CloseHow::Park) => {
-                Row { ends_automatic: false, while_closing: true, ..Row::STATION_MOVES }
+                let takes_control = TakesControl::FromClients;
+                Row { takes_control, while_closing: true, ..Row::STATION_MOVES }
             }
-            Self::SaveStation(_) => Row { effect: Effect::ChangesSafety, ..Row::OF_STATION },
+            Self::SaveStation(_) | Self::ReleaseControl(_) => {
+                Row { effect: Effect::ChangesSafety, ..Row::OF_STATION }
+            }
+            // The rules of control decide about these, not the table.
+            Self::Client(
+                _,
+                ClientCommand::Point(_) | ClientCommand::Park | ClientCommand::Turn { .. },
+            ) => Row { takes_control: TakesControl::Never, ..Row::STATION_MOVES },
+            Self::TakeControl(_) => Row {
+                effect: Effect::Stops,
+                takes_control: TakesControl::FromAll,
+                ..Row::OF_STATION
+            },
+            Self::HandOver { .. } => Row {
+                effect: Effect::ChangesSafety,
+                while_closing: false,
+                void_after_stop: true,
+                ..Row::OF_STATION
+            },
             Self::Look(_)
             | Self::LookAtRecord(_)
             | Self::FitPointing(..)

@@ -15,7 +15,7 @@ mod unit;
 mod wire_log;
 
 pub use command::{Command, OffsetChange, SESSION_TICKETS, is_ticket_of_session};
-pub use command_row::{Effect, LockedOut, Offline, Row};
+pub use command_row::{Effect, LockedOut, Offline, Row, TakesControl};
 pub use intent::Intent;
 pub use lessons::AxisLessons;
 pub use link_test::{LinkFault, LinkFinding};

@@ -1,5 +1,7 @@
 //! Events of a station, and who gave a command.
 
+use std::net::SocketAddr;
+
 use serde::{Deserialize, Serialize};
 
 use crate::claim::HolderKind;
@@ -19,6 +21,8 @@ pub enum CommandOrigin {
     Signal,
     /// The station, without a request, such as automatic operation.
     Station,
+    /// A program at this end of a connection to an antenna's port.
+    Port(SocketAddr),
 }
 
 impl From<HolderKind> for CommandOrigin {

@@ -11,6 +11,7 @@ pub mod automatic;
 pub mod claim;
 pub mod closing;
 mod command;
+pub mod control;
 pub mod copies;
 pub mod driver;
 mod event;

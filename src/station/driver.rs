@@ -83,10 +83,13 @@ impl Orders {
     }
 }
 
-/// A command on its way to a session, with its number among all requests.
+/// A command on its way to a session.
 struct Numbered {
     command: Command,
+    /// Its number among all requests.
     number: u64,
+    /// Somebody waits for its answer in the snapshot.
+    wants_answer: bool,
 }
 
 /// Stops an antenna past every queue; outlives the session.
@@ -153,7 +156,15 @@ impl AntennaHandle {
     /// Sends a command that was requested earlier, with the number it got then: a STOP in
     /// between voids it.
     pub fn send_as(&self, command: Command, number: u64) -> Result<(), Command> {
-        let numbered = Numbered { command, number };
+        self.send_numbered(Numbered { command, number, wants_answer: false })
+    }
+
+    /// The same; the snapshot will show what came of the command under its number.
+    pub fn send_answered(&self, command: Command, number: u64) -> Result<(), Command> {
+        self.send_numbered(Numbered { command, number, wants_answer: true })
+    }
+
+    fn send_numbered(&self, numbered: Numbered) -> Result<(), Command> {
         self.commands.try_send(numbered).map_err(|error| error.into_inner().command)
     }
 

@@ -10,7 +10,8 @@ pub mod claim;
 mod claims;
 mod clock_watch;
 pub mod closing;
-pub mod copies;
+mod control;
+mod copies;
 mod demo;
 mod element_alarms;
 pub mod film;
@@ -26,6 +27,7 @@ mod opening;
 mod owed;
 pub mod passes;
 pub mod pointing_fit;
+mod ports;
 #[cfg(unix)]
 pub mod reach;
 pub mod recorded;
@@ -68,6 +70,7 @@ use self::{
     learned::LearnedDrives,
     passes::Searches,
     pointing_fit::PointingWork,
+    ports::Ports,
     recorded::RecordReading,
     recording::Recording,
     schedule::Scheduler,
@@ -203,6 +206,8 @@ struct Engine {
     /// Handed to the socket.
     #[cfg_attr(not(unix), allow(dead_code, reason = "there is no socket"))]
     client: Client,
+    /// Ports for other programs; none in a rehearsal.
+    ports: Option<Ports>,
     publish: watch::Sender<Published>,
 }
 
@@ -269,10 +274,16 @@ impl Engine {
         let driver = Driver::start(outside.clone(), wake_of(&woken))?
             .guarded_by(settings.dead_man.clone())
             .marking_in(settings.marks.clone());
-        Ok(Self::driving(driver, woken, settings, outside, outbox, requests))
+        let (mut engine, client) =
+            Self::driving(driver, woken, settings, outside, outbox, requests);
+        engine.ports = Some(Ports::start(client.clone())?);
+        engine.open_ports();
+        engine.publish();
+        Ok((engine, client))
     }
 
     /// A station whose antennas `driver` drives; its wake notifies `woken`.
+    #[expect(clippy::too_many_lines, reason = "one line a field")]
     fn driving(
         driver: Driver,
         woken: Arc<Notify>,
@@ -369,6 +380,7 @@ impl Engine {
             events: Vec::new(),
             outbox,
             client: client.clone(),
+            ports: None,
             publish,
         };
         engine.take_claims(settings.claims.clone());

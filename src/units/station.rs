@@ -14,6 +14,7 @@ mod keeping;
 mod kept_offsets;
 mod lock_outs;
 mod mount;
+mod network_port;
 mod notices;
 mod pass_choice;
 mod pass_limits;
@@ -41,6 +42,7 @@ pub use keeping::Retention;
 pub use kept_offsets::{KeptOffsets, OffsetsSubject};
 pub use lock_outs::{LOCK_OUTS_FILE, LockOut, LockOuts};
 pub use mount::Mount;
+pub use network_port::NetworkPort;
 pub use notices::{Notices, Tones};
 pub use pass_choice::{PassChoice, Take};
 pub use pass_limits::{Light, PassLimits};
@@ -118,6 +120,9 @@ pub struct Station {
     /// `None` where antennas need not stay away from the Sun.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sun_avoidance: Option<SunAvoidance>,
+    /// Ports on which other programs point antennas.
+    #[serde(rename = "rotctld", skip_serializing_if = "Vec::is_empty")]
+    pub network_ports: Vec<NetworkPort>,
     /// The antennas, in the order of their chips.
     #[serde(rename = "antenna")]
     pub antennas: Vec<Antenna>,
@@ -249,6 +254,7 @@ impl Default for Station {
             rules: Vec::new(),
             frequencies: Vec::new(),
             offsets: Vec::new(),
+            network_ports: Vec::new(),
             notices: Notices::default(),
             record: Retention::default(),
             on_close: None,

@@ -1,6 +1,6 @@
 //! One sample of every command to an antenna and to a station.
 
-use std::path::PathBuf;
+use std::{net::SocketAddr, path::PathBuf};
 
 use azel::{
     astro::{Angle, AzEl, Offset, Site, TrackOffsets},
@@ -8,6 +8,7 @@ use azel::{
         self, Attention,
         alarms::ShelveTime,
         closing::CloseHow,
+        control::ClientCommand,
         driver::{Command, OffsetChange},
         older_sets::SetChoice,
         passes::{PassListKey, Scope},
@@ -112,6 +113,7 @@ pub(super) fn commands(values: &Values) -> Vec<Command> {
         C::FirstOffsets(_) => {
             C::FirstOffsets(TrackOffsets::NONE.plus(Offset::Azimuth(tenth)).unwrap())
         },
+        C::EndAtTarget => C::EndAtTarget,
         C::Resume => C::Resume,
         C::SeenStanding => C::SeenStanding,
         C::Park => C::Park,
@@ -128,6 +130,11 @@ pub(super) fn commands(values: &Values) -> Vec<Command> {
         C::Unlock => C::Unlock,
         C::Ask(_) => C::Ask(values.question.into()),
     }
+}
+
+/// A program that is not connected.
+fn program() -> SocketAddr {
+    "127.0.0.1:40000".parse().unwrap()
 }
 
 /// One of each command to a station, in the order of [`engine::Command`], without those to an antenna.
@@ -154,6 +161,10 @@ pub(super) fn commands_of_stations(
         C::GoOn(_) => C::GoOn(antenna),
         C::ChoosePass { .. } => C::ChoosePass { satellite: number, tca: aos, take: None },
         C::PriceSwap(_) => C::PriceSwap(pass),
+        C::Client(..) => C::Client(antenna, ClientCommand::Park),
+        C::TakeControl(_) => C::TakeControl(antenna),
+        C::ReleaseControl(_) => C::ReleaseControl(antenna),
+        C::HandOver { .. } => C::HandOver { antenna, client: program(), always: false },
         C::SetPassLimits { .. } => {
             C::SetPassLimits { numbers: numbers(), limits: PassLimits::default() }
         },

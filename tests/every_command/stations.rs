@@ -9,7 +9,7 @@ use azel::{
         alarms::AlarmKind,
         automatic::{Interruption, Operation},
         closing::CloseHow,
-        driver::{self, Effect, Event, Intent, Refusal, StopState},
+        driver::{self, Effect, Event, Intent, Refusal, StopState, TakesControl},
         passes::PassListKey,
         transfer::{FileName, Peer, TleFile},
         uploads::{Ask, Cargo, Order, Stage as UploadStage},
@@ -161,7 +161,9 @@ async fn a_station_that_closes_takes_only_what_the_table_says() {
         let stage = Stage::new(make).await;
         for command in stage.commands() {
             let row = command.row();
-            if command.antenna().is_none() && row.effect != Effect::Moves {
+            // The refusal of a program's command goes to the program.
+            let is_of_program = matches!(command, Command::Client(..));
+            if is_of_program || command.antenna().is_none() && row.effect != Effect::Moves {
                 continue;
             }
             stage.closes(&command).await;
@@ -222,7 +224,8 @@ async fn automatic_operation_is_suspended_by_what_the_table_says() {
                 operation(&stage.client, stage.id),
                 Operation::Suspended { interruption: Interruption::ByHand, .. }
             );
-            if by_hand != command.row().ends_automatic {
+            let takes_control = command.row().takes_control == TakesControl::FromAll;
+            if by_hand != takes_control {
                 faults.push(format!("{make}, {command:?}: {by_hand}"));
             }
             stage.rests().await;

@@ -116,6 +116,7 @@ async fn voids_what_waits_as_the_table_says() {
     let expected = [
         "AllowUnguarded",
         "AutoTrack(false)",
+        "EndAtTarget",
         "EndJog",
         "FirstOffsets",
         "ForgetDrives",

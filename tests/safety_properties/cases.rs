@@ -9,7 +9,7 @@ use crate::common::{
 
 /// Runs `case` in paused time with successive seeds, `usual` times unless `AZEL_CASES`
 /// sets another number.
-pub(super) fn for_each_case<Ran: Future<Output = ()>>(
+pub(crate) fn for_each_case<Ran: Future<Output = ()>>(
     class: &str,
     usual: u64,
     case: impl Fn(Dice) -> Ran,

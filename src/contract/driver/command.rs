@@ -67,6 +67,9 @@ pub enum Command {
     /// Program track of a target that leads to the Sun: the operator lifts the Sun avoidance
     /// for this track alone.
     ProgramTrackIntoSun(Box<ProgramTrack>),
+    /// Go to the target of a program track of a fixed direction, and end the track there. A track
+    /// of anything that moves goes on.
+    EndAtTarget,
     /// Change the offsets of the track that runs.
     Offset(OffsetChange),
     /// Begin the next passes of the program track with these offsets; the present ones stay.

@@ -13,8 +13,8 @@ pub struct Row {
     pub in_replay: bool,
     /// A station that is closing takes it.
     pub while_closing: bool,
-    /// From an operator, it suspends automatic operation of the antenna.
-    pub ends_automatic: bool,
+    /// Parties that lose control of the antenna to the operator who gives it.
+    pub takes_control: TakesControl,
     /// A STOP that is pressed later voids it, wherever it still waits.
     pub void_after_stop: bool,
 }
@@ -32,6 +32,17 @@ pub enum Effect {
     Changes,
     /// It only asks to be shown something.
     Looks,
+}
+
+/// Effect of an operator's command on the party in control.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum TakesControl {
+    /// Any other party loses control; automatic operation is suspended.
+    FromAll,
+    /// A program on the network loses control. Automatic operation goes on with the command.
+    FromClients,
+    /// Control stays where it is.
+    Never,
 }
 
 /// Handling of a command to an antenna without a link.
@@ -67,7 +78,7 @@ impl Row {
         locked_out: LockedOut::Refused,
         in_replay: false,
         while_closing: false,
-        ends_automatic: true,
+        takes_control: TakesControl::FromAll,
         void_after_stop: true,
     };
     /// A command that ends a motion.
@@ -79,7 +90,8 @@ impl Row {
         ..Self::MOVES
     };
     /// A command that does not itself move anything.
-    const CHANGES: Self = Self { effect: Effect::Changes, ends_automatic: false, ..Self::STOPS };
+    const CHANGES: Self =
+        Self { effect: Effect::Changes, takes_control: TakesControl::Never, ..Self::STOPS };
     const LOOKS: Self = Self {
         effect: Effect::Looks,
         offline: Offline::Dropped,
@@ -104,12 +116,18 @@ impl Command {
                 Row { offline, locked_out, ..Row::STOPS }
             }
             Self::Standby => Row::STOPS,
-            Self::EndJog => Row { ends_automatic: false, in_replay: true, ..Row::STOPS },
-            Self::AutoTrack(false) => {
-                Row { ends_automatic: false, locked_out: LockedOut::Refused, ..Row::STOPS }
+            Self::EndJog => {
+                Row { takes_control: TakesControl::Never, in_replay: true, ..Row::STOPS }
             }
+            Self::AutoTrack(false) => Row {
+                takes_control: TakesControl::Never,
+                locked_out: LockedOut::Refused,
+                ..Row::STOPS
+            },
             // A person at the antenna relies on it.
-            Self::LockOut(_) => Row { ends_automatic: false, void_after_stop: false, ..Row::STOPS },
+            Self::LockOut(_) => {
+                Row { takes_control: TakesControl::Never, void_after_stop: false, ..Row::STOPS }
+            }
             Self::Step { .. }
             | Self::Position { .. }
             | Self::Park
@@ -124,7 +142,8 @@ impl Command {
             }
             Self::Resume => Row { offline: Offline::CarriedOut, ..Row::MOVES },
             Self::Offset(_) | Self::AutoTrack(true) => {
-                Row { offline: Offline::Refused, ends_automatic: false, ..Row::MOVES }
+                let takes_control = TakesControl::FromClients;
+                Row { offline: Offline::Refused, takes_control, ..Row::MOVES }
             }
             Self::Act(_) | Self::ActUnseen(_) => {
                 let (offline, locked_out) = (Offline::Refused, LockedOut::RefusedAtTheGate);
@@ -134,15 +153,17 @@ impl Command {
                 Row { effect: Effect::ChangesSafety, ..Row::CHANGES }
             }
             Self::SeenStanding => {
-                Row { effect: Effect::ChangesSafety, ends_automatic: true, ..Row::CHANGES }
+                let takes_control = TakesControl::FromAll;
+                Row { effect: Effect::ChangesSafety, takes_control, ..Row::CHANGES }
             }
             Self::WriteSettings(_) => {
                 let (offline, locked_out) = (Offline::Refused, LockedOut::RefusedAtTheGate);
                 Row { offline, locked_out, ..Row::CHANGES }
             }
-            Self::FirstOffsets(_) => Row::CHANGES,
+            // The way to the target was commanded before.
+            Self::EndAtTarget | Self::FirstOffsets(_) => Row::CHANGES,
             Self::Connect => Row { locked_out: LockedOut::TakesPanel, ..Row::CHANGES },
-            Self::Disconnect => Row { ends_automatic: true, ..Row::CHANGES },
+            Self::Disconnect => Row { takes_control: TakesControl::FromAll, ..Row::CHANGES },
             Self::Preview(_) => Row { offline: Offline::CarriedOut, ..Row::LOOKS },
             Self::ReadGroup(_) => Row::LOOKS,
             // It goes to the unit.

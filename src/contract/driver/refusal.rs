@@ -8,6 +8,7 @@ use smol_str::SmolStr;
 
 use crate::{
     astro::{AzEl, Offset},
+    control::Party,
     device::{panel::Act, settings::Hindrance},
     driver::Intent,
     name::{self, Name},
@@ -137,6 +138,15 @@ pub enum Refusal {
     /// The station is about to end.
     #[error("the station is closing")]
     Closing,
+    /// This party is in control of the antenna, and the program that asks is not.
+    #[error("{0:?} is in control")]
+    InControl(Party),
+    /// The operator has not allowed the program to point the antenna.
+    #[error("the operator has not allowed it")]
+    NotAllowed,
+    /// The connection of the program has ended.
+    #[error("the connection has ended")]
+    ClientGone,
     /// No dead-man can be had, so nothing would end the motion if this program ended.
     #[error("nothing would stop it if this program ended")]
     Unguarded,

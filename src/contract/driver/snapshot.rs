@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 use crate::{
     astro::{Angle, TrackOffsets},
     clock::Instant,
+    control::Answer,
     device::{
         AntennaState, Capabilities, MotionRequest, Pointing, PrepareError, TrackTarget,
         settings::{GroupState, GroupStates, Hindrance, WriteError},
@@ -78,6 +79,9 @@ pub struct Snapshot {
     /// Why the next start would not send the STOP that is owed.
     #[serde(default)]
     pub not_on_disk: Option<String>,
+    /// Answer to the last command that somebody waits for.
+    #[serde(default)]
+    pub answer: Option<Answer>,
     /// Signed rates of a held jog, degrees a second.
     pub jog: Option<[f64; 2]>,
     pub stopping_way: StoppingWay,
@@ -119,6 +123,7 @@ impl Snapshot {
             sun_lifted: false,
             left_moving: None,
             not_on_disk: None,
+            answer: None,
             jog: None,
             stopping_way: StoppingWay::default(),
             learned: Default::default(),

@@ -62,7 +62,10 @@ use std::{path::PathBuf, sync::Arc, time::Duration};
 use super::{AntennaHandle, Clock, Dial, Orders, Wake, debts::Debts, gate::Gate};
 use crate::{
     clock::Moment,
-    contract::driver::{Event, Preview, Snapshot, Unit},
+    contract::{
+        control::Answer,
+        driver::{Event, Preview, Snapshot, Unit},
+    },
     device::{AxisMotion, Controller},
     plan::Bounds,
     station::Antenna,
@@ -99,6 +102,8 @@ pub struct Session {
     stop: Stop,
     /// Offsets added to the track that the unit computes.
     unit_offsets: Shifting,
+    /// Answer to the last command that somebody waits for.
+    answer: Option<Answer>,
 }
 
 impl Session {
@@ -145,6 +150,7 @@ impl Session {
             checks: CHECKS,
             stop: Stop::new(Guard::new(None)),
             unit_offsets: Shifting::default(),
+            answer: None,
         }
     }
 
@@ -186,6 +192,7 @@ impl Session {
             sun_lifted: self.commanded.activity.program().is_some() && self.gate.lifts_sun(),
             left_moving: self.owed.left_moving(),
             not_on_disk: is_pressed.then(|| self.owed.not_on_disk(now.steady)).flatten(),
+            answer: self.answer.clone(),
             jog: self.commanded.key.started().map(Jog::rates_deg_s),
             stopping_way: self.observed.overrun.stopping_way(self.gate.overrun_s()),
             learned: self.gate.lessons(),

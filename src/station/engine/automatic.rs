@@ -34,7 +34,10 @@ use crate::{
         alarms::AlarmKind,
         antenna::AntennaModel,
         automatic::{DayEvent, DayLine, Doing, Flown, Interruption, OffBecause, On, Operation},
-        driver::{self, Event, Found, Refusal, Response, Safety, StopState, TrackProblem, Unit},
+        driver::{
+            self, Event, Found, Refusal, Response, Safety, StopState, TakesControl, TrackProblem,
+            Unit,
+        },
         passes::PassListKey,
     },
     device::{Motion, MotionRequest},
@@ -191,18 +194,25 @@ impl Engine {
 
     /// A client commands an antenna: automatic operation leaves it to the operator.
     pub(super) fn leave_to_operator(&mut self, command: &Command) {
-        let now = self.now;
-        let place = command.antenna().and_then(|id| self.place(id));
-        let Some(antenna) = place.and_then(|place| self.antennas.get_mut(place)) else { return };
-        if command.row().ends_automatic {
-            antenna.shown.operation.suspend(Interruption::ByHand, now);
-        }
-        if matches!(command, Command::Antenna(_, driver::Command::AutoTrack(_))) {
+        let Some(place) = command.antenna().and_then(|id| self.place(id)) else { return };
+        if matches!(command, Command::Antenna(_, driver::Command::AutoTrack(_)))
+            && let Some(antenna) = self.antennas.get_mut(place)
+        {
             antenna.at_work.has_auto_track_on = false;
         }
-        if let Some(place) = place.filter(|_| command.row().ends_automatic) {
-            self.cancel_resumption(place);
+        if command.row().takes_control == TakesControl::FromAll {
+            self.suspend_for_operator(place);
         }
+        self.take_control_by(place, command);
+    }
+
+    /// Automatic operation of an antenna waits for the operator, who has it.
+    pub(super) fn suspend_for_operator(&mut self, index: usize) {
+        let now = self.now;
+        if let Some(antenna) = self.antennas.get_mut(index) {
+            antenna.shown.operation.suspend(Interruption::ByHand, now);
+        }
+        self.cancel_resumption(index);
     }
 
     /// STOP ends automatic operation: that of all antennas where it was for all.

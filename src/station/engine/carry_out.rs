@@ -7,6 +7,7 @@ use jiff::Timestamp;
 use super::{
     Engine, StationClaim,
     automatic::Duty,
+    control::Rules as _,
     handle::Stopped,
     on_board,
     sources::{self, Task},
@@ -35,6 +36,9 @@ const REFRESH_PAUSE_S: f64 = 600.0;
 impl Engine {
     #[expect(clippy::too_many_lines, reason = "one arm a command")]
     pub(super) fn carry_out(&mut self, command: Command) {
+        if let Command::Client(antenna, command) = command {
+            return self.take_client_command(antenna, command);
+        }
         if self.is_elsewhere(&command) || self.is_void(&command) || self.is_too_late(&command) {
             return;
         }
@@ -163,6 +167,14 @@ impl Engine {
             Command::Upload(ask) => self.ask_about_upload(ask),
             Command::CloseAfter(close_choice) => self.close_after(close_choice),
             Command::StayOpen => self.closing = None,
+            Command::ReleaseControl(antenna) => {
+                self.with_antenna(antenna, |engine, index| engine.give_control(index, None));
+            }
+            Command::HandOver { antenna, client, always } => {
+                self.with_antenna(antenna, |engine, index| engine.hand_over(index, client, always));
+            }
+            // Taken above: control by its row, a client because it is no operator.
+            Command::TakeControl(_) | Command::Client(..) => {}
             Command::Look(attention) => self.attention = attention,
         }
     }
@@ -253,7 +265,12 @@ impl Engine {
             }
             _ => {}
         }
-        let Err(command) = antenna.handle.send_as(command, number) else { return };
+        let sent = if antenna.shown.control.awaits(number) {
+            antenna.handle.send_answered(command, number)
+        } else {
+            antenna.handle.send_as(command, number)
+        };
+        let Err(command) = sent else { return };
         tracing::error!(?command, "the session is too busy to take a command");
         // A command that ends a motion must not get lost: stop instead.
         if matches!(command, driver::Command::Standby | driver::Command::EndJog) {
@@ -314,7 +331,7 @@ impl Engine {
     }
 
     /// A track begins with the offsets that are remembered of its satellite and its antenna.
-    fn begin_with_offsets(&self, antenna: AntennaId, follow: &mut ProgramTrack) {
+    pub(super) fn begin_with_offsets(&self, antenna: AntennaId, follow: &mut ProgramTrack) {
         follow.offsets = self.station.first_offsets(antenna, follow.target.catalog_number());
     }
 
@@ -452,6 +469,7 @@ impl Engine {
         }
         self.record_station(&station);
         self.station = Arc::new(station);
+        self.open_ports();
         self.keep_fingerprint();
         self.tell(Event::Changed);
     }

@@ -2,6 +2,7 @@
 
 use std::{
     io,
+    net::SocketAddr,
     sync::{
         Arc, Mutex, MutexGuard, PoisonError,
         mpsc::{RecvTimeoutError, TryRecvError},
@@ -9,13 +10,21 @@ use std::{
     time::Duration,
 };
 
-use tokio::sync::{Notify, mpsc, watch};
+use tokio::{
+    io::{AsyncRead, AsyncWrite},
+    sync::{Notify, mpsc, watch},
+};
 
-use super::{Engine, Settings};
+use super::{
+    Engine, Settings,
+    ports::{Board, converse},
+    wake_of,
+};
 use crate::{
     clock::{Clock, Instant, Moment},
     contract::{
         Command, CommandOrigin, Event, Snapshot,
+        control::ClientCommand,
         driver::{self, WireLog},
         passes::ListChoice,
     },
@@ -47,7 +56,11 @@ pub(super) struct Request {
 impl Request {
     /// Returns `true` for a held jog key.
     pub(super) fn is_jog(&self) -> bool {
-        matches!(self.command, Command::Antenna(_, driver::Command::Jog { .. }))
+        matches!(
+            self.command,
+            Command::Antenna(_, driver::Command::Jog { .. })
+                | Command::Client(_, ClientCommand::Turn { .. })
+        )
     }
 
     /// Returns `true` for a look at another pass, with the pass list as it was.
@@ -114,6 +127,8 @@ pub struct Client {
     published: watch::Receiver<Published>,
     clock: Clock,
     origin: CommandOrigin,
+    /// Connections of other programs to the station.
+    board: Board,
 }
 
 impl Client {
@@ -125,13 +140,37 @@ impl Client {
         clock: Clock,
         origin: CommandOrigin,
     ) -> Self {
-        Self { requests, urgent: Arc::default(), woken, orders, published, clock, origin }
+        let board = Board::new(wake_of(&woken));
+        Self { requests, urgent: Arc::default(), woken, orders, published, clock, origin, board }
     }
 
     /// The same for somebody else, as the record tells it.
     #[must_use]
     pub fn acting_for(self, origin: CommandOrigin) -> Self {
         Self { origin, ..self }
+    }
+
+    /// The clocks of the station.
+    pub(super) fn clock(&self) -> &Clock {
+        &self.clock
+    }
+
+    pub(super) fn board(&self) -> &Board {
+        &self.board
+    }
+
+    /// Serves a program that is connected by `stream` to the port of an antenna, until it hangs
+    /// up or the port is closed. `peer` is its end of the connection.
+    pub async fn serve(
+        &self,
+        antenna: AntennaId,
+        peer: SocketAddr,
+        stream: impl AsyncRead + AsyncWrite,
+    ) {
+        let seat = self.board.seat(antenna, peer, None, self.clock.now().steady);
+        if let Some(seat) = seat {
+            converse(stream, seat, self.clone()).await;
+        }
     }
 
     /// Time by the clocks of the station.
@@ -142,6 +181,11 @@ impl Client {
     /// Queues a command. Returns it when the station has ended or is too busy; a station
     /// that was too busy raises an alarm later.
     pub fn send(&self, command: Command) -> Result<(), Command> {
+        self.send_numbered(command).map(drop)
+    }
+
+    /// The same; returns the number of the command among all.
+    pub(super) fn send_numbered(&self, command: Command) -> Result<u64, Command> {
         let number = self.orders.next();
         let Some(requests) = self.requests.upgrade() else { return Err(command) };
         let Ok(place) = requests.try_reserve() else {
@@ -154,7 +198,7 @@ impl Client {
             number,
             instant: self.clock.now().steady,
         });
-        Ok(())
+        Ok(number)
     }
 
     /// Stops every antenna that is connected or was moved from here, past every queue;

@@ -2,7 +2,7 @@
 
 use jiff::Timestamp;
 
-use super::{Engine, Hold, handle::Stopped};
+use super::{Engine, Hold, control::Rules as _, handle::Stopped};
 use crate::{
     astro::time::add_seconds,
     contract::{
@@ -68,6 +68,7 @@ impl Engine {
         // STOP while the antennas are parked for the end: the operator is needed here.
         self.closing.take_if(|closing| closing.choice == CloseHow::Park);
         let latest = add_seconds(self.now, OFFERED_S);
+        let now = self.moment();
         for antenna in &mut self.antennas {
             let id = antenna.shown.id();
             let is_new = antenna.session > stopped.newest_session;
@@ -80,6 +81,7 @@ impl Engine {
             if !stopped.antennas.contains(&id) {
                 continue;
             }
+            antenna.shown.control.give_by_stop(stopped.origin, now);
             let shown = &mut antenna.shown;
             shown.asks_unseen = None;
             shown.stop_pressed = Some(stopped.instant);

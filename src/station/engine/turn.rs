@@ -182,6 +182,7 @@ impl Engine {
         for event in events {
             self.take_event(index, event);
         }
+        self.watch_control(index);
         self.tell_lock_out(index);
         self.tell_orbit(index);
         self.judge_unit(index);

@@ -5,6 +5,7 @@ mod antenna;
 mod favourites;
 mod keep_out;
 mod keeping;
+mod network_ports;
 mod notices;
 mod offsets;
 mod schedule;
@@ -88,6 +89,7 @@ pub(super) fn read(mut table: Table, specs: &[&'static ControllerSpec]) -> Read 
         rules: Vec::new(),
         frequencies: fields.frequencies(),
         offsets: Vec::new(),
+        network_ports: Vec::new(),
         notices: fields.notices(),
         record: fields.keeping(),
         on_close: fields.on_close(),
@@ -109,6 +111,7 @@ pub(super) fn read(mut table: Table, specs: &[&'static ControllerSpec]) -> Read 
     station.favourites = fields.favourites(default.favourites, &antennas);
     station.groups = fields.list("group", |group| group.satellite_group(&antennas));
     station.offsets = fields.list("offsets", |offsets| offsets.kept_offsets(&antennas));
+    station.network_ports = fields.network_ports(&antennas);
     let groups: Vec<&str> = station.groups.iter().map(|group| &*group.name).collect();
     station.rules = fields.list("rule", |rule| rule.automation_rule(&antennas, &groups));
     fields.name_the_unknown();

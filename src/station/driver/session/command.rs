@@ -9,13 +9,34 @@ use super::{
 };
 use crate::{
     clock::Moment,
-    contract::driver::{Command, Event, Intent, Refusal},
+    contract::{
+        control::Answer,
+        driver::{Command, Event, Intent, Refusal},
+    },
     device::{Motion, panel::Act, settings::WriteError},
-    driver::gate::{NextPass, NoRoute},
+    driver::{
+        Numbered,
+        gate::{NextPass, NoRoute},
+    },
     plan::OnBoardPass,
 };
 
 impl Session {
+    /// Carries out a command, and shows its answer if somebody waits for it.
+    pub(super) fn carry_out_numbered(
+        &mut self,
+        numbered: Numbered,
+        now: Moment,
+        carry_out: fn(&mut Self, Command, Moment),
+    ) {
+        let Numbered { command, number, wants_answer } = numbered;
+        self.wires.take_problem();
+        carry_out(self, command, now);
+        if wants_answer {
+            self.answer = Some(Answer { number, problem: self.wires.take_problem() });
+        }
+    }
+
     pub(super) fn carry_out(&mut self, command: Command, now: Moment) {
         if let Some(command) = self.judging.take_turn(command) {
             self.carry_out_now(command, now);
@@ -51,6 +72,7 @@ impl Session {
             Command::Resume => self.resume(),
             Command::Offset(change) => self.change_offsets(change, now),
             Command::FirstOffsets(offsets) => self.begin_with(offsets),
+            Command::EndAtTarget => self.end_at_target(now),
             Command::Standby => self.leave_for(Activity::Standby, now),
             Command::Manual => self.leave_for(Activity::Manual, now),
             Command::Hold => self.leave_for(Activity::Hold(None), now),
@@ -109,7 +131,7 @@ impl Session {
     }
 
     /// Ends what runs, for an activity in which nothing moves by itself.
-    fn leave_for(&mut self, activity: Activity, now: Moment) {
+    pub(super) fn leave_for(&mut self, activity: Activity, now: Moment) {
         // In Standby the unit must not move by itself either.
         let is_standby = matches!(activity, Activity::Standby);
         if self.may_move() || (is_standby && self.active()) {
@@ -269,6 +291,8 @@ impl Session {
             Command::Resume => self.resume(),
             Command::Standby => self.leave_for(Activity::Standby, now),
             Command::AutoTrack(false) => self.end_auto_track(),
+            // The track would go on with the next link.
+            Command::EndAtTarget => self.end_at_target(now),
             Command::FirstOffsets(offsets) => self.begin_with(offsets),
             // The track goes on with the offsets that it has.
             Command::Offset(_) => self.tell(Event::OffsetRefused(Refusal::PositionUnknown)),

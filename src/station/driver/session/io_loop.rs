@@ -9,7 +9,7 @@ use crate::{
     clock::{Clock, Moment},
     contract::driver::{Command, Event, LinkLoss},
     device::Extent,
-    driver::Stream,
+    driver::{Numbered, Stream},
 };
 
 /// Time limit for a connection to come up.
@@ -180,8 +180,12 @@ impl Session {
         match turn {
             Input::Over => return false,
             Input::Stop => self.stop_and_void(now),
-            Input::Command(Command::Disconnect) => return !self.disconnect(),
-            Input::Command(command) => self.carry_out_offline(command, now),
+            Input::Command(Numbered { command: Command::Disconnect, .. }) => {
+                return !self.disconnect();
+            }
+            Input::Command(numbered) => {
+                self.carry_out_numbered(numbered, now, Self::carry_out_offline);
+            }
             Input::Bounds(bounds) => self.keep_within(*bounds),
             Input::Sleep(awake) => self.before_sleep(awake, now),
             Input::Bytes(_) | Input::Lost(_) | Input::Time => {}
@@ -271,16 +275,16 @@ impl Session {
                     let now = self.now();
                     self.before_sleep(awake, now);
                 }
-                Input::Command(Command::Disconnect) => {
+                Input::Command(Numbered { command: Command::Disconnect, .. }) => {
                     if self.disconnect() {
                         self.shut_down(&mut reader, &mut writer).await;
                         return None;
                     }
                 }
                 Input::Bounds(bounds) => self.keep_within(*bounds),
-                Input::Command(command) => {
+                Input::Command(numbered) => {
                     let now = self.now();
-                    self.carry_out(command, now);
+                    self.carry_out_numbered(numbered, now, Self::carry_out);
                 }
                 Input::Bytes(count) => {
                     let now = self.now();

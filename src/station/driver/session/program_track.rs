@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use super::{
     Session,
-    activity::Activity,
+    activity::{Activity, GoTo},
     likeness::Recheck,
     tracking::{TrackConfig, Tracking},
 };
@@ -14,7 +14,7 @@ use crate::{
     contract::driver::{Command, Event, Intent, Refusal, Safety, TrackProblem, Unlike},
     device::Motion,
     plan::{
-        Bounds, ProgramTrack, TrackPhase,
+        Bounds, ProgramTrack, Target, TrackPhase,
         program_track::{Next, PathOrder, Planner},
     },
     station::AfterPass,
@@ -218,6 +218,27 @@ impl Session {
                 | Refusal::Stopping,
             ) => {}
             Err(refusal) => self.end_follow(refusal.into(), now),
+        }
+    }
+
+    /// Ends the track of a fixed direction: the antenna goes there and stays, and nothing corrects
+    /// it any more.
+    pub(super) fn end_at_target(&mut self, now: Moment) {
+        let measured = self.gate.state().measured;
+        let Some(track) = self.commanded.activity.program_mut() else { return };
+        if !matches!(track.planner.track().target, Target::Fixed(_)) {
+            return;
+        }
+        track.planner.forget_sent();
+        let next = track.planner.update(now.utc, Tracking::turning(measured));
+        let slew = match next {
+            Ok(Some(next)) => self.slew(motion(next), Intent::Position, now).ok(),
+            Ok(None) | Err(_) => None,
+        };
+        match slew {
+            // It replaces the motion under way, as each position of the track did.
+            Some(slew) => self.commanded.activity = Activity::GoTo(GoTo { parks: false, slew }),
+            None => self.leave_for(Activity::Hold(None), now),
         }
     }
 

@@ -31,7 +31,9 @@ impl Session {
                     self.stop_and_void(now);
                     self.contact.want(Wanted::ForStop);
                 }
-                Input::Command(command) => self.carry_out_offline(command, now),
+                Input::Command(numbered) => {
+                    self.carry_out_numbered(numbered, now, Self::carry_out_offline);
+                }
                 Input::Bounds(bounds) => self.keep_within(*bounds),
                 // Dropping the token lets the computer sleep: a unit that was let go needs no STOP.
                 Input::Sleep(_) | Input::Bytes(_) | Input::Lost(_) | Input::Time => {}

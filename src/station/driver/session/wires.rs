@@ -1,13 +1,13 @@
 //! The session's ends of the channels to the station.
 
-use std::sync::{Arc, atomic::Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError, atomic::Ordering};
 
 use tokio::sync::{Mutex as AsyncMutex, Notify, mpsc, watch};
 
 use super::contact::first_link;
 use crate::{
     clock::Instant,
-    contract::driver::{AxisLessons, Command, Event, LinkLoss, LinkState, Snapshot, WireLog},
+    contract::driver::{AxisLessons, Event, LinkLoss, LinkState, Snapshot, TrackProblem, WireLog},
     device::{Measured, WireLine},
     driver::{
         AntennaHandle, COMMANDS, EVENTS, Numbered, Orbits, Orders, PositionLog, Stopper, Wake,
@@ -21,7 +21,7 @@ use crate::{
 pub(super) enum Input {
     Bytes(usize),
     Lost(LinkLoss),
-    Command(Command),
+    Command(Numbered),
     /// New bounds of the antenna.
     Bounds(Box<Bounds>),
     Stop,
@@ -43,6 +43,8 @@ pub struct Wires {
     snapshots: watch::Sender<Arc<Snapshot>>,
     events: mpsc::Sender<Event>,
     wake: Wake,
+    /// Why the present command is not carried out.
+    problem: Arc<Mutex<Option<TrackProblem>>>,
     wire_log: WireLog,
     positions: PositionLog,
     orbit: Orbits,
@@ -79,6 +81,7 @@ impl Wires {
             snapshots,
             events,
             wake,
+            problem: Arc::default(),
             wire_log: wire_log.clone(),
             positions: positions.clone(),
             orbit: Arc::clone(&orbit),
@@ -149,8 +152,23 @@ impl Wires {
         }
     }
 
+    fn problem(&self) -> MutexGuard<'_, Option<TrackProblem>> {
+        // No code panics while it holds the lock.
+        self.problem.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// The last problem that was told since the last call.
+    pub(super) fn take_problem(&self) -> Option<TrackProblem> {
+        self.problem().take()
+    }
+
     /// Sends an event to the station.
     pub(in crate::driver) fn tell(&self, event: Event) {
+        match &event {
+            Event::NotSent(refusal) => *self.problem() = Some(refusal.clone().into()),
+            Event::CannotProgramTrack(_, problem) => *self.problem() = Some(problem.clone()),
+            _ => {}
+        }
         // The driver waits for nobody, so an event that finds no room is dropped.
         if let Err(error) = self.events.try_send(event) {
             tracing::warn!(%error, "nobody reads the events; one was dropped");
@@ -261,16 +279,15 @@ async fn next_bounds(bounds: &mut watch::Receiver<Bounds>) -> Bounds {
 async fn next_command(
     commands: &AsyncMutex<mpsc::Receiver<Numbered>>,
     stopper: &Stopper,
-) -> Option<Command> {
+) -> Option<Numbered> {
     let mut commands = commands.lock().await;
     loop {
-        let Numbered { command, number } = commands.recv().await?;
+        let numbered = commands.recv().await?;
         if commands.is_closed() {
             return None;
         }
-        // The command may have waited here or in the station since before the STOP.
-        if !command.row().void_after_stop || !stopper.is_void(number) {
-            return Some(command);
+        if !numbered.command.row().void_after_stop || !stopper.is_void(numbered.number) {
+            return Some(numbered);
         }
     }
 }

@@ -2,6 +2,7 @@
 
 mod automatic;
 mod axes;
+mod control;
 mod drive;
 mod faults;
 mod follow;

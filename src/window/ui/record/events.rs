@@ -197,13 +197,14 @@ fn command(row: &Row) -> String {
     }
 }
 
-fn given_by(origin: CommandOrigin) -> &'static str {
+fn given_by(origin: CommandOrigin) -> String {
     match origin {
-        CommandOrigin::Window => "the window",
-        CommandOrigin::Serve => "azel serve",
-        CommandOrigin::Program => "another program",
-        CommandOrigin::Signal => "a signal",
-        CommandOrigin::Station => "the station",
+        CommandOrigin::Window => "the window".to_owned(),
+        CommandOrigin::Serve => "azel serve".to_owned(),
+        CommandOrigin::Program => "another program".to_owned(),
+        CommandOrigin::Signal => "a signal".to_owned(),
+        CommandOrigin::Station => "the station".to_owned(),
+        CommandOrigin::Port(address) => format!("the program at {address}"),
     }
 }
 

@@ -141,6 +141,14 @@ pub fn refusal(refusal: &Refusal, now: Timestamp) -> String {
             "Not sent: the unit holds {name}, and Azel has no elements of it: where it would point \
              is not known. Load its elements, or choose another satellite."
         ),
+        Refusal::InControl(party) => format!(
+            "Not sent: {} controls the antenna. Release control or hand it over first.",
+            super::party(*party)
+        ),
+        Refusal::NotAllowed => "Not sent: you have not allowed the program to point the antenna. \
+                                Hand control over on its card."
+            .to_owned(),
+        Refusal::ClientGone => "Not sent: the program has hung up.".to_owned(),
         Refusal::Closing => "Not sent: Azel is closing. Choose to stay open first.".to_owned(),
         Refusal::BeingJudged => "Not sent: what the unit reports changes while Azel judges the way. Try \
                                  again."

@@ -5,8 +5,8 @@
 use egui::{Color32, Rect, ScrollArea, Ui, UiBuilder, vec2};
 
 use super::{
-    Card, CardState, Cursor, drive, faults, header, holds, more, offsets, others, readings,
-    released, track, travel,
+    Card, CardState, Cursor, control, drive, faults, header, holds, more, offsets, others,
+    readings, released, track, travel,
 };
 use crate::{
     contract::antenna::AntennaModel,
@@ -88,6 +88,7 @@ fn sections(
     if header::is_released(antenna) {
         released::about(ui, at, antenna);
     }
+    control::show(ui, at, card);
     holds::show(ui, at, card, state);
     drive::messages(ui, at, card, &state.drive);
     track::notes(ui, at, card, &state.track);

@@ -1,0 +1,149 @@
+//! The ports on which other programs point the antennas, by Hamlib's rotctld protocol. They run on
+//! a thread of their own and are clients of the station like a window: they read snapshots and
+//! queue commands, and the rules of control decide about these.
+
+mod answers;
+mod board;
+mod connection;
+mod program;
+
+use std::{collections::HashMap, io, net::SocketAddr, thread, time::Duration};
+
+use tokio::{
+    net::TcpListener,
+    sync::{mpsc, watch},
+    task::JoinHandle,
+};
+
+use super::Client;
+use crate::{contract::control::PortState, station::AntennaId};
+pub(super) use board::Board;
+pub(super) use connection::converse;
+
+/// Connections of a port; further ones are refused.
+const MAX_CONNECTIONS: usize = 16;
+/// Interval between attempts to listen on a port that another program has.
+const TRIES_AGAIN: Duration = Duration::from_secs(5);
+
+/// Ports to listen on.
+type Wanted = HashMap<AntennaId, SocketAddr>;
+/// State of each port.
+type States = HashMap<AntennaId, PortState>;
+
+/// The listening ports of a station. They are closed when this is dropped.
+pub(super) struct Ports {
+    wanted: watch::Sender<Wanted>,
+    states: watch::Receiver<States>,
+}
+
+impl Ports {
+    /// Starts the thread, which listens nowhere yet.
+    pub(super) fn start(station: Client) -> io::Result<Self> {
+        let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
+        let (wanted, wanted_ports) = watch::channel(Wanted::new());
+        let (state_sender, states) = watch::channel(States::new());
+        let server = Server { station, states: state_sender };
+        thread::Builder::new().name("azel-ports".to_owned()).spawn(move || {
+            runtime.block_on(server.run(wanted_ports));
+        })?;
+        Ok(Self { wanted, states })
+    }
+
+    /// Listens on these ports and no others.
+    pub(super) fn listen(&self, ports: impl Iterator<Item = (AntennaId, SocketAddr)>) {
+        let ports: Wanted = ports.collect();
+        self.wanted.send_if_modified(|wanted| {
+            let is_new = *wanted != ports;
+            *wanted = ports;
+            is_new
+        });
+    }
+
+    /// State of the port of an antenna.
+    pub(super) fn state(&self, antenna: AntennaId) -> PortState {
+        self.states.borrow().get(&antenna).cloned().unwrap_or_default()
+    }
+}
+
+struct Server {
+    station: Client,
+    states: watch::Sender<States>,
+}
+
+impl Server {
+    /// Opens and closes ports until the station ends.
+    async fn run(self, mut wanted: watch::Receiver<Wanted>) {
+        let mut open: HashMap<AntennaId, (SocketAddr, JoinHandle<()>)> = HashMap::new();
+        let (report, mut reports) = mpsc::channel(MAX_CONNECTIONS);
+        loop {
+            let ports = wanted.borrow_and_update().clone();
+            open.retain(|id, (address, listener)| {
+                let stays = ports.get(id) == Some(address);
+                if !stays {
+                    listener.abort();
+                    self.station.board().close(*id);
+                    self.states.send_modify(|states| drop(states.remove(id)));
+                }
+                stays
+            });
+            for (id, address) in ports {
+                open.entry(id).or_insert_with(|| {
+                    let listener = listen(id, address, self.station.clone(), report.clone());
+                    (address, tokio::spawn(listener))
+                });
+            }
+            tokio::select! {
+                changed = wanted.changed() => if changed.is_err() {
+                    return;
+                },
+                Some((id, state)) = reports.recv() => {
+                    self.states.send_modify(|states| drop(states.insert(id, state)));
+                    self.station.board().wake();
+                }
+            }
+        }
+    }
+}
+
+/// Accepts the connections of one port.
+async fn listen(
+    antenna: AntennaId,
+    address: SocketAddr,
+    station: Client,
+    report: mpsc::Sender<(AntennaId, PortState)>,
+) {
+    let listener = loop {
+        match TcpListener::bind(address).await {
+            Ok(listener) => break listener,
+            Err(error) => {
+                tracing::warn!(%address, %error, "the port cannot be opened");
+                // The receiver lives as long as this task.
+                let _ = report.send((antenna, PortState::Failed(error.to_string()))).await;
+                tokio::time::sleep(TRIES_AGAIN).await;
+            }
+        }
+    };
+    let listening = listener.local_addr().unwrap_or(address);
+    let _ = report.send((antenna, PortState::Listening(listening))).await;
+    loop {
+        match listener.accept().await {
+            Ok((stream, peer)) => {
+                // Answers are short, and clients wait for each of them.
+                if let Err(error) = stream.set_nodelay(true) {
+                    tracing::debug!(%peer, %error, "no quick answers");
+                }
+                let program = program::name(peer, listening);
+                let Some(seat) = station.board().seat(antenna, peer, program, station.now().steady)
+                else {
+                    tracing::warn!(%peer, "all connections of the port are taken");
+                    continue;
+                };
+                tokio::spawn(converse(stream, seat, station.clone()));
+            }
+            Err(error) => {
+                tracing::warn!(%address, %error, "a connection");
+                tokio::time::sleep(Duration::from_millis(100)).await;
+            }
+        }
+    }
+}
