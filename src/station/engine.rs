@@ -278,7 +278,6 @@ impl Engine {
             Self::driving(driver, woken, settings, outside, outbox, requests);
         engine.ports = Some(Ports::start(client.clone())?);
         engine.open_ports();
-        engine.publish();
         Ok((engine, client))
     }
 

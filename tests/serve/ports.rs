@@ -12,7 +12,7 @@ use azel::{
         Command,
         control::{Party, PortState},
     },
-    engine::Client,
+    engine::{Client, Handle},
     station::{NetworkPort, Station},
 };
 
@@ -88,6 +88,21 @@ fn a_port_that_another_program_has_is_told_and_tried_again() {
     });
     drop(other);
     assert_eq!(listening(station.client()), taken);
+}
+
+#[test]
+fn the_port_belongs_to_the_azel_that_drives_the_antenna() {
+    let units = Units::start(|station| open_port(station, ANY_PORT.into(), &[]));
+    let (first, _wake, _woken) = units.open();
+    let (second, _second_wake, _second_woken) = units.open();
+    listening(first.client());
+    wait_for("the other Azel", || {
+        named(&second.client().snapshot(), "Dish").held_by.is_some().then_some(())
+    });
+    let port = |station: &Handle| named(&station.client().snapshot(), "Dish").control.port.clone();
+    assert_eq!(port(&second), PortState::Closed);
+    drop(first);
+    listening(second.client());
 }
 
 #[test]

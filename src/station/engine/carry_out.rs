@@ -469,7 +469,6 @@ impl Engine {
         }
         self.record_station(&station);
         self.station = Arc::new(station);
-        self.open_ports();
         self.keep_fingerprint();
         self.tell(Event::Changed);
     }

@@ -67,12 +67,15 @@ impl Engine {
         self.end_motion_of_client(index, loss);
     }
 
-    /// Opens and closes ports by the settings.
+    /// Opens and closes ports by the settings. The Azel that drives an antenna has its port.
     pub(super) fn open_ports(&self) {
-        let ports = self.station.network_ports.iter().map(|port| (port.antenna, port.listen));
-        if let Some(listening) = &self.ports {
-            listening.listen(ports);
-        }
+        let Some(ports) = &self.ports else { return };
+        let is_ours = |id: AntennaId| {
+            let antenna = self.antennas.iter().find(|antenna| antenna.shown.id() == id);
+            antenna.is_some_and(|antenna| antenna.shown.held_by.is_none())
+        };
+        let wanted = self.station.network_ports.iter().filter(|port| is_ours(port.antenna));
+        ports.listen(wanted.map(|port| (port.antenna, port.listen)));
     }
 
     /// The motion of a client that lost control must not outlive it: a turn ends, and a track of a

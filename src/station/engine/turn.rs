@@ -33,6 +33,7 @@ impl Engine {
         self.watch_clock();
         self.watch_driver();
         self.watch_claims();
+        self.open_ports();
         self.take_catalog();
         self.ask_with_typed_passwords();
         self.follow_source_orders();
