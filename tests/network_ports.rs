@@ -463,7 +463,9 @@ async fn is_contended(mut dice: Dice) {
             Happening::AutomaticOperation(is_on) => {
                 set_automatic(&stage.client, stage.id, is_on).await;
             }
-            Happening::Silence => sleep(Duration::from_secs_f64(dice.between(0.1, 13.0))).await,
+            Happening::Silence => {
+                sleep(Duration::from_millis(100 + dice.below(13_000) as u64)).await;
+            }
             Happening::Connects(_) => {}
         }
         sleep(Duration::from_millis(300)).await;
