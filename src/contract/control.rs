@@ -33,6 +33,8 @@ pub struct Control {
     pub port: PortState,
     /// Programs that are connected to it.
     pub clients: Vec<NetworkClient>,
+    /// A program that asked to point the antenna, and hung up before the operator had decided.
+    pub missed: Option<NetworkClient>,
     /// Place of a client that the operator allowed to point, and that may come back.
     pub expected: Option<Expected>,
 }

@@ -114,7 +114,9 @@ impl Engine {
     pub(super) fn hand_over(&mut self, index: usize, client: SocketAddr, always: bool) {
         let now = self.moment();
         let Some(antenna) = self.antennas.get_mut(index) else { return };
-        if antenna.shown.control.client(client).is_none() {
+        let control = &antenna.shown.control;
+        let has_missed = control.missed.as_ref().is_some_and(|missed| missed.address == client);
+        if control.client(client).is_none() && !has_missed {
             return;
         }
         let id = antenna.shown.id();

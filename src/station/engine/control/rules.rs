@@ -20,6 +20,8 @@ const LAPSES_AFTER: Duration = Duration::from_secs(10);
 /// Time in which an allowed client may come back: Gpredict hangs up 3.6 s after a refusal, and its
 /// user engages it again.
 const COMES_BACK_WITHIN: Duration = Duration::from_mins(1);
+/// Time for which the operator can still decide about a program that has hung up.
+const ASKED_LATELY: Duration = Duration::from_mins(2);
 /// Longest kept part of a line, characters.
 const MAX_LINE: usize = 64;
 
@@ -126,6 +128,12 @@ impl Rules for Control {
     }
 
     fn hand_over(&mut self, address: SocketAddr, now: Moment) -> Loss {
+        if self.missed.take_if(|client| client.address == address).is_some() {
+            // It takes control when it comes back.
+            let loss = self.give(None, now);
+            expect(self, address.ip(), now);
+            return loss;
+        }
         let Some(client) = client_mut(self, address) else { return Loss::None };
         client.asks_since = None;
         // Its silence counts from here: it may have sent nothing while it was refused.
@@ -161,19 +169,23 @@ impl Rules for Control {
     }
 
     fn disconnected(&mut self, address: SocketAddr, now: Moment) -> Loss {
-        let was_allowed = self.client(address).is_some_and(|client| client.is_allowed);
-        self.clients.retain(|client| client.address != address);
-        if was_allowed {
-            expect(self, address.ip(), now);
+        let place = self.clients.iter().position(|client| client.address == address);
+        if let Some(client) = place.map(|place| self.clients.remove(place)) {
+            if client.is_allowed {
+                expect(self, address.ip(), now);
+            }
+            if client.asks_since.is_some() {
+                self.missed = Some(client);
+            }
         }
         leave(self, address)
     }
 
     fn lapse(&mut self, now: Moment) -> Loss {
+        self.missed.take_if(|client| is_silent_for(client, ASKED_LATELY, now));
         let Some(Party::Program(address)) = self.party else { return Loss::None };
-        let last = self.client(address).and_then(|client| client.last_line.as_ref());
-        let is_silent = last
-            .is_none_or(|(_, time)| now.steady.saturating_duration_since(*time) >= LAPSES_AFTER);
+        let client = self.client(address);
+        let is_silent = client.is_none_or(|client| is_silent_for(client, LAPSES_AFTER, now));
         if is_silent { leave(self, address) } else { Loss::None }
     }
 
@@ -205,6 +217,11 @@ impl Rules for Control {
             client.answer = Some(answer.clone());
         }
     }
+}
+
+fn is_silent_for(client: &NetworkClient, span: Duration, now: Moment) -> bool {
+    let last = client.last_line.as_ref();
+    last.is_none_or(|(_, time)| now.steady.saturating_duration_since(*time) >= span)
 }
 
 fn client_mut(control: &mut Control, address: SocketAddr) -> Option<&mut NetworkClient> {
@@ -334,6 +351,36 @@ mod tests {
         scene.pass(60);
         let late = scene.connect(3);
         assert_eq!(scene.admit(late), Err(Refusal::NotAllowed));
+    }
+
+    #[test]
+    fn a_program_that_hung_up_before_the_decision_gets_control_when_it_comes_back() {
+        let mut scene = Scene::new();
+        assert_eq!(scene.control.give(Some(Party::Window), scene.now), Loss::None);
+        let client = scene.connect(1);
+        assert_eq!(scene.admit(client), Err(Refusal::InControl(Party::Window)));
+        assert_eq!(scene.control.disconnected(client, scene.now), Loss::None);
+        scene.pass(119);
+        assert_eq!(scene.control.lapse(scene.now), Loss::None);
+        assert_eq!(scene.control.missed.as_ref().unwrap().address, client);
+        assert_eq!(scene.control.hand_over(client, scene.now), Loss::None);
+        assert_eq!((scene.control.party, &scene.control.missed), (None, &None));
+        let again = scene.connect(2);
+        assert_eq!(scene.admit(again), Ok(()));
+    }
+
+    #[test]
+    fn a_request_of_a_program_that_hung_up_is_forgotten() {
+        let mut scene = Scene::new();
+        let client = scene.connect(1);
+        assert_eq!(scene.admit(client), Err(Refusal::NotAllowed));
+        assert_eq!(scene.control.disconnected(client, scene.now), Loss::None);
+        scene.pass(120);
+        assert_eq!(scene.control.lapse(scene.now), Loss::None);
+        assert_eq!(scene.control.missed, None);
+        assert_eq!(scene.control.hand_over(client, scene.now), Loss::None);
+        let again = scene.connect(2);
+        assert_eq!(scene.admit(again), Err(Refusal::NotAllowed));
     }
 
     #[test]

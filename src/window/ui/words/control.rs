@@ -41,6 +41,12 @@ pub fn asks_for_control(client: &NetworkClient, in_control: Option<Party>) -> St
     }
 }
 
+/// A program that asked, and hung up before the operator had decided.
+pub fn asked_for_control(client: &NetworkClient) -> String {
+    let program = program(client);
+    format!("{program} asked to point the antenna, and hung up. Hand over, then connect it again.")
+}
+
 /// Connected programs of which none asks for control.
 pub fn connected(clients: &[NetworkClient], in_control: Option<Party>) -> String {
     let programs = match clients {

@@ -33,7 +33,7 @@ pub(super) fn show(ui: &Ui, at: &mut Cursor, card: &mut Card<'_>) {
         remark(ui, at, "port failed", Icon::Warning, t.warn, &words);
         at.skip(6.0);
     }
-    if control.clients.is_empty() {
+    if control.clients.is_empty() && control.missed.is_none() {
         return;
     }
     let now = card.model.steady;
@@ -44,6 +44,10 @@ pub(super) fn show(ui: &Ui, at: &mut Cursor, card: &mut Card<'_>) {
     } else if let Some(client) = asking(control) {
         let words = words::asks_for_control(client, control.party);
         remark(ui, at, "asks for control", Icon::Question, t.warn, &words);
+        hand_over(ui, at, card, client);
+    } else if let Some(client) = &control.missed {
+        let words = words::asked_for_control(client);
+        remark(ui, at, "asked for control", Icon::Question, t.warn, &words);
         hand_over(ui, at, card, client);
     } else {
         let words = words::connected(&control.clients, control.party);
