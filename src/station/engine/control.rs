@@ -42,9 +42,9 @@ impl Engine {
         let control = &mut antenna.shown.control;
         control.port = listening.unwrap_or_default();
         let mut loss = control.follow_operation(antenna.shown.operation.is_on(), now);
-        let gone: Vec<SocketAddr> = control.clients.iter().map(|client| client.address).collect();
+        let peers: Vec<SocketAddr> = control.clients.iter().map(|client| client.address).collect();
         let is_gone = |peer: &SocketAddr| entries.iter().all(|entry| entry.peer != *peer);
-        for peer in gone.into_iter().filter(is_gone) {
+        for peer in peers.into_iter().filter(is_gone) {
             loss |= control.disconnected(peer, now);
         }
         for entry in entries {
@@ -74,8 +74,8 @@ impl Engine {
             let antenna = self.antennas.iter().find(|antenna| antenna.shown.id() == id);
             antenna.is_some_and(|antenna| antenna.shown.held_by.is_none())
         };
-        let wanted = self.station.network_ports.iter().filter(|port| is_ours(port.antenna));
-        ports.listen(wanted.map(|port| (port.antenna, port.listen)));
+        let open = self.station.network_ports.iter().filter(|port| is_ours(port.antenna));
+        ports.listen(open.map(|port| (port.antenna, port.listen)));
     }
 
     /// The motion of a client that lost control must not outlive it: a turn ends, and a track of a

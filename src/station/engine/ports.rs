@@ -26,13 +26,13 @@ const MAX_CONNECTIONS: usize = 16;
 const TRIES_AGAIN: Duration = Duration::from_secs(5);
 
 /// Ports to listen on.
-type Wanted = HashMap<AntennaId, SocketAddr>;
+type Addresses = HashMap<AntennaId, SocketAddr>;
 /// State of each port.
 type States = HashMap<AntennaId, PortState>;
 
 /// The listening ports of a station. They are closed when this is dropped.
 pub(super) struct Ports {
-    wanted: watch::Sender<Wanted>,
+    addresses: watch::Sender<Addresses>,
     states: watch::Receiver<States>,
 }
 
@@ -40,21 +40,21 @@ impl Ports {
     /// Starts the thread, which listens nowhere yet.
     pub(super) fn start(station: Client) -> io::Result<Self> {
         let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
-        let (wanted, wanted_ports) = watch::channel(Wanted::new());
+        let (addresses, address_changes) = watch::channel(Addresses::new());
         let (state_sender, states) = watch::channel(States::new());
         let server = Server { station, states: state_sender };
         thread::Builder::new().name("azel-ports".to_owned()).spawn(move || {
-            runtime.block_on(server.run(wanted_ports));
+            runtime.block_on(server.run(address_changes));
         })?;
-        Ok(Self { wanted, states })
+        Ok(Self { addresses, states })
     }
 
     /// Listens on these ports and no others.
     pub(super) fn listen(&self, ports: impl Iterator<Item = (AntennaId, SocketAddr)>) {
-        let ports: Wanted = ports.collect();
-        self.wanted.send_if_modified(|wanted| {
-            let is_new = *wanted != ports;
-            *wanted = ports;
+        let ports: Addresses = ports.collect();
+        self.addresses.send_if_modified(|addresses| {
+            let is_new = *addresses != ports;
+            *addresses = ports;
             is_new
         });
     }
@@ -72,11 +72,11 @@ struct Server {
 
 impl Server {
     /// Opens and closes ports until the station ends.
-    async fn run(self, mut wanted: watch::Receiver<Wanted>) {
+    async fn run(self, mut addresses: watch::Receiver<Addresses>) {
         let mut open: HashMap<AntennaId, (SocketAddr, JoinHandle<()>)> = HashMap::new();
         let (report, mut reports) = mpsc::channel(MAX_CONNECTIONS);
         loop {
-            let ports = wanted.borrow_and_update().clone();
+            let ports = addresses.borrow_and_update().clone();
             open.retain(|id, (address, listener)| {
                 let stays = ports.get(id) == Some(address);
                 if !stays {
@@ -93,7 +93,7 @@ impl Server {
                 });
             }
             tokio::select! {
-                changed = wanted.changed() => if changed.is_err() {
+                changed = addresses.changed() => if changed.is_err() {
                     return;
                 },
                 Some((id, state)) = reports.recv() => {

@@ -150,7 +150,7 @@ impl Rules for Control {
         let is_expected = self
             .expected
             .is_some_and(|expected| expected.address == address.ip() && now.steady < expected.end);
-        self.clients.retain(|known| known.address != address);
+        self.clients.retain(|other| other.address != address);
         self.clients.push(NetworkClient { is_allowed: is_expected, ..client });
     }
 
