@@ -1,8 +1,8 @@
 //! Time to read 30,000 objects in each form: `cargo bench --bench elements`.
 //!
-//! The objects are the bundled ones, repeated under other numbers to make up the total.
+//! The objects are the bundled objects, repeated under other numbers to reach the total.
 
-// A bench prints to its user, and may panic.
+// A bench prints its results, and may panic.
 #![allow(clippy::print_stdout, clippy::unwrap_used)]
 
 use std::{fmt::Write as _, hint::black_box, time::Instant};
@@ -13,7 +13,7 @@ use serde_json::{Map, Value};
 const OBJECTS: usize = 30_000;
 /// First number of the repeated objects, low enough for a TLE.
 const FIRST_NUMBER: usize = 300_000;
-/// Number of runs, of which the shortest counts.
+/// Number of runs; the shortest counts.
 const RUNS: usize = 7;
 
 type Message = Map<String, Value>;
@@ -36,7 +36,7 @@ fn written<T>(write: impl FnOnce(&mut Vec<u8>) -> std::io::Result<T>) -> String 
     String::from_utf8(out).unwrap()
 }
 
-/// Fields of a message, with their values.
+/// Returns the fields of a message, with their values.
 fn fields(message: &Message) -> impl Iterator<Item = (&str, String)> {
     message.iter().map(|(key, value)| {
         (key.as_str(), value.as_str().map_or_else(|| value.to_string(), str::to_owned))

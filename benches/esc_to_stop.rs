@@ -1,8 +1,9 @@
 //! Time from Esc pressed to `STOP=` on the wire to the first of three antennas, in the real window
-//! on a virtual screen. Needs Xvfb and xdotool. With the path of another build of the program in
-//! `AZEL_BESIDE` both are measured in turn. An argument chooses the rows whose name holds it.
+//! on a virtual screen. The bench needs Xvfb and xdotool. With the path of another build of the
+//! program in `AZEL_BESIDE`, it measures both builds in turn. An argument selects the rows whose
+//! name contains it.
 
-// A bench prints to its user, and may panic.
+// A bench prints its results, and may panic.
 #![allow(clippy::print_stdout, clippy::unwrap_used, clippy::expect_used, clippy::indexing_slicing)]
 
 use std::{
@@ -32,11 +33,11 @@ use tokio::{
     runtime::Runtime,
 };
 
-/// EUTELSAT 7C, which is stationary in the sky of the usual site.
+/// EUTELSAT 7C, which is stationary in the sky of the default site.
 const SATELLITE: u32 = 44_334;
-/// Number of antennas, each with a unit of its own.
+/// Number of antennas, each with its own unit.
 const ANTENNAS: usize = 3;
-/// Longer than it takes until the display repeats a held key.
+/// Duration of a held key, longer than the delay before the display repeats the key.
 const HELD: Duration = Duration::from_millis(900);
 
 struct Running(Child);
@@ -64,7 +65,7 @@ enum Doing {
     Tracking,
 }
 
-/// A window with its unit and the measurements so far.
+/// A window with its unit and its measurements.
 struct Bench {
     name: String,
     keys: ChildStdin,
@@ -95,7 +96,7 @@ fn main() {
         if !what.contains(&chosen) {
             continue;
         }
-        // Each on a screen of its own, where it keeps the focus.
+        // Each program has its own screen, where it keeps the focus.
         let mut benches: Vec<(Running, Bench)> = programs
             .iter()
             .zip(94..)
@@ -104,7 +105,7 @@ fn main() {
                 (screen, Bench::start(name, program, &display, hz, stall))
             })
             .collect();
-        // In turn, so that all meet the same load.
+        // The programs take turns, so that all meet the same load.
         for press in 0..presses {
             for (_, bench) in &mut benches {
                 bench.press(press, doing);
@@ -119,7 +120,8 @@ fn main() {
 fn screen(display: u32) -> Running {
     let screen = Command::new("Xvfb")
         .args([&format!(":{display}"), "-screen", "0", "1440x900x24", "-nolisten", "tcp"])
-        // Without this it restarts whenever its last client leaves, and drops a new one.
+        // Without this option, Xvfb restarts whenever its last client leaves, and drops a new
+        // client.
         .arg("-noreset")
         .stderr(Stdio::null())
         .spawn();
@@ -131,8 +133,8 @@ fn screen(display: u32) -> Running {
 /// First words of the requests whose arrival the relay reports.
 const TOLD: [&str; 2] = ["MOVE=", "STOP="];
 
-/// A relay to the unit that delays every reply by `stall` and no request, and tells when which of
-/// [`TOLD`] arrives.
+/// Starts a relay to the unit, and returns its address. The relay delays every reply by `stall`,
+/// but no request, and reports the arrival of each of [`TOLD`].
 async fn stalling_way(
     unit: SocketAddr,
     stall: Duration,
@@ -260,7 +262,7 @@ impl Bench {
             self.track();
             sleep(Duration::from_millis(1500));
         }
-        // Not in step with the polling.
+        // The varying delay keeps the presses out of step with the polling.
         sleep(Duration::from_millis(280 + (press * 37) % 90));
         let pressed = Instant::now();
         self.type_in("key Escape");
@@ -271,7 +273,7 @@ impl Bench {
         }
     }
 
-    /// Lets the unit track by the order of another client.
+    /// Starts a track of the unit as another client.
     fn track(&self) {
         let elements = bundled().expect("elements");
         let name = elements.get(SATELLITE).expect("it is there").name();
@@ -297,7 +299,7 @@ impl Bench {
         writeln!(self.keys, "{line}").expect("xdotool takes keys");
     }
 
-    /// Arrival of the first request with `word` after `from`.
+    /// Returns the arrival of the first request with `word` after `from`.
     fn next(&self, word: &str, from: Instant) -> Instant {
         loop {
             let told = self.arrivals.recv_timeout(Duration::from_secs(5));
@@ -312,7 +314,7 @@ impl Bench {
         self.times.sort();
         let count = self.times.len();
         let below = |percent: usize| self.times[count * percent / 100];
-        // With fewer measurements it would equal the slowest.
+        // With fewer measurements, p99 would equal the slowest.
         let p99 = if count > 100 { format!("p99 {:.1?}, ", below(99)) } else { String::new() };
         println!(
             "{what}, {}: p50 {:.1?}, p90 {:.1?}, {p99}slowest {:.1?} of {count}",

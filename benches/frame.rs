@@ -1,11 +1,12 @@
-//! Cost of a frame of the Operate view without painting: logic, layout and tessellation, each by
-//! the clock on the wall and, in brackets, of the processor for this thread. On the demo
-//! station while the antenna stands, on stations without antennas and with 1,000 favourites or
-//! the whole catalogue as favourites, and with 1,000 favourites in the plan of three antennas,
-//! whose units are switched off. The window is drawn as eframe draws it for nobody with a screen
-//! reader. Each frame is of the next second, so that everything that moves has moved.
+//! Cost of a frame of the Operate view without painting: logic, layout and tessellation. Each cost
+//! is in wall time and, in brackets, in processor time of this thread.
+//!
+//! The stations are the demo station with standing antennas, stations without antennas but with
+//! 1,000 favourites or the whole catalogue, and 1,000 favourites in the plan of three antennas with
+//! switched-off units. The window is drawn as by eframe without a screen reader. Each frame shows
+//! the next second, so that every moving element has moved.
 
-// A bench prints to its user, and may panic.
+// A bench prints its results, and may panic.
 #![allow(clippy::print_stdout, clippy::unwrap_used, clippy::expect_used)]
 
 use std::{
@@ -69,13 +70,13 @@ fn main() {
     }
 }
 
-/// A clock on which the next second begins whenever the counter is raised.
+/// Returns a clock on which the next second begins whenever the counter is raised.
 fn clock(seconds: &Arc<AtomicI64>) -> Clock {
     let (begun, seconds) = (Timestamp::now(), Arc::clone(seconds));
     Clock::new(move || begun + SignedDuration::from_secs(seconds.load(Ordering::Relaxed)))
 }
 
-/// The window, without a painter.
+/// The window without a painter.
 struct Window {
     ctx: egui::Context,
     app: App,
@@ -85,7 +86,7 @@ struct Window {
 }
 
 impl Window {
-    /// Draws a frame, a second after the last one.
+    /// Draws a frame, one second after the previous frame.
     fn draw(&mut self) -> Drawn {
         self.drawn += 1;
         let (screen_rect, time) = (Some(self.screen), Some(f64::from(self.drawn)));
@@ -97,13 +98,13 @@ impl Window {
                 self.app.ui(ui, &mut self.frame);
             })
         });
-        // Nobody paints with them.
+        // No painter uses the textures.
         output.textures_delta.clear();
         Drawn { logic, layout: all - logic, shapes: output.shapes }
     }
 }
 
-/// A frame with what it cost.
+/// A frame with its cost.
 struct Drawn {
     logic: Spent,
     layout: Spent,
@@ -159,8 +160,8 @@ fn frames(
     );
 }
 
-/// Time by the clock on the wall, and of the processor for this thread, which other work on the
-/// machine does not lengthen.
+/// Wall time and processor time of this thread. Other work on the machine does not lengthen the
+/// processor time.
 #[derive(Clone, Copy, Default)]
 struct Spent {
     wall_s: f64,
@@ -196,14 +197,14 @@ fn timed<T>(run: impl FnOnce() -> T) -> (Spent, T) {
     (Spent { wall_s: start.elapsed().as_secs_f64(), cpu_s }, result)
 }
 
-/// Processor time of this thread.
+/// Returns the processor time of this thread, seconds.
 #[cfg(unix)]
 fn cpu_s() -> f64 {
     let clock = nix::time::ClockId::CLOCK_THREAD_CPUTIME_ID;
     Duration::from(clock.now().expect("a clock")).as_secs_f64()
 }
 
-/// Elsewhere it is not measured.
+/// Returns NaN: other systems have no measurement.
 #[cfg(not(unix))]
 fn cpu_s() -> f64 {
     f64::NAN

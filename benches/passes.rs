@@ -1,20 +1,17 @@
-//! The pass search beside two others, in one run: `cargo bench --bench passes`.
+//! Comparison of the pass search with two others, in one run: `cargo bench --bench passes`.
 //!
-//! - `sgp4-predict` with steps wide enough to be fast and close enough to lose
-//!   only a handful of passes: for AOS and LOS alone, which is all that its
-//!   search gives, and with what this search gives as well, the greatest
-//!   elevation and the directions, each asked for in as few steps as find it.
-//! - The library that all three take their states from, every 10 s, each
-//!   crossing halved down to a millisecond and each maximum near the horizon
-//!   looked at more closely.
+//! - `sgp4-predict` with steps wide enough to be fast and close enough to lose only a few passes.
+//!   One column has the cost of AOS and LOS alone, which is all that its search gives. Another adds
+//!   the greatest elevation and the directions, each in as few steps as find it.
+//! - The SGP4 library that all three searches use, with a state every 10 s. Each crossing is halved
+//!   down to a millisecond, and each maximum near the horizon is examined more closely.
 //!
-//! All work on one core; the last column is this search on two. Times are those
-//! of the wall and, in brackets, of the processor; the shares are of the
-//! processor's, and on two cores of the wall's. The grid needs
-//! minutes for the whole catalog and most of an hour for a week of it, which is
-//! therefore left out unless `-- --all` asks for it.
+//! All searches work on one core; the last column is Azel's search on two. Times are wall times
+//! and, in brackets, processor times. The shares compare processor times, and on two cores wall
+//! times. The grid needs minutes for the whole catalog and most of an hour for a week of it. The
+//! bench therefore runs the latter only with `-- --all`.
 
-// A bench prints to its user, and may panic.
+// A bench prints its results, and may panic.
 #![allow(clippy::print_stdout, clippy::unwrap_used, clippy::indexing_slicing)]
 
 use std::{
@@ -39,7 +36,7 @@ const LONGITUDE_DEG: f64 = 29.17;
 const ALTITUDE_M: f64 = 100.0;
 const START: &str = "2026-08-12T00:00:00Z";
 const GRID_S: f64 = 10.0;
-/// Number of runs where a run is short; the shortest counts.
+/// Number of runs if a run is short; the shortest counts.
 const RUNS: usize = 7;
 
 fn site() -> Site {
@@ -75,15 +72,15 @@ impl Satellite {
     }
 }
 
-/// The shortest of some runs, in seconds: by the clock on the wall, and by what the processor gave
-/// to this process, which other work on the machine does not lengthen.
+/// Shortest of several runs, seconds: in wall time, and in processor time of this process. Other
+/// work on the machine does not lengthen the processor time.
 #[derive(Clone, Copy)]
 struct Shortest {
     wall_s: f64,
     cpu_s: f64,
 }
 
-/// The shortest run, and the result of the last one.
+/// Returns the shortest run, and the result of the last run.
 fn timed<T>(runs: usize, mut run: impl FnMut() -> T) -> (Shortest, T) {
     let mut shortest = Shortest { wall_s: f64::INFINITY, cpu_s: f64::INFINITY };
     let mut result = None;
@@ -97,14 +94,14 @@ fn timed<T>(runs: usize, mut run: impl FnMut() -> T) -> (Shortest, T) {
     (shortest, result.unwrap())
 }
 
-/// Processor time of this process.
+/// Returns the processor time of this process, seconds.
 #[cfg(unix)]
 fn cpu_s() -> f64 {
     let clock = nix::time::ClockId::CLOCK_PROCESS_CPUTIME_ID;
     Duration::from(clock.now().unwrap()).as_secs_f64()
 }
 
-/// Elsewhere it is not measured.
+/// Returns NaN: other systems have no measurement.
 #[cfg(not(unix))]
 fn cpu_s() -> f64 {
     f64::NAN
@@ -115,7 +112,8 @@ fn ours(satellites: &[Satellite], days: f64, threads: usize) -> (Shortest, usize
     let propagators: Vec<&Propagator> = satellites.iter().map(|one| &one.ours).collect();
     let search = search(days);
     let run = || passes_of_all(&propagators, &search, &|_| (), &|| false).map(black_box).count();
-    // Timed within the pool: waking one of its threads takes as long as a week of one satellite.
+    // The timing is within the pool, because waking a thread takes as long as a week of one
+    // satellite.
     pool.install(|| timed(RUNS, run))
 }
 
@@ -125,7 +123,7 @@ const THEIR_SITE: GeodeticPoint = GeodeticPoint {
     altitude: ALTITUDE_M,
 };
 
-/// Time and number of passes of `sgp4-predict`, with `then` called for each pass.
+/// Returns the time and number of passes of `sgp4-predict`, and calls `then` for each pass.
 fn theirs(
     satellites: &[Satellite],
     days: f64,
@@ -160,10 +158,10 @@ fn theirs(
     })
 }
 
-/// Maximum elevation of a pass, and the directions of AOS and LOS.
+/// Computes the maximum elevation of a pass, and the directions of AOS and LOS.
 fn describe(predictor: &Predictor, transit: &Transit) {
     let Transit { start, end } = *transit;
-    // At least two steps within the pass are needed to see a fall.
+    // The search needs at least two steps within the pass to see a fall.
     let scan_step = ((end - start) / 3).clamp(TimeDelta::milliseconds(1), TimeDelta::minutes(30));
     black_box(predictor.observe_at(start, THEIR_SITE)).unwrap();
     black_box(predictor.observe_at(end, THEIR_SITE)).unwrap();
@@ -192,7 +190,7 @@ impl Grid {
         (to_teme * up, to_teme * frames::site_ecef_km(site()))
     }
 
-    /// Sine of the elevation; below the horizon without a state.
+    /// Returns the sine of the elevation; -1 without a state.
     fn height(&self, one: &Satellite, at_s: f64, (up, site_km): (DVec3, DVec3)) -> f64 {
         let minutes = (time::seconds_between(one.epoch, self.from) + at_s) / 60.0;
         one.plain.propagate(sgp4::MinutesSinceEpoch(minutes)).map_or(-1.0, |state| {
@@ -257,14 +255,14 @@ fn grid(satellites: &[Satellite], days: f64) -> (Shortest, usize) {
     timed(1, || satellites.iter().map(|one| grid.passes(one)).sum())
 }
 
-/// Peak of the resident memory, MB.
+/// Returns the peak of the resident memory, MB.
 fn max_memory_mb() -> Option<f64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
     Some(line.trim().strip_suffix("kB")?.trim().parse::<f64>().ok()? / 1024.0)
 }
 
-/// Runs the whole task once, before any memory is used by the others.
+/// Runs the whole search first, before the other searches use any memory.
 fn measure_memory() {
     let before_mb = max_memory_mb();
     let catalog = bundled().unwrap();

@@ -1,11 +1,11 @@
-//! Looking back at a record that holds a year of passes of three antennas: `cargo bench --bench
-//! record`. The file of about a gigabyte is written first, which takes a minute or two.
+//! Views of a record that holds a year of passes of three antennas: `cargo bench --bench record`.
+//! The bench first writes the file of about a gigabyte, which takes a minute or two.
 //!
-//! Opening a pass is what follows a click in the list: its report, its track with the error at each
-//! point, the predicted path, and what happened in it. A page is what follows a letter in the search:
-//! the newest 200 passes that match, and how many do. The file is in the memory of the system.
+//! Opening a pass is the work after a click in the list: its report, its track with the error at
+//! each point, the predicted path, and its events. A page is the work after a letter in the search:
+//! the newest 200 matching passes, and their number. The file is in the memory of the system.
 
-// A bench prints to its user, and may panic.
+// A bench prints its results, and may panic.
 #![allow(clippy::print_stdout, clippy::unwrap_used)]
 
 use std::{hint::black_box, path::Path, time::Instant};
@@ -30,12 +30,12 @@ use jiff::{Timestamp, ToSpan as _};
 const DAYS: i64 = 365;
 const ANTENNAS: u32 = 3;
 const LONGEST_S: f64 = 3600.0;
-/// Number of runs, of which the median and the longest are told.
+/// Number of runs; the bench reports the median and the longest.
 const RUNS: usize = 50;
-/// Passes between two writes: the recorder takes some thousand orders at most.
+/// Number of passes between two writes: the recorder accepts at most some thousand pending orders.
 const AT_ONCE: usize = 200;
 
-/// The passes of one day, as antennas flew them.
+/// Returns the passes of one day, as recorded by antennas.
 fn day(site: Site, from: Timestamp) -> Vec<PassNote> {
     let catalog = bundled().unwrap();
     let mut notes = Vec::new();
@@ -43,7 +43,7 @@ fn day(site: Site, from: Timestamp) -> Vec<PassNote> {
         let elements = catalog.get(number).unwrap().clone();
         let propagator = Propagator::new(&elements).unwrap();
         let search = PassSearch::new(site, from, from + 24.hours());
-        // One that does not set has a pass of a day.
+        // A satellite that does not set has a pass of a day.
         let found = passes(&propagator, &search, &|| false);
         for pass in found.into_iter().filter(|pass| pass.duration_s() < LONGEST_S) {
             let antenna = AntennaId(notes.len() as u32 % ANTENNAS + 1);
@@ -64,7 +64,7 @@ fn note(
     let points: Vec<MeasuredPosition> = (0..pass.duration_s() as u32)
         .map(|second| {
             let time = add_seconds(from, f64::from(second));
-            // The antenna is where the satellite was a third of a second ago.
+            // The antenna points where the satellite was a third of a second ago.
             let look = propagator.look_from(site, add_seconds(time, -0.3)).unwrap().direction;
             let pointing =
                 Pointing { azimuth: Some(look.azimuth), elevation: Some(look.elevation) };
@@ -115,7 +115,7 @@ fn note(
     PassNote { antenna, report, points }
 }
 
-/// The same so many days later.
+/// Returns the same pass `days` days later.
 fn later(note: &PassNote, days: i64) -> PassNote {
     let by = (days * 24).hours();
     let mut note = note.clone();
@@ -127,7 +127,7 @@ fn later(note: &PassNote, days: i64) -> PassNote {
     note
 }
 
-/// Writes a year of passes that ends now; returns their number a day.
+/// Writes a year of passes that ends now, and returns their number per day.
 fn write(path: &Path, site: Site) -> usize {
     let from = Timestamp::now() - (DAYS * 24).hours();
     let day = day(site, from);

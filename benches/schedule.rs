@@ -1,12 +1,13 @@
-//! The schedule beside a greedy one: `cargo bench --bench schedule`.
+//! Comparison of the schedule with a greedy schedule: `cargo bench --bench schedule`.
 //!
-//! Greedy takes passes by their greatest elevation, the highest first, each on the first antenna
-//! that is free in time. Both plan for the demo station's three antennas with their real slews,
-//! weeks of 60 satellites; the value is the seconds that count times the sine of the maximum,
-//! without priorities, because greedy knows none. All that is on one core. Then the whole catalogue
-//! for a day on one antenna, found and judged on all cores, as the station does it.
+//! The greedy scheduler takes passes by their greatest elevation, the highest first, each on the
+//! first antenna that is free. Both schedulers plan weeks of 60 satellites for the demo station's
+//! three antennas with their real slews. The value is the seconds that count times the sine of the
+//! max elevation. It ignores priorities, because the greedy scheduler knows none. All of this runs
+//! on one core. The bench then finds and judges the whole catalogue for a day on each antenna
+//! alone. This part runs on all cores, as in the station.
 
-// A bench prints to its user, and may panic.
+// A bench prints its results, and may panic.
 #![allow(clippy::print_stdout, clippy::unwrap_used, clippy::indexing_slicing)]
 
 use std::time::{Duration, Instant};
@@ -28,7 +29,7 @@ const START: &str = "2026-08-12T00:00:00Z";
 const WEEKS: u64 = 20;
 const SATELLITES: usize = 60;
 
-/// Splitmix64.
+/// Generator of random numbers (Splitmix64).
 struct Random(u64);
 
 impl Random {
@@ -54,7 +55,7 @@ fn antennas(station: &Station, from: Timestamp) -> Vec<PlannedAntenna> {
     planned.collect()
 }
 
-/// Site, antennas and search that all passes within `hours` share.
+/// Returns the site, antennas and search that all passes within `hours` share.
 fn asked<'a>(
     station: &Station,
     antennas: &'a [PlannedAntenna],
@@ -70,7 +71,7 @@ fn asked<'a>(
     (Common { site, floor, antennas, max_age_s: None }, search)
 }
 
-/// The candidates, and the time that finding passes and judging them took.
+/// Returns the candidates, and the times for finding passes and judging them.
 fn candidates(
     station: &Station,
     antennas: &[PlannedAntenna],
@@ -108,7 +109,7 @@ fn candidate(
     Candidate::new(number, 0.0, (pass, propagator), wanted, &mut sight, common)
 }
 
-/// As [`candidates`], on all cores.
+/// Returns the same as [`candidates`], computed on all cores.
 fn candidates_at_once(
     station: &Station,
     antennas: &[PlannedAntenna],
@@ -155,7 +156,8 @@ fn worth(schedule: &Schedule) -> i64 {
     schedule.entries.iter().map(|entry| entry.worth).sum()
 }
 
-/// The highest pass first: each is kept if all that were kept before can be kept with it.
+/// Plans the highest pass first, keeps each pass that fits with all kept passes, and returns the
+/// total value.
 fn greedy(antennas: &[PlannedAntenna], candidates: &[Candidate]) -> i64 {
     let mut order: Vec<&Candidate> = candidates.iter().collect();
     order.sort_by(|a, b| {

@@ -1,10 +1,10 @@
-//! Cost of judging a jog out of a keep-out, which happens for each key repeat and each
-//! reading: `cargo bench --bench way_out`.
+//! Cost of judging a jog out of a keep-out, for each key repeat and each reading: `cargo bench
+//! --bench way_out`.
 //!
-//! One judgement looks 21 times, half a degree apart, at three keep-outs and the Sun for
+//! One judgement tests 21 positions, half a degree apart, against three keep-outs and the Sun for
 //! an hour ahead.
 
-// A bench prints to its user, and may panic.
+// A bench prints its results, and may panic.
 #![allow(clippy::print_stdout, clippy::unwrap_used)]
 
 use std::{hint::black_box, time::Instant};
@@ -14,7 +14,7 @@ use azel::{
     station::{Antenna, Entered, KeepOut, Station, SunAvoidance},
 };
 
-/// Number of runs, of which the shortest counts.
+/// Number of runs; the shortest counts.
 const RUNS: usize = 50;
 const LOOKS: u32 = 21;
 

@@ -14,25 +14,25 @@ pub use self::{
 };
 use crate::{astro::time::seconds_between, station::AntennaId};
 
-/// Within this time after it came, an alarm is recorded, seconds.
+/// Max delay between the first occurrence of an alarm and its record, seconds.
 const RECORDED_S: f64 = 5.0;
 
-/// State of an alarm in its life.
+/// Lifecycle state of an alarm.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum AlarmState {
-    /// Its reason stands, and it was not acknowledged.
+    /// Alarm with a persisting cause, not acknowledged.
     New,
-    /// Its reason is over, and it was not acknowledged.
+    /// Alarm whose cause is over, not acknowledged.
     NewAndOver { over_since: Timestamp },
-    /// Its reason stands; it was acknowledged.
+    /// Alarm with a persisting cause, acknowledged.
     Seen,
-    /// Its reason is over, and it was acknowledged.
+    /// Alarm whose cause is over, acknowledged.
     Over { over_since: Timestamp },
-    /// It is quiet until then, whether its reason stands or comes again.
+    /// Alarm that stays quiet until `end`, even if its cause persists or recurs.
     Shelved { end: Timestamp },
 }
 
-/// How long an alarm is shelved.
+/// Time for which an alarm is shelved.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum ShelveTime {
     TenMinutes,
@@ -53,34 +53,34 @@ impl ShelveTime {
     }
 }
 
-/// One row of the alarm list: one matter of one antenna, however often it came today.
+/// One row of the alarm list: one problem of one antenna, however often it recurs today.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Alarm {
-    /// Unique in this station. A matter that comes again has a new one, so that nobody
-    /// acknowledges what he has not seen.
+    /// Id of the alarm, unique in this station. A recurrence gets a new id, so that the operator
+    /// acknowledges only alarms that the list has shown.
     pub id: u64,
-    /// The id with which the matter came first: that of its row, however often it comes again.
+    /// Id of the first occurrence. The row keeps this id at each recurrence.
     pub row: u64,
-    /// `None` where it concerns no single antenna.
+    /// Antenna with the problem; `None` if the alarm concerns no single antenna.
     pub antenna: Option<AntennaId>,
     pub kind: AlarmKind,
-    /// When it came first.
+    /// Time of the first occurrence.
     pub raised: Timestamp,
-    /// When it came last; the same as `raised` where it came once.
+    /// Time of the last occurrence; equal to `raised` after a single occurrence.
     pub last: Timestamp,
-    /// How often it came.
+    /// Number of occurrences.
     pub count: u32,
     /// The operator has acknowledged the alarm.
     #[serde(rename = "seen")]
     pub acknowledged: bool,
-    /// When its reason was over; `None` while it stands.
+    /// Time at which the cause ended; `None` while the cause persists.
     pub over_since: Option<Timestamp>,
-    /// Quiet until then.
+    /// End of the shelf; `None` if the alarm is not shelved.
     pub shelved_until: Option<Timestamp>,
 }
 
 impl Alarm {
-    /// An alarm that has come for the first time.
+    /// Creates an alarm that occurs for the first time.
     pub fn new(id: u64, antenna: Option<AntennaId>, kind: AlarmKind, now: Timestamp) -> Self {
         Self {
             id,
@@ -100,7 +100,7 @@ impl Alarm {
         self.kind.priority()
     }
 
-    /// Returns `true` once the reason of the alarm is over.
+    /// Returns `true` once the cause of the alarm is over.
     pub fn is_over(&self) -> bool {
         self.over_since.is_some()
     }
@@ -131,8 +131,8 @@ pub enum AlarmChange {
 }
 
 impl AlarmChange {
-    /// The change that was recorded at `time`, after the one before of the same id. `None` for one that
-    /// nobody looks for, as the end of a shelf.
+    /// Returns the change that the record made at `time` shows, compared with the previous record
+    /// of the same id. Returns `None` for changes that no list shows, such as the end of a shelf.
     pub fn new(alarm: &Alarm, before: Option<&Alarm>, time: Timestamp) -> Option<Self> {
         let is_new = before.is_none() && seconds_between(alarm.last, time) < RECORDED_S;
         let is_set = |part: fn(&Alarm) -> bool| part(alarm) && !before.is_some_and(part);
@@ -150,24 +150,23 @@ impl AlarmChange {
     }
 }
 
-/// The alarms of the station: those that stand, those that nobody has seen, and those of this
-/// day (UTC) that are over. The newest is the last. Clones share the list.
+/// Alarms of the station: persisting alarms, unacknowledged alarms, and alarms of this UTC day that
+/// are over. The newest is the last. Clones share the list.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub struct Alarms {
     pub list: Arc<Vec<Alarm>>,
-    /// Id of the next alarm.
     pub next_id: u64,
     /// An alarm has come since the list was last opened.
     pub unopened: bool,
 }
 
 impl Alarms {
-    /// The newest last.
+    /// Returns the alarms, newest last.
     pub fn list(&self) -> &[Alarm] {
         &self.list
     }
 
-    /// Id of the newest unseen alarm.
+    /// Returns the id of the newest unacknowledged alarm.
     pub fn newest_unseen(&self) -> Option<u64> {
         self.list.iter().rev().find(|alarm| !alarm.acknowledged).map(|alarm| alarm.id)
     }

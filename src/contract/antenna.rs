@@ -1,4 +1,4 @@
-//! One antenna as a station shows it.
+//! State of one antenna, as a station publishes it.
 
 mod answers;
 mod errors;
@@ -39,60 +39,59 @@ pub struct Prediction {
     pub direction: AzEl,
 }
 
-/// One antenna as clients see it.
+/// State of one antenna for clients.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct AntennaModel {
     #[serde(with = "written::antenna")]
     pub config: Arc<Antenna>,
-    /// Last snapshot of its session.
+    /// Last snapshot of the antenna's session.
     pub snapshot: Arc<Snapshot>,
     /// Prediction for the time of the last measurement.
     pub prediction: Option<Prediction>,
-    /// Errors of the present track, oldest first.
+    /// Errors of the current track, oldest first.
     pub errors: Errors,
-    /// Causes of the error of the pass under way, if they are known.
-    // Older films hold another form under the field's own name, which is ignored.
+    /// Causes of the error of the current pass, if known.
+    // Older films hold another form under the field's own name, which serde ignores.
     #[serde(default, rename = "explained_by")]
     pub explained: Option<Explained>,
-    /// The unit answers, but positions that it was asked for are missing again and again.
+    /// The unit answers, but positions that Azel requested are repeatedly missing.
     #[serde(default)]
     pub loses_positions: bool,
-    /// Target of the present track.
+    /// Name of the target of the current track.
     pub errors_of: Option<String>,
     /// Errors of the last tracks.
     pub past_tracks: PastTracks,
     /// Measured rates of azimuth and elevation, degrees a second.
     pub rates_deg_s: Option<(f64, f64)>,
-    /// How its unit would track the selected or next pass on board.
+    /// Judgement of the unit's on-board track of the selected or next pass.
     pub judged: Option<Judged>,
-    /// The last event for the operator to read, with its time.
+    /// Last event for the operator, with its time.
     pub news: Option<(Event, Timestamp)>,
     /// Time of a STOP that no snapshot shows yet.
     pub stop_pressed: Option<Instant>,
-    /// Time of the last STOP that the station knows of.
+    /// Time of the last STOP that the station has received.
     pub last_stop: Option<Instant>,
-    /// The last track it was asked for.
+    /// Last track that the antenna was asked for.
     pub ordered_track: Option<TrackAgain>,
-    /// A track that STOP ended, offered again.
+    /// Track that STOP ended and that the window offers again.
     pub track_again: Option<TrackAgain>,
-    /// A jog was refused for lack of a dead-man, and the operator has not allowed it since.
+    /// Azel refused a jog because no dead-man was available, and the operator has not allowed the
+    /// jog since.
     pub asks_unguarded: bool,
-    /// An action was refused because nobody here knows where it leads, and no other request
-    /// came since.
+    /// Action that Azel refused because its destination is unknown. `None` after the next request.
     pub asks_unseen: Option<Act>,
-    /// The other Azel of this machine that drives its unit.
+    /// Other Azel on this machine that drives the antenna's unit.
     pub held_by: Option<HeldBy>,
-    /// Automatic operation.
     pub operation: Operation,
-    /// The party whose commands may move it, and the programs that are connected to its port.
+    /// Party whose commands may move the antenna, and the programs connected to its port.
     #[serde(default)]
     pub control: Control,
-    /// Orbit by which its session judges on-board track.
+    /// Orbit with which the session judges on-board track.
     pub orbit: Option<Arc<KnownOrbit>>,
 }
 
 impl AntennaModel {
-    /// An antenna whose session has just begun.
+    /// Creates an antenna whose session has just begun.
     pub fn new(config: impl Into<Arc<Antenna>>, snapshot: Arc<Snapshot>) -> Self {
         Self {
             config: config.into(),
@@ -119,18 +118,18 @@ impl AntennaModel {
         }
     }
 
-    /// Permanent id.
+    /// Returns the permanent id.
     pub fn id(&self) -> AntennaId {
         self.config.id
     }
 
-    /// Keeps showing a pressed STOP that the station has not heard of yet.
+    /// Keeps showing a pressed STOP that the station has not yet received.
     pub fn keep_pressed(&mut self, pressed: Option<Instant>) {
         let is_news = |pressed: &Instant| self.last_stop.is_none_or(|last| last < *pressed);
         self.stop_pressed = pressed.filter(is_news).or(self.stop_pressed);
     }
 
-    /// Returns `true` if the antenna can be sent to its park position now.
+    /// Returns `true` if the antenna can go to its park position now.
     pub fn can_park(&self) -> bool {
         let snapshot = &self.snapshot;
         let can = self.variant().capabilities;
@@ -145,19 +144,19 @@ impl AntennaModel {
         self.config.connection.variant()
     }
 
-    /// Groups of settings of its unit.
+    /// Returns the settings groups of the antenna's unit.
     pub fn groups(&self) -> &'static [&'static Group] {
         self.variant().groups
     }
 
-    /// Returns `true` while program track follows a target or waits for one.
+    /// Returns `true` while program track follows a target or waits for a target.
     pub fn follows(&self) -> bool {
         let view = self.snapshot.program_track.as_ref();
         view.is_some_and(|view| view.phase != TrackPhase::Over)
     }
 
-    /// Catalog number of the satellite that is tracked, or about to be. With on-board track it is
-    /// the satellite that the unit holds, whatever we asked for.
+    /// Returns the catalog number of the satellite that the antenna tracks or is about to track.
+    /// With on-board track, the satellite in the unit counts, even if Azel requested another.
     pub fn tracked_number(&self) -> Option<u32> {
         let state = &self.snapshot.state;
         if self.follows() {
@@ -172,7 +171,8 @@ impl AntennaModel {
             .flatten()
     }
 
-    /// Catalog number of the satellite that the antenna has the command to track or to wait for.
+    /// Returns the catalog number of the satellite that the antenna is commanded to track or to
+    /// wait for.
     pub fn commanded_number(&self) -> Option<u32> {
         let program = self.snapshot.state.program;
         let is_done = !self.follows()
@@ -180,8 +180,8 @@ impl AntennaModel {
         self.tracked_number().filter(|_| !is_done)
     }
 
-    /// Begin of the track that the antenna is commanded to, at most `now` for one that runs; `None`
-    /// where that is not known.
+    /// Returns the start of the commanded track; for a running program track, at most `now`.
+    /// Returns `None` if the start is unknown.
     pub fn track_begins(&self, now: Timestamp) -> Option<Timestamp> {
         let snapshot = &self.snapshot;
         if let Some(view) = &snapshot.program_track {
@@ -192,19 +192,20 @@ impl AntennaModel {
         window.map(|(start, _)| start).or_else(target)
     }
 
-    /// Returns `true` if the antenna tracks this satellite, or is on its way to a pass of it.
+    /// Returns `true` if the antenna tracks this satellite or is on its way to a pass of the
+    /// satellite.
     pub fn takes(&self, catalog_number: u32) -> bool {
         self.snapshot.link.is_open() && self.commanded_number() == Some(catalog_number)
     }
 
-    /// Returns `true` if the unit tracks, or is about to, by a program that this console has
-    /// not started or taken over.
+    /// Returns `true` if the unit tracks, or is about to track, by a program that Azel has neither
+    /// started nor taken over.
     pub fn tracks_unasked(&self) -> bool {
         self.is_live() && self.is_program_on() && self.snapshot.intent != Intent::Track
     }
 
-    /// Name of the target that is tracked, or about to be; `None` where nothing is, or the
-    /// unit does not name it.
+    /// Returns the name of the target that the antenna tracks or is about to track. Returns `None`
+    /// without a target, or if the unit does not report its name.
     pub fn tracked_name(&self) -> Option<&str> {
         let snapshot = &self.snapshot;
         if self.follows() {
@@ -224,7 +225,7 @@ impl AntennaModel {
         program.is_some_and(|program| program.enabled && program.phase != Phase::Completed)
     }
 
-    /// Returns `true` while a target is tracked, on board or by this program.
+    /// Returns `true` while the antenna tracks a target, on board or by program track.
     pub fn tracks(&self) -> bool {
         let snapshot = &self.snapshot;
         let by_unit = snapshot
@@ -235,8 +236,8 @@ impl AntennaModel {
         by_unit || view.is_some_and(|view| view.phase == TrackPhase::Tracking)
     }
 
-    /// Returns `true` if the antenna moves or has a track. Without a link it returns
-    /// `false`: nobody knows, and other settings may bring the link back.
+    /// Returns `true` if the antenna moves or has a track. Without a link, returns `false`: the
+    /// state is unknown, and other settings may restore the link.
     pub fn is_busy(&self) -> bool {
         let snapshot = &self.snapshot;
         let moves = snapshot.state.measured.is_some_and(|measured| measured.moving());
@@ -244,7 +245,7 @@ impl AntennaModel {
         snapshot.link.is_open() && (moves || tracks)
     }
 
-    /// Returns `true` if the target of program track is where the mount cannot reach.
+    /// Returns `true` if program track follows a target that the mount cannot reach.
     pub fn is_out_of_reach(&self) -> bool {
         let predicted = self.snapshot.program_track.as_ref().and_then(|view| view.predicted);
         let mount = self.config.mount;
@@ -257,8 +258,8 @@ impl AntennaModel {
         })
     }
 
-    /// Returns `true` while the unit answers in time. Else what was measured is old, such as that of
-    /// the link before, while a new one is silent.
+    /// Returns `true` while the unit answers in time. Otherwise the measurements are old, for
+    /// example from the previous link while the current link is silent.
     pub fn is_live(&self) -> bool {
         let Snapshot { link, state, .. } = &*self.snapshot;
         let is_of_another_link = (state.link_since.zip(state.measured))
@@ -266,7 +267,7 @@ impl AntennaModel {
         matches!(link, LinkState::Up { .. }) && !is_of_another_link
     }
 
-    /// Error of the last measurement against the prediction for its time; `None` while that
+    /// Returns the error of the last measurement against the prediction for its time; `None` if the
     /// measurement is old.
     pub fn error(&self) -> Option<ErrorSample> {
         let prediction = self.prediction.filter(|_| self.is_live())?;
@@ -282,29 +283,29 @@ impl AntennaModel {
         })
     }
 
-    /// Judgement of the present on-board track, or else of the next one.
+    /// Returns the judgement of the current on-board track, or else of the next on-board track.
     pub fn supervision(&self) -> Option<&Supervision> {
         let running = self.snapshot.on_board.as_ref().map(|view| &*view.found);
         running.or(self.judged.as_ref().and_then(|judged| judged.found.as_deref()))
     }
 
-    /// The judgement, if by it the satellite is missed.
+    /// Returns the judgement if it expects a miss.
     pub fn misses(&self) -> Option<&Supervision> {
         self.supervision().filter(|found| !found.is_within_beam)
     }
 }
 
-/// Judgement of a unit, with the pass and the unit's settings behind it.
+/// Judgement of a unit, with the pass and the unit's settings on which it rests.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Judged {
-    /// How it would track; `None` where its antenna cannot track the pass.
+    /// Expected on-board track; `None` if the antenna cannot track the pass.
     pub found: Option<Arc<Supervision>>,
-    /// The pass and the settings that it was made of.
+    /// Pass and settings behind the judgement.
     #[serde(rename = "of")]
     pub basis: (PassListKey, OnBoard),
 }
 
-/// A track that can be offered again.
+/// Track that the window can offer again.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct TrackAgain {
     /// Name of the target.

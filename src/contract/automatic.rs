@@ -1,4 +1,4 @@
-//! Automatic operation, and what came of the passes of a day.
+//! Automatic operation, and the outcomes of the passes of a day.
 
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
@@ -7,13 +7,14 @@ use crate::{
     passes::PassListKey, plan::pass_report::LossCause, station::AntennaId, transfer::OldAlgorithm,
 };
 
-/// Automatic operation of one antenna. Only the operator switches it on, and lets it go on.
+/// Automatic operation of one antenna. Only the operator switches it on or resumes it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Operation {
     Off(OffBecause),
     On(On),
-    /// Somebody moved the antenna: it waits for the operator, whatever the time.
+    /// Somebody moved the antenna. Automatic operation waits for the operator, without a time
+    /// limit.
     Suspended {
         #[serde(rename = "by")]
         interruption: Interruption,
@@ -27,7 +28,7 @@ impl Operation {
         matches!(self, Self::On(_))
     }
 
-    /// The pass that is being taken.
+    /// Returns the pass that automatic operation is taking.
     pub fn taking(&self) -> Option<&Taking> {
         match self {
             Self::On(On { doing: Doing::Takes(taking), .. }) => Some(taking),
@@ -39,44 +40,44 @@ impl Operation {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum OffBecause {
-    /// Nobody has switched it on since the start.
+    /// Nobody has switched automatic operation on since the start.
     NotSwitchedOn,
-    /// The operator switched it off.
+    /// The operator switched automatic operation off.
     Operator,
     Stop,
-    /// The monitor or the dead-man has stopped the antenna.
+    /// The monitor or the dead-man stopped the antenna.
     Safety,
     LockedOut,
-    /// The settings of the antenna were changed.
+    /// The operator changed the settings of the antenna.
     Changed,
-    /// After an outage the unit was not as it had been left.
+    /// After an outage, the unit differed from its state before the outage.
     NotAsLeft,
-    /// Two passes in a row could not be loaded or proved.
+    /// Azel could not load or prove two passes in a row.
     Failures,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Interruption {
-    /// By a command from this station, such as a jog.
+    /// Command from this station, such as a jog.
     ByHand,
-    /// By the panel of the unit, or by another program.
+    /// Panel of the unit, or another program.
     Elsewhere,
-    /// The unit ended a motion before its end, and Azel had not: by its panel, by another program, or by
-    /// a fault of its own.
+    /// The unit ended a motion before its end, without a command from Azel: by its panel, another
+    /// program, or its own fault.
     EndedByUnit,
-    /// The clock of this computer was set, and no time service is known to keep it.
+    /// Somebody set the clock of this computer, and no time service is known to keep it.
     Clock,
 }
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct On {
     pub doing: Doing,
-    /// Passes in a row that could not be loaded or proved.
+    /// Number of passes in a row that Azel could not load or prove.
     pub failures: u8,
-    /// When the antenna was last moved by automatic operation, or seen to be.
+    /// Time at which automatic operation last moved the antenna, or last saw it move.
     pub moved_at: Option<Timestamp>,
-    /// Since when its unit tracks although nothing is asked of it.
+    /// Time since which the unit has been tracking without a request; `None` otherwise.
     pub moves_since: Option<Timestamp>,
 }
 
@@ -84,17 +85,17 @@ pub struct On {
 #[serde(rename_all = "snake_case")]
 pub enum Doing {
     Rests,
-    /// The first motion after a rest is announced.
+    /// Announcement of the first motion after a rest.
     Announces {
         moves_at: Timestamp,
         pass: PassListKey,
     },
-    /// Goes to its park position between two passes.
+    /// Motion to the park position between two passes.
     Parks,
     Takes(Taking),
 }
 
-/// A pass that is being taken.
+/// A pass that automatic operation is taking.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Taking {
     pub pass: PassListKey,
@@ -102,14 +103,14 @@ pub struct Taking {
     pub start: Timestamp,
     #[serde(rename = "until")]
     pub end: Timestamp,
-    /// When the unit was asked last, and how often since the pass was last proved.
+    /// Time of the last request to the unit.
     pub asked_at: Timestamp,
     pub requests: u8,
     pub attempt: Attempt,
-    /// When it was proved that the antenna is on its way; for a unit with a program of its own
-    /// by reading back.
+    /// Time at which Azel proved that the antenna is on its way. For a unit with its own program,
+    /// the proof is a read-back.
     pub proved_at: Option<Timestamp>,
-    /// Reason why Azel does not track the pass now.
+    /// Reason why Azel does not track the pass now; `None` while Azel tracks it.
     pub given_up: Option<GivenUp>,
 }
 
@@ -117,15 +118,15 @@ pub struct Taking {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Attempt {
-    /// Nothing has moved or been loaded for it.
+    /// Nothing was moved or loaded for the pass.
     NotBegun,
     Begun,
-    /// After it had begun, the unit was found to miss the pass.
+    /// After the start, Azel found that the unit would miss the pass.
     Objected,
 }
 
-/// Reason why a unit cannot begin its pass now. Azel judges this when the antenna should set out,
-/// because an earlier fault may be cleared by then.
+/// Reason why a unit cannot begin its pass now. Azel judges the unit when the antenna should set
+/// out, because an earlier fault may be cleared by then.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum NotReady {
@@ -141,7 +142,8 @@ pub enum NotReady {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum GivenUp {
-    /// The unit or the gate refused it, or it could not be proved.
+    /// The unit or the gate refused the pass, or Azel could not prove that the antenna is on its
+    /// way.
     Refused,
     /// The antenna stayed off its target.
     OffTarget,
@@ -149,7 +151,7 @@ pub enum GivenUp {
     WouldMiss,
 }
 
-/// A line of the list.
+/// A line in the list of the day.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct DayLine {
     #[serde(rename = "at")]
@@ -167,21 +169,21 @@ pub enum DayEvent {
     Suspended(Interruption),
     WentOn,
     Flown(Flown),
-    /// The clock of the unit was set between two passes.
+    /// Azel set the clock of the unit between two passes.
     ClockSet {
-        /// Seconds by which it was ahead of this computer's, negative if it was behind; `None` if it
-        /// was never set.
+        /// Seconds by which the unit's clock was ahead of the computer's, negative if behind;
+        /// `None` if the unit's clock was never set.
         was_ahead_s: Option<f64>,
     },
     ClockNotSet {
         #[serde(rename = "why")]
         reason: String,
     },
-    /// Newer elements were uploaded to the unit between two passes, and verified.
+    /// Azel uploaded newer elements to the unit between two passes, and verified them.
     ElementsUploaded {
         file: String,
         satellites: usize,
-        /// Old algorithms of the SSH connection.
+        /// Old algorithms that the SSH connection used.
         #[serde(default, skip_serializing_if = "Vec::is_empty")]
         old_algorithms: Vec<OldAlgorithm>,
     },
@@ -197,12 +199,12 @@ pub struct Flown {
     pub pass: PassListKey,
     /// Short name of the satellite.
     pub name: String,
-    /// Seconds that were to be had.
+    /// Seconds of the pass that were to be tracked.
     pub of_s: f64,
-    /// Seconds of them within half the beamwidth, as the report of the pass has it.
+    /// Seconds of `of_s` with the satellite within half the beamwidth, from the report of the pass.
     pub in_beam_s: f64,
     pub proved_at: Option<Timestamp>,
-    /// Why most of the rest was lost; `None` where all of it was tracked.
+    /// Main cause of the lost seconds; `None` if the whole pass was tracked.
     pub cause: Option<MissCause>,
 }
 
@@ -212,20 +214,21 @@ impl Flown {
     }
 }
 
-/// Why a pass, or a part of it, was missed.
+/// Cause of a missed pass, or of a missed part of a pass.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum MissCause {
     Off(OffBecause),
     Suspended(Interruption),
-    /// After an outage nobody answered the question of tracking on.
+    /// After an outage, nobody answered the question whether to resume tracking.
     NotResumed,
-    /// The unit or the gate refused it, or it could not be proved.
+    /// The unit or the gate refused the pass, or Azel could not prove that the antenna is on its
+    /// way.
     Refused,
     NotReady(NotReady),
-    /// The track was ended, because the antenna stayed off its target.
+    /// Azel ended the track because the antenna stayed off its target.
     OffTarget,
-    /// As the report of the pass tells it.
+    /// Cause from the report of the pass.
     #[serde(untagged)]
     Lost(LossCause),
 }

@@ -1,4 +1,4 @@
-//! The holder of a station file or of a unit.
+//! Holder of a station file or of a unit.
 
 use std::path::PathBuf;
 
@@ -13,9 +13,9 @@ pub struct Holder {
     pub process: u32,
     #[serde(rename = "since")]
     pub start: Timestamp,
-    /// Socket on which it takes STOP.
+    /// Socket on which the process accepts STOP.
     pub socket: Option<PathBuf>,
-    /// Its name of the antenna, where it holds a unit.
+    /// Holder's name for the antenna, if the claim is for a unit.
     pub antenna: Option<String>,
 }
 
@@ -30,12 +30,12 @@ pub enum HolderKind {
     Serve,
 }
 
-/// Why something is not claimed here.
+/// Reason why this Azel does not hold a claim.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub enum HeldBy {
-    /// Another Azel of this machine holds it; `None` where it does not say who it is.
+    /// Another Azel on this machine holds the claim; `None` if it does not identify itself.
     Azel(Option<Holder>),
-    /// No lock can be made, for this reason, so nobody knows whether another program has it.
+    /// Azel cannot lock the claim, for this reason, so another program may hold it.
     Unknown(String),
 }
 

@@ -7,30 +7,30 @@ use crate::{
     station::{AntennaId, OnClose, Station},
 };
 
-/// Treatment of antennas that move or track at the end.
+/// Treatment of antennas that move or track when the station closes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum CloseHow {
-    /// They are stopped and hold.
+    /// Azel stops the antennas.
     Hold,
-    /// They are parked; those that cannot be parked are stopped.
+    /// Azel parks the antennas, and stops antennas that cannot park.
     Park,
-    /// On-board track goes on; everything else that moves is stopped.
+    /// On-board track goes on; Azel stops every other motion.
     Leave,
 }
 
-/// A closing under way: the program ends when these antennas are done.
+/// A closing in progress. The program ends when all these antennas are done.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Closing {
     /// The operator's choice.
     #[serde(rename = "how")]
     pub choice: CloseHow,
     pub waits_for: Vec<(AntennaId, CloseCondition)>,
-    /// When it began.
+    /// Start of the closing.
     #[serde(rename = "since")]
     pub start: Instant,
 }
 
-/// Condition that a closing waits for.
+/// Condition on an antenna that the closing waits for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum CloseCondition {
     /// Proved standstill.
@@ -40,7 +40,7 @@ pub enum CloseCondition {
 }
 
 impl CloseHow {
-    /// The choice in the station file; `None` where the operator is asked.
+    /// Returns the choice in the station file; `None` if Azel has to ask the operator.
     pub fn from_station(station: &Station) -> Option<Self> {
         Some(match station.on_close? {
             OnClose::Hold => Self::Hold,

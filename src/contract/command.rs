@@ -27,180 +27,185 @@ use crate::{
     uploads,
 };
 
-/// A command of a client to a station. STOP is not one: it bypasses the queue of commands.
+/// Command of a client to a station. STOP is no such command, because it bypasses the queue of
+/// commands.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Command {
-    /// A command for an antenna.
     Antenna(AntennaId, driver::Command),
-    /// Track a pass: on board where the unit can, else by program track.
+    /// Track of a pass: on board if the unit can, otherwise program track.
     Track {
         antenna: AntennaId,
         pass: PassListKey,
-        /// The operator knows that the unit would miss the satellite.
+        /// The operator accepts that the unit would miss the satellite.
         is_agreed: bool,
     },
-    /// Track a pass by program track, even where the unit could track on board.
+    /// Program track of a pass, even if the unit could track on board.
     ProgramTrackPass {
         antenna: AntennaId,
         pass: PassListKey,
     },
-    /// Switch automatic operation of an antenna on or off.
+    /// Switch of an antenna's automatic operation.
     SetAutomatic {
         antenna: AntennaId,
         is_on: bool,
     },
-    /// Let automatic operation of an antenna go on that was suspended.
+    /// Resumption of an antenna's suspended automatic operation.
     GoOn(AntennaId),
-    /// Choose a pass for the schedule or against it; `None` leaves it to the schedule.
+    /// Choice for or against a pass; `None` leaves the choice to the schedule.
     ChoosePass {
         /// Catalog number.
         satellite: u32,
         tca: Timestamp,
         take: Option<Take>,
     },
-    /// Work out what it costs to take a pass that the schedule leaves out.
+    /// Computation of the cost of taking a pass that the schedule leaves out.
     PriceSwap(PassListKey),
-    /// Give favourites these limits; other satellites become favourites.
+    /// New limits for favourites; other satellites in the list become favourites.
     SetPassLimits {
         /// Catalog numbers.
         numbers: Vec<u32>,
         limits: PassLimits,
     },
-    /// Plan passes like this.
+    /// New scheduling preferences.
     SetScheduling(Scheduling),
-    /// List passes with at least this maximum elevation, degrees.
+    /// New min of the maximum elevation of listed passes, degrees.
     SetElevationFloor(f64),
-    /// End the search for the passes of this list; listed passes stay.
+    /// Cancellation of the search for this list; listed passes stay.
     CancelSearch(Scope),
-    /// Restart the cancelled search.
+    /// Restart of the cancelled search.
     ResumeSearch(Scope),
-    /// Mark or unmark satellites as favourites.
+    /// Addition of satellites to the favourites, or their removal.
     SetFavourites {
         /// Catalog numbers.
         numbers: Vec<u32>,
         is_favourite: bool,
     },
-    /// Give favourites this priority; other satellites become favourites.
+    /// New priority for favourites; other satellites in the list become favourites.
     SetPriority {
         /// Catalog numbers.
         numbers: Vec<u32>,
         priority: Priority,
     },
-    /// Let a satellite prefer the elements of these sources, the first one first; none for the
-    /// newest of all. With an order, the satellite becomes a favourite.
+    /// Preferred sources of a satellite's elements, best first; an empty list selects the newest
+    /// elements. With an order, the satellite becomes a favourite.
     SetSourceOrder {
         /// Catalog number.
         satellite: u32,
         /// Names of the sources.
         sources: Vec<String>,
     },
-    /// Give a satellite these frequencies in place of its own.
+    /// Frequencies of a satellite that replace its own.
     SetFrequencies {
         /// Catalog number.
         satellite: u32,
         frequencies: Vec<Frequency>,
     },
-    /// Remember these offsets: tracks begin with them.
+    /// Offsets to keep: later tracks begin with them.
     KeepOffsets {
         #[serde(rename = "of")]
         subject: OffsetsSubject,
         offsets: TrackOffsets,
     },
-    /// Add a source of elements.
+    /// Addition of a source of elements.
     AddSource(Source),
-    /// Remove the source of elements with this name.
+    /// Removal of the source of elements with this name.
     RemoveSource(String),
-    /// Ask the server of the source with this name so often without a client; `None` for never.
+    /// Interval between automatic requests to the server of the source with this name; `None` for
+    /// no automatic requests.
     SetRefresh {
         name: String,
         hours: Option<RefreshHours>,
     },
-    /// Copy elements into the library, as a source with this name.
+    /// Copy of elements into the library, as a source with this name.
     CopyElements {
         name: String,
         #[serde(rename = "from")]
         origin: Copied,
     },
-    /// Publish the older sets of the object with this catalog number.
+    /// Request to publish the older sets of the object with this catalog number.
     ListOlderSets(u32),
-    /// Publish what the record holds of this; `None` ends it.
+    /// Request to publish this part of the record; `None` ends the publication.
     LookAtRecord(Option<RecordLook>),
-    /// Publish the pointing model that fits the record of this antenna, without these terms.
+    /// Request to publish the pointing model that fits the record of this antenna, without these
+    /// terms.
     FitPointing(AntennaId, Vec<Term>),
-    /// Enter a peak of the noise of the Sun or the Moon that an antenna was pointed to, or remove one.
+    /// Addition or removal of a peak of the noise of the Sun or the Moon, measured with this
+    /// antenna.
     ChangePeaks(AntennaId, PeakChange),
-    /// Use this set of elements of an object.
+    /// Choice of the set of elements of an object.
     UseSet(SetChoice),
-    /// Read all sources anew, and ask the servers of some.
+    /// Request to reread all sources, and to ask the servers of some sources.
     RefreshSources {
-        /// Names of the sources whose servers are asked, where they may be.
+        /// Names of the sources whose servers Azel asks, if their limits allow it.
         names: Vec<String>,
-        /// Ask even if they were asked lately.
+        /// Azel asks even if the last request was recent.
         forced: bool,
     },
-    /// Log in at the server of this source with this password, and ask it.
+    /// Log-in at the server of this source with this password, followed by a request.
     SetSourcePassword {
         /// Name of the source.
         name: String,
         secret: Secret,
-        /// Keep it in the keyring of the operating system.
+        /// Azel stores the password in the keyring of the operating system.
         keep: bool,
     },
-    /// The operator has opened the alarm list.
+    /// Notice that the operator has opened the alarm list.
     OpenedAlarms,
-    /// The operator has seen this alarm.
+    /// Acknowledgement of this alarm.
     AcknowledgeAlarm(u64),
-    /// The operator has seen all alarms up to the one with this id.
+    /// Acknowledgement of all alarms up to the alarm with this id.
     AcknowledgeAlarms {
         newest: u64,
     },
-    /// Keep this alarm quiet for a time; refused for a top-priority alarm.
+    /// Shelving of this alarm for a time; refused for a top-priority alarm.
     ShelveAlarm {
         id: u64,
         time: ShelveTime,
     },
-    /// Take this alarm back from the shelf.
+    /// End of the shelving of this alarm.
     UnshelveAlarm(u64),
-    /// Save the settings that were read from this antenna's unit.
+    /// Request to save the settings that Azel read from this antenna's unit.
     SaveSettings(AntennaId),
-    /// Compare the settings of this antenna's unit with a file.
+    /// Comparison of the settings of this antenna's unit with a file.
     CompareSettings(AntennaId),
-    /// Read this copy of settings for the comparison.
+    /// Request to read this copy of settings for the comparison.
     ReadCopy {
         antenna: AntennaId,
         path: PathBuf,
     },
     CloseCopy,
-    /// Save this station and use it.
+    /// Request to save this station and use it.
     SaveStation(#[serde(with = "written::station")] Box<Station>),
-    /// About an upload of elements to a unit.
+    /// Request about an upload of elements to a unit.
     Upload(uploads::Ask),
-    /// From a program that is connected to the port of this antenna.
+    /// Command of a program that is connected to the port of this antenna.
     Client(AntennaId, ClientCommand),
-    /// Take control of this antenna from whoever has it. Its way to a fixed direction goes on.
+    /// Request of the operator to take control of this antenna from any other party. A motion to a
+    /// fixed direction goes on.
     TakeControl(AntennaId),
-    /// Leave the control of this antenna to whoever asks first.
+    /// Release of the control of this antenna to the next party that asks.
     ReleaseControl(AntennaId),
-    /// Let this program point the antenna, and hand control to it.
+    /// Permission for this program to point the antenna, and transfer of control to it.
     HandOver {
         antenna: AntennaId,
         client: SocketAddr,
-        /// Let all programs at its address point the antenna from now on.
+        /// The permission includes all later programs from the same IP address.
         always: bool,
     },
-    /// About a test of an element source that a unit shall use.
+    /// Request about a test of an element source that a unit is to use.
     TestSource(TestAsk),
-    /// Ask the unit of this antenna, which the station need not have, and hang up.
+    /// Test of the link to the unit of this antenna, which may be outside the station. Azel hangs
+    /// up afterwards.
     TestLink(#[serde(with = "written::antenna")] Box<Antenna>),
-    /// End once the moving antennas are treated like this.
+    /// Request to close the station after this treatment of moving antennas.
     CloseAfter(CloseHow),
-    /// Cancel the closing.
+    /// Cancellation of the closing.
     StayOpen,
-    /// The list and pass that the client shows.
+    /// List and pass that the client shows.
     Look(Attention),
 }
 
-/// The list and pass that a client shows; they decide what is computed.
+/// List and pass that a client shows. The station computes only the data for them.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Attention {
     pub list: ListChoice,
@@ -208,7 +213,7 @@ pub struct Attention {
 }
 
 impl Command {
-    /// The antenna of a command that goes to the session of one.
+    /// Returns the antenna to whose session the command goes; `None` for other commands.
     pub fn antenna(&self) -> Option<AntennaId> {
         match self {
             Self::Antenna(antenna, _)
@@ -220,7 +225,7 @@ impl Command {
             | Self::TakeControl(antenna)
             | Self::ReleaseControl(antenna)
             | Self::HandOver { antenna, .. } => Some(*antenna),
-            // Those of an antenna among these read, save and compare what is known here.
+            // Settings, fits and peaks of an antenna concern data of the station, not the session.
             Self::SaveSettings(_)
             | Self::CompareSettings(_)
             | Self::ReadCopy { .. }
@@ -263,12 +268,12 @@ impl Command {
         }
     }
 
-    /// The row of the command in the table of commands.
+    /// Returns the row of the command in the table of commands.
     pub fn row(&self) -> Row {
         match self {
             Self::Antenna(_, command) => command.row(),
             Self::Track { .. } | Self::ProgramTrackPass { .. } => Row::STATION_MOVES,
-            // After an upload the unit tracks again, once the file is in place.
+            // After an upload, the unit tracks again once the file is in place.
             Self::SetAutomatic { is_on: true, .. }
             | Self::GoOn(_)
             | Self::Upload(uploads::Ask::AgreeToTracking) => {
@@ -279,7 +284,7 @@ impl Command {
             | Self::CloseAfter(CloseHow::Hold | CloseHow::Leave) => {
                 Row { effect: Effect::Stops, ..Row::OF_STATION }
             }
-            // The operator may choose again while it closes.
+            // The operator may choose again while the station closes.
             Self::CloseAfter(CloseHow::Park) => {
                 let takes_control = TakesControl::FromClients;
                 Row { takes_control, while_closing: true, ..Row::STATION_MOVES }
@@ -287,7 +292,7 @@ impl Command {
             Self::SaveStation(_) | Self::ReleaseControl(_) => {
                 Row { effect: Effect::ChangesSafety, ..Row::OF_STATION }
             }
-            // The rules of control decide about these, not the table.
+            // The rules of control decide about these commands, not the table.
             Self::Client(
                 _,
                 ClientCommand::Point(_) | ClientCommand::Park | ClientCommand::Turn { .. },
@@ -343,7 +348,7 @@ impl Command {
         }
     }
 
-    /// Returns `true` if the command changes the station file at once, beside its preferences.
+    /// Returns `true` if the command changes the station file immediately, outside Preferences.
     pub fn changes_station(&self) -> bool {
         matches!(
             self,
@@ -358,7 +363,7 @@ impl Command {
         )
     }
 
-    /// Returns `true` if the command asks to be shown something, and changes nothing.
+    /// Returns `true` if the command only requests information and changes nothing.
     pub fn only_looks(&self) -> bool {
         let Row { effect, in_replay, .. } = self.row();
         effect == Effect::Looks && in_replay

@@ -1,4 +1,4 @@
-//! Control of an antenna: the one party whose commands may move it.
+//! Control of an antenna: only one party at a time may move it.
 
 use std::net::{IpAddr, SocketAddr};
 
@@ -13,7 +13,6 @@ use crate::{astro::AzEl, clock::Instant, driver::TrackProblem};
 pub enum Party {
     /// The operator, in the window.
     Window,
-    /// Automatic operation.
     Automatic,
     /// An `azel` command or a signal of the operating system.
     Command,
@@ -21,17 +20,16 @@ pub enum Party {
     Program(SocketAddr),
 }
 
-/// The control of one antenna.
+/// Party in control of one antenna, and the clients of the antenna's port.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Control {
-    /// Party in control; `None` if nobody is.
+    /// Party in control; `None` without a party.
     pub party: Option<Party>,
-    /// Time at which it took control.
+    /// Time at which the party took control.
     pub start: Option<Timestamp>,
-    /// Port of the antenna.
     pub port: PortState,
-    /// Programs that are connected to it.
+    /// Programs connected to the port.
     pub clients: Vec<NetworkClient>,
     /// A program that asked to point the antenna, and hung up before the operator had decided.
     pub missed: Option<NetworkClient>,
@@ -43,38 +41,38 @@ pub struct Control {
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum PortState {
-    /// The antenna has none.
+    /// The antenna has no port.
     #[default]
     Closed,
     Listening(SocketAddr),
-    /// The operating system refuses it, for this reason. Azel tries again.
+    /// The operating system refused to open the port, for this reason. Azel retries.
     Failed(String),
 }
 
 /// A program that is connected to an antenna's port.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct NetworkClient {
-    /// Its end of the connection.
+    /// Program's end of the connection.
     pub address: SocketAddr,
-    /// Name of the program, where the operating system knows it.
+    /// Name of the program, if the operating system knows it.
     pub program: Option<String>,
     pub connected_at: Timestamp,
-    /// The operator allows it to point the antenna.
+    /// The operator allows the program to point the antenna.
     pub is_allowed: bool,
-    /// First command that was refused because the operator has not decided yet.
+    /// Time of the first command refused for lack of the operator's decision.
     pub asks_since: Option<Timestamp>,
-    /// Last line that it sent, and its time.
+    /// Last line from the program, and its time.
     pub last_line: Option<(String, Instant)>,
-    /// Stops that moved nothing, because it was not in control.
+    /// Number of STOPs without effect, because the program was not in control.
     pub ignored_stops: u32,
-    /// Number of a command that is not answered yet.
+    /// Number of a command without an answer yet.
     pub pending: Option<u64>,
-    /// Answer to its last command that asks for a motion.
+    /// Answer to the program's last motion command.
     pub answer: Option<Answer>,
 }
 
 impl NetworkClient {
-    /// A program that has just connected.
+    /// Creates a client that has just connected.
     pub fn new(address: SocketAddr, program: Option<String>, now: Timestamp) -> Self {
         Self {
             address,
@@ -93,9 +91,9 @@ impl NetworkClient {
 /// Answer to a command of a client.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Answer {
-    /// Number of the command among all of the station.
+    /// Number of the command among all commands of the station.
     pub number: u64,
-    /// Reason why nothing moves for it; `None` if it was accepted.
+    /// Reason why the command moves nothing; `None` if Azel accepted the command.
     pub problem: Option<TrackProblem>,
 }
 
@@ -103,21 +101,23 @@ pub struct Answer {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ClientCommand {
-    /// Point the beam there, from wherever the antenna is on its way to.
+    /// Motion of the beam to this direction. It replaces any earlier destination.
     Point(AzEl),
     Park,
-    /// Turn at these rates of azimuth and elevation, degrees a second; to be repeated.
+    /// Turn at these rates of azimuth and elevation, degrees a second. The program has to repeat
+    /// it.
     Turn {
         rates_deg_s: [f64; 2],
-        /// It repeats a turn that was accepted.
+        /// The command repeats an accepted turn.
         is_repeated: bool,
     },
-    /// End its motion, or that of an antenna that nobody controls. It is no STOP of an operator.
+    /// Stop of the program's own motion, or of an antenna without a party in control. It is not the
+    /// operator's STOP.
     Stop,
 }
 
-/// A client that may come back without a new decision of the operator, because programs such as
-/// Gpredict hang up when they are refused.
+/// A client that may reconnect without a new decision of the operator, because programs such as
+/// Gpredict hang up after a refusal.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Expected {
     pub address: IpAddr,
@@ -125,12 +125,12 @@ pub struct Expected {
 }
 
 impl Control {
-    /// The connected client at `address`.
+    /// Returns the connected client at `address`.
     pub fn client(&self, address: SocketAddr) -> Option<&NetworkClient> {
         self.clients.iter().find(|client| client.address == address)
     }
 
-    /// The client in control.
+    /// Returns the client in control; `None` if another party or nobody is in control.
     pub fn client_in_control(&self) -> Option<&NetworkClient> {
         match self.party? {
             Party::Program(address) => self.client(address),

@@ -7,12 +7,12 @@ use serde::{Deserialize, Serialize};
 
 use crate::device::settings::SettingsCopy;
 
-/// The copies of the settings of units.
+/// State of the copies of units' settings.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Copies {
     /// Outcome of the last save.
     pub saved: Option<Saving>,
-    /// The copy compared with an antenna; `None` without a comparison.
+    /// Copy that is compared with an antenna; `None` without a comparison.
     pub open: Option<OpenCopy>,
 }
 
@@ -23,7 +23,7 @@ pub struct Saving {
     pub antenna: String,
     #[serde(rename = "at")]
     pub time: Timestamp,
-    /// Path of the copy, or the error in words.
+    /// Path of the copy, or the error text.
     pub result: Result<PathBuf, String>,
 }
 
@@ -34,6 +34,6 @@ pub struct OpenCopy {
     pub antenna: String,
     /// Copies of this antenna, newest first.
     pub listed: Vec<PathBuf>,
-    /// The copy that was read, with its path, or the error in words.
+    /// Copy that was read, with its path, or the error text.
     pub read: Option<(PathBuf, Result<SettingsCopy, String>)>,
 }

@@ -1,4 +1,4 @@
-//! Events of a station, and who gave a command.
+//! Events of a station, and origins of commands.
 
 use std::net::SocketAddr;
 
@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::claim::HolderKind;
 
-/// Origin of a command.
+/// Origin of a command: the operator, a program, a signal or the station.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum CommandOrigin {
@@ -21,7 +21,7 @@ pub enum CommandOrigin {
     Signal,
     /// The station, without a request, such as automatic operation.
     Station,
-    /// A program at this end of a connection to an antenna's port.
+    /// The program at this end of a connection to an antenna's port.
     Port(SocketAddr),
 }
 
@@ -34,13 +34,13 @@ impl From<HolderKind> for CommandOrigin {
     }
 }
 
-/// An event for the client.
+/// Event for the client.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Event {
-    /// The station was saved at this time, or the reason why not.
+    /// Time at which the station was saved, or the reason why the save failed.
     Saved(Result<jiff::Timestamp, String>),
-    /// The station has changed other than by a save.
+    /// The station has changed, but not by a save.
     Changed,
-    /// The closing is done: the program may end.
+    /// The closing is complete: the program may end.
     MayEnd,
 }

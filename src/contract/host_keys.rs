@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// A host key that is not the known one, or the key of an unknown host.
+/// A host key that differs from the known keys, or the key of an unknown host.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct DoubtfulKey {
     /// Host as named in the file of known hosts.
@@ -16,7 +16,7 @@ pub struct DoubtfulKey {
 }
 
 impl DoubtfulKey {
-    /// Returns `true` if the host has another key than before, which is refused.
+    /// Returns `true` if the key differs from the known keys of the host. Azel refuses such a key.
     pub fn is_changed(&self) -> bool {
         !self.pinned.is_empty()
     }

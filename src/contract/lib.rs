@@ -1,9 +1,9 @@
-//! The contract between a station and its clients: snapshots, events, commands and refusals. A station
-//! fills these types, and a window, which may be on another machine, reads them.
+//! The contract between a station and its clients: snapshots, events, commands and refusals. A
+//! station fills these types, and a window, possibly on another machine, reads them.
 //!
-//! They can be serialised, and no work is done here. Two types have contents that a client gets apart
-//! from a snapshot: the lines of a link ([`driver::WireLog`]), and the passes of a list
-//! ([`passes::PassList`]), whose outlines are worked out at first use.
+//! All types are serialisable and do no work. Clients fetch the contents of two types apart from a
+//! snapshot: the lines of a link ([`driver::WireLog`]), and the passes of a list
+//! ([`passes::PassList`]). A pass computes its outline at first use.
 
 pub mod alarms;
 pub mod antenna;

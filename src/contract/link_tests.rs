@@ -5,10 +5,10 @@ use serde::{Deserialize, Serialize};
 
 use crate::{claim::HeldBy, driver::LinkFinding, station::Antenna, written};
 
-/// The last test of an antenna.
+/// Last test of an antenna's link.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct LinkTest {
-    /// As it was tested.
+    /// The antenna as tested.
     #[serde(with = "written::antenna")]
     pub antenna: Antenna,
     pub stage: LinkTestStage,
@@ -17,9 +17,9 @@ pub struct LinkTest {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum LinkTestStage {
     Working,
-    /// Nothing was asked: an antenna of this station has the unit.
+    /// Azel asked nothing, because an antenna of this station uses the unit.
     InUse,
-    /// Nothing was asked: another Azel has the unit.
+    /// Azel asked nothing, because another Azel uses the unit.
     Elsewhere(HeldBy),
     Done {
         finding: LinkFinding,

@@ -5,27 +5,27 @@ use serde::{Deserialize, Serialize};
 
 use crate::orbit::Elements;
 
-/// A set of elements that is not in use any more.
+/// A set of elements that is no longer in use.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct OlderSet {
     pub elements: Elements,
-    /// Name of the source that gave it.
+    /// Name of the set's source.
     pub source: String,
 }
 
-/// The older sets of one object.
+/// The older sets of one object, as requested by a client.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct OlderSets {
     pub catalog_number: u32,
-    /// The newest first.
+    /// Sets, newest first.
     pub sets: Vec<OlderSet>,
 }
 
-/// The set of elements that an object is to have.
+/// Choice of the set of elements for an object.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum SetChoice {
-    /// The held set with this epoch, until one comes that is newer than all held.
+    /// The stored set with this epoch, until a set arrives that is newer than all stored sets.
     Older { catalog_number: u32, epoch: Timestamp },
-    /// The newest set, as all objects have without a choice.
+    /// The newest set, which is the default.
     Newest { catalog_number: u32 },
 }

@@ -21,12 +21,12 @@ use crate::astro::{Angle, AzEl, frames::SiteFrame, time::add_seconds};
 /// Key of a pass: catalog number of the satellite and AOS.
 pub type PassListKey = (u32, Timestamp);
 
-/// The pass lists.
+/// Pass lists of a station: one for the favourites, one for all satellites.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub struct PassLists {
     /// Passes of the favourites.
     pub favourites: PassList,
-    /// Passes of all satellites, searched for when the operator wants the list.
+    /// Passes of all satellites; the search runs when the operator opens the list.
     pub all: PassList,
 }
 
@@ -38,20 +38,20 @@ impl PassLists {
         }
     }
 
-    /// The pass of `key`, first among the favourites.
+    /// Returns the pass with `key`; the favourites come first.
     pub fn find(&self, key: PassListKey) -> Option<&PredictedPass> {
         self.favourites.find(key).or_else(|| self.all.find(key))
     }
 
-    /// The pass of a favourite that is under way or comes next; geosynchronous satellites
-    /// only if there is no other.
+    /// Returns the current or next pass of a favourite. A geosynchronous satellite counts only if
+    /// there is no other pass.
     pub fn next(&self, now: Timestamp) -> Option<&PredictedPass> {
         let moving = |predicted: &&PredictedPass| !predicted.satellite.elements.is_geosynchronous();
         let passes = self.favourites.upcoming(now);
         passes.iter().find(moving).or_else(|| passes.iter().next())
     }
 
-    /// The satellite with this catalog number, if a list has it.
+    /// Returns the satellite with this catalog number, if it is in a list.
     pub fn satellite(&self, catalog_number: u32) -> Option<&Arc<ListedSatellite>> {
         let number = |listed: &Arc<ListedSatellite>| listed.elements.catalog_number();
         let followed = &self.favourites.satellites;
@@ -63,7 +63,8 @@ impl PassLists {
     }
 }
 
-/// Directions of a satellite while it is up in the next `span_s`, in steps of 30 s.
+/// Returns the directions of a satellite from `now` until it sets, for at most `span_s` seconds, in
+/// steps of 30 s.
 pub fn ahead(
     satellite: &ListedSatellite,
     site: &SiteFrame,

@@ -1,4 +1,4 @@
-//! Reports, passes and fits of a record, and its own state.
+//! Reports, passes and fits of a record, and the state of the record.
 
 mod pass;
 mod past;

@@ -1,4 +1,4 @@
-//! Passes of the record that a client looks at.
+//! Passes of the record that a client views.
 
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
@@ -9,21 +9,21 @@ use crate::{
     station::AntennaId,
 };
 
-/// Passes of the record that a client looks at.
+/// Request of a client for recorded passes.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct RecordLook {
     pub query: PassQuery,
-    /// Number of the pass whose track is shown.
+    /// Number of the pass whose track the client shows.
     pub opened: Option<i64>,
 }
 
-/// Content of the record for a look.
+/// Content of the record for a request.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Recorded {
     pub look: RecordLook,
-    /// Or why the record cannot be read.
+    /// Content, or the reason why the record cannot be read.
     pub found: Result<Found, String>,
-    /// Causes that explain the opened pass and those before it together. Finding them takes longer
+    /// Common causes for the opened pass and the passes before it. Their computation takes longer
     /// than the rest.
     #[serde(rename = "together")]
     pub combined: Option<ExplainedPasses>,
@@ -32,18 +32,18 @@ pub struct Recorded {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Found {
     pub page: PassPage,
-    /// Passes that automatic operation was to track in the time of the page, and that were not
-    /// tracked, the newest first.
+    /// Passes in the period of the page that automatic operation should have tracked but did not,
+    /// newest first.
     pub missed: Vec<MissedPass>,
     pub opened: Option<OpenedPass>,
 }
 
-/// A pass that was to be tracked, and was not.
+/// A pass that automatic operation should have tracked but did not.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct MissedPass {
-    /// Number of its entry in the record.
+    /// Number of the entry in the record.
     pub id: i64,
-    /// When it was over for the antenna.
+    /// Time at which the pass was over for the antenna.
     #[serde(rename = "at")]
     pub time: Timestamp,
     pub antenna: AntennaId,

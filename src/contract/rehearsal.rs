@@ -1,4 +1,4 @@
-//! The outcome of a rehearsal.
+//! Outcome of a rehearsal.
 
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
@@ -9,16 +9,16 @@ use crate::{
     station::AntennaId,
 };
 
-/// A rehearsal that is over.
+/// A completed rehearsal.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Rehearsed {
     #[serde(rename = "from")]
     pub start: Timestamp,
     pub hours: f64,
     pub seed: u64,
-    /// By start, then by antenna.
+    /// Passes by start, then by antenna.
     pub passes: Vec<RehearsedPass>,
-    /// When automatic operation of an antenna ended or was suspended, and why.
+    /// Ends and suspensions of automatic operation, with the reasons.
     pub interruptions: Vec<DayLine>,
     /// Names of the antennas whose make has no simulator.
     pub left_out: Vec<String>,
@@ -33,31 +33,31 @@ pub struct RehearsedPass {
     pub satellite_name: String,
     pub aos: Timestamp,
     pub los: Timestamp,
-    /// When the antenna was to track it.
+    /// Start of the planned track.
     #[serde(rename = "from")]
     pub start: Timestamp,
     #[serde(rename = "to")]
     pub end: Timestamp,
-    /// Seconds within half the beamwidth that the plan promised, when it first named the pass.
+    /// Seconds within half the beamwidth that the plan promised when it first named the pass.
     pub promised_s: f64,
-    /// A newer plan left it out before it began.
+    /// A newer plan left the pass out before it began.
     pub is_given_up: bool,
-    /// Outcome that automatic operation reports; `None` where it never set out.
+    /// Outcome that automatic operation reports; `None` if the antenna never set out.
     pub flown: Option<Flown>,
-    /// Why automatic operation of its antenna was off by then; `None` where it set out.
+    /// Reason why automatic operation of the antenna was off; `None` if the antenna set out.
     #[serde(rename = "off")]
     pub off_reason: Option<OffBecause>,
-    /// Where the antenna pointed; `None` where it never tracked.
+    /// Report of the track; `None` if the antenna never tracked.
     pub report: Option<RecordedReport>,
 }
 
 impl RehearsedPass {
-    /// Seconds within half the beamwidth.
+    /// Returns the seconds within half the beamwidth.
     pub fn got_s(&self) -> f64 {
         self.flown.as_ref().map_or(0.0, |flown| flown.in_beam_s)
     }
 
-    /// Seconds of the promise that were lost.
+    /// Returns the promised seconds that were lost.
     pub fn lost_s(&self) -> f64 {
         (self.promised_s - self.got_s()).max(0.0)
     }

@@ -5,16 +5,16 @@ use serde::{Deserialize, Serialize};
 
 use crate::{astro::Angle, passes::PassListKey, station::AntennaId};
 
-/// A reminder of a pass. It comes some minutes before AOS and lasts until LOS.
+/// A reminder of a pass. It appears some minutes before AOS and lasts until LOS.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Reminder {
-    /// The pass, as it was listed when the reminder came.
+    /// Key of the pass in the list that caused the reminder.
     pub pass: PassListKey,
     /// Short name of the satellite.
     pub name: String,
     pub los: Timestamp,
     pub max_elevation: Angle,
-    /// The antennas that can track the pass or a part of it.
+    /// Antennas that can track at least a part of the pass.
     pub can_track: Vec<AntennaId>,
 }
 

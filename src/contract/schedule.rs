@@ -1,4 +1,4 @@
-//! The schedule, as a station shows it.
+//! The schedule in the snapshot of a station.
 
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
@@ -12,14 +12,14 @@ use crate::{
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Planned {
     pub schedule: Schedule,
-    /// Changes with every new schedule.
+    /// Number that changes with every new schedule.
     pub revision: u64,
-    /// `None` before the first.
+    /// Time of the computation; `None` before the first schedule.
     pub made_at: Option<Timestamp>,
-    /// End of what was planned.
+    /// End of the planned time.
     #[serde(rename = "until")]
     pub end: Option<Timestamp>,
-    /// Changes that the last new schedule made.
+    /// Changes against the previous schedule.
     pub changes: Vec<Change>,
 }
 
@@ -27,8 +27,8 @@ pub struct Planned {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Swap {
     pub pass: PassListKey,
-    /// Revision of the schedule that it was worked out against.
+    /// Revision of the schedule behind this computation.
     pub revision: u64,
-    /// Changes of the schedule that follow; `None` where the pass cannot be taken at all.
+    /// Resulting changes of the schedule; `None` if no antenna can take the pass at all.
     pub changes: Option<Vec<Change>>,
 }

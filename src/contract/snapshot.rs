@@ -28,7 +28,7 @@ use crate::{
     uploads::Uploads,
 };
 
-/// State of the elements.
+/// Loading state of the elements.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub enum CatalogState {
     Loading,
@@ -38,66 +38,66 @@ pub enum CatalogState {
 
 /// A station at one instant. Clones share the large parts.
 ///
-/// A snapshot can be serialised. Elements and passes are then left out, because there are
-/// thousands; their revisions tell when to ask for them again ([`Catalog::range`],
+/// A snapshot is serialisable. The serialised form leaves out elements and passes, because there
+/// are thousands. Their revisions tell a client when to fetch them again ([`Catalog::range`],
 /// [`PassList::range`](super::passes::PassList::range)).
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Snapshot {
-    /// Time by both clocks of the station: ages count from here.
+    /// Time by both clocks of the station; ages count from it.
     #[serde(rename = "at")]
     pub moment: Moment,
     /// Synchronisation of this computer's clock.
     pub time_sync: TimeSync,
-    /// The station as saved.
+    /// Station as saved.
     #[serde(with = "written::station")]
     pub station: Arc<Station>,
-    /// When its file was written last; `None` for the demo station.
+    /// Time of the last write of the station file; `None` for the demo station.
     pub station_saved_at: Option<Timestamp>,
-    /// This is the demo station with simulated antennas.
+    /// The station is the demo station with simulated antennas.
     pub demo: bool,
-    /// The station file could not be read: nothing of this station is the operator's.
+    /// Azel could not read the station file, so nothing of this station comes from the operator.
     #[serde(default)]
     pub station_unread: bool,
     pub catalog: CatalogState,
-    /// Changes whenever the elements change.
+    /// Number that changes whenever the elements change.
     pub catalog_revision: u64,
     pub sources: Arc<Sources>,
-    /// Older sets of the object that was asked for last.
+    /// Older sets of the object of the last request.
     pub older_sets: Option<Arc<OlderSets>>,
-    /// Passes of the record, where they are looked at.
+    /// Passes of the record that a client has requested.
     pub recorded: Option<Arc<Recorded>>,
-    /// The fit of a pointing model that was asked for last.
+    /// Fit of a pointing model of the last request.
     pub pointing_fitted: Option<Arc<PointingFitted>>,
-    /// Peaks of the Sun and the Moon that count in it.
+    /// Peaks of the Sun and the Moon that the fit uses.
     #[serde(default)]
     pub peaks: Arc<Peaks>,
-    /// The antennas of the station, in its order.
+    /// Antennas, in the order of the station.
     pub antennas: Vec<AntennaModel>,
     pub pass_lists: PassLists,
     /// Reminders of passes that are not over.
     pub reminders: Arc<Vec<Reminder>>,
     pub schedule: Arc<Planned>,
-    /// Cost of the pass that a client has asked about.
+    /// Cost of the pass of the last request.
     pub swap: Option<Arc<Swap>>,
-    /// Outcomes of the passes of this day (UTC), and events of automatic operation; the newest is
-    /// the last.
+    /// Outcomes of the passes of this UTC day, and events of automatic operation; the newest is the
+    /// last.
     pub day: Arc<Vec<DayLine>>,
     pub uploads: Arc<Uploads>,
-    /// Tests, from here, of the sources that units use.
+    /// Tests, from this computer, of the sources that units use.
     pub source_tests: Arc<SourceTests>,
-    /// Tests of links to units that the station need not have.
+    /// Tests of links to units, which may be outside the station.
     pub link_tests: Arc<Vec<LinkTest>>,
     pub alarms: Alarms,
     /// Copies of the settings of units.
     pub copies: Arc<Copies>,
-    /// How the record stands; `None` where none is kept.
+    /// State of the record; `None` if Azel keeps none.
     pub record: Option<Arc<record::Status>>,
-    /// The closing under way, and what it waits for.
+    /// Closing in progress, with the antennas that it waits for.
     pub closing: Option<Closing>,
 }
 
 impl Snapshot {
-    /// The snapshot before the first turn.
+    /// Creates the snapshot before the first turn.
     pub fn before_anything(moment: Moment) -> Self {
         Self {
             moment,

@@ -1,4 +1,4 @@
-//! Tests, from here, of the sources that units use.
+//! Tests, from this computer, of the sources that units use.
 
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
@@ -9,7 +9,7 @@ use crate::{
     transfer::{FileProtocol, OldAlgorithm, Peer, UnitView},
 };
 
-/// The last test.
+/// Last test of a source.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct SourceTests {
     /// The tested source; `None` before the first test.
@@ -17,7 +17,7 @@ pub struct SourceTests {
     pub stage: TestStage,
 }
 
-/// Stage of a test.
+/// Progress of a test of a source.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub enum TestStage {
     /// No test yet.
@@ -26,7 +26,7 @@ pub enum TestStage {
     Working,
     /// The operator must decide about the host's key, seen for the first time.
     AsksAboutHostKey(DoubtfulKey),
-    /// The file was fetched.
+    /// The fetch succeeded.
     Seen {
         /// The file as the unit will see it.
         view: Box<UnitView>,
@@ -37,9 +37,8 @@ pub enum TestStage {
         #[serde(default)]
         old_algorithms: Vec<OldAlgorithm>,
     },
-    /// The fetch failed.
     Failed {
-        /// The reason.
+        /// Reason for the failure.
         text: String,
         /// The host key that was refused.
         changed_key: Option<DoubtfulKey>,
@@ -53,7 +52,7 @@ impl TestStage {
     }
 }
 
-/// A source to test.
+/// Request to test a source, with its antenna and satellite.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SourceOrder {
     /// Name of the antenna whose unit will fetch the source.
@@ -63,12 +62,12 @@ pub struct SourceOrder {
     pub satellite: String,
 }
 
-/// A source of elements.
+/// A source of elements that can be tested.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum TestedSource {
     /// An `http` or `https` address.
     Web {
-        /// As given to the unit.
+        /// Address as given to the unit.
         url: String,
     },
     /// A file on a server.
@@ -83,15 +82,15 @@ pub enum TestedSource {
     },
 }
 
-/// A request of a view.
+/// Request of a view.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum TestAsk {
-    /// Test this source. Ignored while another test is open.
+    /// Start of the test of this source. Azel ignores it while another test is open.
     Begin(Box<SourceOrder>),
-    /// The shown key is the right one.
+    /// Confirmation that the shown key is right.
     TrustHostKey,
-    /// Forget the known keys of the host that was refused.
+    /// Deletion of the known keys of the host that was refused.
     ForgetHostKey,
-    /// End the test, or answer its question with no.
+    /// End of the test, or the answer no to its question.
     Cancel,
 }

@@ -7,10 +7,10 @@ use serde::{Deserialize, Serialize};
 
 use crate::orbit::{BUNDLED_SOURCE, FetchProblem, Source, SourcePlace, SourceReport};
 
-/// Host of the server.
+/// Host of the Space-Track server.
 pub const SPACE_TRACK_HOST: &str = "www.space-track.org";
 
-/// Returns the form in which log-in names are compared and stored as a key: two spellings of one
+/// Returns the normal form of a log-in name, for comparisons and as a key. Two spellings of one
 /// name share an account and its limits.
 pub fn log_in_key(user: &str) -> String {
     user.trim().to_lowercase()
@@ -21,18 +21,18 @@ pub fn log_in_key(user: &str) -> String {
 pub enum SourceProblem {
     #[error("type a name")]
     NoName,
-    /// Another source has this name, which is also the name of its group.
+    /// Another source or its group already has this name.
     #[error("another source has this name: type another one")]
     NameTaken,
-    /// A relative path, which would depend on the folder in which the program was started.
+    /// The path is relative, and would depend on the folder in which the program was started.
     #[error("type the whole path, from the root or the drive on")]
     RelativePath,
-    /// Not an `https` address, or one with a user name in it.
+    /// The address is not `https`, or contains a user name.
     #[error("type an address that begins with https:// and holds no password")]
     Address,
     #[error("type the log-in name")]
     NoLogIn,
-    /// Two sources would share one account and its limits.
+    /// The log-in is in use: two sources would share one account and its limits.
     #[error("another source has this log-in: use that one")]
     LogInTaken,
 }
@@ -59,7 +59,7 @@ pub fn check_source(source: &Source, others: &[Source]) -> Result<(), SourceProb
     }
 }
 
-/// Returns `true` if `source` logs in as `user`.
+/// Returns `true` if `source` logs in as `user`, in any spelling.
 pub fn has_log_in(source: &Source, user: &str) -> bool {
     match &source.place {
         SourcePlace::SpaceTrack(own) => log_in_key(own) == log_in_key(user),
@@ -67,9 +67,9 @@ pub fn has_log_in(source: &Source, user: &str) -> bool {
     }
 }
 
-/// Checks that `url` is allowed; returns whether it is on this very computer. Only there
-/// may it be plain `http`. It may never carry a password: addresses are kept on disk and
-/// shown.
+/// Checks that `url` is allowed, and returns whether its host is this computer. Plain `http` is
+/// allowed only for this computer. A password is never allowed, because addresses are stored on
+/// disk and shown.
 pub fn check_address(url: &str) -> Result<bool, FetchProblem> {
     let uri: Uri = url.parse().map_err(|_| FetchProblem::Address)?;
     let host = uri.host().ok_or(FetchProblem::Address)?;
@@ -132,18 +132,17 @@ mod tests {
     }
 }
 
-/// The sources as last read.
+/// Sources at the last reading.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Sources {
     /// All sources, in the operator's order.
     pub list: Vec<Source>,
-    /// One report for each source, in the same order; empty while the library cannot be
-    /// used.
+    /// One report for each source, in the same order; empty while the library is unusable.
     pub reports: Vec<SourceReport>,
     pub work: SourceWork,
-    /// Problems with the list or the library as a whole, in the order in which they came up.
+    /// Problems of the list or the library as a whole, in order of occurrence.
     pub problems: Vec<String>,
-    /// The list cannot be read: it is left as it is and accepts no change.
+    /// The list is unreadable: Azel leaves it unchanged and accepts no change.
     pub is_locked: bool,
 }
 
@@ -156,7 +155,7 @@ pub enum SourceWork {
     Asking,
 }
 
-/// Elements that are copied into the library.
+/// Elements for a copy into the library.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Copied {
     File(PathBuf),
@@ -164,7 +163,7 @@ pub enum Copied {
 }
 
 impl Sources {
-    /// Returns `true` if a change would be accepted now.
+    /// Returns `true` if Azel would accept a change now.
     pub fn is_free(&self) -> bool {
         self.work == SourceWork::Nothing && !self.is_locked
     }

@@ -1,4 +1,4 @@
-//! Uploads of element files to units. No secret is in the displayed state.
+//! Uploads of element files to units. The displayed state contains no secret.
 
 mod choice;
 mod order;
@@ -19,23 +19,23 @@ pub use order::{Cargo, Order};
 pub struct Uploads {
     /// Name of the antenna of the last order.
     pub antenna: String,
-    /// The last order puts back an earlier file.
+    /// The last order puts an earlier file back.
     pub is_roll_back: bool,
     pub stage: Stage,
     /// Further messages to the operator.
     pub warnings: Vec<Warning>,
-    /// Files that can be put back.
+    /// Files that the operator can put back.
     #[serde(rename = "kept")]
     pub kept_files: KeptFiles,
 }
 
-/// Stage of an order.
+/// Progress of an order, from the start to its outcome.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub enum Stage {
     /// No order.
     #[default]
     Idle,
-    /// The unit tracks, or may begin to: the operator must agree.
+    /// The unit tracks or may begin to track: the operator must agree.
     AsksAboutTracking(Busy),
     /// The upload is under way.
     Working {
@@ -48,7 +48,7 @@ pub enum Stage {
     AsksAboutHostKey(DoubtfulKey),
     /// The operator must type a password or a passphrase.
     AsksForSecret(SecretWanted),
-    /// The file is on the unit, and the unit is being set to use it.
+    /// The file is on the unit, and Azel is setting the unit to use it.
     Selecting(Box<Uploaded>),
     /// The unit uses the file.
     Proved(Box<Proved>),
@@ -62,7 +62,7 @@ impl Stage {
         !matches!(self, Self::Idle | Self::Proved(_) | Self::Failed(_))
     }
 
-    /// Returns `true` if a cancel would still take effect.
+    /// Returns `true` if a cancellation would still take effect.
     pub fn can_cancel(&self) -> bool {
         use crate::transfer::UploadStep;
         match self {
@@ -77,23 +77,23 @@ impl Stage {
 /// A secret that the operator must type.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct SecretWanted {
-    /// The user, or the path of a key file.
+    /// User name, or path of a key file.
     pub user: String,
     /// Address of the unit.
     pub address: String,
-    /// A passphrase of a key file is wanted, not a password.
+    /// Azel needs a passphrase of a key file, not a password.
     pub is_passphrase: bool,
-    /// Why the last secret was refused.
+    /// Reason why the previous secret was refused.
     pub refused: Option<String>,
-    /// Why the secret cannot be kept in the keyring.
+    /// Reason why the keyring cannot store the secret.
     pub keyring_problem: Option<String>,
 }
 
-/// A file on a unit, and the unit's report that it uses it.
+/// A file on a unit, and the unit's report that it uses the file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Proved {
     pub uploaded: Uploaded,
-    /// The satellite that the unit found in it.
+    /// Satellite that the unit found in the file.
     pub satellite: FileObject,
     /// Time of the unit's report.
     #[serde(rename = "at")]
@@ -103,11 +103,11 @@ pub struct Proved {
 /// End of an order that failed or was cancelled.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Failure {
-    /// The reason, and the state of the unit.
+    /// Reason, and the state of the unit.
     pub text: String,
     /// The operator has cancelled the order.
     pub is_cancel: bool,
-    /// The file, where it is on the unit nevertheless.
+    /// File, if it reached the unit nevertheless.
     pub uploaded: Option<Box<Uploaded>>,
     /// The host key that was refused.
     pub changed_key: Option<DoubtfulKey>,
@@ -116,55 +116,55 @@ pub struct Failure {
 /// A message beside the outcome of an order.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Warning {
-    /// The password is the one that the maker sets in every unit.
+    /// The password is the factory password of every such unit.
     FactoryPassword,
-    /// The secret was not kept, for this reason.
+    /// The secret was not stored, for this reason.
     NotKept(String),
     /// The connection used these algorithms, because the host offers nothing better.
     OldAlgorithms(Vec<OldAlgorithm>),
 }
 
-/// The files that can be put back on a unit.
+/// Files that the operator can put back on a unit.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct KeptFiles {
     /// Host and port of the unit, and the name of the file there.
     #[serde(rename = "of")]
     pub origin: (String, String),
-    /// Newest first, or why there is no list; `None` while it is read.
+    /// Files, newest first, or the reason why there is no list; `None` while Azel reads the list.
     pub list: Option<Result<Vec<KeptEntry>, String>>,
 }
 
-/// A file that can be put back.
+/// A file that the operator can put back.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct KeptEntry {
-    /// File and time.
+    /// File, with its time.
     pub file: KeptFile,
-    /// Objects in the file, or why it cannot be read.
+    /// Objects in the file, or the reason why it cannot be read.
     pub objects: Result<Vec<FileObject>, String>,
 }
 
-/// A request of a view.
+/// Request of a view.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Ask {
-    /// Carry out this order. Ignored while another order is open.
+    /// Start of this order. Azel ignores it while another order is open.
     Begin(Box<Order>),
-    /// The unit's tracking may end.
+    /// Agreement that the unit's tracking may end.
     AgreeToTracking,
-    /// The shown key is the right one.
+    /// Confirmation that the shown key is right.
     TrustHostKey,
-    /// Forget the known keys of the host that was refused.
+    /// Deletion of the known keys of the host that was refused.
     ForgetHostKey,
-    /// Go on with this secret.
+    /// Secret for the log-in.
     Secret {
         secret: Secret,
-        /// Keep it in the keyring of the operating system.
+        /// Azel stores the secret in the keyring of the operating system.
         keep: bool,
     },
-    /// Cancel the work under way, or answer a question with no.
+    /// Cancellation of the current work, or the answer no to a question.
     Cancel,
-    /// The operator has read the outcome of the last order.
+    /// Confirmation that the operator has read the outcome of the last order.
     Dismiss,
-    /// List the files that can be put back.
+    /// Request for the files that can be put back.
     ListKept {
         /// Host and port of the unit.
         unit: String,
@@ -173,11 +173,11 @@ pub enum Ask {
     },
 }
 
-/// Why the operator must agree before a unit is set to use a file.
+/// Reason why the operator must agree before Azel sets a unit to use a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Busy {
-    /// The unit tracks; the track will be stopped.
+    /// The unit tracks; Azel will stop the track.
     Tracks,
-    /// Auto-track is on: the unit may begin to track. It will be switched off.
+    /// Auto-track is on, so the unit may begin to track. Azel will switch it off.
     MayTrack,
 }

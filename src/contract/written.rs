@@ -1,6 +1,6 @@
-//! Serialisation of parts of snapshots and commands whose types need the list of makes.
+//! Serialisation of those parts of snapshots and commands whose types need the list of makes.
 
-/// A station, as in its file.
+/// Serialisation of a station, as in its file.
 pub mod station {
     use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error as _};
 
@@ -24,7 +24,7 @@ pub mod station {
     }
 }
 
-/// An antenna, as in the station file.
+/// Serialisation of an antenna, as in the station file.
 pub mod antenna {
     use serde::{Deserializer, Serialize, Serializer, de::Error as _};
 
@@ -48,7 +48,7 @@ pub mod antenna {
     }
 }
 
-/// Element files of a make, written as the key of the make.
+/// Serialisation of the element files of a make, as the key of the make.
 pub mod element_files {
     use serde::{Deserialize, Deserializer, Serializer, de::Error as _, ser::Error as _};
 

@@ -1,4 +1,4 @@
-//! Angles, time, frames and the geometry of mounts. Independent of all other layers.
+//! Angles, time, frames and the geometry of mounts. The module is independent of all other layers.
 
 mod angle;
 mod azel;

@@ -12,18 +12,19 @@ use super::{Catalog, Refusal, read_elements};
 /// Name of the source of the bundled elements.
 pub const BUNDLED_SOURCE: &str = "bundled, 2026-08-11";
 
-/// The newest epoch of the bundled elements.
+/// Newest epoch of the bundled elements.
 pub const BUNDLED_NEWEST: Timestamp = Timestamp::constant(1_786_596_111, 0);
 
-/// Compressed TLE text, see `assets/elements/README.md`.
+/// Compressed TLE text; see `assets/elements/README.md`.
 const COMPRESSED: &[u8] = include_bytes!("../../assets/elements/active_2026-08-11.tle.gz");
 
-/// Sets that are read at a time, which bounds the memory that reading takes beside the catalog.
+/// Number of sets that are read at a time. It bounds the memory that reading takes beside the
+/// catalog.
 const SETS: usize = 512;
-/// Lines of a set with its name.
+/// Number of lines of a set with its name.
 const SET_LINES: usize = 3;
 
-/// The reason why the bundled elements cannot be used.
+/// Reason why the bundled elements cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub enum BundledError {
     #[error("the bundled elements do not unpack: {0}")]
@@ -32,12 +33,12 @@ pub enum BundledError {
     Refused(Vec<Refusal>),
 }
 
-/// The catalog of all satellites that were active on 2026-08-11.
+/// Returns the catalog of all satellites that were active on 2026-08-11.
 pub fn bundled() -> Result<Catalog, BundledError> {
     read_into(Catalog::default())
 }
 
-/// The same, which shares the memory of the sets that `previous` has too.
+/// Returns the same catalog. It shares the memory of sets that are also in `previous`.
 pub fn bundled_sharing(previous: &Arc<Catalog>) -> Result<Catalog, BundledError> {
     let mut catalog = Catalog::default();
     catalog.share_with(previous);

@@ -1,5 +1,5 @@
-//! The catalog: all elements that the operator has, with the newest set of every object, or an
-//! older one where the operator uses that or prefers its source.
+//! The catalog: all elements that the operator has. Each object has its newest set, or an older set
+//! if the operator uses it or prefers its source.
 
 use std::{
     cmp::Ordering,
@@ -13,47 +13,48 @@ use serde::{Deserialize, Serialize};
 
 use super::{Elements, Note, Nothing, ReadReport, Refusal};
 
-/// A preferred source stays in use while its set is at most this much older than the newest one.
-/// The limit compares epochs, not ages: a set that nobody else renews is still the best one.
+/// Max age difference between the set of a preferred source and the newest set, while the preferred
+/// source stays in use. The limit compares epochs, not ages: a set that no other source renews is
+/// still the best set.
 pub const SOURCE_LAG: SignedDuration = SignedDuration::from_hours(72);
 
-/// A set whose epoch lies more than this ahead replaces no other set. Sources give the next node of
-/// an orbit as epoch, which is up to a day ahead; sets for launches to come, and sets with a
-/// damaged epoch, lie farther ahead.
+/// Max lead of an epoch over the time of use. A set with a later epoch replaces no other set.
+/// Sources give the next node of an orbit as epoch, which is up to a day ahead. Sets of future
+/// launches and sets with a damaged epoch lie farther ahead.
 pub const MAX_EPOCH_AHEAD: SignedDuration = SignedDuration::from_hours(24);
 
-/// The names of the sources that an object prefers, the first one first, by catalog number.
+/// Names of the sources that an object prefers, best first, by catalog number.
 pub type SourceOrders = BTreeMap<u32, Vec<String>>;
 
 #[derive(Debug, Clone, Default)]
 pub struct Catalog {
-    /// By catalog number: a sorted list takes half the memory of a map.
+    /// Entries by catalog number. A sorted list takes half the memory of a map.
     entries: Vec<Entry>,
     groups: Vec<Group>,
-    /// Sets that newer ones have replaced.
+    /// Sets that newer sets have replaced.
     superseded: Vec<Entry>,
-    /// The newest sets of the objects of which an older one is in use, by catalog number.
+    /// Newest sets of the objects for which the operator uses an older set, by catalog number.
     set_aside: BTreeMap<u32, SetAside>,
-    /// The newest sets of the objects whose preferred source has an older one, by catalog number.
+    /// Newest sets of the objects whose preferred source has an older set, by catalog number.
     passed_over: BTreeMap<u32, SetAside>,
     orders: SourceOrders,
     /// All sets of the objects with an order of sources.
     candidates: BTreeMap<u32, Vec<Entry>>,
     /// Objects with an order of sources whose set the operator has chosen.
     chosen: BTreeSet<u32>,
-    /// A catalog in use, whose equal sets are shared.
+    /// Catalog in use, whose equal sets are shared.
     previous: Weak<Self>,
     clock: EpochClock,
 }
 
-/// Judges which of two sets of one object is better at a time.
+/// Judge of the better of two sets of one object at a time.
 #[derive(Debug, Clone, Copy, Default)]
 struct EpochClock {
-    /// `None` in a catalog without a time: the newest epoch is the best.
+    /// Time of use; `None` in a catalog without a time: the newest epoch is the best.
     now: Option<Timestamp>,
-    /// The earliest epoch that was compared and lies too far ahead.
+    /// Earliest compared epoch that lies too far ahead.
     ahead: Option<Timestamp>,
-    /// The latest epoch that was compared and does not.
+    /// Latest compared epoch that does not lie too far ahead.
     current: Option<Timestamp>,
 }
 
@@ -62,8 +63,8 @@ impl EpochClock {
         epoch.duration_since(now) > MAX_EPOCH_AHEAD
     }
 
-    /// The rank of an epoch: the newest one that does not lie too far ahead has the highest. Of
-    /// those ahead the nearest one is the best.
+    /// Returns the rank of an epoch. The newest epoch that does not lie too far ahead has the
+    /// highest rank. Among epochs too far ahead, the nearest has the highest rank.
     fn rank(self, epoch: Timestamp) -> (bool, i64) {
         let is_ahead = self.now.is_some_and(|now| Self::is_ahead(now, epoch));
         let microseconds = epoch.as_microsecond();
@@ -91,18 +92,18 @@ impl EpochClock {
     }
 }
 
-/// The newest set of an object, while an older one is in use.
+/// The newest set of an object while an older set is in use.
 #[derive(Debug, Clone)]
 struct SetAside {
     newest: Arc<Elements>,
-    /// The source of the set in use.
+    /// Source of the set in use.
     source_in_use: String,
 }
 
-/// The newest elements of an object, and the group whose source gave them.
+/// The elements of an object, and the group whose source gave them.
 #[derive(Debug, Clone)]
 struct Entry {
-    /// Shared by the catalogs before and after the sources were read again.
+    /// Elements, shared by the catalogs before and after a new reading of the sources.
     elements: Arc<Elements>,
     group: u32,
 }
@@ -126,12 +127,12 @@ struct Group {
 pub struct MergeSummary {
     /// Objects that are new to the catalog.
     pub added: usize,
-    /// Objects that got a better epoch.
+    /// Objects that got a better set.
     pub updated: usize,
-    /// Sets with the same epoch as the known set.
+    /// Sets with the same epoch as the existing set.
     #[serde(rename = "known")]
     pub unchanged: usize,
-    /// Sets older than the known set, or too far ahead, left out.
+    /// Sets that were left out because they are older than the existing set, or too far ahead.
     pub older: usize,
     /// Objects that could not be read.
     pub refused: Vec<Refusal>,
@@ -139,44 +140,45 @@ pub struct MergeSummary {
     pub refused_unlisted: usize,
     /// Oddities of sets that were accepted.
     pub notes: Vec<Note>,
-    /// The reason why there was nothing to merge, if there was nothing.
+    /// Reason why there was nothing to merge, if so.
     pub nothing: Option<Nothing>,
 }
 
 impl Catalog {
-    /// Sets the orders of sources. Call it before the merges of these sources;
+    /// Sets the orders of sources. The call must come before the merges of these sources;
     /// [`Self::apply_orders`] applies the orders after them.
     pub fn set_orders(&mut self, orders: SourceOrders) {
         self.candidates = orders.keys().map(|number| (*number, Vec::new())).collect();
         self.orders = orders;
     }
 
-    /// Sets the time at which the sets are used. Call it before the merges.
+    /// Sets the time at which the sets are used. The call must come before the merges.
     pub fn set_time(&mut self, now: Timestamp) {
         self.clock.now = Some(now);
     }
 
-    /// Returns `true` if the merges would choose other sets at `now`: a set that lay ahead of the
-    /// time of the merges does so no more, or the clock was set back.
+    /// Returns `true` if the merges would choose other sets at `now`. Either a set that lay too far
+    /// ahead no longer does so, or the clock was set back.
     pub fn is_outdated(&self, now: Timestamp) -> bool {
         self.clock.is_outdated(now)
     }
 
-    /// Returns `true` if a set of `epoch` is used rather than one of `other`.
+    /// Returns `true` if a set of `epoch` is preferred to a set of `other`.
     pub fn is_better(&self, epoch: Timestamp, other: Timestamp) -> bool {
         self.clock.rank(epoch) > self.clock.rank(other)
     }
 
-    /// The newest epoch of `sets` that does not lie more than [`MAX_EPOCH_AHEAD`] ahead; the nearest
-    /// one if all do.
+    /// Returns the newest epoch of `sets` that does not lie more than [`MAX_EPOCH_AHEAD`] ahead. If
+    /// all epochs do, returns the nearest.
     pub fn newest_of<'a>(&self, sets: impl IntoIterator<Item = &'a Elements>) -> Option<Timestamp> {
         let epochs = sets.into_iter().map(Elements::epoch);
         epochs.max_by_key(|epoch| self.clock.rank(*epoch))
     }
 
-    /// Uses the set of the first source in the order of each object that is at most
-    /// [`SOURCE_LAG`] older than the newest one; leaves the newest set in use if there is none.
-    /// Skips the objects for which `has_choice` returns true: the operator has chosen their set.
+    /// Applies the order of sources of each object. Uses the set of the first source that is at
+    /// most [`SOURCE_LAG`] older than the newest set. Without such a source, the newest set stays
+    /// in use. Skips the objects for which `has_choice` returns true, because the operator has
+    /// chosen their set.
     pub fn apply_orders(&mut self, has_choice: impl Fn(u32) -> bool) {
         let candidates = std::mem::take(&mut self.candidates);
         for (number, sets) in candidates {
@@ -218,18 +220,19 @@ impl Catalog {
         self.passed_over.insert(number, set_aside);
     }
 
-    /// Returns `true` if the operator has chosen the set of an object in place of its order.
+    /// Returns `true` if the operator has chosen the set of an object, which overrides its order.
     pub fn is_chosen(&self, catalog_number: u32) -> bool {
         self.chosen.contains(&catalog_number) || self.set_aside.contains_key(&catalog_number)
     }
 
-    /// The newest set of an object whose preferred source has an older one.
+    /// Returns the newest set of an object whose preferred source has an older one.
     pub fn passed_over(&self, catalog_number: u32) -> Option<&Elements> {
         self.passed_over.get(&catalog_number).map(|set_aside| &*set_aside.newest)
     }
 
-    /// Adds the elements of `source`. The newest epoch of an object wins, whatever the order of
-    /// merging, unless it lies more than [`MAX_EPOCH_AHEAD`] ahead. A set without a name keeps the known name.
+    /// Adds the elements of `source`. The newest epoch of an object wins in any order of merging,
+    /// unless the epoch lies more than [`MAX_EPOCH_AHEAD`] ahead. A set without a name keeps the
+    /// known name.
     pub fn merge(&mut self, report: ReadReport, source: &str) -> MergeSummary {
         let mut summary = MergeSummary {
             refused: report.refused,
@@ -260,7 +263,7 @@ impl Catalog {
                 None => self.entries.push(entry),
             }
         }
-        // The sort is stable, so that sets of one object stay in the order of the text.
+        // The sort is stable, so sets of one object stay in the order of the text.
         self.entries.sort_by_key(Entry::number);
         let superseded = &mut self.superseded;
         self.entries.dedup_by(|later, current| {
@@ -280,7 +283,7 @@ impl Catalog {
         summary
     }
 
-    /// Shares the memory of the sets that `previous` has too. Call it before the merges.
+    /// Shares the memory of sets that are also in `previous`. The call must come before the merges.
     pub fn share_with(&mut self, previous: &Arc<Self>) {
         self.previous = Arc::downgrade(previous);
     }
@@ -292,7 +295,7 @@ impl Catalog {
         same.map_or_else(|| Arc::new(elements), |same| Arc::clone(&same.elements))
     }
 
-    /// Index of the group called `name`, which is added if it is new.
+    /// Returns the index of the group called `name`, and adds a new group if necessary.
     fn group(&mut self, name: &str) -> u32 {
         let place = self.groups.iter().position(|group| group.name == name).unwrap_or_else(|| {
             self.groups.push(Group { name: name.to_owned(), members: Vec::new() });
@@ -310,8 +313,8 @@ impl Catalog {
         self.entries.get(place)
     }
 
-    /// The source of the elements in use of an object: the first that gave the newest set, or
-    /// that of the older set in its place.
+    /// Returns the source of the elements in use for an object. It is the source of the older set
+    /// in use, or else the first source that gave the newest set.
     pub fn source_of(&self, catalog_number: u32) -> Option<&str> {
         let set_aside = self.set_aside.get(&catalog_number);
         if let Some(set_aside) = set_aside.or_else(|| self.passed_over.get(&catalog_number)) {
@@ -325,7 +328,7 @@ impl Catalog {
         Some(self.groups.get(group as usize)?.name.as_str())
     }
 
-    /// Uses `older`, which `source` gave, in place of the newest set of its object. To be called
+    /// Uses `older` from `source` in place of the newest set of its object. The call must come
     /// after all merges.
     pub fn use_in_place(&mut self, mut older: Elements, source: &str) {
         let number = older.catalog_number();
@@ -340,20 +343,20 @@ impl Catalog {
         self.set_aside.insert(number, set_aside);
     }
 
-    /// The newest set of an object of which an older one is in use.
+    /// Returns the newest set of an object for which the operator uses an older set.
     pub fn set_aside(&self, catalog_number: u32) -> Option<&Elements> {
         self.set_aside.get(&catalog_number).map(|entry| &*entry.newest)
     }
 
-    /// All newest sets that are not in use, each with its source.
+    /// Returns all newest sets that are not in use, each with its source.
     pub fn all_set_aside(&self) -> impl Iterator<Item = (&Elements, &str)> {
         self.set_aside.iter().chain(&self.passed_over).map(|(number, set_aside)| {
             (&*set_aside.newest, self.source_of_newest(*number).unwrap_or_default())
         })
     }
 
-    /// The sources in the order of merging, each with the number of objects whose newest set is
-    /// its own.
+    /// Returns the sources in the order of merging, each with the number of objects whose newest
+    /// set it gave.
     pub fn in_use(&self) -> Vec<(&str, usize)> {
         let mut counted: Vec<_> =
             self.groups.iter().map(|group| (group.name.as_str(), 0)).collect();
@@ -365,12 +368,12 @@ impl Catalog {
         counted
     }
 
-    /// The sources in the order of merging, each with the number of its objects.
+    /// Returns the sources in the order of merging, each with the number of its objects.
     pub fn groups(&self) -> impl Iterator<Item = (&str, usize)> {
         self.groups.iter().map(|group| (group.name.as_str(), group.members.len()))
     }
 
-    /// All sources that hold an object, whichever of them has the newest set.
+    /// Returns all sources that have an object, even those without its newest set.
     pub fn groups_of(&self, catalog_number: u32) -> impl Iterator<Item = &str> {
         self.groups
             .iter()
@@ -378,7 +381,7 @@ impl Catalog {
             .map(|group| group.name.as_str())
     }
 
-    /// The elements of all objects that the source `group` holds, in order of catalog number.
+    /// Returns the elements of all objects of the source `group`, in order of catalog number.
     pub fn in_group(&self, group: &str) -> impl Iterator<Item = &Elements> {
         self.groups
             .iter()
@@ -387,28 +390,28 @@ impl Catalog {
             .filter_map(|number| self.get(*number))
     }
 
-    /// At most `limit` objects whose number starts with `text` or whose name contains it in any
-    /// case, sorted by name, then by number. An empty text finds all objects.
+    /// Returns at most `limit` objects whose number starts with `text` or whose name contains it in
+    /// any case. The objects are sorted by name, then by number. An empty text finds all objects.
     pub fn search(&self, text: &str, limit: usize) -> Vec<&Elements> {
         search(self.iter(), text, limit)
     }
 
-    /// Like [`Self::search`], among the objects of one source.
+    /// Returns the same as [`Self::search`], among the objects of one source.
     pub fn search_group(&self, group: &str, text: &str, limit: usize) -> Vec<&Elements> {
         search(self.in_group(group), text, limit)
     }
 
-    /// All elements, in order of catalog number.
+    /// Returns all elements, in order of catalog number.
     pub fn iter(&self) -> impl Iterator<Item = &Elements> {
         self.entries.iter().map(|entry| &*entry.elements)
     }
 
-    /// The elements at `places` in the order of [`Self::iter`].
+    /// Returns the elements at `places` in the order of [`Self::iter`].
     pub fn range(&self, places: Range<usize>) -> impl Iterator<Item = &Elements> {
         self.iter().take(places.end).skip(places.start)
     }
 
-    /// Takes the sets that were merged and are not in use, each with the name of its source.
+    /// Removes and returns the merged sets that are not in use, each with the name of its source.
     pub fn take_superseded(&mut self) -> Vec<(Elements, String)> {
         let sets = std::mem::take(&mut self.superseded);
         let name = |group: u32| self.groups.get(group as usize).map(|group| group.name.clone());
@@ -430,7 +433,7 @@ impl Catalog {
     }
 }
 
-/// Keeps the better of two sets of one object in `current`; returns the other, unless it is of the
+/// Keeps the better of two sets of one object in `current`. Returns the other, unless both have the
 /// same epoch.
 fn settle(
     current: &mut Entry,
@@ -451,7 +454,7 @@ fn settle(
     (order != Ordering::Equal).then_some(other)
 }
 
-/// [`Elements::take_name`], which copies shared elements only if they lack a name.
+/// Calls [`Elements::take_name`], but copies shared elements only if they lack a name.
 fn take_name(elements: &mut Arc<Elements>, other: &Elements) {
     if elements.lacks_name() {
         Arc::make_mut(elements).take_name(other);

@@ -18,41 +18,43 @@ pub struct Heights {
     pub perigee_km: f64,
 }
 
-/// WGS72, as SGP4 uses it.
+/// Constants of WGS72, which SGP4 uses.
 const EARTH_MU_KM3_S2: f64 = 398_600.8;
 const EARTH_RADIUS_KM: f64 = 6_378.135;
 const SIDEREAL_DAY_S: f64 = 86_164.090_5;
 
 /// One orbit: SGP4 mean elements with the name and number of their object.
 ///
-/// Values of this type can be handed to the propagator: all numbers are finite, the eccentricity
-/// lies in `0.0..1.0`, the mean motion is positive, the inclination lies from 0 to 180 degrees,
-/// other angles within one turn either way, B* within 10 either way, the epoch within
-/// [`EPOCH_YEARS`], the orbit does not lead through the Earth, and SGP4 finds the object above the ground at its epoch. A value takes 152
-/// bytes, and nothing on the heap if each of its texts has at most 23 bytes.
+/// The propagator accepts every value of this type. All numbers are finite. The eccentricity is in
+/// `0.0..1.0`, the mean motion is positive, and the inclination is from 0 to 180 degrees. Other
+/// angles are within one turn either way, and B* is within 10 either way. The epoch is within
+/// [`EPOCH_YEARS`]. The orbit does not lead through the Earth, and SGP4 finds the object above the
+/// ground at its epoch.
+///
+/// A value takes 152 bytes, and nothing on the heap if each of its texts has at most 23 bytes.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(remote = "Self")]
 pub struct Elements {
-    /// Empty if the source gave none.
+    /// Name of the object; empty if the source gave none.
     pub(super) name: SmolStr,
-    /// Such as `1998-067A`; empty if the source gave none.
+    /// International designator, such as `1998-067A`; empty if the source gave none.
     pub(super) international_designator: SmolStr,
     pub(super) catalog_number: u32,
-    /// Whole microseconds.
+    /// Epoch in whole microseconds.
     pub(super) epoch: Timestamp,
-    /// Kozai mean motion.
+    /// Kozai mean motion, revolutions per day.
     pub(super) mean_motion_rev_day: f64,
     /// Half the first derivative of the mean motion, rev/day^2.
     pub(super) mean_motion_dot: f64,
     /// A sixth of the second derivative of the mean motion, rev/day^3.
     pub(super) mean_motion_ddot: f64,
-    /// B*, per Earth radius.
+    /// Drag term B*, per Earth radius.
     pub(super) bstar: f64,
     pub(super) inclination_deg: f64,
-    /// Right ascension of the ascending node.
+    /// Right ascension of the ascending node, degrees.
     pub(super) node_deg: f64,
     pub(super) eccentricity: f64,
-    /// Argument of perigee.
+    /// Argument of perigee, degrees.
     pub(super) perigee_deg: f64,
     pub(super) mean_anomaly_deg: f64,
     pub(super) set_number: u32,
@@ -69,20 +71,21 @@ pub(super) enum Classification {
     Secret,
 }
 
-/// Calendar years that an epoch may lie in: from the first satellite onwards, the years that two
-/// digits can express.
+/// Valid calendar years of an epoch: from the first satellite onwards, the years that two digits
+/// can express.
 pub const EPOCH_YEARS: std::ops::RangeInclusive<i16> = 1957..=2056;
 
-/// The mean perigee of a real orbit may lie just below the ground, 50 km for an object that comes
-/// down and 11 km for one that the Moon lifts at each perigee.
+/// Min mean perigee, km above the ground. The mean perigee of a real orbit may lie just below the
+/// ground: 50 km for a decaying object, and 11 km for an object that the Moon lifts at each
+/// perigee.
 const MIN_PERIGEE_KM: f64 = -500.0;
 
 const MAX_CATALOG_NUMBER: u32 = 999_999_999;
 
-/// The reason why numbers do not make an orbit.
+/// Reason why numbers do not make an orbit.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error, Serialize, Deserialize)]
 pub enum ElementsError {
-    /// Made for a theory other than SGP4 (4 is SGP4-XP).
+    /// Elements for a theory other than SGP4 (4 is SGP4-XP).
     #[error("ephemeris type {0} is not SGP4")]
     EphemerisType(u8),
     #[error("catalogue number {0} has more than nine digits")]
@@ -95,7 +98,7 @@ pub enum ElementsError {
     #[error("mean motion {0} is not positive")]
     MeanMotion(f64),
     /// An angle or B* that no orbit has. Beyond one turn, the fraction of a degree soon becomes
-    /// rounding noise, and so do the passes.
+    /// rounding noise, and the passes with it.
     #[error("{name} {value:?} is not from {min} to {max}")]
     OutOfRange {
         #[serde(deserialize_with = "name::one")]
@@ -109,17 +112,18 @@ pub enum ElementsError {
     },
     #[error("epoch {0} is not from {first} to {last}", first = EPOCH_YEARS.start(), last = EPOCH_YEARS.end())]
     Epoch(civil::DateTime),
-    /// The orbit leads through the Earth: SGP4 gives no physical state for it, even above the
+    /// The orbit leads through the Earth, and SGP4 gives no physical state for it, even above the
     /// ground. The number is the height of its perigee, km.
     #[error("the perigee at a height of {0:.0} km is inside the Earth")]
     Perigee(f64),
-    /// Below the ground at the epoch, or SGP4 cannot start at all.
+    /// The object is below the ground at the epoch, or SGP4 cannot start at all.
     #[error("the object is not above the ground at its epoch")]
     Decayed,
 }
 
 impl Classification {
-    /// The classification for the letter of a source; unclassified for other letters and for none.
+    /// Returns the classification for the letter of a source; unclassified for other letters and
+    /// for none.
     pub(super) fn from_letter(letter: &str) -> Self {
         match letter {
             "C" => Self::Classified,
@@ -128,7 +132,7 @@ impl Classification {
         }
     }
 
-    /// The letter that all forms use for this classification.
+    /// Returns the letter that all forms use for this classification.
     pub(super) fn letter(self) -> char {
         match self {
             Self::Unclassified => 'U',
@@ -150,7 +154,7 @@ impl<'de> Deserialize<'de> for Elements {
     }
 }
 
-/// The catalog number that a source wrote, if it has at most nine digits.
+/// Returns the catalog number that a source wrote, if it has at most nine digits.
 pub(super) fn catalog_number(number: u64) -> Result<u32, ElementsError> {
     u32::try_from(number)
         .ok()
@@ -161,7 +165,7 @@ pub(super) fn catalog_number(number: u64) -> Result<u32, ElementsError> {
 impl Elements {
     /// Checks the values that a reader found.
     pub(super) fn checked(mut self) -> Result<Self, ElementsError> {
-        // 2 and 3 are old marks for SGP4 and SDP4; all sources now write 0.
+        // The values 2 and 3 are old marks for SGP4 and SDP4; all sources now write 0.
         if !matches!(self.ephemeris_type, 0 | 2 | 3) {
             return Err(ElementsError::EphemerisType(self.ephemeris_type));
         }
@@ -205,8 +209,7 @@ impl Elements {
             .epoch
             .round(jiff::Unit::Microsecond)
             .ok()
-            // The library computes with unsigned years, so that a year before 1 would
-            // end the program.
+            // The library computes with unsigned years, so a year before 1 would crash the program.
             .filter(|epoch| EPOCH_YEARS.contains(&utc(*epoch).year()))
             .ok_or(ElementsError::Epoch(as_written))?;
         let Heights { perigee_km, .. } = self.heights();
@@ -216,37 +219,37 @@ impl Elements {
         if Propagator::is_up_at_epoch(&self) { Ok(self) } else { Err(ElementsError::Decayed) }
     }
 
-    /// Empty if the source gave none.
+    /// Returns the name; empty if the source gave none.
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// The name up to the first opening bracket.
+    /// Returns the name up to the first opening bracket.
     pub fn short_name(&self) -> &str {
         self.name.split_once(" (").map_or(&*self.name, |(short, _)| short)
     }
 
-    /// The name, or the catalog number if there is no name.
+    /// Returns the name, or the catalog number if there is no name.
     pub fn label(&self) -> String {
         if self.name.is_empty() { self.catalog_number.to_string() } else { self.name.to_string() }
     }
 
-    /// Up to nine digits.
+    /// Returns the catalog number, up to nine digits.
     pub fn catalog_number(&self) -> u32 {
         self.catalog_number
     }
 
-    /// Such as `1998-067A`.
+    /// Returns the international designator, such as `1998-067A`.
     pub fn international_designator(&self) -> Option<&str> {
         Some(self.international_designator.as_str()).filter(|text| !text.is_empty())
     }
 
-    /// The instant that the elements describe best.
+    /// Returns the instant that the elements describe best.
     pub fn epoch(&self) -> Timestamp {
         self.epoch
     }
 
-    /// Mean motion (Kozai) in revolutions per day, above 0.
+    /// Returns the Kozai mean motion in revolutions per day, above 0.
     pub fn mean_motion_rev_day(&self) -> f64 {
         self.mean_motion_rev_day
     }
@@ -255,7 +258,7 @@ impl Elements {
         Angle::from_degrees(self.inclination_deg)
     }
 
-    /// Right ascension of the ascending node.
+    /// Returns the right ascension of the ascending node.
     pub fn node(&self) -> Angle {
         Angle::from_degrees(self.node_deg)
     }
@@ -268,12 +271,12 @@ impl Elements {
         Angle::from_degrees(self.mean_anomaly_deg)
     }
 
-    /// B*, per Earth radius.
+    /// Returns the drag term B*, per Earth radius.
     pub fn bstar(&self) -> f64 {
         self.bstar
     }
 
-    /// From 0 to below 1.
+    /// Returns the eccentricity, from 0 to below 1.
     pub fn eccentricity(&self) -> f64 {
         self.eccentricity
     }
@@ -282,7 +285,7 @@ impl Elements {
         time::DAY_S / self.mean_motion_rev_day
     }
 
-    /// Heights of the mean orbit above the equator.
+    /// Returns the heights of the mean orbit above the equator.
     pub fn heights(&self) -> Heights {
         let rate_rad_s = self.mean_motion_rev_day * std::f64::consts::TAU / time::DAY_S;
         let axis_km = (EARTH_MU_KM3_S2 / (rate_rad_s * rate_rad_s)).cbrt();
@@ -292,19 +295,19 @@ impl Elements {
         }
     }
 
-    /// Age at `now` in seconds, negative before the epoch.
+    /// Returns the age at `now` in seconds, negative before the epoch.
     pub fn age_s(&self, now: Timestamp) -> f64 {
         time::seconds_between(self.epoch, now)
     }
 
-    /// Time between the epoch and `time` in seconds, whichever comes first: elements are as wrong
-    /// before their epoch as after it.
+    /// Returns the time between the epoch and `time` in seconds, in either order. Elements are as
+    /// wrong before their epoch as after it.
     pub fn epoch_distance_s(&self, time: Timestamp) -> f64 {
         self.age_s(time).abs()
     }
 
-    /// Returns `true` if the satellite keeps its place in the sky: its period is within 2 % of a
-    /// sidereal day and its orbit is near-circular, whatever its inclination.
+    /// Returns `true` if the satellite keeps its place in the sky, with any inclination. Its period
+    /// is within 2 % of a sidereal day, and its orbit is near-circular.
     pub fn is_geosynchronous(&self) -> bool {
         (self.period_s() / SIDEREAL_DAY_S - 1.0).abs() < 0.02 && self.eccentricity() < 0.1
     }
@@ -326,7 +329,7 @@ impl Elements {
         }
     }
 
-    /// The elements in the form of the SGP4 library, without name and designator.
+    /// Returns the elements in the form of the SGP4 library, without name and designator.
     pub(super) fn sgp4(&self) -> sgp4::Elements {
         sgp4::Elements {
             object_name: None,

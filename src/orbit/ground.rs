@@ -1,4 +1,4 @@
-//! Satellites over the ground: the point below, the footprint, the ground track.
+//! The point below a satellite, its footprint and its ground track.
 
 use jiff::Timestamp;
 
@@ -9,7 +9,7 @@ use crate::astro::{Angle, Cap, GroundPoint, frames, frames::MEAN_RADIUS_KM, time
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SubPoint {
     pub point: GroundPoint,
-    /// Height of the satellite above the ellipsoid.
+    /// Height of the satellite above the ellipsoid, km.
     pub height_km: f64,
 }
 
@@ -20,7 +20,7 @@ pub struct TrackPoint {
 }
 
 impl State {
-    /// The point below a satellite in this state at `time`.
+    /// Returns the point below a satellite in this state at `time`.
     pub fn sub_point(&self, time: Timestamp) -> SubPoint {
         let (point, height_km) = frames::geodetic(frames::teme_to_ecef(time) * self.position_km);
         SubPoint { point, height_km }
@@ -28,9 +28,9 @@ impl State {
 }
 
 impl SubPoint {
-    /// The ground from which the satellite is seen at `elevation` (0 to 90 degrees) or
-    /// higher, on a sphere: the flattening of the Earth moves the edge of this ground by up
-    /// to a third of a degree.
+    /// Returns the ground from which the satellite is seen at `elevation` (0 to 90 degrees) or
+    /// higher, on a sphere. The flattening of the Earth moves the edge of this ground by up to a
+    /// third of a degree.
     pub fn footprint(&self, elevation: Angle) -> Cap {
         let cos_nadir = MEAN_RADIUS_KM * elevation.radians().cos();
         let from_centre_km = MEAN_RADIUS_KM + self.height_km.max(0.0);
@@ -40,8 +40,8 @@ impl SubPoint {
 }
 
 impl Propagator {
-    /// The ground track from `start` onwards: `count` points, `step_s` seconds apart. It ends early
-    /// if the orbit does.
+    /// Returns the ground track from `start` onwards: `count` points, `step_s` seconds apart. The
+    /// track ends early if the orbit does.
     pub fn ground_track(&self, start: Timestamp, step_s: f64, count: u32) -> Vec<TrackPoint> {
         let times = (0..count).map(|step| add_seconds(start, f64::from(step) * step_s));
         let point = |time| {
@@ -70,7 +70,7 @@ mod tests {
     #[test]
     fn a_satellite_is_in_the_zenith_of_the_point_below_it() {
         let time: Timestamp = TIME.parse().unwrap();
-        // Orbits that are low, of half a day and geosynchronous.
+        // The orbits are low, of half a day and geosynchronous.
         for number in [25_544, 43_013, 24_876, 54_743] {
             let propagator = propagator(number);
             let below = propagator.state_at(time).unwrap().sub_point(time);

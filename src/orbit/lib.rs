@@ -1,4 +1,5 @@
-//! Elements, propagation, look angles, passes. Pure functions; the time is an argument.
+//! Elements, propagation, look angles and passes. All functions are pure, and take the time as an
+//! argument.
 
 pub mod astro;
 mod bundled;

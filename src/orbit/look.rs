@@ -1,9 +1,10 @@
 //! Look angles: direction, range and range rate of a satellite from a site.
 //!
-//! The direction is the apparent one of the site, in the frame of [`frames`]; refraction is applied
-//! in [`SiteFrame::direction`] and in no other place. AOS and LOS are geometric by default: at the
-//! horizon, refraction lifts a satellite by 0.6 degrees, a low one some 10 s before its AOS. The
-//! table lists what is neglected, as an angle and as the median shift of AOS of low satellites:
+//! The direction is the apparent direction of the site, in the frame of [`frames`]. Only
+//! [`SiteFrame::direction`] applies refraction. AOS and LOS are geometric by default: at the
+//! horizon, refraction lifts a satellite by 0.6 degrees, a low satellite some 10 s before its AOS.
+//! The table lists the neglected effects, as an angle and as the median shift of AOS of low
+//! satellites:
 //!
 //! | left out | direction | AOS |
 //! |---|---|---|
@@ -22,16 +23,16 @@ use crate::astro::{
     frames::{self, SiteFrame},
 };
 
-/// Speed of light in km/s.
+/// Speed of light, km/s.
 const LIGHT_KM_S: f64 = 299_792.458;
 
 /// Direction, distance and speed of a satellite as seen from a site.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LookAngles {
-    /// Apparent: refraction is that of the site.
+    /// Apparent direction, with the refraction of the site.
     pub direction: AzEl,
     pub range_km: f64,
-    /// Negative when approaching.
+    /// Change of the range, km/s; negative when approaching.
     pub range_rate_km_s: f64,
 }
 
@@ -39,7 +40,7 @@ pub struct LookAngles {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Distance {
     pub range_km: f64,
-    /// Negative when approaching.
+    /// Change of the range, km/s; negative when approaching.
     pub range_rate_km_s: f64,
 }
 
@@ -48,7 +49,7 @@ impl LookAngles {
         Distance { range_km: self.range_km, range_rate_km_s: self.range_rate_km_s }
     }
 
-    /// The shift of [`Distance::doppler_hz`].
+    /// Returns the Doppler shift; see [`Distance::doppler_hz`].
     pub fn doppler_hz(self, carrier_hz: f64) -> f64 {
         self.distance().doppler_hz(carrier_hz)
     }
@@ -60,32 +61,32 @@ impl Distance {
         Self { range_km, range_rate_km_s: line_km.dot(velocity_km_s) / range_km }
     }
 
-    /// Doppler shift in Hz of a carrier of `carrier_hz` that the satellite sends: positive when
-    /// approaching. First order in v/c.
+    /// Returns the Doppler shift, Hz, of a carrier of `carrier_hz` that the satellite sends:
+    /// positive when approaching. The result is first order in v/c.
     pub fn doppler_hz(self, carrier_hz: f64) -> f64 {
         -self.range_rate_km_s / LIGHT_KM_S * carrier_hz
     }
 }
 
-/// Where a satellite is in Earth-fixed axes, and how it moves there.
+/// Position and motion of a satellite in Earth-fixed axes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct OverGround {
     pub position_km: DVec3,
-    /// Over the ground.
+    /// Velocity over the ground, km/s.
     pub velocity_km_s: DVec3,
 }
 
-/// Where a satellite is from a site, and how it moves there: east, north, up.
+/// Position and motion of a satellite relative to a site: east, north, up.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Local {
-    /// Geometric; [`SiteFrame::direction`] makes a direction of it.
+    /// Geometric position, km; [`SiteFrame::direction`] converts it to a direction.
     pub position_km: DVec3,
-    /// Over the ground.
+    /// Velocity over the ground, km/s.
     pub velocity_km_s: DVec3,
 }
 
 impl State {
-    /// Look angles from `site` at `time`, the time of this state.
+    /// Returns the look angles from `site` at `time`, the time of this state.
     pub fn look_from(&self, site: Site, time: Timestamp) -> LookAngles {
         let site = SiteFrame::from(site);
         let place = self.over_ground(time);
@@ -94,13 +95,13 @@ impl State {
         LookAngles { direction, range_km, range_rate_km_s }
     }
 
-    /// As seen from a site at `time`, the time of this state.
+    /// Returns position and motion as seen from a site at `time`, the time of this state.
     pub fn local(&self, site: &SiteFrame, time: Timestamp) -> Local {
         let OverGround { position_km, velocity_km_s } = self.over_ground(time);
         Local { position_km: site.enu_km(position_km), velocity_km_s: site.to_enu * velocity_km_s }
     }
 
-    /// In Earth-fixed axes at `time`, the time of this state.
+    /// Returns position and motion in Earth-fixed axes at `time`, the time of this state.
     pub fn over_ground(&self, time: Timestamp) -> OverGround {
         let to_ecef = frames::teme_to_ecef(time);
         OverGround::of_inertial(to_ecef * self.position_km, to_ecef * self.velocity_km_s)
@@ -108,20 +109,20 @@ impl State {
 }
 
 impl OverGround {
-    /// `velocity_km_s` is the inertial velocity, turned into the Earth-fixed axes.
+    /// Creates the value from the inertial velocity, turned into the Earth-fixed axes.
     pub(super) fn of_inertial(position_km: DVec3, velocity_km_s: DVec3) -> Self {
         let velocity_km_s = frames::velocity_over_ground_km_s(position_km, velocity_km_s);
         Self { position_km, velocity_km_s }
     }
 
-    /// Distance from a site, given in Earth-fixed axes.
+    /// Returns distance from a site, given in Earth-fixed axes.
     pub fn distance_from(&self, site_ecef_km: DVec3) -> Distance {
         Distance::new(self.position_km - site_ecef_km, self.velocity_km_s)
     }
 }
 
 impl Propagator {
-    /// Look angles of the satellite from `site` at `time`, with UT1 taken as UTC.
+    /// Returns look angles of the satellite from `site` at `time`, with UT1 taken as UTC.
     pub fn look_from(&self, site: Site, time: Timestamp) -> Result<LookAngles, PropagationError> {
         Ok(self.state_at(time)?.look_from(site, time))
     }
@@ -144,7 +145,7 @@ mod tests {
             let change_km = look(0.5).unwrap().range_km - look(-0.5).unwrap().range_km;
             let now = look(0.0).unwrap();
             assert!((change_km - now.range_rate_km_s).abs() < 5e-4, "{change_km} {now:?}");
-            // 7 km/s shifts 145.8 MHz by 3.4 kHz; an approach raises the frequency.
+            // A speed of 7 km/s shifts 145.8 MHz by 3.4 kHz; an approach raises the frequency.
             let expected_hz = -change_km / 299_792.458 * 145.8e6;
             assert!((now.doppler_hz(145.8e6) - expected_hz).abs() < 0.5);
         }

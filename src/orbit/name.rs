@@ -1,5 +1,5 @@
-//! Names that the program itself gives: keys of settings and actions, axes, set sentences.
-//! They are constants, and still come back from a written form.
+//! Names that the program itself defines: keys of settings and actions, axes, fixed sentences. They
+//! are constants that can be deserialised.
 
 use std::{
     collections::{BTreeMap, BTreeSet},
@@ -8,14 +8,14 @@ use std::{
 
 use serde::{Deserialize, Deserializer, de};
 
-/// A constant of the program. The alias keeps serde from borrowing it out of its input:
-/// a field of it, or of a container of it, names one of the functions below as its
-/// `deserialize_with`.
+/// A constant of the program. The alias keeps serde from borrowing the text from its input. A field
+/// of this type, or of a container of it, sets its `deserialize_with` to one of the functions
+/// below.
 pub type Name = &'static str;
 
-/// Names that were read are kept for good. The program has a few hundred.
+/// Max number of names. Azel never frees names that it has read; the program has a few hundred.
 const MAX_NAMES: usize = 4096;
-/// The longest sentence has some 200 bytes.
+/// Max length of a name, bytes. The longest sentence has some 200 bytes.
 const MAX_BYTES: usize = 1024;
 
 static NAMES: Mutex<BTreeSet<Name>> = Mutex::new(BTreeSet::new());

@@ -1,12 +1,12 @@
-//! Passes: the times in which a satellite is above the AOS elevation of a site.
+//! Passes: the times at which a satellite is above the AOS elevation of a site.
 //!
 //! The search is geometric. With refraction in the passes of a site, it looks for the geometric
-//! elevations that belong to the apparent ones, because the latter rise with the former; each
-//! point gets its apparent direction when it is kept.
+//! elevations of the apparent elevations, because both rise together. Each point gets its apparent
+//! direction when it is stored.
 //!
-//! AOS and LOS are found by [`near_circular`] (`search.rs`, `edges`) for near-circular orbits and
-//! by [`sampled`] (`reach`) for all others; both by `LocalSeries::crossing`
-//! (`local_series.rs`), or by halving in `Track::crossing` where that does not settle.
+//! [`near_circular`] (`search.rs`, `edges`) finds AOS and LOS for near-circular orbits, and
+//! [`sampled`] (`reach`) for all others. Both use `LocalSeries::crossing` (`local_series.rs`), or
+//! halving in `Track::crossing` if that does not converge.
 
 mod compact;
 mod geosynchronous;
@@ -33,25 +33,25 @@ pub use self::{compact::FoundPasses, mask::clear_stretches};
 use super::Propagator;
 use crate::astro::{Angle, AzEl, Site, time};
 
-/// Number of satellites that one thread takes at a time.
+/// Number of satellites in the batch of one thread.
 const BATCH: usize = 64;
 
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct PassPoint {
-    /// In UTC.
+    /// Time of the point, UTC.
     pub time: Timestamp,
-    /// Geometric, or apparent where the site has refraction in its passes.
+    /// Geometric direction; apparent if the site has refraction in its passes.
     pub direction: AzEl,
 }
 
 /// One period above the horizon within a window.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Pass {
-    /// Acquisition of signal: where the satellite rises, or the start of the window.
+    /// Acquisition of signal: rise of the satellite, or the start of the window.
     pub aos: PassPoint,
-    /// The greatest elevation from AOS to LOS.
+    /// Point of the max elevation from AOS to LOS.
     pub tca: PassPoint,
-    /// Loss of signal: where the satellite sets, or the end of the window.
+    /// Loss of signal: set of the satellite, or the end of the window.
     pub los: PassPoint,
     /// The satellite is above the horizon when the window starts.
     pub starts_before: bool,
@@ -69,7 +69,7 @@ impl Pass {
     }
 }
 
-/// The parameters of a search for passes.
+/// Parameters of a search for passes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PassSearch {
     pub site: Site,
@@ -79,24 +79,23 @@ pub struct PassSearch {
     pub end: Timestamp,
     /// Elevation of AOS and LOS, -90 to 90 degrees.
     pub aos_elevation: Angle,
-    /// Passes whose greatest elevation within the window stays below this are left out. A higher
-    /// floor takes less computation.
+    /// Min of the greatest elevation within the window; lower passes are left out. A higher floor
+    /// takes less computation.
     pub floor: Angle,
 }
 
 impl PassSearch {
-    /// All passes over the horizon of `site` from `start` to `end`.
+    /// Creates a search for all passes over the horizon of `site` from `start` to `end`.
     pub fn new(site: Site, start: Timestamp, end: Timestamp) -> Self {
         Self { site, start, end, aos_elevation: Angle::ZERO, floor: Angle::ZERO }
     }
 }
 
-/// All passes of a satellite, in order: the longest stretches in which the elevation is that
-/// of AOS or more, cut at the window and marked where they are cut. AOS and LOS are exact to
-/// a millisecond.
+/// Returns all passes of a satellite, in order: the longest stretches with at least the elevation
+/// of AOS. The window cuts passes, and each cut is marked. AOS and LOS are exact to a millisecond.
 ///
 /// The search ends without an error if the object decays. It also ends once `cancelled` returns
-/// `true`; the passes found until then are returned.
+/// `true`, and returns the passes found until then.
 pub fn passes(
     propagator: &Propagator,
     search: &PassSearch,
@@ -105,7 +104,7 @@ pub fn passes(
     passes_and_effort(propagator, search, cancelled).0
 }
 
-/// Like [`passes`], with the number of states of the satellite that were computed.
+/// Returns the same as [`passes`], with the number of computed states of the satellite.
 pub fn passes_and_effort(
     propagator: &Propagator,
     search: &PassSearch,
@@ -116,12 +115,12 @@ pub fn passes_and_effort(
     (found.into_iter().map(Pass::from).collect(), effort)
 }
 
-/// The passes of many satellites, each with the index of its satellite, ordered by
+/// Returns the passes of many satellites, each with the index of its satellite, ordered by
 /// satellite, then by time.
 ///
-/// The work is shared by the threads of the rayon pool in which this is called. `progress` is
-/// called now and then with the number of satellites that are done. Once `cancelled` returns
-/// `true`, the search ends; the passes found until then are returned.
+/// The threads of the caller's rayon pool share the work. The search calls `progress` from time to
+/// time with the number of completed satellites. Once `cancelled` returns `true`, the search ends
+/// and returns the passes found until then.
 pub fn passes_of_all<P: Borrow<Propagator> + Sync>(
     propagators: &[P],
     search: &PassSearch,
@@ -131,7 +130,7 @@ pub fn passes_of_all<P: Borrow<Propagator> + Sync>(
     found_passes(propagators, search, progress, cancelled).into_passes()
 }
 
-/// Like [`passes_of_all`], kept in little memory.
+/// Returns the same as [`passes_of_all`] in a compact form.
 pub fn found_passes<P: Borrow<Propagator> + Sync>(
     propagators: &[P],
     search: &PassSearch,
@@ -154,8 +153,8 @@ pub fn found_passes<P: Borrow<Propagator> + Sync>(
     FoundPasses::new(Window::new(search).map_or_else(Vec::new, of_all))
 }
 
-/// The passes of a few satellites, of which the first has the index `first`, and the number of
-/// states computed. Not generic, so that the search is compiled and optimised in this package.
+/// Returns the passes of a few satellites, of which the first has the index `first`, and the number
+/// of computed states. The function is not generic, so that this package compiles and optimises it.
 fn passes_in(
     window: &Window,
     propagators: &[&Propagator],
@@ -172,7 +171,7 @@ fn passes_in(
         tracks.iter().map(NearCircular::new).collect();
     let mut found = near_circular::passes(window, near_circular.iter().flatten(), cancelled);
     for (track, near_circular) in tracks.iter().zip(&near_circular) {
-        // Geosynchronous satellites below the horizon are ruled out without a search.
+        // Geosynchronous satellites below the horizon need no search.
         if near_circular.is_none() && !cancelled() && !geosynchronous::never_rises(track) {
             sampled::passes(track, cancelled, &mut found);
         }
@@ -205,7 +204,7 @@ mod tests {
         Propagator::new(bundled().unwrap().get(number).unwrap()).unwrap()
     }
 
-    /// Passes over Istanbul in the first `hours` from the start.
+    /// Returns the passes over Istanbul in the first `hours` from the start.
     fn search(propagator: &Propagator, hours: f64, aos_deg: f64) -> Vec<Pass> {
         let end = time::add_seconds(start(), hours * 3600.0);
         let aos_elevation = Angle::from_degrees(aos_deg);
@@ -257,7 +256,7 @@ mod tests {
 
     #[test]
     fn a_decay_ends_the_search_quietly() {
-        // AIAA 2006-6753: lost in under 420 minutes.
+        // Source: AIAA 2006-6753. The object is lost in under 420 minutes.
         let text = "1 29141U 85108AA  06170.26783845  .99999999  00000-0  13519-0 0   718\n\
                     2 29141  82.4288 273.4882 0015848 277.2124  83.9133 15.93343074  6828\n";
         let elements = &read_elements(text).elements[0];
@@ -267,7 +266,8 @@ mod tests {
         let found =
             passes(&propagator, &PassSearch::new(pole, elements.epoch(), window_end), &|| false);
         let end = time::add_seconds(elements.epoch(), 420.0 * 60.0);
-        // One pass per revolution of 87 minutes, the first 20 minutes after the epoch.
+        // The object has one pass per revolution of 87 minutes, the first 20 minutes after the
+        // epoch.
         assert_eq!(found.len(), 5);
         assert!(found.iter().all(|pass| pass.los.time < end));
         // The equations continue and bring the object up again.
@@ -281,15 +281,15 @@ mod tests {
 
     #[test]
     fn what_has_come_down_before_the_window_has_no_pass() {
-        // Near-earth orbits that drag brings down within weeks, and two of twelve hours whose
-        // perigee is in the atmosphere.
+        // The numbers are near-earth orbits that drag brings down within weeks, and two orbits of
+        // twelve hours with a perigee in the atmosphere.
         let numbers = [43_881, 46_582, 48_924, 49_176, 52_445, 53_500, 57_956, 26_410, 26_464];
         for number in numbers {
             let propagator = propagator(number);
             for days in [60.0, 100.0, 140.0] {
                 let time_at =
                     |hours: f64| time::add_seconds(start(), days * time::DAY_S + hours * 3600.0);
-                // In the steps of a caller that only asks for states.
+                // A caller that only asks for states uses such steps.
                 let mut before = (0..)
                     .map(|step| time::add_seconds(propagator.epoch(), f64::from(step) * 600.0));
                 let is_down = before

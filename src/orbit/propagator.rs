@@ -24,14 +24,15 @@ use super::{
 };
 use crate::astro::time;
 
-/// Equatorial radius in WGS72, the constants with which SGP4 is defined, in km.
+/// Equatorial radius in WGS72, the constants with which SGP4 is defined, km.
 pub(super) const WGS72_RADIUS_KM: f64 = 6_378.135;
-/// Further than this from its epoch, a set says nothing, and the resonance integrator, which
-/// advances in half days, would take seconds for a far century.
+/// Max distance from the epoch, days. Beyond it, a set has no meaning. The resonance integrator,
+/// which advances in half days, would take seconds for a far century.
 const FARTHEST_DAYS: f64 = 36_525.0;
-/// SGP4's velocity is not quite the rate of change of its position. It neglects the drag and higher
-/// powers of the flattening, which matter more for more eccentric orbits. Measured over the bundled
-/// catalog, in km/s.
+/// Max difference between SGP4's velocity and the rate of change of its position, km/s, and its
+/// increase with the eccentricity. The velocity neglects the drag and higher powers of the
+/// flattening, which matter more for more eccentric orbits. Both values are measured over the
+/// bundled catalog.
 const DRIFT_KM_S: f64 = 3e-5;
 const ECCENTRIC_DRIFT_KM_S: f64 = 0.01;
 
@@ -39,64 +40,67 @@ const ECCENTRIC_DRIFT_KM_S: f64 = 0.01;
 /// polynomials of the drag lead to any distance. All states of SGP4's verification are nearer.
 const MAX_GROWTH: f64 = 10.0;
 
-/// A deep-space orbit decays within weeks only from a perigee below this height, in km.
+/// Max perigee height from which a deep-space orbit decays within weeks, km.
 const LOW_PERIGEE_KM: f64 = 120.0;
-/// The first missing state is searched for in these steps, a sixteenth of a low revolution, and
-/// over ten weeks: a near-earth orbit that touches the atmosphere decays in days.
+/// Step of the search for the first missing state, minutes, and max number of steps. A step is a
+/// sixteenth of a low revolution. The steps cover ten weeks, because a near-earth orbit that
+/// touches the atmosphere decays in days.
 const DOWN_STEP_MIN: f64 = 5.0;
 const MAX_DOWN_LOOKS: u32 = 20_000;
-/// The place from which an integration is resumed stays where it is for a state up to this much
-/// later, so that a request for an earlier one need not begin at the epoch: twenty steps.
+/// Max time by which a state may be ahead of the stored integration without replacing it, minutes:
+/// twenty steps. A request for an earlier state then need not begin at the epoch.
 const RESUMED_MIN: f64 = 14_400.0;
 
-/// From this mean motion on, Sun and Moon are left out of the orbit: periods below 225 minutes.
+/// Min mean motion at which the orbit neglects Sun and Moon, revolutions per day: periods below 225
+/// minutes.
 const CLOSE_REV_DAY: f64 = 6.5;
-/// Orbits rounder than [`SMALL_ECCENTRICITY`] with a perigee above this height stay above the ground
-/// in all waves of the gravity field, which move them by some 15 km.
+/// Min perigee height, km, and max eccentricity of orbits that stay above the ground in all waves
+/// of the gravity field. The waves move the orbit by some 15 km.
 const HIGH_PERIGEE_KM: f64 = 100.0;
 const SMALL_ECCENTRICITY: f64 = 0.05;
 
 /// Position and velocity of a satellite in TEME.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct State {
-    /// From the centre of the Earth, km.
+    /// Position from the centre of the Earth, km.
     pub position_km: DVec3,
-    /// Inertial, km/s.
+    /// Inertial velocity, km/s.
     pub velocity_km_s: DVec3,
 }
 
-/// The reason why there is no state.
+/// Reason why there is no state.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error, Serialize, Deserialize)]
 pub enum PropagationError {
     /// SGP4 cannot start from these elements.
     #[error("the elements describe no orbit")]
     Elements,
-    /// The orbit has met the ground, or SGP4 has no solution any more.
+    /// The orbit has met the ground, or SGP4 no longer has a solution.
     #[error("the object has decayed")]
     Decayed,
-    /// More than a century, or so far that SGP4 leads away from the Earth.
+    /// The time is more than a century from the epoch, or so far that SGP4 leads away from the
+    /// Earth.
     #[error("the time is too far from the epoch of the elements")]
     TooFarFromEpoch,
 }
 
-/// Computes states of one satellite; can be shared between threads.
+/// Propagator of one satellite; threads can share it.
 #[derive(Debug, Clone)]
 pub struct Propagator {
     constants: sgp4::Constants,
     epoch: Timestamp,
     secular: Option<Secular>,
     drift_km_s: f64,
-    /// The orbit may have met the ground from this time on, minutes after the epoch.
+    /// Minutes after the epoch from which the orbit may have met the ground.
     low_after_min: f64,
-    /// Maximum distance from the centre of the Earth, km.
+    /// Max distance from the centre of the Earth, km.
     farthest_km: f64,
     descent: Descent,
     resonance: Resonance,
 }
 
-/// How far it is known that an orbit that may have met the ground has not: the number of looks, in
-/// steps of [`DOWN_STEP_MIN`] from `low_after_min` on, that have found a state. They go as far as
-/// somebody has asked.
+/// Progress of the check that an orbit has not met the ground. The value is the number of
+/// successive looks with a state, in steps of [`DOWN_STEP_MIN`] from `low_after_min` on. The looks
+/// reach as far as the latest requested time.
 #[derive(Debug, Default)]
 struct Descent(AtomicU32);
 
@@ -106,8 +110,8 @@ impl Clone for Descent {
     }
 }
 
-/// How far the integration of a resonant orbit has come, so that the next state need not start from
-/// the epoch. Other orbits leave it untouched.
+/// Progress of the integration of a resonant orbit, so that the next state need not start from the
+/// epoch. Other orbits leave it unchanged.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Resumable(Option<sgp4::ResonanceState>);
 
@@ -117,8 +121,8 @@ impl fmt::Debug for Resumable {
     }
 }
 
-/// Where the integration of a resonant orbit is resumed from: near the times that are asked for. Its
-/// steps are the same from wherever it is resumed, and so are the states.
+/// Stored progress of the integration of a resonant orbit, near the requested times. The steps are
+/// the same from every start, so the states are the same.
 #[derive(Debug, Default)]
 struct Resonance(Mutex<Resumable>);
 
@@ -144,7 +148,8 @@ impl Resonance {
 }
 
 impl Resumable {
-    /// How much further from the epoch `later` is, in minutes; `None` if it is on the other side.
+    /// Returns the distance by which `later` is farther from the epoch, minutes; `None` if it is on
+    /// the other side.
     fn ahead_min(self, later: Self) -> Option<f64> {
         let (from_min, to_min) = (self.0?.t(), later.0?.t());
         (from_min * to_min >= 0.0).then_some(to_min.abs() - from_min.abs())
@@ -162,7 +167,7 @@ impl Propagator {
         let drift_km_s = DRIFT_KM_S + ECCENTRIC_DRIFT_KM_S * eccentricity;
         let low_after_min = match &secular {
             Some(secular) => secular.low_after_min(),
-            // Drag brings such an orbit down only if its perigee is in the atmosphere.
+            // Drag makes such an orbit decay only if its perigee is in the atmosphere.
             None if lowest_km(&numbers) < LOW_PERIGEE_KM => 0.0,
             None => f64::INFINITY,
         };
@@ -191,7 +196,7 @@ impl Propagator {
         state.is_ok()
     }
 
-    /// The state at `time`, in TEME.
+    /// Returns the state at `time`, in TEME.
     pub fn state_at(&self, time: Timestamp) -> Result<State, PropagationError> {
         let mut resumable = self.resumable();
         let state = self.state_after(time::seconds_between(self.epoch, time), &mut resumable);
@@ -201,13 +206,13 @@ impl Propagator {
         state
     }
 
-    /// Where the integration for a series of states is resumed.
+    /// Returns the stored progress from which a series of states resumes the integration.
     pub(super) fn resumable(&self) -> Resumable {
         if self.secular.is_some() { Resumable::default() } else { self.resonance.get() }
     }
 
-    /// The states at several times, each later than the one before. Those of near-circular orbits
-    /// are computed eight at once, within 2e-8 km of [`Self::state_at`].
+    /// Returns the states at several times in ascending order. Those of near-circular orbits are
+    /// computed eight at once, within 2e-8 km of [`Self::state_at`].
     pub fn states_at(&self, times: &[Timestamp]) -> Vec<Option<State>> {
         let is_round = |time: &Timestamp| self.near_circular_at(*time).is_some();
         let ends = times.first().into_iter().chain(times.last());
@@ -221,8 +226,8 @@ impl Propagator {
         }
     }
 
-    /// The places of several satellites, each at a time of its own. Those of near-circular orbits
-    /// are computed eight at once, within 2e-8 km of [`Self::state_at`].
+    /// Returns the places of several satellites, each at its own time. Those of near-circular
+    /// orbits are computed eight at once, within 2e-8 km of [`Self::state_at`].
     pub fn over_ground(requests: &[(&Self, Timestamp)]) -> Vec<Option<OverGround>> {
         let mut places = vec![None; requests.len()];
         let mut near_circular = Vec::with_capacity(requests.len());
@@ -250,7 +255,8 @@ impl Propagator {
         places
     }
 
-    /// The long-term motion, and the minutes since the epoch, if the orbit is near-circular at `time`.
+    /// Returns the long-term motion and the minutes since the epoch, if the orbit is near-circular
+    /// at `time`.
     fn near_circular_at(&self, time: Timestamp) -> Option<(&Secular, f64)> {
         let since_epoch_s = time::seconds_between(self.epoch, time);
         let minutes = since_epoch_s / 60.0;
@@ -259,25 +265,25 @@ impl Propagator {
         (is_known && !self.may_be_down_at(since_epoch_s)).then_some((secular, minutes))
     }
 
-    /// The instant that [`Self::state_after`] counts from.
+    /// Returns the epoch, from which [`Self::state_after`] counts.
     pub(super) fn epoch(&self) -> Timestamp {
         self.epoch
     }
 
-    /// The long-term motion of the orbit; `None` for deep space.
+    /// Returns the long-term motion of the orbit; `None` for deep space.
     pub(super) fn secular(&self) -> Option<&Secular> {
         self.secular.as_ref()
     }
 
-    /// How far the velocities may differ from the rate of change of the positions, `since_epoch_s`
-    /// seconds after the epoch.
+    /// Returns the max difference between the velocities and the rate of change of the positions,
+    /// km/s, `since_epoch_s` seconds after the epoch.
     pub(super) fn drift_km_s(&self, since_epoch_s: f64) -> f64 {
         let drag = |secular: &Secular| secular.drag_drift_km_s(since_epoch_s / 60.0);
         self.drift_km_s + self.secular.as_ref().map_or(0.0, drag)
     }
 
-    /// The state `since_epoch_s` seconds after the epoch, in TEME. A series of calls with one
-    /// `resumable` is fast if it leads away from the epoch, and correct in any order.
+    /// Returns the state `since_epoch_s` seconds after the epoch, in TEME. A series of calls with
+    /// one `resumable` is fast if it leads away from the epoch, and correct in any order.
     pub(super) fn state_after(
         &self,
         since_epoch_s: f64,
@@ -291,7 +297,7 @@ impl Propagator {
             return Err(PropagationError::Decayed);
         }
         let state = sgp4_state(&self.constants, since_epoch_min, resumable)?;
-        // Written so that NaN is refused too.
+        // The test also refuses NaN.
         if state.position_km.length() <= self.farthest_km {
             Ok(state)
         } else {
@@ -304,8 +310,8 @@ impl Propagator {
         since_epoch_s > self.low_after_min * 60.0
     }
 
-    /// Returns `true` if SGP4 has brought the object down by then. Later, its equations continue
-    /// below the ground and may bring the object up again.
+    /// Returns `true` if the object has decayed by this time according to SGP4. Later, the
+    /// equations continue below the ground and may bring the object up again.
     fn is_down_at(&self, since_epoch_min: f64) -> bool {
         let at_min = |look: u32| self.low_after_min + f64::from(look) * DOWN_STEP_MIN;
         let Descent(looked) = &self.descent;
@@ -345,13 +351,13 @@ fn start(numbers: &sgp4::Elements) -> Result<(sgp4::Orbit, sgp4::Constants), Pro
     Ok((orbit, constants))
 }
 
-/// The state by SGP4, whether or not the object has decayed before.
+/// Returns the state by SGP4, even if the object has decayed before.
 fn sgp4_state(
     constants: &sgp4::Constants,
     since_epoch_min: f64,
     resumable: &mut Resumable,
 ) -> Result<State, PropagationError> {
-    // The library ends the program when the time goes back towards or across the epoch.
+    // The library panics if the time goes back towards or across the epoch.
     let resumed = resumable.0.take().filter(|state| {
         let reached_min = state.t();
         reached_min * since_epoch_min > 0.0 && since_epoch_min.abs() >= reached_min.abs()
@@ -371,21 +377,21 @@ fn sgp4_state(
     }
 }
 
-/// Returns `true` if the perigee alone shows that the object is above the ground at its epoch, as
-/// for nearly all of a catalogue. The drag has no effect there yet.
+/// Returns `true` if the perigee alone shows that the object is above the ground at its epoch. This
+/// holds for nearly all of a catalogue. The drag has no effect at the epoch yet.
 fn is_surely_up_at_epoch(elements: &sgp4::Elements) -> bool {
     elements.mean_motion > CLOSE_REV_DAY
         && elements.eccentricity < SMALL_ECCENTRICITY
         && lowest_km(elements) > HIGH_PERIGEE_KM
 }
 
-/// Semi-major axis at the epoch.
+/// Returns the semi-major axis at the epoch, km.
 fn axis_km(elements: &sgp4::Elements) -> f64 {
     let rate_rad_min = elements.mean_motion * (TAU / 1440.0);
     (sgp4::WGS72.ke / rate_rad_min).powf(2.0 / 3.0) * WGS72_RADIUS_KM
 }
 
-/// Height of the perigee at the epoch.
+/// Returns the height of the perigee at the epoch, km.
 fn lowest_km(elements: &sgp4::Elements) -> f64 {
     axis_km(elements) * (1.0 - elements.eccentricity) - WGS72_RADIUS_KM
 }

@@ -1,6 +1,6 @@
-//! Reads elements from text, which may hold TLE, or OMM in JSON, XML, KVN or CSV.
+//! Reader of elements from text, which may be TLE, or OMM in JSON, XML, KVN or CSV.
 //!
-//! Every object is read by itself. One that cannot be read is listed with its place and the reason,
+//! Each object is read separately. An unreadable object is listed with its place and the reason,
 //! and does not affect the others. Time and memory grow no faster than the length of the text.
 
 mod numbers;
@@ -19,14 +19,14 @@ pub(super) use self::{
     tle::{checksum, is_remark},
 };
 
-/// Maximum size of a text of elements, unpacked, in bytes; the whole catalog as XML has 30 MB.
+/// Max size of an unpacked text of elements, bytes; the whole catalog as XML has 30 MB.
 pub const MAX_ELEMENT_BYTES: u64 = 1 << 28;
 
 /// Reads all elements of `text`: TLE with two or three lines per set (including Alpha-5 numbers),
-/// or OMM in JSON, XML, KVN or CSV, as written by `CelesTrak` and Space-Track. Never fails as a
-/// whole and never panics.
+/// or OMM in JSON, XML, KVN or CSV. `CelesTrak` and Space-Track write these forms. The function
+/// never fails as a whole and never panics.
 pub fn read_elements(text: &str) -> ReadReport {
-    // Programs that join files leave the mark of each.
+    // Programs that join files leave the byte order mark of each file.
     let joined;
     let mut text = text.trim_start_matches('\u{feff}');
     if text.contains('\u{feff}') {
@@ -50,7 +50,7 @@ pub fn read_elements(text: &str) -> ReadReport {
     report
 }
 
-/// The reason why there is nothing in `text`.
+/// Returns the reason why `text` holds no elements.
 fn nothing_in(text: &str) -> Nothing {
     let text = text.trim();
     let start: String = text.chars().take(15).collect::<String>().to_ascii_lowercase();
@@ -65,9 +65,9 @@ fn nothing_in(text: &str) -> Nothing {
     }
 }
 
-/// Reads all elements of a file as stored on disk or received. Bytes that are not UTF-8
-/// are replaced; UTF-16, which some shells write, is read if the byte order mark says so.
-/// Gzip is unpacked.
+/// Reads all elements of a file as stored on disk or received. The function replaces bytes that are
+/// not UTF-8, and unpacks gzip. It reads UTF-16, which some shells write, if there is a byte order
+/// mark.
 pub fn read_element_bytes(bytes: &[u8]) -> ReadReport {
     let unpacked;
     let bytes = if bytes.starts_with(GZIP) {
@@ -90,7 +90,7 @@ fn of_nothing(nothing: Nothing) -> ReadReport {
     ReadReport { nothing: Some(nothing), ..ReadReport::default() }
 }
 
-/// All files of a gzip; `None` if it is damaged or unpacks to too much.
+/// Returns all files of a gzip; `None` if the gzip is damaged or too large unpacked.
 fn unpack(bytes: &[u8]) -> Option<Vec<u8>> {
     let mut unpacked = Vec::new();
     let mut packed = flate2::read::MultiGzDecoder::new(bytes).take(MAX_ELEMENT_BYTES + 1);
@@ -98,13 +98,13 @@ fn unpack(bytes: &[u8]) -> Option<Vec<u8>> {
     (unpacked.len() as u64 <= MAX_ELEMENT_BYTES).then_some(unpacked)
 }
 
-/// The text of a file: UTF-8, or UTF-16 with a byte order mark. Bytes of other encodings become
-/// U+FFFD.
+/// Returns the text of a file: UTF-8, or UTF-16 with a byte order mark. Bytes of other encodings
+/// become U+FFFD.
 pub fn decoded(bytes: &[u8]) -> Cow<'_, str> {
     let (code, is_big) = match bytes {
         [0xff, 0xfe, code @ ..] => (code, false),
         [0xfe, 0xff, code @ ..] => (code, true),
-        // Several times faster than to replace what is not UTF-8, which hardly ever occurs.
+        // This test is several times faster than replacing bytes, which are hardly ever invalid.
         _ => match str::from_utf8(bytes) {
             Ok(text) => return text.into(),
             Err(_) => return String::from_utf8_lossy(bytes),
@@ -117,8 +117,8 @@ pub fn decoded(bytes: &[u8]) -> Cow<'_, str> {
     Cow::Owned(letters.collect())
 }
 
-/// Returns `true` if every other byte of the start is 0, as in UTF-16 of ASCII, and no mark says
-/// so.
+/// Returns `true` if every other byte of the start is 0 without a byte order mark, as in UTF-16 of
+/// ASCII.
 fn is_unmarked_utf_16(bytes: &[u8]) -> bool {
     // All forms start with ASCII.
     matches!(bytes, [1..=127, 0, 1..=127, 0, ..] | [0, 1..=127, 0, 1..=127, ..])
@@ -143,12 +143,12 @@ impl Form {
     }
 }
 
-/// Lines before the first record that may be about a list.
+/// Max number of lines that are examined to find the form; a list may have a heading.
 const MAX_HEAD_LINES: usize = 20;
 
-/// The form of `text`, from the first line that tells it.
+/// Returns the form of `text`, from the first line that shows it.
 fn form(text: &str) -> Form {
-    // Two characters, because a name may start with any one of them.
+    // The test needs two characters, because a name may start with any one of them.
     let mut signs = text.chars().filter(|sign| !sign.is_whitespace());
     if matches!(
         (signs.next(), signs.next()),
@@ -179,11 +179,11 @@ fn form(text: &str) -> Form {
     Form::Tle
 }
 
-/// A text of a source on one line: trimmed, and with blanks in place of the characters that no
+/// Returns a text of a source on one line, trimmed, with blanks in place of the characters that no
 /// screen and no form can show.
 fn clean(text: &str) -> SmolStr {
-    // A form may lose the byte order mark. Neither that mark nor the characters that reverse the
-    // order of the text after them are control characters.
+    // A form may lose the byte order mark. Neither this mark nor the characters that reverse the
+    // order of text are control characters.
     let is_unseen = |letter: char| {
         let turns = matches!(letter, '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
         letter.is_control() || letter == '\u{feff}' || turns

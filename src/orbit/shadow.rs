@@ -6,18 +6,17 @@ use jiff::Timestamp;
 use super::State;
 use crate::astro::{frames, sun_moon};
 
-/// Returns `true` if a satellite in `state` (TEME, valid at `time`) is in sunlight, as [`is_lit`] has
-/// it.
+/// Returns `true` if a satellite in `state` (TEME, valid at `time`) is in sunlight; see [`is_lit`].
 pub fn is_sunlit(state: &State, time: Timestamp) -> bool {
     is_lit(state.position_km, sun_moon::sun_teme_km(time))
 }
 
-/// Returns `true` if a satellite is in sunlight. Its position and that of the Sun are from the centre
-/// of the Earth, both in any one set of axes.
+/// Returns `true` if a satellite is in sunlight. Its position and the Sun's position are from the
+/// centre of the Earth, in the same axes.
 ///
-/// The shadow is a cylinder as wide as the equator. At its edge, half of the Sun's disc is hidden:
-/// the middle of the penumbra, which a low satellite crosses in about 8 s. Flattening and
-/// refraction are neglected.
+/// The shadow is a cylinder as wide as the equator. At its edge, half of the Sun's disc is hidden.
+/// The edge is the middle of the penumbra, which a low satellite crosses in about 8 s. The model
+/// neglects flattening and refraction.
 pub fn is_lit(position_km: DVec3, sun_km: DVec3) -> bool {
     let sun = sun_km.normalize();
     let along_km = position_km.dot(sun);

@@ -1,11 +1,11 @@
 //! One number or eight at once.
 //!
-//! Passes are computed for eight satellites at a time: a processor takes two or more numbers
-//! through one operation as fast as one, and has something to do while others wait for the result
-//! of the previous step. Code that serves both is written once, for any [`Number`].
+//! Azel computes passes for eight satellites at a time. A processor handles two or more numbers in
+//! one operation as fast as one. It also works on some numbers while others wait for the previous
+//! step. Code for both cases is written once, for any [`Number`].
 //!
-//! How many numbers a register holds is known only where the program runs ([`widest`]). What is to
-//! use those registers has to be inlined up to there, and is marked so.
+//! The number of values in a register is known only at run time ([`widest`]). Code that uses these
+//! registers must be inlined up to that function, and carries `inline` attributes.
 
 mod lanes;
 mod trig;
@@ -18,7 +18,7 @@ pub(super) use self::{
     vector::Vector,
 };
 
-/// From here on, a number of this type has no digits after the point.
+/// Magnitude from which a number of this type has no digits after the point.
 const WHOLE_ABOVE: f64 = 6_755_399_441_055_744.0;
 
 /// A real number, or several side by side.
@@ -37,28 +37,28 @@ pub(super) trait Number:
 {
     /// A yes or no for every lane.
     type Answer: BitAnd<Output = Self::Answer> + BitOr<Output = Self::Answer>;
-    /// This value in every lane.
+    /// Returns this value in every lane.
     fn splat(value: f64) -> Self;
     fn sqrt(self) -> Self;
     fn abs(self) -> Self;
-    /// The nearest whole number, for numbers below 2^51.
+    /// Returns the nearest whole number, for numbers below 2^51.
     #[inline]
     fn nearest(self) -> Self {
         self + WHOLE_ABOVE - WHOLE_ABOVE
     }
-    /// Accurate to 1e-13 for angles up to a thousand; beyond that, as accurate as the remaining
-    /// digits of the angle.
+    /// Returns sine and cosine. They are accurate to 1e-13 for angles up to a thousand; beyond
+    /// that, as accurate as the remaining digits of the angle.
     #[inline(always)]
     fn sin_cos(self) -> (Self, Self) {
         trig::sin_cos(self)
     }
-    /// The angle of the direction (`x`, `self`), -pi to pi, accurate to 5e-11.
+    /// Returns the angle of the direction (`x`, `self`), -pi to pi, accurate to 5e-11.
     fn atan2(self, x: Self) -> Self;
-    /// The nearest number from `low` to `high`.
+    /// Returns the nearest number from `low` to `high`.
     fn clamped(self, low: f64, high: f64) -> Self;
-    /// Compares each lane with `than`: true if it is less, false for NaN.
+    /// Compares each lane with `other`: true if the lane is less, false for NaN.
     fn is_less(self, other: Self) -> Self::Answer;
-    /// Returns `true` if any lane is at least `limit`; NaN is not.
+    /// Returns `true` if any lane is at least `limit`; NaN does not count.
     fn any_reaches(self, limit: f64) -> bool;
 }
 
@@ -87,7 +87,8 @@ impl Number for f64 {
     }
 }
 
-/// The value of a polynomial, constant term first. Its coefficients may differ from lane to lane.
+/// Returns the value of a polynomial, constant term first. Its coefficients may differ from lane to
+/// lane.
 #[inline(always)]
 pub(super) fn series<N, C, const COUNT: usize>(polynomial: &[C; COUNT], argument: N) -> N
 where
@@ -102,7 +103,7 @@ where
     })
 }
 
-/// Puts each number into a lane of its own.
+/// Puts each number of `numbers` into the lane `lane` of its entry in `all`.
 pub(super) fn set_all<const COUNT: usize>(
     all: &mut [Lanes; COUNT],
     lane: usize,
@@ -113,8 +114,9 @@ pub(super) fn set_all<const COUNT: usize>(
     }
 }
 
-/// Does `work` with registers of four numbers if the processor has them, else of two. The results
-/// are the same to the last bit. `work` has to be inlined, as a closure marked so is.
+/// Runs `work` with registers of four numbers if the processor has them, otherwise of two. The
+/// results are the same to the last bit. `work` must be inlined, for example a closure with an
+/// `inline` attribute.
 #[inline(always)]
 pub(super) fn widest<R>(work: impl FnOnce() -> R) -> R {
     #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]

@@ -1,4 +1,4 @@
-//! Sources of elements, the state of each, and how often a server may be asked.
+//! Sources of elements, their states, and the limits on requests to servers.
 
 use std::path::PathBuf;
 
@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::{MergeSummary, Nothing};
 use crate::astro::time;
 
-/// A server is asked for one source at most once in this time, unless the operator requests it.
+/// Min time between requests to a server for one source, unless the operator requests it.
 /// `CelesTrak` renews its elements every two hours and blocks clients that ask more often.
 pub const FETCH_PAUSE: SignedDuration = SignedDuration::from_hours(2);
 
@@ -18,18 +18,18 @@ pub struct Source {
     pub name: String,
     #[serde(flatten)]
     pub place: SourcePlace,
-    /// How often a server is asked without the operator; `None` for never.
+    /// Interval between automatic requests to a server; `None` for no automatic requests.
     #[serde(default, rename = "refresh_hours", skip_serializing_if = "Option::is_none")]
     pub refresh: Option<RefreshHours>,
 }
 
-/// Hours between two requests to a server that nobody asks for: 2 to 168.
+/// Hours between two automatic requests to a server, 2 to 168.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(from = "u32", into = "u32")]
 pub struct RefreshHours(u32);
 
 impl From<u32> for RefreshHours {
-    /// Fewer hours would be impolite, more would be as good as never.
+    /// Clamps the hours: fewer would be impolite, and more would be as good as never.
     fn from(hours: u32) -> Self {
         Self(hours.clamp(2, 168))
     }
@@ -41,7 +41,7 @@ impl From<RefreshHours> for u32 {
     }
 }
 
-/// The place of a source.
+/// Place from which a source is read.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum SourcePlace {
@@ -51,7 +51,7 @@ pub enum SourcePlace {
     Folder(PathBuf),
     /// An `https` address that answers with elements in any form.
     Web(String),
-    /// The elements of the favourites at Space-Track, with this log-in name.
+    /// Elements of the favourites at Space-Track, with this log-in name.
     SpaceTrack(String),
 }
 
@@ -66,24 +66,24 @@ impl SourcePlace {
 }
 
 impl Source {
-    /// A group of `CelesTrak`, such as `active` or `weather`, as OMM: a TLE carries no object that
-    /// was cataloged after July 2026.
+    /// Returns a group of `CelesTrak`, such as `active` or `weather`, as OMM. A TLE carries no
+    /// object that was cataloged after July 2026.
     pub fn celestrak(group: &str) -> Self {
         let url = format!("https://celestrak.org/NORAD/elements/gp.php?GROUP={group}&FORMAT=json");
         Self { name: group.to_owned(), place: SourcePlace::Web(url), refresh: None }
     }
 
-    /// The newest TLE of each satellite that `SatNOGS` DB lists.
+    /// Returns the source with the newest TLE of each satellite in `SatNOGS` DB.
     pub fn satnogs() -> Self {
         let url = "https://db.satnogs.org/api/tle/?format=json".to_owned();
         Self { name: "SatNOGS".to_owned(), place: SourcePlace::Web(url), refresh: None }
     }
 
-    /// Returns the time of the next request without the operator; `None` if there is none, such as
-    /// after a refused log-in.
+    /// Returns the time of the next automatic request; `None` if there is none, such as after a
+    /// refused log-in.
     ///
-    /// A failure doubles the time, four times at most. A part of up to a tenth keeps many consoles
-    /// from asking at once.
+    /// Each failure in a row doubles the interval, at most four times. A variation of up to a tenth
+    /// keeps many consoles from asking at once.
     pub fn next_by_itself(
         &self,
         report: Option<&SourceReport>,
@@ -98,7 +98,7 @@ impl Source {
     }
 }
 
-/// A number that differs from source to source and from request to request.
+/// Returns a number that differs between sources and between requests.
 fn spread(name: &str, last: Timestamp) -> u16 {
     let bytes = name.bytes().chain(last.as_microsecond().to_le_bytes());
     let mixed = bytes.fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
@@ -107,14 +107,14 @@ fn spread(name: &str, last: Timestamp) -> u16 {
     (mixed >> 32) as u16
 }
 
-/// Returns `true` if a server that was last asked at `last_attempt` may be asked at `now`, whatever
-/// its answer was. `forced` says that the operator wants it.
+/// Returns `true` if a server that was last asked at `last_attempt` may be asked at `now`. Its last
+/// answer does not matter. With `forced`, the operator requests it.
 pub fn may_fetch(last_attempt: Option<Timestamp>, now: Timestamp, forced: bool) -> bool {
     // A clock that was set back must not block the source.
     forced || last_attempt.is_none_or(|last| last > now || now.duration_since(last) >= FETCH_PAUSE)
 }
 
-/// A limit of a server, which holds for the operator too: no request for `pause` after `time`.
+/// A limit of a server that also applies to the operator: no request for `pause` after `time`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct RequestLimit {
     /// Time of the request that began the limit.
@@ -123,78 +123,79 @@ pub struct RequestLimit {
     pub pause: SignedDuration,
 }
 
-/// Returns the end of the last of `limits`. A limit that begins after `now` does not count: the
-/// clock was ahead, and must not block the source for years.
+/// Returns the end of the last of `limits`. A limit that begins after `now` does not count, because
+/// the clock was ahead then and must not block the source for years.
 pub fn not_before(limits: &[RequestLimit], now: Timestamp) -> Option<Timestamp> {
     let limits = limits.iter().filter(|limit| limit.time <= now);
     limits.filter_map(|limit| limit.time.checked_add(limit.pause).ok()).max()
 }
 
-/// The reason why a server gave no new elements. The elements that are held stay.
+/// Reason why a server gave no new elements. The stored elements stay.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum FetchProblem {
-    /// Not an `https` address, or one that contains a user name.
+    /// The address is not `https`, or contains a user name.
     #[error("the address is not a plain https address")]
     Address,
-    /// An answer other than 200 and 304; the server is not asked again soon.
+    /// The answer is neither 200 nor 304. Azel does not ask the server again soon.
     #[error("the server answered {0}")]
     Answer(u16),
-    /// No complete answer.
+    /// The answer is missing or incomplete.
     #[error("no answer: {0}")]
     Unreachable(String),
-    /// The server could not prove its identity; no request was sent.
+    /// The server could not prove its identity. Azel sent no request.
     #[error("the server's certificate is not trusted: {0}")]
     Certificate(String),
-    /// No trusted authority signed the server's certificate; no request was sent.
+    /// No trusted authority signed the server's certificate. Azel sent no request.
     #[error("this computer trusts no authority that signed the server's certificate")]
     UnknownAuthority,
     /// The answer is larger than this limit in bytes.
     #[error("the answer is larger than {0} bytes")]
     TooLarge(u64),
-    /// The proxy of this environment variable cannot be used. No server was asked.
+    /// The proxy of this environment variable is unusable. Azel asked no server.
     #[error("the proxy in {0} cannot be used; correct the variable, or remove it")]
     Proxy(String),
-    /// Nothing in the answer could be read.
+    /// Azel could read no elements in the answer.
     #[error("the answer holds no elements")]
     NoElements,
-    /// Nothing in the answer looks like elements.
+    /// The answer does not look like elements.
     #[error("the answer holds no elements, {0}")]
     Nothing(Nothing),
     #[error("the answer is older than what is held")]
     Older,
-    /// The keyring has no password for the log-in name. No server was asked.
+    /// The keyring has no password for the log-in name. Azel asked no server.
     #[error("no password is stored for this log-in")]
     NoPassword,
-    /// The keyring did not give the password. No server was asked.
+    /// The keyring did not give the password. Azel asked no server.
     #[error("the password cannot be read: {0}")]
     Keyring(String),
-    /// A wrong name or password, or a closed account. Servers lock accounts that try again.
+    /// Name or password are wrong, or the account is closed. Servers lock accounts that try again.
     #[error("the server refused the log-in")]
     LogIn,
     #[error("the server opened no session")]
     NoSession,
-    /// The server's own reason why it gave no elements.
+    /// The server gave no elements, for this reason.
     #[error("the server answered: {0}")]
     Refused(String),
-    /// The library on disk takes no record of a request, so that a restart could ask too often. No
-    /// server was asked.
+    /// The library on disk accepts no record of a request, so a restart could ask too often. Azel
+    /// asked no server.
     #[error("no server was asked, because the request cannot be recorded: {0}")]
     Unrecorded(String),
-    /// Azel had logged in, but the library on disk takes no record of the query, which was not sent.
+    /// Azel had logged in, but the library on disk accepts no record of the query. Azel did not
+    /// send the query.
     #[error("the query was not sent, because it cannot be recorded: {0}")]
     QueryUnrecorded(String),
-    /// A source of the elements of favourites, without favourites. No server was asked.
+    /// The source needs favourites, but there are none. Azel asked no server.
     #[error("there are no favourites to ask for")]
     NoFavourites,
-    /// The answer could not be written to disk.
+    /// Azel could not write the answer to disk.
     #[error("the answer could not be kept: {0}")]
     Disk(String),
 }
 
 impl FetchProblem {
-    /// Returns `true` if the problem came up before any server was asked, so that no limit of a
-    /// server has begun.
+    /// Returns `true` if the problem occurred before any request, so that no limit of a server has
+    /// begun.
     pub fn is_before_request(&self) -> bool {
         match self {
             Self::Address
@@ -220,41 +221,42 @@ impl FetchProblem {
     }
 }
 
-/// The state of one source.
+/// State of one source: its files, requests and limits.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SourceReport {
     pub source: String,
-    /// The files of the source: one, or all of a folder; none if nothing has been fetched yet.
+    /// Files of the source: one, or all of a folder; none before the first fetch.
     pub files: Vec<FileReport>,
-    /// When the elements were last known to be current: the modification time of a file, or the
-    /// last time that a server sent or confirmed them.
+    /// Last time at which the elements were known to be current. It is the modification time of a
+    /// file, or the last time that a server sent or confirmed them.
     pub as_of: Option<Timestamp>,
-    /// The newest epoch in the source.
+    /// Newest epoch in the source.
     pub newest_epoch: Option<Timestamp>,
-    /// The reason why the last request brought no new elements.
+    /// Reason why the last request brought no new elements.
     pub fetch_problem: Option<FetchProblem>,
-    /// Requests in a row that brought nothing but a problem.
+    /// Number of failed requests in a row.
     pub failures: u32,
-    /// When the server may be asked again without force, if the source is a server.
+    /// Earliest time of the next request without force, if the source is a server.
     pub next_fetch: Option<Timestamp>,
-    /// Limits of the server that hold for the operator too.
+    /// Limits of the server that also apply to the operator.
     #[serde(default)]
     pub limits: Vec<RequestLimit>,
-    /// The source was not read, because the program ended while reading it the last time.
+    /// Azel did not read the source, because the last reading crashed the program.
     pub is_set_aside: bool,
-    /// Number of its objects of which the bundled elements or another source have a newer set.
+    /// Number of objects of the source for which the bundled elements or another source have a
+    /// newer set.
     #[serde(default)]
     pub newer_elsewhere: usize,
 }
 
-/// The state of one file.
+/// State of one file: its objects, changes and problem.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct FileReport {
     pub path: PathBuf,
     pub objects: usize,
-    /// Changes in the catalog and refusals.
+    /// Changes in the catalog, and refusals.
     pub merge: MergeSummary,
-    /// The reason why the file could not be read at all, in the words of the operating system.
+    /// Reason why the file is unreadable as a whole, in the words of the operating system.
     pub problem: Option<String>,
 }
 
@@ -268,36 +270,37 @@ impl SourceReport {
         merges.map(|merge| merge.refused.len() + merge.refused_unlisted).sum()
     }
 
-    /// Returns `true` if the server is not asked again until the operator acts.
+    /// Returns `true` if Azel does not ask the server again until the operator acts.
     pub fn awaits_operator(&self) -> bool {
         self.fetch_problem == Some(FetchProblem::LogIn)
     }
 
-    /// Returns the time at which the operator may ask the server without force; `None` if it was
-    /// never asked, or not the last time.
+    /// Returns the earliest time at which the operator may ask the server without force. Returns
+    /// `None` if the server was never asked, or if the last attempt failed before a request.
     pub fn next_request(&self, now: Timestamp) -> Option<Timestamp> {
         let is_unasked = self.fetch_problem.as_ref().is_some_and(FetchProblem::is_before_request);
         self.pause_end(now).filter(|_| !is_unasked)
     }
 
-    /// Returns the time at which the server may be asked again without force, after an attempt of
-    /// any outcome.
+    /// Returns the earliest time for the next request without force, after an attempt with any
+    /// outcome.
     pub fn pause_end(&self, now: Timestamp) -> Option<Timestamp> {
         self.next_fetch.filter(|_| self.attempted_at(now).is_some())
     }
 
-    /// Returns the time at which the operator may ask the server again, if it sets such a limit.
+    /// Returns the earliest time at which the operator may ask the server again, if the server sets
+    /// such a limit.
     pub fn not_before(&self, now: Timestamp) -> Option<Timestamp> {
         not_before(&self.limits, now)
     }
 
-    /// Time of the last attempt. [`may_fetch`] ignores one that lies after `now` too.
+    /// Returns the time of the last attempt. Like [`may_fetch`], it ignores an attempt after `now`.
     fn attempted_at(&self, now: Timestamp) -> Option<Timestamp> {
         let last = self.next_fetch?.checked_sub(FETCH_PAUSE).ok()?;
         Some(last).filter(|last| *last <= now)
     }
 
-    /// Age of the held elements at `now`, in seconds.
+    /// Returns the age of the stored elements at `now`, seconds.
     pub fn age_s(&self, now: Timestamp) -> Option<f64> {
         self.as_of.map(|as_of| time::seconds_between(as_of, now))
     }
@@ -328,7 +331,7 @@ mod tests {
             newest_epoch: None,
             fetch_problem: None,
             failures,
-            // Asked at 12:00.
+            // The last request was at 12:00.
             next_fetch: Some(time("2026-08-12T14:00:00Z")),
             limits: Vec::new(),
             is_set_aside: false,

@@ -1,7 +1,7 @@
-//! Writes elements as text: TLE, OMM in JSON, OMM in CSV.
+//! Writer of elements as text: TLE, OMM in JSON, OMM in CSV.
 //!
 //! The OMM forms keep every number to its last bit and the epoch to the microsecond. A TLE keeps
-//! what fits into its columns.
+//! the digits that fit into its columns.
 
 mod omm;
 mod tle;

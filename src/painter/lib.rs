@@ -1,6 +1,7 @@
-//! Images of the window for tests, painted without a graphics card and the same on every machine.
+//! Painter of window images for tests. It needs no graphics card, and gives the same image on every
+//! machine.
 //!
-//! The colours are blended as egui's own painters do: premultiplied, in gamma space.
+//! Colours are blended as in egui's own painters: premultiplied, in gamma space.
 
 mod texture;
 mod triangle;
@@ -16,7 +17,7 @@ use image::RgbaImage;
 
 use self::{texture::Texture, triangle::Triangle};
 
-/// Paints what a test harness shows.
+/// Renderer of test harnesses. It keeps the textures of the window.
 #[derive(Default)]
 pub struct Painter {
     textures: HashMap<TextureId, Texture>,
@@ -38,7 +39,7 @@ impl TestRenderer for Painter {
         let scale = ctx.pixels_per_point();
         let size = ctx.content_rect().size() * scale;
         let [width, height] = [size.x, size.y].map(|side| side.round() as usize);
-        // The program clears its window to this colour and leaves it where nothing is.
+        // The program clears its window to this colour, which stays wherever no shape is.
         let ground = ctx.global_style().visuals.panel_fill;
         let mut canvas = Canvas { width, height, pixels: vec![ground; width * height] };
         for ClippedPrimitive { clip_rect, primitive } in

@@ -1,11 +1,11 @@
-//! A texture as it was last set.
+//! A texture in its current state.
 
 use egui::{
     Color32, Pos2,
     epaint::{ImageData, ImageDelta},
 };
 
-/// The letters of the fonts, or a picture of its own.
+/// The letters of the fonts, or a picture.
 #[derive(Default)]
 pub(crate) struct Texture {
     width: usize,
@@ -14,7 +14,7 @@ pub(crate) struct Texture {
 }
 
 impl Texture {
-    /// Takes a new image, or a part of one.
+    /// Replaces the whole image, or a part of it.
     pub(crate) fn take(&mut self, change: &ImageDelta) {
         let ImageData::Color(image) = &change.image;
         let [width, height] = image.size;
@@ -30,7 +30,8 @@ impl Texture {
         }
     }
 
-    /// The colour at `uv`, premultiplied, 0 to 1 in each channel, between the four nearest texels.
+    /// Returns the colour at `uv`, interpolated between the four nearest texels: premultiplied, 0
+    /// to 1 in each channel.
     pub(crate) fn sample(&self, uv: Pos2) -> [f32; 4] {
         let split = |part: f32, side: usize| {
             let position = (part * side as f32 - 0.5).clamp(0.0, side.saturating_sub(1) as f32);

@@ -6,17 +6,17 @@ use egui::{Color32, epaint::Vertex, pos2};
 
 use super::texture::Texture;
 
-/// Parts of a pixel that corners are rounded to: whole numbers decide without rounding errors which of
-/// two triangles owns a pixel on their common edge.
+/// Parts of a pixel to which corners are rounded. Whole numbers decide without rounding errors
+/// which of two triangles owns a pixel on their common edge.
 const PARTS: i64 = 256;
 
-/// A triangle on the canvas, its corners in the order in which all edges turn the same way.
+/// A triangle on the canvas. The order of its corners makes all edges turn the same way.
 pub(crate) struct Triangle<'a> {
     corners: [Corner; 3],
-    /// Twice the area, in parts of pixels.
+    /// Twice the area, in squared parts of a pixel.
     area: i64,
     texture: &'a Texture,
-    /// The one texel of a triangle of one colour.
+    /// Texel of a triangle whose corners share one texture position.
     plain: Option<[f32; 4]>,
 }
 
@@ -30,7 +30,7 @@ struct Corner {
 }
 
 impl<'a> Triangle<'a> {
-    /// `None` without an area.
+    /// Creates the triangle; `None` if it has no area.
     pub(crate) fn new(vertices: [&Vertex; 3], texture: &'a Texture, scale: f32) -> Option<Self> {
         let mut corners = vertices.map(|vertex| Corner {
             x: (vertex.pos.x * scale * PARTS as f32).round() as i64,
@@ -49,12 +49,13 @@ impl<'a> Triangle<'a> {
         (area != 0).then_some(Self { corners, area: area.abs(), texture, plain })
     }
 
-    /// The rows that it touches, within `rows`.
+    /// Returns the rows of pixels that the triangle touches, within `rows`.
     pub(crate) fn rows(&self, rows: &Range<usize>) -> Range<usize> {
         span(self.corners.map(|corner| corner.y), rows)
     }
 
-    /// Paints its part of `row`, whose pixels these are, within `columns`.
+    /// Paints the triangle's part of `row`, within `columns`. `pixels` start at the first pixel of
+    /// the row.
     pub(crate) fn paint_row(&self, pixels: &mut [Color32], row: usize, columns: &Range<usize>) {
         let columns = span(self.corners.map(|corner| corner.x), columns);
         let y = middle(row);
@@ -70,7 +71,7 @@ impl<'a> Triangle<'a> {
         }
     }
 
-    /// The premultiplied colour where the corners have these weights, 0 to 255.
+    /// Returns the premultiplied colour, 0 to 255, at these weights of the corners.
     fn colour(&self, weights: [f32; 3]) -> [f32; 4] {
         let mixed = |mixed_value: &dyn Fn(&Corner) -> f32| -> f32 {
             self.corners
@@ -95,12 +96,12 @@ impl<'a> Triangle<'a> {
     }
 }
 
-/// The middle of a row or column of pixels, in parts of pixels.
+/// Returns the middle of a row or column of pixels, in parts of a pixel.
 fn middle(pixel: usize) -> i64 {
     i64::try_from(pixel).unwrap_or(i64::MAX / (2 * PARTS)) * PARTS + PARTS / 2
 }
 
-/// The pixels between the first and last of `ends`, in parts of pixels, within `whole`.
+/// Returns the pixels between the min and max of `ends`, in parts of a pixel, within `whole`.
 fn span(ends: [i64; 3], whole: &Range<usize>) -> Range<usize> {
     let [first, last] = ends
         .iter()
@@ -110,15 +111,15 @@ fn span(ends: [i64; 3], whole: &Range<usize>) -> Range<usize> {
     start..(pixel(last) + 1).clamp(start, whole.end)
 }
 
-/// How far a point is inside the edge between two corners, as twice an area; `None` outside. A point
-/// on the edge belongs to one of the two triangles beside it: the one below or to the right.
+/// Returns the distance of a point inside the edge between two corners, as twice an area; `None`
+/// outside. A point on the edge belongs to the triangle below or to the right.
 fn side(corner: Corner, next: Corner, x: i64, y: i64) -> Option<i64> {
     let product = (next.x - corner.x) * (y - corner.y) - (next.y - corner.y) * (x - corner.x);
     let owns_edge = next.y < corner.y || (next.y == corner.y && next.x > corner.x);
     (product > 0 || (product == 0 && owns_edge)).then_some(product)
 }
 
-/// A premultiplied colour over another one.
+/// Returns a premultiplied colour blended over another colour.
 fn blended(colour: [f32; 4], below: Color32) -> Color32 {
     let transparency = 1.0 - colour[3] / 255.0;
     let mut mixed = [0; 4];

@@ -23,17 +23,17 @@ use crate::{
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Priority {
-    /// Something will go wrong or was not done.
+    /// Problem that is about to occur, or a task that was not done.
     Caution,
-    /// Something is wrong now.
+    /// Current fault.
     Warning,
-    /// An antenna moves, may move or points where it must not, and is not known to obey. Nothing
-    /// silences it: it cannot be shelved, and no setting keeps it quiet.
+    /// Motion or pointing that may be dangerous, of an antenna that is not known to obey. Neither a
+    /// shelf nor a setting can silence such an alarm.
     First,
 }
 
 impl Priority {
-    /// Returns `true` for an alarm that is red while it stands.
+    /// Returns `true` for an alarm that is red while its cause persists.
     pub fn is_red(self) -> bool {
         match self {
             Self::First | Self::Warning => true,
@@ -42,7 +42,7 @@ impl Priority {
     }
 }
 
-/// Kind of an alarm. The view puts it into words.
+/// Kind of an alarm. The window words it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum AlarmKind {
     /// No link to the antenna.
@@ -51,55 +51,55 @@ pub enum AlarmKind {
     StopNotConfirmed,
     /// The unit refused STOP, with this code.
     StopRefused(String),
-    /// A jog was stopped because the window or the station was too busy to renew it.
+    /// Azel stopped a jog because the window or the station was too busy to renew it.
     JogLeaseOver,
-    /// A jog was stopped because the position grew too old.
+    /// Azel stopped a jog because the position was too old.
     JogPositionOld,
-    /// Positions that the unit was asked for are missing again and again.
+    /// Recurrent loss of positions that Azel requested from the unit.
     LosesPositions,
-    /// The antenna has stopped, but the unit may start by itself.
+    /// The antenna has stopped, but the unit may start to track without a command.
     AutoTrackStillOn,
     /// The unit did not switch auto-track off.
     AutoStaysOn,
-    /// The unit was told to switch auto-track off, and cannot tell whether it has.
+    /// Azel requested auto-track off, and the unit cannot report its state.
     AutoTrackNotKnown,
-    /// Auto-track is to be switched off at a unit that belongs to no antenna of the station.
+    /// Azel still has to switch auto-track off at a unit that belongs to no antenna of the station.
     AutoTrackOwed(Unit),
     /// A unit that belongs to no antenna of the station may still add offsets of a track.
     OffsetsOwed(Unit),
-    /// The unit is locked out, but no read-back proves that it does not start by itself.
+    /// The unit is locked out, but no read-back proves that auto-track is off.
     LockOutUnproved,
-    /// The list of locked-out units could not be read or written; in words.
+    /// Azel could not read or write the list of locked-out units; the text is the error.
     LockOuts(String),
     /// The unit refused a request, with this code.
     Refused(MotionRequest, String),
     /// The unit did not answer a request.
     Unanswered(MotionRequest),
-    /// The satellite cannot be tracked on board.
+    /// The unit cannot track the satellite on board.
     CannotTrack(TrackTarget, PrepareError),
-    /// Program track of this target cannot begin, or cannot go on.
+    /// Program track of this target cannot begin or continue.
     CannotProgramTrack(String, TrackProblem),
-    /// The antenna tracks, and is not where the satellite is.
+    /// The antenna tracks, but points off the satellite.
     OffTarget {
-        /// Error when it was noticed.
+        /// Angle off the satellite at the time of the alarm.
         #[serde(rename = "off")]
         deviation: Angle,
         cause: Option<OffTargetCause>,
     },
-    /// By the unit's own settings it would miss a pass; with the likeliest cause.
+    /// The settings that the unit reports would make it miss a pass; with the likeliest cause.
     UnitDiffers(Ranked),
-    /// The unit still adds offsets that were written for a track.
+    /// The unit still adds offsets that Azel wrote for a track.
     OffsetsLeft {
         offsets: TrackOffsets,
         #[serde(rename = "why")]
         reason: LeftOffsets,
     },
-    /// An offset of the unit's own track was not written.
+    /// The unit did not take an offset of its own track.
     OffsetNotTaken(WriteError),
-    /// The unit tracks on board, but its target direction is unknown here.
+    /// The unit tracks on board, but Azel does not know its target direction.
     NotCompared {
-        /// Name of the satellite that the unit reports, without known elements; `None`
-        /// where it reports none.
+        /// Name of the satellite that the unit reports, without known elements; `None` if the unit
+        /// reports none.
         satellite: Option<String>,
     },
     /// Tracking ended before LOS.
@@ -115,18 +115,18 @@ pub enum AlarmKind {
         #[serde(rename = "why", default)]
         reason: Option<NotReady>,
     },
-    /// Automatic operation is going to move the antenna, for the first time or after a rest.
+    /// Automatic operation is about to move the antenna, for the first time or after a rest.
     AutomaticMoves {
         #[serde(rename = "at")]
         time: Timestamp,
-        /// Short name of the satellite whose pass it is for.
+        /// Short name of the satellite of the pass.
         name: String,
     },
-    /// Automatic operation of the antenna has ended, and not by the operator.
+    /// Automatic operation of the antenna has ended without the operator.
     AutomaticOff(OffBecause),
     /// Somebody else moves the antenna, so automatic operation waits for the operator.
     AutomaticSuspended(Interruption),
-    /// No antenna is on its way to a pass that the operator wanted to be reminded of.
+    /// No antenna is on its way to a pass for which the operator set a reminder.
     NoAntennaFor {
         pass: PassListKey,
         /// Short name of the satellite.
@@ -137,71 +137,71 @@ pub enum AlarmKind {
     /// The unit moves without a request from this console.
     MovesByItself,
     Safety(Safety),
-    /// A STOP is owed to a unit that belongs to no antenna of the station.
+    /// Azel owes a STOP to a unit that belongs to no antenna of the station.
     Owed(Unit),
     /// The thread that talks to the antennas has not responded for this long.
     DriverStands(Duration),
-    /// The station's thread has published nothing new for this long; the displayed state is
-    /// as old.
+    /// The station's thread has published nothing new for this long; the displayed state has the
+    /// same age.
     StationStands(Duration),
-    /// Another Azel of this machine has this station open: nothing can be driven from here.
+    /// Another Azel on this machine has this station open: this Azel can drive nothing.
     StationElsewhere(HeldBy),
-    /// Another Azel of this machine drives this unit.
+    /// Another Azel on this machine drives this unit.
     UnitElsewhere(HeldBy),
     /// The Azel that drives an antenna did not confirm STOP.
     StopNotElsewhere,
-    /// A background job of the program broke off.
+    /// A background job of the program has crashed.
     BrokeOff(Work),
-    /// The source of elements with this name is not read: its last reading ended the
-    /// program.
+    /// Azel does not read the source of elements with this name, because its last reading crashed
+    /// the program.
     SourceSetAside(String),
     /// The last requests to this source returned no elements, its server refused the log-in, or its
     /// file cannot be read.
     SourceFails {
         source: String,
-        /// When its elements were last known to be current.
+        /// Last time at which the elements of the source were known to be current.
         as_of: Option<Timestamp>,
     },
-    /// The elements of this satellite, and of `others`, are too old for the passes that automatic
-    /// operation will take, or leaves out for this reason.
+    /// The elements of this satellite, and of `others`, are too old for passes that automatic
+    /// operation takes, or skips because of their age.
     ElementsOld {
         name: String,
         others: usize,
     },
-    /// Newer elements cannot be uploaded to the unit by the rule.
+    /// The automatic upload of newer elements to the unit failed.
     ElementsNotUploaded {
         #[serde(rename = "why")]
         reason: String,
     },
     /// The program was too busy to take a request.
     NotTaken,
-    /// A fault or warning that the unit names itself.
+    /// Fault or warning that the unit itself reports.
     Check(Check),
-    /// The unit's clock is this far ahead of ours, seconds.
+    /// The unit's clock is this far ahead of the computer's clock, seconds.
     ClockOff(f64),
     /// The unit's clock was never set.
     ClockNotSet,
-    /// The position of the unit cannot be read, for this reason.
+    /// Azel cannot read the position of the unit, for this reason.
     Unreadable(#[serde(deserialize_with = "name::one")] Name),
-    /// An entry of the station file was not taken over.
+    /// Azel did not use this entry of the station file.
     Setting(Note),
-    /// A setting on which safety depends could not be read, so this antenna, or all of them if it is
-    /// `None`, do not move by themselves.
+    /// Azel could not read a safety setting. This antenna, or all antennas if `None`, do not move
+    /// automatically.
     SafetySetting {
         note: Note,
         antenna: Option<String>,
     },
-    /// Settings could not be read, written or sent; in words.
+    /// Azel could not read, write or send settings; the text is the error.
     Settings(String),
-    /// The elements could not be read; in words.
+    /// Azel could not read the elements; the text is the error.
     Elements(String),
-    /// Nothing can be recorded, for this reason.
+    /// Azel cannot write the record; the text is the reason.
     NoRecord(String),
     /// Somebody has removed or replaced the file of the record.
     RecordRemoved,
 }
 
-/// Background work that can break off.
+/// Background work that can crash.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Work {
     Elements,

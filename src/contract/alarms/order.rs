@@ -1,4 +1,4 @@
-//! The order of the alarms on screen: the first cause first.
+//! Order of the alarms on screen: each cause above its effects.
 
 use std::cmp::Reverse;
 
@@ -8,27 +8,29 @@ use crate::{
     plan::on_board::Cause,
 };
 
-/// An alarm in its place in the list.
+/// An alarm with its cause in the list.
 #[derive(Debug, Clone, Copy)]
 pub struct Placed<'a> {
     pub alarm: &'a Alarm,
-    /// Id of the alarm above it from which it follows.
+    /// Id of the alarm that caused this alarm and precedes it in the list.
     pub follows: Option<u64>,
 }
 
 impl Alarms {
-    /// The alarms as an operator reads them. Those that stand or are new come before those that
-    /// are over and seen. Red ones that stand come first; then higher ranks, then those that stand,
-    /// then newer ones. An alarm that follows from another comes directly behind it, in the order in
-    /// which they came, and lifts it to its own rank. One follows from another that stood when it
-    /// came, and whose kind explains its kind; from the first, if there are several or they follow
-    /// from each other. One that stands follows from none that is over.
+    /// Returns the alarms in display order. Persisting red alarms come first, then higher
+    /// priorities, then persisting alarms, then newer alarms. Alarms that are both over and
+    /// acknowledged come last.
+    ///
+    /// An effect follows directly behind its cause, in order of occurrence, and lifts the cause to
+    /// its own priority. An alarm is an effect if the cause persisted when the alarm came and its
+    /// kind explains the alarm's kind. With several causes or a chain of causes, the first cause
+    /// counts. An alarm that is over is no cause of a persisting alarm.
     pub fn in_order(&self) -> Vec<Placed<'_>> {
         let cause_of = |effect: &Alarm| {
             let causes = self.list.iter().filter(|cause| is_cause(cause, effect));
             causes.min_by_key(|cause| (cause.last, cause.id))
         };
-        // A cause comes before its effect, so that the chain ends.
+        // A cause always precedes its effect, so the chain of causes is finite.
         let first_cause =
             |effect| std::iter::successors(cause_of(effect), |cause| cause_of(cause)).last();
         let place = |alarm| Placed { alarm, follows: first_cause(alarm).map(|cause| cause.id) };
@@ -52,13 +54,13 @@ impl Alarms {
     }
 }
 
-/// Returns `true` if `effect` came while `cause` stood, and from it.
+/// Returns `true` if `cause` explains `effect` and persisted when `effect` came.
 fn is_cause(cause: &Alarm, effect: &Alarm) -> bool {
     let is_before = (cause.last, cause.id) < (effect.last, effect.id);
     let stood = cause.over_since.is_none_or(|over_since| over_since >= effect.last);
     let is_there = cause.antenna.is_none() || cause.antenna == effect.antenna;
-    // A cause that is over, or that the operator is done with, must not stand above an effect that
-    // still needs attention.
+    // A cause that is over or acknowledged must not stand above an effect that still needs
+    // attention.
     let is_open = (!cause.is_done() || effect.is_done()) && (!cause.is_over() || effect.is_over());
     is_before
         && stood
@@ -69,11 +71,11 @@ fn is_cause(cause: &Alarm, effect: &Alarm) -> bool {
         && entails(&cause.kind, &effect.kind)
 }
 
-/// Returns `true` if an alarm of the kind `effect` comes of one of the kind `cause`.
+/// Returns `true` if an alarm of the kind `cause` can lead to an alarm of the kind `effect`.
 fn entails(cause: &AlarmKind, effect: &AlarmKind) -> bool {
     use crate::alarms::AlarmKind as K;
     match cause {
-        // Nothing is sent and nothing is read.
+        // The driver neither sends nor reads anything.
         K::DriverStands(_) => {
             is_of_silence(effect) || matches!(effect, K::LinkLost(_) | K::NotTaken)
         }
@@ -99,7 +101,7 @@ fn entails(cause: &AlarmKind, effect: &AlarmKind) -> bool {
     }
 }
 
-/// Returns `true` for what follows where an antenna is not heard.
+/// Returns `true` for alarms that can follow from an antenna that does not answer.
 fn is_of_silence(effect: &AlarmKind) -> bool {
     use crate::alarms::AlarmKind as K;
     matches!(

@@ -1,4 +1,4 @@
-//! How a unit answers: the one judgement behind all that a client shows of a link.
+//! State of a unit's answers. Clients show a link only by this judgement.
 
 use std::time::Duration;
 
@@ -9,29 +9,29 @@ use crate::{
     driver::{LinkState, Refusal, Snapshot, position_for},
 };
 
-/// Longest time without a reply that is a hiccup of the link.
+/// Max time without a reply that counts as a hiccup of the link.
 const HICCUP: Duration = Duration::from_secs(3);
 
-/// How a unit answers.
+/// State of a unit's answers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Answers {
-    /// Nobody wants a link.
+    /// No link is wanted.
     Off,
-    /// The link is opened for the first time.
+    /// The link is being opened for the first time.
     Connecting,
     InTime,
-    /// Replies come, but late, or one is missing: the last report is this old.
+    /// Late replies, or a missing reply: the last report is this old.
     Late(Duration),
-    /// The link is open. The time without a reply is longer than a hiccup.
+    /// The link is open, but no reply has come for this long, which exceeds a hiccup.
     Silent(Duration),
-    /// The link is gone, with the time without a reply.
+    /// The link is lost, with the time without a reply.
     Lost(Duration),
 }
 
-/// Why no motion is offered, by the age of the position.
+/// Reason to offer no motion, because of the age of the position.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum NoMotion {
-    /// It was not read on this link.
+    /// No position was read on the current link.
     Unread,
     /// Replies are late.
     Late,
@@ -40,7 +40,7 @@ pub enum NoMotion {
 }
 
 impl Answers {
-    /// Returns `true` if the last report is true now, as far as anybody knows.
+    /// Returns `true` if the last report still describes the unit, as far as Azel knows.
     pub fn is_current(self) -> bool {
         match self {
             Self::InTime => true,
@@ -49,7 +49,7 @@ impl Answers {
         }
     }
 
-    /// Age of the last report, if it is older than a hiccup of the link explains.
+    /// Returns the age of the last report, if it exceeds a hiccup of the link.
     pub fn overdue(self) -> Option<Duration> {
         match self {
             Self::Off | Self::Connecting | Self::InTime => None,
@@ -60,7 +60,7 @@ impl Answers {
 }
 
 impl AntennaModel {
-    /// Returns how the unit answers.
+    /// Returns the state of the unit's answers at `now`.
     pub fn answers(&self, now: Instant) -> Answers {
         let Snapshot { link, state, .. } = &*self.snapshot;
         let age = |start: Instant| now.saturating_duration_since(start);
@@ -69,7 +69,7 @@ impl AntennaModel {
             LinkState::Connecting { .. } => return Answers::Connecting,
             LinkState::Lost { start, .. } => return Answers::Lost(age(start)),
             LinkState::Up { .. } if self.is_live() => return Answers::InTime,
-            // The last report came over an earlier link.
+            // The last report came over an earlier link, so the age of this link counts.
             LinkState::Up { start } => start,
             LinkState::Stale { as_of } => as_of,
         };
@@ -81,24 +81,25 @@ impl AntennaModel {
         Answers::Late(age(request_time.min(as_of)))
     }
 
-    /// Returns the reason why no control offers `motion` now, as far as the age of the
-    /// position decides it. A position that the gate refuses is always a reason. So are replies that
-    /// are late by more than a hiccup, even while the gate would still pass their position.
+    /// Returns the reason, concerning the age of the position, why no control offers `motion` now.
+    /// A position that the gate refuses is always a reason. Replies that are late by more than a
+    /// hiccup are a reason even while the gate would still accept their position.
     pub fn no_motion(&self, motion: &MotionRequest, now: Instant) -> Option<NoMotion> {
         let refusal = position_for(motion, &self.snapshot.state, now).err();
         let is_unread = refusal == Some(Refusal::PositionUnknown);
         match self.answers(now) {
-            // The link is the reason.
+            // The link itself is the reason, so the age of the position adds none.
             Answers::Off | Answers::Connecting | Answers::Lost(_) => None,
             Answers::Silent(_) => Some(NoMotion::Silent),
-            // A session asks for a younger position before a jog.
+            // A session asks for a newer position before a jog, so only a missing position is a
+            // reason.
             Answers::InTime => is_unread.then_some(NoMotion::Unread),
             Answers::Late(_) if is_unread => Some(NoMotion::Unread),
             Answers::Late(age) => (refusal.is_some() || age >= HICCUP).then_some(NoMotion::Late),
         }
     }
 
-    /// Returns `true` if no reply has come for longer than a hiccup of the link lasts.
+    /// Returns `true` if no reply has come for longer than a hiccup of the link.
     pub fn is_silent(&self, now: Instant) -> bool {
         match self.answers(now) {
             Answers::InTime | Answers::Late(_) => false,

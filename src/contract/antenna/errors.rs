@@ -1,4 +1,4 @@
-//! Errors between measured and predicted direction over the present track.
+//! Errors between measured and predicted direction over the current track.
 
 use std::{collections::VecDeque, sync::Arc};
 
@@ -7,9 +7,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::astro::{Angle, time::seconds_between};
 
-/// Time for which errors are kept, for the profile of a pass.
+/// Time for which errors are kept for the profile of a pass, seconds.
 const KEPT_S: f64 = 3600.0;
-/// Samples in a chunk; clones share chunks.
+/// Max samples in a chunk; clones share chunks.
 const CHUNK: usize = 64;
 
 /// Error of a measured direction against the predicted one.
@@ -24,42 +24,43 @@ pub struct ErrorSample {
     pub elevation: Angle,
 }
 
-/// The errors of the present track, oldest first. A clone shares all but the newest few
-/// hundred with the original.
+/// The errors of the current track, oldest first. A clone shares all chunks with the original; a
+/// push to either one copies only the newest chunk.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Errors {
     chunks: VecDeque<Arc<Vec<ErrorSample>>>,
 }
 
 impl Errors {
-    /// Oldest first.
+    /// Returns the errors, oldest first.
     pub fn iter(&self) -> impl DoubleEndedIterator<Item = &ErrorSample> {
         self.chunks.iter().flat_map(|chunk| chunk.iter())
     }
 
-    /// The newest error.
+    /// Returns the newest error.
     pub fn back(&self) -> Option<&ErrorSample> {
         self.chunks.back().and_then(|chunk| chunk.last())
     }
 
-    /// The chunks that are whole, and the samples after them.
+    /// Returns all chunks but the newest, and the samples of the newest chunk.
     pub fn chunks(&self) -> (impl Iterator<Item = &Arc<Vec<ErrorSample>>>, &[ErrorSample]) {
         let whole = self.chunks.iter().take(self.chunks.len().saturating_sub(1));
         (whole, self.chunks.back().map(|newest| &newest[..]).unwrap_or_default())
     }
 
-    /// The errors in these chunks, and those after them.
+    /// Creates the errors from whole chunks and the newer samples after them.
     pub fn of_chunks(whole: Vec<Arc<Vec<ErrorSample>>>, newest: Vec<ErrorSample>) -> Self {
         let newest = (!newest.is_empty()).then(|| Arc::new(newest));
         Self { chunks: whole.into_iter().chain(newest).collect() }
     }
 
-    /// The errors at intervals of at least `interval_s`, and those for which `is_kept` returns true.
+    /// Returns the errors at intervals of at least `interval_s`, and all errors for which `is_kept`
+    /// returns true.
     #[must_use]
     pub fn thinned(&self, interval_s: f64, is_kept: impl Fn(&ErrorSample) -> bool) -> Self {
         let (mut thinned, mut last) = (Self::default(), None);
         for sample in self.iter() {
-            // After a step of the clock the samples go on at an earlier time.
+            // The absolute difference counts, because the clock may have been set back.
             let is_due =
                 last.is_none_or(|last| seconds_between(last, sample.time).abs() >= interval_s);
             if is_due || is_kept(sample) {
@@ -70,7 +71,7 @@ impl Errors {
         thinned
     }
 
-    /// Adds an error and drops old ones, a chunk at a time.
+    /// Adds an error and drops old errors, a chunk at a time.
     pub fn push(&mut self, sample: ErrorSample) {
         match self.chunks.back_mut().filter(|chunk| chunk.len() < CHUNK) {
             Some(chunk) => {

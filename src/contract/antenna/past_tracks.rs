@@ -1,4 +1,4 @@
-//! The errors of the last tracks, which stay to be looked at.
+//! Errors of the last tracks, for display.
 
 use std::{collections::VecDeque, sync::Arc};
 
@@ -10,31 +10,31 @@ use crate::{
     astro::Angle,
 };
 
-/// Number of tracks that are kept.
+/// Max number of kept tracks.
 const MAX_TRACKS: usize = 8;
 
-/// The errors of a track that is over.
+/// Errors of a completed track.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct PastTrack {
     /// Name of the target.
     pub name: String,
-    /// First and last sample.
+    /// Time of the first sample.
     #[serde(rename = "from")]
     pub start: Timestamp,
     #[serde(rename = "until")]
     pub end: Timestamp,
-    /// Root of the mean square of the angle between beam axis and target.
+    /// Root mean square of the angle between beam axis and target.
     pub rms: Angle,
     pub worst: ErrorSample,
-    /// About one a second, the worst and the last included.
+    /// About one error a second, including the worst and the last.
     pub errors: Errors,
 }
 
-/// The last tracks, newest first. Clones share them.
+/// Last tracks, newest first. Clones share them.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub struct PastTracks(VecDeque<Arc<PastTrack>>);
 
-/// Newest first.
+/// Conversion from tracks that are sorted newest first.
 impl FromIterator<Arc<PastTrack>> for PastTracks {
     fn from_iter<I: IntoIterator<Item = Arc<PastTrack>>>(tracks: I) -> Self {
         Self(tracks.into_iter().collect())
@@ -42,7 +42,7 @@ impl FromIterator<Arc<PastTrack>> for PastTracks {
 }
 
 impl PastTracks {
-    /// Newest first.
+    /// Returns the tracks, newest first.
     pub fn iter(&self) -> impl Iterator<Item = &Arc<PastTrack>> {
         self.0.iter()
     }
@@ -51,7 +51,7 @@ impl PastTracks {
         self.0.is_empty()
     }
 
-    /// Adds a track, and drops the oldest where there are too many.
+    /// Adds a track, and drops the oldest if the list is full.
     pub fn push(&mut self, track: PastTrack) {
         self.0.push_front(Arc::new(track));
         self.0.truncate(MAX_TRACKS);

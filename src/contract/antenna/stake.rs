@@ -1,4 +1,4 @@
-//! Activity of an antenna that ends, or goes on unwatched, when the antenna is locked out
+//! Activity of an antenna that ends, or goes on unwatched, when the operator locks the antenna out
 //! or the station ends.
 
 use crate::{
@@ -14,14 +14,14 @@ pub enum Stake {
     /// Program track of the target with this name.
     ProgramTracked(String),
     Moves,
-    /// A stop is owed.
+    /// A STOP is not yet proved.
     OwesStop,
-    /// It was moved from here and has not been proved to stand since.
+    /// Azel has moved the antenna, and standstill is not yet proved.
     Unproved,
 }
 
 impl AntennaModel {
-    /// The activity at stake; `None` where the antenna stands and nothing is asked of it.
+    /// Returns the activity at stake; `None` if the antenna stands and has no request.
     pub fn stake(&self) -> Option<Stake> {
         let (snapshot, state) = (&self.snapshot, &self.snapshot.state);
         if matches!(snapshot.stop, StopState::Stopping { .. } | StopState::NotConfirmed { .. }) {

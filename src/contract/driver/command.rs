@@ -11,107 +11,108 @@ use crate::{
     station::LockOut,
 };
 
-/// A change of the offsets of a track. Each is judged like a motion; one that is refused leaves
-/// them as they were.
+/// Change of the offsets of a track. The gate judges each change like a motion. A refused change
+/// leaves the offsets unchanged.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum OffsetChange {
-    /// One of them grows by this much.
+    /// Increase of one offset by this amount.
     Step(Offset),
-    /// All of them end.
+    /// Reset of all offsets to zero.
     Zero,
-    /// Back to those before the last change that was not undone.
+    /// Undo of the last change that is still in force.
     Undo,
 }
 
-/// A command to an antenna. STOP is not one: it bypasses this queue.
+/// Command to an antenna. STOP is no such command, because it bypasses this queue.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Command {
-    /// End whatever runs; nothing is to move.
+    /// End of every motion and track.
     Standby,
-    /// Jog and step by hand; ends tracking.
+    /// Start of jogs and steps by hand; ends tracking.
     Manual,
-    /// Stay here, ready to be sent to a direction; ends tracking.
+    /// Stop at the current direction, ready for the next position; ends tracking.
     Hold,
-    /// A jog key is held. Repeated at least every 300 ms.
+    /// A held jog key, repeated at least every 300 ms.
     Jog {
         /// Signed rates of the two axes, degrees a second.
         rates_deg_s: [f64; 2],
     },
-    /// The jog key was released.
+    /// Release of the jog key.
     EndJog,
-    /// For a minute, allow motions by hand without a dead-man.
+    /// Permission for motions by hand without a dead-man, for one minute.
     AllowUnguarded,
-    /// For a minute, allow motions by hand out of a forbidden direction.
+    /// Permission for motions by hand out of a forbidden direction, for one minute.
     AllowWayOut,
-    /// Go to the nearest direction clear of the Sun.
+    /// Motion to the nearest direction clear of the Sun.
     MoveAway,
-    /// Turn each axis by one step.
+    /// Turn of each axis by one step.
     Step {
-        /// Signed, degrees.
+        /// Signed steps of the two axes, degrees.
         steps_deg: [f64; 2],
     },
-    /// Go to a direction of the sky.
+    /// Motion to a direction of the sky.
     Position {
-        /// `None` leaves it as it is.
+        /// Target azimuth; `None` keeps the current azimuth.
         azimuth: Option<Angle>,
-        /// `None` leaves it as it is.
+        /// Target elevation; `None` keeps the current elevation.
         elevation: Option<Angle>,
     },
-    /// Let the unit track a pass on board.
+    /// On-board track of a pass.
     Track(Box<OnBoardPass>),
-    /// Take over the track that the unit runs by itself, without a motion. Its satellite must
-    /// be known here, and the unit must point at it.
+    /// Takeover of a track that the unit started, without a motion. Azel must know its satellite,
+    /// and the unit must point at it.
     TakeOver,
-    /// Program track, also with a unit that could track on board.
+    /// Program track, even if the unit could track on board.
     ProgramTrack(Box<ProgramTrack>),
-    /// Program track of a target that leads to the Sun: the operator lifts the Sun avoidance
-    /// for this track alone.
+    /// Program track of a target that leads to the Sun. The operator lifts the Sun avoidance for
+    /// this track only.
     ProgramTrackIntoSun(Box<ProgramTrack>),
-    /// Go to the target of a program track of a fixed direction, and end the track there. A track
-    /// of anything that moves goes on.
+    /// End of a program track of a fixed direction upon arrival there. A track of a moving target
+    /// goes on.
     EndAtTarget,
-    /// Change the offsets of the track that runs.
+    /// Change of the offsets of the current track.
     Offset(OffsetChange),
-    /// Begin the next passes of the program track with these offsets; the present ones stay.
+    /// Offsets with which the next passes of the program track begin; the current pass keeps its
+    /// own.
     FirstOffsets(TrackOffsets),
-    /// Resume a program track that waits for the operator.
+    /// Resumption of a program track that waits for the operator.
     Resume,
-    /// The operator has seen that the antenna stands: no STOP is owed any more.
+    /// Confirmation of the operator that the antenna stands: Azel no longer owes a STOP.
     SeenStanding,
     Park,
-    /// Judge the way to a direction, anew with each position, without a motion; `None` ends
-    /// that. The snapshot shows what was found.
+    /// Request to judge the way to a direction without a motion, again for each position. The
+    /// snapshot shows the outcome; `None` ends the judgement.
     Preview(Option<Pointing>),
-    /// Open the link, and keep it open.
+    /// Request to open the link, and to keep it open.
     Connect,
-    /// Close the link and leave the unit to others. A motion of its own goes on.
+    /// Request to close the link and leave the unit to others. A motion of the unit's own goes on.
     Disconnect,
-    /// An action that only this make has.
+    /// Action that only this make has.
     Act(Act),
-    /// An action whose lead the gate does not know, on the operator's responsibility.
+    /// Action with a destination unknown to the gate, on the operator's responsibility.
     ActUnseen(Act),
-    /// Switch the unit's automatic start of tracking on or off.
+    /// Switch of the unit's automatic start of tracking.
     AutoTrack(bool),
-    /// Read the settings group with this key anew.
+    /// Request to reread the settings group with this key.
     ReadGroup(#[serde(deserialize_with = "name::one")] Name),
-    /// Write new values of a settings group. The outcome appears in the snapshot.
+    /// New values of a settings group. The outcome appears in the snapshot.
     WriteSettings(Change),
-    /// Lock the unit out for maintenance: it gets only questions and STOP from now on. A
-    /// motion is stopped first.
+    /// Lock-out of the unit for maintenance. Azel stops any motion, and then sends the unit only
+    /// questions and STOP.
     LockOut(LockOut),
-    /// The maintenance is over.
+    /// End of the maintenance.
     Unlock,
-    /// The drives have changed: reset their learned figures.
+    /// Reset of the learned figures of the axes, because the drives have changed.
     ForgetDrives,
-    /// Send a question to the unit; the answer appears in the wire log.
+    /// Question to the unit; the answer appears in the wire log.
     Ask(SmolStr),
 }
 
-/// Tickets from here on are those of sessions.
+/// First ticket for changes that sessions make; clients use lower tickets.
 pub const SESSION_TICKETS: u64 = 1 << 62;
 
 /// Returns `true` for the ticket of a change that a session makes without a request, such as adding
-/// offsets for a pass and taking them back.
+/// or removing the offsets for a pass.
 pub fn is_ticket_of_session(ticket: u64) -> bool {
     ticket >= SESSION_TICKETS
 }

@@ -1,60 +1,61 @@
-//! The table of commands: what each one is, and where it is taken. Everything that decides by the kind
-//! of a command reads its row here, and no command compiles without one.
+//! The table of commands: the nature of each command, and the states in which Azel accepts it. All
+//! code that depends on the kind of a command reads its row here. No command compiles without a
+//! row.
 
 use crate::driver::Command;
 
-/// The row of a command.
+/// Row of a command in the table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Row {
     pub effect: Effect,
     pub offline: Offline,
     pub locked_out: LockedOut,
-    /// A replay of the record takes it, because it changes nothing.
+    /// A replay of the record accepts the command, because the command changes nothing.
     pub in_replay: bool,
-    /// A station that is closing takes it.
+    /// A closing station accepts the command.
     pub while_closing: bool,
-    /// Parties that lose control of the antenna to the operator who gives it.
+    /// Parties that lose control of the antenna to the operator who gives the command.
     pub takes_control: TakesControl,
-    /// A STOP that is pressed later voids it, wherever it still waits.
+    /// A later STOP voids the command while the command waits in any queue.
     pub void_after_stop: bool,
 }
 
 /// Effect of a command on the antenna.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Effect {
-    /// It may move the antenna, now or later.
+    /// Motion of the antenna, now or later.
     Moves,
-    /// It ends a motion, or keeps one from beginning.
+    /// End of a motion, or prevention of one.
     Stops,
-    /// It changes what keeps people and the antenna safe: a lock-out, a permission, an owed STOP.
+    /// Change of the safety of people and antenna: a lock-out, a permission or an owed STOP.
     ChangesSafety,
-    /// It changes something else.
+    /// Any other change.
     Changes,
-    /// It only asks to be shown something.
+    /// Request for information only.
     Looks,
 }
 
 /// Effect of an operator's command on the party in control.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum TakesControl {
-    /// Any other party loses control; automatic operation is suspended.
+    /// Any other party loses control, and automatic operation is suspended.
     FromAll,
-    /// A program on the network loses control. Automatic operation goes on with the command.
+    /// A program on the network loses control. Automatic operation goes on.
     FromClients,
-    /// Control stays where it is.
+    /// No party loses control.
     Never,
 }
 
 /// Handling of a command to an antenna without a link.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Offline {
-    /// Carried out, without a word to the unit.
+    /// The session carries the command out without contact to the unit.
     CarriedOut,
-    /// It ends the present motion, for which STOP is owed, and is refused itself.
+    /// The session ends the current motion, owes STOP for it, and refuses the command.
     EndsMotion,
-    /// Refused.
+    /// The session refuses the command.
     Refused,
-    /// Dropped: the link itself shows why.
+    /// The session drops the command, because the state of the link already shows the reason.
     Dropped,
 }
 
@@ -62,16 +63,18 @@ pub enum Offline {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LockedOut {
     Taken,
-    /// Refused by the session.
+    /// The session refuses the command.
     Refused,
-    /// Refused by the gate or the controller, which show it where it was asked for.
+    /// The gate or the controller refuses the command, and shows the refusal where the operator
+    /// gave it.
     RefusedAtTheGate,
-    /// Taken unless a connection would take the unit's panel from the person who works on it.
+    /// The session accepts the command, unless a connection would take the unit's panel from the
+    /// person who works on it.
     TakesPanel,
 }
 
 impl Row {
-    /// A command that may move the antenna.
+    /// Row of commands that may move the antenna.
     const MOVES: Self = Self {
         effect: Effect::Moves,
         offline: Offline::EndsMotion,
@@ -81,7 +84,7 @@ impl Row {
         takes_control: TakesControl::FromAll,
         void_after_stop: true,
     };
-    /// A command that ends a motion.
+    /// Row of commands that end a motion.
     const STOPS: Self = Self {
         effect: Effect::Stops,
         offline: Offline::CarriedOut,
@@ -89,7 +92,7 @@ impl Row {
         while_closing: true,
         ..Self::MOVES
     };
-    /// A command that does not itself move anything.
+    /// Row of commands that move nothing themselves.
     const CHANGES: Self =
         Self { effect: Effect::Changes, takes_control: TakesControl::Never, ..Self::STOPS };
     const LOOKS: Self = Self {
@@ -100,11 +103,11 @@ impl Row {
         ..Self::CHANGES
     };
 
-    /// A command of the station that concerns no motion.
+    /// Row of station commands that concern no motion.
     pub const OF_STATION: Self = Self { void_after_stop: false, ..Self::CHANGES };
-    /// A command of the station that only asks to be shown something.
+    /// Row of station commands that only request information.
     pub const STATION_LOOKS: Self = Self::LOOKS;
-    /// A command of the station that makes antennas move.
+    /// Row of station commands that make antennas move.
     pub const STATION_MOVES: Self = Self::MOVES;
 }
 
@@ -124,7 +127,8 @@ impl Command {
                 locked_out: LockedOut::Refused,
                 ..Row::STOPS
             },
-            // A person at the antenna relies on it.
+            // A person at the antenna relies on the lock-out, so it takes no control, and STOP does
+            // not void it.
             Self::LockOut(_) => {
                 Row { takes_control: TakesControl::Never, void_after_stop: false, ..Row::STOPS }
             }
@@ -160,13 +164,13 @@ impl Command {
                 let (offline, locked_out) = (Offline::Refused, LockedOut::RefusedAtTheGate);
                 Row { offline, locked_out, ..Row::CHANGES }
             }
-            // The way to the target was commanded before.
+            // An earlier command started the way to the target.
             Self::EndAtTarget | Self::FirstOffsets(_) => Row::CHANGES,
             Self::Connect => Row { locked_out: LockedOut::TakesPanel, ..Row::CHANGES },
             Self::Disconnect => Row { takes_control: TakesControl::FromAll, ..Row::CHANGES },
             Self::Preview(_) => Row { offline: Offline::CarriedOut, ..Row::LOOKS },
             Self::ReadGroup(_) => Row::LOOKS,
-            // It goes to the unit.
+            // The question goes to the unit.
             Self::Ask(_) => Row { in_replay: false, void_after_stop: true, ..Row::LOOKS },
         }
     }

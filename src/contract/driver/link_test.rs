@@ -6,21 +6,21 @@ use serde::{Deserialize, Serialize};
 
 use crate::device::AntennaState;
 
-/// Outcome of a test.
+/// Outcome of a test of a link.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum LinkFinding {
     /// A unit of the make answered.
     Reached {
         /// Time from the first question to the first reply.
         after: Duration,
-        /// All that the unit said.
+        /// State with everything that the unit reported.
         state: Box<AntennaState>,
     },
-    /// The link opened, and nothing came.
+    /// The link opened, but no data arrived.
     Silent,
-    /// The far end closed the link and said nothing.
+    /// The far end closed the link without sending data.
     Closed,
-    /// Something came that is no reply of the make.
+    /// The received data is no reply of the make.
     SomethingElse {
         /// The first printable characters, on one line.
         text: String,
@@ -28,10 +28,10 @@ pub enum LinkFinding {
     NotOpened(LinkFault),
 }
 
-/// Why a link could not be opened.
+/// Reason why a link could not be opened.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub enum LinkFault {
-    /// The host is there, and nothing listens on the port.
+    /// The host exists, but nothing listens on the port.
     Refused,
     /// The host does not answer.
     NobodyThere,
@@ -39,6 +39,6 @@ pub enum LinkFault {
     NotPermitted,
     /// Another program uses the serial port.
     Busy,
-    /// In the words of the operating system.
+    /// Other error, in the words of the operating system.
     Other(String),
 }

@@ -1,4 +1,4 @@
-//! The age up to which a position serves a motion.
+//! Max age of a position as the start of a motion.
 
 use std::time::Duration;
 
@@ -8,16 +8,17 @@ use crate::{
     device::{AntennaState, Measured, Motion, MotionRequest},
 };
 
-/// A jog or step needs a position younger than this.
+/// Max age of the position for a jog or step.
 const FRESH: Duration = Duration::from_secs(1);
-/// Other motions need a position younger than this.
+/// Max age of the position for other motions.
 const RECENT: Duration = Duration::from_secs(5);
 
-/// Returns the position that `motion` would start from, or the reason why the gate refuses it. The
-/// controls of a client are locked by the same judgement.
+/// Returns the position that `motion` would start from, or the refusal of the gate. The same
+/// judgement locks a client's controls.
 ///
 /// # Errors
-/// Returns a refusal if no position was read on the present link, or the last one is too old.
+/// Returns a refusal if no position was read on the current link, or if the last position is too
+/// old.
 pub fn position_for(
     motion: &MotionRequest,
     state: &AntennaState,

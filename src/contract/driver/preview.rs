@@ -1,4 +1,4 @@
-//! The way to a direction, judged before anybody asks for it.
+//! Judgement of the way to a direction before the operator asks for the motion.
 
 use serde::{Deserialize, Serialize};
 
@@ -8,7 +8,7 @@ use crate::{astro::AzEl, device::Pointing};
 /// Outcome of going to a direction now.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Preview {
-    /// The direction, as it was asked for.
+    /// Direction as the operator entered it.
     #[serde(rename = "to")]
     pub target: Pointing,
     pub way: Result<Way, Refusal>,
@@ -17,10 +17,10 @@ pub struct Preview {
 /// The way of both axes to a direction.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Way {
-    /// Directions along it, with its ends; empty where the antenna has no direction.
+    /// Directions along the way, with both ends; empty if the antenna has no direction.
     pub path: Vec<AzEl>,
-    /// How long it takes at the maximum rate, seconds; `None` where an angle is unknown.
+    /// Duration at the maximum rate, seconds; `None` if an angle is unknown.
     pub arrives_s: Option<f64>,
-    /// One axis turns after the other, to stay clear of a barrier.
+    /// One axis turns after the other, so that the antenna stays clear of a barrier.
     pub is_round_a_corner: bool,
 }

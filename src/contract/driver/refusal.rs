@@ -27,8 +27,8 @@ pub enum Refusal {
         operator: String,
         reason: String,
     },
-    /// The unit is locked out, and any question would take its panel from the person who works
-    /// on it.
+    /// The unit is locked out, and any question would take its panel from the person who works on
+    /// it.
     #[error("locked out by {operator}, whose panel a connection would take")]
     PanelLockedOut {
         #[serde(rename = "by")]
@@ -37,17 +37,17 @@ pub enum Refusal {
     /// Another program of this computer, named here, drives the unit.
     #[error("the unit is driven by {0}")]
     Elsewhere(String),
-    /// No link, or nothing has been read yet.
+    /// No link, or no position read yet.
     #[error("the position is not known")]
     PositionUnknown,
     #[error("the last position is {0:?} old")]
     PositionOld(Duration),
-    /// The present intent does not allow it.
+    /// The current intent does not allow the request.
     #[error("not possible in {0:?}")]
     Intent(Intent),
     #[error("a fault of the unit forbids motion")]
     Fault,
-    /// The unit has not been asked for its faults on this link yet.
+    /// Azel has not read the unit's faults on this link yet.
     #[error("the faults of the unit are not known")]
     FaultsUnknown,
     #[error("the limit switch {axis}{} is set", if *plus { '+' } else { '-' })]
@@ -56,20 +56,20 @@ pub enum Refusal {
         axis: Name,
         plus: bool,
     },
-    /// Not a number, or no motion at all.
+    /// The value is not a number, or no motion is requested.
     #[error("no motion was asked for")]
     Nothing,
     #[error("{asked_deg_s} degrees a second is faster than {allowed_deg_s}")]
     TooFast { asked_deg_s: f64, allowed_deg_s: f64 },
     #[error("a step of {asked_deg} degrees is larger than {allowed_deg}")]
     StepTooLarge { asked_deg: f64, allowed_deg: f64 },
-    /// Below the lowest elevation, or beyond the zenith.
+    /// Elevation below the lowest elevation, or beyond the zenith.
     #[error("elevation {asked_deg} is not between {lowest_deg} and 90 degrees")]
     Elevation { asked_deg: f64, lowest_deg: f64 },
-    /// The controller cannot do it.
+    /// The controller does not support the request.
     #[error("the controller cannot do this")]
     NotOffered,
-    /// The angle of an axis is unknown, so nothing would end its motion.
+    /// The angle of an axis is unknown, so Azel could not end its motion.
     #[error("the angle of {axis} is not known")]
     AngleUnknown {
         #[serde(deserialize_with = "name::one")]
@@ -78,7 +78,7 @@ pub enum Refusal {
     /// Only one axis can move at a time.
     #[error("one axis at a time")]
     OneAxis,
-    /// The mount cannot point there.
+    /// The mount cannot point to the target.
     #[error("{axis} would have to go to {asked_deg} degrees, it travels {from_deg} to {to_deg}")]
     Travel {
         #[serde(deserialize_with = "name::one")]
@@ -91,43 +91,43 @@ pub enum Refusal {
     #[error("{barrier:?} is in the way")]
     Forbidden {
         barrier: Barrier,
-        /// A direction on the way that is inside of it.
+        /// Direction on the way that is inside the barrier.
         #[serde(rename = "at")]
         direction: AzEl,
     },
     /// The antenna is inside a barrier, and its way out needs the operator's permission.
     #[error("inside of {0:?}")]
     Inside(Barrier),
-    /// The angle of an axis is unknown, so a motion by hand may lead into a barrier. It needs the
-    /// operator's permission.
+    /// The angle of an axis is unknown, so a motion by hand may lead into a barrier. The motion
+    /// needs the operator's permission.
     #[error("the angle of {axis} is not known, so {barrier:?} may be in the way")]
     Unchecked {
         #[serde(deserialize_with = "name::one")]
         axis: Name,
         barrier: Barrier,
     },
-    /// A setting on which safety depends could not be read. A motion by hand needs the operator's
-    /// permission, and no other one is possible.
+    /// Azel could not read a safety setting. A motion by hand needs the operator's permission, and
+    /// Azel refuses any other motion.
     #[error("the setting {place} could not be read")]
     SettingsUnread {
         /// Place in the station file.
         place: SmolStr,
     },
-    /// No clear direction to go to was found.
+    /// Azel found no clear direction to go to.
     #[error("there is no clear direction to go to")]
     NoRefuge,
-    /// An objection of this make.
+    /// Objection specific to this make.
     #[error("{0}")]
     Controller(#[serde(deserialize_with = "name::one")] Name),
-    /// Only the unit knows where the action leads, and the operator has not taken
+    /// Only the unit knows the destination of the action, and the operator has not accepted
     /// responsibility.
     #[error("where {} leads is not known: {reason}", act.action)]
     Unseen {
         act: Act,
-        /// Why its lead is unknown.
+        /// Reason why the destination is unknown.
         #[serde(rename = "why", deserialize_with = "name::one")]
         reason: Name,
-        /// The axes report their angles, so that the antenna is stopped before a barrier.
+        /// The axes report their angles, so Azel can stop the antenna before a barrier.
         is_watched: bool,
     },
     /// A step needs an antenna at rest.
@@ -138,7 +138,7 @@ pub enum Refusal {
     /// The station is about to end.
     #[error("the station is closing")]
     Closing,
-    /// This party is in control of the antenna, and the program that asks is not.
+    /// This party is in control of the antenna, and the requesting program is not.
     #[error("{0:?} is in control")]
     InControl(Party),
     /// The operator has not allowed the program to point the antenna.
@@ -147,24 +147,24 @@ pub enum Refusal {
     /// The connection of the program has ended.
     #[error("the connection has ended")]
     ClientGone,
-    /// No dead-man can be had, so nothing would end the motion if this program ended.
+    /// No dead-man is available, so nothing would end the motion if this program ended.
     #[error("nothing would stop it if this program ended")]
     Unguarded,
     #[error("the pass is not known")]
     PassUnknown,
-    /// The way has not been judged yet: the unit's own path, a path of Azel or a detour.
+    /// Azel is still judging the way: the unit's own path, a path of Azel or a detour.
     #[error("the way is still being judged")]
     BeingJudged,
     /// An offset needs a track.
     #[error("nothing is tracked")]
     NoTrack,
-    /// The offsets that the unit adds to its own track were not read.
+    /// Azel has not read the offsets that the unit adds to its own track.
     #[error("the offsets of the unit are not known")]
     OffsetsUnknown,
-    /// The offsets that the unit held before could not be recorded on disk.
+    /// Azel could not record the unit's previous offsets on disk.
     #[error("what the unit held before could not be recorded on disk")]
     NoOffsetsRecord,
-    /// Along and across the way of a target that stands.
+    /// An offset along or across the track needs a moving target.
     #[error("the target does not move")]
     TargetStands,
     #[error("the offset would be larger than {max:?}")]
@@ -175,7 +175,7 @@ pub enum Refusal {
     /// The unit holds a satellite without known elements.
     #[error("the orbit of {name} is not known")]
     OrbitUnknown {
-        /// As the unit reports it.
+        /// Name that the unit reports.
         name: String,
     },
     /// The unit's tracking window is too long to check.
@@ -192,7 +192,7 @@ pub enum Refusal {
         "the pass reaches {highest_deg} degrees, the antenna points no lower than {lowest_deg}"
     )]
     TooLow {
-        /// Its maximum elevation.
+        /// Maximum elevation of the pass.
         highest_deg: f64,
         /// The antenna's minimum elevation.
         lowest_deg: f64,
@@ -200,7 +200,7 @@ pub enum Refusal {
     /// The unit's own program would lead into a barrier.
     #[error("the program of the unit leads to {0:?}")]
     Path(Trespass),
-    /// A setting that decides where the antenna points, at a bad time.
+    /// A setting that decides where the antenna points cannot be written now.
     #[error("{field} is not set: {hindrance}")]
     Setting {
         #[serde(deserialize_with = "name::one")]
@@ -220,7 +220,7 @@ impl From<NotClear> for Refusal {
 }
 
 impl Refusal {
-    /// The barrier that is the reason, if one is.
+    /// Returns the barrier behind the refusal, if any.
     pub fn barrier(&self) -> Option<&Barrier> {
         match self {
             Self::Forbidden { barrier, .. } | Self::Inside(barrier) => Some(barrier),

@@ -1,4 +1,4 @@
-//! Events that the driver noticed, and actions that it took, for safety without a request.
+//! Safety events that the driver noticed, and its actions without a request.
 
 use std::time::Duration;
 
@@ -10,34 +10,34 @@ use crate::{
     plan::{Barrier, on_board::Ranked, pass_report::Explained},
 };
 
-/// Why an antenna is off its satellite.
+/// Reason why an antenna points off its satellite.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum OffTargetCause {
-    /// Something that the unit reports of itself makes an error as large.
+    /// The unit reports a condition that explains an error of this size.
     Reported(Ranked),
-    /// The positions of the pass so far show it.
+    /// The measured positions of the pass so far show the cause.
     Measured(Explained),
 }
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Safety {
-    /// The dead-man has stopped the unit, because this program was late.
+    /// The dead-man stopped the unit, because this program was late.
     DeadManFired,
-    /// Azel ended in the middle of a motion by hand, or while a STOP was owed.
+    /// Azel ended during a motion by hand, or while it owed a STOP.
     LeftMoving {
-        /// `None` if the record of it cannot be read.
+        /// Start of the motion; `None` if its record cannot be read.
         #[serde(rename = "since")]
         start: Option<Timestamp>,
-        /// STOP was not sent automatically: the operator must decide.
+        /// Azel did not send STOP automatically: the operator must decide.
         asks: bool,
     },
-    /// The record of a motion by hand could not be written to disk, so another start would not
-    /// know of it.
+    /// Azel could not record a motion by hand on disk, so the next start would not know of the
+    /// motion.
     NoMark,
-    /// The session broke down and was restarted with STOP.
+    /// The session crashed and was restarted with STOP.
     SessionBroke,
-    /// STOP is proved only by the unit's flags: this axis has no angle.
+    /// Only the unit's flags prove the standstill, because this axis has no angle.
     StoppedByFlags {
         #[serde(deserialize_with = "name::one")]
         axis: Name,
@@ -48,18 +48,18 @@ pub enum Safety {
         axis: Name,
         turned_deg: f64,
     },
-    /// Somebody else has moved an axis, by the unit's panel, by another program or by hand. A motion
-    /// of this program ends.
+    /// Somebody moved an axis by the unit's panel, by another program or by hand. A motion of this
+    /// program ends.
     ForeignHands {
         #[serde(deserialize_with = "name::one")]
         axis: Name,
         evidence: Evidence,
     },
-    /// It does not answer while it moves on this program's word, or before STOP is proved to
-    /// have ended that. The snapshot says until when.
+    /// The unit does not answer during a motion that Azel commanded, or before STOP is proved.
+    /// `silent` in the snapshot stays true while the silence lasts.
     SilentInMotion,
     /// A motion that the unit accepted does not turn this axis (`None`: either axis), or the sensor
-    /// does not show it. Azel has sent STOP.
+    /// does not show the motion. Azel has sent STOP.
     NoEffect {
         #[serde(deserialize_with = "name::option")]
         axis: Option<Name>,
@@ -67,32 +67,31 @@ pub enum Safety {
     /// The antenna stayed off its target for too long. Azel has sent STOP.
     OffTarget {
         off_deg: f64,
-        /// Older records do not hold it.
+        /// Likeliest cause; missing in older records.
         #[serde(default)]
         cause: Option<Box<OffTargetCause>>,
     },
-    /// The clock of this computer was set.
+    /// Somebody set the clock of this computer.
     ClockStepped {
-        /// By this much, seconds; positive ahead.
+        /// Step of the clock, seconds; positive ahead.
         by_s: f64,
-        /// The new time. Older records do not hold it.
+        /// New time; missing in older records.
         #[serde(default)]
         time: Option<Timestamp>,
     },
-    /// A jog was ended because this computer goes to sleep.
+    /// Azel ended a jog because this computer goes to sleep.
     EndedForSleep,
     Slept {
         lasted: Duration,
     },
-    /// The antenna was out of reach: a target is not tracked on without the operator's
-    /// consent.
+    /// The antenna was out of reach. Azel does not resume the track without the operator's consent.
     AsksToResume {
         name: String,
         lost: Duration,
-        /// How its unit differs from before; `None` where that is not the reason to ask.
+        /// Difference of the unit from before; `None` if it is not the reason to ask.
         unlike: Option<Unlike>,
     },
-    /// After an outage the unit is not as it was before, or does not say so.
+    /// After an outage, the unit differs from before or has not reported its state.
     UnitDiffers {
         unlike: Unlike,
     },
@@ -104,25 +103,23 @@ pub enum Safety {
     },
 }
 
-/// How a unit differs from what it was before it was out of reach.
+/// Difference of a unit from its state before the outage.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Unlike {
-    /// Another name or firmware.
+    /// Name or firmware.
     Identity,
-    /// Other limits of its own.
+    /// Limits of the unit's own.
     Limits,
-    /// Another location.
     Place,
-    /// Other offsets.
     Offsets,
-    /// It does not point where it was left.
+    /// Position: the antenna does not point where Azel left it.
     Position,
-    /// It has not reported again what it reported before.
+    /// Missing report: the unit has not repeated an earlier report.
     Unread,
 }
 
 impl Safety {
-    /// The barrier that it is about, if any.
+    /// Returns the barrier of the event, if any.
     pub fn barrier(&self) -> Option<&Barrier> {
         match self {
             Self::Forbidden { barrier, .. } => Some(barrier),
@@ -137,7 +134,7 @@ pub enum Mover {
     Azel,
     /// The unit's own program.
     Program,
-    /// Nobody known here: the panel, another client, an overrun.
+    /// An unknown party: the panel, another client or an overrun.
     Somebody,
 }
 
@@ -145,7 +142,8 @@ pub enum Mover {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Response {
     Stopped,
-    /// The operator was told; STOP is not wanted there, or would keep the antenna inside.
+    /// Message to the operator without STOP, because the operator does not want STOP there or STOP
+    /// would keep the antenna inside.
     Reported,
 }
 

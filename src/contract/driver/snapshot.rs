@@ -1,4 +1,4 @@
-//! Snapshots and events: what a session shows of an antenna.
+//! Snapshots and events of an antenna's session.
 
 use std::{sync::Arc, time::Duration};
 
@@ -20,85 +20,85 @@ use crate::{
     station::LockOut,
 };
 
-/// An antenna that an earlier run may have left moving.
+/// Antenna that a previous run may have left moving.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct LeftMoving {
-    /// When the motion by hand began, or the STOP was pressed; `None` if the record of it cannot be
-    /// read.
+    /// Start of the motion by hand, or time of the STOP; `None` if the record of it cannot be read.
     #[serde(rename = "since")]
     pub start: Option<Timestamp>,
 }
 
-/// One antenna at one instant. Replaced as a whole, never changed in place.
+/// State of one antenna at one instant. A session replaces the snapshot as a whole, and never
+/// changes it in place.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Snapshot {
     pub link: LinkState,
-    /// It was moving on Azel's command at its last answer, and does not answer.
+    /// The antenna moved on Azel's command at its last answer, and has been silent since.
     pub silent: bool,
     pub intent: Intent,
-    /// The intent is requested, but not yet proved by the unit.
+    /// The unit has not yet proved the requested intent.
     pub pending: bool,
-    /// A way is being judged: the path of the unit's own program, the path of a program track or a
-    /// detour of one. The antenna waits for that.
+    /// Azel is judging a way: the path of the unit's own program, the path of a program track, or a
+    /// detour. The antenna waits for the judgement.
     #[serde(default)]
     pub being_judged: bool,
-    /// After an outage, the unit has not proved yet to be as it was before.
+    /// After an outage, Azel is still comparing the unit with its state before.
     #[serde(default)]
     pub being_compared: bool,
-    /// End of a motion to a position.
+    /// Target of a motion to a position.
     pub aim: Option<Pointing>,
     /// Target of an on-board track.
     pub target: Option<TrackTarget>,
-    /// The on-board track, as it is supervised.
+    /// Supervision of the on-board track.
     pub on_board: Option<OnBoardView>,
     pub program_track: Option<TrackView>,
-    /// Offsets that were added from here to those of the unit's own track.
+    /// Offsets that Azel has added to the unit's own offsets of its track.
     pub unit_offsets: Option<UnitOffsetsView>,
-    /// Rates of the axes as learned from long slews, degrees per second; `None` before the
-    /// session runs. Until a slew they are those of the settings.
+    /// Axis rates learned from long slews, degrees a second; the rates of the settings before the
+    /// first long slew. `None` before the session runs.
     pub rates_deg_s: Option<[f64; 2]>,
-    /// It was moved from here, or a STOP is owed, and standstill has not been proved since.
+    /// Azel has moved the antenna or owes a STOP, and standstill is not yet proved.
     pub unproved: bool,
     pub lock_out: Option<LockOut>,
-    /// A lock-out has begun, but standstill and auto-track off have not been read back yet.
+    /// A lock-out has begun, but Azel has not yet read back standstill and auto-track off.
     pub locking: bool,
     pub stop: StopState,
-    /// A motion that Azel has ended is not known to have come to rest.
+    /// A motion that Azel has ended is not yet known to be at rest.
     pub runs_out: bool,
-    /// No dead-man could be had for the last motion by hand that needed one.
+    /// No dead-man was available for the last motion by hand that needed one.
     pub unguarded: bool,
-    /// It is inside a barrier.
+    /// Barrier that the antenna is inside, or may be inside.
     #[serde(rename = "inside")]
     pub breach: Option<Breach>,
-    /// By the operator's permission, program track may lead to the Sun.
+    /// The operator allows program track to lead to the Sun.
     pub sun_lifted: bool,
-    /// An earlier run may have left it moving: the operator is asked. Older films hold a time under
-    /// the field's own name, which is ignored.
+    /// Motion that a previous run may have left: Azel asks the operator. Older films hold a time
+    /// under the field's own name, which serde ignores.
     #[serde(default, rename = "left_in_motion")]
     pub left_moving: Option<LeftMoving>,
-    /// Why the next start would not send the STOP that is owed.
+    /// Reason why the next start would not send the owed STOP.
     #[serde(default)]
     pub not_on_disk: Option<String>,
-    /// Answer to the last command that somebody waits for.
+    /// Answer to the last command for which somebody waits.
     #[serde(default)]
     pub answer: Option<Answer>,
     /// Signed rates of a held jog, degrees a second.
     pub jog: Option<[f64; 2]>,
     pub stopping_way: StoppingWay,
-    /// Properties of each axis that its motions have shown.
+    /// Properties of each axis, learned from its motions.
     #[serde(default)]
     pub learned: [AxisLessons; 2],
-    /// Signed amounts of a step that may not be over, degrees.
+    /// Signed amounts of a step that may still be in progress, degrees.
     pub step: Option<[f64; 2]>,
-    /// Outcome of going to the direction that the operator looks at.
+    /// Judgement of going to the direction that the operator looks at.
     pub preview: Option<Arc<Preview>>,
     pub state: AntennaState,
-    /// Present time between two questions.
+    /// Current interval between two questions.
     pub poll_period: Duration,
 }
 
 impl Snapshot {
-    /// The snapshot before the session runs.
+    /// Creates the snapshot before the session runs.
     pub fn before_anything(link: LinkState) -> Self {
         Self {
             link,
@@ -136,21 +136,21 @@ impl Snapshot {
 }
 
 impl Snapshot {
-    /// Returns `true` if a STOP of the whole station includes this antenna. A unit to which
-    /// nobody wants a link and that was not moved from here is left to the person in front of
-    /// it.
+    /// Returns `true` if a STOP of the whole station includes this antenna. Azel leaves out a unit
+    /// without a wanted link and without an unproved motion from here, because the person in front
+    /// of it controls it.
     pub fn wants_stop(&self) -> bool {
         let owed = matches!(self.stop, StopState::Stopping { .. } | StopState::NotConfirmed { .. });
         self.link != LinkState::Off || self.unproved || owed
     }
 
-    /// Returns the offsets that are meant to be added to the track that the unit computes.
+    /// Returns the offsets that should be added to the track that the unit computes.
     pub fn meant_offsets(&self) -> TrackOffsets {
         let offsets = self.unit_offsets.as_ref().filter(|unit| unit.left.is_none());
         offsets.map(|unit| unit.offsets).unwrap_or_default()
     }
 
-    /// The reason why the gate would refuse, at `now`, a setting that decides where the
+    /// Returns the reason why the gate would refuse, at `now`, a setting that decides where the
     /// antenna points.
     pub fn hindrance(&self, can: Capabilities, now: Instant) -> Option<Hindrance> {
         if matches!(self.stop, StopState::Stopping { .. } | StopState::NotConfirmed { .. }) {
@@ -164,8 +164,8 @@ impl Snapshot {
         Hindrance::from_state(&self.state, can, now).or(is_moving.then_some(Hindrance::Moves))
     }
 
-    /// Returns `true` if only ages and counters differ. The window shows those with its next
-    /// second; they are not worth a frame.
+    /// Returns `true` if only ages and counters differ. The window shows them with its next second,
+    /// without an extra frame.
     pub fn shows_the_same(&self, newer: &Self) -> bool {
         let standing = |snapshot: &Self| {
             snapshot
@@ -201,8 +201,8 @@ impl Snapshot {
     }
 }
 
-/// Returns `true` if the known settings and the present writes are the same. New reports of the
-/// unit alone show with the window's next second.
+/// Returns `true` if the known settings and the pending writes are the same. The window shows mere
+/// repeats of the unit's reports with its next second.
 fn same_settings(old: &GroupStates, new: &GroupStates) -> bool {
     let shown = |state: &GroupState| {
         (state.last_read.is_some(), state.failure.clone(), state.step, state.written.clone())
@@ -210,68 +210,69 @@ fn same_settings(old: &GroupStates, new: &GroupStates) -> bool {
     old.len() == new.len() && old.values().map(shown).eq(new.values().map(shown))
 }
 
-/// Overrun: how long the axes turn on at their rate after a STOP.
+/// Overrun: time for which the axes turn on at their rate after a STOP.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct StoppingWay {
-    /// The figure in use, seconds.
+    /// Figure in use, seconds.
     pub overrun_s: f64,
-    /// Number of STOPs it was measured in.
+    /// Number of STOPs with a measured overrun.
     pub stops: u32,
-    /// It was measured; otherwise it is the default of the make.
+    /// Measured figure; otherwise the default of the make.
     pub is_learned: bool,
 }
 
 impl StoppingWay {
-    /// Number of STOPs that replace the default.
+    /// Number of STOPs after which the measured figure replaces the default.
     pub const ENOUGH: u32 = 3;
 }
 
-/// The barrier that an antenna is, or may be, inside of.
+/// Barrier that an antenna is inside, or may be inside.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Breach {
     pub barrier: Barrier,
-    /// The axis whose angle is unknown: the antenna may be inside. `None` if it surely is.
+    /// Axis with an unknown angle: the antenna may be inside. `None` if the antenna is certainly
+    /// inside.
     #[serde(default, deserialize_with = "name::option")]
     pub unknown_axis: Option<Name>,
-    /// The operator allows manual motion at present: outwards only, or in any direction while the
+    /// The operator currently allows motions by hand: outwards only, or in any direction while the
     /// position is unknown.
     pub may_leave: bool,
 }
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct OnBoardView {
-    /// How the unit will track, by what it reports.
+    /// Expected track, judged from the unit's reports.
     pub found: Arc<Supervision>,
-    /// Angle off the satellite, where it has lasted longer than a slew explains.
+    /// Angle off the satellite once it has lasted longer than a slew explains.
     pub missing: Option<Angle>,
-    /// Latest expected arrival on the satellite of an antenna that has not been on it yet.
+    /// Latest expected arrival on the satellite, for an antenna that has not reached it yet.
     #[serde(default)]
     pub arrives: Option<Instant>,
 }
 
-/// Offsets that were added from here to those of the unit's own track.
+/// Offsets that Azel has added to the unit's own offsets of its track.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct UnitOffsetsView {
-    /// In force: read back.
+    /// Offsets in force, read back from the unit.
     pub offsets: TrackOffsets,
-    /// Others are on their way to the unit.
+    /// Azel is writing other offsets to the unit.
     pub is_changing: bool,
     pub can_undo: bool,
-    /// Why they are still there although no track needs them.
+    /// Reason why the offsets are still on the unit although no track needs them.
     pub left: Option<LeftOffsets>,
 }
 
-/// Why offsets of a track are still on a unit.
+/// Reason why offsets of a track are still on a unit.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum LeftOffsets {
-    /// An earlier run of the program wrote them, at that time or soon after.
+    /// A previous run of the program wrote the offsets, at this time or soon after.
     Found {
         #[serde(rename = "since")]
         start: Timestamp,
     },
-    /// They were not taken back.
+    /// Azel failed to remove the offsets.
     Failed(WriteError),
-    /// The unit has gone on to another pass, on which they cannot be taken back.
+    /// The unit has gone on to another pass, during which Azel cannot remove the offsets.
     Refused(Refusal),
 }
 
@@ -282,55 +283,55 @@ pub struct TrackView {
     /// Catalog number of a satellite, up to nine digits.
     pub catalog_number: Option<u32>,
     pub phase: TrackPhase,
-    /// Pointing errors, and the number of commands.
+    /// Pointing errors, and number of commands.
     pub stats: TrackStats,
-    /// The antenna was out of reach: it waits for the operator.
+    /// The antenna was out of reach, and the track waits for the operator.
     pub awaits_operator: bool,
-    /// When the next position is due.
+    /// Time at which the next position is due.
     pub next_update: Option<Instant>,
-    /// The last commanded position; `None` before the first.
+    /// Last commanded position; `None` before the first command.
     pub commanded: Option<Pointing>,
-    /// Direction in which to point at the time of the last measurement, offsets included;
-    /// `None` unless the target is tracked right now.
+    /// Target direction at the time of the last measurement, including offsets; `None` unless the
+    /// antenna tracks the target now.
     pub predicted: Option<Sample>,
-    /// Comparison of the last measurement with the planned path; `None` unless the target is tracked
-    /// right now.
+    /// Comparison of the last measurement with the planned path; `None` unless the antenna tracks
+    /// the target now.
     pub on_path: Option<OnPath>,
-    /// Angle off the path once it has lasted long enough for an alarm.
+    /// Angle off the path, once it has lasted long enough for an alarm.
     pub missing: Option<Angle>,
     /// Offsets from the target.
     pub offsets: TrackOffsets,
-    /// They were changed in this pass.
+    /// The offsets were changed in this pass.
     pub can_undo: bool,
-    /// The target has a way over the sky, so that something is along and across it.
+    /// The target moves across the sky, so along and across its path are defined.
     pub target_moves: bool,
 }
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum LinkState {
-    /// Nobody wants one: the operator has not connected, has disconnected, or the session has
+    /// No link is wanted: the operator has not connected or has disconnected, or the session has
     /// ended.
     Off,
-    /// Dialling for the first time since the start.
+    /// First attempt to connect since the start.
     Connecting {
         #[serde(rename = "since")]
         start: Instant,
     },
-    /// Open, with good replies.
+    /// Open link with good replies.
     Up {
         #[serde(rename = "since")]
         start: Instant,
     },
-    /// Open, but the last good reply is older than two poll periods, or the position was asked for
-    /// longer ago than a unit that answers in time makes possible.
+    /// Open link, but the last good reply is older than two poll periods. A position that is
+    /// overdue has the same effect.
     Stale {
-        /// The instant to which the newest report belongs.
+        /// Instant to which the newest report belongs.
         #[serde(alias = "last_reply")]
         as_of: Instant,
     },
-    /// Gone, or silent for too long. It is dialled again automatically.
+    /// Lost link, or a link that was silent for too long. Azel retries automatically.
     Lost {
-        /// When the last good reply came, or the link was lost.
+        /// Time of the last good reply or of the loss of the link.
         #[serde(rename = "since")]
         start: Instant,
         reason: LinkLoss,
@@ -339,7 +340,7 @@ pub enum LinkState {
 }
 
 impl LinkState {
-    /// Returns `true` if bytes can be sent.
+    /// Returns `true` if the session can send bytes.
     pub fn is_open(&self) -> bool {
         matches!(self, Self::Up { .. } | Self::Stale { .. })
     }
@@ -347,32 +348,32 @@ impl LinkState {
 
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub enum LinkLoss {
-    /// The other end is absent or refuses, in the words of the operating system.
+    /// The other end is absent or refuses; the text is from the operating system.
     Refused(String),
     ConnectTimeout,
     Closed,
-    /// Broken, in the words of the operating system.
+    /// Broken connection; the text is from the operating system.
     Broken(String),
-    /// Open, but no reply.
+    /// Open link without a reply.
     Silent,
-    /// The computer slept: Azel opens the link again.
+    /// The computer slept: Azel reopens the link.
     Slept,
-    /// Open, but no readable reply.
+    /// Open link without a readable reply.
     Unreadable,
-    /// Open, but to another device, or to one that asks for a code.
+    /// Open link to another device, or to a device that asks for a code.
     OtherDevice,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum StopState {
-    /// Nothing was requested.
+    /// No STOP is pending.
     Ready,
-    /// Sent, or to be sent first when the link is back.
+    /// STOP is sent, or will be the first request once the link is back.
     Stopping {
         #[serde(rename = "since")]
         start: Instant,
     },
-    /// The unit is proved to stand.
+    /// Standstill is proved.
     Stopped {
         #[serde(rename = "at")]
         time: Instant,
@@ -384,46 +385,46 @@ pub enum StopState {
     },
 }
 
-/// For the event line and the alarm list.
+/// Event for the event line and the alarm list.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Event {
     LinkLost(LinkLoss),
-    /// The link came up for the first time, and the unit was read.
+    /// The first link is up, and Azel has read the unit.
     Connected(Found),
-    /// The unit has begun to track without being asked.
+    /// The unit has begun to track without a request.
     StartedByItself,
-    /// The link is back, and the unit was read.
+    /// The link is back, and Azel has read the unit.
     Back {
-        /// How long it was silent.
+        /// Duration of the silence.
         after: Duration,
         found: Found,
-        /// Commands from here explain what the unit does and where it points. `true` for a program
-        /// track from here as well, which Azel compares separately.
+        /// Azel's commands explain the unit's activity and position. The value is also `true` for
+        /// Azel's program track, which Azel compares separately.
         #[serde(alias = "is_as_left")]
         is_explained: bool,
     },
-    /// The gate refused it.
+    /// The gate refused the request.
     NotSent(Refusal),
-    /// The unit refused it, with this code as received.
+    /// The unit refused the request, with this code as received.
     Refused(MotionRequest, String),
-    /// Offsets of a track stay as they are, and the track goes on.
+    /// The gate refused a change of offsets. The offsets are unchanged, and the track goes on.
     OffsetRefused(Refusal),
     /// An offset of the unit's own track is not in force.
     OffsetNotTaken(WriteError),
-    /// No answer to a motion, which is not sent again.
+    /// The unit did not answer a motion. Azel does not resend the motion.
     Unanswered(MotionRequest),
     CannotTrack(TrackTarget, PrepareError),
-    /// By what the unit reports, it would miss the satellite of this name.
+    /// The unit's reports show that it would miss the satellite of this name.
     WouldMiss {
         name: String,
         found: Arc<Supervision>,
     },
     Tracking(TrackTarget),
     TrackingEnded {
-        /// At the end of the pass, not before.
+        /// The track ended at the end of the pass, not before.
         completed: bool,
     },
-    /// The antenna goes to where this target will rise, and waits there.
+    /// The antenna goes to the direction where this target will rise, and waits there.
     Awaits {
         name: String,
         aos: Timestamp,
@@ -434,18 +435,18 @@ pub enum Event {
         name: String,
         stats: TrackStats,
     },
-    /// Program track of this target cannot begin, or cannot go on.
+    /// Program track of this target cannot begin or continue.
     CannotProgramTrack(String, TrackProblem),
     Arrived(Pointing),
-    /// A motion to a position ended elsewhere.
+    /// A motion to a position ended short of its target.
     EndedShort {
         aim: Pointing,
         #[serde(rename = "at")]
         position: Pointing,
     },
-    /// The window did not renew a jog, which was stopped.
+    /// The window did not renew a jog, and Azel stopped the jog.
     JogLeaseOver,
-    /// A jog was ended because its position grew too old.
+    /// Azel ended a jog because its position was too old.
     JogPositionOld,
     Safety(Safety),
     /// Standstill is proved after a STOP.
@@ -454,24 +455,24 @@ pub enum Event {
     StopNotConfirmed,
     /// The unit refused a STOP, with this code as received.
     StopRefused(String),
-    /// The antenna is stopped, but the unit may start to track on its own.
+    /// The antenna has stopped, but the unit may start to track without a command.
     AutoTrackStillOn,
     /// The unit did not switch auto-track off.
     AutoStaysOn,
-    /// Azel has told the unit to switch auto-track off, and cannot find out if it has.
+    /// Azel requested auto-track off, and the unit cannot report its state.
     AutoTrackNotKnown,
-    /// The unit is locked out, but auto-track off cannot be read back.
+    /// The unit is locked out, but Azel cannot read back that auto-track is off.
     LockOutUnproved,
 }
 
 #[derive(Debug, Clone, PartialEq, thiserror::Error, Serialize, Deserialize)]
 pub enum TrackProblem {
-    /// It does not rise in the time that was searched.
+    /// The target does not rise within the searched time.
     #[error("there is no pass to come")]
     NoPass,
     #[error("an axis reports no angle: check its sensor and the cable")]
     NoAngle,
-    /// Its elements describe no orbit, or it has come down.
+    /// The elements describe no orbit, or the satellite has decayed.
     #[error(transparent)]
     Orbit(#[from] PropagationError),
     #[error(transparent)]
@@ -479,7 +480,7 @@ pub enum TrackProblem {
 }
 
 impl TrackProblem {
-    /// The barrier that is the reason, if one is.
+    /// Returns the barrier behind the problem, if any.
     pub fn barrier(&self) -> Option<&Barrier> {
         match self {
             Self::Refused(refusal) => refusal.barrier(),
@@ -492,7 +493,7 @@ impl TrackProblem {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Found {
     Tracking,
-    /// It moves, but not by its tracking program.
+    /// Motion outside the tracking program.
     Moving,
     Still,
 }

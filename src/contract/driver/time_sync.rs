@@ -4,11 +4,11 @@ use serde::{Deserialize, Serialize};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum TimeSync {
-    /// A time service has set it and keeps it.
+    /// A time service has set the clock and keeps it synchronised.
     Synchronised,
-    /// No service keeps it, or the service has lost its sources.
+    /// No service keeps the clock, or the service has lost its sources.
     NotSynchronised,
-    /// The operating system does not tell.
+    /// The operating system reports no state.
     #[default]
     NotKnown,
 }

@@ -1,13 +1,13 @@
-//! A unit, as debts and alarms name it.
+//! Identity of a unit in debts and alarms.
 
 use serde::{Deserialize, Serialize};
 
 use crate::station::Antenna;
 
-/// A unit, by what does not change when the operator renames its antenna.
+/// Identity of a unit. A new name of its antenna does not change it.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct Unit {
-    /// Key of its make, as in the station file.
+    /// Key of the unit's make, as in the station file.
     pub make: String,
     /// Address in lower case, because host names ignore case.
     pub address: String,

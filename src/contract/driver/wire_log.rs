@@ -1,5 +1,5 @@
-//! The last lines of one antenna's link. The session writes and the window reads what is new
-//! to it; neither waits for longer than it takes to move a few pointers.
+//! The last lines of one antenna's link. The session writes lines, and the window reads new lines.
+//! The lock is held only for moving a few pointers.
 
 use std::{
     collections::VecDeque,
@@ -11,17 +11,17 @@ use serde::{Deserialize, Serialize};
 
 use crate::device::WireLine;
 
-/// Maximum number of lines kept.
+/// Max number of kept lines.
 pub const MAX_LINES: usize = 20_000;
-/// Maximum size of all lines together, bytes.
+/// Max size of all lines together, bytes.
 const MAX_BYTES: usize = 4 * 1024 * 1024;
-/// Maximum number of lines read at once, to keep the lock short.
+/// Max number of lines per read, to keep the lock short.
 const MAX_READ: usize = 1000;
 
-/// A line with its place in the log. Numbers count from 0 without gaps.
+/// A line with its number in the log. Numbers count from 0 without gaps.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Recorded {
-    /// Its place among all lines since the start.
+    /// Number among all lines since the start.
     pub number: u64,
     pub line: WireLine,
 }
@@ -30,7 +30,7 @@ pub struct Recorded {
 #[derive(Clone, Default)]
 pub struct WireLog(Arc<Mutex<Ring>>);
 
-/// Returns `true` for a line that a reader waits for.
+/// Test that returns `true` for a line that a reader waits for.
 pub type IsAwaited = Arc<dyn Fn(&Arc<Recorded>) -> bool + Send + Sync>;
 
 #[derive(Default)]
@@ -38,7 +38,7 @@ struct Ring {
     lines: VecDeque<Arc<Recorded>>,
     bytes: usize,
     next: u64,
-    /// Somebody has read everything and waits for such lines.
+    /// Test of a reader who has read everything and waits for such lines.
     is_awaited: Option<IsAwaited>,
 }
 
@@ -51,8 +51,8 @@ impl Ring {
 }
 
 impl WireLog {
-    /// Adds a line; the oldest go when there are too many. Returns `true` if somebody waits
-    /// for it.
+    /// Adds a line and drops the oldest lines beyond the limits. Returns `true` if a reader waits
+    /// for the line.
     pub fn push(&self, line: WireLine) -> bool {
         let mut ring = self.ring();
         ring.bytes += line.bytes.len();
@@ -65,13 +65,13 @@ impl WireLog {
         }
         let Some(is_awaited) = ring.is_awaited.clone() else { return false };
         drop(ring);
-        // A reader who has come back meanwhile has the line.
+        // A reader who has read again since then already has the line.
         is_awaited(&recorded)
             && self.ring().is_awaited.take_if(|now| Arc::ptr_eq(now, &is_awaited)).is_some()
     }
 
-    /// The lines from `number` on, oldest first, at most 1,000; empty when there are no newer
-    /// ones. The next line that `is_awaited` wakes the station.
+    /// Returns up to 1,000 lines from `number` on, oldest first; empty without newer lines. The
+    /// next line that matches `is_awaited` wakes the station.
     pub fn read_from(&self, number: u64, is_awaited: IsAwaited) -> Vec<Arc<Recorded>> {
         let mut ring = self.ring();
         let lines = ring.from(number);
@@ -79,17 +79,17 @@ impl WireLog {
         lines
     }
 
-    /// The same for a reader who comes back by himself.
+    /// Returns the same lines, for a reader who polls and needs no wake-up.
     pub fn copy_from(&self, number: u64) -> Vec<Arc<Recorded>> {
         self.ring().from(number)
     }
 
-    /// Returns `true` if nobody else holds the log: its session has ended.
+    /// Returns `true` if nobody else holds the log, because its session has ended.
     pub fn is_alone(&self) -> bool {
         Arc::strong_count(&self.0) == 1
     }
 
-    /// The number of the next line.
+    /// Returns the number of the next line.
     pub fn next_number(&self) -> u64 {
         self.ring().next
     }
@@ -100,7 +100,8 @@ impl WireLog {
     }
 
     fn ring(&self) -> MutexGuard<'_, Ring> {
-        // A line is whole or absent, whichever thread broke off.
+        // Every change of the ring is complete even if a thread panics, so a poisoned lock is
+        // usable.
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }

@@ -2,14 +2,14 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Spans to choose from, hours.
+/// Selectable spans of the pass list, hours.
 pub const SPANS_H: [u32; 4] = [6, 12, 24, 48];
 
-/// The satellites whose passes are listed.
+/// Satellites whose passes are listed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Scope {
-    /// The favourites.
+    /// Favourites only.
     #[default]
     Favourites,
     /// All satellites with elements.
@@ -34,7 +34,7 @@ impl Default for ListChoice {
 }
 
 impl ListChoice {
-    /// Span of the present scope, hours.
+    /// Returns the span of the current scope, hours.
     pub fn span_h(&self) -> u32 {
         match self.scope {
             Scope::Favourites => self.favourites_h,
@@ -42,7 +42,7 @@ impl ListChoice {
         }
     }
 
-    /// Sets the span of the present scope, hours.
+    /// Sets the span of the current scope, hours.
     pub fn set_span_h(&mut self, span_h: u32) {
         match self.scope {
             Scope::Favourites => self.favourites_h = span_h,

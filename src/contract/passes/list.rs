@@ -1,4 +1,4 @@
-//! A pass list.
+//! A list of passes, and the view of its upcoming passes.
 
 use std::{iter, ops::Range, sync::Arc};
 
@@ -11,20 +11,20 @@ use crate::{
     passes::{ListedSatellite, PassListKey, PredictedPass},
 };
 
-/// Largest difference in AOS of one pass between two lists.
+/// Max difference in AOS of the same pass between two lists, seconds.
 const SAME_AOS_S: f64 = 60.0;
 
-/// Passes of some satellites. Clones share them.
+/// Passes of a set of satellites. Clones share the passes.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct PassList {
-    /// The satellites, in the order of the station or by catalog number.
+    /// Satellites, in the order of the station or by catalog number.
     #[serde(skip)]
     pub satellites: Arc<Vec<Arc<ListedSatellite>>>,
-    /// Passes by AOS, then by catalog number; those that are always up come last, by number. Some
-    /// passes may be over.
+    /// Passes by AOS, then by catalog number; always-up passes come last, by number. Some passes
+    /// may be over.
     #[serde(skip)]
     pub passes: Arc<Vec<PredictedPass>>,
-    /// Changes with every new list.
+    /// Number that changes with every new list.
     pub revision: u64,
     /// Start of the search for this list; `None` before the first list.
     pub made_at: Option<Timestamp>,
@@ -46,42 +46,43 @@ impl Default for PassList {
 /// State of the search for the next list.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Work {
-    /// No search: the list is up to date.
+    /// No search is running: the list is up to date.
     Nothing,
-    /// A search is under way.
     UnderWay {
-        /// Satellites that are done.
+        /// Number of completed satellites.
         done: usize,
-        /// All satellites; 0 while they are prepared.
+        /// Number of all satellites; 0 during the preparation.
         #[serde(rename = "of")]
         total: usize,
     },
-    /// The operator has cancelled the search.
+    /// The operator cancelled the search.
     Cancelled,
 }
 
 impl PassList {
-    /// The passes at these places, each with its catalog number.
+    /// Returns the passes at these indices, each with its catalog number.
     pub fn range(&self, places: Range<usize>) -> impl Iterator<Item = (u32, Pass)> {
         let passes = self.passes.iter().take(places.end).skip(places.start);
         passes.map(|predicted| (predicted.number(), predicted.pass))
     }
 
-    /// The passes that are not over at `now`.
+    /// Returns the passes that are not over at `now`.
     pub fn upcoming(&self, now: Timestamp) -> UpcomingPasses<'_> {
         UpcomingPasses::new(self, now, None)
     }
 
-    /// The passes that are not over and begin within `span_h` hours, for a list by AOS.
+    /// Returns the passes that are not over and begin within `span_h` hours. The list must be
+    /// ordered by AOS.
     pub fn upcoming_within(&self, now: Timestamp, span_h: u32) -> UpcomingPasses<'_> {
         let end = add_seconds(now, f64::from(span_h) * 3600.0);
         UpcomingPasses::new(self, now, Some(end))
     }
 
-    /// Place of the pass of `key` in the list. Its AOS may differ a little in a new list.
+    /// Returns the index of the pass with `key`. Its AOS may differ slightly in a new list.
     fn place(&self, (number, aos): PassListKey) -> Option<usize> {
         let (dated, always_up) = self.parts();
-        // Passes cut at the start of a list all have that for AOS, and so are by number.
+        // Passes that are cut at the start of a list share its start as AOS, so they are ordered by
+        // number.
         let start = dated.first().map(|predicted| predicted.pass.aos.time);
         let cut = dated.partition_point(|predicted| Some(predicted.pass.aos.time) <= start);
         let early = [(0, dated.get(..cut).unwrap_or_default()), (dated.len(), always_up)];
@@ -103,7 +104,7 @@ impl PassList {
             .find_map(|(place, predicted)| (predicted.number() == number).then_some(place))
     }
 
-    /// The passes by AOS, and the always-up passes behind them.
+    /// Returns the passes by AOS, and the always-up passes behind them.
     fn parts(&self) -> (&[PredictedPass], &[PredictedPass]) {
         let dated = self.passes.partition_point(|predicted| !predicted.is_always_up());
         self.passes.split_at(dated)
@@ -114,13 +115,13 @@ impl PassList {
     }
 }
 
-/// The passes of a list that are not over.
+/// View of the passes of a list that are not over.
 #[derive(Debug, Clone)]
 pub struct UpcomingPasses<'a> {
     list: &'a PassList,
-    /// Places of the passes that are over, and of those that begin too late, in order.
+    /// Index ranges of passes that are over or begin too late, in order.
     left_out: Vec<Range<usize>>,
-    /// Place of the first pass that begins too late.
+    /// Index of the first pass that begins too late.
     late: usize,
 }
 
@@ -132,7 +133,7 @@ impl<'a> UpcomingPasses<'a> {
             let ended = passes.filter(|(_, predicted)| predicted.pass.los.time <= now);
             ended.map(|(place, _)| first + place..first + place + 1).collect::<Vec<_>>()
         };
-        // A pass that is over has begun: the rest of a long list need not be searched.
+        // A pass that is over has begun, so the search can stop at the first later AOS.
         let begun = dated.partition_point(|predicted| predicted.pass.aos.time <= now);
         let late = end.map_or(dated.len(), |end| {
             dated.partition_point(|predicted| predicted.pass.aos.time < end).max(begun)
@@ -147,7 +148,7 @@ impl<'a> UpcomingPasses<'a> {
         self.list.passes.len() - self.left_out.iter().map(ExactSizeIterator::len).sum::<usize>()
     }
 
-    /// Changes whenever the rows change within one revision of the list.
+    /// Returns a value that changes whenever the rows change within one revision of the list.
     pub fn version(&self) -> (usize, usize) {
         (self.late, self.left_out.len())
     }
@@ -156,14 +157,14 @@ impl<'a> UpcomingPasses<'a> {
         self.len() == 0
     }
 
-    /// Number of rows whose passes have begun at `now`, without those that are always up.
+    /// Returns the number of rows whose passes have begun at `now`, without always-up passes.
     pub fn begun(&self, now: Timestamp) -> usize {
         let begun = self.list.parts().0.partition_point(|dated| dated.pass.aos.time <= now);
         let ended = self.left_out.iter().filter(|range| range.start < begun);
         begun - ended.map(|range| range.end.min(begun) - range.start).sum::<usize>()
     }
 
-    /// The pass in this row.
+    /// Returns the pass in this row; `None` beyond the last row.
     pub fn get(&self, row: usize) -> Option<&'a PredictedPass> {
         let mut place = row;
         for left_out in &self.left_out {
@@ -182,13 +183,13 @@ impl<'a> UpcomingPasses<'a> {
         starts.zip(ends).flat_map(|(start, end)| passes.get(start..end).unwrap_or_default())
     }
 
-    /// The passes with AOS before `end`, by AOS, without those that are always up.
+    /// Returns the passes with AOS before `end`, by AOS, without always-up passes.
     pub fn starting_before(&self, end: Timestamp) -> impl Iterator<Item = &'a PredictedPass> {
         let passes = self.iter().take_while(move |predicted| predicted.pass.aos.time < end);
         passes.filter(|predicted| !predicted.is_always_up())
     }
 
-    /// Row of the pass of `key`. Its AOS may differ a little in a new list.
+    /// Returns the row of the pass with `key`. Its AOS may differ slightly in a new list.
     pub fn row(&self, key: PassListKey) -> Option<usize> {
         let place = self.list.place(key)?;
         let before = self.left_out.iter().take_while(|left_out| left_out.start <= place);

@@ -1,5 +1,5 @@
-//! One pass of one satellite. Its outline is computed at first use, because a list may hold
-//! a hundred thousand passes.
+//! One pass of one satellite. The outline is computed at first use, because a list may hold a
+//! hundred thousand passes.
 
 use std::sync::{Arc, OnceLock};
 
@@ -13,15 +13,15 @@ use crate::{
     station::{Antenna, Station},
 };
 
-/// Maximum number of samples in a drawn track.
+/// Max number of samples in a drawn track.
 const MAX_SAMPLES: f64 = 600.0;
-/// Span ahead for the later passes of a satellite in program track.
+/// Search span for the later passes of a satellite in program track, seconds.
 const LATER_S: f64 = 7.0 * 86_400.0;
 
-/// Smallest distance between samples of the outline: one point of a thumbnail.
+/// Min distance between samples of the outline, degrees: one point of a thumbnail.
 const OUTLINE_STEP_DEG: f64 = 3.0;
 
-/// A satellite of a list.
+/// A satellite of a pass list, with its elements and its propagator.
 #[derive(Debug)]
 pub struct ListedSatellite {
     pub elements: Elements,
@@ -34,14 +34,14 @@ impl ListedSatellite {
     }
 }
 
-/// Site, horizon and antennas of a station, as far as passes depend on them.
+/// Site, horizon and antennas of a station on which passes depend.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Observer {
     pub site: Site,
     /// Elevation of AOS and LOS.
     pub aos_elevation: Angle,
     pub horizon_mask: Option<HorizonMask>,
-    /// Mount limits of the antennas, in their order.
+    /// Mount limits of the antennas, in the order of the station.
     pub antennas: Vec<MountLimits>,
 }
 
@@ -56,30 +56,31 @@ impl Observer {
     }
 }
 
-/// A pass with everything that is shown of it.
+/// A pass with all its displayed data.
 #[derive(Debug, Clone)]
 pub struct PredictedPass {
     pub satellite: Arc<ListedSatellite>,
     pub pass: Pass,
-    /// Kept here: a long list is looked through by it, and its satellites lie apart in memory.
+    /// Catalog number, stored here because long lists are searched by it and satellites are
+    /// scattered in memory.
     number: u32,
     observer: Arc<Observer>,
     outline: OnceLock<Box<Outline>>,
 }
 
-/// Computed figures of a pass.
+/// Data of a pass that are computed from its track.
 #[derive(Debug, Clone)]
 struct Outline {
     path: Vec<Sample>,
-    /// The stretches above the horizon mask, in order; `None` where it cuts nothing off.
+    /// Stretches above the horizon mask, in order; `None` if the mask cuts nothing off.
     clear: Option<Vec<Pass>>,
-    /// By the index of the antenna.
+    /// Trackability by the index of the antenna.
     trackability: Vec<Trackability>,
     track: OnceLock<Vec<Sample>>,
 }
 
 impl PredictedPass {
-    /// A pass of `satellite` seen from `observer`.
+    /// Creates a pass of `satellite` seen from `observer`.
     pub fn new(satellite: Arc<ListedSatellite>, pass: Pass, observer: Arc<Observer>) -> Self {
         let number = satellite.elements.catalog_number();
         Self { satellite, pass, number, observer, outline: OnceLock::new() }
@@ -89,9 +90,9 @@ impl PredictedPass {
         (self.number(), self.pass.aos.time)
     }
 
-    /// The program track of an antenna for this pass and, in the next days, later passes of
-    /// its satellite that reach `floor`: each from AOS, or from where it rises above the
-    /// antenna's own minimum elevation.
+    /// Returns the program track of an antenna for this pass and for later passes of its satellite
+    /// within seven days that reach `floor`. Each pass begins at AOS, or where the satellite rises
+    /// above the antenna's own minimum elevation.
     pub fn follow(&self, antenna: &Antenna, floor: Angle) -> ProgramTrack {
         let lowest = Angle::from_degrees(antenna.limits.minimum_elevation_deg);
         let lowest_deg = self.observer.site.pass_elevation(lowest).degrees();
@@ -105,7 +106,8 @@ impl PredictedPass {
         let found = |search| passes(&self.satellite.propagator, &search, &|| false);
         let mut spans = Vec::new();
         if !self.is_always_up() {
-            // The end of the search may have cut this pass: it goes on to its true LOS.
+            // The end of the search may have cut this pass; its track then continues to the true
+            // LOS.
             let end = if self.pass.ends_after { None } else { Some(self.pass.los.time) };
             let of_this = found(search(self.pass.aos.time, aos_elevation));
             let of_this = of_this.iter().take_while(|stay| match end {
@@ -123,7 +125,7 @@ impl PredictedPass {
         ProgramTrack::new(target, self.observer.site, spans)
     }
 
-    /// Catalog number of its satellite.
+    /// Returns the catalog number of the satellite.
     pub fn number(&self) -> u32 {
         self.number
     }
@@ -138,41 +140,41 @@ impl PredictedPass {
         self.pass.aos.time <= now && now < self.pass.los.time
     }
 
-    /// Samples from AOS to LOS, every 2 s or a little more; computed at the first call and
-    /// kept.
+    /// Returns the samples from AOS to LOS, every 2 s or slightly more. The first call computes and
+    /// caches them.
     pub fn track(&self) -> &[Sample] {
         self.outline().track.get_or_init(|| self.sampled())
     }
 
-    /// The track with no more points than a small picture needs.
+    /// Returns the track, thinned to the points of a thumbnail.
     pub fn path(&self) -> &[Sample] {
         &self.outline().path
     }
 
-    /// The stretches above the horizon mask, in order: empty if it hides the whole pass,
-    /// `None` if it cuts nothing off.
+    /// Returns the stretches above the horizon mask, in order. The list is empty if the mask hides
+    /// the whole pass, and `None` if the mask cuts nothing off.
     pub fn clear(&self) -> Option<&[Pass]> {
         self.outline().clear.as_deref()
     }
 
-    /// Seconds above the horizon mask; `None` where it cuts nothing off.
+    /// Returns the seconds above the horizon mask; `None` if the mask cuts nothing off.
     pub fn clear_s(&self) -> Option<f64> {
         Some(self.clear()?.iter().map(Pass::duration_s).sum())
     }
 
-    /// Trackability of the pass with this antenna; `None` without one.
+    /// Returns the trackability of the pass with the antenna of this index; `None` without such an
+    /// antenna.
     pub fn trackability(&self, antenna: usize) -> Option<Trackability> {
         self.observer.antennas.get(antenna)?;
         self.outline().trackability.get(antenna).copied()
     }
 
-    /// Returns `true` once its outline is worked out, which takes a tenth of a millisecond.
+    /// Returns `true` once the outline is computed, which takes a tenth of a millisecond.
     pub fn has_outline(&self) -> bool {
         self.outline.get().is_some()
     }
 
-    /// Like [`Self::trackability`], without keeping what was computed: for looking through a
-    /// long list.
+    /// Returns the same as [`Self::trackability`] without caching, for a scan of a long list.
     pub fn judge(&self, antenna: usize) -> Option<Trackability> {
         if let Some(outline) = self.outline.get() {
             return outline.trackability.get(antenna).copied();
@@ -217,7 +219,7 @@ impl PredictedPass {
     }
 }
 
-/// Limits of the mount on which the trackability of a pass depends.
+/// Returns the mount limits on which the trackability of a pass depends.
 pub fn mount_limits(antenna: &Antenna) -> MountLimits {
     MountLimits {
         mount: antenna.track_mount(),
@@ -346,7 +348,8 @@ mod tests {
         assert!(cut > hidden && hidden > 0, "{cut} {hidden}");
     }
 
-    /// AOS and looks are both geometric, so that they can be compared.
+    /// Returns a station without refraction, so that AOS and looks are both geometric and
+    /// comparable.
     fn demo() -> Station {
         let mut station = Station::demo(&DemoAddresses::default());
         station.site = station.site.airless();

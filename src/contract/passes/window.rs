@@ -1,4 +1,4 @@
-//! The window in which a unit may point to a satellite.
+//! Window in which a unit may point to a satellite.
 
 use jiff::Timestamp;
 
@@ -10,12 +10,16 @@ use crate::{
     station::Antenna,
 };
 
-/// Margin of a search around a known pass, whose ends are exact to a millisecond.
+/// Margin of a search around a known pass, seconds. The ends of the pass are exact to a
+/// millisecond.
 const EDGE_S: f64 = 0.002;
 
-/// Window in which the unit of `antenna` may point to the satellite of `predicted`: whole seconds
-/// within the first stay above its minimum elevation that is not over. The stay is geometric, as
-/// the unit points. An error where there is none.
+/// Returns the window in which the unit of `antenna` may point to the satellite of `predicted`. The
+/// window holds the whole seconds of the first stay above the antenna's minimum elevation that is
+/// not over. The stay is geometric, because units ignore refraction.
+///
+/// # Errors
+/// Returns [`Refusal::TooLow`] if there is no such stay.
 pub fn window(
     predicted: &PredictedPass,
     antenna: &Antenna,
@@ -39,7 +43,7 @@ pub fn window(
     })
 }
 
-/// The whole seconds within a span.
+/// Returns the whole seconds within a span.
 pub fn whole_seconds((start, end): (Timestamp, Timestamp)) -> (Timestamp, Timestamp) {
     (first_second(start), last_second(end))
 }
@@ -81,7 +85,7 @@ mod tests {
         Station { antennas, ..Station::default() }
     }
 
-    /// The first pass above 60 degrees as the station lists it.
+    /// Returns the first pass above 60 degrees, as the station lists it.
     fn predicted_pass(station: &Station) -> PredictedPass {
         let elements = bundled().unwrap().get(25_544).unwrap().clone();
         let propagator = Propagator::new(&elements).unwrap();

@@ -1,4 +1,4 @@
-//! The report of a pass that an antenna tracked, as it is kept.
+//! Recorded report of a pass that an antenna tracked.
 
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
@@ -11,23 +11,23 @@ use crate::{
     plan::pass_report::{Explanation, FlownOffsets, MeasuredPosition, PassReport, PathSource},
 };
 
-/// Report of a pass as it is kept; `docs/record.md` tells its fields.
+/// Recorded report of a pass; `docs/record.md` describes its fields.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct RecordedReport {
-    /// From AOS to LOS, above the antenna's minimum elevation.
+    /// AOS above the antenna's minimum elevation.
     #[serde(rename = "from")]
     pub start: Timestamp,
     #[serde(rename = "until")]
     pub end: Timestamp,
-    /// The part of it that the plan gave to the antenna: that counts. `None` without a plan, where all
-    /// of it counts.
+    /// Part of the pass that the plan gave to the antenna; only this part counts. `None` without a
+    /// plan: the whole pass counts.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub planned: Option<PlannedPart>,
     pub max_elevation_deg: f64,
     /// Age of the elements in the middle of the pass, days.
     pub age_days: f64,
     pub elements: Elements,
-    /// Where the antenna stands; `None` in older reports.
+    /// Location of the antenna; `None` in older reports.
     #[serde(default)]
     pub site: Option<Site>,
     pub half_beam_deg: f64,
@@ -35,8 +35,8 @@ pub struct RecordedReport {
     pub track: AboutTrack,
     #[serde(flatten)]
     pub report: PassReport,
-    /// The cause of the error, or up to three that the positions do not tell apart, the best first;
-    /// none for a good pass. Older reports name none: their causes were not tested.
+    /// Cause of the error, or up to three causes that the positions cannot separate, best first.
+    /// The list is empty for a good pass, and in older reports, which tested no causes.
     #[serde(default)]
     pub causes: Vec<Explanation>,
 }
@@ -53,10 +53,10 @@ pub struct PlannedPart {
 /// Description of a track besides its positions.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct AboutTrack {
-    /// When it was first seen to be tracked.
+    /// Time at which Azel first saw the track.
     pub begun: Timestamp,
     pub tracked_by: TrackedBy,
-    /// Positions that were sent, with program track.
+    /// Number of positions that Azel sent with program track.
     pub sent: Option<u32>,
     /// Offsets of program track.
     #[serde(default)]
@@ -64,9 +64,9 @@ pub struct AboutTrack {
     /// Pointing model of program track.
     #[serde(default, skip_serializing_if = "PointingModel::is_none")]
     pub pointing_model: PointingModel,
-    /// The unit's clock against that of this computer, seconds.
+    /// Lead of the unit's clock over this computer's clock, seconds.
     pub unit_clock_ahead_s: Option<f64>,
-    /// The place for which a unit computes its track.
+    /// Location for which the unit computes its track.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub unit_place: Option<Place>,
     /// State of the time service that keeps the clock of this computer.
@@ -74,7 +74,7 @@ pub struct AboutTrack {
 }
 
 impl AboutTrack {
-    /// The origin of the path of a track from a station at `site`.
+    /// Returns the origin of the path of a track from a station at `site`.
     pub fn path_source(&self, site: Site) -> PathSource {
         match self.tracked_by {
             TrackedBy::ProgramTrack => PathSource::Azel,
@@ -85,7 +85,8 @@ impl AboutTrack {
         }
     }
 
-    /// The position as it is compared with the satellite: pointing model and offsets taken off.
+    /// Returns the position for the comparison with the satellite, without pointing model and
+    /// offsets.
     #[must_use]
     pub fn compared(
         &self,
@@ -96,7 +97,7 @@ impl AboutTrack {
         self.offsets.taken_off(propagator, site, self.on_the_sky(flown))
     }
 
-    /// The site with the refraction by which the antenna was led: units leave it out.
+    /// Returns the site with the refraction that the track used: units ignore refraction.
     pub fn led_from(&self, site: Site) -> Site {
         match self.tracked_by {
             TrackedBy::ProgramTrack => site,
@@ -104,7 +105,7 @@ impl AboutTrack {
         }
     }
 
-    /// Where the antenna pointed on the sky at a position of its axes.
+    /// Returns the direction of the beam on the sky for a position of the axes.
     #[must_use]
     pub fn on_the_sky(&self, flown: MeasuredPosition) -> MeasuredPosition {
         let model = &self.pointing_model;
@@ -129,6 +130,6 @@ impl AboutTrack {
 pub enum TrackedBy {
     ProgramTrack,
     OnBoard,
-    /// The unit began it, or somebody at its panel.
+    /// Track that the unit or somebody at its panel began.
     Elsewhere,
 }

@@ -1,5 +1,5 @@
-//! Peaks of the noise of the Sun and the Moon, as the operator entered them: points for the pointing
-//! model of an antenna.
+//! Peaks of the noise of the Sun and the Moon that the operator entered. They serve as points for
+//! the pointing model of an antenna.
 
 use std::ops::RangeInclusive;
 
@@ -12,7 +12,7 @@ use crate::{
     station::AntennaId,
 };
 
-/// Where the axes stood when the noise was greatest.
+/// Position of the axes at the peak of the noise.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Peak {
     #[serde(rename = "of")]
@@ -38,16 +38,16 @@ pub enum PeakChange {
     Removed(Peak),
 }
 
-/// The peaks of all antennas, in the order in which they were entered.
+/// Peaks of all antennas, in order of entry.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Peaks(Vec<(AntennaId, Peak)>);
 
 impl Peak {
-    /// Angles that an axis may read.
+    /// Valid azimuths of an axis reading, degrees.
     pub const AZIMUTHS_DEG: RangeInclusive<f64> = -360.0..=720.0;
     pub const ELEVATIONS_DEG: RangeInclusive<f64> = -10.0..=90.0;
 
-    /// The point of an antenna at `site`.
+    /// Returns the point for the pointing model of an antenna at `site`.
     pub fn point(&self, site: Site) -> Point {
         let axes = AzEl::from_degrees(self.azimuth_deg, self.elevation_deg);
         match self.body {
@@ -66,14 +66,14 @@ impl Peaks {
         }
     }
 
-    /// Adds those of another list that are not in this one.
+    /// Adds the peaks of another list, without duplicates.
     pub fn extend(&mut self, others: &Self) {
         for (antenna, peak) in &others.0 {
             self.change(*antenna, PeakChange::Added(*peak));
         }
     }
 
-    /// Those of an antenna.
+    /// Returns the peaks of an antenna, in order of entry.
     pub fn for_antenna(&self, antenna: AntennaId) -> impl Iterator<Item = &Peak> {
         self.0.iter().filter(move |(owner, _)| *owner == antenna).map(|(_, peak)| peak)
     }

@@ -1,23 +1,23 @@
-//! A pointing model, fitted to recorded passes.
+//! Pointing model, fitted to recorded passes.
 
 use serde::{Deserialize, Serialize};
 
 use crate::{astro::Term, plan::pointing::Kind, station::AntennaId};
 
-/// The model that fits best. Nothing of it is applied.
+/// Best-fitting model. Azel applies none of it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct PointingFit {
-    /// Number of passes with a point that counts.
+    /// Number of passes with at least one usable point.
     pub passes: usize,
     pub noise: Vec<FittedNoise>,
-    /// Terms that were left out of the fit. They are zero.
+    /// Terms that were excluded from the fit; their value is zero.
     #[serde(rename = "without", default, skip_serializing_if = "Vec::is_empty")]
     pub excluded: Vec<Term>,
-    /// One a term, in the order of [`Term::ALL`].
+    /// One entry for each term, in the order of [`Term::ALL`].
     pub terms: Vec<FittedTerm>,
 }
 
-/// Points of a kind.
+/// Noise of the points of one kind.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct FittedNoise {
     #[serde(rename = "of")]
@@ -27,24 +27,24 @@ pub struct FittedNoise {
     pub noise_deg: f64,
 }
 
-/// By how much the axes read more than the direction in which the beam points.
+/// Fitted term: the reading of the axes minus the direction of the beam.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct FittedTerm {
     pub term: Term,
-    /// Degrees; for the scale, degrees a degree. `None` where the points cannot tell it, and where
-    /// it was left out of the fit.
+    /// Degrees; for the scale, degrees a degree. `None` if the points cannot determine the term, or
+    /// if the fit excluded it.
     pub value: Option<f64>,
-    /// Half of the width of the interval that holds it in at least 95 of 100 cases; `None` also where the
-    /// value holds a part of terms that the points cannot tell.
+    /// Half the width of the 95 % confidence interval. `None` also if the value contains a part of
+    /// undetermined terms.
     pub half_of_95_percent: Option<f64>,
-    /// Terms that the points cannot tell it from.
+    /// Terms that the points cannot separate from this term.
     pub not_told_from: Vec<Term>,
 }
 
-/// A fit to the record of an antenna. It changes nothing.
+/// Fit to the record of an antenna. The fit changes nothing.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct PointingFitted {
     pub antenna: AntennaId,
-    /// Or why there is none. `None` while it is worked out.
+    /// Fit, or the reason why there is none; `None` while Azel computes it.
     pub found: Option<Result<PointingFit, String>>,
 }

@@ -5,28 +5,26 @@ use std::path::PathBuf;
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
-/// State of a record.
+/// File, size and failures of a record.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct Status {
     pub path: PathBuf,
-    /// Size on disk when it was last looked at, bytes.
+    /// Size on disk at the last check, bytes.
     pub bytes: u64,
-    /// Nothing is written at present.
+    /// Failure while Azel cannot write.
     pub failing: Option<Failing>,
-    /// When somebody was last found to have removed the file while it was open, or put another one in
-    /// its place.
+    /// Last time at which Azel found that the open file was removed or replaced.
     #[serde(default)]
     pub removed: Option<Timestamp>,
 }
 
-/// Why nothing is written.
+/// Reason why Azel cannot write.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Failing {
-    /// When something was written last.
     #[serde(rename = "since")]
     pub last_write: Timestamp,
     #[serde(rename = "why")]
     pub reason: String,
-    /// Entries that wait.
+    /// Number of waiting entries.
     pub waiting: u64,
 }

@@ -1,11 +1,11 @@
-//! A file as it was on a unit.
+//! State of a file on a unit.
 
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
 use crate::transfer::FileHash;
 
-/// A file as it was on a unit.
+/// State of a file on a unit at one time.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct KeptFile {
     /// Host and port of the unit.
@@ -14,9 +14,9 @@ pub struct KeptFile {
     pub file: String,
     /// Hash of the whole file.
     pub sha256: FileHash,
-    /// Size of the whole file.
+    /// Size of the whole file, bytes.
     pub bytes: u64,
-    /// Time at which it was sent, or read on the unit.
+    /// Time at which Azel sent the file or read it on the unit.
     #[serde(rename = "at")]
     pub time: Timestamp,
     pub origin: Origin,
@@ -26,7 +26,7 @@ pub struct KeptFile {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Origin {
-    /// The file was there before this program replaced it.
+    /// The file existed before this program replaced it.
     Found,
     /// This program sent it.
     Uploaded,

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// An old algorithm that a connection uses, because the host offers nothing better.
+/// An outdated algorithm that a connection uses because the host offers nothing better.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct OldAlgorithm {
     pub part: AlgorithmPart,

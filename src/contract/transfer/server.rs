@@ -1,4 +1,4 @@
-//! A server of files.
+//! File server.
 
 use std::fmt;
 
@@ -24,17 +24,17 @@ impl fmt::Display for Peer {
 /// Protocol of a file server.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum FileProtocol {
-    /// Plain FTP: password and file can be read on the way.
+    /// Plain FTP: others on the network can read the password and the file.
     Ftp,
-    /// With TLS from the first command on (`AUTH TLS`, RFC 4217).
+    /// FTP with TLS from the first command on (`AUTH TLS`, RFC 4217).
     FtpTls,
-    /// Over SSH.
+    /// SFTP over SSH.
     Sftp,
 }
 
 impl FileProtocol {
-    /// Protocol that a unit most likely uses on `port`. The unit's setting is a port without a
-    /// protocol, and the example of its document has 22.
+    /// Returns the likeliest protocol of a unit on `port`. The unit's setting has a port but no
+    /// protocol, and the example in its document has port 22.
     pub fn of_port(port: u16) -> Self {
         if port == 22 { Self::Sftp } else { Self::Ftp }
     }

@@ -25,7 +25,7 @@ pub struct TleFile {
     objects: Vec<FileObject>,
 }
 
-/// Reason why no file was made. Nothing was sent.
+/// Reason why no file was made. In this case Azel sends nothing.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum TleFileError {
     /// No object was chosen.
@@ -60,8 +60,12 @@ fn listed(refused: &[TleRefusal]) -> String {
 }
 
 impl TleFile {
-    /// Makes a file of the `chosen` objects for a unit with these element files. Either all of
-    /// them are in it, each under a name that the unit can be given, or there is no file.
+    /// Creates a file of the `chosen` objects for a unit with these element files. The file
+    /// contains all chosen objects, or there is no file.
+    ///
+    /// # Errors
+    /// Returns an error if nothing is chosen, an object does not fit into a TLE, or a name is
+    /// missing, repeated or unacceptable to the unit.
     pub fn new<'a>(
         chosen: impl IntoIterator<Item = &'a Elements>,
         takes: &ElementFiles,
@@ -90,7 +94,7 @@ impl TleFile {
         Ok(file)
     }
 
-    /// A file from an earlier state of a unit, whatever its content, to be put back.
+    /// Creates a file from an earlier state of a unit, to be put back, with any content.
     pub fn from_bytes(bytes: Vec<u8>) -> Self {
         let object = |elements: &Elements| FileObject {
             name: elements.name().to_owned(),
@@ -105,7 +109,7 @@ impl TleFile {
         &self.bytes
     }
 
-    /// Objects in the order of the file.
+    /// Returns the objects in the order of the file.
     pub fn objects(&self) -> &[FileObject] {
         &self.objects
     }
@@ -119,13 +123,13 @@ impl TleFile {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct FileName(String);
 
-/// Reason why a name cannot be that of a file on a unit.
+/// Reason why a name cannot be the name of a file on a unit.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum FileNameError {
     /// The unit's protocol cannot carry the name; reason in words.
     #[error("the {0}; choose another one")]
     Value(String),
-    /// The name leads to another folder, or is hidden.
+    /// The name leads to another folder or is hidden.
     #[error(
         "the file name starts with a dot or holds a slash; choose a plain one such as weather.txt"
     )]
@@ -133,7 +137,7 @@ pub enum FileNameError {
 }
 
 impl FileName {
-    /// Checks `name` as typed, for a unit with these element files.
+    /// Checks `name` as entered, for a unit with these element files.
     pub fn new(name: &str, takes: &ElementFiles) -> Result<Self, FileNameError> {
         (takes.check_name)("file name", name).map_err(FileNameError::Value)?;
         if name.starts_with('.') || name.contains(['/', '\\']) {

@@ -1,4 +1,4 @@
-//! A file of elements as a unit will see it.
+//! A unit's view of a file of elements.
 
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
@@ -8,7 +8,7 @@ use crate::{
     transfer::{FileHash, FileObject},
 };
 
-/// View that a unit will have of a file.
+/// A unit's view of a file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct UnitView {
     pub bytes: u64,
@@ -29,9 +29,9 @@ pub struct UnitView {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub enum SatelliteMatch {
     Found(FileObject),
-    /// Several objects with that name; the unit takes one of them.
+    /// Several objects have this name; the unit takes one of them.
     Several(Vec<FileObject>),
-    /// No such object: the unit will report that it cannot find the satellite.
+    /// No object has this name: the unit will report that it cannot find the satellite.
     Missing {
         /// Similar names in the file.
         similar: Vec<String>,
@@ -39,7 +39,7 @@ pub enum SatelliteMatch {
 }
 
 impl UnitView {
-    /// Newest epoch among the objects found.
+    /// Returns the newest epoch of the objects found.
     pub fn epoch(&self) -> Option<Timestamp> {
         match &self.satellite {
             SatelliteMatch::Found(object) => Some(object.epoch),

@@ -1,4 +1,4 @@
-//! Steps of an upload, and its proof.
+//! Steps and proof of an upload.
 
 use std::fmt;
 
@@ -10,20 +10,21 @@ use crate::{
     transfer::{FileHash, FileName, FileObject, Peer},
 };
 
-/// Step of an upload, in order.
+/// Steps of an upload, in order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub enum UploadStep {
-    /// Read the present file on the unit.
+    /// Reading of the current file on the unit.
     ReadOld,
-    /// Keep it on this computer.
+    /// Storage of the current file on this computer.
     KeepOld,
-    /// Write the new file beside the old one.
+    /// Writing of the new file beside the current file.
     Write,
-    /// Read the new file again and compare.
+    /// Read-back of the new file, with comparison.
     Compare,
-    /// Put the new file in the place of the old one. From here on there is no cancelling.
+    /// Replacement of the current file by the new file. From here on, the upload cannot be
+    /// cancelled.
     Replace,
-    /// Read the new file in its place and compare.
+    /// Read-back of the new file in its final place, with comparison.
     Prove,
 }
 
@@ -44,13 +45,13 @@ impl fmt::Display for UploadStep {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Progress {
     pub step: UploadStep,
-    /// Bytes finished in this step.
+    /// Bytes completed in this step.
     pub done_bytes: u64,
-    /// Size of the new file; the present file on the unit may be larger or smaller.
+    /// Size of the new file, bytes; the current file on the unit may be larger or smaller.
     pub file_bytes: u64,
 }
 
-/// Proof that a file is on a unit: it was read back in its place.
+/// Proof that a file is on a unit, by a read-back in its final place.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Uploaded {
     pub unit: Peer,
@@ -58,7 +59,7 @@ pub struct Uploaded {
     pub file: FileName,
     pub bytes: u64,
     pub sha256: FileHash,
-    /// Time of reading back.
+    /// Time of the read-back.
     #[serde(rename = "at")]
     pub time: Timestamp,
     /// Objects in the order of the file.
@@ -66,7 +67,7 @@ pub struct Uploaded {
 }
 
 impl Uploaded {
-    /// Age of the oldest elements in the file at `now`, seconds.
+    /// Returns the age of the oldest elements in the file at `now`, seconds.
     pub fn oldest_age_s(&self, now: Timestamp) -> Option<f64> {
         let oldest = self.objects.iter().map(|object| object.epoch).min()?;
         Some(time::seconds_between(oldest, now))

@@ -1,4 +1,4 @@
-//! The satellites chosen for a unit, checked before anything is sent.
+//! Satellites chosen for a unit, checked before Azel sends anything.
 
 use jiff::Timestamp;
 
@@ -8,12 +8,12 @@ use crate::{
     transfer::{TleFile, TleFileError},
 };
 
-/// The chosen satellites and the file made of them.
+/// Chosen satellites, and the file made of them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Chosen {
-    /// In the order of the choice.
+    /// Objects in the order of the choice.
     pub objects: Vec<ChosenObject>,
-    /// All satellites in one file, or why there is no file.
+    /// File with all satellites, or the reason why there is no file.
     pub file: Result<TleFile, TleFileError>,
 }
 
@@ -21,17 +21,17 @@ pub struct Chosen {
 #[derive(Debug, Clone, PartialEq)]
 pub struct ChosenObject {
     pub catalog_number: u32,
-    /// Name in the catalog; empty for none.
+    /// Name in the catalog; empty without a name.
     pub name: String,
     /// Epoch of the elements; `None` without elements.
     pub epoch: Option<Timestamp>,
-    /// Why the satellite cannot go to a unit; `None` when it can.
+    /// Reason why the satellite cannot go to a unit; `None` if it can.
     pub problem: Option<TleFileError>,
 }
 
 impl Chosen {
-    /// The objects with these catalog numbers from `catalog`, for a unit that takes such
-    /// files. An object without elements is listed, but not in the file.
+    /// Creates the choice of the objects with these catalog numbers from `catalog`, for a unit with
+    /// these element files. An object without elements is listed, but is not in the file.
     pub fn new(catalog: &Catalog, numbers: &[u32], takes: &ElementFiles) -> Self {
         let objects = numbers.iter().map(|number| match catalog.get(*number) {
             None => ChosenObject {

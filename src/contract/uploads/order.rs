@@ -1,4 +1,4 @@
-//! An order of the operator for a unit.
+//! Operator's order for a unit.
 
 use std::path::PathBuf;
 
@@ -10,13 +10,13 @@ use crate::{
     written,
 };
 
-/// An element file for a unit, with the way to get it there.
+/// An element file for a unit, with the data for its transfer.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(remote = "Self")]
 pub struct Order {
     /// Name of the unit's antenna.
     pub antenna: String,
-    /// How the unit takes files.
+    /// Element files that the unit accepts.
     #[serde(with = "written::element_files")]
     pub takes: &'static ElementFiles,
     /// Server of the unit's files.
@@ -27,14 +27,14 @@ pub struct Order {
     pub file: FileName,
     /// User name for the log-in.
     pub user: String,
-    /// Private key for the log-in; `None` for a password.
+    /// Private key for the log-in; `None` for log-in by password.
     pub key_file: Option<PathBuf>,
     /// Content of the file.
     pub cargo: Cargo,
-    /// Catalog number of the satellite to track; `None` for the one that the unit holds, or
-    /// the first of the file.
+    /// Catalog number of the satellite to track; `None` for the unit's current satellite, or the
+    /// first in the file.
     pub satellite: Option<u32>,
-    /// Started by a rule: the order fails instead of asking.
+    /// A rule started the order: the order fails instead of asking the operator.
     #[serde(default)]
     pub is_unattended: bool,
 }
@@ -44,7 +44,7 @@ pub struct Order {
 pub enum Cargo {
     /// New elements.
     New(TleFile),
-    /// An earlier file, put back.
+    /// Earlier file that is put back.
     Kept(KeptFile),
 }
 
@@ -54,7 +54,7 @@ impl Serialize for Order {
     }
 }
 
-/// Refuses a file name that leads out of its folder.
+/// Deserialisation that refuses a file name outside its folder.
 impl<'de> Deserialize<'de> for Order {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let order = Self::deserialize(deserializer)?;

@@ -1,10 +1,10 @@
-//! An angle that knows its unit.
+//! An angle type that hides its unit.
 
 use std::ops::{Add, Mul, Neg, Sub};
 
 use serde::{Deserialize, Serialize};
 
-/// A plane angle, stored and serialised in radians. Wrapped only on request.
+/// A plane angle, stored and serialised in radians. Operations never wrap it implicitly.
 #[derive(Debug, Clone, Copy, PartialEq, PartialOrd, Default, Serialize, Deserialize)]
 pub struct Angle(f64);
 
@@ -27,10 +27,10 @@ impl Angle {
         self.0.to_degrees()
     }
 
-    /// The same direction in the range from 0 up to, not including, 360 degrees.
+    /// Returns the same direction in the range from 0 up to, not including, 360 degrees.
     #[must_use]
     pub fn wrapped_360(self) -> Self {
-        // Most are in that range, and a division takes long.
+        // Most angles are in that range, and a division is slow.
         if (0.0..std::f64::consts::TAU).contains(&self.0) {
             return self;
         }
@@ -39,7 +39,7 @@ impl Angle {
         Self(if turned >= std::f64::consts::TAU { 0.0 } else { turned })
     }
 
-    /// The same direction in the range from -180 up to, not including, 180 degrees.
+    /// Returns the same direction in the range from -180 up to, not including, 180 degrees.
     #[must_use]
     pub fn wrapped_180(self) -> Self {
         let half = std::f64::consts::PI;

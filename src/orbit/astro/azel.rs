@@ -10,9 +10,9 @@ const ZENITH: Angle = Angle::from_degrees(90.0);
 /// A direction: azimuth from true north through east, elevation from the horizon.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct AzEl {
-    /// From true north through east.
+    /// Angle from true north through east.
     pub azimuth: Angle,
-    /// Upwards from the geometric horizon.
+    /// Angle upwards from the geometric horizon.
     pub elevation: Angle,
 }
 
@@ -24,14 +24,14 @@ impl AzEl {
         }
     }
 
-    /// The direction in which an elevation-over-azimuth mount points at these axis positions: an
-    /// elevation beyond 90 degrees points over the zenith to the opposite side.
+    /// Returns the direction in which an elevation-over-azimuth mount points at these axis
+    /// positions. An elevation beyond 90 degrees points over the zenith to the opposite side.
     pub fn of_axes(azimuth: Angle, elevation: Angle) -> Self {
         let axes = Self { azimuth: azimuth.wrapped_360(), elevation };
         if elevation > ZENITH { axes.flipped() } else { axes }
     }
 
-    /// The other pair of axis positions that points in the same direction.
+    /// Returns the other pair of axis positions that points in the same direction.
     #[must_use]
     pub fn flipped(self) -> Self {
         let half_turn = Angle::from_degrees(180.0);
@@ -41,7 +41,7 @@ impl AzEl {
         }
     }
 
-    /// From 0 up to, not including, 360 degrees.
+    /// Returns the azimuth from 0 up to, not including, 360 degrees.
     pub fn azimuth_deg(self) -> f64 {
         self.azimuth.wrapped_360().degrees()
     }
@@ -50,15 +50,15 @@ impl AzEl {
         self.elevation.degrees()
     }
 
-    /// The direction as a unit vector (east, north, up).
+    /// Returns the direction as a unit vector (east, north, up).
     pub fn to_enu(self) -> DVec3 {
         let (sin_az, cos_az) = self.azimuth.radians().sin_cos();
         let (sin_el, cos_el) = self.elevation.radians().sin_cos();
         DVec3::new(cos_el * sin_az, cos_el * cos_az, sin_el)
     }
 
-    /// The direction of an (east, north, up) vector of any length but zero. Straight up
-    /// has azimuth 0.
+    /// Returns the direction of an (east, north, up) vector of any length but zero. Straight up has
+    /// azimuth 0.
     pub fn from_enu(enu: DVec3) -> Self {
         let horizontal = enu.x.hypot(enu.y);
         let azimuth = if horizontal == 0.0 { 0.0 } else { enu.x.atan2(enu.y) };
@@ -68,8 +68,8 @@ impl AzEl {
         }
     }
 
-    /// The direction `distance_deg` away along the great circle that leaves at `bearing_deg`, where
-    /// 0 is towards the zenith and 90 is clockwise.
+    /// Returns the direction `distance_deg` away along the great circle that leaves at
+    /// `bearing_deg`. A bearing of 0 leads towards the zenith, 90 leads clockwise.
     #[must_use]
     pub fn displaced(self, bearing_deg: f64, distance_deg: f64) -> Self {
         let (sin_az, cos_az) = self.azimuth.radians().sin_cos();
@@ -81,7 +81,7 @@ impl AzEl {
         Self::from_enu(start * near + (up * cos + clockwise * sin) * far)
     }
 
-    /// The angle between two directions, 0 to 180 degrees.
+    /// Returns the angle between two directions, 0 to 180 degrees.
     pub fn separation(self, other: Self) -> Angle {
         let (a, b) = (self.to_enu(), other.to_enu());
         // The arc cosine is less precise near zero, where a beam is judged.

@@ -1,20 +1,20 @@
 //! Frames: TEME, Earth-fixed (ECEF) and the site's east, north, up (ENU).
 //!
-//! TEME is turned into the Earth-fixed frame by Greenwich mean sidereal time alone, with UT1 taken
-//! as UTC and no polar motion. This neglects UT1-UTC, which stays below 0.9 s or 0.004 degrees of
-//! Earth rotation, and polar motion, which stays below 0.6 arc seconds or 0.000 2 degrees.
+//! Greenwich mean sidereal time alone turns TEME into the Earth-fixed frame, with UT1 taken as UTC.
+//! This neglects UT1-UTC, which stays below 0.9 s or 0.004 degrees of Earth rotation. It also
+//! neglects polar motion, which stays below 0.6 arc seconds or 0.000 2 degrees.
 
 use glam::{DMat3, DVec3};
 use jiff::Timestamp;
 
 use super::{Angle, AzEl, GroundPoint, Site, time};
 
-/// Equatorial radius of the WGS84 ellipsoid in km.
+/// Equatorial radius of the WGS84 ellipsoid, km.
 pub const WGS84_RADIUS_KM: f64 = 6_378.137;
 pub const WGS84_FLATTENING: f64 = 1.0 / 298.257_223_563;
-/// Mean radius of the WGS84 ellipsoid in km.
+/// Mean radius of the WGS84 ellipsoid, km.
 pub const MEAN_RADIUS_KM: f64 = 6_371.009;
-/// Rotation rate of the Earth relative to TEME in rad/s: the rate of mean sidereal time (IAU 1982).
+/// Rotation rate of the Earth relative to TEME, rad/s: the rate of mean sidereal time (IAU 1982).
 pub const EARTH_RATE_RAD_S: f64 = 7.292_115_855_3e-5;
 
 pub fn site_ecef_km(site: Site) -> DVec3 {
@@ -31,8 +31,8 @@ pub fn site_ecef_km(site: Site) -> DVec3 {
     )
 }
 
-/// The point of the ground below an Earth-fixed position outside the Earth's core, and the height
-/// above the ellipsoid in km.
+/// Returns the point of the ground below an Earth-fixed position outside the Earth's core, and the
+/// height above the ellipsoid, km.
 ///
 /// Source: Vallado, "Fundamentals of Astrodynamics", the iteration on the latitude; accurate to a
 /// millimetre after five steps.
@@ -53,7 +53,7 @@ pub fn geodetic(position_ecef_km: DVec3) -> (GroundPoint, f64) {
     (GroundPoint::new(Angle::from_radians(latitude), longitude), height_km)
 }
 
-/// The rotation from Earth-fixed vectors to east, north, up at `site`.
+/// Returns the rotation from Earth-fixed vectors to east, north, up at `site`.
 pub fn ecef_to_enu(site: Site) -> DMat3 {
     let (sin_lat, cos_lat) = site.latitude().radians().sin_cos();
     let (sin_lon, cos_lon) = site.longitude().radians().sin_cos();
@@ -63,23 +63,23 @@ pub fn ecef_to_enu(site: Site) -> DMat3 {
     DMat3::from_cols(east, north, up).transpose()
 }
 
-/// Place and axes of a site, worked out once for many looks.
+/// Place and axes of a site, computed once for many looks.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SiteFrame {
     pub ecef_km: DVec3,
-    /// From Earth-fixed vectors to east, north, up.
+    /// Rotation from Earth-fixed vectors to east, north, up.
     pub to_enu: DMat3,
     site: Site,
 }
 
 impl SiteFrame {
-    /// The apparent direction of something far above the air at this geometric place, east, north,
-    /// up: the direction into which an antenna has to point.
+    /// Returns the apparent direction of an object far above the air at this geometric place (east,
+    /// north, up). An antenna has to point in this direction.
     pub fn direction(&self, enu_km: DVec3) -> AzEl {
         self.site.apparent(AzEl::from_enu(enu_km))
     }
 
-    /// An Earth-fixed position as seen from the site: east, north, up.
+    /// Returns an Earth-fixed position as seen from the site: east, north, up, km.
     pub fn enu_km(&self, ecef_km: DVec3) -> DVec3 {
         self.to_enu * (ecef_km - self.ecef_km)
     }
@@ -95,7 +95,7 @@ pub fn teme_to_ecef(time: Timestamp) -> DMat3 {
     DMat3::from_rotation_z(-time::gmst(time).radians())
 }
 
-/// The Earth-fixed velocity in km/s of a body at `position_ecef_km`. `velocity_km_s` is its
+/// Returns the Earth-fixed velocity, km/s, of a body at `position_ecef_km`. `velocity_km_s` is its
 /// inertial velocity, turned into the Earth-fixed axes.
 pub fn velocity_over_ground_km_s(position_ecef_km: DVec3, velocity_km_s: DVec3) -> DVec3 {
     velocity_km_s - DVec3::new(0.0, 0.0, EARTH_RATE_RAD_S).cross(position_ecef_km)

@@ -1,15 +1,15 @@
 //! Points of the ground and circles around them, by geodetic latitude and longitude.
 //!
-//! A point stands for its vertical, a unit vector. Distances are therefore angles between
-//! verticals, and whatever depends on the horizon, such as day and night, is exact.
+//! Each point represents its vertical, a unit vector. Distances are therefore angles between
+//! verticals. All quantities that depend on the horizon, such as day and night, are exact.
 
 use glam::DVec3;
 
 use super::{Angle, frames::MEAN_RADIUS_KM};
 
-/// Steps from the northernmost to the southernmost point of the edge of a cap.
+/// Number of steps from the northernmost to the southernmost point of the edge of a cap.
 const STEPS: u16 = 90;
-/// Largest latitude of a cap's centre in degrees: any nearer to a pole, its longitude is undefined.
+/// Max latitude of a cap's centre, degrees. Nearer to a pole, its longitude is undefined.
 const POLE_DEG: f64 = 90.0 - 1e-6;
 
 const HALF_TURN: Angle = Angle::from_degrees(180.0);
@@ -17,9 +17,9 @@ const HALF_TURN: Angle = Angle::from_degrees(180.0);
 /// A point of the ground, geodetic on WGS84.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GroundPoint {
-    /// North positive.
+    /// Geodetic latitude, north positive.
     pub latitude: Angle,
-    /// East positive, from -180 to below 180 degrees.
+    /// Longitude, east positive, from -180 to below 180 degrees.
     pub longitude: Angle,
 }
 
@@ -32,7 +32,8 @@ impl GroundPoint {
         Self::new(Angle::from_degrees(latitude_deg), Angle::from_degrees(longitude_deg))
     }
 
-    /// The point whose vertical is `direction`, an Earth-fixed vector of any length but zero.
+    /// Returns the point whose vertical is `direction`, an Earth-fixed vector of any length but
+    /// zero.
     pub fn below(direction: DVec3) -> Self {
         let from_axis = direction.x.hypot(direction.y);
         Self::new(
@@ -41,7 +42,7 @@ impl GroundPoint {
         )
     }
 
-    /// The Earth-fixed unit vector straight up.
+    /// Returns the Earth-fixed unit vector straight up.
     pub fn vertical(self) -> DVec3 {
         let (sin_lat, cos_lat) = self.latitude.radians().sin_cos();
         let (sin_lon, cos_lon) = self.longitude.radians().sin_cos();
@@ -53,14 +54,14 @@ impl GroundPoint {
         Self::new(-self.latitude, self.longitude + HALF_TURN)
     }
 
-    /// The angle between the verticals of two points, 0 to 180 degrees.
+    /// Returns the angle between the verticals of two points, 0 to 180 degrees.
     pub fn distance(self, other: Self) -> Angle {
         let (a, b) = (self.vertical(), other.vertical());
         Angle::from_radians(a.cross(b).length().atan2(a.dot(b)))
     }
 
-    /// The initial direction of the great circle to `other`, from north through east, 0
-    /// to 360 degrees.
+    /// Returns the initial direction of the great circle to `other`, from north through east, 0 to
+    /// 360 degrees.
     pub fn bearing(self, other: Self) -> Angle {
         let (sin_from, cos_from) = self.latitude.radians().sin_cos();
         let (sin_to, cos_to) = other.latitude.radians().sin_cos();
@@ -75,12 +76,12 @@ impl GroundPoint {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cap {
     pub centre: GroundPoint,
-    /// Above 0 and below 90 degrees.
+    /// Angle from the centre to the edge, above 0 and below 90 degrees.
     pub radius: Angle,
 }
 
-/// The part of one parallel that lies in a cap. It extends equally far to both sides of the
-/// centre's meridian.
+/// The part of one parallel in a cap. It extends equally far to both sides of the centre's
+/// meridian.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CapRow {
     pub latitude: Angle,
@@ -89,7 +90,7 @@ pub struct CapRow {
 }
 
 impl Cap {
-    /// Distance over the ground from the centre to the edge.
+    /// Returns the distance over the ground from the centre to the edge, km.
     pub fn radius_km(&self) -> f64 {
         self.radius.radians() * MEAN_RADIUS_KM
     }
@@ -98,9 +99,9 @@ impl Cap {
         self.centre.distance(point) <= self.radius
     }
 
-    /// The edge from its northernmost to its southernmost point, each row spanning from one side to
-    /// the other. If the cap contains a pole, the edge begins or ends where its two sides meet
-    /// beyond the pole, with a half width of 180 degrees.
+    /// Returns the edge from its northernmost to its southernmost point. Each row spans from one
+    /// side to the other. If the cap contains a pole, the edge begins or ends where its two sides
+    /// meet beyond the pole, with a half width of 180 degrees.
     pub fn edge(&self) -> Vec<CapRow> {
         let centre_deg = self.centre.latitude.degrees().clamp(-POLE_DEG, POLE_DEG);
         let (sin_centre, cos_centre) = centre_deg.to_radians().sin_cos();
@@ -120,7 +121,7 @@ impl Cap {
         (0..=STEPS).map(row).collect()
     }
 
-    /// The whole cap from north to south: its edge and, if the cap contains one, the pole.
+    /// Returns the whole cap from north to south: its edge, and the pole if the cap contains one.
     pub fn rows(&self) -> Vec<CapRow> {
         let mut rows = self.edge();
         let pole = |latitude_deg: f64| CapRow {

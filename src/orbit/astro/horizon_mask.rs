@@ -11,23 +11,24 @@ pub use import::{MaskForm, MaskImportError};
 
 use super::Angle;
 
-/// Maximum number of points in a mask: one every twentieth of a degree.
+/// Max number of points in a mask: one every twentieth of a degree.
 pub const MAX_MASK_POINTS: usize = 7200;
 
 const TURN_DEG: f64 = 360.0;
-/// Width of a wall, degrees: nobody measures a skyline as exactly, and the mask stays a line.
+/// Width of a wall, degrees. It is smaller than any error of a measured skyline, and keeps the mask
+/// a function of the azimuth.
 const WALL_DEG: f64 = 1e-3;
 
-/// Elevation by azimuth, with straight lines between the points and, across north, from the last
+/// Elevation by azimuth, with straight lines between the points. A line across north joins the last
 /// point to the first. A single point makes a level horizon.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "Vec<(f64, f64)>", into = "Vec<(f64, f64)>")]
 pub struct HorizonMask {
-    /// Azimuth from 0 to below 360, ascending, and elevation, in degrees.
+    /// Azimuth from 0 to below 360, ascending, and elevation, degrees.
     points: Vec<(f64, f64)>,
 }
 
-/// The reason why points do not make a mask.
+/// Reason why points do not make a mask.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum MaskError {
     #[error("the mask has no points")]
@@ -38,16 +39,16 @@ pub enum MaskError {
     Azimuth(f64),
     #[error("elevation {0} is not between -90 and 90 degrees")]
     Elevation(f64),
-    /// Not on neighbouring lines, or more than twice.
+    /// Azimuth on two lines that are not neighbours, or on more than two lines.
     #[error("azimuth {0} is given twice")]
     Duplicate(f64),
 }
 
 impl HorizonMask {
-    /// Builds a mask from points of azimuth (-180 to 360) and elevation (-90 to 90) in degrees, in
-    /// any order. An azimuth that occurs twice, one point after the other, makes a wall: the mask
-    /// changes from the first to the second elevation within `WALL_DEG`. So do 360 and 0, and 180
-    /// and -180.
+    /// Builds a mask from points of azimuth (-180 to 360) and elevation (-90 to 90), degrees, in
+    /// any order. An azimuth that occurs twice, one point after the other, makes a wall. At a wall,
+    /// the mask changes from the first to the second elevation within `WALL_DEG`. The pairs 360 and
+    /// 0, and 180 and -180, also make a wall.
     pub fn from_degrees(points: impl IntoIterator<Item = (f64, f64)>) -> Result<Self, MaskError> {
         let mut builder = Builder::default();
         for (azimuth_deg, elevation_deg) in points {
@@ -61,7 +62,7 @@ impl HorizonMask {
         Self::import(text).map(|(mask, _)| mask)
     }
 
-    /// The elevation in the direction of `azimuth`, which may be any angle.
+    /// Returns the elevation of the mask at `azimuth`, which may be any angle.
     pub fn elevation_at(&self, azimuth: Angle) -> Angle {
         let azimuth_deg = azimuth.wrapped_360().degrees();
         let above = self.points.partition_point(|(point_deg, _)| *point_deg <= azimuth_deg);
@@ -76,7 +77,7 @@ impl HorizonMask {
         Angle::from_degrees(from_el + share * (to_el - from_el))
     }
 
-    /// Azimuth from 0 to below 360, ascending, and elevation, in degrees.
+    /// Returns the points: azimuth from 0 to below 360, ascending, and elevation, degrees.
     pub fn points_deg(&self) -> &[(f64, f64)] {
         &self.points
     }
@@ -96,35 +97,35 @@ impl HorizonMask {
 fn numbers(content: &str) -> Option<(f64, f64)> {
     let separated = |c: char| c.is_whitespace() || c == ',' || c == ';';
     let (azimuth, rest) = content.split_once(separated)?;
-    // Only one separator mark is allowed, with spaces around it: `1,,2` lacks a number
-    // in the middle.
+    // Only one separator mark is allowed, with spaces around it, because `1,,2` lacks a number in
+    // the middle.
     let rest = rest.trim_start();
     let marked = content.get(azimuth.len()..)?.starts_with([',', ';']);
     let elevation = if marked { rest } else { rest.strip_prefix([',', ';']).unwrap_or(rest) };
     Some((azimuth.parse().ok()?, elevation.trim_start().parse().ok()?))
 }
 
-/// Collects points one by one, each with its line number.
+/// Builder of a mask that takes one point at a time, with its line number.
 #[derive(Default)]
 struct Builder {
     points: Vec<ReadPoint>,
 }
 
-/// A point as it was given.
+/// A point as given.
 #[derive(Clone, Copy)]
 struct ReadPoint {
     line: usize,
-    /// Its place among the points, from 0.
+    /// Index among the points, from 0.
     place: usize,
-    /// From -180 to 360.
+    /// Azimuth from -180 to 360 degrees.
     azimuth_deg: f64,
     elevation_deg: f64,
 }
 
 impl ReadPoint {
-    /// From 0 to below 360.
+    /// Returns the azimuth from 0 to below 360 degrees.
     fn around_deg(self) -> f64 {
-        // The sum makes 0 of -0.
+        // Adding zero turns -0 into 0.
         self.azimuth_deg.rem_euclid(TURN_DEG) + 0.0
     }
 
@@ -141,7 +142,7 @@ impl Builder {
         azimuth_deg: f64,
         elevation_deg: f64,
     ) -> Result<(), (usize, MaskError)> {
-        // Written so that NaN is refused too.
+        // The negated test also refuses NaN.
         if !(-TURN_DEG / 2.0..=TURN_DEG).contains(&azimuth_deg) {
             return Err((line, MaskError::Azimuth(azimuth_deg)));
         }
@@ -172,7 +173,7 @@ impl Builder {
                     return Err((point.line, MaskError::Duplicate(point.azimuth_deg)));
                 }
                 is_wall = true;
-                // Rounded, so that the file shows the width.
+                // Rounding makes the file show the width.
                 azimuth_deg = ((azimuth_deg + WALL_DEG) * 1e6).round() / 1e6;
             }
             let is_ascending = points.last().is_none_or(|(before, _)| *before < azimuth_deg);
@@ -185,7 +186,8 @@ impl Builder {
         if points.is_empty() { Err((0, MaskError::Empty)) } else { Ok(HorizonMask { points }) }
     }
 
-    /// The points from north to the right. Of two at one azimuth, the first ends the line before it.
+    /// Returns the points clockwise from north. Of two points at one azimuth, the first ends the
+    /// line before it.
     fn sorted(mut self) -> Vec<ReadPoint> {
         let steps = self.points.iter().zip(self.points.iter().skip(1));
         let turn: i64 = steps.map(|(a, b)| b.azimuth_deg.total_cmp(&a.azimuth_deg) as i64).sum();
@@ -196,7 +198,7 @@ impl Builder {
             let order = a.around_deg().total_cmp(&b.around_deg());
             order.then(b.azimuth_deg.total_cmp(&a.azimuth_deg))
         };
-        // The sort is stable.
+        // The sort is stable, so points at one azimuth keep their order.
         self.points.sort_by(by_azimuth);
         self.points
     }
@@ -215,7 +217,7 @@ impl From<HorizonMask> for Vec<(f64, f64)> {
     }
 }
 
-/// Writes the text that [`HorizonMask::parse`] reads, without loss.
+/// Text that [`HorizonMask::parse`] reads without loss.
 impl fmt::Display for HorizonMask {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(out, "# azimuth elevation, degrees")?;

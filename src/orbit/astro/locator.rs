@@ -2,7 +2,7 @@
 
 use super::GroundPoint;
 
-/// How a pair of characters divides the square before it.
+/// Division of a square by the next pair of characters.
 struct Division {
     first: char,
     count: u32,
@@ -16,25 +16,25 @@ const DIVISIONS: [Division; 4] = [
     Division { first: '0', count: 10 },
 ];
 
-/// The square that a locator names.
+/// Square of the ground that a locator names.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LocatorSquare {
     pub centre: GroundPoint,
-    /// Size from south to north; it is twice as many degrees from west to east.
+    /// Size from south to north, degrees; the size from west to east is twice as large.
     pub height_deg: f64,
 }
 
-/// Why a text is no locator.
+/// Reason why a text is no locator.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum LocatorError {
     #[error("must have 4, 6 or 8 characters, such as KN41 or KN41ob")]
     Length,
-    /// The character at this place, counted from 1, is not in the range of its place.
+    /// The character at this place, counted from 1, is out of range.
     #[error("has a wrong character at place {place}: it must be {first} to {last}")]
     Character { place: usize, first: char, last: char },
 }
 
-/// Reads a locator of 4, 6 or 8 characters, in capitals or not.
+/// Reads a locator of 4, 6 or 8 characters, in upper or lower case.
 pub fn read_locator(text: &str) -> Result<LocatorSquare, LocatorError> {
     let letters: Vec<char> =
         text.trim().chars().map(|letter| letter.to_ascii_uppercase()).collect();
@@ -64,7 +64,7 @@ pub fn read_locator(text: &str) -> Result<LocatorSquare, LocatorError> {
 }
 
 impl Division {
-    /// Number of the part that `letter` names, from south or west.
+    /// Returns the number of the part that `letter` names, from south or west.
     fn step(&self, letter: char) -> Option<f64> {
         let step = u32::from(letter).checked_sub(u32::from(self.first))?;
         (step < self.count).then_some(f64::from(step))
@@ -84,7 +84,7 @@ mod tests {
         (square.centre.latitude.degrees(), square.centre.longitude.degrees())
     }
 
-    /// W1AW in Newington, Munich, Montevideo, Washington and Wellington.
+    /// The places are W1AW in Newington, Munich, Montevideo, Washington and Wellington.
     #[test]
     fn published_locators_hold_their_places() {
         for (locator, latitude_deg, longitude_deg) in [

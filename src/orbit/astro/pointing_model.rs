@@ -1,37 +1,40 @@
-//! A pointing model: by how much the axes of an az/el mount have to read otherwise than the
-//! direction in which they point.
+//! A pointing model: the difference between the readings of the axes of an az/el mount and the
+//! direction of the beam.
 
 use glam::{DMat3, DVec3};
 use serde::{Deserialize, Serialize};
 
 use super::{Angle, AzEl};
 
-/// Rounds of the inverse of the elevation scale and sag: each gains two digits at least.
+/// Number of iterations of the inverse of elevation scale and sag. Each iteration gains at least
+/// two digits.
 const ROUNDS: usize = 8;
 
-/// One term of the model.
+/// Error of the mount or of its readings that the model corrects.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Term {
     AzimuthOffset,
     ElevationOffset,
-    /// The azimuth axis leans to the north.
+    /// Lean of the azimuth axis to the north.
     TiltNorth,
-    /// The azimuth axis leans to the east.
+    /// Lean of the azimuth axis to the east.
     TiltEast,
-    /// The beam lies to the left of the direction in which the mount points.
+    /// Offset of the beam to the left of the direction in which the mount points.
     Collimation,
-    /// The elevation axis is higher at its right end.
+    /// Tilt of the elevation axis, with its right end higher.
     NonPerpendicularity,
-    /// The reading grows by so much more for each degree of elevation.
+    /// Growth of the reading for each degree of elevation.
     ElevationScale,
-    /// The reading is higher by so much at the horizon, and by its cosine at an elevation.
+    /// Increase of the reading at the horizon. At an elevation, the increase is this value times
+    /// the cosine of the elevation.
     Sag,
 }
 
 impl Term {
     pub const COUNT: usize = 8;
-    /// Terms in order of precedence: if points cannot tell some of them apart, the first are kept.
+    /// Terms in order of precedence: if points cannot separate some of them, the fit keeps the
+    /// first.
     pub const ALL: [Self; Self::COUNT] = [
         Self::AzimuthOffset,
         Self::ElevationOffset,
@@ -43,8 +46,8 @@ impl Term {
         Self::Sag,
     ];
 
-    /// By how much the readings change with this term at a direction, azimuth on the sky and
-    /// elevation: degrees per degree, for the scale per unit.
+    /// Returns the change of the two readings with this term at a direction, azimuth on the sky and
+    /// elevation. The unit is degrees per degree; for the scale, degrees per unit.
     pub fn effect(self, direction: AzEl) -> [f64; 2] {
         let (sin_az, cos_az) = direction.azimuth.radians().sin_cos();
         let (sin_el, cos_el) = direction.elevation.radians().sin_cos();
@@ -61,7 +64,7 @@ impl Term {
     }
 }
 
-/// The terms of an antenna: degrees, but for the scale.
+/// Terms of an antenna in degrees, except for the scale.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct PointingModel {
     pub azimuth_offset_deg: f64,
@@ -75,7 +78,7 @@ pub struct PointingModel {
 }
 
 impl PointingModel {
-    /// Returns `true` if the axes read what they point to.
+    /// Returns `true` if all terms are zero, so the axes read the direction of the beam.
     pub fn is_none(&self) -> bool {
         *self == Self::default()
     }
@@ -98,8 +101,8 @@ impl PointingModel {
         }
     }
 
-    /// Returns the axis readings with which the beam points in `direction`; `None` so near to the
-    /// zenith that no position of the axes does.
+    /// Returns the axis readings with which the beam points in `direction`. Returns `None` so near
+    /// to the zenith that the beam cannot reach the direction.
     pub fn reading(&self, direction: AzEl) -> Option<AzEl> {
         let sky = direction.to_enu();
         let [east, north, up] = self.mount_axes();
@@ -121,8 +124,7 @@ impl PointingModel {
         })
     }
 
-    /// The direction in which the beam points when the axes read so: the inverse of
-    /// [`Self::reading`].
+    /// Returns the direction of the beam for these axis readings: the inverse of [`Self::reading`].
     pub fn direction(&self, reading: AzEl) -> AzEl {
         let azimuth = reading.azimuth - Angle::from_degrees(self.azimuth_offset_deg);
         let read_deg = reading.elevation_deg();
@@ -134,7 +136,7 @@ impl PointingModel {
         let (sin_el, cos_el) = elevation_deg.to_radians().sin_cos();
         let (sin_p, cos_p) = self.non_perpendicularity_deg.to_radians().sin_cos();
         let (sin_c, cos_c) = self.collimation_deg.to_radians().sin_cos();
-        // Ahead of the mount, to its right, and up.
+        // The components are ahead of the mount, to its right, and up.
         let ahead = cos_c * cos_el;
         let right = -cos_c * sin_el * sin_p - sin_c * cos_p;
         let height = cos_c * sin_el * cos_p - sin_c * sin_p;
@@ -145,13 +147,13 @@ impl PointingModel {
         AzEl::from_enu(sky)
     }
 
-    /// Upper bound of the angle by which the beam turns for each degree of an axis.
+    /// Returns an upper bound of the angle by which the beam turns for each degree of an axis.
     ///
-    /// The other terms are rotations, and an offset along each axis: none of them lets the beam turn
-    /// faster than an axis.
+    /// The terms other than scale and sag are rotations and an offset along each axis, so none of
+    /// them lets the beam turn faster than an axis.
     pub fn max_beam_turn(&self) -> f64 {
         let min_reading = 1.0 - self.elevation_scale.abs() - self.sag_deg.abs().to_radians();
-        // The ranges of the station file leave more than three quarters.
+        // The ranges of the station file keep this value above three quarters.
         1.0 / min_reading.max(0.5)
     }
 
@@ -161,11 +163,11 @@ impl PointingModel {
             + self.sag_deg * elevation_deg.to_radians().cos()
     }
 
-    /// East, north and up of the leaning mount, in those of the site.
+    /// Returns east, north and up of the leaning mount, in the axes of the site.
     fn mount_axes(&self) -> [DVec3; 3] {
         let lean = DVec3::new(self.tilt_east_deg, self.tilt_north_deg, 0.0);
         let angle = lean.length().to_radians();
-        // It turns about the horizontal axis across the lean.
+        // The mount turns about the horizontal axis across the lean.
         let axis = lean.cross(DVec3::NEG_Z).normalize_or_zero();
         let turn = if angle > 0.0 { DMat3::from_axis_angle(axis, angle) } else { DMat3::IDENTITY };
         [turn.x_axis, turn.y_axis, turn.z_axis]
@@ -179,8 +181,8 @@ mod tests {
     use super::*;
 
     proptest! {
-        /// The terms are those that a station file may have, and positions those of an axis that
-        /// tips over, too.
+        /// The test uses the terms that a station file may have. The positions include an axis that
+        /// tips over the zenith.
         #[test]
         fn the_beam_turns_no_further_than_its_bound(
             terms in proptest::array::uniform8(-10.0..=10.0_f64),

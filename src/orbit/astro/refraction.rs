@@ -1,10 +1,11 @@
-//! Refraction of radio waves in the troposphere: by how much a satellite appears higher than it is.
+//! Refraction of radio waves in the troposphere: the difference between the apparent and the
+//! geometric elevation of a satellite.
 //!
-//! Source: Recommendation ITU-R P.834-9, annex 1, equation (1), the bending of a ray through
-//! spherical layers, integrated here over the exponential atmosphere of Recommendation ITU-R
-//! P.453-14 (refractivity 315 at sea level, scale height 7.35 km). The closed formulas of P.834
-//! hold only for that refractivity, up to 3 km and up to 10 degrees; the integral needs no such
-//! limits. Refractivity of measured air: P.453-14, equations (6) and (9).
+//! Source: Recommendation ITU-R P.834-9, annex 1, equation (1), for the bending of a ray through
+//! spherical layers. This module integrates it over the exponential atmosphere of Recommendation
+//! ITU-R P.453-14 (refractivity 315 at sea level, scale height 7.35 km). The closed formulas of
+//! P.834 hold only for that refractivity, up to 3 km and up to 10 degrees; the integral needs no
+//! such limits. Refractivity of measured air: P.453-14, equations (6) and (9).
 //!
 //! Neglected: ducts, rain, the ionosphere (below 0.01 degrees above 100 MHz at 10 degrees), and the
 //! path within the atmosphere of a satellite that is below 60 km.
@@ -15,25 +16,26 @@ use serde::{Deserialize, Serialize};
 
 use super::{Angle, AzEl};
 
-/// Refractivity at sea level, and the height in which it falls to the part 1/e (P.453-14).
+/// Refractivity at sea level, and scale height (P.453-14). The refractivity falls to the part 1/e
+/// within this height.
 const SEA_LEVEL_N: f64 = 315.0;
 const SCALE_HEIGHT_KM: f64 = 7.35;
-/// More occurs nowhere near the ground: P.453-14 maps at most 400 on average. Twice as much would
-/// bend rays round the Earth, and one true direction would have several apparent ones.
+/// Max refractivity. P.453-14 maps at most 400 on average near the ground. Twice this limit would
+/// bend rays round the Earth, and one true direction would have several apparent directions.
 const MAX_N: f64 = 500.0;
-/// Radius of the Earth in P.834.
+/// Radius of the Earth in P.834, km.
 const EARTH_KM: f64 = 6_370.0;
-/// Scale heights beyond which nothing is left to bend a ray: a millionth.
+/// Number of scale heights above which only a millionth of the air is left to bend a ray.
 const TOP: f64 = 14.0;
-/// Angle below the horizontal at which refraction has faded out. Rays below the horizontal end at
-/// the ground, for all sites but those on mountains.
+/// Angle below the horizontal at which refraction has faded out, degrees. Rays below the horizontal
+/// end at the ground, except at sites on mountains.
 const FADE_DEG: f64 = 5.0;
-/// Accuracy of an apparent elevation in radians, and the most steps to it.
+/// Accuracy of an apparent elevation, radians, and max number of iterations.
 const TOLERANCE: f64 = 1e-10;
 const ROUNDS: usize = 20;
 
-/// Nodes and weights of the Gauss-Legendre rule with 10 points, each for both signs. More of them change
-/// the bending by 6e-6 degrees at most.
+/// Nodes and weights of the Gauss-Legendre rule with 10 points, each for both signs. More points
+/// change the bending by at most 6e-6 degrees.
 const RULE: [(f64, f64); 5] = [
     (0.148_874_338_981_631_2, 0.295_524_224_714_752_9),
     (0.433_395_394_129_247_2, 0.269_266_719_309_996_3),
@@ -42,16 +44,16 @@ const RULE: [(f64, f64); 5] = [
     (0.973_906_528_517_171_7, 0.066_671_344_308_688_1),
 ];
 
-/// The air that the refraction of a site is computed for.
+/// Air model for the refraction at a site.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Air {
     /// No refraction: directions are geometric.
     None,
-    /// The mean air of the Earth at the height of the site.
+    /// Mean air of the Earth at the height of the site.
     #[default]
     Standard,
-    /// The pressure, temperature and humidity that were entered.
+    /// Pressure, temperature and humidity that the operator entered.
     Measured,
 }
 
@@ -60,17 +62,17 @@ pub enum Air {
 #[serde(default, deny_unknown_fields)]
 pub struct Refraction {
     pub air: Air,
-    /// At the height of the site, not reduced to sea level; 300 to 1100 hPa.
+    /// Pressure at the height of the site, not reduced to sea level; 300 to 1100 hPa.
     pub pressure_hpa: f64,
-    /// -90 to 60 degrees Celsius.
+    /// Temperature, -90 to 60 degrees Celsius.
     pub temperature_c: f64,
-    /// Relative; 0 to 100 percent.
+    /// Relative humidity, 0 to 100 percent.
     pub humidity_percent: f64,
-    /// AOS, TCA and LOS of passes are those of apparent elevations, not of geometric ones.
+    /// AOS, TCA and LOS of passes use apparent instead of geometric elevations.
     pub in_passes: bool,
 }
 
-/// The reason why settings do not describe air.
+/// Reason why settings describe no air.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum RefractionError {
     #[error("refraction.pressure_hpa {0} is not between 300 and 1100")]
@@ -86,8 +88,8 @@ pub enum RefractionError {
     Refractivity(f64),
 }
 
-/// Standard air in pointing, geometric passes. The figures of the weather are those of the
-/// International Standard Atmosphere at sea level, with the humidity of refractivity 315.
+/// Standard air for pointing, and geometric passes. The weather values come from the International
+/// Standard Atmosphere at sea level, with the humidity of refractivity 315.
 impl Default for Refraction {
     fn default() -> Self {
         Self {
@@ -101,20 +103,20 @@ impl Default for Refraction {
 }
 
 impl Refraction {
-    /// At the height of the site, hPa.
+    /// Range of the pressure at the height of the site, hPa.
     pub const PRESSURE_HPA: RangeInclusive<f64> = 300.0..=1100.0;
     pub const TEMPERATURE_C: RangeInclusive<f64> = -90.0..=60.0;
     pub const HUMIDITY_PERCENT: RangeInclusive<f64> = 0.0..=100.0;
 
-    /// No refraction in anything.
+    /// Returns settings without refraction in pointing and passes.
     pub fn none() -> Self {
         Self { air: Air::None, ..Self::default() }
     }
 
-    /// Fails if a figure is out of its range, or if they make air that does not occur. All are
-    /// checked, whether the air is computed from them or not.
+    /// Checks that each value is in its range and that the air can occur. The check includes values
+    /// that the selected air model ignores.
     pub fn check(&self) -> Result<(), RefractionError> {
-        // Written so that NaN is refused too.
+        // The negated test also refuses NaN.
         if !Self::PRESSURE_HPA.contains(&self.pressure_hpa) {
             return Err(RefractionError::Pressure(self.pressure_hpa));
         }
@@ -128,7 +130,7 @@ impl Refraction {
         if measured > MAX_N { Err(RefractionError::Refractivity(measured)) } else { Ok(()) }
     }
 
-    /// The atmosphere over a site at `altitude_m`; `None` without refraction.
+    /// Returns the atmosphere over a site at `altitude_m`; `None` without refraction.
     pub(super) fn atmosphere(&self, altitude_m: f64) -> Option<Atmosphere> {
         let altitude_km = altitude_m / 1000.0;
         let refractivity = match self.air {
@@ -152,19 +154,20 @@ impl Refraction {
 /// Spherical layers over a site.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Atmosphere {
-    /// Refractive index at the site, less one.
+    /// Refractive index at the site minus one.
     excess: f64,
-    /// Distance of the site from the centre of the Earth.
+    /// Distance of the site from the centre of the Earth, km.
     radius_km: f64,
 }
 
 impl Atmosphere {
-    /// The geometric elevation of a satellite that appears at `apparent`. Rises with it.
+    /// Returns the geometric elevation of a satellite that appears at `apparent`. The result rises
+    /// with `apparent`.
     pub(super) fn geometric(self, apparent: Angle) -> Angle {
         Angle::from_radians(apparent.radians() - self.bending(apparent.radians()))
     }
 
-    /// The elevation at which a satellite at the elevation `geometric` appears: the inverse of
+    /// Returns the apparent elevation of a satellite at the elevation `geometric`: the inverse of
     /// [`Self::geometric`].
     pub(super) fn apparent(self, geometric: Angle) -> Angle {
         let geometric = geometric.radians();
@@ -183,12 +186,12 @@ impl Atmosphere {
         Angle::from_radians(here)
     }
 
-    /// The direction at which a satellite in the direction `geometric` appears.
+    /// Returns the apparent direction of a satellite in the direction `geometric`.
     pub(super) fn apparent_direction(self, geometric: AzEl) -> AzEl {
         AzEl { elevation: self.apparent(geometric.elevation), ..geometric }
     }
 
-    /// The whole bending of a ray that arrives at `elevation`, all in radians.
+    /// Returns the whole bending of a ray that arrives at `elevation`, all in radians.
     fn bending(self, elevation: f64) -> f64 {
         let share = 1.0 + elevation / FADE_DEG.to_radians();
         if share <= 0.0 {
@@ -200,9 +203,9 @@ impl Atmosphere {
         }
     }
 
-    /// The integral of P.834 over the height `h`. The square of the vertical part of the ray,
-    /// `(n r)² - (n₀ r₀ cos θ)²`, is nearly `b (h + σ²)`, so that `h = s² + 2 s σ` leaves a smooth
-    /// function of `s` also where the ray begins level.
+    /// Returns the integral of P.834 over the height `h`. The square of the vertical part of the
+    /// ray, `(n r)² - (n₀ r₀ cos θ)²`, is nearly `b (h + σ²)`. The substitution `h = s² + 2 s σ`
+    /// therefore leaves a smooth function of `s`, even where the ray begins level.
     fn bending_above(self, elevation: f64) -> f64 {
         let Self { excess, radius_km } = self;
         let (sin, cos) = elevation.sin_cos();
@@ -261,7 +264,7 @@ mod tests {
 
     #[test]
     fn the_integral_agrees_with_the_closed_formulas_of_the_recommendation() {
-        // P.834-9, equations (8) and (13), for 0 to 10 degrees and 0 to 3 km.
+        // Source: P.834-9, equations (8) and (13), for 0 to 10 degrees and 0 to 3 km.
         for altitude_km in [0.0, 1.0, 2.0, 3.0] {
             let air = Refraction::default().atmosphere(1000.0 * altitude_km).unwrap();
             for step in 0..=100 {
@@ -288,7 +291,7 @@ mod tests {
 
     #[test]
     fn air_has_the_refractivity_of_the_recommendation() {
-        // P.453: dry and wet term of air at 1000 hPa, 300 K and 20 hPa of vapour.
+        // P.453 gives dry and wet term of air at 1000 hPa, 300 K and 20 hPa of vapour.
         let humid = Refraction {
             pressure_hpa: 1000.0,
             temperature_c: 26.85,

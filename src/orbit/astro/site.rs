@@ -6,9 +6,9 @@ use super::{Angle, AzEl, GroundPoint, Refraction, RefractionError};
 
 /// A location on or near the ground, geodetic on WGS84, and the refraction of the air over it.
 ///
-/// A look from a site is the apparent direction, into which an antenna there has to point; only
-/// [`Site::airless`] gives geometric ones. Passes are searched for by geometry. A site alone says
-/// which of the two elevations their AOS, TCA and LOS have.
+/// A look from a site is the apparent direction, in which an antenna there has to point. Only
+/// [`Site::airless`] gives geometric directions. The search for passes is geometric. The site alone
+/// decides whether AOS, TCA and LOS have geometric or apparent elevations.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "SiteFields", into = "SiteFields")]
 pub struct Site {
@@ -18,21 +18,21 @@ pub struct Site {
     refraction: Refraction,
 }
 
-/// The reason why coordinates do not make a site.
+/// Reason why coordinates do not make a site.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum SiteError {
     #[error("latitude {0} is not between -90 and 90 degrees")]
     Latitude(f64),
     #[error("longitude {0} is not between -180 and 360 degrees")]
     Longitude(f64),
-    /// The range covers the Dead Sea and every mountain.
+    /// Altitude out of the range, which covers the Dead Sea and every mountain.
     #[error("altitude {0} is not between -1000 and 10000 m")]
     Altitude(f64),
     #[error(transparent)]
     Refraction(#[from] RefractionError),
 }
 
-/// Istanbul.
+/// Default site, in Istanbul.
 impl Default for Site {
     fn default() -> Self {
         Self {
@@ -45,11 +45,11 @@ impl Default for Site {
 }
 
 impl Site {
-    /// A site at `latitude_deg` (-90 to 90, north positive), `longitude_deg`
-    /// (-180 to 360, east positive) and `altitude_m` above the WGS84
-    /// ellipsoid (-1000 to 10000), with the default refraction.
+    /// Creates a site at `latitude_deg` (-90 to 90, north positive), `longitude_deg` (-180 to 360,
+    /// east positive) and `altitude_m` above the WGS84 ellipsoid (-1000 to 10000), with the default
+    /// refraction.
     pub fn new(latitude_deg: f64, longitude_deg: f64, altitude_m: f64) -> Result<Self, SiteError> {
-        // Written so that NaN is refused too.
+        // The negated test also refuses NaN.
         if !(-90.0..=90.0).contains(&latitude_deg) {
             return Err(SiteError::Latitude(latitude_deg));
         }
@@ -65,13 +65,13 @@ impl Site {
         Ok(Self { latitude_deg, longitude_deg, altitude_m, refraction })
     }
 
-    /// The same place with these settings of refraction, which must describe air.
+    /// Returns the same place with these settings of refraction, which must describe air.
     pub fn with_refraction(self, refraction: Refraction) -> Result<Self, SiteError> {
         refraction.check()?;
         Ok(Self { refraction, ..self })
     }
 
-    /// The same place without refraction: directions from it are geometric.
+    /// Returns the same place without refraction: directions from it are geometric.
     #[must_use]
     pub fn airless(self) -> Self {
         Self { refraction: Refraction::none(), ..self }
@@ -81,69 +81,67 @@ impl Site {
         self.refraction
     }
 
-    /// The direction at which something far above the air appears that is in the direction
-    /// `geometric`.
+    /// Returns the apparent direction of an object far above the air in the direction `geometric`.
     #[must_use]
     pub fn apparent(self, geometric: AzEl) -> AzEl {
         let air = self.refraction.atmosphere(self.altitude_m);
         air.map_or(geometric, |air| air.apparent_direction(geometric))
     }
 
-    /// The geometric elevation of something far above the air that appears at `apparent`.
+    /// Returns the geometric elevation of an object far above the air that appears at `apparent`.
     pub fn geometric_elevation(self, apparent: Angle) -> Angle {
         let air = self.refraction.atmosphere(self.altitude_m);
         air.map_or(apparent, |air| air.geometric(apparent))
     }
 
-    /// The direction `geometric` as the passes of this site have it: apparent only if the settings
-    /// of refraction say so.
+    /// Returns the direction `geometric` in the form that passes of this site use: apparent only if
+    /// the settings of refraction say so.
     #[must_use]
     pub fn pass_direction(self, geometric: AzEl) -> AzEl {
         if self.refraction.in_passes { self.apparent(geometric) } else { geometric }
     }
 
-    /// The geometric elevation for an elevation that a pass of this site has to reach.
+    /// Returns the geometric elevation for an elevation that a pass of this site has to reach.
     pub fn geometric_of_pass(self, elevation: Angle) -> Angle {
         if self.refraction.in_passes { self.geometric_elevation(elevation) } else { elevation }
     }
 
-    /// The elevation that the passes of this site have where an antenna points at `pointed`: the
-    /// inverse of [`Self::pointing_of_pass`].
+    /// Returns the elevation in passes of this site that corresponds to the antenna elevation
+    /// `pointed`: the inverse of [`Self::pointing_of_pass`].
     pub fn pass_elevation(self, pointed: Angle) -> Angle {
         if self.refraction.in_passes { pointed } else { self.geometric_elevation(pointed) }
     }
 
-    /// The direction into which an antenna points at a point of a pass: the inverse of
-    /// [`Self::pass_direction`], made apparent.
+    /// Returns the direction in which an antenna points for the direction `listed` of a pass.
     #[must_use]
     pub fn pointing_of_pass(self, listed: AzEl) -> AzEl {
         if self.refraction.in_passes { listed } else { self.apparent(listed) }
     }
 
-    /// Geodetic latitude, north positive.
+    /// Returns the geodetic latitude, north positive.
     pub fn latitude(self) -> Angle {
         Angle::from_degrees(self.latitude_deg)
     }
 
-    /// Longitude, east positive, -180 to 180 degrees.
+    /// Returns the longitude, east positive, -180 to 180 degrees.
     pub fn longitude(self) -> Angle {
         Angle::from_degrees(self.longitude_deg)
     }
 
-    /// The site without its altitude.
+    /// Returns the site without its altitude.
     pub fn point(self) -> GroundPoint {
         GroundPoint::new(self.latitude(), self.longitude())
     }
 
-    /// Height above the ellipsoid in metres.
+    /// Returns the height above the ellipsoid, metres.
     pub fn altitude_m(self) -> f64 {
         self.altitude_m
     }
 }
 
 impl Site {
-    /// Writes a site as a station file has it: without settings of refraction where they are the
-    /// default ones, as in files that are older than these settings.
+    /// Writes a site in the form of a station file. Default settings of refraction are left out, as
+    /// in files that are older than these settings.
     pub fn serialize_in_file<S: Serializer>(&self, out: S) -> Result<S::Ok, S::Error> {
         #[derive(Serialize)]
         struct InFile {
@@ -159,13 +157,13 @@ impl Site {
     }
 }
 
-/// The form of a site in snapshots and records.
+/// Form of a site in snapshots and records.
 #[derive(Serialize, Deserialize)]
 struct SiteFields {
     latitude_deg: f64,
     longitude_deg: f64,
     altitude_m: f64,
-    /// A station file from before this setting has no refraction.
+    /// Settings of refraction; none in a station file that is older than these settings.
     #[serde(default = "Refraction::none")]
     refraction: Refraction,
 }

@@ -13,37 +13,37 @@ use super::{
     time,
 };
 
-/// Terrestrial Time minus UTC since 2017. The Moon moves 0.01 degrees in that time.
+/// Terrestrial Time minus UTC since 2017, seconds. The Moon moves 0.01 degrees in that time.
 const TT_MINUS_UTC_S: f64 = 69.184;
-/// Elevation of the Sun's centre at sunrise and sunset: below the horizon by the Sun's radius and
-/// the refraction together.
+/// Elevation of the Sun's centre at sunrise and sunset, degrees. The Sun's radius and the
+/// refraction put it below the horizon.
 pub const RISE_DEG: f64 = -0.833;
 const ASTRONOMICAL_UNIT_KM: f64 = 149_597_870.7;
 
-/// Apparent direction of the Sun, seen from `site`, with the refraction of radio waves.
+/// Returns the apparent direction of the Sun, seen from `site`, with the refraction of radio waves.
 pub fn sun(site: Site, time: Timestamp) -> AzEl {
     let frame = SiteFrame::from(site);
     frame.direction(sun_enu_km(&frame, time))
 }
 
-/// From the site to the Sun, geometric: east, north, up.
+/// Returns the geometric vector from the site to the Sun: east, north, up, km.
 pub fn sun_enu_km(site: &SiteFrame, time: Timestamp) -> DVec3 {
     seen_from(site, time, sun_teme_km(time))
 }
 
-/// Apparent direction of the Moon, seen from `site`, with parallax and the refraction of radio
-/// waves.
+/// Returns the apparent direction of the Moon, seen from `site`, with parallax and the refraction
+/// of radio waves.
 pub fn moon(site: Site, time: Timestamp) -> AzEl {
     let frame = SiteFrame::from(site);
     frame.direction(seen_from(&frame, time, moon_teme_km(time)))
 }
 
-/// The point of the ground at which the Sun is in the zenith.
+/// Returns the point of the ground at which the Sun is in the zenith.
 pub fn subsolar_point(time: Timestamp) -> GroundPoint {
     GroundPoint::below(sun_ecef_km(time))
 }
 
-/// The part of the ground where it is night: the Sun is below [`RISE_DEG`].
+/// Returns the part of the ground where it is night: the Sun is below [`RISE_DEG`].
 pub fn night(time: Timestamp) -> Cap {
     let radius = Angle::from_degrees(90.0 + RISE_DEG);
     Cap { centre: subsolar_point(time).antipode(), radius }
@@ -53,12 +53,12 @@ fn seen_from(site: &SiteFrame, time: Timestamp, teme_km: DVec3) -> DVec3 {
     site.enu_km(frames::teme_to_ecef(time) * teme_km)
 }
 
-/// From the centre of the Earth to the Sun, in Earth-fixed axes.
+/// Returns the vector from the centre of the Earth to the Sun, in Earth-fixed axes, km.
 pub fn sun_ecef_km(time: Timestamp) -> DVec3 {
     frames::teme_to_ecef(time) * sun_teme_km(time)
 }
 
-/// From the centre of the Earth to the Sun, in TEME.
+/// Returns the vector from the centre of the Earth to the Sun, in TEME, km.
 pub fn sun_teme_km(time: Timestamp) -> DVec3 {
     let days = days_tt(time);
     let mean_longitude_deg = 280.460 + 0.985_647_4 * days;
@@ -73,8 +73,8 @@ pub fn sun_teme_km(time: Timestamp) -> DVec3 {
 fn moon_teme_km(time: Timestamp) -> DVec3 {
     let days = days_tt(time);
     let centuries = days / 36_525.0;
-    // Symbols as in the book: anomalies of Moon and Sun, distance from the node,
-    // elongation from the Sun.
+    // The book uses the same symbols: anomalies of Moon and Sun, distance from the node, elongation
+    // from the Sun.
     let mean_longitude = (218.316_17 + 481_267.880_88 * centuries).to_radians();
     let l = (134.962_92 + 477_198.867_53 * centuries).to_radians();
     let ls = (357.525_43 + 35_999.049_44 * centuries).to_radians();
@@ -115,12 +115,13 @@ fn moon_teme_km(time: Timestamp) -> DVec3 {
     equatorial(days, mean_longitude + in_longitude, latitude) * distance_km
 }
 
-/// Days since 2000-01-01T12:00 in Terrestrial Time.
+/// Returns the days since 2000-01-01T12:00 in Terrestrial Time.
 fn days_tt(time: Timestamp) -> f64 {
     time::days_since_j2000(time) + TT_MINUS_UTC_S / time::DAY_S
 }
 
-/// Unit vector in the equatorial frame of date, from ecliptic longitude and latitude in radians.
+/// Returns the unit vector in the equatorial frame of date, from ecliptic longitude and latitude in
+/// radians.
 fn equatorial(days: f64, longitude: f64, latitude: f64) -> DVec3 {
     let obliquity = (23.439_291 - 3.563e-7 * days).to_radians();
     let (sin_lon, cos_lon) = longitude.sin_cos();
@@ -185,7 +186,7 @@ mod tests {
                 let lifted_deg = (apparent.elevation - geometric.elevation).degrees();
                 assert!(apparent.azimuth == geometric.azimuth && lifted_deg >= 0.0, "{lifted_deg}");
                 if geometric.elevation_deg() > 10.0 {
-                    // Flat layers, which are enough that high, of refractivity 315 at sea level.
+                    // Flat layers of refractivity 315 at sea level are accurate enough this high.
                     let scale = (-altitude / 7350.0).exp() / geometric.elevation.radians().tan();
                     let flat_deg = (315e-6 * scale).to_degrees();
                     assert!((lifted_deg - flat_deg).abs() < 0.05 * flat_deg, "{lifted_deg}");
@@ -225,7 +226,7 @@ mod tests {
         assert!((below.longitude.degrees() + 39.7).abs() < 0.2, "{below:?}");
         for row in night(time).edge() {
             if row.latitude.degrees().abs() < 60.0 {
-                // The night loses 0.833 degrees, and more on a parallel further north.
+                // The night loses 0.833 degrees, and more on a parallel farther north.
                 let lost_deg = 90.0 - row.half_width.degrees();
                 assert!((0.8..1.8).contains(&lost_deg), "{row:?}");
             }

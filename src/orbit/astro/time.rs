@@ -1,4 +1,4 @@
-//! Julian dates and sidereal time. All times are UTC; taking UT1 as UTC turns the sky by at most
+//! Julian dates and sidereal time. All times are UTC. Taking UT1 as UTC turns the sky by at most
 //! 0.9 s or 0.004 degrees.
 
 use jiff::Timestamp;
@@ -9,18 +9,19 @@ use super::Angle;
 const UNIX_EPOCH_JD: f64 = 2_440_587.5;
 /// Julian date of 2000-01-01T12:00Z.
 const J2000_JD: f64 = 2_451_545.0;
-/// More seconds than the calendar spans.
+/// Limit of a time shift, seconds; longer than the calendar.
 const FARTHEST_S: f64 = 1e12;
 pub const DAY_S: f64 = 86_400.0;
-/// Nanoseconds in a second.
+/// Number of nanoseconds in a second.
 pub const SECOND_NS: i64 = 1_000_000_000;
 
-/// Seconds from `start` to `end`, negative if `end` is earlier. Exact to the nanosecond over decades.
+/// Returns the seconds from `start` to `end`, negative if `end` is earlier. The result is exact to
+/// the nanosecond over decades.
 pub fn seconds_between(start: Timestamp, end: Timestamp) -> f64 {
     end.duration_since(start).as_secs_f64()
 }
 
-/// `time` plus `seconds`; unchanged if the result would leave the calendar.
+/// Returns `time` plus `seconds`; unchanged if the result would leave the calendar.
 pub fn add_seconds(time: Timestamp, seconds: f64) -> Timestamp {
     let moved = seconds + f64::from(time.subsec_nanosecond()) * 1e-9;
     if moved.is_nan() || moved.abs() > FARTHEST_S {
@@ -32,7 +33,8 @@ pub fn add_seconds(time: Timestamp, seconds: f64) -> Timestamp {
     Timestamp::new(time.as_second() + whole + i64::from(carry), nanoseconds).unwrap_or(time)
 }
 
-/// Those of `items`, oldest first, that are at least so many seconds after the one before.
+/// Returns the first of `items`, given oldest first, and each later item at least `min_s` seconds
+/// after the previous returned item.
 pub fn apart<T>(
     items: impl Iterator<Item = T>,
     min_s: f64,
@@ -49,28 +51,27 @@ pub fn apart<T>(
     })
 }
 
-/// Nanoseconds since 1970; the nearest that can be counted for a year before 1678 or after 2261.
+/// Returns the nanoseconds since 1970. The result saturates for a year before 1678 or after 2261.
 pub fn nanoseconds(time: Timestamp) -> i64 {
     let whole = time.as_second().saturating_mul(SECOND_NS);
     whole.saturating_add(i64::from(time.subsec_nanosecond()))
 }
 
-/// The instant so many nanoseconds after 1970.
+/// Returns the instant that is this many nanoseconds after 1970.
 pub fn from_nanoseconds(since_1970: i64) -> Timestamp {
     let rest = since_1970.rem_euclid(SECOND_NS) as i32;
     Timestamp::new(since_1970.div_euclid(SECOND_NS), rest).unwrap_or_default()
 }
 
-/// Days since 2000-01-01T12:00Z, exact to about a microsecond.
+/// Returns days since 2000-01-01T12:00Z, exact to about a microsecond.
 pub fn days_since_j2000(time: Timestamp) -> f64 {
     let seconds = time.as_second() as f64 + f64::from(time.subsec_nanosecond()) * 1e-9;
     (seconds - (J2000_JD - UNIX_EPOCH_JD) * DAY_S) / DAY_S
 }
 
-/// Greenwich mean sidereal time (IAU 1982), 0 to 360 degrees.
+/// Returns the Greenwich mean sidereal time (IAU 1982), 0 to 360 degrees.
 ///
-/// Source: Vallado, "Fundamentals of Astrodynamics", the form by which SGP4's TEME
-/// frame is defined.
+/// Source: Vallado, "Fundamentals of Astrodynamics", in the form that defines SGP4's TEME frame.
 pub fn gmst(time: Timestamp) -> Angle {
     let days = days_since_j2000(time);
     let centuries = days / 36_525.0;

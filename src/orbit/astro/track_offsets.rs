@@ -1,4 +1,4 @@
-//! Offsets of a track: what is added to where its target is computed to be.
+//! Offsets of a track, which Azel adds to the computed position of the target.
 
 use std::ops::Neg;
 
@@ -8,21 +8,21 @@ use serde::{Deserialize, Serialize};
 
 use super::{Angle, AzEl, time::add_seconds};
 
-/// Largest offset of the time.
+/// Max offset of the time.
 pub const MAX_TIME_OFFSET: SignedDuration = SignedDuration::from_secs(300);
-/// Largest offset of an angle.
+/// Max offset of an angle.
 pub const MAX_ANGLE_OFFSET: Angle = Angle::from_degrees(10.0);
-/// Half of the time that gives the way of a target over the sky, seconds.
+/// Half of the interval from which the target's motion across the sky is computed, seconds.
 const WAY_S: f64 = 0.5;
 
-/// One offset.
+/// One of the five offsets of a track, with its amount.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum Offset {
-    /// Positive: the antenna points where the target is predicted to be so much later.
+    /// Time offset: a positive value points where the target is predicted to be that much later.
     Time(SignedDuration),
-    /// Along the target's way over the sky, positive ahead of it.
+    /// Offset along the target's path over the sky, positive ahead of the target.
     Along(Angle),
-    /// Across that way, positive to the right as seen from the site.
+    /// Offset across that path, positive to the right as seen from the site.
     Across(Angle),
     Azimuth(Angle),
     Elevation(Angle),
@@ -39,7 +39,7 @@ impl Offset {
         }
     }
 
-    /// One of the same kind: thousandths of a second or of a degree.
+    /// Returns an offset of the same kind, from thousandths of a second or of a degree.
     #[must_use]
     pub fn with_thousandths(self, thousandths: i32) -> Self {
         let angle = Angle::from_degrees(f64::from(thousandths) / 1000.0);
@@ -91,7 +91,7 @@ impl TrackOffsets {
         self == Self::NONE
     }
 
-    /// Each of them.
+    /// Returns each of the five offsets.
     pub fn components(self) -> [Offset; 5] {
         [
             Offset::Time(self.time),
@@ -102,7 +102,8 @@ impl TrackOffsets {
         ]
     }
 
-    /// With one of them changed by `step`; `None` if it would be too large.
+    /// Returns the offsets with one of them increased by `step`; `None` if that offset would be too
+    /// large.
     #[must_use]
     pub fn plus(mut self, step: Offset) -> Option<Self> {
         let (angle, change) = match step {
@@ -117,7 +118,7 @@ impl TrackOffsets {
             Offset::Elevation(change) => (&mut self.elevation, change),
         };
         let thousandths = ((*angle + change).degrees() * 1000.0).round();
-        // Not a negative zero, nor what steps of a tenth leave of one.
+        // Rounding and adding zero avoid a negative zero and the residue of repeated steps.
         *angle = Angle::from_degrees(thousandths / 1000.0 + 0.0);
         (angle.abs() <= MAX_ANGLE_OFFSET).then_some(self)
     }
@@ -130,20 +131,20 @@ impl TrackOffsets {
         self.elevation
     }
 
-    /// Both together; `None` if one of them would be too large.
+    /// Returns the sum of both; `None` if one offset would be too large.
     #[must_use]
     pub fn checked_add(self, other: Self) -> Option<Self> {
         other.components().into_iter().try_fold(self, Self::plus)
     }
 
-    /// Returns the offsets without `other`; `None` if one of them would be too large.
+    /// Returns the offsets without `other`; `None` if one offset would be too large.
     #[must_use]
     pub fn less(self, other: Self) -> Option<Self> {
         other.components().into_iter().try_fold(self, |rest, offset| rest.plus(-offset))
     }
 
-    /// Returns the direction in which to point at `time` for a target that is in the directions `target`;
-    /// `None` where it has none.
+    /// Returns the direction in which to point at `time` for a target with the directions `target`.
+    /// Returns `None` if the target has no direction.
     pub fn demanded(
         self,
         time: Timestamp,
@@ -160,18 +161,18 @@ impl TrackOffsets {
         Some(self.added_to(direction, way))
     }
 
-    /// The time for which the target is computed.
+    /// Returns the time for which the target is computed.
     fn time_of(self, time: Timestamp) -> Timestamp {
         add_seconds(time, self.time.as_secs_f64())
     }
 
-    /// Returns `true` if the way of the target over the sky is needed.
+    /// Returns `true` if the offsets need the target's motion across the sky.
     fn needs_motion(self) -> bool {
         self.along != Angle::ZERO || self.across != Angle::ZERO
     }
 
-    /// The direction to point in for a target in `direction`, which moves along `way`; without
-    /// a way nothing is added along or across it.
+    /// Returns the direction to point in for a target in `direction` that moves along `way`.
+    /// Without a `way`, the offsets along and across do not apply.
     fn added_to(self, direction: AzEl, way: Option<DVec3>) -> AzEl {
         let shifted = self.shifted_beside_track(direction, way);
         if self.azimuth == Angle::ZERO && self.elevation == Angle::ZERO {
@@ -180,8 +181,8 @@ impl TrackOffsets {
         AzEl::of_axes(shifted.azimuth + self.azimuth, shifted.elevation + self.elevation)
     }
 
-    /// The same without the offsets of azimuth and elevation: where the antenna points on the
-    /// sky if these two make up for an error of its mount.
+    /// Returns the same offsets without azimuth and elevation. They give the direction of the beam
+    /// on the sky if azimuth and elevation compensate an error of the mount.
     #[must_use]
     pub fn on_the_sky(self) -> Self {
         self.with_axes_of(Self::NONE)
@@ -193,13 +194,14 @@ impl TrackOffsets {
         Self::NONE.with_axes_of(self)
     }
 
-    /// The same with azimuth and elevation of `other`.
+    /// Returns the same offsets with azimuth and elevation of `other`.
     #[must_use]
     pub fn with_axes_of(self, other: Self) -> Self {
         Self { azimuth: other.azimuth, elevation: other.elevation, ..self }
     }
 
-    /// The time alone: where the antenna points if the target is there earlier or later.
+    /// Returns the time offset alone. It gives the direction of the beam if the target is early or
+    /// late.
     #[must_use]
     pub fn of_time(self) -> Self {
         Self { time: self.time, ..Self::NONE }
@@ -217,7 +219,7 @@ impl TrackOffsets {
     }
 }
 
-/// The form in files and messages.
+/// Form of the offsets in files and messages.
 #[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
 #[serde(default)]
 struct WrittenOffsets {
@@ -233,13 +235,14 @@ struct WrittenOffsets {
     elevation_deg: f64,
 }
 
-// The signature is serde's.
+// Serde requires this signature.
 #[allow(clippy::trivially_copy_pass_by_ref)]
 fn is_zero(value: &f64) -> bool {
     *value == 0.0
 }
 
-/// A file of operators has no digits that stand for nothing.
+/// Returns the angle in degrees, rounded to thousandths, so that files for operators have no
+/// meaningless digits.
 fn rounded_deg(angle: Angle) -> f64 {
     (angle.degrees() * 1000.0).round() / 1000.0
 }

@@ -1,6 +1,6 @@
-//! Geometry of a mount with two crossed axes, of which the lower one is horizontal.
+//! Geometry of a mount with two crossed axes and a horizontal lower axis.
 //!
-//! The lower axis is fixed to the ground and points to the azimuth `lower_axis_azimuth`; the
+//! The lower axis is fixed to the ground and points to the azimuth `lower_axis_azimuth`. The
 //! keyholes lie on the horizon at its two ends. Both axis angles are zero at the zenith. Formulas:
 //! Pisgah Astronomical Research Institute's `xymount` (lower axis north-south), turned by the
 //! azimuth of the lower axis.
@@ -40,8 +40,8 @@ pub fn azel_from_axes(axes: AxisAngles, lower_axis_azimuth: Angle) -> AzEl {
 mod tests {
     use super::*;
 
-    /// Azimuth, elevation, then the lower and upper angles with the lower axis north-south and
-    /// east-west, as computed independently.
+    /// Azimuth, elevation, then the independently computed lower and upper angles with the lower
+    /// axis north-south and east-west.
     const TABLE: [(f64, f64, f64, f64, f64, f64); 7] = [
         (0.0, 45.0, 0.0, 45.0, 45.0, 0.0),
         (90.0, 45.0, 45.0, 0.0, 0.0, 45.0),
@@ -59,8 +59,8 @@ mod tests {
             let north = axes_from_azel(direction, Angle::ZERO);
             assert!((north.lower.degrees() - ns_lower).abs() < 0.006, "{az} {el}");
             assert!((north.upper.degrees() - ns_upper).abs() < 0.006, "{az} {el}");
-            // A lower axis that points east turns in the opposite sense to the table's, which
-            // counts north as positive.
+            // A lower axis that points east turns in the opposite sense to the table, which counts
+            // north as positive.
             let east = axes_from_azel(direction, Angle::from_degrees(90.0));
             assert!((east.lower.degrees() + ew_lower).abs() < 0.006, "{az} {el}");
             assert!((east.upper.degrees() - ew_upper).abs() < 0.006, "{az} {el}");

@@ -15,11 +15,11 @@ use super::{Angle, AzEl};
 pub const MIN_CORNERS: usize = 3;
 pub const MAX_CORNERS: usize = 100;
 
-/// Directions closer together than this count as the same, radians.
+/// Max distance between directions that count as the same, radians.
 const SAME: f64 = 1e-9;
 
 /// A polygon on the sphere of directions. An edge between corners of equal elevation is an arc of
-/// that elevation that spans the azimuths as given; any other edge is the shorter great circle. The
+/// that elevation that spans the azimuths as given. Any other edge is the shorter great circle. The
 /// inside is the side that does not contain the nadir.
 ///
 /// Azimuths may continue past north: from 350 to 370 degrees an edge is 20 degrees long, from 350
@@ -33,29 +33,30 @@ pub struct Zone {
     extent: Option<Extent>,
 }
 
-/// The reason why corners do not make a zone. Corners and edges are counted from 1; edge 1 leads
-/// from corner 1 to corner 2, the last edge back to corner 1.
+/// Reason why corners do not make a zone. Corners and edges are counted from 1. Edge 1 leads from
+/// corner 1 to corner 2, and the last edge leads back to corner 1.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum ZoneError {
     #[error("a zone needs at least {MIN_CORNERS} corners")]
     TooFewCorners,
     #[error("a zone has at most {MAX_CORNERS} corners")]
     TooManyCorners,
-    /// Infinite or NaN.
+    /// The azimuth is infinite or NaN.
     #[error("the azimuth of corner {corner} is not a number")]
     Azimuth { corner: usize },
-    /// Beyond the zenith or the nadir, or NaN.
+    /// The elevation is beyond the zenith or the nadir, or NaN.
     #[error("the elevation of corner {corner} is not between -90 and 90 degrees")]
     Elevation { corner: usize },
     #[error("edge {edge} has no length: its two corners are the same direction")]
     NoLength { edge: usize },
-    /// An arc of constant elevation that spans more than 360 degrees.
+    /// An arc of constant elevation spans more than 360 degrees.
     #[error("edge {edge} turns by more than 360 degrees")]
     MoreThanATurn { edge: usize },
     /// Infinitely many great circles join opposite directions.
     #[error("edge {edge} joins opposite directions: a corner between them is needed")]
     Opposite { edge: usize },
-    /// The inside is the side without the nadir, so it is undefined here.
+    /// An edge through the nadir leaves the inside undefined, because the inside is the side
+    /// without the nadir.
     #[error("edge {edge} passes through the nadir")]
     Nadir { edge: usize },
     /// Two edges share a point that is not a corner of both.
@@ -66,8 +67,8 @@ pub enum ZoneError {
 }
 
 impl Zone {
-    /// A zone of 3 to 100 corners with elevations of -90 to 90 degrees, in the order of its edges.
-    /// The edge from the last corner to the first closes the zone.
+    /// Creates a zone of 3 to 100 corners with elevations of -90 to 90 degrees, in the order of its
+    /// edges. The edge from the last corner to the first closes the zone.
     pub fn new(corners: Vec<AzEl>) -> Result<Self, ZoneError> {
         if corners.len() < MIN_CORNERS {
             return Err(ZoneError::TooFewCorners);
@@ -79,7 +80,7 @@ impl Zone {
             if !direction.azimuth.is_finite() {
                 return Err(ZoneError::Azimuth { corner });
             }
-            // Written so that NaN is refused too.
+            // The negated test also refuses NaN.
             if !(-90.0..=90.0).contains(&direction.elevation_deg()) {
                 return Err(ZoneError::Elevation { corner });
             }
@@ -98,27 +99,27 @@ impl Zone {
         Ok(Self { corners, edges, cap, extent })
     }
 
-    /// The corners as given.
+    /// Returns the corners as given.
     pub fn corners(&self) -> &[AzEl] {
         &self.corners
     }
 
-    /// The angle from `direction` to the nearest edge: positive outside, negative inside. The
-    /// clearances of two directions differ by no more than the angle between the directions.
+    /// Returns the angle from `direction` to the nearest edge: positive outside, negative inside.
+    /// The clearances of two directions differ by no more than the angle between the directions.
     pub fn clearance(&self, direction: AzEl) -> Angle {
         self.clearance_of(direction.to_enu())
     }
 
-    /// A lower bound of [`Self::clearance_of`] the unit vector `point`, at a fraction of the cost:
-    /// good enough where the zone is far away.
+    /// Returns a lower bound of [`Self::clearance_of`] the unit vector `point`, at a fraction of
+    /// the cost. The bound is good enough if the zone is far away.
     pub fn clearance_lower_bound(&self, point: DVec3) -> Angle {
         let clearance = self.cap.clearance(point);
         Angle::from_radians(if clearance > 0.0 { clearance } else { -PI })
     }
 
-    /// A lower bound of the clearance of every direction in a box of azimuths and elevations, each
-    /// given from the lower to the upper end. The bound is useful where the box stands above, below
-    /// or beside the zone; elsewhere it is -180 degrees.
+    /// Returns a lower bound of the clearance of every direction in a box of azimuths and
+    /// elevations. Each range goes from the lower to the upper end. The bound is useful if the box
+    /// is above, below or beside the zone; elsewhere it is -180 degrees.
     pub fn box_clearance_lower_bound(
         &self,
         azimuths: (Angle, Angle),
@@ -130,7 +131,7 @@ impl Zone {
         Angle::from_radians(clearance.filter(|clearance| *clearance > 0.0).unwrap_or(-PI))
     }
 
-    /// As [`Self::clearance`], of a unit vector (east, north, up).
+    /// Returns the same as [`Self::clearance`] for a unit vector (east, north, up).
     pub fn clearance_of(&self, point: DVec3) -> Angle {
         let elevation = point.z.atan2(point.x.hypot(point.y));
         let azimuth = point.x.atan2(point.y);
@@ -140,24 +141,24 @@ impl Zone {
             nearest = nearest.min(edge.chord_squared(point, azimuth, elevation));
             crossed += edge.crossings_below(point, azimuth, elevation);
         }
-        // The chord stays precise near zero, where the cosine does not.
+        // The chord stays precise near zero, unlike the cosine.
         let distance = 2.0 * (nearest.sqrt() / 2.0).min(1.0).asin();
         let is_inside = crossed % 2 != 0;
         Angle::from_radians(if is_inside { -distance } else { distance })
     }
 
-    /// Points along the edges, including each corner, no more than `step` (at least 0.01
-    /// degrees) apart, from the first corner all the way around and back to it. Azimuths are
-    /// from 0 to 360 degrees.
+    /// Returns points along the edges, including each corner, no more than `step` (at least 0.01
+    /// degrees) apart. The points lead from the first corner all the way around and back to it.
+    /// Azimuths are from 0 to 360 degrees.
     pub fn edges_sampled(&self, step: Angle) -> impl Iterator<Item = AzEl> + '_ {
         let step = step.radians().max(0.01_f64.to_radians());
         let first = self.corners.first().map(|first| AzEl::from_enu(first.to_enu()));
         self.edges.iter().flat_map(move |edge| edge.points(step)).chain(first)
     }
 
-    /// Points around the zone at the distance `margin`, about `step` (at least 0.01 degrees) apart,
-    /// in the order of the edges. Around a simple zone they cover all directions with this
-    /// clearance. Empty without a margin.
+    /// Returns points around the zone at the distance `margin`, about `step` (at least 0.01
+    /// degrees) apart, in the order of the edges. Around a simple zone, the points cover all
+    /// directions with this clearance. Without a margin, the list is empty.
     pub fn margin_sampled(&self, margin: Angle, step: Angle) -> Vec<AzEl> {
         let step = step.radians().max(0.01_f64.to_radians());
         if margin.radians() <= 0.0 {
@@ -185,7 +186,7 @@ impl Zone {
         points.filter(|point| self.clearance(*point).radians() >= min).collect()
     }
 
-    /// The direction away from the zone, perpendicular to `edge` at `share` of its length.
+    /// Returns the direction away from the zone, perpendicular to `edge` at `share` of its length.
     fn outward(&self, edge: &Edge, share: f64) -> Option<DVec3> {
         let point = edge.point_at(share);
         let across = edge.across(share);
@@ -197,8 +198,8 @@ impl Zone {
         })
     }
 
-    /// The middle of the edge from corner `index` (from 0) to the next one; `None` if there is no
-    /// such edge. Its azimuth continues from the corner's without wrapping.
+    /// Returns the middle of the edge from corner `index` (from 0) to the next corner; `None`
+    /// without such an edge. Its azimuth continues from the corner's without wrapping.
     pub fn middle_of_edge(&self, index: usize) -> Option<AzEl> {
         let (edge, start) = (self.edges.get(index)?, self.corners.get(index)?);
         let middle = AzEl::from_enu(edge.point_at(0.5));
@@ -217,12 +218,12 @@ fn is_a_turn_on(a: AzEl, b: AzEl) -> bool {
     is_counted_on && is_same(a.to_enu(), b.to_enu())
 }
 
-/// The point at `angle` from `point` in `direction`, which is perpendicular to `point`.
+/// Returns the point at `angle` from `point` in `direction`, which is perpendicular to `point`.
 fn away_from(point: DVec3, direction: DVec3, angle: f64) -> DVec3 {
     point * angle.cos() + direction * angle.sin()
 }
 
-/// Points at `angle` around `corner`, from one perpendicular direction to another.
+/// Returns points at `angle` around `corner`, from one perpendicular direction to another.
 fn fan(corner: DVec3, start: DVec3, end: DVec3, turn: f64, step: f64) -> Vec<DVec3> {
     let angle = start.cross(end).length().atan2(start.dot(end));
     let parts = (angle * turn / step).ceil().max(1.0) as u32;

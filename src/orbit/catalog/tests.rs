@@ -1,7 +1,7 @@
 use super::*;
 use crate::read_elements;
 
-/// An OMM list of objects given as number, name and day of August 2026.
+/// Returns an OMM list of objects given as number, name and day of August 2026.
 fn report(objects: &[(u32, &str, u32)]) -> ReadReport {
     let messages: Vec<_> = objects
         .iter()
@@ -62,7 +62,7 @@ fn an_older_set_in_use_keeps_the_newest_one_at_hand() {
     assert_eq!(catalog.set_aside(6), None, "it is the set in use");
 }
 
-/// A catalog with these sources, each with the day of its set of object 5, and this order.
+/// Returns a catalog with these sources, each with the day of its set of object 5, and this order.
 fn ordered(order: &[&str], sources: &[(&str, u32)]) -> Catalog {
     let mut catalog = Catalog::default();
     catalog.merge(report(&[(5, "FIVE", 1)]), "bundled");

@@ -1,4 +1,4 @@
-//! The passes of a search as they are kept: a week of the whole catalogue has some 700,000, and in
+//! Compact form of found passes. A week of the whole catalogue has some 700,000 passes, and in
 //! calendar time they would take half as much memory again.
 
 use rayon::prelude::*;
@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use super::{Pass, PassPoint};
 use crate::astro::{AzEl, time};
 
-/// Number of passes in a stretch of time on the way to their order.
+/// Average number of passes in a stretch of time while sorting.
 const STRETCH: usize = 1 << 12;
 
 /// A pass and the index of its satellite.
@@ -22,7 +22,7 @@ pub(super) struct CompactPass {
 
 #[derive(Debug, Clone, Copy)]
 pub(super) struct CompactPoint {
-    /// Since 1970.
+    /// Nanoseconds since 1970.
     pub(super) at_ns: i64,
     pub(super) direction: AzEl,
 }
@@ -53,11 +53,11 @@ impl From<CompactPass> for Pass {
     }
 }
 
-/// The passes of many satellites. Each is given with the index of its satellite.
+/// Passes of many satellites, each with the index of its satellite.
 #[derive(Debug, Clone, Default)]
 pub struct FoundPasses {
-    /// As they were found, ordered by satellite, then by time: copying them into one list would
-    /// take another tenth of the time, and twice the memory.
+    /// Batches as found, ordered by satellite, then by time. Copying them into one list would take
+    /// a tenth more time and twice the memory.
     batches: Vec<Vec<CompactPass>>,
 }
 
@@ -66,7 +66,7 @@ impl FoundPasses {
         Self { batches }
     }
 
-    /// The passes in the order of [`Self::batches`].
+    /// Returns the passes in the order of [`Self::batches`].
     pub(super) fn into_passes(self) -> impl Iterator<Item = (usize, Pass)> {
         self.batches.into_iter().flatten().map(|compact| compact.indexed())
     }
@@ -75,8 +75,8 @@ impl FoundPasses {
         self.batches.iter().map(Vec::len).sum()
     }
 
-    /// Puts those that `parts` makes of it, in their order, in place of each pass. The work is
-    /// shared by the threads of the rayon pool in which this is called.
+    /// Replaces each pass by the passes that `parts` returns for it, in their order. The threads of
+    /// the caller's rayon pool share the work.
     pub fn divide(&mut self, parts: impl Fn(usize, Pass) -> Vec<Pass> + Sync) {
         let of_one = |compact: &CompactPass| {
             let (satellite, pass) = compact.indexed();
@@ -88,16 +88,16 @@ impl FoundPasses {
         });
     }
 
-    /// Keeps the passes that are wanted.
+    /// Keeps the passes for which `is_wanted` returns true.
     pub fn retain(&mut self, is_wanted: impl Fn(&Pass) -> bool + Sync) {
         self.batches.par_iter_mut().for_each(|batch| {
             batch.retain(|compact| is_wanted(&(*compact).into()));
         });
     }
 
-    /// The passes in order of AOS, then of satellite.
+    /// Returns the passes in order of AOS, then of satellite.
     ///
-    /// They are put in order one stretch of time after the other, which takes hardly any memory.
+    /// The iterator sorts one stretch of time after the other, which takes hardly any memory.
     pub fn in_order(&self) -> impl Iterator<Item = (usize, Pass)> {
         let mut rest: Vec<Rest<'_>> = self.by_satellite().map(Rest::new).collect();
         let first_ns = rest.iter().map(|of_one| of_one.next_ns).min().unwrap_or(0);
@@ -116,7 +116,7 @@ impl FoundPasses {
         })
     }
 
-    /// The passes of each satellite that has any, in order of time.
+    /// Returns the passes of each satellite with passes, in order of time.
     fn by_satellite(&self) -> impl Iterator<Item = &[CompactPass]> {
         let is_same = |a: &CompactPass, b: &CompactPass| a.satellite == b.satellite;
         self.batches.iter().flat_map(move |batch| batch.chunk_by(is_same))
@@ -127,9 +127,10 @@ fn aos_ns(compact: &CompactPass) -> i64 {
     compact.aos.at_ns
 }
 
-/// Passes of one satellite that are not yet in their order.
+/// Passes of one satellite that are not yet sorted.
 struct Rest<'a> {
-    /// AOS of the first, so that one who only asks for it need not wait for memory.
+    /// AOS of the first pass, nanoseconds since 1970. The copy avoids a wait for memory when only
+    /// this time is needed.
     next_ns: i64,
     passes: &'a [CompactPass],
 }
@@ -139,7 +140,7 @@ impl<'a> Rest<'a> {
         Self { next_ns: passes.first().map_or(i64::MAX, aos_ns), passes }
     }
 
-    /// Takes those with AOS before `end_ns`.
+    /// Removes and returns the passes with AOS before `end_ns`.
     fn take_before(&mut self, end_ns: i64) -> &'a [CompactPass] {
         let count = self.passes.iter().take_while(|compact| aos_ns(compact) < end_ns).count();
         let (head, rest) = self.passes.split_at(count);
@@ -153,10 +154,10 @@ mod tests {
     use super::*;
     use crate::astro::Angle;
 
-    /// Passes of a few satellites at hand-made times, some at the same instant, in two batches.
+    /// Returns passes of a few satellites at fixed times, some at the same instant, in two batches.
     fn found(count: i64) -> FoundPasses {
         let pass = |satellite: u32, index: i64| {
-            // Now and then a whole day lies between two.
+            // Every hundred passes, a whole day lies between two passes.
             let aos_ns = index * 600 * time::SECOND_NS + index / 100 * 86_400 * time::SECOND_NS;
             let point = |after_s: i64| PassPoint {
                 time: time::from_nanoseconds(aos_ns + after_s * time::SECOND_NS),

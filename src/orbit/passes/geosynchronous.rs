@@ -8,13 +8,13 @@ use crate::{astro::frames::EARTH_RATE_RAD_S, propagator::WGS72_RADIUS_KM, simd::
 
 use super::local_series::GRAVITY_KM3_S2;
 
-/// Largest difference between the rate of the satellite and that of the Earth, as a share.
+/// Max difference between the rate of the satellite and the Earth's rate, as a share.
 const MAX_DRIFT: f64 = 0.05;
 const MAX_ECCENTRICITY: f64 = 0.2;
-/// Longer windows are searched: the pull of the Sun, the Moon and the equator's bulge changes the
-/// orbit too much.
+/// Max length of a window for this test, seconds. In longer windows, the pull of the Sun, the Moon
+/// and the equator's bulge changes the orbit too much.
 const LONGEST_WINDOW_S: f64 = 14.0 * 86_400.0;
-/// Effect of these pulls in the longest window, in radians.
+/// Effect of these pulls in the longest window, radians.
 const MARGIN: f64 = 0.02;
 
 /// Returns `true` if the satellite stays below the horizon for the whole window.
@@ -24,8 +24,8 @@ const MARGIN: f64 = 0.02;
 ///
 /// 2 i + 4.2 e + |n - earth rate| T / 2
 ///
-/// of where it is at that instant: twice the figure of eight, twice the equation of centre,
-/// and the drift.
+/// of its place at that instant: twice the figure of eight, twice the equation of centre, and the
+/// drift.
 pub(super) fn never_rises(track: &Track<'_>) -> bool {
     let window = track.window;
     if track.propagator.secular().is_some() || window.length_s > LONGEST_WINDOW_S {
@@ -39,7 +39,7 @@ pub(super) fn never_rises(track: &Track<'_>) -> bool {
     let eccentricity =
         (v.cross(momentum) * (1.0 / GRAVITY_KM3_S2) - r * (1.0 / radius_km)).length();
     let drift = (GRAVITY_KM3_S2 / axis_km.powi(3)).sqrt() - EARTH_RATE_RAD_S;
-    // Written so that NaN is refused too.
+    // The negated test also refuses NaN.
     if !(drift.abs() < MAX_DRIFT * EARTH_RATE_RAD_S && eccentricity < MAX_ECCENTRICITY) {
         return false;
     }

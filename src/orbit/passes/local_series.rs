@@ -6,11 +6,11 @@
 //!
 //! q(tau) = q + v tau + a tau²/2 + j tau³/6
 //!
-//! is accurate to centimetres for half a minute: the first term that is left out is about
-//! n⁴ r tau⁴/24, with n the angular speed and r the distance from the centre.
+//! is accurate to centimetres for half a minute. The first neglected term is about n⁴ r tau⁴/24,
+//! with n the angular speed and r the distance from the centre.
 //!
-//! Height here always means the sine of the elevation. It is smooth even where a satellite passes
-//! the zenith and its azimuth jumps.
+//! Height in this module means the sine of the elevation. The sine is smooth even when a satellite
+//! passes the zenith and its azimuth jumps.
 
 use super::window::Window;
 use crate::{
@@ -24,21 +24,22 @@ pub(super) const GRAVITY_KM3_S2: f64 = 398_600.8;
 /// Flattening of the gravity field in WGS72.
 const J2: f64 = 0.001_082_616;
 
-/// Newton's method for an extreme squares its error: after a step this small,
-/// in seconds, the next one would be below a tenth of a millisecond.
+/// Max last step of Newton's method for an extreme, seconds. The method squares its error, so after
+/// a step this small, the next step would be below a tenth of a millisecond.
 const LAST_STEP_S: f64 = 0.1;
-/// Halley's method for a crossing cubes the share of the rate that a step changes: after a share
-/// this small, less than a tenth of a millisecond is left.
+/// Max last share of the rate that a step of Halley's method for a crossing changes. The method
+/// cubes this share, so the remaining error is less than a tenth of a millisecond.
 const LAST_SHARE: f64 = 8e-3;
-/// More steps than this are needed only where there is nothing to be found.
+/// Max number of steps. Only a search without a solution needs more.
 const MAX_STEPS: usize = 8;
 
-/// Vectors are east, north, up from the site, in km and seconds.
+/// Series of the motion around one instant. Vectors are east, north, up from the site, in km and
+/// seconds.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct LocalSeries<N = f64> {
-    /// The instant for which the series is made.
+    /// Instant of the series, seconds from the start of the window.
     pub(super) at_s: N,
-    /// The state from which the series is made.
+    /// State from which the series is made.
     pub(super) state: EarthFixed<N>,
     pub(super) position: Vector<N>,
     pub(super) velocity: Vector<N>,
@@ -50,7 +51,7 @@ pub(super) struct LocalSeries<N = f64> {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct EarthFixed<N = f64> {
     pub(super) position_km: Vector<N>,
-    /// The inertial velocity.
+    /// Inertial velocity, km/s.
     pub(super) velocity_km_s: Vector<N>,
 }
 
@@ -62,12 +63,12 @@ pub(super) struct Height<N = f64> {
     pub(super) curve: N,
 }
 
-/// The sense in which the height turns.
+/// Sense in which the height turns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Bend {
-    /// First up, then down.
+    /// Rise, then fall.
     Crest,
-    /// First down, then up.
+    /// Fall, then rise.
     Trough,
 }
 
@@ -81,11 +82,11 @@ impl Bend {
     }
 }
 
-/// Where the satellite is at one instant, as seen from the site.
+/// Position and motion of the satellite at one instant, as seen from the site.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct LocalState<N = f64> {
     pub(super) at_s: N,
-    /// East, north, up in km.
+    /// East, north and up, km.
     pub(super) enu_km: Vector<N>,
     velocity: Vector<N>,
     acceleration: Vector<N>,
@@ -94,7 +95,7 @@ pub(super) struct LocalState<N = f64> {
 }
 
 impl<N: Number> LocalState<N> {
-    /// Angular speed of the satellite across the sky, in radians per second.
+    /// Returns the angular speed of the satellite across the sky, radians per second.
     pub(super) fn angular_rate(&self) -> N {
         self.enu_km.cross(self.velocity).length() / self.enu_km.length_squared()
     }
@@ -112,8 +113,8 @@ impl<N: Number> LocalState<N> {
         (self.height.sine - sine).abs().is_less(self.height.rate.abs() * 1e-3)
     }
 
-    /// The state after a small `step_s`: less than [`LAST_STEP_S`], or less than [`LAST_SHARE`] of
-    /// the time to an extreme.
+    /// Returns the state after a small `step_s`: less than [`LAST_STEP_S`], or less than
+    /// [`LAST_SHARE`] of the time to an extreme.
     #[inline(always)]
     fn moved(self, step_s: N) -> Self {
         let Height { sine, rate, curve } = self.height;
@@ -128,11 +129,11 @@ impl<N: Number> LocalState<N> {
 }
 
 impl<N: Number> Height<N> {
-    /// The height of a satellite at `q`, at the distance `range`, with velocity `v` and
+    /// Returns the height of a satellite at `q`, at the distance `range`, with velocity `v` and
     /// acceleration `a`.
     #[inline(always)]
     pub(super) fn new(q: Vector<N>, range: N, v: Vector<N>, a: Vector<N>) -> Self {
-        // One division serves for all, because division is the slowest operation here.
+        // One division serves all quotients, because division is the slowest operation here.
         let inverse_range = N::splat(1.0) / range;
         let range_rate = q.dot(v) * inverse_range;
         let range_curve = (v.length_squared() + q.dot(a) - range_rate * range_rate) * inverse_range;
@@ -144,7 +145,7 @@ impl<N: Number> Height<N> {
 }
 
 impl<N: Number> LocalSeries<N> {
-    /// The series around `at_s` from the state there.
+    /// Creates the series around `at_s` from the state at that time.
     #[inline(always)]
     pub(super) fn new(window: &Window, at_s: N, state: EarthFixed<N>) -> Self {
         let EarthFixed { position_km, velocity_km_s } = state;
@@ -163,16 +164,17 @@ impl<N: Number> LocalSeries<N> {
         }
     }
 
-    /// The same series, with the velocity that leads to a second series.
+    /// Returns the same series with the velocity that leads to a second series.
     pub(super) fn mended(&self, second: &Self) -> Self {
         let span_s = second.at_s - self.at_s;
-        // SGP4's velocity is not quite the change of its position; a second position shows it.
+        // SGP4's velocity is not exactly the change of its position; a second position shows the
+        // change.
         let missed_km = second.position - self.place(span_s).enu_km;
         let per_second = N::splat(1.0) / span_s;
         Self { velocity: self.velocity + missed_km * per_second, ..*self }
     }
 
-    /// The place `tau` seconds after the instant of the series.
+    /// Returns the place `tau` seconds after the instant of the series.
     #[inline(always)]
     pub(super) fn place(&self, tau: N) -> LocalState<N> {
         let half = tau * 0.5;
@@ -186,14 +188,16 @@ impl<N: Number> LocalSeries<N> {
         LocalState { at_s: self.at_s + tau, enu_km, velocity, acceleration, range_km, height }
     }
 
-    /// Where the height is greatest or least, by Newton's method from the instant of the series. If
-    /// the method does not converge, [`LocalState::turns`] does not hold for the place.
+    /// Returns the place of the greatest or least height, by Newton's method from the instant of
+    /// the series. If the method does not converge, [`LocalState::turns`] does not hold for the
+    /// place.
     #[inline(always)]
     pub(super) fn turning(&self) -> LocalState<N> {
         let mut place = self.place(N::splat(0.0));
         for _ in 0..MAX_STEPS {
             let step_s = -place.height.rate / place.height.curve;
-            // All lanes go on until the slowest has converged; more steps do no harm to the others.
+            // All lanes continue until the slowest has converged; further steps do not harm the
+            // others.
             if !step_s.abs().any_reaches(LAST_STEP_S) {
                 return place.moved(step_s);
             }
@@ -202,15 +206,15 @@ impl<N: Number> LocalSeries<N> {
         place
     }
 
-    /// Where the height is `sine`, by Halley's method from `tau`. If the method does not converge,
-    /// [`LocalState::crosses`] does not hold for the place.
+    /// Returns the place with the height `sine`, by Halley's method from `tau`. If the method does
+    /// not converge, [`LocalState::crosses`] does not hold for the place.
     #[inline(always)]
     pub(super) fn crossing(&self, sine: f64, tau: N) -> LocalState<N> {
         let mut place = self.place(tau);
         for _ in 0..MAX_STEPS {
             let Height { sine: height, rate, curve } = place.height;
             let newton_s = (-height + sine) / rate;
-            // Near a crest, Newton's method overshoots; the curve tells by how much.
+            // Near a crest, Newton's method overshoots; the curve shows by how much.
             let share = newton_s * curve / rate;
             let step_s = newton_s / (share * 0.5 + 1.0);
             if !share.abs().any_reaches(LAST_SHARE) {
@@ -223,8 +227,8 @@ impl<N: Number> LocalSeries<N> {
 }
 
 impl LocalSeries {
-    /// Where the height is greatest or least; `None` if that is more than `max_s` away or if the
-    /// height bends the other way.
+    /// Returns the place of the greatest or least height. Returns `None` if the place is more than
+    /// `max_s` away or if the height bends the other way.
     pub(super) fn extreme(&self, bend: Bend, max_s: f64) -> Option<LocalState> {
         let place = self.turning();
         let is_near = (place.at_s - self.at_s).abs() <= max_s;
@@ -267,14 +271,15 @@ impl LocalState<Lanes> {
     }
 }
 
-/// The cross product of the vector with the Earth's rotation: `v × omega`.
+/// Returns the cross product of the vector with the Earth's rotation: `v × omega`.
 #[inline(always)]
 fn turned<N: Number>(v: Vector<N>) -> Vector<N> {
     Vector::new(v.y * EARTH_RATE_RAD_S, v.x * -EARTH_RATE_RAD_S, N::splat(0.0))
 }
 
-/// The acceleration due to the Earth's mass and flattening at `r`, and its change for a body that
-/// moves with `v`. The change is that of the mass alone, which is a thousand times larger.
+/// Returns the acceleration at `r` due to the Earth's mass and flattening, and its change for a
+/// body that moves with `v`. The change covers only the mass, whose effect is a thousand times
+/// larger.
 #[inline(always)]
 fn gravity<N: Number>(r: Vector<N>, v: Vector<N>) -> (Vector<N>, Vector<N>) {
     let inverse2 = N::splat(1.0) / r.length_squared();

@@ -1,9 +1,9 @@
 //! The parts of a pass above the horizon mask of the site.
 //!
-//! The clearance, elevation minus mask, is followed along the pass. High above the whole mask, or
-//! far below it, the clearance cannot change its sign before the satellite has moved by as much;
-//! near the mask, the steps are small. The mask is straight between its points, so every point that
-//! the azimuth passes is also examined, and no wall is too narrow to be seen.
+//! The search follows the clearance, elevation minus mask, along the pass. High above the whole
+//! mask, or far below it, the clearance cannot change its sign before the satellite has moved by as
+//! much. Near the mask, the steps are small. The mask is straight between its points. The search
+//! therefore also examines every mask point that the azimuth passes, and misses no narrow wall.
 
 use super::{
     Pass, PassSearch,
@@ -17,24 +17,24 @@ use crate::{
     astro::{Angle, AzEl, HorizonMask, Site},
 };
 
-/// Smallest step, near the mask, and largest step, in radians across the sky.
+/// Min step, near the mask, and max step, radians across the sky.
 const FINE_STEP: f64 = 0.002_5;
 const COARSE_STEP: f64 = 0.09;
-/// Largest change of azimuth between two looks, in radians: small enough for its sense to be clear.
+/// Max change of azimuth between two looks, radians. It is small enough for the sense of the turn
+/// to be clear.
 const MAX_TURN: f64 = 0.09;
-/// Longest step, in seconds.
+/// Max step, seconds.
 const LONGEST_STEP_S: f64 = 300.0;
-/// Accuracy with which crossings, and the times at which the azimuth passes a point, are
-/// found, in seconds.
+/// Accuracy of crossings, and of the times at which the azimuth passes a mask point, seconds.
 const TOLERANCE_S: f64 = 2e-4;
-/// Tolerance in radians, so that level with the mask counts as clear: AOS over a level mask is
-/// level with it, but for rounding.
+/// Tolerance of the clearance, radians. A satellite level with the mask counts as clear, because
+/// AOS over a level mask is level with it except for rounding.
 const LEVEL: f64 = 1e-7;
 
-/// The stretches of `pass` in which the satellite is above `mask`, in order.
+/// Returns the stretches of `pass` in which the satellite is above `mask`, in order.
 ///
-/// AOS and LOS are where the mask is crossed, exact to a millisecond, or those of the pass; only
-/// the latter keep the marks of the pass.
+/// AOS and LOS of a stretch are crossings of the mask, exact to a millisecond, or the AOS and LOS
+/// of the pass. Only the latter keep the marks of the pass.
 pub fn clear_stretches(
     propagator: &Propagator,
     site: Site,
@@ -57,7 +57,7 @@ pub fn clear_stretches(
     stretches.found
 }
 
-/// One look at the sky.
+/// A look at the sky, with the clearance over the mask.
 #[derive(Clone, Copy)]
 struct MaskLook {
     place: LocalState,
@@ -71,7 +71,7 @@ impl MaskLook {
         self.clearance >= -LEVEL
     }
 
-    /// The shorter turn from here to `azimuth`.
+    /// Returns the shorter turn from here to `azimuth`, radians.
     fn turn_to(&self, azimuth: f64) -> f64 {
         Angle::from_radians(azimuth - self.azimuth).wrapped_180().radians()
     }
@@ -80,7 +80,7 @@ impl MaskLook {
 struct Follower<'a> {
     track: &'a Track<'a>,
     mask: &'a HorizonMask,
-    /// Azimuths of the points of the mask, ascending.
+    /// Azimuths of the points of the mask, ascending, radians.
     points: Vec<f64>,
     lowest: f64,
     highest: f64,
@@ -132,7 +132,8 @@ impl Follower<'_> {
                 -i32::from(look.elevation < self.lowest - LEVEL)
             }
         };
-        // Wholly above or wholly below the mask, the path does not matter.
+        // If both looks are above or both below the whole mask, the path between them does not
+        // matter.
         if side(&start) * side(&end) == 1 {
             stretches.pass_by(start.place, end.place);
             return;
@@ -156,7 +157,8 @@ impl Follower<'_> {
         self.cross(last, end, stretches);
     }
 
-    /// Azimuths of the points that a turn by `turn` from `start` passes, in that order.
+    /// Returns the azimuths of the mask points that a turn by `turn` from `start` passes, in that
+    /// order.
     fn points_between(&self, start: f64, turn: f64) -> impl Iterator<Item = f64> {
         let (low, length) = (start + turn.min(0.0), turn.abs());
         let first = Angle::from_radians(low).wrapped_360().radians();
@@ -177,12 +179,12 @@ impl Follower<'_> {
         crossed.into_iter()
     }
 
-    /// The look between two others at which the azimuth is `azimuth`.
+    /// Returns the look between two others with the azimuth `azimuth`.
     fn look_at_azimuth(&self, start: MaskLook, end: MaskLook, azimuth: f64) -> Option<MaskLook> {
         self.settle(start, end, |look| look.turn_to(azimuth)).map(|(_, look)| look)
     }
 
-    /// Records where the clearance changes its sign between two looks.
+    /// Records the time at which the clearance changes its sign between two looks.
     fn cross(&self, start: MaskLook, end: MaskLook, stretches: &mut Stretches<'_>) {
         if start.is_clear() == end.is_clear() {
             stretches.pass_by(start.place, end.place);
@@ -197,8 +199,8 @@ impl Follower<'_> {
         }
     }
 
-    /// The last look before and the first look after `value` changes its sign, as close together as
-    /// the tolerance; by the Illinois method of false position.
+    /// Returns the last look before and the first look after a sign change of `value`, at most the
+    /// tolerance apart. The search uses the Illinois method of false position.
     fn settle(
         &self,
         start: MaskLook,
@@ -214,9 +216,9 @@ impl Follower<'_> {
             if b_s - a_s <= TOLERANCE_S {
                 break;
             }
-            // An occasional halving bounds the effort, whatever the curve.
+            // An occasional halving bounds the effort for any curve.
             let share = if round % 4 == 3 { 0.5 } else { a.1 / (a.1 - b.1) };
-            // Never at an end, so that both ends close in.
+            // The new look is never at an end, so that both ends close in.
             let margin_s = (0.4 * TOLERANCE_S).min(0.25 * (b_s - a_s));
             let at_s = (a_s + share * (b_s - a_s)).clamp(a_s + margin_s, b_s - margin_s);
             let middle = self.look(at_s)?;
@@ -231,7 +233,7 @@ impl Follower<'_> {
     }
 }
 
-/// Assembles the stretches.
+/// Builder of the stretches from looks in order of time.
 struct Stretches<'a> {
     pass: &'a Pass,
     track: &'a Track<'a>,
@@ -239,11 +241,11 @@ struct Stretches<'a> {
     found: Vec<Pass>,
 }
 
-/// A stretch whose end has not been found yet.
+/// A stretch without a known end.
 struct OpenStretch {
     aos: LocalState,
     highest: LocalState,
-    /// Duration of the step to the highest look, in seconds.
+    /// Duration of the step to the highest look, seconds.
     around_s: f64,
     starts_before: bool,
 }
@@ -279,7 +281,7 @@ impl Stretches<'_> {
         let sightings = [aos, &tca, los].map(Sighting::new);
         let marks = [open.starts_before, ends_after];
         let mut stretch: Pass = self.track.pass(sightings.each_ref(), marks).into();
-        // Points of the pass itself stay as they are, to the last digit.
+        // Points of the pass itself stay exactly the same.
         let (from_s, end_s) = (aos.at_s, self.track.window.length_s);
         if from_s <= 0.0 {
             stretch.aos = self.pass.aos;

@@ -1,10 +1,10 @@
 //! Passes of near-circular near-earth orbits, whose times follow from geometry without a search.
 //!
-//! [`Arcs`] tells when the site is near enough to the orbit plane. Within an arc, let u be the
-//! angle of the satellite in the plane, from the ascending node, and alpha the same angle of the
-//! site. Satellites on these orbits make at least six revolutions a day, so u - alpha only grows.
-//! Whenever it is a whole number of turns, the satellite goes by, and there is at most one pass
-//! around each such instant. The exact state at that instant tells whether there is one.
+//! [`Arcs`] gives the times at which the site is near enough to the orbit plane. Within an arc, let
+//! u be the angle of the satellite in the plane, from the ascending node, and alpha the same angle
+//! of the site. Satellites on these orbits make at least six revolutions a day, so u - alpha only
+//! grows. Whenever u - alpha is a whole number of turns, the satellite goes by. There is at most
+//! one pass around each such instant, and the exact state at the instant confirms or excludes it.
 
 mod arcs;
 mod batch;
@@ -19,32 +19,32 @@ use crate::{
     propagator::{Plane, Secular, WGS72_RADIUS_KM, expand},
 };
 
-/// Largest share by which the mean distance may change within a window; more is a decay.
+/// Max share by which the mean distance may change within a window. A greater change is a decay.
 const MAX_SHRINKING: f64 = 0.05;
-/// Sites further than this from the point below the satellite, in radians, see the satellite for so
-/// long that its passes cannot be counted by turns.
+/// Max angle between the site and the point below the satellite, radians. Sites farther away see
+/// the satellite for so long that its passes cannot be counted by turns.
 const FARTHEST_REACH: f64 = 1.3;
-/// The neglected waves, including the difference between geodetic and geocentric zenith, move a
-/// satellite by less than this, in radians.
+/// Max shift of a satellite by the neglected waves, radians. It includes the difference between
+/// geodetic and geocentric zenith.
 const MARGIN: f64 = 0.012;
-/// The cosine of 179 degrees of inclination. Towards 180 degrees, the long-period wave of the
+/// Cosine of the max inclination, 179 degrees. Towards 180 degrees, the long-period wave of the
 /// latitude grows without bounds.
 const MIN_COS_INCLINATION: f64 = -0.999_848;
-/// The neglected waves in the distance, in km.
+/// Max shift of the distance by the neglected waves, km.
 const RADIUS_MARGIN_KM: f64 = 15.0;
 
-/// The track of a satellite on a near-circular orbit.
+/// Track of a satellite on a near-circular orbit.
 pub(super) struct NearCircular<'a> {
     pub(super) track: &'a Track<'a>,
     pub(super) secular: &'a Secular,
     arcs: Arcs,
-    /// How far outside the window the middle of a pass may be if the pass still reaches into it.
+    /// Max time outside the window of the middle of a pass that still reaches into it, seconds.
     pub(super) half_pass_s: f64,
 }
 
 impl<'a> NearCircular<'a> {
-    /// `None` if the orbit, or what it becomes within the window, is not near-circular and
-    /// near-earth, or if the horizon is too low.
+    /// Creates the track. Returns `None` if the orbit does not stay near-circular and near-earth
+    /// within the window, or if the horizon is too low.
     pub(super) fn new(track: &'a Track<'a>) -> Option<Self> {
         let window = track.window;
         let secular = track.propagator.secular()?;
@@ -65,7 +65,7 @@ impl<'a> NearCircular<'a> {
             highest = highest.max(axis * (1.0 + eccentricity + wave));
         }
         let farthest_km = highest * WGS72_RADIUS_KM + RADIUS_MARGIN_KM;
-        // The lowest angular speed.
+        // This is the lowest angular speed.
         let rate_rad_s = 0.95 * secular.plane.argument[1] / 60.0;
         let turning = EARTH_RATE_RAD_S / rate_rad_s;
         let reach = |elevation: f64| {
@@ -89,7 +89,7 @@ impl<'a> NearCircular<'a> {
         })
     }
 
-    /// The intervals in which the site is near enough to the plane, in pieces.
+    /// Returns the intervals in which the site is near enough to the plane, in pieces.
     pub(super) fn pieces(&self) -> impl Iterator<Item = (f64, f64)> {
         let end_s = self.track.window.length_s + self.half_pass_s;
         let beta_at = |at_s: f64| {
@@ -100,7 +100,7 @@ impl<'a> NearCircular<'a> {
         let (first, rate) = beta_at(-self.half_pass_s);
         let time_of = move |beta: f64| {
             let guess_s = (beta - first) / rate - self.half_pass_s;
-            // The node does not move quite evenly, so one step of Newton's method follows.
+            // The node does not move evenly, so one step of Newton's method follows.
             let (beta_then, rate_there) = beta_at(guess_s);
             guess_s + (beta - beta_then) / rate_there
         };
@@ -116,12 +116,12 @@ impl<'a> NearCircular<'a> {
             .take_while(move |(start_s, _)| *start_s < end_s)
     }
 
-    /// Mean rate from node to node.
+    /// Returns the mean rate from node to node, radians per second.
     pub(super) fn rate_rad_s(&self) -> f64 {
         self.secular.plane.argument[1] / 60.0
     }
 
-    /// Minutes since the epoch.
+    /// Returns the minutes since the epoch.
     fn minutes(&self, at_s: f64) -> f64 {
         (at_s + self.track.start_since_epoch_s) / 60.0
     }

@@ -1,11 +1,11 @@
 //! Passes of all other orbits: far, eccentric or about to decay.
 //!
-//! Exact states are taken along the orbit, closer together where the satellite is faster. Between
-//! two of them, each coordinate of the satellite, seen from the turning site, is the polynomial of
-//! fifth degree that has their positions, velocities and accelerations. Evaluated six times a step,
-//! the polynomial shows where the height (the sine of the elevation) turns. Extremes that matter
-//! are corrected by exact states, and between two neighbouring extremes the height crosses the
-//! horizon once or not at all.
+//! The search takes exact states along the orbit, closer together where the satellite is faster.
+//! Between two states, a polynomial of fifth degree describes each coordinate of the satellite,
+//! seen from the turning site. The polynomial matches the positions, velocities and accelerations
+//! of both states. Evaluated six times a step, it shows where the height (the sine of the
+//! elevation) turns. Exact states correct the extremes that matter. Between two neighbouring
+//! extremes, the height crosses the horizon once or not at all.
 
 use super::{
     compact::CompactPass,
@@ -17,22 +17,22 @@ use crate::{astro::frames::EARTH_RATE_RAD_S, simd::Vector};
 
 /// Step in units of sqrt(r³/mu), the time in which a circular orbit advances by a radian.
 const STEP: f64 = 1.1;
-/// No orbit above the ground needs a shorter step, in seconds. Without a minimum, a state near the
-/// centre of the Earth would be followed for ever.
+/// Min step, seconds. No orbit above the ground needs a shorter step. Without a minimum, the search
+/// would never leave a state near the centre of the Earth.
 const MIN_STEP_S: f64 = 60.0;
-/// Looks per step.
+/// Number of looks per step.
 const LOOKS: u32 = 6;
-/// Places of the polynomial differ from the true ones by less than this share of their distance from
-/// the centre of the Earth. Measured at eccentricities up to 0.9: 0.015.
+/// Max difference between places of the polynomial and true places, as a share of their distance
+/// from the centre of the Earth. Measured at eccentricities up to 0.9: 0.015.
 const PLACE_MARGIN: f64 = 0.02;
-/// The margin falls by this with each halving of a step: the error is of the sixth order.
+/// Factor of the margin with each halving of a step: the error is of the sixth order.
 const HALVED: f64 = 1.0 / 64.0;
-/// A step in which the satellite comes nearer to the site than this many times the margin is halved:
-/// the polynomial may have it pass on the other side of the zenith, or below the site.
+/// Min distance between satellite and site in a step, in multiples of the margin. Closer steps are
+/// halved, because the polynomial may pass on the other side of the zenith, or below the site.
 const NEAR: f64 = 4.0;
-/// Where a satellite has no state, the next one is tried this much later, in seconds.
+/// Step to the next attempt after an instant without a state, seconds.
 const GAP_STEP_S: f64 = 60.0;
-/// Accuracy with which the last state of an orbit is found, in seconds.
+/// Accuracy of the last state of an orbit, seconds.
 const END_TOLERANCE_S: f64 = 1e-3;
 
 /// Adds all passes of the window, in order.
@@ -58,12 +58,12 @@ pub(super) fn passes(
     }
 }
 
-/// Assembles passes from the extremes of the height, in order of time.
+/// Builder of passes from the extremes of the height, in order of time.
 struct Finder<'a> {
     track: &'a Track<'a>,
-    /// The last extreme, or the start.
+    /// Last extreme, or the start.
     last: Option<Extreme>,
-    /// Where the polynomial has crossed the horizon since then.
+    /// Time at which the polynomial has crossed the horizon since the last extreme.
     guess_s: Option<f64>,
     open: Option<OpenPass>,
     found: &'a mut Vec<CompactPass>,
@@ -75,7 +75,7 @@ struct Extreme {
     is_up: bool,
 }
 
-/// A pass whose end has not been found yet.
+/// A pass without a known end.
 struct OpenPass {
     aos: LocalState,
     highest: LocalState,
@@ -83,8 +83,8 @@ struct OpenPass {
 }
 
 impl Finder<'_> {
-    /// Follows the satellite from `first` to the end of the window or of its states, and returns
-    /// the time of that end.
+    /// Follows the satellite from `first` to the end of the window or of its states. Returns the
+    /// time of that end.
     fn stretch(&mut self, first: &LocalSeries, cancelled: &dyn Fn() -> bool) -> f64 {
         let end_s = self.track.window.length_s;
         self.begin(first.place(0.0));
@@ -105,7 +105,7 @@ impl Finder<'_> {
         here.at_s
     }
 
-    /// The last state between a time with a state and a time without one.
+    /// Returns the last state between a time with a state and a time without one.
     fn last_state(&self, good: LocalSeries, bad_s: f64) -> LocalSeries {
         let (mut good, mut bad_s) = (good, bad_s);
         while bad_s - good.at_s > END_TOLERANCE_S {
@@ -129,7 +129,7 @@ impl Finder<'_> {
         self.open = is_up.then_some(OpenPass { aos: first, highest: first, starts_before: true });
     }
 
-    /// Looks for extremes between two states.
+    /// Searches for extremes between two states.
     fn span(&mut self, start: &LocalSeries, end: &LocalSeries) {
         self.span_within(start, end, PLACE_MARGIN);
     }
@@ -175,7 +175,7 @@ impl Finder<'_> {
         }
     }
 
-    /// How far the satellite may be from a place of the polynomial.
+    /// Returns the max distance of the satellite from a place of the polynomial, km.
     fn off_km(&self, look: &HeightLook) -> f64 {
         look.place_margin * self.track.window.radius_of_place_km(look.enu_km)
     }
@@ -191,13 +191,14 @@ impl Finder<'_> {
     /// Processes an extreme of the polynomial.
     fn turn(&mut self, look: HeightLook, bend: Bend) {
         let spare = look.height.sine - self.track.window.sin_aos_elevation;
-        // A satellite that passes close by may stand anywhere else in the sky.
+        // The direction of a satellite that passes close by may differ widely from the polynomial.
         let is_far = spare.abs() * look.range_km > self.off_km(&look);
         if is_far && (spare < 0.0 || bend == Bend::Trough) {
             self.reach(Extreme { at_s: look.at_s, is_up: spare > 0.0 });
             return;
         }
-        // Within a step of the polynomial, a height that hardly changes turns far from its extreme.
+        // Within a step of the polynomial, a nearly constant height turns far from its true
+        // extreme.
         let (near_s, far_s) = (look.spacing_s, look.spacing_s * f64::from(LOOKS));
         let by_newton = self.track.extreme(look.at_s, near_s, bend).map(|(_, place)| place);
         let by_halves = |max_s| self.track.extreme_by_halves(look.at_s, max_s, bend);
@@ -222,7 +223,7 @@ impl Finder<'_> {
         }
     }
 
-    /// Advances to the next extreme, across the horizon if that lies in between.
+    /// Advances to the next extreme, across the horizon if the horizon lies in between.
     fn reach(&mut self, next: Extreme) {
         let guess_s = self.guess_s.take();
         let Some(last) = self.last.replace(next).filter(|last| last.is_up != next.is_up) else {
@@ -257,15 +258,15 @@ impl Finder<'_> {
     }
 }
 
-/// Time to the next state.
+/// Returns the time to the next state, seconds.
 fn step_s(series: &LocalSeries) -> f64 {
     let (r, v) = (series.state.position_km, series.state.velocity_km_s);
     let radius_km = r.length();
     let at_radius =
         |radius_km: f64| (STEP * (radius_km.powi(3) / GRAVITY_KM3_S2).sqrt()).max(MIN_STEP_S);
     let level = at_radius(radius_km);
-    // On the way down, the satellite gets faster within the step, so the step is that of the lower
-    // place half a step later.
+    // On the way down, the satellite gets faster within the step. The step is therefore the step of
+    // the lower place half a step later.
     let lower_km = radius_km + (0.5 * level * r.dot(v) / radius_km).min(0.0);
     let inverse_axis = 2.0 / radius_km - v.length_squared() / GRAVITY_KM3_S2;
     let parameter_km = r.cross(v).length_squared() / GRAVITY_KM3_S2;
@@ -291,7 +292,7 @@ struct HeightLook {
     range_km: f64,
     place_margin: f64,
     height: Height,
-    /// The time between two looks.
+    /// Time between two looks, seconds.
     spacing_s: f64,
 }
 
@@ -301,7 +302,7 @@ impl Quintic {
         let (v0, v1) = (start.velocity * span_s, end.velocity * span_s);
         let half_square = 0.5 * span_s * span_s;
         let (a0, a1) = (start.acceleration * half_square, end.acceleration * half_square);
-        // The difference between the end and the parabola of the start.
+        // The vectors are the difference between the end and the parabola of the start.
         let position = end.position - (start.position + v0 + a0);
         let velocity = v1 - (v0 + a0 * 2.0);
         let acceleration = a1 - a0;
@@ -316,7 +317,7 @@ impl Quintic {
         Self { from_s: start.at_s, span_s, place_margin, coefficients }
     }
 
-    /// The look at a `share` of the step, 0 to 1.
+    /// Returns the look at a `share` of the step, 0 to 1.
     fn look(&self, share: f64) -> HeightLook {
         let zero = [Vector::new(0.0, 0.0, 0.0); 3];
         let [q, v, a] = self.coefficients.iter().rev().fold(zero, |[q, v, a], coefficient| {
@@ -334,13 +335,13 @@ impl Quintic {
         }
     }
 
-    /// The extreme between two looks whose rates differ in sign.
+    /// Returns the extreme between two looks whose rates differ in sign.
     fn extreme(&self, a: HeightLook, b: HeightLook) -> HeightLook {
         let (mut a, mut b) = (a, b);
         let mut middle = a;
         for round in 0..8 {
             let secant = a.height.rate / (a.height.rate - b.height.rate);
-            // An occasional halving, so that neither end stays where it is.
+            // An occasional halving keeps both ends moving.
             let part = if round % 3 == 2 { 0.5 } else { secant };
             middle = self.look(a.share + part * (b.share - a.share));
             if (middle.height.rate > 0.0) == (a.height.rate > 0.0) {
@@ -363,8 +364,8 @@ mod tests {
         bundled, passes, passes_and_effort, read_elements,
     };
 
-    /// Orbits whose perigee passes a site more closely than their states are apart, and the passes
-    /// there. The greatest elevation is that of states a tenth of a second apart.
+    /// The test uses orbits whose perigee passes a site more closely than the distance of their
+    /// states. The greatest elevation comes from states a tenth of a second apart.
     #[test]
     fn the_greatest_elevation_of_a_close_fly_by_is_exact() {
         let epoch: Timestamp = "2026-08-12T00:00:00Z".parse().unwrap();
@@ -407,7 +408,8 @@ mod tests {
             let highest =
                 looks.iter().map(|look| look.direction.elevation_deg()).fold(f64::MIN, f64::max);
             nearest_km = looks.iter().map(|look| look.range_km).fold(nearest_km, f64::min);
-            // A pass that hardly reaches an elevation is found from there as from the horizon.
+            // A pass that hardly reaches an elevation is found from that elevation as from the
+            // horizon.
             for aos_deg in [0.0, 30.0, 60.0, highest - 0.1] {
                 let aos_elevation = Angle::from_degrees(aos_deg);
                 let found = passes(&propagator, &PassSearch { aos_elevation, ..search }, &|| false);
@@ -417,8 +419,8 @@ mod tests {
                     continue;
                 }
                 high += u32::from(aos_deg >= 30.0);
-                // A tenth of a second from the crest, a satellite at 100 km has moved by 0.4 degrees,
-                // and is below the crest by the square of that.
+                // A tenth of a second from the crest, a satellite at 100 km has moved by 0.4
+                // degrees. It is below the crest by the square of that angle.
                 assert!(
                     reported > highest - 1e-4 && reported < highest + 0.5,
                     "{reported} {highest} from {aos_deg}: {site:?} {text}"
@@ -449,7 +451,8 @@ mod tests {
         }
     }
 
-    /// Geosynchronous satellites over sites all round the Earth, whose elevation hardly changes.
+    /// The test uses geosynchronous satellites over sites all round the Earth, whose elevation
+    /// hardly changes.
     #[test]
     fn the_greatest_elevation_of_any_geosynchronous_satellite_is_exact() {
         let start: Timestamp = "2026-08-10T05:03:34Z".parse().unwrap();

@@ -11,7 +11,7 @@ use crate::{
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Sighting<N = f64> {
     pub(super) at_s: N,
-    /// Radians, -pi to pi.
+    /// Azimuth in radians, -pi to pi.
     azimuth: N,
     elevation: N,
 }
@@ -24,7 +24,7 @@ impl<N: Number> Sighting<N> {
         Self { elevation, ..Self::at_elevation(place, 0.0) }
     }
 
-    /// The sighting of a place whose elevation is known.
+    /// Returns the sighting of a place with a known elevation.
     #[inline(always)]
     pub(super) fn at_elevation(place: &LocalState<N>, elevation: f64) -> Self {
         let Vector { x, y, .. } = place.enu_km;
@@ -33,7 +33,7 @@ impl<N: Number> Sighting<N> {
 }
 
 impl Sighting {
-    /// Geometric.
+    /// Returns the geometric direction.
     pub(super) fn direction(&self) -> AzEl {
         let Self { azimuth, elevation, .. } = *self;
         let azimuth = if azimuth < 0.0 { azimuth + TAU } else { azimuth };
@@ -53,7 +53,7 @@ impl Sighting<Lanes> {
 }
 
 impl Window {
-    /// The sighting as a pass keeps it.
+    /// Returns the point of a pass for a sighting, with the direction that passes use.
     pub(super) fn point(&self, sighting: &Sighting) -> CompactPoint {
         let direction = self.pass_direction(sighting.direction());
         CompactPoint { at_ns: self.at_ns(sighting.at_s), direction }

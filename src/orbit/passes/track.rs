@@ -1,4 +1,4 @@
-//! One satellite over one site: exact states converted to what the site sees.
+//! One satellite over one site: exact states, converted to the view from the site.
 
 use std::cell::Cell;
 
@@ -17,27 +17,26 @@ use crate::{
     simd::{Number, Vector},
 };
 
-/// Longest time from its state for which a series is used, in seconds.
+/// Max time from its state for which a series is used, seconds.
 pub(super) const LONGEST_STEP_S: f64 = 30.0;
-/// Accuracy of AOS and LOS, in seconds.
+/// Accuracy of AOS and LOS, seconds.
 const TIME_TOLERANCE_S: f64 = 5e-4;
-/// Accuracy of the greatest elevation, in radians, and of its time, in seconds.
+/// Accuracy of the greatest elevation, radians, and of its time, seconds.
 const CREST_TOLERANCE: f64 = 3e-7;
 const CREST_TIME_TOLERANCE_S: f64 = 8e-3;
-/// Distance in seconds of the second state, which is used where one state does not show the
-/// speed well enough.
+/// Distance of the second state, seconds. It is used if one state does not show the speed well
+/// enough.
 const MENDING_STEP_S: f64 = 15.0;
 
-/// How far a series made from a state can be trusted.
+/// Limits of the accuracy of a series made from a state.
 #[derive(Default)]
 pub(super) struct Exactness<N = f64> {
-    /// How far SGP4's velocity may differ from the rate of change of its position.
+    /// Max difference between SGP4's velocity and the rate of change of its position.
     pub(super) drift_km_s: N,
 }
 
 impl<N: Number> Exactness<N> {
-    /// Tests whether an extreme `tau` seconds from the state it follows from is as exact as
-    /// required.
+    /// Tests whether an extreme is exact enough, `tau` seconds from the state of its series.
     #[inline(always)]
     pub(super) fn is_crest(&self, tau: N, place: &LocalState<N>) -> N::Answer {
         let (tau, range_km) = (tau.abs(), place.range_km);
@@ -46,8 +45,8 @@ impl<N: Number> Exactness<N> {
             & self.drift_km_s.is_less(place.height.curve.abs() * range_km * CREST_TIME_TOLERANCE_S)
     }
 
-    /// Tests whether a place `tau` seconds from the state it follows from is where the height
-    /// passes `sine`, as exactly as required.
+    /// Tests whether a place is an exact enough crossing of `sine`, `tau` seconds from the state of
+    /// its series.
     #[inline(always)]
     pub(super) fn is_crossing(&self, sine: f64, tau: N, place: &LocalState<N>) -> N::Answer {
         let tau = tau.abs();
@@ -92,20 +91,20 @@ impl<'a> Track<'a> {
         }
     }
 
-    /// Number of states computed.
+    /// Returns the number of computed states.
     pub(super) fn propagations(&self) -> u64 {
         self.propagations.get()
     }
 
-    /// Adds to the number of states computed.
+    /// Adds to the number of computed states.
     pub(super) fn count(&self, states: usize) {
         self.propagations.set(self.propagations.get() + states as u64);
     }
 
-    /// The series around an exact state; `None` if there is no state.
+    /// Returns the series around an exact state; `None` if there is no state.
     pub(super) fn series(&self, at_s: f64) -> Option<LocalSeries> {
         self.count(1);
-        // SDP4 integrates from the last state on, so near instants are much cheaper in a row.
+        // SDP4 integrates from the last state, so near instants are much cheaper in a row.
         let mut resumable = self.resumable.take();
         let state = self.propagator.state_after(self.start_since_epoch_s + at_s, &mut resumable);
         self.resumable.set(resumable);
@@ -118,7 +117,7 @@ impl<'a> Track<'a> {
             Vector::new(cos_turn * v.x + sin_turn * v.y, cos_turn * v.y - sin_turn * v.x, v.z)
         };
         EarthFixed {
-            // The velocity stays inertial and only gets new axes; the series adds the turn.
+            // The velocity stays inertial and only gets new axes; the series adds the rotation.
             position_km: fixed(teme.position_km),
             velocity_km_s: fixed(teme.velocity_km_s),
         }
@@ -132,15 +131,15 @@ impl<'a> Track<'a> {
         since_epoch_s > 0.0 && state == Err(PropagationError::Decayed)
     }
 
-    /// Where the satellite is at `at_s`.
+    /// Returns the place of the satellite at `at_s`.
     pub(super) fn place(&self, at_s: f64) -> Option<LocalState> {
         Some(self.series(at_s)?.place(0.0))
     }
 
-    /// The greatest or least height near `guess_s`, and the series from which it was taken.
-    /// Newton's method goes as far as it has to, with a new state where the last one is too far
-    /// away, and with the speed of two states where that of one is not exact enough; `None` if it
-    /// does not converge within `max_s` of the guess.
+    /// Returns the greatest or least height near `guess_s`, and the series from which it was taken.
+    /// Newton's method takes a new state if the last state is too far away, and the speed of two
+    /// states if one is not exact enough. Returns `None` if the method does not converge within
+    /// `max_s` of the guess.
     pub(super) fn extreme(
         &self,
         guess_s: f64,
@@ -150,7 +149,7 @@ impl<'a> Track<'a> {
         self.extreme_from(self.series(guess_s)?, max_s, bend)
     }
 
-    /// Like [`Self::extreme`], from an existing series.
+    /// Returns the same as [`Self::extreme`], from an existing series.
     pub(super) fn extreme_from(
         &self,
         series: LocalSeries,
@@ -166,11 +165,11 @@ impl<'a> Track<'a> {
             }
             let tau = (place.at_s - series.at_s).abs();
             let is_exact = self.exactness.is_crest(tau, &place);
-            // A mended series is as good as two states can make it.
+            // A mended series is as good as two states allow.
             if is_exact || (is_mended && tau <= 2.0 * LONGEST_STEP_S) {
                 return Some((series, place));
             }
-            // Beyond this, the terms that the series leaves out matter.
+            // Beyond this time, the neglected terms of the series matter.
             if tau > LONGEST_STEP_S {
                 series = self.series(place.at_s)?;
             } else {
@@ -183,10 +182,10 @@ impl<'a> Track<'a> {
         None
     }
 
-    /// The extreme within `max_s` of the guess, by halving, for a satellite that passes so close, or
-    /// whose height changes so little, that Newton's method does not converge; `None` if the height
-    /// does not turn there. The rate is that of exact places: SGP4's velocity lacks the pull of Sun
-    /// and Moon, which is all that moves some geosynchronous satellites.
+    /// Returns the extreme within `max_s` of the guess, by halving; `None` if the height does not
+    /// turn there. It serves satellites so close, or with a height so constant, that Newton's
+    /// method does not converge. The rate comes from exact places. SGP4's velocity lacks the pull
+    /// of Sun and Moon, which alone moves some geosynchronous satellites.
     pub(super) fn extreme_by_halves(
         &self,
         guess_s: f64,
@@ -214,13 +213,14 @@ impl<'a> Track<'a> {
         self.place(f64::midpoint(before_s, after_s))
     }
 
-    /// The same series, with the speed that follows from a second state.
+    /// Returns the same series, with the speed that follows from a second state.
     fn mended(&self, series: &LocalSeries) -> Option<LocalSeries> {
         Some(series.mended(&self.series(series.at_s + MENDING_STEP_S)?))
     }
 
-    /// Where the height crosses the horizon between `below_s`, where it is less, and `above_s`,
-    /// where it is more, starting from `guess_s` in between. `None` only if there are no states.
+    /// Returns the crossing of the horizon between `below_s`, with a lower height, and `above_s`,
+    /// with a greater height. The search starts from `guess_s` in between. Returns `None` only
+    /// without states.
     pub(super) fn crossing(&self, below_s: f64, guess_s: f64, above_s: f64) -> Option<LocalState> {
         let sine = self.window.sin_aos_elevation;
         let (mut below_s, mut above_s) = (below_s, above_s);
@@ -228,7 +228,7 @@ impl<'a> Track<'a> {
         for round in 0.. {
             let width_s = (above_s - below_s).abs();
             let is_between = |at_s: f64| (at_s - below_s) * (at_s - above_s) < 0.0;
-            // Where the method does not converge, halving does.
+            // If the method does not converge, halving does.
             if round > 6 || !is_between(at_s) {
                 at_s = f64::midpoint(below_s, above_s);
             }
@@ -253,8 +253,8 @@ impl<'a> Track<'a> {
         None
     }
 
-    /// The part within the window of a pass that rises, culminates and sets at these places; `None`
-    /// if there is no such part or if it stays below the floor.
+    /// Returns the part within the window of a pass that rises, culminates and sets at these
+    /// places. Returns `None` without such a part, or if the part stays below the floor.
     pub(super) fn cut(
         &self,
         aos: &LocalState,

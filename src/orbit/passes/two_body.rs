@@ -6,9 +6,9 @@
 //!
 //! n tau = E - (1 - r0/a) sin E + sigma (1 - cos E)
 //!
-//! so the time follows from E without solving an equation. How far the satellite is above the
+//! so the time follows from E without solving an equation. The height of the satellite above the
 //! horizon is nearly a cosine of E around the crest. AOS and LOS found in this way are off by a
-//! second or two, hardly ever by ten; one exact state corrects that.
+//! second or two, hardly ever by ten. One exact state corrects the error.
 
 use super::{
     local_series::{GRAVITY_KM3_S2, LocalSeries, LocalState},
@@ -22,13 +22,13 @@ pub(super) struct TwoBody<N> {
     period: N,
     sigma: N,
     narrow: N,
-    /// E at the crest, and from there to the horizon on either side.
+    /// E at the crest, and its change from the crest to the horizon on either side.
     crest: N,
     half: N,
 }
 
 impl<N: Number> TwoBody<N> {
-    /// The ellipse of a series whose crest is at `crest`.
+    /// Creates the ellipse of a series whose crest is at `crest`.
     #[inline(always)]
     pub(super) fn new(window: &Window, series: &LocalSeries<N>, crest: &LocalState<N>) -> Self {
         let (r, v) = (series.state.position_km, series.state.velocity_km_s);
@@ -36,13 +36,13 @@ impl<N: Number> TwoBody<N> {
         let inverse_a = inverse_r0 * 2.0 - v.length_squared() * (1.0 / GRAVITY_KM3_S2);
         let root = (inverse_a * GRAVITY_KM3_S2).sqrt();
         let rad_s = root * inverse_r0;
-        // The change of the range, which is least near the crest.
+        // The second derivative of the range, which is least near the crest.
         let range_curve = (series.velocity.length_squared()
             + crest.enu_km.dot(series.acceleration))
             / crest.range_km;
         let above_km = (crest.height.sine - window.sin_aos_elevation) * crest.range_km;
         let falling_km_s2 = range_curve * window.sin_aos_elevation - series.acceleration.z;
-        // The angle whose cosine is less than 1 by `share`.
+        // The half is the angle whose cosine is less than 1 by `share`.
         let share = above_km * rad_s * rad_s / falling_km_s2;
         let half = (share * 2.0).sqrt() * (share * (share * 0.03 + 1.0 / 12.0) + 1.0);
         Self {
@@ -54,8 +54,9 @@ impl<N: Number> TwoBody<N> {
         }
     }
 
-    /// Time, in seconds from the state, at which the satellite crosses the horizon: before the
-    /// crest for a `side` of -1, after it for 1. NaN if the ellipse does not tell.
+    /// Returns the time, in seconds from the state, at which the satellite crosses the horizon. A
+    /// `side` of -1 is before the crest, 1 is after it. The result is NaN if the ellipse does not
+    /// reach the horizon.
     #[inline(always)]
     pub(super) fn crossing_tau(&self, side: f64) -> N {
         let e = self.crest + self.half * side;

@@ -18,40 +18,41 @@ use crate::{
 #[derive(Debug, Clone)]
 pub(super) struct Window {
     pub(super) start: Timestamp,
-    /// The same, since 1970.
+    /// Start in nanoseconds since 1970.
     from_ns: i64,
     pub(super) length_s: f64,
     /// Greenwich sidereal time at the start, radians.
     sidereal: f64,
-    /// The geocentric site: longitude, sine and cosine of the latitude, and the distance from the
+    /// Geocentric site: longitude, sine and cosine of the latitude, and the distance from the
     /// centre of the Earth.
     pub(super) longitude: f64,
     pub(super) sin_latitude: f64,
     pub(super) cos_latitude: f64,
     pub(super) radius_km: f64,
     site: Site,
-    /// The site in Earth-fixed axes.
+    /// Site in Earth-fixed axes, km.
     pub(super) site_ecef_km: DVec3,
-    /// The directions east, north and up, and the position of the site along them from the
-    /// centre of the Earth.
+    /// Directions east, north and up, and the position of the site along them from the centre of
+    /// the Earth.
     axes: [DVec3; 3],
     site_enu_km: DVec3,
-    /// Geometric elevation of AOS and LOS, and its sine.
+    /// Geometric elevation of AOS and LOS, radians, and its sine.
     pub(super) aos_elevation: f64,
     pub(super) sin_aos_elevation: f64,
-    /// Geometric elevation that a pass has to reach; never below that of the horizon.
+    /// Min geometric elevation that a pass has to reach, radians; never below the elevation of the
+    /// horizon.
     pub(super) floor: f64,
     pub(super) sin_floor: f64,
 }
 
 impl Window {
-    /// `None` if the span is empty or no elevation can be reached.
+    /// Creates the window; `None` if the span is empty or no elevation can be reached.
     pub(super) fn new(search: &PassSearch) -> Option<Self> {
         let length_s = time::seconds_between(search.start, search.end);
         let geometric = |elevation: Angle| search.site.geometric_of_pass(elevation).radians();
         let aos_elevation = geometric(search.aos_elevation);
         let floor = geometric(search.floor).max(aos_elevation);
-        // Written so that NaN is refused too.
+        // The negated test also refuses NaN.
         if !(length_s > 0.0 && aos_elevation >= -FRAC_PI_2 && floor <= FRAC_PI_2) {
             return None;
         }
@@ -78,19 +79,19 @@ impl Window {
         })
     }
 
-    /// A geometric direction as the passes of the site have it.
+    /// Returns a geometric direction in the form that the passes of the site use.
     pub(super) fn pass_direction(&self, geometric: AzEl) -> AzEl {
         self.site.pass_direction(geometric)
     }
 
-    /// A time that is not before the start, since 1970.
+    /// Returns the nanoseconds since 1970 of a time that is not before the start.
     pub(super) fn at_ns(&self, at_s: f64) -> i64 {
         let whole = at_s as i64;
         let rest = (at_s - whole as f64) * time::SECOND_NS as f64 + 0.5;
         self.from_ns + whole * time::SECOND_NS + rest as i64
     }
 
-    /// Greenwich sidereal time in radians, not wrapped.
+    /// Returns the Greenwich sidereal time in radians, not wrapped.
     #[inline(always)]
     pub(super) fn sidereal_at<N: Number>(&self, at_s: N) -> N {
         at_s * frames::EARTH_RATE_RAD_S + self.sidereal
@@ -103,12 +104,13 @@ impl Window {
         Vector::new(ecef.dot(east.into()), ecef.dot(north.into()), ecef.dot(up.into()))
     }
 
-    /// Distance from the centre of the Earth of a place east, north, up from the site.
+    /// Returns the distance from the centre of the Earth, km, of a place east, north, up from the
+    /// site.
     pub(super) fn radius_of_place_km(&self, enu_km: Vector<f64>) -> f64 {
         (enu_km + self.site_enu_km.into()).length()
     }
 
-    /// The vector from the site to an Earth-fixed position, east, north, up.
+    /// Returns the vector from the site to an Earth-fixed position, east, north, up, km.
     #[inline(always)]
     pub(super) fn seen_from_site<N: Number>(&self, ecef_km: Vector<N>) -> Vector<N> {
         self.to_enu(ecef_km) - self.site_enu_km.into()

@@ -1,12 +1,12 @@
 //! States of near-circular near-earth orbits, one or several at once.
 //!
-//! The theory is that of the library, written so that each angle needs only one sine and cosine:
-//! what the short waves add to an angle is small, and turning a sine and cosine by a small angle
-//! takes a few multiplications. Over the whole bundled catalog, the positions agree within 2e-8 km.
+//! The theory is the library's, rewritten so that each angle needs only one sine and cosine. The
+//! short waves change an angle only slightly, and a few multiplications turn a sine and cosine by a
+//! small angle. Over the whole bundled catalog, the positions agree within 2e-8 km.
 //!
 //! Source: Hoots and Roehrich, "Spacetrack Report No. 3", section 6, and Vallado et al.,
-//! "Revisiting Spacetrack Report #3" (AIAA 2006-6753). Lengths are in Earth radii and times in
-//! minutes, as there.
+//! "Revisiting Spacetrack Report #3" (AIAA 2006-6753). As in these sources, lengths are in Earth
+//! radii and times in minutes.
 
 use glam::DVec3;
 use sgp4::WGS72;
@@ -14,16 +14,16 @@ use sgp4::WGS72;
 use super::{State, secular::Secular};
 use crate::simd::{LANES, Lanes, Number, Vector, series, widest};
 
-/// Smallest eccentricity in the theory; rounder orbits get this one.
+/// Min eccentricity in the theory; rounder orbits get this value.
 const MIN_ECCENTRICITY: f64 = 1e-6;
 
-/// Position in km and inertial velocity in km/s.
+/// Position, km, and inertial velocity, km/s.
 pub(crate) type Motion<N> = (Vector<N>, Vector<N>);
 
 impl<N: Number> Secular<N> {
-    /// The states `minutes` after the epoch, in axes turned about the pole by `turn`
-    /// radians from those of TEME. Valid where the orbit
-    /// [is near-circular](Secular::is_near_circular_at).
+    /// Returns the states `minutes` after the epoch, in axes turned about the pole by `turn`
+    /// radians from the axes of TEME. The states are valid if the orbit [is
+    /// near-circular](Secular::is_near_circular_at).
     #[inline(always)]
     pub(crate) fn motion(&self, minutes: N, turn: N) -> Motion<N> {
         motion(self, minutes, turn)
@@ -31,7 +31,7 @@ impl<N: Number> Secular<N> {
 }
 
 impl Secular {
-    /// The states at these minutes after the epoch, in TEME; valid like [`Self::motion`].
+    /// Returns the states at these minutes after the epoch, in TEME; valid like [`Self::motion`].
     pub(super) fn states(&self, minutes: &[f64]) -> impl Iterator<Item = State> {
         let mut lanes = Secular::default();
         (0..LANES).for_each(|lane| lanes.set(lane, self));
@@ -45,7 +45,7 @@ impl Secular {
 }
 
 impl Secular<Lanes> {
-    /// [`Self::motion`] of each lane.
+    /// Returns [`Self::motion`] of each lane.
     pub(super) fn motions(
         &self,
         minutes: Lanes,
@@ -78,7 +78,7 @@ fn motion<N: Number>(secular: &Secular<N>, minutes: N, turn: N) -> Motion<N> {
         - (sin_shifted - wave_at_epoch) * wave)
         .clamped(MIN_ECCENTRICITY, 1.0);
 
-    // The eccentricity vector, towards the node and across, with the long waves.
+    // The eccentricity vector has components towards the node and across, with the long waves.
     let (sin_perigee, cos_perigee) = (series(&plane.perigee, minutes) - shift).sin_cos();
     let by_parameter = N::splat(1.0) / (axis * (-(eccentricity * eccentricity) + 1.0));
     let along = eccentricity * cos_perigee;
@@ -98,7 +98,7 @@ fn motion<N: Number>(secular: &Secular<N>, minutes: N, turn: N) -> Motion<N> {
     let sin_true = ratio * (sine - across - along * middle);
     let cos_true = ratio * (cosine - along + across * middle);
 
-    // The short waves, which come twice a revolution.
+    // The short waves come twice a revolution.
     let sin_double = sin_true * cos_true * 2.0;
     let cos_double = -(sin_true * sin_true * 2.0) + 1.0;
     let by_parameter = N::splat(1.0) / parameter;
@@ -114,7 +114,7 @@ fn motion<N: Number>(secular: &Secular<N>, minutes: N, turn: N) -> Motion<N> {
         series(&plane.node, minutes) - turn + second * sin_double * plane.cos_inclination * 1.5;
     let (sin_node, cos_node) = node.sin_cos();
 
-    // Radians per unit of time of the theory, in which gravity is 1.
+    // The rates are in radians per time unit of the theory, in which gravity is 1.
     let rate = N::splat(1.0) / (axis * root_axis);
     let outward = root_axis * crossing * by_radius - rate * first * sin_double * waves.square;
     let tangential = parameter.sqrt() * by_radius
@@ -134,8 +134,8 @@ fn motion<N: Number>(secular: &Secular<N>, minutes: N, turn: N) -> Motion<N> {
     (up * (distance * WGS72.ae), velocity)
 }
 
-/// Sine and cosine of the eccentric anomaly counted from the node: the solution of E = mean + along
-/// sin E - across cos E.
+/// Returns sine and cosine of the eccentric anomaly E counted from the node. It solves `E = mean +
+/// along sin E - across cos E`.
 ///
 /// From E = mean, one step of Halley's method and one of Newton's leave less than 1e-12 for the
 /// eccentricities in question.
@@ -152,7 +152,7 @@ fn eccentric_angle<N: Number>(mean: N, along: N, across: N) -> (N, N) {
     (sine - sine * half + cosine * rest, cosine - cosine * half - sine * rest)
 }
 
-/// Sine and cosine of an angle that is increased by `turn`, at most 0.06 radians.
+/// Returns sine and cosine of an angle that is increased by `turn`, at most 0.06 radians.
 #[inline(always)]
 fn turned<N: Number>(sine: N, cosine: N, turn: N) -> (N, N) {
     let square = turn * turn;

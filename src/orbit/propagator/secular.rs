@@ -1,11 +1,11 @@
 //! The slow motion of a near-earth orbit in SGP4.
 //!
-//! SGP4 first moves the mean elements by polynomials of the time since the epoch (the Earth's
-//! flattening turns node and perigee, the drag shrinks the orbit) and then adds short waves. The
-//! polynomials alone tell where in the sky to search, at a hundredth of the cost of a state.
+//! SGP4 first moves the mean elements by polynomials of the time since the epoch, and then adds
+//! short waves. The Earth's flattening turns node and perigee, and the drag shrinks the orbit. The
+//! polynomials alone show where in the sky to search, at a hundredth of the cost of a state.
 //!
-//! Source: Hoots and Roehrich, "Spacetrack Report No. 3", section 6, from which the symbols of the
-//! coefficients are taken; WGS72. Times are in minutes and lengths in Earth radii, as there.
+//! Source: Hoots and Roehrich, "Spacetrack Report No. 3", section 6, for the symbols of the
+//! coefficients; WGS72. As in this source, times are in minutes and lengths in Earth radii.
 
 use std::f64::consts::TAU;
 
@@ -17,24 +17,24 @@ use super::{
 };
 use crate::simd::{Lanes, series, set_all};
 
-/// Orbits with this period in minutes or a longer one follow other equations.
+/// Min period of orbits that follow other equations, minutes.
 const DEEP_SPACE_PERIOD_MIN: f64 = 225.0;
-/// The states of orbits with a smaller eccentricity than this are computed eight at a time.
+/// Max eccentricity of orbits whose states are computed eight at a time.
 const MAX_ECCENTRICITY: f64 = 0.05;
-/// Orbits that come lower than this, in Earth radii, are about to decay.
+/// Min perigee distance, Earth radii. Orbits that come lower are about to decay.
 const LOWEST_PERIGEE: f64 = 1.012;
-/// Orbits with larger waves of the eccentricity are about to decay.
+/// Max wave of the eccentricity. Orbits with larger waves are about to decay.
 const MAX_WAVE: f64 = 0.005;
-/// The waves of perigee and anomaly need an eccentricity above this.
+/// Min eccentricity for the waves of perigee and anomaly.
 const MIN_ECCENTRICITY: f64 = 1e-4;
-/// An hour: the accuracy with which the time when an orbit gets low is known.
+/// Accuracy of the time at which an orbit gets low, minutes: one hour.
 const FIRST_LOOK_MIN: f64 = 60.0;
 const CENTURY_MIN: f64 = 36_525.0 * 1440.0;
-/// Orbits with a perigee below this height, in Earth radii, get the shorter polynomials.
+/// Min perigee height for the full polynomials, Earth radii. Lower orbits get shorter polynomials.
 const LOW_PERIGEE: f64 = 220.0 / 6_378.135;
 
-/// The slow motion of an orbit, or of several side by side, as polynomials of the minutes since the
-/// epoch, constant term first.
+/// Slow motion of one or several orbits, as polynomials of the minutes since the epoch, constant
+/// term first.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Secular<N = f64> {
     pub(crate) plane: Plane<N>,
@@ -44,7 +44,7 @@ pub(crate) struct Secular<N = f64> {
     pub(super) waves: Waves<N>,
 }
 
-/// The plane of the orbit, and the mean position of the satellite in it.
+/// Plane of the orbit, and mean position of the satellite in it.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Plane<N = f64> {
     pub(crate) sin_inclination: N,
@@ -59,24 +59,24 @@ pub(crate) struct Plane<N = f64> {
 }
 
 impl Secular {
-    /// The slow motion of an orbit at its epoch; `None` for deep space.
+    /// Returns the slow motion of an orbit at its epoch; `None` for deep space.
     pub(super) fn new(orbit: &sgp4::Orbit, bstar: f64) -> Option<Self> {
         let is_near_earth = orbit.mean_motion > TAU / DEEP_SPACE_PERIOD_MIN;
         is_near_earth.then(|| Self::of_near_earth(orbit, bstar))
     }
 
-    /// Semi-major axis in Earth radii, and eccentricity, `minutes` after the epoch.
+    /// Returns the semi-major axis in Earth radii and the eccentricity, `minutes` after the epoch.
     pub(crate) fn size(&self, minutes: f64) -> (f64, f64) {
         let root_axis = series(&self.root_axis, minutes);
         (root_axis * root_axis, series(&self.plane.eccentricity, minutes))
     }
 
-    /// Minutes after the epoch from which the orbit may come as low as one that is about to decay;
-    /// infinity if it does not for a century.
+    /// Returns the minutes after the epoch from which the orbit may be low enough to decay;
+    /// infinity if it stays higher for a century.
     pub(super) fn low_after_min(&self) -> f64 {
         let is_low = |minutes: f64| {
             let root_axis = series(&self.root_axis, minutes);
-            // The largest eccentricity that the orbit has had until then.
+            // The largest eccentricity of the orbit until then counts.
             let eccentricity =
                 series(&self.plane.eccentricity, minutes).max(self.plane.eccentricity[0]);
             let lowest = root_axis * root_axis * (1.0 - eccentricity - self.eccentricity_wave());
@@ -103,7 +103,7 @@ impl Secular {
         high
     }
 
-    /// How far the eccentricity swings around its polynomial, once a revolution.
+    /// Returns the amplitude of the eccentricity around its polynomial, once a revolution.
     pub(crate) fn eccentricity_wave(&self) -> f64 {
         self.drag_wave.eccentricity[0].abs()
     }
@@ -112,7 +112,7 @@ impl Secular {
     pub(crate) fn is_near_circular_at(&self, minutes: f64) -> bool {
         let (axis, eccentricity) = self.size(minutes);
         let wave = self.eccentricity_wave();
-        // Written so that NaN is refused too.
+        // The test also refuses NaN.
         eccentricity < MAX_ECCENTRICITY
             && eccentricity - wave > 0.0
             && wave < MAX_WAVE
@@ -120,9 +120,9 @@ impl Secular {
             && axis < 0.9 * MAX_GROWTH * self.size(0.0).0
     }
 
-    /// How fast, in km/s, the drag carries the satellite away from where SGP4's velocities
-    /// point, `minutes` after the epoch: they are the velocities of an orbit that keeps its
-    /// size and shape.
+    /// Returns the speed, km/s, with which the drag carries the satellite away from SGP4's
+    /// velocities, `minutes` after the epoch. SGP4's velocities are those of an orbit that keeps
+    /// its size and shape.
     pub(super) fn drag_drift_km_s(&self, minutes: f64) -> f64 {
         let [root_axis, shrinking, _] = expand(&self.root_axis, minutes);
         let [_, rate, _] = expand(&self.plane.argument, minutes);
@@ -146,7 +146,7 @@ impl Secular {
         let theta2 = cos_inclination.powi(2);
         let precession = Precession::new(orbit, axis);
 
-        // The density function, whose parameters depend on the height of the perigee.
+        // The parameters of the density function depend on the height of the perigee.
         let perigee_km = WGS72.ae * (axis * (1.0 - e) - 1.0);
         let s_km = if perigee_km < 98.0 { 20.0 } else { (perigee_km - 78.0).min(78.0) };
         let s = 1.0 + s_km / WGS72.ae;
@@ -256,7 +256,7 @@ impl Plane<Lanes> {
     }
 }
 
-/// D2, D3 and D4: the coefficients of the higher powers of the shrinking.
+/// Returns D2, D3 and D4: the coefficients of the higher powers of the shrinking.
 fn shrinking(c1: f64, axis: f64, xi: f64, s: f64) -> [f64; 3] {
     let d2 = 4.0 * axis * xi * c1 * c1;
     let third = d2 * xi * c1 / 3.0;
@@ -265,13 +265,13 @@ fn shrinking(c1: f64, axis: f64, xi: f64, s: f64) -> [f64; 3] {
     [d2, d3, d4]
 }
 
-/// Effect of the flattening on the angles, in radians per minute.
+/// Effect of the flattening on the angles, radians per minute.
 struct Precession {
-    /// Three halves of J2 n / p², a factor of the other terms.
+    /// Factor of the other terms: three halves of J2 n / p².
     first: f64,
     node: f64,
     perigee: f64,
-    /// Includes the mean motion itself.
+    /// Change of the mean anomaly, including the mean motion itself.
     anomaly: f64,
 }
 
@@ -302,7 +302,7 @@ impl Precession {
     }
 }
 
-/// The value of a polynomial at `t`, its first derivative and half its second derivative.
+/// Returns the value of a polynomial at `t`, its first derivative and half its second derivative.
 pub(crate) fn expand<const N: usize>(polynomial: &[f64; N], t: f64) -> [f64; 3] {
     let start = [0.0; 3];
     polynomial.iter().rev().fold(start, |[value, slope, half_curve], coefficient| {

@@ -8,7 +8,7 @@ use crate::bundled;
 #[test]
 fn any_time_gives_a_state_or_a_reason() {
     let catalog = bundled().unwrap();
-    // Orbits that are low, of half a day, geosynchronous, and far and eccentric.
+    // The orbits are low, of half a day, geosynchronous, and far and eccentric.
     let propagators: Vec<Propagator> = [25_544, 24_876, 54_743, 25_867]
         .map(|number| Propagator::new(catalog.get(number).unwrap()).unwrap())
         .into();
@@ -129,7 +129,7 @@ fn an_integration_is_resumed_near_what_is_asked_for() {
 
 #[test]
 fn several_states_are_those_of_each_time() {
-    // Low, and about to come down; of half a day, geosynchronous, and far and eccentric.
+    // The orbits are low, about to decay, of half a day, geosynchronous, and far and eccentric.
     for number in [25_544, 43_881, 24_876, 54_743, 25_867] {
         let catalog = bundled().unwrap();
         let propagator = Propagator::new(catalog.get(number).unwrap()).unwrap();

@@ -1,5 +1,4 @@
-//! The coefficients of SGP4's periodic terms: those of the gravity field, and those of the drag,
-//! which come once a revolution.
+//! Coefficients of SGP4's periodic terms of the gravity field and of the drag, once a revolution.
 
 use sgp4::WGS72;
 
@@ -8,12 +7,12 @@ use crate::simd::{Lanes, set_all};
 /// Coefficients of the periodic terms of the gravity field.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct Waves<N = f64> {
-    /// 1 - cos²i, 7 cos²i - 1 and 3 cos²i - 1.
+    /// Factors 1 - cos²i, 7 cos²i - 1 and 3 cos²i - 1.
     pub(super) square: N,
     pub(super) seven: N,
     pub(super) three: N,
-    /// The odd part of the gravity field: what it adds to the eccentricity vector and to
-    /// the mean angle.
+    /// Effect of the odd part of the gravity field on the eccentricity vector and on the mean
+    /// angle.
     pub(super) odd_vector: N,
     pub(super) odd_angle: N,
 }
@@ -22,7 +21,8 @@ impl Waves {
     pub(super) fn new(sin_inclination: f64, cos_inclination: f64) -> Self {
         let square = cos_inclination * cos_inclination;
         let odd = -0.5 * (WGS72.j3 / WGS72.j2) * sin_inclination;
-        // An equatorial orbit against the rotation of the Earth would divide by zero.
+        // The lower bound avoids a division by zero for an equatorial orbit against the rotation of
+        // the Earth.
         let with_turn =
             if (1.0 + cos_inclination).abs() > 1.5e-12 { 1.0 + cos_inclination } else { 1.5e-12 };
         Self {
@@ -41,8 +41,7 @@ pub(super) struct DragWave<N = f64> {
     /// Mean anomaly: at the epoch, and its change per minute without drag.
     pub(super) anomaly: [N; 2],
     pub(super) eta: N,
-    /// Perigee against mean anomaly: the factor, its share of the epoch, and
-    /// its growth per minute.
+    /// Perigee against mean anomaly: the factor, its share of the epoch, and its growth per minute.
     pub(super) angle: [N; 3],
     /// Eccentricity: the factor, and the sine at the epoch.
     pub(super) eccentricity: [N; 2],

@@ -1,8 +1,8 @@
 //! Numbers that occur in more than one form.
 
-/// The catalog number in `text`: digits, or Alpha-5, in which a letter stands for the first two
-/// digits of six: `A0001` is 100001, `Z9999` is 339999. The letters I and O are left out, because
-/// they look like digits.
+/// Returns the catalog number in `text`: digits, or Alpha-5, in which a letter stands for the first
+/// two of six digits. `A0001` is 100001, `Z9999` is 339999. Alpha-5 omits the letters I and O,
+/// because they look like digits.
 ///
 /// Source: Space-Track, "Alpha-5".
 pub(super) fn alpha_5(text: &str) -> Option<u64> {
@@ -15,17 +15,17 @@ pub(super) fn alpha_5(text: &str) -> Option<u64> {
     Some(leading * 10_000 + digits(rest)?)
 }
 
-/// The letters of Alpha-5, which stand for the numbers from 10 on.
+/// Letters of Alpha-5, which stand for the numbers from 10 on.
 pub(crate) const ALPHA_5: &str = "ABCDEFGHJKLMNPQRSTUVWXYZ";
 
-/// A number with a point and without an exponent, such as `-.00002182`.
+/// Returns a number with a point and without an exponent, such as `-.00002182`.
 pub(super) fn with_point(text: &str) -> Option<f64> {
     let (whole, fraction) = text.strip_prefix(['+', '-']).unwrap_or(text).split_once('.')?;
     let mut digits = whole.bytes().chain(fraction.bytes());
     if digits.all(|byte| byte.is_ascii_digit()) { text.parse().ok() } else { None }
 }
 
-/// A number written only with digits, without a sign.
+/// Returns a number written only with digits, without a sign.
 pub(super) fn digits(text: &str) -> Option<u64> {
     Some(text).filter(|text| text.bytes().all(|byte| byte.is_ascii_digit()))?.parse().ok()
 }

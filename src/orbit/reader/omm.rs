@@ -1,6 +1,6 @@
 //! OMM: one object as named fields, in JSON, XML, KVN or CSV.
 //!
-//! Every form fills a [`Message`]; the meaning of its fields is decided here, once.
+//! Each form fills a [`Message`], and this module alone interprets its fields.
 //!
 //! Source: CCSDS 502.0-B "Orbit Data Messages", with the fields that `CelesTrak` and Space-Track
 //! write. Space-Track writes numbers as strings; some sources end the epoch with `Z` and omit the
@@ -21,7 +21,7 @@ use crate::{
     elements::{Classification, ElementsError, catalog_number},
 };
 
-/// The fields that are read. All others are ignored. The last three are not of OMM: `SatNOGS` DB
+/// Fields that are read; all others are ignored. The last three are not part of OMM: `SatNOGS` DB
 /// writes the lines of a TLE under these names.
 const FIELDS: [&str; 24] = [
     "OBJECT_NAME",
@@ -50,17 +50,17 @@ const FIELDS: [&str; 24] = [
     "TLE2",
 ];
 
-/// A field that is read: its index in [`FIELDS`].
+/// A field that is read, as its index in [`FIELDS`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Field(usize);
 
 impl Field {
-    /// The field called `name`, in any case.
+    /// Returns the field called `name`, in any case.
     fn named(name: &str) -> Option<Self> {
         FIELDS.iter().position(|field| field.eq_ignore_ascii_case(name)).map(Self)
     }
 
-    /// Returns `true` if the field holds text that is taken as it is.
+    /// Returns `true` if the field holds text that is used without conversion.
     fn is_text(self) -> bool {
         FIELDS.get(self.0).is_some_and(|name| name.starts_with("OBJECT_"))
     }
@@ -92,15 +92,15 @@ enum Value<'a> {
     /// Text, which may contain a number.
     Text(Cow<'a, str>),
     Number(f64),
-    /// Something that no field can hold.
+    /// Value that no field can hold.
     Other,
 }
 
-/// The fields of one message that have a value.
+/// Fields of one message that have a value.
 #[derive(Debug, Default)]
 struct MessageFields<'a> {
     values: [Option<Value<'a>>; FIELDS.len()],
-    /// Lines of a TLE have a place in the message, even if they are empty.
+    /// The message has places for lines of a TLE, even if they are empty.
     has_tle: bool,
 }
 
@@ -136,7 +136,7 @@ impl<'a> MessageFields<'a> {
         }
     }
 
-    /// The name of the object, or its number, by which a refusal names it.
+    /// Returns the name or number of the object, for a refusal.
     fn object(&self) -> Option<String> {
         let field = |name| match self.value(name)? {
             Value::Text(text) => Some(text.trim().to_owned()),
@@ -147,7 +147,7 @@ impl<'a> MessageFields<'a> {
         field("OBJECT_NAME").or_else(name).or_else(|| field("NORAD_CAT_ID"))
     }
 
-    /// Reads the TLE of a message that holds one in place of an orbit; `None` for an OMM.
+    /// Reads the TLE of a message that holds a TLE in place of an orbit; returns `None` for an OMM.
     fn tle(&self) -> Option<Result<tle::Read, RefusalReason>> {
         if !self.has_tle || self.text("EPOCH").is_some() {
             return None;
@@ -170,8 +170,8 @@ impl<'a> MessageFields<'a> {
 
     fn elements(&self) -> Result<Elements, RefusalReason> {
         self.is_sgp4()?;
-        // OMM 3.0 may leave it out, but an object is known by its number: to the catalog, to
-        // favourites and to plans.
+        // OMM 3.0 allows a message without a number, but catalog, favourites and plans identify an
+        // object by its number.
         let number = self.whole("NORAD_CAT_ID")?;
         let number = number.ok_or(RefusalReason::MissingField("NORAD_CAT_ID"))?;
         let elements = Elements {
@@ -198,8 +198,8 @@ impl<'a> MessageFields<'a> {
         Ok(elements.checked()?)
     }
 
-    /// Checks whether the numbers are for SGP4 as it is used here, as far as the message says.
-    /// Numbers of another theory or frame would be off by kilometres.
+    /// Checks that the numbers are for SGP4 as used here, if the message declares it. Numbers of
+    /// another theory or frame would be off by kilometres.
     fn is_sgp4(&self) -> Result<(), RefusalReason> {
         let fits = |name, fit: fn(&str) -> bool| match self.text(name) {
             Some(text) if !fit(text) => Err(RefusalReason::Field(name)),
@@ -217,7 +217,7 @@ impl<'a> MessageFields<'a> {
         self.values.get(Field::named(name)?.0)?.as_ref()
     }
 
-    /// Text that is not empty.
+    /// Returns text that is not empty.
     fn text(&self, name: &'static str) -> Option<&str> {
         match self.value(name)? {
             Value::Text(text) => Some(text.trim()),
@@ -225,13 +225,13 @@ impl<'a> MessageFields<'a> {
         }
     }
 
-    /// A whole number.
+    /// Returns a whole number; `None` if the field is absent.
     fn whole(&self, name: &'static str) -> Result<Option<u64>, RefusalReason> {
         let whole = match self.value(name) {
             None => return Ok(None),
             Some(Value::Text(text)) => {
                 let text = text.trim();
-                // CCSDS 502.0-B, 7.5.4.
+                // Source: CCSDS 502.0-B, 7.5.4.
                 numbers::digits(text.strip_prefix('+').unwrap_or(text))
             }
             Some(Value::Number(number)) if *number >= 0.0 && number.fract() == 0.0 => {
@@ -242,7 +242,7 @@ impl<'a> MessageFields<'a> {
         whole.map(Some).ok_or(RefusalReason::Field(name))
     }
 
-    /// A whole number, 0 if absent.
+    /// Returns a whole number, 0 if absent.
     fn count<T: TryFrom<u64>>(&self, name: &'static str) -> Result<T, RefusalReason> {
         let count = self.whole(name)?.unwrap_or(0);
         T::try_from(count).map_err(|_| RefusalReason::Field(name))
@@ -262,7 +262,7 @@ impl<'a> MessageFields<'a> {
         self.decimal(name)?.ok_or(RefusalReason::MissingField(name))
     }
 
-    /// The epoch, which is UTC whether or not the text says so.
+    /// Returns the epoch, which is UTC even if the text does not say so.
     fn epoch(&self) -> Result<Timestamp, RefusalReason> {
         let text = self.text("EPOCH").ok_or(RefusalReason::MissingField("EPOCH"))?;
         // The parser of civil times ignores an offset and a zone.
@@ -287,8 +287,8 @@ impl<'a> MessageFields<'a> {
     }
 }
 
-/// Returns `true` if `text` begins with a date of three numbers, of which the first is no year, such as
-/// `27/11/2026`.
+/// Returns `true` if `text` begins with a date of three numbers that does not start with a year,
+/// such as `27/11/2026`.
 fn has_date_order(text: &str) -> bool {
     let date = text.split([' ', 'T']).next().unwrap_or_default();
     let parts: Vec<&str> = date.split(['/', '.', '-']).collect();
@@ -298,7 +298,7 @@ fn has_date_order(text: &str) -> bool {
     matches!(parts[..], [first, _, _] if first.len() <= 2) && parts.iter().all(is_number)
 }
 
-/// The other date format of CCSDS: `2026-223T01:21:00`.
+/// Returns the time in the other date format of CCSDS: `2026-223T01:21:00`.
 fn by_day_of_year(text: &str) -> Option<civil::DateTime> {
     let (date, time) = text.split_once('T')?;
     let (year, day) = date.split_once('-')?;

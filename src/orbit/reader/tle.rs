@@ -11,7 +11,7 @@ use self::columns::{Columns, elements};
 use super::{ReadReport, RefusalReason, report::NoteKind};
 use crate::Elements;
 
-/// Maximum length of a name without a line number before it, characters.
+/// Max length of a name without a line number before it, characters.
 const MAX_NAME_CHARS: usize = 24;
 
 /// Length of a line without its checksum, characters.
@@ -19,15 +19,15 @@ const MIN_LINE_CHARS: usize = 68;
 
 /// A line that is not empty.
 struct TleLine<'a> {
-    /// Its number in the text, from 1.
+    /// Line number in the text, from 1.
     place: usize,
     text: Cow<'a, str>,
-    /// The line before it is empty.
+    /// The previous line is empty.
     follows_gap: bool,
 }
 
 impl<'a> TleLine<'a> {
-    /// `None` for an empty line and for a remark.
+    /// Creates a line; `None` for an empty line and for a remark.
     fn new(text: &'a str, place: usize, follows_gap: bool) -> Option<Self> {
         let is_around = |letter: char| letter.is_whitespace() || is_invisible(letter);
         // Mail programs quote with `>`.
@@ -58,12 +58,12 @@ fn is_invisible(letter: char) -> bool {
     matches!(letter, '\u{ad}' | '\u{200b}'..='\u{200f}' | '\u{2060}' | '\u{feff}')
 }
 
-/// The ASCII character in place of which web pages and word processors put `letter`; `None` for a
+/// Returns the ASCII character that web pages and word processors replace by `letter`; `None` for a
 /// letter that takes no column.
 fn plain(letter: char) -> Option<char> {
     match letter {
         '\t' => Some('\t'),
-        // The blank of Latin-1 is no UTF-8.
+        // The non-breaking space of Latin-1 is invalid UTF-8.
         '\u{fffd}' => Some(' '),
         '\u{2010}'..='\u{2015}' | '\u{2212}' | '\u{fe63}' | '\u{ff0d}' => Some('-'),
         _ if letter.is_whitespace() => Some(' '),
@@ -97,31 +97,31 @@ pub(super) fn read(text: &str) -> ReadReport {
     report
 }
 
-/// Number of sets below which another thread is not worth its start.
+/// Min number of sets for which another thread is worth its start.
 const MIN_PER_THREAD: usize = 64;
 
-/// The lines of a set, at least one of the two.
+/// Lines of a set, with at least one of the two.
 struct TleSet<'a> {
-    /// The text before it; empty if there is none.
+    /// Text before the set; empty without text.
     text: Cow<'a, str>,
     heading: Heading,
-    /// The number of its first line in the text, from 1.
+    /// Number of the set's first line in the text, from 1.
     place: usize,
     first: Option<Cow<'a, str>>,
     second: Option<Cow<'a, str>>,
 }
 
-/// The part that the text before a set plays.
+/// Role of the text before a set.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Heading {
     /// A line with the number 0.
     Numbered,
-    /// It may be a name.
+    /// Text that may be a name.
     Likely,
     Remark,
 }
 
-/// Elements of a set, and the numbers of its lines that have no checksum.
+/// Elements of a set, and the numbers of its lines without a checksum.
 pub(super) struct Read {
     pub(super) elements: Elements,
     unprotected: [Option<u8>; 2],
@@ -137,13 +137,13 @@ impl Read {
     }
 }
 
-/// The name in a line 0. Space-Track starts it with the number of the line.
+/// Returns the name in a line 0. Space-Track starts this line with its number.
 pub(super) fn name_in(line: &str) -> &str {
     let line = line.trim();
     line.strip_prefix("0 ").unwrap_or(line).trim()
 }
 
-/// Reads one set whose lines come apart from each other, as in JSON.
+/// Reads one set whose lines are given separately, as in JSON.
 pub(super) fn read_lines(
     name: &str,
     first: Option<&str>,
@@ -153,7 +153,7 @@ pub(super) fn read_lines(
     TleSet { text: name.into(), heading: Heading::Numbered, place: 1, first, second }.read()
 }
 
-/// All sets of a text, in its order.
+/// Returns all sets of a text, in its order.
 fn sets(text: &str) -> Vec<TleSet<'_>> {
     let mut is_gap = false;
     let lines = text.lines().zip(1..).filter_map(|(text, place)| {
@@ -178,7 +178,8 @@ fn sets(text: &str) -> Vec<TleSet<'_>> {
             continue;
         };
         let text = before.take().unwrap_or_default();
-        // An empty line parts a set from the text before it, unless all lines are apart.
+        // An empty line separates a set from the text before it, unless there is an empty line
+        // between all lines.
         let heading = if text.starts_with("0 ") {
             Heading::Numbered
         } else if is_remark(&text) || (is_apart && !is_spaced) {
@@ -188,8 +189,8 @@ fn sets(text: &str) -> Vec<TleSet<'_>> {
         };
         sets.push(TleSet { text, heading, place, first, second });
     }
-    // Sets without names have names nowhere: text before one of them is a heading of the list. Sets
-    // with a torn line do not count.
+    // If at most half of the sets have a name, the list has no names, and text before a set is a
+    // heading. Sets with a torn line do not count.
     let whole = sets.iter().filter(|set| set.is_whole());
     let named = whole.clone().filter(|set| set.heading != Heading::Remark && !set.text.is_empty());
     if named.count() * 2 <= whole.count() {
@@ -200,8 +201,8 @@ fn sets(text: &str) -> Vec<TleSet<'_>> {
     sets
 }
 
-/// Returns `true` if `text` is no name of a satellite, such as a heading with a date, an address or a
-/// tag of a web page.
+/// Returns `true` if `text` is not the name of a satellite, such as a heading with a date, an
+/// address or a tag of a web page.
 pub(crate) fn is_remark(text: &str) -> bool {
     let is_digit = |byte: Option<&u8>| byte.is_some_and(u8::is_ascii_digit);
     let bytes = text.as_bytes();
@@ -218,8 +219,8 @@ pub(crate) fn is_remark(text: &str) -> bool {
         || text.split(|letter: char| letter.is_whitespace() || "(),;".contains(letter)).any(is_date)
 }
 
-/// Returns `true` for three numbers of a date, such as 2026-11-27 or 27.11.26; names such as CX-1-02
-/// have shorter ones.
+/// Returns `true` for three numbers of a date, such as 2026-11-27 or 27.11.26. Names such as
+/// CX-1-02 have shorter numbers.
 fn is_date(word: &str) -> bool {
     ['-', '.', '/'].into_iter().any(|sign| {
         let parts: Vec<&str> = word.split(sign).collect();
@@ -232,7 +233,7 @@ fn is_date(word: &str) -> bool {
 }
 
 impl TleSet<'_> {
-    /// Empty if the text before the set is not its name.
+    /// Returns the name; empty if the text before the set is not its name.
     fn name(&self) -> &str {
         match self.heading {
             Heading::Numbered | Heading::Likely => name_in(&self.text),
@@ -247,13 +248,14 @@ impl TleSet<'_> {
         is_long(&self.first) && is_long(&self.second)
     }
 
-    /// Its number as written.
+    /// Returns the catalog number as written.
     fn number(&self) -> Option<&str> {
         let line = self.first.as_ref().or(self.second.as_ref())?;
         line.get(2..7).map(str::trim).filter(|number| !number.is_empty())
     }
 
-    /// The words by which a refusal calls a set: the text before it, or else its number.
+    /// Returns the text by which a refusal names the set: the text before the set, or else its
+    /// number.
     fn object(&self) -> Option<&str> {
         Some(name_in(&self.text)).filter(|name| !name.is_empty()).or_else(|| self.number())
     }
@@ -280,7 +282,7 @@ mod tests {
     const LINE_1: &str = "1 25544U 98067A   08264.51782528 -.00002182  00000-0 -11606-4 0  2927";
     const LINE_2: &str = "2 25544  51.6416 247.4627 0006703 130.5360 325.0288 15.72125391563537";
 
-    /// `line` with `text` written from `column` (from 1) on and the checksum corrected.
+    /// Returns `line` with `text` written from `column` (from 1) on and the checksum corrected.
     fn replaced(line: &str, column: usize, text: &str) -> String {
         let mut line = line.to_owned();
         line.replace_range(column - 1..column - 1 + text.len(), text);
@@ -292,7 +294,7 @@ mod tests {
         line
     }
 
-    /// The reason why the only set of `text` is refused.
+    /// Returns the reason why the only set of `text` is refused.
     fn refusal(text: &str) -> RefusalReason {
         let report = read(text);
         assert_eq!((report.elements.len(), report.refused.len()), (0, 1), "{report:?}");
@@ -316,7 +318,7 @@ mod tests {
         assert!((iss.inclination().degrees() - 51.6416).abs() < 1e-12);
     }
 
-    /// `text` before the line of each set of `sets`, which are without names, and their names then.
+    /// Reads `sets` sets without names, preceded by `text`, and returns the names that result.
     fn names(text: &str, sets: usize) -> Vec<String> {
         let set = format!("{LINE_1}\n{LINE_2}\n");
         let report = read(&format!("{text}\n{}", set.repeat(sets)));
@@ -438,8 +440,8 @@ mod tests {
         &[3..=7, 9..=16, 18..=25, 27..=33, 35..=42, 44..=51, 53..=63, 64..=68],
     ];
 
-    /// The sets that follow from `first` and `second` with `text` in each column of a number in
-    /// turn, with what the columns held before.
+    /// Returns the sets that result from `first` and `second` with `text` in each column of a
+    /// number in turn, each with the previous content of the column.
     fn each_with(first: &str, second: &str, text: &str) -> Vec<(String, String)> {
         let lines = [first, second];
         let mut sets = Vec::new();
@@ -459,7 +461,7 @@ mod tests {
 
     #[test]
     fn a_blank_in_place_of_a_digit_is_read_as_0_or_refused() {
-        // Every field ends in 0, and B* and the second derivative are there.
+        // Every field ends in 0, and B* and the second derivative are present.
         let first = replaced(LINE_1, 45, " 12340-5 -11600-4 0  290");
         let first = replaced(&replaced(&first, 3, "25540"), 43, "0");
         let second = replaced(LINE_2, 3, "25540  51.6410 247.4620 0006700 130.5360 325.0280");
@@ -475,7 +477,7 @@ mod tests {
             refused += read_blank.refused.len();
         }
         assert!(refused > 20, "{refused}");
-        // The last digit of an eccentricity and of B*.
+        // The blank replaces the last digit of an eccentricity and of B*.
         for (place, text) in [("ECCENTRICITY", 33), ("BSTAR", 59)] {
             let lines = match place {
                 "BSTAR" => [replaced(&first, text, " "), second.clone()],
@@ -489,7 +491,7 @@ mod tests {
     fn no_letter_is_part_of_a_number() {
         for letter in ["e", "E"] {
             for (_, set) in each_with(LINE_1, LINE_2, letter) {
-                // In column 3, it is the first letter of an Alpha-5 number.
+                // In column 3, the letter is the first letter of an Alpha-5 number.
                 if !set.contains("1 E") {
                     assert_eq!(read(&set).elements, [], "{set}");
                 }

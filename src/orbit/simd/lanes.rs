@@ -1,7 +1,7 @@
-//! Eight numbers that go through the same operations.
+//! Eight numbers that undergo the same operations.
 //!
-//! They are plain arrays, which the compiler keeps in as many registers as it takes: those that may
-//! be used by the function into which an operation is inlined ([`widest`](super::widest)).
+//! The lanes are plain arrays, which the compiler keeps in registers. The function into which an
+//! operation is inlined determines the usable registers ([`widest`](super::widest)).
 
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Sub};
 
@@ -9,7 +9,7 @@ use super::{Number, trig};
 
 pub(crate) const LANES: usize = 8;
 
-/// Numbers side by side.
+/// Eight numbers side by side, aligned for registers.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[repr(align(64))]
 pub(crate) struct Lanes([f64; LANES]);
@@ -18,7 +18,7 @@ pub(crate) struct Lanes([f64; LANES]);
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Answers([u64; LANES]);
 
-/// Applies `op` to each lane of two.
+/// Applies `op` to each pair of lanes.
 #[inline]
 fn by_lane<A: Copy, B: Copy, C>(
     a: [A; LANES],
@@ -37,13 +37,13 @@ impl Lanes {
         &self.0
     }
 
-    /// The number in one lane; NaN beyond the last lane.
+    /// Returns the number in one lane; NaN beyond the last lane.
     #[inline]
     pub(crate) fn lane(&self, lane: usize) -> f64 {
         self.0.get(lane).copied().unwrap_or(f64::NAN)
     }
 
-    /// Puts a number into a lane; has no effect beyond the last lane.
+    /// Puts a number into a lane; does nothing beyond the last lane.
     #[inline]
     pub(crate) fn set(&mut self, lane: usize, number: f64) {
         if let Some(place) = self.0.get_mut(lane) {
@@ -58,13 +58,13 @@ impl Lanes {
 }
 
 impl Answers {
-    /// The answer for one lane; no beyond the last lane.
+    /// Returns the answer for one lane; no beyond the last lane.
     #[inline]
     pub(crate) fn holds_in(self, lane: usize) -> bool {
         self.0.get(lane).is_some_and(|answer| *answer != 0)
     }
 
-    /// In each lane the first number where the answer is yes, else the second.
+    /// Returns, in each lane, the first number if the answer is yes, otherwise the second.
     #[inline]
     pub(super) fn select(self, yes: Lanes, no: Lanes) -> Lanes {
         let pairs = by_lane(yes.0, no.0, |yes, no| (yes, no));

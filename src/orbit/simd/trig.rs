@@ -1,25 +1,25 @@
-//! Sine, cosine and the angle of a direction, several at once. There are no branches, so that all
-//! lanes take the same path.
+//! Sine, cosine and the angle of a direction, several at once. The code has no branches, so that
+//! all lanes take the same path.
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI, TAU};
 
 use super::{Lanes, Number, series};
 
-/// A turn in two parts, of which the first has so few digits that multiples of it are not rounded.
+/// A turn in two parts. The first has so few digits that its multiples are not rounded.
 const TURN_HIGH: f64 = 4.0 * 1.570_796_326_734_125_6;
 const TURN_LOW: f64 = 4.0 * 6.077_100_506_506_192e-11;
-/// The reciprocal of the tangent of a sixteenth of a turn.
+/// Reciprocal of the tangent of a sixteenth of a turn.
 const STEEP: f64 = 1.0 + std::f64::consts::SQRT_2;
 
-/// Sine and cosine from those of a quarter of the angle, for which the power series are short,
-/// doubled twice.
+/// Returns sine and cosine, doubled twice from those of a quarter of the angle, for which the power
+/// series are short.
 #[inline(always)]
 pub(super) fn sin_cos<N: Number>(angle: N) -> (N, N) {
     let turns = (angle * (1.0 / TAU)).nearest();
     let quarter = (angle - turns * TURN_HIGH - turns * TURN_LOW) * 0.25;
     let square = quarter * quarter;
     let sine = quarter + quarter * square * series(&SINE, square);
-    // 1 - cosine keeps the digits that the doubling would lose.
+    // The value 1 - cosine keeps the digits that the doubling would lose.
     let less = square * (square * series(&COSINE, square) + 0.5);
     let double_sine = sine * (-less + 1.0) * 2.0;
     let double_less = sine * sine * 2.0;
@@ -28,14 +28,15 @@ pub(super) fn sin_cos<N: Number>(angle: N) -> (N, N) {
     (sine, cosine)
 }
 
-/// The angle from the nearest axis or line midway between two axes, which is at most a sixteenth of
-/// a turn, plus the angle of that axis or line.
+/// Returns the angle of the direction (`x`, `y`). It is the angle from the nearest axis or line
+/// midway between two axes, plus the angle of that axis or line. The first part is at most a
+/// sixteenth of a turn.
 #[inline(always)]
 pub(super) fn atan2(y: Lanes, x: Lanes) -> Lanes {
     let (width, height) = (x.abs(), y.abs());
     let is_upright = width.is_less(height);
     let less = is_upright.select(width, height);
-    // Added so that the zero vector has the angle 0.
+    // The addition gives the zero vector the angle 0.
     let more = is_upright.select(height, width) + f64::MIN_POSITIVE;
     let is_midway = more.is_less(less * STEEP);
     let tangent = is_midway.select(less - more, less) / is_midway.select(less + more, more);

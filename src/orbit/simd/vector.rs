@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::{Lanes, Number};
 
-/// A vector in three dimensions.
+/// A vector in three dimensions, with one or several values per component.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Vector<N> {
     pub(crate) x: N,

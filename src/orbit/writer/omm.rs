@@ -1,4 +1,4 @@
-//! OMM with the fields of `CelesTrak`, in its order.
+//! OMM with the fields of `CelesTrak`, in the order of `CelesTrak`.
 
 use std::io::{self, Write};
 
@@ -54,7 +54,7 @@ impl<'a> From<&'a Elements> for Message<'a> {
     }
 }
 
-/// Writes a JSON list, one message per line. Fails only if `out` fails.
+/// Writes a JSON list, one message per line. The function fails only if `out` fails.
 pub fn write_omm_json<'a>(
     elements: impl IntoIterator<Item = &'a Elements>,
     mut out: impl Write,
@@ -70,8 +70,8 @@ pub fn write_omm_json<'a>(
     out.write_all(end.as_bytes())
 }
 
-/// Writes a header and one row per message; nothing at all if there are no messages. Fails only
-/// if `out` fails.
+/// Writes a header and one row per message, or nothing if there are no messages. The function fails
+/// only if `out` fails.
 pub fn write_omm_csv<'a>(
     elements: impl IntoIterator<Item = &'a Elements>,
     out: impl Write,

@@ -1,4 +1,4 @@
-//! TLE, as far as its columns allow.
+//! TLE, within the limits of its columns.
 //!
 //! Source: `CelesTrak`, "NORAD Two-Line Element Set Format"; Space-Track, "Alpha-5".
 
@@ -13,10 +13,10 @@ use crate::{
 
 /// Number of columns of a name line.
 const NAME_COLUMNS: usize = 24;
-/// The last digit of the epoch, 1e-8 days, in microseconds.
+/// Last digit of the epoch, 1e-8 days, in microseconds.
 const EPOCH_STEP_US: i64 = 864;
 const STEPS_A_DAY: i64 = 100_000_000;
-/// The years that two digits can express.
+/// Years that two digits can express.
 const YEARS: std::ops::RangeInclusive<i16> = 1957..=2056;
 
 /// One object that no TLE can carry.
@@ -26,13 +26,13 @@ pub struct TleRefusal {
     pub reason: TleRefusalReason,
 }
 
-/// The reason why a TLE cannot carry an object.
+/// Reason why a TLE cannot carry an object.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum TleRefusalReason {
-    /// Alpha-5 ends at 339999.
+    /// The catalog number is above 339999, the end of Alpha-5.
     #[error("a TLE carries catalogue numbers up to 339999")]
     CatalogNumber,
-    /// Two digits express the years from 1957 to 2056.
+    /// The epoch is outside the years from 1957 to 2056, which two digits can express.
     #[error("a TLE carries epochs from 1957 to 2056")]
     Epoch,
     /// A number, given by its name in an OMM, is too large or too small for its columns.
@@ -40,12 +40,12 @@ pub enum TleRefusalReason {
     Columns(&'static str),
 }
 
-/// Writes all of `elements` that a TLE can carry, each with its name before the two lines if it has
-/// one, and returns the others. Fails only if `out` fails.
+/// Writes all `elements` that a TLE can carry, and returns the others. A name comes before the two
+/// lines of its set. The function fails only if `out` fails.
 ///
-/// A name is cut after 24 columns and has `?` in place of what is not ASCII. A designator in
-/// another form is left blank, and the element set and revolution numbers keep their last four and
-/// five digits: neither says where the object is.
+/// A name is cut after 24 columns, and `?` replaces characters outside ASCII. A designator in
+/// another form is left blank. The element set and revolution numbers keep their last four and five
+/// digits. None of these losses affects the position of the object.
 pub fn write_tle<'a>(
     elements: impl IntoIterator<Item = &'a Elements>,
     mut out: impl Write,
@@ -71,7 +71,7 @@ fn name_line(name: &str) -> String {
     let letters = name.chars().map(|letter| if letter.is_ascii() { letter } else { '?' });
     let name: String = letters.take(NAME_COLUMNS).collect();
     let name = name.trim_end();
-    // Such names would be read as a remark or as another form, or would lose their start.
+    // A reader would take such names for a remark or another form, or would lose their start.
     let is_odd = !name.starts_with(|letter: char| letter.is_ascii_alphanumeric())
         || name.contains('=')
         || name.starts_with("0 ")
@@ -79,7 +79,7 @@ fn name_line(name: &str) -> String {
     if is_odd { format!("0 {name}") } else { name.into() }
 }
 
-/// The two lines of a set, 69 columns each.
+/// Returns the two lines of a set, 69 columns each.
 pub fn tle_lines(elements: &Elements) -> Result<[String; 2], TleRefusalReason> {
     let number = number(elements.catalog_number)?;
     let first = format!(
@@ -108,7 +108,7 @@ pub fn tle_lines(elements: &Elements) -> Result<[String; 2], TleRefusalReason> {
     Ok([first, second].map(|line| format!("{line}{}", checksum(line.as_bytes()))))
 }
 
-/// Five columns: digits, or a letter for the first two digits of six.
+/// Returns the number in five columns: digits, or a letter for the first two of six digits.
 fn number(number: u32) -> Result<String, TleRefusalReason> {
     let (leading, rest) = (number / 10_000, number % 10_000);
     if leading < 10 {
@@ -118,7 +118,7 @@ fn number(number: u32) -> Result<String, TleRefusalReason> {
     Ok(format!("{}{rest:04}", letter.ok_or(TleRefusalReason::CatalogNumber)?))
 }
 
-/// `98067A` for `1998-067A`; `None` for any other form.
+/// Returns `98067A` for `1998-067A`; `None` for any other form.
 fn designator(text: &str) -> Option<String> {
     let (year, piece) = text.split_once('-')?;
     let fits = piece.len() <= 6 && piece.bytes().all(|byte| byte.is_ascii_graphic());
@@ -126,9 +126,9 @@ fn designator(text: &str) -> Option<String> {
     Some(format!("{:02}{piece}", year % 100))
 }
 
-/// 14 columns: two digits of the year, then the day of the year from 1 on.
+/// Returns the epoch in 14 columns: two digits of the year, then the day of the year from 1 on.
 fn epoch(epoch: Timestamp) -> Result<String, TleRefusalReason> {
-    // Every day begins on a whole step, so that rounding first determines the year.
+    // Every day begins on a whole step, so rounding comes first and determines the year.
     let steps = (epoch.as_microsecond() + EPOCH_STEP_US / 2).div_euclid(EPOCH_STEP_US);
     let of_day = steps.rem_euclid(STEPS_A_DAY);
     let date = Timestamp::from_microsecond(steps * EPOCH_STEP_US)
@@ -139,14 +139,14 @@ fn epoch(epoch: Timestamp) -> Result<String, TleRefusalReason> {
     Ok(format!("{:02}{:03}.{of_day:08}", date.year() % 100, date.day_of_year()))
 }
 
-/// Ten columns: sign, point, eight digits.
+/// Returns the number in ten columns: sign, point, eight digits.
 fn fraction(number: f64) -> Option<String> {
     let text = format!("{:.8}", number.abs());
     let digits = text.strip_prefix('0')?;
     Some(format!("{}{digits}", sign(number)))
 }
 
-/// Eight columns: `-12345-6` for -0.12345e-6.
+/// Returns the number in eight columns: `-12345-6` for -0.12345e-6.
 fn assumed_point(number: f64) -> Option<String> {
     let scientific = format!("{:.4e}", number.abs());
     let (digits, exponent) = scientific.split_once('e')?;
@@ -154,7 +154,7 @@ fn assumed_point(number: f64) -> Option<String> {
     let (digits, exponent) = match exponent {
         _ if number == 0.0 => ("00000".to_owned(), 0),
         -9..=9 => (digits.replace('.', ""), exponent),
-        // Too small for five digits: as many as remain.
+        // The number is too small for five digits, so fewer digits remain.
         ..-9 => (format!("{:05.0}", number.abs() * 1e14), -9),
         _ => return None,
     };
@@ -165,23 +165,23 @@ fn sign(number: f64) -> char {
     if number.is_sign_negative() { '-' } else { ' ' }
 }
 
-/// Eight columns.
+/// Returns the angle in eight columns.
 fn degrees(angle_deg: f64) -> Option<String> {
     Some(format!("{angle_deg:8.4}")).filter(|text| text.len() == 8)
 }
 
-/// Eight columns, for an angle that may be wrapped to one turn.
+/// Returns an angle in eight columns, wrapped to one turn if necessary.
 fn turned(angle_deg: f64) -> Option<String> {
     let is_plain = (0.0..=360.0).contains(&angle_deg);
     degrees(if is_plain { angle_deg } else { angle_deg.rem_euclid(360.0) })
 }
 
-/// Seven digits after an implied point.
+/// Returns the seven digits after an implied point.
 fn eccentricity(eccentricity: f64) -> Option<String> {
     format!("{eccentricity:.7}").strip_prefix("0.").map(str::to_owned)
 }
 
-/// Eleven columns.
+/// Returns the mean motion in eleven columns.
 fn mean_motion(rev_day: f64) -> Option<String> {
     let text = format!("{rev_day:11.8}");
     Some(text)

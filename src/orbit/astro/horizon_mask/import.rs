@@ -2,7 +2,7 @@
 
 use super::{Builder, HorizonMask, MaskError};
 
-/// Names of the azimuth column in lower case, the most certain first.
+/// Names of the azimuth column in lower case, most certain first.
 const AZIMUTH: [&str; 8] = [
     "azimuth",
     "az",
@@ -13,8 +13,8 @@ const AZIMUTH: [&str; 8] = [
     "direction",
     "horizontal angle",
 ];
-/// Names of the elevation column in lower case, the most certain first: a file from a phone may
-/// hold the altitude of the location as well as the angle.
+/// Names of the elevation column in lower case, most certain first. A file from a phone may also
+/// hold the altitude of the location.
 const ELEVATION: [&str; 11] = [
     "elevation angle",
     "vertical angle",
@@ -28,7 +28,7 @@ const ELEVATION: [&str; 11] = [
     "altitude",
     "alt",
 ];
-/// Sections that hold a mask in a file of keys and values, in lower case.
+/// Sections that contain a mask in a file of keys and values, in lower case.
 const SECTIONS: [&str; 3] = ["horizon", "horizon mask", "mask"];
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -42,14 +42,14 @@ pub enum MaskForm {
     Keys,
 }
 
-/// The reason why a text does not hold a mask in any known form.
+/// Reason why a text contains no mask in a known form.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum MaskImportError {
     #[error("line {line} names no column for the {column}")]
     Column {
-        /// The line that names the columns, counted from 1.
+        /// Line that names the columns, counted from 1.
         line: usize,
-        /// "azimuth" or "elevation".
+        /// Missing column: "azimuth" or "elevation".
         column: &'static str,
     },
     /// The file has sections, but none for a horizon.
@@ -57,13 +57,13 @@ pub enum MaskImportError {
     NoSection,
     #[error("line {line} does not hold an azimuth and an elevation in degrees")]
     Format {
-        /// Counted from 1.
+        /// Line, counted from 1.
         line: usize,
     },
-    /// A line holds a point that is refused.
+    /// A line contains a point that the mask refuses.
     #[error("line {line}: {reason}")]
     Point {
-        /// Counted from 1.
+        /// Line, counted from 1.
         line: usize,
         reason: MaskError,
     },
@@ -72,10 +72,10 @@ pub enum MaskImportError {
 }
 
 impl HorizonMask {
-    /// Reads a mask in any known form, recognised by its content: two numbers per line; a table
-    /// separated by commas, semicolons or tabs whose first line names the columns; or lines of
-    /// `azimuth = elevation`. A line with an unusable point is an error, so that no point is
-    /// lost silently.
+    /// Reads a mask in any known form, recognised by its content. The forms are two numbers per
+    /// line, a table, or lines of `azimuth = elevation`. Commas, semicolons or tabs separate the
+    /// cells of a table, and its first line names the columns. A line with an unusable point is an
+    /// error, so that no point is lost silently.
     pub fn import(text: &str) -> Result<(Self, MaskForm), MaskImportError> {
         let lines: Vec<(usize, &str)> = (1..)
             .zip(text.trim_start_matches('\u{feff}').lines())
@@ -101,8 +101,8 @@ impl HorizonMask {
         Ok((builder.finish().map_err(at_line)?, form))
     }
 
-    /// A table for other programs: separated by commas, with a first line that names the columns.
-    /// [`HorizonMask::import`] reads it without loss.
+    /// Returns the mask as a table for other programs. Commas separate the cells, and the first
+    /// line names the columns. [`HorizonMask::import`] reads the table without loss.
     pub fn to_csv(&self) -> String {
         let lines = self.points.iter().map(|(azimuth, elevation)| format!("{azimuth},{elevation}"));
         std::iter::once("azimuth_deg,elevation_deg".to_owned())
@@ -160,7 +160,8 @@ fn table(lines: &[(usize, &str)]) -> Result<Vec<Point>, MaskImportError> {
     rows.iter().map(point).collect()
 }
 
-/// Reads keys and values: those of the sections for the horizon, or all if there are no sections.
+/// Reads the keys and values of the sections for the horizon, or all of them if there are no
+/// sections.
 fn keys(lines: &[(usize, &str)]) -> Result<Vec<Point>, MaskImportError> {
     let has_sections = lines.iter().any(|(_, line)| line.starts_with('['));
     let (mut is_inside, mut was_inside) = (!has_sections, !has_sections);
@@ -195,7 +196,8 @@ fn cells(line: &str, separator: char) -> Vec<String> {
     cells
 }
 
-/// The name of a column without its unit: `Azimuth (deg)` and `azimuth_deg` both become "azimuth".
+/// Returns the name of a column without its unit: `Azimuth (deg)` and `azimuth_deg` both become
+/// "azimuth".
 fn plain_name(name: &str) -> String {
     let name = name.split(['(', '[', '°']).next().unwrap_or_default();
     let name = name.replace('_', " ").to_lowercase();

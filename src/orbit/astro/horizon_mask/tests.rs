@@ -49,7 +49,7 @@ fn texts_of_every_dialect_are_read() {
     }
 }
 
-/// Points left and right of azimuths where a mask has walls.
+/// Returns the elevations left and right of an azimuth where a mask has a wall.
 fn sides(text: &str, azimuth_deg: f64) -> (f64, f64) {
     let mask = HorizonMask::parse(text).unwrap();
     (elevation_deg(&mask, azimuth_deg - 0.002), elevation_deg(&mask, azimuth_deg + 0.002))

@@ -10,7 +10,7 @@ fn from_steps(steps: &[Offset]) -> TrackOffsets {
     steps.iter().copied().try_fold(TrackOffsets::NONE, TrackOffsets::plus).unwrap()
 }
 
-/// The way of a target that rises straight up.
+/// Returns the motion of a target that rises straight up.
 fn upwards(direction: AzEl) -> DVec3 {
     direction.displaced(0.0, 90.0).to_enu()
 }
@@ -38,7 +38,7 @@ fn along_is_ahead_and_across_is_to_the_right() {
 #[test]
 fn across_at_the_zenith_is_the_whole_angle() {
     let zenith = AzEl::from_degrees(0.0, 90.0);
-    // It comes from the north, so the east is to the right of one who looks at it.
+    // The target comes from the north, so east is to the right of an observer who faces it.
     let south = Some(DVec3::NEG_Y);
     let found = from_steps(&[Offset::Across(deg(0.5))]).added_to(zenith, south);
     assert!((found.separation(zenith).degrees() - 0.5).abs() < 1e-9);
@@ -139,7 +139,7 @@ fn they_come_back_from_a_file_and_too_large_ones_do_not() {
 }
 
 proptest! {
-    /// Along and across lead away by their angles, wherever the target is and however it moves.
+    /// Offsets along and across lead away by their angles, for any target and motion.
     #[test]
     fn offsets_lead_away_by_their_angle(
         azimuth in 0.0..360.0, elevation in -5.0..90.0, bearing in 0.0..360.0,

@@ -1,4 +1,4 @@
-//! Checks whether the edges of a zone cross each other.
+//! Test for edges of a zone that cross each other.
 
 use std::f64::consts::TAU;
 
@@ -36,13 +36,13 @@ pub(super) fn check(edges: &[Edge]) -> Result<(), ZoneError> {
     Ok(())
 }
 
-/// Compares with a wider tolerance than for corners: the point where edges meet at a small angle
-/// is less certain.
+/// Returns `true` within a wider tolerance than for corners, because the point where edges meet at
+/// a small angle is less certain.
 fn is_near(a: DVec3, b: DVec3) -> bool {
     a.distance_squared(b) < (1e3 * SAME).powi(2)
 }
 
-/// Points that both edges share; for a shared stretch, its ends and its middle.
+/// Returns points that both edges share; for a shared stretch, its ends and its middle.
 fn common_points(one: &Edge, other: &Edge) -> [Option<DVec3>; 4] {
     use Shape::{Arc, GreatCircle};
     match (one.shape, other.shape) {
@@ -64,8 +64,9 @@ fn common_points(one: &Edge, other: &Edge) -> [Option<DVec3>; 4] {
     }
 }
 
-/// For edges on one circle: every end that lies inside the other edge, and the middle of an edge
-/// whose ends are both ends of the other.
+/// Returns the common points of edges on one circle: every end that lies inside the other edge.
+/// Without such ends, the result holds the shared ends, and the middle of each edge that lies
+/// inside the other.
 fn common_stretch(one: &Edge, other: &Edge) -> [Option<DVec3>; 4] {
     let on_edge = |edge: &Edge, point: DVec3| {
         Some(point).filter(|point| {
@@ -81,14 +82,14 @@ fn common_stretch(one: &Edge, other: &Edge) -> [Option<DVec3>; 4] {
     if ends.iter().any(Option::is_some) {
         return ends;
     }
-    // If no end of one lies inside the other, the edges are the same stretch, touch at
-    // corners, or are apart.
+    // If no end of an edge lies inside the other, the edges are the same stretch, touch at corners,
+    // or are apart.
     let touching = [one.start, one.end]
         .map(|end| Some(end).filter(|end| is_same(*end, other.start) || is_same(*end, other.end)));
     [on_edge(other, one.point_at(0.5)), on_edge(one, other.point_at(0.5)), touching[0], touching[1]]
 }
 
-/// The points of a great circle at an elevation that lie on both edges.
+/// Returns the points of a great circle at an elevation that lie on both edges.
 fn at_elevation(circle: &Edge, normal: DVec3, arc: &Edge, elevation: f64) -> [Option<DVec3>; 4] {
     let level = DVec3::Z.cross(normal);
     let sin = if level.length() > SAME {
@@ -110,8 +111,7 @@ fn at_elevation(circle: &Edge, normal: DVec3, arc: &Edge, elevation: f64) -> [Op
     [point_at(cos), point_at(-cos), None, None]
 }
 
-/// Returns `true` if `point`, which is on the circle of `edge`, lies between its ends,
-/// both included.
+/// Returns `true` if `point`, which is on the circle of `edge`, lies between its ends or at an end.
 fn is_on(edge: &Edge, point: DVec3) -> bool {
     is_same(point, edge.start)
         || is_same(point, edge.end)
@@ -121,7 +121,7 @@ fn is_on(edge: &Edge, point: DVec3) -> bool {
         }
 }
 
-/// Returns `true` if all of `edge` lies on the circle of `line`.
+/// Returns `true` if the whole `edge` lies on the circle of `line`.
 fn is_on_line_of(line: &Edge, edge: &Edge) -> bool {
     let plane = |point: DVec3| match line.shape {
         Shape::GreatCircle { normal } => normal.dot(point),

@@ -13,16 +13,16 @@ pub(super) struct Edge {
     pub(super) end: DVec3,
     pub(super) from_azimuth: f64,
     to_azimuth: f64,
-    /// Change of azimuth from one end to the other, radians, signed.
+    /// Change of azimuth from start to end, radians, signed.
     pub(super) turn: f64,
     pub(super) shape: Shape,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Shape {
-    /// The shorter great circle; `normal` is of length 1.
+    /// Shorter great circle; `normal` has length 1.
     GreatCircle { normal: DVec3 },
-    /// An arc of constant elevation, radians.
+    /// Arc of constant elevation, radians.
     Arc { elevation: f64 },
 }
 
@@ -65,18 +65,19 @@ impl Edge {
         Ok(circle)
     }
 
-    /// Change of azimuth along an arc of constant elevation, radians; `None` for a great circle.
+    /// Returns the change of azimuth along an arc of constant elevation, radians; `None` for a
+    /// great circle.
     pub(super) fn turn(&self) -> Option<f64> {
         matches!(self.shape, Shape::Arc { .. }).then_some(self.turn)
     }
 
-    /// The square of the straight-line distance from the direction `point` to the nearest
+    /// Returns the square of the straight-line distance from the direction `point` to the nearest
     /// point of the edge.
     pub(super) fn chord_squared(&self, point: DVec3, azimuth: f64, elevation: f64) -> f64 {
         let along_edge = match self.shape {
             Shape::GreatCircle { normal } if self.spans(point, normal) => {
                 let off_squared = normal.dot(point).powi(2).min(1.0);
-                // The squared chord of an angle, from the square of its sine.
+                // This is the squared chord of an angle, from the square of its sine.
                 2.0 * off_squared / (1.0 + (1.0 - off_squared).sqrt())
             }
             Shape::Arc { elevation: level } if self.turns_past(azimuth) => {
@@ -98,11 +99,11 @@ impl Edge {
         (azimuth - start).rem_euclid(TAU) <= self.turn.abs()
     }
 
-    /// How often the edge crosses the vertical line from the direction `point` down to the nadir;
-    /// crossings in the opposite sense count as negative.
+    /// Returns the number of times that the edge crosses the vertical line from the direction
+    /// `point` down to the nadir. Crossings in the opposite sense count as negative.
     pub(super) fn crossings_below(&self, point: DVec3, azimuth: f64, elevation: f64) -> i64 {
-        // The position of a corner relative to the line is computed in the same way for both of its
-        // edges, so that a line through a corner is crossed once or not at all.
+        // Both edges of a corner compute its position relative to the line in the same way. A line
+        // through a corner is therefore crossed once or not at all.
         let turn_to = |corner: f64| (corner - azimuth).rem_euclid(TAU);
         let (start, end) = (turn_to(self.from_azimuth), turn_to(self.to_azimuth));
         let crossings = ((start + self.turn - end) / TAU).round() as i64;
@@ -127,7 +128,7 @@ impl Edge {
         if is_below { crossings } else { 0 }
     }
 
-    /// The point at `share` (0 to 1) of the length.
+    /// Returns the point at `share` (0 to 1) of the length.
     pub(super) fn point_at(&self, share: f64) -> DVec3 {
         match self.shape {
             Shape::GreatCircle { normal } => {
@@ -142,7 +143,7 @@ impl Edge {
         }
     }
 
-    /// The direction perpendicular to the edge at `share` of its length, a unit vector.
+    /// Returns the direction perpendicular to the edge at `share` of its length, a unit vector.
     pub(super) fn across(&self, share: f64) -> DVec3 {
         match self.shape {
             Shape::GreatCircle { normal } => normal,
@@ -154,7 +155,7 @@ impl Edge {
         }
     }
 
-    /// In radians.
+    /// Returns the length in radians.
     pub(super) fn length(&self) -> f64 {
         match self.shape {
             Shape::GreatCircle { .. } => {
@@ -164,7 +165,7 @@ impl Edge {
         }
     }
 
-    /// Points from the start onwards, no more than `step` (radians) apart, without the end.
+    /// Returns points from the start onwards, no more than `step` (radians) apart, without the end.
     pub(super) fn points(self, step: f64) -> impl Iterator<Item = AzEl> {
         let count = (self.length() / step).ceil().max(1.0) as u32;
         (0..count)

@@ -1,5 +1,5 @@
-//! The azimuths and elevations of a zone, which settle cheaply that a whole box of directions is
-//! beside it.
+//! The azimuths and elevations of a zone, for a cheap test whether a whole box of directions is
+//! outside it.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -15,7 +15,8 @@ pub(super) struct Extent {
 }
 
 impl Extent {
-    /// `None` for a zone that contains the zenith or is wider than half a turn.
+    /// Returns the extent of a zone; `None` for a zone that contains the zenith or is wider than
+    /// half a turn.
     pub(super) fn enclosing(edges: &[Edge]) -> Option<Self> {
         let start = edges.first()?.from_azimuth;
         let mut azimuth = start;
@@ -33,12 +34,12 @@ impl Extent {
         (is_closed && is_narrow).then_some(Self { azimuths, elevations })
     }
 
-    /// A lower bound of the distance between the zone and any direction in a box, radians; zero or
-    /// negative where the box may reach into the zone.
+    /// Returns a lower bound of the distance between the zone and any direction in a box, radians.
+    /// The bound is zero or negative if the box may reach into the zone.
     pub(super) fn clearance(self, azimuths: (f64, f64), elevations: (f64, f64)) -> f64 {
         let (lowest, highest) = self.elevations;
         let level = (elevations.0 - highest).max(lowest - elevations.1);
-        // The meridians of the sides come closest where the cosine of the elevation is smallest.
+        // The meridians of the sides come closest at the smallest cosine of the elevation.
         let cos = elevations.0.cos().min(elevations.1.cos()).max(0.0);
         let side_clearance = |nearest: f64| {
             let nearest = nearest.rem_euclid(TAU);
@@ -57,7 +58,7 @@ fn elevation(point: DVec3) -> f64 {
     point.z.atan2(point.x.hypot(point.y))
 }
 
-/// The highest and the lowest point of a great circle where they lie on the edge.
+/// Returns the highest and the lowest point of a great circle, if they lie on the edge.
 fn furthest(edge: &Edge) -> impl Iterator<Item = DVec3> {
     let points = match edge.shape {
         Shape::GreatCircle { normal } => {

@@ -120,7 +120,7 @@ fn what_is_no_zone_is_refused_with_its_reason() {
         (&[(0.0, 60.0), (120.0, 60.0), (240.0, 60.0)], E::NoArea),
         (&[(0.0, 9.0), (0.0, 40.0), (0.0, 20.0)], E::NoArea),
         (&[(0.0, 9.0), (40.0, 19.0), (360.0, 9.0)], E::NoArea),
-        // A full band with a seam.
+        // This is a full band with a seam.
         (
             &[(0.0, 0.0), (360.0, 0.0), (360.0, 9.0), (0.0, 9.0)],
             E::Crossing { first: 2, second: 4 },
@@ -155,7 +155,7 @@ fn the_margin_runs_around_at_its_distance() {
     for corners in [
         &[(350.0, 0.0), (350.0, 20.0), (370.0, 20.0), (370.0, 0.0)][..],
         &[(0.0, 60.0), (120.0, 60.0), (240.0, 60.0), (360.0, 60.0)],
-        // Bent inwards at 110 degrees.
+        // The zone is bent inwards at 110 degrees.
         &[(100.0, 0.0), (100.0, 40.0), (110.0, 8.0), (120.0, 40.0), (120.0, 0.0)],
         &[(77.0, 90.0), (100.0, 30.0), (140.0, 30.0)],
     ] {
@@ -172,7 +172,7 @@ fn the_margin_runs_around_at_its_distance() {
     }
 }
 
-/// A polygon around `middle`: corners at rising bearings, up to 40 degrees away.
+/// Returns a polygon around `middle`: corners at rising bearings, up to 40 degrees away.
 fn star() -> impl Strategy<Value = (AzEl, Vec<AzEl>)> {
     let corner = (0.05..1.0_f64, 2.0..40.0_f64);
     let corners = prop::collection::vec(corner, 3..12);
@@ -199,8 +199,8 @@ fn frame(middle: AzEl) -> (DVec3, DVec3) {
     (up, up.cross(middle.to_enu()))
 }
 
-/// Even-odd rule in the plane that touches the sphere at `middle`, where great
-/// circles are straight.
+/// Applies the even-odd rule in the plane that touches the sphere at `middle`. Great circles are
+/// straight in this plane.
 fn is_inside_in_the_plane(middle: AzEl, corners: &[AzEl], direction: AzEl) -> bool {
     let (up, east) = frame(middle);
     let ahead = middle.to_enu();
@@ -227,7 +227,7 @@ fn any_direction() -> impl Strategy<Value = AzEl> {
         .prop_map(|(azimuth, sin)| AzEl::from_degrees(azimuth, sin.asin().to_degrees()))
 }
 
-/// A box whose corners are whole degrees, as operators type them.
+/// Returns a box whose corners are whole degrees, as operators enter them.
 fn any_box() -> impl Strategy<Value = (i32, i32, i32, i32)> {
     (-20..380_i32, 1..360_i32, -10..80_i32, 1..100_i32)
         .prop_map(|(start, turn, low, high)| (start, start + turn, low, (low + high).min(90)))
@@ -242,7 +242,7 @@ fn a_zone_that_is_far_away_is_known_to_be_far_at_once() {
     };
     assert!((120.0..160.0).contains(&bound_deg(300.0, 15.0)), "{}", bound_deg(300.0, 15.0));
     assert!(bound_deg(120.0, 15.0) < -90.0, "within the cap it says nothing");
-    // The inside is the side without the nadir, so nothing is far from this one.
+    // The inside is the side without the nadir, so no direction is far from this zone.
     let all_above = zone(&[(0.0, -80.0), (120.0, -80.0), (240.0, -80.0), (360.0, -80.0)]).unwrap();
     let vector = AzEl::from_degrees(0.0, 90.0).to_enu();
     assert!(all_above.clearance_lower_bound(vector).degrees() < -90.0);
@@ -273,8 +273,8 @@ proptest! {
         bearing in 0.0..7.0_f64,
     ) {
         let built = Zone::new(corners.clone());
-        // Corners whose bearings are more than half a turn apart have an edge that
-        // passes the middle.
+        // If the bearings of two corners are more than half a turn apart, their edge passes the
+        // middle.
         prop_assume!(built.is_ok());
         let zone = built.unwrap();
         for position in [direction, destination(middle, bearing, close.to_radians())] {

@@ -1,4 +1,4 @@
-//! When the turning Earth brings a site near the plane of an orbit.
+//! Arcs in which the turning Earth brings a site near the plane of an orbit.
 //!
 //! Let beta be the angle, along the equator, from the ascending node of the orbit to the site; it
 //! grows by one turn in about a sidereal day. With the geocentric latitude phi of the site and the
@@ -6,14 +6,14 @@
 //!
 //! sin d = sin phi cos i - cos phi sin i sin beta
 //!
-//! A satellite in the plane can be seen only while |d| is at most the reach rho: the angle, at the
-//! centre of the Earth, between the site and a satellite that is just rising. This holds on no arc
-//! of beta, on one, on two, or always.
+//! A satellite in the plane can be seen only while |d| is at most the reach rho. The reach is the
+//! angle, at the centre of the Earth, between the site and a satellite that is just rising. The
+//! condition holds on no arc of beta, on one, on two, or always.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-/// Arcs longer than this, six hours, are given in pieces, so that slow motions can be taken as
-/// linear in each piece.
+/// Max length of an arc, radians: six hours. Longer arcs come in pieces, so that slow motions are
+/// nearly linear in each piece.
 const LONGEST_RAD: f64 = FRAC_PI_2;
 
 /// Start and end of each arc of beta within a turn, in radians, in order. The starts lie from -pi/2
@@ -25,11 +25,13 @@ pub(super) struct Arcs {
 }
 
 impl Arcs {
-    /// The arcs in which `|middle - width sin(beta)| <= sin(reach)`. `middle` is sin phi cos i;
-    /// `width` is cos phi sin i, which is not negative; `reach` lies between 0 and a right angle.
+    /// Returns the arcs in which `|middle - width sin(beta)| <= sin(reach)`. `middle` is sin phi
+    /// cos i. `width` is cos phi sin i, which is not negative. `reach` lies between 0 and a right
+    /// angle.
     pub(super) fn new(middle: f64, width: f64, reach: f64) -> Self {
         let half = reach.sin();
-        // Not divided by the width, which is 0 at the poles and for an equatorial orbit.
+        // The bounds are not divided by the width, which is 0 at the poles and for an equatorial
+        // orbit.
         let (low, high) = (middle - half, middle + half);
         let angle = |sine: f64| (sine / width).asin();
         let (arcs, count) = match (low <= -width, high >= width) {
@@ -42,7 +44,7 @@ impl Arcs {
         Self { arcs, count }
     }
 
-    /// All pieces from `start` onwards, turn after turn, without end.
+    /// Returns all pieces from `start` onwards, turn after turn, without end.
     pub(super) fn starting_at(self, start: f64) -> impl Iterator<Item = (f64, f64)> {
         let first_turn = ((start - FRAC_PI_2) / TAU).floor() - 1.0;
         let turns = (0..).map(move |turn: u32| TAU * (first_turn + f64::from(turn)));

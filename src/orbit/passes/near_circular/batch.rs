@@ -17,7 +17,7 @@ pub(super) struct SatelliteAt<'a> {
     pub(super) at_s: f64,
 }
 
-/// Up to [`LANES`] satellites, in the form that the computation needs.
+/// Up to [`LANES`] satellites, prepared for the computation.
 #[derive(Default)]
 pub(super) struct Batch {
     pub(super) secular: Secular<Lanes>,
@@ -58,13 +58,13 @@ impl Batch {
         instants
     }
 
-    /// Minutes since the epochs.
+    /// Returns the minutes since the epochs.
     #[inline(always)]
     pub(super) fn minutes(&self, at_s: Lanes) -> Lanes {
         (at_s + self.start_since_epoch_s) * (1.0 / 60.0)
     }
 
-    /// The series around exact states. The caller
+    /// Returns the series around exact states. The caller
     /// [counts](crate::passes::track::Track::count) them.
     #[inline(always)]
     pub(super) fn series(&self, window: &Window, at_s: Lanes) -> LocalSeries<Lanes> {

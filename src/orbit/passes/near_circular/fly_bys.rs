@@ -1,10 +1,10 @@
-//! When a satellite goes by a site that is near its orbit plane.
+//! Times at which a satellite goes by a site near its orbit plane.
 //!
-//! With the angle u of the satellite in the plane and alpha of the site, both from the ascending
-//! node, that is where x = u - alpha is a whole number of turns. The elevation is greatest where x
-//! is not quite 0, because the site also moves across the plane. With the angle d of the site from
-//! the plane, the cosine of the angle between site and satellite is cos d cos x, which is greatest
-//! where x' sin x cos d = -d' sin d cos x.
+//! Let u be the angle of the satellite in the plane and alpha the angle of the site, both from the
+//! ascending node. The satellite goes by when x = u - alpha is a whole number of turns. At the
+//! greatest elevation, x is not exactly 0, because the site also moves across the plane. With the
+//! angle d of the site from the plane, the cosine of the angle between site and satellite is cos d
+//! cos x. This cosine is greatest at x' sin x cos d = -d' sin d cos x.
 
 use std::{f64::consts::TAU, ptr};
 
@@ -19,31 +19,32 @@ use crate::{
     simd::{LANES, Lanes, Number, series},
 };
 
-/// Newton's method squares its error: after a step this small, in radians, the remaining error is
-/// some seconds of the satellite's motion.
+/// Max last step of Newton's method, radians. The method squares its error, so after a step this
+/// small, the remaining error is some seconds of the satellite's motion.
 const LAST_STEP_RAD: f64 = 0.15;
 const MAX_STEPS: usize = 4;
-/// Touching pieces both extend beyond their ends by this share of a revolution; a fly-by that both
-/// find is taken once.
+/// Overlap of touching pieces beyond their ends, as a share of a revolution. A fly-by found in both
+/// pieces is used once.
 const OVERLAP: f64 = 0.02;
-/// More revolutions than the lowest orbit makes in the longest piece, a quarter of a day. What
-/// makes more is not an orbit, and must not determine how much memory is taken.
+/// Max number of revolutions in a piece. The lowest orbit makes fewer in the longest piece, a
+/// quarter of a day. An object with more revolutions has no orbit, and must not determine the
+/// memory in use.
 const MAX_IN_PIECE: u32 = 8;
-/// A satellite returns after more than this share of a revolution.
+/// Min share of a revolution before a satellite returns.
 const MIN_GAP: f64 = 0.3;
 
-/// Satellite and site in the plane of the orbit, in radians from the ascending node.
+/// Satellite and site in the plane of the orbit, radians from the ascending node.
 struct InPlane {
-    /// Counted from 0 at the epoch, minus the lead at which the elevation is greatest.
+    /// Angle counted from 0 at the epoch, minus the lead at the greatest elevation.
     satellite: Lanes,
-    /// From -pi to pi.
+    /// Angle from -pi to pi.
     site: Lanes,
-    /// Change of the difference between the two, per second.
+    /// Change of the difference between the two angles, per second.
     rate: Lanes,
 }
 
-/// Approximate times at which satellites go by near the window, ordered by satellite, then by time.
-/// Where pieces touch, one fly-by may be guessed twice.
+/// Returns approximate times at which satellites go by near the window, ordered by satellite, then
+/// by time. If pieces touch, the list may contain a fly-by twice.
 #[inline(always)]
 pub(super) fn guesses<'a>(
     window: &Window,
@@ -71,7 +72,7 @@ pub(super) fn guesses<'a>(
 }
 
 impl SatelliteAt<'_> {
-    /// Returns `true` if this is the same fly-by as `before`.
+    /// Returns `true` if both are the same fly-by.
     pub(super) fn is_same(&self, before: &Self) -> bool {
         ptr::eq(self.satellite, before.satellite)
             && (self.at_s - before.at_s) * self.satellite.rate_rad_s() < MIN_GAP * TAU
@@ -101,7 +102,7 @@ fn guess<'a>(ends: &[SatelliteAt<'a>], in_plane: &InPlane, guesses: &mut Vec<Sat
 }
 
 impl Batch {
-    /// The instants of the fly-bys, accurate to some seconds, by Newton's method.
+    /// Returns the instants of the fly-bys, accurate to some seconds, by Newton's method.
     #[inline(always)]
     pub(super) fn refined(&self, window: &Window, guesses_s: Lanes) -> Lanes {
         let mut at_s = guesses_s;
@@ -127,7 +128,7 @@ impl Batch {
         let (sin_beta, cos_beta) = Number::sin_cos(beta);
         let beta_rate = node[1] * (-1.0 / 60.0) + EARTH_RATE_RAD_S;
 
-        // The site in the axes of the plane: towards the node, across it, and along the normal.
+        // The axes of the plane are towards the node, across it, and along the normal.
         let along = cos_beta * cos_latitude;
         let across = sin_beta * cos_inclination * cos_latitude + sin_inclination * sin_latitude;
         let normal = cos_inclination * sin_latitude - sin_beta * sin_inclination * cos_latitude;
@@ -156,7 +157,7 @@ impl Batch {
     }
 }
 
-/// The angle minus whole turns, -pi to pi.
+/// Returns the angle minus whole turns, -pi to pi.
 #[inline(always)]
 fn wrapped<N: Number>(angle: N) -> N {
     angle - (angle * (1.0 / TAU)).nearest() * TAU

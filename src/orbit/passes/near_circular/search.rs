@@ -1,9 +1,10 @@
 //! The passes of near-circular orbits, eight satellites at a time.
 //!
-//! All satellites take the same steps: an exact state near the middle, the crest from its series,
-//! AOS and LOS guessed from the ellipse of that state, an exact state at each of the two and the
-//! crossing from its series. The few that do not converge in this way are handled one by one by
-//! [`Track`](crate::passes::track::Track).
+//! All satellites take the same steps. The first is an exact state near the middle, the second is
+//! the crest from its series. The ellipse of that state gives guesses of AOS and LOS. An exact
+//! state at each guess and the crossing from its series give AOS and LOS.
+//! [`Track`](crate::passes::track::Track) handles the few satellites that do not converge in this
+//! way.
 
 use std::iter;
 
@@ -23,28 +24,30 @@ use crate::{
     simd::{Answers, LANES, Lanes, Number, widest},
 };
 
-/// AOS and LOS are searched for within this many half passes of the crest.
+/// Max distance of AOS and LOS from the crest, in half passes.
 const MAX_HALF_PASSES: f64 = 1.1;
 
 /// The AOS of every lane, or the LOS of every lane.
 struct Edges {
-    /// -1 before the crests, 1 after them.
+    /// Side of the crests: -1 before, 1 after.
     side: f64,
-    /// Time from the states near the crests to the edges of the ellipses.
+    /// Time from the states near the crests to the edges of the ellipses, seconds.
     guess_tau: Lanes,
-    /// The result of one step from the exact states at the guesses, and whether it has converged.
+    /// Places after one step from the exact states at the guesses, and whether they have converged.
     places: LocalState<Lanes>,
     are_settled: Answers,
     sightings: Sighting<Lanes>,
 }
 
-/// The passes of near-circular orbits, cut to the window, ordered by satellite, then by time.
+/// Returns the passes of near-circular orbits, cut to the window, ordered by satellite, then by
+/// time.
 pub(in crate::passes) fn passes<'a>(
     window: &Window,
     satellites: impl Iterator<Item = &'a NearCircular<'a>>,
     cancelled: &dyn Fn() -> bool,
 ) -> Vec<CompactPass> {
-    // Everything below is compiled once for each width of registers; the processor decides.
+    // The code below is compiled once for each register width, and the processor selects the
+    // version.
     widest(
         #[inline(always)]
         || passes_of(window, satellites, cancelled),
@@ -77,8 +80,8 @@ fn passes_of<'a>(
     found
 }
 
-/// Adds the passes whose middles are near these fly-bys, one per lane; `last` is the
-/// fly-by before them.
+/// Adds the passes whose middles are near these fly-bys, one per lane. `last` is the fly-by before
+/// them.
 #[inline(always)]
 fn passes_at(
     window: &Window,
@@ -105,7 +108,7 @@ fn passes_at(
     // The last fly-by of the previous batch may be the first one of this batch again.
     let before = iter::once(last).chain(fly_bys.iter().copied().map(Some));
     for (lane, (fly_by, before)) in fly_bys.iter().zip(before).enumerate() {
-        // Two guesses may lead to the same fly-by; the pass must be found once.
+        // Two guesses may lead to the same fly-by, whose pass must be found only once.
         if before.is_some_and(|before| fly_by.is_same(&before)) {
             continue;
         }
@@ -123,7 +126,8 @@ fn passes_at(
             Some(track.pass(points.each_ref(), [false, false]))
         } else {
             let crest = is_crest.holds_in(lane).then(|| crests.lane(lane));
-            // Cut at the window, or not converged: rare enough to be handled one by one.
+            // A pass that is cut at the window or has not converged is rare enough for a single
+            // computation.
             alone(satellite, &series, crest, [&rising, &setting], lane)
         };
         found.extend(pass);
@@ -160,7 +164,7 @@ fn is_beside<N: Number>(
     N::splat(0.0).is_less(from_crest_s) & from_crest_s.is_less(half_pass_s * MAX_HALF_PASSES)
 }
 
-/// The pass of one lane by itself. Its crest and edges may have converged already.
+/// Returns the pass of one lane, computed alone. Its crest and edges may have converged already.
 fn alone(
     satellite: &NearCircular<'_>,
     series: &LocalSeries<Lanes>,

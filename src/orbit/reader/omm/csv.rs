@@ -1,27 +1,27 @@
-//! OMM as rows of separated values under a header with the field names. Spreadsheets write semicolons,
-//! or tabs, in place of commas where numbers have decimal commas.
+//! OMM as rows of separated values under a header with the field names. With decimal commas,
+//! spreadsheets write semicolons or tabs in place of commas.
 
 use csv_core::{ReadRecordResult, Reader, ReaderBuilder};
 
 use super::{Field, MessageFields, Value};
 use crate::reader::{ReadReport, RefusalReason};
 
-/// Maximum number of fields of a row that are read; real rows have some forty. A line without an
-/// end must not take many times its length in memory.
+/// Max number of fields that are read from a row; real rows have some forty. A line without an end
+/// must not take many times its length in memory.
 const MAX_FIELDS: usize = 1000;
-/// Minimum number of field names in a header: more than fit into the name of an object, and more
-/// than a row has text fields.
+/// Min number of field names in a header. The name of an object holds fewer, and a row has fewer
+/// text fields.
 const MIN_NAMES: usize = 4;
 
 /// Characters that separate the fields, in the order of trial.
 const SEPARATORS: [u8; 3] = [b',', b';', b'\t'];
 
-/// Returns `true` if `line` is a header.
+/// Returns `true` if `line` is a header with names of OMM fields.
 pub(in crate::reader) fn is_header(line: &str) -> bool {
     header(line).is_some()
 }
 
-/// The fields of a header; `None` for another line.
+/// Returns the fields of a header; `None` for another line.
 fn header(line: &str) -> Option<Row> {
     SEPARATORS.into_iter().find_map(|separator| {
         let mut row = Row::new(separator);
@@ -30,9 +30,9 @@ fn header(line: &str) -> Option<Row> {
     })
 }
 
-/// Reads all rows of `text`. A header may occur again, since files are concatenated.
+/// Reads all rows of `text`. A header may occur again, because files may be concatenated.
 ///
-/// Every line is read by itself, because no field of an OMM spans lines: a stray quotation mark
+/// Each line is read separately, because no field of an OMM spans lines. A stray quotation mark
 /// costs one row and not the rest of the text.
 pub(in crate::reader) fn read(text: &str) -> ReadReport {
     let mut report = ReadReport::default();
@@ -41,11 +41,11 @@ pub(in crate::reader) fn read(text: &str) -> ReadReport {
     for (index, line) in text.lines().enumerate() {
         let (place, line) = (index + 1, line.trim());
         row.split(line);
-        // A name may start like a remark.
+        // A name may start with the sign of a remark.
         if line.is_empty() || (line.starts_with('#') && row.len() != header.len()) {
             continue;
         }
-        // A header with other separators is one field, or several.
+        // A header with other separators appears as one field or several fields.
         let is_other = row.len() != header.len();
         if let Some(new) = is_other.then(|| self::header(line)).flatten() {
             row = new;
@@ -54,7 +54,7 @@ pub(in crate::reader) fn read(text: &str) -> ReadReport {
             header = row.fields().map(|name| Field::named(name.trim())).collect();
             continue;
         }
-        // Text before the table.
+        // This is text before the table.
         if header.is_empty() {
             continue;
         }
@@ -76,7 +76,7 @@ pub(in crate::reader) fn read(text: &str) -> ReadReport {
     report
 }
 
-/// The fields of one row, without their quotation marks.
+/// Fields of one row, without their quotation marks.
 struct Row {
     reader: Reader,
     separator: u8,
@@ -88,14 +88,14 @@ struct Row {
 
 impl Row {
     fn new(separator: u8) -> Self {
-        // Not `Reader::default()`, which has no tables and reads nothing.
+        // `Reader::default()` has no tables and reads nothing.
         let reader = ReaderBuilder::new().delimiter(separator).build();
         Self { reader, separator, text: Vec::new(), ends: vec![0; MAX_FIELDS], len: 0 }
     }
 
     fn split(&mut self, line: &str) {
-        // Removing quotation marks makes no field longer. One byte more shows that the
-        // buffer was not full.
+        // Removing quotation marks makes no field longer. One extra byte shows that the buffer was
+        // not full.
         self.text.resize(line.len() + 1, 0);
         self.reader.reset();
         let (mut read, mut written) = (0, 0);

@@ -1,4 +1,5 @@
-//! OMM in JSON: one object, or a list of them. The TLE that `SatNOGS` DB writes as JSON are read too.
+//! OMM in JSON: one object or a list of objects. The reader also accepts TLE that `SatNOGS` DB
+//! writes as JSON.
 
 mod split;
 
@@ -12,7 +13,7 @@ use crate::reader::{ReadReport, RefusalReason};
 
 pub(in crate::reader) fn read(text: &str) -> ReadReport {
     let mut report = ReadReport::default();
-    // Some servers put an object around the list.
+    // Some servers wrap the list in an object.
     let mut is_wrapped = false;
     let (mut last, mut is_sound) = (1, true);
     for Part { line, text } in parts(text) {
@@ -45,14 +46,14 @@ pub(in crate::reader) fn read(text: &str) -> ReadReport {
             report.refuse(line, object.as_deref(), reason);
         }
     }
-    // An object that breaks off has been refused already.
+    // An object that breaks off has already been refused.
     if is_sound && text.trim_start().starts_with('[') && !text.trim_end().ends_with(']') {
         report.refuse(last, None, RefusalReason::BreaksOff);
     }
     report
 }
 
-/// Fills a message from a JSON object, as far as it can be read.
+/// Seed that fills a message from a JSON object, as far as it can be read.
 struct Fill<'m, 'a>(&'m mut MessageFields<'a>);
 
 impl<'de> DeserializeSeed<'de> for Fill<'_, 'de> {
@@ -82,7 +83,7 @@ impl<'de> Visitor<'de> for Fill<'_, 'de> {
     }
 }
 
-/// Reads a key; `None` if no field has this name.
+/// Seed that reads a key; `None` if no field has this name.
 struct KeySeed;
 
 impl<'de> DeserializeSeed<'de> for KeySeed {
@@ -105,7 +106,7 @@ impl Visitor<'_> for KeySeed {
     }
 }
 
-/// Reads a value of any kind; `None` is null.
+/// Seed that reads a value of any kind; `None` is null.
 struct ValueSeed;
 
 impl<'de> DeserializeSeed<'de> for ValueSeed {
@@ -169,7 +170,7 @@ mod tests {
     use super::*;
     use crate::{ElementsError, reader::Refusal};
 
-    /// A message as `CelesTrak` writes it, with a number that no TLE can carry.
+    /// Returns a message as `CelesTrak` writes it, with a number that no TLE can carry.
     fn celestrak() -> Json {
         json!({
             "OBJECT_NAME": "NEW OBJECT", "OBJECT_ID": "2026-150A",
@@ -182,7 +183,7 @@ mod tests {
         })
     }
 
-    /// The message with one field changed; null removes the field.
+    /// Returns the message with one field changed; null removes the field.
     fn message_with(key: &str, value: Json) -> Json {
         let mut message = celestrak();
         let fields = message.as_object_mut().unwrap();
@@ -288,7 +289,7 @@ mod tests {
         }
     }
 
-    /// A set as `SatNOGS` DB lists it.
+    /// Returns a set as `SatNOGS` DB lists it.
     fn satnogs() -> Json {
         json!({
             "tle0": "0 TESTSAT A",

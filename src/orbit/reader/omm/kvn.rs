@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use super::{Field, MessageFields, Value};
 use crate::reader::ReadReport;
 
-/// Starts every message; a source that omits it is also read.
+/// Key that starts every message. The reader also accepts a source that omits it.
 const START: &str = "CCSDS_OMM_VERS";
 
 /// Returns `true` if `line` may be the first line of a KVN text.
@@ -18,7 +18,7 @@ pub(in crate::reader) fn is_first(line: &str) -> bool {
     })
 }
 
-/// Returns `true` if `line` says nothing about an object.
+/// Returns `true` if `line` is a comment, without data of an object.
 pub(in crate::reader) fn is_comment(line: &str) -> bool {
     line.split_whitespace().next() == Some("COMMENT")
 }
@@ -31,7 +31,7 @@ pub(in crate::reader) fn read(text: &str) -> ReadReport {
             continue;
         };
         let field = Field::named(key.trim());
-        // A field that occurs again belongs to the next object.
+        // A repeated field belongs to the next object.
         if key.trim().eq_ignore_ascii_case(START) || field.is_some_and(|field| message.has(field)) {
             std::mem::take(&mut message).finish(start, &mut report);
         }
@@ -113,7 +113,7 @@ USER_DEFINED_EARTH_MODEL = WGS-72
         assert_eq!(numbers, [25_730, 100_001, 7]);
         let lines = MESSAGE.lines().count();
         assert_eq!(report.refused.len(), 1);
-        // The first line that says something about the object.
+        // This is the first line with data of the object.
         assert_eq!(report.refused[0].line, 2 * lines + 6);
         assert!(matches!(report.refused[0].reason, RefusalReason::Orbit(_)));
     }

@@ -1,4 +1,4 @@
-//! OMM in XML: one message, or an NDM around many.
+//! OMM in XML: one message, or an NDM with many messages.
 
 use std::borrow::Cow;
 
@@ -7,7 +7,7 @@ use quick_xml::{Reader, escape::resolve_predefined_entity, events::Event};
 use super::{Field, MessageFields, Value};
 use crate::reader::{ReadReport, RefusalReason};
 
-/// Maximum number of bytes examined to find the name of a tag and its prefix.
+/// Max number of bytes examined to find the name of a tag and its prefix.
 const MAX_NAME: usize = 40;
 
 /// Returns `true` if `line` opens a message or an NDM, with or without a prefix.
@@ -17,7 +17,8 @@ pub(in crate::reader) fn is_first(line: &str) -> bool {
 
 /// Reads all messages of `text`.
 ///
-/// Every message is cut out first and read by itself, so that a bad one does not affect the others.
+/// Each message is cut out first and read separately, so that a bad message does not affect the
+/// others.
 pub(in crate::reader) fn read(text: &str) -> ReadReport {
     let mut report = ReadReport::default();
     for (line, text) in messages(text) {
@@ -30,7 +31,7 @@ pub(in crate::reader) fn read(text: &str) -> ReadReport {
     report
 }
 
-/// The messages of `text`, each from its start tag to the next one, with the line on
+/// Returns the messages of `text`, each from its start tag to the next start tag, with the line on
 /// which it starts.
 fn messages(text: &str) -> impl Iterator<Item = (usize, &str)> {
     let mut tags = text
@@ -76,7 +77,7 @@ fn fill<'a>(message: &mut MessageFields<'a>, text: &'a str) -> Option<()> {
                 field = str::from_utf8(tag.local_name().into_inner()).ok().and_then(Field::named);
                 value = Cow::Borrowed("");
             }
-            // Most fields are one piece of text, which does not have to be copied.
+            // Most fields are one piece of text, which needs no copy.
             Event::Text(text) if value.is_empty() => value = text.decode().ok()?,
             Event::Text(text) => value.to_mut().push_str(&text.decode().ok()?),
             Event::CData(text) => value.to_mut().push_str(&text.decode().ok()?),
@@ -103,7 +104,7 @@ mod tests {
     use super::*;
     use crate::{Elements, reader::Refusal};
 
-    /// A message with the name and number of the object, and `more` in its data.
+    /// Returns a message with the name and number of the object, and `more` in its data.
     fn message(name: &str, number: u32, more: &str) -> String {
         format!(
             "<omm id=\"CCSDS_OMM_VERS\" version=\"2.0\">\n<header><CREATION_DATE/>\

@@ -13,18 +13,18 @@ use crate::{
     elements::{Classification, catalog_number},
 };
 
-/// Number of columns of a line; what follows them is not part of the set.
+/// Number of columns of a line; any text after them is not part of the set.
 const COLUMNS: usize = 69;
 /// Columns of lines 1 and 2 that are always blank.
 const BLANK: [&[usize]; 2] = [&[2, 9, 18, 33, 44, 53, 62, 64], &[2, 8, 17, 26, 34, 43, 52]];
-/// Digits of the fraction of a day in the epoch.
+/// Number of digits in the fraction of a day in the epoch.
 const EPOCH_DIGITS: usize = 8;
-/// The last of them, 1e-8 days, in microseconds.
+/// Last digit of the epoch, 1e-8 days, in microseconds.
 const EPOCH_STEP_US: i64 = 864;
 
-/// One line of a set, known to be ASCII and to match its checksum.
+/// One line of a set, checked to be ASCII and to match its checksum.
 pub(super) struct Columns<'a> {
-    /// 68 columns or all.
+    /// Text with 68 or 69 columns.
     text: Cow<'a, str>,
     /// Column 69 holds a digit.
     pub(super) has_checksum: bool,
@@ -36,12 +36,13 @@ impl<'a> Columns<'a> {
         if source.len() < COLUMNS - 1 {
             return Err(RefusalReason::TooShort { line, columns: source.len() });
         }
-        // Not at a boundary of letters, it is not ASCII.
+        // A boundary inside a character means that the text is not ASCII.
         let Some(text) = source.get(..COLUMNS.min(source.len())).filter(|text| text.is_ascii())
         else {
             return Err(RefusalReason::NotAscii { line });
         };
-        // A tab is read as one blank; if it replaced more than one, the columns after it are wrong.
+        // A tab counts as one blank; if the tab replaced several blanks, the columns after it are
+        // wrong.
         let text = if text.contains('\t') { text.replace('\t', " ").into() } else { text.into() };
         let columns = Self { text, has_checksum: false };
         let (content, check) = columns.text.as_bytes().split_at(COLUMNS - 1);
@@ -69,18 +70,18 @@ impl<'a> Columns<'a> {
         self.text.get(columns.start() - 1..*columns.end()).unwrap_or_default()
     }
 
-    /// The text in `columns`, trimmed.
+    /// Returns the text in `columns`, trimmed.
     fn text(&self, columns: RangeInclusive<usize>) -> &str {
         self.raw(columns).trim_ascii()
     }
 
-    /// Text that ends in the last of its columns. A whole number with a blank in place of its
-    /// last digit would be read as a tenth of itself.
+    /// Returns text that ends in the last of its columns. A whole number with a blank in place of
+    /// its last digit would be read as a tenth of its value.
     fn right_aligned(&self, columns: RangeInclusive<usize>) -> &str {
         self.raw(columns).trim_ascii_start()
     }
 
-    /// A number with a decimal point; `None` if the columns are blank.
+    /// Returns a number with a decimal point; `None` if the columns are blank.
     fn decimal(
         &self,
         columns: RangeInclusive<usize>,
@@ -100,7 +101,7 @@ impl<'a> Columns<'a> {
         self.decimal(columns, field)?.ok_or(RefusalReason::MissingField(field))
     }
 
-    /// A whole number, 0 if the columns are blank.
+    /// Returns a whole number, 0 if the columns are blank.
     fn count<T: TryFrom<u64> + Default>(
         &self,
         columns: RangeInclusive<usize>,
@@ -114,8 +115,8 @@ impl<'a> Columns<'a> {
         }
     }
 
-    /// The digits of a fraction without its point: 1771 for `0001771`, which means 0.0001771. Old
-    /// sets leave leading zeros blank.
+    /// Returns the digits of a fraction without its point: 1771 for `0001771`, which means
+    /// 0.0001771. Old sets leave leading zeros blank.
     fn fraction(
         &self,
         columns: RangeInclusive<usize>,
@@ -124,7 +125,7 @@ impl<'a> Columns<'a> {
         numbers::digits(self.right_aligned(columns)).ok_or(RefusalReason::Field(field))
     }
 
-    /// A number of the form `-12345-6`, which means -0.12345e-6. All blank is 0.
+    /// Returns a number of the form `-12345-6`, which means -0.12345e-6. Blank columns mean 0.
     fn assumed_point(&self, start: usize, field: &'static str) -> Result<f64, RefusalReason> {
         if self.text(start..=start + 7).is_empty() {
             return Ok(0.0);
@@ -145,7 +146,7 @@ impl<'a> Columns<'a> {
         numbers::alpha_5(text).ok_or(RefusalReason::Field("NORAD_CAT_ID"))
     }
 
-    /// Such as `1998-067A` for `98067A`.
+    /// Returns the international designator, such as `1998-067A` for `98067A`.
     fn international_designator(&self) -> SmolStr {
         match full_year(self.right_aligned(10..=11)) {
             Some(launch_year) => clean(&format_smolstr!("{launch_year}-{}", self.text(12..=17))),
@@ -172,19 +173,19 @@ impl<'a> Columns<'a> {
     }
 }
 
-/// `digits` times a power of ten, from 1e-14 to 1e94, as near as the number that an OMM writes in
-/// one piece.
+/// Returns `digits` times a power of ten, from 1e-14 to 1e94. The result is the nearest number, as
+/// for the whole number in an OMM.
 fn decimal(digits: u64, exponent: i8) -> f64 {
     let size = 10_f64.powi(i32::from(exponent).abs());
     match exponent {
-        // Both are exact, so the division rounds but once.
+        // Both operands are exact, so the division rounds only once.
         -22..=0 => digits as f64 / size,
         _ => format!("{digits}e{exponent}").parse().unwrap_or(f64::NAN),
     }
 }
 
-/// The checksum of the columns before it: the sum of all digits modulo 10, in which a minus
-/// counts as one.
+/// Returns the checksum of the columns: the sum of all digits modulo 10, in which a minus counts as
+/// one.
 pub(crate) fn checksum(content: &[u8]) -> u8 {
     let sum: u32 = content
         .iter()
@@ -197,7 +198,7 @@ pub(crate) fn checksum(content: &[u8]) -> u8 {
     (sum % 10) as u8
 }
 
-/// The year that two digits mean: 57 is the year of the first satellite.
+/// Returns the year for two digits: 57 is the year of the first satellite.
 fn full_year(two_digits: &str) -> Option<i16> {
     let year = i16::try_from(numbers::digits(two_digits)?).ok()?;
     Some(year + if year < 57 { 2000 } else { 1900 })

@@ -1,4 +1,4 @@
-//! Splits a JSON list into its entries, so that a bad entry does not affect the others.
+//! Division of a JSON list into its entries, so that a bad entry does not affect the others.
 
 use std::collections::BTreeMap;
 
@@ -10,14 +10,14 @@ use crate::reader::omm::Field;
 /// One entry, which may not be valid JSON.
 #[derive(Debug, PartialEq)]
 pub(super) struct Part<'a> {
-    /// The line of the text on which the entry starts, from 1.
+    /// Line of the text on which the entry starts, from 1.
     pub(super) line: usize,
-    /// From the first to the last character of the entry. Starts with `{` if the
-    /// entry is an object.
+    /// Text from the first to the last character of the entry. It starts with `{` if the entry is
+    /// an object.
     pub(super) text: &'a str,
 }
 
-/// The objects of `text`, and whatever else stands between them. Every byte is examined a fixed
+/// Returns the objects of `text`, and any other text between them. Each byte is examined a fixed
 /// number of times.
 pub(super) fn parts(text: &str) -> impl Iterator<Item = Part<'_>> {
     let is_separator =
@@ -43,11 +43,11 @@ fn newlines(text: &str) -> usize {
     text.bytes().filter(|byte| *byte == b'\n').count()
 }
 
-/// The length of the object that `text` starts with.
+/// Returns the length of the object that `text` starts with.
 ///
-/// An object that does not end where it should must not swallow the objects after it. It therefore
-/// also ends where another object starts: at a brace that is not the value of a key, or at a brace
-/// in what looks like a string if a key follows. A string ends with its line, because JSON has no
+/// An object without its end must not swallow the objects after it. The object therefore also ends
+/// at the start of another object. Such a start is a brace that is not the value of a key, or a
+/// brace in an apparent string if a key follows. A string ends with its line, because JSON has no
 /// line breaks in strings.
 fn object_end(text: &str) -> usize {
     let bytes = text.as_bytes();
@@ -83,8 +83,9 @@ fn object_end(text: &str) -> usize {
     text.len()
 }
 
-/// The length of the message that `text` starts with if the message is valid JSON, since a list
-/// within it may also hold objects. `None` for an object around a list of messages.
+/// Returns the length of the message that `text` starts with, if the message is valid JSON. Such a
+/// message may also contain a list of objects. Returns `None` for an object around a list of
+/// messages.
 #[allow(clippy::zero_sized_map_values, reason = "only the keys are looked at")]
 fn sound_end(text: &str) -> Option<usize> {
     let mut objects = Deserializer::from_str(text).into_iter::<BTreeMap<String, IgnoredAny>>();
